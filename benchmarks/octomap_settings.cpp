@@ -1,9 +1,9 @@
 // Flies OctoMaps with other settings in closed loop, each with the latency of its own update:
 // first measured on the courses of seed 300 at a constant latency, then flown on all seeds.
+#include <hagen/avoidance/Calibration.h>
+#include <hagen/avoidance/Course.h>
+#include <hagen/avoidance/Trial.h>
 #include <hagen/avoidance/WorldModel.h>
-#include <hagen/trials/Calibration.h>
-#include <hagen/trials/Course.h>
-#include <hagen/trials/Trial.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -22,9 +22,9 @@ constexpr std::uint64_t kFirstSeed = 300;  // of the tuning seeds
 const std::vector<std::string> kScenarios{"movers", "wires", "gap", "forest-0.10"};
 
 /// Settings such as "resolution=0.4,hit=0.9,range=12".
-mapping::ScanMapOptions optionsFrom(const std::string& text) {
-    mapping::ScanMapOptions options;
-    options.content = mapping::MapContent::Full;
+observations::ScanMapOptions optionsFrom(const std::string& text) {
+    observations::ScanMapOptions options;
+    options.content = observations::MapContent::Full;
     std::istringstream in(text);
     for (std::string entry; std::getline(in, entry, ',');) {
         const std::size_t equals = entry.find('=');
@@ -35,8 +35,8 @@ mapping::ScanMapOptions optionsFrom(const std::string& text) {
                 throw std::invalid_argument("insertion=" + value +
                                             ": expected octomap or octomap-discrete");
             }
-            options.insertion = value == "octomap" ? mapping::RayInsertion::OctoMap
-                                                   : mapping::RayInsertion::OctoMapDiscrete;
+            options.insertion = value == "octomap" ? observations::RayInsertion::OctoMap
+                                                   : observations::RayInsertion::OctoMapDiscrete;
             continue;
         }
         double* const setting = key == "resolution" ? &options.resolution_m
@@ -60,30 +60,30 @@ mapping::ScanMapOptions optionsFrom(const std::string& text) {
 
 void fly(const std::string& settings, const std::vector<std::string>& scenarios, int seeds,
          bool only_measures) {
-    const mapping::ScanMapOptions options = optionsFrom(settings);
-    trials::TrialSetup setup;
+    const observations::ScanMapOptions options = optionsFrom(settings);
+    avoidance::TrialSetup setup;
     setup.model = "O-Full-0.4";
     setup.make_world = [&](const avoidance::WorldModelSetting& world) {
         return avoidance::makeOctoMap(options, world.bounds_m);
     };
-    trials::TrialMeasurement measured;
+    avoidance::TrialMeasurement measured;
     for (const std::string& scenario : scenarios) {
-        trials::runTrial(trials::makeCourse(scenario, kFirstSeed), setup,
-                         trials::constantProfile(trials::kNominal_ms), &measured);
+        avoidance::runTrial(avoidance::makeCourse(scenario, kFirstSeed), setup,
+                            avoidance::constantProfile(avoidance::kNominal_ms), &measured);
     }
-    trials::LatencyProfile profile = trials::standardLatencyProfile();
+    avoidance::LatencyProfile profile = avoidance::standardLatencyProfile();
     for (const auto& [stage, taken_ms] : measured.stage_ms) {
-        if (stage != "filter") profile.quantiles_ms[stage] = trials::quantilesOf(taken_ms);
+        if (stage != "filter") profile.quantiles_ms[stage] = avoidance::quantilesOf(taken_ms);
     }
     std::printf("%-44s", settings.empty() ? "(defaults)" : settings.c_str());
     int total = 0, stops = 0;
     for (const std::string& scenario : only_measures ? std::vector<std::string>{} : scenarios) {
         int successes = 0;
         for (int seed = 0; seed < seeds; ++seed) {
-            const trials::TrialResult result = trials::runTrial(
-                trials::makeCourse(scenario, kFirstSeed + static_cast<std::uint64_t>(seed)), setup,
-                profile);
-            successes += result.outcome == trials::Outcome::Success;
+            const avoidance::TrialResult result = avoidance::runTrial(
+                avoidance::makeCourse(scenario, kFirstSeed + static_cast<std::uint64_t>(seed)),
+                setup, profile);
+            successes += result.outcome == avoidance::Outcome::Success;
             stops += result.emergency_stops;
         }
         total += successes;

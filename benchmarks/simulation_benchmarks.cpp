@@ -1,10 +1,10 @@
 // Times a simulated scan: in every scene, in scenes of at least 150 000 triangles, and along
 // courses; also the generation of courses, and exact distances in them.
 #include <benchmark/benchmark.h>
+#include <hagen/avoidance/Air.h>
+#include <hagen/avoidance/Course.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
-#include <hagen/trials/Air.h>
-#include <hagen/trials/Course.h>
 #include <algorithm>
 #include <cmath>
 
@@ -41,12 +41,12 @@ void simulate(benchmark::State& state, const hagen::simulation::Scene& scene,
 
 void makeCourses(benchmark::State& state, const std::string& name) {
     std::uint64_t seed = 1;
-    for (auto _ : state) benchmark::DoNotOptimize(hagen::trials::makeCourse(name, seed++));
+    for (auto _ : state) benchmark::DoNotOptimize(hagen::avoidance::makeCourse(name, seed++));
 }
 
 /// From start to goal on a straight line, ignoring obstacles.
 void scanCourse(benchmark::State& state, const std::string& name) {
-    const hagen::trials::Course course = hagen::trials::makeCourse(name, 1);
+    const hagen::avoidance::Course course = hagen::avoidance::makeCourse(name, 1);
     const hagen::SensorModel model = hagen::sensorModel("VLP-16");
     hagen::simulation::Random random(1);
     const hagen::simulation::PoseAt pose_at = [&](double time_s) {
@@ -59,13 +59,13 @@ void scanCourse(benchmark::State& state, const std::string& name) {
     for (auto _ : state) {
         benchmark::DoNotOptimize(hagen::simulation::simulateScan(
             course.scene, model, pose_at, time_s, random,
-            hagen::trials::trialErrorModel(hagen::trials::Air::Dusty)));
+            hagen::avoidance::trialErrorModel(hagen::avoidance::Air::Dusty)));
         time_s += 0.7;
     }
 }
 
 void measureDistances(benchmark::State& state, const std::string& name) {
-    const hagen::trials::Course course = hagen::trials::makeCourse(name, 1);
+    const hagen::avoidance::Course course = hagen::avoidance::makeCourse(name, 1);
     hagen::simulation::Random random(1);
     double time_s = 0;
     for (auto _ : state) {
@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
                               benchmark::TimeUnit unit) {
         benchmark::RegisterBenchmark((what + " course " + course).c_str(), run, course)->Unit(unit);
     };
-    for (const std::string& course : hagen::trials::courseNames()) {
+    for (const std::string& course : hagen::avoidance::courseNames()) {
         addCourse("make", course, makeCourses, benchmark::kMillisecond);
         addCourse("scan on", course, scanCourse, benchmark::kMillisecond);
         addCourse("distance on", course, measureDistances, benchmark::kMicrosecond);

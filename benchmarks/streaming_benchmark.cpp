@@ -3,11 +3,11 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/base/ProcessCost.h>
 #include <hagen/base/Quantile.h>
-#include <hagen/logs/ScanFolder.h>
-#include <hagen/logs/ScanSource.h>
-#include <hagen/observations/ObservationScan.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/streaming/VelodyneStream.h>
+#include <hagen/live/VelodyneStream.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/recordings/ScanFolder.h>
+#include <hagen/recordings/ScanSource.h>
+#include <hagen/scan/Angle.h>
 #include <mrpt/math/CQuaternion.h>
 
 #include <algorithm>
@@ -89,12 +89,12 @@ Eigen::Isometry3d isometryOf(const mrpt::poses::CPose3D& pose) {
 Recording read(const std::string& file, const std::string& preset, bool levels) {
     Recording recording;
     if (!preset.empty()) mergeSettings(preset, recording.settings);
-    const auto source = logs::openRecording(file);
+    const auto source = recordings::openRecording(file);
     source->usePoses({});
     observations::ObservedScan observed;
     std::optional<HagenFilter> filter;
     const std::string truth_folder = file.substr(0, file.rfind('.')) + ".truth";
-    std::optional<logs::ScanFolder> folder;
+    std::optional<recordings::ScanFolder> folder;
     if (std::filesystem::exists(truth_folder)) folder.emplace(truth_folder);
     std::vector<double> whole_us;
     while (const auto scan = source->nextScan()) {
@@ -116,7 +116,8 @@ Recording read(const std::string& file, const std::string& preset, bool levels) 
             turn.place.push_back(static_cast<std::uint16_t>(degree * 128 + observed.scan.row[i]));
         }
         if (folder && recording.turns.size() < folder->size()) {
-            for (const auto word : logs::readLabels(folder->labelFile(recording.turns.size()))) {
+            for (const auto word :
+                 recordings::readLabels(folder->labelFile(recording.turns.size()))) {
                 turn.truth.push_back(static_cast<Label>(word & 0xffff));
             }
             if (turn.truth.size() != turn.whole.size()) turn.truth.clear();
@@ -170,7 +171,7 @@ Attitude attitudeOf(const Eigen::Isometry3d& pose) {
 }
 
 void setMotion(const Recording& recording, std::size_t k, double part, Known known,
-               streaming::VelodyneStream& packets) {
+               live::VelodyneStream& packets) {
     const Turn& turn = recording.turns[k];
     const bool has_next = k + 1 < recording.turns.size() && recording.turns[k + 1].pose;
     if (known == Known::Nothing || !turn.pose || !has_next) return;
@@ -185,18 +186,18 @@ void setMotion(const Recording& recording, std::size_t k, double part, Known kno
     if (known == Known::Pose) packets.setPose(pose);
 }
 
-void stream(const Recording& recording, const streaming::StreamingOptions& options, Known known,
+void stream(const Recording& recording, const live::StreamingOptions& options, Known known,
             Figures& figures) {
     std::vector<Label> labels;
     std::vector<bool> is_doubtful;
     double label_us = 0;
-    const auto take = [&](const streaming::LabelledSector& sector) {
+    const auto take = [&](const live::LabelledSector& sector) {
         labels.insert(labels.end(), sector.label.begin(), sector.label.end());
         is_doubtful.resize(labels.size(), sector.is_doubtful);
     };
     const auto& model =
-        packets::velodyneModel(observations::sensorOf(*recording.turns.front().packets).name);
-    streaming::VelodyneStream packets(model, recording.settings, take, options);
+        sensors::velodyneModel(observations::sensorOf(*recording.turns.front().packets).name);
+    live::VelodyneStream packets(model, recording.settings, take, options);
     double time_s = 0;
     std::size_t count = 0;
     for (std::size_t k = 0; k < recording.turns.size(); ++k) {
@@ -264,7 +265,7 @@ void stream(const Recording& recording, const streaming::StreamingOptions& optio
 int run(int argc, char** argv) {
     std::vector<std::string> files;
     std::string preset;
-    std::vector<streaming::StreamingOptions> all;
+    std::vector<live::StreamingOptions> all;
     Known known = Known::Nothing;
     std::optional<double> skip_rad;
     bool ground_tells = true;
@@ -281,7 +282,7 @@ int run(int argc, char** argv) {
         } else if (word == "--skip-deg" && i + 1 < argc) {
             skip_rad = radians(std::atof(argv[++i]));
         } else if (word == "--try" && i + 3 < argc) {
-            streaming::StreamingOptions options;
+            live::StreamingOptions options;
             options.sector_rad = radians(std::atof(argv[++i]));
             options.window_rad = radians(std::atof(argv[++i]));
             options.keep_every = std::atoi(argv[++i]);

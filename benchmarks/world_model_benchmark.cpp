@@ -1,6 +1,6 @@
 // Measures each world model on a simulated flight: time of an update and of a query, memory.
 #include <hagen/avoidance/WorldModel.h>
-#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/filter/HagenFilter.h>
 #include <hagen/settings/Settings.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
@@ -27,7 +27,7 @@ double heap_MB() {
     return 1e-6 * static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-std::vector<mapping::MappedScan> flyThrough(const std::string& scenario, int scans) {
+std::vector<observations::MappedScan> flyThrough(const std::string& scenario, int scans) {
     const SensorModel sensor = sensorModel("VLP-16");
     const simulation::Scene scene = simulation::makeScene(scenario, 1);
     const simulation::Flight flight(scene.terrain(), scene.path(), {}, 1);
@@ -35,13 +35,13 @@ std::vector<mapping::MappedScan> flyThrough(const std::string& scenario, int sca
     mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", settings);
     HagenFilter filter(sensor, settings.options);
     simulation::Random random(1, 3);
-    std::vector<mapping::MappedScan> mapped;
+    std::vector<observations::MappedScan> mapped;
     for (int i = 0; i < scans; ++i) {
         const double time_s = 0.1 * i;
         simulation::SimulatedScan made =
             simulation::simulateScan(scene, sensor, flight, time_s, random);
         const auto& labels = filter.segment(made.scan).returns.label;
-        mapping::MappedScan scan;
+        observations::MappedScan scan;
         scan.time_s = time_s + 0.1;
         scan.origin_m = flight.at(time_s + 0.05).position_m.cast<float>();
         for (std::size_t k = 0; k < made.size(); ++k) {
@@ -61,7 +61,7 @@ double quantile(std::vector<double> values, double q) {
     return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
 }
 
-void measure(const std::string& name, const std::vector<mapping::MappedScan>& scans) {
+void measure(const std::string& name, const std::vector<observations::MappedScan>& scans) {
     Eigen::AlignedBox3f bounds;
     for (const auto& scan : scans) bounds.extend(scan.origin_m);
     const Eigen::Vector3f around(10, 10, 2);

@@ -31,28 +31,20 @@ function(hagen_hot target)
   target_compile_options(${target} PRIVATE -falign-functions=64 -falign-loops=32 -falign-jumps=16)
 endfunction()
 
-# hagen_not_hot(TARGET NAME | SOURCES SOURCE...): for code without influence on run time. -O1 compiles it
-# in half the time, with the same results.
-set(HAGEN_NOT_HOT $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
-function(hagen_not_hot what)
-  if(what STREQUAL TARGET)
-    target_compile_options(${ARGN} PRIVATE ${HAGEN_NOT_HOT})
-  else()
-    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS ${HAGEN_NOT_HOT})
-  endif()
-endfunction()
-
-# hagen_library(NAME SOURCE...): creates the library hagen::NAME of this folder, with its headers in
-# include/hagen/NAME, exported and installed: component NAME of find_package(hagen), in a Debian package of
-# cmake/HagenPackages.cmake.
+# hagen_library(NAME): creates the library hagen::NAME from all sources in this folder. Its public headers are in
+# include/hagen/NAME and are installed; private headers lie beside the sources and are included by their path in libs/.
+# Exported as component NAME of find_package(hagen).
 function(hagen_library name)
-  add_library(hagen_${name} ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
+  list(FILTER sources EXCLUDE REGEX "^pcl/")
+  add_library(hagen_${name} ${sources})
   set_property(GLOBAL APPEND PROPERTY HAGEN_LIBRARIES ${name})
   add_library(hagen::${name} ALIAS hagen_${name})
   hagen_target(hagen_${name})
   target_include_directories(
-    hagen_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-                         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    hagen_${name}
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR}/libs)
   # Before 1.0, a minor version may change the ABI (CONTRIBUTING.md).
   set(abi ${PROJECT_VERSION_MAJOR})
   if(abi EQUAL 0)
@@ -69,7 +61,7 @@ function(hagen_library name)
   if(NOT HAGEN_INSTALL)
     return()
   endif()
-  if(name MATCHES "^(range_image|segmentation)$")
+  if(name MATCHES "^(scan|filter)$")
     set(runtime filter)
   else()
     set(runtime mrpt)

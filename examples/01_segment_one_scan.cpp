@@ -1,5 +1,5 @@
 // The filter alone, without MRPT: points in, obstacles out.
-#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/filter/HagenFilter.h>
 
 #include <algorithm>
 #include <cmath>

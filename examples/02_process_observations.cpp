@@ -1,7 +1,7 @@
 // The filter as an MRPT observation processor: prints the nearest obstacle of each scan of a
 // rawlog that consists of observations or sensory frames.
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/observations/ObservationSegmenter.h>
+#include <hagen/mrpt/ObservationSegmenter.h>
+#include <hagen/recordings/RawlogReader.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <cstdio>
@@ -35,7 +35,7 @@ int main(int argc, char** argv) try {
     hagen::observations::ObservationSegmenter segmenter;
     segmenter.initialize(settings);
 
-    hagen::logs::RawlogReader reader(argv[1]);
+    hagen::recordings::RawlogReader reader(argv[1]);
     while (const auto entry = reader.next()) {
         if (const auto alone = std::dynamic_pointer_cast<mrpt::obs::CObservation>(entry)) {
             printNearest(*alone, segmenter);

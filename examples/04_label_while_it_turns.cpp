@@ -1,7 +1,7 @@
 // Labels before the turn ends: packets of a VLP-16 in, the nearest obstacle in each direction out.
 #include <hagen/live/PacketSource.h>
-#include <hagen/streaming/SectorDistances.h>
-#include <hagen/streaming/VelodyneStream.h>
+#include <hagen/live/SectorDistances.h>
+#include <hagen/live/VelodyneStream.h>
 
 #include <cstdio>
 #include <exception>
@@ -10,10 +10,10 @@ int main(int argc, char** argv) {
     using namespace hagen;
     try {
         // What is done with each sector, a few milliseconds after its last packet.
-        streaming::SectorDistances distances(sensorModel("VLP-16"));
-        streaming::VelodyneStream stream(
-            packets::velodyneModel("VLP-16"), {},
-            [&](const streaming::LabelledSector& sector) { distances.take(sector); });
+        live::SectorDistances distances(sensorModel("VLP-16"));
+        live::VelodyneStream stream(
+            sensors::velodyneModel("VLP-16"), {},
+            [&](const live::LabelledSector& sector) { distances.take(sector); });
         // With an IMU, if there is one: stream.setAttitude() before each packet.
 
         live::UdpSource source(live::parseAddress(argc > 1 ? argv[1] : "0.0.0.0:2368"));
@@ -25,8 +25,8 @@ int main(int argc, char** argv) {
             if (live::steadyNow_s() < next_s) continue;
             next_s += 0.1;
             for (const auto& s : distances.at(live::steadyNow_s())) {
-                const bool is_free = s.state == streaming::SectorDistances::State::SeenNothing;
-                if (s.state == streaming::SectorDistances::State::Obstacle) {
+                const bool is_free = s.state == live::SectorDistances::State::SeenNothing;
+                if (s.state == live::SectorDistances::State::Obstacle) {
                     std::printf("%4.1f ", static_cast<double>(s.distance_m));
                 } else {
                     std::printf("%4s ", is_free ? "-" : "?");

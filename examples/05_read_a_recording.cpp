@@ -1,7 +1,7 @@
 // Reads any recording: rawlog, network capture, bag, point clouds or scan folder. Prints the
 // nearest obstacle of each scan.
-#include <hagen/logs/ScanSource.h>
-#include <hagen/observations/ObservationSegmenter.h>
+#include <hagen/mrpt/ObservationSegmenter.h>
+#include <hagen/recordings/ScanSource.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
         std::fprintf(stderr, "usage: 05_read_a_recording RECORDING\n");
         return 2;
     }
-    const auto source = hagen::logs::openRecording(argv[1]);
+    const auto source = hagen::recordings::openRecording(argv[1]);
     hagen::observations::ObservationSegmenter segmenter;
     segmenter.initialize(source->useSettings({}));  // the recording knows its sensors
 

@@ -1,6 +1,6 @@
 #include "Autopilot.h"
 
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 
 #include <map>
 #include <stdexcept>
@@ -8,8 +8,8 @@
 
 namespace hagen {
 
-using command_line::Flag;
-using command_line::UsageError;
+using base::Flag;
+using base::UsageError;
 
 namespace {
 
@@ -22,7 +22,7 @@ int neededBaud(int obstacles) {
 
 }  // namespace
 
-void declareAutopilot(command_line::Program& app, AutopilotFlags& flags) {
+void declareAutopilot(base::Program& app, AutopilotFlags& flags) {
     const Flag peer =
         app.option("--mavlink", flags.peer,
                    "sends obstacles to an autopilot, and takes its attitude and position: "
@@ -81,11 +81,11 @@ void checkAutopilot(const AutopilotFlags& flags) {
     }
 }
 
-std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
-                                                        const Settings& settings,
-                                                        live::LiveListener& listener) {
+std::unique_ptr<live::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
+                                                   const Settings& settings,
+                                                   live::LiveListener& listener) {
     if (flags.peer.empty()) return nullptr;
-    autopilot::AutopilotLink::Settings link;
+    live::AutopilotLink::Settings link;
     link.peer = mavlink::parsePeer(flags.peer);
     link.system = static_cast<std::uint8_t>(flags.system);
     link.has_ground = !flags.has_no_ground;
@@ -98,12 +98,12 @@ std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& fl
         link.directions.low_m = -*flags.height_m;
         link.directions.high_m = *flags.height_m;
     }
-    auto opened = std::make_unique<autopilot::AutopilotLink>(link, listener.remark);
-    autopilot::AutopilotLink* const to = opened.get();
+    auto opened = std::make_unique<live::AutopilotLink>(link, listener.remark);
+    live::AutopilotLink* const to = opened.get();
     listener.begin = [to](const SensorModel& sensor, const Options& options) {
         to->begin(sensor, {options.zone_m, sensor.min_range_m});
     };
-    listener.sector = [to](const streaming::LabelledSector& sector) { to->take(sector); };
+    listener.sector = [to](const live::LabelledSector& sector) { to->take(sector); };
     listener.motion = [to](double time_s) { return to->motionAt(time_s); };
     listener.counts["mavlink"] = [to] {
         to->stop();
@@ -112,7 +112,7 @@ std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& fl
     return opened;
 }
 
-std::string summaryOf(const autopilot::AutopilotLink& link) {
+std::string summaryOf(const live::AutopilotLink& link) {
     std::map<std::string, std::size_t> n;
     for (const auto& [name, number] : link.counts()) n[name] = number;
     const std::size_t sent =

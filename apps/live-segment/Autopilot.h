@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/autopilot/AutopilotLink.h>
+#include <hagen/live/AutopilotLink.h>
 #include <hagen/live/LiveSession.h>
 #include <hagen/settings/Settings.h>
 
@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include <hagen/command_line/CommandLine.h>
+#include <hagen/base/CommandLine.h>
 
 namespace hagen {
 
@@ -20,16 +20,16 @@ struct AutopilotFlags {
     bool has_no_ground = false, is_simulated = false;
 };
 
-void declareAutopilot(command_line::Program& app, AutopilotFlags& flags);
+void declareAutopilot(base::Program& app, AutopilotFlags& flags);
 /// Throws UsageError if the peer is none.
 void checkAutopilot(const AutopilotFlags& flags);
 
 /// Opens the link and has the listener of a session feed it; null without --mavlink. It tells by
 /// `listener.remark`, from a thread of its own. Throws std::runtime_error naming the peer.
-std::unique_ptr<autopilot::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
-                                                        const Settings& settings,
-                                                        live::LiveListener& listener);
+std::unique_ptr<live::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
+                                                   const Settings& settings,
+                                                   live::LiveListener& listener);
 /// What it sent and received, a line.
-std::string summaryOf(const autopilot::AutopilotLink& link);
+std::string summaryOf(const live::AutopilotLink& link);
 
 }  // namespace hagen

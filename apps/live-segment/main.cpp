@@ -11,19 +11,19 @@
 #include <string>
 #include <vector>
 
+#include <hagen/base/BackgroundPrinter.h>
+#include <hagen/base/CommandLine.h>
+#include <hagen/base/Interrupt.h>
 #include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/TextStream.h>
-#include <hagen/command_line/BackgroundPrinter.h>
-#include <hagen/command_line/CommandLine.h>
-#include <hagen/command_line/Interrupt.h>
 
 #include "Autopilot.h"
 
 namespace {
 
 using namespace hagen;
-using namespace hagen::command_line;
+using namespace hagen::base;
 
 struct Flags {
     live::LiveOptions live;
@@ -207,7 +207,7 @@ int run(const Program& program, Flags& flags) {
         listener.remark = [&](const std::string& remark) {  // the autopilot's thread, too
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
-        std::unique_ptr<autopilot::AutopilotLink> link;
+        std::unique_ptr<live::AutopilotLink> link;
         std::string failure, left;  // by earlier runs
         try {
             left = base::leftBehind(

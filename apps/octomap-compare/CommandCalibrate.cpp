@@ -1,10 +1,10 @@
 // octomap-compare calibrate: measures the latency of each stage on this machine.
+#include <hagen/avoidance/Calibration.h>
+#include <hagen/avoidance/HeapCurves.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/OutputSet.h>
 #include <hagen/base/WriteFile.h>
-#include <hagen/trials/Calibration.h>
-#include <hagen/trials/HeapCurves.h>
 
 #include <cstdlib>
 #include <iomanip>
@@ -12,7 +12,7 @@
 #include <memory>
 #include <optional>
 
-#include <hagen/command_line/Interrupt.h>
+#include <hagen/base/Interrupt.h>
 #include "Commands.h"
 
 namespace hagen {
@@ -33,7 +33,7 @@ void warnIfBusy() {
     }
 }
 
-void printProfile(const trials::LatencyProfile& profile) {
+void printProfile(const avoidance::LatencyProfile& profile) {
     std::cout << "stage                          p50 ms    p95 ms    max ms\n" << std::fixed;
     for (const auto& [stage, quantiles] : profile.quantiles_ms) {
         std::cout << std::left << std::setw(27) << stage << std::right << std::setprecision(3);
@@ -61,7 +61,7 @@ int run(const Flags& flags, bool has_output) {
     if (memory_file) outputs.add(*memory_file);
     warnIfBusy();
     if (profile_file) {
-        trials::CalibrationOptions options;
+        avoidance::CalibrationOptions options;
         options.models = models;
         options.courses = flags.is_quick ? 1 : 4;
         options.doing = [](const std::string& model) {
@@ -70,7 +70,7 @@ int run(const Flags& flags, bool has_output) {
         options.continuing = [] {
             if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
         };
-        const trials::LatencyProfile profile = trials::calibrate(options);
+        const avoidance::LatencyProfile profile = avoidance::calibrate(options);
         printProfile(profile);
         outputs.write(*profile_file, [&] {
             base::writeText(textOf(profile), profile_file->temporary(), profile_file->path());
@@ -87,8 +87,8 @@ int run(const Flags& flags, bool has_output) {
             }
         };
         outputs.write(*memory_file, [&] {
-            trials::writeHeapCurves(models, flags.path_m, begin, continuing,
-                                    memory_file->temporary(), flags.memory);
+            avoidance::writeHeapCurves(models, flags.path_m, begin, continuing,
+                                       memory_file->temporary(), flags.memory);
             memory_file->commit();
         });
     }

@@ -1,11 +1,11 @@
 // octomap-compare closedloop: flies a campaign in simulation.
+#include <hagen/avoidance/Campaign.h>
+#include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/Guidance.h>
 #include <hagen/avoidance/Planner.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/NumberText.h>
 #include <hagen/base/TextStream.h>
-#include <hagen/trials/Campaign.h>
-#include <hagen/trials/Course.h>
 #include <cstdio>
 #include <iomanip>
 #include <iostream>
@@ -13,15 +13,15 @@
 #include <memory>
 #include <thread>
 
-#include <hagen/command_line/Interrupt.h>
-#include <hagen/command_line/ProgressLine.h>
+#include <hagen/base/Interrupt.h>
+#include <hagen/base/ProgressLine.h>
 #include "Commands.h"
 
 namespace hagen {
 namespace {
 
 struct Flags {
-    trials::CampaignPlan plan;
+    avoidance::CampaignPlan plan;
     std::string seeds, shard = "1/1", unknown = "optimistic", profile, folder;
     std::vector<std::string> pose_errors{"none"}, airs{"dusty"}, distances{"unbiased"},
         updates{"scans"};
@@ -29,8 +29,8 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
-    trials::CampaignPlan& plan = flags.plan;
+std::vector<avoidance::CourseFlights> flightsFrom(Flags& flags) {
+    avoidance::CampaignPlan& plan = flags.plan;
     const auto one_seed = base::numberFrom<std::uint64_t>(flags.seeds);
     const auto seeds = one_seed ? std::optional(std::pair{*one_seed, *one_seed})
                                 : base::numbersFrom<std::uint64_t>(flags.seeds, '-');
@@ -44,59 +44,60 @@ std::vector<trials::CourseFlights> flightsFrom(Flags& flags) {
     requireOnce("--pose-error", flags.pose_errors);
     plan.pose_errors.clear();
     for (const std::string& name : flags.pose_errors)
-        plan.pose_errors.push_back(trials::poseErrorFrom(name));
+        plan.pose_errors.push_back(avoidance::poseErrorFrom(name));
     plan.airs.clear();
     for (const std::string& name : namesFrom("--air", flags.airs, {"dusty", "clear"})) {
-        plan.airs.push_back(trials::airFrom(name));
+        plan.airs.push_back(avoidance::airFrom(name));
     }
     plan.distances.clear();
     for (const std::string& name :
          namesFrom("--distance", flags.distances, {"unbiased", "as-stored"})) {
-        plan.distances.push_back(trials::distanceFrom(name));
+        plan.distances.push_back(avoidance::distanceFrom(name));
     }
     plan.updates.clear();
     for (const std::string& name : namesFrom("--updates", flags.updates, {"scans", "sectors"})) {
-        plan.updates.push_back(trials::updatesFrom(name));
+        plan.updates.push_back(avoidance::updatesFrom(name));
     }
-    plan.scenarios = namesFrom("--scenario", plan.scenarios, trials::courseNames());
+    plan.scenarios = namesFrom("--scenario", plan.scenarios, avoidance::courseNames());
     plan.models = namesFrom("--models", plan.models, avoidance::worldModelNames());
     plan.guidances = namesFrom("--guidance", plan.guidances, avoidance::guidanceNames());
     plan.planners = namesFrom("--planner", plan.planners, avoidance::plannerNames());
     try {
-        return trials::flightsOf(plan, {shard->first, shard->second});
+        return avoidance::flightsOf(plan, {shard->first, shard->second});
     } catch (const std::invalid_argument& e) {
         throw UsageError("closedloop", e.what());
     }
 }
 
-trials::LatencyProfile profileFrom(const std::string& file,
-                                   const std::vector<trials::CourseFlights>& flights) {
-    const trials::LatencyProfile profile =
-        file.empty() ? trials::standardLatencyProfile() : trials::readLatencyProfile(file);
+avoidance::LatencyProfile profileFrom(const std::string& file,
+                                      const std::vector<avoidance::CourseFlights>& flights) {
+    const avoidance::LatencyProfile profile =
+        file.empty() ? avoidance::standardLatencyProfile() : avoidance::readLatencyProfile(file);
     try {
-        trials::checkProfile(profile, flights);
+        avoidance::checkProfile(profile, flights);
     } catch (const std::runtime_error& e) {
         throw std::runtime_error((file.empty() ? "the built-in profile" : file) + ": " + e.what());
     }
     return profile;
 }
 
-void printCells(const std::vector<trials::Run>& runs) {
+void printCells(const std::vector<avoidance::Run>& runs) {
     struct Cell {
         int runs = 0, outcomes[3] = {0, 0, 0};
     };
     std::map<std::string, Cell> cells;
-    for (const trials::Run& run : runs) {
+    for (const avoidance::Run& run : runs) {
         base::TextStream name;
-        const trials::TrialSetup& setup = run.setup;
+        const avoidance::TrialSetup& setup = run.setup;
         name << std::left << std::setw(12) << run.scenario << " " << std::setw(4) << setup.speed_m_s
              << " " << std::setw(9) << setup.guidance << " " << std::setw(11) << setup.planner
              << " " << std::setw(6) << nameOf(setup.pose_error) << " x" << std::setw(3)
              << setup.latency_scale << " " << std::setw(12)
              << (setup.brakes_in_known_space ? "brake-known" : "optimistic") << std::setw(6)
              << nameOf(setup.air) << std::setw(10) << nameOf(setup.distance) << std::setw(31)
-             << avoidance::displayName(setup.model) +
-                    (setup.updates == trials::Updates::Scans ? "" : ", " + nameOf(setup.updates));
+             << avoidance::displayName(setup.model) + (setup.updates == avoidance::Updates::Scans
+                                                           ? ""
+                                                           : ", " + nameOf(setup.updates));
         Cell& cell = cells[name.str()];
         ++cell.runs;
         ++cell.outcomes[static_cast<int>(run.result.outcome)];
@@ -113,10 +114,10 @@ void printCells(const std::vector<trials::Run>& runs) {
 }
 
 int run(Flags flags) {
-    const std::vector<trials::CourseFlights> flights = flightsFrom(flags);
-    const trials::LatencyProfile profile = profileFrom(flags.profile, flights);
+    const std::vector<avoidance::CourseFlights> flights = flightsFrom(flags);
+    const avoidance::LatencyProfile profile = profileFrom(flags.profile, flights);
     ProgressLine progress("run");
-    trials::CampaignOptions options;
+    avoidance::CampaignOptions options;
     options.jobs =
         flags.jobs > 0 ? flags.jobs : static_cast<int>(std::thread::hardware_concurrency());
     options.overwrites = flags.overwrites;
@@ -124,8 +125,8 @@ int run(Flags flags) {
     if (!flags.is_quiet) {
         options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
-    const std::vector<trials::Run> runs =
-        trials::flyCampaign(flights, profile, flags.folder, options);
+    const std::vector<avoidance::Run> runs =
+        avoidance::flyCampaign(flights, profile, flags.folder, options);
     if (flags.is_quiet) return 0;
     printCells(runs);
     std::cout << flags.folder << "/runs.csv\n";
@@ -143,8 +144,8 @@ void addFlags(Command& app, Flags& flags) {
                           const std::string& what) {
         return app.option(flag, names, what).delimiter(',').showDefault();
     };
-    trials::CampaignPlan& plan = flags.plan;
-    list("--scenario", plan.scenarios, "courses, or all: " + listOf(trials::courseNames()))
+    avoidance::CampaignPlan& plan = flags.plan;
+    list("--scenario", plan.scenarios, "courses, or all: " + listOf(avoidance::courseNames()))
         .required();
     app.option("--seeds", flags.seeds,
                "seeds of the courses, A-B; the same seeds make the same runs")

@@ -1,17 +1,17 @@
 // octomap-compare distances: measures how far off the clearances of world models are.
+#include <hagen/avoidance/ClearanceErrors.h>
+#include <hagen/avoidance/Distance.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/NumberText.h>
 #include <hagen/base/OutputSet.h>
 #include <hagen/base/WriteFile.h>
-#include <hagen/trials/ClearanceErrors.h>
-#include <hagen/trials/Distance.h>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <tuple>
 
-#include <hagen/command_line/Interrupt.h>
-#include <hagen/command_line/ProgressLine.h>
+#include <hagen/base/Interrupt.h>
+#include <hagen/base/ProgressLine.h>
 #include "Commands.h"
 
 namespace hagen {
@@ -49,10 +49,10 @@ int run(const Flags& flags) {
         csv.emplace(fs::path(flags.folder) / "distances.csv", base::kFile, flags.overwrites);
         markdown.emplace(fs::path(flags.folder) / "distances.md", base::kFile, flags.overwrites);
     }
-    trials::ClearanceMeasurement measurement;
+    avoidance::ClearanceMeasurement measurement;
     measurement.models = modelsFrom(flags);
     std::tie(measurement.first_seed, measurement.last_seed) = *seeds;
-    measurement.distance = trials::distanceFrom(flags.distance);
+    measurement.distance = avoidance::distanceFrom(flags.distance);
     measurement.has_specks = flags.has_specks;
     ProgressLine progress("seed");
     measurement.doing = [&](std::uint64_t seed) {
@@ -61,21 +61,21 @@ int run(const Flags& flags) {
     measurement.continuing = [] {
         if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
     };
-    std::vector<trials::ClearanceErrors> errors;
+    std::vector<avoidance::ClearanceErrors> errors;
     try {
-        errors = trials::measureClearances(measurement);
+        errors = avoidance::measureClearances(measurement);
     } catch (const std::invalid_argument& e) {
         throw UsageError("--models", e.what());
     }
-    const std::string table = trials::clearanceMarkdown(errors);
+    const std::string table = avoidance::clearanceMarkdown(errors);
     std::cout << table << "\nBiases, for libs/avoidance/DistanceBias.cpp:\n\n"
-              << trials::biasTable(errors);
+              << avoidance::biasTable(errors);
     if (!csv) return 0;
     base::OutputSet outputs;
     outputs.add(*csv);
     outputs.add(*markdown);
     outputs.write(*csv, [&] {
-        base::writeText(trials::clearanceCsv(errors), csv->temporary(), csv->path());
+        base::writeText(avoidance::clearanceCsv(errors), csv->temporary(), csv->path());
     });
     outputs.write(*markdown,
                   [&] { base::writeText(table, markdown->temporary(), markdown->path()); });

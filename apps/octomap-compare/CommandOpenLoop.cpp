@@ -1,5 +1,5 @@
 // octomap-compare openloop: compares world models on a recorded log.
-#include <hagen/openloop/OpenLoop.h>
+#include <hagen/avoidance/OpenLoop.h>
 #include <hagen/settings/Presets.h>
 
 #include <algorithm>
@@ -8,18 +8,18 @@
 #include <memory>
 #include <stdexcept>
 
-#include <hagen/command_line/Interrupt.h>
-#include <hagen/command_line/ProgressLine.h>
-#include <hagen/command_line/Terminal.h>
-#include <hagen/openloop/OpenLoopFiles.h>
-#include <hagen/openloop/OpenLoopTable.h>
+#include <hagen/avoidance/OpenLoopFiles.h>
+#include <hagen/avoidance/OpenLoopTable.h>
+#include <hagen/base/Interrupt.h>
+#include <hagen/base/ProgressLine.h>
+#include <hagen/base/Terminal.h>
 #include "Commands.h"
 
 namespace hagen {
 namespace {
 
 struct Flags {
-    openloop::OpenLoop open_loop;
+    avoidance::OpenLoop open_loop;
     std::vector<std::string> configs;
     std::string folder, scenario;
     std::uint64_t seed = 1;
@@ -42,7 +42,7 @@ void print(std::size_t count, const std::string& what) {
 }
 
 /// Prints what is not in the figures.
-void printLosses(const openloop::OpenLoopResult& result) {
+void printLosses(const avoidance::OpenLoopResult& result) {
     print(result.scans_without_pose, "scans have no pose within 0.2 s and were skipped");
     print(result.unreadable_scans,
           "scans could not be read and were skipped, the first: " + result.why_unreadable);
@@ -52,7 +52,7 @@ void printLosses(const openloop::OpenLoopResult& result) {
 }
 
 /// Prints what limits the figures.
-void printLimits(const openloop::OpenLoopResult& result) {
+void printLimits(const avoidance::OpenLoopResult& result) {
     print(
         result.scans_placed_by_one_pose,
         "scans were placed by one pose each, because their returns have no times, or the poses end "
@@ -66,39 +66,39 @@ void printLimits(const openloop::OpenLoopResult& result) {
 }
 
 int run(Flags flags) {
-    openloop::OpenLoop& open_loop = flags.open_loop;
+    avoidance::OpenLoop& open_loop = flags.open_loop;
     if (!flags.scenario.empty()) open_loop.scene = {flags.scenario, flags.seed};
     if (open_loop.models.empty()) open_loop.models = standardModels(open_loop.scene.has_value());
-    openloop::checkOpenLoop(open_loop);
+    avoidance::checkOpenLoop(open_loop);
     for (const std::string& config : flags.configs) {
         mergeSettings(presetFile(config), open_loop.source.settings);
     }
     std::vector<std::filesystem::path> inputs = open_loop.source.settings.files;
     inputs.insert(inputs.end(),
                   {open_loop.source.log, open_loop.source.poses, open_loop.source.sensor_json});
-    openloop::OpenLoopFiles files(flags.folder, flags.overwrites, inputs);
+    avoidance::OpenLoopFiles files(flags.folder, flags.overwrites, inputs);
     ProgressLine progress("scan");
-    openloop::OpenLoopListener listener;
-    listener.row = [&](const openloop::OpenLoopRow& row, const openloop::OpenLoopCost& cost) {
+    avoidance::OpenLoopListener listener;
+    listener.row = [&](const avoidance::OpenLoopRow& row, const avoidance::OpenLoopCost& cost) {
         files.add(row, cost);
     };
     listener.keep_going = [] { return !isInterrupted(); };
     if (!flags.is_quiet) {
         listener.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     }
-    const auto show = [&](const openloop::OpenLoopResult& result) {
+    const auto show = [&](const avoidance::OpenLoopResult& result) {
         printLosses(result);
         if (flags.is_quiet) return;
         printLimits(result);
-        std::cout << openloop::tableOf(open_loop, result) << std::flush;
+        std::cout << avoidance::tableOf(open_loop, result) << std::flush;
     };
     try {
-        const openloop::OpenLoopResult result = openloop::runOpenLoop(open_loop, listener);
+        const avoidance::OpenLoopResult result = avoidance::runOpenLoop(open_loop, listener);
         show(result);  // before the files, which may fail
         files.commit(open_loop, result);
         tellLeftBehind(files.paths());
         return 0;
-    } catch (const openloop::OpenLoopEnded& ended) {
+    } catch (const avoidance::OpenLoopEnded& ended) {
         show(ended.result);
         const std::string failures = files.keepPartial(open_loop, ended.result);
         throw std::runtime_error(std::string(ended.what()) + "; figures of the " +
@@ -123,7 +123,7 @@ int runChecked(const Flags& flags) {
 
 void addOpenLoop(Program& program) {
     const auto flags = std::make_shared<Flags>();
-    openloop::LogSource& source = flags->open_loop.source;
+    avoidance::LogSource& source = flags->open_loop.source;
     Command sub = program.subcommand(
         "openloop", "compare world models on a recorded log: cost and correctness");
     sub.option("-i,--input", source.log,

@@ -1,16 +1,16 @@
 // octomap-compare replay: flies a run again and shows it in 3D.
 #include <hagen/avoidance/WorldModel.h>
+#include <hagen/base/Interrupt.h>
 #include <hagen/base/OutputSet.h>
 #include <hagen/base/WriteFile.h>
-#include <hagen/command_line/Interrupt.h>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
-#include <hagen/replays/ChooseRun.h>
-#include <hagen/replays/Replay.h>
-#include <hagen/trials/LatencyProfile.h>
-#include <hagen/trials/RunTable.h>
+#include <hagen/avoidance/ChooseRun.h>
+#include <hagen/avoidance/LatencyProfile.h>
+#include <hagen/avoidance/Replay.h>
+#include <hagen/avoidance/RunTable.h>
 #include "Commands.h"
 
 namespace hagen {
@@ -20,14 +20,14 @@ namespace fs = std::filesystem;
 
 struct Flags {
     std::string folder, output;
-    replays::RunWanted wanted;
+    avoidance::RunWanted wanted;
     bool overwrite = false;
 };
 
-trials::Run chosen(const fs::path& folder, const replays::RunWanted& wanted) {
-    const std::vector<trials::Run> runs = trials::readRuns(folder / "runs.csv");
+avoidance::Run chosen(const fs::path& folder, const avoidance::RunWanted& wanted) {
+    const std::vector<avoidance::Run> runs = avoidance::readRuns(folder / "runs.csv");
     try {
-        return replays::chooseRun(runs, wanted);
+        return avoidance::chooseRun(runs, wanted);
     } catch (const std::invalid_argument& e) {
         throw UsageError(folder.string(), e.what());
     }
@@ -40,27 +40,28 @@ void endIfInterrupted() {
 int run(const Flags& flags) {
     const fs::path folder = flags.folder;
     const fs::path into = flags.output.empty() ? folder : fs::path(flags.output);
-    const trials::Run wanted = chosen(folder, flags.wanted);
-    const trials::LatencyProfile profile = trials::readLatencyProfile(folder / "profile.json");
+    const avoidance::Run wanted = chosen(folder, flags.wanted);
+    const avoidance::LatencyProfile profile =
+        avoidance::readLatencyProfile(folder / "profile.json");
     fs::create_directories(into);
-    const std::string name = "replay-" + replays::fileNameOf(wanted);
+    const std::string name = "replay-" + avoidance::fileNameOf(wanted);
     base::OutputPath page(into / (name + ".html"), base::kFile, flags.overwrite);
     base::OutputPath scene(into / (name + ".3Dscene"), base::kFile, flags.overwrite);
 
     endIfInterrupted();
-    const replays::Recording recording = replays::record(wanted, profile, {}, endIfInterrupted);
+    const avoidance::Recording recording = avoidance::record(wanted, profile, {}, endIfInterrupted);
     endIfInterrupted();
     base::OutputSet outputs;
     outputs.add(page);
     outputs.add(scene);
     outputs.write(page, [&] {
-        base::writeText(replays::replayPage(recording), page.temporary(), page.path());
+        base::writeText(avoidance::replayPage(recording), page.temporary(), page.path());
     });
     outputs.write(scene,
-                  [&] { replays::writeReplayScene(recording, scene.temporary(), scene.path()); });
+                  [&] { avoidance::writeReplayScene(recording, scene.temporary(), scene.path()); });
     endIfInterrupted();
     outputs.commit();
-    std::cout << replays::choiceOf(wanted, {wanted}) << "\n"
+    std::cout << avoidance::choiceOf(wanted, {wanted}) << "\n"
               << recording.ending << "\n"
               << page.path().string() << "\n"
               << scene.path().string() << "\n";
@@ -77,7 +78,7 @@ int run(const Flags& flags) {
 
 void addReplay(Program& program) {
     const auto flags = std::make_shared<Flags>();
-    replays::RunWanted& wanted = flags->wanted;
+    avoidance::RunWanted& wanted = flags->wanted;
     Command sub = program.subcommand(
         "replay", "fly one run again; writes replay-RUN.html and replay-RUN.3Dscene");
     sub.option("DIR", flags->folder, "folder of `closedloop`").required();

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/command_line/CommandLine.h>
+#include <hagen/base/CommandLine.h>
 
 #include <algorithm>
 #include <sstream>
@@ -8,7 +8,7 @@
 
 namespace hagen {
 
-using namespace command_line;  // Program, Command, Flag, UsageError
+using namespace base;  // Program, Command, Flag, UsageError
 
 /// Lets a flag take world models by name or by displayed name, such as W-RoI and "RoI window".
 /// Rejects any other text except those in `also`, and lists the names.

@@ -25,4 +25,4 @@ int command(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return hagen::command_line::guarded(argc, argv, command); }
+int main(int argc, char** argv) { return hagen::base::guarded(argc, argv, command); }

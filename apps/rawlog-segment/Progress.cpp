@@ -1,5 +1,5 @@
 #include "Progress.h"
-#include <hagen/command_line/Terminal.h>
+#include <hagen/base/Terminal.h>
 
 #include <unistd.h>
 
@@ -46,8 +46,8 @@ Progress::Progress(std::string input, bool quiet)
       start_(std::chrono::steady_clock::now()),
       shown_(start_) {}
 
-hagen::logs::ConversionListener Progress::listener() {
-    hagen::logs::ConversionListener listener;
+hagen::convert::ConversionListener Progress::listener() {
+    hagen::convert::ConversionListener listener;
     listener.unreadable = [this](const std::string& entry, const std::string& why) {
         tell(entry, "kept, but not segmented: " + why);
     };
@@ -55,14 +55,16 @@ hagen::logs::ConversionListener Progress::listener() {
         remark(entry, what);
     };
     if (is_on_terminal_) {
-        listener.progress = [this](const hagen::logs::ConversionReport& report) { show(report); };
+        listener.progress = [this](const hagen::convert::ConversionReport& report) {
+            show(report);
+        };
     }
     return listener;
 }
 
 void Progress::tell(const std::string& entry, const std::string& what) {
-    if (is_on_terminal_) std::cerr << hagen::command_line::clearLine;
-    std::cerr << hagen::command_line::oneLine(input_ + ": " + entry + ": " + what) << "\n";
+    if (is_on_terminal_) std::cerr << hagen::base::clearLine;
+    std::cerr << hagen::base::oneLine(input_ + ": " + entry + ": " + what) << "\n";
 }
 
 void Progress::remark(const std::string& entry, const std::string& remark) {
@@ -83,12 +85,12 @@ void Progress::remark(const std::string& entry, const std::string& remark) {
     }
 }
 
-void Progress::show(const hagen::logs::ConversionReport& report) {
+void Progress::show(const hagen::convert::ConversionReport& report) {
     const auto now = std::chrono::steady_clock::now();
     if (now - shown_ < kBetweenLines) return;
     shown_ = now;
     const double elapsed_s = Seconds(now - start_).count();
-    std::cerr << hagen::command_line::clearLine << report.entries << " entries, " << report.scans
+    std::cerr << hagen::base::clearLine << report.entries << " entries, " << report.scans
               << " scans";
     if (elapsed_s > kBeforeRate.count() && report.fraction > 0) {
         char rate[64];
@@ -101,15 +103,15 @@ void Progress::show(const hagen::logs::ConversionReport& report) {
 }
 
 void Progress::finish() {
-    if (is_on_terminal_) std::cerr << hagen::command_line::clearLine;
+    if (is_on_terminal_) std::cerr << hagen::base::clearLine;
     for (const auto& [text, remark] : remarks_) {
         if (remark.times < 2 || !remark.is_told) continue;
         std::cerr << input_ << ": the same for " << remark.times - 1
-                  << " more: " << hagen::command_line::oneLine(text) << "\n";
+                  << " more: " << hagen::base::oneLine(text) << "\n";
     }
     for (const auto& [text, kind] : kinds_) {
         if (kind.untold == 0) continue;
         std::cerr << input_ << ": and " << kind.untold
-                  << " more like this: " << hagen::command_line::oneLine(kind.last) << "\n";
+                  << " more like this: " << hagen::base::oneLine(kind.last) << "\n";
     }
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/logs/Conversion.h>
+#include <hagen/convert/Conversion.h>
 #include <chrono>
 #include <map>
 #include <string>
@@ -10,7 +10,7 @@ class Progress {
     Progress(std::string input, bool quiet);
 
     /// Returns the listener of a conversion; it keeps a reference to this object.
-    hagen::logs::ConversionListener listener();
+    hagen::convert::ConversionListener listener();
 
     /// Clears the line and reports the pending warnings: a warning that many scans share is printed
     /// at its first occurrence and counted afterwards.
@@ -19,7 +19,7 @@ class Progress {
  private:
     void tell(const std::string& entry, const std::string& what);
     void remark(const std::string& entry, const std::string& remark);
-    void show(const hagen::logs::ConversionReport& report);
+    void show(const hagen::convert::ConversionReport& report);
 
     std::string input_;
     bool is_quiet_, is_on_terminal_;

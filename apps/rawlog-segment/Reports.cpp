@@ -2,7 +2,7 @@
 
 #include <hagen/base/Folder.h>
 #include <hagen/base/NumberText.h>
-#include <hagen/command_line/Terminal.h>
+#include <hagen/base/Terminal.h>
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,8 @@
 // guards, never to printf().
 namespace {
 
-using hagen::logs::Conversion;
-using hagen::logs::ConversionReport;
+using hagen::convert::Conversion;
+using hagen::convert::ConversionReport;
 
 std::string counted(std::size_t number, const std::string& one, const std::string& many) {
     return std::to_string(number) + " " + (number == 1 ? one : many);
@@ -105,7 +105,7 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
                   << " of an earlier run replaced\n";
     }
     for (const auto& [label, sensor] : report.sensors) {
-        std::cout << hagen::command_line::oneLine("sensor " + label + ": " + sensor) << "\n";
+        std::cout << hagen::base::oneLine("sensor " + label + ": " + sensor) << "\n";
     }
     if (!report.poses.empty()) {
         std::cout << "poses of " << report.scans_with_pose << " of "
@@ -143,11 +143,11 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     output("statistics", conversion.stats);
 }
 
-void printAirframe(const hagen::logs::AirframeLearning& learning,
-                   const hagen::logs::AirframeReport& report) {
+void printAirframe(const hagen::convert::AirframeLearning& learning,
+                   const hagen::convert::AirframeReport& report) {
     const auto percent = [](double share) { return hagen::base::fixedText(100 * share, 2) + " %"; };
     std::cout << counted(report.scans, "LiDAR scan", "LiDAR scans") << " of '"
-              << hagen::command_line::oneLine(report.sensor_label) << "':\n  "
+              << hagen::base::oneLine(report.sensor_label) << "':\n  "
               << counted(static_cast<std::size_t>(report.bins), "bin", "bins")
               << " masked: " << percent(report.share_of_sphere) << " of the sphere, "
               << percent(report.share_of_seen) << " of the directions with returns\n";

@@ -1,14 +1,14 @@
 #pragma once
-#include <hagen/logs/Conversion.h>
-#include <hagen/logs/LearnAirframe.h>
+#include <hagen/convert/Conversion.h>
+#include <hagen/convert/LearnAirframe.h>
 
 /// Prints the results and outputs of a conversion to standard output.
-void printSummary(const hagen::logs::Conversion& conversion,
-                  const hagen::logs::ConversionReport& report);
+void printSummary(const hagen::convert::Conversion& conversion,
+                  const hagen::convert::ConversionReport& report);
 
 /// Prints what was learned to standard output, and to standard error a warning if it is too much.
-void printAirframe(const hagen::logs::AirframeLearning& learning,
-                   const hagen::logs::AirframeReport& report);
+void printAirframe(const hagen::convert::AirframeLearning& learning,
+                   const hagen::convert::AirframeReport& report);
 
 /// Prints every key of settings files with default, range and meaning, as a Markdown table.
 void printSettingsKeys();

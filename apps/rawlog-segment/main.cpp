@@ -1,7 +1,7 @@
 // Segments a log: near obstacles (RoI) and everything else (ROU) in each LiDAR scan.
-#include <hagen/logs/Conversion.h>
-#include <hagen/logs/LearnAirframe.h>
-#include <hagen/logs/ScanSource.h>
+#include <hagen/convert/Conversion.h>
+#include <hagen/convert/LearnAirframe.h>
+#include <hagen/recordings/ScanSource.h>
 #include <hagen/settings/Presets.h>
 
 #include <cstdio>
@@ -9,24 +9,24 @@
 #include <string>
 #include <vector>
 
-#include <hagen/command_line/CommandLine.h>
-#include <hagen/command_line/Interrupt.h>
-#include <hagen/command_line/Terminal.h>
+#include <hagen/base/CommandLine.h>
+#include <hagen/base/Interrupt.h>
+#include <hagen/base/Terminal.h>
 #include "Progress.h"
 #include "Reports.h"
 
 namespace {
 
 using namespace hagen;
-using namespace hagen::command_line;
+using namespace hagen::base;
 
-logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool quiet) {
+convert::ConversionReport convertAloud(const convert::Conversion& conversion, bool quiet) {
     Progress progress(conversion.input.string(), quiet);
-    logs::ConversionListener listener = progress.listener();
+    convert::ConversionListener listener = progress.listener();
     listener.keep_going = [] { return !isInterrupted(); };
-    logs::ConversionReport report;
+    convert::ConversionReport report;
     try {
-        report = logs::convert(conversion, listener);
+        report = convert::convert(conversion, listener);
     } catch (...) {
         progress.finish();
         throw;
@@ -44,24 +44,24 @@ logs::ConversionReport convertAloud(const logs::Conversion& conversion, bool qui
 }
 
 /// Prints the current settings, including those of a scan folder.
-void printSettings(const logs::Conversion& conversion) {
+void printSettings(const convert::Conversion& conversion) {
     Settings settings = conversion.settings;
     if (std::filesystem::is_directory(conversion.input)) {
-        settings = logs::openRecording(conversion.input)->settingsFor(settings);
+        settings = recordings::openRecording(conversion.input)->settingsFor(settings);
     }
     std::cout << dumpSettings(settings);
 }
 
 struct Flags {
-    logs::Conversion conversion;
+    convert::Conversion conversion;
     std::vector<std::string> configs;
     bool is_quiet = false, dumps_settings = false;
     std::filesystem::path learned_airframe;
-    double learn_seconds = logs::AirframeLearning().seconds;
+    double learn_seconds = convert::AirframeLearning().seconds;
 };
 
 void declare(Program& app, Flags& flags) {
-    logs::Conversion& conversion = flags.conversion;
+    convert::Conversion& conversion = flags.conversion;
 
     app.option("-i,--input", conversion.input,
                "a rawlog, a network capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 "
@@ -122,9 +122,9 @@ void declare(Program& app, Flags& flags) {
                    "folder of labelled clouds, one file per scan: all fields of the input, label "
                    "(0, 1 ROU, 2 RoI) and obstacle; one subfolder per LiDAR if there are several")
             .group("Output");
-    app.choice<clouds::OutputFormat>(
+    app.choice<convert::OutputFormat>(
            "--cloud-format", conversion.cloud_format,
-           {{"ply", clouds::OutputFormat::Ply}, {"pcd", clouds::OutputFormat::Pcd}},
+           {{"ply", convert::OutputFormat::Ply}, {"pcd", convert::OutputFormat::Pcd}},
            "format of --clouds, binary (default: ply)")
         .valueName("ply|pcd")
         .needs(labelled_clouds)
@@ -157,17 +157,17 @@ void declare(Program& app, Flags& flags) {
             .once()
             .check(
                 [](const std::string& name) {
-                    return mapping::isMapFile(name)
+                    return observations::isMapFile(name)
                                ? ""
                                : name + " does not end in .bt, .ot or .3Dscene";
                 },
                 "PATH")
             .group("Output");
-    app.choice<mapping::MapContent>(
+    app.choice<observations::MapContent>(
            "--octomap-content", conversion.octomap.content,
-           {{"full", mapping::MapContent::Full},
-            {"roi", mapping::MapContent::Roi},
-            {"roi+rays", mapping::MapContent::RoiAndRays}},
+           {{"full", observations::MapContent::Full},
+            {"roi", observations::MapContent::Roi},
+            {"roi+rays", observations::MapContent::RoiAndRays}},
            "all returns (full), RoI returns only (roi), or RoI returns plus free space "
            "from all rays (roi+rays, the default)")
         .valueName("full|roi|roi+rays")
@@ -221,7 +221,7 @@ void declare(Program& app, Flags& flags) {
 
 /// Checks flags in combination.
 void check(const Flags& flags) {
-    const logs::Conversion& conversion = flags.conversion;
+    const convert::Conversion& conversion = flags.conversion;
     if (flags.dumps_settings) return;
     if (conversion.input.empty()) throw UsageError("--input is required");
     const bool has_output = !conversion.rawlog.empty() || !conversion.folder.empty() ||
@@ -252,8 +252,8 @@ void check(const Flags& flags) {
 
 /// Learns the airframe and reports it.
 void learn(const Flags& flags) {
-    const logs::Conversion& conversion = flags.conversion;
-    logs::AirframeLearning learning;
+    const convert::Conversion& conversion = flags.conversion;
+    convert::AirframeLearning learning;
     learning.input = conversion.input;
     learning.sensor_json = conversion.sensor_json;
     learning.calibration = conversion.calibration;
@@ -265,7 +265,7 @@ void learn(const Flags& flags) {
     learning.to = conversion.to;
     learning.sensor_labels = conversion.sensor_labels;
     learning.settings = conversion.settings;
-    logs::AirframeListener listener;
+    convert::AirframeListener listener;
     listener.keep_going = [] { return !isInterrupted(); };
     listener.unreadable = [&](const std::string& entry, const std::string& why) {
         std::cerr << oneLine(conversion.input.string() + ": " + entry + ": left out: " + why)
@@ -276,7 +276,7 @@ void learn(const Flags& flags) {
             std::cerr << oneLine(conversion.input.string() + ": the recording: " + what) << "\n";
         }
     };
-    const logs::AirframeReport report = logs::learnAirframe(learning, listener);
+    const convert::AirframeReport report = convert::learnAirframe(learning, listener);
     if (!flags.is_quiet) printAirframe(learning, report);
     if (!flags.is_quiet) tellLeftBehind({learning.file, report.picture});
 }
@@ -296,7 +296,7 @@ int run(const Program& program, Flags& flags) {
             learn(flags);
             return kDone;
         }
-        const logs::ConversionReport report = convertAloud(flags.conversion, flags.is_quiet);
+        const convert::ConversionReport report = convertAloud(flags.conversion, flags.is_quiet);
         if (!flags.is_quiet) printSummary(flags.conversion, report);
         if (report.scans > 0 || report.unreadable_scans == 0) return kDone;
         return program.fail(kFailed, "none of the LiDAR scans could be read");

@@ -8,17 +8,17 @@
 #include <iostream>
 #include <string>
 
-#include <hagen/command_line/CommandLine.h>
-#include <hagen/command_line/Interrupt.h>
-#include <hagen/command_line/ProgressLine.h>
-#include <hagen/simulated_logs/SimulatedLog.h>
+#include <hagen/base/CommandLine.h>
+#include <hagen/base/Interrupt.h>
+#include <hagen/base/ProgressLine.h>
+#include <hagen/convert/SimulatedLog.h>
 
 namespace {
 
 using namespace hagen;
-using namespace hagen::command_line;
+using namespace hagen::base;
 
-void declare(Program& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
+void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
     std::string known;
     for (const std::string& scenario : simulation::scenarioNames()) {
         known += (known.empty() ? "" : ", ") + scenario;
@@ -88,7 +88,7 @@ void declare(Program& app, simulated_logs::SimulatedLog& log, bool& is_quiet) {
 }
 
 /// Checks flags in combination.
-void check(const simulated_logs::SimulatedLog& log) {
+void check(const convert::SimulatedLog& log) {
     if (log.rawlog.empty() && log.folder.empty() && log.poses.empty()) {
         throw UsageError("an output (-o, --kitti or --poses) is required");
     }
@@ -99,8 +99,7 @@ void check(const simulated_logs::SimulatedLog& log) {
     }
 }
 
-void printSummary(const simulated_logs::SimulatedLog& log,
-                  const simulated_logs::SimulationReport& report) {
+void printSummary(const convert::SimulatedLog& log, const convert::SimulationReport& report) {
     std::cout << report.scans << " scans of " << log.scenario << " with " << report.returns
               << " returns: " << report.roi << " RoI, " << report.rou << " ROU, "
               << report.unclassified << " unclassified\n";
@@ -109,7 +108,7 @@ void printSummary(const simulated_logs::SimulatedLog& log,
     }
 }
 
-int run(const simulated_logs::SimulatedLog& log, bool is_quiet) {
+int run(const convert::SimulatedLog& log, bool is_quiet) {
     check(log);
     catchSignals();
     ProgressLine progress("scan");
@@ -121,7 +120,7 @@ int run(const simulated_logs::SimulatedLog& log, bool is_quiet) {
         if (!is_quiet && is_long) progress.show(begun, static_cast<std::size_t>(log.scans));
         return !isInterrupted();
     };
-    const simulated_logs::SimulationReport report = simulated_logs::simulateLog(log, keep_going);
+    const convert::SimulationReport report = convert::simulateLog(log, keep_going);
     if (!is_quiet) printSummary(log, report);
     if (!is_quiet) tellLeftBehind({log.rawlog, log.folder, log.poses});
     return kDone;
@@ -139,7 +138,7 @@ int command(int argc, char** argv) {
         "  rawlog-simulate --scenario wires --scans 12 --every-s 2 --altitude 4 --seed 7\n"
         "    --kitti wires\n"
         "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
-    simulated_logs::SimulatedLog log;
+    convert::SimulatedLog log;
     bool is_quiet = false;
     declare(program, log, is_quiet);
     return program.run(argc, argv, [&] { return run(log, is_quiet); });

@@ -1,5 +1,5 @@
 #include "Progress.h"
-#include <hagen/command_line/Terminal.h>
+#include <hagen/base/Terminal.h>
 
 #include <unistd.h>
 
@@ -13,12 +13,12 @@ Progress::Progress(const evaluation::LabelledScanSources& sources, std::size_t t
 }
 
 Progress::~Progress() {
-    if (is_on_terminal_) std::cerr << hagen::command_line::clearLine << std::flush;
+    if (is_on_terminal_) std::cerr << hagen::base::clearLine << std::flush;
 }
 
 void Progress::show(const evaluation::MethodOutput& view, const std::string& what) {
     if (!is_on_terminal_ || view.method + 1 < view.methods) return;
-    std::cerr << hagen::command_line::clearLine << what << "scan " << ++done_ << " of " << all_
+    std::cerr << hagen::base::clearLine << what << "scan " << ++done_ << " of " << all_
               << std::flush;
 }
 

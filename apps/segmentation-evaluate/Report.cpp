@@ -1,6 +1,6 @@
 #include "Report.h"
 
-#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/filter/OptionKeys.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,22 +60,22 @@ std::size_t widthOf(const std::string& heading, const std::vector<std::string>& 
     return width;
 }
 
-std::vector<std::string> namesOf(const std::vector<labelled_scans::MethodTotals>& methods) {
+std::vector<std::string> namesOf(const std::vector<evaluation::MethodTotals>& methods) {
     std::vector<std::string> names;
-    for (const labelled_scans::MethodTotals& method : methods) names.push_back(method.name);
+    for (const evaluation::MethodTotals& method : methods) names.push_back(method.name);
     return names;
 }
 
 /// Scores of each method, over returns or pixels.
-std::string scoreTable(const labelled_scans::Summary& summary,
-                       labelled_scans::ScoreTotals labelled_scans::MethodTotals::*which) {
+std::string scoreTable(const evaluation::Summary& summary,
+                       evaluation::ScoreTotals evaluation::MethodTotals::*which) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text = left("", width) +
                        "  RoI                        ROU                        " +
                        "95 % interval of F1\n" + left("method", width) +
                        "  precision  recall      F1  precision  recall      F1  RoI          ROU\n";
-    for (const labelled_scans::MethodTotals& method : summary.methods) {
-        const labelled_scans::GroupTotals& all = (method.*which).all;
+    for (const evaluation::MethodTotals& method : summary.methods) {
+        const evaluation::GroupTotals& all = (method.*which).all;
         text += left(method.name, width) + figuresOf(all.scores) + "  " +
                 left(interval(all.intervals.roi.f1), 11) + "  " + interval(all.intervals.rou.f1) +
                 "\n";
@@ -83,11 +83,11 @@ std::string scoreTable(const labelled_scans::Summary& summary,
     return text;
 }
 
-std::string latencyTable(const labelled_scans::Summary& summary) {
+std::string latencyTable(const evaluation::Summary& summary) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text =
         left("method", width) + "     mean +- sd           p50       p95       p99       max\n";
-    for (const labelled_scans::MethodTotals& method : summary.methods) {
+    for (const evaluation::MethodTotals& method : summary.methods) {
         const evaluation::Latency& latency = method.latency;
         text += left(method.name, width) + right(figure(latency.mean_ms, 3), 9) + " +- " +
                 left(figure(latency.sd_ms, 3), 7);
@@ -102,14 +102,14 @@ std::string latencyTable(const labelled_scans::Summary& summary) {
 /// A percentage; a dash if it is undefined.
 std::string percentage(double share) { return figure(100 * share, 2); }
 
-std::string droneTable(const labelled_scans::Summary& summary) {
+std::string droneTable(const evaluation::Summary& summary) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text =
         "\nWhat matters to a drone\n" + left("", width) +
         "  obstacle returns above 0.5 m  obstacles of which     RoI on bare ground,\n" +
         left("method", width) +
         "    missed        of         %  nothing is found  of   returns per scan\n";
-    for (const labelled_scans::MethodTotals& method : summary.methods) {
+    for (const evaluation::MethodTotals& method : summary.methods) {
         const evaluation::DroneScores& all = method.drone.all;
         const bool are_numbered = all.obstacles.all > 0;
         text += left(method.name, width) + right(count(all.tall.missed), 10) +
@@ -123,7 +123,7 @@ std::string droneTable(const labelled_scans::Summary& summary) {
 
 /// "+0.12", or a dash.
 std::string change(double degraded, double recorded) {
-    const double points = labelled_scans::changeInPoints(degraded, recorded);
+    const double points = evaluation::changeInPoints(degraded, recorded);
     return std::isnan(points) ? "-" : format("%+.2f", points);
 }
 
@@ -141,10 +141,10 @@ std::string hardSetLine(const std::string& name, std::size_t width,
 }
 
 /// A method on all degradations.
-std::string hardSetTable(const labelled_scans::Summary& summary, std::size_t method) {
+std::string hardSetTable(const evaluation::Summary& summary, std::size_t method) {
     std::vector<std::string> names{"as recorded"};
-    for (const labelled_scans::HardSetTotals& set : summary.hard_sets) names.push_back(set.name);
-    const labelled_scans::MethodTotals& recorded = summary.methods[method];
+    for (const evaluation::HardSetTotals& set : summary.hard_sets) names.push_back(set.name);
+    const evaluation::MethodTotals& recorded = summary.methods[method];
     const std::size_t width = widthOf("degradation", names);
     std::string text = "\nOn degraded scans: " + recorded.name +
                        " (change of F1 in points of 0.01)\n" + left("", width) +
@@ -153,14 +153,14 @@ std::string hardSetTable(const labelled_scans::Summary& summary, std::size_t met
                        "       F1   change        F1   change    missed        of       %\n";
     const evaluation::Scores& scores = recorded.returns.all.scores;
     text += hardSetLine(names[0], width, scores, nullptr, recorded.drone.all.tall);
-    for (const labelled_scans::HardSetTotals& set : summary.hard_sets) {
-        const labelled_scans::HardSetScores& own = set.methods[method];
+    for (const evaluation::HardSetTotals& set : summary.hard_sets) {
+        const evaluation::HardSetScores& own = set.methods[method];
         text += hardSetLine(set.name, width, own.returns.scores, &scores, own.drone.all.tall);
     }
     return text;
 }
 
-std::string hardSetTables(const labelled_scans::Summary& summary) {
+std::string hardSetTables(const evaluation::Summary& summary) {
     if (summary.hard_sets.empty()) return "";
     const std::size_t methods = summary.hard_sets.front().methods.size();
     if (methods > kMostColumns) return "\nScores on degraded scans are in --json.\n";
@@ -169,31 +169,30 @@ std::string hardSetTables(const labelled_scans::Summary& summary) {
     return text;
 }
 
-using Part = std::vector<labelled_scans::GroupTotals> labelled_scans::ScoreTotals::*;
+using Part = std::vector<evaluation::GroupTotals> evaluation::ScoreTotals::*;
 struct PartName {
     const char* title;
     const char* heading;
     Part part;
 };
 constexpr PartName kParts[] = {
-    {"By range", "range", &labelled_scans::ScoreTotals::by_range},
-    {"By altitude of the sensor", "altitude", &labelled_scans::ScoreTotals::by_altitude},
-    {"By folder", "folder", &labelled_scans::ScoreTotals::by_folder}};
+    {"By range", "range", &evaluation::ScoreTotals::by_range},
+    {"By altitude of the sensor", "altitude", &evaluation::ScoreTotals::by_altitude},
+    {"By folder", "folder", &evaluation::ScoreTotals::by_folder}};
 
-std::vector<std::string> namesOf(const std::vector<labelled_scans::GroupTotals>& groups) {
+std::vector<std::string> namesOf(const std::vector<evaluation::GroupTotals>& groups) {
     std::vector<std::string> names;
-    for (const labelled_scans::GroupTotals& group : groups) names.push_back(group.name);
+    for (const evaluation::GroupTotals& group : groups) names.push_back(group.name);
     return names;
 }
 
-std::string partTable(const PartName& part,
-                      const std::vector<labelled_scans::GroupTotals>& groups) {
+std::string partTable(const PartName& part, const std::vector<evaluation::GroupTotals>& groups) {
     const std::size_t width = widthOf(part.heading, namesOf(groups));
     std::string text =
         "\n" + std::string(part.title) + "\n" + left("", width) + "         returns of   " +
         "          RoI                        ROU\n" + left(part.heading, width) + "  scans" +
         "       RoI       ROU  precision  recall      F1  precision  recall      F1\n";
-    for (const labelled_scans::GroupTotals& group : groups) {
+    for (const evaluation::GroupTotals& group : groups) {
         const evaluation::Scores& scores = group.scores;
         text += left(group.name, width) + right(count(static_cast<std::int64_t>(group.scans)), 7) +
                 right(count(scores.roi.hits + scores.roi.misses), 10) +
@@ -210,11 +209,11 @@ std::string labelOf(const evaluation::Scores& scores) {
     return is_roi && is_rou ? "both" : is_roi ? "RoI" : "ROU";
 }
 
-std::string kindTable(const std::vector<labelled_scans::GroupTotals>& kinds) {
+std::string kindTable(const std::vector<evaluation::GroupTotals>& kinds) {
     const std::size_t width = widthOf("class", namesOf(kinds));
     std::string text = "\nBy object class\n" + left("class", width) +
                        "  is    scans   returns     found  recall  95 % interval\n";
-    for (const labelled_scans::GroupTotals& kind : kinds) {
+    for (const evaluation::GroupTotals& kind : kinds) {
         const std::int64_t found = kind.scores.roi.hits + kind.scores.rou.hits;
         text += left(kind.name, width) + "  " + left(labelOf(kind.scores), 4) +
                 right(count(static_cast<std::int64_t>(kind.scans)), 7) +
@@ -226,9 +225,9 @@ std::string kindTable(const std::vector<labelled_scans::GroupTotals>& kinds) {
 }
 
 /// Names of the methods that fit into a column; if their beginnings are the same, their ends.
-std::vector<std::string> headsOf(const labelled_scans::Summary& summary, std::size_t width) {
+std::vector<std::string> headsOf(const evaluation::Summary& summary, std::size_t width) {
     std::vector<std::string> begins, ends;
-    for (const labelled_scans::MethodTotals& method : summary.methods) {
+    for (const evaluation::MethodTotals& method : summary.methods) {
         const std::string& name = method.name;
         begins.push_back(name.substr(0, width));
         ends.push_back(name.size() <= width ? name : ".." + name.substr(name.size() - (width - 2)));
@@ -241,7 +240,7 @@ std::vector<std::string> headsOf(const labelled_scans::Summary& summary, std::si
 /// One row per group, one column per method. `groupsOf` returns the groups of a method.
 template <class Groups, class Cell>
 std::string matrix(const std::string& title, const std::string& heading,
-                   const labelled_scans::Summary& summary, Groups groupsOf, Cell cell) {
+                   const evaluation::Summary& summary, Groups groupsOf, Cell cell) {
     std::vector<std::string> groups;
     for (const auto& group : groupsOf(summary.methods.front())) groups.push_back(group.name);
     if (groups.empty()) return "";
@@ -251,7 +250,7 @@ std::string matrix(const std::string& title, const std::string& heading,
     text += trimmed(heads);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         std::string line = left(groups[g], width);
-        for (const labelled_scans::MethodTotals& method : summary.methods) {
+        for (const evaluation::MethodTotals& method : summary.methods) {
             line += "  " + left(cell(groupsOf(method)[g]), 15);
         }
         text += trimmed(line);
@@ -259,13 +258,13 @@ std::string matrix(const std::string& title, const std::string& heading,
     return text;
 }
 
-std::string comparison(const labelled_scans::Summary& summary) {
+std::string comparison(const evaluation::Summary& summary) {
     std::string text;
-    const auto f1 = [](const labelled_scans::GroupTotals& group) {
+    const auto f1 = [](const evaluation::GroupTotals& group) {
         return figure(group.scores.roi.f1(), 3) + " / " + figure(group.scores.rou.f1(), 3);
     };
     const auto returns = [](Part part) {
-        return [part](const labelled_scans::MethodTotals& method) -> const auto& {
+        return [part](const evaluation::MethodTotals& method) -> const auto& {
             return method.returns.*part;
         };
     };
@@ -274,29 +273,29 @@ std::string comparison(const labelled_scans::Summary& summary) {
                        returns(part.part), f1);
     }
     text += matrix(
-        "By object class: recall", "class", summary, returns(&labelled_scans::ScoreTotals::by_kind),
-        [](const labelled_scans::GroupTotals& group) { return figure(group.scores.correct()); });
+        "By object class: recall", "class", summary, returns(&evaluation::ScoreTotals::by_kind),
+        [](const evaluation::GroupTotals& group) { return figure(group.scores.correct()); });
     return text;
 }
 
 /// Missed obstacle returns above 0.5 m, by part: "12 of 3456".
-std::string missedParts(const labelled_scans::Summary& summary) {
-    using Groups = std::vector<labelled_scans::MissedGroup> labelled_scans::DroneTotals::*;
+std::string missedParts(const evaluation::Summary& summary) {
+    using Groups = std::vector<evaluation::MissedGroup> evaluation::DroneTotals::*;
     const auto table = [&](const std::string& by, const std::string& heading, Groups part) {
         return matrix(
             "Missed obstacle returns above 0.5 m, by " + by, heading, summary,
-            [part](const labelled_scans::MethodTotals& method) -> const auto& {
+            [part](const evaluation::MethodTotals& method) -> const auto& {
                 return method.drone.*part;
             },
-            [](const labelled_scans::MissedGroup& group) {
+            [](const evaluation::MissedGroup& group) {
                 return count(group.missed.missed) + " of " + count(group.missed.all);
             });
     };
-    return table("range", "range", &labelled_scans::DroneTotals::by_range) +
-           table("object class", "class", &labelled_scans::DroneTotals::by_kind);
+    return table("range", "range", &evaluation::DroneTotals::by_range) +
+           table("object class", "class", &evaluation::DroneTotals::by_kind);
 }
 
-std::string partsOf(const labelled_scans::ScoreTotals& scores) {
+std::string partsOf(const evaluation::ScoreTotals& scores) {
     std::string text;
     for (const PartName& part : kParts) {
         if (!(scores.*part.part).empty()) text += partTable(part, scores.*part.part);
@@ -306,7 +305,7 @@ std::string partsOf(const labelled_scans::ScoreTotals& scores) {
 }
 
 /// The sensors that nobody named, and options that a recording changes, a line per folder.
-std::string sensorsOf(const labelled_scans::Summary& summary) {
+std::string sensorsOf(const evaluation::Summary& summary) {
     std::string text;
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {
         const std::string of = " of " + summary.folder_names[f] + ": ";
@@ -326,7 +325,7 @@ std::string sensorsOf(const labelled_scans::Summary& summary) {
 
 }  // namespace
 
-std::string reportOf(const labelled_scans::Summary& summary) {
+std::string reportOf(const evaluation::Summary& summary) {
     const bool has_pixels = summary.methods.front().pixels.all.scans > 0;
     std::string text =
         format("%zu scans of %zu folder%s, returns up to %g m: %lld\n\n", summary.scans,
@@ -334,11 +333,11 @@ std::string reportOf(const labelled_scans::Summary& summary) {
                static_cast<double>(summary.range.max_range_m),
                static_cast<long long>(summary.methods.front().returns.all.scores.returns()));
     text += sensorsOf(summary);
-    text += scoreTable(summary, &labelled_scans::MethodTotals::returns);
+    text += scoreTable(summary, &evaluation::MethodTotals::returns);
     if (has_pixels) {
         text += format("\nIn the camera image, one return per pixel: %lld pixels\n",
                        static_cast<long long>(summary.methods.front().pixels.all.scores.returns()));
-        text += scoreTable(summary, &labelled_scans::MethodTotals::pixels);
+        text += scoreTable(summary, &evaluation::MethodTotals::pixels);
     }
     text += "\nRun time of the segmentation alone, ms per scan\n" + latencyTable(summary);
     text += droneTable(summary) + hardSetTables(summary);

@@ -2,12 +2,12 @@
 #pragma once
 #include <string>
 
-#include <hagen/labelled_scans/Summary.h>
+#include <hagen/evaluation/Summary.h>
 
 namespace hagen {
 
 /// Tables of at most 100 columns: scores and run times of each method; the parts of its scores if
 /// there is only one method, otherwise F1 of each method by part.
-std::string reportOf(const labelled_scans::Summary& summary);
+std::string reportOf(const evaluation::Summary& summary);
 
 }  // namespace hagen

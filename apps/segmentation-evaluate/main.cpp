@@ -11,23 +11,23 @@
 #include <utility>
 #include <vector>
 
-#include <hagen/command_line/CommandLine.h>
-#include <hagen/command_line/Interrupt.h>
-#include <hagen/command_line/Terminal.h>
-#include <hagen/labelled_scans/Charts.h>
-#include <hagen/labelled_scans/HardSets.h>
-#include <hagen/labelled_scans/LabelledFolders.h>
-#include <hagen/labelled_scans/Methods.h>
-#include <hagen/labelled_scans/Overlay.h>
-#include <hagen/labelled_scans/Summary.h>
-#include <hagen/labelled_scans/SummaryJson.h>
+#include <hagen/base/CommandLine.h>
+#include <hagen/base/Interrupt.h>
+#include <hagen/base/Terminal.h>
+#include <hagen/evaluation/Charts.h>
+#include <hagen/evaluation/HardSets.h>
+#include <hagen/evaluation/LabelledFolders.h>
+#include <hagen/evaluation/Methods.h>
+#include <hagen/evaluation/Overlay.h>
+#include <hagen/evaluation/Summary.h>
+#include <hagen/evaluation/SummaryJson.h>
 #include "Progress.h"
 #include "Report.h"
 
 namespace {
 
 using namespace hagen;
-using namespace hagen::command_line;
+using namespace hagen::base;
 namespace fs = std::filesystem;
 
 struct Flags {
@@ -99,8 +99,8 @@ auto fromFlag(const std::string& name, Read read, std::vector<fs::path>& files)
 }
 
 /// Pictures of several rows have a folder by each row's name, within that of --overlay.
-void checkNames(const std::vector<labelled_scans::LabelRow>& rows) {
-    for (const labelled_scans::LabelRow& row : rows) {
+void checkNames(const std::vector<evaluation::LabelRow>& rows) {
+    for (const evaluation::LabelRow& row : rows) {
         if (row.name != "." && row.name != "..") continue;
         throw SettingsError("--labels: '" + row.name +
                             "' cannot be the name of a row; choose another name");
@@ -109,10 +109,9 @@ void checkNames(const std::vector<labelled_scans::LabelRow>& rows) {
 
 /// The outputs. None appears before the end; one that fails does not cost the others.
 struct Outputs {
-    Outputs(const Flags& flags, const labelled_scans::MethodSet& rows,
-            std::vector<fs::path> inputs) {
+    Outputs(const Flags& flags, const evaluation::MethodSet& rows, std::vector<fs::path> inputs) {
         inputs.insert(inputs.end(), flags.folders.begin(), flags.folders.end());
-        for (const labelled_scans::LabelRow& row : rows.labels) inputs.push_back(row.folder);
+        for (const evaluation::LabelRow& row : rows.labels) inputs.push_back(row.folder);
         base::checkApart({flags.json, flags.charts, flags.overlay}, inputs);
         const auto open = [&](const std::string& path, const base::OutputKind& kind,
                               std::optional<base::OutputPath>& output) {
@@ -122,8 +121,8 @@ struct Outputs {
             all.add(*output);
         };
         open(flags.json, base::kFile, json);
-        open(flags.charts, labelled_scans::kCharts, charts);
-        open(flags.overlay, labelled_scans::kOverlays, overlay);
+        open(flags.charts, evaluation::kCharts, charts);
+        open(flags.overlay, evaluation::kOverlays, overlay);
     }
     /// Writes an output, or a part of it, if it was asked for.
     void write(const std::optional<base::OutputPath>& output,
@@ -139,39 +138,39 @@ void endIfInterrupted() {
     if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
 }
 
-int run(const Flags& flags, labelled_scans::Summary summary) {
+int run(const Flags& flags, evaluation::Summary summary) {
     catchSignals();
     for (const std::string& config : flags.configs)
         mergeSettings(presetFile(config), summary.settings);
-    labelled_scans::MethodSet rows;
-    rows.filter = labelled_scans::rowsOf(summary.settings, flags.sweeps);
+    evaluation::MethodSet rows;
+    rows.filter = evaluation::rowsOf(summary.settings, flags.sweeps);
     if (flags.with_baselines) rows.baselines = summary.settings;
-    labelled_scans::addLabelRows(flags.labels, rows);
+    evaluation::addLabelRows(flags.labels, rows);
     checkNames(rows.labels);
     std::vector<fs::path> settings_files = summary.settings.files;
-    const labelled_scans::LabelledInputs inputs{
+    const evaluation::LabelledInputs inputs{
         flags.folders, rows, fromFlag(flags.label_map, evaluation::readLabelMap, settings_files)};
     evaluation::EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
     options.camera = fromFlag(flags.camera, evaluation::readCamera, settings_files);
     const evaluation::LabelledScanSources sources =
-        labelled_scans::sourcesOf(inputs.folders, inputs.rows, inputs.label_map);
+        evaluation::sourcesOf(inputs.folders, inputs.rows, inputs.label_map);
     const std::vector<evaluation::Degradation> degradations =
-        labelled_scans::degradationsOf(flags.degradations, flags.with_hard_sets, inputs);
+        evaluation::degradationsOf(flags.degradations, flags.with_hard_sets, inputs);
     Outputs outputs(flags, rows, std::move(settings_files));
 
     std::vector<evaluation::MethodScores> methods;
-    std::vector<labelled_scans::HardSet> hard_sets;
+    std::vector<evaluation::HardSet> hard_sets;
     {
         Progress progress(sources, 1 + degradations.size());
         methods = evaluation::evaluate(sources, options, [&](const evaluation::MethodOutput& view) {
             endIfInterrupted();
             progress.show(view);
             outputs.write(outputs.overlay, [&](const fs::path& folder) {
-                labelled_scans::drawOverlay(folder, sources[view.source]->name(), view, options);
+                evaluation::drawOverlay(folder, sources[view.source]->name(), view, options);
             });
         });
-        hard_sets = labelled_scans::scoreHardSets(
+        hard_sets = evaluation::scoreHardSets(
             inputs, degradations, options.range,
             [&](const std::string& degradation, const evaluation::MethodOutput& view) {
                 endIfInterrupted();
@@ -183,7 +182,7 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     for (const auto& source : sources) {
         summary.folder_names.push_back(source->name());
         summary.sensor_texts.push_back(source->sensorText());
-        summary.folder_settings.push_back(labelled_scans::settingsOf(*source, summary.settings));
+        summary.folder_settings.push_back(evaluation::settingsOf(*source, summary.settings));
         summary.folder_remarks.push_back(source->remarks());
     }
     summary.range = options.range;
@@ -191,12 +190,12 @@ int run(const Flags& flags, labelled_scans::Summary summary) {
     summary.camera = flags.camera;
     summary.bootstrap.resamples = flags.resamples;
     summary.bootstrap.continuing = endIfInterrupted;
-    labelled_scans::addScores(methods, rows.filter, summary);
-    labelled_scans::addHardSets(hard_sets, summary);
+    evaluation::addScores(methods, rows.filter, summary);
+    evaluation::addHardSets(hard_sets, summary);
     outputs.write(outputs.json,
-                  [&](const fs::path& file) { labelled_scans::writeJson(file, summary); });
+                  [&](const fs::path& file) { evaluation::writeJson(file, summary); });
     outputs.write(outputs.charts,
-                  [&](const fs::path& folder) { labelled_scans::drawCharts(folder, summary); });
+                  [&](const fs::path& folder) { evaluation::drawCharts(folder, summary); });
     endIfInterrupted();
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {
         for (const std::string& remark : summary.folder_remarks[f]) {
@@ -223,7 +222,7 @@ int command(int argc, char** argv) {
     Flags flags;
     addFlags(program, flags);
     return program.run(argc, argv, [&] {
-        labelled_scans::Summary summary;
+        evaluation::Summary summary;
         summary.command_line.assign(argv, argv + argc);
         try {
             return run(flags, summary);

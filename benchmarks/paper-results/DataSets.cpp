@@ -20,7 +20,7 @@ std::string text(double value) {
 }
 
 /// Content of a flight's stamp: the command that simulates it.
-std::string commandOf(const simulated_logs::SimulatedLog& flight) {
+std::string commandOf(const convert::SimulatedLog& flight) {
     return "rawlog-simulate --scenario " + flight.scenario + " --sensor " + flight.sensor +
            " --seed " + std::to_string(flight.seed) + " --scans " + std::to_string(flight.scans) +
            " --altitude " + text(flight.altitude_m) + " --speed-m-s " + text(flight.speed_m_s) +
@@ -75,7 +75,7 @@ DataSet flights(const std::string& name, const fs::path& folder,
         places += (places.empty() ? "" : ", ") + scenario;
         for (const double altitude_m : altitudes_m) {
             for (const std::uint64_t seed : size.seeds) {
-                simulated_logs::SimulatedLog flight;
+                convert::SimulatedLog flight;
                 flight.scenario = scenario;
                 flight.sensor = sensor;
                 flight.seed = seed;
@@ -138,13 +138,13 @@ std::vector<DataSet> dataSets(const fs::path& labelled, const fs::path& data,
 void makeFlights(const DataSet& set, const std::string& tag) {
     if (set.flights.empty()) return;
     fs::create_directories(set.folder);
-    for (simulated_logs::SimulatedLog flight : set.flights) {
+    for (convert::SimulatedLog flight : set.flights) {
         const fs::path stamp = flight.folder.string() + ".stamp";
         const std::string made_by = commandOf(flight) + "\nsimulation " + tag + "\n";
         if (fs::is_directory(flight.folder) && contentOf(stamp) == made_by) continue;
         fs::remove(stamp);  // outdated from here on
         flight.overwrite = true;
-        simulated_logs::simulateLog(flight, [] { return true; });
+        convert::simulateLog(flight, [] { return true; });
         std::ofstream out(stamp);
         out << made_by;
         out.close();
@@ -155,7 +155,7 @@ void makeFlights(const DataSet& set, const std::string& tag) {
 std::vector<std::string> scanFolders(const DataSet& set) {
     std::vector<std::string> folders;
     if (!set.flights.empty()) {
-        for (const simulated_logs::SimulatedLog& flight : set.flights)
+        for (const convert::SimulatedLog& flight : set.flights)
             folders.push_back(flight.folder.string());
         return folders;
     }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <hagen/simulated_logs/SimulatedLog.h>
+#include <hagen/convert/SimulatedLog.h>
 
 namespace hagen {
 
@@ -15,7 +15,7 @@ struct DataSet {
     std::string preset;     ///< settings file of its sensor, in config/
     std::string folder;     ///< a folder of scan folders
     std::string label_map;  ///< in config/; empty: labels are those of labels/
-    std::vector<simulated_logs::SimulatedLog>
+    std::vector<convert::SimulatedLog>
         flights;  ///< to be simulated in `folder`; empty: a recording
     float zone_m = 20, max_range_m = 20;
     bool is_altitude = false;    ///< part of the series over altitudes within the default zone

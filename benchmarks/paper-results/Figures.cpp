@@ -1,6 +1,6 @@
 #include "Figures.h"
 
-#include <hagen/pictures/Gnuplot.h>
+#include <hagen/convert/Gnuplot.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +34,7 @@ bool isDrawn(const std::string& row) {
 std::string header(const std::string& file, int width_px, int height_px) {
     std::ostringstream text;
     text << "set terminal svg size " << width_px << "," << height_px
-         << " font 'sans,14' background '#FFFFFF'\nset output " << pictures::gnuplotString(file)
+         << " font 'sans,14' background '#FFFFFF'\nset output " << convert::gnuplotString(file)
          << "\nset grid y lc rgb '#DDDDDD' lw 1 lt 1\nset tics nomirror out scale 0.5\n"
          << "set border 3 lc rgb '#333333'\n";
     return text.str();
@@ -64,7 +64,7 @@ std::string plot(const std::vector<Line>& lines, const std::string& style) {
         command << (l == 0 ? "plot " : ", ") << "$line" << l << " using 1:2 with " << style
                 << " pt " << kShapes[l % kShapes.size()] << " lc rgb '"
                 << kColours[l % kColours.size()] << "' title "
-                << pictures::gnuplotString(lines[l].name);
+                << convert::gnuplotString(lines[l].name);
     }
     return data.str() + command.str() + "\n";
 }
@@ -98,10 +98,9 @@ std::string scanPanel(const Measured& measured) {
             scenarioOf(measured.folders[scans[s].folder], !measured.set.flights.empty());
         if (name == last) continue;
         last = name;
-        tics +=
-            (tics.empty() ? "" : ", ") + pictures::gnuplotString(name) + " " + std::to_string(s);
+        tics += (tics.empty() ? "" : ", ") + convert::gnuplotString(name) + " " + std::to_string(s);
     }
-    return "set title " + pictures::gnuplotString(measured.set.name) +
+    return "set title " + convert::gnuplotString(measured.set.name) +
            " noenhanced\nset xtics noenhanced (" + tics + ")\nset yrange [" + number(least) +
            ":1]\nset xrange [-1:" + std::to_string(scans.size()) + "]\n" +
            plot(lines, "linespoints lw 1 ps 0.4");
@@ -123,7 +122,7 @@ void drawScans(const std::filesystem::path& folder, const std::vector<Measured>&
                          "set multiplot layout " +
                          std::to_string(panels.size()) + ",1\n";
     for (const std::string& panel : panels) script += panel;
-    pictures::runGnuplot(script + "unset multiplot\nunset output\n", folder, {file});
+    convert::runGnuplot(script + "unset multiplot\nunset output\n", folder, {file});
 }
 
 void drawTimes(const std::filesystem::path& folder, const std::vector<Measured>& times) {
@@ -146,7 +145,7 @@ void drawTimes(const std::filesystem::path& folder, const std::vector<Measured>&
         most = std::max(most, point.x);
     }
     const std::string file = "by_returns.svg";
-    pictures::runGnuplot(
+    convert::runGnuplot(
         header(file, 1100, 480) +
             "set logscale xy\nset xtics (5, 10, 20, 30, 50, 70, 100, 150, 200)\nset xrange [" +
             number(0.9 * least) + ":" + number(1.1 * most) + "]\n" +

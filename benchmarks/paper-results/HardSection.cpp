@@ -1,6 +1,6 @@
 #include "HardSection.h"
 
-#include <hagen/labelled_scans/Summary.h>
+#include <hagen/evaluation/Summary.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -41,8 +41,8 @@ std::vector<Degraded> degradedOf(const Sets& sets) {
             for (const evaluation::ScanScores& scan : method.returns) one.scores += scan.all;
             for (const evaluation::DroneScores& scan : method.drone) one.missed += scan.tall;
         }
-        one.roi_points = labelled_scans::changeInPoints(one.scores.roi.f1(), clean.roi.f1());
-        one.rou_points = labelled_scans::changeInPoints(one.scores.rou.f1(), clean.rou.f1());
+        one.roi_points = evaluation::changeInPoints(one.scores.roi.f1(), clean.roi.f1());
+        one.rou_points = evaluation::changeInPoints(one.scores.rou.f1(), clean.rou.f1());
         all.push_back(one);
     }
     const auto order = [](const Degraded& one) {

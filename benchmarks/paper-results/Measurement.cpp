@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include <hagen/labelled_scans/LabelledFolders.h>
+#include <hagen/evaluation/LabelledFolders.h>
 #include "Rows.h"
 
 namespace hagen {
@@ -20,7 +20,7 @@ std::optional<evaluation::LabelMap> labelMapOf(const DataSet& set,
     return evaluation::readLabelMap(options.config / set.label_map);
 }
 
-Measured measure(const DataSet& set, const labelled_scans::MethodSet& rows,
+Measured measure(const DataSet& set, const evaluation::MethodSet& rows,
                  const MeasurementOptions& options, bool has_camera) {
     const std::optional<evaluation::LabelMap> label_map = labelMapOf(set, options);
     evaluation::EvaluationOptions evaluation;
@@ -28,7 +28,7 @@ Measured measure(const DataSet& set, const labelled_scans::MethodSet& rows,
     if (has_camera)
         evaluation.camera = evaluation::readCamera(options.config / "camera_forward.yaml");
     const evaluation::LabelledScanSources sources =
-        labelled_scans::sourcesOf(scanFolders(set), rows, label_map);
+        evaluation::sourcesOf(scanFolders(set), rows, label_map);
 
     Measured measured{set, {}, {}, {}, {}};
     for (const auto& source : sources) measured.folders.push_back(source->name());
@@ -99,24 +99,24 @@ void measureHardSets(std::vector<Measured>& all, const MeasurementOptions& optio
     struct Task {
         Measured* measured;
         evaluation::Degradation degradation;
-        labelled_scans::HardSet result;
+        evaluation::HardSet result;
     };
     std::vector<Task> tasks;
     const auto inputsOf = [&](const DataSet& set) {
-        labelled_scans::MethodSet rows = headlineRowsFor(set, options.config);
+        evaluation::MethodSet rows = headlineRowsFor(set, options.config);
         rows.filter.resize(1);  // `default`
         rows.baselines.reset();
-        return labelled_scans::LabelledInputs{scanFolders(set), rows, labelMapOf(set, options)};
+        return evaluation::LabelledInputs{scanFolders(set), rows, labelMapOf(set, options)};
     };
     for (Measured& measured : all) {
         if (!measured.set.is_degraded) continue;
-        for (const auto& d : labelled_scans::degradationsOf({}, true, inputsOf(measured.set)))
+        for (const auto& d : evaluation::degradationsOf({}, true, inputsOf(measured.set)))
             tasks.push_back({&measured, d, {}});
     }
     inParallel(tasks.size(), options.jobs, [&](std::size_t i) {
         const DataSet& set = tasks[i].measured->set;
         tasks[i].result =
-            labelled_scans::scoreHardSets(inputsOf(set), {tasks[i].degradation}, {set.max_range_m})
+            evaluation::scoreHardSets(inputsOf(set), {tasks[i].degradation}, {set.max_range_m})
                 .front();
     });
     for (Task& task : tasks) task.measured->hard_sets.push_back(std::move(task.result));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <hagen/labelled_scans/HardSets.h>
+#include <hagen/evaluation/HardSets.h>
 #include "DataSets.h"
 
 namespace hagen {
@@ -17,7 +17,7 @@ struct Measured {
     std::vector<evaluation::MethodScores> methods;  ///< one per row
     std::vector<std::size_t> returns;               ///< of each scan
     /// `default` alone on degraded copies of the scans; empty unless the set is_degraded.
-    std::vector<labelled_scans::HardSet> hard_sets;
+    std::vector<evaluation::HardSet> hard_sets;
 
     /// Returns the row of this name, or nullptr.
     const evaluation::MethodScores* row(const std::string& name) const;

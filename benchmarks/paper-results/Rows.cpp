@@ -38,9 +38,9 @@ void checkPaper(const Options& paper, const std::filesystem::path& file) {
 }
 
 void addChanges(const std::string& filter, const Settings& settings,
-                const std::vector<Change>& changes, std::vector<labelled_scans::SweepPoint>& rows) {
+                const std::vector<Change>& changes, std::vector<evaluation::SweepPoint>& rows) {
     for (const Change& change : changes) {
-        labelled_scans::SweepPoint row{nameOf(filter, change), settings, "", ""};
+        evaluation::SweepPoint row{nameOf(filter, change), settings, "", ""};
         const auto set = [&](const std::string& key, const std::string& text) {
             // "zone" and "W" are placeholders for the values in the settings.
             const std::string value = text == "zone" ? std::to_string(settings.options.zone_m)
@@ -105,15 +105,15 @@ const std::vector<Change>& paperStagesUnderSurface() {
     return changes;
 }
 
-labelled_scans::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config) {
+evaluation::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config) {
     const Settings ours = settingsOf(set, config / set.preset);
     const Settings paper = settingsOf(set, config / "paper.yaml");
     checkPaper(paper.options, config / "paper.yaml");
     return {{{kDefault, ours, "", ""}, {kPaper, paper, "", ""}}, ours};
 }
 
-labelled_scans::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config) {
-    labelled_scans::MethodSet all = headlineRowsFor(set, config);
+evaluation::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config) {
+    evaluation::MethodSet all = headlineRowsFor(set, config);
     if (!set.has_all_rows) return all;
     const Settings ours = all.filter[0].settings, paper = all.filter[1].settings;
     for (const auto& changes : {betaSweep(), componentSweep()}) {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <hagen/labelled_scans/Methods.h>
+#include <hagen/evaluation/Methods.h>
 #include "DataSets.h"
 
 namespace hagen {
@@ -34,8 +34,8 @@ const std::vector<Change>& paperStagesUnderSurface();
 /// Returns the rows for a data set, with the settings files in `config`, including the baselines.
 /// Throws std::runtime_error if paper.yaml switches on a stage of ours: its scores would not be the
 /// paper's.
-labelled_scans::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config);
+evaluation::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config);
 /// Only the two filters and the baselines of these.
-labelled_scans::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config);
+evaluation::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config);
 
 }  // namespace hagen

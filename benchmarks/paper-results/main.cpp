@@ -1,14 +1,14 @@
 // Measures the results in docs/results.md and writes that page. Run by scripts/reproduce-paper.
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/WriteFile.h>
-#include <hagen/labelled_scans/Charts.h>
+#include <hagen/evaluation/Charts.h>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <optional>
 #include <thread>
 
-#include <hagen/command_line/CommandLine.h>
+#include <hagen/base/CommandLine.h>
 #include "Document.h"
 #include "Figures.h"
 #include "ReadmeBlock.h"
@@ -16,7 +16,7 @@
 namespace {
 
 using namespace hagen;
-using namespace hagen::command_line;
+using namespace hagen::base;
 namespace fs = std::filesystem;
 
 struct Flags {
@@ -51,7 +51,7 @@ void addFlags(Command& app, Flags& flags) {
 /// A folder of charts and tables.
 constexpr base::OutputKind kFigures{"a folder of charts and tables", [](const fs::path& within) {
                                         return within.extension() == ".csv" ||
-                                               labelled_scans::kCharts.holds(within);
+                                               evaluation::kCharts.holds(within);
                                     }};
 
 std::string contentOf(const fs::path& file) {

@@ -1,6 +1,6 @@
 #include "Document.h"
 
-#include <hagen/pictures/Gnuplot.h>
+#include <hagen/convert/Gnuplot.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -226,13 +226,13 @@ void drawFlights(const std::filesystem::path& folder, const std::vector<FlightTi
             script << "EOD\n";
             plot += (m == 0 ? "plot " : ", ") + ("$line" + std::to_string(m)) +
                     " using 1:2 with lines lw 1.5 lc rgb '" + kColours[m % kColours.size()] +
-                    "' title " + pictures::gnuplotString(flight.methods[m].name);
+                    "' title " + convert::gnuplotString(flight.methods[m].name);
         }
-        script << "set title " << pictures::gnuplotString(flight.scenario) << " noenhanced\n"
+        script << "set title " << convert::gnuplotString(flight.scenario) << " noenhanced\n"
                << (&flight == &flights.back() ? "set xlabel 'scan'\n" : "") << plot << "\n";
     }
     script << "unset multiplot\nunset output\n";
-    pictures::runGnuplot(script.str(), folder, {"by_flight.svg"});
+    convert::runGnuplot(script.str(), folder, {"by_flight.svg"});
 }
 
 }  // namespace hagen

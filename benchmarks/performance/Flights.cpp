@@ -1,13 +1,13 @@
 #include "Flights.h"
 
-#include <hagen/observations/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 
 #include <chrono>
 
-#include <hagen/labelled_scans/Methods.h>
-#include <hagen/simulated_logs/SimulatedObservation.h>
+#include <hagen/convert/SimulatedObservation.h>
+#include <hagen/evaluation/Methods.h>
 #include "StageRows.h"
 
 namespace hagen {
@@ -49,7 +49,7 @@ std::vector<evaluation::Method> methods() {
     Settings ours, papers;
     papers.options = paperOptions();
     std::vector<evaluation::Method> all;
-    for (const evaluation::Method& method : labelled_scans::methodsFor(
+    for (const evaluation::Method& method : evaluation::methodsFor(
              {{{"hagen, paper", papers, "", ""}, {"hagen, default", ours, "", ""}}, ours}, "")) {
         const bool is_tuned = method.name.find("tuned") != std::string::npos;
         if (!is_tuned) all.push_back(method);
@@ -79,8 +79,8 @@ std::vector<double> packetsToLabels_ms(const Options& options, int runs) {
     FlyingLidar lidar("orchard", 1);
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> packets;
     for (int scan = 0; scan < kDistinctScans; ++scan) {
-        packets.push_back(simulated_logs::encodeSimulatedScan(lidar.next(), lidar.sensor(),
-                                                              kScanPeriod_s * scan));
+        packets.push_back(
+            convert::encodeSimulatedScan(lidar.next(), lidar.sensor(), kScanPeriod_s * scan));
     }
     HagenFilter filter(observations::sensorOf(*packets.front()), options);
     observations::DecoderWorkspace decoder;

@@ -1,6 +1,6 @@
 // Run times of several methods over long simulated flights, and the jitter of the filter.
 #pragma once
-#include <hagen/segmentation/Options.h>
+#include <hagen/filter/Options.h>
 #include <cstdint>
 #include <string>
 #include <vector>

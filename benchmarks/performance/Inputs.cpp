@@ -1,17 +1,17 @@
 #include "Inputs.h"
 
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/observations/VelodyneDecoder.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/range_image/Image.h>
-#include <hagen/range_image/PixelDirections.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/recordings/RawlogReader.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/Image.h>
+#include <hagen/scan/PixelDirections.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include <hagen/simulated_logs/SimulatedObservation.h>
+#include <hagen/convert/SimulatedObservation.h>
 
 namespace hagen {
 namespace {
@@ -34,7 +34,7 @@ Scan coordinatesOf(const Scan& scan) {
 Input realVlp16() {
     const char* const file = "/usr/share/mrpt/datasets/test_velodyne_VLP16.rawlog";
     const auto scan =
-        std::dynamic_pointer_cast<CObservationVelodyneScan>(logs::RawlogReader(file).next());
+        std::dynamic_pointer_cast<CObservationVelodyneScan>(recordings::RawlogReader(file).next());
     if (!scan) throw std::runtime_error(std::string(file) + ": contains no Velodyne scan");
     return {"VLP-16", observations::sensorOf(*scan), {scan}, {}};
 }
@@ -52,8 +52,7 @@ Input simulatedScans(const std::string& sensor) {
         if (sensor == "HDL-64E") {
             input.points.push_back(coordinatesOf(scan.scan));
         } else {
-            input.packets.push_back(
-                simulated_logs::encodeSimulatedScan(scan, input.model, start_s));
+            input.packets.push_back(convert::encodeSimulatedScan(scan, input.model, start_s));
         }
     }
     if (!input.packets.empty()) input.model = observations::sensorOf(*input.packets.front());

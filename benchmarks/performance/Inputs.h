@@ -1,7 +1,7 @@
 // The scans used for timing.
 #pragma once
-#include <hagen/range_image/Scan.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/Scan.h>
+#include <hagen/scan/SensorModel.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <string>
 #include <vector>

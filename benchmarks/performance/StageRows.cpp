@@ -1,13 +1,13 @@
 #include "StageRows.h"
 
 #include <hagen/evaluation/BaselineZermas.h>
-#include <hagen/observations/VelodyneDecoder.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/segmentation/CanopyLayer.h>
-#include <hagen/segmentation/GapRepair.h>
-#include <hagen/segmentation/RangeAngle.h>
-#include <hagen/segmentation/RoiBoxes.h>
-#include <hagen/segmentation/Sharpening.h>
+#include <hagen/filter/CanopyLayer.h>
+#include <hagen/filter/GapRepair.h>
+#include <hagen/filter/RangeAngle.h>
+#include <hagen/filter/RoiBoxes.h>
+#include <hagen/filter/Sharpening.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/scan/Angle.h>
 #include <hagen/settings/Settings.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // The timed rows: each stage of the filter, the complete filter, and references.
 #pragma once
-#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/filter/HagenFilter.h>
 #include <functional>
 #include <string>
 #include <vector>

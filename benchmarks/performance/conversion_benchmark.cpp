@@ -1,8 +1,8 @@
 // Measures the run time of a conversion, compared with reading the log and writing the same bytes
 // without segmentation.
-#include <hagen/logs/Conversion.h>
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/logs/RawlogWriter.h>
+#include <hagen/convert/Conversion.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/recordings/RawlogReader.h>
 #include <mrpt/obs/CObservation.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -21,13 +21,13 @@
 #include <string>
 #include <vector>
 
-#include <hagen/command_line/CommandLine.h>
+#include <hagen/base/CommandLine.h>
 #include "ConversionTimes.h"
 
 namespace {
 
 using namespace hagen;
-using namespace hagen::command_line;
+using namespace hagen::base;
 namespace fs = std::filesystem;
 
 /// A temporary folder for outputs.
@@ -76,27 +76,28 @@ bool isResult(const mrpt::serialization::CSerializable& entry) {
 
 /// The content of a segmented log: for each entry of its input, the bytes of the entry and of its
 /// results.
-std::vector<logs::Bytes> groupsOf(const fs::path& segmented) {
-    std::vector<logs::Bytes> groups;
-    logs::RawlogReader reader(segmented);
+std::vector<convert::Bytes> groupsOf(const fs::path& segmented) {
+    std::vector<convert::Bytes> groups;
+    recordings::RawlogReader reader(segmented);
     while (const auto entry = reader.next()) {
         if (groups.empty() || !isResult(*entry)) groups.emplace_back();
-        logs::serialise(*entry, groups.back());
+        convert::serialise(*entry, groups.back());
     }
     return groups;
 }
 
 /// Reads every object of a log, and writes these bytes instead.
-void copyThrough(const fs::path& log, const std::vector<logs::Bytes>& groups, const fs::path& out) {
-    logs::RawlogReader reader(log);
-    logs::RawlogWriter writer(out, true);
-    logs::Bytes entries, member, packed;
-    for (const logs::Bytes& group : groups) {
+void copyThrough(const fs::path& log, const std::vector<convert::Bytes>& groups,
+                 const fs::path& out) {
+    recordings::RawlogReader reader(log);
+    convert::RawlogWriter writer(out, true);
+    convert::Bytes entries, member, packed;
+    for (const convert::Bytes& group : groups) {
         if (!reader.next()) throw std::runtime_error("the log has fewer entries than its copy");
         entries = group;
         writer.gather(entries, member);
         if (member.empty()) continue;
-        logs::packGzipMember(member, packed);
+        convert::packGzipMember(member, packed);
         writer.writeMember(packed);
     }
     if (reader.next()) throw std::runtime_error("the log has results among its own entries");
@@ -116,29 +117,30 @@ double peakMegabytes() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-void measure(logs::Conversion conversion, bool copies_through, int repetitions,
+void measure(convert::Conversion conversion, bool copies_through, int repetitions,
              const std::string& settings, const fs::path& json_lines) {
     const WorkFolder folder;
     conversion.rawlog = folder.path / "segmented.rawlog";
     conversion.overwrite = true;
-    const logs::ConversionReport report =
-        logs::convert(conversion);  // warms up, and provides the counts
+    const convert::ConversionReport report =
+        convert::convert(conversion);  // warms up, and provides the counts
     if (report.scans == 0) throw std::runtime_error("the log has no LiDAR scan");
     const double peak_megabytes = peakMegabytes();  // before all results are loaded
     const double flight_s = report.scan_reports.back().time_s - report.scan_reports.front().time_s;
 
-    std::vector<logs::Bytes> groups;
+    std::vector<convert::Bytes> groups;
     const fs::path copy = folder.path / "copy.rawlog";
     if (copies_through) groups = groupsOf(conversion.rawlog);
 
     Times converting, copying;
     std::vector<double> labelled_s;
     for (int i = 0; i < repetitions; ++i) {
-        logs::ConversionReport again;
-        converting.add([&] { again = logs::convert(conversion); });
-        labelled_s.push_back(std::accumulate(
-            again.scan_reports.begin(), again.scan_reports.end(), 0.0,
-            [](double sum, const logs::ScanReport& scan) { return sum + scan.latency_ms / 1000; }));
+        convert::ConversionReport again;
+        converting.add([&] { again = convert::convert(conversion); });
+        labelled_s.push_back(std::accumulate(again.scan_reports.begin(), again.scan_reports.end(),
+                                             0.0, [](double sum, const convert::ScanReport& scan) {
+                                                 return sum + scan.latency_ms / 1000;
+                                             }));
         if (!copies_through) continue;
         copying.add([&] { copyThrough(conversion.input, groups, copy); });
         if (!haveSameBytes(conversion.rawlog, copy)) throw std::runtime_error("the copy differs");
@@ -185,7 +187,7 @@ void measure(logs::Conversion conversion, bool copies_through, int repetitions,
 int main(int argc, char** argv) {
     Program app("conversion-benchmark",
                 "Times the conversion of a rawlog, as rawlog-segment does it.");
-    logs::Conversion conversion;
+    convert::Conversion conversion;
     std::vector<std::string> configs;
     bool copies_through = false;
     int repetitions = 5;

@@ -1,18 +1,18 @@
 // Times entire flights, and writes docs/performance.md from these times and the output of
 // stage-benchmarks and conversion-benchmark. Run by scripts/measure-performance.
 #include <hagen/base/OutputPath.h>
-#include <hagen/labelled_scans/Charts.h>
+#include <hagen/evaluation/Charts.h>
 #include <fstream>
 #include <iostream>
 
-#include <hagen/command_line/CommandLine.h>
+#include <hagen/base/CommandLine.h>
 #include "Document.h"
 #include "StageRows.h"
 
 namespace {
 
 using namespace hagen;
-using namespace hagen::command_line;
+using namespace hagen::base;
 namespace fs = std::filesystem;
 
 struct Flags {
@@ -59,7 +59,7 @@ Performance measure(const Flags& flags) {
 int run(const Flags& flags) {
     base::OutputPath document(fs::path(flags.output) / "performance.md", base::kFile,
                               flags.overwrite);
-    base::OutputPath charts(fs::path(flags.output) / "performance", labelled_scans::kCharts,
+    base::OutputPath charts(fs::path(flags.output) / "performance", evaluation::kCharts,
                             flags.overwrite);
     const Performance performance = measure(flags);
     fs::create_directory(charts.temporary());

@@ -1,7 +1,7 @@
 #include "LoadedScans.h"
 
 #include <hagen/evaluation/DegradedScans.h>
-#include <hagen/labelled_scans/LabelledFolders.h>
+#include <hagen/evaluation/LabelledFolders.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -32,9 +32,9 @@ Settings settingsOf(const fs::path& preset, float zone_m) {
 
 std::unique_ptr<evaluation::LabelledScanSource> sourceOf(
     const ScanInputs& inputs, const std::optional<evaluation::LabelMap>& label_map) {
-    const labelled_scans::MethodSet rows{{{"", settingsOf(inputs.preset, inputs.zone_m), "", ""}},
-                                         std::nullopt};
-    auto source = std::move(labelled_scans::sourcesOf({inputs.folder}, rows, label_map).front());
+    const evaluation::MethodSet rows{{{"", settingsOf(inputs.preset, inputs.zone_m), "", ""}},
+                                     std::nullopt};
+    auto source = std::move(evaluation::sourcesOf({inputs.folder}, rows, label_map).front());
     if (inputs.degradation.empty()) return source;
     return std::make_unique<evaluation::DegradedScans>(std::move(source),
                                                        evaluation::Degradation(inputs.degradation));
@@ -100,9 +100,9 @@ evaluation::Method LoadedScans::methodFor(const Kind& kind, const std::vector<Se
                                           const Choice& choice) {
     Settings chosen = settingsOf(kind.preset, kind.zone_m);
     apply(settings, choice, chosen);
-    labelled_scans::MethodSet rows{{{"", chosen, "", ""}}, std::nullopt};
+    evaluation::MethodSet rows{{{"", chosen, "", ""}}, std::nullopt};
     rows.is_upside_down = kind.is_upside_down;
-    return labelled_scans::methodsFor(rows, kind.sensor_file).front();
+    return evaluation::methodsFor(rows, kind.sensor_file).front();
 }
 
 std::vector<Counts> LoadedScans::measure(const std::vector<Setting>& settings,

@@ -2,7 +2,7 @@
 
 #include <hagen/base/NumberText.h>
 #include <hagen/evaluation/Degradation.h>
-#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/filter/OptionKeys.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <map>
 
-#include <hagen/command_line/CommandLine.h>
+#include <hagen/base/CommandLine.h>
 #include "LoadedScans.h"
 #include "Plan.h"
 #include "Record.h"
@@ -18,7 +18,7 @@
 namespace {
 
 using namespace hagen;
-using namespace hagen::command_line;
+using namespace hagen::base;
 using namespace hagen::selection;
 namespace fs = std::filesystem;
 

@@ -1,5 +1,5 @@
 // A project of your own: segments one scan of an installed Hagen's choice of sensor.
-#include <hagen/observations/ObservationSegmenter.h>
+#include <hagen/mrpt/ObservationSegmenter.h>
 
 #include <cstdio>
 

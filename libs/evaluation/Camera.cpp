@@ -1,11 +1,11 @@
 #include <hagen/evaluation/Camera.h>
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
 
-#include "YamlFile.h"
+#include "evaluation/YamlFile.h"
 
 namespace hagen::evaluation {
 namespace {

@@ -1,7 +1,7 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/evaluation/Degradation.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/segmentation/Posture.h>
+#include <hagen/filter/Posture.h>
+#include <hagen/scan/Angle.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "PlanTree.h"
+#include "evaluation/PlanTree.h"
 
 namespace hagen::evaluation {
 namespace {

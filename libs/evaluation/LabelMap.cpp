@@ -3,7 +3,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "YamlFile.h"
+#include "evaluation/YamlFile.h"
 
 namespace hagen::evaluation {
 namespace {

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "PlanTree.h"
+#include "evaluation/PlanTree.h"
 
 namespace hagen::evaluation {
 namespace {

@@ -1,4 +1,4 @@
-#include "YamlFile.h"
+#include "evaluation/YamlFile.h"
 
 #include <hagen/base/ReadFile.h>
 #include <set>

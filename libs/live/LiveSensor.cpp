@@ -1,9 +1,9 @@
-#include "LiveSensor.h"
+#include "live/LiveSensor.h"
 
-#include <hagen/packets/VelodyneCalibrationFile.h>
-#include <hagen/streaming/LivoxStream.h>
-#include <hagen/streaming/OusterStream.h>
-#include <hagen/streaming/VelodyneStream.h>
+#include <hagen/live/LivoxStream.h>
+#include <hagen/live/OusterStream.h>
+#include <hagen/live/VelodyneStream.h>
+#include <hagen/sensors/VelodyneCalibrationFile.h>
 
 #include <cstdint>
 #include <optional>
@@ -18,8 +18,8 @@ constexpr std::size_t kPositionBytes = 512;
 template <class Stream>
 class StreamSensor : public LiveSensor {
  public:
-    const streaming::StreamingSegmenter& segmenter() const override { return stream_->segmenter(); }
-    void move(const streaming::SensorMotion& motion) override {
+    const live::StreamingSegmenter& segmenter() const override { return stream_->segmenter(); }
+    void move(const live::SensorMotion& motion) override {
         stream_->setAttitude(motion.attitude);
         stream_->setPose(motion.map_from_sensor);
     }
@@ -39,18 +39,18 @@ class StreamSensor : public LiveSensor {
     std::unique_ptr<Stream> stream_;
 };
 
-class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
+class VelodyneSensor : public StreamSensor<live::VelodyneStream> {
  public:
-    VelodyneSensor(const LiveOptions& options, const streaming::StreamingSegmenter::Take& take)
-        : model_(options.model == kHdl64 ? packets::hdl64Model()
-                                         : packets::velodyneModel(options.model)) {
-        std::optional<packets::VelodyneCalibration> calibration;
+    VelodyneSensor(const LiveOptions& options, const live::StreamingSegmenter::Take& take)
+        : model_(options.model == kHdl64 ? sensors::hdl64Model()
+                                         : sensors::velodyneModel(options.model)) {
+        std::optional<sensors::VelodyneCalibration> calibration;
         if (!options.calibration.empty()) {
-            calibration = packets::readVelodyneCalibration(options.calibration);
+            calibration = sensors::readVelodyneCalibration(options.calibration);
         }
-        stream_ = std::make_unique<streaming::VelodyneStream>(
-            model_, options.settings, take, options.streaming,
-            calibration ? &*calibration : nullptr);
+        stream_ = std::make_unique<live::VelodyneStream>(model_, options.settings, take,
+                                                         options.streaming,
+                                                         calibration ? &*calibration : nullptr);
     }
 
     Counts counts() const override {
@@ -70,10 +70,10 @@ class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
 
     bool isData(const Packet& packet) const override {
         const std::uint8_t* const bytes = packet.bytes.data();
-        if (!packets::isVelodyneData(bytes, packet.bytes.size())) return false;
-        const bool is_hdl64 = &model_ == &packets::hdl64Model();
-        if (packets::isOfHdl64(bytes)) return is_hdl64;
-        return !is_hdl64 && model_.id == bytes[packets::kVelodyneModelAt];
+        if (!sensors::isVelodyneData(bytes, packet.bytes.size())) return false;
+        const bool is_hdl64 = &model_ == &sensors::hdl64Model();
+        if (sensors::isOfHdl64(bytes)) return is_hdl64;
+        return !is_hdl64 && model_.id == bytes[sensors::kVelodyneModelAt];
     }
     bool isToldByAddress(const Packet& packet) const override { return isData(packet); }
 
@@ -83,20 +83,20 @@ class VelodyneSensor : public StreamSensor<streaming::VelodyneStream> {
             return false;
         }
         const auto taken = stream_->add(packet.bytes.data(), packet.bytes.size(), packet.arrival_s);
-        return taken == streaming::VelodyneStream::Taken::Yes;
+        return taken == live::VelodyneStream::Taken::Yes;
     }
 
  private:
-    const packets::VelodyneModel& model_;
+    const sensors::VelodyneModel& model_;
     std::size_t position_ = 0;
 };
 
-class OusterSensor : public StreamSensor<streaming::OusterStream> {
+class OusterSensor : public StreamSensor<live::OusterStream> {
  public:
-    OusterSensor(const LiveOptions& options, const streaming::StreamingSegmenter::Take& take) {
-        stream_ = std::make_unique<streaming::OusterStream>(
-            packets::readOusterSensor(options.sensor_json), options.settings, take,
-            options.streaming);
+    OusterSensor(const LiveOptions& options, const live::StreamingSegmenter::Take& take) {
+        stream_ =
+            std::make_unique<live::OusterStream>(sensors::readOusterSensor(options.sensor_json),
+                                                 options.settings, take, options.streaming);
     }
 
     Counts counts() const override {
@@ -114,7 +114,7 @@ class OusterSensor : public StreamSensor<streaming::OusterStream> {
     }
 
     bool isData(const Packet& packet) const override {
-        const packets::OusterSensor& sensor = stream_->sensor();
+        const sensors::OusterSensor& sensor = stream_->sensor();
         const std::uint8_t* const bytes = packet.bytes.data();
         if (packet.bytes.size() != sensor.packetBytes() || !isOfLidar(bytes, sensor)) return false;
         return !hasSerial() || std::to_string(serialOf(bytes, sensor)) == sensor.serial;
@@ -127,7 +127,7 @@ class OusterSensor : public StreamSensor<streaming::OusterStream> {
         const auto taken = stream_->add(packet.bytes.data(), packet.bytes.size(), packet.arrival_s,
                                         packet.time_ns);
         stream_->complete().clear();  // the recorder puts its own turns together
-        return taken == streaming::OusterStream::Taken::Yes;
+        return taken == live::OusterStream::Taken::Yes;
     }
     void finish() override { stream_->finish(); }
 
@@ -137,10 +137,10 @@ class OusterSensor : public StreamSensor<streaming::OusterStream> {
     }
 };
 
-class LivoxSensor : public StreamSensor<streaming::LivoxStream> {
+class LivoxSensor : public StreamSensor<live::LivoxStream> {
  public:
-    LivoxSensor(const LiveOptions& options, const streaming::StreamingSegmenter::Take& take) {
-        stream_ = std::make_unique<streaming::LivoxStream>(options.settings, take);
+    LivoxSensor(const LiveOptions& options, const live::StreamingSegmenter::Take& take) {
+        stream_ = std::make_unique<live::LivoxStream>(options.settings, take);
     }
 
     bool turns() const override { return false; }
@@ -155,7 +155,7 @@ class LivoxSensor : public StreamSensor<streaming::LivoxStream> {
     }
 
     bool isData(const Packet& packet) const override {
-        packets::Datagram datagram;
+        sensors::Datagram datagram;
         datagram.bytes = packet.bytes.data();
         datagram.size = packet.bytes.size();
         return livoxPacketOf(datagram).has_value();
@@ -164,14 +164,14 @@ class LivoxSensor : public StreamSensor<streaming::LivoxStream> {
 
     bool add(const Packet& packet) override {
         const auto taken = stream_->add(packet.bytes.data(), packet.bytes.size(), packet.arrival_s);
-        return taken == streaming::LivoxStream::Taken::Yes;
+        return taken == live::LivoxStream::Taken::Yes;
     }
 };
 
 }  // namespace
 
 std::unique_ptr<LiveSensor> makeLiveSensor(const LiveOptions& options,
-                                           const streaming::StreamingSegmenter::Take& take) {
+                                           const live::StreamingSegmenter::Take& take) {
     if (!options.sensor_json.empty()) return std::make_unique<OusterSensor>(options, take);
     if (options.model == kLivox) return std::make_unique<LivoxSensor>(options, take);
     return std::make_unique<VelodyneSensor>(options, take);

@@ -1,8 +1,8 @@
 #pragma once
 #include <hagen/live/LiveSession.h>
 #include <hagen/live/PacketQueue.h>
-#include <hagen/streaming/SensorMotion.h>
-#include <hagen/streaming/StreamingSegmenter.h>
+#include <hagen/live/SensorMotion.h>
+#include <hagen/live/StreamingSegmenter.h>
 
 #include <cstddef>
 #include <memory>
@@ -21,7 +21,7 @@ class LiveSensor {
 
     virtual ~LiveSensor() = default;
 
-    virtual const streaming::StreamingSegmenter& segmenter() const = 0;
+    virtual const live::StreamingSegmenter& segmenter() const = 0;
     /// False for a sensor that does not turn.
     virtual bool turns() const { return true; }
     virtual Counts counts() const = 0;
@@ -35,7 +35,7 @@ class LiveSensor {
     virtual bool isToldByAddress(const Packet& packet) const = 0;
     /// Whether the packet was taken.
     virtual bool add(const Packet& packet) = 0;
-    virtual void move(const streaming::SensorMotion& motion) = 0;
+    virtual void move(const live::SensorMotion& motion) = 0;
     /// Labels what has come.
     virtual void flush() = 0;
     /// Completes the turn in progress, which counts.
@@ -45,6 +45,6 @@ class LiveSensor {
 /// Throws std::runtime_error naming the file of metadata or calibration that cannot be used, and
 /// SettingsError.
 std::unique_ptr<LiveSensor> makeLiveSensor(const LiveOptions& options,
-                                           const streaming::StreamingSegmenter::Take& take);
+                                           const live::StreamingSegmenter::Take& take);
 
 }  // namespace hagen::live

@@ -3,8 +3,8 @@
 #include <hagen/base/ProcessCost.h>
 #include <hagen/live/LiveSession.h>
 #include <hagen/live/Priority.h>
-#include <hagen/packets/CaptureFile.h>
-#include <hagen/packets/VelodyneModel.h>
+#include <hagen/sensors/CaptureFile.h>
+#include <hagen/sensors/VelodyneModel.h>
 
 #include <algorithm>
 #include <atomic>
@@ -20,10 +20,10 @@
 #include <utility>
 #include <vector>
 
-#include "LiveSensor.h"
-#include "Recorder.h"
-#include "SectorFigures.h"
-#include "StatsFile.h"
+#include "live/LiveSensor.h"
+#include "live/Recorder.h"
+#include "live/SectorFigures.h"
+#include "live/StatsFile.h"
 
 namespace hagen::live {
 namespace {
@@ -130,9 +130,9 @@ class Session {
 
  private:
     bool isOfSensor(const Packet& packet);
-    void recordPose(const Packet& packet, const streaming::SensorMotion& motion);
+    void recordPose(const Packet& packet, const live::SensorMotion& motion);
     void tellRecording();
-    void tell(const streaming::LabelledSector& sector);
+    void tell(const live::LabelledSector& sector);
     void tellEmptiness(const Scan& returns);
     void tellChanges();
     void tellUncertain();
@@ -164,16 +164,15 @@ class Session {
 
 Session::Session(const LiveOptions& options, const LiveListener& listener, bool is_live)
     : options_(options), listener_(listener), start_s_(steadyNow_s()), status_s_(start_s_) {
-    sensor_ =
-        makeLiveSensor(options, [this](const streaming::LabelledSector& sector) { tell(sector); });
-    const streaming::StreamingSegmenter& segmenter = sensor_->segmenter();
+    sensor_ = makeLiveSensor(options, [this](const live::LabelledSector& sector) { tell(sector); });
+    const live::StreamingSegmenter& segmenter = sensor_->segmenter();
     figures_.emplace(segmenter.sensor(), options_.settings.mount, report_);
     listener_.begin(segmenter.sensor(), segmenter.options());
     if (options.recording.file.empty()) return;
     recorder_ = std::make_unique<Recorder>(options.recording, bool{listener_.motion}, !is_live);
 }
 
-void Session::tell(const streaming::LabelledSector& sector) {
+void Session::tell(const live::LabelledSector& sector) {
     figures_->take(sector, steadyNow_s());
     listener_.sector(sector);
     tellEmptiness(sector.returns);
@@ -200,8 +199,8 @@ bool Session::isOfSensor(const Packet& packet) {
         return false;
     }
     if (before != packet.from_ip) {
-        listener_.remark("the sensor is now at " + packets::ipText(packet.from_ip) +
-                         ", no longer at " + packets::ipText(before));
+        listener_.remark("the sensor is now at " + sensors::ipText(packet.from_ip) +
+                         ", no longer at " + sensors::ipText(before));
         sensor_->flush();  // no sector has returns of both
     }
     return true;
@@ -211,7 +210,7 @@ void Session::take(const Packet& packet) {
     ++report_.datagrams;
     last_taken_s_ = packet.arrival_s;
     if (listener_.motion) {
-        const streaming::SensorMotion motion = listener_.motion(packet.arrival_s);
+        const live::SensorMotion motion = listener_.motion(packet.arrival_s);
         sensor_->move(motion);
         if (recorder_) recordPose(packet, motion);
     }
@@ -228,7 +227,7 @@ void Session::take(const Packet& packet) {
 /// The pose of the vehicle, as rawlog-segment puts it together with the mount of the settings.
 /// Without a place, that is 0: the tilt is what labels need. Once places have come, poses without
 /// one are left out: a map would be torn.
-void Session::recordPose(const Packet& packet, const streaming::SensorMotion& motion) {
+void Session::recordPose(const Packet& packet, const live::SensorMotion& motion) {
     Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
     if (motion.map_from_sensor) {
         has_place_ = true;
@@ -416,7 +415,7 @@ void checkLive(const LiveOptions& options) {
     const bool is_hdl64 = options.model == kHdl64;
     if (options.model != kLivox && !is_hdl64) {
         try {
-            packets::velodyneModel(options.model);
+            sensors::velodyneModel(options.model);
         } catch (const std::invalid_argument&) {
             throw std::runtime_error("'" + options.model +
                                      "' cannot be labelled live; supported are " + liveModels() +

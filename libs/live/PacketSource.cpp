@@ -55,7 +55,7 @@ Address parseAddress(const std::string& text) {
 
 UdpSource::UdpSource(const Address& address)
     : port_(address.port),
-      name_(packets::ipText(address.ip) + ":" + std::to_string(address.port)),
+      name_(sensors::ipText(address.ip) + ":" + std::to_string(address.port)),
       buffer_(kMostBytes) {
     socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (socket_ < 0) fail(name_);

@@ -1,4 +1,4 @@
-#include "Recorder.h"
+#include "live/Recorder.h"
 
 #include <hagen/base/WriteFile.h>
 #include <hagen/live/Priority.h>
@@ -107,7 +107,7 @@ void Recorder::write() {
             writePoses();
             continue;
         }
-        packets::Datagram datagram;
+        sensors::Datagram datagram;
         datagram.time_ns = packet.time_ns;
         datagram.from_ip = packet.from_ip;
         datagram.to_ip = packet.to_ip;

@@ -2,7 +2,7 @@
 #include <hagen/base/OutputPath.h>
 #include <hagen/live/PacketQueue.h>
 #include <hagen/live/Recording.h>
-#include <hagen/packets/CaptureWriter.h>
+#include <hagen/sensors/CaptureWriter.h>
 #include <Eigen/Geometry>
 
 #include <atomic>
@@ -51,7 +51,7 @@ class Recorder {
     PacketQueue queue_;
     base::OutputPath capture_output_;
     std::optional<base::OutputPath> poses_output_;
-    packets::CaptureWriter capture_;
+    sensors::CaptureWriter capture_;
     std::ofstream poses_;
     Packet copy_;  ///< reused by the thread that receives
     std::int64_t last_pose_ns_;

@@ -1,4 +1,4 @@
-#include "StatsFile.h"
+#include "live/StatsFile.h"
 
 #include <hagen/base/Json.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "YamlParts.h"
+#include "settings/YamlParts.h"
 
 namespace hagen {
 namespace {

@@ -1,11 +1,11 @@
-#include "AirframeSettings.h"
+#include "settings/AirframeSettings.h"
 
 #include <hagen/base/NumberText.h>
 #include <hagen/base/TextStream.h>
 #include <hagen/settings/AirframeFile.h>
 #include <set>
 
-#include "YamlParts.h"
+#include "settings/YamlParts.h"
 
 namespace hagen {
 namespace {

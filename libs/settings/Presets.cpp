@@ -9,7 +9,7 @@
 
 #include <hagen/base/Folder.h>
 #include <hagen/settings/Settings.h>
-#include "YamlParts.h"
+#include "settings/YamlParts.h"
 
 namespace hagen {
 

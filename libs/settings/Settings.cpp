@@ -2,8 +2,8 @@
 
 #include <hagen/base/NumberText.h>
 #include <hagen/base/TextStream.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/filter/OptionKeys.h>
+#include <hagen/scan/Angle.h>
 #include <hagen/settings/MostRange.h>
 #include <hagen/settings/Presets.h>
 #include <hagen/settings/Settings.h>
@@ -13,8 +13,8 @@
 #include <map>
 #include <set>
 
-#include "AirframeSettings.h"
-#include "YamlParts.h"
+#include "settings/AirframeSettings.h"
+#include "settings/YamlParts.h"
 
 namespace hagen {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <hagen/base/Json.h>
 #include <hagen/base/NumberText.h>
-#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/filter/OptionKeys.h>
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "YamlParts.h"
+#include "settings/YamlParts.h"
 
 #include <hagen/base/ReadFile.h>
 #include <yaml-cpp/eventhandler.h>

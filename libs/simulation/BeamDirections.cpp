@@ -1,6 +1,6 @@
-#include "BeamDirections.h"
+#include "simulation/BeamDirections.h"
 
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>
 

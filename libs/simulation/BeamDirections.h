@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/SensorModel.h>
 #include <hagen/simulation/Lidar.h>
 #include <Eigen/Core>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "Embree.h"
+#include "simulation/Embree.h"
 
 #include <new>
 #include <stdexcept>

@@ -1,5 +1,5 @@
-#include <hagen/range_image/Angle.h>
-#include <hagen/range_image/Image.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/Image.h>
 #include <hagen/simulation/Lidar.h>
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "BeamDirections.h"
+#include "simulation/BeamDirections.h"
 
 namespace hagen::simulation {
 namespace {

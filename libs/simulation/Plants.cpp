@@ -1,4 +1,4 @@
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 #include <hagen/simulation/Plants.h>
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 #include <hagen/simulation/Random.h>
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "Embree.h"
+#include "simulation/Embree.h"
 
 namespace hagen::simulation {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "Embree.h"
+#include "simulation/Embree.h"
 
 namespace hagen::simulation {
 namespace {

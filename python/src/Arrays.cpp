@@ -1,6 +1,6 @@
 #include "Arrays.h"
 
-#include <hagen/range_image/MostReturns.h>
+#include <hagen/scan/MostReturns.h>
 
 #include <cstring>
 

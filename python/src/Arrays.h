@@ -1,7 +1,7 @@
 #pragma once
-#include <hagen/range_image/Image.h>
-#include <hagen/range_image/Label.h>
-#include <hagen/range_image/Scan.h>
+#include <hagen/scan/Image.h>
+#include <hagen/scan/Label.h>
+#include <hagen/scan/Scan.h>
 #include <pybind11/numpy.h>
 
 #include <cstddef>

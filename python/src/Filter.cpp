@@ -1,6 +1,6 @@
 #include "Filter.h"
 
-#include <hagen/range_image/Airframe.h>
+#include <hagen/scan/Airframe.h>
 
 #include <cmath>
 #include <limits>

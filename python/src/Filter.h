@@ -1,7 +1,7 @@
 #pragma once
-#include <hagen/observations/CloudSensors.h>
-#include <hagen/observations/ObservationSegmenter.h>
-#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/filter/HagenFilter.h>
+#include <hagen/mrpt/CloudSensors.h>
+#include <hagen/mrpt/ObservationSegmenter.h>
 #include <hagen/settings/Settings.h>
 
 #include <memory>
@@ -68,7 +68,7 @@ class Filter {
     /// For scans of recordings, which may have several sensors, and settings of their own.
     struct Recorded {
         std::mutex mutex;
-        std::weak_ptr<const logs::ScanSource> source;
+        std::weak_ptr<const recordings::ScanSource> source;
         std::unique_ptr<observations::ObservationSegmenter> segmenter;
     } recorded_;
 };

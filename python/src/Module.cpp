@@ -330,7 +330,7 @@ void defineSources(py::module_& m) {
                          const std::filesystem::path& sensor_json,
                          const std::filesystem::path& calibration, std::vector<std::string> topics,
                          std::size_t first, std::optional<std::size_t> last) {
-                 logs::SourceOptions options;
+                 recordings::SourceOptions options;
                  options.sensor_labels = std::move(sensor_labels);
                  options.sensor_json = sensor_json;
                  options.calibration = calibration;

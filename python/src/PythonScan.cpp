@@ -1,8 +1,8 @@
 #include "PythonScan.h"
 
-#include <hagen/observations/MrptMessage.h>
-#include <hagen/observations/ObservationScan.h>
-#include <hagen/observations/TimeStamp.h>
+#include <hagen/mrpt/MrptMessage.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/TimeStamp.h>
 
 #include <stdexcept>
 
@@ -23,7 +23,7 @@ void readArrays(PythonScan& scan) {
                             scan.source ? scan.source->settingsFor(nothing_named) : nothing_named,
                             observed, scan.recorded.beams);
         } catch (const std::runtime_error& e) {
-            throw std::runtime_error(logs::titleOf(scan.recorded) + ": " + e.what());
+            throw std::runtime_error(recordings::titleOf(scan.recorded) + ": " + e.what());
         }
     }
     const Scan& returns = observed.scan;

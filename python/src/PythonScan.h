@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/logs/ScanSource.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/recordings/ScanSource.h>
+#include <hagen/scan/SensorModel.h>
 #include <pybind11/numpy.h>
 
 #include <memory>
@@ -11,9 +11,9 @@ namespace hagen::python {
 
 /// A scan as Python sees it: its arrays, and the observation that the filter reads.
 struct PythonScan {
-    logs::RecordedScan recorded;
+    recordings::RecordedScan recorded;
     /// The recording that it is from, which may name its sensor; null for simulated scans.
-    std::shared_ptr<const logs::ScanSource> source;
+    std::shared_ptr<const recordings::ScanSource> source;
 
     pybind11::array_t<float> xyz;        ///< (N, 3) [m]
     pybind11::array_t<float> intensity;  ///< (N,)

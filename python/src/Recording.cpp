@@ -22,7 +22,7 @@ auto withoutGil(Read read) {
     try {
         const OthersRun others_run;
         return read();
-    } catch (const logs::Interrupted&) {
+    } catch (const recordings::Interrupted&) {
         if (PyErr_Occurred() != nullptr) throw py::error_already_set();
         throw;
     }
@@ -35,7 +35,7 @@ bool hasNoSignal() {
 
 }  // namespace
 
-Recording::Recording(const std::filesystem::path& file, logs::SourceOptions options,
+Recording::Recording(const std::filesystem::path& file, recordings::SourceOptions options,
                      const std::filesystem::path& poses)
     : file_(file), wanted_labels_(options.sensor_labels) {
     std::error_code error;
@@ -47,7 +47,7 @@ Recording::Recording(const std::filesystem::path& file, logs::SourceOptions opti
     }
     options.keep_going = hasNoSignal;
     source_ = withoutGil([&] {
-        std::shared_ptr<logs::ScanSource> source = logs::openRecording(file, options);
+        std::shared_ptr<recordings::ScanSource> source = recordings::openRecording(file, options);
         source->useSettings(Settings());  // beams of clouds whose sensor nobody names
         source->usePoses(poses);
         return source;

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/logs/ScanSource.h>
+#include <hagen/recordings/ScanSource.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -18,8 +18,8 @@ namespace hagen::python {
 /// functions require the GIL, and release it while they read.
 class Recording {
  public:
-    /// Throws FileNotFoundError, and like logs::openRecording() and ScanSource::usePoses().
-    Recording(const std::filesystem::path& file, logs::SourceOptions options,
+    /// Throws FileNotFoundError, and like recordings::openRecording() and ScanSource::usePoses().
+    Recording(const std::filesystem::path& file, recordings::SourceOptions options,
               const std::filesystem::path& poses);
 
     /// The next scan; none at the end. Throws like ScanSource::nextScan(), and KeyboardInterrupt.
@@ -32,7 +32,7 @@ class Recording {
  private:
     std::filesystem::path file_;
     std::vector<std::string> wanted_labels_;
-    std::shared_ptr<logs::ScanSource> source_;
+    std::shared_ptr<recordings::ScanSource> source_;
     std::set<std::string> labels_;  ///< of the scans read
     bool is_at_end_ = false;
     mutable std::mutex reading_;  ///< locked without the GIL, which a source takes now and then

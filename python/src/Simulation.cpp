@@ -1,9 +1,9 @@
 #include "Simulation.h"
 
-#include <hagen/observations/LocatedCloud.h>
-#include <hagen/observations/ObservationScan.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/simulated_logs/SimulatedObservation.h>
+#include <hagen/convert/SimulatedObservation.h>
+#include <hagen/mrpt/LocatedCloud.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/scan/Angle.h>
 #include <hagen/simulation/LogClock.h>
 #include <hagen/simulation/ObjectClass.h>
 #include <hagen/simulation/Scenarios.h>
@@ -44,7 +44,7 @@ mrpt::obs::CObservation::Ptr observationOf(const simulation::SimulatedScan& made
                                            const SensorModel& sensor, double time_s) {
     mrpt::obs::CObservation::Ptr observation;
     if (sensor.name == "VLP-16" || sensor.name == "HDL-32E") {
-        observation = simulated_logs::encodeSimulatedScan(made, sensor, std::fmod(time_s, 3600.0));
+        observation = convert::encodeSimulatedScan(made, sensor, std::fmod(time_s, 3600.0));
     } else {
         const auto cloud = mrpt::obs::CObservationPointCloud::Create();
         cloud->pointcloud = std::make_shared<observations::LocatedCloud>(
@@ -84,7 +84,7 @@ std::optional<PythonScan> Simulation::next() {
         made = simulation::simulateScan(scene_, sensor_, flight_, time_s, random_, faults_);
         scan.recorded.observation = observationOf(made, sensor_, time_s);
     }
-    const mrpt::poses::CPose3D pose = simulated_logs::mrptPose(made.pose);
+    const mrpt::poses::CPose3D pose = convert::mrptPose(made.pose);
     scan.recorded.pose.sensor_pose = pose;
     scan.recorded.pose.pose_has_horizon = true;
     scan.recorded.pose.attitude =

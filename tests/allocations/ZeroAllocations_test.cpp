@@ -1,9 +1,9 @@
 // From packets to labels and lists of indices nothing is allocated, once the memory is there. In a
 // program of its own, for it replaces malloc().
 #include <gtest/gtest.h>
-#include <hagen/observations/VelodyneDecoder.h>
-#include <hagen/packets/VelodyneModel.h>
-#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/filter/HagenFilter.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/sensors/VelodyneModel.h>
 
 #include <Eigen/Core>
 #include <memory>
@@ -25,7 +25,7 @@ test::SimpleScene street() {
 
 /// Scans of the same sensor, as it goes on.
 std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> drive(const std::string& model_name) {
-    const packets::VelodyneModel& model = packets::velodyneModel(model_name);
+    const sensors::VelodyneModel& model = sensors::velodyneModel(model_name);
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> scans;
     for (int i = 0; i < 4; ++i) {
         scans.push_back(

@@ -1,10 +1,10 @@
 // Simulated flights whose vehicle sees itself, and the masks against it, with the built programs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/logs/RawlogWriter.h>
-#include <hagen/logs/ScanFolder.h>
-#include <hagen/logs/ScanFolderWriter.h>
-#include <hagen/observations/ObservationScan.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/convert/ScanFolderWriter.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/recordings/ScanFolder.h>
 #include <hagen/simulation/ObjectClass.h>
 
 #include <cmath>
@@ -70,7 +70,7 @@ class AirframeMask : public test::ProgramTest {
                      more));
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         Tally tally;
-        const logs::ScanFolder truth(path(name)), labels(path("labels"));
+        const recordings::ScanFolder truth(path(name)), labels(path("labels"));
         EXPECT_EQ(truth.size(), labels.size());
         for (std::size_t scan = 0; scan < truth.size(); ++scan) {
             const auto kinds = numbersOf(truth.kindFile(scan));
@@ -195,7 +195,7 @@ TEST_F(AirframeMask, TheEvaluatedFilterHasTheSameMask) {
 TEST_F(AirframeMask, WarnsWhereMostOfWhatIsSeenWouldBeMasked) {
     fs::create_directories(path("scans/velodyne"));
     for (int scan = 0; scan < 12; ++scan) {  // a wall all around a standing vehicle
-        std::ofstream out(path("scans/velodyne/" + logs::scanName(scan) + ".bin"),
+        std::ofstream out(path("scans/velodyne/" + convert::scanName(scan) + ".bin"),
                           std::ios::binary);
         for (int azimuth_deg = 0; azimuth_deg < 360; ++azimuth_deg) {
             const auto azimuth_rad = static_cast<float>(azimuth_deg) * 0.0174533f;
@@ -226,7 +226,7 @@ TEST_F(AirframeMask, FailsToLearnFromTooFewScans) {
 }
 
 TEST_F(AirframeMask, FailsToLearnFromSeveralSensorsOrFromOneThatIsNotThere) {
-    logs::RawlogWriter writer(path("two.rawlog"), false);
+    convert::RawlogWriter writer(path("two.rawlog"), false);
     Scan scan;
     scan.x_m = scan.y_m = scan.z_m = {0.3f};
     scan.intensity = {0};

@@ -2,10 +2,10 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/mavlink/Messages.h>
-#include <hagen/mavlink/Parser.h>
-#include <hagen/packets/VelodyneCalibration.h>
-#include <hagen/range_image/Angle.h>
+#include <hagen/live/Messages.h>
+#include <hagen/live/Parser.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/sensors/VelodyneCalibration.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -24,7 +24,7 @@
 #include <sstream>
 #include <thread>
 
-#include "autopilot/Vehicle.h"
+#include "live/Vehicle.h"
 #include "support/CaptureWriter.h"
 #include "support/LocalUdp.h"
 #include "support/ProgramTest.h"
@@ -33,7 +33,7 @@
 namespace hagen {
 namespace {
 
-using autopilot::Vehicle;
+using live::Vehicle;
 using testing::HasSubstr;
 
 constexpr std::uint16_t kNothing_cm = 2001, kUnknown_cm = 65535;
@@ -128,7 +128,7 @@ class LiveSegmentMavlink : public test::ProgramTest {
     }
     /// Turns of a sensor that stays, with a pause after half of them.
     std::string capture(int turns, double pause_s = 0) const {
-        const auto& model = packets::velodyneModel("VLP-16");
+        const auto& model = sensors::velodyneModel("VLP-16");
         observations::Firings firings = test::fireAt(poles(), model, {0, 0, 2});
         test::CaptureWriter writer;
         for (int k = 0; k < turns; ++k) {
@@ -338,7 +338,7 @@ class FlyingSensor {
     }
     /// The next packet, when it is due.
     void send() {
-        const auto& model = packets::velodyneModel("VLP-16");
+        const auto& model = sensors::velodyneModel("VLP-16");
         const double due_s = start_s_ + 24e-6 * model.firing_period_us * packet_;
         std::this_thread::sleep_for(std::chrono::duration<double>(due_s - now_s()));
         if (packet_ % 15 == 0) {
@@ -358,8 +358,8 @@ class FlyingSensor {
     }
 
  private:
-    void measure(const packets::VelodyneModel& model, const Vehicle& vehicle) {
-        static const auto rows = packets::rowsOfLasers(packets::defaultCalibration(model));
+    void measure(const sensors::VelodyneModel& model, const Vehicle& vehicle) {
+        static const auto rows = sensors::rowsOfLasers(sensors::defaultCalibration(model));
         static const test::SimpleScene scene = poles();
         static const SensorModel sensor = sensorModel("VLP-16");
         // North, west, up: the scene's x, y, z.
@@ -461,7 +461,7 @@ class FaultyNetwork {
  public:
     explicit FaultyNetwork(std::uint16_t port)
         : start_s_(now_s()), to_(test::localAddress(port)), random_(1) {
-        const auto& model = packets::velodyneModel("VLP-16");
+        const auto& model = sensors::velodyneModel("VLP-16");
         observations::Firings firings = test::fireAt(poles(), model, {0, 0, 2});
         for (const auto& packet : encodePackets(model, firings)) {
             packets_.push_back(test::bytesOf(packet));

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/packets/CaptureFile.h>
-#include <hagen/packets/VelodynePacket.h>
+#include <hagen/recordings/RawlogReader.h>
+#include <hagen/sensors/CaptureFile.h>
+#include <hagen/sensors/VelodynePacket.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -37,7 +37,8 @@ class LiveSegment : public test::ProgramTest {
         return test::run(HAGEN_LIVE_SEGMENT, arguments);
     }
     static std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> scans() {
-        logs::RawlogReader reader(fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog");
+        recordings::RawlogReader reader(fs::path(HAGEN_SOURCE_DIR) /
+                                        "rawlogs/poles_and_wall.rawlog");
         std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> all;
         while (const auto entry = reader.next()) {
             const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
@@ -45,7 +46,7 @@ class LiveSegment : public test::ProgramTest {
             // The recording repeats a turn, with its times; a sensor's clock goes on.
             for (auto& packet : scan->scan_packets) {
                 auto* const at =
-                    reinterpret_cast<std::uint8_t*>(&packet) + packets::kVelodyneTimeAt;
+                    reinterpret_cast<std::uint8_t*>(&packet) + sensors::kVelodyneTimeAt;
                 std::uint32_t time_us = 0;
                 std::memcpy(&time_us, at, sizeof time_us);
                 time_us += static_cast<std::uint32_t>(100000 * all.size());
@@ -117,7 +118,7 @@ TEST_F(LiveSegment, Mid360RecordingConvertsToTheSameLabels) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     expectSameLabels(file, {"-c", "mid360"});
     EXPECT_EQ(stats()["packets"]["taken"], 700);
-    logs::RawlogReader reader(path("recorded.rawlog"));
+    recordings::RawlogReader reader(path("recorded.rawlog"));
     std::size_t entries = 0;
     while (reader.next()) ++entries;
     EXPECT_EQ(entries, 3 * 4);  // 0.336 s: each scan with its RoI and its ROU
@@ -341,12 +342,12 @@ TEST_F(LiveSegmentKilled, LeavesAReadableCapture) {
     EXPECT_FALSE(fs::exists(path("a.pcap")));
     const auto partial = base::partialOutputs(path("a.pcap"));
     ASSERT_EQ(partial.size(), 1u);
-    packets::CaptureFile capture(partial.front());
-    packets::Datagram datagram;
+    sensors::CaptureFile capture(partial.front());
+    sensors::Datagram datagram;
     std::size_t datagrams = 0;
     while (capture.next(datagram)) {
         EXPECT_EQ(datagram.size, 1206u);
-        EXPECT_EQ(packets::ipText(datagram.to_ip), "127.0.0.1");
+        EXPECT_EQ(sensors::ipText(datagram.to_ip), "127.0.0.1");
         ++datagrams;
     }
     EXPECT_GT(datagrams, 40u);

@@ -1,10 +1,10 @@
 // rawlog-segment on ROS recordings, as a user would run it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/logs/RawlogWriter.h>
-#include <hagen/logs/ScanSource.h>
-#include <hagen/observations/ObservationScan.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/recordings/RawlogReader.h>
+#include <hagen/recordings/ScanSource.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
@@ -32,7 +32,7 @@ class RawlogSegmentBag : public test::ProgramTest {
     /// The recording's scans as packets, as clouds, or as both.
     static std::vector<SentMessage> messagesOfRecording(bool has_packets, bool has_clouds) {
         std::vector<SentMessage> messages;
-        const auto source = logs::openRecording(recording());
+        const auto source = recordings::openRecording(recording());
         while (const auto scan = source->nextScan()) {
             const auto& velodyne =
                 dynamic_cast<const mrpt::obs::CObservationVelodyneScan&>(*scan->observation);
@@ -95,8 +95,8 @@ TEST_F(RawlogSegmentBag, PacketsGiveTheLabelsOfTheRawlogInEveryFormat) {
 
 TEST_F(RawlogSegmentBag, CloudsGiveTheLabelsOfTheSameCloudsInARawlog) {
     const auto messages = messagesOfRecording(false, true);
-    logs::RawlogWriter writer(path("clouds.rawlog"), true);
-    const auto source = logs::openRecording(recording());
+    convert::RawlogWriter writer(path("clouds.rawlog"), true);
+    const auto source = recordings::openRecording(recording());
     while (const auto scan = source->nextScan()) {
         observations::ObservedScan observed;
         observations::readObservation(*scan->observation, {}, observed);
@@ -125,7 +125,7 @@ TEST_F(RawlogSegmentBag, TheSummaryAndTheOutputsSayWhatWasRead) {
     EXPECT_THAT(outcome.out, HasSubstr("nav_msgs/Odometry on /odom"));
     EXPECT_THAT(outcome.err, HasSubstr("the recording: velodyne_packets (/velodyne_packets): "));
     EXPECT_THAT(outcome.err, HasSubstr("/velodyne_points is not read: "));
-    logs::RawlogReader reader(path("out.rawlog"));
+    recordings::RawlogReader reader(path("out.rawlog"));
     const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(reader.next());
     ASSERT_TRUE(scan);
     EXPECT_NEAR(scan->sensorPose.x(), 1, 1e-9);
@@ -162,7 +162,7 @@ TEST_F(RawlogSegmentBag, ACutBagKeepsWhatIsBeforeTheCut) {
         EXPECT_THAT(outcome.err, HasSubstr(path(name) + ": "));
         EXPECT_THAT(outcome.err, HasSubstr("before it are in " + out + ".partial.rawlog"));
         EXPECT_FALSE(fs::exists(out + ".rawlog"));
-        logs::RawlogReader reader(out + ".partial.rawlog");
+        recordings::RawlogReader reader(out + ".partial.rawlog");
         while (reader.next()) {
         }
         EXPECT_GE(reader.entries(), 9u) << name;
@@ -224,7 +224,7 @@ class BagsOfOtherPrograms : public RawlogSegmentBag {
     /// The recording's packets as lines for the scripts in tests/bags.
     std::string lines() const {
         std::string lines;
-        const auto source = logs::openRecording(recording());
+        const auto source = recordings::openRecording(recording());
         while (const auto scan = source->nextScan()) {
             const auto& velodyne =
                 dynamic_cast<const mrpt::obs::CObservationVelodyneScan&>(*scan->observation);

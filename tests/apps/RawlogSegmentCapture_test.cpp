@@ -1,8 +1,8 @@
 // rawlog-segment on network captures, as a user would run it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/packets/OusterSensor.h>
+#include <hagen/recordings/RawlogReader.h>
+#include <hagen/sensors/OusterSensor.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <nlohmann/json.hpp>
@@ -25,7 +25,8 @@ class RawlogSegmentCapture : public test::ProgramTest {
     }
     /// The scans of the recording that comes with the project, as the packets that made them.
     std::string captureOfRecording() const {
-        logs::RawlogReader reader(fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog");
+        recordings::RawlogReader reader(fs::path(HAGEN_SOURCE_DIR) /
+                                        "rawlogs/poles_and_wall.rawlog");
         test::CaptureWriter writer;
         while (const auto entry = reader.next()) {
             const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
@@ -78,7 +79,7 @@ TEST_F(RawlogSegmentCapture, ACutCaptureKeepsWhatIsBeforeTheCut) {
     EXPECT_THAT(outcome.err, HasSubstr("flight.pcap: frame "));
     EXPECT_THAT(outcome.err, HasSubstr("entries before it are in " + path("out.partial.rawlog")));
     EXPECT_FALSE(fs::exists(path("out.rawlog")));
-    logs::RawlogReader reader(path("out.partial.rawlog"));
+    recordings::RawlogReader reader(path("out.partial.rawlog"));
     while (reader.next()) {
     }
     EXPECT_GE(reader.entries(), 12u);  // four scans, each with two clouds
@@ -98,7 +99,7 @@ TEST_F(RawlogSegmentCapture, NoCutCrashesIt) {
 
 TEST_F(RawlogSegmentCapture, AnOusterNeedsItsMetadata) {
     const std::string json = folder_.write("ouster.json", test::ousterJson());
-    const auto sensor = packets::readOusterSensor(json);
+    const auto sensor = sensors::readOusterSensor(json);
     test::CaptureWriter writer;
     for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, 1))) {
         test::SentDatagram datagram;
@@ -113,7 +114,7 @@ TEST_F(RawlogSegmentCapture, AnOusterNeedsItsMetadata) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("sensor ouster: OS-0-32-U1, 4 beams"));
     EXPECT_THAT(outcome.err, HasSubstr("ouster (OS-0-32-U1, RNG19_RFL8_SIG16_NIR16): 4 packets"));
-    logs::RawlogReader reader(path("out.rawlog"));
+    recordings::RawlogReader reader(path("out.rawlog"));
     while (reader.next()) {
     }
     EXPECT_EQ(reader.entries(), 3u);

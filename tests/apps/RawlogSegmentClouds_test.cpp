@@ -1,10 +1,10 @@
 // rawlog-segment on point cloud files, as a user would run it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/clouds/CloudFile.h>
-#include <hagen/logs/ScanFolder.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/range_image/Scan.h>
+#include <hagen/recordings/CloudFile.h>
+#include <hagen/recordings/ScanFolder.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/Scan.h>
 
 #include <algorithm>
 #include <cmath>
@@ -96,21 +96,21 @@ class RawlogSegmentClouds : public test::ProgramTest {
     std::vector<double> labelsOf(const std::string& folder) const {
         std::set<fs::path> files;
         for (const auto& file : fs::directory_iterator(path(folder))) {
-            if (clouds::hasCloudName(file.path())) files.insert(file.path());
+            if (recordings::hasCloudName(file.path())) files.insert(file.path());
         }
         std::vector<double> labels;
         for (const fs::path& file : files) {
-            const auto table = clouds::readCloud(file).table;
+            const auto table = recordings::readCloud(file).table;
             const auto more = columnOf(table, *findField(table, {"label"}));
             labels.insert(labels.end(), more.begin(), more.end());
         }
         return labels;
     }
     std::vector<double> labelsOfScanFolder(const fs::path& folder) const {
-        const logs::ScanFolder scans(folder);
+        const recordings::ScanFolder scans(folder);
         std::vector<double> labels;
         for (std::size_t i = 0; i < scans.size(); ++i) {
-            const auto more = logs::readLabels(scans.labelFile(i));
+            const auto more = recordings::readLabels(scans.labelFile(i));
             labels.insert(labels.end(), more.begin(), more.end());
         }
         return labels;
@@ -120,7 +120,7 @@ class RawlogSegmentClouds : public test::ProgramTest {
 TEST_F(RawlogSegmentClouds, EveryFormatGivesTheLabelsOfTheScanFolder) {
     const Scan scan = poles();
     fs::create_directories(path("scans") + "/velodyne");
-    logs::writeScan(path("scans") + "/velodyne/000000.bin", scan);
+    recordings::writeScan(path("scans") + "/velodyne/000000.bin", scan);
     for (const std::vector<std::string>& settings :
          {std::vector<std::string>{}, {"-c", config("vlp16")}}) {
         fs::remove_all(path("kitti"));
@@ -145,7 +145,7 @@ TEST_F(RawlogSegmentClouds, EveryFormatGivesTheLabelsOfTheScanFolder) {
 TEST_F(RawlogSegmentClouds, EveryFormatGivesTheLabelsOfRealScanFolders) {
     const fs::path data = test::dataFolder("HAGEN_LABELLED_DATA");
     if (data.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA names no folder of scans";
-    const logs::ScanFolder scans(data / "beams16" / "00");
+    const recordings::ScanFolder scans(data / "beams16" / "00");
     // The folder names its beams; files of clouds are told so.
     const std::vector<std::string> settings{"-q", "-c", config("vlp16"), "-c",
                                             scans.sensorFile().string()};
@@ -158,7 +158,7 @@ TEST_F(RawlogSegmentClouds, EveryFormatGivesTheLabelsOfRealScanFolders) {
         fs::remove_all(path("in"));
         for (std::size_t i = 0; i < 2; ++i) {
             Scan scan;
-            logs::readScan(scans.scanFile(i), scan);
+            recordings::readScan(scans.scanFile(i), scan);
             write("in/" + scans.name(i) + format.ending, format.text(scan));
         }
         const auto outcome = run(with(settings, {"-i", path("in"), "--clouds", path("out"),
@@ -211,7 +211,7 @@ TEST_F(RawlogSegmentClouds, FieldsOfMrpt3ReachTheLabelledClouds) {
     if (data.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA names no folder of logs of MRPT 3";
     const std::string log = (data / "sample_mrpt3.rawlog").string();
     ASSERT_EQ(run({"-q", "-i", log, "--clouds", path("out")}).exit_code, 0);
-    const auto table = clouds::readCloud(path("out") + "/cloud/000000.ply").table;
+    const auto table = recordings::readCloud(path("out") + "/cloud/000000.ply").table;
     EXPECT_EQ(namesOf(table), "x, y, z, intensity, t, ring, label, obstacle");
     // Its rings are a VLP-16's laser numbers, which do not rise with the elevation.
     const auto column = [&](const char* name) {

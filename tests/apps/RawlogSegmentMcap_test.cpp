@@ -1,7 +1,7 @@
 // rawlog-segment --mcap, as a user would run it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/clouds/CloudFile.h>
+#include <hagen/recordings/CloudFile.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -28,11 +28,11 @@ class RawlogSegmentMcap : public test::ProgramTest {
     std::vector<double> columnOf(const std::string& folder, const char* name) const {
         std::set<fs::path> files;
         for (const auto& file : fs::directory_iterator(path(folder))) {
-            if (clouds::hasCloudName(file.path())) files.insert(file.path());
+            if (recordings::hasCloudName(file.path())) files.insert(file.path());
         }
         std::vector<double> numbers;
         for (const fs::path& file : files) {
-            const auto table = clouds::readCloud(file).table;
+            const auto table = recordings::readCloud(file).table;
             const auto more = observations::columnOf(table, *findField(table, {name}));
             numbers.insert(numbers.end(), more.begin(), more.end());
         }
@@ -84,7 +84,7 @@ TEST_F(RawlogSegmentMcap, TheSameBytesForAnyNumberOfThreads) {
     EXPECT_TRUE(test::readFile(path("1.mcap")) == test::readFile(path("3.mcap")));
 }
 
-/// tests/bags/read_mcap.mjs, which needs packages of npm: readers of the format's authors.
+/// tests/recordings/read_mcap.mjs, which needs packages of npm: readers of the format's authors.
 TEST_F(RawlogSegmentMcap, AnotherReaderFindsTheSame) {
     const fs::path modules = test::dataFolder("HAGEN_NODE_MODULES");
     if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES names no folder with @mcap/core";
@@ -92,10 +92,10 @@ TEST_F(RawlogSegmentMcap, AnotherReaderFindsTheSame) {
                    "--stats", path("out.json")})
                   .exit_code,
               0);
-    const auto read =
-        test::run("/usr/bin/env",
-                  {"-C", modules.string(), "node",
-                   std::string(HAGEN_SOURCE_DIR) + "/tests/bags/read_mcap.mjs", path("out.mcap")});
+    const auto read = test::run(
+        "/usr/bin/env",
+        {"-C", modules.string(), "node",
+         std::string(HAGEN_SOURCE_DIR) + "/tests/recordings/read_mcap.mjs", path("out.mcap")});
     if (read.exit_code == 127 || read.exit_code == 77) {
         GTEST_SKIP() << "node, a package or zstd is not there: " << read.err;
     }

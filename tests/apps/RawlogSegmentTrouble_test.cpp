@@ -1,8 +1,8 @@
 // What must cost nothing: odd surroundings of the built program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/logs/RawlogWriter.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/recordings/RawlogReader.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -44,7 +44,7 @@ class RawlogSegmentTrouble : public test::ProgramTest {
     }
     static int scansOfRecording() {
         int scans = 0;
-        logs::RawlogReader recording(kRecording);
+        recordings::RawlogReader recording(kRecording);
         while (const auto entry = recording.next()) {
             scans += std::dynamic_pointer_cast<CObservationVelodyneScan>(entry) != nullptr;
         }
@@ -130,16 +130,16 @@ TEST_F(RawlogSegmentTrouble, VoxelsThatAreTooSmallAreRefusedAtOnce) {
 
 /// MRPT reads null objects in sensory frames, and cannot write them.
 TEST_F(RawlogSegmentTrouble, ANullObjectInASensoryFrameIsLeftOutAndTold) {
-    logs::RawlogReader recording(kRecording);
+    recordings::RawlogReader recording(kRecording);
     mrpt::obs::CObservation::Ptr scan;
     while (!scan) scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(recording.next());
     mrpt::obs::CSensoryFrame frame;
     const auto comment = mrpt::obs::CObservationComment::Create();
     frame.insert(comment);
     frame.insert(scan);
-    logs::Bytes framed, part;
-    logs::serialise(frame, framed);
-    logs::serialise(*comment, part);
+    convert::Bytes framed, part;
+    convert::serialise(frame, framed);
+    convert::serialise(*comment, part);
     mrpt::io::CMemoryStream null;
     mrpt::serialization::archiveFrom(null).WriteObject(nullptr);
     std::string bytes(framed.begin(), framed.end());
@@ -153,7 +153,7 @@ TEST_F(RawlogSegmentTrouble, ANullObjectInASensoryFrameIsLeftOutAndTold) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("have 1 null objects"));
     const auto written = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(
-        logs::RawlogReader(path("out.rawlog")).next());
+        recordings::RawlogReader(path("out.rawlog")).next());
     ASSERT_TRUE(written);
     EXPECT_EQ(written->size(), 3u);
     EXPECT_EQ(run({"-i", log, "--kitti", path("scans")}).exit_code, 0);
@@ -162,12 +162,12 @@ TEST_F(RawlogSegmentTrouble, ANullObjectInASensoryFrameIsLeftOutAndTold) {
 /// A log of so many scans, each with a label and a time of its own.
 fs::path logOf(const test::TemporaryFolder& folder, int scans,
                const std::function<void(int, CObservationVelodyneScan&)>& change) {
-    logs::RawlogReader recording(kRecording);
+    recordings::RawlogReader recording(kRecording);
     CObservationVelodyneScan::Ptr scan;
     while (!scan) scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(recording.next());
     scan->scan_packets.resize(4);
     const fs::path file = folder / "in.rawlog";
-    logs::RawlogWriter writer(file, true);
+    convert::RawlogWriter writer(file, true);
     for (int i = 0; i < scans; ++i) {
         change(i, *scan);
         writer.write(*scan);
@@ -355,7 +355,7 @@ TEST_F(RawlogSegmentTrouble, TimesBeyondAllClocksCostNothing) {
              path("scans"), "--stats", path("out.json"), "--poses",
              folder_.write("still.tum", "0 0 0 0 0 0 0 1\n90000000000 0 0 0 0 0 0 1\n")});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    logs::RawlogReader reader(path("out.rawlog"));
+    recordings::RawlogReader reader(path("out.rawlog"));
     for (int i = 0; i < 5; ++i) {
         const auto scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(reader.next());
         ASSERT_TRUE(scan);
@@ -466,8 +466,8 @@ TEST_F(RawlogSegmentTrouble, ScansThatVanishMeanwhileKeepThoseBefore) {
 
 /// A laser of a scan's own calibration that points nowhere.
 TEST_F(RawlogSegmentTrouble, ACorruptCalibrationCostsItsScan) {
-    logs::RawlogReader recording(kRecording);
-    logs::RawlogWriter writer(path("in.rawlog"), false);
+    recordings::RawlogReader recording(kRecording);
+    convert::RawlogWriter writer(path("in.rawlog"), false);
     int scans = 0;
     while (const auto entry = recording.next()) {
         const auto scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(entry);
@@ -486,8 +486,8 @@ TEST_F(RawlogSegmentTrouble, ACorruptCalibrationCostsItsScan) {
 
 /// One bad sample of an estimator.
 TEST_F(RawlogSegmentTrouble, APoseThatIsNotFiniteIsToldAndUsedForNothing) {
-    logs::RawlogReader recording(kRecording);
-    logs::RawlogWriter writer(path("in.rawlog"), false);
+    recordings::RawlogReader recording(kRecording);
+    convert::RawlogWriter writer(path("in.rawlog"), false);
     int scans = 0;
     while (const auto entry = recording.next()) {
         const auto scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(entry);

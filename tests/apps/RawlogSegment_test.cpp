@@ -1,12 +1,12 @@
 // Runs the built program, as a user would.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/logs/PoseFile.h>
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/logs/RawlogWriter.h>
-#include <hagen/logs/ScanFolder.h>
-#include <hagen/observations/ObservationScan.h>
-#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/filter/OptionKeys.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/recordings/PoseFile.h>
+#include <hagen/recordings/RawlogReader.h>
+#include <hagen/recordings/ScanFolder.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CRawlog.h>
 #include <unistd.h>
@@ -71,7 +71,7 @@ TEST_F(RawlogSegment, EveryReturnOfTheRealScanIsThereOnce) {
     ASSERT_EQ(
         run({"-i", test::realScan(), "-o", path("out.rawlog"), "--kitti", path("scans")}).exit_code,
         0);
-    logs::RawlogReader reader(path("out.rawlog"));
+    recordings::RawlogReader reader(path("out.rawlog"));
     ASSERT_NE(reader.next(), nullptr);
     std::size_t points = 0;
     for (const char* suffix : {"_roi", "_non_roi"}) {
@@ -83,7 +83,7 @@ TEST_F(RawlogSegment, EveryReturnOfTheRealScanIsThereOnce) {
     }
     EXPECT_EQ(points, 22591u);
     EXPECT_EQ(reader.next(), nullptr);
-    const logs::ScanFolder scans(path("scans"));
+    const recordings::ScanFolder scans(path("scans"));
     EXPECT_EQ(fs::file_size(scans.scanFile(0)), 22591u * 16);
     EXPECT_EQ(fs::file_size(scans.labelFile(0)), 22591u * 4);
 }
@@ -104,7 +104,7 @@ TEST_F(RawlogSegment, AScanFolderGivesLabelsUnderItsOwnNames) {
     ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
     const auto outcome = run({"-i", path("scans"), "--kitti", path("again"), "-c", kPaper});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const logs::ScanFolder scans(path("again"));
+    const recordings::ScanFolder scans(path("again"));
     ASSERT_EQ(scans.size(), 10u);
     EXPECT_EQ(fs::file_size(scans.labelFile(3)) * 4, fs::file_size(scans.scanFile(3)));
 }
@@ -152,7 +152,7 @@ TEST_F(RawlogSegment, SaysThatACloudHasNoBeamsOrTooFewReturns) {
     }
     scan.intensity.assign(scan.size(), 0.5f);
     fs::create_directories(path("scans/velodyne"));
-    logs::writeScan(path("scans/velodyne/000000.bin"), scan);
+    recordings::writeScan(path("scans/velodyne/000000.bin"), scan);
     const auto none = run({"-i", path("scans"), "--stats", path("a.json")});
     EXPECT_THAT(none.out, HasSubstr("sensor velodyne: no beams found: "));
     EXPECT_THAT(none.out, HasSubstr(" virtual rows\n"));
@@ -160,7 +160,7 @@ TEST_F(RawlogSegment, SaysThatACloudHasNoBeamsOrTooFewReturns) {
 
     for (auto* coordinate : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity})
         coordinate->resize(399);
-    logs::writeScan(path("scans/velodyne/000000.bin"), scan);
+    recordings::writeScan(path("scans/velodyne/000000.bin"), scan);
     const auto few = run({"-i", path("scans"), "--stats", path("b.json")});
     EXPECT_EQ(few.exit_code, 0) << few.err;
     EXPECT_THAT(few.out, HasSubstr("sensor velodyne: too few returns"));
@@ -198,7 +198,7 @@ TEST_F(RawlogSegment, RemarksThatNothingIsRoi) {
     }
     scan.intensity.assign(scan.size(), 0.5f);
     fs::create_directories(path("scans/velodyne"));
-    logs::writeScan(path("scans/velodyne/000000.bin"), scan);
+    recordings::writeScan(path("scans/velodyne/000000.bin"), scan);
     const auto outcome = run({"-i", path("scans"), "--kitti", path("labels")});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("no return is RoI"));
@@ -244,7 +244,7 @@ TEST_F(RawlogSegment, FailsWhereRecoveredBeamsDoNotFitTheSettings) {
     }
     scan.intensity.assign(scan.size(), 0.5f);
     fs::create_directories(path("scans/velodyne"));
-    logs::writeScan(path("scans/velodyne/000000.bin"), scan);
+    recordings::writeScan(path("scans/velodyne/000000.bin"), scan);
     EXPECT_THAT(run({"-i", path("scans"), "--stats", path("a.json")}).out,
                 HasSubstr("4 beams recovered, "));
     const auto window = folder_.write("window.yaml", "window_size: 8\n");
@@ -334,7 +334,7 @@ TEST_F(RawlogSegment, WithoutALidarItCopiesAndSaysSo) {
     EXPECT_THAT(outcome.err, HasSubstr("no LiDAR scan"));
     EXPECT_FALSE(fs::exists(path("scans")));
     EXPECT_FALSE(fs::exists(path("pictures")));
-    logs::RawlogReader in(log), out(path("out.rawlog"));
+    recordings::RawlogReader in(log), out(path("out.rawlog"));
     while (in.next()) ASSERT_NE(out.next(), nullptr);
     EXPECT_EQ(out.next(), nullptr);
 }
@@ -396,7 +396,7 @@ TEST_F(RawlogSegment, ConvertsAPartOfALog) {
         run({"-i", kRecording, "-o", path("out.rawlog"), "--from", "3", "--to", "6"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("2 LiDAR scans in 4 entries (3 to 6 of the input"));
-    logs::RawlogReader reader(path("out.rawlog"));
+    recordings::RawlogReader reader(path("out.rawlog"));
     while (reader.next()) {
     }
     EXPECT_EQ(reader.entries(), 8u);
@@ -418,8 +418,8 @@ TEST_F(RawlogSegment, PosesTravelWithTheScans) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     EXPECT_THAT(outcome.out, HasSubstr("poses of 10 of 10 scans: " + tum.string()));
-    const auto a = logs::readTumPoses(path("a/poses.tum"));
-    const auto b = logs::readTumPoses(path("b/poses.tum"));
+    const auto a = recordings::readTumPoses(path("a/poses.tum"));
+    const auto b = recordings::readTumPoses(path("b/poses.tum"));
     ASSERT_EQ(a.size(), 10u);
     ASSERT_EQ(b.size(), 10u);
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -478,7 +478,7 @@ TEST_F(RawlogSegment, ZeroPacketsAndPointsThatAreNotFiniteLoseNothing) {
     scan.x_m = {5, nan, inf, 0};
     scan.y_m = scan.z_m = {0, 1, 1, 0};
     scan.intensity = {0, 0, 0, 0};
-    logs::RawlogWriter writer(path("in.rawlog"), false);
+    convert::RawlogWriter writer(path("in.rawlog"), false);
     writer.write(*empty);
     writer.write(*observations::observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)));
     writer.commit();
@@ -487,7 +487,7 @@ TEST_F(RawlogSegment, ZeroPacketsAndPointsThatAreNotFiniteLoseNothing) {
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("entry 0 (empty): the scan has no packets"));
     EXPECT_THAT(outcome.out, HasSubstr("2 LiDAR scans in 2 entries, 4 returns"));
-    const auto labels = logs::readLabels(path("scans/cloud/labels/000000.label"));
+    const auto labels = recordings::readLabels(path("scans/cloud/labels/000000.label"));
     EXPECT_EQ(std::vector<std::uint16_t>(labels.begin() + 1, labels.end()),
               (std::vector<std::uint16_t>{0, 0, 0}));
 }
@@ -583,7 +583,7 @@ TEST_F(RawlogSegment, FailsWhereTheOutputExists) {
 TEST_F(RawlogSegment, FailsWhereNoScanCanBeReadAndSaysWhyEvenWhenQuiet) {
     const auto scan = test::polesAndWallScan(0);
     scan->scan_packets[0].velodyne_model_ID = 0x99;
-    logs::RawlogWriter writer(path("in.rawlog"), false);
+    convert::RawlogWriter writer(path("in.rawlog"), false);
     writer.write(*scan);
     writer.commit();
     const auto outcome = run({"-q", "-i", path("in.rawlog"), "-o", path("out.rawlog")});
@@ -661,7 +661,7 @@ TEST_F(RawlogSegment, KeepsTheGoodPartOfALogThatBreaksOff) {
     EXPECT_THAT(outcome.err, HasSubstr("cut.rawlog: entry"));
     EXPECT_THAT(outcome.err, HasSubstr("out.partial.rawlog"));
     EXPECT_FALSE(fs::exists(path("out.rawlog")));
-    logs::RawlogReader reader(path("out.partial.rawlog"));
+    recordings::RawlogReader reader(path("out.partial.rawlog"));
     while (reader.next()) {
     }
     EXPECT_GE(reader.entries(), 12u);
@@ -723,7 +723,7 @@ TEST_F(RawlogSegment, KeepsWhatIsDoneWhenItIsInterrupted) {
         EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
         EXPECT_THAT(outcome.err, HasSubstr("interrupted; the "));
         EXPECT_FALSE(fs::exists(path("out.rawlog")));
-        logs::RawlogReader reader(path("out.partial.rawlog"));
+        recordings::RawlogReader reader(path("out.partial.rawlog"));
         while (reader.next()) {
         }
         EXPECT_GT(reader.entries(), 4u);
@@ -739,10 +739,10 @@ TEST_F(RawlogSegment, KeepsWhatIsDoneWhenItIsInterrupted) {
 TEST_F(RawlogSegment, ThePublishedFilterLabelsTheRecordingAsBefore) {
     const auto outcome = run({"-i", kRecording, "--kitti", path("scans"), "-c", kPaper});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const logs::ScanFolder scans(path("scans"));
+    const recordings::ScanFolder scans(path("scans"));
     std::size_t returns = 0, roi = 0;
     for (std::size_t i = 0; i < scans.size(); ++i) {
-        const auto labels = logs::readLabels(scans.labelFile(i));
+        const auto labels = recordings::readLabels(scans.labelFile(i));
         returns += labels.size();
         roi += static_cast<std::size_t>(std::count(labels.begin(), labels.end(), 2));
     }
@@ -751,7 +751,7 @@ TEST_F(RawlogSegment, ThePublishedFilterLabelsTheRecordingAsBefore) {
 }
 
 TEST(PolesAndWall, TheRecordingIsWhatItsGeneratorMakes) {
-    logs::RawlogReader reader(kRecording);
+    recordings::RawlogReader reader(kRecording);
     for (int scan = 0; scan < test::kPolesAndWallScans; ++scan) {
         ASSERT_NE(reader.next(), nullptr);
         const auto recorded =

@@ -1,13 +1,13 @@
 // Runs the built program, as a user would; compares its packets with the simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/logs/PoseFile.h>
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/logs/ScanFolder.h>
-#include <hagen/observations/ObservationScan.h>
-#include <hagen/observations/Trajectory.h>
-#include <hagen/observations/VelodyneDecoder.h>
-#include <hagen/range_image/Angle.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/Trajectory.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/recordings/PoseFile.h>
+#include <hagen/recordings/RawlogReader.h>
+#include <hagen/recordings/ScanFolder.h>
+#include <hagen/scan/Angle.h>
 #include <hagen/settings/Settings.h>
 #include <hagen/simulation/Scenarios.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -19,7 +19,7 @@
 #include <set>
 #include <sstream>
 
-#include <hagen/simulated_logs/SimulatedObservation.h>
+#include <hagen/convert/SimulatedObservation.h>
 #include "support/ProgramTest.h"
 
 namespace hagen {
@@ -41,7 +41,7 @@ struct LogContent {
 };
 LogContent readLog(const fs::path& file) {
     LogContent content;
-    logs::RawlogReader reader(file);
+    recordings::RawlogReader reader(file);
     while (const auto entry = reader.next()) {
         if (auto scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(entry)) {
             content.scans.push_back(scan);
@@ -76,20 +76,20 @@ TEST_F(RawlogSimulate, RawlogAndFolderHoldTheSameReturnsAndTheFolderTheTruth) {
     EXPECT_THAT(outcome.out, HasSubstr("3 scans of wires"));
 
     const LogContent log = readLog(path("a.rawlog"));
-    const logs::ScanFolder folder(path("a"));
+    const recordings::ScanFolder folder(path("a"));
     ASSERT_EQ(log.scans.size(), 3u);
     ASSERT_EQ(folder.size(), 3u);
     std::set<int> kinds;
     for (std::size_t n = 0; n < 3; ++n) {
         Scan decoded, read;
         observations::decodePackets(*log.scans[n], decoded);
-        logs::readScan(folder.scanFile(n), read);
+        recordings::readScan(folder.scanFile(n), read);
         EXPECT_EQ(decoded.x_m, read.x_m);
         EXPECT_EQ(decoded.y_m, read.y_m);
         EXPECT_EQ(decoded.z_m, read.z_m);
-        const auto labels = logs::readLabels(folder.labelFile(n));
+        const auto labels = recordings::readLabels(folder.labelFile(n));
         const auto semantic =
-            logs::readLabels(folder_ / ("a/semantic/" + folder.name(n) + ".label"));
+            recordings::readLabels(folder_ / ("a/semantic/" + folder.name(n) + ".label"));
         ASSERT_EQ(labels.size(), read.size());
         ASSERT_EQ(semantic.size(), read.size());
         for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -115,8 +115,8 @@ TEST_F(RawlogSimulate, RawlogAndFolderHoldTheSameReturnsAndTheFolderTheTruth) {
     for (const double altitude_m : altitudes_m) EXPECT_NEAR(altitude_m, 4, 1);
     EXPECT_THAT(test::readFile(folder_ / "a/kinds.yaml"), HasSubstr("5: {name: wire, label: 2}"));
     EXPECT_THAT(test::readFile(folder_ / "a/kinds.yaml"), HasSubstr("2: {name: canopy, label: 1}"));
-    EXPECT_EQ(logs::readTumPoses(folder.tumFile()).size(), 3u);
-    EXPECT_EQ(logs::readTumPoses(path("a.tum")).size(), log.poses.size());
+    EXPECT_EQ(recordings::readTumPoses(folder.tumFile()).size(), 3u);
+    EXPECT_EQ(recordings::readTumPoses(path("a.tum")).size(), log.poses.size());
 }
 
 TEST_F(RawlogSimulate, PosesReachOverTheWholeOfEachScan) {
@@ -149,7 +149,7 @@ TEST_F(RawlogSimulate, ASensorWithoutPacketsGoesIntoAFolder) {
                   .out,
               "");
     Scan scan;
-    logs::readScan(logs::ScanFolder(path("a")).scanFile(0), scan);
+    recordings::readScan(recordings::ScanFolder(path("a")).scanFile(0), scan);
     EXPECT_GT(scan.size(), 50000u);
 }
 
@@ -171,14 +171,14 @@ TEST_F(RawlogSimulate, AMountIsInTheLogAndTheFolderButNotInTheVehiclesPoses) {
     const LogContent log = readLog(path("a.rawlog"));
     observations::Trajectory vehicle;
     for (const auto& pose : log.poses) vehicle.add(pose->timestamp, pose->pose.mean);
-    const auto sensor_poses = logs::readTumPoses(logs::ScanFolder(path("a")).tumFile());
+    const auto sensor_poses = recordings::readTumPoses(recordings::ScanFolder(path("a")).tumFile());
     ASSERT_EQ(sensor_poses.size(), log.scans.size());
     for (std::size_t n = 0; n < log.scans.size(); ++n) {
         expectSame(log.scans[n]->sensorPose, mount);
         expectSame(sensor_poses[n].pose, *vehicle.at(log.scans[n]->timestamp) + mount);
     }
     Settings settings;
-    mergeSettings(logs::ScanFolder(path("a")).sensorFile(), settings);
+    mergeSettings(recordings::ScanFolder(path("a")).sensorFile(), settings);
     EXPECT_FLOAT_EQ(settings.mount.roll_rad, static_cast<float>(kPi));
     EXPECT_FLOAT_EQ(settings.mount.pitch_rad, static_cast<float>(radians(-20)));
     EXPECT_EQ(settings.sensorModel().rows(), 16);
@@ -201,13 +201,13 @@ TEST_F(RawlogSimulate, AMid360GoesIntoARawlogAsCloudsThatAreSegmentedLikeItsFold
                               "--seed", "3", "--sensor", "Mid-360", "-o", path("a.rawlog"),
                               "--kitti", path("a"), "--mount-roll-deg", "180"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const logs::ScanFolder folder(path("a"));
+    const recordings::ScanFolder folder(path("a"));
     ASSERT_EQ(folder.size(), 3u);
     Settings settings;
     mergeSettings(folder.sensorFile(), settings);
     EXPECT_FALSE(settings.sensorModel().has_rings);
 
-    logs::RawlogReader reader(path("a.rawlog"));
+    recordings::RawlogReader reader(path("a.rawlog"));
     std::size_t entries = 0, scans = 0;
     while (const auto entry = reader.next()) {
         ++entries;
@@ -218,12 +218,12 @@ TEST_F(RawlogSimulate, AMid360GoesIntoARawlogAsCloudsThatAreSegmentedLikeItsFold
         observations::ObservedScan observed;
         observations::readObservation(*cloud, settings, observed);
         Scan stored;
-        logs::readScan(folder.scanFile(scans), stored);
+        recordings::readScan(folder.scanFile(scans), stored);
         EXPECT_GT(stored.size(), 10000u);
         EXPECT_EQ(observed.scan.x_m, stored.x_m);
         EXPECT_EQ(observed.scan.z_m, stored.z_m);
         EXPECT_EQ(observed.scan.intensity, stored.intensity);
-        EXPECT_EQ(logs::readLabels(folder.labelFile(scans)).size(), stored.size());
+        EXPECT_EQ(recordings::readLabels(folder.labelFile(scans)).size(), stored.size());
         ++scans;
     }
     ASSERT_EQ(scans, 3u);
@@ -233,7 +233,7 @@ TEST_F(RawlogSimulate, AMid360GoesIntoARawlogAsCloudsThatAreSegmentedLikeItsFold
         HAGEN_RAWLOG_SEGMENT, {"-i", path("a.rawlog"), "-c", preset, "-o", path("b.rawlog")});
     ASSERT_EQ(segmented.exit_code, 0) << segmented.err;
     EXPECT_EQ(segmented.err, "");
-    logs::RawlogReader result(path("b.rawlog"));
+    recordings::RawlogReader result(path("b.rawlog"));
     std::size_t written = 0;
     while (result.next()) ++written;
     EXPECT_EQ(written, entries + 2 * scans);
@@ -353,8 +353,8 @@ TEST_F(RawlogSimulate, KeepsWhatIsDoneWhenItIsInterrupted) {
                  fs::exists(path("a.tum")));
     const LogContent log = readLog(path("a.partial.rawlog"));
     EXPECT_GT(log.scans.size(), 1u);
-    EXPECT_EQ(logs::ScanFolder(path("a.partial")).times().size(), log.scans.size());
-    EXPECT_EQ(logs::readTumPoses(path("a.partial.tum")).size(), log.poses.size());
+    EXPECT_EQ(recordings::ScanFolder(path("a.partial")).times().size(), log.scans.size());
+    EXPECT_EQ(recordings::readTumPoses(path("a.partial.tum")).size(), log.poses.size());
 }
 
 TEST_F(RawlogSimulate, SaysWhenTheDiskIsFull) {
@@ -393,9 +393,8 @@ TEST_P(EachPacketSensor, PacketsGiveTheSimulatedReturnsInTheirOrder) {
     const simulation::SimulatedScan made =
         simulation::simulateScan(scene, sensor, flight, 1.0, random);
     Scan decoded;
-    ASSERT_EQ(observations::decodePackets(*simulated_logs::encodeSimulatedScan(made, sensor, 1.0),
-                                          decoded),
-              0u);
+    ASSERT_EQ(
+        observations::decodePackets(*convert::encodeSimulatedScan(made, sensor, 1.0), decoded), 0u);
     ASSERT_EQ(decoded.size(), made.size());
     for (std::size_t i = 0; i < made.size(); ++i) {
         ASSERT_NEAR(decoded.range_m[i], made.scan.range_m[i], 0.0011f) << i;

@@ -1,8 +1,8 @@
 // Runs the built program, as a user would.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/logs/ScanFolder.h>
-#include <hagen/logs/ScanFolderWriter.h>
+#include <hagen/convert/ScanFolderWriter.h>
+#include <hagen/recordings/ScanFolder.h>
 
 #include <cmath>
 #include <fstream>
@@ -56,7 +56,7 @@ class SegmentationEvaluate : public test::ProgramTest {
         truth.label = labelled.truth;
         truth.component.assign(truth.label.size(), 0);
         fs::create_directories(folder_ / name);
-        logs::ScanFolderWriter writer(folder_ / name);
+        convert::ScanFolderWriter writer(folder_ / name);
         writer.write("000000", labelled.scan, truth, sensor, 0.0);
         writer.finish();
         return (folder_ / name).string();
@@ -65,7 +65,7 @@ class SegmentationEvaluate : public test::ProgramTest {
     std::string poleWithKinds() const {
         const std::string pole = labelledPole();
         fs::create_directories(folder_ / "pole/semantic");
-        const auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+        const auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
         std::vector<std::uint32_t> kinds;
         for (const auto label : truth) kinds.push_back(label == 2 ? 4 : label);
         folder_.write("pole/semantic/000000.label",
@@ -243,7 +243,7 @@ TEST_F(SegmentationEvaluate, BaselinesComeAfterASweepWithTheZoneOfTheSettings) {
 // What another program might have found, as files.
 TEST_F(SegmentationEvaluate, LabelsOfAnotherProgramAreARow) {
     const std::string pole = labelledPole();
-    const auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+    const auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
     writeLabelFile("theirs/000000.label", truth);
     std::vector<std::uint16_t> wrong = truth;
     for (std::uint16_t& label : wrong) label = label == 2 ? 1 : label;
@@ -289,7 +289,7 @@ TEST_F(SegmentationEvaluate, TroubleCostsNoFile) {
 
 TEST_F(SegmentationEvaluate, LabelsOfSeveralFoldersAreInFoldersOfTheirNames) {
     const std::string pole = labelledPole(), other = labelledPole("other");
-    const auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+    const auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
     writeLabelFile("theirs/pole/000000.label", truth);
     const std::string theirs = "theirs=" + path("theirs");
     expectFailure({"-i", pole, other, "--labels", theirs}, 1, "theirs/other/000000.label: no such");
@@ -318,7 +318,7 @@ TEST_F(SegmentationEvaluate, RefusesLabelsOfAnotherProgramThatItCannotUse) {
                       "'" + name + "' cannot be the name of a row");
     }
     expectFailure({"-i", pole, "--labels", "a=" + theirs}, 1, "theirs/000000.label: no such file");
-    auto labels = logs::readLabels(folder_ / "pole/labels/000000.label");
+    auto labels = recordings::readLabels(folder_ / "pole/labels/000000.label");
     labels[6] = 3;
     writeLabelFile("theirs/000000.label", labels);
     expectFailure({"-i", pole, "--labels", "a=" + theirs}, 1,
@@ -331,9 +331,9 @@ TEST_F(SegmentationEvaluate, RefusesLabelsOfAnotherProgramThatItCannotUse) {
 // The pole's returns above 0.5 m are those of beams that meet it above z = 0.5 m - 2 m.
 TEST_F(SegmentationEvaluate, SaysWhatMattersToADrone) {
     const std::string pole = poleWithKinds();
-    auto truth = logs::readLabels(folder_ / "pole/labels/000000.label");
+    auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
     Scan scan;
-    logs::readScan(folder_ / "pole/velodyne/000000.bin", scan);
+    recordings::readScan(folder_ / "pole/velodyne/000000.bin", scan);
     int high = 0, all_roi = 0;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         all_roi += truth[i] == 2;
@@ -367,7 +367,8 @@ TEST_F(SegmentationEvaluate, SaysWhatMattersToADrone) {
 
 TEST_F(SegmentationEvaluate, DegradedScansHaveATableAndAnEntryEach) {
     const std::string pole = labelledPole();
-    writeLabelFile("theirs/000000.label", logs::readLabels(folder_ / "pole/labels/000000.label"));
+    writeLabelFile("theirs/000000.label",
+                   recordings::readLabels(folder_ / "pole/labels/000000.label"));
     const std::vector<std::string> flags{
         "-i",        pole,           "--labels",  "theirs=" + path("theirs"),
         "--degrade", "dropout=0",    "--degrade", "dropout=50",

@@ -20,7 +20,7 @@ constexpr double kTurn_s = 0.1;
 constexpr double kNoise_m = 0.02;
 
 void addReturns(const Pillar& pillar, std::int32_t obstacle, double age_s,
-                simulation::Random& random, mapping::MappedScan& scan) {
+                simulation::Random& random, observations::MappedScan& scan) {
     const double towards_rad = std::atan2(-pillar.at_m.y(), -pillar.at_m.x());
     for (double height_m = 0.1; height_m < 1.8; height_m += 0.3) {
         for (double side_rad = -1.4; side_rad <= 1.4; side_rad += 0.35) {
@@ -36,15 +36,15 @@ void addReturns(const Pillar& pillar, std::int32_t obstacle, double age_s,
     }
 }
 
-mapping::MappedScan scanAt(int number) {
-    mapping::MappedScan scan;
+observations::MappedScan scanAt(int number) {
+    observations::MappedScan scan;
     scan.time_s = kTurn_s * (number + 1);
     scan.origin_m = {0, 0, 1};
     return scan;
 }
 
 /// A wall all around, behind everything.
-void addBackground(mapping::MappedScan& scan) {
+void addBackground(observations::MappedScan& scan) {
     constexpr double kStep_rad = 0.02, kRadius_m = 12;
     for (double azimuth_rad = 0; azimuth_rad < 2 * M_PI; azimuth_rad += kStep_rad) {
         for (double height_m = -0.4; height_m < 3; height_m += 0.35) {
@@ -67,11 +67,11 @@ const Pillar kWalker{{6, -3}};
 const Eigen::Vector2d kWalk_m_s(0.3, 1.5);
 
 /// Scans of one pillar that moves, and one that stands.
-std::vector<mapping::MappedScan> walkerAndPost(int scans, double age_s = 0.04) {
+std::vector<observations::MappedScan> walkerAndPost(int scans, double age_s = 0.04) {
     simulation::Random random(1);
-    std::vector<mapping::MappedScan> all;
+    std::vector<observations::MappedScan> all;
     for (int number = 0; number < scans; ++number) {
-        mapping::MappedScan scan = scanAt(number);
+        observations::MappedScan scan = scanAt(number);
         // Numbers change from scan to scan: the nearest obstacle is 1.
         const bool is_swapped = number % 2 == 1;
         addReturns(moved(kWalker, kWalk_m_s, scan.time_s - age_s), is_swapped ? 2 : 1, age_s,
@@ -123,11 +123,11 @@ TEST(ObstacleTracks, TellVelocityAndWhatStands) {
 }
 
 /// Scans of a pillar that moves, of which only the part within a height is seen.
-std::vector<mapping::MappedScan> slicesOfWalker(double most_height_m) {
+std::vector<observations::MappedScan> slicesOfWalker(double most_height_m) {
     simulation::Random random(5);
-    std::vector<mapping::MappedScan> all;
+    std::vector<observations::MappedScan> all;
     for (int number = 0; number < 14; ++number) {
-        mapping::MappedScan whole = scanAt(number), scan = whole;
+        observations::MappedScan whole = scanAt(number), scan = whole;
         addReturns(moved(kWalker, kWalk_m_s, whole.time_s), 1, 0, random, whole);
         for (std::size_t i = 0; i < whole.points_m.size(); ++i) {
             const auto above_m = static_cast<double>(whole.points_m[i].z()) - 0.7;
@@ -142,12 +142,12 @@ std::vector<mapping::MappedScan> slicesOfWalker(double most_height_m) {
     return all;
 }
 
-int movingScans(std::vector<mapping::MappedScan> scans, int first_with_background,
+int movingScans(std::vector<observations::MappedScan> scans, int first_with_background,
                 int last_with_background) {
     ObstacleTracks tracks;
     int moving = 0;
     for (int number = 0; number < static_cast<int>(scans.size()); ++number) {
-        mapping::MappedScan& scan = scans[static_cast<std::size_t>(number)];
+        observations::MappedScan& scan = scans[static_cast<std::size_t>(number)];
         if (number >= first_with_background && number <= last_with_background) {
             addBackground(scan);
         }
@@ -181,7 +181,7 @@ TEST(ObstacleTracks, AWallOfWhichMoreIsSeenDoesNotMove) {
     ObstacleTracks tracks;
     simulation::Random random(2);
     for (int number = 0; number < 10; ++number) {
-        mapping::MappedScan scan = scanAt(number);
+        observations::MappedScan scan = scanAt(number);
         for (float x_m = 2; x_m < 2.5f + 0.6f * static_cast<float>(number); x_m += 0.1f) {
             for (float z_m = 0.5f; z_m < 2; z_m += 0.5f) {
                 scan.points_m.emplace_back(x_m, 3 + static_cast<float>(kNoise_m * random.normal()),
@@ -201,7 +201,7 @@ TEST(ObstacleTracks, NoiseMakesNothingMove) {
     ObstacleTracks tracks;
     int moving = 0;
     for (int number = 0; number < 100; ++number) {
-        mapping::MappedScan scan = scanAt(number);
+        observations::MappedScan scan = scanAt(number);
         for (int post = 0; post < 20; ++post) {
             const double angle_rad = 0.3 * post;
             addReturns({{8 * std::cos(angle_rad), 8 * std::sin(angle_rad)}}, post + 1, 0.05, random,
@@ -218,7 +218,7 @@ TEST(ObstacleTracks, AnObstacleThatIsHiddenForNineScansIsTheSame) {
     ObstacleTracks tracks;
     const auto scans = walkerAndPost(18);
     for (int number = 0; number < 18; ++number) {
-        mapping::MappedScan scan = scans[static_cast<std::size_t>(number)];
+        observations::MappedScan scan = scans[static_cast<std::size_t>(number)];
         const bool is_hidden = number >= 8 && number < 17;
         if (is_hidden) scan.obstacles.assign(scan.obstacles.size(), 0);
         tracks.update(scan);
@@ -233,10 +233,10 @@ TEST(ObstacleTracks, AnObstacleThatIsHiddenForNineScansIsTheSame) {
 
 TEST(ObstacleTracks, WithoutNumbersThereAreNone) {
     ObstacleTracks tracks;
-    mapping::MappedScan scan = walkerAndPost(1)[0];
+    observations::MappedScan scan = walkerAndPost(1)[0];
     scan.obstacles.clear();
     tracks.update(scan);
-    tracks.update(mapping::MappedScan{});
+    tracks.update(observations::MappedScan{});
     EXPECT_TRUE(tracks.tracks().empty());
     EXPECT_EQ(tracks.trackOfObstacle(), (std::vector<std::uint32_t>{0}));
 }
@@ -244,11 +244,11 @@ TEST(ObstacleTracks, WithoutNumbersThereAreNone) {
 // The window with motion.
 
 std::unique_ptr<WorldModel> modelOf(const std::string& name,
-                                    const std::vector<mapping::MappedScan>& scans) {
+                                    const std::vector<observations::MappedScan>& scans) {
     auto model = makeWorldModel(
         name,
         {Eigen::AlignedBox3f(Eigen::Vector3f(-9, -9, -2), Eigen::Vector3f(9, 9, 5)), nullptr, {}});
-    for (const mapping::MappedScan& scan : scans) model->update(scan);
+    for (const observations::MappedScan& scan : scans) model->update(scan);
     return model;
 }
 
@@ -296,8 +296,8 @@ TEST(MapWithMotion, RaysUpToMoversClear) {
     const double azimuth_rad = std::atan2(post.y(), post.x());
     auto scans = walkerAndPost(14);
     simulation::Random random(2);
-    for (mapping::MappedScan& scan : scans) {
-        mapping::MappedScan rest = scan;
+    for (observations::MappedScan& scan : scans) {
+        observations::MappedScan rest = scan;
         rest.points_m.clear();
         rest.labels.clear();
         rest.obstacles.clear();
@@ -323,7 +323,7 @@ TEST(MapWithMotion, RaysUpToMoversClear) {
 }
 
 TEST(MotionWindow, WhereNothingMovesItIsTheWindow) {
-    std::vector<mapping::MappedScan> scans;
+    std::vector<observations::MappedScan> scans;
     simulation::Random random(4);
     for (int number = 0; number < 10; ++number) {
         scans.push_back(scanAt(number));
@@ -350,7 +350,7 @@ class BallModel : public WorldModel {
     explicit BallModel(bool knows_motion) : BallModel(knows_motion ? kSpeed_m_s : 0) {}
     explicit BallModel(float speed_m_s) : speed_m_s_(speed_m_s) {}
 
-    void update(const mapping::MappedScan&) override {}
+    void update(const observations::MappedScan&) override {}
     float clearance_m(const Eigen::Vector3f& p) const override { return clearanceAfter_m(p, 0); }
     float clearanceAfter_m(const Eigen::Vector3f& p, double after_s) const override {
         const Eigen::Vector3f ball_m(kFirst_m - speed_m_s_ * static_cast<float>(after_s), 0, 2);

@@ -1,7 +1,7 @@
 // Maps in a box that moves with the vehicle: the rolling grid and the depth-image map.
 #include <gtest/gtest.h>
 #include <hagen/avoidance/WorldModel.h>
-#include <hagen/mapping/ScanMap.h>
+#include <hagen/mrpt/ScanMap.h>
 #include <hagen/simulation/Random.h>
 
 #include <algorithm>
@@ -33,8 +33,8 @@ std::unique_ptr<avoidance::WorldModel> make(const std::string& name) {
     return makeAsStored(name, {{}, nullptr, {}});
 }
 
-mapping::MappedScan scanOf(const Eigen::Vector3f& origin,
-                           const std::vector<Eigen::Vector3f>& points) {
+observations::MappedScan scanOf(const Eigen::Vector3f& origin,
+                                const std::vector<Eigen::Vector3f>& points) {
     return {0, origin, points, std::vector<Label>(points.size(), Label::Rou), {}, {}};
 }
 
@@ -96,11 +96,11 @@ TEST(RollingModels, ARollingGridHoldsWhatAnOctoMapHolds) {
     for (const std::string name : {"R-Full-0.1", "R-Full-0.2"}) {
         const float edge = edgeOf(name);
         simulation::Random random(4);
-        mapping::ScanMapOptions options;
-        options.content = mapping::MapContent::Full;
+        observations::ScanMapOptions options;
+        options.content = observations::MapContent::Full;
         options.resolution_m = edge;
         options.max_range_m = 15;
-        mapping::ScanMap map(options);
+        observations::ScanMap map(options);
         const auto model = make(name);
         // No ray passes exactly through an edge.
         const Eigen::Vector3f origin(0.0317f, 0.0523f, 1.0713f);

@@ -13,7 +13,7 @@ namespace {
 /// An obstacle at x = 0 that moves along x at 1 m/s.
 class WallModel : public WorldModel {
  public:
-    void update(const mapping::MappedScan& scan) override { updated_s = scan.time_s; }
+    void update(const observations::MappedScan& scan) override { updated_s = scan.time_s; }
     float clearance_m(const Eigen::Vector3f& at) const override {
         return std::clamp(at.x(), 0.0f, kReach_m);
     }
@@ -72,7 +72,7 @@ TEST(UnbiasedModel, EverythingElseIsTheModels) {
     auto inner = std::make_unique<WallModel>();
     const WallModel* seen = inner.get();
     UnbiasedModel model(std::move(inner), 0.1f);
-    mapping::MappedScan scan;
+    observations::MappedScan scan;
     scan.time_s = 7;
     model.update(scan);
     EXPECT_EQ(seen->updated_s, 7);
@@ -100,8 +100,8 @@ TEST(DistanceBias, IsSubtractedUnlessDistancesAreWantedAsStored) {
     WorldModelSetting setting;
     setting.bounds_m = {Eigen::Vector3f(-6, -6, -2), Eigen::Vector3f(10, 6, 4)};
     setting.true_clearance_m = [](const Eigen::Vector3f&, double) { return 1.5f; };
-    mapping::MappedScan scan{0,  {0, 0, 1}, {{5, 0, 1}, {5, 0, 1}}, {Label::Roi, Label::Roi},
-                             {}, {}};
+    observations::MappedScan scan{0,  {0, 0, 1}, {{5, 0, 1}, {5, 0, 1}}, {Label::Roi, Label::Roi},
+                                  {}, {}};
     for (const std::string& name : worldModelNames()) {
         setting.distance = ModelDistance::Unbiased;
         const auto unbiased = makeWorldModel(name, setting);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/avoidance/SeenDirections.h>
 #include <hagen/avoidance/WorldModel.h>
-#include <hagen/mapping/ScanMap.h>
+#include <hagen/mrpt/ScanMap.h>
 #include <hagen/simulation/Random.h>
 #include <malloc.h>
 
@@ -53,7 +53,8 @@ float edgeOf(const std::string& name) {
     return name.find("0.4") != std::string::npos ? 0.4f : 0.2f;
 }
 
-mapping::MappedScan scanOf(const std::vector<Eigen::Vector3f>& points, Label label = Label::Roi) {
+observations::MappedScan scanOf(const std::vector<Eigen::Vector3f>& points,
+                                Label label = Label::Roi) {
     return {0, kOrigin, points, std::vector<Label>(points.size(), label), {}, {}};
 }
 
@@ -125,13 +126,13 @@ TEST(WorldModel, ClearanceIsThatOfThePoints) {
 /// dynamicEDT3D measures from middle to middle of voxels, and cuts at a whole number of them.
 TEST(WorldModel, AMapsClearanceIsThatOfADistanceTransform) {
     constexpr float kEdge_m = 0.2f;
-    mapping::ScanMap map({mapping::MapContent::Full, kEdge_m, 20});
+    observations::ScanMap map({observations::MapContent::Full, kEdge_m, 20});
     DynamicEDTOctomap distances(avoidance::WorldModel::kReach_m, &map.tree(), {-7, -7, -3},
                                 {11, 7, 5}, false);
     const auto model = avoidance::makeWorldModel("O-Full-0.2", setting());
     simulation::Random random(11);
     for (int scan = 0; scan < 3; ++scan) {
-        const mapping::MappedScan seen = scanOf(sparsePoints(random, 300));
+        const observations::MappedScan seen = scanOf(sparsePoints(random, 300));
         map.insert(seen);
         distances.update();
         model->update(seen);
@@ -243,7 +244,7 @@ TEST(WorldModel, AWindowOfSectorsForgetsAfterElevenTurnsToo) {
     for (const std::string name : {"W-RoI", "W-Full"}) {
         const auto model = avoidance::makeWorldModel(name, setting());
         const auto updateWith = [&](const std::vector<Eigen::Vector3f>& points) {
-            mapping::MappedScan sectors = scanOf(points);
+            observations::MappedScan sectors = scanOf(points);
             sectors.turns = 0.2;
             model->update(sectors);
         };
@@ -266,7 +267,7 @@ TEST(WorldModel, AWindowOfSectorsKnowsAllPointsOfItsTurns) {
         // As a planner asks that is late now and then: a sector to more than a turn.
         const double turns = i % 7 == 3 ? random.uniform(0.04, 1.3) : 0.2;
         updates.emplace_back(turns, twice(sparsePoints(random, 6)));
-        mapping::MappedScan sectors = scanOf(updates.back().second);
+        observations::MappedScan sectors = scanOf(updates.back().second);
         sectors.turns = turns;
         model->update(sectors);
         if (i % 10 != 9) continue;
@@ -525,7 +526,7 @@ TEST(WorldModel, RaysThatOnlyPassClearToo) {
         const auto model = avoidance::makeWorldModel(name, setting());
         for (int i = 0; i < 2; ++i) model->update(scanOf(board()));
         ASSERT_LT(model->clearance_m({2.1f, 0.1f, 1.1f}), 1.1f) << name;
-        mapping::MappedScan passed = scanOf({});
+        observations::MappedScan passed = scanOf({});
         passed.passed_to_m = wall(7.1f);
         for (int i = 0; i < 12; ++i) model->update(passed);
         EXPECT_GT(model->clearance_m({2.1f, 0.1f, 1.1f}), 2.0f) << name;

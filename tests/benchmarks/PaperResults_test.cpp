@@ -1,8 +1,8 @@
 // The tool behind scripts/reproduce-paper.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/logs/ScanFolder.h>
-#include <hagen/logs/ScanFolderWriter.h>
+#include <hagen/convert/ScanFolderWriter.h>
+#include <hagen/recordings/ScanFolder.h>
 
 #include <map>
 #include <set>
@@ -54,16 +54,16 @@ TEST(Rows, HaveNamesOfTheirOwnAndTheSettingsThatTheySay) {
     DataSet set;
     set.preset = "vlp16.yaml";
     set.zone_m = 40;
-    const labelled_scans::MethodSet rows = rowsFor(set, kConfig);
+    const evaluation::MethodSet rows = rowsFor(set, kConfig);
     std::set<std::string> names;
     const auto options = [&](const std::string& name) {
-        for (const labelled_scans::SweepPoint& row : rows.filter) {
+        for (const evaluation::SweepPoint& row : rows.filter) {
             if (row.name == name) return row.settings.options;
         }
         ADD_FAILURE() << "no row " << name;
         return Options{};
     };
-    for (const labelled_scans::SweepPoint& row : rows.filter) {
+    for (const evaluation::SweepPoint& row : rows.filter) {
         EXPECT_TRUE(names.insert(row.name).second) << row.name;
         EXPECT_EQ(row.settings.options.zone_m, 40) << row.name;
     }
@@ -106,7 +106,7 @@ TEST(Rows, ThePapersHaveNoneOfOurStages) {
 TEST(DataSets, AreFlightsOfTheSeedsAsked) {
     for (const DataSet& set : dataSets("", "data", {{101, 102}, 3})) {
         ASSERT_FALSE(set.flights.empty()) << set.name;
-        for (const simulated_logs::SimulatedLog& flight : set.flights) {
+        for (const convert::SimulatedLog& flight : set.flights) {
             EXPECT_TRUE(flight.seed == 101 || flight.seed == 102);
             EXPECT_EQ(flight.scans, 3);
             EXPECT_EQ(flight.tilt_sd_deg, 4);
@@ -247,7 +247,7 @@ class PaperResults : public test::ProgramTest {
         for (const Label label : truth.label) classes.push_back(label == Label::Roi ? 80 : 40);
         for (const char* name : {"labelled/beams16/00", "labelled/beams64/00"}) {
             fs::create_directories(folder_ / name / "semantic");
-            logs::ScanFolderWriter writer(folder_ / name);
+            convert::ScanFolderWriter writer(folder_ / name);
             writer.write("000000", labelled.scan, truth, sensor, 0.0);
             writer.finish();
             folder_.write(

@@ -1,7 +1,7 @@
 // Writes recordings for the commands of the documents, from those of rawlogs/: make-recordings
 // RAWLOG FOLDER
-#include <hagen/logs/RawlogReader.h>
-#include <hagen/observations/ObservationScan.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/recordings/RawlogReader.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ std::vector<float> xyziOf(const mrpt::obs::CObservationVelodyneScan& scan) {
 void writeVelodyne(const fs::path& rawlog, const fs::path& folder) {
     test::CaptureWriter capture;
     std::vector<test::SentMessage> messages;
-    logs::RawlogReader reader(rawlog);
+    recordings::RawlogReader reader(rawlog);
     while (const auto entry = reader.next()) {
         const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
         if (!scan) continue;

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/evaluation/BaselineBogoslavskyi.h>
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 
 #include <cmath>
 #include <stdexcept>

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/evaluation/Camera.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/SensorModel.h>
 
 #include <limits>
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <hagen/evaluation/DegradedScans.h>
 #include <hagen/evaluation/TrueHeights.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/segmentation/Levelling.h>
+#include <hagen/filter/Levelling.h>
+#include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -1,6 +1,6 @@
 #include "fuzz/AnyFilter.h"
 
-#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/filter/OptionKeys.h>
 
 #include <algorithm>
 #include <cmath>

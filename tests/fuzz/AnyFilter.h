@@ -1,8 +1,8 @@
 #pragma once
 // Sensors, options and numbers of which a filter may be made.
-#include <hagen/range_image/SensorModel.h>
-#include <hagen/segmentation/Levelling.h>
-#include <hagen/segmentation/Options.h>
+#include <hagen/filter/Levelling.h>
+#include <hagen/filter/Options.h>
+#include <hagen/scan/SensorModel.h>
 #include <Eigen/Geometry>
 
 #include <optional>

@@ -1,9 +1,9 @@
 #include "fuzz/Bags.h"
 
-#include <hagen/bags/BagFile.h>
-#include <hagen/bags/BagScans.h>
-#include <hagen/bags/BagSurvey.h>
-#include <hagen/observations/ObservationScan.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/recordings/BagFile.h>
+#include <hagen/recordings/BagScans.h>
+#include <hagen/recordings/BagSurvey.h>
 
 #include <string>
 
@@ -13,12 +13,12 @@
 namespace hagen::fuzz {
 
 void readAnyBag(const std::filesystem::path& file) {
-    bags::isBag(file);
-    bags::BagSurvey survey;
-    if (!mayRefuse([&] { survey = bags::surveyBag(file); })) return;
-    bags::textOfTopics(survey);
+    recordings::isBag(file);
+    recordings::BagSurvey survey;
+    if (!mayRefuse([&] { survey = recordings::surveyBag(file); })) return;
+    recordings::textOfTopics(survey);
     mayRefuse([&] {
-        bags::BagScans scans(file, survey, {});
+        recordings::BagScans scans(file, survey, {});
         mayRefuse([&] {
             while (const auto observation = scans.next()) {
                 if (!observations::isLidarScan(*observation)) continue;
@@ -59,7 +59,7 @@ std::vector<test::SentMessage> everyMessage() {
             for (int i = 0; i < 36; ++i) to.number(0.0);
         });
     };
-    const auto sensor = packets::ousterSensorOf(test::ousterJson(), "metadata");
+    const auto sensor = sensors::ousterSensorOf(test::ousterJson(), "metadata");
     const std::string packet = test::packetsOf(sensor, test::randomFrame(sensor, 3))[0];
     return {test::cloudMessage("/points", kTime_s, "lidar", {1, 2, 3, 0.5f, 4, 5, 6, 0.25f}),
             test::velodyneMessage("/velodyne", kTime_s, "velodyne", *scan, 1e-3),

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/streaming/SectorDistances.h>
+#include <hagen/live/SectorDistances.h>
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ class SectorChecker {
  public:
     explicit SectorChecker(const SensorModel& sensor) : distances_(sensor) {}
 
-    void take(const streaming::LabelledSector& sector) {
+    void take(const live::LabelledSector& sector) {
         require(sector.label.size() == sector.returns.size(), "a return has no label");
         for (std::size_t i = 0; i < sector.label.size(); ++i) {
             require(
@@ -28,8 +28,8 @@ class SectorChecker {
         for (std::size_t i = 0; i < sector.label.size(); ++i) {
             if (sector.label[i] == Label::Roi) checkKnown(sector.returns, i, around);
         }
-        for (const streaming::SectorDistances::Sector& direction : distances_.at(now_s + 0.4)) {
-            require(direction.state == streaming::SectorDistances::State::Unknown,
+        for (const live::SectorDistances::Sector& direction : distances_.at(now_s + 0.4)) {
+            require(direction.state == live::SectorDistances::State::Unknown,
                     "what is stale is known");
         }
     }
@@ -37,7 +37,7 @@ class SectorChecker {
 
  private:
     static void checkKnown(const Scan& returns, std::size_t i,
-                           const std::array<streaming::SectorDistances::Sector, 72>& around) {
+                           const std::array<live::SectorDistances::Sector, 72>& around) {
         const float x_m = returns.x_m[i], y_m = returns.y_m[i];
         const float distance_m = Eigen::Vector2f(x_m, y_m).norm();
         if (!std::isfinite(distance_m)) return;
@@ -48,12 +48,12 @@ class SectorChecker {
         const double part = turned_deg / 5 - std::floor(turned_deg / 5);
         if (part < 1e-3 || part > 1 - 1e-3) return;  // rounding may put it beside
         const auto& direction = around[static_cast<std::size_t>(turned_deg / 5) % 72];
-        require(direction.state == streaming::SectorDistances::State::Obstacle &&
+        require(direction.state == live::SectorDistances::State::Obstacle &&
                     direction.distance_m <= distance_m,
                 "a direction with an obstacle has none, or one that is farther");
     }
 
-    streaming::SectorDistances distances_;
+    live::SectorDistances distances_;
     std::size_t returns_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // The files of a campaign: its table and latency profile, with any content.
-#include <hagen/trials/LatencyProfile.h>
-#include <hagen/trials/RunTable.h>
+#include <hagen/avoidance/LatencyProfile.h>
+#include <hagen/avoidance/RunTable.h>
 
 #include "fuzz/Target.h"
 
@@ -8,33 +8,35 @@ namespace hagen::fuzz {
 namespace {
 
 /// The key of a run reads as the same.
-void writeAndReadKey(const trials::Run& run) {
-    const std::string key = trials::keyOf(run);
-    require(trials::keyOf(trials::runOfKey(key)) == key, "a key changes by writing it");
+void writeAndReadKey(const avoidance::Run& run) {
+    const std::string key = avoidance::keyOf(run);
+    require(avoidance::keyOf(avoidance::runOfKey(key)) == key, "a key changes by writing it");
 }
 
 void readCampaign(std::string_view input) {
     const InputFile file(input, "runs.csv");
     mayRefuse([&] {
-        const auto profile = trials::latencyProfileFrom(std::string(input));
-        const std::string text = trials::textOf(profile);
-        require(trials::textOf(trials::latencyProfileFrom(text)) == text,
+        const auto profile = avoidance::latencyProfileFrom(std::string(input));
+        const std::string text = avoidance::textOf(profile);
+        require(avoidance::textOf(avoidance::latencyProfileFrom(text)) == text,
                 "a profile changes by writing it");
     });
     mayRefuse([&] {
-        auto runs = trials::readRuns(file.path());
-        for (const trials::Run& run : runs) writeAndReadKey(run);
-        trials::sortRuns(runs);
+        auto runs = avoidance::readRuns(file.path());
+        for (const avoidance::Run& run : runs) writeAndReadKey(run);
+        avoidance::sortRuns(runs);
     });
-    mayRefuse([&] { writeAndReadKey(trials::runOfKey(std::string(input))); });
+    mayRefuse([&] { writeAndReadKey(avoidance::runOfKey(std::string(input))); });
 }
 
 Seeds campaignFiles() {
-    trials::Run run{"forest-0.10", 7, {}, {}, 40.5, "0123456789abcdef", "1.0"};
-    trials::LatencyProfile profile = trials::standardLatencyProfile();
+    avoidance::Run run{"forest-0.10", 7, {}, {}, 40.5, "0123456789abcdef", "1.0"};
+    avoidance::LatencyProfile profile = avoidance::standardLatencyProfile();
     for (auto& [stage, quantiles] : profile.quantiles_ms) quantiles.resize(3);
-    return {trials::textOf(profile), trials::runHeader() + "\n" + trials::rowOf(run) + "\n",
-            trials::fullRunHeader() + "\n" + trials::fullRowOf(run) + "\n", trials::keyOf(run)};
+    return {avoidance::textOf(profile),
+            avoidance::runHeader() + "\n" + avoidance::rowOf(run) + "\n",
+            avoidance::fullRunHeader() + "\n" + avoidance::fullRowOf(run) + "\n",
+            avoidance::keyOf(run)};
 }
 
 const bool kAdded = add({"campaigns",

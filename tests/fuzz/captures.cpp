@@ -1,8 +1,8 @@
 // Captures of a network: libpcap's files, fragments, and what is in the datagrams. The first byte
 // names the sensor.
-#include <hagen/captures/LivoxCapture.h>
-#include <hagen/captures/OusterCapture.h>
-#include <hagen/captures/VelodyneCapture.h>
+#include <hagen/recordings/LivoxCapture.h>
+#include <hagen/recordings/OusterCapture.h>
+#include <hagen/recordings/VelodyneCapture.h>
 
 #include <memory>
 
@@ -14,7 +14,7 @@
 namespace hagen::fuzz {
 namespace {
 
-void readAll(captures::LidarCapture& capture) {
+void readAll(recordings::LidarCapture& capture) {
     mayRefuse([&] {
         while (capture.nextScan()) {
         }
@@ -27,17 +27,17 @@ void readCapture(std::string_view input) {
     Parts parts(input);
     const std::size_t kind = parts.below(3);
     const InputFile file(parts.rest(), "input.pcap");
-    packets::isCapture(file.path());
+    sensors::isCapture(file.path());
     mayRefuse([&] {
         if (kind == 0) {
-            captures::VelodyneCapture capture(file.path());
+            recordings::VelodyneCapture capture(file.path());
             readAll(capture);
         } else if (kind == 1) {
-            captures::LivoxCapture capture(file.path());
+            recordings::LivoxCapture capture(file.path());
             readAll(capture);
         } else {
             const InputFile json(test::ousterJson(), "sensor.json");
-            captures::OusterCapture capture(file.path(), json.path());
+            recordings::OusterCapture capture(file.path(), json.path());
             readAll(capture);
         }
     });
@@ -57,7 +57,7 @@ Seeds captureSeeds() {
     cooked.frame(std::string(14, '\0') + std::string("\x08\x00", 2) + test::ipOf(velodyne));
     test::CaptureWriter raw(101);
     raw.frame(test::ipOf(velodyne));
-    const auto sensor = packets::ousterSensorOf(test::ousterJson(), "metadata");
+    const auto sensor = sensors::ousterSensorOf(test::ousterJson(), "metadata");
     test::CaptureWriter ouster;
     for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, 3))) {
         test::SentDatagram sent;

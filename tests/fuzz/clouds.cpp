@@ -1,8 +1,8 @@
 // Point cloud files of all formats, and what is made of their points.
-#include <hagen/clouds/CloudFile.h>
-#include <hagen/observations/CloudSensors.h>
-#include <hagen/observations/ObservationScan.h>
-#include <hagen/observations/TableCloud.h>
+#include <hagen/mrpt/CloudSensors.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/TableCloud.h>
+#include <hagen/recordings/CloudFile.h>
 
 #include <memory>
 
@@ -14,10 +14,10 @@ namespace {
 
 void readAnyCloud(std::string_view input) {
     const InputFile file(input, "input.bin");
-    clouds::cloudFormatOf(file.path());
-    clouds::startOfBin(file.path());
-    clouds::CloudFile cloud;
-    if (!mayRefuse([&] { cloud = clouds::readCloud(file.path()); })) return;
+    recordings::cloudFormatOf(file.path());
+    recordings::startOfBin(file.path());
+    recordings::CloudFile cloud;
+    if (!mayRefuse([&] { cloud = recordings::readCloud(file.path()); })) return;
     // A packed file may unpack to 256 times its size.
     require(cloud.table.bytes.size() <= 256 * (input.size() + 4096), "more points than bytes");
     mayRefuse([&] {

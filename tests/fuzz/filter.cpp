@@ -1,7 +1,7 @@
 // The filter: any scan, sensor, attitude and options. All instruction sets must make the same
 // labels of it.
-#include <hagen/range_image/InstructionSets.h>
-#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/filter/HagenFilter.h>
+#include <hagen/scan/InstructionSets.h>
 
 #include <cmath>
 #include <optional>

@@ -1,7 +1,7 @@
 // Label files, maps of labels, and calibrations of an HDL-64E.
 #include <hagen/evaluation/LabelMap.h>
-#include <hagen/logs/ScanFolder.h>
-#include <hagen/packets/VelodyneCalibrationFile.h>
+#include <hagen/recordings/ScanFolder.h>
+#include <hagen/sensors/VelodyneCalibrationFile.h>
 
 #include "fuzz/Target.h"
 #include "support/Hdl64.h"
@@ -12,10 +12,10 @@ namespace {
 void readLabelFiles(std::string_view input) {
     const InputFile file(input);
     mayRefuse([&] {
-        const auto entries = logs::readLabelEntries(file.path());
+        const auto entries = recordings::readLabelEntries(file.path());
         require(4 * entries.size() == input.size(), "as many labels as the file has");
     });
-    mayRefuse([&] { packets::readVelodyneCalibration(file.path()); });
+    mayRefuse([&] { sensors::readVelodyneCalibration(file.path()); });
     evaluation::LabelMap map;
     if (!mayRefuse([&] { map = evaluation::readLabelMap(file.path()); })) return;
     std::vector<std::uint16_t> numbers;

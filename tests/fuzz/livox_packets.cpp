@@ -1,18 +1,18 @@
 // Datagrams of a Livox with any content.
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/SensorModel.h>
 
-#include <hagen/packets/LivoxPacket.h>
+#include <hagen/sensors/LivoxPacket.h>
 #include "fuzz/Target.h"
 
 namespace hagen::fuzz {
 namespace {
 
 void decode(std::string_view input) {
-    packets::Datagram datagram;
+    sensors::Datagram datagram;
     datagram.bytes = reinterpret_cast<const std::uint8_t*>(input.data());
     datagram.size = input.size();
-    packets::isLivoxImu(datagram);
-    const auto packet = packets::livoxPacketOf(datagram);
+    sensors::isLivoxImu(datagram);
+    const auto packet = sensors::livoxPacketOf(datagram);
     if (!packet) return;
     require(packet->count * packet->point_bytes <= input.size(), "more points than bytes");
     Scan scan;

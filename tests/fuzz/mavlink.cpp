@@ -1,7 +1,7 @@
 // Bytes of a MAVLink peer with any content, in parts of any size, and the motion that they tell.
-#include <hagen/autopilot/VehicleMotion.h>
-#include <hagen/mavlink/Messages.h>
-#include <hagen/mavlink/Parser.h>
+#include <hagen/live/Messages.h>
+#include <hagen/live/Parser.h>
+#include <hagen/live/VehicleMotion.h>
 
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 void parse(std::string_view input) {
     Parts parts(input);
     mavlink::Parser parser;
-    autopilot::VehicleMotion motion;
+    live::VehicleMotion motion;
     double time_s = 100;
     std::size_t taken = 0, bytes = 0;
     const auto take = [&](const mavlink::Frame& frame) {

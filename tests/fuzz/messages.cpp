@@ -1,11 +1,11 @@
 // Messages of ROS, without a bag around them. The first byte names the type, its highest bit the
 // serialisation.
-#include <hagen/observations/TableCloud.h>
+#include <hagen/mrpt/TableCloud.h>
 
 #include <memory>
 
-#include "bags/Messages.h"
 #include "fuzz/Bags.h"
+#include "recordings/bags/Messages.h"
 
 namespace hagen::fuzz {
 namespace {
@@ -25,12 +25,12 @@ const char* const kTypes[] = {"sensor_msgs/PointCloud2",
 void readMessage(std::string_view input) {
     Parts parts(input);
     const auto first = parts.number<std::uint8_t>();
-    bags::BagMessage message;
+    recordings::BagMessage message;
     message.bytes = reinterpret_cast<const std::uint8_t*>(parts.rest().data());
     message.size = parts.rest().size();
     std::vector<std::uint8_t> unpacked;
     mayRefuse([&] {
-        bags::FieldReader fields = fieldsOf(message, first >= 128 ? "cdr" : "ros1", unpacked);
+        recordings::FieldReader fields = fieldsOf(message, first >= 128 ? "cdr" : "ros1", unpacked);
         switch (first % 11) {
             case 0: {
                 auto cloud = readPointCloud2(fields);

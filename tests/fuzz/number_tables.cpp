@@ -1,12 +1,12 @@
 // Text files of numbers: poses of all kinds, and times in the names of files.
-#include <hagen/logs/NumberTable.h>
-#include <hagen/logs/PoseFile.h>
+#include <hagen/recordings/NumberTable.h>
+#include <hagen/recordings/PoseFile.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "fuzz/Target.h"
-#include "logs/CloudTimes.h"
+#include "recordings/CloudTimes.h"
 
 namespace hagen::fuzz {
 namespace {
@@ -14,31 +14,31 @@ namespace {
 void readTables(std::string_view input) {
     const InputFile file(input, "input.txt");
     mayRefuse([&] {
-        for (const auto& line : logs::readNumberTable(file.path())) {
+        for (const auto& line : recordings::readNumberTable(file.path())) {
             for (const double number : line.numbers) require(std::isfinite(number), "no number");
         }
         // Every byte of it is part of a number, of a comment or between them.
         const bool has_nul = input.find('\0') != std::string_view::npos;
         require(!has_nul || input.find('#') != std::string_view::npos, "bytes that are no numbers");
     });
-    mayRefuse([&] { logs::kindOfPoseFile(file.path()); });
+    mayRefuse([&] { recordings::kindOfPoseFile(file.path()); });
     mayRefuse([&] {
-        const auto poses = logs::readTumPoses(file.path());
+        const auto poses = recordings::readTumPoses(file.path());
         // What is written reads as the same.
         if (poses.empty()) return;
         const auto copy = scratch() / "copy.tum";
-        logs::writeTumPoses(copy, poses);
-        require(logs::readTumPoses(copy).size() == poses.size(), "a pose is lost");
+        recordings::writeTumPoses(copy, poses);
+        require(recordings::readTumPoses(copy).size() == poses.size(), "a pose is lost");
     });
-    mayRefuse([&] { logs::readKittiPoses(file.path()); });
-    mayRefuse([&] { logs::readKittiCalibration(file.path()); });
+    mayRefuse([&] { recordings::readKittiPoses(file.path()); });
+    mayRefuse([&] { recordings::readKittiCalibration(file.path()); });
 
     std::vector<std::string> names;
     for (Parts parts(input); !parts.isAtEnd();) names.emplace_back(parts.until('\n'));
-    const auto times = logs::timesOfNames(names);
+    const auto times = recordings::timesOfNames(names);
     require(times.times_s.size() == names.size(), "a name has no time");
     for (const double time_s : times.times_s) require(std::isfinite(time_s), "no time");
-    std::vector<std::size_t> order = logs::orderOfNames(names);
+    std::vector<std::size_t> order = recordings::orderOfNames(names);
     std::sort(order.begin(), order.end());
     require(order.size() == names.size(), "a name has no place");
     for (std::size_t i = 0; i < order.size(); ++i) require(order[i] == i, "a name has two places");

@@ -1,6 +1,6 @@
 // Metadata of an Ouster: JSON.
-#include <hagen/packets/OusterFrames.h>
-#include <hagen/packets/OusterSensor.h>
+#include <hagen/sensors/OusterFrames.h>
+#include <hagen/sensors/OusterSensor.h>
 
 #include "fuzz/Target.h"
 #include "support/OusterPackets.h"
@@ -10,12 +10,12 @@ namespace {
 
 void readMetadata(std::string_view input) {
     mayRefuse([&] {
-        const auto sensor = packets::ousterSensorOf(std::string(input), "metadata");
+        const auto sensor = sensors::ousterSensorOf(std::string(input), "metadata");
         require(sensor.packetBytes() <= 65536, "a packet that no datagram holds");
         require(sensor.windowColumns() <= sensor.columns_per_frame, "more columns than a turn has");
         // Any packet of it can be taken.
         const std::string packet(sensor.packetBytes(), '\1');
-        packets::OusterFrames frames(sensor);
+        sensors::OusterFrames frames(sensor);
         frames.add(reinterpret_cast<const std::uint8_t*>(packet.data()), 0);
         frames.finish();
     });

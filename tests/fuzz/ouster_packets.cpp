@@ -1,7 +1,7 @@
 // Packets of an Ouster with any content. The first byte of the input names the profile.
-#include <hagen/captures/OusterObservation.h>
-#include <hagen/observations/ObservationScan.h>
-#include <hagen/packets/OusterFrames.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/recordings/OusterObservation.h>
+#include <hagen/sensors/OusterFrames.h>
 
 #include "fuzz/Target.h"
 #include "support/OusterPackets.h"
@@ -17,14 +17,14 @@ const char* const kProfiles[] = {
 void decode(std::string_view input) {
     Parts parts(input);
     const std::string profile = kProfiles[parts.below(std::size(kProfiles))];
-    const packets::OusterSensor sensor =
-        packets::ousterSensorOf(test::ousterJson(profile), "metadata");
-    packets::OusterFrames frames(sensor);
+    const sensors::OusterSensor sensor =
+        sensors::ousterSensorOf(test::ousterJson(profile), "metadata");
+    sensors::OusterFrames frames(sensor);
     std::size_t complete = 0;
     const auto takeOut = [&] {
         for (; !frames.complete().empty(); frames.complete().pop_front()) {
             ++complete;
-            const auto observation = captures::observationOf(frames.complete().front(), sensor);
+            const auto observation = recordings::observationOf(frames.complete().front(), sensor);
             observations::ObservedScan observed;
             observations::readObservation(*observation, {}, observed);
             for (const std::uint8_t row : observed.scan.row) {
@@ -44,14 +44,14 @@ void decode(std::string_view input) {
     frames.finish();
     takeOut();
     require(complete == frames.counts().frames, "a frame is lost");
-    captures::textOf(frames.counts());
+    recordings::textOf(frames.counts());
 }
 
 Seeds packetSeeds() {
     Seeds seeds;
     char number = 0;
     for (const char* const profile : kProfiles) {
-        const auto sensor = packets::ousterSensorOf(test::ousterJson(profile), "metadata");
+        const auto sensor = sensors::ousterSensorOf(test::ousterJson(profile), "metadata");
         const auto packets = test::packetsOf(sensor, test::randomFrame(sensor, 3));
         seeds.push_back(number++ + packets[0] + packets[1]);
     }

@@ -1,6 +1,6 @@
 // Files packed by gzip or zstd, read in steps of any size. The first byte chooses them.
-#include <hagen/logs/GzipOutput.h>
-#include <hagen/logs/PackedInput.h>
+#include <hagen/convert/GzipOutput.h>
+#include <hagen/recordings/PackedInput.h>
 
 #include <random>
 
@@ -14,7 +14,7 @@ constexpr std::size_t kMostRead = 4 << 20;  // a zstd block may repeat a byte as
 
 std::string readInSteps(const std::filesystem::path& file, unsigned seed) {
     std::minstd_rand random(seed);
-    logs::PackedInput input(file);
+    recordings::PackedInput input(file);
     std::string all, step;
     for (;;) {
         step.resize(1 + random() % (random() % 8 == 0 ? 1 << 20 : 64));
@@ -42,7 +42,7 @@ Seeds packedSeeds() {
     std::string plain;
     for (int i = 0; i < 300; ++i) plain += static_cast<char>('a' + i % 7 * (i % 11));
     std::vector<std::uint8_t> gzip;
-    logs::packGzipMember({plain.begin(), plain.end()}, gzip);
+    convert::packGzipMember({plain.begin(), plain.end()}, gzip);
     const std::string member(gzip.begin(), gzip.end());
     const std::string zstd = test::packed(plain, "zstd");
     return {'\0' + plain, '\0' + member, '\1' + member + member + std::string(5, '\0'), '\2' + zstd,

@@ -3,8 +3,8 @@
 // does not see) or crash. RawlogReader therefore has a rawlog tried by another process, with a
 // limit of memory (RawlogTrial). What MRPT does is no finding of ours; what is made of an object
 // that it has read is one.
-#include <hagen/observations/MrptCompat.h>
-#include <hagen/observations/ObservationSegmenter.h>
+#include <hagen/mrpt/MrptCompat.h>
+#include <hagen/mrpt/ObservationSegmenter.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -13,7 +13,7 @@
 #include <new>
 
 #include "fuzz/Target.h"
-#include "logs/EntryReader.h"
+#include "recordings/rawlogs/EntryReader.h"
 #include "support/RotatingScans.h"
 #include "support/SimpleFirings.h"
 
@@ -32,7 +32,7 @@ void segment(const mrpt::obs::CObservation& observation) {
 void readEntries(std::string_view input) {
     const InputFile file(input, "input.rawlog");
     mayRefuse([&] {
-        logs::EntryReader reader(file.path(), file.path());
+        recordings::EntryReader reader(file.path(), file.path());
         while (const auto object = reader.next()) {
             if (const auto* const one =
                     dynamic_cast<const mrpt::obs::CObservation*>(object.get())) {

@@ -1,5 +1,5 @@
 // Scan folders. The input has its files one after the other, with bytes 0xff between them.
-#include <hagen/logs/ScanSource.h>
+#include <hagen/recordings/ScanSource.h>
 
 #include <fstream>
 
@@ -26,9 +26,9 @@ void readFolder(std::string_view input) {
     std::ofstream(folder / "velodyne/000001.bin", std::ios::binary)
         << parts.rest().substr(first.size());
     mayRefuse([&] {
-        logs::SourceOptions options;
+        recordings::SourceOptions options;
         options.folder_objects = observations::CloudClass::WithIntensity;
-        const auto source = logs::openRecording(folder, options);
+        const auto source = recordings::openRecording(folder, options);
         source->usePoses({});
         source->useSettings({});
         std::size_t entries = 0;

@@ -1,6 +1,6 @@
 // A LiDAR that is labelled sector by sector: any packets, sweeps, times and motions, of any sensor
 // with any options. Each return comes out once, with a label; what is near is never called free.
-#include <hagen/streaming/StreamingSegmenter.h>
+#include <hagen/live/StreamingSegmenter.h>
 
 #include <cmath>
 #include <optional>
@@ -12,11 +12,11 @@
 namespace hagen::fuzz {
 namespace {
 
-using streaming::LabelledSector;
-using streaming::StreamingSegmenter;
+using live::LabelledSector;
+using live::StreamingSegmenter;
 
 /// Returns of a packet: some as they come, then ground and a wall in each row.
-Scan anyPacket(Parts& parts, const SensorModel& sensor, const streaming::Sweep& sweep) {
+Scan anyPacket(Parts& parts, const SensorModel& sensor, const live::Sweep& sweep) {
     Scan scan;
     const auto add = [&](float azimuth_rad, std::uint8_t row, float range_m) {
         const float elevation_rad = sensor.elevations_rad[row % sensor.elevations_rad.size()];
@@ -49,8 +49,8 @@ Scan anyPacket(Parts& parts, const SensorModel& sensor, const streaming::Sweep& 
     return scan;
 }
 
-streaming::StreamingOptions anyCut(Parts& parts) {
-    streaming::StreamingOptions cut;
+live::StreamingOptions anyCut(Parts& parts) {
+    live::StreamingOptions cut;
     if (!parts.chance()) return cut;
     cut.sector_rad = 0.02 * (1 + parts.number<std::uint8_t>());
     cut.window_rad = 0.02 * parts.number<std::uint8_t>();
@@ -88,7 +88,7 @@ void streamAnything(std::string_view input) {
         if (kind == 3) segmenter->flush();
         if (kind == 4) segmenter->restart();
         if (kind < 5) continue;
-        streaming::Sweep sweep{head_rad, head_rad + 0.002 * parts.number<std::uint8_t>()};
+        live::Sweep sweep{head_rad, head_rad + 0.002 * parts.number<std::uint8_t>()};
         if (kind == 5) sweep.from_rad = static_cast<double>(oddNumber(parts));
         if (kind == 6) sweep.to_rad = static_cast<double>(oddNumber(parts));
         if (kind == 7) now_s = static_cast<double>(oddNumber(parts));

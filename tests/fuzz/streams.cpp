@@ -1,9 +1,9 @@
 // Datagrams of a LiDAR, one after the other: sound ones, and those with any bytes changed, cut off,
 // late, lost or repeated. Nothing throws, and each is taken, or refused and counted. The first byte
 // of the input names the sensor.
-#include <hagen/streaming/LivoxStream.h>
-#include <hagen/streaming/OusterStream.h>
-#include <hagen/streaming/VelodyneStream.h>
+#include <hagen/live/LivoxStream.h>
+#include <hagen/live/OusterStream.h>
+#include <hagen/live/VelodyneStream.h>
 
 #include <memory>
 
@@ -15,7 +15,7 @@
 namespace hagen::fuzz {
 namespace {
 
-using streaming::LabelledSector;
+using live::LabelledSector;
 
 template <class Number>
 void put(std::string& bytes, std::size_t at, Number number) {
@@ -76,7 +76,7 @@ struct AnyStream {
     virtual std::size_t counted() const = 0;
 };
 
-streaming::StreamingSegmenter::Take into(std::unique_ptr<SectorChecker>& checker) {
+live::StreamingSegmenter::Take into(std::unique_ptr<SectorChecker>& checker) {
     return [&checker](const LabelledSector& sector) { checker->take(sector); };
 }
 
@@ -102,10 +102,10 @@ struct StreamOf : AnyStream {
     Stream stream;
 };
 
-struct AnyVelodyne : StreamOf<streaming::VelodyneStream> {
+struct AnyVelodyne : StreamOf<live::VelodyneStream> {
     AnyVelodyne(const char* name, std::uint8_t model_number,
                 std::unique_ptr<SectorChecker>& checker)
-        : StreamOf(checker, packets::velodyneModel(name), fewColumns()), number(model_number) {}
+        : StreamOf(checker, sensors::velodyneModel(name), fewColumns()), number(model_number) {}
     std::string packet(std::size_t n) override { return velodynePacket(n, number); }
     void add(const std::string& bytes, double time_s) override {
         stream.add(bytesAt(bytes), bytes.size(), time_s);
@@ -125,8 +125,8 @@ Settings settingsOfFourBeams() {
     return settings;
 }
 
-struct AnyOuster : StreamOf<streaming::OusterStream> {
-    AnyOuster(const packets::OusterSensor& made, std::unique_ptr<SectorChecker>& checker)
+struct AnyOuster : StreamOf<live::OusterStream> {
+    AnyOuster(const sensors::OusterSensor& made, std::unique_ptr<SectorChecker>& checker)
         : StreamOf(checker, made, settingsOfFourBeams()), sensor(made) {}
     std::string packet(std::size_t n) override {
         if (n / 4 != frame || packets.empty()) {
@@ -146,12 +146,12 @@ struct AnyOuster : StreamOf<streaming::OusterStream> {
                c.too_late + c.uncertain;
     }
 
-    packets::OusterSensor sensor;
+    sensors::OusterSensor sensor;
     std::size_t frame = 0;
     std::vector<std::string> packets;
 };
 
-struct AnyLivox : StreamOf<streaming::LivoxStream> {
+struct AnyLivox : StreamOf<live::LivoxStream> {
     explicit AnyLivox(std::unique_ptr<SectorChecker>& checker) : StreamOf(checker, fewColumns()) {}
     std::string packet(std::size_t n) override { return livoxPacket(n); }
     void add(const std::string& bytes, double time_s) override {
@@ -167,7 +167,7 @@ std::unique_ptr<AnyStream> anyStream(std::size_t kind, std::unique_ptr<SectorChe
     if (kind == 0) return std::make_unique<AnyVelodyne>("VLP-16", 0x22, checker);
     if (kind == 1) return std::make_unique<AnyVelodyne>("HDL-32E", 0x21, checker);
     if (kind == 2) {
-        return std::make_unique<AnyOuster>(packets::ousterSensorOf(test::ousterJson(), "made"),
+        return std::make_unique<AnyOuster>(sensors::ousterSensorOf(test::ousterJson(), "made"),
                                            checker);
     }
     return std::make_unique<AnyLivox>(checker);

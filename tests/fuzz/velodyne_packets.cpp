@@ -1,5 +1,5 @@
 // A Velodyne scan whose packets are any bytes. The first byte of the input names the calibration.
-#include <hagen/observations/ObservationScan.h>
+#include <hagen/mrpt/ObservationScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <algorithm>

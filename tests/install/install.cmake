@@ -48,13 +48,13 @@ run("" ${CMAKE_COMMAND} --build ${work}/find_package)
 run(${labels} ${work}/find_package/labels)
 
 # By pkg-config.
-file(GLOB_RECURSE pc ${prefix}/*hagen-segmentation.pc)
+file(GLOB_RECURSE pc ${prefix}/*hagen-filter.pc)
 get_filename_component(pc ${pc} DIRECTORY)
 set(ENV{PKG_CONFIG_PATH} ${pc})
-execute_process(COMMAND pkg-config --cflags --libs hagen-segmentation OUTPUT_VARIABLE flags
+execute_process(COMMAND pkg-config --cflags --libs hagen-filter OUTPUT_VARIABLE flags
                 OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 if(flags MATCHES "mrpt")
-  message(FATAL_ERROR "hagen-segmentation.pc: ${flags}")
+  message(FATAL_ERROR "hagen-filter.pc: ${flags}")
 endif()
 separate_arguments(flags UNIX_COMMAND "${flags}")
 get_filename_component(libraries ${pc} DIRECTORY)

@@ -16,7 +16,7 @@ namespace {
 class Turns : public PacketSource {
  public:
     Turns() {
-        const auto& model = packets::velodyneModel("VLP-16");
+        const auto& model = sensors::velodyneModel("VLP-16");
         test::SimpleScene scene;
         scene.poles.push_back({8, 3, 0.2, 6});
         observations::Firings firings = test::fireAt(scene, model, {0, 0, 2});
@@ -59,7 +59,7 @@ TEST(LiveMotion, EachPacketIsMovedByWhatSomethingElseKnows) {
         EXPECT_GE(time_s, last_s);
         last_s = time_s;
         ++asked;
-        streaming::SensorMotion motion;
+        live::SensorMotion motion;
         motion.attitude = Attitude{0.01f, -0.02f};
         return motion;
     };

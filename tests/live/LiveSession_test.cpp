@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/live/LiveSession.h>
-#include <hagen/packets/CaptureFile.h>
+#include <hagen/sensors/CaptureFile.h>
 
 #include <algorithm>
 #include <deque>
@@ -20,8 +20,8 @@
 namespace hagen::live {
 namespace {
 
-using packets::velodyneModel;
-using streaming::SectorDistances;
+using live::SectorDistances;
+using sensors::velodyneModel;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -112,7 +112,7 @@ class LiveSessionTest : public testing::Test {
     LiveReport run(GivenPackets& packets) {
         LiveListener listener;
         listener.remark = [this](const std::string& remark) { remarks_.push_back(remark); };
-        listener.sector = [this](const streaming::LabelledSector& sector) {
+        listener.sector = [this](const live::LabelledSector& sector) {
             if (returns_ == 0) std::this_thread::sleep_for(first_sector_takes_);
             returns_ += sector.returns.size();
         };
@@ -332,9 +332,9 @@ TEST_F(LiveSessionTest, OthersDoNotKeepASectorFromItsLabels) {
     LiveListener listener;
     listener.motion = [&](double) {
         ++packets;
-        return streaming::SensorMotion();
+        return live::SensorMotion();
     };
-    listener.sector = [&](const streaming::LabelledSector& sector) {
+    listener.sector = [&](const live::LabelledSector& sector) {
         if (sector.is_cut && cut_after == 0) cut_after = packets;
     };
     runLive(source, options_, listener);
@@ -410,7 +410,7 @@ TEST_F(LiveSessionTest, PacketsThatStillWaitAtTheEndAreCounted) {
     GivenPackets source;
     source.addAll(packets).asSensor();
     LiveListener listener;
-    listener.sector = [&](const streaming::LabelledSector& sector) {
+    listener.sector = [&](const live::LabelledSector& sector) {
         returns_ += sector.returns.size();
     };
     listener.keep_going = [this] { return returns_ < 3000; };
@@ -442,12 +442,12 @@ TEST_F(LiveSessionTest, WhatIsNotSupportedIsNamed) {
 /// The datagrams of a capture: payload, and everything else as text.
 std::vector<std::pair<std::string, std::string>> datagramsIn(const std::filesystem::path& file) {
     std::vector<std::pair<std::string, std::string>> all;
-    packets::CaptureFile capture(file);
-    packets::Datagram d;
+    sensors::CaptureFile capture(file);
+    sensors::Datagram d;
     while (capture.next(d)) {
         all.emplace_back(std::string(reinterpret_cast<const char*>(d.bytes), d.size),
-                         std::to_string(d.time_ns) + " " + packets::ipText(d.from_ip) + ":" +
-                             std::to_string(d.from_port) + " " + packets::ipText(d.to_ip) + ":" +
+                         std::to_string(d.time_ns) + " " + sensors::ipText(d.from_ip) + ":" +
+                             std::to_string(d.from_port) + " " + sensors::ipText(d.to_ip) + ":" +
                              std::to_string(d.to_port));
     }
     return all;
@@ -503,7 +503,7 @@ TEST_F(LiveRecordingTest, KeepsExistingFiles) {
     options_.recording.file = folder_ / "b.pcap";
     folder_.write("b.tum", "mine");
     LiveListener listener;
-    listener.motion = [](double) { return streaming::SensorMotion(); };
+    listener.motion = [](double) { return live::SensorMotion(); };
     EXPECT_THAT(test::messageOf([&] { runLive(source, options_, listener); }),
                 HasSubstr("b.tum exists"));
     EXPECT_EQ(test::readFile(folder_ / "a.pcap") + test::readFile(folder_ / "b.tum"), "minemine");
@@ -516,7 +516,7 @@ TEST_F(LiveRecordingTest, WritesVehiclePosesOnThePacketClock) {
     const Eigen::Quaterniond rolled(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()));
     LiveListener listener;
     listener.motion = [&](double) {
-        streaming::SensorMotion motion;
+        live::SensorMotion motion;
         motion.map_from_sensor.emplace(Eigen::Translation3d(1, 2, 3) * rolled *
                                        Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()));
         return motion;

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/Json.h>
-#include <hagen/range_image/Angle.h>
-#include <hagen/segmentation/OptionKeys.h>
+#include <hagen/filter/OptionKeys.h>
+#include <hagen/scan/Angle.h>
 #include <hagen/settings/AirframeFile.h>
 #include <hagen/settings/Settings.h>
 #include <hagen/settings/SettingsJson.h>

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 #include <hagen/simulation/Terrain.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "support/Captures.h"
 
-#include <hagen/logs/RawlogReader.h>
+#include <hagen/recordings/RawlogReader.h>
 
 #include <cstring>
 
@@ -13,7 +13,7 @@ using mrpt::obs::CObservationVelodyneScan;
 CObservationVelodyneScan::Ptr realVlp16Scan() {
     if (realScan().empty()) return nullptr;
     return std::dynamic_pointer_cast<CObservationVelodyneScan>(
-        logs::RawlogReader(realScan()).next());
+        recordings::RawlogReader(realScan()).next());
 }
 
 CObservationVelodyneScan::Ptr readCapture(const std::filesystem::path& pcap,

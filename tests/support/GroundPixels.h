@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/segmentation/PixelPoints.h>
+#include <hagen/filter/PixelPoints.h>
 
 #include <vector>
 

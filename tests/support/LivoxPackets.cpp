@@ -1,6 +1,6 @@
 #include "support/LivoxPackets.h"
 
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 
 #include <cmath>
 #include <random>

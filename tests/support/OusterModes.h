@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/packets/OusterSensor.h>
+#include <hagen/sensors/OusterSensor.h>
 
 #include <cstdint>
 #include <string>
@@ -38,9 +38,9 @@ class TurningOuster {
 
     /// The packets of the next turn.
     std::vector<std::string> turn(const OusterMode& mode) {
-        const packets::OusterSensor sensor =
-            packets::ousterSensorOf(ousterJsonOf(mode, profile_), "test");
-        packets::OusterFrame frame = randomFrame(sensor, id_++);
+        const sensors::OusterSensor sensor =
+            sensors::ousterSensorOf(ousterJsonOf(mode, profile_), "test");
+        sensors::OusterFrame frame = randomFrame(sensor, id_++);
         const double turn_ns = 1e9 / mode.turns_per_s;
         for (std::size_t c = 0; c < mode.columns; ++c) {
             const double since_ns =

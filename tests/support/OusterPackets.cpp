@@ -10,8 +10,8 @@ void put(std::string& bytes, std::uint64_t value, int size) {
     for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
 }
 
-void putPixel(std::string& bytes, const packets::OusterProfile& profile,
-              const packets::OusterFrame& frame, std::size_t at) {
+void putPixel(std::string& bytes, const sensors::OusterProfile& profile,
+              const sensors::OusterFrame& frame, std::size_t at) {
     // The bits above the range are flags.
     const std::uint32_t flags = 0x00f80000 & ~profile.range_mask;
     std::string pixel;
@@ -68,9 +68,9 @@ std::string ousterJson(const std::string& profile, const std::string& serial) {
            profile + "\"}}";
 }
 
-std::vector<std::string> packetsOf(const packets::OusterSensor& sensor,
-                                   const packets::OusterFrame& frame) {
-    using Column = packets::OusterFrame::Column;
+std::vector<std::string> packetsOf(const sensors::OusterSensor& sensor,
+                                   const sensors::OusterFrame& frame) {
+    using Column = sensors::OusterFrame::Column;
     const bool is_legacy = sensor.profile.is_legacy;
     std::vector<std::string> packets;
     for (std::size_t first = 0; first < frame.columns; first += sensor.columns_per_packet) {
@@ -106,12 +106,12 @@ std::vector<std::string> packetsOf(const packets::OusterSensor& sensor,
     return packets;
 }
 
-packets::OusterFrame randomFrame(const packets::OusterSensor& sensor, std::uint16_t id) {
+sensors::OusterFrame randomFrame(const sensors::OusterSensor& sensor, std::uint16_t id) {
     Random random(id);
-    packets::OusterFrame frame;
+    sensors::OusterFrame frame;
     frame.id = id;
     frame.columns = sensor.columns_per_frame;
-    frame.state.assign(frame.columns, packets::OusterFrame::Column::Valid);
+    frame.state.assign(frame.columns, sensors::OusterFrame::Column::Valid);
     for (std::size_t c = 0; c < frame.columns; ++c) {
         frame.column_time_ns.push_back(1000000000ull * id + 1000000 * c);
     }

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/packets/OusterFrames.h>
+#include <hagen/sensors/OusterFrames.h>
 
 #include <cstdint>
 #include <string>
@@ -13,10 +13,10 @@ std::string ousterJson(const std::string& profile = "RNG19_RFL8_SIG16_NIR16",
 
 /// The packets of a frame, by the maker's manual and SDK; each holds what the frame has in its
 /// columns. The serial number is that of `sensor`.
-std::vector<std::string> packetsOf(const packets::OusterSensor& sensor,
-                                   const packets::OusterFrame& frame);
+std::vector<std::string> packetsOf(const sensors::OusterSensor& sensor,
+                                   const sensors::OusterFrame& frame);
 
 /// A frame of such a sensor with random pixels, some without a return, all columns valid.
-packets::OusterFrame randomFrame(const packets::OusterSensor& sensor, std::uint16_t id);
+sensors::OusterFrame randomFrame(const sensors::OusterSensor& sensor, std::uint16_t id);
 
 }  // namespace hagen::test

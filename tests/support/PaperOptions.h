@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/segmentation/Options.h>
+#include <hagen/filter/Options.h>
 
 namespace hagen::test {
 

@@ -1,8 +1,8 @@
 #pragma once
-#include <hagen/segmentation/GroundFrame.h>
-#include <hagen/segmentation/GroundSurface.h>
-#include <hagen/segmentation/HeightLabels.h>
-#include <hagen/segmentation/PixelPoints.h>
+#include <hagen/filter/GroundFrame.h>
+#include <hagen/filter/GroundSurface.h>
+#include <hagen/filter/HeightLabels.h>
+#include <hagen/filter/PixelPoints.h>
 
 /// Simple reference implementations of the ground stages, pixel by pixel and cell by cell, to
 /// compare the fast ones with.

@@ -1,8 +1,8 @@
 #include "support/PlainVelodyneDecoder.h"
 
-#include <hagen/observations/VelodyneCalibrations.h>
-#include <hagen/packets/VelodyneModel.h>
-#include <hagen/range_image/Angle.h>
+#include <hagen/mrpt/VelodyneCalibrations.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/sensors/VelodyneModel.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,7 +63,7 @@ class AzimuthTable {
  public:
     AzimuthTable() {
         for (int reading = 0; reading < kTurn; ++reading) {
-            const double clockwise_rad = radians(packets::azimuthOfReadingDeg(reading));
+            const double clockwise_rad = radians(sensors::azimuthOfReadingDeg(reading));
             entries_[reading] = {static_cast<float>(std::sin(clockwise_rad)),
                                  static_cast<float>(std::cos(clockwise_rad)),
                                  static_cast<float>(-clockwise_rad)};
@@ -85,12 +85,12 @@ class AzimuthTable {
 };
 
 const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observation,
-                                         const packets::VelodyneModel& model) {
+                                         const sensors::VelodyneModel& model) {
     const bool has_own =
         observation.calibration.laser_corrections.size() == static_cast<std::size_t>(model.lasers);
     if (has_own) return observation.calibration;
     static VelodyneCalibration of_model;
-    of_model = observations::mrptCalibration(packets::defaultCalibration(model));
+    of_model = observations::mrptCalibration(sensors::defaultCalibration(model));
     return of_model;
 }
 
@@ -122,9 +122,9 @@ struct Laser {
 };
 
 std::vector<Laser> lasersOf(const VelodyneCalibration& calibration) {
-    packets::VelodyneCalibration readable;
+    sensors::VelodyneCalibration readable;
     observations::readCalibration(calibration, readable);
-    const std::vector<std::uint8_t> rows = packets::rowsOfLasers(readable);
+    const std::vector<std::uint8_t> rows = sensors::rowsOfLasers(readable);
     std::vector<Laser> lasers;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto& correction = calibration.laser_corrections[i];
@@ -157,8 +157,8 @@ void appendReturn(const Laser& laser, double reading, float distance_m, Scan& sc
 std::size_t decodePlainly(const CObservationVelodyneScan& observation, Scan& scan) {
     scan.clear();
     if (observation.scan_packets.empty()) return 0;
-    const packets::VelodyneModel& model =
-        *packets::findVelodyneModel(Packet(observation.scan_packets.front()).modelId());
+    const sensors::VelodyneModel& model =
+        *sensors::findVelodyneModel(Packet(observation.scan_packets.front()).modelId());
     const std::vector<Laser> lasers = lasersOf(calibrationOf(observation, model));
     const int turn = turnOfBlocks(observation);
     const float unit_m = model.name == "VLP-32C" ? 0.004f : 0.002f;

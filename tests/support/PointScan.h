@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 
 #include <vector>
 

@@ -1,10 +1,10 @@
 #pragma once
 // What the tests of outputs of a conversion share.
 #include <gtest/gtest.h>
-#include <hagen/logs/Conversion.h>
-#include <hagen/logs/RawlogWriter.h>
-#include <hagen/observations/ObservationScan.h>
-#include <hagen/observations/PointTable.h>
+#include <hagen/convert/Conversion.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/PointTable.h>
 
 #include <filesystem>
 #include <string>
@@ -30,16 +30,16 @@ class PoleConversion {
         conversion_.settings.sensor.model = "VLP-16";
     }
     /// Converts; remarks are added to remarks_.
-    logs::ConversionReport convertCounting() {
-        logs::ConversionListener listener;
+    convert::ConversionReport convertCounting() {
+        convert::ConversionListener listener;
         listener.remark = [&](const std::string& what, const std::string& remark) {
             remarks_.push_back(what + ": " + remark);
         };
-        return convert(conversion_, listener);
+        return convert::convert(conversion_, listener);
     }
     std::filesystem::path writeRawlog(
         const std::vector<mrpt::obs::CObservation::Ptr>& scans) const {
-        logs::RawlogWriter writer(folder_ / "in.rawlog", true);
+        convert::RawlogWriter writer(folder_ / "in.rawlog", true);
         for (const auto& scan : scans) writer.write(*scan);
         writer.commit();
         return folder_ / "in.rawlog";
@@ -47,7 +47,7 @@ class PoleConversion {
 
     TemporaryFolder folder_;
     observations::ObservedScan observed_;
-    logs::Conversion conversion_;
+    convert::Conversion conversion_;
     std::vector<std::string> remarks_;
 };
 

@@ -33,7 +33,7 @@ mrpt::obs::CObservationRobotPose::Ptr polesAndWallPose(int scan) {
 }
 
 mrpt::obs::CObservationVelodyneScan::Ptr polesAndWallScan(int scan) {
-    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     auto observation = observations::encodeScan(
         model, fireAt(polesAndWall(), model, {kStep_m * scan, 0, kAltitude_m},
                       {kStep_m / kPeriod_s, 0, 0}));

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/range_image/Image.h>
+#include <hagen/scan/Image.h>
 
 #include <random>
 

@@ -1,7 +1,7 @@
 #pragma once
 // What the tests of reading bags share.
 #include <gtest/gtest.h>
-#include <hagen/bags/BagScans.h>
+#include <hagen/recordings/BagScans.h>
 
 #include <memory>
 #include <stdexcept>
@@ -17,8 +17,8 @@ constexpr double kBagStart_s = 1700000000;
 
 /// All that is read of a bag.
 struct ReadBag {
-    bags::BagSurvey survey;
-    std::unique_ptr<bags::BagScans> scans;
+    recordings::BagSurvey survey;
+    std::unique_ptr<recordings::BagScans> scans;
     std::vector<mrpt::obs::CObservation::Ptr> observations;
     std::string failed_because;
 
@@ -37,11 +37,12 @@ struct ReadBag {
     }
 };
 
-inline ReadBag readBag(const std::filesystem::path& file, const bags::BagOptions& options = {}) {
+inline ReadBag readBag(const std::filesystem::path& file,
+                       const recordings::BagOptions& options = {}) {
     ReadBag read;
-    read.survey = bags::surveyBag(file);
+    read.survey = recordings::surveyBag(file);
     try {
-        read.scans = std::make_unique<bags::BagScans>(file, read.survey, options);
+        read.scans = std::make_unique<recordings::BagScans>(file, read.survey, options);
         while (const auto one = read.scans->next()) read.observations.push_back(one);
     } catch (const std::runtime_error& e) {
         read.failed_because = e.what();
@@ -53,7 +54,7 @@ inline ReadBag readBag(const std::filesystem::path& file, const bags::BagOptions
 class BagTest : public testing::Test {
  protected:
     ReadBag read(const std::vector<SentMessage>& messages,
-                 const bags::BagOptions& options = {}) const {
+                 const recordings::BagOptions& options = {}) const {
         return readBag(writeBytes(folder_ / "flight.bag", ros1BagOf(messages)), options);
     }
     static SentMessage cloud(const std::string& topic, double since_s = 0,

@@ -1,7 +1,7 @@
 #include "support/RotatingScans.h"
 
-#include <hagen/observations/MrptCompat.h>
-#include <hagen/packets/VelodyneModel.h>
+#include <hagen/mrpt/MrptCompat.h>
+#include <hagen/sensors/VelodyneModel.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -51,7 +51,7 @@ std::string newerBytesOf(const mrpt::obs::CObservationRotatingScan& scan,
 
 RotatingImage rotatingImageOf(const mrpt::obs::CObservationVelodyneScan& packets, const Scan& scan,
                               const RotatingLayout& layout) {
-    const auto& model = packets::velodyneModel("VLP-16");
+    const auto& model = sensors::velodyneModel("VLP-16");
     RotatingImage image;
     mrpt::obs::CObservationRotatingScan rotating;
     rotating.timestamp = packets.timestamp;

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/range_image/Scan.h>
+#include <hagen/scan/Scan.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 

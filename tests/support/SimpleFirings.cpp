@@ -1,18 +1,18 @@
 #include "support/SimpleFirings.h"
 
-#include <hagen/packets/VelodyneCalibration.h>
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/sensors/VelodyneCalibration.h>
 
 #include <cmath>
 
 namespace hagen::test {
 
-observations::Firings fireAt(const SimpleScene& scene, const packets::VelodyneModel& model,
+observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneModel& model,
                              const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
                              double range_limit_m) {
     const SensorModel sensor = sensorModel(model.name);
     const std::vector<std::uint8_t> rows =
-        packets::rowsOfLasers(packets::defaultCalibration(model));
+        sensors::rowsOfLasers(sensors::defaultCalibration(model));
     observations::Firings firings;
     firings.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;  // 10 turns per second
     const int count = static_cast<int>(std::round(360.0 / firings.azimuth_step_deg));
@@ -37,7 +37,7 @@ observations::Firings fireAt(const SimpleScene& scene, const packets::VelodyneMo
 mrpt::obs::CObservationVelodyneScan::Ptr poleScanFrom(double x_m, const std::string& label) {
     SimpleScene scene;
     scene.poles.push_back({12, 2, 0.15, 8});
-    const packets::VelodyneModel& model = packets::velodyneModel("VLP-16");
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     auto scan = observations::encodeScan(model, fireAt(scene, model, {x_m, 0, 2}));
     scan->sensorLabel = label;
     scan->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);

@@ -1,7 +1,7 @@
 #include "support/SimpleScene.h"
 
-#include <hagen/range_image/Angle.h>
-#include <hagen/range_image/RangeImage.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/RangeImage.h>
 #include <cmath>
 
 namespace hagen::test {

@@ -31,7 +31,7 @@ class SolidWorld : public avoidance::WorldModel {
         return *this;
     }
 
-    void update(const mapping::MappedScan&) override {}
+    void update(const observations::MappedScan&) override {}
 
     float clearance_m(const Eigen::Vector3f& point_m) const override {
         ++asked;

@@ -1,7 +1,7 @@
 // Labels scans with the filter alone, so that processors can be compared: label-points MODEL REPEAT
 // FILE.bin... Files are float32 x, y, z, intensity. Prints per file: returns, RoI, and a checksum
 // of all labels and numbers of obstacles. Each scan is segmented REPEAT times, by one filter.
-#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/filter/HagenFilter.h>
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Creates rawlogs/poles_and_wall.rawlog: a low flight of a level VLP-16 between two rows of poles
 // towards a wall, over flat ground. Usage: make-poles-and-wall OUT.rawlog
-#include <hagen/logs/RawlogWriter.h>
+#include <hagen/convert/RawlogWriter.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <cstdio>
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        hagen::logs::RawlogWriter writer(argv[1], true);
+        hagen::convert::RawlogWriter writer(argv[1], true);
         for (int scan = 0; scan < hagen::test::kPolesAndWallScans; ++scan) {
             writer.write(*hagen::test::polesAndWallPose(scan));
             writer.write(*hagen::test::polesAndWallScan(scan));

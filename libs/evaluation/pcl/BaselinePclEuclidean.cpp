@@ -1,5 +1,5 @@
 #include <hagen/pcl_baseline/BaselinePclEuclidean.h>
-#include <hagen/range_image/Angle.h>
+#include <hagen/scan/Angle.h>
 #include <pcl/console/print.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/point_cloud.h>

@@ -1,5 +1,5 @@
 // Segments a scan whose labels are known: flat ground 1.5 m below a VLP-16, and a pillar 8 m away.
-#include <hagen/segmentation/HagenFilter.h>
+#include <hagen/filter/HagenFilter.h>
 
 #include <algorithm>
 #include <cmath>

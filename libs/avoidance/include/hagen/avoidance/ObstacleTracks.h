@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/avoidance/SeenDirections.h>
-#include <hagen/mapping/MappedScan.h>
+#include <hagen/mrpt/MappedScan.h>
 #include <Eigen/Core>
 #include <cstdint>
 #include <deque>
@@ -51,9 +51,9 @@ class ObstacleTracks {
     explicit ObstacleTracks(float farthest_m = 25) : farthest_m_(farthest_m) {}
 
     /// Takes in the next scan; its `obstacles` must be numbered.
-    void update(const mapping::MappedScan& scan);
+    void update(const observations::MappedScan& scan);
     /// The same for a scan whose view (viewOf()) is at hand.
-    void update(const mapping::MappedScan& scan, std::shared_ptr<const View> view);
+    void update(const observations::MappedScan& scan, std::shared_ptr<const View> view);
 
     const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
     /// The number of the track that each obstacle of the last scan belongs to, by the obstacle's

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/mapping/MappedScan.h>
+#include <hagen/mrpt/MappedScan.h>
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +48,6 @@ struct View {
     Eigen::Vector3f origin_m;
     SeenDirections seen;
 };
-View viewOf(const mapping::MappedScan& scan);
+View viewOf(const observations::MappedScan& scan);
 
 }  // namespace hagen::avoidance

@@ -10,7 +10,7 @@ class UnbiasedModel : public WorldModel {
     UnbiasedModel(std::unique_ptr<WorldModel> model, float bias_m)
         : model_(std::move(model)), bias_m_(bias_m) {}
 
-    void update(const mapping::MappedScan& scan) override { model_->update(scan); }
+    void update(const observations::MappedScan& scan) override { model_->update(scan); }
     float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
     ClearanceQuery clearanceQuery(const Eigen::AlignedBox3f& box_m, float limit_m) const override;

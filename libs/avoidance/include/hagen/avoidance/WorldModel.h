@@ -1,8 +1,8 @@
 #pragma once
 #include <hagen/avoidance/ModelDistance.h>
 #include <hagen/avoidance/WindowSize.h>
-#include <hagen/mapping/MappedScan.h>
-#include <hagen/mapping/ScanMap.h>
+#include <hagen/mrpt/MappedScan.h>
+#include <hagen/mrpt/ScanMap.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -25,7 +25,7 @@ class WorldModel {
     virtual ~WorldModel() = default;
 
     /// Updates the model with the next scan.
-    virtual void update(const mapping::MappedScan& scan) = 0;
+    virtual void update(const observations::MappedScan& scan) = 0;
 
     /// Distance from a point to the nearest known obstacle, at most kReach_m; 0 inside one. Unknown
     /// space counts as free.
@@ -126,7 +126,7 @@ std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting);
 
 /// An OctoMap with other settings than those of the named models, to measure what they do.
-std::unique_ptr<WorldModel> makeOctoMap(const mapping::ScanMapOptions& options,
+std::unique_ptr<WorldModel> makeOctoMap(const observations::ScanMapOptions& options,
                                         const Eigen::AlignedBox3f& bounds_m);
 
 }  // namespace hagen::avoidance

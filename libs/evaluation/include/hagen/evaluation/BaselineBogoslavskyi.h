@@ -1,8 +1,8 @@
 #pragma once
-#include <hagen/range_image/Image.h>
-#include <hagen/range_image/Label.h>
-#include <hagen/range_image/Scan.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/Image.h>
+#include <hagen/scan/Label.h>
+#include <hagen/scan/Scan.h>
+#include <hagen/scan/SensorModel.h>
 #include <cstdint>
 #include <vector>
 

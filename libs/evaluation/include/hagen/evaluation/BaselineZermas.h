@@ -1,7 +1,7 @@
 #pragma once
-#include <hagen/range_image/Label.h>
-#include <hagen/range_image/Scan.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/Label.h>
+#include <hagen/scan/Scan.h>
+#include <hagen/scan/SensorModel.h>
 #include <cstdint>
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/range_image/Scan.h>
+#include <hagen/scan/Scan.h>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/evaluation/ScanScores.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/SensorModel.h>
 #include <cstdint>
 #include <functional>
 #include <random>

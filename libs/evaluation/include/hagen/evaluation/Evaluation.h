@@ -2,7 +2,7 @@
 #include <hagen/evaluation/Camera.h>
 #include <hagen/evaluation/DroneScores.h>
 #include <hagen/evaluation/ScanScores.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/SensorModel.h>
 #include <functional>
 #include <memory>
 #include <optional>

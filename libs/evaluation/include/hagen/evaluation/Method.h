@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/range_image/Label.h>
-#include <hagen/range_image/Scan.h>
+#include <hagen/scan/Label.h>
+#include <hagen/scan/Scan.h>
 #include <Eigen/Core>
 #include <functional>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/range_image/Label.h>
+#include <hagen/scan/Label.h>
 #include <cstdint>
 
 namespace hagen::evaluation {

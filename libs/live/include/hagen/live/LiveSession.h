@@ -2,10 +2,10 @@
 #include <hagen/live/LatencyHistogram.h>
 #include <hagen/live/PacketSource.h>
 #include <hagen/live/Recording.h>
+#include <hagen/live/SectorDistances.h>
+#include <hagen/live/SensorMotion.h>
+#include <hagen/live/StreamingSegmenter.h>
 #include <hagen/settings/Settings.h>
-#include <hagen/streaming/SectorDistances.h>
-#include <hagen/streaming/SensorMotion.h>
-#include <hagen/streaming/StreamingSegmenter.h>
 
 #include <array>
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace hagen::live {
 
-/// Models that are not of packets::velodyneModels().
+/// Models that are not of sensors::velodyneModels().
 inline constexpr const char* kLivox = "Mid-360";
 inline constexpr const char* kHdl64 = "HDL-64E";
 
@@ -29,7 +29,7 @@ struct LiveOptions {
     std::string model;
     std::filesystem::path calibration;  ///< of an HDL-64E
     Settings settings;
-    streaming::StreamingOptions streaming;
+    live::StreamingOptions streaming;
     RecordingOptions recording;
     std::filesystem::path stats;  ///< JSON; empty: none
     bool overwrite = false;       ///< replaces an existing file of `stats`
@@ -64,8 +64,8 @@ struct LiveReport {
     LatencyHistogram latency;  ///< from a sector's last packet to its labels; not of those cut
     /// The nearest RoI return of the run in each direction, as SectorDistances, but for doubtful
     /// sectors; infinity: none.
-    std::array<float, streaming::SectorDistances::kSectors> nearest_m{};
-    std::array<streaming::SectorDistances::Sector, streaming::SectorDistances::kSectors> latest{};
+    std::array<float, live::SectorDistances::kSectors> nearest_m{};
+    std::array<live::SectorDistances::Sector, live::SectorDistances::kSectors> latest{};
     double seconds = 0;         ///< that it ran
     double filter_cpu_s = 0;    ///< CPU time of the thread that labels
     double process_cpu_s = 0;   ///< of all threads
@@ -86,7 +86,7 @@ struct LiveListener {
     /// Called first, with the sensor and the options of its filter.
     std::function<void(const SensorModel&, const Options&)> begin = [](const auto&, const auto&) {};
     /// The motion at a time of steadyNow_s(), called with each packet. Empty: it is not known.
-    std::function<streaming::SensorMotion(double time_s)> motion;
+    std::function<live::SensorMotion(double time_s)> motion;
     /// More counts for `stats`, called at the end: the name of a section, and its values.
     std::map<std::string, std::function<std::vector<std::pair<std::string, std::size_t>>()>> counts;
     /// What the user should know now: silence, another mode, another rate.
@@ -95,7 +95,7 @@ struct LiveListener {
     std::function<void(const LiveReport&, const LiveStatus&)> status = [](const auto&,
                                                                           const auto&) {};
     /// Called with each labelled sector; keep it short.
-    std::function<void(const streaming::LabelledSector&)> sector = [](const auto&) {};
+    std::function<void(const live::LabelledSector&)> sector = [](const auto&) {};
     /// False ends the session.
     std::function<bool()> keep_going = [] { return true; };
 };

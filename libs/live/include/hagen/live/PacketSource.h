@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/live/PacketQueue.h>
-#include <hagen/packets/CaptureFile.h>
+#include <hagen/sensors/CaptureFile.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -69,9 +69,9 @@ class ReplaySource : public PacketSource {
     struct NoneYet {};
     bool readWaiting();
 
-    packets::CaptureFile capture_;
+    sensors::CaptureFile capture_;
     double speed_;
-    packets::Datagram waiting_;
+    sensors::Datagram waiting_;
     bool has_waiting_ = false;
     double search_start_s_ = 0;
     std::optional<std::int64_t> latest_ns_;

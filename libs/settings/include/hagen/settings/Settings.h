@@ -1,10 +1,10 @@
 #pragma once
-#include <hagen/range_image/Airframe.h>
-#include <hagen/range_image/RecoverBeams.h>
-#include <hagen/range_image/SensorModel.h>
-#include <hagen/segmentation/HagenFilter.h>
-#include <hagen/segmentation/Levelling.h>
-#include <hagen/segmentation/Options.h>
+#include <hagen/filter/HagenFilter.h>
+#include <hagen/filter/Levelling.h>
+#include <hagen/filter/Options.h>
+#include <hagen/scan/Airframe.h>
+#include <hagen/scan/RecoverBeams.h>
+#include <hagen/scan/SensorModel.h>
 #include <filesystem>
 #include <optional>
 #include <set>

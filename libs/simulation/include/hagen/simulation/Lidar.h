@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/range_image/Scan.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/Scan.h>
+#include <hagen/scan/SensorModel.h>
 #include <hagen/simulation/Flight.h>
 #include <hagen/simulation/Scene.h>
 #include <functional>

@@ -1,8 +1,8 @@
 #pragma once
 #include <hagen/evaluation/Baselines.h>
-#include <hagen/range_image/Label.h>
-#include <hagen/range_image/Scan.h>
-#include <hagen/range_image/SensorModel.h>
+#include <hagen/scan/Label.h>
+#include <hagen/scan/Scan.h>
+#include <hagen/scan/SensorModel.h>
 #include <vector>
 
 namespace hagen::evaluation {

@@ -1,0 +1,154 @@
+#include <hagen/avoidance/Calibration.h>
+#include <hagen/avoidance/Trial.h>
+#include <hagen/base/ProcessCost.h>
+
+#include <array>
+#include <ctime>
+#include <fstream>
+#include <memory>
+
+#include "avoidance/flights/Stopwatch.h"
+
+namespace hagen::avoidance {
+namespace {
+
+const std::array<const char*, 4> kCourses{"forest-0.05", "forest-0.10", "u-trap", "movers"};
+
+std::string processorName() {
+    std::ifstream in("/proc/cpuinfo");
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown processor";
+}
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[16];
+    std::strftime(text, sizeof text, "%Y-%m-%d", &utc);
+    return text;
+}
+
+/// The scans of a flight, and the distance flown at each.
+struct RecordedScans {
+    std::vector<observations::MappedScan> scans;
+    std::vector<double> path_m;
+    double length_m = 0;
+};
+
+RecordedScans recordFlight(const Course& course, const std::function<void()>& continuing) {
+    RecordedScans recorded;
+    TrialListener listener;
+    Eigen::Vector3d last = course.start_m;
+    listener.moved = [&](double, const avoidance::VehicleState& state) {
+        recorded.length_m += (state.position_m - last).norm();
+        last = state.position_m;
+    };
+    listener.step = [&](const TrialStep& step) {
+        if (continuing) continuing();
+        recorded.scans.push_back(step.scan);
+        recorded.path_m.push_back(recorded.length_m);
+    };
+    runTrial(course, TrialSetup{}, constantProfile(kNominal_ms), nullptr, listener);
+    return recorded;
+}
+
+/// The scan of the next lap.
+void moveOn(observations::MappedScan& scan, float by_m, double by_s) {
+    scan.time_s += by_s;
+    scan.origin_m.x() += by_m;
+    for (Eigen::Vector3f& point : scan.points_m) point.x() += by_m;
+}
+
+}  // namespace
+
+LatencyProfile constantProfile(double latency_ms) {
+    LatencyProfile profile;
+    TrialSetup setup;
+    for (const std::string& model : avoidance::worldModelNames()) {
+        setup.model = model;
+        for (const std::string& guidance : avoidance::guidanceNames()) {
+            setup.guidance = guidance;
+            for (const std::string& planner : avoidance::plannerNames()) {
+                setup.planner = planner;
+                for (const std::string& stage : stagesOf(setup)) {
+                    profile.quantiles_ms[stage] = {latency_ms};
+                }
+            }
+        }
+    }
+    return profile;
+}
+
+LatencyProfile calibrate(const CalibrationOptions& options) {
+    const LatencyProfile nominal = constantProfile(kNominal_ms);
+    TrialMeasurement measurement;
+    TrialSetup setup;
+    setup.speed_m_s = kCalibrated_m_s;
+    TrialListener listener;
+    listener.moved = [&](double, const avoidance::VehicleState&) {
+        if (options.continuing) options.continuing();
+    };
+    for (const std::string& model : options.models) {
+        if (options.doing) options.doing(model);
+        setup.model = model;
+        for (int seed = 0; seed < options.courses; ++seed) {
+            const Course course =
+                makeCourse(kCourses[static_cast<std::size_t>(seed) % kCourses.size()],
+                           static_cast<std::uint64_t>(seed));
+            for (const std::string& guidance : avoidance::guidanceNames()) {
+                setup.guidance = guidance;
+                for (const std::string& planner : avoidance::plannerNames()) {
+                    setup.planner = planner;
+                    runTrial(course, setup, nominal, &measurement, listener);
+                }
+            }
+        }
+    }
+    LatencyProfile profile;
+    profile.machine = processorName();
+    profile.made_by = "octomap-compare " HAGEN_VERSION;
+    profile.date = today();
+    for (const auto& [stage, taken_ms] : measurement.stage_ms) {
+        profile.quantiles_ms[stage] = quantilesOf(taken_ms);
+    }
+    return profile;
+}
+
+std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m,
+                                        const std::function<void()>& continuing) {
+    constexpr double kEvery_m = 10;
+    const Course course = makeCourse(kCourses[0], 0);
+    RecordedScans recorded = recordFlight(course, continuing);
+    avoidance::WorldModelSetting setting;
+    setting.bounds_m = course.bounds_m.cast<float>();
+    setting.bounds_m.max().x() += static_cast<float>(path_m);
+    setting.true_clearance_m = [](const Eigen::Vector3f&, double) {
+        return avoidance::WorldModel::kReach_m;
+    };
+    const double before = base::heapBytes();
+    const auto world = avoidance::makeWorldModel(model, setting);
+    std::vector<HeapSample> samples{{0, base::heapBytes() - before}};
+    double held = samples[0].bytes;
+    const double lap_s = recorded.scans.back().time_s;  // the first scan ends a turn after 0
+    for (double lap_m = 0; lap_m < path_m; lap_m += recorded.length_m) {
+        for (std::size_t i = 0; i < recorded.scans.size(); ++i) {
+            if (continuing) continuing();
+            const double at_m = lap_m + recorded.path_m[i], heap = base::heapBytes();
+            world->update(recorded.scans[i]);
+            held += base::heapBytes() - heap;
+            if (at_m <= path_m && at_m >= samples.back().path_m + kEvery_m) {
+                samples.push_back({at_m, held});
+            }
+            moveOn(recorded.scans[i], static_cast<float>(recorded.length_m), lap_s);
+        }
+    }
+    return samples;
+}
+
+}  // namespace hagen::avoidance

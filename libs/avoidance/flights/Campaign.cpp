@@ -1,0 +1,195 @@
+#include <hagen/avoidance/Campaign.h>
+#include <hagen/avoidance/SettingsHash.h>
+#include <hagen/avoidance/Trial.h>
+#include <hagen/base/Folder.h>
+#include <hagen/base/Json.h>
+#include <hagen/base/OutputPath.h>
+#include <hagen/base/ReadFile.h>
+#include <hagen/base/WriteFile.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <future>
+#include <mutex>
+#include <set>
+
+namespace hagen::avoidance {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Json;
+
+struct Stopped {};
+
+void replace(const fs::path& file, const std::string& text) {
+    base::OutputPath output(file, base::kFile, true);
+    base::writeText(text, output.temporary(), file);
+    output.commit();
+}
+
+/// A row without a line end is incomplete: its flight is repeated.
+void removeIncompleteRow(const fs::path& table) {
+    const std::string text = base::readText(table);
+    const std::size_t complete = text.rfind('\n') + 1;  // 0 if there is none
+    if (complete < text.size()) replace(table, text.substr(0, complete));
+}
+
+/// Prepares a folder for runs with these settings. Returns the runs that it has.
+std::vector<Run> openFolder(const fs::path& folder, const LatencyProfile& profile,
+                            const std::string& settings, bool overwrites) {
+    const fs::path campaign = folder / "campaign.json", table = folder / "runs.csv";
+    const auto refuse = [](const fs::path& file) {
+        throw std::runtime_error(file.string() +
+                                 ": has other settings (version or latency profile); choose "
+                                 "another folder, or start it from scratch with --overwrite");
+    };
+    fs::create_directories(folder);
+    const std::size_t partial = base::partialOutputs(campaign).size();  // of a killed command
+    if (!fs::exists(campaign) && base::entriesOf(folder).size() > partial) {
+        throw std::runtime_error(folder.string() +
+                                 ": is not empty and has no campaign.json; choose another folder");
+    }
+    if (overwrites) {
+        fs::remove(table);
+    } else if (fs::exists(campaign)) {
+        if (Json::parse(base::readText(campaign)).at("settings").text() != settings) {
+            refuse(campaign);
+        }
+    }
+    const Json made{
+        {"machine", profile.machine}, {"made_by", profile.made_by}, {"date", profile.date}};
+    const Json root{{"settings", settings}, {"version", HAGEN_VERSION}, {"profile", made}};
+    replace(campaign, root.dump(2) + "\n");
+    replace(folder / "profile.json", textOf(profile));
+    if (!fs::exists(table)) return {};
+    removeIncompleteRow(table);
+    std::vector<Run> runs = readRuns(table);
+    for (const Run& run : runs) {
+        if (run.settings_hash != settings) refuse(table);
+    }
+    return runs;
+}
+
+Run unflown(const CourseFlights& course, const TrialSetup& setup) {
+    Run run{};
+    run.scenario = course.scenario;
+    run.seed = course.seed;
+    run.setup = setup;
+    return run;
+}
+
+/// The courses, each with the setups that were not flown.
+std::vector<CourseFlights> missingFlights(const std::vector<CourseFlights>& flights,
+                                          const std::vector<Run>& runs) {
+    std::set<std::string> flown;
+    for (const Run& run : runs) flown.insert(keyOf(run));
+    std::vector<CourseFlights> missing;
+    for (const CourseFlights& course : flights) {
+        CourseFlights left{course.scenario, course.seed, {}};
+        for (const TrialSetup& setup : course.setups) {
+            if (flown.count(keyOf(unflown(course, setup))) == 0) left.setups.push_back(setup);
+        }
+        if (!left.setups.empty()) missing.push_back(std::move(left));
+    }
+    return missing;
+}
+
+/// runs.csv of a folder.
+class Table {
+ public:
+    Table(fs::path file, bool is_full) : file_(std::move(file)), is_full_(is_full) {}
+
+    void write(std::vector<Run> runs) const {
+        sortRuns(runs);
+        std::string text = (is_full_ ? fullRunHeader() : runHeader()) + "\n";
+        for (const Run& run : runs) text += rowText(run);
+        replace(file_, text);
+    }
+
+    void append(const Run& run) const {
+        std::ofstream out(file_, std::ios::binary | std::ios::app);
+        out << rowText(run);
+        base::closeWritten(out, file_);
+    }
+
+ private:
+    std::string rowText(const Run& run) const {
+        return (is_full_ ? fullRowOf(run) : rowOf(run)) + "\n";
+    }
+
+    fs::path file_;
+    bool is_full_;
+};
+
+bool hasSectors(const std::vector<Run>& runs, const std::vector<CourseFlights>& flights) {
+    if (std::any_of(runs.begin(), runs.end(), needsAllColumns)) return true;
+    if (flights.empty()) return false;
+    const CourseFlights& any = flights.front();  // all courses have the same setups
+    return std::any_of(any.setups.begin(), any.setups.end(), [&](const TrialSetup& setup) {
+        return needsAllColumns(unflown(any, setup));
+    });
+}
+
+}  // namespace
+
+std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
+                             const LatencyProfile& profile, const fs::path& folder,
+                             const CampaignOptions& options) {
+    const std::string settings = hashOfSettings(profile);
+    const std::vector<Run> before = openFolder(folder, profile, settings, options.overwrites);
+    const fs::path file = folder / "runs.csv";
+    const Table table(file, hasSectors(before, flights));
+    table.write(before);
+
+    const std::vector<CourseFlights> courses = missingFlights(flights, before);
+    std::size_t done = 0, all = 0;
+    for (const CourseFlights& course : courses) all += course.setups.size();
+    if (options.progress) options.progress(done, all);
+    std::mutex mutex;  // of the table and `done`
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> has_failed{false};
+    TrialListener listener;
+    listener.moved = [&](double, const avoidance::VehicleState&) {
+        if (has_failed || (options.keep_going && !options.keep_going())) throw Stopped();
+    };
+    const auto flyCourse = [&](const CourseFlights& flown) {
+        const Course course = makeCourse(flown.scenario, flown.seed);
+        for (const TrialSetup& setup : flown.setups) {
+            Run run = unflown(flown, setup);
+            run.oracle_path_m = course.oracle_path_m;
+            run.settings_hash = settings;
+            run.version = HAGEN_VERSION;
+            run.result = runTrial(course, setup, profile, nullptr, listener);
+            const std::lock_guard lock(mutex);
+            table.append(run);
+            ++done;
+            if (options.progress) options.progress(done, all);
+        }
+    };
+    const auto flyCourses = [&] {
+        try {
+            for (std::size_t i = next++; i < courses.size(); i = next++) flyCourse(courses[i]);
+        } catch (const Stopped&) {
+        } catch (...) {
+            has_failed = true;
+            throw;
+        }
+    };
+    std::vector<std::future<void>> jobs;
+    for (int job = 0; job < options.jobs; ++job) {
+        jobs.push_back(std::async(std::launch::async, flyCourses));
+    }
+    for (std::future<void>& job : jobs) job.get();
+    if (done < all) {
+        throw CampaignStopped("interrupted; " + std::to_string(done) + " of " +
+                              std::to_string(all) + " runs are kept in " + file.string() +
+                              "; the same command resumes there");
+    }
+    std::vector<Run> runs = readRuns(file);
+    table.write(runs);
+    sortRuns(runs);
+    return runs;
+}
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,143 @@
+#include <hagen/avoidance/CampaignPlan.h>
+#include <hagen/avoidance/Course.h>
+#include <hagen/avoidance/Guidance.h>
+#include <hagen/avoidance/Planner.h>
+#include <hagen/avoidance/WorldModel.h>
+#include <algorithm>
+#include <stdexcept>
+
+namespace hagen::avoidance {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return all;
+}
+
+void checkNames(const std::string& what, const std::vector<std::string>& names,
+                const std::vector<std::string>& known, const std::string& list) {
+    if (names.empty()) throw std::invalid_argument("no " + what + " is given");
+    for (const std::string& name : names) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        throw std::invalid_argument("unknown " + what + " '" + name + "'; known are " + list);
+    }
+}
+
+void checkPositive(const std::string& what, const std::vector<double>& values) {
+    if (values.empty()) throw std::invalid_argument("no " + what + " is given");
+    for (const double value : values) {
+        if (!(value > 0 && value <= 100)) {
+            throw std::invalid_argument("a " + what + " must be above 0 and at most 100");
+        }
+    }
+}
+
+/// Sectors have no obstacle numbers.
+void checkUpdates(const CampaignPlan& plan) {
+    if (plan.updates.empty()) throw std::invalid_argument("no update is given");
+    if (std::count(plan.updates.begin(), plan.updates.end(), Updates::Sectors) == 0) return;
+    for (const std::string& model : plan.models) {
+        if (!avoidance::predictsMotion(model) || avoidance::needsTruth(model)) continue;
+        throw std::invalid_argument("the world model '" + model +
+                                    "' follows the obstacles of whole scans, and cannot be updated "
+                                    "with sectors; fly it with scans only");
+    }
+}
+
+constexpr double kLeastSpeed_m_s = 0.1;
+
+void checkNumberOfFlights(const CampaignPlan& plan) {
+    double flights = static_cast<double>(plan.last_seed - plan.first_seed) + 1;
+    for (const std::size_t values :
+         {plan.scenarios.size(), plan.speeds_m_s.size(), plan.models.size(), plan.guidances.size(),
+          plan.planners.size(), plan.pose_errors.size(), plan.latency_scales.size(),
+          plan.airs.size(), plan.distances.size(), plan.updates.size()}) {
+        flights *= static_cast<double>(values);
+    }
+    if (flights <= kMostFlights) return;
+    throw std::invalid_argument("at most " + std::to_string(kMostFlights) +
+                                " flights in a plan; fly the others into a folder of their own");
+}
+
+void check(const CampaignPlan& plan, const Shard& shard) {
+    checkNames("scenario", plan.scenarios, courseNames(), joined(courseNames()));
+    checkNames("world model", plan.models, avoidance::worldModelNames(),
+               avoidance::worldModelList());
+    checkNames("guidance", plan.guidances, avoidance::guidanceNames(),
+               joined(avoidance::guidanceNames()));
+    checkNames("planner", plan.planners, avoidance::plannerNames(),
+               joined(avoidance::plannerNames()));
+    checkPositive("speed", plan.speeds_m_s);
+    for (const double speed_m_s : plan.speeds_m_s) {
+        if (speed_m_s < kLeastSpeed_m_s) {  // a flight would not end
+            throw std::invalid_argument("a speed must be at least 0.1 m/s");
+        }
+    }
+    checkPositive("latency scale", plan.latency_scales);
+    if (plan.airs.empty()) throw std::invalid_argument("no air is given");
+    if (plan.distances.empty()) throw std::invalid_argument("no distance is given");
+    checkUpdates(plan);
+    if (plan.pose_errors.empty()) throw std::invalid_argument("no pose error is given");
+    if (plan.last_seed < plan.first_seed) {
+        throw std::invalid_argument("the last seed is before the first");
+    }
+    checkNumberOfFlights(plan);
+    if (shard.of < 1 || shard.number < 1 || shard.number > shard.of) {
+        throw std::invalid_argument("a shard must be i/n with i from 1 to n");
+    }
+}
+
+/// Each setup once with each of the values.
+template <class Value, class Field>
+std::vector<TrialSetup> withEach(const std::vector<TrialSetup>& setups,
+                                 const std::vector<Value>& values, Field field) {
+    std::vector<TrialSetup> all;
+    for (const TrialSetup& setup : setups) {
+        for (const Value& value : values) {
+            all.push_back(setup);
+            all.back().*field = value;
+        }
+    }
+    return all;
+}
+
+/// The last list varies fastest.
+std::vector<TrialSetup> setupsOf(const CampaignPlan& plan) {
+    std::vector<TrialSetup> setups(1);
+    setups[0].brakes_in_known_space = plan.brakes_in_known_space;
+    setups = withEach(setups, plan.speeds_m_s, &TrialSetup::speed_m_s);
+    setups = withEach(setups, plan.airs, &TrialSetup::air);
+    setups = withEach(setups, plan.distances, &TrialSetup::distance);
+    setups = withEach(setups, plan.updates, &TrialSetup::updates);
+    setups = withEach(setups, plan.latency_scales, &TrialSetup::latency_scale);
+    setups = withEach(setups, plan.pose_errors, &TrialSetup::pose_error);
+    setups = withEach(setups, plan.planners, &TrialSetup::planner);
+    setups = withEach(setups, plan.guidances, &TrialSetup::guidance);
+    return withEach(setups, plan.models, &TrialSetup::model);
+}
+
+}  // namespace
+
+std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shard) {
+    check(plan, shard);
+    const std::vector<TrialSetup> setups = setupsOf(plan);
+    std::vector<CourseFlights> flights;
+    int course = 0;
+    for (std::uint64_t i = 0; i <= plan.last_seed - plan.first_seed; ++i) {
+        for (const std::string& scenario : plan.scenarios) {
+            if (course++ % shard.of != shard.number - 1) continue;
+            flights.push_back({scenario, plan.first_seed + i, setups});
+        }
+    }
+    return flights;
+}
+
+void checkProfile(const LatencyProfile& profile, const std::vector<CourseFlights>& flights) {
+    if (flights.empty()) return;
+    for (const TrialSetup& setup : flights.front().setups) {
+        for (const std::string& stage : stagesOf(setup)) profile.median_ms(stage);
+    }
+}
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,32 @@
+#pragma once
+#include <hagen/avoidance/TrialMeasurement.h>
+#include <hagen/base/ProcessCost.h>
+
+#include <string>
+
+namespace hagen::avoidance {
+
+/// Measures what stages cost. Does nothing without a measurement to write to.
+class Stopwatch {
+ public:
+    explicit Stopwatch(TrialMeasurement* measurement) : measurement_(measurement) {}
+
+    template <class Call>
+    decltype(auto) time(const std::string& stage, Call call) {
+        if (measurement_ == nullptr) return call();
+        const Timer timer{*measurement_, stage};
+        return call();
+    }
+
+ private:
+    struct Timer {
+        TrialMeasurement& measurement;
+        const std::string& stage;
+        double start_ms = base::threadCpuTime_ms();
+        ~Timer() { measurement.stage_ms[stage].push_back(base::threadCpuTime_ms() - start_ms); }
+    };
+
+    TrialMeasurement* measurement_;
+};
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,32 @@
+#pragma once
+#include <hagen/avoidance/Course.h>
+#include <hagen/avoidance/LatencyProfile.h>
+#include <hagen/avoidance/TrialSetup.h>
+#include <hagen/simulation/Random.h>
+#include <string>
+#include <vector>
+
+namespace hagen::avoidance {
+
+/// Draws the latency of planning steps from the profile. With sectors, a step is charged as much as
+/// with a whole scan: updates with a few sectors take less, their labels about as much.
+class TrialLatencies {
+ public:
+    TrialLatencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile);
+
+    double draw_s();
+    /// What a planner expects.
+    double median_s() const;
+
+ private:
+    struct Stage {
+        std::string name;
+        simulation::Random random;
+    };
+
+    const LatencyProfile& profile_;
+    double scale_;
+    std::vector<Stage> stages_;
+};
+
+}  // namespace hagen::avoidance

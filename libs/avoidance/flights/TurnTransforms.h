@@ -1,0 +1,28 @@
+#pragma once
+#include <hagen/avoidance/FlightTrace.h>
+#include <hagen/avoidance/PoseBelief.h>
+#include <hagen/filter/Levelling.h>
+#include <Eigen/Core>
+#include <array>
+
+namespace hagen::avoidance {
+
+/// Roll and pitch of an attitude without its heading: the inverse of levelFromSensor().
+Attitude tiltOf(const Eigen::Quaterniond& attitude);
+
+/// Believed poses during a turn of the sensor, as matrices that are straight between. During the
+/// turn, those until now count only.
+class TurnTransforms {
+ public:
+    TurnTransforms(double start_s, const FlightTrace& trace, PoseBelief& belief);
+
+    /// A return in the map.
+    Eigen::Vector3f place(const Eigen::Vector3f& point_m, float since_start_s) const;
+
+ private:
+    static constexpr int kSteps = 20;
+    static constexpr double kStep_s = 0.1 / kSteps;  // of TrialSensor::kTurn_s
+    std::array<Eigen::Matrix<float, 3, 4>, kSteps + 2> poses_;
+};
+
+}  // namespace hagen::avoidance

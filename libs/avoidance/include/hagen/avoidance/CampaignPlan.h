@@ -1,0 +1,49 @@
+#pragma once
+#include <hagen/avoidance/LatencyProfile.h>
+#include <hagen/avoidance/TrialSetup.h>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hagen::avoidance {
+
+/// Of a plan, and of all plans of a folder: they are listed in memory.
+constexpr int kMostFlights = 1'000'000;
+
+/// What to fly: every combination of the lists' entries.
+struct CampaignPlan {
+    std::vector<std::string> scenarios;
+    std::uint64_t first_seed = 0, last_seed = 0;  ///< both included
+    std::vector<double> speeds_m_s{4};
+    std::vector<std::string> models{"W-RoI"}, guidances{"astar"}, planners{"primitives"};
+    std::vector<PoseError> pose_errors{PoseError::None};
+    std::vector<double> latency_scales{1};
+    bool brakes_in_known_space = false;
+    std::vector<Air> airs{Air::Dusty};
+    std::vector<ModelDistance> distances{ModelDistance::Unbiased};
+    std::vector<Updates> updates{Updates::Scans};
+};
+
+/// Part `number` of `of`, counted from 1: every of-th course.
+struct Shard {
+    int number = 1, of = 1;
+};
+
+/// All flights through one course. The course is made once for them.
+struct CourseFlights {
+    std::string scenario;
+    std::uint64_t seed;
+    std::vector<TrialSetup> setups;
+};
+
+/// The flights of a plan, courses seed by seed, so that a campaign that is stopped early has some
+/// of every scenario. Throws std::invalid_argument for unknown names (and lists the known ones), an
+/// empty list, a last seed before the first, a speed or latency scale outside (0, 100], an invalid
+/// shard, more than kMostFlights, and a model with motion that is to fly with sectors: it follows
+/// obstacles of whole scans.
+std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shard = {});
+
+/// Throws std::runtime_error, naming the stage, if the profile lacks one that these flights need.
+void checkProfile(const LatencyProfile& profile, const std::vector<CourseFlights>& flights);
+
+}  // namespace hagen::avoidance

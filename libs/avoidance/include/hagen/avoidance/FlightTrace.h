@@ -1,0 +1,48 @@
+#pragma once
+#include <hagen/avoidance/Vehicle.h>
+#include <hagen/simulation/Flight.h>
+#include <vector>
+
+namespace hagen::avoidance {
+
+/// Where a vehicle was, one sample per kControlStep_s from time 0 on, and how it was tilted. Its
+/// thrust carries weight and acceleration, so the body leans into every manoeuvre; the acceleration
+/// is smoothed over kTilt_s, because a body takes time to turn. The nose points along +x. The
+/// sensor sits at the middle of the body and is aligned with it.
+class FlightTrace {
+ public:
+    static constexpr double kTilt_s = 0.1;  ///< time constant of the tilt
+
+    explicit FlightTrace(const avoidance::VehicleState& start);
+
+    /// Adds the state one control step later, and the acceleration that led to it.
+    void add(const avoidance::VehicleState& state, const Eigen::Vector3d& acceleration_m_s2);
+
+    /// The sensor's true pose, clamped to the first and last sample.
+    simulation::SensorPose at(double time_s) const;
+    /// Distance flown until then.
+    double distance_m(double time_s) const;
+
+    double end_s() const {
+        return avoidance::kControlStep_s * static_cast<double>(samples_.size() - 1);
+    }
+    /// Root mean square of the smoothed acceleration's rate of change.
+    double rmsJerk_m_s3() const;
+
+ private:
+    struct Sample {
+        simulation::SensorPose pose;
+        Eigen::Vector3d smooth_m_s2;  ///< acceleration
+        double distance_m;
+    };
+    struct Place {
+        const Sample &before, &after;
+        double share;
+    };
+    Place placeOf(double time_s) const;
+
+    std::vector<Sample> samples_;
+    double squared_jerk_ = 0;  ///< summed over all steps
+};
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,110 @@
+#pragma once
+#include <hagen/avoidance/FreeDirections.h>
+#include <hagen/avoidance/LoggedScans.h>
+#include <hagen/avoidance/WorldModel.h>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hagen::avoidance {
+
+/// An open-loop comparison: all world models process the same scans of a recorded log.
+struct OpenLoop {
+    LogSource source;
+    std::vector<std::string> models;
+
+    /// The scene that the log was simulated in (rawlog-simulate), used as ground truth. Without it,
+    /// later scans are the truth (LaterScansTruth).
+    struct TrueScene {
+        std::string scenario;
+        std::uint64_t seed = 1;
+    };
+    std::optional<TrueScene> scene;
+
+    std::function<std::unique_ptr<avoidance::WorldModel>(const std::string&,
+                                                         const avoidance::WorldModelSetting&)>
+        make = avoidance::makeWorldModel;
+};
+
+/// The result of a model for a scan. Does not depend on the machine.
+struct OpenLoopRow {
+    std::size_t scan = 0;  ///< from 0, counting processed scans
+    std::size_t entry = 0;
+    double time_s = 0;
+    std::string model;
+    std::size_t returns = 0, roi = 0;  ///< of the scan
+    std::size_t obstacles = 0;         ///< points or voxels that the model holds
+    std::size_t bytes = 0;             ///< of the model
+    std::size_t blocked = 0;           ///< directions
+    std::size_t truly_blocked = 0;     ///< of those scored
+    DirectionCounts all, level;        ///< `level`: directions that do not point down
+};
+
+/// The cost on this machine: CPU time of the thread, and heap.
+struct OpenLoopCost {
+    std::size_t scan = 0;
+    std::string model;
+    double filter_ms = 0;   ///< of the scan, the same for all models
+    double update_ms = 0;   ///< of the model
+    double queries_ms = 0;  ///< of all directions
+    double heap_bytes = 0;  ///< that the model holds
+};
+
+/// A model's figures over the log.
+struct OpenLoopModel {
+    std::string name;
+    std::vector<double> obstacles, bytes, blocked;  ///< one entry per scan
+    DirectionCounts all, level;
+    std::array<DirectionCounts, kDirectionElevations> by_elevation;  ///< the lowest first
+    std::vector<double> update_ms, queries_ms;
+    double peak_heap_bytes = 0;
+};
+
+struct OpenLoopResult {
+    std::size_t scans = 0;                                     ///< processed
+    std::size_t scans_without_pose = 0, unreadable_scans = 0;  ///< skipped
+    std::string why_unreadable;                                ///< of the first; empty: none
+    std::vector<std::string> remarks;          ///< what of the log as a whole was not used
+    std::size_t scans_placed_by_one_pose = 0;  ///< see LoggedScan
+    std::size_t model_resets = 0;  ///< because the vehicle came near the border of the maps
+    std::string poses;
+    bool poses_have_horizon = true;
+    std::vector<double> returns, roi, filter_ms;  ///< one entry per scan
+    std::vector<OpenLoopModel> models;
+    /// Mean agreement on free directions (Jaccard), models by models.
+    std::vector<std::vector<double>> agreement;
+};
+
+struct OpenLoopListener {
+    std::function<void(const OpenLoopRow&, const OpenLoopCost&)> row = [](auto&, auto&) {};
+    std::function<void(std::size_t scans_done, std::size_t scans)> progress = [](auto, auto) {};
+    std::function<bool()> keep_going = [] { return true; };
+};
+
+/// The log is truncated, or the listener stopped. `result` covers the scans processed before that.
+struct OpenLoopEnded : std::runtime_error {
+    OpenLoopEnded(const std::string& why, OpenLoopResult processed)
+        : std::runtime_error(why), result(std::move(processed)) {}
+    OpenLoopResult result;
+};
+
+/// Throws std::invalid_argument if a model is unknown or listed twice, if the scenario is unknown,
+/// and for the oracle without a scene.
+void checkOpenLoop(const OpenLoop& open_loop);
+
+/// Runs all models on a log. After each scan, every model is queried in all directions around the
+/// vehicle; the answers are compared with the truth and with those of the other models.
+///
+/// Maps cover a box: the whole flight and 20 m around it if that is at most 100 000 m3, otherwise
+/// 60 x 60 x 20 m around the vehicle. When the vehicle comes near the border of the latter, all
+/// models are reset around it and process the last 3 s again, which is not counted.
+///
+/// Throws like checkOpenLoop(); std::runtime_error like LoggedScans, and if the log's obstacles are
+/// not those of the scene; OpenLoopEnded.
+OpenLoopResult runOpenLoop(const OpenLoop& open_loop, const OpenLoopListener& listener = {});
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,16 @@
+#pragma once
+#include <hagen/avoidance/LatencyProfile.h>
+#include <string>
+
+namespace hagen::avoidance {
+
+/// Increment it with every change to courses, world models, guidance, planners or the flight itself
+/// that alters the row of any run: one table must not mix old and new runs. RecordedFlights_test
+/// fails otherwise.
+constexpr int kRevision = 13;
+
+/// 16 hexadecimal digits that identify all settings of a run that are not in its own row: the
+/// program's version, kRevision, vehicle, sensor errors, filter options, ranges and latencies.
+std::string hashOfSettings(const LatencyProfile& profile);
+
+}  // namespace hagen::avoidance

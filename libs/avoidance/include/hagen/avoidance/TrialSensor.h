@@ -1,0 +1,50 @@
+#pragma once
+#include <hagen/avoidance/Air.h>
+#include <hagen/avoidance/Course.h>
+#include <hagen/avoidance/FlightTrace.h>
+#include <hagen/avoidance/PoseBelief.h>
+#include <hagen/filter/HagenFilter.h>
+#include <hagen/mrpt/MappedScan.h>
+#include <hagen/simulation/Lidar.h>
+
+namespace hagen::avoidance {
+
+/// The LiDAR on board and the filter behind it: a VLP-16 that turns ten times a second, segmented
+/// with the settings of config/vlp16.yaml. Returns from the vehicle itself are masked.
+class TrialSensor {
+ public:
+    static constexpr double kTurn_s = 0.1;
+
+    /// `zone_m`: of the filter, instead of the 20 m of those settings.
+    TrialSensor(const Course& course, Air air, float zone_m = Options().zone_m);
+
+    const SensorModel& sensor() const { return filter_.sensor(); }
+    const Options& options() const { return filter_.options(); }
+
+    /// The turn that starts at `number` * kTurn_s, measured from the true poses. Masked returns
+    /// have no range. Depends on air, the course's seed and the number only, not on which other
+    /// turns were measured.
+    simulation::SimulatedScan measure(int number, const FlightTrace& trace) const;
+
+    /// Some firings of that turn, as far as the trace has got when the last of them ends. Depends
+    /// on air, seed, number and the first firing only.
+    simulation::SimulatedScan measureFirings(int number, const simulation::FiringRange& firings,
+                                             const FlightTrace& trace) const;
+
+    /// Segments a turn, with the horizon of the believed attitude. Valid until the next call.
+    const LabelledReturns& segment(int number, const simulation::SimulatedScan& measured,
+                                   const FlightTrace& trace, PoseBelief& belief);
+
+    /// Places each return with a range by the believed pose at its own time.
+    static observations::MappedScan place(int number, const simulation::SimulatedScan& measured,
+                                          const LabelledReturns& returns, const FlightTrace& trace,
+                                          PoseBelief& belief);
+
+ private:
+    const Course& course_;
+    simulation::SensorErrorModel faults_;
+    Airframe airframe_;
+    HagenFilter filter_;
+};
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,159 @@
+#include <hagen/avoidance/Recording.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <hagen/avoidance/Ending.h>
+
+namespace hagen::avoidance {
+namespace {
+
+/// Every n-th item, so that at most `most` are left.
+template <class Item>
+std::vector<Item> thinned(const std::vector<Item>& all, std::size_t most) {
+    const std::size_t every = (all.size() + most - 1) / std::max<std::size_t>(most, 1);
+    std::vector<Item> kept;
+    for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(every, 1)) {
+        kept.push_back(all[i]);
+    }
+    return kept;
+}
+
+void addReturns(const observations::MappedScan& scan, const RecordingLimits& limits,
+                RecordedStep& step) {
+    const Eigen::Vector3f origin = scan.origin_m.cast<float>();
+    for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
+        if ((scan.points_m[i] - origin).norm() > limits.reach_m) continue;
+        auto& points = scan.labels[i] == Label::Roi ? step.roi_m : step.rou_m;
+        points.push_back(scan.points_m[i]);
+    }
+    step.roi_m = thinned(step.roi_m, limits.points);
+    step.rou_m = thinned(step.rou_m, limits.points);
+}
+
+void addMotions(const avoidance::Plan& plan, const RecordingLimits& limits, RecordedStep& step) {
+    constexpr std::size_t kPointsOfPath = 8;
+    for (const avoidance::CandidateMotion& motion : thinned(plan.candidates, limits.motions)) {
+        RecordedMotion kept{thinned(motion.path_m, kPointsOfPath), motion.is_free};
+        if (kept.path_m.empty()) continue;
+        kept.path_m.push_back(motion.path_m.back());
+        step.motions.push_back(kept);
+    }
+}
+
+/// Collects the cells of all steps.
+class ModelHistory {
+ public:
+    explicit ModelHistory(const RecordingLimits& limits) : limits_(limits) {}
+
+    void add(const avoidance::WorldModel::Obstacles& obstacles, int step) {
+        edge_m_ = obstacles.edge_m;
+        const float grid_m = edge_m_ > 0 ? edge_m_ : limits_.point_grid_m;
+        for (const Eigen::Vector3f& centre_m : obstacles.centre_m) {
+            std::array<int, 3> key;
+            for (int axis = 0; axis < 3; ++axis) {
+                key[axis] = static_cast<int>(std::floor(centre_m[axis] / grid_m));
+            }
+            std::vector<ModelCell>& stays = cells_[key];
+            if (!stays.empty() && stays.back().until_step >= step) {
+                stays.back().until_step = step + 1;  // present in the last step, or listed twice
+            } else {
+                stays.push_back({centre_m, step, step + 1});
+            }
+        }
+    }
+    void writeTo(Recording& recording) const {
+        recording.model_edge_m = edge_m_;
+        for (const auto& [key, stays] : cells_) {
+            recording.model.insert(recording.model.end(), stays.begin(), stays.end());
+        }
+        recording.model = thinned(recording.model, limits_.cells);
+    }
+
+ private:
+    const RecordingLimits& limits_;
+    float edge_m_ = 0;
+    std::map<std::array<int, 3>, std::vector<ModelCell>> cells_;
+};
+
+RecordedStep recorded(const avoidance::TrialStep& step,
+                      const avoidance::WorldModel::Obstacles& obstacles,
+                      const RecordingLimits& limits) {
+    RecordedStep kept{step.time_s,
+                      step.latency_ms,
+                      step.plan.command_m_s,
+                      step.carrot.at_m,
+                      step.plan.is_emergency,
+                      obstacles.centre_m.size(),
+                      {},
+                      {},
+                      {},
+                      {}};
+    for (const Eigen::Vector3d& at : thinned(step.carrot.path_m, 60)) {
+        kept.path_m.push_back(at.cast<float>());
+    }
+    addReturns(step.scan, limits, kept);
+    addMotions(step.plan, limits, kept);
+    return kept;
+}
+
+/// Long runs keep fewer points per step.
+void thinLongRun(const RecordingLimits& limits, Recording& recording) {
+    const std::size_t steps = recording.steps.size();
+    if (steps <= limits.full_steps) return;
+    const auto share = [&](std::size_t most) { return most * limits.full_steps / steps; };
+    for (RecordedStep& step : recording.steps) {
+        step.roi_m = thinned(step.roi_m, share(limits.points));
+        step.rou_m = thinned(step.rou_m, share(limits.points));
+        step.motions = thinned(step.motions, share(limits.motions));
+    }
+}
+
+/// Adds what needs the course: true clearances, ending, true scene.
+void addTruth(const Reflown& again, Recording& recording) {
+    for (std::size_t i = 0; i < recording.track.size(); ++i) {
+        RecordedMoment& moment = recording.track[i];
+        moment.clearance_m = static_cast<double>(again.course.distance.at(
+            moment.at_m.cast<float>(), avoidance::kControlStep_s * static_cast<double>(i)));
+    }
+    recording.ending = endingOf(again.course, again.result, recording.run.setup.speed_m_s,
+                                recording.track.back().at_m);
+    recording.scene = trueSceneOf(again.course.scene, again.course.bounds_m, again.result.time_s);
+}
+
+}  // namespace
+
+Recording record(const avoidance::Run& run, const avoidance::LatencyProfile& profile,
+                 const RecordingLimits& limits, const std::function<void()>& continuing) {
+    Recording recording;
+    recording.run = run;
+    ModelHistory model(limits);
+    double now_s = 0;
+    avoidance::TrialListener listener;
+    listener.keeps_candidates = true;
+    listener.step = [&](const avoidance::TrialStep& step) {
+        continuing();
+        const avoidance::WorldModel::Obstacles obstacles = step.world.obstacles();
+        model.add(obstacles, static_cast<int>(recording.steps.size()));
+        recording.steps.push_back(recorded(step, obstacles, limits));
+    };
+    listener.moved = [&](double time_s, const avoidance::VehicleState& state) {
+        now_s = time_s;
+        recording.track.push_back({state.position_m, state.velocity_m_s.norm(), 0});
+    };
+    listener.event = [&](const std::string& what) { recording.events.push_back({now_s, what}); };
+    const Reflown again = flyAgain(run, profile, listener);
+    recording.is_same = again.is_same;
+    recording.start_m = again.course.start_m;
+    recording.goal_m = again.course.goal_m;
+    recording.ground_m =
+        again.course.scene.terrain().height_m(recording.start_m.x(), recording.start_m.y());
+    addTruth(again, recording);
+    model.writeTo(recording);
+    thinLongRun(limits, recording);
+    return recording;
+}
+
+}  // namespace hagen::avoidance

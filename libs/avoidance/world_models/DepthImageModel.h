@@ -1,0 +1,64 @@
+#pragma once
+#include <hagen/avoidance/WorldModel.h>
+#include <cstdint>
+#include <vector>
+
+#include "avoidance/world_models/DepthImage.h"
+#include "avoidance/world_models/RollingBox.h"
+#include "avoidance/world_models/VoxelSet.h"
+
+namespace hagen::avoidance {
+
+/// A map that casts no rays, after D-Map (Cai et al. 2023, arXiv 2307.08493), in a box that moves
+/// with the vehicle.
+///
+/// From the paper: a scan becomes a depth image; a cell of space is projected into it, and what is
+/// nearer than the depths there is free, what is farther remains unknown. The map holds unknown
+/// space in a tree, from which known cells are removed, and occupied voxels beside it. The tree is
+/// descended only where something is unknown, and not into cells that lie behind all depths of
+/// their part of the image, or where no ray goes.
+///
+/// Not from the paper: the box; three levels of 64 children, in bit masks, instead of an octree.
+/// Free is decided voxel by voxel, because the rows of a VLP-16 are 2 degrees apart: a large cell
+/// has gaps between them that a scan did not see. A voxel counts as seen if a row passes within a
+/// degree of it. And occupied voxels, which are final in the paper, are checked against each image:
+/// if all depths around a voxel lie beyond it, its log odds fall as OctoMap's do, so that what
+/// moves away disappears.
+class DepthImageModel : public WorldModel {
+ public:
+    DepthImageModel(float edge_m, const FlightPace& pace);
+
+    void update(const observations::MappedScan& scan) override;
+    float clearance_m(const Eigen::Vector3f& point_m) const override;
+    float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
+    bool isKnown(const Eigen::Vector3f& point_m) const override;
+    std::size_t bytes() const override;
+    Obstacles obstacles() const override;
+
+ private:
+    void addHits(const observations::MappedScan& scan);
+    void clearSeenThrough(const Eigen::Vector3f& origin_m);
+    void removeKnown(const Eigen::Vector3f& origin_m);
+    /// How a cell is seen: distances of its nearest voxel from the sensor and from the vertical
+    /// axis through it, and half that voxel's extent in the image.
+    struct Outline {
+        Eigen::Vector3f to_middle_m;
+        float spread_m;  ///< from the middle to that of the farthest voxel
+        float least_away_m, least_around_m, half_columns, half_rows;
+    };
+    Eigen::Vector3f cornerOf(const Eigen::Array3i& first, const Eigen::Vector3f& origin_m) const;
+    Outline outlineOf(const Eigen::Vector3f& to_corner_m, int voxels) const;
+    std::uint64_t nearerVoxels(const Eigen::Vector3f& to_corner_m, std::uint64_t voxels,
+                               float least_half_rows) const;
+    bool mayHaveFree(const Eigen::Vector3f& to_corner_m, int voxels) const;
+
+    float max_range_m_;
+    RollingBox box_;
+    DepthImage image_;
+    VoxelSet unknown_, occupied_;
+    std::vector<std::int8_t> log_odds_;  ///< per voxel; counts where occupied
+    std::vector<std::uint64_t> hit_;     ///< bits per voxel of the scan; else 0
+    std::vector<std::uint32_t> hits_;    ///< their blocks
+};
+
+}  // namespace hagen::avoidance

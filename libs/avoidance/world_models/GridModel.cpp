@@ -1,0 +1,113 @@
+#include "avoidance/world_models/GridModel.h"
+
+#include <mrpt/maps/COccupancyGridMap3D.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace hagen::avoidance {
+
+namespace {
+
+constexpr float kMostPlaceInCells = 1e6F;  // where floats tell a cell from a sixteenth of it
+
+mrpt::math::TPoint3D pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
+
+/// MRPT marks the end of every ray as occupied, even if there was no return. This restores the end
+/// cell of such a ray.
+void insertRay(mrpt::maps::COccupancyGridMap3D& map, const mrpt::math::TPoint3D& from,
+               const mrpt::math::TPoint3D& to, bool is_hit) {
+    auto& grid = map.m_grid;
+    auto* end = grid.cellByIndex(grid.x2idx(to.x), grid.y2idx(to.y), grid.z2idx(to.z));
+    if (is_hit || end == nullptr) {
+        map.insertRay(from, to, is_hit);
+        return;
+    }
+    const auto was = *end;
+    map.insertRay(from, to, is_hit);
+    *end = was;
+}
+
+}  // namespace
+
+GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float max_range_m)
+    : edge_m_(edge_m),
+      max_range_m_(max_range_m),
+      map_(std::make_unique<mrpt::maps::COccupancyGridMap3D>()),
+      obstacles_(edge_m) {
+    // Corners on whole cells, because MRPT rounds others. One more cell on each side, because MRPT
+    // assigns points less than a cell outside to the first cell.
+    const Eigen::Array3f least = ((bounds_m.min().array() - kMapMargin_m) / edge_m).floor() - 1;
+    const Eigen::Array3f most = ((bounds_m.max().array() + kMapMargin_m) / edge_m).ceil() + 1;
+    corner_m_ = least * edge_m;
+    const float farthest_m = corner_m_.abs().max((most * edge_m).abs()).maxCoeff();
+    if (!(farthest_m <= kMostPlaceInCells * edge_m)) {
+        throw std::runtime_error("a grid of cells of " + std::to_string(edge_m) +
+                                 " m cannot be made at places up to " + std::to_string(farthest_m) +
+                                 " m; have coordinates begin nearer to the path");
+    }
+    map_->setSize(pointOf(corner_m_), pointOf(most * edge_m), edge_m);
+    const auto& grid = map_->m_grid;  // rounded by MRPT
+    size_ = {static_cast<int>(grid.getSizeX()), static_cast<int>(grid.getSizeY()),
+             static_cast<int>(grid.getSizeZ())};
+}
+GridModel::~GridModel() = default;
+
+void GridModel::update(const observations::MappedScan& scan) {
+    const mrpt::math::TPoint3D origin = pointOf(scan.origin_m);
+    for (const Eigen::Vector3f& point_m : scan.points_m) {
+        const Eigen::Vector3f ray = point_m - scan.origin_m;
+        const float range_m = ray.norm();
+        const bool is_hit = range_m <= max_range_m_;
+        const Eigen::Vector3f end_m =
+            is_hit ? point_m : scan.origin_m + ray * (max_range_m_ / range_m);
+        insertRay(*map_, origin, pointOf(end_m), is_hit);
+    }
+    for (const Eigen::Vector3f& to_m : scan.passed_to_m) {
+        const Eigen::Vector3f ray = to_m - scan.origin_m;
+        const float share = std::min(1.0f, max_range_m_ / ray.norm());
+        insertRay(*map_, origin, pointOf(scan.origin_m + ray * share), false);
+    }
+    obstacles_.rebuild(occupied_m());
+}
+
+std::vector<Eigen::Vector3f> GridModel::occupied_m() const {
+    std::vector<Eigen::Vector3f> centres_m;
+    const auto& cells = map_->m_grid.data();  // log odds of being free
+    std::size_t i = 0;
+    for (int z = 0; z < size_.z(); ++z) {
+        for (int y = 0; y < size_.y(); ++y) {
+            for (int x = 0; x < size_.x(); ++x, ++i) {
+                if (cells[i] >= 0) continue;
+                const Eigen::Array3f cell(static_cast<float>(x), static_cast<float>(y),
+                                          static_cast<float>(z));
+                centres_m.push_back(corner_m_ + (cell + 0.5f) * edge_m_);
+            }
+        }
+    }
+    return centres_m;
+}
+
+float GridModel::clearance_m(const Eigen::Vector3f& point_m) const {
+    return obstacles_.distance_m(point_m, kReach_m);
+}
+
+float GridModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
+    return obstacles_.distance_m(point_m, std::min(limit_m, kReach_m));
+}
+
+bool GridModel::isKnown(const Eigen::Vector3f& point_m) const {
+    const Eigen::Array3f cell = ((point_m.array() - corner_m_) / edge_m_).floor();
+    if ((cell < 0).any() || (cell >= size_.cast<float>()).any()) return false;
+    const Eigen::Array3i at = cell.cast<int>();
+    const auto i = static_cast<std::size_t>((at.z() * size_.y() + at.y()) * size_.x() + at.x());
+    return map_->m_grid.data()[i] != 0;
+}
+
+std::size_t GridModel::bytes() const {
+    return sizeof(*this) + sizeof(*map_) + map_->m_grid.getVoxelCount() + obstacles_.bytes();
+}
+
+WorldModel::Obstacles GridModel::obstacles() const { return {obstacles_.centres_m(), edge_m_}; }
+
+}  // namespace hagen::avoidance

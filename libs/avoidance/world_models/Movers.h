@@ -1,0 +1,36 @@
+#pragma once
+#include <hagen/avoidance/ObstacleTracks.h>
+#include <hagen/avoidance/WorldModel.h>
+
+namespace hagen::avoidance {
+
+/// The obstacles that move, where they will be: the points of the last scan that saw one, moved
+/// along at its velocity (ObstacleTracks), less the doubt in it.
+class Movers {
+ public:
+    explicit Movers(float farthest_m);
+    ~Movers();
+
+    void update(const observations::MappedScan& scan, const std::shared_ptr<const View>& view);
+
+    const ObstacleTracks& tracks() const { return tracks_; }
+    /// The numbers of the tracks that move.
+    const std::vector<std::uint32_t>& moving() const { return moving_; }
+    /// The distance from a point to the nearest of them a time after the last scan, at most
+    /// `limit_m`.
+    float clearanceWithin_m(const Eigen::Vector3f& point_m, float after_s, float limit_m) const;
+    float fastest_m_s() const { return fastest_m_s_; }
+    std::size_t bytes() const;
+    /// Their points, added to those of `obstacles`.
+    void addTo(WorldModel::Obstacles& obstacles) const;
+
+ private:
+    struct Mover;
+
+    ObstacleTracks tracks_;
+    std::vector<std::unique_ptr<Mover>> movers_;
+    std::vector<std::uint32_t> moving_;
+    float fastest_m_s_ = 0;
+};
+
+}  // namespace hagen::avoidance

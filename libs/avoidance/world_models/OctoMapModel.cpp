@@ -1,0 +1,71 @@
+#include "avoidance/world_models/OctoMapModel.h"
+
+namespace hagen::avoidance {
+
+namespace {
+
+octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
+
+}  // namespace
+
+OctoMapModel::OctoMapModel(const observations::ScanMapOptions& options,
+                           const Eigen::AlignedBox3f& bounds_m)
+    : map_(options), obstacles_(static_cast<float>(options.resolution_m)) {
+    const Eigen::Vector3f margin = Eigen::Vector3f::Constant(kMapMargin_m);
+    octomap::point3d least = pointOf(bounds_m.min() - margin);
+    octomap::point3d most = pointOf(bounds_m.max() + margin);
+    map_.tree().setBBXMin(least);
+    map_.tree().setBBXMax(most);
+    map_.tree().useBBXLimit(true);
+    map_.tree().enableChangeDetection(true);
+}
+
+void OctoMapModel::update(const observations::MappedScan& scan) {
+    map_.insert(scan);
+    noteChanges();
+    std::vector<Eigen::Vector3f> centres_m;
+    centres_m.reserve(occupied_.size());
+    for (const Key& key : occupied_) {
+        const octomap::point3d middle =
+            map_.tree().keyToCoord(octomap::OcTreeKey(key[0], key[1], key[2]));
+        centres_m.emplace_back(middle.x(), middle.y(), middle.z());
+    }
+    obstacles_.rebuild(std::move(centres_m));
+}
+
+void OctoMapModel::noteChanges() {
+    octomap::OcTree& tree = map_.tree();
+    for (auto change = tree.changedKeysBegin(); change != tree.changedKeysEnd(); ++change) {
+        const octomap::OcTreeKey& key = change->first;
+        if (tree.isNodeOccupied(tree.search(key))) {
+            occupied_.insert({key[0], key[1], key[2]});
+        } else {
+            occupied_.erase({key[0], key[1], key[2]});
+        }
+    }
+    tree.resetChangeDetection();
+}
+
+float OctoMapModel::clearance_m(const Eigen::Vector3f& point_m) const {
+    return obstacles_.distance_m(point_m, kReach_m);
+}
+
+float OctoMapModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
+    return obstacles_.distance_m(point_m, std::min(limit_m, kReach_m));
+}
+
+bool OctoMapModel::isKnown(const Eigen::Vector3f& point_m) const {
+    octomap::OcTreeKey key;
+    return map_.tree().coordToKeyChecked(pointOf(point_m), key) && map_.tree().search(key);
+}
+
+std::size_t OctoMapModel::bytes() const {
+    constexpr std::size_t kBytesOfSetNode = 32 + sizeof(Key);
+    return sizeof(*this) + map_.bytes() + obstacles_.bytes() + occupied_.size() * kBytesOfSetNode;
+}
+
+WorldModel::Obstacles OctoMapModel::obstacles() const {
+    return {obstacles_.centres_m(), static_cast<float>(map_.options().resolution_m)};
+}
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,177 @@
+#include "avoidance/world_models/RollingGridModel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace hagen::avoidance {
+
+namespace {
+
+// Log odds in units of 1/24, so that they fit into a byte. OctoMap's: +0.85 (probability 0.7) for
+// a hit, -0.41 (0.4) for a ray that passes, from -2 (0.12) to 3.5 (0.97). Occupied: 0 or more.
+constexpr std::int8_t kHit = 20, kMiss = 10, kLeast = -48, kMost = 84;
+constexpr std::int8_t kUnknown = std::numeric_limits<std::int8_t>::min();
+
+/// 16 voxels at once.
+using Bytes = std::int8_t __attribute__((vector_size(16)));
+
+/// A bit for each of 16 bytes, which are -1 or 0.
+std::uint64_t bitsOf(Bytes bytes) {
+    std::uint64_t halves[2], bits = 0;
+    std::memcpy(halves, &bytes, 16);
+    for (unsigned i = 0; i < 2; ++i) {
+        bits |= ((halves[i] & 0x0101010101010101) * 0x0102040810204080 >> 56) << (8 * i);
+    }
+    return bits;
+}
+
+// Marks of voxels. They are bytes, which a ray sets without reading them: bits would make each step
+// wait for the one before.
+constexpr std::int8_t kNotSeen = 0, kPassed = 1, kIsHit = 2;
+
+}  // namespace
+
+RollingGridModel::RollingGridModel(float edge_m, const FlightPace& pace)
+    : max_range_m_(windowSizeFor(pace).radius_m),
+      box_(edge_m, rollingReachFor(pace)),
+      log_odds_(box_.voxels(), kUnknown),
+      occupied_(box_),
+      marks_(box_.voxels(), kNotSeen),
+      is_marked_(box_.blocks(), 0) {}
+
+void RollingGridModel::update(const observations::MappedScan& scan) {
+    for (const std::uint32_t block : box_.moveTo(scan.origin_m)) {
+        std::fill_n(log_odds_.begin() + std::ptrdiff_t{64} * block, 64, kUnknown);
+        occupied_.setBlock(block, 0);
+    }
+    markEnds(scan);
+    const Eigen::Array3f origin = box_.inVoxels(scan.origin_m);
+    for (const Eigen::Array3i& end : ends_) trace(origin, end);
+    for (const std::uint32_t index : hits_) marks_[index] = kIsHit;  // whatever passes
+    apply();
+}
+
+/// Marks hits and finds where rays end, each voxel once.
+void RollingGridModel::markEnds(const observations::MappedScan& scan) {
+    ends_.clear();
+    hits_.clear();
+    const Eigen::Array3f origin = box_.inVoxels(scan.origin_m);
+    const Eigen::Array3f size = box_.size().cast<float>();
+    const float range = max_range_m_ / box_.edge_m();
+    const auto markEnd = [&](const Eigen::Vector3f& point_m, bool is_return) {
+        const Eigen::Array3f at = box_.inVoxels(point_m);
+        const Eigen::Array3f ray = at - origin;
+        const float beyond = ray.matrix().norm() / range;
+        const bool is_inside = beyond <= 1 && box_.holds(at), is_hit = is_inside && is_return;
+        Eigen::Array3i end;
+        if (is_inside) {
+            end = at.cast<int>();
+        } else {
+            const Eigen::Array3f wall = (ray > 0).select(size - origin, -origin);
+            const float to_wall = (ray == 0).select(1, wall / ray).minCoeff();
+            const float share = std::min(to_wall, 1 / beyond);
+            end = (origin + share * ray).cast<int>().max(0).min(box_.size() - 1);
+        }
+        const std::uint32_t index = box_.indexOf(end);
+        // The ray enters the voxel where it is cut.
+        const std::int8_t mark = is_hit ? kIsHit : kPassed;
+        if (marks_[index] >= mark) return;
+        marks_[index] = mark;
+        is_marked_[index / 64] = 1;
+        ends_.push_back(end);
+        if (is_hit) hits_.push_back(index);
+    };
+    for (const Eigen::Vector3f& point_m : scan.points_m) markEnd(point_m, true);
+    for (const Eigen::Vector3f& to_m : scan.passed_to_m) markEnd(to_m, false);
+}
+
+/// Marks the voxels from the origin to the end (without it) as passed (Amanatides & Woo 1987). The
+/// ray's length is 2^32, in integers, so that no rounding leads astray.
+void RollingGridModel::trace(const Eigen::Array3f& origin, const Eigen::Array3i& end) {
+    constexpr double kLength = 4294967296.0, kNever = 1e15;
+    const Eigen::Array3i start = origin.cast<int>();
+    std::int64_t next[3], per_voxel[3];
+    std::ptrdiff_t step[3];
+    const std::uint32_t* part[3];
+    int steps = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double ray = end[axis] + 0.5 - static_cast<double>(origin[axis]);
+        const double length = std::min(kNever, kLength / std::max(std::abs(ray), 1e-9));
+        const double to_wall = ray > 0 ? start[axis] + 1 - static_cast<double>(origin[axis])
+                                       : static_cast<double>(origin[axis]) - start[axis];
+        next[axis] = static_cast<std::int64_t>(to_wall * length);
+        per_voxel[axis] = static_cast<std::int64_t>(length);
+        step[axis] = ray > 0 ? 1 : -1;
+        part[axis] = box_.part(axis) + start[axis];
+        steps += std::abs(end[axis] - start[axis]);
+    }
+    const std::uint32_t *x = part[0], *y = part[1], *z = part[2];
+    std::int8_t *marks = marks_.data(), *is_marked = is_marked_.data();
+    std::int64_t next_x = next[0], next_y = next[1], next_z = next[2];
+    for (; steps > 0; --steps) {
+        const std::uint32_t index = *x + *y + *z;
+        marks[index] = kPassed;
+        is_marked[index / 64] = 1;
+        // Masks instead of branches, which no processor could predict.
+        const std::int64_t is_x = -std::int64_t{(next_x <= next_y) & (next_x <= next_z)};
+        const std::int64_t is_y = ~is_x & -std::int64_t{next_y <= next_z};
+        const std::int64_t is_z = ~(is_x | is_y);
+        x += is_x & step[0];
+        y += is_y & step[1];
+        z += is_z & step[2];
+        next_x += is_x & per_voxel[0];
+        next_y += is_y & per_voxel[1];
+        next_z += is_z & per_voxel[2];
+    }
+}
+
+/// Updates the log odds and the occupied voxels, and clears the marks.
+void RollingGridModel::apply() {
+    for (std::size_t block = 0; block < is_marked_.size(); ++block) {
+        if (is_marked_[block] == 0) continue;
+        is_marked_[block] = 0;
+        std::uint64_t occupied = 0;
+        for (unsigned row = 0; row < 64; row += 16) {
+            std::int8_t* at = &log_odds_[64 * block + row];
+            Bytes was, mark;
+            std::memcpy(&was, at, 16);
+            std::memcpy(&mark, &marks_[64 * block + row], 16);
+            const Bytes is_hit = mark == kIsHit, is_miss = mark == kPassed;
+            Bytes now = (was & (was != kUnknown)) + (is_hit & kHit) - (is_miss & kMiss);
+            now = now < kLeast ? Bytes{} + kLeast : now;
+            now = now > kMost ? Bytes{} + kMost : now;
+            now = (is_hit | is_miss) != 0 ? now : was;
+            std::memcpy(at, &now, 16);
+            occupied |= bitsOf(now >= 0) << row;
+        }
+        std::fill_n(&marks_[64 * block], 64, kNotSeen);
+        if (occupied != occupied_.block(block)) occupied_.setBlock(block, occupied);
+    }
+}
+
+float RollingGridModel::clearance_m(const Eigen::Vector3f& point_m) const {
+    return occupied_.distance_m(box_, point_m, kReach_m);
+}
+
+float RollingGridModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
+    return occupied_.distance_m(box_, point_m, std::min(limit_m, kReach_m));
+}
+
+bool RollingGridModel::isKnown(const Eigen::Vector3f& point_m) const {
+    const Eigen::Array3f at = box_.inVoxels(point_m);
+    return box_.holds(at) && log_odds_[box_.indexOf(at.cast<int>())] != kUnknown;
+}
+
+std::size_t RollingGridModel::bytes() const {
+    return sizeof(*this) + box_.bytes() + log_odds_.capacity() + occupied_.bytes() +
+           marks_.capacity() + is_marked_.capacity() + hits_.capacity() * sizeof(std::uint32_t) +
+           ends_.capacity() * sizeof(Eigen::Array3i);
+}
+
+WorldModel::Obstacles RollingGridModel::obstacles() const {
+    return {occupied_.centres_m(box_), box_.edge_m()};
+}
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,48 @@
+#pragma once
+#include <hagen/avoidance/WorldModel.h>
+#include <cstdint>
+#include <vector>
+
+#include "avoidance/world_models/RollingBox.h"
+#include "avoidance/world_models/VoxelSet.h"
+
+namespace hagen::avoidance {
+
+/// An occupancy grid in a box that moves with the vehicle, so that memory is constant, as in
+/// ROG-Map (Ren et al. 2023, arXiv 2302.14819): circular indexing, log odds by ray traversal. What
+/// leaves the box is forgotten.
+///
+/// Log odds and their limits are OctoMap's. A voxel is updated once per scan: occupied if it
+/// contains a return, otherwise free if a ray passes through. Rays that end in the same voxel are
+/// one ray to its centre. Farther returns than a window keeps (15 m at 4 m/s) only clear up to
+/// there, or to where the ray leaves the box.
+///
+/// ROG-Map keeps an inflated copy of the map for one radius of the vehicle; planners here ask for
+/// distances. What changes incrementally is a bit per occupied voxel; VoxelSet finds the exact
+/// distance from the bits.
+class RollingGridModel : public WorldModel {
+ public:
+    RollingGridModel(float edge_m, const FlightPace& pace);
+
+    void update(const observations::MappedScan& scan) override;
+    float clearance_m(const Eigen::Vector3f& point_m) const override;
+    float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
+    bool isKnown(const Eigen::Vector3f& point_m) const override;
+    std::size_t bytes() const override;
+    Obstacles obstacles() const override;
+
+ private:
+    void markEnds(const observations::MappedScan& scan);
+    void trace(const Eigen::Array3f& origin, const Eigen::Array3i& end);
+    void apply();
+
+    float max_range_m_;
+    RollingBox box_;
+    std::vector<std::int8_t> log_odds_;  ///< per voxel, see RollingGridModel.cpp
+    VoxelSet occupied_;
+    std::vector<std::int8_t> marks_, is_marked_;  ///< of the scan, per voxel and block; else 0
+    std::vector<std::uint32_t> hits_;             ///< voxels of the scan's returns
+    std::vector<Eigen::Array3i> ends_;            ///< of the scan's rays, in voxels of the box
+};
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,55 @@
+#pragma once
+#include <hagen/avoidance/WindowSize.h>
+#include <hagen/avoidance/WorldModel.h>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include <hagen/avoidance/SeenDirections.h>
+
+namespace hagen::avoidance {
+
+/// No map: the points of the last scans, each thinned to one point per 10 cm cube. Three scans
+/// share a k-d tree, so that a new scan costs a small tree and a query visits few trees. Sectors of
+/// a turn gather in a tree of their own first. Without thinning, a nearby wall would fill a scan
+/// with points much denser than the measurement noise.
+///
+/// A return that is isolated may be dust or rain, or the first of something thin. It counts as soon
+/// as another return is near it, within 5 % of its range (at least 15 cm): in its own scan, in an
+/// earlier one of the window or in a later one. (As dynamic radius outlier removal does within a
+/// scan: Charron et al., "De-noising of Lidar Point Clouds Corrupted by Snowfall", CRV 2018.)
+class WindowModel : public WorldModel {
+ public:
+    static constexpr float kThinning_m = 0.1f;
+
+    WindowModel(bool roi_only, WindowSize size);
+    ~WindowModel() override;
+
+    void update(const observations::MappedScan& scan) override;
+    /// The same with the scan's view, and notes which track the points of each obstacle belong to,
+    /// by its number; 0: none.
+    void update(const observations::MappedScan& scan, std::shared_ptr<const View> view,
+                const std::vector<std::uint32_t>& track_of_obstacle);
+    /// Points of these tracks no longer count, until the next call.
+    void hide(const std::vector<std::uint32_t>& tracks);
+    float clearance_m(const Eigen::Vector3f& point_m) const override;
+    float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
+    ClearanceQuery clearanceQuery(const Eigen::AlignedBox3f& box_m, float limit_m) const override;
+    bool isKnown(const Eigen::Vector3f& point_m) const override;
+    std::size_t bytes() const override;
+    Obstacles obstacles() const override;
+
+ private:
+    struct PastScans;
+    void gather(std::unique_ptr<PastScans> newest);
+    void confirmIsolated();
+    void forgetOldest();
+
+    bool roi_only_;
+    WindowSize size_;
+    double turns_ = 0;                             ///< in the window
+    std::deque<std::unique_ptr<PastScans>> past_;  ///< newest first
+};
+
+}  // namespace hagen::avoidance

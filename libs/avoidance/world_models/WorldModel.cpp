@@ -1,0 +1,219 @@
+#include <hagen/avoidance/DistanceBias.h>
+#include <hagen/avoidance/UnbiasedModel.h>
+#include <hagen/avoidance/WorldModel.h>
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "avoidance/world_models/DepthImageModel.h"
+#include "avoidance/world_models/GridModel.h"
+#include "avoidance/world_models/MapWithMotion.h"
+#include "avoidance/world_models/MotionWindow.h"
+#include "avoidance/world_models/OctoMapModel.h"
+#include "avoidance/world_models/RollingGridModel.h"
+#include "avoidance/world_models/WindowModel.h"
+
+namespace hagen::avoidance {
+
+namespace {
+
+using TrueClearance = std::function<float(const Eigen::Vector3f&, double)>;
+
+/// Queries the true scene.
+class OracleModel : public WorldModel {
+ public:
+    explicit OracleModel(TrueClearance true_clearance_m)
+        : true_clearance_m_(std::move(true_clearance_m)) {
+        if (!true_clearance_m_) throw std::invalid_argument("the oracle needs the true clearance");
+    }
+
+    void update(const observations::MappedScan&) override {}
+    float clearance_m(const Eigen::Vector3f& point_m) const override { return at(point_m, 0); }
+    bool isKnown(const Eigen::Vector3f&) const override { return true; }
+    std::size_t bytes() const override { return 0; }
+    Obstacles obstacles() const override { return {}; }
+
+ protected:
+    float at(const Eigen::Vector3f& point_m, double after_s) const {
+        return std::clamp(true_clearance_m_(point_m, after_s), 0.0f, kReach_m);
+    }
+
+ private:
+    TrueClearance true_clearance_m_;
+};
+
+/// Knows the future, too.
+class OracleOfMotion : public OracleModel {
+ public:
+    using OracleModel::OracleModel;
+    float clearanceAfter_m(const Eigen::Vector3f& point_m, double after_s) const override {
+        return at(point_m, after_s);
+    }
+    float fastest_m_s() const override { return 5; }  // of any scenario's obstacles
+};
+
+using Factory = std::unique_ptr<WorldModel> (*)(const WorldModelSetting&);
+
+struct Entry {
+    std::string name, display_name;
+    enum { AllPoints, Labels, Truth } needs;
+    Factory make;  ///< of MoversOverMap: the map
+    enum { StandsStill, OwnMotion, MoversOverMap } motion = StandsStill;
+};
+
+template <bool kRoiOnly>
+std::unique_ptr<WorldModel> makeWindow(const WorldModelSetting& setting) {
+    return std::make_unique<WindowModel>(kRoiOnly, windowSizeFor(setting.pace));
+}
+
+template <bool kRoiOnly>
+std::unique_ptr<WorldModel> makeMotionWindow(const WorldModelSetting& setting) {
+    return std::make_unique<MotionWindow>(kRoiOnly, windowSizeFor(setting.pace));
+}
+
+template <observations::MapContent kContent, int kResolution_cm>
+std::unique_ptr<WorldModel> makeOctoMap(const WorldModelSetting& setting) {
+    observations::ScanMapOptions options;
+    options.content = kContent;
+    options.resolution_m = kResolution_cm / 100.0;
+    options.max_range_m = static_cast<double>(perceptionRangeFor_m(setting.pace));
+    return std::make_unique<OctoMapModel>(options, setting.bounds_m);
+}
+
+std::unique_ptr<WorldModel> makeGrid(const WorldModelSetting& setting) {
+    return std::make_unique<GridModel>(0.2f, setting.bounds_m, perceptionRangeFor_m(setting.pace));
+}
+
+template <int kEdge_cm>
+std::unique_ptr<WorldModel> makeRollingGrid(const WorldModelSetting& setting) {
+    return std::make_unique<RollingGridModel>(kEdge_cm / 100.0f, setting.pace);
+}
+
+std::unique_ptr<WorldModel> makeDepthImageMap(const WorldModelSetting& setting) {
+    return std::make_unique<DepthImageModel>(0.2f, setting.pace);
+}
+
+template <class Oracle>
+std::unique_ptr<WorldModel> makeOracle(const WorldModelSetting& setting) {
+    return std::make_unique<Oracle>(setting.true_clearance_m);
+}
+
+const std::vector<Entry>& entries() {
+    static const std::vector<Entry> entries = {
+        {"W-RoI", "RoI window", Entry::Labels, makeWindow<true>},
+        {"W-RoI+motion", "RoI window with motion", Entry::Labels, makeMotionWindow<true>,
+         Entry::OwnMotion},
+        {"W-Full", "full window", Entry::AllPoints, makeWindow<false>},
+        {"W-Full+motion", "full window with motion", Entry::Labels, makeMotionWindow<false>,
+         Entry::OwnMotion},
+        {"O-Full-0.2", "OctoMap 0.2 m", Entry::AllPoints,
+         makeOctoMap<observations::MapContent::Full, 20>},
+        {"O-Full-0.4", "OctoMap 0.4 m", Entry::AllPoints,
+         makeOctoMap<observations::MapContent::Full, 40>},
+        {"O-RoI-0.2", "RoI OctoMap 0.2 m", Entry::Labels,
+         makeOctoMap<observations::MapContent::Roi, 20>},
+        {"O-RoI-0.4", "RoI OctoMap 0.4 m", Entry::Labels,
+         makeOctoMap<observations::MapContent::Roi, 40>},
+        {"O-RoI+rays-0.2", "RoI OctoMap with all rays 0.2 m", Entry::Labels,
+         makeOctoMap<observations::MapContent::RoiAndRays, 20>},
+        {"O-RoI+rays-0.4", "RoI OctoMap with all rays 0.4 m", Entry::Labels,
+         makeOctoMap<observations::MapContent::RoiAndRays, 40>},
+        {"G-Full", "occupancy grid 0.2 m", Entry::AllPoints, makeGrid},
+        {"G-Full+motion", "occupancy grid 0.2 m with motion", Entry::Labels, makeGrid,
+         Entry::MoversOverMap},
+        {"R-Full-0.1", "rolling grid 0.1 m", Entry::AllPoints, makeRollingGrid<10>},
+        {"R-Full-0.2", "rolling grid 0.2 m", Entry::AllPoints, makeRollingGrid<20>},
+        {"R-Full-0.2+motion", "rolling grid 0.2 m with motion", Entry::Labels, makeRollingGrid<20>,
+         Entry::MoversOverMap},
+        {"D-Full", "depth-image map 0.2 m", Entry::AllPoints, makeDepthImageMap},
+        {"oracle", "true scene", Entry::Truth, makeOracle<OracleModel>},
+        {"oracle+motion", "true scene with motion", Entry::Truth, makeOracle<OracleOfMotion>,
+         Entry::OwnMotion},
+    };
+    return entries;
+}
+
+const Entry* findEntry(const std::string& name) {
+    const auto found = std::find_if(entries().begin(), entries().end(),
+                                    [&](const Entry& entry) { return entry.name == name; });
+    return found == entries().end() ? nullptr : &*found;
+}
+
+const Entry& entryOf(const std::string& name) {
+    if (const Entry* entry = findEntry(name)) return *entry;
+    throw std::invalid_argument("unknown world model '" + name + "'; known are " +
+                                worldModelList());
+}
+
+std::string lowerCase(std::string text) {
+    for (char& letter : text) {
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+    return text;
+}
+
+}  // namespace
+
+const std::vector<std::string>& worldModelNames() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> of_entries;
+        for (const Entry& entry : entries()) of_entries.push_back(entry.name);
+        return of_entries;
+    }();
+    return names;
+}
+
+std::string displayName(const std::string& model) {
+    const Entry* entry = findEntry(model);
+    return entry == nullptr ? model : entry->display_name;
+}
+
+std::string worldModelFrom(const std::string& text) {
+    for (const Entry& entry : entries()) {
+        if (lowerCase(entry.display_name) == lowerCase(text)) return entry.name;
+    }
+    return text;
+}
+
+std::string worldModelList() {
+    std::string list;
+    for (const Entry& entry : entries()) {
+        list += (list.empty() ? "" : ", ") + entry.name + " (" + entry.display_name + ")";
+    }
+    return list;
+}
+
+bool needsLabels(const std::string& model) { return entryOf(model).needs == Entry::Labels; }
+
+bool needsTruth(const std::string& model) {
+    const Entry* entry = findEntry(model);
+    return entry != nullptr && entry->needs == Entry::Truth;
+}
+
+bool predictsMotion(const std::string& model) {
+    const Entry* entry = findEntry(model);
+    return entry != nullptr && entry->motion != Entry::StandsStill;
+}
+
+std::unique_ptr<WorldModel> makeOctoMap(const observations::ScanMapOptions& options,
+                                        const Eigen::AlignedBox3f& bounds_m) {
+    return std::make_unique<OctoMapModel>(options, bounds_m);
+}
+
+std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
+                                           const WorldModelSetting& setting) {
+    const Entry& entry = entryOf(name);
+    std::unique_ptr<WorldModel> model = entry.make(setting);
+    const bool has_bias = setting.distance != ModelDistance::AsStored && !needsTruth(name) &&
+                          distanceBias_m(name) != 0;
+    if (has_bias) model = std::make_unique<UnbiasedModel>(std::move(model), distanceBias_m(name));
+    if (entry.motion == Entry::MoversOverMap) {
+        // Movers are points, which have no bias of voxels.
+        return std::make_unique<MapWithMotion>(std::move(model),
+                                               windowSizeFor(setting.pace).radius_m);
+    }
+    return model;
+}
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,50 @@
+#include <hagen/base/Interrupt.h>
+
+#include <atomic>
+#include <csignal>
+#include <ctime>
+#include <initializer_list>
+
+namespace hagen::base {
+namespace {
+
+// Signals may arrive on any thread, and any thread may ask.
+std::atomic<bool> is_interrupted{false};
+std::atomic<std::time_t> interrupted_at{0};
+static_assert(std::atomic<bool>::is_always_lock_free &&
+              std::atomic<std::time_t>::is_always_lock_free);
+
+/// Shells and timeout(1) may send a signal twice: only a later one ends the program at once.
+void interrupt(int signal) {
+    const std::time_t now = std::time(nullptr);
+    std::time_t before = 0;
+    if (interrupted_at.compare_exchange_strong(before, now)) {
+        is_interrupted = true;
+    } else if (now > before + 1 && signal != SIGXCPU) {  // which comes each second
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+}
+
+}  // namespace
+
+void ignoreWriteSignals() {
+    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+}
+
+void catchSignals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM,
+                             SIGVTALRM, SIGPWR}) {
+        struct sigaction action {};
+        sigaction(signal, nullptr, &action);
+        if (action.sa_handler == SIG_IGN) continue;  // set by nohup
+        action = {};
+        action.sa_handler = interrupt;
+        action.sa_flags = SA_RESTART;
+        sigaction(signal, &action, nullptr);
+    }
+}
+
+bool isInterrupted() { return is_interrupted; }
+
+}  // namespace hagen::base

@@ -1,0 +1,139 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+/// Command lines of the programs, parsed by CLI11. Only CommandLine.cpp includes it, because it is
+/// slow to compile.
+namespace hagen::base {
+
+/// Exit codes of all programs.
+constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
+
+/// What main() returns: the exit code of `program`. Should it throw (out of memory, before or after
+/// Program::run()), prints so with no more memory, and returns kFailed.
+int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept;
+
+/// Wrong usage that is detected only after parsing all flags. Programs print the message and how to
+/// get help, and exit with kWrongUsage.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+    UsageError(const std::string& flag, const std::string& message)
+        : std::runtime_error(flag + ": " + message) {}
+};
+
+/// A flag of a command. Each function restricts its values, or changes how --help shows it, and
+/// returns the flag.
+class Flag {
+ public:
+    explicit Flag(CLI::Option& option) : option_(&option) {}
+
+    Flag& required();
+    Flag& once();                ///< one value per occurrence; may be repeated
+    Flag& delimiter(char mark);  ///< splits one argument into values
+    Flag& needs(const Flag& other);
+    Flag& between(int least, int most);
+    Flag& between(double least, double most);
+    Flag& positive();
+    Flag& notNegative();
+    Flag& oneOf(const std::vector<std::string>& words);
+    Flag& existingFile();
+    Flag& existingFolder();
+    Flag& existingPath();
+    /// `errorOf` returns what is wrong with a value, or ""; `type` is shown by --help.
+    Flag& check(std::function<std::string(const std::string&)> errorOf, const std::string& type);
+    Flag& mayBeEmpty();  ///< of texts, which otherwise may not
+    /// Rewrites values before they are checked.
+    Flag& transform(std::function<std::string(const std::string&)> rewrite);
+
+    Flag& group(const std::string& name);      ///< heading in --help
+    Flag& valueName(const std::string& name);  ///< instead of the type that --help shows
+    Flag& showDefault();                       ///< the variable's current value
+
+    bool isGiven() const;  ///< valid after parsing
+
+ private:
+    CLI::Option* option_;
+};
+
+/// A program, or one of its subcommands: flags that set variables. The variables must outlive it.
+class Command {
+ public:
+    /// `names` as in "-o,--output", or "DIR" for a positional argument. Value: std::string,
+    /// std::filesystem::path, int, std::size_t, float, double, std::optional<float>, or
+    /// std::vector of std::string, std::filesystem::path or double.
+    template <class Value>
+    Flag option(const std::string& names, Value& value, const std::string& help);
+    Flag flag(const std::string& names, bool& value, const std::string& help);
+    /// A choice of words, each for a value.
+    template <class Value>
+    Flag choice(const std::string& names, Value& value,
+                const std::vector<std::pair<std::string, Value>>& meanings,
+                const std::string& help) {
+        std::vector<std::string> words;
+        for (const auto& meaning : meanings) words.push_back(meaning.first);
+        return choice(names, words, help,
+                      [&value, meanings](std::size_t i) { value = meanings[i].second; });
+    }
+    /// A flag that prints something and exits.
+    Flag printer(const std::string& names, std::function<void()> print, const std::string& help);
+
+    void hide();  ///< in --help
+    /// Sets the work of a subcommand, which returns the exit code. Signals are caught
+    /// (Interrupt.h).
+    void does(std::function<int()> work);
+
+ protected:
+    Command(CLI::App& app, std::function<int()>& chosen) : app_(&app), chosen_(&chosen) {}
+    CLI::App* app_;
+
+ private:
+    friend class Program;
+    Flag choice(const std::string& names, const std::vector<std::string>& words,
+                const std::string& help, std::function<void(std::size_t)> choose);
+    std::function<int()>* chosen_;  ///< work of the selected subcommand
+};
+
+/// A program with --help.
+class Program : public Command {
+ public:
+    Program(std::string name, const std::string& description);
+    ~Program();
+
+    void footer(const std::string& text);
+    void version(const std::string& version);  ///< --version
+    /// Name of the program's output in error messages (default: "summary"; "text" for --help).
+    void prints(const std::string& what);
+    Command subcommand(const std::string& name, const std::string& help);
+    /// Parses the command line and runs `work`, or by default that of the subcommand; either
+    /// returns the exit code. Prints errors, and returns the program's exit code.
+    int run(int argc, char** argv, const std::function<int()>& work = nullptr);
+    /// Prints a message after the program's name; returns the exit code.
+    int fail(int exit_code, const std::string& message) const;
+    /// What run() says of an exception.
+    static std::string messageOf(const std::exception& e);
+
+ private:
+    explicit Program(std::unique_ptr<CLI::App> app, std::string name);
+    int printed(int exit_code, const std::string& what) const;
+
+    std::unique_ptr<CLI::App> owned_;
+    std::function<int()> work_;
+    std::string name_, printed_ = "summary", help_ = "text";
+    double memory_gb_ = 0;
+};
+
+/// Tells on standard error what earlier runs left of these outputs (base::leftBehind()).
+void tellLeftBehind(const std::vector<std::filesystem::path>& outputs);
+
+}  // namespace hagen::base

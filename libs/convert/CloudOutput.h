@@ -1,0 +1,54 @@
+#pragma once
+#include <hagen/convert/SensorFolders.h>
+#include <hagen/convert/WriteCloud.h>
+#include <hagen/mrpt/ObservationSegmenter.h>
+#include <mrpt/obs/CObservation.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hagen::convert {
+
+/// A folder of labelled clouds, or a folder of such folders, as an output.
+extern const base::OutputKind kClouds;
+
+/// What was changed in clouds when they were written, and in how many.
+class CloudChanges {
+ public:
+    /// The changes in one cloud.
+    void add(const std::vector<std::string>& changes);
+    /// For the user, with the number of clouds if these are not all.
+    std::vector<std::string> texts(std::size_t all_clouds) const;
+
+ private:
+    std::map<std::string, std::size_t> clouds_;  ///< by change
+};
+
+/// Writes labelled clouds, one file per scan and one folder per LiDAR if there are several.
+class CloudOutput {
+ public:
+    /// Throws std::runtime_error naming the folder; see OutputPath.
+    CloudOutput(const std::filesystem::path& folder, convert::OutputFormat format, bool overwrite);
+
+    /// Writes a scan as NAME.ply or NAME.pcd. Throws std::runtime_error naming the file.
+    void write(const std::string& name, const observations::ObservationSegmenter::Output& segmented,
+               const mrpt::obs::CObservation& observation);
+
+    std::size_t files() const { return files_; }
+    std::size_t points() const { return points_; }
+    /// What was changed in the files, for the user.
+    std::vector<std::string> remarks() const { return changes_.texts(files_); }
+
+    void commit() { folders_.commit(); }
+    std::filesystem::path keepPartial() { return folders_.keepPartial(); }
+
+ private:
+    convert::OutputFormat format_;
+    SensorFolders folders_;
+    std::size_t files_ = 0, points_ = 0;
+    CloudChanges changes_;
+};
+
+}  // namespace hagen::convert

@@ -1,0 +1,287 @@
+#include "convert/ConversionOutputs.h"
+
+#include <hagen/base/MemoryLimit.h>
+#include <hagen/convert/StagePictures.h>
+#include <hagen/convert/Statistics.h>
+#include <hagen/filter/Posture.h>
+#include <hagen/mrpt/Mount.h>
+#include <hagen/mrpt/TimeStamp.h>
+#include <hagen/recordings/ScanFolder.h>
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+namespace hagen::convert {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The sensor's tilt on the level vehicle: as in the log, otherwise as in the settings.
+Attitude mountOf(const mrpt::obs::CObservation& scan, const Settings& settings) {
+    const mrpt::math::TPose3D on_vehicle = scan.sensorPose();
+    return observations::mountOf(
+        {static_cast<float>(on_vehicle.roll), static_cast<float>(on_vehicle.pitch)},
+        settings.mount);
+}
+
+/// Also of "folder/".
+std::string nameOf(const fs::path& input) {
+    return (input.has_filename() ? input : input.parent_path()).filename().string();
+}
+
+std::string textOf(const fs::path& name) { return name.string(); }
+std::string textOf(const std::string& names) { return names; }
+
+}  // namespace
+
+std::vector<fs::path> outputsOf(const Conversion& conversion) {
+    std::vector<fs::path> outputs{conversion.rawlog, conversion.folder,   conversion.clouds,
+                                  conversion.mcap,   conversion.pictures, conversion.stats};
+    outputs.insert(outputs.end(), conversion.octomaps.begin(), conversion.octomaps.end());
+    outputs.erase(std::remove(outputs.begin(), outputs.end(), fs::path()), outputs.end());
+    return outputs;
+}
+
+ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_(conversion) {
+    const bool overwrite = conversion.overwrite;
+    if (!conversion.rawlog.empty()) rawlog_.emplace(conversion.rawlog, overwrite);
+    if (!conversion.folder.empty()) {
+        folders_.emplace(conversion.folder, recordings::kScanFolders, overwrite);
+    }
+    if (!conversion.clouds.empty()) {
+        clouds_.emplace(conversion.clouds, conversion.cloud_format, overwrite);
+    }
+    if (!conversion.mcap.empty()) mcap_.emplace(conversion.mcap, overwrite);
+    if (!conversion.pictures.empty()) {
+        pictures_.emplace(conversion.pictures, convert::kStagePictures, overwrite);
+    }
+    if (!conversion.octomaps.empty()) {
+        map_.emplace(conversion.octomaps, conversion.octomap, overwrite);
+    }
+    if (!conversion.stats.empty()) {
+        stats_.emplace(conversion.stats, base::kFile, overwrite);
+    }
+}
+
+// Members are packed on several threads; all other steps of a part run on one at a time. The flag
+// is seen by the next.
+template <class Step>
+void ConversionOutputs::attempt(Part part, Step step) {
+    if (is_given_up_[part]) return;
+    try {
+        step();
+    } catch (const std::bad_alloc&) {
+        giveUp(part, nullptr);
+    } catch (const std::exception& e) {
+        giveUp(part, e.what());
+    }
+}
+
+const fs::path& ConversionOutputs::pathOf(Part part) const {
+    switch (part) {
+        case kFolders:
+            return conversion_.folder;
+        case kClouds:
+            return conversion_.clouds;
+        case kMcap:
+            return conversion_.mcap;
+        case kPictures:
+            return conversion_.pictures;
+        case kMap:
+            return conversion_.octomaps.front();
+        case kStats:
+            return conversion_.stats;
+        default:
+            return conversion_.rawlog;
+    }
+}
+
+/// The first reason is kept; null, or no memory for its text: out of memory.
+void ConversionOutputs::giveUp(Part part, const char* why) noexcept {
+    const std::lock_guard lock(why_mutex_);
+    if (is_given_up_[part]) return;
+    is_given_up_[part] = true;
+    if (why == nullptr) return;
+    try {
+        why_[part] = base::withOutputNames(why);
+    } catch (const std::bad_alloc&) {
+        why_[part].clear();
+    }
+}
+
+/// Calls act(part, output) for the outputs that there are.
+template <class Do>
+void ConversionOutputs::forEach(Do act) {
+    if (rawlog_) act(kRawlog, *rawlog_);
+    if (folders_) act(kFolders, *folders_);
+    if (clouds_) act(kClouds, *clouds_);
+    if (mcap_) act(kMcap, *mcap_);
+    if (pictures_) act(kPictures, *pictures_);
+    if (map_) act(kMap, *map_);
+    if (stats_) act(kStats, *stats_);
+}
+
+bool ConversionOutputs::hasAny() const {
+    const std::array<bool, kParts> has{
+        rawlog_.has_value(),   folders_.has_value(), clouds_.has_value(), mcap_.has_value(),
+        pictures_.has_value(), map_.has_value(),     stats_.has_value()};
+    bool has_any = false;
+    for (std::size_t part = 0; part < kParts; ++part) {
+        if (has[part] && !is_given_up_[part]) return true;
+        has_any = has_any || has[part];
+    }
+    return !has_any;  // none was asked for
+}
+
+void ConversionOutputs::pack(const Bytes& member, Bytes& packed) {
+    attempt(kRawlog, [&] { packGzipMember(member, packed); });
+}
+
+void ConversionOutputs::writeMember(const Bytes& packed) {
+    attempt(kRawlog, [&] { rawlog_->writeMember(packed); });
+}
+
+void ConversionOutputs::insertIntoMap(const observations::MappedScan& scan) {
+    if (is_given_up_[kMap]) return;
+    try {
+        map_->insert(scan);
+    } catch (const observations::MapFull& e) {
+        giveUp(kMap, (pathOf(kMap).string() + ": " + e.what()).c_str());
+    } catch (const std::bad_alloc&) {
+        giveUp(kMap, nullptr);
+    }
+}
+
+void ConversionOutputs::writeToFolder(const observations::ObservationSegmenter::Output& segmented,
+                                      const recordings::RecordedScan& recorded,
+                                      const std::string& name, const Settings& settings) {
+    const std::string& sensor_label = recorded.observation->sensorLabel;
+    auto writer = folder_writers_.find(sensor_label);
+    if (writer == folder_writers_.end()) {
+        std::optional<GivenLimits> unnamed;
+        if (segmented.recovered || segmented.is_sensor_assumed) {
+            unnamed = {settings.sensor.min_range_m, settings.sensor.max_range_m};
+        }
+        ScanFolderWriter to_folder(folders_->folderOf(sensor_label),
+                                   mountOf(*segmented.roi, settings), unnamed);
+        writer = folder_writers_.emplace(sensor_label, std::move(to_folder)).first;
+    }
+    const double time_s = observations::secondsOf(segmented.roi->timestamp);
+    writer->second.write(name, *segmented.scan, segmented.result->returns, *segmented.sensor,
+                         time_s, segmented.pose.sensor_pose,
+                         !segmented.pose.sensor_pose || segmented.pose.pose_has_horizon);
+}
+
+std::string ConversionOutputs::writeScan(
+    const observations::ObservationSegmenter::Output& segmented,
+    const recordings::RecordedScan& recorded, const Settings& settings) {
+    const std::size_t number = scans_[recorded.observation->sensorLabel]++;
+    const std::string own_name = recorded.name.empty() ? scanName(number) : recorded.name;
+    if (folders_) {
+        attempt(kFolders, [&] { writeToFolder(segmented, recorded, own_name, settings); });
+    }
+    if (clouds_) {
+        attempt(kClouds, [&] { clouds_->write(own_name, segmented, *recorded.observation); });
+    }
+    if (mcap_) attempt(kMcap, [&] { mcap_->write(segmented, *recorded.observation); });
+    if (pictures_) attempt(kPictures, [&] { drawPictures(segmented, recorded); });
+    return own_name;
+}
+
+/// Into a folder named by the entry, so that --from finds it again.
+void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::Output& segmented,
+                                     const recordings::RecordedScan& recorded) {
+    const std::string& label = recorded.observation->sensorLabel;
+    const bool is_named = !recorded.name.empty();
+    const std::string name = is_named ? recorded.name : scanName(recorded.entry);
+    fs::path folder = pictures_->folderOf(label) / name;
+    while (!fs::create_directory(folder)) folder += "_";  // a second scan in a sensory frame
+    const std::string title =
+        nameOf(conversion_.input) + ", " + label + (is_named ? ", scan " : ", entry ") + name;
+    // As the filter sees a sensor that is not upright: its images have other rows than the sensor.
+    const std::optional<Attitude>& attitude = segmented.pose.attitude;
+    const Posture posture = postureOf(attitude);
+    const SensorModel sensor = sensorIn(posture, *segmented.sensor);
+    Scan turned;
+    if (posture != Posture::Upright) turnScan(*segmented.scan, posture, attitude, sensor, turned);
+    const Scan& shown = posture == Posture::Upright ? *segmented.scan : turned;
+    convert::drawStages({shown, sensor, *segmented.options, *segmented.result, title,
+                         conversion_.picture_azimuth_deg},
+                        folder);
+}
+
+void ConversionOutputs::finishFolders() {
+    if (are_folders_finished_) return;
+    for (const auto& [label, writer] : folder_writers_) {
+        writer.finish();
+        recordings::markAsPredictions(folders_->folderOf(label));
+    }
+    are_folders_finished_ = true;
+}
+
+void ConversionOutputs::finish(const ConversionReport& report) {
+    attempt(kFolders, [&] { finishFolders(); });
+    if (mcap_) {
+        attempt(kMcap, [&] {
+            mcap_->finish();
+            is_mcap_finished_ = true;
+        });
+    }
+    if (map_) attempt(kMap, [&] { map_->write(); });
+    if (stats_) {
+        attempt(kStats, [&] { writeStatistics(stats_->temporary(), conversion_, report); });
+    }
+}
+
+/// Whether an output that was given up has something whole: members of a rawlog, scans, clouds.
+bool ConversionOutputs::hasWholeParts(Part part) const {
+    if (part == kFolders) {
+        return std::any_of(folder_writers_.begin(), folder_writers_.end(),
+                           [](const auto& writer) { return writer.second.scans() > 0; });
+    }
+    return part == kRawlog || (part == kMcap && is_mcap_finished_) ||
+           (part == kClouds && clouds_->files() > 0);
+}
+
+/// What was given up, why, and what of it is kept.
+std::string ConversionOutputs::whatFailed() {
+    std::string text;
+    forEach([&](Part part, auto& output) {
+        if (!is_given_up_[part]) return;
+        text += text.empty() ? "" : "; ";
+        text += !why_[part].empty() ? why_[part]
+                                    : pathOf(part).string() + ": " + base::outOfMemory() +
+                                          (part == kMap ? "; or use larger voxels" : "");
+        if (!hasWholeParts(part)) return;
+        try {
+            if (part == kFolders) finishFolders();
+            text += "; what was written before is in " + textOf(output.keepPartial());
+        } catch (const std::exception&) {
+            text += "; nothing of it is kept";
+        }
+    });
+    return text;
+}
+
+void ConversionOutputs::commit(const ConversionReport& report) {
+    finish(report);
+    const base::RenamingNote note(outputsOf(conversion_));
+    forEach([&](Part part, auto& output) { attempt(part, [&] { output.commit(); }); });
+    const std::string failed = whatFailed();
+    if (!failed.empty()) throw std::runtime_error(failed);
+}
+
+std::string ConversionOutputs::keepPartial(const ConversionReport& report) {
+    finish(report);
+    std::string names;
+    forEach([&](Part part, auto& output) {
+        if (!is_given_up_[part])
+            attempt(part, [&] { names += " " + textOf(output.keepPartial()); });
+    });
+    const std::string failed = whatFailed();
+    return names + (failed.empty() ? "" : "; " + failed);
+}
+
+}  // namespace hagen::convert

@@ -1,0 +1,103 @@
+#pragma once
+#include <hagen/convert/Conversion.h>
+#include <hagen/convert/MapOutput.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/convert/ScanFolderWriter.h>
+#include <hagen/convert/SensorFolders.h>
+#include <hagen/mrpt/ObservationSegmenter.h>
+#include <array>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "convert/CloudOutput.h"
+#include "convert/McapOutput.h"
+
+namespace hagen::convert {
+
+/// The paths of the requested outputs.
+std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
+
+/// The requested outputs of a conversion. What goes wrong in one of them (a full disk, a map that
+/// is full, a program that draws) costs that output alone: it is given up, and commit() names it.
+class ConversionOutputs {
+ public:
+    /// Throws std::runtime_error naming an output that cannot be written.
+    explicit ConversionOutputs(const Conversion& conversion);
+
+    bool wantsRawlog() const { return rawlog_.has_value(); }
+
+    /// Adds an entry and its clouds to the rawlog; see RawlogWriter.
+    void gather(Bytes& entries, Bytes& member) {
+        if (rawlog_) rawlog_->gather(entries, member);
+    }
+    /// Compresses a member, on any thread, and writes it.
+    void pack(const Bytes& member, Bytes& packed);
+    void writeMember(const Bytes& packed);
+
+    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, and to the MCAP. An
+    /// empty name stands for the next number. Returns the name used.
+    std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
+                          const recordings::RecordedScan& recorded, const Settings& settings);
+
+    /// The labelled clouds written so far; null if there are none to write.
+    const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }
+
+    /// The MCAP written so far; null if there is none to write.
+    const McapOutput* mcap() const { return mcap_ ? &*mcap_ : nullptr; }
+
+    /// Adds a scan to the map, if there is one. Throws std::runtime_error if the scan has no place
+    /// in it.
+    bool wantsMap() const { return map_.has_value(); }
+    void insertIntoMap(const observations::MappedScan& scan);
+    void giveUpMap(const std::string& why) { giveUp(kMap, why.c_str()); }
+
+    /// False once all outputs that were asked for are given up: there is nothing to convert for.
+    bool hasAny() const;
+
+    /// Gives the outputs their names. Throws std::runtime_error that names each that was given up,
+    /// why, and what is left of it; the others are in place then.
+    void commit(const ConversionReport& report);
+    /// Keeps the incomplete outputs under partial names, and returns these names, with what was
+    /// given up.
+    std::string keepPartial(const ConversionReport& report);
+
+ private:
+    enum Part { kRawlog, kFolders, kClouds, kMcap, kPictures, kMap, kStats, kParts };
+    /// Does a step of an output; if it fails, gives the output up.
+    template <class Step>
+    void attempt(Part part, Step step);
+    void giveUp(Part part, const char* why) noexcept;
+    template <class Do>
+    void forEach(Do act);
+
+    void writeToFolder(const observations::ObservationSegmenter::Output& segmented,
+                       const recordings::RecordedScan& recorded, const std::string& name,
+                       const Settings& settings);
+    void drawPictures(const observations::ObservationSegmenter::Output& segmented,
+                      const recordings::RecordedScan& recorded);
+    void finishFolders();
+    void finish(const ConversionReport& report);
+    const std::filesystem::path& pathOf(Part part) const;
+    bool hasWholeParts(Part part) const;
+    bool are_folders_finished_ = false, is_mcap_finished_ = false;
+    std::string whatFailed();
+
+    const Conversion& conversion_;
+    std::optional<RawlogWriter> rawlog_;
+    std::optional<SensorFolders> folders_, pictures_;
+    std::optional<CloudOutput> clouds_;
+    std::optional<McapOutput> mcap_;
+    std::optional<MapOutput> map_;
+    std::optional<base::OutputPath> stats_;
+    std::array<std::atomic<bool>, kParts> is_given_up_{};  ///< steps run on several threads
+    std::mutex why_mutex_;
+    std::array<std::string, kParts> why_;
+    std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label
+    std::map<std::string, std::size_t> scans_;                ///< written so far
+};
+
+}  // namespace hagen::convert

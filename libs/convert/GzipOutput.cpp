@@ -1,0 +1,68 @@
+#include <libdeflate.h>
+#include <unistd.h>
+
+#include <hagen/convert/GzipOutput.h>
+
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+namespace hagen::convert {
+namespace {
+
+constexpr int kLevel = 1;
+
+struct FreeCompressor {
+    void operator()(libdeflate_compressor* compressor) const {
+        libdeflate_free_compressor(compressor);
+    }
+};
+
+[[noreturn]] void fail(const std::filesystem::path& file) {
+    throw std::runtime_error(file.string() + ": cannot be written" +
+                             (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
+}
+
+}  // namespace
+
+void packGzipMember(const Bytes& plain, Bytes& packed) {
+    // None is kept per thread: a thread that ends needs memory for that, without which glibc
+    // aborts.
+    const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
+        libdeflate_alloc_compressor(kLevel));
+    if (!compressor) throw std::bad_alloc();
+    const std::size_t bound = libdeflate_gzip_compress_bound(compressor.get(), plain.size());
+    if (packed.size() < bound) packed.resize(bound);
+    const std::size_t size = libdeflate_gzip_compress(compressor.get(), plain.data(), plain.size(),
+                                                      packed.data(), packed.size());
+    if (size == 0) throw std::logic_error("a gzip member exceeds its own bound");
+    packed.resize(size);
+}
+
+GzipOutput::GzipOutput(const std::filesystem::path& file) : path_(file) {
+    errno = 0;
+    file_.reset(std::fopen(file.c_str(), "wb"));
+    if (!file_) fail(path_);
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a member is already a buffer
+}
+
+void GzipOutput::write(const Bytes& member) {
+    errno = 0;
+    if (std::fwrite(member.data(), 1, member.size(), file_.get()) == member.size()) {
+        whole_ += static_cast<long>(member.size());
+        return;
+    }
+    const int error = errno;
+    // Readers take a member that is cut off for damage.
+    const bool is_cut = ftruncate(fileno(file_.get()), whole_) == 0;
+    errno = is_cut ? error : errno;
+    fail(path_);
+}
+
+void GzipOutput::close() {
+    errno = 0;
+    if (std::fclose(file_.release()) != 0) fail(path_);
+}
+
+}  // namespace hagen::convert

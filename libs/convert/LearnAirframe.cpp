@@ -1,0 +1,112 @@
+#include <hagen/convert/LearnAirframe.h>
+#include <hagen/mrpt/TimeStamp.h>
+
+#include <hagen/base/NumberText.h>
+#include <hagen/base/OutputSet.h>
+#include <hagen/base/WriteFile.h>
+#include <hagen/convert/AirframePicture.h>
+#include <hagen/mrpt/MrptMessage.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/recordings/ScanSource.h>
+#include <hagen/scan/AirframeLearner.h>
+#include <hagen/settings/AirframeFile.h>
+
+#include <new>
+#include <optional>
+#include <stdexcept>
+
+namespace hagen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Adds the scans of the first seconds.
+void addScans(const AirframeLearning& learning, const AirframeListener& listener,
+              AirframeLearner& learner, AirframeReport& report) {
+    recordings::SourceOptions options;
+    options.sensor_labels = learning.sensor_labels;
+    options.sensor_json = learning.sensor_json;
+    options.calibration = learning.calibration;
+    options.topics = learning.topics;
+    options.first_entry = learning.from;
+    options.last_entry = learning.to;
+    options.keep_going = listener.keep_going;
+    const auto source = openRecording(learning.input, options);
+    const Settings settings = source->useSettings(learning.settings);
+    observations::ObservedScan observed;
+    std::optional<double> first_s;
+    while (const auto scan = source->nextScan()) {
+        const double time_s = observations::secondsOf(scan->observation->timestamp);
+        if (observations::isTime(time_s)) {
+            if (!first_s) first_s = time_s;
+            if (time_s - *first_s >= learning.seconds) break;
+        }
+        const std::string& label = scan->observation->sensorLabel;
+        if (report.scans + report.unreadable_scans == 0) report.sensor_label = label;
+        if (label != report.sensor_label) {
+            throw std::runtime_error(learning.input.string() + ": has scans of '" +
+                                     report.sensor_label + "' and of '" + label +
+                                     "'; an airframe is that of one sensor: add --sensor-label");
+        }
+        try {
+            observations::readObservation(*scan->observation, settings, observed, scan->beams);
+        } catch (const SettingsError&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const std::exception& e) {
+            ++report.unreadable_scans;
+            listener.unreadable(titleOf(*scan), observations::messageOf(e));
+            continue;
+        }
+        learner.add(observed.scan);
+        ++report.scans;
+    }
+    for (const std::string& remark : source->remarks()) listener.remark(remark);
+}
+
+}  // namespace
+
+AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeListener& listener) {
+    AirframeReport report;
+    report.picture = fs::path(learning.file).replace_extension(".png");
+    std::vector<fs::path> inputs = learning.settings.files;
+    inputs.insert(inputs.end(), {learning.input, learning.sensor_json, learning.calibration});
+    base::checkApart({learning.file, report.picture}, inputs);
+    base::OutputPath file(learning.file, base::kFile, learning.overwrite);
+    base::OutputPath picture(report.picture, base::kFile, learning.overwrite);
+
+    AirframeLearner learner;
+    addScans(learning, listener, learner, report);
+    const fs::path& input = learning.input;  // "folder/" has no file name
+    const fs::path named = input.has_filename() ? input : input.parent_path();
+    const std::string origin = named.filename().string() + ", " + report.sensor_label + ", " +
+                               std::to_string(report.scans) + " scans";
+    LearnedAirframe learned;
+    try {
+        learned = learner.learn();
+    } catch (const std::invalid_argument& e) {
+        throw std::runtime_error(learning.input.string() + ": " + e.what() + " (read: the first " +
+                                 base::shortestText(learning.seconds) + " s; see --learn-seconds)");
+    }
+    report.bins = learned.bins;
+    report.share_of_sphere = learned.share_of_sphere;
+    report.share_of_seen = learned.share_of_seen;
+
+    base::OutputSet outputs;
+    outputs.add(picture);
+    outputs.add(file);
+    outputs.write(file, [&] {
+        base::writeText(airframeBinsText(learned.bin_range_m, origin), file.temporary(),
+                        file.path());
+    });
+    outputs.write(picture, [&] {
+        const fs::path folder = fs::absolute(picture.temporary()).parent_path();
+        convert::drawAirframe(learned.bin_range_m, "airframe in " + origin, folder,
+                              picture.temporary().filename().string());
+    });
+    outputs.commit();
+    return report;
+}
+
+}  // namespace hagen::convert

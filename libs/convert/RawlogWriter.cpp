@@ -1,0 +1,93 @@
+#include <hagen/convert/RawlogWriter.h>
+#include <mrpt/io/CStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <stdexcept>
+
+namespace hagen::convert {
+namespace {
+
+/// Members of this size compress as well as a whole file; one scan with its clouds fills one.
+constexpr std::size_t kMemberBytes = 1 << 18;
+
+/// A stream that appends to a buffer.
+class AppendingStream : public mrpt::io::CStream {
+ public:
+    explicit AppendingStream(Bytes& bytes) : bytes_(bytes) {}
+
+    std::size_t Write(const void* buffer, std::size_t count) override {
+        const auto* first = static_cast<const std::uint8_t*>(buffer);
+        bytes_.insert(bytes_.end(), first, first + count);
+        return count;
+    }
+    std::uint64_t getPosition() const override { return bytes_.size(); }
+    std::uint64_t getTotalBytesCount() const override { return bytes_.size(); }
+
+    std::size_t Read(void*, std::size_t) override {
+        throw std::logic_error("an output cannot be read");
+    }
+    std::uint64_t Seek(std::int64_t, TSeekOrigin) override {
+        throw std::logic_error("an output cannot seek");
+    }
+
+ private:
+    Bytes& bytes_;
+};
+
+}  // namespace
+
+void serialise(const mrpt::serialization::CSerializable& entry, Bytes& bytes) {
+    AppendingStream stream(bytes);
+    mrpt::serialization::archiveFrom(stream) << entry;
+}
+
+RawlogWriter::RawlogWriter(const std::filesystem::path& file, bool overwrite)
+    : path_(file, base::kFile, overwrite), file_(path_.temporary()) {}
+
+void RawlogWriter::write(const mrpt::serialization::CSerializable& entry) {
+    entry_.clear();
+    serialise(entry, entry_);
+    gather(entry_, member_);
+    if (member_.empty()) return;
+    packGzipMember(member_, packed_);
+    writeMember(packed_);
+}
+
+void RawlogWriter::gather(Bytes& entries, Bytes& member) {
+    member.clear();
+    if (gathered_.empty()) {
+        gathered_.swap(entries);
+    } else {
+        gathered_.insert(gathered_.end(), entries.begin(), entries.end());
+    }
+    if (gathered_.size() >= kMemberBytes) member.swap(gathered_);
+}
+
+void RawlogWriter::writeMember(const Bytes& packed) {
+    has_failed_ = true;
+    file_.write(packed);
+    has_failed_ = is_empty_ = false;
+}
+
+void RawlogWriter::finish() {
+    if (is_finished_) return;
+    is_finished_ = true;
+    if (!gathered_.empty() || is_empty_) {  // a gzip file needs at least one member
+        packGzipMember(gathered_, packed_);
+        writeMember(packed_);
+    }
+    file_.close();
+}
+
+void RawlogWriter::commit() {
+    finish();
+    path_.commit();
+}
+
+std::filesystem::path RawlogWriter::keepPartial() {
+    if (has_failed_ && is_empty_) throw std::runtime_error(path_.path().string() + ": is empty");
+    if (!has_failed_) finish();
+    return path_.keepPartial();
+}
+
+}  // namespace hagen::convert

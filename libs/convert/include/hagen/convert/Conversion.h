@@ -1,0 +1,130 @@
+#pragma once
+#include <hagen/convert/WriteCloud.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/ScanMap.h>
+#include <hagen/recordings/ScanSource.h>
+#include <hagen/settings/Settings.h>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hagen::convert {
+
+/// A log to segment, and the outputs to write. Outputs with an empty name are not written.
+struct Conversion {
+    std::filesystem::path input;        ///< as for openRecording()
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
+    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
+
+    std::filesystem::path rawlog;  ///< segmented rawlog
+    std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR
+    std::filesystem::path clouds;  ///< labelled clouds with all fields, a file per scan
+    convert::OutputFormat cloud_format = convert::OutputFormat::Ply;
+    std::filesystem::path mcap;      ///< labelled clouds, boxes and poses as messages of ROS 2
+    std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
+    std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot, .3Dscene: one map in each format
+    observations::ScanMapOptions octomap;         ///< resolution and contents of the map
+    std::filesystem::path stats;                  ///< JSON: settings, counts, one line per scan
+    bool overwrite = false;                       ///< replace existing outputs
+
+    std::filesystem::path poses;  ///< vehicle poses (TUM, KITTI); empty: those of the log
+    std::size_t from = 0;         ///< first and last entry to convert, both inclusive
+    std::size_t to = std::numeric_limits<std::size_t>::max();
+    std::vector<std::string> sensor_labels;  ///< LiDARs to segment; empty: all
+    observations::CloudClass cloud_class = observations::CloudClass::Simple;
+    std::size_t jobs = 0;  ///< threads; 0: all cores. Outputs do not depend on it
+    bool preview = false;  ///< add a coloured scene after each pair of clouds
+    std::optional<float>
+        picture_azimuth_deg;  ///< column to draw; none: that of the nearest obstacle
+    Settings settings;
+};
+
+/// Results of one scan.
+struct ScanReport {
+    std::size_t entry;         ///< index of its entry in the input; in a scan folder, of the scan
+    std::string sensor_label;  ///< "velodyne" for a scan folder, "lidar" for cloud files
+    std::string name;          ///< of its files, without extension
+    double time_s;
+    std::size_t returns, roi, rou, unclassified;
+    std::size_t returns_masked;  ///< of the unclassified: those of the airframe of the settings
+    std::size_t obstacles;       ///< RoI components
+    float nearest_roi_m;         ///< NaN if the scan has no RoI
+    double latency_ms;           ///< from the observation in memory to its labels
+};
+
+/// Results of a conversion.
+struct ConversionReport {
+    std::size_t entries = 0;  ///< entries converted; all are in the output
+    std::size_t scans = 0;    ///< segmented LiDAR scans in these entries
+    std::size_t returns = 0, roi = 0, rou = 0, unclassified = 0;
+    std::size_t returns_masked = 0;    ///< of the unclassified: those of the airframe
+    std::size_t unreadable_scans = 0;  ///< kept but not segmented; each was reported
+    std::size_t results_replaced = 0;  ///< clouds and previews of an earlier run, not in the output
+    std::size_t left_out_before = 0;   ///< entries skipped before `from`
+    /// Description of the sensor by sensor label: "VLP-16, 16 beams", or how it was recovered
+    /// (CloudSensors.h).
+    std::map<std::string, std::string> sensors;
+    /// The sensors that neither the log nor the settings name, and the columns of their images.
+    struct Recovered {
+        observations::SharedBeams beams;
+        int columns = 0;
+    };
+    std::map<std::string, Recovered> recovered;  ///< by sensor label
+    std::string poses;  ///< source of the poses; empty: not needed or not available
+    std::size_t scans_with_pose = 0;
+    std::size_t clouds = 0, cloud_points = 0;  ///< files and points of the labelled clouds
+    struct Mcap {
+        std::size_t scans = 0, points = 0, boxes = 0, messages = 0;
+    };
+    Mcap mcap;                            ///< what the MCAP holds
+    std::size_t scans_in_map = 0;         ///< scans in the OctoMap: those with a pose
+    std::size_t scans_with_attitude = 0;  ///< scans with known roll and pitch
+    std::string first_without_attitude;   ///< "entry 0 (lidar)"; empty: none
+    bool is_attitude_of_poses = false;    ///< interpolated; otherwise the latest in the log
+    std::vector<ScanReport> scan_reports;
+    double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
+    Settings settings;    ///< those of the conversion, merged with a scan folder's sensor.yaml
+};
+
+/// Callbacks of a conversion. They are called in the order of the log and never concurrently, but
+/// possibly on different threads.
+struct ConversionListener {
+    /// Called after each entry.
+    std::function<void(const ConversionReport&)> progress = [](const auto&) {};
+    /// Called with the title of an entry ("entry 12 (lidar)") and a remark for the user.
+    std::function<void(const std::string& entry, const std::string& remark)> remark =
+        [](const auto&, const auto&) {};
+    /// Called with the title of a scan that could not be segmented, and the reason. It is kept.
+    std::function<void(const std::string& entry, const std::string& why)> unreadable =
+        [](const auto&, const auto&) {};
+    /// Called before each entry is read. False ends the conversion with Interrupted, once the
+    /// entries read before are converted.
+    std::function<bool()> keep_going = [] { return true; };
+};
+
+/// Segments a whole log. Holds two entries per thread in memory. Pictures are drawn on one thread.
+///
+/// A segmented rawlog keeps every entry of the input, in order (of a capture or a bag: the
+/// scans). After
+/// each LiDAR observation it has the `_roi` and `_non_roi` clouds and, if requested, the preview.
+/// In a sensory frame these join the frame. They replace those that an earlier run made of the same
+/// scan. Each scan of a scan folder becomes one observation. A
+/// written scan folder keeps the names and the point order of an input folder; scans of a rawlog
+/// are numbered. So are labelled clouds.
+///
+/// An OctoMap needs poses. Each return is placed with the pose at its own time, if known. Scans
+/// without a pose are skipped, with a remark.
+///
+/// Outputs get their names when they are complete. Throws std::runtime_error naming file and entry.
+/// If the log is truncated or the listener stops the conversion, the entries converted so far are
+/// kept in OUT.partial.rawlog (DIR.partial), which the message names. Throws SettingsError if
+/// options do not fit a sensor.
+ConversionReport convert(const Conversion& conversion, const ConversionListener& listener = {});
+
+}  // namespace hagen::convert

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace hagen::convert {
+
+/// Parameters of a simulated log and its outputs; an empty path: not written.
+struct SimulatedLog {
+    std::string scenario;
+    std::string sensor = "VLP-16";
+    std::uint64_t seed = 1;
+    int scans = 0;
+    double altitude_m = 2, speed_m_s = 4, tilt_sd_deg = 4;
+    double every_s = 0.1;    ///< from the start of one scan to the start of the next
+    bool clear_air = false;  ///< no dust, and no returns of the vehicle itself
+    double mount_roll_deg = 0, mount_pitch_deg = 0;  ///< of the sensor on the level vehicle
+
+    std::filesystem::path rawlog, folder, poses;
+    bool overwrite = false;
+};
+
+struct SimulationReport {
+    int scans = 0;
+    std::size_t returns = 0;
+    std::size_t roi = 0, rou = 0, unclassified = 0;  ///< number of returns by label
+};
+
+/// Simulates the flight and writes
+///
+/// - a rawlog of CObservationVelodyneScan `lidar`, each at the time of its first firing, with
+/// CObservationRobotPose `pose` at least every 50 ms during scans. The sensor is at the vehicle's
+/// origin, rotated by the mount: the scans' sensorPose has the mount, poses are the vehicle's.
+/// Scans of a Mid-360 are CObservationPointCloud (CPointsMapXYZI, which has no times of points),
+/// - a scan folder with ground truth (see GroundTruthFolder.h), with the returns as decoded from
+/// the packets if the sensor has a packet format; its poses are the sensor's, the mount is in
+/// sensor.yaml,
+/// - the vehicle's poses as a TUM file.
+///
+/// The same seed gives the same bytes. Throws std::invalid_argument for an unknown scenario or
+/// sensor, and std::runtime_error if a file cannot be written (the message names it) or if
+/// `keep_going` returns false: the output up to then is kept in partial files, which the message
+/// names.
+SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()>& keep_going);
+
+}  // namespace hagen::convert

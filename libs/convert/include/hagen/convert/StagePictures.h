@@ -1,0 +1,50 @@
+#pragma once
+#include <hagen/base/OutputPath.h>
+#include <hagen/filter/HagenFilter.h>
+#include <hagen/filter/Options.h>
+#include <hagen/scan/Scan.h>
+#include <hagen/scan/SensorModel.h>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hagen::convert {
+
+/// A segmented scan to draw: input and result of one call of HagenFilter::segment(). Keeps
+/// references to the caller's objects.
+struct StageView {
+    const Scan& scan;           ///< of a sensor that is not upright: as turnScan() makes it
+    const SensorModel& sensor;  ///< of the images' rows: sensorIn() the scan's posture
+    const Options& options;
+    const SegmentationResult& result;
+    std::string title;  ///< any text, for example the source of the scan
+    /// Azimuth (finite, counter-clockwise from x) of the column whose principal components are
+    /// shown; the nearest column is taken. nullopt: the column of the nearest RoI pixel in a
+    /// smoothed column; otherwise of the nearest RoI pixel; otherwise straight ahead.
+    std::optional<float> azimuth_deg = std::nullopt;
+};
+
+/// The pictures of drawStages(): one per stage, and an overview.
+const std::vector<std::string>& stagePictures();
+/// A folder of these pictures, or of folders of them.
+extern const base::OutputKind kStagePictures;
+
+/// Draws the result of each stage for a scan, as PNGs of these names in the existing `folder`:
+///
+///   1_depth.png        the depth image
+///   2_maxima.png       its persistent maxima, and the barcode of their births and deaths
+///   3_merged.png       the depth image with sharpened maxima
+///   4_range_angle.png  the range angle image
+///   5_smoothed.png     the smoothed image, and the principal components of one column
+///   6_labels.png       RoI and ROU, one colour per obstacle
+///   7_top_view.png     the returns in top view, in the same colours
+///   stages.png         all of the above
+///
+/// Images show azimuths from +180 to -180 degrees, left of the sensor on the left, with the lowest
+/// beam at the bottom; pixels without a value are grey. One call runs gnuplot once. Throws
+/// std::invalid_argument if the images do not have a row per beam of the sensor, std::runtime_error
+/// like runGnuplot().
+void drawStages(const StageView& view, const std::filesystem::path& folder);
+
+}  // namespace hagen::convert

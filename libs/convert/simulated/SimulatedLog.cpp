@@ -1,0 +1,219 @@
+#include <hagen/convert/SimulatedLog.h>
+
+#include <hagen/base/OutputSet.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/simulation/LogClock.h>
+#include <hagen/simulation/Scenarios.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include <hagen/convert/GroundTruthFolder.h>
+#include <hagen/convert/SimulatedObservation.h>
+
+namespace hagen::convert {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kStart_s = simulation::kSimulatedLogStart_s;
+constexpr const char* kLidarLabel = "lidar";
+constexpr double kPoseStep_s = 0.05;  // much shorter than the gap over which poses are interpolated
+
+/// A pose file that is renamed into place when complete.
+class PoseOutput {
+ public:
+    PoseOutput(const fs::path& file, bool overwrite) : path_(file, base::kFile, overwrite) {}
+
+    const base::OutputPath& place() const { return path_; }
+    void add(double time_s, const mrpt::poses::CPose3D& pose) { poses_.push_back({time_s, pose}); }
+    void commit() {
+        recordings::writeTumPoses(path_.temporary(), poses_);
+        path_.commit();
+    }
+    fs::path keepPartial() {
+        recordings::writeTumPoses(path_.temporary(), poses_);
+        return path_.keepPartial();
+    }
+
+ private:
+    base::OutputPath path_;
+    std::vector<recordings::TimedPose> poses_;
+};
+
+/// The requested outputs. One that cannot be written costs no other one.
+class Outputs {
+ public:
+    Outputs(const SimulatedLog& log, const Attitude& mount) {
+        if (!log.rawlog.empty()) rawlog_.emplace(log.rawlog, log.overwrite);
+        if (!log.folder.empty()) folder_.emplace(log.folder, log.overwrite, mount);
+        if (!log.poses.empty()) poses_.emplace(log.poses, log.overwrite);
+        if (folder_) all_.add(folder_->place(), *folder_);
+        if (poses_) all_.add(poses_->place(), *poses_);
+        if (rawlog_) all_.add(rawlog_->place(), *rawlog_);
+    }
+
+    bool hasRawlog() const { return rawlog_.has_value(); }
+    void write(const mrpt::serialization::CSerializable& entry) {
+        if (rawlog_) all_.write(rawlog_->place(), [&] { rawlog_->write(entry); });
+    }
+    void writePose(double time_s, const mrpt::poses::CPose3D& pose) {
+        if (poses_) all_.write(poses_->place(), [&] { poses_->add(time_s, pose); });
+    }
+    /// `step` is called with the folder.
+    template <class Step>
+    void writeScan(const Step& step) {
+        if (folder_) all_.write(folder_->place(), [&] { step(*folder_); });
+    }
+
+    bool areAllGivenUp() const { return all_.areAllGivenUp(); }
+    void commit() { all_.commit(); }
+    /// Says what is kept where, and what is not, and why.
+    std::string keepPartial() {
+        std::string names;
+        const auto keep = [&](auto& output) {
+            if (!output) return;
+            all_.write(output->place(), [&] { names += " " + output->keepPartial().string(); });
+        };
+        keep(folder_);
+        keep(poses_);
+        keep(rawlog_);
+        const std::string& failures = all_.failures();
+        return (names.empty() ? " no output" : names) + (failures.empty() ? "" : "; " + failures);
+    }
+
+ private:
+    std::optional<convert::RawlogWriter> rawlog_;
+    std::optional<GroundTruthFolder> folder_;
+    std::optional<PoseOutput> poses_;
+    base::OutputSet all_;
+};
+
+mrpt::Clock::time_point timePoint(double time_s) { return mrpt::Clock::fromDouble(time_s); }
+
+void writePose(double time_s, const simulation::SensorPose& pose, Outputs& outputs) {
+    outputs.writePose(kStart_s + time_s, mrptPose(pose));
+    if (!outputs.hasRawlog()) return;
+    mrpt::obs::CObservationRobotPose entry;
+    entry.sensorLabel = "pose";
+    entry.timestamp = timePoint(kStart_s + time_s);
+    entry.pose.mean = mrptPose(pose);
+    outputs.write(entry);
+}
+
+bool hasPackets(const SensorModel& sensor) {
+    return sensor.name == "VLP-16" || sensor.name == "HDL-32E";
+}
+
+/// Whether scans are written as clouds. (An HDL-64E has packets, but none that MRPT knows.)
+bool hasClouds(const SensorModel& sensor) { return !sensor.has_rings; }
+
+/// Returns the scan as a folder stores it: as measured, or as decoded from its packets.
+struct Measured {
+    Scan scan;
+    SensorModel sensor;
+};
+
+Measured writeScanEntry(const simulation::SimulatedScan& made, const SensorModel& sensor,
+                        const mrpt::poses::CPose3D& mount, double time_s, Outputs& outputs) {
+    if (hasClouds(sensor) && outputs.hasRawlog()) {
+        const auto observation =
+            observations::observationOf(made.scan, kLidarLabel, timePoint(kStart_s + time_s));
+        observation->sensorPose = mount;
+        outputs.write(*observation);
+    }
+    if (!hasPackets(sensor)) return {made.scan, sensor};
+    const auto observation = encodeSimulatedScan(made, sensor, std::fmod(time_s, 3600.0));
+    observation->sensorLabel = kLidarLabel;
+    observation->timestamp = timePoint(kStart_s + time_s);
+    observation->sensorPose = mount;
+    Measured measured;
+    observations::decodePackets(*observation, measured.scan);
+    measured.sensor = observations::sensorOf(*observation);
+    if (measured.scan.size() != made.size()) {
+        throw std::logic_error("the packets contain other returns than were simulated");
+    }
+    outputs.write(*observation);
+    return measured;
+}
+
+void count(const std::vector<simulation::ObjectClass>& kinds, SimulationReport& report) {
+    ++report.scans;
+    report.returns += kinds.size();
+    for (const simulation::ObjectClass kind : kinds) {
+        const Label label = simulation::labelOf(kind);
+        ++(label == Label::Roi   ? report.roi
+           : label == Label::Rou ? report.rou
+                                 : report.unclassified);
+    }
+}
+
+}  // namespace
+
+SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()>& keep_going) {
+    const SensorModel sensor = sensorModel(log.sensor);
+    if (!log.rawlog.empty() && !hasPackets(sensor) && !hasClouds(sensor)) {
+        throw std::invalid_argument(
+            "there is no packet format for '" + sensor.name +
+            "', so it cannot be written to a rawlog; request only a scan folder");
+    }
+    base::checkApart({log.rawlog, log.folder, log.poses}, {});
+    const double roll_rad = radians(log.mount_roll_deg), pitch_rad = radians(log.mount_pitch_deg);
+    const Eigen::Quaterniond mount = Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
+                                     Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
+    mrpt::poses::CPose3D sensor_on_vehicle;
+    if (roll_rad != 0 || pitch_rad != 0) {  // otherwise it would have a zero with a minus sign
+        sensor_on_vehicle = mrpt::poses::CPose3D(0, 0, 0, 0, pitch_rad, roll_rad);
+    }
+    Outputs outputs(log, {static_cast<float>(roll_rad), static_cast<float>(pitch_rad)});
+    const simulation::Scene scene = simulation::makeScene(log.scenario, log.seed);
+    simulation::FlightSettings settings;
+    settings.altitude_m = log.altitude_m;
+    settings.speed_m_s = log.speed_m_s;
+    settings.tilt_sd_rad = radians(log.tilt_sd_deg);
+    const simulation::Flight flight(scene.terrain(), scene.path(), settings, log.seed);
+    const double measuring_s = simulation::firingPattern(sensor).revolutionPeriod_s();
+
+    simulation::SensorErrorModel faults = simulation::sensorErrors(sensor);
+    if (log.clear_air) {
+        faults.dust_per_m = 0;
+        faults.airframe = false;
+    }
+    simulation::Random random(log.seed, 3);
+    SimulationReport report;
+    for (int scan = 0; scan < log.scans; ++scan) {
+        if (!keep_going()) {
+            if (scan == 0) throw std::runtime_error("interrupted before the first scan");
+            throw std::runtime_error("interrupted; the " + std::to_string(scan) +
+                                     " scans before it are in" + outputs.keepPartial());
+        }
+        const double time_s = log.every_s * scan, next_s = log.every_s * (scan + 1);
+        const simulation::SimulatedScan made =
+            simulation::simulateScan(scene, sensor, flight, time_s, random, faults, mount);
+        writePose(time_s, flight.at(time_s), outputs);
+        const Measured measured = writeScanEntry(made, sensor, sensor_on_vehicle, time_s, outputs);
+        // Poses until after the last firing, or until the next scan provides one.
+        const bool is_last = scan + 1 == log.scans;
+        for (int step = 1; (step - 1) * kPoseStep_s < measuring_s; ++step) {
+            const double pose_s = time_s + step * kPoseStep_s;
+            if (!is_last && pose_s > next_s - 0.5 * kPoseStep_s) break;
+            writePose(pose_s, flight.at(pose_s), outputs);
+        }
+        outputs.writeScan([&](GroundTruthFolder& folder) {
+            folder.write(measured.scan, {made.kind, made.object}, measured.sensor,
+                         kStart_s + time_s, mrptPose(made.pose), made.altitude_m);
+        });
+        if (outputs.areAllGivenUp()) break;
+        count(made.kind, report);
+    }
+    outputs.commit();
+    return report;
+}
+
+}  // namespace hagen::convert

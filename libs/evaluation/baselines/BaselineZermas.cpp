@@ -1,0 +1,243 @@
+#include <hagen/evaluation/BaselineZermas.h>
+#include <hagen/scan/Angle.h>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace hagen::evaluation {
+namespace {
+
+using Indices = std::vector<std::int32_t>;
+
+Eigen::Vector3f point(const Scan& scan, std::int32_t i) {
+    return {scan.x_m[i], scan.y_m[i], scan.z_m[i]};
+}
+
+void requirePositive(int value, const char* name) {
+    if (value < 1) {
+        throw std::invalid_argument(std::string("zermas: ") + name + " is " +
+                                    std::to_string(value) + "; it must be at least 1");
+    }
+}
+
+/// A plane: its points satisfy normal . p = offset_m; the normal points upwards.
+struct Plane {
+    Eigen::Vector3f normal;
+    float offset_m;
+    float heightOf(const Eigen::Vector3f& p) const { return normal.dot(p) - offset_m; }
+};
+
+/// EstimatePlane: through the mean of the points, normal to the direction of least spread.
+std::optional<Plane> estimatePlane(const Scan& scan, const Indices& points) {
+    if (points.size() < 3) return std::nullopt;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const std::int32_t i : points) mean += point(scan, i).cast<double>();
+    mean /= static_cast<double>(points.size());
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (const std::int32_t i : points) {
+        const Eigen::Vector3d from_mean = point(scan, i).cast<double>() - mean;
+        covariance += from_mean * from_mean.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(covariance);
+    if (spread.eigenvalues()[1] < 1e-9 * spread.eigenvalues()[2]) return std::nullopt;  // a line
+    Eigen::Vector3d normal = spread.eigenvectors().col(0);
+    if (normal.z() < 0.0) normal = -normal;
+    return Plane{normal.cast<float>(), static_cast<float>(normal.dot(mean))};
+}
+
+/// True if a return is processed at all.
+bool isInZone(const Scan& scan, const SensorModel& sensor, std::size_t i, float zone_m) {
+    return sensor.sees(scan.range_m[i]) && scan.range_m[i] <= zone_m;
+}
+
+/// The returns in the zone, one list per stretch of the x axis, from the rearmost to the foremost;
+/// stretches are equally long.
+std::vector<Indices> alongX(const Scan& scan, const SensorModel& sensor,
+                            const ZermasOptions& options) {
+    Indices in_zone;
+    float least_m = std::numeric_limits<float>::infinity(), most_m = -least_m;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (!isInZone(scan, sensor, i, options.zone_m)) continue;
+        in_zone.push_back(static_cast<std::int32_t>(i));
+        least_m = std::min(least_m, scan.x_m[i]);
+        most_m = std::max(most_m, scan.x_m[i]);
+    }
+    std::vector<Indices> stretches(options.segments);
+    for (const std::int32_t i : in_zone) {
+        const float share = most_m > least_m ? (scan.x_m[i] - least_m) / (most_m - least_m) : 0.0f;
+        const int stretch = static_cast<int>(share * static_cast<float>(options.segments));
+        stretches[std::min(stretch, options.segments - 1)].push_back(
+            i);  // the foremost return belongs to the last stretch
+    }
+    return stretches;
+}
+
+/// ExtractInitialSeeds of algorithm 1.
+Indices initialSeeds(const Scan& scan, const Indices& points, const ZermasOptions& options) {
+    Indices seeds;
+    if (points.empty()) return seeds;
+    std::vector<float> heights_m;
+    for (const std::int32_t i : points) heights_m.push_back(scan.z_m[i]);
+    const auto lowest = static_cast<std::ptrdiff_t>(
+        std::min(heights_m.size(), static_cast<std::size_t>(options.lowest_points)));
+    const auto lowest_end = heights_m.begin() + lowest;
+    std::partial_sort(heights_m.begin(), lowest_end, heights_m.end());
+    const float representative_m =
+        std::accumulate(heights_m.begin(), lowest_end, 0.0f) / static_cast<float>(lowest);
+    for (const std::int32_t i : points) {
+        if (scan.z_m[i] < representative_m + options.seed_height_m) seeds.push_back(i);
+    }
+    return seeds;
+}
+
+/// Merged clusters. Each is linked to the smaller number, as in algorithm 2.
+class UnionFind {
+ public:
+    explicit UnionFind(std::size_t size) : parent_(size) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
+    std::int32_t find(std::int32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::int32_t a, std::int32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+ private:
+    Indices parent_;
+};
+
+float distance(const Scan& scan, std::int32_t a, std::int32_t b) {
+    return (point(scan, a) - point(scan, b)).norm();
+}
+
+/// FindRuns: neighbours in azimuth that are closer than Th_run, including the last and the first.
+void joinRuns(const Scan& scan, const Indices& line, float run_distance_m, UnionFind& clusters) {
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        const std::int32_t next = line[(k + 1) % line.size()];
+        if (distance(scan, line[k], next) < run_distance_m) clusters.join(line[k], next);
+    }
+}
+
+/// Returns the return of `line` (ascending azimuths, not empty) nearest to return i, if nearer than
+/// `limit_m`; otherwise -1. Searches outwards from i's azimuth to both sides, no farther than its
+/// sphere reaches.
+std::int32_t nearestInLine(const Scan& scan, const Indices& line, std::int32_t i, float limit_m) {
+    const float from_axis_m = std::hypot(scan.x_m[i], scan.y_m[i]);
+    const float reach_rad =
+        from_axis_m > limit_m ? std::asin(limit_m / from_axis_m) : static_cast<float>(kPi);
+    const float azimuth_rad = scan.azimuth_rad[i];
+    const auto from = std::lower_bound(
+        line.begin(), line.end(), azimuth_rad,
+        [&](std::int32_t a, float azimuth) { return scan.azimuth_rad[a] < azimuth; });
+    const auto start = static_cast<std::size_t>(from - line.begin());
+
+    std::int32_t nearest = -1;
+    float nearest_m = limit_m;
+    const auto isBeyond = [&](std::int32_t candidate) {
+        const float apart_m = distance(scan, i, candidate);
+        if (apart_m < nearest_m) {
+            nearest_m = apart_m;
+            nearest = candidate;
+        }
+        const float turn_rad = std::abs(scan.azimuth_rad[candidate] - azimuth_rad);
+        return std::min(turn_rad, static_cast<float>(2.0 * kPi) - turn_rad) > reach_rad;
+    };
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        if (isBeyond(line[(start + k) % line.size()])) break;
+    }
+    for (std::size_t k = 1; k <= line.size(); ++k) {
+        if (isBeyond(line[(start + line.size() - k) % line.size()])) break;
+    }
+    return nearest;
+}
+
+/// The Roi returns of each row, sorted by azimuth.
+std::vector<Indices> scanLines(const Scan& scan, int rows, const std::vector<Label>& labels) {
+    std::vector<Indices> lines(rows);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (labels[i] == Label::Roi) lines[scan.row[i]].push_back(static_cast<std::int32_t>(i));
+    }
+    for (Indices& line : lines) {
+        std::stable_sort(line.begin(), line.end(), [&](std::int32_t a, std::int32_t b) {
+            return scan.azimuth_rad[a] < scan.azimuth_rad[b];
+        });
+    }
+    return lines;
+}
+
+}  // namespace
+
+std::vector<Label> zermasGroundFit(const Scan& scan, const SensorModel& sensor,
+                                   const ZermasOptions& options) {
+    requirePositive(options.segments, "segments");
+    requirePositive(options.iterations, "iterations");
+    requirePositive(options.lowest_points, "lowest_points");
+    std::vector<Label> labels(scan.size(), Label::Unclassified);
+    for (const Indices& stretch : alongX(scan, sensor, options)) {
+        Indices ground = initialSeeds(scan, stretch, options);
+        for (int iteration = 0; iteration < options.iterations; ++iteration) {
+            const std::optional<Plane> plane = estimatePlane(scan, ground);
+            ground.clear();
+            if (!plane) break;
+            for (const std::int32_t i : stretch) {
+                // Signed: points below the plane are ground, too.
+                if (plane->heightOf(point(scan, i)) < options.ground_distance_m) {
+                    ground.push_back(i);
+                }
+            }
+        }
+        for (const std::int32_t i : stretch) labels[i] = Label::Roi;
+        for (const std::int32_t i : ground) labels[i] = Label::Rou;
+    }
+    return labels;
+}
+
+std::vector<std::int32_t> scanLineRuns(const Scan& scan, const SensorModel& sensor,
+                                       const std::vector<Label>& labels,
+                                       const ZermasOptions& options) {
+    if (labels.size() != scan.size()) {
+        throw std::invalid_argument("zermas: " + std::to_string(scan.size()) + " returns, but " +
+                                    std::to_string(labels.size()) + " labels");
+    }
+    const std::vector<Indices> lines = scanLines(scan, sensor.rows(), labels);
+    UnionFind clusters(scan.size());
+    for (int row = sensor.rows() - 1; row >= 0; --row) {
+        joinRuns(scan, lines[row], options.run_distance_m, clusters);
+        if (row + 1 == sensor.rows() || lines[row + 1].empty()) continue;
+        for (const std::int32_t i : lines[row]) {
+            const std::int32_t above =
+                nearestInLine(scan, lines[row + 1], i, options.merge_distance_m);
+            if (above >= 0) clusters.join(i, above);
+        }
+    }
+    std::vector<std::int32_t> numbers(scan.size(), 0);
+    std::int32_t count = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (labels[i] != Label::Roi) continue;
+        const auto index = static_cast<std::int32_t>(i);
+        const std::int32_t first = clusters.find(index);  // the smallest index of its cluster
+        numbers[i] = first == index ? ++count : numbers[first];
+    }
+    return numbers;
+}
+
+std::vector<Label> zermasLabels(const Scan& scan, const SensorModel& sensor,
+                                const ZermasOptions& options) {
+    std::vector<Label> labels = zermasGroundFit(scan, sensor, options);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const bool is_far = sensor.sees(scan.range_m[i]) && scan.range_m[i] > options.zone_m;
+        if (is_far) labels[i] = Label::Rou;
+    }
+    return labels;
+}
+
+}  // namespace hagen::evaluation

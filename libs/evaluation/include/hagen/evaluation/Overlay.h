@@ -1,0 +1,20 @@
+// Labels drawn into a camera view.
+#pragma once
+#include <hagen/base/OutputPath.h>
+#include <hagen/evaluation/Evaluation.h>
+#include <filesystem>
+
+namespace hagen::evaluation {
+
+/// A folder of these pictures (*_overlay.png), or of folders of them.
+extern const base::OutputKind kOverlays;
+
+/// Draws the pixels of a labelled scan by outcome: correct RoI, correct ROU, missed RoI and false
+/// RoI each have a colour; pixels that are not scored are pale. The picture is
+/// FOLDER/SOURCE_SCAN_overlay.png; with several methods, FOLDER/METHOD/... Throws
+/// std::runtime_error like runGnuplot().
+void drawOverlay(const std::filesystem::path& folder, const std::string& source,
+                 const evaluation::MethodOutput& view,
+                 const evaluation::EvaluationOptions& options);
+
+}  // namespace hagen::evaluation

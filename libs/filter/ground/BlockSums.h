@@ -1,0 +1,62 @@
+// Sums over blocks of ground cells around each block, for stages that judge a surrounding.
+#pragma once
+#include <hagen/filter/CellArea.h>
+#include <hagen/filter/GroundSurface.h>
+#include <algorithm>
+#include <array>
+
+namespace hagen {
+
+constexpr int kBlockCells = 4;
+constexpr int kBlocks = GroundSurface::kCells / kBlockCells;  // along each side, 3 m each
+
+/// A value per block, column by column.
+template <class Value>
+using Blocks = std::array<Value, kBlocks * kBlocks>;
+
+/// The same for each pixel's block (PixelCells.h), with a last element for pixels without one.
+template <class Value>
+using BlocksAndNone = std::array<Value, kBlocks * kBlocks + 1>;
+
+/// Sums over `kReach` blocks in each direction along a line of blocks that are `stride` apart. Each
+/// step adds one block and removes one.
+template <int kReach, class Value>
+void sumAlong(const Value* blocks, int stride, Value* sums) {
+    Value around;
+    for (int k = 0; k < kReach; ++k) around.add(blocks[k * stride]);
+    for (int k = 0; k < kBlocks; ++k) {
+        if (k + kReach < kBlocks) around.add(blocks[(k + kReach) * stride]);
+        if (k - kReach - 1 >= 0) around.remove(blocks[(k - kReach - 1) * stride]);
+        sums[k * stride] = around;
+    }
+}
+
+/// Blocks from `first` up to before `end`, along both sides.
+struct BlockArea {
+    int first_row = 0, end_row = kBlocks, first_column = 0, end_column = kBlocks;
+};
+
+/// The blocks that are in an area with all of their cells.
+inline BlockArea blocksIn(const CellArea& area) {
+    const auto first = [](int place) {
+        return (std::max(place - 1, 0) + kBlockCells - 1) / kBlockCells;
+    };
+    const auto end = [](int place) { return std::max(place - 1, 0) / kBlockCells; };
+    return {first(area.first_row), end(area.end_row), first(area.first_column),
+            end(area.end_column)};
+}
+
+/// Replaces the value of each block of an area by the sum over the square around it. Without the
+/// area, there is nothing.
+template <int kReach, class Value>
+void sumAround(Blocks<Value>& blocks, const BlockArea& area = {}) {
+    Blocks<Value> sums{};
+    for (int j = area.first_column; j < area.end_column; ++j) {
+        sumAlong<kReach>(&blocks[j * kBlocks], 1, &sums[j * kBlocks]);
+    }
+    for (int i = area.first_row; i < area.end_row; ++i) {
+        sumAlong<kReach>(&sums[i], kBlocks, &blocks[i]);
+    }
+}
+
+}  // namespace hagen

@@ -1,0 +1,101 @@
+// The ground grid, for many pixels at a time. For files that Highway compiles once per instruction
+// set.
+#ifndef HAGEN_GROUND_GRID
+#define HAGEN_GROUND_GRID
+#include <hagen/scan/SetBits.h>
+#include <cstddef>
+#include <cstdint>
+
+#include "filter/ground/GroundGrid.h"
+#endif
+
+#if defined(HAGEN_GROUND_GRID_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HAGEN_GROUND_GRID_INL
+#undef HAGEN_GROUND_GRID_INL
+#else
+#define HAGEN_GROUND_GRID_INL
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Makes a lambda part of the loop that calls it.
+#undef HAGEN_INLINE
+#define HAGEN_INLINE HWY_ATTR __attribute__((always_inline))
+
+/// Calls visit(d, i) for `size` floats: i is the first of a vector, d its tag. The last few are
+/// visited one by one, as vectors of one lane. `visit` is HAGEN_INLINE.
+template <class Visit>
+HWY_INLINE void forEachVector(std::size_t size, Visit visit) {
+    const hn::ScalableTag<float> d;
+    std::size_t i = 0;
+    for (; i + hn::Lanes(d) <= size; i += hn::Lanes(d)) visit(d, i);
+    for (; i < size; ++i) visit(hn::CappedTag<float, 1>(), i);
+}
+
+/// Moves the selected lanes of two vectors to the front of each; returns their number. Highway's
+/// Compress() copies its 1 KB table on every call when GCC compiles it for AVX2.
+template <class D, class VF, class VI>
+HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& integers) {
+    const hn::RebindToSigned<D> di;
+#if HWY_TARGET == HWY_AVX2
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, is_chosen, bits);
+    const hn::Rebind<std::uint8_t, D> d8;
+    const auto lanes = hn::PromoteTo(di, hn::LoadU(d8, kSetBits.place[bits[0]].data()));
+    floats = hn::TableLookupLanes(floats, hn::IndicesFromVec(d, lanes));
+    integers = hn::TableLookupLanes(integers, hn::IndicesFromVec(di, lanes));
+#else
+    floats = hn::Compress(floats, is_chosen);
+    integers = hn::Compress(integers, hn::RebindMask(di, is_chosen));
+#endif
+    return hn::CountTrue(d, is_chosen);
+}
+
+/// The values at these indices.
+template <class D>
+HWY_INLINE hn::Vec<D> gatherAt(D d, const float* HWY_RESTRICT values,
+                               const std::uint16_t* HWY_RESTRICT index) {
+    const hn::Rebind<std::uint16_t, D> d16;
+    return hn::GatherIndex(d, values,
+                           hn::PromoteTo(hn::RebindToSigned<D>(), hn::LoadU(d16, index)));
+}
+
+/// The cells of points; border cells for points that are not on the grid.
+template <class D>
+struct GridCells {
+    hn::Vec<hn::RebindToSigned<D>> i, j;  ///< 1 for the first cell, 0 for the border before it
+    hn::Vec<hn::RebindToSigned<D>> cell;
+    hn::Mask<D> is_on_grid;
+};
+
+template <int kSide = GroundSurface::kCells, class D, class V = hn::Vec<D>>
+HWY_INLINE GridCells<D> gridCells(D d, V x_m, V y_m) {
+    const hn::RebindToSigned<D> di;
+    const V cells_per_m = hn::Set(d, kSide / (GroundSurface::kCells * GroundSurface::kCell_m));
+    const V middle = hn::Set(d, kSide / 2 + 1), last = hn::Set(d, kStride<kSide> - 1);
+    const V u = hn::Add(hn::Mul(x_m, cells_per_m), middle);
+    const V v = hn::Add(hn::Mul(y_m, cells_per_m), middle);
+    const auto whole = [&](V cell) HWY_ATTR {  // 0 for NaN
+        const V positive = hn::IfThenElseZero(hn::Gt(cell, hn::Zero(d)), cell);
+        return hn::ConvertTo(di, hn::Min(positive, last));
+    };
+    const auto isInside = [&](V cell) HWY_ATTR {
+        return hn::And(hn::Ge(cell, hn::Set(d, 1.0f)), hn::Lt(cell, last));
+    };
+    const auto i = whole(u), j = whole(v);
+    const auto column = hn::Add(hn::ShiftLeft<kLog2<kSide>>(j), hn::ShiftLeft<1>(j));
+    return {i, j, hn::Add(column, i), hn::And(isInside(u), isInside(v))};
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,48 @@
+#pragma once
+#include <hagen/scan/Image.h>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hagen {
+
+/// An image of levels with a frame around it, as one array. The frame has a zero above each column,
+/// which is also below the next one, and on both sides a copy of the column at the other end of the
+/// turn. Each neighbour is thus at a constant offset, and no loop checks for the image's borders.
+struct FramedLevels {
+    int rows = 0, columns = 0;
+    std::vector<float> level;  ///< >= 0; 0 for empty pixels
+
+    int stride() const { return rows + 1; }
+    int indexOf(int row, int column) const { return 1 + (column + 1) * stride() + row; }
+    int rowOf(int index) const { return (index - 1) % stride(); }
+    int columnOf(int index) const { return (index - 1) / stride() - 1; }
+};
+
+/// Empty and negative pixels become 0.
+void frameLevels(const Image<float>& image, FramedLevels& framed);
+
+/// The offsets of a pixel's 8 neighbours, in circular order; the even ones share an edge with it.
+constexpr int kNeighbours = 8;
+std::array<int, kNeighbours> neighbourOffsets(int stride);
+
+/// The pixels at which components of {pixel >= level} are born or may meet as the level sinks, and
+/// a path from every pixel above 0 to a maximum. Pixels are indices into the framed levels.
+struct CriticalPixels {
+    /// For each pixel its oldest neighbour or another older one, or itself if it is a maximum. For
+    /// a pixel of the frame, the pixel it copies.
+    std::vector<std::int32_t> ascent;
+    /// For each pixel the set of its older neighbours, bit n for the n-th.
+    std::vector<std::int32_t> older_neighbours;
+    std::size_t maxima = 0, saddles = 0;  ///< counts; the lists are longer
+    std::vector<std::int32_t> maximum;    ///< pixels without an older neighbour, ascending
+    /// Pixels whose older neighbours are not all adjacent to each other, ascending. Any other pixel
+    /// joins one component or none.
+    std::vector<std::int32_t> saddle;
+};
+
+/// The higher pixel is older; of two equal ones, the one with the smaller index in the image.
+void findCriticalPixels(const FramedLevels& framed, CriticalPixels& critical);
+
+}  // namespace hagen

@@ -1,0 +1,51 @@
+#pragma once
+#include <hagen/filter/OwnLabels.h>
+#include <hagen/scan/Label.h>
+#include <hagen/scan/RangeImage.h>
+#include <hagen/scan/Scan.h>
+#include <cstdint>
+#include <vector>
+
+namespace hagen {
+
+/// The labels of a scan's returns, and the returns of each label.
+struct LabelledReturns {
+    std::vector<Label> label;             ///< one entry per return, in the scan's order
+    std::vector<std::int32_t> component;  ///< RoI component, 1 the nearest; 0 for none
+    /// Indices of the returns with each label, ascending; every return is in exactly one list.
+    std::vector<std::uint32_t> roi, rou, unclassified;
+};
+
+/// A labelled image, and the pixels of the returns.
+struct LabelledImage {
+    const RangeImage& range_image;
+    const Image<Label>& labels;
+    const Image<std::int32_t>& components;  ///< numbered obstacles (RoiComponents.h)
+};
+
+/// Rules for returns that do not depend on their pixel.
+struct ExtractionRules {
+    float zone_m;  ///< returns farther away are ROU
+    /// A return with its own label belongs to its pixel's component if it is less than this behind
+    /// it: what is seen past an obstacle is not part of it.
+    float component_gap_m;
+};
+
+/// Workspace of extractReturns(). Reuse it between scans to avoid allocations; it has no state.
+/// Lists may be longer than their contents.
+struct ExtractionWorkspace {
+    std::vector<std::int32_t> verdict;  ///< 2 * component + 1 if ROU; [0]: no pixel
+    std::vector<std::int32_t> number;   ///< for each component
+    std::vector<std::uint32_t> roi, rou, unclassified;
+};
+
+/// Stage 9, extraction: a return takes the label and the component of its pixel, through the
+/// depth_mapper, unless it has its own label. In the zone, a return without a pixel is RoI, of no
+/// component: it is out of the sensor's range limits, so its position is doubtful, but something is
+/// there. Only what has no range (0, not finite) is Unclassified. Components keep their order and
+/// are numbered 1, 2, ... without gaps. Requires `image` and `own_labels` of this scan.
+void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabels& own_labels,
+                    const ExtractionRules& rules, LabelledReturns& returns,
+                    ExtractionWorkspace& work);
+
+}  // namespace hagen

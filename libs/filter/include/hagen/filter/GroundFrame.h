@@ -1,0 +1,57 @@
+#pragma once
+#include <hagen/filter/Levelling.h>
+#include <hagen/filter/PixelPoints.h>
+#include <hagen/scan/Label.h>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hagen {
+
+/// Workspace of fitGroundFrame(). Reuse it between scans to avoid allocations; it has no state.
+/// Lists may be longer than their contents.
+struct GroundFrameWorkspace {
+    std::vector<std::int32_t> columns;  ///< of the image
+    /// The points that the plane is fitted to, and their weights by distance. The last of the four
+    /// parts is padded with points of weight 0.
+    struct Points {
+        std::vector<double> x_m, y_m, z_m, nearness;
+        std::size_t size = 0;
+    };
+
+    std::vector<std::int32_t> cell, height;  ///< per pixel; heights as bits in the same order
+    std::vector<std::int64_t> lowest;        ///< per cell: height, then index of its lowest pixel
+    std::vector<std::int32_t> occupied;      ///< cells with a pixel
+    Points points;
+};
+
+/// The transform from the sensor frame to the ground frame: z is the height above the mean plane of
+/// the ground, x and y lie in it, the origin is on it below the sensor.
+///
+/// The plane is fitted to the lowest point of each cell of a grid (0.75 m cells, within 40 m) by
+/// iteratively reweighted least squares. A cell's weight decreases with its distance from the
+/// plane, faster above than below, and with its distance from the sensor. Images of 400 columns or
+/// more are subsampled evenly to 200 to 400 columns, or to `columns`. The sensor height is not
+/// assumed. The search starts from ground that is level according to `attitude`; without an
+/// attitude, it finds tilts of up to 30 degrees. With fewer than three occupied cells, returns the
+/// frame of a level plane (by `attitude`) through the lowest point, or through the sensor if there
+/// are no points.
+Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
+                                 GroundFrameWorkspace& work,
+                                 const std::vector<std::int32_t>* columns = nullptr);
+
+/// Whether the fitted plane may be ground: the sensor is above it, tilted by less than 45 degrees
+/// against the horizon (against the airframe if the attitude is unknown), and at least 20 pixels
+/// are labelled ROU. High up next to a tower or tree no ground is visible, and other surfaces must
+/// not be taken for it.
+bool canBeGround(const Eigen::Isometry3f& ground_from_sensor,
+                 const std::optional<Attitude>& attitude, const Image<Label>& labels);
+
+/// The unit vector against gravity in the ground frame; the ground normal if the attitude is
+/// unknown.
+Eigen::Vector3f upwards(const Eigen::Isometry3f& ground_from_sensor,
+                        const std::optional<Attitude>& attitude);
+
+}  // namespace hagen

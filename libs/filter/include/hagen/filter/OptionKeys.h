@@ -1,0 +1,24 @@
+#pragma once
+#include <hagen/filter/Options.h>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hagen {
+
+/// A settings key of an option. Parsing, range checks, sweeps and `rawlog-segment --config-keys`
+/// all use this table.
+struct OptionKey {
+    std::string name, unit;
+    double least, most;        ///< allowed range, both inclusive
+    std::string what, symbol;  ///< one-line description; the paper's symbol, if any
+    std::variant<float Options::*, int Options::*, bool Options::*, Seeds Options::*> field;
+};
+const std::vector<OptionKey>& optionKeys();
+
+/// The value of an option as in a settings file: "20", "true", "lowest".
+std::string textOf(const OptionKey& key, const Options& options);
+/// The allowed values in a settings file: "0.1 ... 1000", "lowest, top_and_nearest".
+std::string rangeOf(const OptionKey& key);
+
+}  // namespace hagen

@@ -1,0 +1,21 @@
+#pragma once
+#include <hagen/filter/PixelPoints.h>
+#include <hagen/scan/Image.h>
+#include <cstdint>
+
+namespace hagen {
+
+/// Where each pixel is on the ground grid: the cells of GroundSurface, plus a border of one cell on
+/// all sides for all points beyond; and blocks of 4 x 4 cells, which have no border.
+struct PixelCells {
+    static constexpr std::uint16_t kNoBlock = 32 * 32;  ///< beyond the grid, or empty
+
+    /// An index into a grid with a border, column by column; 0 if the pixel is empty.
+    Image<std::uint16_t> cell;
+    Image<std::uint16_t> block;  ///< column by column, or kNoBlock
+};
+
+/// `pixels` in the ground frame.
+void findPixelCells(const PixelPoints& pixels, PixelCells& cells);
+
+}  // namespace hagen

@@ -1,0 +1,321 @@
+#include <hagen/live/AutopilotLink.h>
+#include <hagen/live/GroundBelow.h>
+#include <hagen/live/Parser.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <new>
+#include <thread>
+
+namespace hagen::live {
+namespace {
+
+constexpr double kPeriod_s = 0.05;       // of OBSTACLE_DISTANCE
+constexpr std::size_t kOthersEvery = 2;  // periods: 3D and ground
+constexpr std::size_t kHeartbeatEvery = 20;
+constexpr double kLongestWait_s = 0.01;
+constexpr std::size_t kMostAtOnce =
+    1000;                                // datagrams; one who floods does not keep us from sending
+constexpr double kAttitudeWithin_s = 3;  // then its absence is told
+constexpr double kMostBehind_s = 0.5;    // messages that were missed are not made up for
+
+double now_s() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+}  // namespace
+
+/// The thread that sends, and all that it shares with the others.
+class AutopilotLink::Work {
+ public:
+    Work(Settings settings, Remark remark)
+        : settings_(std::move(settings)),
+          remark_(std::move(remark)),
+          peer_(mavlink::Peer::open(settings_.peer)),
+          motion_(settings_.is_simulated) {}
+    ~Work() { stop(); }
+
+    void begin(const SensorModel& sensor, Limits limits) {
+        limits_ = limits;
+        limits_.nearest_m = sensor.min_range_m;
+        distances_.emplace(sensor, settings_.directions);
+        start_s_ = now_s();
+        thread_ = std::thread([this] { work(); });
+    }
+
+    void stop() {
+        is_at_end_ = true;
+        if (thread_.joinable()) thread_.join();
+    }
+
+    void take(const live::LabelledSector& sector) {
+        const auto below = sector.is_doubtful || !settings_.has_ground
+                               ? std::nullopt
+                               : groundBelow(sector.result.ground, vehicleFromSensor());
+        const std::lock_guard lock(mutex_);
+        distances_->take(sector);
+        if (below) {
+            below_m_ = *below;
+            below_s_ = sector.first_time_s;
+        }
+    }
+
+    live::SensorMotion motionAt(double time_s) const {
+        const std::lock_guard lock(mutex_);
+        const auto pose = motion_.at(time_s);
+        if (!pose) return {};
+        const Eigen::Matrix3d mount = settings_.directions.body_from_sensor.linear();
+        const Eigen::Matrix3f level = (levelFromVehicle(*pose) * mount).cast<float>();
+        live::SensorMotion motion;
+        motion.attitude = {std::atan2(level(2, 1), level(2, 2)),
+                           std::asin(std::clamp(-level(2, 0), -1.0f, 1.0f))};
+        if (pose->place_m) {
+            Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
+            map_from_sensor.linear() = pose->map_from_vehicle.toRotationMatrix() * mount;
+            map_from_sensor.translation() = *pose->place_m;
+            motion.map_from_sensor = map_from_sensor;
+        }
+        return motion;
+    }
+
+    Counts counts() const {
+        const std::lock_guard lock(mutex_);
+        const auto& c = parser_.counts();
+        return {{"obstacle_distance", sent_distance_},
+                {"obstacle_distance_3d", sent_3d_},
+                {"distance_sensor", sent_below_},
+                {"heartbeat", sent_heartbeat_},
+                {"all_unknown", all_unknown_},
+                {"not_sent", not_sent_},
+                {"out_of_memory", out_of_memory_},
+                {"stalls", stalls_},
+                {"peer_troubles", troubles_},
+                {"received", c.messages},
+                {"attitude", attitudes_},
+                {"position", places_},
+                {"other_messages", others_},
+                {"other_systems", foreign_},
+                {"refused", refused_},
+                {"bad_checksum", c.bad_checksum},
+                {"incompatible", c.incompatible},
+                {"signed", c.is_signed},
+                {"lost", c.lost},
+                {"skipped_bytes", c.skipped_bytes},
+                {"clock_restarts", motion_.restarts()}};
+    }
+
+ private:
+    Eigen::Matrix3f vehicleFromSensor() const {
+        return settings_.directions.body_from_sensor.linear().cast<float>();
+    }
+
+    void work() {
+        double next_s = start_s_;
+        for (std::size_t period = 0; !is_at_end_; ++period) {
+            attempt([&] { sendPeriod(period); });
+            next_s = std::max(next_s + kPeriod_s, now_s() - kMostBehind_s);
+            double rest_s = 0;
+            do {  // also if it is behind: what waits unread gets old
+                rest_s = std::max(next_s - now_s(), 0.0);
+                attempt([&] { receiveAll(rest_s); });
+            } while (!is_at_end_ && rest_s > 0);
+            attempt([&] { tellPeer(); });
+            attempt([&] { tellAttitude(); });
+        }
+        attempt([&] { send(obstacleDistance({}, limits_, now_s()), sent_distance_); });
+    }
+
+    /// A step without memory is left out and counted: the next ones may have some, and until then
+    /// the autopilot notices that nothing arrives.
+    template <class Step>
+    void attempt(const Step& step) {
+        try {
+            step();
+        } catch (const std::bad_alloc&) {
+            count(out_of_memory_);
+        }
+    }
+
+    void sendPeriod(std::size_t period) {
+        const double time_s = now_s();
+        std::optional<float> below_m;
+        // Copies, so that those who label do not wait while directions are made of them.
+        std::unique_lock lock(mutex_);
+        const live::SectorDistances distances = *distances_;
+        const VehicleMotion motion = motion_;
+        if (time_s - below_s_ <= settings_.directions.stale_s) below_m = below_m_;
+        lock.unlock();
+        const Directions directions =
+            distances.at(time_s, [&](double at_s) { return motion.at(at_s); });
+        const std::optional<VehiclePose> pose = motion.at(time_s);
+        const double latest_s = distances.latest_s();
+        watch(latest_s, time_s);
+        const bool is_all_unknown = std::all_of(
+            directions.begin(), directions.end(),
+            [](const Direction& each) { return each.state == DirectionState::Unknown; });
+        if (send(obstacleDistance(directions, limits_, time_s), sent_distance_) && is_all_unknown) {
+            count(all_unknown_);
+        }
+        if (period % kOthersEvery == 0) {
+            const auto obstacles = numbers_.nearest(directions, settings_.nearest, pose);
+            for (const auto& message : obstacleDistances3d(obstacles, pose, limits_, time_s)) {
+                send(message, sent_3d_);
+            }
+            if (below_m) send(distanceBelow(*below_m, limits_, time_s), sent_below_);
+        }
+        if (period % kHeartbeatEvery == 0) {
+            const bool has_begun = std::isfinite(latest_s);
+            send(heartbeat(is_stalled_ ? mavlink::kStateCritical
+                           : has_begun ? mavlink::kStateActive
+                                       : mavlink::kStateBoot),
+                 sent_heartbeat_);
+        }
+    }
+
+    /// Whether the one that labels still does.
+    void watch(double latest_s, double time_s) {
+        const bool is_stalled =
+            std::isfinite(latest_s) && time_s - latest_s > settings_.directions.stale_s;
+        if (is_stalled == is_stalled_) return;
+        is_stalled_ = is_stalled;
+        if (is_stalled) count(stalls_);
+        remark_(is_stalled ? "MAVLink: nothing was labelled for 0.3 s, all directions are sent as "
+                             "unknown"
+                           : "MAVLink: directions are known again");
+    }
+
+    /// All that waits: what is read one by one gets old when a period takes too long.
+    void receiveAll(double longest_s) {
+        for (std::size_t n = 0; n < kMostAtOnce && receive(n == 0 ? longest_s : 0); ++n) {
+        }
+    }
+
+    /// Whether something came.
+    bool receive(double longest_s) {
+        std::array<std::uint8_t, 65536>& buffer = buffer_;
+        const std::size_t size =
+            peer_->receive(buffer.data(), buffer.size(), std::min(longest_s, kLongestWait_s));
+        if (size == 0) return false;
+        const double arrival_s = now_s();
+        const std::lock_guard lock(mutex_);
+        const auto take = [&](const mavlink::Frame& frame) { takeFrame(frame, arrival_s); };
+        parser_.add(buffer.data(), size, take);
+        if (peer_->hasDatagrams()) parser_.end(take);
+        return true;
+    }
+
+    void takeFrame(const mavlink::Frame& frame, double arrival_s) {
+        if (frame.system != settings_.system || frame.component != mavlink::kComponentAutopilot) {
+            ++foreign_;
+            return;
+        }
+        switch (motion_.take(frame, arrival_s)) {
+            case VehicleMotion::Taken::Attitude:
+                ++attitudes_;
+                break;
+            case VehicleMotion::Taken::Place:
+                ++places_;
+                break;
+            case VehicleMotion::Taken::Other:
+                ++others_;
+                break;
+            case VehicleMotion::Taken::Refused:
+                ++refused_;
+                break;
+        }
+    }
+
+    template <class Message>
+    bool send(const Message& message, std::size_t& sent) {
+        mavlink::Frame frame = mavlink::frameOf(message);
+        frame.sequence = sequence_++;
+        frame.system = settings_.system;
+        frame.component = mavlink::kComponentObstacleAvoidance;
+        const bool is_sent = peer_->send(encode(frame, Message::kBytes));
+        count(is_sent ? sent : not_sent_);
+        return is_sent;
+    }
+
+    void count(std::size_t& number) {
+        const std::lock_guard lock(mutex_);
+        ++number;
+    }
+
+    void tellPeer() {
+        const std::string trouble = peer_->trouble();
+        if (trouble.empty() == trouble_.empty()) return;
+        remark_("MAVLink: " + (trouble.empty() ? trouble_ + ": no longer" : trouble));
+        if (!trouble.empty()) count(troubles_);
+        trouble_ = trouble;
+    }
+
+    void tellAttitude() {
+        const double time_s = now_s();
+        bool is_known = false;
+        {
+            const std::lock_guard lock(mutex_);
+            is_known = motion_.at(time_s).has_value();
+        }
+        if (is_known == knows_attitude_ ||
+            (!knows_attitude_.has_value() && !is_known && time_s - start_s_ < kAttitudeWithin_s)) {
+            return;
+        }
+        const std::string vehicle = "vehicle " + std::to_string(settings_.system);
+        remark_(is_known ? "MAVLink: the attitude of " + vehicle + " is known"
+                         : "MAVLink: the attitude of " + vehicle +
+                               " is not known, what is seen is not levelled");
+        knows_attitude_ = is_known;
+    }
+
+    const Settings settings_;
+    const Remark remark_;
+    const std::unique_ptr<mavlink::Peer> peer_;
+    Limits limits_;
+    double start_s_ = 0;
+
+    // Of the thread that sends.
+    ObstacleNumbers numbers_;
+    std::array<std::uint8_t, 65536> buffer_;
+    std::uint8_t sequence_ = 0;
+    bool is_stalled_ = false;
+    std::optional<bool> knows_attitude_;
+    std::string trouble_;
+
+    mutable std::mutex mutex_;  // of all that follows
+    std::optional<live::SectorDistances> distances_;
+    VehicleMotion motion_;
+    mavlink::Parser parser_;
+    float below_m_ = 0;
+    double below_s_ = -std::numeric_limits<double>::infinity();
+    std::size_t sent_distance_ = 0, sent_3d_ = 0, sent_below_ = 0, sent_heartbeat_ = 0;
+    std::size_t all_unknown_ = 0, not_sent_ = 0, stalls_ = 0, troubles_ = 0;
+    std::size_t out_of_memory_ = 0;
+    std::size_t attitudes_ = 0, places_ = 0, others_ = 0, foreign_ = 0, refused_ = 0;
+
+    std::atomic<bool> is_at_end_ = false;
+    std::thread thread_;
+};
+
+AutopilotLink::AutopilotLink(Settings settings, Remark remark)
+    : work_(std::make_unique<Work>(std::move(settings), std::move(remark))) {}
+
+AutopilotLink::~AutopilotLink() = default;
+
+void AutopilotLink::begin(const SensorModel& sensor, Limits limits) {
+    work_->begin(sensor, limits);
+}
+
+void AutopilotLink::take(const live::LabelledSector& sector) { work_->take(sector); }
+
+live::SensorMotion AutopilotLink::motionAt(double time_s) const { return work_->motionAt(time_s); }
+
+void AutopilotLink::stop() { work_->stop(); }
+
+AutopilotLink::Counts AutopilotLink::counts() const { return work_->counts(); }
+
+}  // namespace hagen::live

@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace hagen::live {
+
+/// Which packets were taken within the last 0.3 s, by a 64-bit key of each: a copy that comes late,
+/// as by a second path, measured nothing. A recording that is played again is no copy.
+class RecentPackets {
+ public:
+    static constexpr double kRemembered_s = 0.3;
+
+    RecentPackets() : places_(kPlaces) {}
+
+    bool has(std::uint64_t key, double now_s) const {
+        for (const Packet& other : places_[key % kPlaces]) {
+            if (other.key == key && now_s - other.time_s <= kRemembered_s) return true;
+        }
+        return false;
+    }
+
+    /// Forgets the oldest of the four that share a place.
+    void add(std::uint64_t key, double now_s) {
+        Place& place = places_[key % kPlaces];
+        for (std::size_t i = place.size() - 1; i > 0; --i) place[i] = place[i - 1];
+        place[0] = {key, now_s};
+    }
+
+ private:
+    static constexpr std::size_t kPlaces = 1021;  // a prime: keys may have a pattern
+    struct Packet {
+        std::uint64_t key = 0;
+        double time_s = -std::numeric_limits<double>::infinity();
+    };
+    using Place = std::array<Packet, 4>;
+
+    std::vector<Place> places_;
+};
+
+}  // namespace hagen::live

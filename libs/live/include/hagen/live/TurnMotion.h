@@ -1,0 +1,61 @@
+#pragma once
+#include <hagen/scan/Label.h>
+#include <hagen/scan/Scan.h>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+namespace hagen::live {
+
+/// How a rotating sensor tilts and rises, told by the ground it sees: each ROU return of the zone
+/// is compared with what the same pixel saw a turn before. (Beyond the zone, ROU is not ground
+/// only.)
+///
+/// Point-to-plane registration (Chen and Medioni 1992) with three unknowns: height, roll and pitch.
+/// Heading and place do not show on level ground. The plane at a return goes through the next ring
+/// of its column, and is level across. Returns that do not fit weigh less (Cauchy weights), and so
+/// do older ones.
+class TurnMotion {
+ public:
+    /// Of a sensor with so many rows, and images with so many columns. `zone_m`: of the filter.
+    TurnMotion(int rows, int columns, float zone_m);
+
+    /// Compares a sector with the turn before, and keeps it for the next. One label per return;
+    /// `head_rad`: how far the sensor has turned by now. It goes on from turn to turn.
+    void add(const Scan& sector, const std::vector<Label>& label, double head_rad);
+    void forget();
+
+    /// Now from then, in the sensor frame: where that is now which was measured so many turns ago
+    /// (up to about one), if the sensor moves as in the latest turn. None: too little ground was
+    /// compared.
+    std::optional<Eigen::Isometry3d> since(double turns) const;
+
+ private:
+    struct Ground {
+        Eigen::Vector3f point_m;
+        float radius_m = 0;   ///< its distance from the sensor's axis; 0: there is none
+        double head_rad = 0;  ///< how far the sensor had turned
+    };
+    struct Pixel {
+        int row, column;
+        Ground ground;
+    };
+    bool isOfTurnBefore(const Ground& ground) const;
+    std::optional<double> slopeAt(const Pixel& now) const;
+    void compare(const Pixel& now);
+    const Ground& groundOf(int row, int column) const;
+
+    int rows_, columns_;
+    float zone_m_;
+    std::vector<Ground> ground_;  ///< the latest of each pixel, in the columns that are compared
+    std::vector<Pixel> sector_;   ///< reused
+    double head_rad_ = 0;
+    /// Least squares of height, roll and pitch of the frame of then against that of now: normal
+    /// equations, in units of the variance of a return.
+    Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right_ = Eigen::Vector3d::Zero(), per_turn_ = Eigen::Vector3d::Zero();
+    double weight_ = 0;  ///< of all returns in it
+};
+
+}  // namespace hagen::live

@@ -1,0 +1,84 @@
+#include <hagen/live/Parser.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "live/mavlink/Wire.h"
+
+namespace hagen::mavlink {
+
+/// By the sequence; a component that begins again, or a message that comes late, looks like many.
+void Parser::countLost(const Frame& frame) {
+    const auto sender = std::make_pair(frame.system, frame.component);
+    const auto last = sequences_.find(sender);
+    if (last != sequences_.end()) {
+        const auto missing = static_cast<std::uint8_t>(frame.sequence - last->second - 1);
+        if (missing < 128) counts_.lost += missing;
+    }
+    sequences_[sender] = frame.sequence;
+}
+
+/// How many bytes from `at` on are dealt with; 0: more must come.
+std::size_t Parser::takeOne(std::size_t at, bool is_at_end, const Take& take) {
+    const std::uint8_t* const bytes = &waiting_[at];
+    const std::size_t size = waiting_.size() - at;
+    const auto none = [&](std::size_t& count) {
+        ++count;
+        return std::size_t{1};
+    };
+    if (bytes[0] != kStart) return none(counts_.skipped_bytes);
+    const std::size_t incomplete = is_at_end ? 1 : 0;
+    if (size < kHeaderBytes) {
+        counts_.skipped_bytes += incomplete;
+        return incomplete;
+    }
+    Frame frame;
+    frame.sequence = bytes[4];
+    frame.system = bytes[5];
+    frame.component = bytes[6];
+    frame.id = bytes[7] | std::uint32_t{bytes[8]} << 8 | std::uint32_t{bytes[9]} << 16;
+    frame.is_signed = (bytes[2] & kSigned) != 0;
+    const auto extra = crcExtra(frame.id);
+    if (!extra) return none(counts_.skipped_bytes);
+    const std::size_t checked = kHeaderBytes + bytes[1];
+    const std::size_t length =
+        checked + kChecksumBytes + (frame.is_signed ? kSignatureBytes : std::size_t{0});
+    if (size < length) {
+        counts_.skipped_bytes += incomplete;
+        return incomplete;
+    }
+    const std::uint16_t crc = checksum(&*extra, 1, checksum(bytes + 1, checked - 1));
+    if (crc != (bytes[checked] | bytes[checked + 1] << 8)) {
+        ++counts_.bad_checksum;
+        return none(counts_.skipped_bytes);
+    }
+    if ((bytes[2] & ~kSigned) != 0) {
+        ++counts_.incompatible;
+        return length;
+    }
+    std::copy(bytes + kHeaderBytes, bytes + checked, frame.payload.begin());
+    ++counts_.messages;
+    counts_.is_signed += frame.is_signed ? 1 : 0;
+    countLost(frame);
+    take(frame);
+    return length;
+}
+
+void Parser::read(bool is_at_end, const Take& take) {
+    std::size_t at = 0;
+    while (at < waiting_.size()) {
+        const std::size_t done = takeOne(at, is_at_end, take);
+        if (done == 0) break;
+        at += done;
+    }
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+void Parser::add(const std::uint8_t* bytes, std::size_t size, const Take& take) {
+    waiting_.insert(waiting_.end(), bytes, bytes + size);
+    read(false, take);
+}
+
+void Parser::end(const Take& take) { read(true, take); }
+
+}  // namespace hagen::mavlink

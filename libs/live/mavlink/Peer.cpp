@@ -1,0 +1,71 @@
+#include <hagen/live/Peer.h>
+
+#include <stdexcept>
+
+#include "live/mavlink/Peers.h"
+
+namespace hagen::mavlink {
+namespace {
+
+// All that is sent takes 6 kB per second.
+constexpr int kLeastBaud = 115200;
+
+[[noreturn]] void fail(const std::string& text, const std::string& what) {
+    throw std::runtime_error("'" + text + "': " + what);
+}
+
+/// The parts between colons.
+std::vector<std::string> partsOf(const std::string& text) {
+    std::vector<std::string> parts;
+    std::size_t at = 0;
+    for (;;) {
+        const std::size_t end = text.find(':', at);
+        parts.push_back(text.substr(at, end - at));
+        if (end == std::string::npos) return parts;
+        at = end + 1;
+    }
+}
+
+int numberOf(const std::string& text, int most) {
+    const bool is_number = !text.empty() && text.size() <= 8 &&
+                           text.find_first_not_of("0123456789") == std::string::npos;
+    const int number = is_number ? std::stoi(text) : 0;
+    return number <= most ? number : 0;
+}
+
+std::uint16_t portOf(const std::string& text, const std::string& part) {
+    const int port = numberOf(part, 65535);
+    if (port == 0) fail(text, "a port must be 1 to 65535");
+    return static_cast<std::uint16_t>(port);
+}
+
+}  // namespace
+
+PeerAddress parsePeer(const std::string& text) {
+    const std::vector<std::string> parts = partsOf(text);
+    PeerAddress address;
+    if (parts[0] == "udp" && (parts.size() == 3 || parts.size() == 4) && !parts[1].empty()) {
+        address.host = parts[1];
+        address.port = portOf(text, parts[2]);
+        if (parts.size() == 4) address.local_port = portOf(text, parts[3]);
+        return address;
+    }
+    const std::size_t colon = text.rfind(':');
+    if (parts[0] == "serial" && parts.size() >= 3 && colon > 7) {
+        address.kind = PeerAddress::Kind::Serial;
+        address.device = text.substr(7, colon - 7);
+        address.baud = numberOf(parts.back(), 99999999);
+        if (!isBaud(address.baud)) fail(text, "a serial line has no such speed");
+        if (address.baud < kLeastBaud) {
+            fail(text, "the line must have 115200 baud or more: messages take 6 kB per second");
+        }
+        return address;
+    }
+    fail(text, "is neither udp:HOST:PORT nor serial:DEVICE:BAUD");
+}
+
+std::unique_ptr<Peer> Peer::open(const PeerAddress& address) {
+    return address.kind == PeerAddress::Kind::Udp ? openUdp(address) : openSerial(address);
+}
+
+}  // namespace hagen::mavlink

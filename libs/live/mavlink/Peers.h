@@ -1,0 +1,29 @@
+#pragma once
+#include <hagen/live/Peer.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <system_error>
+
+namespace hagen::mavlink {
+
+std::unique_ptr<Peer> openUdp(const PeerAddress& address);
+std::unique_ptr<Peer> openSerial(const PeerAddress& address);
+/// Whether a serial line can have this speed.
+bool isBaud(int baud);
+
+using Clock = std::chrono::steady_clock;
+
+/// The timeout of poll(), which waits without an end if it is negative. A time that has passed is
+/// not waited for.
+inline int waitMs(double longest_s) {
+    constexpr double kLongest_s = 3600;
+    if (!(longest_s > 0)) return 0;
+    return static_cast<int>(std::ceil(1e3 * std::min(longest_s, kLongest_s)));
+}
+
+inline std::string errorText(int error) { return std::system_category().message(error); }
+
+}  // namespace hagen::mavlink

@@ -1,0 +1,93 @@
+#include <hagen/base/NumberText.h>
+#include <hagen/mrpt/CloudSensors.h>
+#include <hagen/mrpt/ObservationScan.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <optional>
+#include <utility>
+
+namespace hagen::observations {
+namespace {
+
+constexpr int kFewestRows = 3;  // of the filter's image
+
+std::size_t returnsWithRange(const Scan& scan) {
+    std::size_t returns = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const float x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
+        returns += std::isfinite(x) && std::isfinite(y) && std::isfinite(z) &&
+                   (x != 0 || y != 0 || z != 0);
+    }
+    return returns;
+}
+
+}  // namespace
+
+void CloudSensors::see(const mrpt::obs::CObservation& observation) {
+    if (isSettled(observation.sensorLabel)) return;
+    try {
+        if (!readCloudPoints(observation, scan_, &rings_)) return;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {
+        return;  // readObservation() says why
+    }
+    see(observation.sensorLabel, scan_, rings_);
+}
+
+void CloudSensors::see(const std::string& label, const Scan& scan,
+                       const std::vector<std::int32_t>& rings) {
+    if (isSettled(label)) return;
+    const std::size_t returns = returnsWithRange(scan);
+    if (returns < kFewestReturnsForBeams) return;
+    Seen& seen = seen_[label];
+    ++seen.clouds;
+    if (returns <= seen.returns) return;
+    std::optional<RecoveredBeams> recovered;
+    if (!rings.empty()) recovered = ringBeams(scan, rings);
+    if (!recovered) {
+        recovered = recoverBeams(scan);
+        if (recovered) recovered->has_unfit_rings = !rings.empty();
+    }
+    if (!recovered || recovered->sensor.rows() < kFewestRows) return;
+    seen.returns = returns;
+    seen.beams = std::make_shared<const RecoveredBeams>(std::move(*recovered));
+}
+
+bool CloudSensors::isSettled(const std::string& label) const {
+    const auto seen = seen_.find(label);
+    return seen != seen_.end() && seen->second.clouds >= kClouds;
+}
+
+SharedBeams CloudSensors::beamsOf(const std::string& label) const {
+    const auto seen = seen_.find(label);
+    return seen == seen_.end() ? nullptr : seen->second.beams;
+}
+
+std::string textOf(const SharedBeams& beams) {
+    if (!beams) return "too few returns or beams to recover: VLP-16 assumed; set sensor.model";
+    const SensorModel& sensor = beams->sensor;
+    const std::string unfit =
+        beams->has_unfit_rings ? "; its ring numbers do not agree with elevations: not used" : "";
+    if (!sensor.has_rings) {
+        return "no beams found: " + std::to_string(sensor.rows()) + " virtual rows" + unfit;
+    }
+    const std::size_t seen = beams->seen_rad.size();
+    std::string text = std::to_string(seen) + " beams " +
+                       (beams->row_of_ring.empty() ? "recovered" : "by its ring numbers");
+    if (sensor.name != kRecoveredName) {
+        text += " (" + sensor.name;
+        const auto rows = static_cast<std::size_t>(sensor.rows());
+        if (seen < rows) text += ", which has " + std::to_string(rows);
+        text += ")";
+    }
+    return text + ", " + base::percentText(beams->share) +
+           (beams->row_of_ring.empty() ? " of the returns lie on them"
+                                       : " of the returns are closest to their own") +
+           unfit;
+}
+
+}  // namespace hagen::observations

@@ -1,0 +1,342 @@
+#include <hagen/mrpt/MrptCompat.h>
+#include <hagen/mrpt/NewerClouds.h>
+
+#include <mrpt/core/aligned_std_vector.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/aligned_serialization.h>
+#include <mrpt/serialization/stl_serialization.h>
+#include <mrpt/version.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <type_traits>
+
+#include "mrpt/ArchiveParts.h"
+
+namespace hagen::observations {
+#if MRPT_VERSION < 0x020f00
+namespace {
+
+using mrpt::maps::CPointsMap;
+using mrpt::maps::CPointsMapXYZI;
+using mrpt::maps::CSimplePointsMap;
+using mrpt::serialization::CArchive;
+
+/// Reads what MRPT writes of a vector of numbers other than float: two names, then the numbers.
+/// MRPT's own reader makes room for as many as the file claims.
+template <class Vector>
+void readVector(CArchive& in, Vector& values) {
+    const std::string container = readName(in), type = readName(in);
+    const std::string wanted =
+        mrpt::typemeta::TTypeName<typename Vector::value_type>::get().c_str();
+    if (container != "std::vector" || type != wanted) {
+        throw std::runtime_error("the values of a field are no std::vector of " + wanted);
+    }
+    readNumbers(in, in.ReadAs<std::uint32_t>(), values);
+}
+
+/// The coordinates, with their number.
+struct Coordinates {
+    std::vector<float> x_m, y_m, z_m;
+
+    explicit Coordinates(CArchive& in) {
+        const auto count = in.ReadAs<std::uint32_t>();
+        readNumbers(in, count, x_m);
+        readNumbers(in, count, y_m);
+        readNumbers(in, count, z_m);
+    }
+    void copyTo(CPointsMap& cloud) const {
+        cloud.setSize(x_m.size());
+        for (std::size_t i = 0; i < x_m.size(); ++i) {
+            cloud.setPointFast(i, x_m[i], y_m[i], z_m[i]);
+        }
+        cloud.mark_as_modified();
+    }
+};
+
+/// Version 1 has no `disableDeletion`.
+void readInsertionOptions(CArchive& in, CPointsMap::TInsertionOptions& options) {
+    const auto version = in.ReadAs<std::int8_t>();
+    if (version != 0 && version != 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+    in >> options.minDistBetweenLaserPoints >> options.addToExistingPointsMap >>
+        options.also_interpolate;
+    if (version == 0) in >> options.disableDeletion;
+    in >> options.fuseWithExisting >> options.isPlanarMap >> options.horizontalTolerance >>
+        options.maxDistForInterpolatePoints >> options.insertInvalidPoints;
+}
+
+/// A CSimplePointsMap whose insertion options may be newer. It is written as the older one, since
+/// its class and writing are inherited.
+class SimpleCloud : public CSimplePointsMap {
+    static constexpr std::uint8_t kVersionWithOptions = 10;
+
+    void serializeFrom(CArchive& in, std::uint8_t version) override {
+        if (version != kVersionWithOptions) {
+            CSimplePointsMap::serializeFrom(in, version);
+            return;
+        }
+        Coordinates(in).copyTo(*this);
+        in >> genericMapParams;
+        readInsertionOptions(in, insertionOptions);
+        likelihoodOptions.readFromStream(in);
+        renderOptions.readFromStream(in);
+    }
+};
+
+constexpr const char* kGenericName = "mrpt::maps::CGenericPointsMap";
+const mrpt::rtti::TRuntimeClassId& genericClass();
+
+/// A CGenericPointsMap: coordinates, then named fields by type. Unless it is told otherwise, it is
+/// written as CPointsMapXYZI, which older versions of MRPT read.
+class GenericCloud : public CPointsMapXYZI {
+ public:
+    std::vector<std::string> fields_not_kept;
+    PointTable other_fields;
+    bool has_intensity = false;
+    bool is_written_as_generic = false;
+
+    const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override {
+        return is_written_as_generic ? &genericClass() : CPointsMapXYZI::GetRuntimeClass();
+    }
+
+    /// Takes the colour of its points, if it has fields of colours. It is not written otherwise.
+    void takeColor() {
+        std::array<float, 3> color{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const PointField* const field = findField(other_fields, {kColorFields[i]});
+            if (field == nullptr) return;
+            if (!empty()) color[i] = static_cast<float>(columnOf(other_fields, *field)[0]) / 255.0f;
+        }
+        if (!empty()) renderOptions.color = {color[0], color[1], color[2]};
+    }
+
+ private:
+    static constexpr std::uint8_t kNewestVersion = 4;
+    /// The oldest one with fields of colours.
+    static constexpr std::uint8_t kWrittenVersion = 3;
+    static constexpr std::size_t kMostFields = 256;
+
+    std::uint8_t serializeGetVersion() const override {
+        return is_written_as_generic ? kWrittenVersion : CPointsMapXYZI::serializeGetVersion();
+    }
+
+    void serializeTo(CArchive& out) const override {
+        if (!is_written_as_generic) {
+            CPointsMapXYZI::serializeTo(out);
+            return;
+        }
+        out.WriteAs<std::uint32_t>(size());
+        for (const auto* const axis :
+             {&getPointsBufferRef_x(), &getPointsBufferRef_y(), &getPointsBufferRef_z()}) {
+            if (!axis->empty()) out.WriteBufferFixEndianness(axis->data(), axis->size());
+        }
+        writeFields<float>(out);
+        writeFields<double>(out);
+        writeFields<std::uint16_t>(out);
+        writeFields<std::uint8_t>(out);
+        insertionOptions.writeToStream(out);
+        likelihoodOptions.writeToStream(out);
+    }
+
+    /// Whether a field is written as one of these numbers: as what it is, where there is such a
+    /// type, otherwise as float64.
+    template <class Number>
+    static bool isWrittenAs(NumberType type) {
+        switch (type) {
+            case NumberType::Float32:
+                return std::is_same_v<Number, float>;
+            case NumberType::UInt16:
+                return std::is_same_v<Number, std::uint16_t>;
+            case NumberType::UInt8:
+                return std::is_same_v<Number, std::uint8_t>;
+            default:
+                return std::is_same_v<Number, double>;
+        }
+    }
+
+    template <class Number>
+    static void writeField(const std::string& name, const std::vector<double>& values,
+                           CArchive& out) {
+        std::vector<Number> numbers(values.size());
+        std::transform(values.begin(), values.end(), numbers.begin(),
+                       [](double value) { return static_cast<Number>(value); });
+        out << name;
+        out.WriteAs<std::uint32_t>(numbers.size());
+        if (!numbers.empty()) out.WriteBufferFixEndianness(numbers.data(), numbers.size());
+    }
+
+    /// All fields of one type. Each number of a field with several is a field of its own.
+    template <class Number>
+    void writeFields(CArchive& out) const {
+        const bool has_more = std::is_same_v<Number, float> && has_intensity;
+        std::uint32_t count = has_more ? 1 : 0;
+        for (const PointField& field : other_fields.fields) {
+            if (isWrittenAs<Number>(field.type)) count += static_cast<std::uint32_t>(field.count);
+        }
+        out << count;
+        if (has_more) {
+            const auto& intensities = getPointsBufferRef_intensity();
+            writeField<Number>("intensity", {intensities.begin(), intensities.end()}, out);
+        }
+        for (const PointField& field : other_fields.fields) {
+            if (!isWrittenAs<Number>(field.type)) continue;
+            for (std::size_t element = 0; element < field.count; ++element) {
+                const std::string number = field.count == 1 ? "" : "_" + std::to_string(element);
+                writeField<Number>(field.name + number, columnOf(other_fields, field, element),
+                                   out);
+            }
+        }
+    }
+
+    void serializeFrom(CArchive& in, std::uint8_t version) override {
+        if (version > kNewestVersion) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+        fields_not_kept.clear();
+        Coordinates(in).copyTo(*this);
+        other_fields = {};
+        other_fields.points = size();
+        has_intensity = false;
+        readFields<float>(in, version);
+        if (version >= 1) readFields<double>(in, version);
+        readFields<std::uint16_t>(in, version);
+        if (version >= 2) readFields<std::uint8_t>(in, version);
+        if (version >= 4) readFields<std::uint32_t>(in, version);
+        readInsertionOptions(in, insertionOptions);
+        likelihoodOptions.readFromStream(in);
+        takeColor();
+    }
+
+    /// Returns why the field cannot be kept; empty: it is.
+    template <class Number>
+    std::string keep(const std::string& name, const std::vector<double>& values) {
+        if (name.empty()) return "it has no name";
+        if (findExactly(other_fields, name) != nullptr) return "there is another of this name";
+        if (values.size() != size()) {
+            return "it has " + std::to_string(values.size()) + " values for " +
+                   std::to_string(size()) + " points";
+        }
+        const NumberType type = std::is_same_v<Number, float>           ? NumberType::Float32
+                                : std::is_same_v<Number, double>        ? NumberType::Float64
+                                : std::is_same_v<Number, std::uint16_t> ? NumberType::UInt16
+                                : std::is_same_v<Number, std::uint8_t>  ? NumberType::UInt8
+                                                                        : NumberType::UInt32;
+        addColumn(name, type, values, other_fields);
+        return "";
+    }
+
+    /// The fields of one type.
+    template <class Number>
+    void readFields(CArchive& in, std::uint8_t version) {
+        for (auto fields = in.ReadAs<std::uint32_t>(); fields > 0; --fields) {
+            const std::string name = readName(in);
+            mrpt::aligned_std_vector<Number> values;
+            if (version >= 3 || std::is_same_v<Number, float>) {
+                readNumbers(in, in.ReadAs<std::uint32_t>(), values);
+            } else {
+                readVector(in, values);
+            }
+            if (name != "intensity") {
+                if (fields_not_kept.size() >= kMostFields) {
+                    throw std::runtime_error("a cloud has too many fields");
+                }
+                const std::string why = keep<Number>(name, {values.begin(), values.end()});
+                const std::string unless = " (but not this one: " + why + ")";
+                fields_not_kept.push_back(why.empty() ? name : name + unless);
+                continue;
+            }
+            has_intensity = true;
+            for (std::size_t i = 0; i < std::min(values.size(), size()); ++i) {
+                setPointIntensity(i, static_cast<float>(values[i]));
+            }
+        }
+    }
+};
+
+const mrpt::rtti::TRuntimeClassId& genericClass() {
+    static const mrpt::rtti::TRuntimeClassId id{
+        kGenericName,
+        [] {
+            return std::static_pointer_cast<mrpt::rtti::CObject>(std::make_shared<GenericCloud>());
+        },
+        [] { return CLASS_ID(CPointsMapXYZI); }};
+    return id;
+}
+
+}  // namespace
+
+void registerNewerClouds() {
+    registerAs<SimpleCloud, CSimplePointsMap>("mrpt::maps::CSimplePointsMap");
+    registerAs<GenericCloud, CPointsMapXYZI>(kGenericName);
+}
+
+std::vector<std::string> fieldsNotKept(const CPointsMap& cloud) {
+    const auto* generic = dynamic_cast<const GenericCloud*>(&cloud);
+    return generic == nullptr ? std::vector<std::string>() : generic->fields_not_kept;
+}
+
+const PointTable* otherFieldsOf(const CPointsMap& cloud) {
+    const auto* generic = dynamic_cast<const GenericCloud*>(&cloud);
+    return generic == nullptr ? nullptr : &generic->other_fields;
+}
+
+CPointsMap::Ptr genericCloudOf(const PointTable& table) {
+    const auto column = [&](const char* name) {
+        const PointField* const field = findField(table, {name});
+        if (field == nullptr) {
+            throw std::invalid_argument(std::string("a table of points has no field ") + name);
+        }
+        return columnOf(table, *field);
+    };
+    const std::vector<double> x_m = column("x"), y_m = column("y"), z_m = column("z");
+    const PointField* const intensity = findField(table, {"intensity"});
+    const auto cloud = std::make_shared<GenericCloud>();
+    cloud->is_written_as_generic = true;
+    cloud->has_intensity = intensity != nullptr;
+    cloud->other_fields = table;
+    auto& others = cloud->other_fields.fields;
+    others.erase(std::remove_if(others.begin(), others.end(),
+                                [](const PointField& field) {
+                                    const std::set<std::string> kept{"x", "y", "z", "intensity"};
+                                    return kept.count(field.name) > 0;
+                                }),
+                 others.end());
+    cloud->setSize(table.points);
+    for (std::size_t i = 0; i < table.points; ++i) {
+        cloud->setPointFast(i, static_cast<float>(x_m[i]), static_cast<float>(y_m[i]),
+                            static_cast<float>(z_m[i]));
+    }
+    if (intensity != nullptr) {
+        const std::vector<double> intensities = columnOf(table, *intensity);
+        for (std::size_t i = 0; i < table.points; ++i) {
+            cloud->setPointIntensity(i, static_cast<float>(intensities[i]));
+        }
+    }
+    cloud->takeColor();
+    cloud->mark_as_modified();
+    return cloud;
+}
+
+void writeAsGeneric(CPointsMap& cloud) {
+    if (auto* const generic = dynamic_cast<GenericCloud*>(&cloud)) {
+        generic->is_written_as_generic = true;
+    }
+}
+
+#else
+
+void registerNewerClouds() {}
+std::vector<std::string> fieldsNotKept(const mrpt::maps::CPointsMap&) { return {}; }
+const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap&) { return nullptr; }
+mrpt::maps::CPointsMap::Ptr genericCloudOf(const PointTable&) {
+    throw std::runtime_error(
+        "clouds with all fields are not written by a build with MRPT 2.15 or newer");
+}
+void writeAsGeneric(mrpt::maps::CPointsMap&) {}
+
+#endif
+}  // namespace hagen::observations

@@ -1,0 +1,131 @@
+#include <hagen/base/ProcessCost.h>
+#include <hagen/mrpt/Mount.h>
+#include <hagen/mrpt/ObservationSegmenter.h>
+#include <hagen/mrpt/Results.h>
+#include <mrpt/core/initializer.h>
+#include <mrpt/rtti/CObject.h>
+
+#include <optional>
+
+namespace hagen::observations {
+
+IMPLEMENTS_MRPT_OBJECT(ObservationSegmenter, mrpt::rtti::CObject, hagen::observations)
+
+MRPT_INITIALIZER(registerAllClasses_hagen_observations) { registerHagenClasses(); }
+
+void registerHagenClasses() {
+    mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
+    // The class name from before libraries had namespaces.
+    mrpt::rtti::registerClassCustomName(
+        "hagen::ObservationSegmenter",
+        CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
+}
+
+namespace {
+
+using mrpt::obs::CObservationPointCloud;
+
+bool isSameSensor(const SensorModel& a, const SensorModel& b) {
+    return a.elevations_rad == b.elevations_rad && a.min_range_m == b.min_range_m &&
+           a.max_range_m == b.max_range_m && a.has_rings == b.has_rings;
+}
+
+/// Whether two options are the same, if only the sensor changed.
+bool areSameFor(const Options& a, const Options& b) {
+    return a.columns == b.columns && a.window_size == b.window_size &&
+           a.principal_components == b.principal_components;
+}
+
+/// MRPT's constructor ends the program if there is no memory for the name; copying throws.
+const mrpt::system::CTimeLogger& profilerToCopy() {
+    static const mrpt::system::CTimeLogger profiler(false, "hagen::ObservationSegmenter");
+    return profiler;
+}
+[[maybe_unused]] const auto& kMadeBeforeMain = profilerToCopy();
+
+}  // namespace
+
+mrpt::system::CTimeLogger ObservationSegmenter::idleProfiler() { return profilerToCopy(); }
+
+void ObservationSegmenter::initialize(const Settings& settings) {
+    if (settings.sensor.model) filterFor(settings.sensorModel(), settings.options);
+    settings_ = settings;
+    filters_.clear();
+    horizon_.forget();
+    sensors_ = {};
+}
+
+SharedBeams ObservationSegmenter::beamsOf(const mrpt::obs::CObservation& observation) {
+    if (settings_.sensor.model) return nullptr;
+    sensors_.see(observation);
+    return sensors_.beamsOf(observation.sensorLabel);
+}
+
+/// The filter for the scan that was read last.
+HagenFilter& ObservationSegmenter::filterOf(const std::string& label) {
+    const SensorModel& sensor = observed_.sensor;
+    const Options options = settings_.optionsFor(observed_.recovered.get());
+    const auto known = filters_.find(label);
+    if (known != filters_.end()) {
+        const HagenFilter& filter = known->second;
+        if (isSameSensor(filter.sensor(), sensor) && areSameFor(filter.options(), options))
+            return known->second;
+        filters_.erase(known);  // another sensor with the same label
+    }
+    return filters_.emplace(label, filterFor(sensor, options)).first->second;
+}
+
+bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
+                                   const Trajectory& vehicle) {
+    if (!isLidarScan(observation)) {
+        see(observation);
+        return false;
+    }
+    return process(observation, out, scanPoseOf(observation, vehicle, horizon_));
+}
+
+bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
+                                   const ScanPose& pose, const std::optional<SharedBeams>& beams) {
+    const auto start = std::chrono::steady_clock::now();
+    if (!isLidarScan(observation)) return false;
+    const mrpt::system::CTimeLoggerEntry whole(profiler, "process");
+    {
+        const mrpt::system::CTimeLoggerEntry part(profiler, "process.read");
+        readObservation(observation, settings_, observed_, beams ? *beams : beamsOf(observation));
+    }
+    const std::size_t returns_masked = maskAirframe(settings_.airframe.parts, observed_.scan);
+    const Scan& scan = observed_.scan;
+    HagenFilter& filter = filterOf(observation.sensorLabel);
+
+    const ScanPose mounted =
+        mountedPose(pose, mrpt::poses::CPose3D(observation.sensorPose()), settings_.mount);
+
+    const std::string& remark = observed_.remark;
+    if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
+
+    std::optional<mrpt::system::CTimeLoggerEntry> segmenting(std::in_place, profiler,
+                                                             "process.segment");
+    const auto cpu_start = base::threadCpuTime();
+    const SegmentationResult& result = filter.segment(scan, mounted.attitude);
+    const auto filter_cpu_time = base::threadCpuTime() - cpu_start;
+    segmenting.reset();
+    const auto labelled = std::chrono::steady_clock::now();
+
+    const mrpt::system::CTimeLoggerEntry part(profiler, "process.clouds");
+    out.roi = resultOf(observation, true, cloudOf(scan, result.returns.roi, cloud_class));
+    out.non_roi = resultOf(observation, false, cloudOf(scan, result.returns.rou, cloud_class));
+    out.scan = &scan;
+    out.result = &result;
+    out.sensor = &filter.sensor();
+    out.options = &filter.options();
+    out.recovered = observed_.recovered;
+    out.is_sensor_assumed = observed_.is_sensor_assumed;
+    out.pose = mounted;
+    out.remark = remark;
+    out.returns_masked = returns_masked;
+    out.time_to_labels = labelled - start;
+    out.filter_cpu_time = filter_cpu_time;
+    return true;
+}
+
+}  // namespace hagen::observations

@@ -1,0 +1,194 @@
+#include <hagen/mrpt/PointTable.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <set>
+#include <stdexcept>
+
+namespace hagen::observations {
+namespace {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "tables need byte swapping");
+
+std::string inLowerCase(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return text;
+}
+
+template <class Number>
+Number numberAt(const std::uint8_t* at, bool is_swapped) {
+    std::array<std::uint8_t, sizeof(Number)> bytes{};
+    std::copy_n(at, sizeof(Number), bytes.begin());
+    if (is_swapped) std::reverse(bytes.begin(), bytes.end());
+    Number number;
+    std::memcpy(&number, bytes.data(), sizeof number);
+    return number;
+}
+
+/// Calls `use` with a value of the C++ type.
+template <class Use>
+void withType(NumberType type, const Use& use) {
+    switch (type) {
+        case NumberType::Int8:  // NOLINT(bugprone-branch-clone): the types differ
+            return use(std::int8_t());
+        case NumberType::UInt8:
+            return use(std::uint8_t());
+        case NumberType::Int16:
+            return use(std::int16_t());
+        case NumberType::UInt16:
+            return use(std::uint16_t());
+        case NumberType::Int32:
+            return use(std::int32_t());
+        case NumberType::UInt32:
+            return use(std::uint32_t());
+        case NumberType::Int64:
+            return use(std::int64_t());
+        case NumberType::UInt64:
+            return use(std::uint64_t());
+        case NumberType::Float32:
+            return use(float());
+        case NumberType::Float64:
+            return use(double());
+    }
+}
+
+}  // namespace
+
+std::size_t bytesOf(NumberType type) {
+    std::size_t bytes = 0;
+    withType(type, [&](auto number) { bytes = sizeof number; });
+    return bytes;
+}
+
+const char* nameOf(NumberType type) {
+    constexpr std::array<const char*, 10> kNames{"int8",   "uint8", "int16",  "uint16",  "int32",
+                                                 "uint32", "int64", "uint64", "float32", "float64"};
+    return kNames.at(static_cast<std::size_t>(type));
+}
+
+void check(const PointTable& table) {
+    std::set<std::string> names;
+    std::size_t numbers = 0;
+    for (const PointField& field : table.fields) {
+        if (field.name.empty()) throw std::runtime_error("a field has no name");
+        const std::string title = "the field '" + field.name + "'";
+        if (!names.insert(field.name).second) throw std::runtime_error(title + " is there twice");
+        if (field.count == 0) throw std::runtime_error(title + " has no numbers");
+        // Without points, no byte backs what a header says of its fields.
+        if (field.count > kMostNumbersPerPoint - numbers) {
+            throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
+                                     nameOf(field.type) + ") makes more than " +
+                                     std::to_string(kMostNumbersPerPoint) +
+                                     " numbers per point; is the header damaged?");
+        }
+        numbers += field.count;
+        const std::size_t size = bytesOf(field.type);
+        const std::size_t room = table.bytes_per_point;
+        // Without products of numbers from a file, which may overflow.
+        if (field.offset > room || field.count > (room - field.offset) / size) {
+            throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
+                                     nameOf(field.type) + " from byte " +
+                                     std::to_string(field.offset) + ") does not fit into the " +
+                                     std::to_string(room) + " bytes of a point");
+        }
+    }
+    if (table.points == 0) return;
+    if (table.bytes_per_point == 0) throw std::runtime_error("its points have no bytes");
+    if (table.points > table.bytes.size() / table.bytes_per_point) {
+        throw std::runtime_error(std::to_string(table.points) + " points of " +
+                                 std::to_string(table.bytes_per_point) + " bytes are said, but " +
+                                 std::to_string(table.bytes.size()) + " bytes are there");
+    }
+}
+
+const PointField* findExactly(const PointTable& table, const std::string& name) {
+    const auto field = std::find_if(table.fields.begin(), table.fields.end(),
+                                    [&](const PointField& one) { return one.name == name; });
+    return field == table.fields.end() ? nullptr : &*field;
+}
+
+const PointField* findField(const PointTable& table, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        if (const PointField* const field = findExactly(table, name)) return field;
+        const std::string sought = inLowerCase(name);
+        for (const PointField& field : table.fields) {
+            if (inLowerCase(field.name) == sought) return &field;
+        }
+    }
+    return nullptr;
+}
+
+std::vector<double> columnOf(const PointTable& table, const PointField& field,
+                             std::size_t element) {
+    std::vector<double> numbers(table.points);
+    if (numbers.empty()) return numbers;  // there may be no bytes to begin at
+    withType(field.type, [&](auto type) {
+        using Number = decltype(type);
+        const std::uint8_t* at = table.bytes.data() + field.offset + element * sizeof(Number);
+        for (double& number : numbers) {
+            number = static_cast<double>(numberAt<Number>(at, table.is_big_endian));
+            at += table.bytes_per_point;
+        }
+    });
+    return numbers;
+}
+
+void addColumn(const std::string& name, NumberType type, const std::vector<double>& numbers,
+               PointTable& table) {
+    const std::size_t size = bytesOf(type), before = table.bytes_per_point;
+    std::vector<std::uint8_t> wider(table.points * (before + size));
+    withType(type, [&](auto number) {
+        for (std::size_t i = 0; i < table.points; ++i) {
+            std::uint8_t* const point = wider.data() + i * (before + size);
+            std::copy_n(table.bytes.data() + i * before, before, point);
+            number = static_cast<decltype(number)>(numbers[i]);
+            std::memcpy(point + before, &number, size);
+        }
+    });
+    table.fields.push_back({name, type, before, 1});
+    table.bytes_per_point = before + size;
+    table.bytes = std::move(wider);
+}
+
+PointTable pointsOf(const PointTable& table, const std::vector<std::uint32_t>& points) {
+    PointTable some;
+    some.fields = table.fields;
+    some.points = points.size();
+    some.bytes_per_point = table.bytes_per_point;
+    some.is_big_endian = table.is_big_endian;
+    some.bytes.reserve(points.size() * table.bytes_per_point);
+    for (const std::uint32_t i : points) {
+        const auto point =
+            table.bytes.begin() + static_cast<std::ptrdiff_t>(i * table.bytes_per_point);
+        some.bytes.insert(some.bytes.end(), point,
+                          point + static_cast<std::ptrdiff_t>(table.bytes_per_point));
+    }
+    return some;
+}
+
+PointTable inNativeOrder(PointTable table) {
+    if (!table.is_big_endian) return table;
+    for (const PointField& field : table.fields) {
+        const auto size = static_cast<std::ptrdiff_t>(bytesOf(field.type));
+        for (std::size_t i = 0; i < table.points; ++i) {
+            auto at = table.bytes.begin() +
+                      static_cast<std::ptrdiff_t>(i * table.bytes_per_point + field.offset);
+            for (std::size_t element = 0; element < field.count; ++element, at += size) {
+                std::reverse(at, at + size);
+            }
+        }
+    }
+    table.is_big_endian = false;
+    return table;
+}
+
+std::string namesOf(const PointTable& table) {
+    std::string names;
+    for (const PointField& field : table.fields) names += (names.empty() ? "" : ", ") + field.name;
+    return names;
+}
+
+}  // namespace hagen::observations

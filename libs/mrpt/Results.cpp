@@ -1,0 +1,91 @@
+#include <hagen/mrpt/MrptScene.h>
+#include <hagen/mrpt/NewerClouds.h>
+#include <hagen/mrpt/Results.h>
+
+#include <mrpt/obs/CObservation3DScene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hagen::observations {
+namespace {
+
+using mrpt::obs::CObservationPointCloud;
+
+bool endsWith(const std::string& text, const std::string& suffix) {
+    return text.size() >= suffix.size() &&
+           text.compare(text.size() - suffix.size(), suffix.size(), suffix) == 0;
+}
+
+const char* suffixOf(bool is_roi) { return is_roi ? kRoiSuffix : kNonRoiSuffix; }
+const mrpt::img::TColor& colorOf(bool is_roi) { return is_roi ? kRoiColor : kNonRoiColor; }
+
+bool isAbout(const mrpt::img::TColorf& a, const mrpt::img::TColorf& b) {
+    const float half_step = 0.5f / 255.0f;
+    return std::abs(a.R - b.R) < half_step && std::abs(a.G - b.G) < half_step &&
+           std::abs(a.B - b.B) < half_step;
+}
+
+/// Whether a cloud has the mark of a result. The class that keeps all fields does not keep
+/// renderOptions: it has the colour in its fields, which also show an empty result.
+bool isMarked(const mrpt::maps::CPointsMap& cloud, bool is_roi) {
+    if (isAbout(cloud.renderOptions.color, mrpt::img::TColorf(colorOf(is_roi)))) return true;
+    const PointTable* const others = otherFieldsOf(cloud);
+    if (others == nullptr || others->points > 0) return false;
+    return std::all_of(kColorFields.begin(), kColorFields.end(),
+                       [&](const char* name) { return findField(*others, {name}) != nullptr; });
+}
+
+/// The suffix of a result's label; empty: the observation is no cloud of the filter.
+std::string suffixOf(const mrpt::obs::CObservation& observation) {
+    const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
+    // A cloud in a file beside the rawlog has not been read, and is none of ours.
+    if (cloud == nullptr || cloud->pointcloud == nullptr) return "";
+    for (const bool is_roi : {false, true}) {  // "_non_roi" ends in "_roi", too
+        if (endsWith(cloud->sensorLabel, suffixOf(is_roi)) &&
+            isMarked(*cloud->pointcloud, is_roi)) {
+            return suffixOf(is_roi);
+        }
+    }
+    return "";
+}
+
+/// The object of a preview; null: the observation is none.
+observations::viz::CSetOfObjects::Ptr previewIn(const mrpt::obs::CObservation& observation) {
+    const auto* scene = dynamic_cast<const mrpt::obs::CObservation3DScene*>(&observation);
+    if (scene == nullptr || !scene->scene) return nullptr;
+    return std::dynamic_pointer_cast<observations::viz::CSetOfObjects>(
+        scene->scene->getByName(kPreviewName));
+}
+
+}  // namespace
+
+CObservationPointCloud::Ptr resultOf(const mrpt::obs::CObservation& scan, bool is_roi,
+                                     const mrpt::maps::CPointsMap::Ptr& points) {
+    points->renderOptions.color = mrpt::img::TColorf(colorOf(is_roi));
+    auto result = CObservationPointCloud::Create();
+    result->timestamp = scan.timestamp;
+    result->sensorLabel = scan.sensorLabel + suffixOf(is_roi);
+    result->sensorPose = mrpt::poses::CPose3D(scan.sensorPose());
+    result->pointcloud = points;
+    return result;
+}
+
+bool isResult(const mrpt::obs::CObservation& observation) {
+    return !suffixOf(observation).empty() || previewIn(observation) != nullptr;
+}
+
+std::string scanLabelOf(const mrpt::obs::CObservation& result) {
+    if (const auto preview = previewIn(result)) {
+        for (const auto& part : *preview) {
+            const std::string& name = part->getName();
+            if (name.rfind(kPreviewOfPrefix, 0) == 0) return name.substr(kPreviewOfPrefix.size());
+        }
+        return "";
+    }
+    const std::string& label = result.sensorLabel;
+    const std::string suffix = suffixOf(result);
+    return suffix.empty() ? "" : label.substr(0, label.size() - suffix.size());
+}
+
+}  // namespace hagen::observations

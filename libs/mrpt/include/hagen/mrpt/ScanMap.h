@@ -1,0 +1,75 @@
+#pragma once
+#include <hagen/mrpt/MapFile.h>
+#include <hagen/mrpt/MappedScan.h>
+#include <octomap/OcTree.h>
+#include <memory>
+#include <stdexcept>
+
+namespace hagen::observations {
+
+/// The returns of a segmented scan that are inserted into an OctoMap.
+enum class MapContent {
+    Full,       ///< all returns are hits, all rays clear (O-Full)
+    Roi,        ///< only RoI returns, hits and rays (O-RoI)
+    RoiAndRays  ///< RoI returns are hits, the rays of all returns clear (O-RoI+rays)
+};
+
+/// How rays are inserted. All mark a voxel once per scan and never clear one with a hit.
+enum class RayInsertion {
+    OneRayPerVoxel,   ///< own traversal with bit sets; rays that end in the same voxel are one
+    OctoMap,          ///< OctoMap's insertPointCloud() of every ray
+    OctoMapDiscrete,  ///< the same with its discretization: one ray per voxel
+};
+
+struct ScanMapOptions {
+    MapContent content = MapContent::RoiAndRays;
+    double resolution_m = 0.2;  ///< edge of a voxel; > 0
+    double max_range_m = 20;    ///< farther returns clear up to here and are not hits
+    // OctoMap's own values.
+    double hit_probability = 0.7, miss_probability = 0.4;
+    double least_probability = 0.1192, greatest_probability = 0.971;  ///< clamped to these
+    RayInsertion insertion =
+        RayInsertion::OneRayPerVoxel;  ///< the others only for MapContent::Full
+};
+
+/// The map has reached its greatest size, 50 million nodes (about 3 GiB).
+struct MapFull : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// An OctoMap built from segmented scans.
+class ScanMap {
+ public:
+    /// Throws std::invalid_argument unless resolution and range are positive, and the probabilities
+    /// are in the order 0 < least < miss < 0.5 < hit < greatest < 1, or if there are more than
+    /// 2^32 voxels within the range.
+    explicit ScanMap(const ScanMapOptions& options);
+
+    ~ScanMap();
+    ScanMap(ScanMap&&) noexcept;
+    ScanMap& operator=(ScanMap&&) noexcept;
+
+    /// Inserts a scan. Each voxel is updated once per scan: occupied if it contains a hit,
+    /// otherwise free if a ray passes through; a ray does not clear the voxel in which it ends.
+    /// Updates leaves only; inner nodes are updated when the map is saved. If the tree has a
+    /// bounding box (OctoMap's setBBXMin() etc.), voxels outside it are not updated. Throws
+    /// std::runtime_error for a scan that is farther from the map's origin than an OctoMap extends
+    /// (32768 voxels); the message says where it is. Throws MapFull.
+    void insert(const MappedScan& scan);
+
+    /// Memory of the tree, from the sizes of its parts, and of the buffers.
+    std::size_t bytes() const;
+
+    const octomap::OcTree& tree() const { return *tree_; }
+    octomap::OcTree& tree() { return *tree_; }
+    const ScanMapOptions& options() const { return options_; }
+
+ private:
+    ScanMapOptions options_;
+    std::size_t most_nodes_ = 0;
+    class RayTraversal;
+    std::unique_ptr<octomap::OcTree> tree_;
+    std::unique_ptr<RayTraversal> walk_;  ///< buffers, reused across scans
+};
+
+}  // namespace hagen::observations

@@ -1,0 +1,37 @@
+#pragma once
+#include <hagen/scan/Image.h>
+#include <hagen/sensors/VelodyneModel.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <cstdint>
+#include <vector>
+
+namespace hagen::observations {
+
+/// Measurements of a Velodyne over several firings: array entries (laser, firing), lasers in firing
+/// order (not by elevation).
+struct Firings {
+    Image<float> range_m;             ///< NaN or 0: no return
+    Image<float> intensity;           ///< 0..1
+    Image<float> last_range_m;        ///< dual mode: the farther return; empty: strongest mode
+    double first_azimuth_deg = 0;     ///< of the first firing, clockwise from x
+    double azimuth_step_deg = 0.2;    ///< from one firing to the next
+    std::uint32_t first_time_us = 0;  ///< since the full hour
+};
+
+/// Returns the azimuth at which a laser of a firing points, degrees clockwise from x, as the
+/// decoder computes it (up to rounding). Use it to compute the range to encode.
+double firingAzimuthDeg(const sensors::VelodyneModel& model, const Firings& firings, int laser,
+                        int firing);
+
+/// Encodes raw packets, the inverse of decodePackets(). Ranges are rounded to the model's unit (2
+/// or 4 mm); those that a packet cannot represent (131.07 or 262.14 m and more) become missing
+/// returns, as with the sensor. The last packet is padded with firings without returns. Throws
+/// std::invalid_argument if array sizes differ or do not fit the model.
+std::vector<mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket> encodePackets(
+    const sensors::VelodyneModel& model, const Firings& firings);
+
+/// Returns a complete observation of these firings, with the model's default calibration.
+mrpt::obs::CObservationVelodyneScan::Ptr encodeScan(const sensors::VelodyneModel& model,
+                                                    const Firings& firings);
+
+}  // namespace hagen::observations

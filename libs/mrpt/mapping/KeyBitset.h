@@ -1,0 +1,55 @@
+#pragma once
+#include <octomap/OcTreeKey.h>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hagen::observations {
+
+/// A set of OctoMap keys within a box, one bit per key. Much faster than OctoMap's own key set for
+/// keys that are close together.
+class KeyBitset {
+ public:
+    struct Corners {
+        octomap::OcTreeKey least, most;  ///< inclusive
+    };
+
+    void reset(const Corners& box) {
+        least_ = box.least;
+        std::size_t bits = 1;
+        for (unsigned i = 0; i < 3; ++i) {
+            size_[i] = static_cast<std::size_t>(box.most[i] - box.least[i]) + 1;
+            bits *= size_[i];
+        }
+        words_.assign(bits / 64 + 1, 0);
+    }
+
+    /// Inserts a key; true if it was not in the set yet. Keys must lie in the box.
+    bool add(const octomap::OcTreeKey& key) {
+        const std::size_t i = indexOf(key);
+        const std::uint64_t bit = std::uint64_t{1} << (i % 64);
+        const bool is_new = (words_[i / 64] & bit) == 0;
+        words_[i / 64] |= bit;
+        return is_new;
+    }
+    bool has(const octomap::OcTreeKey& key) const {
+        const std::size_t i = indexOf(key);
+        return (words_[i / 64] >> (i % 64)) & 1;
+    }
+
+    std::size_t bytes() const { return words_.capacity() * sizeof(std::uint64_t); }
+
+ private:
+    std::size_t indexOf(const octomap::OcTreeKey& key) const {
+        return (static_cast<std::size_t>(key[2] - least_[2]) * size_[1] +
+                static_cast<std::size_t>(key[1] - least_[1])) *
+                   size_[0] +
+               static_cast<std::size_t>(key[0] - least_[0]);
+    }
+
+    octomap::OcTreeKey least_;
+    std::size_t size_[3] = {0, 0, 0};
+    std::vector<std::uint64_t> words_;
+};
+
+}  // namespace hagen::observations

@@ -1,0 +1,122 @@
+#include <hagen/mrpt/MapFile.h>
+#include <hagen/mrpt/MrptScene.h>
+#include <mrpt/img/color_maps.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+namespace hagen::observations {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Throws with the reason in errno; set errno to 0 before the operation.
+[[noreturn]] void throwWriteError(const fs::path& file) {
+    throw std::runtime_error(
+        file.string() + ": the map cannot be written" +
+        (errno == 0 ? "; is the disk full?" : std::string(": ") + std::strerror(errno)));
+}
+
+/// Returns the occupied voxels in MRPT's drawing, coloured by height from blue (lowest) to red.
+observations::viz::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
+    auto voxels = observations::viz::COctoMapVoxels::Create();
+    voxels->resizeVoxelSets(1);
+    voxels->enableLights(true);
+    voxels->enableCubeTransparency(false);
+    double least[3] = {0, 0, 0}, most[3] = {1, 1, 1};
+    if (tree.size() > 0) {
+        tree.getMetricMin(least[0], least[1], least[2]);
+        tree.getMetricMax(most[0], most[1], most[2]);
+    }
+    voxels->setBoundingBox({least[0], least[1], least[2]}, {most[0], most[1], most[2]});
+    for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
+        if (!tree.isNodeOccupied(*leaf)) continue;
+        const octomap::point3d at = leaf.getCoordinate();
+        const double height = (static_cast<double>(at.z()) - least[2]) / (most[2] - least[2]);
+        const mrpt::img::TColor color = observations::colorOf(mrpt::img::colormap(
+            mrpt::img::cmJET, static_cast<float>(std::clamp(height, 0.0, 1.0))));
+        voxels->push_back_Voxel(
+            0, {mrpt::math::TPoint3Df(at.x(), at.y(), at.z()), leaf.getSize(), color});
+    }
+    voxels->setVisualizationMode(observations::viz::COctoMapVoxels::FIXED);
+    return voxels;
+}
+
+void saveScene(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
+    observations::Scene scene;
+    scene.insert(voxelsOf(tree));
+    // MRPT's own streams do not report a full disk.
+    mrpt::io::CMemoryStream bytes;
+    mrpt::serialization::archiveFrom(bytes) << scene;
+    errno = 0;
+    const gzFile out = gzopen(file.c_str(), "wb1");
+    if (out == nullptr) throwWriteError(named);
+    const auto* const data = static_cast<const std::uint8_t*>(bytes.getRawBufferData());
+    const std::size_t size = bytes.getTotalBytesCount();
+    const bool is_written = gzfwrite(data, 1, size, out) == size;
+    const int error = errno;
+    const bool is_closed = gzclose(out) == Z_OK;
+    if (!is_written) errno = error;
+    if (!is_written || !is_closed) throwWriteError(named);
+}
+
+/// Writes the header of OctoMap's files. OctoMap's own writers print to standard error.
+void writeHead(const std::string& kind, const octomap::OcTree& tree, std::ostream& out) {
+    out << kind << "\nid " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
+        << tree.getResolution() << "\ndata\n";
+}
+
+void writeOctree(octomap::OcTree& tree, bool is_binary, std::ostream& out) {
+    if (is_binary) tree.toMaxLikelihood();
+    tree.prune();
+    writeHead(is_binary ? "# Octomap OcTree binary file" : "# Octomap OcTree file", tree, out);
+    if (tree.size() == 0) return;
+    if (is_binary) {
+        tree.writeBinaryNode(out, tree.getRoot());
+    } else {
+        tree.writeData(out);
+    }
+}
+
+}  // namespace
+
+bool isMapFile(const fs::path& file) {
+    const std::string ending = file.extension().string();
+    return ending == ".bt" || ending == ".ot" || ending == ".3Dscene";
+}
+
+void checkMapFile(const fs::path& file) {
+    if (isMapFile(file)) return;
+    throw std::runtime_error(file.string() +
+                             ": a map is written as .bt (occupied or free), .ot (probabilities) or "
+                             ".3Dscene (for SceneViewer3D); use one of these endings");
+}
+
+void saveMap(const octomap::OcTree& tree, const fs::path& file) { saveMap(tree, file, file); }
+
+void saveMap(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
+    checkMapFile(named);
+    if (named.extension() == ".3Dscene") return saveScene(tree, file, named);
+    octomap::OcTree whole(tree);
+    saveMapInPlace(whole, file, named);
+}
+
+void saveMapInPlace(octomap::OcTree& whole, const fs::path& file, const fs::path& named) {
+    checkMapFile(named);
+    if (named.extension() == ".3Dscene") return saveScene(whole, file, named);
+    whole.updateInnerOccupancy();  // out of date in a map under construction
+    errno = 0;
+    std::ofstream out(file, std::ios::binary);
+    if (!out) throwWriteError(named);
+    writeOctree(whole, named.extension() == ".bt", out);
+    if (!out.flush()) throwWriteError(named);
+}
+
+}  // namespace hagen::observations

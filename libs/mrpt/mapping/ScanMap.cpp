@@ -1,0 +1,190 @@
+#include <hagen/mrpt/ScanMap.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "mrpt/mapping/KeyBitset.h"
+
+namespace hagen::observations {
+
+namespace {
+
+octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
+
+// Limits: memory for the voxels around the sensor, a bit each in three sets (512 MiB a set), and
+// for the map (about 3 GiB, or half of what the process may have).
+constexpr double kMostVoxelsInReach = 4294967296.0;
+constexpr std::size_t kMostNodes = 50'000'000, kBytesPerNode = 64;
+
+std::size_t mostNodes() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kMostNodes;
+    return std::min<std::size_t>(kMostNodes, limit.rlim_cur / 2 / kBytesPerNode);
+}
+
+void checkReach(const ScanMapOptions& options) {
+    const double voxels = std::pow(2 * options.max_range_m / options.resolution_m + 4, 3);
+    if (voxels <= kMostVoxelsInReach) return;
+    const double side = std::cbrt(kMostVoxelsInReach) - 5;
+    throw std::invalid_argument(
+        "an OctoMap with voxels of " + std::to_string(options.resolution_m) +
+        " m needs more than " + "4 billion of them within its range of " +
+        std::to_string(std::lround(options.max_range_m)) + " m; use voxels of at least " +
+        std::to_string(2 * options.max_range_m / side) + " m");
+}
+
+/// State of a voxel after a scan. A hit overrides a ray that passes through.
+struct ScanVoxels {
+    std::vector<octomap::OcTreeKey> free, occupied;
+};
+
+void check(const char* what, double value) {
+    if (value > 0 && std::isfinite(value)) return;
+    throw std::invalid_argument(std::string("the ") + what + " of an OctoMap is " +
+                                std::to_string(value) + " m; it must be positive");
+}
+
+void checkProbabilities(const ScanMapOptions& options) {
+    const double least = options.least_probability, most = options.greatest_probability;
+    const double hit = options.hit_probability, miss = options.miss_probability;
+    if (0 < least && least < miss && miss < 0.5 && 0.5 < hit && hit < most && most < 1) return;
+    throw std::invalid_argument(
+        "the probabilities of an OctoMap must be in the order 0 < least < miss < 0.5 < hit < "
+        "greatest < 1, but are " +
+        std::to_string(least) + ", " + std::to_string(miss) + ", " + std::to_string(hit) + ", " +
+        std::to_string(most));
+}
+
+}  // namespace
+
+/// Traverses rays and marks each voxel once.
+class ScanMap::RayTraversal {
+ public:
+    void start(const octomap::OcTree& tree, const Eigen::Vector3f& origin_m, double max_range_m) {
+        tree_ = &tree;
+        if (!origin_m.allFinite()) throw std::runtime_error("its pose is not finite");
+        origin_m_ = origin_m;
+        max_range_m_ = static_cast<float>(max_range_m);
+        voxels_.free.clear();
+        voxels_.occupied.clear();
+        const auto reach = static_cast<float>(max_range_m + 2 * tree.getResolution());
+        const Eigen::Vector3f corner = Eigen::Vector3f::Constant(reach);
+        KeyBitset::Corners box;
+        if (!tree.coordToKeyChecked(pointOf(origin_m - corner), box.least) ||
+            !tree.coordToKeyChecked(pointOf(origin_m + corner), box.most)) {
+            throw std::runtime_error("a scan at " + std::to_string(std::lround(origin_m.x())) +
+                                     ", " + std::to_string(std::lround(origin_m.y())) + ", " +
+                                     std::to_string(std::lround(origin_m.z())) +
+                                     " m lies outside an OctoMap with voxels of " +
+                                     std::to_string(tree.getResolution()) +
+                                     " m; use poses closer to their origin");
+        }
+        passed_.reset(box);
+        hit_.reset(box);
+        ends_.reset(box);
+    }
+
+    void hit(const Eigen::Vector3f& point_m) {
+        if (!((point_m - origin_m_).norm() <= max_range_m_)) return;  // nor one that is not finite
+        const octomap::OcTreeKey key = tree_->coordToKey(pointOf(point_m));
+        if (hit_.add(key)) voxels_.occupied.push_back(key);
+    }
+
+    /// Marks the voxels before the point's own as free, up to the maximum range. Rays that end in
+    /// the same voxel count as one ray to its centre.
+    void pass(const Eigen::Vector3f& point_m) {
+        const Eigen::Vector3f ray = point_m - origin_m_;
+        const float range_m = ray.norm();
+        if (!std::isfinite(range_m)) return;
+        const Eigen::Vector3f end_m =
+            range_m > max_range_m_ ? origin_m_ + ray * (max_range_m_ / range_m) : point_m;
+        const octomap::OcTreeKey end = tree_->coordToKey(pointOf(end_m));
+        if (!ends_.add(end)) return;
+        if (!tree_->computeRayKeys(pointOf(origin_m_), tree_->keyToCoord(end), ray_)) return;
+        for (const octomap::OcTreeKey& key : ray_) {
+            if (passed_.add(key) && !hit_.has(key)) voxels_.free.push_back(key);
+        }
+    }
+
+    const ScanVoxels& voxels() const { return voxels_; }
+    std::size_t bytes() const {
+        return sizeof(*this) + passed_.bytes() + hit_.bytes() + ends_.bytes() +
+               (ray_.sizeMax() + voxels_.free.capacity() + voxels_.occupied.capacity()) *
+                   sizeof(octomap::OcTreeKey);
+    }
+
+ private:
+    const octomap::OcTree* tree_ = nullptr;
+    Eigen::Vector3f origin_m_{0, 0, 0};
+    float max_range_m_ = 0;
+    KeyBitset passed_, hit_, ends_;
+    octomap::KeyRay ray_;  // large: reused across scans, like all members
+    ScanVoxels voxels_;
+};
+
+ScanMap::ScanMap(const ScanMapOptions& options) : options_(options) {
+    check("resolution", options.resolution_m);
+    check("greatest range", options.max_range_m);
+    checkProbabilities(options);
+    checkReach(options);
+    if (options.insertion != RayInsertion::OneRayPerVoxel && options.content != MapContent::Full) {
+        throw std::invalid_argument("OctoMap's own insertion needs all returns as hits");
+    }
+    most_nodes_ = mostNodes();
+    tree_ = std::make_unique<octomap::OcTree>(options.resolution_m);
+    tree_->setProbHit(options.hit_probability);
+    tree_->setProbMiss(options.miss_probability);
+    tree_->setClampingThresMin(options.least_probability);
+    tree_->setClampingThresMax(options.greatest_probability);
+    walk_ = std::make_unique<RayTraversal>();
+}
+ScanMap::~ScanMap() = default;
+ScanMap::ScanMap(ScanMap&&) noexcept = default;
+ScanMap& ScanMap::operator=(ScanMap&&) noexcept = default;
+
+std::size_t ScanMap::bytes() const { return tree_->memoryUsage() + walk_->bytes(); }
+
+void ScanMap::insert(const MappedScan& scan) {
+    if (tree_->size() > most_nodes_) {
+        std::ostringstream millions;
+        millions << std::setprecision(3) << 1e-6 * static_cast<double>(most_nodes_);
+        throw MapFull("the map has more than " + millions.str() +
+                      " million nodes; use larger voxels" +
+                      (most_nodes_ < kMostNodes ? ", or a higher --memory-limit" : ""));
+    }
+    const MapContent content = options_.content;
+    const auto is_hit = [&](std::size_t i) {
+        return content == MapContent::Full || scan.labels[i] == Label::Roi;
+    };
+    if (options_.insertion != RayInsertion::OneRayPerVoxel) {
+        octomap::Pointcloud cloud;
+        cloud.reserve(scan.points_m.size());
+        for (const Eigen::Vector3f& point_m : scan.points_m) cloud.push_back(pointOf(point_m));
+        constexpr bool lazily = true;
+        tree_->insertPointCloud(cloud, pointOf(scan.origin_m), options_.max_range_m, lazily,
+                                options_.insertion == RayInsertion::OctoMapDiscrete);
+        return;
+    }
+    RayTraversal& walk = *walk_;
+    walk.start(*tree_, scan.origin_m, options_.max_range_m);
+    for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
+        if (is_hit(i)) walk.hit(scan.points_m[i]);
+    }
+    for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
+        if (content == MapContent::RoiAndRays || is_hit(i)) walk.pass(scan.points_m[i]);
+    }
+    // Inner nodes are updated, and equal leaves merged, when the map is saved.
+    const auto update = [&](const octomap::OcTreeKey& key, bool is_occupied) {
+        constexpr bool lazily = true;
+        if (!tree_->bbxSet() || tree_->inBBX(key)) tree_->updateNode(key, is_occupied, lazily);
+    };
+    for (const auto& key : walk.voxels().free) update(key, false);
+    for (const auto& key : walk.voxels().occupied) update(key, true);
+}
+
+}  // namespace hagen::observations

@@ -1,0 +1,77 @@
+#include "recordings/CaptureSource.h"
+
+#include <hagen/recordings/PoseFile.h>
+
+#include "recordings/ScanObject.h"
+
+namespace hagen::recordings {
+
+CaptureSource::CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
+    : ScanSource(options),
+      file_(capture),
+      capture_(recordings::openCapture(capture, options.sensor_json, options.calibration,
+                                       [this] { checkInterruption(); })) {}
+
+std::optional<RecordedEntry> CaptureSource::nextEntry() {
+    while (turns_ <= options_.last_entry) {
+        checkInterruption();
+        const auto turn = capture_->nextScan();
+        is_read_to_end_ = turn == nullptr;
+        if (!turn) {
+            const std::string missed = missedAhead(turns_ + 1);
+            if (!missed.empty()) throw sensors::BrokenCapture(missed);
+            return std::nullopt;
+        }
+        RecordedEntry entry;
+        entry.number = turns_++;
+        if (skips(entry.number)) continue;
+        entry.object = objectOf(turn, options_.folder_objects);
+        entry.fraction_read = capture_->fractionRead();
+        addIfScan(turn, "", entry);
+        return entry;
+    }
+    const std::string missed = missedAhead(turns_);
+    if (!missed.empty()) throw sensors::BrokenCapture(missed);
+    return std::nullopt;
+}
+
+RawlogSurvey CaptureSource::survey() {
+    RawlogSurvey survey;
+    std::size_t turns = 0;
+    const auto ahead = recordings::openCapture(file_, options_.sensor_json, options_.calibration,
+                                               [this] { checkInterruption(); });
+    try {
+        while (const auto turn = ahead->nextScan()) {
+            checkInterruption();
+            ++turns;
+            survey.scans[turn->sensorLabel].push_back(
+                {turn->timestamp, mrpt::poses::CPose3D(turn->sensorPose())});
+        }
+    } catch (const sensors::BrokenCapture& e) {
+        survey.is_whole = false;
+        brokeOffAhead(turns, e.what());
+    }
+    return survey;
+}
+
+LogPoses CaptureSource::readPoses(const std::filesystem::path& file) {
+    if (file.empty() || kindOfPoseFile(file) == PoseFileKind::Tum) {
+        return posesOfRawlog(RawlogSurvey(), file);
+    }
+    const auto isKept = [this](const std::string& label) { return isSelected(label); };
+    return posesOfRawlog(withScansOf(survey(), isKept), file);
+}
+
+std::map<std::string, std::vector<mrpt::Clock::time_point>> CaptureSource::scanTimes() {
+    return scanTimesOf(survey());
+}
+
+std::vector<std::string> CaptureSource::remarks() const {
+    std::vector<std::string> remarks = capture_->remarks();
+    if (!is_read_to_end_ && turns_ > options_.last_entry) {
+        for (std::string& remark : remarks) remark += " (up to the last entry converted)";
+    }
+    return remarks;
+}
+
+}  // namespace hagen::recordings

@@ -1,0 +1,34 @@
+#pragma once
+#include <hagen/recordings/LidarCapture.h>
+#include <hagen/recordings/RawlogSurvey.h>
+#include <hagen/recordings/ScanSource.h>
+
+namespace hagen::recordings {
+
+/// A capture of a LiDAR's packets as a source of scans: each turn of a sensor is an entry.
+class CaptureSource : public ScanSource {
+ public:
+    CaptureSource(const std::filesystem::path& capture, const SourceOptions& options);
+
+    std::optional<RecordedEntry> nextEntry() override;
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
+    std::size_t entriesKnown() const override { return turns_; }
+    std::vector<std::string> remarks() const override;
+
+ protected:
+    /// Captures have no poses of their own.
+    LogPoses readPoses(const std::filesystem::path& file) override;
+    /// Packets know their sensor.
+    bool showClouds(observations::CloudSensors&) override { return false; }
+
+ private:
+    /// Reads the capture in advance, up to where it breaks off.
+    RawlogSurvey survey();
+
+    std::filesystem::path file_;
+    std::unique_ptr<recordings::LidarCapture> capture_;
+    std::size_t turns_ = 0;
+    bool is_read_to_end_ = false;
+};
+
+}  // namespace hagen::recordings

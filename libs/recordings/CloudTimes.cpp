@@ -1,0 +1,163 @@
+#include "recordings/CloudTimes.h"
+
+#include <hagen/base/NumberText.h>
+#include <hagen/mrpt/TimeStamp.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <string_view>
+
+namespace hagen::recordings {
+namespace {
+
+constexpr double kPeriod_s = 0.1;
+
+std::size_t digitsAtEnd(std::string_view text) {
+    std::size_t digits = 0;
+    while (digits < text.size() && text[text.size() - 1 - digits] >= '0' &&
+           text[text.size() - 1 - digits] <= '9') {
+        ++digits;
+    }
+    return digits;
+}
+
+/// A name's number: two groups of digits with a mark between them, or one.
+struct NameNumber {
+    std::string_view whole, part;
+    char mark = '\0';
+    bool is_whole_name = false;
+};
+
+constexpr std::size_t kDigitsOfSeconds = 10, kDigitsOfNanoseconds = 9;
+
+/// Whether these are seconds of today: 10 digits, of which a padded frame number has zeros first.
+bool areUnixSeconds(std::string_view digits) {
+    return digits.size() == kDigitsOfSeconds && digits[0] != '0';
+}
+
+NameNumber numberIn(std::string_view name) {
+    NameNumber number;
+    number.whole = name.substr(name.size() - digitsAtEnd(name));
+    name.remove_suffix(number.whole.size());
+    number.is_whole_name = name.empty();
+    if (number.whole.empty() || name.empty() || (name.back() != '.' && name.back() != '_')) {
+        return number;
+    }
+    const char mark = name.back();
+    name.remove_suffix(1);
+    const std::string_view first = name.substr(name.size() - digitsAtEnd(name));
+    const std::size_t digits = number.whole.size();
+    const bool are_nanoseconds =
+        digits == kDigitsOfNanoseconds
+            ? first.size() >= kDigitsOfNanoseconds
+            : digits < kDigitsOfNanoseconds && areUnixSeconds(first);  // without leading zeros
+    if (first.empty() || (mark == '_' && !are_nanoseconds)) return number;
+    return {first, number.whole, mark, first.size() == name.size()};
+}
+
+/// Both groups as one number.
+double valueOf(const NameNumber& number) {
+    const double whole = base::numberFrom<double>(number.whole).value_or(-1.0);
+    if (number.mark == '\0') return whole;
+    if (number.mark == '_') {
+        return whole + 1e-9 * base::numberFrom<double>(number.part).value_or(0.0);
+    }
+    return whole + base::numberFrom<double>("0." + std::string(number.part)).value_or(0.0);
+}
+
+/// The time that a number is; none if it is a mere number.
+std::optional<double> timeOf(const NameNumber& number) {
+    if (number.whole.empty()) return std::nullopt;
+    const double value = valueOf(number);
+    if (number.mark == '_') {
+        // Padded to fewer than nine digits, the second group is no nanoseconds.
+        const bool is_padded = number.part.size() > 1 && number.part[0] == '0';
+        if (is_padded && number.part.size() < kDigitsOfNanoseconds) return std::nullopt;
+        return value;
+    }
+    if (number.mark == '.') {
+        // "vlp16.000001" is the first cloud of a VLP-16.
+        if (number.is_whole_name || areUnixSeconds(number.whole)) return value;
+        return std::nullopt;
+    }
+    if (number.whole[0] == '0') return std::nullopt;  // padded, as no time of today
+    switch (number.whole.size()) {
+        case kDigitsOfSeconds:
+            return value;
+        case 13:
+            return 1e-3 * value;
+        case 16:
+            return 1e-6 * value;
+        case 19:
+            return 1e-9 * value;
+        default:
+            return std::nullopt;
+    }
+}
+
+bool ascend(const std::vector<double>& numbers) {
+    return std::adjacent_find(numbers.begin(), numbers.end(),
+                              [](double a, double b) { return !(a < b); }) == numbers.end();
+}
+
+}  // namespace
+
+std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names) {
+    std::vector<std::size_t> order(names.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return names[a] < names[b]; });
+    // A counter that gets a 13th digit is no time in milliseconds from there on.
+    const bool are_times = std::all_of(names.begin(), names.end(), [](const std::string& name) {
+        return timeOf(numberIn(name)).has_value();
+    });
+    std::vector<double> numbers;
+    std::set<std::string_view> before;
+    for (const std::string& name : names) {
+        const NameNumber number = numberIn(name);
+        numbers.push_back(are_times ? *timeOf(number) : valueOf(number));
+        before.insert(std::string_view(name).substr(
+            0, static_cast<std::size_t>(number.whole.data() - name.data())));
+        if (numbers.back() < 0) return order;
+    }
+    if (before.size() > 1) return order;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+    return order;
+}
+
+CloudTimes timesOfNames(const std::vector<std::string>& names) {
+    CloudTimes times;
+    for (const std::string& name : names) {
+        const auto time_s = timeOf(numberIn(name));
+        if (time_s && observations::isTime(*time_s)) times.times_s.push_back(*time_s);
+    }
+    if (times.times_s.size() == names.size() && ascend(times.times_s)) {
+        times.how = "the times of its clouds are those in the names of the files";
+        return times;
+    }
+    constexpr double kMostNumber = 1e9;
+    times.times_s.clear();
+    bool are_numbers = true;
+    for (const std::string& name : names) {
+        const NameNumber number = numberIn(name);
+        const double value = valueOf(number);
+        are_numbers = are_numbers && number.mark == '\0' && value >= 0 && value < kMostNumber;
+        times.times_s.push_back(kPeriod_s * value);
+    }
+    if (are_numbers && ascend(times.times_s)) {
+        times.how =
+            "its clouds have no times: they are taken to be 0.1 s apart, by the numbers in their "
+            "names";
+        return times;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        times.times_s[i] = kPeriod_s * static_cast<double>(i);
+    }
+    times.how = "its clouds have no times: they are taken to be 0.1 s apart";
+    return times;
+}
+
+}  // namespace hagen::recordings

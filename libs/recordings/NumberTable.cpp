@@ -1,0 +1,67 @@
+#include <hagen/base/NumberText.h>
+#include <hagen/base/ReadFile.h>
+#include <hagen/recordings/NumberTable.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace hagen::recordings {
+namespace {
+
+constexpr std::string_view kSpaces = " \t\r\v\f";
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets begin a file with it
+
+[[noreturn]] void fail(const std::filesystem::path& file, std::size_t line,
+                       const std::string& why) {
+    throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + why);
+}
+
+/// The next word of a line, which it is taken from; empty at the end.
+std::string_view takeWord(std::string_view& line) {
+    line.remove_prefix(std::min(line.find_first_not_of(kSpaces), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(kSpaces));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+}  // namespace
+
+std::vector<NumberLine> readNumberTable(const std::filesystem::path& file, std::size_t most_lines) {
+    std::ifstream in = base::openToRead(file);
+    std::vector<NumberLine> table;
+    std::size_t line = 0;
+    for (std::string text; table.size() < most_lines && base::nextLine(in, text, file);) {
+        ++line;
+        if (line == 1 && text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
+        std::string_view words(text);
+        NumberLine entry{line, {}};
+        for (auto word = takeWord(words); !word.empty(); word = takeWord(words)) {
+            if (entry.numbers.empty() && word[0] == '#') break;
+            if (word.find('\0') != std::string::npos) {
+                fail(file, line, "there is a NUL byte, so this is no text file");
+            }
+            const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+            const auto number = base::numberFrom<double>(word.substr(has_plus ? 1 : 0));
+            if (!number || !std::isfinite(*number)) {
+                fail(file, line, "'" + std::string(word) + "' is not a finite number");
+            }
+            entry.numbers.push_back(*number);
+        }
+        if (!entry.numbers.empty()) table.push_back(std::move(entry));
+    }
+    if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read further");
+    return table;
+}
+
+void checkColumns(const std::filesystem::path& file, const NumberLine& line, std::size_t columns,
+                  const std::string& what) {
+    if (line.numbers.size() == columns) return;
+    fail(file, line.line,
+         "expected " + std::to_string(columns) + " numbers (" + what + "), found " +
+             std::to_string(line.numbers.size()));
+}
+
+}  // namespace hagen::recordings

@@ -1,0 +1,551 @@
+#include <hagen/recordings/BagPlan.h>
+#include <hagen/recordings/Remarks.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <set>
+#include <stdexcept>
+
+#include "recordings/bags/PoseSeries.h"
+
+namespace hagen::recordings {
+namespace {
+
+using Topic = BagSurvey::Topic;
+using mrpt::poses::CPose3D;
+
+constexpr double kLeastCovered = 0.5;              // of the time of the poses
+constexpr int kDeepest = 64;                       // frames on frames
+constexpr const char* kOusterFrame = "os_sensor";  // of the maker's driver, whose packets name none
+
+std::string withSlash(const std::string& topic) {
+    return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
+/// "/ouster" of "/ouster/points".
+std::string namespaceOf(const std::string& topic) {
+    return topic.substr(0, topic.rfind('/') == std::string::npos ? 0 : topic.rfind('/'));
+}
+
+bool isPackets(LidarKind kind) { return kind != LidarKind::None && kind != LidarKind::Cloud; }
+
+bool endsWith(const std::string& text, const std::string& ending) {
+    return text.size() >= ending.size() &&
+           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+/// A label that no other topic has, and that no result of segmentation has.
+std::string labelOf(const std::string& topic, std::set<std::string>& taken) {
+    std::string label = topic.substr(!topic.empty() && topic.front() == '/');
+    std::replace(label.begin(), label.end(), '/', '_');
+    if (label.empty()) label = "lidar";
+    if (endsWith(label, "_roi")) label += "_points";
+    std::string unique = label;
+    for (int n = 2; !taken.insert(unique).second; ++n) unique = label + "_" + std::to_string(n);
+    return unique;
+}
+
+/// Whether a frame moves with no vehicle, by the words of its name: "odom", "robot1/odom_combined".
+bool isWorld(const std::string& frame) {
+    for (std::size_t at = 0; at < frame.size();) {
+        const std::size_t end = std::min(frame.find_first_of("/_", at), frame.size());
+        const std::string word = frame.substr(at, end - at);
+        if (word == "map" || word == "odom" || word == "world" || word == "earth") return true;
+        at = end + 1;
+    }
+    return false;
+}
+
+/// Whether a frame is one of the vehicle, by the end of its name: "base_link", "robot1/base".
+bool isOfVehicle(const std::string& frame) {
+    const std::string name = frame.substr(frame.rfind('/') + 1);
+    return name == "base" || name.compare(0, 5, "base_") == 0;
+}
+
+class Planner {
+ public:
+    Planner(const std::filesystem::path& file, const BagSurvey& survey, const BagOptions& options)
+        : file_(file), survey_(survey), options_(options), frames_(survey.frames) {}
+
+    BagPlan plan() && {
+        if (options_.topics.empty()) checkNumberOfLidars();
+        choosePoses();
+        if (options_.topics.empty()) {
+            chooseAll();
+        } else {
+            chooseNamed();
+        }
+        mountSensors();
+        chooseImu();
+        return std::move(plan_);
+    }
+
+ private:
+    [[noreturn]] void fail(const std::string& why) const {
+        const std::string& broken = survey_.broken_because;
+        throw std::runtime_error(
+            file_.string() + ": " + why +
+            (broken.empty() ? "" : "; it can be read only in part: " + broken));
+    }
+
+    // Topics.
+
+    /// Each is compared with the others.
+    void checkNumberOfLidars() const {
+        const auto lidars = std::count_if(
+            survey_.topics.begin(), survey_.topics.end(),
+            [](const Topic& topic) { return topic.kind != LidarKind::None && topic.messages > 0; });
+        if (static_cast<std::size_t>(lidars) <= kMostLidarTopics) return;
+        fail("has " + std::to_string(lidars) + " topics of LiDARs, more than " +
+             std::to_string(kMostLidarTopics) + "; name those to read with --topic");
+    }
+
+    static std::string textOfKnownTypes() {
+        return "sensor_msgs/PointCloud2, velodyne_msgs/VelodyneScan, PacketMsg of an Ouster, "
+               "CustomMsg of a Livox";
+    }
+
+    void chooseNamed() {
+        for (const std::string& name : options_.topics) {
+            const Topic* found = nullptr;
+            for (const Topic& topic : survey_.topics) {
+                if (withSlash(topic.topic.name) != withSlash(name)) continue;
+                if (found == nullptr || found->kind == LidarKind::None) found = &topic;
+            }
+            if (found == nullptr) {
+                fail("has no topic '" + name + "'; it has: " + textOfTopics(survey_));
+            }
+            if (found->kind == LidarKind::None) {
+                fail("the topic '" + name + "' is of the type " + found->topic.type +
+                     ", not of a LiDAR (" + textOfKnownTypes() +
+                     "); the bag has: " + textOfTopics(survey_));
+            }
+            if (found->kind == LidarKind::Ouster && !findOuster(*found)) failOuster(*found);
+            add(*found);
+        }
+        checkJson();
+    }
+
+    void chooseAll() {
+        std::vector<const Topic*> lidars;
+        for (const Topic& topic : survey_.topics) {
+            if (topic.kind != LidarKind::None && topic.messages > 0) lidars.push_back(&topic);
+        }
+        const Topic* without_metadata = nullptr;
+        for (const Topic* topic : lidars) {
+            if (topic->kind == LidarKind::Ouster && !findOuster(*topic)) {
+                without_metadata = topic;
+            } else if (const std::string why = whyNot(*topic, lidars); why.empty()) {
+                add(*topic);
+            } else {
+                plan_.remarks.push_back(topic->topic.name + " is not read: " + why +
+                                        "; to read it, name it with --topic");
+            }
+        }
+        checkJson();
+        if (without_metadata != nullptr) {
+            if (plan_.sensors.empty()) failOuster(*without_metadata);
+            plan_.remarks.push_back(without_metadata->topic.name +
+                                    " is not read: packets of an Ouster need its metadata, which "
+                                    "the bag has not: --sensor-json FILE");
+        }
+        if (!plan_.sensors.empty()) return;
+        if (!lidars.empty()) {
+            plan_.remarks.clear();
+            fail("its LiDAR topics have no scans of a sensor (" + lidars.front()->topic.name +
+                 ": " + whyNot(*lidars.front(), lidars) +
+                 "); name one with --topic to read it nevertheless");
+        }
+        // A bag that is cut off says so when it is read.
+        if (survey_.is_whole) {
+            fail("has no topic of a LiDAR (" + textOfKnownTypes() +
+                 "); it has: " + textOfTopics(survey_));
+        }
+    }
+
+    /// Why a topic is not read unless it is named; empty: it is read.
+    std::string whyNot(const Topic& topic, const std::vector<const Topic*>& lidars) const {
+        if (topic.kind == LidarKind::Velodyne && !isReadable(topic)) {
+            return "its packets are not of a known Velodyne (" +
+                   sensors::knownVelodynes().substr(1) + ")";
+        }
+        if (topic.kind != LidarKind::Cloud) return "";
+        for (const Topic* other : lidars) {
+            if (isPackets(other->kind) && isReadable(*other) && isSameSensor(topic, *other)) {
+                return "its clouds are of the sensor whose packets are on " + other->topic.name;
+            }
+        }
+        if (isFixed(topic.frame)) {
+            return "its clouds are in the frame '" + topic.frame +
+                   "', which does not move with the vehicle";
+        }
+        return "";
+    }
+
+    bool isReadable(const Topic& topic) const {
+        if (topic.kind == LidarKind::Ouster) return findOuster(topic) != nullptr;
+        return topic.kind != LidarKind::Velodyne || findVelodyne(topic) != nullptr;
+    }
+
+    /// The model of most packets; null: none is known.
+    static const sensors::VelodyneModel* findVelodyne(const Topic& topic) {
+        const sensors::VelodyneModel* most = nullptr;
+        std::size_t most_packets = 0;
+        for (const auto& [id, count] : topic.velodyne_ids) {
+            const sensors::VelodyneModel* const model = sensors::findVelodyneModel(id);
+            if (model == nullptr || count <= most_packets) continue;
+            most = model;
+            most_packets = count;
+        }
+        return most;
+    }
+
+    static bool isSameSensor(const Topic& cloud, const Topic& packets) {
+        if (packets.kind != LidarKind::Ouster) {
+            return !cloud.frame.empty() && cloud.frame == packets.frame;
+        }
+        const bool is_os = cloud.frame.find("os_") != std::string::npos ||
+                           cloud.frame.find("ouster") != std::string::npos;
+        return is_os && namespaceOf(cloud.topic.name) == namespaceOf(packets.topic.name);
+    }
+
+    bool isFixed(const std::string& frame) const {
+        for (const char* name : {"map", "odom", "world"}) {
+            if (frame == name) return true;
+        }
+        const bool is_parent = plan_.poses != nullptr && plan_.poses->parent == frame;
+        return is_parent && !frame.empty() && plan_.poses->child != frame;
+    }
+
+    void add(const Topic& topic) {
+        if (plan_.sensors.count(topic.topic.name) > 0) return;
+        BagSensor& sensor = plan_.sensors[topic.topic.name];
+        sensor.kind = topic.kind;
+        sensor.label = labelOf(topic.topic.name, labels_);
+        if (topic.kind == LidarKind::Ouster) sensor.ouster = findOuster(topic);
+        if (topic.kind == LidarKind::Velodyne) sensor.velodyne = findVelodyne(topic);
+        frame_of_[topic.topic.name] = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
+    }
+
+    // Metadata of Ousters.
+
+    std::shared_ptr<const sensors::OusterSensor> findOuster(const Topic& topic) const {
+        std::string text_of = options_.sensor_json.string();
+        if (text_of.empty()) {
+            for (const auto& [name, text] : survey_.ouster_metadata) {
+                const bool is_near = namespaceOf(name) == namespaceOf(topic.topic.name);
+                if (is_near || survey_.ouster_metadata.size() == 1) text_of = name;
+                if (is_near) break;
+            }
+        }
+        if (text_of.empty()) return nullptr;
+        auto& sensor = ousters_[text_of];
+        if (!sensor) {
+            sensor = std::make_shared<const sensors::OusterSensor>(
+                options_.sensor_json.empty()
+                    ? sensors::ousterSensorOf(survey_.ouster_metadata.at(text_of),
+                                              file_.string() + ": topic " + text_of)
+                    : sensors::readOusterSensor(options_.sensor_json));
+        }
+        return sensor;
+    }
+
+    [[noreturn]] void failOuster(const Topic& topic) const {
+        fail("the packets on " + topic.topic.name +
+             " need the metadata of their Ouster, and the bag has no topic '" +
+             namespaceOf(topic.topic.name) + "/metadata' (std_msgs/String): --sensor-json FILE");
+    }
+
+    void checkJson() const {
+        if (options_.sensor_json.empty()) return;
+        for (const auto& [topic, sensor] : plan_.sensors) {
+            if (sensor.kind == LidarKind::Ouster) return;
+        }
+        fail("no topic that is read has packets of an Ouster, which " +
+             options_.sensor_json.string() + " could describe");
+    }
+
+    // Poses.
+
+    void takeMost(const std::map<std::string, PoseSeries>& all, bool is_dense) {
+        if (plan_.poses != nullptr) return;
+        for (const auto& [name, series] : all) {
+            if (series.poses.empty() || (is_dense && !isDense(series))) continue;
+            if (plan_.poses == nullptr || series.poses.size() > plan_.poses->poses.size()) {
+                plan_.poses = &series;
+            }
+        }
+    }
+
+    /// Whether a topic may be read: poses are chosen before the topics.
+    bool mayBeRead(const Topic& topic) const {
+        if (topic.kind == LidarKind::None) return false;
+        if (options_.topics.empty()) return !isFixed(topic.frame);
+        return std::any_of(options_.topics.begin(), options_.topics.end(),
+                           [&](const std::string& name) {
+                               return withSlash(name) == withSlash(topic.topic.name);
+                           });
+    }
+
+    /// Frames of the LiDARs that may be read.
+    std::vector<std::string> framesOfLidars() const {
+        std::vector<std::string> frames;
+        std::set<std::string> known;
+        for (const Topic& topic : survey_.topics) {
+            if (!mayBeRead(topic)) continue;
+            const std::string frame = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
+            if (known.insert(frame).second) frames.push_back(frame);
+        }
+        return frames;
+    }
+
+    using Way = std::vector<const PoseSeries*>;
+
+    /// What leads from a frame up the tree.
+    struct Climb {
+        Way still;                       ///< transforms that never change, before the first moving
+        std::vector<MovingStep> moving;  ///< from the first that moves on
+        std::string top;                 ///< the frame where it ends
+        CPose3D in_top;                  ///< of the last step's parent
+        bool is_at_goal = false, is_circle = false;
+    };
+
+    /// Up to `goal`, or to what hangs on it without moving; without a goal up to a frame that moves
+    /// with no vehicle, or has no parent.
+    Climb climb(const std::string& frame, const std::string& goal = "") const {
+        Climb climb;
+        climb.top = frame;
+        for (int depth = 0; depth < kDeepest; ++depth) {
+            const std::string at = climb.top;
+            if (const auto pose = goal.empty() ? std::nullopt : frames_.poseIn(at, goal)) {
+                climb.top = goal;
+                climb.in_top = *pose + climb.in_top;
+                climb.is_at_goal = true;
+                return climb;
+            }
+            const auto ends_at = [&](const std::string& end) {
+                return !climb.moving.empty() && isWorld(end);
+            };
+            const std::string root = frames_.rootOf(at);
+            const auto in_root = frames_.poseIn(at, root);  // none: static frames in a circle
+            if (ends_at(at) || !in_root) return climb;
+            climb.top = root;
+            climb.in_top = *in_root + climb.in_top;
+            const auto next = survey_.transforms.find(root);
+            const bool is_root = next == survey_.transforms.end() || next->second.poses.empty();
+            if (is_root || ends_at(root)) return climb;
+            const PoseSeries& series = next->second;
+            climb.top = series.parent;
+            if (isStill(series)) {
+                climb.in_top = poseOf(series.poses.front()) + climb.in_top;
+                if (climb.moving.empty()) climb.still.push_back(&series);
+                continue;
+            }
+            climb.is_circle =
+                std::any_of(climb.moving.begin(), climb.moving.end(),
+                            [&](const MovingStep& step) { return step.series == &series; });
+            if (climb.is_circle) return climb;
+            // The poses are those of the first step's child itself.
+            climb.moving.push_back({climb.moving.empty() ? CPose3D() : climb.in_top, &series});
+            climb.in_top = CPose3D();
+        }
+        climb.is_circle = true;
+        return climb;
+    }
+
+    void addAsStatic(const Way& way) {
+        for (const PoseSeries* step : way) {
+            frames_.add(step->parent, step->child, poseOf(step->poses.front()));
+        }
+    }
+
+    /// False, and nothing is taken, for steps that have no times in common.
+    bool takeComposed(const std::vector<MovingStep>& steps, const std::string& top,
+                      const CPose3D& in_top) {
+        auto poses = std::make_shared<PoseSeries>(composed(steps, top, in_top));
+        if (poses->poses.empty()) return false;
+        plan_.composed = poses;
+        plan_.poses = poses.get();
+        return true;
+    }
+
+    /// The transforms that move the frame on which a LiDAR hangs. Only if nothing moves they are
+    /// some that never change: the vehicle stands still.
+    void takeTransforms() {
+        if (plan_.poses != nullptr) return;
+        std::vector<std::string> frames = framesOfLidars();
+        frames.insert(frames.end(), {"base_link", "base_footprint"});
+        std::optional<Climb> moving;
+        Way still;  // up to one that is no frame of the vehicle in another
+        for (const std::string& frame : frames) {
+            const Climb found = climb(frame);
+            const auto outside =
+                std::find_if(found.still.begin(), found.still.end(),
+                             [](const PoseSeries* series) { return !isOfVehicle(series->parent); });
+            if (still.empty() && outside != found.still.end()) {
+                still.assign(found.still.begin(), outside + 1);
+            }
+            if (found.moving.empty()) continue;
+            if (!moving) moving = found;
+            const bool is_same = found.moving.front().series == moving->moving.front().series;
+            if (is_same) addAsStatic(found.still);
+        }
+        if (moving) {
+            takeMoving(*moving);
+        } else if (!still.empty()) {
+            plan_.poses = still.back();
+            still.pop_back();
+            addAsStatic(still);
+        }
+    }
+
+    void takeMoving(const Climb& climb) {
+        const PoseSeries& first = *climb.moving.front().series;
+        const std::string& parent = climb.moving.back().series->parent;
+        // What never changes above the last that moves matters only within the vehicle.
+        const bool is_within = isOfVehicle(parent);
+        const std::string& top = is_within ? climb.top : parent;
+        std::string why;
+        if (climb.is_circle) {
+            why = "go round in a circle";
+        } else if (isOfVehicle(top)) {
+            why = "say nothing of where '" + top + "' is";
+        } else if (climb.moving.size() == 1 && !is_within) {
+            plan_.poses = &first;
+        } else if (!takeComposed(climb.moving, top, is_within ? climb.in_top : CPose3D())) {
+            why = "have no times in common";
+        }
+        if (why.empty()) return;
+        plan_.remarks.push_back("the transforms from '" + top + "' to '" + first.child + "' " +
+                                why + ": they give no poses");
+    }
+
+    /// Poses of a frame against which the LiDARs move are not theirs: transforms lead to the frame
+    /// on which the first of them hangs.
+    void carryPosesToLidars() {
+        if (plan_.poses == nullptr || plan_.poses->child.empty()) return;
+        const std::string& child = plan_.poses->child;
+        std::optional<Climb> way;
+        for (const std::string& frame : framesOfLidars()) {
+            const Climb found = climb(frame, child);
+            if (!found.is_at_goal) continue;
+            if (found.moving.empty()) return;  // one hangs on it
+            if (!way) way = found;
+        }
+        if (!way) return;
+        std::vector<MovingStep> steps = way->moving;
+        steps.push_back({way->in_top, plan_.poses});
+        const std::string source = plan_.poses->source + " and transforms from " + child + " to " +
+                                   steps.front().series->child;
+        auto poses = std::make_shared<PoseSeries>(composed(steps, plan_.poses->parent, CPose3D()));
+        if (poses->poses.empty() || covered_s(*poses) < kLeastCovered * covered_s(*plan_.poses)) {
+            plan_.remarks.push_back("the transforms from '" + child + "' to '" +
+                                    steps.front().series->child +
+                                    "' are too far apart in time to be used with the poses");
+            return;
+        }
+        poses->source = source;
+        plan_.composed = poses;
+        plan_.poses = poses.get();
+        addAsStatic(way->still);
+    }
+
+    void choosePoses() {
+        addStillTransforms();
+        takeMost(survey_.odometry, true);
+        takeMost(survey_.poses, true);
+        takeTransforms();
+        takeMost(survey_.odometry, false);
+        takeMost(survey_.poses, false);
+        carryPosesToLidars();
+    }
+
+    /// In ROS 1, transforms that never change are often repeated on tf. They count as static if
+    /// they lead from a LiDAR to the vehicle.
+    void addStillTransforms() {
+        std::set<std::string> vehicles{"base_link", "base_footprint"};
+        for (const auto& [topic, series] : survey_.odometry) vehicles.insert(series.child);
+        for (const Topic& topic : survey_.topics) {
+            if (topic.kind == LidarKind::None) continue;
+            Way way;
+            std::string at = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
+            for (int depth = 0; depth < kDeepest && vehicles.count(at) == 0; ++depth) {
+                at = frames_.rootOf(at);
+                const auto next = survey_.transforms.find(at);
+                if (vehicles.count(at) > 0 || next == survey_.transforms.end() ||
+                    next->second.poses.empty() || !isStill(next->second)) {
+                    break;
+                }
+                way.push_back(&next->second);
+                at = next->second.parent;
+            }
+            if (vehicles.count(at) > 0) addAsStatic(way);
+        }
+    }
+
+    // Mounts.
+
+    /// The pose of a frame on the vehicle; none if the bag does not say it.
+    std::optional<CPose3D> onVehicle(const std::string& frame) const {
+        std::vector<std::string> vehicles{"base_link", "base_footprint"};
+        // These may move against the frame that the poses are of.
+        if (plan_.poses != nullptr && !plan_.poses->child.empty()) vehicles = {plan_.poses->child};
+        for (const std::string& vehicle : vehicles) {
+            if (const auto pose = frames_.poseIn(frame, vehicle)) return pose;
+        }
+        // Poses of another frame say nothing about the one that it hangs on in the end.
+        if (plan_.poses != nullptr || !frames_.has(frame)) return std::nullopt;
+        return frames_.poseIn(frame, frames_.rootOf(frame));
+    }
+
+    void mountSensors() {
+        for (auto& [topic, sensor] : plan_.sensors) {
+            const std::string& frame = frame_of_[topic];
+            const auto pose = onVehicle(frame);
+            if (pose) sensor.on_vehicle = *pose;
+            sensor.is_vehicle = plan_.poses != nullptr && frame == plan_.poses->child &&
+                                frame != "base_link" && frame != "base_footprint";
+            sensor.has_its_own_poses = sensor.is_vehicle;
+            if (pose || plan_.poses == nullptr) continue;
+            sensor.has_its_own_poses = true;
+            plan_.remarks.push_back(
+                "no static transform leads from the frame " +
+                (frame.empty() ? "of " + topic : "'" + frame + "' of " + topic) + " to " +
+                (plan_.poses->child.empty() ? "base_link" : "'" + plan_.poses->child + "'") +
+                ": the poses of " + plan_.poses->source + " are taken for those of the sensor");
+        }
+    }
+
+    void chooseImu() {
+        std::size_t most = 0;
+        for (const bool is_mounted : {true, false}) {
+            // A vehicle's pose is better than an IMU that is mounted nobody knows how.
+            if (!is_mounted && (!plan_.imu_topic.empty() || plan_.poses != nullptr)) return;
+            for (const auto& [topic, imu] : survey_.imus) {
+                const auto pose = onVehicle(imu.frame);
+                if (pose.has_value() != is_mounted || imu.orientations <= most) continue;
+                most = imu.orientations;
+                plan_.imu_topic = topic;
+                plan_.imu_on_vehicle = pose.value_or(CPose3D());
+            }
+        }
+    }
+
+    const std::filesystem::path& file_;
+    const BagSurvey& survey_;
+    const BagOptions& options_;
+    FrameTree frames_;
+    BagPlan plan_;
+    std::set<std::string> labels_;
+    std::map<std::string, std::string> frame_of_;  ///< by topic
+    mutable std::map<std::string, std::shared_ptr<const sensors::OusterSensor>> ousters_;
+};
+
+}  // namespace
+
+BagPlan planOf(const std::filesystem::path& file, const BagSurvey& survey,
+               const BagOptions& options) {
+    return Planner(file, survey, options).plan();
+}
+
+}  // namespace hagen::recordings

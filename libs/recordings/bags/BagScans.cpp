@@ -1,0 +1,487 @@
+#include <hagen/mrpt/LocatedCloud.h>
+#include <hagen/mrpt/TableCloud.h>
+#include <hagen/recordings/BagScans.h>
+#include <hagen/recordings/OusterObservation.h>
+#include <hagen/recordings/Remarks.h>
+#include <hagen/recordings/VelodyneTurns.h>
+#include <hagen/sensors/OusterFrames.h>
+#include <hagen/sensors/OusterScan.h>
+#include <hagen/sensors/VelodyneModel.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <iterator>
+#include <optional>
+#include <set>
+
+#include "recordings/bags/Messages.h"
+
+namespace hagen::recordings {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationPointCloud;
+using observations::NumberType;
+using observations::PointTable;
+using recordings::addCount;
+using recordings::counted;
+using recordings::timeOf;
+
+/// What was read of a topic.
+struct TopicState {
+    std::string name;
+    const BagSensor* sensor = nullptr;
+    std::size_t messages = 0, scans = 0, unreadable = 0;
+    std::string first_unreadable;          ///< which, and why
+    std::size_t points_without_range = 0;  ///< of a Livox
+    // Of tables of points:
+    std::size_t points_not_finite = 0;
+    std::map<std::string, std::size_t> clouds_with;  ///< by remark
+    // Of packets:
+    std::optional<recordings::VelodyneTurns> turns;
+    std::unique_ptr<sensors::OusterFrames> frames;
+    std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
+    std::map<unsigned, std::size_t> unknown_ids;
+};
+
+/// Takes over what a table has that is not used.
+void note(const CObservation& scan, TopicState& state) {
+    const observations::TableCloud* const cloud = observations::tableCloudOf(scan);
+    if (cloud == nullptr) return;
+    state.points_not_finite += cloud->pointsNotFinite();
+    for (const std::string& remark : cloud->remarks()) ++state.clouds_with[remark];
+}
+
+void addPoint(const LivoxPoint& point, Scan& scan) {
+    scan.x_m.push_back(point.x_m);
+    scan.y_m.push_back(point.y_m);
+    scan.z_m.push_back(point.z_m);
+    scan.intensity.push_back(static_cast<float>(point.reflectivity) / 255.0f);
+    scan.time_s.push_back(1e-9f * static_cast<float>(point.since_ns));
+}
+
+PointTable tableOf(const std::vector<LivoxPoint>& points) {
+    PointTable table;
+    table.fields = {
+        {"x", NumberType::Float32, 0, 1},           {"y", NumberType::Float32, 4, 1},
+        {"z", NumberType::Float32, 8, 1},           {"offset_time", NumberType::UInt32, 12, 1},
+        {"reflectivity", NumberType::UInt8, 16, 1}, {"tag", NumberType::UInt8, 17, 1},
+        {"line", NumberType::UInt8, 18, 1}};
+    table.bytes_per_point = 19;
+    for (const LivoxPoint& point : points) {
+        const std::size_t at = table.bytes.size();
+        table.bytes.resize(at + table.bytes_per_point);
+        std::memcpy(&table.bytes[at], &point.x_m, 4);
+        std::memcpy(&table.bytes[at + 4], &point.y_m, 4);
+        std::memcpy(&table.bytes[at + 8], &point.z_m, 4);
+        std::memcpy(&table.bytes[at + 12], &point.since_ns, 4);
+        table.bytes[at + 16] = point.reflectivity;
+        table.bytes[at + 17] = point.tag;
+        table.bytes[at + 18] = point.line;
+        ++table.points;
+    }
+    return table;
+}
+
+/// Gives memory back to the system. glibc keeps what was freed, for each thread apart; large clouds
+/// that one thread makes and another one frees would add up.
+void trimHeap() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
+}  // namespace
+
+struct BagScans::Reader {
+    std::filesystem::path file;
+    const BagSurvey& survey;
+    BagPlan plan;
+    std::unique_ptr<BagFile> bag;
+    std::map<std::string, TopicState> states;  ///< by topic
+    std::vector<TopicState*> state_of;         ///< by index in the bag; null: not of a LiDAR
+    std::vector<std::uint8_t> unpacked;
+    std::deque<CObservation::Ptr> complete;
+    std::shared_ptr<const SensorModel> mid360 =
+        std::make_shared<const SensorModel>(sensorModel("Mid-360"));
+    bool is_at_end = false;
+    std::size_t scans = 0, messages = 0;
+    std::size_t bytes_untrimmed = 0;  ///< of scans read since trimHeap()
+    std::string broken_because;
+
+    Reader(const std::filesystem::path& name, const BagSurvey& surveyed, const BagOptions& options)
+        : file(name), survey(surveyed), plan(planOf(name, survey, options)), bag(openBag(name)) {
+        for (const auto& [topic, sensor] : plan.sensors) {
+            TopicState& state = states[topic];
+            state.name = topic;
+            state.sensor = &sensor;
+            if (sensor.ouster) {
+                state.frames = std::make_unique<sensors::OusterFrames>(*sensor.ouster);
+            }
+        }
+    }
+
+    void take(const BagMessage& message);
+    void takeLidar(const BagMessage& message, const BagTopic& topic, TopicState& state);
+    void takeCloud(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
+    void takeLivox(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
+    void takeVelodyne(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
+    void takeOuster(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
+    void takeImu(const BagMessage& message, const BagTopic& topic);
+    void add(const CObservation::Ptr& scan, TopicState& state);
+    void addComplete(TopicState& state);
+    void finish();
+    static std::string textOf(const TopicState& state);
+    std::string whyEmpty() const;
+};
+
+void BagScans::Reader::take(const BagMessage& message) {
+    const std::vector<BagTopic>& topics = bag->topics();
+    while (state_of.size() < topics.size()) {
+        const BagTopic& topic = topics[state_of.size()];
+        const auto state = states.find(topic.name);
+        const bool is_read =
+            state != states.end() && lidarKindOf(topic) == state->second.sensor->kind;
+        state_of.push_back(is_read ? &state->second : nullptr);
+    }
+    const BagTopic& topic = topics[message.topic];
+    if (TopicState* const state = state_of[message.topic]) {
+        takeLidar(message, topic, *state);
+    } else if (topic.type == "sensor_msgs/Imu" && topic.name == plan.imu_topic) {
+        takeImu(message, topic);
+    }
+}
+
+void BagScans::Reader::takeLidar(const BagMessage& message, const BagTopic& topic,
+                                 TopicState& state) {
+    constexpr std::size_t kTrimEvery = 8 << 20;
+    bytes_untrimmed += message.size;
+    if (bytes_untrimmed > kTrimEvery) {
+        trimHeap();
+        bytes_untrimmed = 0;
+    }
+    const std::size_t number = state.messages++;
+    try {
+        const FieldReader fields = fieldsOf(message, topic.encoding, unpacked);
+        switch (state.sensor->kind) {
+            case LidarKind::Cloud:
+                takeCloud(fields, message.time_ns, state);
+                break;
+            case LidarKind::Velodyne:
+                takeVelodyne(fields, message.time_ns, state);
+                break;
+            case LidarKind::Ouster:
+                takeOuster(fields, message.time_ns, state);
+                break;
+            case LidarKind::Livox1:
+            case LidarKind::Livox2:
+                takeLivox(fields, message.time_ns, state);
+                break;
+            case LidarKind::None:
+                break;
+        }
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& e) {
+        if (state.unreadable++ > 0) return;
+        state.first_unreadable = nameOf(number, message.time_ns) + e.what();
+    }
+}
+
+void BagScans::Reader::add(const CObservation::Ptr& scan, TopicState& state) {
+    scan->sensorLabel = state.sensor->label;
+    note(*scan, state);
+    ++state.scans;
+    ++scans;
+    complete.push_back(scan);
+}
+
+void BagScans::Reader::takeCloud(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
+    PointCloud2 cloud = readPointCloud2(fields);
+    const std::int64_t time_ns = cloud.header.time_ns != 0 ? cloud.header.time_ns : recorded_ns;
+    auto scan = observations::observationOf(
+        std::make_shared<const PointTable>(std::move(cloud.table)), "", timeOf(time_ns));
+    scan->sensorPose = state.sensor->on_vehicle;
+    add(scan, state);
+}
+
+void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
+    LivoxMessage message = readLivox(fields);
+    const auto first_none = std::remove_if(
+        message.points.begin(), message.points.end(),
+        [](const LivoxPoint& point) { return point.x_m == 0 && point.y_m == 0 && point.z_m == 0; });
+    const auto without_range =
+        static_cast<std::size_t>(std::distance(first_none, message.points.end()));
+    message.points.erase(first_none, message.points.end());
+    const std::int64_t time_ns = message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
+    CObservationPointCloud::Ptr scan;
+    if (state.sensor->kind == LidarKind::Livox1) {
+        scan = observations::observationOf(
+            std::make_shared<const PointTable>(tableOf(message.points)), "", timeOf(time_ns));
+    } else {
+        Scan points;
+        for (const LivoxPoint& point : message.points) addPoint(point, points);
+        locateBeams(*mid360, points);
+        PointTable others;
+        others.points = message.points.size();
+        std::vector<double> tags, lines;
+        for (const LivoxPoint& point : message.points) {
+            tags.push_back(point.tag);
+            lines.push_back(point.line);
+        }
+        addColumn("tag", NumberType::UInt8, tags, others);
+        addColumn("line", NumberType::UInt8, lines, others);
+        scan = CObservationPointCloud::Create();
+        scan->timestamp = timeOf(time_ns);
+        scan->pointcloud =
+            std::make_shared<observations::LocatedCloud>(points, mid360, std::move(others));
+    }
+    scan->sensorPose = state.sensor->on_vehicle;
+    state.points_without_range += without_range;
+    add(scan, state);
+}
+
+void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns,
+                                    TopicState& state) {
+    const VelodyneScanMessage message = readVelodyneScan(fields);
+    for (const VelodyneScanMessage::Packet& sent : message.packets) {
+        const std::uint8_t id = sent.bytes[sensors::kVelodyneModelAt];
+        const auto* const model = sensors::findVelodyneModel(id);
+        if (!sensors::isVelodyneData(sent.bytes, sensors::kVelodynePacketBytes)) {
+            ++state.other_packets;
+        } else if (sensors::isOfHdl64(sent.bytes)) {
+            ++state.hdl64_packets;
+        } else if (model == nullptr || model != state.sensor->velodyne) {
+            ++state.unknown_ids[id];
+        } else {
+            if (!state.turns) state.turns.emplace(*model, state.sensor->label);
+            sensors::VelodynePacket packet;
+            std::copy_n(sent.bytes, packet.bytes.size(), packet.bytes.begin());
+            packet.time_ns = sent.time_ns != 0             ? sent.time_ns
+                             : message.header.time_ns != 0 ? message.header.time_ns
+                                                           : recorded_ns;
+            state.turns->add(packet);
+        }
+    }
+    addComplete(state);
+}
+
+void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
+    constexpr std::size_t kImuBytes = 48;
+    const sensors::OusterSensor& sensor = *state.sensor->ouster;
+    ByteView packet = readPacket(fields);
+    // The driver of ROS 1 sends a byte more than the packet has.
+    if (packet.size == sensor.packetBytes() + 1) --packet.size;
+    if (packet.size != sensor.packetBytes()) {
+        if (packet.size == kImuBytes || packet.size == kImuBytes + 1) {
+            ++state.imu_packets;
+            return;
+        }
+        throw std::runtime_error("its packet has " + std::to_string(packet.size) +
+                                 " bytes; those of the sensor have " +
+                                 std::to_string(sensor.packetBytes()) + " (profile " +
+                                 sensor.profile.name + "). Is it another sensor's metadata?");
+    }
+    if (!sensors::isOfLidar(packet.data, sensor)) {
+        ++state.other_packets;
+        return;
+    }
+    if (!sensor.profile.is_legacy && !sensor.serial.empty()) {
+        const std::string serial = std::to_string(sensors::serialOf(packet.data, sensor));
+        if (serial != sensor.serial) {
+            throw std::runtime_error("its packet is of the sensor with serial number " + serial +
+                                     ", the metadata are of " + sensor.serial);
+        }
+    }
+    state.frames->add(packet.data, recorded_ns);
+    addComplete(state);
+}
+
+/// Takes the turns that are complete.
+void BagScans::Reader::addComplete(TopicState& state) {
+    if (state.turns) {
+        for (const auto& turn : state.turns->complete()) {
+            turn->sensorPose = state.sensor->on_vehicle;
+            add(turn, state);
+        }
+        state.turns->complete().clear();
+    }
+    if (state.frames) {
+        for (const sensors::OusterFrame& frame : state.frames->complete()) {
+            const auto scan = recordings::observationOf(frame, *state.sensor->ouster);
+            scan->sensorPose = state.sensor->on_vehicle + scan->sensorPose;
+            add(scan, state);
+        }
+        state.frames->complete().clear();
+    }
+}
+
+void BagScans::Reader::takeImu(const BagMessage& message, const BagTopic& topic) {
+    using namespace mrpt::obs;
+    try {
+        FieldReader fields = fieldsOf(message, topic.encoding, unpacked);
+        const ImuMessage imu = readImu(fields);
+        if (!imu.rotation_wxyz) return;
+        auto observation = CObservationIMU::Create();
+        observation->timestamp =
+            timeOf(imu.header.time_ns != 0 ? imu.header.time_ns : message.time_ns);
+        observation->sensorLabel = topic.name;
+        observation->sensorPose = plan.imu_on_vehicle;
+        observation->set(IMU_ORI_QUAT_W, (*imu.rotation_wxyz)[0]);
+        observation->set(IMU_ORI_QUAT_X, (*imu.rotation_wxyz)[1]);
+        observation->set(IMU_ORI_QUAT_Y, (*imu.rotation_wxyz)[2]);
+        observation->set(IMU_ORI_QUAT_Z, (*imu.rotation_wxyz)[3]);
+        complete.push_back(observation);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {
+        // The survey counted it.
+    }
+}
+
+void BagScans::Reader::finish() {
+    is_at_end = true;
+    for (auto& [topic, state] : states) {
+        if (state.turns) state.turns->finish();
+        if (state.frames) state.frames->finish();
+        addComplete(state);
+    }
+}
+
+std::string BagScans::Reader::textOf(const TopicState& state) {
+    std::string text = counted(state.messages, "message");
+    if (state.turns) {
+        text +=
+            ", " + state.sensor->velodyne->name + ", " + recordings::textOf(state.turns->counts());
+    } else if (state.frames) {
+        text +=
+            ", " + state.sensor->ouster->name + ", " + recordings::textOf(state.frames->counts());
+    }
+    addCount(state.hdl64_packets, "packet", "of an HDL-64E, which is not supported in bags", text);
+    for (const auto& [id, packets] : state.unknown_ids) {
+        char hex[8];
+        std::snprintf(hex, sizeof hex, "0x%02x", id);
+        addCount(packets, "packet",
+                 "of " + std::string(state.turns ? "another" : "an unknown") +
+                     " Velodyne (model id " + hex + "), left out",
+                 text);
+    }
+    addCount(state.imu_packets, "IMU packet", "left out", text);
+    addCount(state.other_packets, "packet", "of something else, left out", text);
+    addCount(state.points_without_range, "point", "without a range, left out", text);
+    addCount(state.points_not_finite, "point",
+             "with a coordinate that is not finite, left out of the scans (--clouds writes them, "
+             "with the label 0)",
+             text);
+    addCount(state.unreadable, "message", "that could not be read, left out", text);
+    if (state.unreadable > 0) text += "; the first: " + state.first_unreadable;
+    for (const auto& [remark, clouds] : state.clouds_with) {
+        text += "; " + remark;
+        if (clouds == state.scans) continue;
+        text += " (" + std::to_string(clouds) + " of " + counted(state.scans, "cloud") + ")";
+    }
+    return text;
+}
+
+std::string BagScans::Reader::whyEmpty() const {
+    std::string text = file.string() + ": no scan could be read";
+    for (const auto& [topic, state] : states) text += "; " + topic + ": " + textOf(state);
+    return text;
+}
+
+BagScans::BagScans(const std::filesystem::path& file, const BagSurvey& survey,
+                   const BagOptions& options)
+    : reader_(std::make_unique<Reader>(file, survey, options)) {}
+
+BagScans::~BagScans() = default;
+
+CObservation::Ptr BagScans::next() {
+    Reader& r = *reader_;
+    BagMessage message;
+    while (r.complete.empty() && !r.is_at_end) {
+        try {
+            if (r.bag->next(message)) {
+                ++r.messages;
+                r.take(message);
+            } else {
+                r.finish();
+            }
+        } catch (const BrokenBag& e) {
+            r.broken_because = e.what();
+            r.finish();
+        }
+    }
+    if (!r.complete.empty()) {
+        const auto observation = r.complete.front();
+        r.complete.pop_front();
+        return observation;
+    }
+    if (!r.broken_because.empty()) throw BrokenBag(r.broken_because);
+    if (r.scans == 0) throw BrokenBag(r.whyEmpty());
+    return nullptr;
+}
+
+void BagScans::checkWhileReading(const std::function<void()>& check) {
+    reader_->bag->checkWhileReading(check);
+}
+
+const BagPlan& BagScans::plan() const { return reader_->plan; }
+
+std::size_t BagScans::messagesRead() const { return reader_->messages; }
+
+double BagScans::fractionRead() const {
+    return reader_->is_at_end ? 1.0 : reader_->bag->fractionRead();
+}
+
+std::vector<std::string> BagScans::remarks() const {
+    const Reader& r = *reader_;
+    std::vector<std::string> remarks = r.bag->remarks();
+    remarks.insert(remarks.end(), r.plan.remarks.begin(), r.plan.remarks.end());
+    for (const auto& [topic, state] : r.states) {
+        remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::textOf(state));
+    }
+    for (const auto& [topic, left_out] : r.survey.left_out) {
+        const auto tell = [&, &name = topic](const LeftOut::Kind& kind, const std::string& one,
+                                             const std::string& why) {
+            if (kind.number == 0) return;
+            remarks.push_back(name + ": " + counted(kind.number, one) + why +
+                              ", left out; the first: " + kind.first);
+        };
+        tell(left_out.messages, "message", " that could not be read");
+        tell(left_out.transforms, "transform", " that could not be read");
+        tell(left_out.other_parents, "transform", " of a frame that had another parent before");
+        tell(left_out.further, "transform",
+             " of frames beyond the first " + std::to_string(kMostMovingFrames) +
+                 " (of tf_static " + std::to_string(FrameTree::kMostFrames) + ")");
+    }
+    BagSurvey others;  // that nothing is read of
+    std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",
+                                "geometry_msgs/PoseWithCovarianceStamped", "tf2_msgs/TFMessage",
+                                "tf/tfMessage"};
+    for (const BagSurvey::Topic& topic : r.survey.topics) {
+        const std::string& name = topic.topic.name;
+        const std::string& type = topic.topic.type;
+        const auto state = r.states.find(name);  // a name may have several types
+        const bool is_scans = state != r.states.end() && topic.kind == state->second.sensor->kind;
+        const bool is_imu = name == r.plan.imu_topic && type == "sensor_msgs/Imu";
+        const bool is_used =
+            is_scans || is_imu || types.count(type) > 0 ||
+            (topic.kind == LidarKind::None && r.survey.ouster_metadata.count(name) > 0);
+        if (!is_used) others.topics.push_back(topic);
+    }
+    if (!others.topics.empty()) {
+        constexpr std::size_t kMost = 12;
+        remarks.push_back("topics that are not used: " + textOfTopics(others, kMost));
+    }
+    return remarks;
+}
+
+}  // namespace hagen::recordings

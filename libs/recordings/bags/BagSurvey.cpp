@@ -1,0 +1,238 @@
+#include <hagen/recordings/BagSurvey.h>
+#include <hagen/recordings/Remarks.h>
+#include <hagen/recordings/VelodyneTurns.h>
+
+#include <cmath>
+#include <optional>
+
+#include "recordings/bags/Messages.h"
+
+namespace hagen::recordings {
+namespace {
+
+constexpr double kLeastApart_ns = 1e7;
+constexpr std::size_t kMostLookedAt = 20;  // messages of a Velodyne: turns
+constexpr std::size_t kMostMetadata = 1 << 20;
+
+bool endsWith(const std::string& text, const std::string& ending) {
+    return text.size() >= ending.size() &&
+           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+void addPose(const PoseMessage& message, std::int64_t recorded_ns, PoseSeries& series) {
+    const auto pose = message.pose();
+    if (!pose) throw std::runtime_error("its pose is not finite or has no rotation");
+    const std::int64_t time_ns = message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
+    // As doubles: times of a broken file may be too far apart for integers.
+    const auto apart_ns = [&] {
+        return std::abs(static_cast<double>(time_ns) -
+                        static_cast<double>(series.poses.back().time_ns));
+    };
+    if (!series.poses.empty() && apart_ns() < kLeastApart_ns) return;
+    mrpt::math::CQuaternionDouble q;
+    pose->getAsQuaternion(q);
+    series.poses.push_back({time_ns, pose->x(), pose->y(), pose->z(), q.r(), q.x(), q.y(), q.z()});
+}
+
+class Surveyor {
+ public:
+    void see(const BagMessage& message, const std::vector<BagTopic>& topics) {
+        while (survey_.topics.size() < topics.size()) addTopic(topics[survey_.topics.size()]);
+        BagSurvey::Topic& topic = survey_.topics[message.topic];
+        ++topic.messages;
+        ++survey_.messages;
+        try {
+            read(message, topic);
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const std::exception& e) {
+            // Those of LiDARs are counted by who reads the scans.
+            if (topic.kind != LidarKind::None) return;
+            count(survey_.left_out[topic.topic.name].messages, message, topic, e.what());
+        }
+    }
+    void addTopic(const BagTopic& topic) {
+        BagSurvey::Topic& added = survey_.topics.emplace_back();
+        added.topic = topic;
+        added.kind = lidarKindOf(topic);
+    }
+    BagSurvey survey() && { return std::move(survey_); }
+
+ private:
+    static void count(LeftOut::Kind& kind, const BagMessage& message, const BagSurvey::Topic& topic,
+                      const std::string& why) {
+        if (kind.number++ > 0) return;
+        kind.first = nameOf(topic.messages - 1, message.time_ns) + why;
+    }
+
+    void read(const BagMessage& message, BagSurvey::Topic& topic) {
+        const std::string& type = topic.topic.type;
+        if (topic.kind != LidarKind::None) {
+            const bool lacks_model =
+                topic.kind == LidarKind::Velodyne && topic.velodyne_messages < kMostLookedAt;
+            if (topic.frame.empty() || lacks_model) look(message, topic);
+        } else if (type == "nav_msgs/Odometry") {
+            FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
+            take(readOdometry(fields), message, topic.topic, survey_.odometry);
+        } else if (type == "geometry_msgs/PoseStamped" ||
+                   type == "geometry_msgs/PoseWithCovarianceStamped") {
+            FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
+            take(readPoseStamped(fields), message, topic.topic, survey_.poses);
+        } else if (type == "sensor_msgs/Imu") {
+            FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
+            const ImuMessage imu = readImu(fields);
+            if (!imu.rotation_wxyz) return;
+            BagSurvey::Imu& seen = survey_.imus[topic.topic.name];
+            if (seen.orientations++ == 0) seen.frame = imu.header.frame;
+        } else if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") {
+            readFrames(message, topic);
+        } else if (type == "std_msgs/String" && endsWith(topic.topic.name, "metadata") &&
+                   message.size <= kMostMetadata) {
+            FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
+            survey_.ouster_metadata[topic.topic.name] = readString(fields);
+        }
+    }
+
+    /// Looks at the first messages of a LiDAR. A Velodyne's first packet may be another's.
+    void look(const BagMessage& message, BagSurvey::Topic& topic) {
+        if (topic.kind == LidarKind::Ouster) return;  // it has no header
+        FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
+        if (topic.kind != LidarKind::Velodyne) {
+            topic.frame = readHeader(fields).frame;
+            return;
+        }
+        const VelodyneScanMessage scan = readVelodyneScan(fields);
+        if (topic.frame.empty()) topic.frame = scan.header.frame;
+        bool tells_model = false;
+        for (const VelodyneScanMessage::Packet& packet : scan.packets) {
+            const bool is_data =
+                sensors::isVelodyneData(packet.bytes, sensors::kVelodynePacketBytes);
+            if (!is_data || sensors::isOfHdl64(packet.bytes)) continue;
+            const std::uint8_t id = packet.bytes[sensors::kVelodyneModelAt];
+            ++topic.velodyne_ids[id];
+            tells_model = tells_model || sensors::findVelodyneModel(id) != nullptr;
+        }
+        topic.velodyne_messages += tells_model ? 1 : 0;
+    }
+
+    static void take(const PoseMessage& pose, const BagMessage& message, const BagTopic& topic,
+                     std::map<std::string, PoseSeries>& by_topic) {
+        PoseSeries& series = by_topic[topic.name];
+        if (series.poses.empty()) {
+            series.source = topic.type + " on " + topic.name;
+            series.parent = pose.header.frame;
+            series.child = pose.child;
+        }
+        addPose(pose, message.time_ns, series);
+    }
+
+    void readFrames(const BagMessage& message, const BagSurvey::Topic& topic) {
+        FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
+        const bool is_static = endsWith(topic.topic.name, "tf_static");
+        for (const PoseMessage& transform : readTransforms(fields)) {
+            const std::string& parent = transform.header.frame;
+            const std::string which = "from '" + parent + "' to '" + transform.child + "'";
+            const auto pose = transform.pose();
+            if (!pose) {
+                count(survey_.left_out[topic.topic.name].transforms, message, topic,
+                      which + ": it is not finite or has no rotation");
+                continue;
+            }
+            if (is_static) {
+                if (survey_.frames.add(parent, transform.child, *pose)) continue;
+                if (parent == transform.child) {
+                    count(survey_.left_out[topic.topic.name].transforms, message, topic,
+                          which + ": a frame cannot hang on itself");
+                } else {
+                    count(survey_.left_out[topic.topic.name].further, message, topic, which);
+                }
+                continue;
+            }
+            const bool is_known = survey_.transforms.count(transform.child) > 0;
+            if (!is_known && survey_.transforms.size() >= kMostMovingFrames) {
+                count(survey_.left_out[topic.topic.name].further, message, topic, which);
+                continue;
+            }
+            PoseSeries& series = survey_.transforms[transform.child];
+            if (series.poses.empty()) {
+                series.parent = parent;
+                series.child = transform.child;
+                series.source = "transforms from " + series.parent + " to " + series.child;
+            }
+            // Two publishers contradict each other; mixed, their poses would jump.
+            if (series.parent != parent) {
+                count(survey_.left_out[topic.topic.name].other_parents, message, topic,
+                      which + ", before from '" + series.parent + "'");
+                continue;
+            }
+            addPose(transform, message.time_ns, series);
+        }
+    }
+
+    BagSurvey survey_;
+    std::vector<std::uint8_t> unpacked_;
+};
+
+}  // namespace
+
+LidarKind lidarKindOf(const BagTopic& topic) {
+    static const std::map<std::string, LidarKind> kinds{
+        {"sensor_msgs/PointCloud2", LidarKind::Cloud},
+        {"velodyne_msgs/VelodyneScan", LidarKind::Velodyne},
+        {"ouster_ros/PacketMsg", LidarKind::Ouster},
+        {"ouster_msgs/PacketMsg", LidarKind::Ouster},
+        {"ouster_sensor_msgs/PacketMsg", LidarKind::Ouster},
+        {"livox_ros_driver2/CustomMsg", LidarKind::Livox2},
+        {"livox_ros_driver/CustomMsg", LidarKind::Livox1}};
+    const auto found = kinds.find(topic.type);
+    if (found == kinds.end()) return LidarKind::None;
+    const bool is_of_imu =
+        found->second == LidarKind::Ouster && topic.name.find("imu") != std::string::npos;
+    return is_of_imu ? LidarKind::None : found->second;
+}
+
+BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool()>& keep_going) {
+    struct Ended {};
+    const auto bag = openBag(file);
+    bag->checkWhileReading([&] {
+        if (!keep_going()) throw Ended();
+    });
+    Surveyor surveyor;
+    bool is_whole = true;
+    std::string broken_because;
+    try {
+        BagMessage message;
+        while (bag->next(message)) surveyor.see(message, bag->topics());
+    } catch (const Ended&) {
+        is_whole = false;
+    } catch (const BrokenBag& e) {
+        is_whole = false;  // who reads the scans reports the break
+        broken_because = e.what();
+    }
+    BagSurvey survey = std::move(surveyor).survey();
+    survey.broken_because = broken_because;
+    for (std::size_t i = survey.topics.size(); i < bag->topics().size(); ++i) {
+        auto& topic = survey.topics.emplace_back();  // without messages
+        topic.topic = bag->topics()[i];
+        topic.kind = lidarKindOf(topic.topic);
+    }
+    survey.is_whole = is_whole;
+    return survey;
+}
+
+std::string textOfTopics(const BagSurvey& survey, std::size_t most) {
+    std::string text;
+    std::size_t told = 0;
+    for (const BagSurvey::Topic& topic : survey.topics) {
+        if (told++ == most) break;
+        text += (text.empty() ? "" : ", ") + topic.topic.name + " (" +
+                (topic.topic.type.empty() ? "unknown type" : topic.topic.type) + ", " +
+                recordings::counted(topic.messages, "message") + ")";
+    }
+    if (survey.topics.size() > most) {
+        text += " and " + std::to_string(survey.topics.size() - most) + " more";
+    }
+    return text.empty() ? "none" : text;
+}
+
+}  // namespace hagen::recordings

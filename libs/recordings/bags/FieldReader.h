@@ -1,0 +1,105 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace hagen::recordings {
+
+/// Bytes in memory that somebody else owns.
+struct ByteView {
+    const std::uint8_t* data = nullptr;
+    std::size_t size = 0;
+};
+
+/// Fewer bytes than the fields need.
+struct TooShort : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Reads fields of a message or a record one after the other: packed and little-endian, as in ROS 1
+/// and in the records of bags, or as CDR (aligned; a NUL ends a text; either byte order). No read
+/// passes the end: TooShort is thrown instead. Sizes are checked before anything is allocated.
+class FieldReader {
+ public:
+    /// Packed fields.
+    explicit FieldReader(ByteView bytes) : bytes_(bytes) {}
+
+    /// The fields of a CDR message, which begins with four bytes that name its byte order. Throws
+    /// std::runtime_error if it is another kind of CDR (parameter lists, XCDR2).
+    static FieldReader ofCdr(ByteView bytes);
+
+    bool isCdr() const { return is_cdr_; }
+    bool isBigEndian() const { return swaps_; }
+    std::size_t left() const { return bytes_.size - at_; }
+
+    template <class Number>
+    Number number() {
+        static_assert(std::is_arithmetic_v<Number>);
+        align(sizeof(Number));
+        const ByteView from = take(sizeof(Number));
+        std::uint8_t raw[sizeof(Number)];
+        for (std::size_t i = 0; i < sizeof raw; ++i) {
+            raw[i] = from.data[swaps_ ? sizeof raw - 1 - i : i];
+        }
+        Number value;
+        std::memcpy(&value, raw, sizeof value);
+        return value;
+    }
+
+    /// The number of elements that follow, each of which takes at least so many bytes.
+    std::size_t count(std::size_t least_bytes) {
+        const auto elements = number<std::uint32_t>();
+        if (elements > left() / least_bytes) {
+            throw TooShort("it claims " + std::to_string(elements) + " elements, but has only " +
+                           std::to_string(left()) + " more bytes");
+        }
+        return elements;
+    }
+
+    std::string text() {
+        ByteView chars = take(count(1));
+        if (is_cdr_ && chars.size > 0) --chars.size;  // the NUL
+        return {reinterpret_cast<const char*>(chars.data), chars.size};
+    }
+
+    /// The next bytes as they are.
+    ByteView take(std::size_t size) {
+        if (size > left()) {
+            throw TooShort("it ends " + std::to_string(size - left()) + " bytes too early");
+        }
+        const ByteView taken{bytes_.data + at_, size};
+        at_ += size;
+        return taken;
+    }
+
+    /// Skips the padding before a number of this size.
+    void align(std::size_t size) {
+        if (!is_cdr_) return;
+        const std::size_t beyond = (at_ - start_) % size;
+        if (beyond > 0) take(size - beyond);
+    }
+
+ private:
+    ByteView bytes_;
+    std::size_t at_ = 0, start_ = 0;  ///< CDR is aligned to the byte after its header
+    bool is_cdr_ = false, swaps_ = false;
+};
+
+inline FieldReader FieldReader::ofCdr(ByteView bytes) {
+    FieldReader reader(bytes);
+    const ByteView header = reader.take(4);
+    if (header.data[0] != 0 || header.data[1] > 1) {
+        throw std::runtime_error("it is no plain CDR (its header is " +
+                                 std::to_string(header.data[0]) + " " +
+                                 std::to_string(header.data[1]) + ")");
+    }
+    reader.start_ = 4;
+    reader.is_cdr_ = true;
+    reader.swaps_ = header.data[1] == 0;
+    return reader;
+}
+
+}  // namespace hagen::recordings

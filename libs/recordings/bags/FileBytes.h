@@ -1,0 +1,54 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen::recordings {
+
+/// Reads a file from its start to its end, with a running CRC on request.
+class FileBytes {
+ public:
+    /// Throws BrokenBag naming the file if it cannot be opened.
+    explicit FileBytes(const std::filesystem::path& file, bool has_crc = false);
+
+    std::uint64_t position() const { return position_; }
+    std::uint64_t left() const { return size_ > position_ ? size_ - position_ : 0; }
+    double fractionRead() const;
+
+    /// Reads exactly so many bytes; nothing is allocated if the file has fewer. `what` is being
+    /// read, for BrokenBag: "a chunk".
+    void read(std::uint64_t count, const std::string& what, std::vector<std::uint8_t>& bytes);
+    /// Skips bytes by parts, so that who reads can be interrupted: skipSome() until there are none.
+    /// They are read nevertheless, for the CRC.
+    void beginSkip(std::uint64_t count, const std::string& what);
+    bool isSkipping() const { return to_skip_ > 0; }
+    void skipSome();
+
+    /// CRC-32 (as in zlib) of all bytes since the last restart.
+    std::uint32_t crc() const { return crc_; }
+    void restartCrc() { crc_ = 0; }
+
+    /// Throws BrokenBag "FILE: WHAT at byte N: WHY".
+    [[noreturn]] void fail(const std::string& what, std::uint64_t byte,
+                           const std::string& why) const;
+
+ private:
+    void readInto(std::uint8_t* bytes, std::size_t count, const std::string& what);
+    void checkLeft(std::uint64_t count, const std::string& what) const;
+
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::filesystem::path path_;
+    std::unique_ptr<std::FILE, Close> file_;
+    std::uint64_t size_ = 0, position_ = 0, to_skip_ = 0;
+    std::string skipped_;  ///< what is being skipped
+    bool has_crc_;
+    std::uint32_t crc_ = 0;
+};
+
+}  // namespace hagen::recordings

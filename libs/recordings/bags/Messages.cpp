@@ -1,0 +1,261 @@
+#include "recordings/bags/Messages.h"
+
+#include <mrpt/math/CQuaternion.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "recordings/bags/Unpack.h"
+
+namespace hagen::recordings {
+namespace {
+
+using observations::NumberType;
+using observations::PointTable;
+
+constexpr std::size_t kVelodyneBytes = 1206;
+
+bool isZstd(const BagMessage& message) {
+    const std::uint8_t* const at = message.bytes;
+    return message.size > 4 && at[0] == 0x28 && at[1] == 0xb5 && at[2] == 0x2f && at[3] == 0xfd;
+}
+
+/// Seconds and nanoseconds; those of ROS 2 are signed.
+std::int64_t readTime(FieldReader& fields) {
+    const auto seconds = fields.number<std::uint32_t>();
+    const auto nanoseconds = fields.number<std::uint32_t>();
+    const std::int64_t signed_seconds =
+        fields.isCdr() ? std::int64_t{static_cast<std::int32_t>(seconds)} : std::int64_t{seconds};
+    return signed_seconds * 1000000000 + nanoseconds;
+}
+
+std::string withoutSlash(std::string frame) {
+    if (!frame.empty() && frame.front() == '/') frame.erase(0, 1);
+    return frame;
+}
+
+NumberType typeOf(std::uint8_t datatype) {
+    switch (datatype) {  // the constants of sensor_msgs/PointField
+        case 1:
+            return NumberType::Int8;
+        case 2:
+            return NumberType::UInt8;
+        case 3:
+            return NumberType::Int16;
+        case 4:
+            return NumberType::UInt16;
+        case 5:
+            return NumberType::Int32;
+        case 6:
+            return NumberType::UInt32;
+        case 7:
+            return NumberType::Float32;
+        case 8:
+            return NumberType::Float64;
+        default:
+            throw std::runtime_error("a field of its points has the type " +
+                                     std::to_string(datatype) + ", which there is not");
+    }
+}
+
+template <std::size_t N>
+std::array<double, N> readDoubles(FieldReader& fields) {
+    std::array<double, N> numbers{};
+    for (double& number : numbers) number = fields.number<double>();
+    return numbers;
+}
+
+/// A rotation as x, y, z, w.
+std::array<double, 4> readRotation(FieldReader& fields) {
+    const auto xyzw = readDoubles<4>(fields);
+    return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
+}
+
+/// Joins the rows of a cloud whose rows have padding.
+std::vector<std::uint8_t> joinRows(ByteView data, std::size_t rows, std::size_t row_bytes,
+                                   std::size_t row_step) {
+    std::vector<std::uint8_t> joined;
+    joined.reserve(rows * row_bytes);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::uint8_t* const start = data.data + row * row_step;
+        joined.insert(joined.end(), start, start + row_bytes);
+    }
+    return joined;
+}
+
+/// Takes the points of an image of width x height points.
+void takePoints(ByteView data, std::uint64_t width, std::uint64_t height, std::uint64_t row_step,
+                PointTable& table) {
+    table.points = 0;
+    if (width == 0 || height == 0) return;
+    const std::uint64_t row_bytes = width * table.bytes_per_point;  // of 32-bit numbers
+    const bool is_joined = height == 1 || row_step == 0 || row_step == row_bytes;
+    if (!is_joined && row_step < row_bytes) {
+        throw std::runtime_error("its rows are said to have " + std::to_string(row_step) +
+                                 " bytes, too few for " + std::to_string(width) + " points of " +
+                                 std::to_string(table.bytes_per_point));
+    }
+    const std::uint64_t step = is_joined ? row_bytes : row_step;
+    // The last row may come without its padding. No product below can overflow.
+    if (step == 0 || row_bytes > data.size || (data.size - row_bytes) / step < height - 1) {
+        throw std::runtime_error("it claims " + std::to_string(width) + " x " +
+                                 std::to_string(height) + " points of " +
+                                 std::to_string(table.bytes_per_point) + " bytes, but has " +
+                                 std::to_string(data.size) + " bytes");
+    }
+    table.points = static_cast<std::size_t>(width * height);
+    if (is_joined) {
+        table.bytes.assign(data.data, data.data + row_bytes * height);
+    } else {
+        table.bytes = joinRows(data, height, row_bytes, row_step);
+    }
+}
+
+}  // namespace
+
+FieldReader fieldsOf(const BagMessage& message, const std::string& encoding,
+                     std::vector<std::uint8_t>& unpacked) {
+    ByteView bytes{message.bytes, message.size};
+    if (encoding == "ros1") return FieldReader(bytes);
+    if (encoding != "cdr") {
+        throw std::runtime_error("its serialisation '" + encoding.substr(0, 32) +
+                                 "' is not known; known are ros1 and cdr");
+    }
+    if (isZstd(message)) {
+        unpackZstd(bytes, unpacked);
+        bytes = {unpacked.data(), unpacked.size()};
+    }
+    return FieldReader::ofCdr(bytes);
+}
+
+std::string nameOf(std::size_t number, std::int64_t recorded_ns) {
+    char when[48];
+    std::snprintf(when, sizeof when,
+                  " (recorded at %.3f s): ", 1e-9 * static_cast<double>(recorded_ns));
+    return "message " + std::to_string(number) + when;
+}
+
+Header readHeader(FieldReader& fields) {
+    if (!fields.isCdr()) fields.number<std::uint32_t>();  // sequence number
+    Header header;
+    header.time_ns = readTime(fields);
+    header.frame = withoutSlash(fields.text());
+    return header;
+}
+
+PointCloud2 readPointCloud2(FieldReader& fields) {
+    PointCloud2 cloud;
+    cloud.header = readHeader(fields);
+    const auto height = fields.number<std::uint32_t>();
+    const auto width = fields.number<std::uint32_t>();
+    constexpr std::size_t kLeastField = 13;
+    const std::size_t count = fields.count(kLeastField);
+    PointTable& table = cloud.table;
+    for (std::size_t i = 0; i < count; ++i) {
+        observations::PointField field;
+        field.name = fields.text();
+        field.offset = fields.number<std::uint32_t>();
+        field.type = typeOf(fields.number<std::uint8_t>());
+        // Some drivers leave it 0.
+        field.count = std::max<std::uint32_t>(1, fields.number<std::uint32_t>());
+        // Padding has no name, or one that repeats.
+        if (!field.name.empty() && field.name != "_") table.fields.push_back(field);
+    }
+    table.is_big_endian = fields.number<std::uint8_t>() != 0;
+    table.bytes_per_point = fields.number<std::uint32_t>();
+    const auto row_step = fields.number<std::uint32_t>();
+    const ByteView data = fields.take(fields.count(1));
+    takePoints(data, width, height, row_step, table);
+    return cloud;
+}
+
+VelodyneScanMessage readVelodyneScan(FieldReader& fields) {
+    VelodyneScanMessage scan;
+    scan.header = readHeader(fields);
+    scan.packets.resize(fields.count(8 + kVelodyneBytes));
+    for (VelodyneScanMessage::Packet& packet : scan.packets) {
+        packet.time_ns = readTime(fields);
+        packet.bytes = fields.take(kVelodyneBytes).data;
+    }
+    return scan;
+}
+
+ByteView readPacket(FieldReader& fields) { return fields.take(fields.count(1)); }
+
+LivoxMessage readLivox(FieldReader& fields) {
+    LivoxMessage message;
+    message.header = readHeader(fields);
+    fields.number<std::uint64_t>();  // time of the first point, by the sensor's clock
+    const auto claimed = fields.number<std::uint32_t>();
+    fields.take(4);  // number of the sensor, and three reserved bytes
+    constexpr std::size_t kLeastPoint = 19;
+    message.points.resize(fields.count(kLeastPoint));
+    if (message.points.size() != claimed) {
+        throw std::runtime_error("it claims " + std::to_string(claimed) + " points and has " +
+                                 std::to_string(message.points.size()));
+    }
+    for (LivoxPoint& point : message.points) {
+        point.since_ns = fields.number<std::uint32_t>();
+        point.x_m = fields.number<float>();
+        point.y_m = fields.number<float>();
+        point.z_m = fields.number<float>();
+        point.reflectivity = fields.number<std::uint8_t>();
+        point.tag = fields.number<std::uint8_t>();
+        point.line = fields.number<std::uint8_t>();
+    }
+    return message;
+}
+
+std::optional<mrpt::poses::CPose3D> PoseMessage::pose() const {
+    double norm = 0;
+    for (const double part : rotation_wxyz) norm += part * part;
+    norm = std::sqrt(norm);
+    const bool is_sound = norm > 0.5 && std::isfinite(norm) && std::isfinite(position_m[0]) &&
+                          std::isfinite(position_m[1]) && std::isfinite(position_m[2]);
+    if (!is_sound) return std::nullopt;
+    const mrpt::math::CQuaternionDouble rotation(rotation_wxyz[0] / norm, rotation_wxyz[1] / norm,
+                                                 rotation_wxyz[2] / norm, rotation_wxyz[3] / norm);
+    return mrpt::poses::CPose3D(rotation, position_m[0], position_m[1], position_m[2]);
+}
+
+PoseMessage readPoseStamped(FieldReader& fields) {
+    PoseMessage message;
+    message.header = readHeader(fields);
+    message.position_m = readDoubles<3>(fields);
+    message.rotation_wxyz = readRotation(fields);
+    return message;
+}
+
+PoseMessage readOdometry(FieldReader& fields) {
+    PoseMessage message;
+    message.header = readHeader(fields);
+    message.child = withoutSlash(fields.text());
+    message.position_m = readDoubles<3>(fields);
+    message.rotation_wxyz = readRotation(fields);
+    return message;
+}
+
+std::vector<PoseMessage> readTransforms(FieldReader& fields) {
+    constexpr std::size_t kLeastTransform = 8 + 4 + 4 + 7 * 8;
+    std::vector<PoseMessage> transforms(fields.count(kLeastTransform));
+    for (PoseMessage& transform : transforms) transform = readOdometry(fields);  // the same fields
+    return transforms;
+}
+
+ImuMessage readImu(FieldReader& fields) {
+    ImuMessage message;
+    message.header = readHeader(fields);
+    const auto rotation = readRotation(fields);
+    const auto covariance = readDoubles<9>(fields);
+    // -1: there is none, as sensor_msgs/Imu says; many drivers leave it zero instead.
+    const bool is_zero = rotation == std::array<double, 4>{};
+    if (covariance[0] != -1 && !is_zero) message.rotation_wxyz = rotation;
+    return message;
+}
+
+std::string readString(FieldReader& fields) { return fields.text(); }
+
+}  // namespace hagen::recordings

@@ -1,0 +1,235 @@
+#include "recordings/bags/SqliteBag.h"
+
+#include <hagen/base/ReadFile.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include "recordings/bags/Unpack.h"
+
+namespace hagen::recordings {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::string_view kMagic{"SQLite format 3\0", 16};
+
+/// "file:///a%20b.db3": characters with a meaning in such names are written as codes. Without an
+/// empty authority, that of a path from "//" on would be its first folder.
+std::string uriOf(const fs::path& file) {
+    std::string uri = "file://";
+    for (const char c : fs::absolute(file).string()) {
+        const bool is_plain = std::string_view("%?# ").find(c) == std::string_view::npos;
+        constexpr std::string_view kHex = "0123456789ABCDEF";
+        const auto code = static_cast<unsigned char>(c);
+        uri += is_plain ? std::string(1, c) : std::string{'%', kHex[code >> 4], kHex[code & 15]};
+    }
+    return uri;
+}
+
+/// Why a database lacks pages at its end; empty if it does not, or does not say how many there are.
+std::string whyCut(const fs::path& file) {
+    std::array<unsigned char, 100> header{};
+    std::ifstream stream = base::openToRead(file);
+    if (!stream.read(reinterpret_cast<char*>(header.data()), header.size())) {
+        return "its header is cut off";
+    }
+    const auto big32 = [&](std::size_t at) {
+        std::uint64_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i) value = value << 8 | header[at + i];
+        return value;
+    };
+    const std::uint64_t page = header[16] << 8 | header[17];
+    const std::uint64_t due = big32(28) * (page == 1 ? 65536 : page);
+    const bool is_known = big32(24) == big32(92);
+    if (!is_known || fs::file_size(file) >= due) return "";
+    return "it is cut off: it has " + std::to_string(fs::file_size(file)) + " of " +
+           std::to_string(due) + " bytes";
+}
+
+/// Whether the journal of a transaction that did not end waits beside a database. One that ended
+/// may stay, with zeros at its start.
+bool hasHotJournal(const fs::path& journal) {
+    constexpr std::string_view kJournal{"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8};
+    std::array<char, kJournal.size()> start{};
+    std::ifstream stream(journal, std::ios::binary);
+    stream.read(start.data(), start.size());
+    return stream && std::string_view(start.data(), start.size()) == kJournal;
+}
+
+std::string textAt(sqlite3_stmt* row, int column) {
+    const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
+    return text == nullptr ? "" : text;
+}
+
+}  // namespace
+
+void SqliteBag::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+void SqliteBag::Close::operator()(sqlite3_stmt* query) const { sqlite3_finalize(query); }
+
+bool SqliteBag::isOne(const std::string& start) {
+    return start.compare(0, kMagic.size(), kMagic) == 0;
+}
+
+SqliteBag::SqliteBag(const fs::path& file) : file_(file), cut_because_(whyCut(file)) {
+    open();
+    checkTables();
+    checkColumns();
+    readTopics();
+    // Each by itself: both in one query read all messages.
+    const Query range =
+        prepare("SELECT (SELECT min(id) FROM messages), (SELECT max(id) FROM messages)");
+    if (sqlite3_step(range.get()) == SQLITE_ROW) {  // not if the end is cut off
+        first_row_ = sqlite3_column_int64(range.get(), 0);
+        last_row_ = sqlite3_column_int64(range.get(), 1);
+    }
+    // By id, as they were recorded: this needs no index and no sorting.
+    messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
+    // A step may sort all messages, or look through damaged ones.
+    constexpr int kInstructionsPerCheck = 100000;
+    sqlite3_progress_handler(database_.get(), kInstructionsPerCheck, checkDuringQuery, this);
+}
+
+SqliteBag::~SqliteBag() = default;
+
+void SqliteBag::fail(const std::string& why) const {
+    const std::string where =
+        messages_ ? "after " + std::to_string(rows_) + " messages (id " + std::to_string(row_) + ")"
+                  : "at its start";
+    throw BrokenBag(file_.string() + ": the database cannot be read " + where + ": " + why +
+                    (cut_because_.empty() || why == cut_because_ ? "" : "; " + cut_because_));
+}
+
+void SqliteBag::open() {
+    // Only who may write can undo the changes, and without that pages of before and after are
+    // mixed.
+    const std::string journal = file_.string() + "-journal";
+    if (hasHotJournal(journal)) {
+        fail("it is being written, or whoever wrote it was interrupted: " + journal +
+             " undoes what is not complete. Wait, or copy both into a folder that may be written, "
+             "and there run: sqlite3 " +
+             file_.filename().string() + " 'SELECT count(*) FROM messages'");
+    }
+    // Without changes that wait beside it, nothing needs to be written to read it.
+    std::error_code none;
+    const fs::path log = file_.string() + "-wal";
+    const bool has_log = fs::exists(log, none) && fs::file_size(log, none) > 0;
+    const std::string uri = uriOf(file_) + (has_log ? "?mode=ro" : "?mode=ro&immutable=1");
+    sqlite3* raw = nullptr;
+    const int state =
+        sqlite3_open_v2(uri.c_str(), &raw, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    database_.reset(raw);
+    if (state != SQLITE_OK) fail(raw == nullptr ? "no memory" : sqlite3_errmsg(raw));
+    // The schema comes with the file: it must not run anything.
+    sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+    sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+    // A few bytes of a schema can stand for a blob of any size.
+    sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostUnpacked));
+    // Otherwise SQLite refuses a file that is shorter than it says.
+    if (!cut_because_.empty()) {
+        sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+    }
+}
+
+SqliteBag::Query SqliteBag::prepare(const std::string& sql) const {
+    sqlite3_stmt* raw = nullptr;
+    const int state = sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &raw, nullptr);
+    Query query(raw);
+    if ((state & 0xff) == SQLITE_CANTOPEN) {
+        // With a log of changes, SQLite writes an index of these beside it.
+        fail(std::string(sqlite3_errmsg(database_.get())) + "; copy it and " + file_.string() +
+             "-wal into a folder that may be written");
+    }
+    if (state != SQLITE_OK) fail(sqlite3_errmsg(database_.get()));
+    return query;
+}
+
+bool SqliteBag::step(const Query& query) const {
+    const int state = sqlite3_step(query.get());
+    if (state == SQLITE_ROW) return true;
+    if (interruption_) std::rethrow_exception(std::exchange(interruption_, nullptr));
+    if (state == SQLITE_TOOBIG) {
+        fail("a message has more than " + std::to_string(kMostUnpacked >> 20) + " MB");
+    }
+    if (state != SQLITE_DONE) fail(sqlite3_errmsg(database_.get()));
+    return false;
+}
+
+void SqliteBag::checkTables() const {
+    const Query tables = prepare(
+        "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('topics', "
+        "'messages') AND sql NOT LIKE 'CREATE VIRTUAL%'");
+    if (step(tables) && sqlite3_column_int(tables.get(), 0) == 2) return;
+    fail("it has no tables 'topics' and 'messages': is it a database of something else?");
+}
+
+/// Columns that are computed run what the file says, for each message, as long as it likes.
+void SqliteBag::checkColumns() const {
+    const Query computed = prepare(
+        "SELECT m.name, c.name FROM sqlite_schema m, pragma_table_xinfo(m.name) c "
+        "WHERE m.type = 'table' AND m.name IN ('topics', 'messages') AND c.hidden > 0");
+    if (!step(computed)) return;
+    fail("the column '" + textAt(computed.get(), 1) + "' of the table '" +
+         textAt(computed.get(), 0) + "' is computed, which bags have not");
+}
+
+/// Exceptions must not pass through SQLite.
+int SqliteBag::checkDuringQuery(void* bag) {
+    auto* const self = static_cast<SqliteBag*>(bag);
+    try {
+        self->check();
+        return 0;
+    } catch (...) {
+        self->interruption_ = std::current_exception();
+        return 1;
+    }
+}
+
+void SqliteBag::readTopics() {
+    const Query topics = prepare("SELECT id, name, type, serialization_format FROM topics");
+    while (step(topics)) {
+        const BagTopic topic{textAt(topics.get(), 1), typeAsInRos1(textAt(topics.get(), 2)),
+                             textAt(topics.get(), 3)};
+        topic_of_[sqlite3_column_int64(topics.get(), 0)] = topics_.indexOf(topic);
+    }
+}
+
+bool SqliteBag::next(BagMessage& message) {
+    if (!messages_) return false;
+    check();
+    if (!step(messages_)) {
+        if (!cut_because_.empty()) fail(cut_because_);
+        messages_.reset();
+        return false;
+    }
+    sqlite3_stmt* const row = messages_.get();
+    row_ = sqlite3_column_int64(row, 0);
+    const std::int64_t topic_id = sqlite3_column_int64(row, 1);
+    const auto topic = topic_of_.find(topic_id);
+    if (topic == topic_of_.end()) {
+        fail("this message is of topic " + std::to_string(topic_id) + ", which there is not");
+    }
+    message.topic = topic->second;
+    message.time_ns = sqlite3_column_int64(row, 2);
+    message.bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row, 3));
+    const int size = sqlite3_column_bytes(row, 3);
+    message.size = message.bytes == nullptr ? 0 : static_cast<std::size_t>(size);
+    if (sqlite3_errcode(database_.get()) == SQLITE_NOMEM) fail("no memory for this message");
+    ++rows_;
+    return true;
+}
+
+double SqliteBag::fractionRead() const {
+    const auto all = static_cast<double>(last_row_) - static_cast<double>(first_row_) + 1;
+    if (!messages_) return 1.0;
+    return rows_ == 0
+               ? 0.0
+               : std::clamp((static_cast<double>(row_) - static_cast<double>(first_row_) + 1) / all,
+                            0.0, 1.0);
+}
+
+}  // namespace hagen::recordings

@@ -1,0 +1,147 @@
+#include "recordings/clouds/CloudBytes.h"
+
+#include <hagen/base/NumberText.h>
+#include <hagen/base/ReadFile.h>
+#include <hagen/scan/MostReturns.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <type_traits>
+
+namespace hagen::recordings {
+namespace {
+
+using observations::NumberType;
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+template <class Number>
+bool put(std::string_view word, std::uint8_t* to) {
+    std::optional<Number> number = base::numberFrom<Number>(word);
+    if constexpr (std::is_integral_v<Number>) {
+        // "7.0" and "1e3" are integers, too.
+        const auto real = number ? std::nullopt : base::numberFrom<double>(word);
+        const double beyond = std::ldexp(1.0, std::numeric_limits<Number>::digits);
+        if (real && *real == std::floor(*real) && *real < beyond &&
+            *real >= static_cast<double>(std::numeric_limits<Number>::min())) {
+            number = static_cast<Number>(*real);
+        }
+    } else if (!number) {
+        // Out of range: too small is 0, too large is infinite, as other readers have it.
+        const auto real = base::numberFrom<double>(word);
+        if (real) number = static_cast<Number>(*real);
+    }
+    if (!number) return false;
+    std::memcpy(to, &*number, sizeof(Number));
+    return true;
+}
+
+}  // namespace
+
+// 128 bytes for each of the points that a scan may have (kMostReturns).
+constexpr std::size_t kMostFileBytes = std::size_t{2} << 30;
+
+Bytes readBytes(const std::filesystem::path& file) {
+    std::ifstream in;
+    try {
+        in = base::openToRead(file);
+    } catch (const std::runtime_error& e) {
+        throw BrokenCloud(e.what());
+    }
+    in.seekg(0, std::ios::end);
+    const auto size = static_cast<std::size_t>(in.tellg());
+    if (size > kMostFileBytes) {
+        throw BrokenCloud(file.string() + ": is larger than 2 GiB; a cloud has at most " +
+                          std::to_string(kMostReturns) + " points");
+    }
+    Bytes bytes(size);
+    in.seekg(0);
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!in) throw BrokenCloud(file.string() + ": cannot be read completely");
+    return bytes;
+}
+
+void failAt(const std::filesystem::path& file, const std::string& place, const std::string& what) {
+    std::string text = file.string() + ": " + place + ": " + what;
+    std::replace(text.begin(), text.end(), '\0', '?');  // what() would end there
+    throw BrokenCloud(text);
+}
+
+std::optional<std::string_view> TextLines::next() {
+    if (at_ >= bytes_.size()) return std::nullopt;
+    const std::uint8_t* const start = bytes_.data() + at_;
+    const auto* const end =
+        static_cast<const std::uint8_t*>(std::memchr(start, '\n', bytes_.size() - at_));
+    std::size_t size = end == nullptr ? bytes_.size() - at_ : static_cast<std::size_t>(end - start);
+    at_ += size + (end == nullptr ? 0 : 1);
+    ++number_;
+    if (size > 0 && start[size - 1] == '\r') --size;
+    return std::string_view(reinterpret_cast<const char*>(start), size);
+}
+
+std::vector<std::string_view> wordsOf(std::string_view line) {
+    std::vector<std::string_view> words;
+    std::size_t at = 0;
+    while (at < line.size()) {
+        if (isBlank(line[at])) {
+            ++at;
+            continue;
+        }
+        const std::size_t start = at;
+        while (at < line.size() && !isBlank(line[at])) ++at;
+        words.push_back(line.substr(start, at - start));
+    }
+    return words;
+}
+
+bool putNumber(std::string_view word, NumberType type, std::uint8_t* to) {
+    if (!word.empty() && word[0] == '+') word.remove_prefix(1);
+    switch (type) {
+        case NumberType::Int8:
+            return put<std::int8_t>(word, to);
+        case NumberType::UInt8:
+            return put<std::uint8_t>(word, to);
+        case NumberType::Int16:
+            return put<std::int16_t>(word, to);
+        case NumberType::UInt16:
+            return put<std::uint16_t>(word, to);
+        case NumberType::Int32:
+            return put<std::int32_t>(word, to);
+        case NumberType::UInt32:
+            return put<std::uint32_t>(word, to);
+        case NumberType::Int64:
+            return put<std::int64_t>(word, to);
+        case NumberType::UInt64:
+            return put<std::uint64_t>(word, to);
+        case NumberType::Float32:
+            return put<float>(word, to);
+        case NumberType::Float64:
+            return put<double>(word, to);
+    }
+    return false;
+}
+
+void checkNumber(const std::filesystem::path& file, std::size_t points) {
+    if (points <= kMostReturns) return;
+    throw BrokenCloud(file.string() + ": has " + std::to_string(points) +
+                      " points, more than the " + std::to_string(kMostReturns) +
+                      " that a scan may have; is it a map of many scans?");
+}
+
+void checkRoom(const std::filesystem::path& file, std::size_t points, std::size_t bytes_per_point,
+               std::size_t there) {
+    if (points == 0) return;
+    if (bytes_per_point > 0 && points <= there / bytes_per_point) return checkNumber(file, points);
+    throw BrokenCloud(file.string() + ": the header says " + std::to_string(points) +
+                      " points of " + std::to_string(bytes_per_point) + " bytes, but " +
+                      std::to_string(there) + " bytes are there; is it truncated?");
+}
+
+std::vector<std::string> remarkOnRest(std::size_t bytes) {
+    if (bytes == 0) return {};
+    return {std::to_string(bytes) + " bytes after its last point are not read"};
+}
+
+}  // namespace hagen::recordings

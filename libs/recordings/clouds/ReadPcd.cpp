@@ -1,0 +1,135 @@
+#include <lzf.h>
+
+#include <algorithm>
+
+#include "recordings/clouds/PcdHeader.h"
+#include "recordings/clouds/Readers.h"
+
+namespace hagen::recordings {
+namespace {
+
+using observations::PointField;
+using observations::PointTable;
+
+void readAscii(const std::filesystem::path& file, const PcdHeader& header, const Bytes& bytes,
+               CloudFile& cloud) {
+    PointTable& table = cloud.table;
+    std::size_t words_per_point = 0;
+    for (const PointField& field : header.fields) words_per_point += field.count;
+    // A number takes two bytes of text, with its blank, and becomes eight at most.
+    checkRoom(file, header.points, std::max<std::size_t>(2 * words_per_point, 1) - 1,
+              bytes.size() - header.size + 1);
+    table.bytes.resize(header.points * header.bytes_per_point);
+    TextLines lines(bytes);
+    while (lines.number() < header.lines) lines.next();
+    for (std::size_t i = 0; i < header.points; ++i) {
+        std::vector<std::string_view> words;
+        while (words.empty()) {
+            const auto line = lines.next();
+            if (!line) {
+                throw BrokenCloud(file.string() + ": the header says " +
+                                  std::to_string(header.points) + " points, but " +
+                                  std::to_string(i) + " are there; is it truncated?");
+            }
+            words = wordsOf(*line);
+        }
+        if (words.size() != words_per_point) {
+            failAt(file, lines.place(),
+                   std::to_string(words.size()) + " numbers instead of " +
+                       std::to_string(words_per_point));
+        }
+        std::size_t word = 0;
+        for (const PointField& field : header.fields) {
+            std::uint8_t* to = table.bytes.data() + i * header.bytes_per_point + field.offset;
+            for (std::size_t k = 0; k < field.count; ++k, ++word, to += bytesOf(field.type)) {
+                if (putNumber(words[word], field.type, to)) continue;
+                failAt(file, lines.place(),
+                       "'" + std::string(words[word].substr(0, 40)) + "' is no " +
+                           nameOf(field.type) + " for the field '" + field.name + "'");
+            }
+        }
+    }
+    cloud.remarks = remarkOnRest(bytes.size() - lines.position());
+}
+
+void readBinary(const std::filesystem::path& file, const PcdHeader& header, Bytes bytes,
+                CloudFile& cloud) {
+    const std::size_t there = bytes.size() - header.size;
+    checkRoom(file, header.points, header.bytes_per_point, there);
+    cloud.remarks = remarkOnRest(there - header.points * header.bytes_per_point);
+    bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(header.size));
+    bytes.resize(header.points * header.bytes_per_point);
+    cloud.table.bytes = std::move(bytes);
+}
+
+/// All numbers of a field, then those of the next, packed by LZF.
+void readCompressed(const std::filesystem::path& file, const PcdHeader& header, const Bytes& bytes,
+                    CloudFile& cloud) {
+    constexpr std::size_t kMostPerByte = 256;  // a reference of 3 bytes stands for 264 at most
+    const std::size_t sizes = 2 * sizeof(std::uint32_t);
+    if (bytes.size() - header.size < sizes) {
+        if (header.points == 0) return;
+        throw BrokenCloud(file.string() + ": ends before the sizes of its compressed points");
+    }
+    const auto packed = numberAt<std::uint32_t>(bytes, header.size);
+    const auto unpacked = numberAt<std::uint32_t>(bytes, header.size + sizeof(std::uint32_t));
+    const std::size_t start = header.size + sizes, there = bytes.size() - start;
+    if (packed > there) {
+        throw BrokenCloud(file.string() + ": the header says " + std::to_string(packed) +
+                          " compressed bytes, but " + std::to_string(there) +
+                          " are there; is it truncated?");
+    }
+    if (unpacked / kMostPerByte > packed) {
+        throw BrokenCloud(file.string() + ": " + std::to_string(packed) +
+                          " compressed bytes cannot become " + std::to_string(unpacked));
+    }
+    checkRoom(file, header.points, header.bytes_per_point, unpacked);
+    if (header.points * header.bytes_per_point != unpacked) {
+        throw BrokenCloud(file.string() + ": its points have " + std::to_string(unpacked) +
+                          " bytes, but the header says " + std::to_string(header.points) + " of " +
+                          std::to_string(header.bytes_per_point));
+    }
+    cloud.remarks = remarkOnRest(there - packed);
+    if (header.points == 0) return;
+    Bytes by_field(unpacked);
+    if (lzf_decompress(bytes.data() + start, packed, by_field.data(), unpacked) != unpacked) {
+        throw BrokenCloud(file.string() + ": byte " + std::to_string(start) +
+                          ": its points cannot be decompressed (LZF)");
+    }
+    cloud.table.bytes.resize(unpacked);
+    const std::uint8_t* from = by_field.data();
+    for (const PointField& field : header.fields) {
+        const std::size_t size = field.count * bytesOf(field.type);
+        for (std::size_t i = 0; i < header.points; ++i, from += size) {
+            std::copy_n(from, size,
+                        cloud.table.bytes.data() + i * header.bytes_per_point + field.offset);
+        }
+    }
+}
+
+}  // namespace
+
+CloudFile readPcd(const std::filesystem::path& file, Bytes bytes) {
+    const PcdHeader header = readPcdHeader(file, bytes);
+    CloudFile cloud;
+    cloud.viewpoint = header.viewpoint;
+    cloud.table.points = header.points;
+    cloud.table.bytes_per_point = header.bytes_per_point;
+    for (const PointField& field : header.fields) {
+        if (field.name != "_") cloud.table.fields.push_back(field);
+    }
+    switch (header.data) {
+        case PcdHeader::Data::Ascii:
+            readAscii(file, header, bytes, cloud);
+            break;
+        case PcdHeader::Data::Binary:
+            readBinary(file, header, std::move(bytes), cloud);
+            break;
+        case PcdHeader::Data::Compressed:
+            readCompressed(file, header, bytes, cloud);
+            break;
+    }
+    return cloud;
+}
+
+}  // namespace hagen::recordings

@@ -1,0 +1,234 @@
+#include <hagen/base/ReadFile.h>
+#include <hagen/mrpt/TimeStamp.h>
+#include <hagen/recordings/CloudFile.h>
+#include <hagen/recordings/NumberTable.h>
+#include <hagen/recordings/ScanFolder.h>
+#include <hagen/scan/MostReturns.h>
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <new>
+#include <set>
+#include <stdexcept>
+
+#include <hagen/base/Folder.h>
+#include <hagen/base/WriteFile.h>
+#include "recordings/CloudTimes.h"
+
+namespace hagen::recordings {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The formats are little-endian, like every machine MRPT is packaged for except s390x.
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "label and scan files need byte swapping");
+
+template <class Record>
+std::vector<Record> readRecords(const fs::path& file) {
+    std::ifstream in;
+    try {
+        in = base::openToRead(file);
+    } catch (const std::runtime_error& e) {
+        throw BrokenScan(e.what());
+    }
+    in.seekg(0, std::ios::end);
+    const auto bytes = static_cast<std::size_t>(in.tellg());
+    if (bytes % sizeof(Record) != 0) {
+        throw BrokenScan(file.string() + ": " + std::to_string(bytes) +
+                         " bytes are not a multiple of " + std::to_string(sizeof(Record)) +
+                         "-byte points; is it truncated?");
+    }
+    if (bytes / sizeof(Record) > kMostReturns) {
+        throw BrokenScan(file.string() + ": has more than the " + std::to_string(kMostReturns) +
+                         " points that a scan may have");
+    }
+    std::vector<Record> records(bytes / sizeof(Record));
+    in.seekg(0);
+    in.read(reinterpret_cast<char*>(records.data()), static_cast<std::streamsize>(bytes));
+    if (!in) throw BrokenScan(file.string() + ": cannot be read completely");
+    return records;
+}
+
+template <class Record>
+void writeRecords(const fs::path& file, const std::vector<Record>& records) {
+    std::ofstream out(file, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(records.data()),
+              static_cast<std::streamsize>(records.size() * sizeof(Record)));
+    base::closeWritten(out, file);
+}
+
+/// Reads a file with one number per scan; empty if the file does not exist.
+std::vector<double> readNumberPerScan(const fs::path& file, const std::string& unit,
+                                      std::size_t scans) {
+    std::vector<double> numbers;
+    if (!fs::exists(file)) return numbers;
+    for (const NumberLine& line : readNumberTable(file)) {
+        checkColumns(file, line, 1, unit);
+        numbers.push_back(line.numbers[0]);
+    }
+    if (numbers.size() != scans) {
+        throw std::runtime_error(file.string() + ": has " + std::to_string(numbers.size()) +
+                                 " lines for " + std::to_string(scans) + " scans");
+    }
+    return numbers;
+}
+
+}  // namespace
+
+const base::OutputKind kScanFolders{
+    "a scan folder",
+    [](const fs::path& within) {
+        static const std::set<std::string> kFiles{"times.txt",
+                                                  "poses.txt",
+                                                  "poses.tum",
+                                                  "kinds.yaml",
+                                                  "altitudes.txt",
+                                                  "sensor.yaml",
+                                                  ScanFolder::kSimulatedBy};
+        const fs::path folder = within.parent_path().filename();
+        return (folder / within.filename() == ScanFolder::kMadeBy) ||
+               (folder == "velodyne" && within.extension() == ".bin") ||
+               ((folder == "labels" || folder == "semantic") && within.extension() == ".label") ||
+               kFiles.count(within.filename().string()) > 0;
+    },
+    nullptr,
+    // Of each sensor a folder, or of the only one. Users have labelled folders, too.
+    [](const fs::path& folder) {
+        const auto isMade = [](const fs::path& of_sensor) {
+            return fs::exists(of_sensor / ScanFolder::kMadeBy) ||
+                   fs::exists(of_sensor / ScanFolder::kSimulatedBy);
+        };
+        if (isMade(folder)) return true;
+        const std::vector<fs::path> entries = base::entriesOf(folder);
+        return std::all_of(entries.begin(), entries.end(), isMade);
+    }};
+
+ScanFolder::ScanFolder(fs::path folder) : folder_(std::move(folder)) {
+    const fs::path scans = folder_ / "velodyne";
+    if (!fs::is_directory(scans)) {
+        throw std::runtime_error(folder_.string() +
+                                 ": not a scan folder (no subfolder 'velodyne' with .bin files)");
+    }
+    for (const fs::path& file : base::entriesOf(scans)) {
+        if (file.extension() == ".bin") {
+            names_.push_back(file.stem().string());
+        } else {
+            others_.push_back(file.filename().string());
+        }
+    }
+    if (names_.empty()) throw std::runtime_error(scans.string() + ": contains no .bin files");
+    std::vector<std::string> ordered;
+    for (const std::size_t i : orderOfNames(names_)) ordered.push_back(std::move(names_[i]));
+    names_ = std::move(ordered);
+    std::sort(others_.begin(), others_.end());
+}
+
+fs::path ScanFolder::scanFile(std::size_t scan) const {
+    return folder_ / "velodyne" / (names_[scan] + ".bin");
+}
+
+fs::path ScanFolder::labelFile(std::size_t scan) const {
+    return folder_ / "labels" / (names_[scan] + ".label");
+}
+
+fs::path ScanFolder::kindFile(std::size_t scan) const {
+    return folder_ / "semantic" / (names_[scan] + ".label");
+}
+
+std::vector<double> ScanFolder::times() const {
+    const fs::path file = folder_ / "times.txt";
+    std::vector<double> times_s = readNumberPerScan(file, "seconds", size());
+    for (const double time_s : times_s) {
+        if (observations::isTime(time_s) || time_s == observations::kNoTime_s) continue;
+        throw std::runtime_error(file.string() + ": " + std::to_string(time_s) +
+                                 " s is no time that a recording can have");
+    }
+    return times_s;
+}
+
+std::vector<double> ScanFolder::altitudes() const {
+    return readNumberPerScan(folder_ / "altitudes.txt", "metres", size());
+}
+
+void markAsPredictions(const fs::path& folder) {
+    const fs::path file = folder / ScanFolder::kMadeBy;
+    std::ofstream out(file);
+    out << "rawlog-segment: these labels are predictions, not ground truth\n";
+    base::closeWritten(out, file);
+}
+
+namespace {
+
+/// Points of so many float32, of which the first four are x, y, z and intensity. Those with a ring
+/// have intensities up to 255.
+template <std::size_t floats>
+void readPoints(const fs::path& file, Scan& scan) {
+    const auto points = readRecords<std::array<float, floats>>(file);
+    float most = 0;
+    for (const auto& point : points) most = std::max(most, point[3]);
+    const float scale = floats > 4 && most > 1 ? 255.0f : 1.0f;
+    scan.clear();
+    scan.reserve(points.size());
+    for (const auto& point : points) {
+        scan.x_m.push_back(point[0]);
+        scan.y_m.push_back(point[1]);
+        scan.z_m.push_back(point[2]);
+        scan.intensity.push_back(point[3] / scale);
+    }
+}
+
+}  // namespace
+
+std::size_t readScan(const fs::path& file, Scan& scan) {
+    try {
+        const recordings::BinStart start = recordings::startOfBin(file);
+        if (!start.other_kind.empty()) {
+            throw BrokenScan(file.string() + ": has no points: " + start.other_kind);
+        }
+        if (start.floats_per_point == 5) {
+            readPoints<5>(file, scan);
+        } else {
+            readPoints<4>(file, scan);
+        }
+        return start.floats_per_point;
+    } catch (const std::bad_alloc&) {
+        throw BrokenScan(file.string() + ": does not fit into memory");
+    } catch (const BrokenScan&) {
+        throw;
+    } catch (const std::runtime_error& e) {  // a file that cannot be opened
+        throw BrokenScan(e.what());
+    }
+}
+
+void writeScan(const fs::path& file, const Scan& scan) {
+    std::vector<std::array<float, 4>> points(scan.size());
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        points[i] = {scan.x_m[i], scan.y_m[i], scan.z_m[i], scan.intensity[i]};
+    }
+    writeRecords(file, points);
+}
+
+std::vector<std::uint32_t> readLabelEntries(const fs::path& file) {
+    return readRecords<std::uint32_t>(file);
+}
+
+std::vector<std::uint16_t> readLabels(const fs::path& file) {
+    const std::vector<std::uint32_t> entries = readLabelEntries(file);
+    std::vector<std::uint16_t> labels(entries.size());
+    std::transform(entries.begin(), entries.end(), labels.begin(),
+                   [](std::uint32_t entry) { return static_cast<std::uint16_t>(entry & 0xffff); });
+    return labels;
+}
+
+void writeLabels(const fs::path& file, const std::vector<Label>& labels,
+                 const std::vector<std::int32_t>& components) {
+    std::vector<std::uint32_t> entries(labels.size());
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const auto component =
+            static_cast<std::uint32_t>(std::min(components[i], kMaxFileComponent));
+        entries[i] = component << 16 | static_cast<std::uint32_t>(labels[i]);
+    }
+    writeRecords(file, entries);
+}
+
+}  // namespace hagen::recordings

@@ -1,0 +1,27 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace hagen::recordings {
+
+/// The numbers in a line of a text file.
+struct NumberLine {
+    std::size_t line;  ///< 1-based
+    std::vector<double> numbers;
+};
+
+/// Reads a text file of numbers, up to so many lines with some. Skips empty lines and lines that
+/// start with '#'. Throws std::runtime_error naming file and line if the file cannot be read or a
+/// line has anything but finite numbers.
+std::vector<NumberLine> readNumberTable(
+    const std::filesystem::path& file,
+    std::size_t most_lines = std::numeric_limits<std::size_t>::max());
+
+/// Throws std::runtime_error naming file and line if the line does not have `columns` numbers.
+void checkColumns(const std::filesystem::path& file, const NumberLine& line, std::size_t columns,
+                  const std::string& what);
+
+}  // namespace hagen::recordings

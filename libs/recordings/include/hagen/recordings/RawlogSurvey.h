@@ -1,0 +1,53 @@
+#pragma once
+#include <hagen/mrpt/Trajectory.h>
+#include <mrpt/core/Clock.h>
+#include <mrpt/poses/CPose3D.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hagen::recordings {
+
+/// What must be known about a rawlog before its first scan is segmented. A pose may come after the
+/// scan that needs it.
+struct RawlogSurvey {
+    /// Vehicle poses from the best available source: CObservationRobotPose, then summed
+    /// CActionRobotMovement3D, then CObservationOdometry, then summed CActionRobotMovement2D.
+    /// Sources are not mixed, as each has its own map frame. Among several sensor labels, the one
+    /// with the most poses wins.
+    observations::Trajectory trajectory;
+    std::size_t not_finite = 0;  ///< poses of all sources that were left out
+    std::string source;          ///< such as "CObservationRobotPose 'gps'"; empty: no poses
+
+    /// Time and sensor pose on the vehicle of each LiDAR scan, by sensor label.
+    struct ScanPlace {
+        mrpt::Clock::time_point time;
+        mrpt::poses::CPose3D sensor_on_vehicle;
+    };
+    std::map<std::string, std::vector<ScanPlace>> scans;
+    std::size_t entries = 0;  ///< read
+    bool is_whole = true;     ///< the log was read to its end
+    std::string break_found;  ///< why the log could not be read to its end; empty: it could
+};
+
+/// Reads a rawlog to its end or until `keep_going` returns false. Stops silently where the log
+/// breaks off; the conversion reports that. Throws std::runtime_error naming the file if it cannot
+/// be opened.
+///
+/// An action without a time gets the time of the next sensory frame.
+RawlogSurvey surveyRawlog(
+    const std::filesystem::path& rawlog,
+    const std::function<bool()>& keep_going = [] { return true; });
+
+/// The times of all scans, by sensor label.
+std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimesOf(const RawlogSurvey& survey);
+
+/// The survey without the scans of LiDARs that are not kept.
+RawlogSurvey withScansOf(RawlogSurvey survey,
+                         const std::function<bool(const std::string& sensor_label)>& isKept);
+
+}  // namespace hagen::recordings

@@ -1,0 +1,99 @@
+#pragma once
+#include <hagen/base/OutputPath.h>
+#include <hagen/scan/Label.h>
+#include <hagen/scan/Scan.h>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hagen::recordings {
+
+/// A scan folder, or a folder of scan folders, as an output.
+extern const base::OutputKind kScanFolders;
+
+/// A folder of scans in the KITTI layout:
+///
+///     velodyne/NNNNNN.bin    float32 x, y, z [m], intensity [0..1] per point
+///     labels/NNNNNN.label    uint32 per point, same order: low 16 bits the label (0 unclassified,
+///                            1 ROU, 2 RoI), high 16 bits the RoI component (0: none)
+///     labels/made_by.txt     optional: the program whose predictions the labels are; otherwise
+///                            they are ground truth
+///     semantic/NNNNNN.label  optional: uint32 per point, low 16 bits the object class
+///     kinds.yaml             optional: names of these classes; see evaluation/LabelMap.h
+///     altitudes.txt          optional: sensor height above ground [m], one line per scan
+///     times.txt              optional: time [s], one line per scan
+///     poses.tum              optional: sensor poses in the map, with the clock of times.txt
+///     poses.txt              optional: sensor pose per scan, relative to the first scan; if there
+///                            is a calib.txt, camera poses as in the KITTI odometry benchmark
+///     sensor.yaml            optional: beams of this recording, and the sensor's mount on the
+///                            vehicle
+///
+/// All numbers are little-endian. Poses are those of the sensor, so they include its mount.
+/// Functions throw std::runtime_error naming the file.
+class ScanFolder {
+ public:
+    static constexpr const char* kMadeBy = "labels/made_by.txt";
+    static constexpr const char* kSimulatedBy = "simulated_by.txt";  ///< its labels are the truth
+
+    /// Lists velodyne/*.bin in the order of their names: by number if they differ in nothing else,
+    /// so that 10 comes after 9. Throws if there are none.
+    explicit ScanFolder(std::filesystem::path folder);
+
+    const std::filesystem::path& path() const { return folder_; }
+    std::size_t size() const { return names_.size(); }
+    /// File name of a scan without extension, "000042".
+    const std::string& name(std::size_t scan) const { return names_[scan]; }
+    /// Names of other files in velodyne/, which are not read.
+    const std::vector<std::string>& otherFiles() const { return others_; }
+    std::filesystem::path scanFile(std::size_t scan) const;
+    std::filesystem::path labelFile(std::size_t scan) const;
+    /// Optional files of this folder.
+    std::filesystem::path kindFile(std::size_t scan) const;
+    std::filesystem::path kindNamesFile() const { return folder_ / "kinds.yaml"; }
+    std::filesystem::path sensorFile() const { return folder_ / "sensor.yaml"; }
+    std::filesystem::path tumFile() const { return folder_ / "poses.tum"; }
+    std::filesystem::path kittiPosesFile() const { return folder_ / "poses.txt"; }
+    std::filesystem::path calibrationFile() const { return folder_ / "calib.txt"; }
+
+    /// Whether the labels are marked as predictions (markAsPredictions()).
+    bool hasPredictions() const { return std::filesystem::exists(folder_ / kMadeBy); }
+
+    /// times.txt, one element per scan, of which those without a time have kNoTime_s
+    /// (TimeStamp.h); empty if the file does not exist. Throws if the number of lines differs from
+    /// the number of scans.
+    std::vector<double> times() const;
+    /// altitudes.txt, likewise.
+    std::vector<double> altitudes() const;
+
+ private:
+    std::filesystem::path folder_;
+    std::vector<std::string> names_, others_;
+};
+
+/// A scan cannot be read; the message names its file.
+struct BrokenScan : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Marks the labels of a scan folder as predictions of rawlog-segment.
+void markAsPredictions(const std::filesystem::path& folder);
+
+/// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. Of
+/// points with a ring, as of nuScenes (recordings::BinStart), the ring is left out and intensities
+/// are scaled to 0..1. Returns how many numbers a point has, 4 or 5. Throws BrokenScan, also if the
+/// file is known to be something else.
+std::size_t readScan(const std::filesystem::path& file, Scan& scan);
+void writeScan(const std::filesystem::path& file, const Scan& scan);
+
+/// The highest component number that a label file can store; higher ones are stored as this one.
+constexpr std::int32_t kMaxFileComponent = 65535;
+
+/// Reads a .label file: entire entries, or the low 16 bits of each.
+std::vector<std::uint32_t> readLabelEntries(const std::filesystem::path& file);
+std::vector<std::uint16_t> readLabels(const std::filesystem::path& file);
+void writeLabels(const std::filesystem::path& file, const std::vector<Label>& labels,
+                 const std::vector<std::int32_t>& components);
+
+}  // namespace hagen::recordings

@@ -1,0 +1,185 @@
+#pragma once
+#include <hagen/mrpt/CloudSensors.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/ScanPose.h>
+#include <hagen/recordings/LogPoses.h>
+#include <hagen/settings/Settings.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/serialization/CSerializable.h>
+
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hagen::recordings {
+
+/// A LiDAR scan of a recording.
+struct RecordedScan {
+    mrpt::obs::CObservation::ConstPtr observation;  ///< with sensor label, time and mounting pose
+    observations::ScanPose pose;
+    std::size_t entry = 0;  ///< index of its entry in the recording
+    std::string name;       ///< of its file, without extension; empty for rawlogs and captures
+    /// The recovered beams of a cloud whose sensor nobody named; null otherwise (useSettings()).
+    observations::SharedBeams beams;
+};
+
+/// An entry of a recording: an object of a rawlog, a scan of a scan folder or a bag, or a turn of a
+/// sensor in a capture.
+struct RecordedEntry {
+    std::size_t number = 0;  ///< index in the recording
+    /// The rawlog's object, or the scan of a capture or bag. For a scan folder, an equivalent
+    /// observation, if requested.
+    mrpt::serialization::CSerializable::Ptr object;
+    std::vector<RecordedScan> scans;  ///< scans of the selected LiDARs
+    double fraction_read = 0;         ///< of the recording, this entry included: 0 ... 1
+};
+
+/// What a source reads.
+struct SourceOptions {
+    std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
+    std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
+    std::size_t last_entry = std::numeric_limits<std::size_t>::max();
+    /// Class of the clouds in RecordedEntry::object for scans of a scan folder, for clouds of
+    /// files, and for those of a capture or bag that have no packets of a Velodyne; none: no
+    /// objects.
+    std::optional<observations::CloudClass> folder_objects;
+    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
+    std::vector<std::string> topics;    ///< LiDAR topics to read of a bag; empty: all
+    /// Called before each entry is read, also in advance; false ends reading with Interrupted.
+    std::function<bool()> keep_going = [] { return true; };
+};
+
+/// Reading was ended by SourceOptions::keep_going.
+struct Interrupted : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The LiDARs whose scans are read from a recording, by their labels; each takes memory.
+constexpr std::size_t kMostLabels = 100;
+
+/// A recording has more; the message names the entry.
+struct TooManySensors : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The sensor label of all scans in a scan folder.
+constexpr const char* kFolderLabel = "velodyne";
+
+/// A recording from which scans are pulled one by one. Conversion, open loop and evaluation all
+/// read recordings with it:
+///
+///     const auto source = openRecording("flight.rawlog");
+///     source->usePoses("flight.tum");
+///     segmenter.initialize(source->useSettings(settings));
+///     while (const auto scan = source->nextScan())
+///         segmenter.process(*scan->observation, out, scan->pose, scan->beams);
+class ScanSource {
+ public:
+    virtual ~ScanSource() = default;
+
+    /// The next selected entry, with or without scans; none at the end. Throws BrokenRawlog,
+    /// BrokenScan, BrokenCapture or BrokenBag naming file and entry, and Interrupted.
+    virtual std::optional<RecordedEntry> nextEntry() = 0;
+
+    /// The next scan of any entry; none at the end. Throws like nextEntry(). Use one of the two:
+    /// scans of an entry that nextScan() has begun come only from nextScan().
+    std::optional<RecordedScan> nextScan();
+
+    /// Takes poses from this file (TUM, KITTI), or from the recording itself if the name is empty.
+    /// Call it before the first entry is read; otherwise no poses are known. Throws
+    /// std::runtime_error naming the file if it cannot be read, and Interrupted.
+    void usePoses(const std::filesystem::path& file);
+    const LogPoses& poses() const { return poses_; }
+
+    /// The times of all scans of all LiDARs, by sensor label. A rawlog is read in advance for this;
+    /// a call before usePoses() saves it another reading. Throws Interrupted.
+    virtual std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() = 0;
+
+    /// Returns settingsFor(settings). If these name no sensor, each cloud comes with the beams that
+    /// beamsOf() recovers. Call it before the first entry is read.
+    Settings useSettings(const Settings& settings);
+
+    /// The beams of a LiDAR's clouds, recovered from the first ones in the recording, also if these
+    /// are not selected (CloudSensors): the same for all parts of a recording. Null if none of its
+    /// clouds has enough returns. The recording is read in advance as far as this takes. Throws
+    /// Interrupted; where the recording breaks off, nextEntry() does.
+    const observations::SharedBeams& beamsOf(const std::string& sensor_label);
+
+    /// The settings, with those of the recording's own sensor merged in.
+    virtual Settings settingsFor(const Settings& settings) const;
+
+    /// Entries read so far, including skipped ones. For a scan folder: all entries.
+    virtual std::size_t entriesKnown() const = 0;
+    /// What the user should know of the recording as a whole, such as packets that are missing;
+    /// complete once the last entry was read.
+    virtual std::vector<std::string> remarks() const { return {}; }
+
+    std::size_t entriesSkipped() const { return entries_skipped_; }  ///< before the first selected
+    /// Sensor labels of LiDAR scans read so far that are not selected.
+    const std::set<std::string>& otherLabels() const { return other_labels_; }
+
+ protected:
+    explicit ScanSource(const SourceOptions& options) : options_(options) {}
+
+    virtual LogPoses readPoses(const std::filesystem::path& file) = 0;
+
+    /// Shows `sensors` the next clouds of the recording from its start, in order: each call goes on
+    /// after those before. Returns false at the end, and where the recording breaks off.
+    virtual bool showClouds(observations::CloudSensors& sensors) = 0;
+
+    /// Notes that reading in advance, for poses, times or beams, broke off after `entries` entries
+    /// (or other parts of the recording), and why.
+    void brokeOffAhead(std::size_t entries, const std::string& why);
+    /// Call it at the end, after `entries` of them: why reading in advance did not get that far,
+    /// although this reading did, so that poses or beams are missing. Empty: it did.
+    std::string missedAhead(std::size_t entries) const;
+
+    /// Call it before reading an entry. Throws Interrupted.
+    void checkInterruption() const;
+    /// True, and counts it, if an entry is before the first selected one.
+    bool skips(std::size_t entry);
+    bool isSelected(const std::string& sensor_label) const;
+    /// Takes the attitude from an observation, unless a pose file provides it.
+    void see(const mrpt::obs::CObservation& observation);
+    /// Adds the observation to its entry if it is a scan of a selected LiDAR.
+    void addIfScan(const mrpt::obs::CObservation::ConstPtr& observation, const std::string& name,
+                   RecordedEntry& entry);
+
+    const SourceOptions options_;
+
+ private:
+    LogPoses poses_;
+    bool is_levelled_by_file_ = false;  ///< a pose file overrides the recording's attitude
+    observations::Horizon horizon_;
+    std::string break_ahead_;  ///< the first that reading in advance met; empty: none
+    std::size_t break_ahead_at_ = 0;
+    std::size_t entries_skipped_ = 0;
+    std::set<std::string> labels_, other_labels_;
+    bool recovers_beams_ = false;
+    observations::CloudSensors sensors_;  ///< of the clouds read in advance
+    std::map<std::string, observations::SharedBeams> beams_;
+    std::deque<RecordedScan> waiting_;  ///< scans of the entry that nextScan() read last
+};
+
+/// Opens a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
+/// scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
+/// are told apart by their content. Throws std::runtime_error naming it if it does not exist or
+/// cannot be opened, if there is a sensor_json but no capture or bag, a calibration but no capture,
+/// or if there are topics but no bag.
+std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
+                                          const SourceOptions& options = {});
+
+/// "entry 12 (lidar)", for messages about a scan.
+std::string titleOf(const RecordedScan& scan);
+
+}  // namespace hagen::recordings

@@ -1,0 +1,28 @@
+#pragma once
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+
+namespace hagen::recordings {
+
+/// Names for fields of which several may have the same: "a", "a_", "a__", "a_3", "a_4"...
+class UniqueNames {
+ public:
+    /// A name that was not returned before.
+    std::string of(const std::string& name) {
+        std::string unique = name;
+        // Where it ended before: many fields of one name would take the square of their number.
+        for (std::size_t& again = times_[name]; !names_.insert(unique).second;) {
+            ++again;
+            unique = name + (again <= 2 ? std::string(again, '_') : "_" + std::to_string(again));
+        }
+        return unique;
+    }
+
+ private:
+    std::set<std::string> names_;
+    std::map<std::string, std::size_t> times_;  ///< that a name was changed
+};
+
+}  // namespace hagen::recordings

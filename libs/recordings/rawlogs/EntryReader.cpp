@@ -1,0 +1,83 @@
+#include "recordings/rawlogs/EntryReader.h"
+
+#include <hagen/base/FileKind.h>
+#include <hagen/mrpt/MrptCompat.h>
+#include <hagen/mrpt/MrptMessage.h>
+
+#include <new>
+#include <string>
+
+namespace hagen::recordings {
+namespace {
+
+constexpr const char* kNoObject = "it is not an MRPT object";
+
+/// Derives from MRPT's message why an entry cannot be read.
+std::string reasonOf(const std::exception& exception) {
+    const std::string text = observations::messageOf(exception);
+    if (text.find("(EOF?)") != std::string::npos) return "the file ends within it";
+    if (text.find("is not registered") != std::string::npos) {
+        return text + " (this program supports the classes of mrpt-obs and mrpt-maps)";
+    }
+    if (text.find("ersion") != std::string::npos) return text + " (written by a newer MRPT?)";
+    // A rotating scan of MRPT 3: a sound object that is stored elsewhere.
+    if (text.find("is not in the log") != std::string::npos) return text;
+    return kNoObject;
+}
+
+/// What is said of a file that is neither a rawlog nor, by its content, another recording.
+std::string whyNone(const std::filesystem::path& file) {
+    const base::FileKind kind = base::kindOfFile(file);
+    const std::string known = kind.text();
+    // PackedInput has unpacked these.
+    const bool is_packed = kind.what == "packed by gzip" || kind.what == "packed by zstd";
+    if (is_packed) return "it is " + kind.what + ", and inside is no rawlog; " + kind.advice;
+    return (known.empty() ? "its first bytes are none of a kind that is known" : known) +
+           ". Known are rawlogs, captures (.pcap, .pcapng), ROS recordings (.bag, .mcap, .db3) and "
+           "point clouds (.pcd, .ply, .las, .npy, .bin)";
+}
+
+}  // namespace
+
+EntryReader::EntryReader(const std::filesystem::path& file, const std::filesystem::path& opened)
+    : file_(file), stream_(opened), archive_(mrpt::serialization::archiveUniquePtrFrom(stream_)) {
+    observations::registerMrptClasses();
+}
+
+mrpt::serialization::CSerializable::Ptr EntryReader::next() {
+    const std::uint64_t byte = stream_.getPosition();
+    const auto broken = [&](const std::string& why) {
+        return BrokenRawlog(file_.string() + ": entry " + std::to_string(entries_) + " at byte " +
+                            std::to_string(byte) + " (uncompressed) cannot be read: " +
+                            (stream_.fault().empty() ? why : stream_.fault()));
+    };
+    mrpt::serialization::CSerializable::Ptr object;
+    try {
+        object = archive_->ReadObject();
+    } catch (const mrpt::serialization::CExceptionEOF&) {
+        if (!stream_.fault().empty()) throw broken("");
+        if (stream_.getPosition() != byte) throw broken("the file ends within it");
+        if (entries_ == 0) throw BrokenRawlog(file_.string() + ": contains no rawlog entries");
+        return nullptr;
+    } catch (const std::bad_alloc&) {
+        if (!stream_.fault().empty()) throw broken("");
+        throw AsksTooMuch(
+            broken("it asks for more memory at byte " + std::to_string(stream_.getPosition()) +
+                   " than an entry there can need: a count is wrong, or the entry exceeds " +
+                   std::to_string(kMostEntryBytes >> 20) + " MiB")
+                .what());
+    } catch (const std::exception& e) {
+        const std::string reason = reasonOf(e);
+        if (entries_ == 0 && reason == kNoObject && stream_.fault().empty()) {
+            throw BrokenRawlog(file_.string() + ": is no recording: " + whyNone(file_));
+        }
+        throw broken(reason);
+    } catch (...) {
+        throw broken(kNoObject);
+    }
+    if (!object) throw broken("it is an empty object");
+    ++entries_;
+    return object;
+}
+
+}  // namespace hagen::recordings

@@ -1,0 +1,283 @@
+#include "recordings/rawlogs/RawlogTrial.h"
+
+#include <fcntl.h>
+#include <hagen/base/ProcessCost.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "recordings/rawlogs/EntryReader.h"
+
+namespace hagen::recordings {
+namespace {
+
+/// What is sent through the pipe, followed by `text` bytes of the reason.
+struct Header {
+    EntryVerdict::Kind kind;
+    std::uint64_t end;
+    std::uint32_t text;
+};
+constexpr std::size_t kLongestText = 4096;
+
+/// How often it has to stand still where it is not told for what it waits: perhaps for a disk.
+constexpr int kPatienceWithAnything = 10;
+
+/// MRPT's objects take more memory than their bytes in a rawlog: an empty pointer or text has 4
+/// bytes there and up to 32 in memory, and vectors double while they grow.
+constexpr std::uint64_t kMemoryPerByte = 32, kMemoryBesides = 64 << 20;
+
+bool sendAll(int pipe, const void* data, std::size_t size) {
+    const char* at = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t sent = write(pipe, at, size);
+        if (sent < 0 && errno == EINTR) continue;
+        if (sent <= 0) return false;
+        at += sent;
+        size -= static_cast<std::size_t>(sent);
+    }
+    return true;
+}
+
+void send(int pipe, EntryVerdict::Kind kind, std::uint64_t end, const std::string& why = "") {
+    const std::size_t text = std::min(why.size(), kLongestText);
+    const Header header{kind, end, static_cast<std::uint32_t>(text)};
+    if (!sendAll(pipe, &header, sizeof header) || !sendAll(pipe, why.data(), text)) _exit(0);
+}
+
+/// Private memory of this process [bytes]; 0 if unknown.
+std::uint64_t dataBytes() {
+    unsigned long long pages = 0;
+    std::FILE* const file = std::fopen("/proc/self/statm", "r");
+    if (file == nullptr) return 0;
+    const bool is_read = std::fscanf(file, "%*u %*u %*u %*u %*u %llu", &pages) == 1;
+    std::fclose(file);
+    return is_read ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+/// What a process does now, by two files of /proc. For what it waits, only those are told who may
+/// trace it.
+enum class Doing { Work, WaitForLock, WaitForAnything };
+Doing doingOf(pid_t process) {
+    const std::string folder = "/proc/" + std::to_string(process);
+    std::string call, text;  // the call's number, or "running"
+    if (std::ifstream(folder + "/syscall") >> call) {
+        return call == std::to_string(SYS_futex) ? Doing::WaitForLock : Doing::Work;
+    }
+    std::getline(std::ifstream(folder + "/stat"), text);  // number (name) state ...
+    const std::size_t name_end = text.rfind(") ");
+    const bool sleeps = name_end != std::string::npos && text.compare(name_end, 3, ") S") == 0;
+    return sleeps ? Doing::WaitForAnything : Doing::Work;
+}
+
+/// Whether a pipe has something to read, or an end, within this time. Signals do not prolong it.
+bool hasSomething(int pipe, std::chrono::milliseconds patience) {
+    using Clock = std::chrono::steady_clock;
+    for (const auto end = Clock::now() + patience;;) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+        pollfd waits{pipe, POLLIN, 0};
+        const int ready = poll(&waits, 1, std::max(0, static_cast<int>(left.count())));
+        if (ready == 0) return false;
+        if (ready > 0 || errno != EINTR) return true;
+    }
+}
+
+/// Limits what the next entry may take: no more than its bytes in the rest of the file can need.
+/// Returns whether the program's own limit is lower.
+bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
+    constexpr std::uint64_t kShadow = std::uint64_t{1} << 40;  // of a sanitizer
+    const std::uint64_t now = dataBytes();
+    if (now == 0 || now > kShadow) return false;
+    const std::uint64_t left = std::min(stream.mostBytesLeft(), kMostEntryBytes);
+    const std::uint64_t more = std::min(kMostEntryBytes, kMemoryBesides + kMemoryPerByte * left);
+    const rlimit limit{std::min<rlim_t>(now + more, of_program.rlim_cur), of_program.rlim_max};
+    setrlimit(RLIMIT_DATA, &limit);
+    return of_program.rlim_cur < now + more;
+}
+
+/// The process: reads all entries and sends what comes of each.
+[[noreturn]] void tryAll(const std::filesystem::path& file, const std::filesystem::path& opened,
+                         int pipe) {
+    bool is_limit_of_program = false;
+    try {
+        rlimit limit{};
+        getrlimit(RLIMIT_DATA, &limit);
+        EntryReader reader(file, opened);
+        for (;;) {
+            is_limit_of_program = limitMemory(reader.stream(), limit);
+            const auto object = reader.next();
+            const std::uint64_t end = reader.stream().getPosition();
+            if (!object) {
+                send(pipe, EntryVerdict::Kind::End, end);
+                _exit(0);
+            }
+            send(pipe, EntryVerdict::Kind::Sound, end);
+        }
+    } catch (const AsksTooMuch& e) {
+        const char* const limit =
+            is_limit_of_program ? ", or more than --memory-limit leaves for it" : "";
+        send(pipe, EntryVerdict::Kind::Broken, 0, std::string(e.what()) + limit);
+    } catch (const std::exception& e) {
+        send(pipe, EntryVerdict::Kind::Broken, 0, e.what());
+    }
+    _exit(0);
+}
+
+/// Leaves the process nothing of the program's but the rawlog and the pipe.
+[[noreturn]] void runTrial(const std::filesystem::path& file, int descriptor, int pipe) {
+    setpgid(0, 0);
+    // The program ends the process when it wants; it needs no core file.
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
+    for (const int number : {SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) signal(number, SIG_DFL);
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_CORE, &none);
+    // MRPT's warnings are printed by the program's own reading.
+    const int silence = open("/dev/null", O_RDWR);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(silence, stream);
+    constexpr int kRawlog = 3, kPipe = 4;
+    const int high_rawlog = fcntl(descriptor, F_DUPFD, 10), high_pipe = fcntl(pipe, F_DUPFD, 10);
+    dup2(high_rawlog, kRawlog);
+    dup2(high_pipe, kPipe);
+    close_range(kPipe + 1, ~0U, 0);
+    // Opened again, for the program's own reading moves the position. The name may be another
+    // file's by now.
+    tryAll(file, "/proc/self/fd/" + std::to_string(kRawlog), kPipe);
+}
+
+}  // namespace
+
+RawlogTrial::RawlogTrial(const std::filesystem::path& file, int descriptor,
+                         std::chrono::milliseconds patience)
+    : file_(file), descriptor_(descriptor), patience_(patience) {
+    start();
+}
+
+RawlogTrial::~RawlogTrial() { stop(); }
+
+void RawlogTrial::start() {
+    int pipe[2];
+    if (pipe2(pipe, O_CLOEXEC) != 0) {
+        throw std::runtime_error(file_.string() +
+                                 ": cannot be read: no pipe can be made: " + std::strerror(errno));
+    }
+    process_ = fork();
+    if (process_ == 0) runTrial(file_, descriptor_, pipe[1]);
+    const int error = errno;
+    close(pipe[1]);
+    if (process_ < 0) {
+        close(pipe[0]);
+        throw std::runtime_error(file_.string() +
+                                 ": cannot be read: no process can be started to try its entries "
+                                 "(ulimit -u?): " +
+                                 std::strerror(error));
+    }
+    verdicts_ = pipe[0];
+    received_ = 0;
+    ++starts_;
+}
+
+void RawlogTrial::stop() {
+    if (verdicts_ >= 0) close(verdicts_);
+    verdicts_ = -1;
+    if (process_ < 0) return;
+    kill(process_, SIGKILL);
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+}
+
+/// Waits until the process sends something or ends (false), or stands still.
+bool RawlogTrial::standsStill() const {
+    for (int still = 0;;) {
+        const auto before = base::cpuTimeOf(process_);
+        if (hasSomething(verdicts_, patience_)) return false;
+        const bool is_still = before && base::cpuTimeOf(process_) == before;
+        const Doing doing = is_still ? doingOf(process_) : Doing::Work;
+        still = doing == Doing::WaitForAnything ? still + 1 : 0;
+        if (doing == Doing::WaitForLock || still == kPatienceWithAnything) return true;
+    }
+}
+
+bool RawlogTrial::receive(void* data, std::size_t size) const {
+    char* at = static_cast<char*>(data);
+    while (size > 0) {
+        const ssize_t got = read(verdicts_, at, size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return false;
+        at += got;
+        size -= static_cast<std::size_t>(got);
+    }
+    return true;
+}
+
+std::string RawlogTrial::cannotBeRead(const std::string& why) const {
+    return file_.string() + ": entry " + std::to_string(entries_) + " at byte " +
+           std::to_string(last_.end) + " (uncompressed) cannot be read: " + why;
+}
+
+std::string RawlogTrial::whyItEnded() {
+    int status = 0;
+    pid_t ended = 0;
+    while ((ended = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    // Somebody else took its status, such as a program that ignores SIGCHLD.
+    if (ended < 0) return cannotBeRead("MRPT's reader crashes on it, or ends at it");
+    return cannotBeRead("MRPT's reader " +
+                        (WIFSIGNALED(status)
+                             ? std::string("crashes on it (") + strsignal(WTERMSIG(status)) + ")"
+                             : "ends at it"));
+}
+
+EntryVerdict RawlogTrial::receiveVerdict() {
+    Header header;
+    if (!receive(&header, sizeof header)) {
+        return {EntryVerdict::Kind::Broken, last_.end, whyItEnded()};
+    }
+    EntryVerdict verdict{header.kind, header.end, std::string(header.text, '\0')};
+    if (!receive(verdict.why.data(), header.text)) verdict.why = "the reason was lost";
+    ++received_;
+    return verdict;
+}
+
+EntryVerdict RawlogTrial::next() {
+    if (last_.kind != EntryVerdict::Kind::Sound) return last_;
+    const auto broken = [this](const std::string& why) {
+        return last_ = {EntryVerdict::Kind::Broken, last_.end, why};
+    };
+    for (;;) {
+        if (standsStill()) {
+            stop();
+            if (starts_ == kMostStarts) {
+                return broken(cannotBeRead("MRPT's reader stands still at it"));
+            }
+            try {
+                start();
+            } catch (const std::runtime_error& e) {
+                return broken(e.what());
+            }
+            continue;
+        }
+        const bool is_new = received_ == entries_;
+        const EntryVerdict verdict = receiveVerdict();
+        if (is_new) {
+            ++entries_;
+            return last_ = verdict;
+        }
+        if (verdict.kind != EntryVerdict::Kind::Sound) {
+            return broken(file_.string() + ": changed while it was read, before entry " +
+                          std::to_string(entries_));
+        }
+    }
+}
+
+}  // namespace hagen::recordings

@@ -1,9 +1,0 @@
-#pragma once
-#include <string_view>
-
-/// The files of the replay page, embedded into the program.
-namespace hagen::replays::texts {
-
-extern const std::string_view replay_html, replay_css, replay_js, three_js, orbit_controls_js;
-
-}  // namespace hagen::replays::texts

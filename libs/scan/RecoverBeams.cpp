@@ -1,0 +1,406 @@
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/RecoverBeams.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <vector>
+
+namespace hagen {
+namespace {
+
+constexpr float kFarthest_m = 1000.0f;  // of any sensor, and of the settings
+constexpr int kMostBeams = 256;
+constexpr double kLeastShare = 0.85;
+
+// Densities of elevations are histograms with this bin, smoothed.
+constexpr double kBin_deg = 0.01;
+constexpr int kBins = 18001;
+
+/// Elevations and azimuths of the returns with a range, degrees.
+struct Directions {
+    std::vector<double> elevation_deg, azimuth_deg;
+    std::size_t size() const { return elevation_deg.size(); }
+};
+
+Directions directionsOf(const Scan& scan) {
+    Directions directions;
+    directions.elevation_deg.reserve(scan.size());
+    directions.azimuth_deg.reserve(scan.size());
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const double x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
+        const double level_m = std::hypot(x, y);
+        if (!std::isfinite(level_m + z) || (level_m == 0 && z == 0)) continue;
+        directions.elevation_deg.push_back(degrees(std::atan2(z, level_m)));
+        directions.azimuth_deg.push_back(degrees(std::atan2(y, x)));
+    }
+    return directions;
+}
+
+// Peaks of the density.
+
+int binOf(double elevation_deg) { return static_cast<int>((elevation_deg + 90.0) / kBin_deg); }
+
+/// The number of returns within `half` bins on either side, for each bin.
+std::vector<int> countsWithin(const std::vector<int>& histogram, int half) {
+    std::vector<int> counts(kBins, 0);
+    int sum = 0;
+    for (int bin = -half; bin < kBins; ++bin) {
+        if (bin + half < kBins) sum += histogram[bin + half];
+        if (bin - half - 1 >= 0) sum -= histogram[bin - half - 1];
+        if (bin >= 0) counts[bin] = sum;
+    }
+    return counts;
+}
+
+/// Whether a peak is higher than the valley beside it by more than chance.
+bool standsOut(int peak, int valley) {
+    return valley < 0.5 * peak && peak - valley > 4.0 * std::sqrt(static_cast<double>(peak));
+}
+
+/// The peaks that stand out from the valleys on both sides, as bins, ascending.
+std::vector<int> peaksOf(const std::vector<int>& counts) {
+    std::vector<int> peaks;
+    int top = 0, valley = 0;  // the highest bin since the last valley, and the lowest since the top
+    bool is_rising = true;    // since a valley that the top stands out from
+    for (int bin = 0; bin < kBins; ++bin) {
+        if (is_rising) {
+            if (counts[bin] > counts[top]) top = bin;
+            if (standsOut(counts[top], counts[bin])) {
+                int last = top;  // of a flat top
+                while (counts[last + 1] == counts[top]) ++last;
+                peaks.push_back((top + last) / 2);
+                is_rising = false;
+                valley = bin;
+            }
+        } else {
+            if (counts[bin] < counts[valley]) valley = bin;
+            if (standsOut(counts[bin], counts[valley])) {
+                is_rising = true;
+                top = bin;
+            }
+        }
+    }
+    return peaks;
+}
+
+// Beams from peaks.
+
+/// How far from each beam a return lies on it.
+std::vector<double> reachesOf(const std::vector<double>& beams_deg) {
+    std::vector<double> reaches_deg(beams_deg.size(), 0.25);
+    for (std::size_t beam = 1; beam < beams_deg.size(); ++beam) {
+        const double quarter_deg = 0.25 * (beams_deg[beam] - beams_deg[beam - 1]);
+        reaches_deg[beam - 1] = std::min(reaches_deg[beam - 1], quarter_deg);
+        reaches_deg[beam] = std::min(reaches_deg[beam], quarter_deg);
+    }
+    return reaches_deg;
+}
+
+/// The returns on each beam: from and to which rank of the ascending elevations.
+struct Ranks {
+    std::ptrdiff_t from, to;
+};
+Ranks returnsOn(double beam_deg, double reach_deg, const std::vector<double>& ascending_deg) {
+    const auto begin = ascending_deg.begin(), end = ascending_deg.end();
+    const auto from = std::lower_bound(begin, end, beam_deg - reach_deg);
+    return {from - begin, std::upper_bound(from, end, beam_deg + reach_deg) - begin};
+}
+
+double shareOn(const std::vector<double>& beams_deg, const std::vector<double>& ascending_deg) {
+    const std::vector<double> reaches_deg = reachesOf(beams_deg);
+    std::ptrdiff_t on_beams = 0;
+    for (std::size_t beam = 0; beam < beams_deg.size(); ++beam) {
+        const Ranks ranks = returnsOn(beams_deg[beam], reaches_deg[beam], ascending_deg);
+        on_beams += ranks.to - ranks.from;
+    }
+    return static_cast<double>(on_beams) / static_cast<double>(ascending_deg.size());
+}
+
+/// Moves each beam to the median of the returns within its reach.
+void centre(const std::vector<double>& reaches_deg, const std::vector<double>& ascending_deg,
+            std::vector<double>& beams_deg) {
+    for (std::size_t beam = 0; beam < beams_deg.size(); ++beam) {
+        const Ranks ranks = returnsOn(beams_deg[beam], reaches_deg[beam], ascending_deg);
+        if (ranks.from < ranks.to) beams_deg[beam] = ascending_deg[(ranks.from + ranks.to) / 2];
+    }
+}
+
+struct Beams {
+    std::vector<double> elevations_deg;
+    double share = 0;
+};
+
+/// The beams with the highest share, if there are any.
+Beams bestBeams(const std::vector<double>& ascending_deg) {
+    std::vector<int> histogram(kBins, 0);
+    for (const double elevation_deg : ascending_deg) ++histogram[binOf(elevation_deg)];
+    Beams best;
+    for (const int half : {20, 10, 5, 2, 1}) {
+        Beams beams;
+        for (const int peak : peaksOf(countsWithin(histogram, half))) {
+            beams.elevations_deg.push_back((peak + 0.5) * kBin_deg - 90.0);
+        }
+        const std::size_t count = beams.elevations_deg.size();
+        if (count < 2 || count > kMostBeams) continue;
+        // The peak of a narrow beam is as wide as the bandwidth; the beam may be anywhere in it.
+        centre(std::vector<double>(count, (half + 0.5) * kBin_deg), ascending_deg,
+               beams.elevations_deg);
+        centre(reachesOf(beams.elevations_deg), ascending_deg, beams.elevations_deg);
+        beams.share = shareOn(beams.elevations_deg, ascending_deg);
+        // Narrower bandwidths split what is one beam, so they must be clearly better.
+        if (beams.share > best.share + 0.005) best = std::move(beams);
+    }
+    return best;
+}
+
+/// The known model with all of these beams, if they are enough of its own: five and 30 %, and three
+/// quarters of those from the lowest to the highest of them.
+std::optional<SensorModel> modelWith(const std::vector<double>& beams_deg) {
+    const int beams = static_cast<int>(beams_deg.size());
+    std::optional<SensorModel> model;
+    for (const std::string& name : knownSensorModels()) {
+        SensorModel known = sensorModel(name);
+        if (!known.has_rings || beams < 5 || beams < 0.3 * known.rows()) continue;
+        int first_row = -1, last_row = -1;
+        const bool has_all = std::all_of(beams_deg.begin(), beams_deg.end(), [&](double beam_deg) {
+            const int row = known.nearestRow(static_cast<float>(radians(beam_deg)));
+            const bool is_new = row > last_row;
+            last_row = row;
+            if (first_row < 0) first_row = row;
+            return is_new && std::abs(degrees(static_cast<double>(known.elevations_rad[row])) -
+                                      beam_deg) < 0.1;
+        });
+        const bool is_dense = beams >= 0.75 * (last_row - first_row + 1);
+        if (has_all && is_dense && (!model || known.rows() < model->rows()))
+            model = std::move(known);
+    }
+    return model;
+}
+
+/// The number of firings per revolution: the nearest returns of a beam are one firing apart.
+int firingsOn(const std::vector<double>& beams_deg, const Directions& directions) {
+    std::vector<std::vector<double>> azimuths_deg(beams_deg.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const double elevation_deg = directions.elevation_deg[i];
+        std::size_t beam = static_cast<std::size_t>(
+            std::lower_bound(beams_deg.begin(), beams_deg.end(), elevation_deg) -
+            beams_deg.begin());
+        if (beam == beams_deg.size() ||
+            (beam > 0 && elevation_deg - beams_deg[beam - 1] < beams_deg[beam] - elevation_deg)) {
+            --beam;
+        }
+        azimuths_deg[beam].push_back(directions.azimuth_deg[i]);
+    }
+    auto& most = *std::max_element(azimuths_deg.begin(), azimuths_deg.end(),
+                                   [](auto& a, auto& b) { return a.size() < b.size(); });
+    std::sort(most.begin(), most.end());
+    std::vector<double> steps_deg;
+    for (std::size_t i = 1; i < most.size(); ++i) {
+        const double step_deg = most[i] - most[i - 1];
+        if (step_deg > 0.02) steps_deg.push_back(step_deg);  // not the other return of a firing
+    }
+    if (steps_deg.empty()) return 0;
+    const auto third = steps_deg.begin() + static_cast<std::ptrdiff_t>(steps_deg.size() / 3);
+    std::nth_element(steps_deg.begin(), third, steps_deg.end());
+    return static_cast<int>(std::lround(360.0 / *third));
+}
+
+// Virtual rows.
+
+/// The width of all 5-degree sectors with returns.
+double seenAzimuth(const Directions& directions) {
+    std::array<bool, 73> has_returns{};
+    for (const double azimuth_deg : directions.azimuth_deg) {
+        has_returns[static_cast<std::size_t>((azimuth_deg + 180.0) / 5.0)] = true;
+    }
+    return std::min(
+        360.0, 5.0 * static_cast<double>(std::count(has_returns.begin(), has_returns.end(), true)));
+}
+
+/// The elevations that virtual rows cover.
+struct Span {
+    double lowest_deg, size_deg;
+};
+
+/// The share of the pixels between the lowest and the highest of their column that have returns.
+/// Long gaps do not count: there is sky between two objects.
+double filledShare(const Directions& directions, const Span& span, int rows, int columns) {
+    constexpr int kLongestGap = 4;
+    std::vector<bool> has_return(static_cast<std::size_t>(rows) * columns);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const double height = (directions.elevation_deg[i] - span.lowest_deg) / span.size_deg;
+        const double turn = (directions.azimuth_deg[i] + 180.0) / 360.0;
+        const int row = static_cast<int>(std::floor(height * rows));
+        const int column = std::min(static_cast<int>(turn * columns), columns - 1);
+        if (row >= 0 && row < rows)
+            has_return[static_cast<std::size_t>(column) * rows + row] = true;
+    }
+    long filled = 0, gaps = 0;
+    for (int column = 0; column < columns; ++column) {
+        int last_row = rows;  // with a return; none yet
+        for (int row = 0; row < rows; ++row) {
+            if (!has_return[static_cast<std::size_t>(column) * rows + row]) continue;
+            ++filled;
+            const int gap = row - last_row - 1;
+            if (gap > 0 && gap <= kLongestGap) gaps += gap;
+            last_row = row;
+        }
+    }
+    return static_cast<double>(filled) / static_cast<double>(std::max(filled + gaps, 1L));
+}
+
+RecoveredBeams virtualRows(const Directions& directions, const std::vector<double>& ascending_deg) {
+    constexpr double kPixelsPerReturn = 0.43, kHeightPerWidth = 2.5, kLeastSpan_deg = 1.0;
+    constexpr double kLeastFilled = 0.75;
+    constexpr int kFewestRows = 16, kFewestColumns = 8;
+    const std::size_t outside = ascending_deg.size() / 1000;
+    Span span{ascending_deg[outside], 0};
+    span.size_deg = ascending_deg[ascending_deg.size() - 1 - outside] - span.lowest_deg;
+    if (span.size_deg < kLeastSpan_deg) {
+        const double middle_deg = span.lowest_deg + 0.5 * span.size_deg;
+        span.lowest_deg =
+            std::clamp(middle_deg - 0.5 * kLeastSpan_deg, -90.0, 90.0 - kLeastSpan_deg);
+        span.size_deg = kLeastSpan_deg;
+    }
+    const double pixels = kPixelsPerReturn * static_cast<double>(directions.size());
+    const double seen_deg = seenAzimuth(directions);
+    const double row_deg = std::sqrt(kHeightPerWidth * span.size_deg * seen_deg / pixels);
+    int rows =
+        std::clamp(static_cast<int>(std::lround(span.size_deg / row_deg)), kFewestRows, kMostBeams);
+    RecoveredBeams recovered;
+    recovered.most_columns =
+        std::max(kFewestColumns, static_cast<int>(std::lround(pixels / rows * 360.0 / seen_deg)));
+    while (rows > kFewestRows &&
+           filledShare(directions, span, rows, recovered.most_columns) < kLeastFilled) {
+        rows -= std::max(1, rows / 20);
+    }
+    std::vector<double> elevations_deg(rows);
+    for (int row = 0; row < rows; ++row) {
+        elevations_deg[row] = span.lowest_deg + (row + 0.5) * span.size_deg / rows;
+    }
+    recovered.sensor = customSensorModel(elevations_deg);
+    recovered.sensor.has_rings = false;
+    return recovered;
+}
+
+// Rings.
+
+constexpr std::size_t kFewestOnRing = 5;
+
+/// The elevations of the returns on each ring, ascending; and all directions.
+struct RingDirections {
+    std::map<std::int32_t, std::vector<double>> elevations_deg;
+    Directions all;
+};
+
+RingDirections directionsOfRings(const Scan& scan, const std::vector<std::int32_t>& rings) {
+    RingDirections directions;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const double x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
+        const double level_m = std::hypot(x, y);
+        if (!std::isfinite(level_m + z) || (level_m == 0 && z == 0)) continue;
+        directions.all.elevation_deg.push_back(degrees(std::atan2(z, level_m)));
+        directions.all.azimuth_deg.push_back(degrees(std::atan2(y, x)));
+        directions.elevations_deg[rings[i]].push_back(directions.all.elevation_deg.back());
+    }
+    for (auto& [ring, elevations_deg] : directions.elevations_deg) {
+        std::sort(elevations_deg.begin(), elevations_deg.end());
+    }
+    return directions;
+}
+
+/// How many returns are closest to their own beam, of beams that rise.
+std::size_t closestToOwn(const std::vector<double>& beams_deg,
+                         const std::vector<const std::vector<double>*>& elevations_deg) {
+    std::ptrdiff_t closest = 0;
+    for (std::size_t beam = 0; beam < beams_deg.size(); ++beam) {
+        auto from = elevations_deg[beam]->begin(), to = elevations_deg[beam]->end();
+        if (beam > 0) {
+            from = std::lower_bound(from, to, 0.5 * (beams_deg[beam - 1] + beams_deg[beam]));
+        }
+        if (beam + 1 < beams_deg.size()) {
+            to = std::upper_bound(from, to, 0.5 * (beams_deg[beam] + beams_deg[beam + 1]));
+        }
+        closest += to - from;
+    }
+    return static_cast<std::size_t>(closest);
+}
+
+}  // namespace
+
+std::optional<RecoveredBeams> ringBeams(const Scan& scan, const std::vector<std::int32_t>& rings) {
+    constexpr double kMostOnOthers = 0.05;
+    constexpr std::size_t kFewestRings = 3;
+    const RingDirections directions = directionsOfRings(scan, rings);
+    if (directions.all.size() < kFewestReturnsForBeams) return std::nullopt;
+    const auto returns = static_cast<double>(directions.all.size());
+    std::vector<std::int32_t> numbers;
+    std::vector<double> beams_deg;
+    std::vector<const std::vector<double>*> elevations_deg;
+    std::size_t on_rings = 0;
+    for (const auto& [ring, of_ring_deg] : directions.elevations_deg) {
+        if (ring < 0 || of_ring_deg.size() < kFewestOnRing) continue;
+        numbers.push_back(ring);
+        beams_deg.push_back(of_ring_deg[of_ring_deg.size() / 2]);
+        elevations_deg.push_back(&of_ring_deg);
+        on_rings += of_ring_deg.size();
+    }
+    if (numbers.size() < kFewestRings || numbers.size() > kMostBeams) return std::nullopt;
+    if (static_cast<double>(on_rings) < (1 - kMostOnOthers) * returns) return std::nullopt;
+    if (beams_deg.front() > beams_deg.back()) {
+        std::reverse(numbers.begin(), numbers.end());
+        std::reverse(beams_deg.begin(), beams_deg.end());
+        std::reverse(elevations_deg.begin(), elevations_deg.end());
+    }
+    for (std::size_t i = 1; i < beams_deg.size(); ++i) {
+        if (beams_deg[i] - beams_deg[i - 1] < kBin_deg) return std::nullopt;
+    }
+    const double share = static_cast<double>(closestToOwn(beams_deg, elevations_deg)) /
+                         static_cast<double>(on_rings);
+    if (share < kLeastShare) return std::nullopt;
+
+    RecoveredBeams recovered;
+    recovered.sensor = customSensorModel(beams_deg);
+    recovered.sensor.name = kRecoveredName;
+    recovered.seen_rad = recovered.sensor.elevations_rad;
+    if (auto model = modelWith(beams_deg)) recovered.sensor = std::move(*model);
+    recovered.most_columns = firingsOn(beams_deg, directions.all);
+    recovered.share = static_cast<float>(share);
+    recovered.sensor.min_range_m = 0.0f;
+    recovered.sensor.max_range_m = kFarthest_m;
+    recovered.row_of_ring.assign(
+        static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end())) + 1, -1);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        recovered.row_of_ring[static_cast<std::size_t>(numbers[i])] =
+            recovered.sensor.nearestRow(recovered.seen_rad[i]);
+    }
+    return recovered;
+}
+
+std::optional<RecoveredBeams> recoverBeams(const Scan& scan) {
+    const Directions directions = directionsOf(scan);
+    if (directions.size() < kFewestReturnsForBeams) return std::nullopt;
+    std::vector<double> ascending_deg = directions.elevation_deg;
+    std::sort(ascending_deg.begin(), ascending_deg.end());
+
+    const Beams beams = bestBeams(ascending_deg);
+    RecoveredBeams recovered;
+    if (beams.share >= kLeastShare) {
+        recovered.sensor = customSensorModel(beams.elevations_deg);
+        recovered.sensor.name = kRecoveredName;
+        recovered.seen_rad = recovered.sensor.elevations_rad;
+        if (auto model = modelWith(beams.elevations_deg)) recovered.sensor = std::move(*model);
+        recovered.most_columns = firingsOn(beams.elevations_deg, directions);
+    } else {
+        recovered = virtualRows(directions, ascending_deg);
+        recovered.sensor.name = kRecoveredName;
+    }
+    recovered.share = static_cast<float>(beams.share);
+    recovered.sensor.min_range_m = 0.0f;
+    recovered.sensor.max_range_m = kFarthest_m;
+    return recovered;
+}
+
+}  // namespace hagen

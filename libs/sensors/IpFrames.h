@@ -1,0 +1,44 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace hagen::sensors {
+
+/// Bytes of a frame, read in network order (most significant byte first).
+struct Bytes {
+    const std::uint8_t* data = nullptr;
+    std::size_t size = 0;
+
+    unsigned at8(std::size_t i) const { return data[i]; }
+    unsigned at16(std::size_t i) const { return at8(i) << 8 | at8(i + 1); }
+    std::uint32_t at32(std::size_t i) const { return std::uint32_t{at16(i)} << 16 | at16(i + 2); }
+    /// The bytes from `i` on; none if there are fewer.
+    Bytes from(std::size_t i) const { return i > size ? Bytes{} : Bytes{data + i, size - i}; }
+    Bytes first(std::size_t count) const { return {data, count < size ? count : size}; }
+};
+
+/// An IPv4 packet with UDP content, or a part of one.
+struct IpPacket {
+    enum class Kind {
+        Udp,    ///< `content` is (a part of) a UDP datagram
+        Other,  ///< other traffic
+        Cut     ///< shorter than its header says
+    };
+    Kind kind = Kind::Other;
+    bool is_tagged = false;  ///< the frame has a VLAN tag
+    std::uint32_t from_ip = 0, to_ip = 0;
+    std::uint16_t id = 0;    ///< of all fragments of a datagram
+    std::size_t offset = 0;  ///< of the content in the datagram, bytes
+    bool has_more = false;   ///< fragments follow
+    Bytes content;
+
+    bool isFragment() const { return has_more || offset > 0; }
+};
+
+/// Whether frames of this link type (DLT_* of libpcap) can be read.
+bool isKnownLink(int link_type);
+
+/// The IP packet in a frame of this link type.
+IpPacket readFrame(int link_type, Bytes frame);
+
+}  // namespace hagen::sensors

@@ -1,0 +1,34 @@
+#pragma once
+#include <hagen/scan/Scan.h>
+#include <hagen/sensors/CaptureFile.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hagen::sensors {
+
+/// The header of a point packet of Livox SDK 2.
+struct LivoxPacket {
+    const std::uint8_t* points = nullptr;
+    std::size_t count = 0;
+    std::size_t point_bytes = 0;  ///< 14: millimetres; 8: centimetres
+    double point_interval_s = 0;  ///< from one point to the next
+    std::uint16_t number = 0;     ///< of the packet; it wraps
+    std::uint64_t time_ns = 0;    ///< of its first point, by the sensor's clock
+};
+
+/// The packet in a datagram; none if it is something else. Spherical data are not supported.
+std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram);
+
+/// Whether a datagram is a packet of the IMU: rates and accelerations, which are no attitude.
+bool isLivoxImu(const Datagram& datagram);
+
+/// Appends its points, with times since `start_ns`, and the tag of each, which tells how sure the
+/// sensor is of it. Points without a range, which are at the origin, are left out. Beams are not
+/// located.
+void appendPoints(const LivoxPacket& packet, std::uint64_t start_ns, Scan& scan,
+                  std::vector<std::uint8_t>& tags);
+
+}  // namespace hagen::sensors

@@ -1,0 +1,342 @@
+#include <hagen/base/ReadFile.h>
+#include <hagen/sensors/OusterSensor.h>
+
+#include <hagen/base/FileKind.h>
+#include <hagen/base/Json.h>
+#include <hagen/base/NumberText.h>
+#include <hagen/scan/Angle.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+
+namespace hagen::sensors {
+namespace {
+
+using base::Json;
+
+constexpr std::size_t kLegacyColumnHeader = 16, kLegacyColumnFooter = 4;
+constexpr std::size_t kColumnHeader = 12, kPacketHeader = 32, kPacketFooter = 32;
+
+const std::vector<OusterProfile>& profiles() {
+    static const std::vector<OusterProfile> known{
+        {"LEGACY", true, 12, 0xfffff, 0.001f, 4, 0, 0},
+        {"RNG19_RFL8_SIG16_NIR16", false, 12, 0x7ffff, 0.001f, 4, 0, 0},
+        {"RNG19_RFL8_SIG16_NIR16_DUAL", false, 16, 0x7ffff, 0.001f, 3, 4, 7},
+        {"RNG19_RFL8_SIG16_NIR16_ZONE16", false, 12, 0x7ffff, 0.001f, 4, 0, 0},
+        {"RNG15_RFL8_NIR8", false, 4, 0x7fff, 0.008f, 2, 0, 0},
+        {"RNG15_RFL8_WIN8", false, 4, 0x7fff, 0.008f, 2, 0, 0},
+        {"RNG15_RFL8_NIR8_ZONE16", false, 8, 0x7fff, 0.008f, 2, 0, 0},
+        {"RNG15_RFL8_NIR8_DUAL", false, 8, 0x7fff, 0.008f, 2, 4, 6},
+        {"FUSA_RNG15_RFL8_NIR8_DUAL", false, 8, 0x7fff, 0.008f, 2, 4, 6},
+        {"FIVE_WORD_PIXEL", false, 20, 0x7ffff, 0.001f, 3, 4, 7}};
+    return known;
+}
+
+/// Reads a value; errors name its key.
+template <class Read>
+auto named(const std::string& key, Read read) {
+    try {
+        return read();
+    } catch (const std::runtime_error& e) {
+        throw std::runtime_error("'" + key + "': " + e.what());
+    }
+}
+
+/// Metadata as read: keys are at the top or, since firmware 3, in sections.
+class Metadata {
+ public:
+    explicit Metadata(const Json& json) : json_(json) {}
+
+    const Json* find(const std::string& key) const {
+        if (const Json* found = json_.find(key)) return found;
+        for (const char* section : {"sensor_info", "beam_intrinsics", "lidar_intrinsics",
+                                    "lidar_data_format", "data_format", "config_params"}) {
+            const Json* const in = json_.find(section);
+            const Json* const found = in == nullptr ? nullptr : in->find(key);
+            if (found != nullptr) return found;
+        }
+        return nullptr;
+    }
+    const Json& at(const std::string& key) const {
+        if (const Json* found = find(key)) return *found;
+        throw std::runtime_error("the key '" + key + "' is missing");
+    }
+    std::string text(const std::string& key) const {
+        const Json* const found = find(key);
+        return found == nullptr ? "" : named(key, [&] { return found->text(); });
+    }
+    std::string requiredText(const std::string& key) const {
+        at(key);
+        return text(key);
+    }
+    double number(const std::string& key) const {
+        return named(key, [&] { return at(key).number(); });
+    }
+    std::size_t items(const std::string& key) const {
+        return named(key, [&] { return at(key).items().size(); });
+    }
+    /// An integer within limits.
+    std::size_t count(const std::string& key, std::size_t least, std::size_t most) const {
+        const Json& found = at(key);
+        const std::uint64_t value = named(key, [&] { return found.count(); });
+        if (value < least || value > most) {
+            throw std::runtime_error("'" + key + "' is " + std::to_string(value) + ", not " +
+                                     std::to_string(least) + " ... " + std::to_string(most));
+        }
+        return static_cast<std::size_t>(value);
+    }
+    /// Numbers, all within +-`most`.
+    std::vector<double> numbers(const std::string& key, std::size_t count, double most) const {
+        const Json& found = at(key);
+        std::vector<double> values = named(key, [&] { return found.numbers(); });
+        if (values.size() != count) {
+            throw std::runtime_error("'" + key + "' has " + std::to_string(values.size()) +
+                                     " numbers, not " + std::to_string(count));
+        }
+        for (const double value : values) {
+            if (std::abs(value) <= most) continue;  // false for NaN
+            throw std::runtime_error("'" + key + "' has a number outside +-" +
+                                     std::to_string(static_cast<int>(most)));
+        }
+        return values;
+    }
+
+ private:
+    const Json& json_;
+};
+
+/// The number of columns from a mode like "1024x10".
+std::size_t columnsOfMode(const std::string& mode) {
+    for (const std::size_t columns : {512, 1024, 2048, 4096}) {
+        if (mode.rfind(std::to_string(columns) + "x", 0) == 0) return columns;
+    }
+    throw std::runtime_error("'lidar_mode' is '" + mode + "', not like '1024x10'");
+}
+
+/// From a mode like "1024x10": turns per second; 0: it is none.
+double turnTimeOfMode(const Metadata& metadata) {
+    const Json* const found = metadata.find("lidar_mode");
+    if (found == nullptr || !found->isText()) return 0;
+    const std::string mode = found->text();
+    const std::size_t at = mode.find('x');
+    const auto turns =
+        at == std::string::npos ? std::nullopt : base::numberFrom<unsigned>(mode.substr(at + 1));
+    return turns && *turns > 0 && *turns <= 100 ? 1.0 / *turns : 0;
+}
+
+const OusterProfile& profileNamed(const std::string& name) {
+    std::string known;
+    for (const OusterProfile& profile : profiles()) {
+        if (profile.name == name) return profile;
+        known += (known.empty() ? "" : ", ") + profile.name;
+    }
+    throw std::runtime_error("'udp_profile_lidar' is '" + name + "', which is not supported; " +
+                             "known are " + known +
+                             ". Set one of these in the sensor's configuration and record again");
+}
+
+/// Metadata before firmware 3.2 do not name the header: then the profile tells.
+bool hasFusaHeader(const Metadata& metadata, const OusterProfile& profile) {
+    if (profile.is_legacy) return false;
+    const std::string header = metadata.text("header_type");
+    if (header.empty()) return profile.name.rfind("FUSA_", 0) == 0;
+    if (header == "FUSA" || header == "STANDARD") return header == "FUSA";
+    throw std::runtime_error("'header_type' is '" + header + "', not 'STANDARD' or 'FUSA'");
+}
+
+void readFormat(const Metadata& metadata, OusterSensor& sensor) {
+    constexpr std::size_t kMostColumns = 4096, kMostBeams = 256;
+    const bool has_format = metadata.find("pixels_per_column") != nullptr;
+    sensor.pixels = has_format ? metadata.count("pixels_per_column", 3, kMostBeams)
+                               : metadata.items("beam_altitude_angles");
+    if (sensor.pixels < 3 || sensor.pixels > kMostBeams) {
+        throw std::runtime_error("'beam_altitude_angles' has " + std::to_string(sensor.pixels) +
+                                 " numbers, not 3 ... 256");
+    }
+    sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMostColumns)
+                                          : columnsOfMode(metadata.requiredText("lidar_mode"));
+    sensor.turn_s = turnTimeOfMode(metadata);
+    const std::size_t most_of_packet = std::min<std::size_t>(64, sensor.columns_per_frame);
+    sensor.columns_per_packet =
+        has_format ? metadata.count("columns_per_packet", 1, most_of_packet) : 16;
+    const std::string profile = metadata.text("udp_profile_lidar");
+    sensor.profile = profileNamed(profile.empty() ? "LEGACY" : profile);
+    sensor.has_fusa_header = hasFusaHeader(metadata, sensor.profile);
+    sensor.first_column = 0;
+    sensor.last_column = sensor.columns_per_frame - 1;
+    if (metadata.find("column_window") == nullptr) return;
+    const std::vector<double> window =
+        metadata.numbers("column_window", 2, static_cast<double>(sensor.last_column));
+    sensor.first_column = static_cast<std::size_t>(std::max(0.0, window[0]));
+    sensor.last_column = static_cast<std::size_t>(std::max(0.0, window[1]));
+}
+
+void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
+    const auto in_radians = [&](const std::string& key, double most_deg) {
+        std::vector<double> angles = metadata.numbers(key, sensor.pixels, most_deg);
+        for (double& angle : angles) angle = radians(angle);
+        return angles;
+    };
+    sensor.altitude_rad = in_radians("beam_altitude_angles", 90);
+    sensor.azimuth_rad = in_radians("beam_azimuth_angles", 360);
+    for (double& azimuth_rad : sensor.azimuth_rad) azimuth_rad = -azimuth_rad;  // clockwise there
+    if (metadata.find("beam_to_lidar_transform") != nullptr) {
+        const std::vector<double> to_lidar = metadata.numbers("beam_to_lidar_transform", 16, 1000);
+        sensor.beam_origin_m = 1e-3 * to_lidar[3];
+        sensor.beam_origin_up_m = 1e-3 * to_lidar[11];
+    } else if (metadata.find("lidar_origin_to_beam_origin_mm") != nullptr) {
+        const double origin_mm = metadata.number("lidar_origin_to_beam_origin_mm");
+        if (!(std::abs(origin_mm) <= 1000)) {
+            throw std::runtime_error("'lidar_origin_to_beam_origin_mm' is not within a metre");
+        }
+        sensor.beam_origin_m = 1e-3 * origin_mm;
+    }
+    // As all sensors have it, unless the metadata say otherwise.
+    std::vector<double> to_sensor{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36.18, 0, 0, 0, 1};
+    if (metadata.find("lidar_to_sensor_transform") != nullptr) {
+        to_sensor = metadata.numbers("lidar_to_sensor_transform", 16, 1000);
+    }
+    for (int i = 0; i < 12; ++i) {
+        const double scale = i % 4 == 3 ? 1e-3 : 1.0;
+        sensor.lidar_to_sensor.matrix()(i / 4, i % 4) = scale * to_sensor[i];
+    }
+    const Eigen::Matrix3d rotation = sensor.lidar_to_sensor.linear();
+    if (!(rotation * rotation.transpose()).isIdentity(1e-3)) {
+        throw std::runtime_error("'lidar_to_sensor_transform' is not a rigid transformation");
+    }
+    // Rows and the direction of the sweep would be others. A mount belongs into the settings.
+    if (!(rotation(2, 2) > 0.999) || !(rotation.determinant() > 0)) {
+        throw std::runtime_error("'lidar_to_sensor_transform' does more than turn about z");
+    }
+}
+
+/// The rows of the pixels, and the beams as a sensor.
+void sortBeams(OusterSensor& sensor) {
+    std::vector<std::size_t> by_altitude(sensor.pixels);
+    std::iota(by_altitude.begin(), by_altitude.end(), std::size_t{0});
+    std::sort(by_altitude.begin(), by_altitude.end(), [&](std::size_t a, std::size_t b) {
+        return sensor.altitude_rad[a] < sensor.altitude_rad[b];
+    });
+    sensor.row.resize(sensor.pixels);
+    std::vector<double> elevations_deg;
+    for (std::size_t row = 0; row < sensor.pixels; ++row) {
+        sensor.row[by_altitude[row]] = static_cast<std::uint8_t>(row);
+        elevations_deg.push_back(degrees(sensor.altitude_rad[by_altitude[row]]));
+    }
+    SensorModel model;
+    try {
+        model = customSensorModel(elevations_deg);
+    } catch (const std::invalid_argument& e) {
+        throw std::runtime_error("'beam_altitude_angles': " + std::string(e.what()));
+    }
+    model.name = sensor.name;
+    const bool is_os0 = sensor.name.rfind("OS-0", 0) == 0,
+               is_os1 = sensor.name.rfind("OS-1", 0) == 0;
+    model.min_range_m = is_os0 ? 0.3f : 0.5f;
+    model.max_range_m = is_os0 ? 100.0f : is_os1 ? 200.0f : 500.0f;
+    sensor.model = std::make_shared<const SensorModel>(std::move(model));
+}
+
+constexpr std::size_t kMostBytes = 1 << 20;
+
+std::string readText(const std::filesystem::path& file) {
+    std::ifstream stream = base::openToRead(file);
+    std::string text(kMostBytes + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    return text;
+}
+
+/// Checks a text before it is parsed.
+void checkText(const std::string& text) {
+    if (text.empty()) throw std::runtime_error("is empty");
+    const base::FileKind kind = base::kindOfBytes(text.substr(0, base::kFileKindBytes));
+    const bool is_text = kind.what.rfind("text", 0) == 0;
+    if (!kind.what.empty() && !is_text) throw std::runtime_error(kind.text());
+    if (text.size() > kMostBytes) throw std::runtime_error("is larger than 1 MB");
+}
+
+}  // namespace
+
+std::size_t OusterSensor::columnBytes() const {
+    return profile.is_legacy
+               ? kLegacyColumnHeader + pixels * profile.pixel_bytes + kLegacyColumnFooter
+               : kColumnHeader + pixels * profile.pixel_bytes;
+}
+
+std::size_t OusterSensor::packetBytes() const {
+    return columns_per_packet * columnBytes() +
+           (profile.is_legacy ? 0 : kPacketHeader + kPacketFooter);
+}
+
+std::size_t OusterSensor::windowColumns() const {
+    return (last_column + columns_per_frame - first_column) % columns_per_frame + 1;
+}
+
+const std::uint8_t* OusterSensor::columnOf(const std::uint8_t* packet, std::size_t column) const {
+    return packet + (profile.is_legacy ? 0 : kPacketHeader) + column * columnBytes();
+}
+
+bool OusterSensor::isValid(const std::uint8_t* column) const {
+    if (!profile.is_legacy) return (column[10] & 1) != 0;
+    const std::uint8_t* const footer = column + columnBytes() - kLegacyColumnFooter;
+    return std::all_of(footer, footer + kLegacyColumnFooter,
+                       [](std::uint8_t byte) { return byte == 0xff; });
+}
+
+bool isOfLidar(const std::uint8_t* packet, const OusterSensor& sensor) {
+    if (sensor.profile.is_legacy) return true;
+    return packet[0] == 1 && (sensor.has_fusa_header || packet[1] == 0);
+}
+
+std::uint64_t serialOf(const std::uint8_t* packet, const OusterSensor& sensor) {
+    if (sensor.profile.is_legacy) return 0;
+    const std::size_t at = sensor.has_fusa_header ? 11 : 7;
+    std::uint64_t serial = 0;
+    for (std::size_t i = 0; i < 5; ++i) serial |= std::uint64_t{packet[at + i]} << (8 * i);
+    return serial;
+}
+
+std::uint16_t frameIdOf(const std::uint8_t* packet, const OusterSensor& sensor) {
+    const std::size_t at = sensor.profile.is_legacy ? 10 : sensor.has_fusa_header ? 4 : 2;
+    return static_cast<std::uint16_t>(packet[at] | packet[at + 1] << 8);
+}
+
+std::optional<std::uint32_t> initializationOf(const std::uint8_t* packet,
+                                              const OusterSensor& sensor) {
+    if (sensor.profile.is_legacy) return std::nullopt;
+    const std::size_t at = sensor.has_fusa_header ? 1 : 4;
+    return packet[at] | std::uint32_t{packet[at + 1]} << 8 | std::uint32_t{packet[at + 2]} << 16;
+}
+
+OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) {
+    try {
+        checkText(text);
+        const Json json = Json::parse(text);
+        const Metadata metadata(json);
+        if (metadata.find("beam_altitude_angles") == nullptr) {
+            throw std::runtime_error(
+                "the key 'beam_altitude_angles' is missing; is it an Ouster's metadata?");
+        }
+        OusterSensor sensor;
+        sensor.name = metadata.text("prod_line");
+        if (sensor.name.empty()) sensor.name = "Ouster";
+        sensor.serial = metadata.text("prod_sn");
+        readFormat(metadata, sensor);
+        readGeometry(metadata, sensor);
+        sortBeams(sensor);
+        return sensor;
+    } catch (const std::exception& e) {
+        throw std::runtime_error(origin + ": not metadata of an Ouster: " + e.what());
+    }
+}
+
+OusterSensor readOusterSensor(const std::filesystem::path& file) {
+    return ousterSensorOf(readText(file), file.string());
+}
+
+}  // namespace hagen::sensors

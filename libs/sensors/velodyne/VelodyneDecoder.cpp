@@ -1,0 +1,364 @@
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/MostReturns.h>
+#include <hagen/sensors/VelodyneDecoder.h>
+#include <hagen/sensors/VelodyneModel.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sensors/velodyne/VelodyneReturns.h"
+
+namespace hagen::sensors {
+namespace {
+
+constexpr int kBlocks = kVelodyneBlocks;
+constexpr int kTurn = kReadingsOfTurn;  // 0.01 degrees
+constexpr double kHourUs = 3600e6;
+constexpr double kMostAzimuth_deg = 1e6;  // far beyond, what is left of a turn is not exact
+
+/// A packet, read byte by byte.
+class Packet {
+ public:
+    explicit Packet(const std::uint8_t* bytes) : bytes_(bytes) {}
+
+    bool isValid(int block) const {
+        return number(block * kVelodyneBlockBytes, 2) == kUpperBlock && azimuth(block) < kTurn;
+    }
+    bool isLower(int block) const {
+        return number(block * kVelodyneBlockBytes, 2) == kLowerBlock && azimuth(block) < kTurn;
+    }
+    int azimuth(int block) const {
+        return static_cast<int>(number(block * kVelodyneBlockBytes + 2, 2));
+    }
+    const std::uint8_t* returns(int block) const {
+        return bytes_ + block * kVelodyneBlockBytes + 4;
+    }
+    unsigned time_us() const { return number(static_cast<int>(kVelodyneTimeAt), 4); }
+    int blocksPerFiring() const { return bytes_[kVelodyneModeAt] == kDualReturn ? 2 : 1; }
+    std::uint8_t modelId() const { return bytes_[kVelodyneModelAt]; }
+
+ private:
+    unsigned number(int at, int bytes) const {
+        unsigned value = 0;
+        for (int i = 0; i < bytes; ++i) value |= unsigned{bytes_[at + i]} << (8 * i);
+        return value;
+    }
+
+    const std::uint8_t* bytes_;
+};
+
+/// From one time of a packet to another: within half an hour, since they wrap around every hour. A
+/// packet that was recorded out of order is before the first, not an hour after it.
+double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
+
+/// The sine and cosine of an angle.
+struct SineCosine {
+    double sine, cosine;
+
+    explicit SineCosine(double angle_rad)
+        : sine(std::sin(angle_rad)), cosine(std::cos(angle_rad)) {}
+};
+
+/// Directions of all azimuth readings, from tables of whole degrees and of hundredths, which fit in
+/// the first-level cache.
+class ReadingDirections {
+ public:
+    ReadingDirections() {
+        for (int i = 0; i < 360; ++i) degrees_.emplace_back(100 * i * kRadiansPerReading - kPi);
+        for (int i = 0; i < 100; ++i) hundredths_.emplace_back(i * kRadiansPerReading);
+    }
+
+    /// Sets a block's direction from its reading.
+    void setDirection(int reading, VelodyneBlock& block) const {
+        const int from_behind = reading < kTurn / 2 ? reading + kTurn / 2 : reading - kTurn / 2;
+        const SineCosine& a = degrees_[from_behind / 100];
+        const SineCosine& b = hundredths_[from_behind % 100];
+        block.sine = static_cast<float>(a.sine * b.cosine + a.cosine * b.sine);
+        block.cosine = static_cast<float>(a.cosine * b.cosine - a.sine * b.sine);
+        block.azimuth_rad = static_cast<float>(kPi - from_behind * kRadiansPerReading);
+        block.reading_from_behind = static_cast<float>(from_behind);
+    }
+
+ private:
+    std::vector<SineCosine> degrees_, hundredths_;
+};
+
+std::string hex(unsigned value) {
+    char text[8];
+    std::snprintf(text, sizeof text, "0x%02x", value);
+    return text;
+}
+
+bool areOfHdl64(const VelodynePackets& packets) { return isOfHdl64(packets.at(0)); }
+
+/// Returns a scan's own calibration. Throws std::runtime_error if it is none: a laser that points
+/// nowhere, or far offsets, would place returns nowhere.
+const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
+    const auto& lasers = calibration.lasers;
+    for (std::size_t i = 0; i < lasers.size(); ++i) {
+        const auto& laser = lasers[i];
+        const double length = std::hypot(laser.elevation_sine, laser.elevation_cosine);
+        const auto isOffset = [](double offset_m) {
+            return std::abs(offset_m) <= kMostCorrection_m;
+        };
+        if (std::abs(length - 1) < 0.01 && std::abs(laser.azimuth_deg) <= kMostAzimuth_deg &&
+            isOffset(laser.distance_m) && isOffset(laser.vertical_offset_m) &&
+            isOffset(laser.horizontal_offset_m)) {
+            continue;
+        }
+        throw std::runtime_error("the scan's own calibration is corrupt: laser " +
+                                 std::to_string(i) + " has no direction, or offsets beyond " +
+                                 std::to_string(std::lround(kMostCorrection_m)) + " m");
+    }
+    return calibration;
+}
+
+const VelodyneCalibration& checkedOfHdl64(const VelodyneCalibration& calibration) {
+    const auto lasers = static_cast<std::size_t>(hdl64Model().lasers);
+    if (calibration.lasers.size() == lasers) return checked(calibration);
+    throw std::runtime_error(
+        "packets of an HDL-64E need its calibration, with 64 lasers, which the "
+        "scan does not have");
+}
+
+const VelodyneModel& modelOf(const VelodynePackets& packets, std::size_t packet) {
+    const std::uint8_t id = Packet(packets.at(packet)).modelId();
+    const VelodyneModel* model = findVelodyneModel(id);
+    if (model == nullptr) {
+        throw std::runtime_error("packet " + std::to_string(packet) + ": unknown model id " +
+                                 hex(id) + "; known are" + knownVelodynes());
+    }
+    if (id != Packet(packets.at(0)).modelId()) {
+        throw std::runtime_error("packet " + std::to_string(packet) + ": model id " + hex(id) +
+                                 " differs from the first packet's");
+    }
+    return *model;
+}
+
+const VelodyneCalibration& calibrationOf(const VelodyneModel& model,
+                                         const VelodyneCalibration& own) {
+    const bool has_own = own.lasers.size() == static_cast<std::size_t>(model.lasers);
+    return has_own ? checked(own) : defaultCalibration(model);
+}
+
+/// Returns the rotation of the sensor from one firing's block to the next, in 0.01 degrees: the
+/// median over the scan, so that neither rounded azimuths nor a broken block shift returns. It does
+/// not turn back: a motor that hardly turns has readings that do.
+int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
+    turns.clear();
+    for (std::size_t p = 0; p < packets.count; ++p) {
+        const Packet packet(packets.at(p));
+        const int step = packet.blocksPerFiring();
+        for (int b = 0; b + step < kBlocks; ++b) {
+            if (!packet.isValid(b) || !packet.isValid(b + step)) continue;
+            int turn = packet.azimuth(b + step) - packet.azimuth(b);
+            if (turn <= -kTurn / 2) turn += kTurn;
+            if (turn > kTurn / 2) turn -= kTurn;
+            turns.push_back(turn);
+        }
+    }
+    if (turns.empty()) return 0;
+    const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
+    std::nth_element(turns.begin(), middle, turns.end());
+    return std::max(*middle, 0);
+}
+
+BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const VelodyneModel& model,
+                            int turn_of_blocks) {
+    BlockOffsets places;
+    places.distance_unit_m = model.distance_unit_m;
+    for (int i = 0; i < static_cast<int>(kReturnsOfBlock); ++i) {
+        const int laser = i % model.lasers;
+        const auto& correction = calibration.lasers[laser];
+        const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
+        const double turn_reading =
+            std::remainder(turn_of_blocks * turn_in_block - 100.0 * correction.azimuth_deg, kTurn);
+        const SineCosine turn(turn_reading * kRadiansPerReading);
+        places.turn_sine[i] = static_cast<float>(turn.sine);
+        places.turn_cosine[i] = static_cast<float>(turn.cosine);
+        places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
+        places.turn_reading[i] = static_cast<float>(turn_reading);
+        places.time_s[i] = static_cast<float>(1e-6 * turn_in_block * model.blockPeriodUs());
+        places.elevation_sine[i] = static_cast<float>(correction.elevation_sine);
+        places.elevation_cosine[i] = static_cast<float>(correction.elevation_cosine);
+        places.distance_m[i] = static_cast<float>(correction.distance_m);
+        places.up_m[i] = static_cast<float>(correction.vertical_offset_m);
+        places.forward_m[i] = places.up_m[i] * places.elevation_sine[i];
+        places.sideways_m[i] = static_cast<float>(correction.horizontal_offset_m);
+        places.row[i] = rowOfLaser(calibration, laser);
+    }
+    const auto [least, most] =
+        std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
+    places.least_turn_reading = *least;
+    places.most_turn_reading = *most;
+    return places;
+}
+
+/// The lasers of an upper or lower block of an HDL-64E, which count as fired at once.
+BlockOffsets hdl64Offsets(const VelodyneCalibration& calibration, bool is_lower) {
+    BlockOffsets places{};
+    places.distance_unit_m = hdl64Model().distance_unit_m;
+    for (std::size_t i = 0; i < kReturnsOfBlock; ++i) {
+        const std::size_t laser = i + (is_lower ? kReturnsOfBlock : 0);
+        const auto& correction = calibration.lasers[laser];
+        const double turn_reading = std::remainder(-100.0 * correction.azimuth_deg, kTurn);
+        const SineCosine turn(turn_reading * kRadiansPerReading);
+        places.turn_sine[i] = static_cast<float>(turn.sine);
+        places.turn_cosine[i] = static_cast<float>(turn.cosine);
+        places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
+        places.turn_reading[i] = static_cast<float>(turn_reading);
+        const double sine = correction.elevation_sine, cosine = correction.elevation_cosine;
+        const double offset_m = correction.vertical_offset_m;
+        places.elevation_sine[i] = static_cast<float>(sine);
+        places.elevation_cosine[i] = static_cast<float>(cosine);
+        places.distance_m[i] = static_cast<float>(correction.distance_m);
+        places.up_m[i] = static_cast<float>(offset_m * cosine);
+        places.forward_m[i] = static_cast<float>(-offset_m * sine);
+        places.sideways_m[i] = static_cast<float>(correction.horizontal_offset_m);
+        places.row[i] = rowOfLaser(calibration, laser);
+    }
+    const auto [least, most] =
+        std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
+    places.least_turn_reading = *least;
+    places.most_turn_reading = *most;
+    return places;
+}
+
+/// Collects the valid blocks of a scan; returns the number of invalid ones.
+std::size_t collectBlocks(const VelodynePackets& packets, const VelodyneModel& model,
+                          std::vector<VelodyneBlock>& blocks) {
+    static const ReadingDirections directions;
+    const unsigned first_us = Packet(packets.at(0)).time_us();
+    blocks.resize(packets.count * kBlocks);
+    VelodyneBlock* next = blocks.data();
+    for (std::size_t p = 0; p < packets.count; ++p) {
+        const Packet packet(packets.at(p));
+        const double packet_us = elapsedUs(first_us, packet.time_us());
+        for (int b = 0; b < kBlocks; ++b) {
+            if (!packet.isValid(b)) continue;
+            const int firing = b / packet.blocksPerFiring();
+            const double block_us = packet_us + firing * model.blockPeriodUs();
+            VelodyneBlock& block = *next++;
+            block.returns = packet.returns(b);
+            block.time_s = static_cast<float>(1e-6 * block_us);
+            directions.setDirection(packet.azimuth(b), block);
+        }
+    }
+    blocks.resize(next - blocks.data());
+    return packets.count * kBlocks - blocks.size();
+}
+
+/// Equals beamSpan() of the sensor that sensorOf() returns, without its memory.
+BeamSpan beamSpan(const VelodyneCalibration& calibration) {
+    const auto isLower = [](const auto& a, const auto& b) {
+        return a.elevation_sine < b.elevation_sine;
+    };
+    const auto& lasers = calibration.lasers;
+    const auto [lowest, highest] = std::minmax_element(lasers.begin(), lasers.end(), isLower);
+    const auto elevation = [](const auto& laser) {
+        return static_cast<float>(std::atan2(laser.elevation_sine, laser.elevation_cosine));
+    };
+    return {static_cast<int>(lasers.size()), elevation(*lowest), elevation(*highest)};
+}
+
+void resize(std::size_t returns, Scan& scan) {
+    for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity, &scan.range_m,
+                         &scan.azimuth_rad, &scan.time_s}) {
+        values->resize(returns);
+    }
+    scan.row.resize(returns);
+}
+
+ReturnArrays arraysFrom(std::size_t first, Scan& scan) {
+    return {scan.x_m.data() + first,     scan.y_m.data() + first,
+            scan.z_m.data() + first,     scan.intensity.data() + first,
+            scan.range_m.data() + first, scan.azimuth_rad.data() + first,
+            scan.time_s.data() + first,  scan.row.data() + first};
+}
+
+/// Decodes packets of an HDL-64E, a block after the other.
+std::size_t decodeHdl64(const VelodynePackets& packets, const VelodyneCalibration& own, Scan& scan,
+                        DecoderWorkspace& work) {
+    static const ReadingDirections directions;
+    const VelodyneCalibration& calibration = checkedOfHdl64(own);
+    const BlockOffsets upper = hdl64Offsets(calibration, false);
+    const BlockOffsets lower = hdl64Offsets(calibration, true);
+    const double firing_us = 2 * hdl64Model().blockPeriodUs();
+    const unsigned first_us = Packet(packets.at(0)).time_us();
+    std::size_t returns = 0, unsound_blocks = 0;
+    resize(packets.count * kBlocks * kReturnsOfBlock + kPaddingReturns, scan);
+    work.blocks.resize(1);
+    VelodyneBlock& block = work.blocks.front();
+    for (std::size_t p = 0; p < packets.count; ++p) {
+        const Packet packet(packets.at(p));
+        const double packet_us = elapsedUs(first_us, packet.time_us());
+        for (int b = 0; b < kBlocks; ++b) {
+            if (!packet.isValid(b) && !packet.isLower(b)) {
+                ++unsound_blocks;
+                continue;
+            }
+            block.returns = packet.returns(b);
+            const int firing = b / 2;  // of two blocks, upper and lower
+            block.time_s = static_cast<float>(1e-6 * (packet_us + firing * firing_us));
+            directions.setDirection(packet.azimuth(b), block);
+            locateReturns(work.blocks, packet.isLower(b) ? lower : upper,
+                          arraysFrom(returns, scan));
+            returns += countReturns(work.blocks);
+        }
+    }
+    resize(returns, scan);
+    scan.beams = beamSpan(calibration);
+    return unsound_blocks;
+}
+
+}  // namespace
+
+void beamsOf(const VelodynePackets& packets, const VelodyneCalibration& calibration,
+             SensorModel& sensor) {
+    if (packets.count == 0) throw std::runtime_error("the scan has no packets");
+    if (areOfHdl64(packets)) {
+        sensor.name = hdl64Model().name;
+        beamsOf(checkedOfHdl64(calibration), sensor.elevations_rad);
+    } else {
+        const VelodyneModel& model = modelOf(packets, 0);
+        sensor.name = model.name;
+        beamsOf(calibrationOf(model, calibration), sensor.elevations_rad);
+    }
+}
+
+// Fast because the lasers of all blocks fire in the same pattern: blocks differ only in their first
+// direction. It is looked up in a table, and the pattern is rotated by it, one SIMD vector of
+// returns at a time (locateReturns).
+std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibration& own,
+                          Scan& scan, DecoderWorkspace& work) {
+    if (packets.count == 0) {
+        scan.clear();
+        return 0;
+    }
+    checkReturns(packets.count * kBlocks * kReturnsOfBlock);
+    if (areOfHdl64(packets)) return decodeHdl64(packets, own, scan, work);
+    const VelodyneModel& model = modelOf(packets, 0);
+    for (std::size_t p = 1; p < packets.count; ++p) {
+        modelOf(packets, p);  // throws for a packet of another model
+    }
+    const VelodyneCalibration& calibration = calibrationOf(model, own);
+    std::vector<VelodyneBlock>& blocks = work.blocks;
+    const std::size_t unsound_blocks = collectBlocks(packets, model, blocks);
+    const BlockOffsets places =
+        blockOffsetsOf(calibration, model, turnOfBlocks(packets, work.turns));
+
+    // Count first: growing arrays would be filled with zeros, which takes time.
+    const std::size_t returns = countReturns(blocks);
+    resize(returns + kPaddingReturns, scan);
+    locateReturns(blocks, places, arraysFrom(0, scan));
+    resize(returns, scan);
+    scan.beams = beamSpan(calibration);
+    return unsound_blocks;
+}
+
+}  // namespace hagen::sensors

@@ -1,0 +1,45 @@
+#pragma once
+#include <hagen/scan/Angle.h>
+#include <hagen/sensors/VelodyneBlock.h>
+#include <hagen/sensors/VelodynePacket.h>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hagen::sensors {
+
+/// A turn has one reading more than a full circle, see azimuthOfReadingDeg().
+constexpr double kRadiansPerReading = 2.0 * kPi / (kReadingsOfTurn - 1);
+
+/// Offsets of a return from the first return of its block: one entry per place in the block, the
+/// same for all blocks of a scan.
+struct BlockOffsets {
+    float distance_unit_m;  ///< of the distances in packets
+    float turn_sine[kReturnsOfBlock], turn_cosine[kReturnsOfBlock];  ///< clockwise
+    float turn_rad[kReturnsOfBlock];                                 ///< clockwise
+    float turn_reading[kReturnsOfBlock];                             ///< 0.01 degrees clockwise
+    float least_turn_reading, most_turn_reading;
+    float time_s[kReturnsOfBlock];
+    float elevation_sine[kReturnsOfBlock], elevation_cosine[kReturnsOfBlock];
+    float distance_m[kReturnsOfBlock];  ///< distance offset of the laser
+    /// Offset from the sensor's centre: upwards, towards the return due to the vertical offset, and
+    /// sideways.
+    float up_m[kReturnsOfBlock], forward_m[kReturnsOfBlock], sideways_m[kReturnsOfBlock];
+    std::uint8_t row[kReturnsOfBlock];
+};
+
+/// Output arrays of the returns, as in Scan.
+struct ReturnArrays {
+    float *x_m, *y_m, *z_m, *intensity, *range_m, *azimuth_rad, *time_s;
+    std::uint8_t* row;
+};
+
+/// Counts the returns of these blocks whose distance is not 0.
+std::size_t countReturns(const std::vector<VelodyneBlock>& blocks);
+
+/// Writes them in the order of the blocks. May write up to kPaddingReturns entries beyond the last.
+constexpr std::size_t kPaddingReturns = 8;
+void locateReturns(const std::vector<VelodyneBlock>& blocks, const BlockOffsets& places,
+                   const ReturnArrays& returns);
+
+}  // namespace hagen::sensors

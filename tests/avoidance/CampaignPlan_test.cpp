@@ -1,0 +1,161 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/avoidance/Calibration.h>
+#include <hagen/avoidance/CampaignPlan.h>
+#include <hagen/avoidance/WorldModel.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "support/Program.h"
+
+namespace hagen::avoidance {
+namespace {
+
+using test::messageOf;
+using testing::HasSubstr;
+
+TEST(CampaignPlan, FliesEveryCombinationOnce) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap", "street"};
+    plan.first_seed = 5;
+    plan.last_seed = 7;
+    plan.models = {"W-RoI", "oracle"};
+    plan.guidances = {"straight", "astar"};
+    plan.speeds_m_s = {4, 8};
+    const auto flights = flightsOf(plan);
+    ASSERT_EQ(flights.size(), 6u);
+    EXPECT_EQ(flights[0].setups.size(), 8u);
+    EXPECT_EQ(flights[0].seed, 5u);
+    EXPECT_EQ(flights[1].seed, 5u);
+    EXPECT_EQ(flights[1].scenario, "street");
+}
+
+TEST(CampaignPlan, EachOfItsListsVariesTheFlights) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap"};
+    plan.last_seed = plan.first_seed;
+    const std::vector<std::function<void(CampaignPlan&)>> doubled{
+        [](CampaignPlan& p) {
+            p.models = {"W-RoI", "oracle"};
+        },
+        [](CampaignPlan& p) {
+            p.guidances = {"straight", "astar"};
+        },
+        [](CampaignPlan& p) {
+            p.planners = {"primitives", p.planners.front()};
+        },
+        [](CampaignPlan& p) {
+            p.speeds_m_s = {4, 8};
+        },
+        [](CampaignPlan& p) {
+            p.pose_errors = {PoseError::None, PoseError::None};
+        },
+        [](CampaignPlan& p) {
+            p.latency_scales = {1, 2};
+        },
+        [](CampaignPlan& p) {
+            p.airs = {Air::Dusty, Air::Clear};
+        },
+        [](CampaignPlan& p) {
+            p.distances = {ModelDistance::Unbiased, ModelDistance::AsStored};
+        },
+        [](CampaignPlan& p) {
+            p.updates = {Updates::Scans, Updates::Sectors};
+        },
+    };
+    std::size_t setups = 1;
+    for (const auto& change : doubled) {
+        change(plan);
+        setups *= 2;
+        EXPECT_EQ(flightsOf(plan).at(0).setups.size(), setups);
+    }
+    plan.brakes_in_known_space = true;
+    const TrialSetup last = flightsOf(plan).at(0).setups.back();
+    EXPECT_EQ(last.model, "oracle");
+    EXPECT_EQ(last.guidance, "astar");
+    EXPECT_EQ(last.speed_m_s, 8);
+    EXPECT_EQ(last.latency_scale, 2);
+    EXPECT_EQ(last.air, Air::Clear);
+    EXPECT_EQ(last.distance, ModelDistance::AsStored);
+    EXPECT_EQ(last.updates, Updates::Sectors);
+    EXPECT_TRUE(last.brakes_in_known_space);
+}
+
+TEST(CampaignPlan, ShardsShareEverythingAndNothingTwice) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap", "street", "wires"};
+    plan.last_seed = 6;
+    std::vector<std::string> all, shards;
+    const auto note = [](const std::vector<CourseFlights>& flights, std::vector<std::string>& to) {
+        for (const auto& course : flights)
+            to.push_back(course.scenario + std::to_string(course.seed));
+    };
+    note(flightsOf(plan), all);
+    for (int number = 1; number <= 4; ++number) note(flightsOf(plan, {number, 4}), shards);
+    std::sort(all.begin(), all.end());
+    std::sort(shards.begin(), shards.end());
+    EXPECT_EQ(all, shards);
+}
+
+TEST(CampaignPlan, WhatCannotBeFlownIsNamed) {
+    CampaignPlan good;
+    good.scenarios = {"gap"};
+    const auto fails = [&](const std::function<void(CampaignPlan&)>& change, Shard shard = {}) {
+        CampaignPlan plan = good;
+        change(plan);
+        try {
+            flightsOf(plan, shard);
+        } catch (const std::invalid_argument& e) {
+            return std::string(e.what());
+        }
+        return std::string("nothing");
+    };
+    EXPECT_EQ(fails([](CampaignPlan&) {}), "nothing");
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.scenarios = {"moon"}; }), HasSubstr("'moon'"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.models = {"X"}; }), HasSubstr("W-RoI"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.first_seed = 3; }), HasSubstr("seed"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.speeds_m_s = {0}; }), HasSubstr("speed"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.updates.clear(); }), HasSubstr("update"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) { plan.last_seed = 1'000'000; }),
+                HasSubstr("at most 1000000 flights"));
+    EXPECT_THAT(fails([](CampaignPlan& plan) {
+                    plan.speeds_m_s.assign(100'000, 4);
+                    plan.latency_scales.assign(100'000, 1);
+                }),
+                HasSubstr("at most 1000000 flights"));
+    EXPECT_THAT(fails([](CampaignPlan&) {}, {5, 4}), HasSubstr("shard"));
+    EXPECT_THAT(fails([](CampaignPlan&) {}, {0, 4}), HasSubstr("shard"));
+}
+
+TEST(CampaignPlan, ModelsThatFollowObstaclesFlyWithWholeScansOnly) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap"};
+    for (const std::string& model : avoidance::worldModelNames()) {
+        plan.models = {model};
+        const bool follows = model.find("+motion") != std::string::npos && model[0] != 'o';
+        plan.updates = {Updates::Scans};
+        EXPECT_EQ(flightsOf(plan)[0].setups.size(), 1u) << model;
+        plan.updates = {Updates::Scans, Updates::Sectors};
+        try {
+            EXPECT_EQ(flightsOf(plan)[0].setups.size(), 2u) << model;
+            EXPECT_FALSE(follows) << model;
+        } catch (const std::invalid_argument& e) {
+            EXPECT_TRUE(follows) << model;
+            EXPECT_THAT(e.what(), HasSubstr(model));
+        }
+    }
+}
+
+TEST(CampaignPlan, AProfileWithoutAStageIsToldBeforeAnythingIsFlown) {
+    CampaignPlan plan;
+    plan.scenarios = {"gap"};
+    LatencyProfile profile = constantProfile(1);
+    checkProfile(profile, flightsOf(plan));
+    profile.quantiles_ms.erase("W-RoI/astar");
+    EXPECT_THAT(messageOf([&] { checkProfile(profile, flightsOf(plan)); }),
+                HasSubstr("W-RoI/astar"));
+}
+
+}  // namespace
+}  // namespace hagen::avoidance

@@ -1,0 +1,201 @@
+// What a replay shows: the recording, the true scene, the end.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <hagen/avoidance/Calibration.h>
+#include <hagen/avoidance/Ending.h>
+#include <hagen/avoidance/Replay.h>
+#include <hagen/mrpt/MrptScene.h>
+#include "SampleRuns.h"
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+using testing::HasSubstr;
+
+using namespace test;
+
+avoidance::Recording smallRecording() {
+    avoidance::Recording recording;
+    recording.run = test::runOf("gap", 1, "O-Full-0.4", "astar", kWon);
+    recording.is_same = true;
+    recording.ending = "reached the goal at 9.00 s";
+    recording.start_m = {5, 0, 2};
+    recording.goal_m = {45, 0, 2};
+    avoidance::RecordedStep step{};
+    step.roi_m = {{6, 0, 2}};
+    step.rou_m = {{7, 0, 0}, {8, 0, 0}};
+    step.motions = {{{{5, 0, 2}, {6, 0, 2}}, false}};
+    recording.steps = {step, step};
+    recording.track = {{{6, 2, 5}, 3, 0.5}};
+    recording.model = {{{6, 0, 2}, 0, 2}, {{9, 0, 2}, 0, 1}};
+    recording.model_edge_m = 0.4f;
+    return recording;
+}
+
+TEST(Replay, APageHoldsCentimetresFromTheStart) {
+    const std::string page = avoidance::replayPage(smallRecording());
+    // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
+    EXPECT_THAT(page, HasSubstr("\"track\":\"ZADIACwB\""));
+    EXPECT_THAT(page, HasSubstr("\"clearances\":\"MgA=\""));  // 50: 32 00
+    EXPECT_THAT(page, HasSubstr("\"ending\":\"reached the goal at 9.00 s\""));
+    EXPECT_THAT(page, HasSubstr("\"way_sizes\":[-2]"));  // not free
+    EXPECT_THAT(page, HasSubstr("<title>gap, seed 1, OctoMap 0.4 m, A*, 4 m/s: success</title>"));
+    EXPECT_THAT(avoidance::replayPage(avoidance::Recording{}), HasSubstr("\"steps\":[]"));
+}
+
+TEST(Replay, PageEscapesItsTexts) {
+    avoidance::Recording recording = smallRecording();
+    recording.run.scenario = "a & <b>";
+    recording.ending = "</script>";
+    const std::string page = avoidance::replayPage(recording);
+    EXPECT_THAT(page, HasSubstr("<title>a &amp; &lt;b>, seed 1"));
+    EXPECT_THAT(page, HasSubstr("\"ending\":\"\\u003c/script>\""));
+}
+
+TEST(Replay, CanBeEndedWhileItFlies) {
+    struct Interrupted {};
+    const avoidance::Run run = test::runOf("gap", 1, "W-RoI", "straight", test::kWon);
+    const auto profile = avoidance::constantProfile(1);
+    int steps = 0;
+    const auto endAtTheThird = [&] {
+        if (++steps == 3) throw Interrupted();
+    };
+    EXPECT_THROW(avoidance::record(run, profile, {}, endAtTheThird), Interrupted);
+}
+
+TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
+    const test::TemporaryFolder folder;
+    avoidance::writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
+    observations::Scene scene;
+    ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
+    const auto voxels = std::dynamic_pointer_cast<observations::viz::COctoMapVoxels>(
+        scene.getByName("obstacles of the model"));
+    ASSERT_NE(voxels, nullptr);
+    EXPECT_EQ(voxels->getVoxelCount(0), 1u);
+    const auto roi = std::dynamic_pointer_cast<observations::viz::CPointCloud>(
+        scene.getByName("last scan: regions of interest"));
+    ASSERT_NE(roi, nullptr);
+    EXPECT_EQ(roi->size(), 1u);
+    ASSERT_NE(scene.getByName("vehicle"), nullptr);
+    EXPECT_EQ(scene.getByName("vehicle")->getPose().x, 6);
+    avoidance::writeReplayScene(avoidance::Recording{}, folder / "empty.3Dscene", "empty");
+    // Blamed is the file that was asked for, not its temporary name.
+    EXPECT_EQ(test::messageOf([&] {
+                  avoidance::writeReplayScene({}, folder / "no/a.partial", "no/a.3Dscene");
+              }),
+              "no/a.3Dscene: cannot be written: No such file or directory");
+}
+
+/// A triangle that stands at x = 7 m and one that moves from there to 8 m in a step.
+avoidance::TrueScene smallScene() {
+    avoidance::TrueScene scene;
+    simulation::Shape triangle;
+    triangle.addTriangle({0, 0, 0}, {0.005f, 0, 0}, {0, 0, 0.01f});
+    scene.shapes = {triangle};
+    const Eigen::Affine3f here(Eigen::Translation3f(7, 0, 2)), there(Eigen::Translation3f(8, 0, 2));
+    scene.objects = {{simulation::ObjectClass::Tree, 1, 0, here}};
+    scene.movers = {{0, {here, there}}};
+    scene.ground = {{0, 0}, 2, 1, 1, {1.5}};
+    return scene;
+}
+
+TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
+    avoidance::Recording recording = smallRecording();
+    recording.scene = smallScene();
+    const std::string page = avoidance::replayPage(recording);
+    // Half centimetres: nine numbers, of which the fourth is 1 and the ninth 2.
+    EXPECT_THAT(page, HasSubstr("\"shapes\":[\"AAAAAAAAAQAAAAAAAAAAAAIA\"]"));
+    EXPECT_THAT(
+        page,
+        HasSubstr("{\"shape\":0,\"kind\":\"tree\",\"poses\":[[1.0,0.0,0.0,2.0,0.0,1.0,0.0,0.0,"
+                  "0.0,0.0,1.0,0.0]]}"));
+    EXPECT_THAT(
+        page,
+        HasSubstr(
+            "\"movers\":[{\"shape\":0,\"poses\":\"yAAAAAAAAAAsAQAAAAAAAA==\"}]"));     // 200 0 0 0,
+                                                                                       // 300 0 0 0
+    EXPECT_THAT(page, HasSubstr("\"along_x\":1,\"along_y\":1,\"heights\":\"zv8=\""));  // -50: CE FF
+}
+
+TEST(Replay, ASceneHoldsWhatTrulyStands) {
+    const test::TemporaryFolder folder;
+    avoidance::Recording recording = smallRecording();
+    recording.scene = smallScene();
+    recording.scene.ground = {{0, 0}, 2, 3, 2, {1.5, 2.5, 3.5, 1.5, 2.5, 3.5}};
+    avoidance::writeReplayScene(recording, folder / "a.3Dscene", "a");
+    observations::Scene scene;
+    ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
+    const auto truth = std::dynamic_pointer_cast<observations::viz::CSetOfTriangles>(
+        scene.getByName("true scene"));
+    ASSERT_NE(truth, nullptr);
+    EXPECT_EQ(truth->getTrianglesCount(), 2u);
+    // Six corners of a slope: seven lines along it.
+    const auto ground =
+        std::dynamic_pointer_cast<observations::viz::CSetOfLines>(scene.getByName("ground"));
+    ASSERT_NE(ground, nullptr);
+    EXPECT_EQ(ground->size(), 7u);
+    EXPECT_EQ(ground->getBoundingBox().max.z, 3.5f);
+}
+
+TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
+    const avoidance::Course course = avoidance::makeCourse("movers", 3);
+    const simulation::SceneContent& content = course.scene.content();
+    const avoidance::TrueScene seen = avoidance::trueSceneOf(course.scene, course.bounds_m, 3);
+    EXPECT_EQ(seen.objects.size() + 1, content.objects.size());
+    for (const simulation::SceneObject& object : seen.objects) {
+        EXPECT_NE(object.kind, simulation::ObjectClass::Terrain);
+        EXPECT_FALSE(seen.shapes[object.shape].triangles.empty());
+    }
+    ASSERT_EQ(seen.movers.size(), content.movers.size());
+    for (std::size_t i = 0; i < seen.movers.size(); ++i) {
+        EXPECT_FALSE(seen.shapes[seen.movers[i].shape].triangles.empty());  // rods, too
+        for (const double time_s : {0.0, 1.3, 2.99, 3.0}) {
+            const Eigen::Affine3f truly =
+                simulation::poseOf(content.movers[i], content.terrain, time_s);
+            const Eigen::Affine3f drawn = avoidance::poseAt(seen.movers[i], time_s);
+            EXPECT_LT((truly.translation() - drawn.translation()).norm(), 0.03f) << time_s;
+            EXPECT_TRUE(truly.linear().isApprox(drawn.linear(), 0.01f)) << time_s;
+        }
+    }
+    const avoidance::TrueScene::Ground& ground = seen.ground;
+    ASSERT_EQ(ground.heights_m.size(), std::size_t(ground.along_x * ground.along_y));
+    EXPECT_EQ(ground.heights_m[std::size_t(3 * ground.along_x + 5)],
+              content.terrain.height_m(ground.least_m.x() + 10, ground.least_m.y() + 6));
+}
+
+TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
+    const avoidance::Course course = avoidance::makeCourse("movers", 3);
+    avoidance::TrialResult result{};
+    result.time_s = 2.5;
+    result.outcome = kHit;
+    const Eigen::Vector3d start_m = course.start_m;
+    const double ground_m = course.scene.terrain().height_m(start_m.x(), start_m.y());
+    const std::string ground =
+        avoidance::endingOf(course, result, 4, {start_m.x(), start_m.y(), ground_m + 0.2});
+    EXPECT_EQ(ground.rfind("hit the ground at 2.50 s: 0.", 0), 0u) << ground;
+    EXPECT_THAT(ground, HasSubstr(" m from the vehicle's centre"));
+
+    const simulation::MovingObstacle& person = course.scene.content().movers.front();
+    const Eigen::Affine3f pose = simulation::poseOf(person, course.scene.terrain(), result.time_s);
+    const Eigen::Vector3f above_head = pose * Eigen::Vector3f(0, 0, 2);
+    const std::string moving = avoidance::endingOf(course, result, 4, above_head.cast<double>());
+    EXPECT_EQ(moving.rfind("hit a moving object at 2.50 s: 0.2", 0), 0u) << moving;
+
+    result.outcome = kWon;
+    EXPECT_EQ(avoidance::endingOf(course, result, 4, course.goal_m), "reached the goal at 2.50 s");
+    result.outcome = kLate;
+    EXPECT_EQ(avoidance::endingOf(course, result, 4, start_m),
+              "gave up for lack of progress at 2.50 s");
+    EXPECT_EQ(avoidance::endingOf(course, result, 4, {1000, 0, 2}), "left the course at 2.50 s");
+    // Three times 40 m at 4 m/s and 20 s are 50 s; at 2 m/s they are 80 s.
+    result.time_s = 50.5;
+    EXPECT_EQ(avoidance::endingOf(course, result, 4, start_m), "ran out of time at 50.50 s");
+    EXPECT_EQ(avoidance::endingOf(course, result, 2, start_m),
+              "gave up for lack of progress at 50.50 s");
+    EXPECT_EQ(avoidance::endingOf(course, result, 4, {1000, 0, 2}), "left the course at 50.50 s");
+}
+
+}  // namespace
+}  // namespace hagen

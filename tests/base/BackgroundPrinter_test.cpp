@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+#include <hagen/base/BackgroundPrinter.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <string>
+
+namespace hagen::base {
+namespace {
+
+using std::chrono::milliseconds;
+using To = BackgroundPrinter::To;
+
+TEST(BackgroundPrinter, PrintsInOrder) {
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    BackgroundPrinter printer;
+    for (int i = 0; i < 100; ++i) {
+        printer.print(i % 2 == 0 ? To::Output : To::Errors, std::to_string(i) + " ");
+    }
+    EXPECT_TRUE(printer.finish(std::chrono::seconds(60)));
+    printer.print(To::Output, "late");
+    std::string even, odd;
+    for (int i = 0; i < 100; ++i) (i % 2 == 0 ? even : odd) += std::to_string(i) + " ";
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), even);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), odd);
+}
+
+/// Standard error is a pipe that is full.
+class FullErrors {
+ public:
+    FullErrors() {
+        EXPECT_EQ(pipe(ends_), 0);
+        fcntl(ends_[1], F_SETPIPE_SZ, kPipe);
+        const std::string before(kPipe, '.');
+        EXPECT_EQ(write(ends_[1], before.data(), before.size()), kPipe);
+        usual_ = dup(STDERR_FILENO);
+        dup2(ends_[1], STDERR_FILENO);
+    }
+    ~FullErrors() { endAndRead(); }
+    static constexpr int kPipe = 4096;
+
+    int readEnd() const { return ends_[0]; }
+    /// From here on it is what it was. Returns what is in the pipe; threads that wait go on.
+    std::string endAndRead() {
+        if (usual_ < 0) return "";
+        dup2(usual_, STDERR_FILENO);
+        close(usual_);
+        usual_ = -1;
+        close(ends_[1]);
+        std::string rest, part(kPipe, '\0');
+        for (ssize_t size = 0; (size = read(ends_[0], part.data(), part.size())) > 0;) {
+            rest.append(part, 0, static_cast<std::size_t>(size));
+        }
+        close(ends_[0]);
+        return rest;
+    }
+
+ private:
+    int ends_[2]{}, usual_ = -1;
+};
+
+TEST(BackgroundPrinter, WaitsForNobodyAndSaysWhatItLeftOut) {
+    FullErrors errors;
+    {
+        BackgroundPrinter printer;
+        const std::size_t texts = BackgroundPrinter::kMostWaiting + 50;
+        for (std::size_t i = 0; i < texts; ++i) printer.print(To::Errors, "x\n");
+        printer.printIfIdle(To::Errors, "status\n");
+        std::string got(FullErrors::kPipe + 2 * 900, '\0');
+        for (std::size_t at = 0; at < got.size();) {
+            const ssize_t size = read(errors.readEnd(), got.data() + at, got.size() - at);
+            ASSERT_GT(size, 0);
+            at += static_cast<std::size_t>(size);
+        }
+        EXPECT_EQ(got.find("status"), std::string::npos);
+        printer.print(To::Errors, "the last\n");
+        EXPECT_TRUE(printer.finish(std::chrono::seconds(60)));
+        EXPECT_TRUE(printer.isOutputPrinted());
+    }
+    const std::string rest = errors.endAndRead();
+    EXPECT_NE(rest.find(" messages were left out, as nobody read them\nthe last\n"),
+              std::string::npos)
+        << rest;
+}
+
+/// Output that waits behind what nobody reads, or had no place, is not printed.
+TEST(BackgroundPrinter, TellsWhetherOutputWasLeft) {
+    FullErrors errors;
+    for (const std::size_t texts : {std::size_t{1}, BackgroundPrinter::kMostWaiting + 50}) {
+        BackgroundPrinter printer;
+        for (std::size_t i = 0; i < texts; ++i) printer.print(To::Errors, "x\n");
+        printer.print(To::Output, "summary\n");
+        EXPECT_FALSE(printer.finish(std::chrono::milliseconds(1)));
+        EXPECT_FALSE(printer.isOutputPrinted()) << texts;
+    }
+    BackgroundPrinter without_output;
+    without_output.print(To::Errors, "x\n");
+    EXPECT_FALSE(without_output.finish(std::chrono::milliseconds(1)));
+    EXPECT_TRUE(without_output.isOutputPrinted());
+}
+
+}  // namespace
+}  // namespace hagen::base

@@ -1,0 +1,35 @@
+#include <gtest/gtest.h>
+#include <hagen/base/Interrupt.h>
+
+#include <csignal>
+#include <cstdlib>
+
+namespace hagen::base {
+namespace {
+
+/// Each in a process of its own, which a signal that is not caught would end.
+TEST(Interrupt, TheSignalsThatEndAProgramAreCaught) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGQUIT, SIGUSR1}) {
+        const auto wait = [&] {
+            catchSignals();
+            if (isInterrupted()) std::_Exit(1);
+            std::raise(signal);
+            std::raise(signal);  // shells may send it twice
+            std::_Exit(isInterrupted() ? 7 : 2);
+        };
+        EXPECT_EXIT(wait(), testing::ExitedWithCode(7), "") << signal;
+    }
+}
+
+TEST(Interrupt, ASignalThatIsIgnoredStaysSo) {
+    const auto wait = [] {
+        std::signal(SIGHUP, SIG_IGN);  // as nohup does
+        catchSignals();
+        std::raise(SIGHUP);
+        std::_Exit(isInterrupted() ? 2 : 7);
+    };
+    EXPECT_EXIT(wait(), testing::ExitedWithCode(7), "");
+}
+
+}  // namespace
+}  // namespace hagen::base

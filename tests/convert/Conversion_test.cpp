@@ -1,0 +1,900 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/convert/Conversion.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/mrpt/MrptCompat.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/recordings/PoseFile.h>
+#include <hagen/recordings/RawlogReader.h>
+#include <hagen/recordings/ScanFolder.h>
+#include <hagen/scan/Angle.h>
+#include <mrpt/io/lazy_load_path.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservation3DScene.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+
+#include "support/CaptureWriter.h"
+#include "support/Program.h"
+#include "support/RotatingScans.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen::convert {
+namespace {
+
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationPointCloud;
+
+CObservation::Ptr scanFrom(double x_m, const std::string& label = "lidar") {
+    return test::poleScanFrom(x_m, label);
+}
+
+/// An observation that is not a LiDAR scan.
+CObservation::Ptr pose() {
+    auto observation = mrpt::obs::CObservationRobotPose::Create();
+    observation->sensorLabel = "pose";
+    observation->timestamp = mrpt::Clock::fromDouble(100.0);
+    return observation;
+}
+
+/// Parameter: number of threads.
+class ConversionTest : public testing::TestWithParam<std::size_t> {
+ protected:
+    fs::path writeLog(const std::vector<mrpt::serialization::CSerializable::Ptr>& entries) {
+        RawlogWriter writer(folder_ / "in.rawlog", true);
+        for (const auto& entry : entries) writer.write(*entry);
+        writer.commit();
+        return folder_ / "in.rawlog";
+    }
+
+    /// Class or label of each entry; those of a sensory frame in brackets.
+    static std::vector<std::string> entriesOf(const fs::path& file) {
+        std::vector<std::string> names;
+        recordings::RawlogReader reader(file);
+        while (const auto entry = reader.next()) {
+            if (const auto observation = std::dynamic_pointer_cast<CObservation>(entry)) {
+                names.push_back(observation->sensorLabel);
+            } else if (const auto frame =
+                           std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+                std::string name = "[";
+                for (const auto& part : *frame) name += " " + part->sensorLabel;
+                names.push_back(name + " ]");
+            } else {
+                names.push_back(entry->GetRuntimeClass()->className);
+            }
+        }
+        return names;
+    }
+
+    static Conversion nothing() {
+        Conversion conversion;
+        conversion.jobs = GetParam();
+        return conversion;
+    }
+    Conversion conversion() {
+        Conversion conversion = nothing();
+        conversion.input = folder_ / "in.rawlog";
+        conversion.rawlog = folder_ / "out.rawlog";
+        return conversion;
+    }
+
+    static ConversionListener remarksInto(std::vector<std::string>& remarks) {
+        ConversionListener listener;
+        listener.remark = [&](const std::string& entry, const std::string& remark) {
+            remarks.push_back(entry + ": " + remark);
+        };
+        return listener;
+    }
+
+    /// Writes the log as a scan folder.
+    void convertToFolder(const std::string& name) {
+        Conversion to_folder = conversion();
+        to_folder.rawlog.clear();
+        to_folder.folder = folder_ / name;
+        convert(to_folder);
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_P(ConversionTest, KeepsEveryEntryInOrderWithTheCloudsAfterTheirScan) {
+    writeLog({pose(), scanFrom(0), pose(), scanFrom(1, ""), pose()});
+    const ConversionReport report = convert(conversion());
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"pose", "lidar", "lidar_roi", "lidar_non_roi", "pose", "",
+                                        "_roi", "_non_roi", "pose"}));
+    EXPECT_EQ(report.entries, 5u);
+    EXPECT_EQ(report.scans, 2u);
+    EXPECT_EQ(report.roi + report.rou + report.unclassified, report.returns);
+    EXPECT_GT(report.roi, 80u);
+}
+
+TEST_P(ConversionTest, InSensoryFramesTheCloudsJoinTheFrame) {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(scanFrom(0, "front"));
+    frame->insert(pose());
+    frame->insert(scanFrom(0, "rear"));
+    writeLog({mrpt::obs::CActionCollection::Create(), frame});
+    EXPECT_EQ(convert(conversion()).scans, 2u);
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{
+                  "mrpt::obs::CActionCollection",
+                  "[ front pose rear front_roi front_non_roi rear_roi rear_non_roi ]"}));
+}
+
+TEST_P(ConversionTest, AgainGivesTheSameBytes) {
+    writeLog({scanFrom(0), scanFrom(1)});
+    Conversion first = conversion(), second = conversion();
+    first.folder = folder_ / "scans";
+    second.rawlog = folder_ / "again.rawlog";
+    second.folder = folder_ / "scans_again";
+    convert(first);
+    convert(second);
+    EXPECT_EQ(test::readFile(first.rawlog), test::readFile(second.rawlog));
+    for (const char* file :
+         {"velodyne/000001.bin", "labels/000001.label", "times.txt", "sensor.yaml"}) {
+        EXPECT_EQ(test::readFile(first.folder / file), test::readFile(second.folder / file))
+            << file;
+    }
+}
+
+TEST_P(ConversionTest, ItsOwnOutputGivesTheSameFile) {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(scanFrom(2, "rear"));
+    frame->insert(pose());
+    writeLog({pose(), scanFrom(0), scanFrom(1), frame});
+    Conversion first = conversion();
+    first.preview = true;
+    convert(first);
+    Conversion again = first;
+    again.input = first.rawlog;
+    again.rawlog = folder_ / "again.rawlog";
+    const ConversionReport report = convert(again);
+    EXPECT_EQ(report.scans, 3u);
+    EXPECT_EQ(report.entries, 10u);
+    EXPECT_EQ(report.results_replaced, 9u);
+    EXPECT_EQ(entriesOf(again.rawlog), entriesOf(first.rawlog));
+    EXPECT_EQ(test::readFile(again.rawlog), test::readFile(first.rawlog));
+}
+
+TEST_P(ConversionTest, ResultsOfAnotherLidarAndResultsWithoutTheirScanStay) {
+    writeLog({scanFrom(0, "front"), scanFrom(0, "rear")});  // at the same time
+    Conversion first = conversion();
+    first.preview = true;
+    convert(first);
+    Conversion again = conversion();
+    again.input = folder_ / "out.rawlog";
+    again.rawlog = folder_ / "again.rawlog";
+    again.sensor_labels = {"rear"};
+    EXPECT_EQ(convert(again).results_replaced, 3u);
+    EXPECT_EQ(entriesOf(again.rawlog),
+              (std::vector<std::string>{"front", "front_roi", "front_non_roi", "", "rear",
+                                        "rear_roi", "rear_non_roi"}));
+    Conversion cut = conversion();
+    cut.input = folder_ / "out.rawlog";
+    cut.rawlog = folder_ / "cut.rawlog";
+    cut.from = 1;
+    EXPECT_EQ(convert(cut).results_replaced, 3u);
+    EXPECT_EQ(entriesOf(cut.rawlog),
+              (std::vector<std::string>{"front_roi", "front_non_roi", "", "rear", "rear_roi",
+                                        "rear_non_roi"}));
+}
+
+TEST_P(ConversionTest, AScanLabelledLikeAResultIsAScan) {
+    auto observed = std::make_unique<observations::ObservedScan>();
+    observations::readObservation(*scanFrom(0), {}, *observed);
+    writeLog({observations::observationOf(observed->scan, "front_roi", {})});
+    EXPECT_EQ(convert(conversion()).scans, 1u);
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"front_roi", "front_roi_roi", "front_roi_non_roi"}));
+}
+
+TEST_P(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
+    writeLog({scanFrom(0), scanFrom(1)});
+    Conversion both = conversion();
+    both.folder = folder_ / "scans";
+    const ConversionReport report = convert(both);
+    const recordings::ScanFolder scans(both.folder);
+    ASSERT_EQ(scans.size(), 2u);
+    EXPECT_NEAR(scans.times()[1], mrpt::Clock::toDouble(scanFrom(1)->timestamp), 1e-6);
+    std::size_t roi = 0, returns = 0;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        const auto labels = recordings::readLabels(scans.labelFile(i));
+        roi += std::count(labels.begin(), labels.end(), 2);
+        returns += labels.size();
+    }
+    EXPECT_EQ(roi, report.roi);
+    EXPECT_EQ(returns, report.returns);
+}
+
+TEST_P(ConversionTest, AScanFolderBecomesObservationsAndKeepsItsNames) {
+    writeLog({scanFrom(0)});
+    convertToFolder("scans");
+    fs::rename(folder_ / "scans/velodyne/000000.bin", folder_ / "scans/velodyne/000042.bin");
+
+    Conversion from_folder = nothing();
+    from_folder.input = folder_ / "scans";
+    from_folder.rawlog = folder_ / "from_folder.rawlog";
+    from_folder.folder = folder_ / "labels";
+    const ConversionReport report = convert(from_folder);
+    EXPECT_EQ(report.scans, 1u);
+    EXPECT_EQ(entriesOf(from_folder.rawlog),
+              (std::vector<std::string>{"velodyne", "velodyne_roi", "velodyne_non_roi"}));
+    EXPECT_EQ(recordings::readLabels(folder_ / "labels/labels/000042.label").size(),
+              report.returns);
+    EXPECT_EQ(test::readFile(folder_ / "labels/velodyne/000042.bin"),
+              test::readFile(folder_ / "scans/velodyne/000042.bin"));
+}
+
+TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
+    fs::create_directories(folder_ / "scans/velodyne");
+    recordings::writeScan(folder_ / "scans/velodyne/000000.bin",
+                          test::scanScene({}, sensorModel("HDL-32E"), 100, {0, 0, 2}).scan);
+    folder_.write("scans/sensor.yaml", "sensor: {model: HDL-32E}");
+    Conversion from_folder = nothing();
+    from_folder.input = folder_ / "scans";
+    from_folder.folder = folder_ / "labels";
+    from_folder.settings.sensor.model = "HDL-64E";
+    convert(from_folder);
+    Settings written;
+    mergeSettings(folder_ / "labels/sensor.yaml", written);
+    EXPECT_EQ(written.sensorModel().rows(), 32);
+}
+
+/// The scans of these observations as clouds, each without its sensor.
+std::vector<mrpt::serialization::CSerializable::Ptr> cloudsOf(
+    const std::vector<CObservation::Ptr>& scans) {
+    std::vector<mrpt::serialization::CSerializable::Ptr> clouds;
+    observations::ObservedScan observed;
+    for (const auto& scan : scans) {
+        observations::readObservation(*scan, {}, observed);
+        clouds.push_back(
+            observations::observationOf(observed.scan, scan->sensorLabel, scan->timestamp));
+    }
+    return clouds;
+}
+
+TEST_P(ConversionTest, CloudsGetTheLabelsOfTheirPackets) {
+    const std::vector<CObservation::Ptr> scans{scanFrom(0), scanFrom(1), scanFrom(2), scanFrom(3)};
+    writeLog({scans.begin(), scans.end()});
+    Conversion of_packets = conversion();
+    of_packets.folder = folder_ / "of_packets";
+    mergeSettings(HAGEN_SOURCE_DIR "/config/vlp16.yaml", of_packets.settings);
+    convert(of_packets);
+    writeLog(cloudsOf(scans));
+    Conversion of_clouds = conversion();
+    of_clouds.rawlog = folder_ / "of_clouds.rawlog";
+    of_clouds.folder = folder_ / "of_clouds";
+    const ConversionReport report = convert(of_clouds);
+    EXPECT_EQ(report.recovered.at("lidar").beams->sensor.name, "VLP-16");
+    EXPECT_EQ(report.recovered.at("lidar").columns, 870);
+    EXPECT_THAT(report.sensors.at("lidar"), HasSubstr("beams recovered (VLP-16, which has 16)"));
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        const auto expected =
+            recordings::readLabels(recordings::ScanFolder(of_packets.folder).labelFile(i));
+        const auto found =
+            recordings::readLabels(recordings::ScanFolder(of_clouds.folder).labelFile(i));
+        ASSERT_EQ(found.size(), expected.size());
+        std::size_t same = 0;
+        for (std::size_t k = 0; k < found.size(); ++k) same += found[k] == expected[k];
+        EXPECT_GE(static_cast<double>(same), 0.99 * static_cast<double>(found.size())) << i;
+    }
+}
+
+TEST(Conversion, CloudsGetTheSameBytesWithAnyNumberOfThreads) {
+    const test::TemporaryFolder folder;
+    std::vector<CObservation::Ptr> scans;
+    for (int i = 0; i < 12; ++i) scans.push_back(scanFrom(0.3 * i, i % 3 == 0 ? "rear" : "front"));
+    auto clouds = cloudsOf(scans);
+    // The first cloud of each label has three beams only: fewer than show a model.
+    for (const std::size_t first : {0, 1}) {
+        auto& points = *dynamic_cast<CObservationPointCloud&>(*clouds[first]).pointcloud;
+        std::vector<bool> is_deleted;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            float x = 0, y = 0, z = 0;
+            points.getPoint(i, x, y, z);
+            is_deleted.push_back(z > -0.18f * std::hypot(x, y));
+        }
+        observations::deletePoints(is_deleted, points);
+    }
+    RawlogWriter writer(folder / "in.rawlog", true);
+    for (const auto& entry : clouds) writer.write(*entry);
+    writer.commit();
+    const auto converted = [&](std::size_t jobs, std::size_t from, std::size_t to) {
+        Conversion conversion;
+        conversion.input = folder / "in.rawlog";
+        conversion.rawlog = folder / "out.rawlog";
+        conversion.overwrite = true;
+        conversion.jobs = jobs;
+        conversion.from = from;
+        conversion.to = to;
+        const ConversionReport report = convert(conversion);
+        for (const auto& [label, recovered] : report.recovered) {
+            EXPECT_EQ(recovered.beams->sensor.name, "VLP-16") << label;
+        }
+        return std::pair(test::readFile(conversion.rawlog), report.scan_reports);
+    };
+    const auto alone = converted(1, 0, 11);
+    EXPECT_EQ(converted(4, 0, 11).first, alone.first);
+    // Nor do they depend on the part that is converted.
+    EXPECT_EQ(converted(2, 0, 0).second.front().roi, alone.second.front().roi);
+    EXPECT_EQ(converted(2, 6, 11).second.back().roi, alone.second.back().roi);
+}
+
+TEST_P(ConversionTest, PosesOfAScanFolderTravelWithItsScans) {
+    fs::create_directories(folder_ / "scans/velodyne");
+    const Scan scan = test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan;
+    recordings::writeScan(folder_ / "scans/velodyne/000000.bin", scan);
+    recordings::writeScan(folder_ / "scans/velodyne/000001.bin", scan);
+    folder_.write("scans/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 -5 0 0 1 0\n");
+    Conversion from_folder = nothing();
+    from_folder.input = folder_ / "scans";
+    from_folder.folder = folder_ / "labels";
+    EXPECT_EQ(convert(from_folder).scans_with_pose, 2u);
+    const auto poses = recordings::readKittiPoses(folder_ / "labels/poses.txt");
+    ASSERT_EQ(poses.size(), 2u);
+    EXPECT_NEAR(poses[0].norm(), 0.0, 1e-9);
+    EXPECT_NEAR((poses[1] - mrpt::poses::CPose3D(0, -5, 0, 0, 0, 0)).norm(), 0.0, 1e-9);
+}
+
+TEST_P(ConversionTest, PosesOfALogTravelWithItsScans) {
+    const auto poseAt = [](double x_m) {
+        auto observation = mrpt::obs::CObservationRobotPose::Create();
+        observation->sensorLabel = "pose";
+        observation->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+        observation->pose.mean = mrpt::poses::CPose3D(x_m, 0, 2, 0, 0, 0);
+        return observation;
+    };
+    // The second scan's time lies between two poses; the later one comes after the scan in the log.
+    writeLog({poseAt(0), scanFrom(0), poseAt(0.05), scanFrom(0.1), poseAt(0.15), poseAt(0.25),
+              scanFrom(3), scanFrom(4)});
+    Conversion posed = conversion();
+    posed.folder = folder_ / "scans";
+    std::vector<std::string> remarks;
+    const ConversionListener listener = remarksInto(remarks);
+    EXPECT_EQ(convert(posed, listener).scans_with_pose, 2u);
+    const auto poses = recordings::readTumPoses(folder_ / "scans/poses.tum");
+    ASSERT_EQ(poses.size(), 2u);
+    EXPECT_NEAR(poses[1].pose.x(), 0.1, 1e-6);
+    // One for each scan without a pose near its time.
+    ASSERT_EQ(remarks.size(), 2u);
+    EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
+    EXPECT_EQ(remarks[1].rfind("entry 7 (lidar): no pose", 0), 0u) << remarks[1];
+}
+
+TEST_P(ConversionTest, AScanWithoutATimeIsToldAndItsFolderCanBeRead) {
+    const auto timeless = scanFrom(0);
+    timeless->timestamp = INVALID_TIMESTAMP;
+    writeLog({timeless, scanFrom(1)});
+    std::vector<std::string> remarks;
+    Conversion to_folder = conversion();
+    to_folder.rawlog.clear();
+    to_folder.folder = folder_ / "scans";
+    convert(to_folder, remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::ElementsAre("entry 0 (lidar): it has no valid time"));
+    Conversion back = nothing();
+    back.input = folder_ / "scans";
+    back.rawlog = folder_ / "back.rawlog";
+    convert(back);
+    recordings::RawlogReader reader(back.rawlog);
+    const auto first = std::dynamic_pointer_cast<CObservation>(reader.next());
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->timestamp, INVALID_TIMESTAMP);
+}
+
+TEST_P(ConversionTest, PosesWithoutAHorizonThatLackAScanAreToldToBeLost) {
+    const auto odometryAt = [](double x_m) {
+        auto observation = mrpt::obs::CObservationOdometry::Create();
+        observation->sensorLabel = "odometry";
+        observation->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+        observation->odometry = mrpt::poses::CPose2D(x_m, 0, 0);
+        return observation;
+    };
+    writeLog({odometryAt(0), scanFrom(0.05), odometryAt(0.1), scanFrom(3)});
+    Conversion posed = conversion();
+    posed.folder = folder_ / "scans";
+    std::vector<std::string> remarks;
+    convert(posed, remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::Contains(HasSubstr("(lidar): no pose near its time: no file of "
+                                                     "poses is written")));
+    EXPECT_FALSE(fs::exists(folder_ / "scans/poses.tum"));
+    EXPECT_FALSE(fs::exists(folder_ / "scans/poses.txt"));
+}
+
+/// The mount is in the log, or in the settings: the poses of scans, and what they lead to, are the
+/// same.
+TEST_P(ConversionTest, AMountOfTheSettingsIsInThePosesOfTheSensor) {
+    const mrpt::poses::CPose3D mount(0, 0, 0, 0, radians(-20), radians(180));
+    const auto converted = [&](bool is_recorded, const std::string& name) {
+        std::vector<mrpt::serialization::CSerializable::Ptr> entries;
+        for (const double x_m : {0.0, 0.2}) {
+            auto pose = mrpt::obs::CObservationRobotPose::Create();
+            pose->sensorLabel = "pose";
+            pose->timestamp = mrpt::Clock::fromDouble(100.0 + x_m);
+            pose->pose.mean = mrpt::poses::CPose3D(x_m, 0, 2, 0.5, 0.02, -0.03);
+            entries.push_back(pose);
+        }
+        const auto scan = scanFrom(0);
+        if (is_recorded) scan->setSensorPose(mount);
+        entries.push_back(scan);
+        writeLog(entries);
+        Conversion posed = conversion();
+        posed.rawlog.clear();
+        posed.folder = folder_ / name;
+        posed.octomaps = {folder_ / (name + ".bt")};
+        if (!is_recorded)
+            posed.settings.mount = {static_cast<float>(radians(180)),
+                                    static_cast<float>(radians(-20))};
+        convert(posed);
+        const auto poses = recordings::readTumPoses(folder_ / name / "poses.tum");
+        EXPECT_EQ(poses.size(), 1u);
+        return poses.at(0).pose;
+    };
+    const auto recorded = converted(true, "recorded"), set = converted(false, "set");
+    EXPECT_LT((recorded.asVectorVal() - set.asVectorVal()).norm(), 1e-5);
+    EXPECT_EQ(test::readFile(folder_ / "recorded.bt"), test::readFile(folder_ / "set.bt"));
+    // Read again, the poses contain the mount of sensor.yaml.
+    Conversion again = nothing();
+    again.input = folder_ / "set";
+    again.folder = folder_ / "again";
+    convert(again);
+    EXPECT_EQ(test::readFile(folder_ / "again/labels/000000.label"),
+              test::readFile(folder_ / "set/labels/000000.label"));
+}
+
+TEST_P(ConversionTest, RangeImagesOfLidarsAndCamerasAreScans) {
+    const auto packets = test::poleScanFrom(0, "lidar");
+    Scan scan;
+    observations::decodePackets(*packets, scan);
+    const auto with_points = test::rotatingImageOf(*packets, scan, {true, false});
+    const auto with_ranges = test::rotatingImageOf(*packets, scan, {});
+    mrpt::obs::CObservationRotatingScan unknown;
+    unknown.sensorLabel = "unknown";
+    unknown.rowCount = 5;
+    unknown.columnCount = 8;
+    unknown.rangeResolution = 0.01;
+    unknown.rangeImage.setZero(5, 8);
+    mrpt::obs::CObservation3DRangeScan camera;
+    camera.sensorLabel = "camera";
+    camera.hasPoints3D = true;
+    camera.points3D_x.assign(500, 2.0f);
+    camera.points3D_y.assign(500, 0.0f);
+    camera.points3D_idxs_x.assign(500, 0);
+    camera.points3D_idxs_y.assign(500, 0);
+    for (int i = 0; i < 500; ++i) camera.points3D_z.push_back(0.001f * static_cast<float>(i));
+    test::writeBytes(folder_ / "in.rawlog", with_points.bytes + with_ranges.bytes +
+                                                test::bytesOf(unknown) + test::bytesOf(camera));
+    std::string remarks;
+    ConversionListener listener;
+    listener.unreadable = [&](const std::string& entry, const std::string& why) {
+        remarks += entry + ": " + why;
+    };
+    const ConversionReport report = convert(conversion(), listener);
+    EXPECT_EQ(report.scans, 3u);
+    EXPECT_EQ(report.unreadable_scans, 1u);
+    EXPECT_EQ(report.returns, 2 * scan.size() + 500);
+    EXPECT_EQ(remarks.rfind("entry 2 (unknown): its 5 rows have no elevations", 0), 0u) << remarks;
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi", "lidar", "lidar_roi",
+                                        "lidar_non_roi", "unknown", "camera", "camera_roi",
+                                        "camera_non_roi"}));
+}
+
+TEST_P(ConversionTest, ARotatingScanThatIsStoredElsewhereEndsTheConversionAndIsNamed) {
+    mrpt::obs::CObservationRotatingScan scan;
+    scan.rowCount = 3;
+    scan.columnCount = 4;
+    scan.rangeResolution = 0.01;
+    scan.rangeImage.setZero(3, 4);
+    std::string bytes = test::bytesOf(scan);
+    bytes.resize(bytes.size() - 1 - (4 + 2 * 12 + 4 + 2));  // up to the images
+    bytes += '\1' + test::little32(8) + "scan.bin" + '\x88';
+    test::writeBytes(folder_ / "in.rawlog", test::bytesOf(*pose()) + bytes);
+    const std::string why = test::messageOf([&] { convert(conversion()); });
+    EXPECT_THAT(why, HasSubstr("in.rawlog: entry 1 at byte"));
+    EXPECT_THAT(why, HasSubstr("'scan.bin'; put it in with 'rawlog-edit --de-externalize'"));
+}
+
+TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
+    auto broken = scanFrom(0);
+    std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(broken)
+        ->scan_packets[0]
+        .velodyne_model_ID = 0x99;
+    writeLog({pose(), broken, scanFrom(1)});
+    std::string remarks;
+    ConversionListener listener;
+    listener.unreadable = [&](const std::string& entry, const std::string& why) {
+        remarks += entry + ": " + why;
+    };
+    const ConversionReport report = convert(conversion(), listener);
+    EXPECT_EQ(report.unreadable_scans, 1u);
+    EXPECT_EQ(report.scans, 1u);
+    EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar)"));
+    EXPECT_THAT(remarks, HasSubstr("0x99"));
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"pose", "lidar", "lidar", "lidar_roi", "lidar_non_roi"}));
+}
+
+/// They are the recording's, and no fault of the settings, which would end the conversion.
+TEST_P(ConversionTest, AScanWithUnsoundLimitsIsKeptAndNamed) {
+    const double nan = std::nan("");
+    for (const auto& [min_m, max_m] : {std::pair{2.0, 1.0}, {nan, 100.0}, {0.0, nan}}) {
+        auto broken = scanFrom(0);
+        auto& scan = dynamic_cast<mrpt::obs::CObservationVelodyneScan&>(*broken);
+        scan.minRange = min_m;
+        scan.maxRange = max_m;
+        writeLog({scanFrom(1), broken, scanFrom(2)});
+        std::string remarks;
+        ConversionListener listener;
+        listener.unreadable = [&](const std::string& entry, const std::string& why) {
+            remarks += entry + ": " + why;
+        };
+        Conversion again = conversion();
+        again.overwrite = true;
+        const ConversionReport report = convert(again, listener);
+        EXPECT_EQ(report.unreadable_scans, 1u);
+        EXPECT_EQ(report.scans, 2u);
+        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): its limits of the range contradict"));
+    }
+}
+
+TEST_P(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
+    writeLog({scanFrom(0), scanFrom(1), scanFrom(2)});
+    const std::string bytes = test::readFile(folder_ / "in.rawlog");
+    folder_.write("in.rawlog", bytes.substr(0, bytes.size() / 2));
+    try {
+        convert(conversion());
+        FAIL();
+    } catch (const recordings::BrokenRawlog& e) {
+        EXPECT_THAT(e.what(), HasSubstr("entry 1"));
+        EXPECT_THAT(e.what(), HasSubstr("out.partial.rawlog"));
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+    EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog"),
+              (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi"}));
+}
+
+TEST_P(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
+    writeLog({scanFrom(0), scanFrom(1)});
+    convertToFolder("scans.v1");
+    folder_.write("scans.v1/velodyne/000001.bin", "cut");
+    Conversion from_folder = nothing();
+    from_folder.input = folder_ / "scans.v1";
+    from_folder.folder = folder_ / "labels.v1";
+    try {
+        convert(from_folder);
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_THAT(e.what(), HasSubstr("000001.bin"));
+        EXPECT_THAT(e.what(), HasSubstr("labels.v1.partial"));
+    }
+    EXPECT_EQ(recordings::ScanFolder(folder_ / "labels.v1.partial").size(), 1u);
+}
+
+TEST_P(ConversionTest, LongLabelsBecomeNamesThatAFileSystemAllows) {
+    const std::string label(300, 'a');
+    writeLog({scanFrom(0, label + "b"), scanFrom(0, label + "c"), scanFrom(0, label + "d")});
+    Conversion all = conversion();
+    all.folder = folder_ / "scans";
+    EXPECT_EQ(convert(all).scans, 3u);
+    std::size_t folders = 0;
+    for (const auto& entry : fs::directory_iterator(all.folder)) {
+        EXPECT_EQ(recordings::ScanFolder(entry.path()).size(), 1u);
+        ++folders;
+    }
+    EXPECT_EQ(folders, 3u);
+}
+
+TEST_P(ConversionTest, SeveralLidarsBecomeAScanFolderEach) {
+    writeLog({scanFrom(0, "front"), scanFrom(0, "rear"), scanFrom(1, "front"), scanFrom(1, "a/b")});
+    Conversion all = conversion();
+    all.folder = folder_ / "scans";
+    convert(all);
+    EXPECT_EQ(recordings::ScanFolder(folder_ / "scans/front").size(), 2u);
+    EXPECT_EQ(recordings::ScanFolder(folder_ / "scans/rear").size(), 1u);
+    EXPECT_EQ(recordings::ScanFolder(folder_ / "scans/a_b").size(), 1u);
+    all.overwrite = true;
+    all.sensor_labels = {"rear"};
+    const ConversionReport report = convert(all);
+    EXPECT_EQ(report.entries, 4u);
+    EXPECT_EQ(report.scans, 1u);
+    EXPECT_EQ(recordings::ScanFolder(folder_ / "scans").size(), 1u);
+    EXPECT_EQ(
+        entriesOf(folder_ / "out.rawlog"),
+        (std::vector<std::string>{"front", "rear", "rear_roi", "rear_non_roi", "front", "a/b"}));
+}
+
+TEST_P(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
+    writeLog({scanFrom(0, "front"), pose()});
+    Conversion other = conversion();
+    other.sensor_labels = {"rear"};
+    try {
+        convert(other);
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_THAT(e.what(),
+                    HasSubstr("no converted entry has a LiDAR scan of 'rear'; there are 'front'"));
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+}
+
+TEST_P(ConversionTest, ALogWithoutScansSaysWhatItHas) {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(pose());
+    frame->insert(mrpt::obs::CObservationIMU::Create());
+    writeLog({pose(), mrpt::obs::CActionCollection::Create(), frame, pose(), scanFrom(0)});
+    std::vector<std::string> remarks;
+    Conversion before_the_scan = conversion();
+    before_the_scan.to = 3;
+    convert(before_the_scan, remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::ElementsAre(
+                             "the recording: no converted entry has a LiDAR scan "
+                             "(CObservationVelodyneScan, CObservationRotatingScan, "
+                             "CObservationPointCloud, CObservation3DRangeScan); they have "
+                             "1 CActionCollection, 1 CObservationIMU, 3 CObservationRobotPose"));
+    remarks.clear();
+    Conversion whole = conversion();
+    whole.overwrite = true;
+    convert(whole, remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::Each(testing::Not(HasSubstr("no converted entry"))));
+}
+
+TEST_P(ConversionTest, AScanBeforeTheFirstAttitudeIsNamed) {
+    const auto first = scanFrom(0), second = scanFrom(1);
+    auto attitude = mrpt::obs::CObservationRobotPose::Create();
+    attitude->timestamp = second->timestamp;
+    writeLog({first, attitude, second});
+    const ConversionReport report = convert(conversion());
+    EXPECT_EQ(report.scans_with_attitude, 1u);
+    EXPECT_EQ(report.first_without_attitude, "entry 0 (lidar)");
+    EXPECT_FALSE(report.is_attitude_of_poses);
+    writeLog({attitude, second});
+    Conversion again = conversion();
+    again.overwrite = true;
+    EXPECT_EQ(convert(again).first_without_attitude, "");
+}
+
+TEST_P(ConversionTest, WhatRunsThatBrokeOffHaveLeftIsNamedByTheOneThatDoesNot) {
+    writeLog({scanFrom(0), scanFrom(1)});
+    ConversionListener stops;
+    for (int run = 0; run < 2; ++run) {
+        stops.keep_going = [entries = 0]() mutable { return ++entries < 2; };
+        EXPECT_THROW(convert(conversion(), stops), recordings::Interrupted);
+    }
+    std::vector<std::string> remarks;
+    convert(conversion(), remarksInto(remarks));
+    EXPECT_THAT(remarks, testing::Contains("the outputs: earlier runs that broke off left " +
+                                           (folder_ / "out.partial-2.rawlog").string() + ", " +
+                                           (folder_ / "out.partial.rawlog").string() +
+                                           "; delete what you do not need"));
+    EXPECT_TRUE(fs::exists(folder_ / "out.partial.rawlog"));
+}
+
+TEST_P(ConversionTest, EntriesFromAndToAreIncluded) {
+    writeLog({pose(), scanFrom(0), pose(), scanFrom(1), pose()});
+    Conversion part = conversion();
+    part.from = 1;
+    part.to = 3;
+    const ConversionReport report = convert(part);
+    EXPECT_EQ(report.entries, 3u);
+    EXPECT_EQ(report.left_out_before, 1u);
+    EXPECT_EQ(report.scan_reports.at(1).entry, 3u);
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
+              (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi", "pose", "lidar",
+                                        "lidar_roi", "lidar_non_roi"}));
+    part.overwrite = true;
+    part.from = part.to = 5;
+    EXPECT_THROW(convert(part), std::runtime_error);
+}
+
+TEST_P(ConversionTest, APreviewFollowsTheClouds) {
+    writeLog({scanFrom(0)});
+    Conversion with_preview = conversion();
+    with_preview.preview = true;
+    convert(with_preview);
+    recordings::RawlogReader reader(folder_ / "out.rawlog");
+    for (int i = 0; i < 3; ++i) ASSERT_NE(reader.next(), nullptr);
+    const auto preview = std::dynamic_pointer_cast<mrpt::obs::CObservation3DScene>(reader.next());
+    ASSERT_NE(preview, nullptr);
+    EXPECT_NE(preview->scene, nullptr);
+    EXPECT_EQ(reader.next(), nullptr);
+}
+
+TEST_P(ConversionTest, AListenerThatStopsItLeavesWhatWasDone) {
+    writeLog({pose(), scanFrom(0), pose()});
+    int asked = 0;
+    ConversionListener listener;
+    listener.keep_going = [&] { return ++asked <= 2; };
+    try {
+        convert(conversion(), listener);
+        FAIL();
+    } catch (const recordings::Interrupted& e) {
+        EXPECT_THAT(e.what(), HasSubstr("the 2 entries before it are in"));
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+    EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog").size(), 4u);
+}
+
+TEST_P(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {
+    writeLog({scanFrom(0)});
+    convertToFolder("scans");
+    folder_.write("scans/times.txt", "7.25\n");
+    Conversion from_folder = nothing();
+    from_folder.input = folder_ / "scans";
+    from_folder.rawlog = folder_ / "timed.rawlog";
+    convert(from_folder);
+    recordings::RawlogReader reader(from_folder.rawlog);
+    while (const auto entry = reader.next()) {
+        const auto observation = std::dynamic_pointer_cast<CObservation>(entry);
+        EXPECT_NEAR(mrpt::Clock::toDouble(observation->timestamp), 7.25, 1e-6);
+    }
+}
+
+TEST_P(ConversionTest, CloudsInFilesBesideTheLogAreFound) {
+    Scan scan;
+    scan.x_m = {5, 6};
+    scan.y_m = scan.z_m = {0, 1};
+    scan.intensity = {0, 1};
+    const auto cloud = observations::observationOf(scan, "lidar", mrpt::Clock::fromDouble(1.0));
+    fs::create_directory(folder_ / "in_Images");
+    mrpt::io::setLazyLoadPathBase((folder_ / "in_Images").string() + "/");
+    cloud->setAsExternalStorage("cloud.bin",
+                                CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization);
+    cloud->unload();  // writes the file
+    writeLog({cloud});
+    mrpt::io::setLazyLoadPathBase("/nowhere/");
+    std::vector<std::string> remarks;
+    const ConversionReport report = convert(conversion(), remarksInto(remarks));
+    EXPECT_EQ(report.returns, 2u);
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_THAT(remarks[0], HasSubstr((folder_ / "out_Images").string()));
+}
+
+TEST_P(ConversionTest, TheInputIsNeverReplaced) {
+    writeLog({scanFrom(0)});
+    Conversion onto_itself = conversion();
+    onto_itself.rawlog = onto_itself.input;
+    onto_itself.overwrite = true;
+    EXPECT_THROW(convert(onto_itself), std::runtime_error);
+    EXPECT_EQ(entriesOf(folder_ / "in.rawlog").size(), 1u);
+}
+
+TEST_P(ConversionTest, OutputsThatExistAreRefused) {
+    writeLog({scanFrom(0)});
+    folder_.write("out.rawlog", "old");
+    EXPECT_THROW(convert(conversion()), std::runtime_error);
+    EXPECT_EQ(test::readFile(folder_ / "out.rawlog"), "old");
+}
+
+TEST_P(ConversionTest, SettingsThatDoNotFitALaterScanEndItThereAndLeaveNothing) {
+    // A cloud uses the settings' sensor; packets have 16 beams, too few for this window.
+    Scan scan;
+    scan.x_m = {5, 6};
+    scan.y_m = scan.z_m = {0, 1};
+    scan.intensity = {0, 1};
+    std::vector<mrpt::serialization::CSerializable::Ptr> entries_of_log{
+        pose(), observations::observationOf(scan, "cloud", mrpt::Clock::fromDouble(1.0)),
+        scanFrom(0)};
+    entries_of_log.insert(entries_of_log.end(), 2000, pose());
+    writeLog(entries_of_log);
+    Conversion unfit = conversion();
+    unfit.settings.sensor.model = "HDL-64E";
+    unfit.settings.options.window_size = 20;
+    std::size_t entries = 0;
+    std::atomic<std::size_t> read{0};
+    ConversionListener listener;
+    listener.keep_going = [&] {
+        ++read;
+        return true;
+    };
+    listener.progress = [&](const ConversionReport& report) { entries = report.entries; };
+    EXPECT_THROW(convert(unfit, listener), SettingsError);
+    EXPECT_EQ(entries, 2u);
+    EXPECT_LT(read, 1000u);  // the rest is not read
+    EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
+    EXPECT_FALSE(fs::exists(folder_ / "out.partial.rawlog"));
+}
+
+TEST_P(ConversionTest, ABreakAfterAFailureIsNotWhatIsTold) {
+    writeLog({pose(), scanFrom(0), scanFrom(1), scanFrom(2)});
+    const std::string bytes = test::readFile(folder_ / "in.rawlog");
+    folder_.write("in.rawlog", bytes.substr(0, bytes.size() - 10));
+    Conversion unfit = conversion();
+    unfit.settings.options.window_size = 20;
+    EXPECT_THROW(convert(unfit), SettingsError);
+}
+
+TEST_P(ConversionTest, ALogOfSmallEntriesTakesLittleMoreThanTheyDo) {
+    writeLog(std::vector<mrpt::serialization::CSerializable::Ptr>(2000, pose()));
+    convert(conversion());
+    EXPECT_EQ(entriesOf(folder_ / "out.rawlog").size(), 2000u);
+    EXPECT_EQ(test::readFile(folder_ / "out.rawlog"), test::readFile(folder_ / "in.rawlog"));
+    EXPECT_LT(fs::file_size(folder_ / "out.rawlog"), 50000u);
+}
+
+TEST_P(ConversionTest, ProgressCountsEntries) {
+    writeLog({pose(), scanFrom(0), pose()});
+    std::vector<std::size_t> counts;
+    ConversionListener listener;
+    listener.progress = [&](const ConversionReport& report) { counts.push_back(report.entries); };
+    convert(conversion(), listener);
+    EXPECT_EQ(counts, (std::vector<std::size_t>{1, 2, 3}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ConversionTest, testing::Values(1, 4));
+
+/// Everything a user sees of a conversion with this many threads: callbacks and files.
+std::string storyOf(Conversion conversion, const test::TemporaryFolder& folder, std::size_t jobs) {
+    conversion.jobs = jobs;
+    conversion.overwrite = true;
+    conversion.rawlog = folder / "out.rawlog";
+    conversion.folder = folder / "scans";
+    std::string story;
+    ConversionListener listener;
+    listener.remark = [&](const auto& entry, const auto& what) { story += entry + what + "\n"; };
+    listener.unreadable = [&](const auto& entry, const auto& why) { story += entry + why + "\n"; };
+    listener.progress = [&](const ConversionReport& report) {
+        story += std::to_string(report.entries) + " " + std::to_string(report.fraction) + "\n";
+    };
+    for (const ScanReport& scan : convert(conversion, listener).scan_reports) {
+        story += std::to_string(scan.entry) + scan.sensor_label + scan.name + " " +
+                 std::to_string(scan.roi) + "\n";
+    }
+    story += test::readFile(conversion.rawlog);
+    std::vector<fs::path> files{fs::recursive_directory_iterator(conversion.folder), {}};
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) {
+        if (fs::is_regular_file(file)) story += file.string() + test::readFile(file);
+    }
+    return story;
+}
+
+TEST(ConversionThreads, NothingThatIsSeenDependsOnTheirNumber) {
+    const test::TemporaryFolder folder;
+    {
+        RawlogWriter writer(folder / "in.rawlog", true);
+        for (int i = 0; i < 24; ++i) {
+            const double x_m = 0.1 * i;
+            auto pose = mrpt::obs::CObservationRobotPose::Create();
+            pose->sensorLabel = "pose";
+            pose->timestamp = scanFrom(x_m)->timestamp;
+            pose->pose.mean = mrpt::poses::CPose3D(x_m, 0, 2, 0, 0.01 * i, 0);
+            if (i % 5 != 3) writer.write(*pose);
+            auto frame = mrpt::obs::CSensoryFrame::Create();
+            frame->insert(scanFrom(x_m, "front"));
+            frame->insert(scanFrom(x_m, "rear"));
+            if (i % 7 == 2) writer.write(*frame);
+            const auto broken = scanFrom(x_m);
+            std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(broken)
+                ->scan_packets[0]
+                .velodyne_model_ID = 0x99;
+            if (i % 11 == 5) writer.write(*broken);
+            writer.write(*scanFrom(x_m));
+        }
+        writer.commit();
+    }
+    Conversion conversion;
+    conversion.input = folder / "in.rawlog";
+    const std::string alone = storyOf(conversion, folder, 1);
+    EXPECT_THAT(alone, HasSubstr("0x99"));
+    for (const std::size_t jobs : {0, 2, 3, 8}) {
+        EXPECT_TRUE(storyOf(conversion, folder, jobs) == alone) << jobs << " threads";
+    }
+}
+
+}  // namespace
+}  // namespace hagen::convert

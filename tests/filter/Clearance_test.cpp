@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+#include <hagen/filter/Clearance.h>
+#include <hagen/filter/GroundFrame.h>
+#include <hagen/scan/Angle.h>
+
+#include <cmath>
+
+#include "support/GroundPixels.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+using test::pixelsAt;
+
+/// Pixels in the frame of level ground, with the sensor `height_m` above it.
+Ground groundAt(float height_m, const PixelPoints& pixels) {
+    Ground ground;
+    ground.is_seen = true;
+    ground.from_sensor = Eigen::Isometry3f(Eigen::Translation3f(0, 0, height_m));
+    ground.pixels = pixels;
+    return ground;
+}
+
+TEST(Clearance, GroundThatIsLessThanThisBelowIsRoi) {
+    const PixelPoints pixels = pixelsAt({{5, 0, 0}, {5, 0, 0.9f}, {5, 0, 1.1f}, {5, 0, 4}});
+    Image<Label> labels = Image<Label>::Constant(1, 4, Label::Rou), expected(1, 4);
+    alarmLowGround(groundAt(3, pixels), {Eigen::Vector3f::UnitZ(), 2}, labels);
+    expected << Label::Rou, Label::Rou, Label::Roi, Label::Roi;
+    EXPECT_TRUE((labels == expected).all());
+}
+
+TEST(Clearance, ExactlyThisBelowIsFarEnough) {
+    Image<Label> labels = Image<Label>::Constant(1, 1, Label::Rou);
+    alarmLowGround(groundAt(3, pixelsAt({{5, 0, 1}})), {Eigen::Vector3f::UnitZ(), 2}, labels);
+    EXPECT_EQ(labels(0, 0), Label::Rou);
+}
+
+TEST(Clearance, ZeroRaisesNoAlarmWhateverIsAbove) {
+    Image<Label> labels = Image<Label>::Constant(1, 1, Label::Rou);
+    alarmLowGround(groundAt(3, pixelsAt({{5, 0, 9}})), {Eigen::Vector3f::UnitZ(), 0}, labels);
+    EXPECT_EQ(labels(0, 0), Label::Rou);
+}
+
+TEST(Clearance, OnlyTheRouIsAlarmed) {
+    const PixelPoints pixels = pixelsAt({{5, 0, 0}, test::kEmptyPixel});
+    Image<Label> labels(1, 2);
+    labels << Label::Roi, Label::Unclassified;
+    alarmLowGround(groundAt(1, pixels), {Eigen::Vector3f::UnitZ(), 2}, labels);
+    EXPECT_EQ(labels(0, 0), Label::Roi);
+    EXPECT_EQ(labels(0, 1), Label::Unclassified);
+}
+
+// 3 m above ground that rises ahead by 15 degrees, with a level sensor: along gravity, the ground
+// at x ahead is 3 - x tan 15 below; along its normal the distance is constant.
+TEST(Clearance, OverASlopeItIsByGravityWhereTheAttitudeIsKnown) {
+    const float rise = static_cast<float>(std::tan(radians(15)));
+    const auto points =
+        test::groundPoints(20, 0.5f, [&](float x_m, float) { return rise * x_m - 3; });
+    GroundFrameWorkspace work;
+    for (const Attitude& attitude :
+         {Attitude{}, Attitude{0.1f, -0.15f}}) {  // of the airframe, not of the ground
+        PixelPoints pixels = pixelsAt(points);
+        Eigen::Isometry3f sensor_from_level = Eigen::Isometry3f::Identity();
+        sensor_from_level.linear() = levelFromSensor(attitude).transpose();
+        movePixels(sensor_from_level, pixels);
+        const Eigen::Isometry3f frame = fitGroundFrame(pixels, attitude, work);
+        movePixels(frame, pixels);
+
+        Ground ground;
+        ground.is_seen = true;
+        ground.from_sensor = frame;
+        ground.pixels = pixels;
+        Image<Label> labels = Image<Label>::Constant(1, pixels.x_m.cols(), Label::Rou);
+        alarmLowGround(ground, {upwards(ground, attitude), 2}, labels);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const float clearance_m = -points[i].z();
+            if (std::abs(clearance_m - 2) < 0.05f) continue;
+            ASSERT_EQ(labels.data()[i], clearance_m < 2 ? Label::Roi : Label::Rou) << clearance_m;
+        }
+        labels.setConstant(Label::Rou);
+        alarmLowGround(ground, {upwards(ground, std::nullopt), 2}, labels);
+        EXPECT_TRUE((labels == Label::Rou).all());
+        const float off_m = 3 * static_cast<float>(std::cos(radians(15)));
+        alarmLowGround(ground, {upwards(ground, std::nullopt), off_m + 0.05f}, labels);
+        EXPECT_TRUE((labels == Label::Roi).all());
+    }
+}
+
+TEST(Clearance, WhereNoGroundIsSeenItIsAlongTheSensorsAxis) {
+    Ground ground = groundAt(3, pixelsAt({{5, 0, 0}}));
+    ground.from_sensor.linear() = levelFromSensor({0.4f, 0});
+    EXPECT_EQ(upwards(ground, std::nullopt), Eigen::Vector3f::UnitZ());
+    ground.is_seen = false;
+    EXPECT_LT((upwards(ground, std::nullopt) - ground.from_sensor.linear().col(2)).norm(), 1e-6f);
+}
+
+}  // namespace
+}  // namespace hagen

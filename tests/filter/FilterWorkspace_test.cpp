@@ -1,0 +1,140 @@
+// A filter owns its memory: other filters in the same thread, and the thread it runs on, do not
+// affect its results.
+#include <gtest/gtest.h>
+#include <hagen/filter/HagenFilter.h>
+
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "support/PaperOptions.h"
+#include "support/Random.h"
+#include "support/SimpleScene.h"
+
+namespace hagen {
+namespace {
+
+/// Scans of a yard along a path, with returns behind others.
+std::vector<Scan> drive(const SensorModel& sensor, int columns) {
+    test::SimpleScene yard;
+    yard.boxes = {{{4, -9, 0}, {12, -7, 3}}, {{-14, 4, 0}, {-6, 5, 2}}, {{5, 2, 0}, {6, 3, 0.4}}};
+    yard.poles = {{7, 1, 0.1, 4}, {-5, -3, 0.15, 5}, {3, -4, 0.05, 1}};
+    std::vector<Scan> scans;
+    for (int i = 0; i < 4; ++i) {
+        scans.push_back(test::scanScene(yard, sensor, columns, {0.7 * i, 0.3, 2.0 - 0.2 * i}).scan);
+    }
+    return scans;
+}
+
+/// All parts of a result that can differ.
+struct Outcome {
+    Image<float> smoothed_rad, height_m;
+    std::vector<Label> own_label, label;
+    std::vector<std::int32_t> component;
+    std::vector<std::uint32_t> roi;
+};
+
+Outcome outcomeOf(const SegmentationResult& r) {
+    return {r.smoothed_rad,  r.ground.height_m,   r.own_labels.label,
+            r.returns.label, r.returns.component, r.returns.roi};
+}
+
+void expectSame(const Outcome& a, const Outcome& b) {
+    EXPECT_TRUE(test::same(a.smoothed_rad, b.smoothed_rad));
+    EXPECT_TRUE(test::same(a.height_m, b.height_m));
+    EXPECT_EQ(a.own_label, b.own_label);
+    EXPECT_EQ(a.label, b.label);
+    EXPECT_EQ(a.component, b.component);
+    EXPECT_EQ(a.roi, b.roi);
+}
+
+/// A sensor, its settings, its scans, and the results of a filter that runs alone.
+struct Drive {
+    SensorModel sensor;
+    Options options;
+    std::vector<Scan> scans;
+    std::vector<Outcome> alone;
+
+    Drive(const std::string& name, const Options& with, int columns)
+        : sensor(sensorModel(name)), options(with), scans(drive(sensor, columns)) {
+        HagenFilter filter(sensor, options);
+        for (const Scan& scan : scans) alone.push_back(outcomeOf(filter.segment(scan)));
+    }
+};
+
+std::vector<Drive> differentDrives() {
+    Options alarmed;
+    alarmed.ground_is_roi_below_m = 1.5f;
+    alarmed.columns = 500;
+    return {Drive("VLP-16", Options(), 870), Drive("HDL-64E", alarmed, 600),
+            Drive("HDL-32E", test::paperOptions(), 700)};
+}
+
+TEST(FilterWorkspace, FiltersTakingTurnsInOneThreadDoNotMeet) {
+    const std::vector<Drive> drives = differentDrives();
+    std::vector<HagenFilter> filters;
+    for (const Drive& drive : drives) filters.emplace_back(drive.sensor, drive.options);
+    std::vector<const SegmentationResult*> results(drives.size());
+    for (std::size_t n = 0; n < drives.front().scans.size(); ++n) {
+        for (std::size_t k = 0; k < drives.size(); ++k) {
+            results[k] = &filters[k].segment(drives[k].scans[n]);
+        }
+        for (std::size_t k = 0; k < drives.size(); ++k) {
+            SCOPED_TRACE(drives[k].sensor.name + ", scan " + std::to_string(n));
+            expectSame(outcomeOf(*results[k]), drives[k].alone[n]);
+        }
+    }
+}
+
+TEST(FilterWorkspace, AFilterMayMoveFromThreadToThread) {
+    for (const Drive& drive : differentDrives()) {
+        HagenFilter filter(drive.sensor, drive.options);
+        for (std::size_t n = 0; n < drive.scans.size(); ++n) {
+            SCOPED_TRACE(drive.sensor.name + ", scan " + std::to_string(n));
+            std::thread([&] { filter.segment(drive.scans[n]); }).join();
+            expectSame(outcomeOf(filter.segment(drive.scans[n])), drive.alone[n]);
+        }
+    }
+}
+
+TEST(FilterWorkspace, FiltersInThreadsOfTheirOwnDoNotMeet) {
+    const std::vector<Drive> drives = differentDrives();
+    std::vector<std::vector<Outcome>> found(drives.size());
+    std::vector<std::thread> threads;
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+        threads.emplace_back([&, k] {
+            HagenFilter filter(drives[k].sensor, drives[k].options);
+            for (const Scan& scan : drives[k].scans) {
+                found[k].push_back(outcomeOf(filter.segment(scan)));
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+        for (std::size_t n = 0; n < found[k].size(); ++n)
+            expectSame(found[k][n], drives[k].alone[n]);
+    }
+}
+
+TEST(FilterWorkspace, ACopiedOrMovedFilterGoesOnAlone) {
+    const Drive drive("VLP-16", Options(), 870);
+    auto first = std::make_unique<HagenFilter>(drive.sensor, drive.options);
+    first->segment(drive.scans[0]);
+    HagenFilter copy = *first;
+    HagenFilter moved = std::move(*first);
+    first.reset();
+    for (std::size_t n = 0; n < drive.scans.size(); ++n) {
+        expectSame(outcomeOf(copy.segment(drive.scans[n])), drive.alone[n]);
+        expectSame(outcomeOf(moved.segment(drive.scans[n])), drive.alone[n]);
+    }
+}
+
+TEST(FilterWorkspace, TheScenesHaveWhatTheyAreFor) {
+    for (const Drive& drive : differentDrives()) {
+        for (const Outcome& outcome : drive.alone) EXPECT_FALSE(outcome.roi.empty());
+        EXPECT_EQ(drive.alone.front().own_label.empty(), drive.sensor.name == "HDL-32E");
+    }
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,354 @@
+#include <gtest/gtest.h>
+#include <hagen/filter/GroundEvidence.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "support/GroundPixels.h"
+#include "support/SimpleScene.h"
+
+namespace hagen {
+namespace {
+
+using test::kEmptyPixel;
+using test::pixelsAt;
+
+constexpr float kWithdrawn = -std::numeric_limits<float>::infinity();
+
+GroundEvidenceWorkspace work;  // shared by all tests, as by all scans in a filter
+
+std::vector<int> level(const PixelPoints& pixels) {
+    Image<std::uint8_t> is_level;
+    PixelCells cells;
+    findPixelCells(pixels, cells);
+    findLevelPixels(pixels, cells, is_level, work);
+    EXPECT_EQ(is_level.rows(), pixels.x_m.rows());
+    EXPECT_EQ(is_level.cols(), pixels.x_m.cols());
+    return {is_level.data(), is_level.data() + is_level.size()};
+}
+
+/// The level pixels of columns of `rows` pixels, lowest row first.
+std::vector<int> level(const std::vector<Eigen::Vector3f>& points_m, int rows) {
+    return level(pixelsAt(points_m, rows));
+}
+std::vector<int> levelInColumn(const std::vector<Eigen::Vector3f>& column_m) {
+    return level(column_m, static_cast<int>(column_m.size()));
+}
+
+/// What a sensor at this height sees, pixel by pixel.
+PixelPoints seen(const test::SimpleScene& scene, const SensorModel& sensor, double height_m) {
+    constexpr int kColumns = 100;
+    const Eigen::Vector3d eye_m(0, 0, height_m);
+    std::vector<Eigen::Vector3f> points_m;
+    for (int column = 0; column < kColumns; ++column) {
+        for (const float elevation_rad : sensor.elevations_rad) {
+            const Eigen::Vector3d beam = test::directionOf(
+                0.05 + 2 * 3.14159265 * column / kColumns, static_cast<double>(elevation_rad));
+            const double range_m = test::castRay(scene, eye_m, beam).range_m;
+            points_m.push_back(range_m < 100 ? (eye_m + range_m * beam).cast<float>().eval()
+                                             : kEmptyPixel);
+        }
+    }
+    return pixelsAt(points_m, sensor.rows());
+}
+
+/// Level pixels among those between these heights, and pixels there.
+struct LevelShare {
+    int level = 0, pixels = 0;
+};
+LevelShare levelBetween(float low_m, float high_m, const PixelPoints& pixels) {
+    const std::vector<int> is_level = level(pixels);
+    LevelShare share;
+    for (Eigen::Index i = 0; i < pixels.z_m.size(); ++i) {
+        const float z_m = pixels.z_m.data()[i];
+        if (!(z_m > low_m && z_m < high_m)) continue;
+        ++share.pixels;
+        share.level += is_level[static_cast<std::size_t>(i)];
+    }
+    return share;
+}
+
+TEST(FindLevelPixels, GroundIsLevel) {
+    for (const char* name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
+        for (const double height_m : {0.3, 1.5, 10.0}) {
+            const LevelShare ground =
+                levelBetween(-0.1f, 0.1f, seen({}, sensorModel(name), height_m));
+            EXPECT_GE(ground.pixels, 500) << name;
+            EXPECT_EQ(ground.level, ground.pixels) << name;
+        }
+    }
+}
+
+TEST(FindLevelPixels, AWallIsNot) {
+    test::SimpleScene scene;
+    scene.boxes = {{{8, -9, 0}, {9, 9, 9}}, {{-9, -9, 0}, {-8, 9, 9}}};
+    const PixelPoints pixels = seen(scene, sensorModel("VLP-16"), 1.5);
+    // The lowest pixel may be on a level step from the ground before the wall.
+    const LevelShare walls = levelBetween(0.6f, 8.9f, pixels);
+    EXPECT_GT(walls.pixels, 500);
+    EXPECT_EQ(walls.level, 0);
+    const LevelShare ground = levelBetween(-0.1f, 0.01f, pixels);
+    EXPECT_GT(ground.pixels, 200);
+    EXPECT_EQ(ground.level, ground.pixels);
+}
+
+TEST(FindLevelPixels, ACeilingIsNotBecauseItComesCloserWithElevation) {
+    test::SimpleScene scene;
+    scene.boxes = {{{-40, -40, 3}, {40, 40, 4}}};
+    const PixelPoints pixels = seen(scene, sensorModel("VLP-16"), 1.5);
+    const LevelShare ceiling = levelBetween(2.9f, 3.1f, pixels);
+    EXPECT_GT(ceiling.pixels, 500);
+    EXPECT_EQ(ceiling.level, 0);
+}
+
+TEST(FindLevelPixels, AStepIsLevelIfItsSlopeIsLessThanThreeTenths) {
+    EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0.299f}}), (std::vector{1, 1}));
+    EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0.301f}}), (std::vector{0, 0}));
+    EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, -0.299f}}), (std::vector{1, 1}));
+    EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, -0.301f}}), (std::vector{0, 0}));
+    // 5 m out and 12 m aside: 0.3 of 13 m is 3.9 m.
+    EXPECT_EQ(levelInColumn({{5, -12, 0}, {10, -24, 3.89f}}), (std::vector{1, 1}));
+    EXPECT_EQ(levelInColumn({{5, -12, 0}, {10, -24, 3.91f}}), (std::vector{0, 0}));
+}
+
+TEST(FindLevelPixels, AStepIsLevelOnlyOutwards) {
+    EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0}}), (std::vector{1, 1}));
+    EXPECT_EQ(levelInColumn({{6, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));
+    EXPECT_EQ(levelInColumn({{-5, 0, 0}, {-6, 0, 0}}), (std::vector{1, 1}));
+    EXPECT_EQ(levelInColumn({{0, -6, 0}, {0, -5, 0}}), (std::vector{0, 0}));
+    EXPECT_EQ(levelInColumn({{5, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));  // nowhere
+}
+
+TEST(FindLevelPixels, OneLevelStepIsEnoughForBothOfItsPixels) {
+    // Ground, the foot of a wall, the wall.
+    EXPECT_EQ(levelInColumn({{4, 0, 0}, {6, 0, 0}, {8, 0, 0}, {8, 0, 0.7f}, {8, 0, 1.5f}}),
+              (std::vector{1, 1, 1, 0, 0}));
+    EXPECT_EQ(levelInColumn({{4, 0, 0}, {4, 0, 0.2f}, {6, 0, 0.2f}}), (std::vector{0, 1, 1}));
+}
+
+TEST(FindLevelPixels, OverAShortWayTheNextButOneMakesTheStep) {
+    // Ranges are 2 cm off: the short steps are steep, the long one is not.
+    EXPECT_EQ(levelInColumn({{1, 0, 0}, {1.05f, 0, 0.02f}, {1.1f, 0, 0}}), (std::vector{1, 0, 1}));
+    EXPECT_EQ(levelInColumn({{1, 0, 0}, {1.05f, 0, 0.09f}, {1.1f, 0, 0}}), (std::vector{0, 0, 0}));
+    EXPECT_EQ(levelInColumn({{1, 0, 0}, {1, 0, 0.05f}, {1, 0, 0.1f}}), (std::vector{0, 0, 0}));
+    EXPECT_EQ(levelInColumn({{1.2f, 0, 0}, {1.15f, 0, 0.02f}, {1.1f, 0, 0}}),
+              (std::vector{0, 0, 0}));
+    // Not into the next column.
+    EXPECT_EQ(level({{1, 0, 0}, {1.05f, 0, 0.02f}, {1.1f, 0, 0}, {9, 0, 9}}, 2),
+              (std::vector{0, 0, 0, 0}));
+}
+
+TEST(FindLevelPixels, OverEmptyPixelsTheNextReturnMakesTheStep) {
+    const Eigen::Vector3f low(3, 0, 0), high(4, 0, 0.2f), steep(4, 0, 0.4f), none = kEmptyPixel;
+    EXPECT_EQ(levelInColumn({low, none, high}), (std::vector{1, 0, 1}));
+    EXPECT_EQ(levelInColumn({low, none, none, none, high}), (std::vector{1, 0, 0, 0, 1}));
+    EXPECT_EQ(levelInColumn({low, none, none, none, none, high}),
+              (std::vector{0, 0, 0, 0, 0, 0}));  // too many
+    EXPECT_EQ(levelInColumn({low, none, steep}), (std::vector{0, 0, 0}));
+    // Not over a return that is neither empty nor close: it decides.
+    EXPECT_EQ(levelInColumn({low, {3, 0, 0.3f}, {3.1f, 0, 0.4f}, {4, 0, 0}}),
+              (std::vector{0, 0, 0, 0}));
+    // Not farther than 2 m; to the pixel above, at any distance.
+    EXPECT_EQ(levelInColumn({low, none, {4.99f, 0, 0}}), (std::vector{1, 0, 1}));
+    EXPECT_EQ(levelInColumn({low, none, {5.01f, 0, 0}}), (std::vector{0, 0, 0}));
+    EXPECT_EQ(levelInColumn({low, {9, 0, 0}}), (std::vector{1, 1}));
+    // Not into the next column.
+    EXPECT_EQ(level({none, low, none, high}, 2), (std::vector{0, 0, 0, 0}));
+}
+
+// The table top is 0.75 m up, in the cell from 3 to 3.75 m.
+TEST(FindLevelPixels, ATableOverTheFloorIsNot) {
+    const std::vector<Eigen::Vector3f> floor{{3.1f, 0.1f, 0}, {4.6f, 0.1f, 0}};
+    const std::vector<Eigen::Vector3f> table{{3.2f, 0.3f, 0.75f}, {3.6f, 0.3f, 0.75f}};
+    EXPECT_EQ(levelInColumn(floor), (std::vector{1, 1}));
+    EXPECT_EQ(levelInColumn(table), (std::vector{1, 1}));
+    EXPECT_EQ(level({floor[0], floor[1], table[0], table[1]}, 2), (std::vector{1, 1, 0, 0}));
+    EXPECT_EQ(level({table[0], table[1], floor[0], floor[1]}, 2), (std::vector{0, 0, 1, 1}));
+    // Floor in another cell does not count.
+    EXPECT_EQ(level({table[0], table[1], {3.8f, 0.1f, 0}, {4.6f, 0.1f, 0}}, 2),
+              (std::vector{1, 1, 1, 1}));
+}
+
+TEST(FindLevelPixels, UpToThreeTenthsOfAMetreBelowMayBeTheSameGround) {
+    const auto over = [](float below_m) {
+        return level({{3.2f, 0.3f, 1}, {3.6f, 0.3f, 1}, {3.4f, 0.1f, 1 - below_m}, kEmptyPixel}, 2);
+    };
+    EXPECT_EQ(over(0.29f), (std::vector{1, 1, 0, 0}));
+    EXPECT_EQ(over(0.31f), (std::vector{0, 0, 0, 0}));
+}
+
+TEST(FindLevelPixels, TheTopOfAColumnIsNoStepToTheNextColumn) {
+    EXPECT_EQ(level({{4, 0, 0}, {5, 0, 2}, {6, 0, 2}, {6, 0, 5}}, 2), (std::vector{0, 0, 0, 0}));
+    EXPECT_EQ(levelInColumn({{4, 0, 0}, {5, 0, 2}, {6, 0, 2}, {6, 0, 5}}),
+              (std::vector{0, 1, 1, 0}));
+    EXPECT_EQ(level({{4, 0, 0}, {5, 0, 0}, {6, 0, 0}}, 1), (std::vector{0, 0, 0}));  // one beam
+}
+
+TEST(FindLevelPixels, EmptyPixelsAreNotLevel) {
+    EXPECT_EQ(levelInColumn({{4, 0, 0}, kEmptyPixel, {5, 0, 0}, {6, 0, 0}, kEmptyPixel}),
+              (std::vector{1, 0, 1, 1, 0}));
+    EXPECT_EQ(levelInColumn({kEmptyPixel, kEmptyPixel}), (std::vector{0, 0}));
+}
+
+TEST(FindLevelPixels, AnEmptyImageHasNone) {
+    EXPECT_TRUE(level({}, 1).empty());
+    EXPECT_TRUE(level({}, 16).empty());
+}
+
+TEST(KeepLevelRou, OnlyPixelsThatAreBothStayRou) {
+    Image<Label> labels(2, 3), expected(2, 3), candidates;
+    labels << Label::Rou, Label::Roi, Label::Unclassified, Label::Rou, Label::Roi,
+        Label::Unclassified;
+    Image<std::uint8_t> is_level(2, 3);
+    is_level << 1, 1, 1, 0, 0, 0;
+    keepLevelRou(labels, is_level, candidates);
+    expected.setConstant(Label::Unclassified);
+    expected(0, 0) = Label::Rou;
+    EXPECT_EQ(candidates.rows(), 2);
+    EXPECT_TRUE((candidates == expected).all());
+}
+
+/// A pixel with what requireEvidence() sees of it.
+struct Seen {
+    float x_m, y_m, height_m;
+    bool is_level;
+};
+
+/// The tolerances of these pixels, of 0.5 m before.
+std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
+    std::vector<Eigen::Vector3f> points_m;
+    for (const Seen& s : seen) points_m.emplace_back(s.x_m, s.y_m, s.height_m);
+    const PixelPoints pixels = pixelsAt(points_m, rows);
+    Image<std::uint8_t> is_level(rows, pixels.x_m.cols());
+    Image<float> tolerance_m(rows, pixels.x_m.cols());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        is_level.data()[i] = seen[i].is_level;
+        tolerance_m.data()[i] = hasValue(seen[i].height_m) ? 0.5f : kNoValue;
+    }
+    PixelCells cells;
+    findPixelCells(pixels, cells);
+    std::vector<std::uint8_t> has_evidence(7, 1);  // of an earlier scan
+    requireEvidence(pixels, cells, pixels.z_m, is_level, tolerance_m, has_evidence, work);
+    EXPECT_EQ(has_evidence.size(), PixelCells::kNoBlock + 1u);
+    EXPECT_EQ(has_evidence.back(), 0);
+    for (Eigen::Index i = 0; i < tolerance_m.size(); ++i) {
+        const float m = tolerance_m.data()[i];
+        if (!hasValue(m)) continue;
+        EXPECT_EQ(has_evidence[cells.block.data()[i]], m == 0.5f ? 1 : 0) << i;
+    }
+    return {tolerance_m.data(), tolerance_m.data() + tolerance_m.size()};
+}
+
+/// So many pixels close to the surface, of which some are level, in one cell.
+std::vector<Seen> closePixels(int number, int of_them_level, float x_m = 1, float y_m = 1) {
+    std::vector<Seen> pixels(static_cast<std::size_t>(number), {x_m, y_m, 0, false});
+    for (int i = 0; i < of_them_level; ++i) pixels[static_cast<std::size_t>(i)].is_level = true;
+    return pixels;
+}
+
+bool allAre(float value, const std::vector<float>& values) {
+    return std::all_of(values.begin(), values.end(), [&](float v) { return v == value; });
+}
+
+TEST(RequireEvidence, FiftyFivePercentOfTheClosePixelsMustBeLevel) {
+    EXPECT_TRUE(allAre(kWithdrawn, required(closePixels(1000, 549))));
+    EXPECT_TRUE(allAre(0.5f, required(closePixels(1000, 551))));
+    EXPECT_TRUE(allAre(kWithdrawn, required(closePixels(1000, 0))));
+    EXPECT_TRUE(allAre(0.5f, required(closePixels(1000, 1000))));
+    EXPECT_TRUE(allAre(0.5f, required(closePixels(1, 1))));
+}
+
+TEST(RequireEvidence, TheShareIsThatOfAllCellsTogether) {
+    // The cell at 1 m alone would have evidence, that at 5 m not.
+    std::vector<Seen> pixels = closePixels(100, 80);
+    const auto join = [&](const std::vector<Seen>& more) {
+        pixels.insert(pixels.end(), more.begin(), more.end());
+    };
+    join(closePixels(100, 31, 5, -4));
+    EXPECT_TRUE(allAre(0.5f, required(pixels)));
+    join(closePixels(3, 0, -6, 7));
+    EXPECT_TRUE(allAre(kWithdrawn, required(pixels)));
+}
+
+// Blocks are 3 m wide: x = 1 is in the block from 0 to 3 m, x = 12 is in the fourth after it.
+TEST(RequireEvidence, ReachesFourBlocksInEachDirection) {
+    const auto toleratedAt = [](float x_m, float y_m) {
+        return required({{1, 1, 0, true}, {x_m, y_m, 5, false}}).back();
+    };
+    for (const float aside_m : {-11.9f, 1.0f, 14.9f}) {
+        EXPECT_EQ(toleratedAt(14.9f, aside_m), 0.5f);
+        EXPECT_EQ(toleratedAt(15.1f, aside_m), kWithdrawn);
+        EXPECT_EQ(toleratedAt(-11.9f, aside_m), 0.5f);
+        EXPECT_EQ(toleratedAt(-12.1f, aside_m), kWithdrawn);
+        EXPECT_EQ(toleratedAt(aside_m, 14.9f), 0.5f);
+        EXPECT_EQ(toleratedAt(aside_m, 15.1f), kWithdrawn);
+        EXPECT_EQ(toleratedAt(aside_m, -11.9f), 0.5f);
+        EXPECT_EQ(toleratedAt(aside_m, -12.1f), kWithdrawn);
+    }
+}
+
+TEST(RequireEvidence, EndsAtTheEdgeOfTheGrid) {
+    // Grid columns follow one another in memory; what is at the end of one is not near the next.
+    const std::vector<float> tolerance_m =
+        required({{47.9f, 47.9f, 0, true}, {-47.9f, 47.9f, 5, false}, {47.9f, -47.9f, 5, false}});
+    EXPECT_EQ(tolerance_m, (std::vector{0.5f, kWithdrawn, kWithdrawn}));
+}
+
+TEST(RequireEvidence, CloseIsTwoTenthsOfAMetreAndHalfACentimetrePerMetre) {
+    const auto isEvidence = [](float x_m, float y_m, float height_m) {
+        return required({{x_m, y_m, height_m, true}}).front() == 0.5f;
+    };
+    for (const float side : {-1.0f, 1.0f}) {
+        EXPECT_TRUE(isEvidence(0.1f, 0, side * 0.199f));
+        EXPECT_FALSE(isEvidence(0.1f, 0, side * 0.202f));
+        EXPECT_TRUE(isEvidence(12, -16, side * 0.299f));  // 20 m away
+        EXPECT_FALSE(isEvidence(12, -16, side * 0.301f));
+    }
+}
+
+TEST(RequireEvidence, WhatIsNotCloseDoesNotCount) {
+    std::vector<Seen> pixels = closePixels(10, 6);
+    for (int i = 0; i < 100; ++i) pixels.push_back({1, 1, 0.25f, false});
+    EXPECT_TRUE(allAre(0.5f, required(pixels)));
+    pixels = closePixels(10, 5);
+    for (int i = 0; i < 100; ++i) pixels.push_back({1, 1, -0.25f, true});
+    EXPECT_TRUE(allAre(kWithdrawn, required(pixels)));
+}
+
+TEST(RequireEvidence, OutsideTheGridIsNone) {
+    // Neither has a pixel outside a tolerance, nor does it show anything about the cells inside.
+    for (const auto& [x_m, y_m] : {std::pair{48.1f, 0.0f},
+                                   {-48.1f, 0.0f},
+                                   {0.0f, 48.1f},
+                                   {0.0f, -48.1f},
+                                   {48.1f, -48.1f},
+                                   {500.0f, 20.0f}}) {
+        std::vector<Seen> pixels{{x_m, y_m, 0, true}, {0.97f * x_m, 0.97f * y_m, 5, false}};
+        EXPECT_TRUE(allAre(kWithdrawn, required(pixels))) << x_m << " " << y_m;
+        pixels.push_back({0.9f * x_m, 0.9f * y_m, 0, true});
+        EXPECT_EQ(required(pixels).front(), kWithdrawn) << x_m << " " << y_m;
+    }
+}
+
+TEST(RequireEvidence, EmptyPixelsStayEmptyAndDoNotCount) {
+    const Seen empty{kNoValue, kNoValue, kNoValue, false};
+    std::vector<Seen> pixels = closePixels(4, 4);
+    for (int i = 0; i < 8; ++i) pixels.push_back(empty);
+    const std::vector<float> tolerance_m = required(pixels, 4);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(tolerance_m[i], 0.5f);
+    for (std::size_t i = 4; i < 12; ++i) EXPECT_FALSE(hasValue(tolerance_m[i]));
+    for (const float t_m : required({empty, empty})) EXPECT_FALSE(hasValue(t_m));
+}
+
+TEST(RequireEvidence, AnEmptyImageStaysEmpty) {
+    EXPECT_TRUE(required({}).empty());
+    EXPECT_TRUE(required({}, 16).empty());
+}
+
+TEST(RequireEvidence, AnEarlierScanLeavesNothing) {
+    EXPECT_TRUE(allAre(0.5f, required(closePixels(100, 100))));
+    EXPECT_TRUE(allAre(kWithdrawn, required({{1, 1, 5, false}})));
+}
+
+}  // namespace
+}  // namespace hagen

@@ -1,0 +1,376 @@
+#include <gtest/gtest.h>
+#include <hagen/filter/GroundSurface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "support/GroundPixels.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+using test::groundPoints;
+using test::pixelsAt;
+
+constexpr int kCells = GroundSurface::kCells;
+constexpr float kCell_m = GroundSurface::kCell_m;
+constexpr float kNone = std::numeric_limits<float>::infinity();
+using Grid = Eigen::ArrayXXf;
+GroundSurfaceWorkspace work;  // shared by all tests, as by all scans in a filter
+
+/// The surface fitted to all points.
+GroundSurface surfaceUnder(const std::vector<Eigen::Vector3f>& points_m) {
+    GroundSurface surface;
+    const PixelPoints pixels = pixelsAt(points_m);
+    const Image<bool> all = Image<bool>::Constant(1, pixels.x_m.cols(), true);
+    fitGroundSurface(pixels, all, surface, work);
+    return surface;
+}
+
+float middleOf(int cell) { return (static_cast<float>(cell) + 0.5f) * kCell_m - 48.0f; }
+int cellOf(float coordinate_m) { return test::cellFromSensor(coordinate_m) + kCells / 2; }
+
+/// The maximum deviation of the surface from a height, within a square around the sensor.
+template <class Height>
+float greatestError(const GroundSurface& surface, float reach_m, Height height) {
+    float greatest_m = 0;
+    for (const Eigen::Vector3f& p : groundPoints(reach_m, 0.31f, height)) {
+        greatest_m = std::max(greatest_m, std::abs(surface.at(p.x(), p.y()) - p.z()));
+    }
+    return greatest_m;
+}
+
+const auto kLevel = [](float, float) { return 0.0f; };
+const auto kHill = [](float x_m, float y_m) {
+    return 1.5f * std::exp(-(x_m * x_m + y_m * y_m) / (2 * 8 * 8));
+};
+
+TEST(GroundSurface, BetweenMiddlesOfCellsItIsBilinear) {
+    GroundSurface surface;
+    surface.height_m = Grid::Zero(kCells, kCells);
+    surface.height_m(64, 70) = 1;
+    surface.height_m(65, 70) = 2;
+    surface.height_m(64, 71) = 3;
+    surface.height_m(65, 71) = 5;
+    const float x_m = middleOf(64), y_m = middleOf(70);
+    EXPECT_FLOAT_EQ(x_m, 0.375f);
+    EXPECT_NEAR(surface.at(x_m, y_m), 1, 1e-4);
+    EXPECT_NEAR(surface.at(x_m + kCell_m, y_m), 2, 1e-4);
+    EXPECT_NEAR(surface.at(x_m, y_m + kCell_m), 3, 1e-4);
+    EXPECT_NEAR(surface.at(x_m + 0.25f * kCell_m, y_m), 1.25f, 1e-4);
+    EXPECT_NEAR(surface.at(x_m, y_m + 0.25f * kCell_m), 1.5f, 1e-4);
+    // 0.25 of the way in x, 0.5 in y: 0.375 * 1 + 0.125 * 2 + 0.375 * 3 + 0.125 * 5
+    EXPECT_NEAR(surface.at(x_m + 0.25f * kCell_m, y_m + 0.5f * kCell_m), 2.375f, 1e-4);
+}
+
+TEST(GroundSurface, BeyondTheSquareItIsThatOfTheBorder) {
+    GroundSurface surface;
+    surface.height_m = Grid::Zero(kCells, kCells);
+    surface.height_m(0, 0) = 1;
+    surface.height_m(kCells - 1, 64) = 2;
+    EXPECT_FLOAT_EQ(surface.at(-60, -70), 1);
+    EXPECT_FLOAT_EQ(surface.at(100, middleOf(64)), 2);
+}
+
+TEST(GroundSurface, OfNoCandidateIsThePlane) {
+    EXPECT_TRUE((surfaceUnder({test::kEmptyPixel}).height_m == 0).all());
+    GroundSurface surface;
+    const PixelPoints high = pixelsAt({{5, 0, 3}});
+    fitGroundSurface(high, Image<bool>::Constant(1, 1, false).eval(), surface, work);
+    EXPECT_EQ(surface.height_m.rows(), kCells);
+    EXPECT_EQ(surface.height_m.cols(), kCells);
+    EXPECT_TRUE((surface.height_m == 0).all());
+}
+
+TEST(GroundSurface, OfAnEmptyLabelledImageIsThePlane) {
+    PixelPoints pixels = pixelsAt(std::vector<Eigen::Vector3f>(16 * 20, test::kEmptyPixel), 16);
+    GroundSurface surface;
+    fitGroundSurface(pixels, Image<Label>::Constant(16, 20, Label::Unclassified).eval(), surface,
+                     work);
+    EXPECT_TRUE((surface.height_m == 0).all());
+    Image<float> height_m;
+    heightsAbove(surface, pixels, height_m);
+    EXPECT_TRUE(height_m.isNaN().all());
+}
+
+TEST(GroundSurface, OneHeightFillsTheWholeSquare) {
+    test::Random random(80);
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 40; ++i) {
+        points.emplace_back(random.real(-47, 47), random.real(-47, 47), 0.7f);
+    }
+    EXPECT_LT((surfaceUnder(points).height_m - 0.7f).abs().maxCoeff(), 1e-5f);
+    EXPECT_LT((surfaceUnder({points.front()}).height_m - 0.7f).abs().maxCoeff(), 1e-5f);
+}
+
+TEST(GroundSurface, LiesWithinTheHeightsOfItsCandidates) {
+    test::Random random(81);
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 3000; ++i) {
+        points.emplace_back(random.real(-47, 47), random.real(-47, 47), random.real(-0.2f, 0.3f));
+    }
+    const GroundSurface surface = surfaceUnder(points);
+    EXPECT_GE(surface.height_m.minCoeff(), -0.2001f);
+    EXPECT_LE(surface.height_m.maxCoeff(), 0.3001f);
+}
+
+/// The definition in the header, over a square in which every cell is seen: the envelope by
+/// Dijkstra's algorithm from the lowest cells, means and binomial by definition. NaN where
+/// neighbours are not ground and coarser grids contribute.
+Grid slowSurface(const std::vector<Eigen::Vector3f>& points_m) {
+    Grid lowest_m = Grid::Constant(kCells, kCells, kNone);
+    for (const auto& p : points_m) {
+        float& low = lowest_m(cellOf(p.x()), cellOf(p.y()));
+        low = std::min(low, p.z());
+    }
+    const auto forNeighbours = [](int i, int j, auto visit) {
+        for (int x = i - 1; x <= i + 1; ++x) {
+            for (int y = j - 1; y <= j + 1; ++y) {
+                if (x < 0 || y < 0 || x >= kCells || y >= kCells || (x == i && y == j)) continue;
+                visit(x, y);
+            }
+        }
+    };
+    Grid cleaned_m = lowest_m;
+    for (int i = 0; i < kCells; ++i) {
+        for (int j = 0; j < kCells; ++j) {
+            std::vector<float> around;
+            forNeighbours(i, j, [&](int x, int y) { around.push_back(lowest_m(x, y)); });
+            std::sort(around.begin(), around.end());
+            const float third_highest = around[around.size() - 3];
+            if (third_highest > lowest_m(i, j) + 0.4f) {
+                cleaned_m(i, j) = std::max(lowest_m(i, j), around.front());
+            }
+        }
+    }
+    struct Reached {
+        float height_m;
+        int i, j;
+        bool operator<(const Reached& other) const { return height_m > other.height_m; }
+    };
+    std::priority_queue<Reached> queue;
+    Grid envelope_m = cleaned_m;
+    for (int i = 0; i < kCells; ++i) {
+        for (int j = 0; j < kCells; ++j) queue.push({cleaned_m(i, j), i, j});
+    }
+    while (!queue.empty()) {
+        const Reached from = queue.top();
+        queue.pop();
+        if (from.height_m > envelope_m(from.i, from.j)) continue;
+        forNeighbours(from.i, from.j, [&](int x, int y) {
+            const float step = x != from.i && y != from.j ? std::sqrt(2.0f) : 1.0f;
+            const float reached_m = from.height_m + 0.3f * kCell_m * step;
+            if (!(reached_m < envelope_m(x, y))) return;
+            envelope_m(x, y) = reached_m;
+            queue.push({reached_m, x, y});
+        });
+    }
+    Grid sum_m = Grid::Zero(kCells, kCells), number = Grid::Zero(kCells, kCells);
+    for (const auto& p : points_m) {
+        const int i = cellOf(p.x()), j = cellOf(p.y());
+        if (cleaned_m(i, j) > envelope_m(i, j) + 0.15f) continue;
+        if (p.z() > cleaned_m(i, j) + 0.05f || p.z() < cleaned_m(i, j) - 0.1f) continue;
+        sum_m(i, j) += p.z();
+        number(i, j) += 1;
+    }
+    Grid expected_m = Grid::Constant(kCells, kCells, kNoValue);
+    for (int i = 1; i + 1 < kCells; ++i) {
+        for (int j = 1; j + 1 < kCells; ++j) {
+            Eigen::Array33f kernel, means = sum_m.block<3, 3>(i - 1, j - 1);
+            kernel << 1, 2, 1, 2, 4, 2, 1, 2, 1;
+            kernel *= (number.block<3, 3>(i - 1, j - 1) / 5).min(1.0f) / 16;
+            if (kernel.sum() < 0.9999f) continue;  // less than full weight
+            means /= number.block<3, 3>(i - 1, j - 1);
+            expected_m(i, j) = (kernel * means).sum();
+        }
+    }
+    return expected_m;
+}
+
+TEST(GroundSurface, AgreesWithASlowerFitWhereAllIsSeen) {
+    for (unsigned seed = 82; seed < 84; ++seed) {
+        test::Random random(seed);
+        std::vector<Eigen::Vector3f> points;
+        for (int i = 0; i < kCells; ++i) {
+            for (int j = 0; j < kCells; ++j) {
+                const bool is_obstacle = random.chance(0.05), is_stray = random.chance(0.01);
+                const float base_m = is_obstacle ? random.real(0, 1) : is_stray ? -1.0f : 0.0f;
+                for (int k = 0; k < 6; ++k) {
+                    const float x_m = middleOf(i) + random.real(-0.3f, 0.3f);
+                    const float y_m = middleOf(j) + random.real(-0.3f, 0.3f);
+                    points.emplace_back(
+                        x_m, y_m, base_m + 0.05f * x_m + random.real(0, k < 5 ? 0.04f : 0.3f));
+                }
+            }
+        }
+        const Grid expected_m = slowSurface(points), found_m = surfaceUnder(points).height_m;
+        ASSERT_GT((!expected_m.isNaN()).count(), 5000);
+        ASSERT_LT((!expected_m.isNaN()).count(), 13000);
+        EXPECT_LT(expected_m.isNaN().select(0.0f, (expected_m - found_m).abs()).maxCoeff(), 1e-4f);
+    }
+}
+
+/// Whether a cell of returns at `height_m` counts as ground, `cells` away from a cell of level
+/// ground.
+bool isGround(int cells, float height_m, bool diagonally, bool seen_between) {
+    std::vector<Eigen::Vector3f> points{{middleOf(64), middleOf(64), 0}};
+    const int y = diagonally ? 64 + cells : 64;
+    points.emplace_back(middleOf(64 + cells), middleOf(y), height_m);
+    for (int k = 1; seen_between && k < cells; ++k) {  // too high to be a step themselves
+        points.emplace_back(middleOf(64 + k), middleOf(diagonally ? 64 + k : 64), 30.0f);
+    }
+    return !(surfaceUnder(points).height_m == 0).all();
+}
+
+TEST(GroundSurface, HowSteepGroundMayBeIsAsTheHeaderSays) {
+    // The last step is into a cell with a candidate, the others are over cells without.
+    const float cells = 10, step_m = 0.75f;
+    const float unseen_m = (0.15f * (cells - 1) + 0.3f) * step_m + 0.15f;
+    EXPECT_TRUE(isGround(10, unseen_m - 0.01f, false, false));
+    EXPECT_FALSE(isGround(10, unseen_m + 0.01f, false, false));
+    const float seen_m = 0.3f * cells * step_m + 0.15f;
+    EXPECT_TRUE(isGround(10, unseen_m + 0.01f, false, true));
+    EXPECT_FALSE(isGround(10, seen_m + 0.01f, false, true));
+    const float across_m = (0.15f * (cells - 1) + 0.3f) * step_m * std::sqrt(2.0f) + 0.15f;
+    EXPECT_TRUE(isGround(10, across_m - 0.01f, true, false));
+    EXPECT_FALSE(isGround(10, across_m + 0.01f, true, false));
+}
+
+TEST(GroundSurface, SlopesAreTheSameInEveryDirection) {
+    // Level ground in 3 x 3 cells, a plateau in 3 x 3 others, walls everywhere else. To the far
+    // corner of the plateau it is 9 cells in one axis and 5 in the other: 4 straight steps, 5
+    // diagonal ones.
+    const float height_m = 0.3f * kCell_m * (4 + 5 * std::sqrt(2.0f)) + 0.15f;
+    for (const auto& [dx, dy] :
+         {std::pair{9, 5}, {9, -5}, {-9, 5}, {-9, -5}, {5, 9}, {5, -9}, {-5, 9}, {-5, -9}}) {
+        const auto isPlateauGround = [&, x0 = dx, y0 = dy](float plateau_m) {
+            std::vector<Eigen::Vector3f> points;
+            for (int x = -12; x <= 12; ++x) {
+                for (int y = -12; y <= 12; ++y) {
+                    const bool is_start = std::abs(x) <= 1 && std::abs(y) <= 1;
+                    const bool is_plateau = std::abs(x - x0) <= 1 && std::abs(y - y0) <= 1;
+                    const float z_m = is_start ? 0.0f : is_plateau ? plateau_m : 30.0f;
+                    points.emplace_back(middleOf(64 + x), middleOf(64 + y), z_m);
+                }
+            }
+            return !(surfaceUnder(points).height_m == 0).all();
+        };
+        EXPECT_TRUE(isPlateauGround(height_m - 0.01f)) << dx << " " << dy;
+        EXPECT_FALSE(isPlateauGround(height_m + 0.01f)) << dx << " " << dy;
+    }
+}
+
+TEST(GroundSurface, FollowsAGentleHill) {
+    EXPECT_LT(greatestError(surfaceUnder(groundPoints(40, 0.25f, kHill)), 38, kHill), 0.05f);
+}
+
+TEST(GroundSurface, FollowsAGentleHillBetweenSparseReturns) {
+    test::Random random(84);
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 3000; ++i) {
+        const float x_m = random.real(-30, 30), y_m = random.real(-30, 30);
+        points.emplace_back(x_m, y_m, kHill(x_m, y_m));
+    }
+    EXPECT_LT(greatestError(surfaceUnder(points), 28, kHill), 0.1f);
+}
+
+TEST(GroundSurface, StraysBelowTheGroundDoNotDragIt) {
+    auto points = groundPoints(20, 0.25f, kLevel);
+    for (std::size_t i = 300; i < points.size(); i += 613) points[i].z() = -2;
+    EXPECT_LT(greatestError(surfaceUnder(points), 18, kLevel), 0.01f);
+}
+
+TEST(GroundSurface, AWallThatHidesTheGroundDoesNotLiftIt) {
+    // The ground is not visible within 1 m of the wall, nor for 6 m behind it.
+    std::vector<Eigen::Vector3f> points;
+    for (const Eigen::Vector3f& p : groundPoints(25, 0.25f, kLevel)) {
+        if (!(p.x() > 9 && p.x() < 16 && std::abs(p.y()) < 6)) points.push_back(p);
+    }
+    for (int i = -20; i <= 20; ++i) {
+        for (int k = 3; k < 15; ++k) {
+            points.emplace_back(10.0f, 0.25f * static_cast<float>(i),
+                                0.25f * static_cast<float>(k));
+        }
+    }
+    EXPECT_LT(greatestError(surfaceUnder(points), 20, kLevel), 0.02f);
+}
+
+TEST(GroundSurface, OutsideTheSquareAndWithoutCoordinatesNothingCounts) {
+    auto points = groundPoints(10, 0.5f, kLevel);
+    points.emplace_back(48.01f, 0.0f, -5.0f);
+    points.emplace_back(0.0f, -48.01f, -5.0f);
+    points.insert(points.end(), 50, test::kEmptyPixel);
+    EXPECT_TRUE((surfaceUnder(points).height_m == 0).all());
+}
+
+TEST(GroundSurface, OnlyCandidatesCount) {
+    auto points = groundPoints(10, 0.5f, kLevel);
+    const std::size_t ground = points.size();
+    for (std::size_t i = 0; i < ground; ++i) points.push_back(points[i] - Eigen::Vector3f(0, 0, 1));
+    Image<bool> is_candidate(1, points.size());
+    is_candidate.leftCols(static_cast<Eigen::Index>(ground)) = true;
+    is_candidate.rightCols(static_cast<Eigen::Index>(ground)) = false;
+    GroundSurface surface;
+    fitGroundSurface(pixelsAt(points), is_candidate, surface, work);
+    EXPECT_TRUE((surface.height_m == 0).all());
+}
+
+TEST(GroundSurface, GroundThatTheLabelsCutOffComesBack) {
+    // A mound of 0.15 m that the labelling took for an obstacle, with a 2 m bush on it.
+    const auto mound = [](float x_m, float y_m) {
+        return 0.15f * std::exp(-((x_m - 8) * (x_m - 8) + y_m * y_m) / (2 * 2 * 2));
+    };
+    auto points = groundPoints(20, 0.25f, mound);
+    std::vector<Label> labels;
+    for (const auto& p : points) {
+        labels.push_back((p - Eigen::Vector3f(8, 0, 0)).norm() < 4 ? Label::Roi : Label::Rou);
+    }
+    for (const auto& p : groundPoints(1, 0.1f, kLevel)) {
+        points.emplace_back(p.x() + 8, p.y(), 2.0f);
+        labels.push_back(Label::Roi);
+    }
+    const Image<Label> image =
+        Eigen::Map<Image<Label>>(labels.data(), 1, static_cast<Eigen::Index>(labels.size()));
+    const PixelPoints pixels = pixelsAt(points);
+    GroundSurface of_rou, surface;
+    fitGroundSurface(pixels, (image == Label::Rou).eval(), of_rou, work);
+    fitGroundSurface(pixels, image, surface, work);
+    EXPECT_LT(of_rou.at(8, 0), 0.1f);
+    EXPECT_LT(greatestError(surface, 18, mound), 0.03f);
+}
+
+// Blocks 0.3 m high that hide the ground: the slopes allow them, the first fit does not. The same
+// for mirror images below the ground.
+TEST(GroundSurface, WhatTheLabelsCutOffAndIsNotCloseStaysCutOff) {
+    for (const float height_m : {0.3f, -0.5f}) {
+        auto points = groundPoints(20, 0.25f, kLevel);
+        std::vector<Label> labels;
+        for (auto& p : points) {
+            const bool is_block = std::abs(p.x() - 8) < 2 && std::abs(p.y()) < 2;
+            if (is_block) p.z() = height_m;
+            labels.push_back(is_block ? Label::Roi : Label::Rou);
+        }
+        GroundSurface surface;
+        fitGroundSurface(
+            pixelsAt(points),
+            Eigen::Map<Image<Label>>(labels.data(), 1, static_cast<Eigen::Index>(labels.size())),
+            surface, work);
+        EXPECT_LT(greatestError(surface, 18, kLevel), 0.01f);
+    }
+}
+
+TEST(GroundSurface, HeightsAreAboveIt) {
+    GroundSurface surface;
+    surface.height_m = Grid::Constant(kCells, kCells, 0.5f);
+    Image<float> height_m;
+    heightsAbove(surface, pixelsAt({{3, 4, 2}, test::kEmptyPixel, {60, 0, -1}}), height_m);
+    EXPECT_FLOAT_EQ(height_m(0, 0), 1.5f);
+    EXPECT_FALSE(hasValue(height_m(0, 1)));
+    EXPECT_FLOAT_EQ(height_m(0, 2), -1.5f);
+}
+
+}  // namespace
+}  // namespace hagen

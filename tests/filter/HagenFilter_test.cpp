@@ -1,0 +1,739 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/filter/CanopyLayer.h>
+#include <hagen/filter/Clearance.h>
+#include <hagen/filter/GapRepair.h>
+#include <hagen/filter/HagenFilter.h>
+#include <hagen/filter/RangeAngle.h>
+#include <hagen/filter/Sharpening.h>
+#include <hagen/scan/Angle.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "support/PaperOptions.h"
+#include "support/PointScan.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+using test::LabelledScan;
+using test::paperOptions;
+using test::SimpleScene;
+
+const Eigen::Vector3d kTwoMetresUp(0, 0, 2);
+
+/// Returns in the zone whose label differs from the ground truth.
+int mistakes(const LabelledScan& labelled, const SegmentationResult& result, Label truth) {
+    int wrong = 0;
+    for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
+        if (labelled.scan.range_m[i] > 20.0f || labelled.truth[i] != truth) continue;
+        wrong += result.returns.label[i] != truth;
+    }
+    return wrong;
+}
+
+/// Those of obstacles higher than grass: the ground is two metres below the sensor.
+int missedAboveGrass(const LabelledScan& labelled, const SegmentationResult& result) {
+    int missed = 0;
+    for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
+        if (labelled.scan.range_m[i] > 20.0f || labelled.truth[i] != Label::Roi) continue;
+        missed += labelled.scan.z_m[i] + 2 > 0.2f && result.returns.label[i] != Label::Roi;
+    }
+    return missed;
+}
+
+int count(const LabelledScan& labelled, Label truth) {
+    int number = 0;
+    for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
+        number += labelled.scan.range_m[i] <= 20.0f && labelled.truth[i] == truth;
+    }
+    return number;
+}
+
+TEST(HagenFilter, APlaneIsNoObstacle) {
+    for (const char* name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
+        const auto ground = test::scanScene({}, sensorModel(name), 870, kTwoMetresUp);
+        for (const Options& options : {paperOptions(), Options()}) {
+            HagenFilter filter(sensorModel(name), options);
+            EXPECT_EQ(mistakes(ground, filter.segment(ground.scan), Label::Rou), 0) << name;
+        }
+        EXPECT_GT(count(ground, Label::Rou), 4000) << name;
+    }
+}
+
+TEST(HagenFilter, AWallIsAnObstacleAndTheGroundBeforeItIsNot) {
+    SimpleScene scene;
+    scene.boxes.push_back({{10, -5, 0}, {11, 5, 30}});
+    const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    EXPECT_GT(count(wall, Label::Roi), 1500);
+    HagenFilter papers(sensorModel("VLP-16"), paperOptions());
+    const auto& result = papers.segment(wall.scan);
+    EXPECT_EQ(mistakes(wall, result, Label::Roi), 0);
+    // Where a beam hits the ground just in front of the wall, its slope to the beam above is that
+    // of the wall.
+    const double wall_columns = 870 * 2 * std::atan(5.0 / 10.0) / (2 * kPi);
+    EXPECT_LE(mistakes(wall, result, Label::Rou), wall_columns);
+    // The height makes it ground again, and at most the lowest returns of the wall.
+    HagenFilter filter(sensorModel("VLP-16"));
+    EXPECT_EQ(missedAboveGrass(wall, filter.segment(wall.scan)), 0);
+    EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);
+}
+
+TEST(HagenFilter, APoleIsOneObstacle) {
+    SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    const auto pole = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    EXPECT_GT(count(pole, Label::Roi), 40);
+    for (const Options& options : {paperOptions(), Options()}) {
+        HagenFilter filter(sensorModel("VLP-16"), options);
+        const auto& result = filter.segment(pole.scan);
+        EXPECT_EQ(mistakes(pole, result, Label::Roi), 0);
+        EXPECT_EQ(mistakes(pole, result, Label::Rou), 0);
+        for (const auto i : result.returns.roi) EXPECT_EQ(result.returns.component[i], 1);
+    }
+}
+
+TEST(HagenFilter, SomethingInMidAirIsAnObstacle) {
+    SimpleScene scene;
+    scene.boxes.push_back({{9, -1, 1.8}, {10, 1, 2.4}});
+    const auto box = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    EXPECT_GT(count(box, Label::Roi), 20);
+    for (const Options& options : {paperOptions(), Options()}) {
+        HagenFilter filter(sensorModel("VLP-16"), options);
+        EXPECT_EQ(mistakes(box, filter.segment(box.scan), Label::Roi), 0);
+    }
+}
+
+// Limitation of the paper's seeds: whatever the lowest beam of a column hits is labelled ground.
+TEST(HagenFilter, AWallNearerThanTheLowestGroundRingIsGroundToThePaperAndAnObstacleToUs) {
+    SimpleScene scene;
+    scene.boxes.push_back({{5, -2, 0}, {6, 2, 4}});
+    const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    ASSERT_GT(count(wall, Label::Roi), 1500);
+    HagenFilter papers(sensorModel("VLP-16"), paperOptions());
+    EXPECT_GT(mistakes(wall, papers.segment(wall.scan), Label::Roi), 0.9 * count(wall, Label::Roi));
+    HagenFilter filter(sensorModel("VLP-16"));
+    EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Roi), 0);
+    EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);
+}
+
+TEST(HagenFilter, ALongSmoothWallIsAnObstacle) {
+    SimpleScene scene;
+    scene.boxes.push_back({{-30, 10, 0}, {30, 11, 6}});
+    for (const char* name : {"VLP-16", "HDL-64E"}) {
+        const auto wall = test::scanScene(scene, sensorModel(name), 870, kTwoMetresUp);
+        ASSERT_GT(count(wall, Label::Roi), 2000);
+        HagenFilter filter(sensorModel(name));
+        EXPECT_EQ(missedAboveGrass(wall, filter.segment(wall.scan)), 0) << name;
+        EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0) << name;
+    }
+}
+
+/// The scan of a sensor with this attitude at the same place.
+Scan tilted(const Scan& level, const SensorModel& sensor, const Attitude& attitude) {
+    const Eigen::Matrix3f sensor_from_level = levelFromSensor(attitude).transpose();
+    std::vector<Eigen::Vector3f> points;
+    for (std::size_t i = 0; i < level.size(); ++i) {
+        points.push_back(sensor_from_level *
+                         Eigen::Vector3f(level.x_m[i], level.y_m[i], level.z_m[i]));
+    }
+    return test::scanOf(sensor, points);
+}
+
+TEST(HagenFilter, WithoutGroundInSightWhatIsSeenDoesNotBecomeIt) {
+    // 30 m up next to two towers and a mast, with nothing else in range.
+    SimpleScene scene;
+    scene.has_ground = false;
+    scene.boxes = {{{8, -6, 0}, {12, 6, 60}}, {{-20, 5, 0}, {-10, 9, 45}}};
+    scene.poles = {{3, -10, 0.3, 40}};
+    const auto scanned = test::scanScene(scene, sensorModel("VLP-16"), 870, {0, 0, 30});
+    HagenFilter filter(sensorModel("VLP-16"));
+    const SegmentationResult& result = filter.segment(scanned.scan);
+    ASSERT_GT(scanned.scan.size(), 2000u);
+    EXPECT_FALSE(result.ground.is_seen);
+    for (std::size_t i = 0; i < scanned.scan.size(); ++i) {
+        if (scanned.scan.range_m[i] > 20) continue;
+        ASSERT_EQ(result.returns.label[i], Label::Roi) << i;
+    }
+}
+
+TEST(HagenFilter, ALoneReturnIsAnObstacle) {
+    HagenFilter filter(sensorModel("VLP-16"));
+    // An earlier scan had ground.
+    filter.segment(test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan);
+    Scan scan;
+    scan.x_m = {5.0f};
+    scan.y_m = {0.0f};
+    scan.z_m = {0.1f};
+    scan.intensity = {0.5f};
+    locateBeams(filter.sensor(), scan);
+    EXPECT_EQ(filter.segment(scan).returns.label, std::vector<Label>{Label::Roi});
+}
+
+TEST(HagenFilter, ATiltedSensorThatKnowsItFindsTheHorizon) {
+    SimpleScene scene;
+    scene.boxes.push_back({{10, -5, 0}, {11, 5, 6}});
+    const SensorModel sensor = sensorModel("HDL-64E");
+    auto wall = test::scanScene(scene, sensor, 870, kTwoMetresUp);
+    const Attitude attitude{0.1f, 0.15f};
+    wall.scan = tilted(wall.scan, sensor, attitude);
+    HagenFilter filter(sensor);
+    const auto& r = filter.segment(wall.scan, attitude);
+    EXPECT_LT((r.ground.from_sensor.linear() - levelFromSensor(attitude)).norm(), 0.01f);
+    EXPECT_LT(mistakes(wall, r, Label::Roi), 0.01 * count(wall, Label::Roi));
+    EXPECT_LT(mistakes(wall, r, Label::Rou), 0.01 * count(wall, Label::Rou));
+}
+
+TEST(HagenFilter, AnAttitudeThatIsNotAskedForChangesNothing) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    const auto pole = test::scanScene(scene, sensor, 870, kTwoMetresUp);
+    Options options;
+    options.level_by_attitude = false;
+    HagenFilter filter(sensor, options);
+    const auto range_angle_rad = filter.segment(pole.scan).range_angle_rad;
+    const auto labels = filter.segment(pole.scan).returns.label;
+    EXPECT_TRUE(test::same(filter.segment(pole.scan, Attitude{0.2f, 0.2f}).range_angle_rad,
+                           range_angle_rad));
+    EXPECT_EQ(filter.segment(pole.scan, Attitude{0.2f, 0.2f}).returns.label, labels);
+}
+
+/// The mount chooses the rows of the image, also where angles are relative to the airframe.
+TEST(HagenFilter, UpsideDownTheLabelsAreTheSameWithoutLevelling) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    SimpleScene scene;
+    scene.boxes.push_back({{15, -20, 0}, {16, 20, 6}});
+    const auto upright = test::scanScene(scene, sensor, 870, {0, 0, 3});
+    const Attitude mount{static_cast<float>(kPi), 0};
+    const Scan hanging = tilted(upright.scan, sensor, mount);
+    for (Options options : {paperOptions(), Options()}) {
+        options.level_by_attitude = false;
+        HagenFilter filter(sensor, options);
+        const std::vector<Label> labels = filter.segment(upright.scan).returns.label;
+        const std::vector<Label>& of_hanging = filter.segment(hanging, mount).returns.label;
+        ASSERT_EQ(labels.size(), of_hanging.size());
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < labels.size(); ++i) different += labels[i] != of_hanging[i];
+        EXPECT_LT(different, labels.size() / 100);
+    }
+}
+
+/// A result that another filter filled, of fewer returns behind their pixels.
+TEST(HagenFilter, AnotherFiltersResultLeavesNothing) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    SimpleScene scene;
+    scene.boxes.push_back({{10, -5, 0}, {11, 5, 30}});
+    const auto small = test::scanScene({}, sensor, 200, kTwoMetresUp);
+    const auto large = test::scanScene(scene, sensor, 870, kTwoMetresUp);
+    const std::vector<Label> expected =
+        HagenFilter(sensor, paperOptions()).segment(large.scan).returns.label;
+    HagenFilter by_ground(sensor), papers(sensor, paperOptions());
+    by_ground.segment(small.scan);
+    SegmentationResult result;
+    by_ground.exchangeResult(result);
+    papers.exchangeResult(result);
+    const SegmentationResult& r = papers.segment(large.scan);
+    EXPECT_EQ(r.returns.label, expected);
+    EXPECT_FALSE(r.ground.has_surface);
+    EXPECT_TRUE(r.own_labels.label.empty());
+}
+
+TEST(HagenFilter, GroundThatComesTooCloseIsRoi) {
+    const auto ground = test::scanScene({}, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    Options options;
+    options.ground_is_roi_below_m = 1.9f;
+    HagenFilter high(sensorModel("VLP-16"), options);
+    EXPECT_TRUE(high.segment(ground.scan).returns.roi.empty());
+    options.ground_is_roi_below_m = 2.1f;
+    HagenFilter low(sensorModel("VLP-16"), options);
+    EXPECT_EQ(mistakes(ground, low.segment(ground.scan), Label::Rou), count(ground, Label::Rou));
+}
+
+TEST(HagenFilter, TheAlarmOfLowGroundNeedsNoSurface) {
+    const auto ground = test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 1});
+    Options options = paperOptions();
+    options.ground_is_roi_below_m = 1.5f;
+    HagenFilter filter(sensorModel("VLP-16"), options);
+    const SegmentationResult& result = filter.segment(ground.scan);
+    for (std::size_t i = 0; i < ground.scan.size(); ++i) {
+        const bool is_near = ground.scan.range_m[i] <= options.zone_m;
+        ASSERT_EQ(result.returns.label[i], is_near ? Label::Roi : Label::Rou) << i;
+    }
+}
+
+TEST(HagenFilter, AReturnBehindItsPixelsIsJudgedByItself) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    auto ground = test::scanScene({}, sensor, 870, kTwoMetresUp);
+    const std::size_t behind = static_cast<std::size_t>(
+        std::find(ground.scan.row.begin(), ground.scan.row.end(), 0) - ground.scan.row.begin());
+    const double azimuth_deg = degrees(static_cast<double>(ground.scan.azimuth_rad[behind]));
+    std::vector<Eigen::Vector3f> points;
+    for (std::size_t i = 0; i < ground.scan.size(); ++i) {
+        points.emplace_back(ground.scan.x_m[i], ground.scan.y_m[i], ground.scan.z_m[i]);
+    }
+    points.push_back(test::onBeam(sensor, 0, azimuth_deg, 3));
+    const Scan scan = test::scanOf(sensor, points);
+    HagenFilter filter(sensor);
+    EXPECT_EQ(filter.segment(scan).returns.label.back(), Label::Roi);
+    EXPECT_EQ(filter.segment(scan).returns.label[behind], Label::Rou);
+    HagenFilter papers(sensor, paperOptions());
+    EXPECT_EQ(papers.segment(scan).returns.label[behind],
+              papers.segment(scan).returns.label.back());
+}
+
+TEST(HagenFilter, BeyondTheZoneNothingIsAnObstacle) {
+    SimpleScene scene;
+    scene.boxes.push_back({{25, -50, 0}, {26, 50, 30}});
+    const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    for (const float context_m : {20.0f, 100.0f}) {
+        for (Options options : {paperOptions(), Options()}) {
+            options.context_m = context_m;
+            HagenFilter filter(sensorModel("VLP-16"), options);
+            const auto& result = filter.segment(wall.scan);
+            for (const auto i : result.returns.roi) EXPECT_LE(wall.scan.range_m[i], 20.0f);
+            EXPECT_EQ(result.returns.unclassified.size(), 0u);
+        }
+    }
+}
+
+TEST(HagenFilter, TheImageNeverEndsBeforeTheZone) {
+    SimpleScene scene;
+    scene.poles.push_back({12, 2, 0.15, 8});
+    const auto pole = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    Options options;
+    options.context_m = options.zone_m;
+    HagenFilter as_far(sensorModel("VLP-16"), options);
+    options.context_m = 5.0f;
+    HagenFilter nearer(sensorModel("VLP-16"), options);
+    EXPECT_EQ(nearer.segment(pole.scan).returns.label, as_far.segment(pole.scan).returns.label);
+}
+
+Scan randomScan(unsigned seed, const SensorModel& sensor) {
+    test::Random random(seed);
+    Scan scan;
+    const int returns = random.whole(1000, 20000);
+    for (int i = 0; i < returns; ++i) {
+        const float spread = random.chance(0.1) ? 200.0f : 20.0f;
+        scan.x_m.push_back(random.chance(0.01) ? kNoValue : random.real(-spread, spread));
+        scan.y_m.push_back(random.real(-spread, spread));
+        scan.z_m.push_back(random.real(-3.0f, 3.0f));
+        scan.intensity.push_back(0.0f);
+    }
+    locateBeams(sensor, scan);
+    return scan;
+}
+
+TEST(HagenFilter, EveryReturnOfARandomScanEndsInExactlyOneList) {
+    for (unsigned seed = 20; seed < 28; ++seed) {
+        const SensorModel sensor = sensorModel(seed % 2 == 0 ? "VLP-16" : "HDL-64E");
+        const Scan scan = randomScan(seed, sensor);
+        for (const Options& options : {paperOptions(), Options()}) {
+            HagenFilter filter(sensor, options);
+            const SegmentationResult& result = filter.segment(scan);
+            const LabelledReturns& returns = result.returns;
+            std::vector<int> seen(scan.size(), 0);
+            for (const auto& [indices, label] : {std::pair{&returns.roi, Label::Roi},
+                                                 {&returns.rou, Label::Rou},
+                                                 {&returns.unclassified, Label::Unclassified}}) {
+                for (const auto i : *indices) {
+                    ++seen[i];
+                    ASSERT_EQ(returns.label[i], label);
+                    // RoI returns without a component have their own label or no pixel.
+                    const bool is_judged_alone =
+                        result.range_image.depth_mapper[i] == RangeImage::kNoPixel ||
+                        (!result.own_labels.label.empty() &&
+                         result.own_labels.label[i] != Label::Unclassified);
+                    ASSERT_TRUE(returns.component[i] == 0 || label == Label::Roi);
+                    ASSERT_TRUE(returns.component[i] > 0 || label != Label::Roi || is_judged_alone);
+                }
+            }
+            ASSERT_TRUE(
+                std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
+        }
+    }
+}
+
+Scan inOrder(const Scan& scan, const SensorModel& sensor, const std::vector<std::size_t>& order) {
+    std::vector<Eigen::Vector3f> points;
+    for (const std::size_t i : order) {
+        points.emplace_back(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+    }
+    return test::scanOf(sensor, points);
+}
+
+TEST(HagenFilter, TheOrderOfReturnsDoesNotMatter) {
+    for (unsigned seed = 43; seed < 49; ++seed) {
+        const SensorModel sensor = sensorModel(seed % 2 == 0 ? "VLP-16" : "HDL-64E");
+        const Scan scan = randomScan(seed, sensor);
+        std::vector<std::size_t> order(scan.size());
+        std::iota(order.begin(), order.end(), 0);
+        test::Random random(seed);
+        std::shuffle(order.begin(), order.end(), random.engine());
+        HagenFilter filter(sensor);
+        const std::vector<Label> labels = filter.segment(scan).returns.label;
+        const std::vector<Label>& shuffled =
+            filter.segment(inOrder(scan, sensor, order)).returns.label;
+        for (std::size_t k = 0; k < order.size(); ++k) ASSERT_EQ(shuffled[k], labels[order[k]]);
+    }
+}
+
+/// The fraction of returns whose label changes when the scan is rotated by whole columns.
+double changedByTurning(const Scan& scan, const SensorModel& sensor, const Options& options,
+                        int columns) {
+    const double angle_rad = 2 * kPi * columns / 870;
+    const Eigen::Matrix3f turn =
+        Eigen::AngleAxisf(static_cast<float>(angle_rad), Eigen::Vector3f::UnitZ())
+            .toRotationMatrix();
+    std::vector<Eigen::Vector3f> points;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        points.push_back(turn * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]));
+    }
+    HagenFilter filter(sensor, options);
+    const std::vector<Label> labels = filter.segment(scan).returns.label;
+    const std::vector<Label>& turned = filter.segment(test::scanOf(sensor, points)).returns.label;
+    double changed = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) changed += turned[i] != labels[i];
+    return changed / static_cast<double>(labels.size());
+}
+
+TEST(HagenFilter, HeadingHardlyMatters) {
+    SimpleScene scene;
+    scene.boxes.push_back({{8, -5, 0}, {9, 5, 3}});
+    scene.boxes.push_back({{-6, 3, 0}, {-5, 9, 0.4}});
+    scene.poles.push_back({4, 6, 0.15, 8});
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Scan scan = test::scanScene(scene, sensor, 870, kTwoMetresUp).scan;
+    for (const int columns : {1, 37, 435, 700}) {
+        EXPECT_EQ(changedByTurning(scan, sensor, paperOptions(), columns), 0) << columns;
+        // The cells of the surface do not rotate with the scan.
+        EXPECT_LT(changedByTurning(scan, sensor, Options(), columns), 0.01) << columns;
+    }
+}
+
+TEST(HagenFilter, WhatIsBeyondTheContextDoesNotMatter) {
+    for (unsigned seed = 50; seed < 56; ++seed) {
+        const SensorModel sensor = sensorModel(seed % 2 == 0 ? "VLP-16" : "HDL-64E");
+        const Scan scan = randomScan(seed, sensor);
+        std::vector<std::size_t> inside(scan.size());
+        std::iota(inside.begin(), inside.end(), 0);
+        inside.erase(std::remove_if(inside.begin(), inside.end(),
+                                    [&](std::size_t i) { return scan.range_m[i] > 48.0f; }),
+                     inside.end());
+        ASSERT_LT(inside.size(), scan.size());
+        HagenFilter filter(sensor);
+        const std::vector<Label> alone =
+            filter.segment(inOrder(scan, sensor, inside)).returns.label;
+        const std::vector<Label>& labels = filter.segment(scan).returns.label;
+        for (std::size_t k = 0; k < inside.size(); ++k) ASSERT_EQ(labels[inside[k]], alone[k]);
+    }
+}
+
+TEST(HagenFilter, KeepsNothingFromTheScanBefore) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Scan first = randomScan(40, sensor), other = randomScan(41, sensor);
+    HagenFilter filter(sensor);
+    const auto labels = filter.segment(first).returns.label;
+    filter.segment(other);
+    EXPECT_EQ(filter.segment(first).returns.label, labels);
+    EXPECT_EQ(filter.segment(first).returns.label, labels);
+    EXPECT_EQ(HagenFilter(sensor).segment(first).returns.label, labels);
+}
+
+TEST(HagenFilter, AResultThatWasTakenOutStaysAndTheNextIsTheSame) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const auto plane = test::scanScene({}, sensor, 870, kTwoMetresUp);
+    SimpleScene with_wall;
+    with_wall.boxes.push_back({{8, -3, 0}, {8.5, 3, 3}});
+    const auto wall = test::scanScene(with_wall, sensor, 870, kTwoMetresUp);
+    HagenFilter fresh(sensor);
+    const SegmentationResult of_wall = fresh.segment(wall.scan);
+    const SegmentationResult of_plane = fresh.segment(plane.scan);
+    ASSERT_NE(of_wall.returns.roi, of_plane.returns.roi);
+
+    HagenFilter filter(sensor);
+    SegmentationResult taken;
+    for (int round = 0; round < 3; ++round) {
+        filter.segment(wall.scan);
+        filter.exchangeResult(taken);
+        EXPECT_EQ(filter.segment(plane.scan).returns.label, of_plane.returns.label);
+        EXPECT_EQ(taken.returns.label, of_wall.returns.label);
+        EXPECT_TRUE((taken.labels == of_wall.labels).all());
+    }
+}
+
+TEST(HagenFilter, AnEmptyScanHasNoReturns) {
+    HagenFilter filter(sensorModel("VLP-16"));
+    const auto& result = filter.segment(Scan());
+    EXPECT_TRUE(result.returns.label.empty());
+    EXPECT_TRUE(result.maxima.empty());
+    EXPECT_TRUE((result.labels == Label::Unclassified).all());
+    EXPECT_TRUE(result.ground.height_m.isNaN().all());
+    EXPECT_TRUE((result.ground.surface.height_m == 0).all());
+}
+
+TEST(HagenFilter, EveryIntermediateImageIsThere) {
+    SimpleScene scene;
+    scene.poles.push_back({6, 2, 0.15, 8});
+    const auto pole = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
+    HagenFilter filter(sensorModel("VLP-16"));
+    const auto& r = filter.segment(pole.scan);
+    for (const auto* image :
+         {&r.range_image.depth_m, &r.repaired_m, &r.proximity_m, &r.sharpened_m, &r.merged_m,
+          &r.pixel_angle_rad, &r.ground.pixels.x_m, &r.ground.height_m, &r.ground.tolerance_m}) {
+        EXPECT_EQ(image->rows(), 16);
+        EXPECT_EQ(image->cols(), 870);
+        EXPECT_FALSE(image->isNaN().all());
+    }
+    EXPECT_EQ(r.range_angle_rad.rows(), 15);
+    EXPECT_EQ(r.smoothed_rad.rows(), 15);
+    EXPECT_FALSE(r.maxima.empty());
+}
+
+/// All options changed from their defaults.
+Options otherOptions() {
+    Options o;
+    o.zone_m = 15.0f;
+    o.context_m = 25.0f;
+    o.columns = 400;
+    o.repair_max_step_m = 3.0f;
+    o.persistence_m = 0.3f;
+    o.sharpening_sigma_px = 0.7f;
+    o.sharpening_sigma_m = 2.5f;
+    o.window_size = 10;
+    o.principal_components = 3;
+    o.beta_deg = 12.0f;
+    o.seed_gate_deg = 50.0f;
+    o.ground_tolerance_m = 0.3f;
+    o.ground_tolerance_per_m = 0.02f;
+    o.ground_tolerance_beside_tall = 0.2f;
+    o.ground_is_roi_below_m = 1.2f;
+    o.component_gap_m = 0.4f;
+    return o;
+}
+
+SensorModel otherSensor() {
+    SensorModel sensor = sensorModel("HDL-32E");
+    sensor.min_range_m = 2.0f;
+    return sensor;
+}
+
+/// Gentle hills with plants and obstacles; no two returns have the same range.
+Scan hillyScan(unsigned seed, const SensorModel& sensor) {
+    test::Random random(seed);
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 15000; ++i) {
+        const float x_m = random.real(-24, 24), y_m = random.real(-24, 24);
+        const float ground_m = -2 + 0.05f * x_m + 0.3f * std::sin(0.3f * y_m);
+        const bool is_thicket = x_m < -15 && y_m > 0;  // no ground in sight
+        const float above_m = is_thicket                            ? random.real(0.5f, 0.9f)
+                              : random.chance(0.3)                  ? random.real(0, 0.4f)
+                              : random.chance(x_m > 0 ? 0.5 : 0.01) ? random.real(0, 3)
+                                                                    : 0.0f;
+        points.emplace_back(x_m, y_m, ground_m + above_m);
+    }
+    return test::scanOf(sensor, points);
+}
+
+// Each image is the output of its stage for the previous image, with all options changed from their
+// defaults: no stage is skipped or gets another's option.
+TEST(HagenFilter, EachStageWorksOnTheOneBeforeWithItsOwnOptions) {
+    const SensorModel sensor = otherSensor();
+    Options o = otherOptions();
+    o.ground_surface = false;
+    o.ground_is_roi_below_m = 0;
+    const Attitude attitude{0.1f, -0.2f};
+    for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
+        o.seeds = seeds;
+        // the paper's literal text, as far as there is a choice
+        const bool is_literal = seeds == Seeds::TopAndNearest;
+        o.sharpen_proximity = o.sharpen_by_neighbours = o.angle_to_beam_above = !is_literal;
+        o.gaps_are_level = is_literal;
+        const Scan scan = randomScan(42, sensor);
+        HagenFilter filter(sensor, o);
+        const SegmentationResult& r = filter.segment(scan, attitude);
+
+        FilterWorkspace work;
+        RangeImage image;
+        Image<float> repaired, proximity, sharpened, merged, angles, smoothed, carried;
+        std::vector<Maximum> maxima;
+        Image<Label> labels;
+        Image<std::int32_t> components;
+        LabelledReturns returns;
+        projectScan(scan, sensor, 400, 25.0f, image, work.projection);
+        repairGaps(image.depth_m, 3.0f, repaired);
+        proximityOf(repaired, 15.0f, proximity);
+        findPersistentMaxima(proximity, 0.3f, maxima, work.maxima);
+        sharpenMaxima(is_literal ? repaired : proximity, maxima, 0.7f, 2.5f, sharpened,
+                      !is_literal);
+        if (is_literal) {
+            mergeDepths(repaired, sharpened, maxima, merged);
+        } else {
+            mergeMaxima(repaired, proximity, sharpened, maxima, 2.0f, merged);
+        }
+        rangeAngles(merged, pixelDirections(sensor, static_cast<int>(merged.cols())), attitude,
+                    angles);
+        if (is_literal) levelGaps(angles);
+        smoothColumns(angles, 10, 3, smoothed, work.ssa);
+        carryAngles(smoothed, carried, !is_literal);
+        labelRegions(repaired, carried, static_cast<float>(radians(12.0)), seeds,
+                     static_cast<float>(radians(50.0)), labels, work.labelling);
+        limitToZone(repaired, 15.0f, labels);
+        numberRoiComponents(repaired, labels, 0.4f, components, work.components);
+        extractReturns(scan, {image, labels, components}, {}, {15.0f, 0.4f}, returns,
+                       work.extraction);
+
+        EXPECT_TRUE(test::same(r.range_image.depth_m, image.depth_m));
+        EXPECT_TRUE(test::same(r.repaired_m, repaired));
+        EXPECT_FALSE(test::same(repaired, image.depth_m));
+        EXPECT_TRUE(test::same(r.proximity_m, proximity));
+        EXPECT_EQ(r.maxima.size(), maxima.size());
+        EXPECT_TRUE(test::same(r.sharpened_m, sharpened));
+        EXPECT_TRUE(test::same(r.merged_m, merged));
+        EXPECT_FALSE(test::same(merged, repaired));
+        EXPECT_TRUE(test::same(r.range_angle_rad, angles));
+        EXPECT_TRUE(test::same(r.smoothed_rad, smoothed));
+        EXPECT_FALSE(test::same(smoothed, angles));
+        EXPECT_TRUE(test::same(r.pixel_angle_rad, carried));
+        EXPECT_TRUE((r.labels == labels).all());
+        EXPECT_TRUE((r.components == components).all());
+        EXPECT_EQ(r.returns.label, returns.label);
+        EXPECT_EQ(r.returns.component, returns.component);
+    }
+}
+
+// The same for the stages beyond the paper: no switch, each switch alone, and all together.
+TEST(HagenFilter, TheStagesOfTheGroundWorkOnOneAnotherWithTheirOwnOptions) {
+    const SensorModel sensor = otherSensor();
+    const Scan scan = hillyScan(57, sensor);
+    std::vector<std::vector<Label>> all_labels;
+    for (const int switches : {0, 1, 2, 4, 8, 6, 23}) {
+        Options o = otherOptions();
+        o.canopy_layer = (switches & 1) != 0;
+        o.grow_feet = (switches & 2) != 0;
+        o.remove_specks = (switches & 4) != 0;
+        o.ground_evidence = (switches & 16) != 0;
+        if ((switches & 8) != 0) o.ground_is_roi_below_m = 0;
+        const Attitude attitude{0.05f, -0.08f};
+        HagenFilter filter(sensor, o);
+        const SegmentationResult& r = filter.segment(scan, attitude);
+
+        FilterWorkspace work;
+        Image<Label> labels;
+        Ground g;
+        OwnLabels own_labels;
+        Image<std::int32_t> components;
+        LabelledReturns returns;
+        labelRegions(r.repaired_m, r.pixel_angle_rad, static_cast<float>(radians(12.0)),
+                     Seeds::Lowest, static_cast<float>(radians(50.0)), labels, work.labelling);
+        locatePixels(scan, pixelDirections(sensor, static_cast<int>(r.repaired_m.cols())),
+                     r.range_image, r.repaired_m, g.pixels);
+        g.from_sensor = fitGroundFrame(g.pixels, attitude, work.ground_frame);
+        movePixels(g.from_sensor, g.pixels);
+        findPixelCells(g.pixels, g.cells);
+        findLevelPixels(g.pixels, g.cells, g.is_level, work.evidence);
+        keepLevelRou(labels, g.is_level, work.candidates);
+        const bool needs_evidence = (switches & 16) != 0;
+        fitGroundSurface(g.pixels, needs_evidence ? work.candidates : labels, g.surface,
+                         work.ground_surface);
+        heightsAbove(g.surface, g.pixels, g.height_m);
+        findCellTops(g.cells, g.height_m, g.tops);
+        toleratedHeights(g.pixels, g.cells, g.tops, {0.3f, 0.02f, 0.2f},
+                         g.from_sensor.translation().z(), g.tolerance_m, work.tolerance);
+        if ((switches & 1) != 0) tolerateCanopy(g.cells, g.tops, g.tolerance_m);
+        if (needs_evidence) {
+            requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, g.tolerance_m,
+                            g.has_evidence, work.evidence);
+        }
+        labelByHeight(g.height_m, g.tolerance_m, labels);
+        if ((switches & 2) != 0) growFeet(g.pixels, g.height_m, labels, work.feet);
+        if ((switches & 4) != 0)
+            removeSpecks(g.pixels, g.height_m, g.tolerance_m, labels, work.specks);
+        const Clearance clearance{upwards(g.from_sensor, attitude),
+                                  (switches & 8) != 0 ? 0.0f : 1.2f};
+        alarmLowGround(g, clearance, labels);
+        g.has_surface = true;
+        judgeFartherReturns(scan, r.range_image, g, clearance, 15.0f, own_labels,
+                            work.farther_returns);
+        limitToZone(r.repaired_m, 15.0f, labels);
+        numberRoiComponents(r.repaired_m, labels, 0.4f, components, work.components);
+        extractReturns(scan, {r.range_image, labels, components}, own_labels, {15.0f, 0.4f},
+                       returns, work.extraction);
+
+        EXPECT_TRUE(r.ground.from_sensor.isApprox(g.from_sensor));
+        EXPECT_TRUE((r.ground.surface.height_m == g.surface.height_m).all());
+        EXPECT_TRUE(test::same(r.ground.height_m, g.height_m));
+        EXPECT_TRUE(test::same(r.ground.tolerance_m, g.tolerance_m));
+        EXPECT_TRUE((r.labels == labels).all());
+        EXPECT_TRUE((r.components == components).all());
+        EXPECT_EQ(r.own_labels.label, own_labels.label);
+        EXPECT_EQ(r.returns.label, returns.label);
+        EXPECT_EQ(r.returns.component, returns.component);
+        all_labels.push_back(returns.label);
+    }
+    // Each switch makes a difference here, so none can be confused with another.
+    for (std::size_t a = 0; a < all_labels.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b)
+            EXPECT_TRUE(all_labels[a] != all_labels[b]) << a << " " << b;
+    }
+}
+
+TEST(HagenFilter, RefusesAScanThatWasNotLocatedAndSaysWhatToCall) {
+    HagenFilter filter(sensorModel("VLP-16"));
+    Scan scan;
+    scan.x_m = {5.0f, 6.0f};
+    scan.y_m = {0.0f, 0.0f};
+    scan.z_m = {0.1f, 0.1f};
+    try {
+        filter.segment(scan);
+        FAIL() << "segmented a scan without rows";
+    } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("locateBeams()"));
+    }
+    locateBeams(filter.sensor(), scan);
+    EXPECT_EQ(filter.segment(scan).returns.label.size(), 2u);
+}
+
+TEST(HagenFilter, RefusesRowsOfAnotherSensorAndKeepsItsResult) {
+    for (const auto& [own, other] : {std::pair{"VLP-16", "HDL-64E"}, {"HDL-64E", "VLP-16"}}) {
+        HagenFilter filter(sensorModel(own));
+        const auto ground = test::scanScene({}, sensorModel(own), 870, kTwoMetresUp);
+        const SegmentationResult& result = filter.segment(ground.scan);
+        const std::vector<Label> labels = result.returns.label;
+        auto others = test::scanScene({}, sensorModel(other), 870, kTwoMetresUp);
+        try {
+            filter.segment(others.scan);
+            FAIL() << "segmented a scan of the " << other;
+        } catch (const std::invalid_argument& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(own));
+        }
+        EXPECT_EQ(result.returns.label, labels);
+        EXPECT_EQ(filter.segment(ground.scan).returns.label, labels);
+        locateBeams(filter.sensor(), others.scan);  // as the message says
+        EXPECT_NO_THROW(filter.segment(others.scan));
+    }
+}
+
+TEST(HagenFilter, RefusesARangeWithoutAPlaceInAnyPosture) {
+    HagenFilter filter(sensorModel("VLP-16"));
+    auto ground = test::scanScene({}, filter.sensor(), 870, kTwoMetresUp);
+    ground.scan.x_m.back() = std::numeric_limits<float>::quiet_NaN();
+    for (const float roll_rad : {0.0f, 0.7f, 3.1f}) {
+        EXPECT_THROW(filter.segment(ground.scan, Attitude{roll_rad, 0}), std::invalid_argument);
+    }
+}
+
+TEST(HagenFilter, RefusesOptionsThatDoNotFitTheSensor) {
+    Options options;
+    options.window_size = 16;
+    EXPECT_THROW(HagenFilter(sensorModel("VLP-16"), options), std::invalid_argument);
+    EXPECT_NO_THROW(HagenFilter(sensorModel("HDL-32E"), options));
+}
+
+}  // namespace
+}  // namespace hagen

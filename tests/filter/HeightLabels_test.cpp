@@ -1,0 +1,282 @@
+#include <gtest/gtest.h>
+#include <hagen/filter/HeightLabels.h>
+#include <hagen/filter/ObstacleFeet.h>
+#include <hagen/filter/SpeckRemoval.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "support/GroundPixels.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+using test::cellFromSensor;
+using test::kEmptyPixel;
+using test::pixelsAt;
+
+/// Over the plane z = 0, so a pixel's height is its z.
+Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {},
+                       float sensor_height_m = 1) {
+    static ToleranceWorkspace work;  // shared by all tests, as by all scans in a filter
+    Image<float> tolerance_m;
+    CellTops tops;
+    PixelCells cells;
+    findPixelCells(pixels, cells);
+    findCellTops(cells, pixels.z_m, tops);
+    toleratedHeights(pixels, cells, tops, tolerance, sensor_height_m, tolerance_m, work);
+    return tolerance_m;
+}
+
+TEST(HeightTolerance, OfLevelGroundGrowsWithTheDistance) {
+    const Image<float> tolerance_m =
+        tolerated(pixelsAt({{0, 0, 0}, {3, 4, 0}, {-40, 0, 0}, kEmptyPixel}));
+    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.17f);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 1), 0.195f);  // 0.17 + 0.005 * 5
+    EXPECT_FLOAT_EQ(tolerance_m(0, 2), 0.37f);
+    EXPECT_FALSE(hasValue(tolerance_m(0, 3)));
+}
+
+TEST(HeightTolerance, BesideWhatIsTallIsLess) {
+    // Cells are 0.75 m wide: x = 3 is in cell 4, 3.8 in cell 5, 4.6 in cell 6.
+    const PixelPoints pixels = pixelsAt({{3, 4, 0}, {3.8f, 4, 1}, {4.6f, 4, 0}, {5.3f, 4, 0}});
+    const Image<float> tolerance_m = tolerated(pixels);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.195f - 0.12f);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 1), 0.17f + 0.005f * std::hypot(3.8f, 4.0f) - 0.12f);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 2), 0.17f + 0.005f * std::hypot(4.6f, 4.0f) - 0.12f);
+    EXPECT_FLOAT_EQ(tolerance_m(0, 3), 0.17f + 0.005f * std::hypot(5.3f, 4.0f));
+}
+
+TEST(HeightTolerance, WhatStandsAtACornerOfTheCellIsNotBesideIt) {
+    // The cells of (3, 4): 4 and 5.
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3.8f, 4.6f, 1}}))(0, 0), 0.195f);
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4.6f, 1}}))(0, 0), 0.195f - 0.12f);
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 3.7f, 1}}))(0, 0), 0.195f - 0.12f);
+}
+
+TEST(HeightTolerance, BelowTheSensorTheNeighboursDoNotMatter) {
+    const PixelPoints pixels = pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 1}});
+    const auto fromHeight = [&](float sensor_height_m) {
+        return tolerated(pixels, {}, sensor_height_m)(0, 0);
+    };
+    EXPECT_FLOAT_EQ(fromHeight(0.1f), 0.195f - 0.12f);
+    EXPECT_FLOAT_EQ(fromHeight(5.0f / 3), 0.195f - 0.12f);
+    EXPECT_FLOAT_EQ(fromHeight(5), 0.195f - 0.04f);
+    EXPECT_NEAR(fromHeight(5000), 0.195f, 1e-4f);
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}))(0, 0), 0.17f);
+}
+
+TEST(HeightTolerance, MoreThanElevenTenthsOfAMetreIsNoReasonToTolerateLess) {
+    const Image<float> tolerance_m = tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.4f}, {3, 4, 1.4f}}));
+    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.195f - 0.12f * 1.1f);
+}
+
+TEST(HeightTolerance, IsNeverLessThanFourCentimetres) {
+    const Image<float> tolerance_m =
+        tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.4f}, {3, 4, 1.4f}}), {0.1f, 0.0f, 0.12f});
+    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.04f);
+}
+
+TEST(HeightTolerance, AHoleInTheGroundChangesNothing) {
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, -2}}))(0, 0), 0.195f);
+}
+
+TEST(HeightTolerance, OneReturnOverTheGroundMayBeADropOfRain) {
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}}))(0, 0), 0.195f);
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 0.5f}}))(0, 0),
+                    0.195f - 0.12f * 0.5f);
+}
+
+TEST(HeightTolerance, TheCrownOfATreeDoesNotStandBelowIt) {
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.51f}, {3, 4, 6}}))(0, 0), 0.195f);
+}
+
+TEST(HeightTolerance, AgreesWithASearchThroughAllPixels) {
+    test::Random random(90);
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 600; ++i) {
+        points.emplace_back(random.real(-12, 12), random.real(-12, 12), random.real(-0.5f, 2));
+        if (random.chance(0.1)) points.back() = kEmptyPixel;
+    }
+    const HeightTolerance t{0.3f, 0.01f, 0.2f};
+    const Image<float> tolerance_m = tolerated(pixelsAt(points, 4), t, 2);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& p = points[i];
+        if (!hasValue(p.x())) continue;
+        std::map<std::pair<int, int>, std::vector<float>> around_m;  // by cell, the highest first
+        for (const auto& q : points) {
+            if (!hasValue(q.x()) || q.z() >= 1.5f) continue;
+            const int u = static_cast<int>(cellFromSensor(q.x()));
+            const int v = static_cast<int>(cellFromSensor(q.y()));
+            if (std::abs(static_cast<int>(cellFromSensor(p.x())) - u) +
+                    std::abs(static_cast<int>(cellFromSensor(p.y())) - v) >
+                1)
+                continue;
+            around_m[{u, v}].push_back(q.z());
+        }
+        float tallest_m = 0;
+        for (auto& [cell, heights_m] : around_m) {
+            std::sort(heights_m.rbegin(), heights_m.rend());
+            const float top_m = heights_m[heights_m.size() > 1 ? 1 : 0];
+            tallest_m = std::max(tallest_m, std::min(top_m, 1.1f));
+        }
+        const float distance_m = p.head<2>().norm(), shallow = std::min(distance_m / 6, 1.0f);
+        const float expected_m = 0.3f + 0.01f * distance_m - 0.2f * shallow * tallest_m;
+        EXPECT_NEAR(tolerance_m.data()[i], std::max(0.04f, expected_m), 1e-5f);
+    }
+}
+
+TEST(LabelByHeight, HigherThanTheToleranceOrFarBelowTheSurfaceIsRoi) {
+    Image<float> height_m(1, 6), tolerance_m(1, 6);
+    height_m << -1.51f, -1.5f, 0.2f, 0.21f, 5, kNoValue;
+    tolerance_m << 0.2f, 0.2f, 0.2f, 0.2f, 0.2f, kNoValue;
+    Image<Label> labels, expected(1, 6);
+    labelByHeight(height_m, tolerance_m, labels);
+    expected << Label::Roi, Label::Rou, Label::Rou, Label::Roi, Label::Roi, Label::Unclassified;
+    EXPECT_TRUE((labels == expected).all());
+}
+
+/// The labels of a column over the plane z = 0, lowest row first, after growing feet. The labels
+/// before are those of a tolerance of 0.2 m.
+std::vector<Label> grown(const std::vector<Eigen::Vector3f>& column) {
+    const PixelPoints pixels = pixelsAt(column, static_cast<int>(column.size()));
+    static FeetWorkspace work;
+    Image<Label> labels;
+    labelByHeight(pixels.z_m, Image<float>::Constant(pixels.z_m.rows(), 1, 0.2f).eval(), labels);
+    growFeet(pixels, pixels.z_m, labels, work);
+    return {labels.data(), labels.data() + labels.size()};
+}
+
+constexpr Label kRoi = Label::Roi, kRou = Label::Rou, kNone = Label::Unclassified;
+
+TEST(GrowFeet, AWallIsFollowedToItsFoot) {
+    EXPECT_EQ(grown({{3, 0, 0}, {8, 0, 0.05f}, {8, 0, 0.15f}, {8, 0, 0.5f}}),
+              (std::vector<Label>{kRou, kRoi, kRoi, kRoi}));
+}
+
+TEST(GrowFeet, GrassInFrontOfAWallIsNotItsFoot) {
+    EXPECT_EQ(grown({{5, 0, 0.15f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
+}
+
+TEST(GrowFeet, FortyFiveDegreesIsTheBorder) {
+    EXPECT_EQ(grown({{7.61f, 0, 0.1f}, {8, 0, 0.5f}}), (std::vector<Label>{kRoi, kRoi}));
+    EXPECT_EQ(grown({{7.59f, 0, 0.1f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
+    // in any direction
+    EXPECT_EQ(grown({{0, 7.59f, 0.1f}, {0, 8, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
+}
+
+TEST(GrowFeet, WhatIsLevelWithTheGroundIsNoFoot) {
+    EXPECT_EQ(grown({{8, 0, 0.015f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
+    EXPECT_EQ(grown({{8, 0, 0.016f}, {8, 0, 0.5f}}), (std::vector<Label>{kRoi, kRoi}));
+}
+
+TEST(GrowFeet, UnderWhatIsNoObstacleThereIsNoFoot) {
+    EXPECT_EQ(grown({{8, 0, 0.05f}, {8, 0, 0.15f}}), (std::vector<Label>{kRou, kRou}));
+}
+
+TEST(GrowFeet, WhatIsBelowAPixelOfTheGroundIsNoFoot) {
+    EXPECT_EQ(grown({{8, 0, 0.1f}, {5, 0, 0.1f}, {8, 0, 1}}),
+              (std::vector<Label>{kRou, kRou, kRoi}));
+}
+
+TEST(GrowFeet, EmptyPixelsAreCrossedUpToThree) {
+    EXPECT_EQ(grown({{8, 0, 0.1f}, kEmptyPixel, kEmptyPixel, kEmptyPixel, {8, 0, 1}}),
+              (std::vector<Label>{kRoi, kNone, kNone, kNone, kRoi}));
+    EXPECT_EQ(grown({{8, 0, 0.1f}, kEmptyPixel, kEmptyPixel, kEmptyPixel, kEmptyPixel, {8, 0, 1}}),
+              (std::vector<Label>{kRou, kNone, kNone, kNone, kNone, kRoi}));
+}
+
+/// Labels of 3 x 5 pixels that differ only in height (over the plane z = 0) after removing specks;
+/// tolerance 0.2 m.
+Image<Label> voted(const Image<float>& height_m, float distance_step_m = 0) {
+    PixelPoints pixels{Image<float>(3, 5), Image<float>::Zero(3, 5), height_m};
+    for (int column = 0; column < 5; ++column) {
+        pixels.x_m.col(column) = 10.0f + distance_step_m * static_cast<float>(column);
+    }
+    pixels.x_m = height_m.isNaN().select(kNoValue, pixels.x_m);
+    const Image<float> tolerance_m = Image<float>::Constant(3, 5, 0.2f);
+    static SpeckWorkspace work;
+    Image<Label> labels;
+    labelByHeight(height_m, tolerance_m, labels);
+    removeSpecks(pixels, height_m, tolerance_m, labels, work);
+    return labels;
+}
+
+TEST(RemoveSpecks, ALoneDoubtfulPixelFollowsItsNeighbours) {
+    Image<float> height_m = Image<float>::Zero(3, 5);
+    height_m(1, 2) = 0.39f;
+    EXPECT_TRUE((voted(height_m) == kRou).all());
+    height_m.setConstant(0.6f);
+    height_m(1, 2) = 0.01f;
+    EXPECT_TRUE((voted(height_m) == kRoi).all());
+}
+
+TEST(RemoveSpecks, WhatIsClearlyHigherStays) {
+    Image<float> height_m = Image<float>::Zero(3, 5);
+    height_m(1, 2) = 0.41f;
+    EXPECT_EQ(voted(height_m)(1, 2), kRoi);
+    height_m(1, 2) = 4;  // a wire
+    EXPECT_EQ(voted(height_m)(1, 2), kRoi);
+    EXPECT_EQ((voted(height_m) == kRoi).count(), 1);
+}
+
+TEST(RemoveSpecks, ADrawChangesNothing) {
+    Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
+    height_m(1, 2) = 0.3f;  // doubtful, RoI
+    height_m(0, 1) = 2;     // votes for RoI
+    height_m(2, 2) = height_m(2, 3) = 0;
+    EXPECT_EQ(voted(height_m)(1, 2), kRoi);
+    height_m(1, 3) = 0;  // 2 to 3
+    EXPECT_EQ(voted(height_m)(1, 2), kRou);
+}
+
+TEST(RemoveSpecks, FewerThanThreeVotesChangeNothing) {
+    Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
+    height_m(1, 2) = 0.1f;  // doubtful, ROU
+    height_m(0, 2) = 2;
+    EXPECT_EQ(voted(height_m)(1, 2), kRou);
+    height_m(2, 1) = 2;
+    EXPECT_EQ(voted(height_m)(1, 2), kRoi);
+}
+
+TEST(RemoveSpecks, PixelsFartherApartThanAMetreHaveNoVote) {
+    Image<float> height_m = Image<float>::Zero(3, 5);
+    height_m.col(2) = 0.3f;
+    EXPECT_TRUE((voted(height_m, 0.9f).col(2) == kRou).all());
+    EXPECT_TRUE((voted(height_m, 1.1f).col(2) == kRoi).all());
+}
+
+TEST(RemoveSpecks, WhatIsClearlyLowerStays) {
+    Image<float> height_m = Image<float>::Constant(3, 5, 0.6f);
+    height_m(1, 2) = -0.01f;
+    EXPECT_EQ(voted(height_m)(1, 2), kRou);
+}
+
+TEST(RemoveSpecks, VotesAreThoseBeforeAnyWasCounted) {
+    Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
+    height_m.col(0) = 0.0f;
+    height_m(1, 1) = 0.3f;  // 2 to 4: becomes ROU
+    height_m(1, 2) = 0.3f;  // 2 to 1, with the left one still counted as RoI
+    height_m(0, 2) = 0.0f;
+    const Image<Label> labels = voted(height_m);
+    EXPECT_EQ(labels(1, 1), kRou);
+    EXPECT_EQ(labels(1, 2), kRoi);
+}
+
+TEST(RemoveSpecks, AroundTheBackOfTheTurnPixelsAreNeighboursUpAndDownTheyAreNot) {
+    Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
+    height_m(1, 0) = 0.3f;
+    height_m(0, 4) = height_m(1, 4) = height_m(2, 4) = 0;
+    EXPECT_EQ(voted(height_m)(1, 0), kRou);
+    height_m.setConstant(kNoValue);
+    height_m(0, 2) = 0.3f;
+    height_m(2, 1) = height_m(2, 2) = height_m(2, 3) = 0;
+    EXPECT_EQ(voted(height_m)(0, 2), kRoi);
+}
+
+}  // namespace
+}  // namespace hagen

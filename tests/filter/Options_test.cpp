@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+#include <hagen/filter/OptionKeys.h>
+#include <hagen/filter/Options.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace hagen {
+namespace {
+
+TEST(Options, DefaultsFitEverySensorOfSixteenBeamsAndMore) {
+    EXPECT_NO_THROW(checkOptions(Options(), 16));
+    EXPECT_NO_THROW(checkOptions(Options(), 64));
+}
+
+TEST(Options, MoreComponentsThanTheWindowAreRefused) {
+    Options options;
+    options.principal_components = options.window_size + 1;
+    EXPECT_THROW(checkOptions(options, 16), std::invalid_argument);
+}
+
+TEST(Options, EveryOptionHasItsRange) {
+    for (const OptionKey& key : optionKeys()) {
+        if (std::holds_alternative<bool Options::*>(key.field)) continue;  // no invalid values
+        Options options;
+        std::visit(
+            [&](auto field) {
+                using Value = std::decay_t<decltype(options.*field)>;
+                options.*field = static_cast<Value>(key.least - 1.0);
+            },
+            key.field);
+        try {
+            checkOptions(options, 64);
+            ADD_FAILURE() << key.name;
+        } catch (const std::invalid_argument& e) {
+            EXPECT_EQ(std::string(e.what()).rfind(key.name, 0), 0u) << e.what();
+        }
+    }
+}
+
+TEST(Options, TheEndsOfEveryRangeAreAllowed) {
+    for (const OptionKey& key : optionKeys()) {
+        for (const double end : {key.least, key.most}) {
+            Options options;
+            options.window_size = 64;          // so that the most components fit
+            options.principal_components = 1;  // and the smallest window does
+            std::visit(
+                [&](auto field) {
+                    using Value = std::decay_t<decltype(options.*field)>;
+                    options.*field = static_cast<Value>(end);
+                },
+                key.field);
+            EXPECT_NO_THROW(checkOptions(options, 128)) << key.name << " " << end;
+        }
+    }
+}
+
+TEST(Options, AWindowLongerThanAColumnIsRefused) {
+    Options options;
+    options.window_size = 15;
+    EXPECT_NO_THROW(checkOptions(options, 16));
+    options.window_size = 16;
+    EXPECT_THROW(checkOptions(options, 16), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hagen

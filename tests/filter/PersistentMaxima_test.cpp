@@ -1,0 +1,258 @@
+#include <gtest/gtest.h>
+#include <hagen/filter/PersistentMaxima.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "support/InstructionSets.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+std::vector<Maximum> maximaOf(const Image<float>& proximity_m, float min_persistence_m = 0.0f) {
+    static MaximaWorkspace work;  // shared by all tests, as by all scans in a filter
+    std::vector<Maximum> maxima;
+    findPersistentMaxima(proximity_m, min_persistence_m, maxima, work);
+    return maxima;
+}
+
+/// The definition, without sweep or union-find: a pixel dies at the highest level at which a path
+/// connects it to an older pixel, which is the maximum over all paths to any older pixel of the
+/// lowest proximity on the path. Computed by widest paths between all pairs (Floyd and Warshall).
+std::vector<Maximum> bruteForceMaxima(const Image<float>& proximity_m, float min_persistence_m) {
+    const int rows = static_cast<int>(proximity_m.rows());
+    const int columns = static_cast<int>(proximity_m.cols());
+    const int pixels = rows * columns;
+    const auto level = [&](int p) { return proximity_m.data()[p]; };
+    const auto present = [&](int p) { return level(p) > 0.0f; };
+    Eigen::ArrayXXf widest = Eigen::ArrayXXf::Zero(pixels, pixels);
+    for (int a = 0; a < pixels; ++a) {
+        for (int b = 0; b < pixels; ++b) {
+            const int row_step = std::abs(a % rows - b % rows);
+            const int column_step = std::abs(a / rows - b / rows);
+            const bool beside = column_step <= 1 || column_step == columns - 1;
+            if (present(a) && present(b) && row_step <= 1 && beside) {
+                widest(a, b) = std::min(level(a), level(b));
+            }
+        }
+    }
+    for (int via = 0; via < pixels; ++via) {
+        for (int a = 0; a < pixels; ++a) {
+            for (int b = 0; b < pixels; ++b) {
+                widest(a, b) = std::max(widest(a, b), std::min(widest(a, via), widest(via, b)));
+            }
+        }
+    }
+    std::vector<Maximum> maxima;
+    for (int p = 0; p < pixels; ++p) {
+        if (!present(p)) continue;
+        float death_m = 0.0f;
+        for (int q = 0; q < pixels; ++q) {
+            const bool older =
+                present(q) && (level(q) > level(p) || (level(q) == level(p) && q < p));
+            if (older) death_m = std::max(death_m, widest(p, q));
+        }
+        const Maximum maximum{p % rows, p / rows, level(p), death_m};
+        if (maximum.persistence_m() > 0.0f && maximum.persistence_m() >= min_persistence_m) {
+            maxima.push_back(maximum);
+        }
+    }
+    return maxima;
+}
+
+/// The definition as a sweep: every pixel, oldest first, joins the components that it touches. In
+/// the specified order.
+std::vector<Maximum> sweptMaxima(const Image<float>& proximity_m, float min_persistence_m) {
+    const int rows = static_cast<int>(proximity_m.rows());
+    const int columns = static_cast<int>(proximity_m.cols());
+    const auto level = [&](int p) { return proximity_m.data()[p]; };
+    const auto isOlder = [&](int a, int b) {
+        return level(a) > level(b) || (level(a) == level(b) && a < b);
+    };
+    std::vector<int> oldest_first, parent(rows * columns, -1);
+    for (int pixel = 0; pixel < rows * columns; ++pixel) {
+        if (level(pixel) > 0.0f) oldest_first.push_back(pixel);
+    }
+    std::sort(oldest_first.begin(), oldest_first.end(), isOlder);
+    const auto root = [&](int pixel) {
+        while (parent[pixel] != pixel) pixel = parent[pixel] = parent[parent[pixel]];
+        return pixel;
+    };
+    std::vector<float> death_m(rows * columns, 0.0f);
+    for (const int pixel : oldest_first) {
+        parent[pixel] = pixel;
+        for (int column_step = -1; column_step <= 1; ++column_step) {
+            const int column = wrapColumn(pixel / rows + column_step, columns);
+            for (int row_step = -1; row_step <= 1; ++row_step) {
+                const int row = pixel % rows + row_step;
+                if (row < 0 || row >= rows || parent[column * rows + row] < 0) continue;
+                int elder = root(column * rows + row), younger = root(pixel);
+                if (elder == younger) continue;
+                if (isOlder(younger, elder)) std::swap(elder, younger);
+                death_m[younger] = level(pixel);
+                parent[younger] = elder;
+            }
+        }
+    }
+    std::vector<Maximum> maxima;
+    for (const int pixel : oldest_first) {
+        const Maximum maximum{pixel % rows, pixel / rows, level(pixel), death_m[pixel]};
+        if (maximum.persistence_m() > 0.0f && maximum.persistence_m() >= min_persistence_m) {
+            maxima.push_back(maximum);
+        }
+    }
+    return maxima;
+}
+
+/// Equal bit for bit, in the same order.
+void expectIdentical(const std::vector<Maximum>& found, const std::vector<Maximum>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        ASSERT_EQ(found[i].row, expected[i].row) << i;
+        ASSERT_EQ(found[i].column, expected[i].column) << i;
+        ASSERT_EQ(found[i].birth_m, expected[i].birth_m) << i;
+        ASSERT_EQ(found[i].death_m, expected[i].death_m) << i;
+    }
+}
+
+void expectSame(std::vector<Maximum> found, std::vector<Maximum> expected) {
+    const auto by_pixel = [](const Maximum& a, const Maximum& b) {
+        return std::pair(a.column, a.row) < std::pair(b.column, b.row);
+    };
+    std::sort(found.begin(), found.end(), by_pixel);
+    std::sort(expected.begin(), expected.end(), by_pixel);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].row, expected[i].row);
+        EXPECT_EQ(found[i].column, expected[i].column);
+        EXPECT_EQ(found[i].birth_m, expected[i].birth_m);
+        EXPECT_EQ(found[i].death_m, expected[i].death_m);
+    }
+}
+
+TEST(PersistentMaxima, AgreeWithBruteForceOnRandomImages) {
+    test::Random random(9);
+    for (int round = 0; round < 60; ++round) {
+        const Image<float> proximity_m =
+            random.image(random.whole(1, 5), random.whole(3, 8), -2.0f, 8.0f, 0.15).max(0.0f);
+        const float least = random.chance(0.5) ? 0.0f : 1.0f;
+        expectSame(maximaOf(proximity_m, least), bruteForceMaxima(proximity_m, least));
+    }
+}
+
+TEST(PersistentMaxima, AgreeWithBruteForceWhereManyPixelsAreEquallyHigh) {
+    test::Random random(10);
+    for (int round = 0; round < 60; ++round) {
+        Image<float> proximity_m = random.image(4, 7, 0.0f, 4.0f, 0.2);
+        proximity_m = proximity_m.round();
+        expectSame(maximaOf(proximity_m), bruteForceMaxima(proximity_m, 0.0f));
+    }
+}
+
+TEST(PersistentMaxima, AreThoseOfAPlainSweepOnEveryInstructionSet) {
+    test::Random random(21);
+    for (int round = 0; round < 150; ++round) {
+        const int rows = random.chance(0.5) ? random.whole(1, 12) : random.whole(13, 128);
+        const int columns = random.chance(0.5) ? random.whole(1, 5) : random.whole(6, 90);
+        Image<float> proximity_m =
+            random.image(rows, columns, -4.0f, 20.0f, random.chance(0.5) ? 0.02 : 0.6);
+        if (random.chance(0.4)) proximity_m = proximity_m.round();  // ties, plateaus
+        if (random.chance(0.3)) {                                   // long ascents
+            for (int column = 0; column < columns; ++column) {
+                proximity_m.col(column) += static_cast<float>(20 * column);
+            }
+        }
+        const float least = random.chance(0.5) ? 0.0f : 1.0f;
+        const auto expected = sweptMaxima(proximity_m, least);
+        forEachInstructionSet([&](const std::string& name) {
+            SCOPED_TRACE(name + " " + std::to_string(rows) + " x " + std::to_string(columns));
+            expectIdentical(maximaOf(proximity_m, least), expected);
+        });
+        if (HasFatalFailure()) return;
+    }
+}
+
+TEST(PersistentMaxima, AWindingWayUpHasOneMaximumAtItsEnd) {
+    // A serpentine over the whole image that rises by one step per pixel, with distant turns.
+    constexpr int kRows = 31, kColumns = 200;
+    Image<float> proximity_m = Image<float>::Constant(kRows, kColumns, kNoValue);
+    float level = 0.0f;
+    for (int column = 1; column < kColumns - 2; ++column) {
+        const int phase = (column - 1) % 8;
+        const bool is_lane = phase % 4 == 0, rises = phase < 4;
+        if (is_lane) {
+            for (int row = 0; row < kRows; ++row) {
+                proximity_m(rises ? row : kRows - 1 - row, column) = level += 0.001f;
+            }
+        } else {
+            proximity_m(rises ? kRows - 1 : 0, column) = level += 0.001f;
+        }
+    }
+    expectIdentical(maximaOf(proximity_m), sweptMaxima(proximity_m, 0.0f));
+    EXPECT_EQ(maximaOf(proximity_m).size(), 1u);
+}
+
+TEST(PersistentMaxima, TheLowerOfTwoPeaksDiesAtTheSaddle) {
+    Image<float> proximity_m(1, 6);
+    proximity_m << 5, 2, 4, 1, 0, 1;
+    const auto maxima = maximaOf(proximity_m, 0.5f);
+    ASSERT_EQ(maxima.size(), 2u);
+    EXPECT_EQ(maxima[0].column, 0);
+    EXPECT_EQ(maxima[0].birth_m, 5.0f);
+    EXPECT_EQ(maxima[0].death_m, 0.0f);
+    EXPECT_EQ(maxima[1].column, 2);
+    EXPECT_EQ(maxima[1].birth_m, 4.0f);
+    EXPECT_EQ(maxima[1].death_m, 2.0f);
+    EXPECT_EQ(maxima[1].persistence_m(), 2.0f);
+}
+
+TEST(PersistentMaxima, PersistenceAtTheThresholdIsKept) {
+    Image<float> proximity_m(1, 5);
+    proximity_m << 5, 2, 2.5, 0, 0;
+    EXPECT_EQ(maximaOf(proximity_m, 0.5f).size(), 2u);
+    EXPECT_EQ(maximaOf(proximity_m, 0.51f).size(), 1u);
+}
+
+TEST(PersistentMaxima, APlateauHasOneMaximumAtItsFirstPixel) {
+    const auto maxima = maximaOf(Image<float>::Constant(4, 9, 3.0f));
+    ASSERT_EQ(maxima.size(), 1u);
+    EXPECT_EQ(maxima[0].row, 0);
+    EXPECT_EQ(maxima[0].column, 0);
+}
+
+TEST(PersistentMaxima, TheAzimuthWrapsAroundAndRowsDoNot) {
+    Image<float> proximity_m = Image<float>::Constant(5, 9, kNoValue);
+    proximity_m(2, 0) = 3.0f;
+    proximity_m(2, 8) = 2.0f;  // next to the first, around the back: not a maximum
+    EXPECT_EQ(maximaOf(proximity_m).size(), 1u);
+    proximity_m(2, 8) = kNoValue;
+    proximity_m(0, 4) = 3.0f;
+    proximity_m(4, 4) = 2.0f;  // first and last row: two
+    EXPECT_EQ(maximaOf(proximity_m).size(), 3u);
+}
+
+TEST(PersistentMaxima, EmptyPixelsSeparate) {
+    Image<float> proximity_m(1, 7);
+    proximity_m << 5, kNoValue, 4, kNoValue, 3, kNoValue, kNoValue;
+    for (const Maximum& maximum : maximaOf(proximity_m)) EXPECT_EQ(maximum.death_m, 0.0f);
+    EXPECT_EQ(maximaOf(proximity_m).size(), 3u);
+}
+
+TEST(PersistentMaxima, NothingInTheZoneHasNone) {
+    EXPECT_TRUE(maximaOf(Image<float>::Constant(4, 9, 0.0f)).empty());
+    EXPECT_TRUE(maximaOf(Image<float>::Constant(4, 9, kNoValue)).empty());
+}
+
+TEST(Proximity, ClosestIsHighestAndEmptyStaysEmpty) {
+    Image<float> depth_m(1, 5), proximity_m, expected(1, 5);
+    depth_m << 0.5f, 19.0f, 20.0f, 90.0f, kNoValue;
+    expected << 19.5f, 1.0f, 0.0f, 0.0f, kNoValue;
+    proximityOf(depth_m, 20.0f, proximity_m);
+    EXPECT_TRUE(test::same(proximity_m, expected));
+}
+
+}  // namespace
+}  // namespace hagen

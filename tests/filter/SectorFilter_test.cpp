@@ -1,0 +1,215 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/filter/HagenFilter.h>
+#include <hagen/filter/SectorFilter.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/AppendReturn.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "support/SimpleScene.h"
+
+namespace hagen {
+namespace {
+
+using test::SimpleScene;
+
+const Eigen::Vector3d kTwoMetresUp(0, 0, 2);
+constexpr int kColumns = 870;
+
+/// A turn whose first returns are those of a sector, around the front.
+struct Turn {
+    Scan scan, sector;
+    std::vector<Label> whole;  ///< labels of the whole scan
+};
+
+Turn turnOf(const SimpleScene& scene, const SensorModel& sensor, double half_rad) {
+    const Scan scan = test::scanScene(scene, sensor, kColumns, kTwoMetresUp).scan;
+    Turn turn;
+    for (const bool is_of_sector : {true, false}) {
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            if ((std::abs(scan.azimuth_rad[i]) < half_rad) != is_of_sector) continue;
+            for (Scan* to : {&turn.scan, &turn.sector}) {
+                if (to == &turn.sector && !is_of_sector) continue;
+                to->x_m.push_back(scan.x_m[i]);
+                to->y_m.push_back(scan.y_m[i]);
+                to->z_m.push_back(scan.z_m[i]);
+                to->intensity.push_back(0.5f);
+            }
+        }
+    }
+    locateBeams(sensor, turn.scan);
+    locateBeams(sensor, turn.sector);
+    HagenFilter filter(sensor);
+    turn.whole = filter.segment(turn.scan).returns.label;
+    return turn;
+}
+
+/// What sectors found before, if it was no more than the labels.
+std::vector<ContextReturn> contextOf(const std::vector<Label>& regions) {
+    std::vector<ContextReturn> context;
+    for (const Label region : regions) context.push_back({region, kNoValue});
+    return context;
+}
+
+/// All columns up to 35 degrees from the front, and one in six elsewhere.
+ColumnMap windowInFront() {
+    ColumnMap map;
+    mapColumns(kColumns, 6, 58, 29, map);
+    return map;
+}
+
+SimpleScene sceneWithPole() {
+    SimpleScene scene;
+    scene.poles.push_back({5, 0.5, 0.3, 4});
+    scene.poles.push_back({-8, 2, 0.3, 4});
+    return scene;
+}
+
+TEST(SectorFilter, ItsLabelsAreThoseOfTheWholeScan) {
+    for (const char* name : {"VLP-16", "HDL-32E"}) {
+        const SensorModel sensor = sensorModel(name);
+        const Turn turn = turnOf(sceneWithPole(), sensor, radians(20.0));
+        const ColumnMap columns = windowInFront();
+        SectorFilter filter(sensor, {});
+        const auto& found =
+            filter.segment(turn.scan, {}, {turn.sector, columns, contextOf(turn.whole)});
+        ASSERT_EQ(found.returns.label.size(), turn.sector.size());
+        ASSERT_EQ(filter.found().size(), turn.sector.size());
+        EXPECT_TRUE(found.ground.has_surface);
+        std::size_t different = 0, roi = 0, rou = 0;
+        for (std::size_t i = 0; i < turn.sector.size(); ++i) {
+            different += found.returns.label[i] != turn.whole[i];
+            roi += found.returns.label[i] == Label::Roi;
+            rou += found.returns.label[i] == Label::Rou;
+        }
+        EXPECT_LE(different, turn.sector.size() / 1000) << name;
+        EXPECT_GT(roi, 20u) << name;
+        EXPECT_GT(rou, 400u) << name;
+    }
+}
+
+/// On flat ground, most pixels of the ground are in regions of uninterest.
+TEST(SectorFilter, RegionsAreWhatThePaperFindsWithoutTheGround) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Turn turn = turnOf(sceneWithPole(), sensor, radians(20.0));
+    const ColumnMap columns = windowInFront();
+    SectorFilter filter(sensor, {});
+    filter.segment(turn.scan, {}, {turn.sector, columns, contextOf(turn.whole)});
+    std::size_t ground = 0, rou = 0, pole = 0, roi = 0;
+    for (std::size_t i = 0; i < turn.sector.size(); ++i) {
+        const bool is_ground = turn.sector.z_m[i]<-1.99f, is_pole = turn.sector.z_m[i]> - 1.5f;
+        ground += is_ground;
+        rou += is_ground && filter.found()[i].region == Label::Rou;
+        pole += is_pole;
+        roi += is_pole && filter.found()[i].region == Label::Roi;
+    }
+    EXPECT_GT(ground, 400u);
+    EXPECT_GT(rou, ground * 8 / 10);
+    EXPECT_GT(pole, 20u);
+    EXPECT_GT(roi, pole * 9 / 10);
+}
+
+/// Of a sector that sees a wall only, the context shows whether there is ground.
+TEST(SectorFilter, RegionsOfTheContextShowTheGround) {
+    SimpleScene scene;
+    scene.boxes.push_back({{2, -20, 0}, {3, 20, 6}});
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Turn turn = turnOf(scene, sensor, radians(8.0));
+    const ColumnMap columns = windowInFront();
+    SectorFilter filter(sensor, {});
+    const auto& seen = filter.segment(turn.scan, {}, {turn.sector, columns, contextOf(turn.whole)});
+    EXPECT_TRUE(seen.ground.is_seen);
+    EXPECT_NEAR(seen.ground.from_sensor.translation().z(), 2, 0.02);
+    const std::vector<Label> unknown(turn.scan.size(), Label::Unclassified);
+    const auto& doubtful =
+        filter.segment(turn.scan, {}, {turn.sector, columns, contextOf(unknown)});
+    EXPECT_FALSE(doubtful.ground.is_seen);
+    for (const Label label : doubtful.returns.label) EXPECT_EQ(label, Label::Roi);
+}
+
+TEST(SectorFilter, ASectorWithoutReturnsHasNoLabels) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    SectorFilter filter(sensor, {});
+    Scan none;
+    locateBeams(sensor, none);
+    const ColumnMap columns = windowInFront();
+    EXPECT_TRUE(filter.segment(none, {}, {none, columns, {}}).returns.label.empty());
+    // Context only.
+    const Scan scan = test::scanScene({}, sensor, kColumns, kTwoMetresUp).scan;
+    const std::vector<Label> rou(scan.size(), Label::Rou);
+    EXPECT_TRUE(filter.segment(scan, {}, {none, columns, contextOf(rou)}).returns.label.empty());
+}
+
+TEST(SectorFilter, ReturnsThatWereNotLocatedAreRefused) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    SectorFilter filter(sensor, {});
+    Scan scan;
+    scan.x_m = scan.y_m = scan.z_m = {1};
+    const std::vector<ContextReturn> context(1);
+    const ColumnMap columns = windowInFront();
+    EXPECT_THROW(filter.segment(scan, {}, {scan, columns, context}), std::invalid_argument);
+    Options options;
+    options.window_size = 1;
+    EXPECT_THROW(SectorFilter(sensor, options), std::invalid_argument);
+}
+
+/// Thin plants in rows. One column in six meets few of their tops.
+SimpleScene sceneWithCrops() {
+    SimpleScene scene;
+    for (int i = -14; i <= 14; ++i) {
+        for (int j = -14; j <= 14; ++j) {
+            scene.poles.push_back({1.2 * i + 0.05 * j, 1.2 * j, 0.05, 0.7});
+        }
+    }
+    return scene;
+}
+
+/// The returns of the sector, and of the others those of one column in six.
+Turn thinned(const Turn& turn, std::vector<std::size_t>& kept) {
+    Turn thin;
+    thin.sector = turn.sector;
+    for (std::size_t i = 0; i < turn.scan.size(); ++i) {
+        const bool is_context = i >= turn.sector.size();
+        if (is_context && nearestColumn(turn.scan.azimuth_rad[i], kColumns) % 6 != 0) continue;
+        appendReturn(turn.scan, i, thin.scan);
+        thin.whole.push_back(turn.whole[i]);
+        kept.push_back(i);
+    }
+    thin.scan.beams = turn.scan.beams;
+    return thin;
+}
+
+TEST(SectorFilter, ACanopyIsToldByHowHighTheCellsOfTheContextWere) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Turn turn = turnOf(sceneWithCrops(), sensor, radians(7.5));
+    std::vector<std::size_t> kept;
+    const Turn thin = thinned(turn, kept);
+    // What the sectors found that had all of these returns: here, one of the whole turn.
+    SectorFilter all(sensor, {});
+    ColumnMap every_column;
+    mapColumns(kColumns, 6, 0, kColumns / 6, every_column);
+    all.segment(turn.scan, {}, {turn.scan, every_column, contextOf(turn.whole)});
+    std::vector<ContextReturn> context;
+    for (const std::size_t i : kept) context.push_back(all.found()[i]);
+
+    const ColumnMap columns = windowInFront();
+    const auto differentWith = [&](const std::vector<ContextReturn>& known) {
+        SectorFilter filter(sensor, {});
+        const auto& found = filter.segment(thin.scan, {}, {thin.sector, columns, known});
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < thin.sector.size(); ++i) {
+            different += found.returns.label[i] != turn.whole[i];
+        }
+        return different;
+    };
+    const std::size_t with = differentWith(context), without = differentWith(contextOf(thin.whole));
+    EXPECT_GT(without, 20u);
+    EXPECT_EQ(with, 0u);
+}
+
+}  // namespace
+}  // namespace hagen

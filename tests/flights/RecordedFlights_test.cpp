@@ -1,0 +1,169 @@
+// Some short flights must repeat the recorded ones exactly, unless kRevision was counted up.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/avoidance/Calibration.h>
+#include <hagen/avoidance/RunTable.h>
+#include <hagen/avoidance/SettingsHash.h>
+#include <hagen/avoidance/Trial.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/Program.h"
+
+namespace hagen::avoidance {
+namespace {
+
+using testing::HasSubstr;
+
+const char kFile[] = HAGEN_SOURCE_DIR "/tests/flights/recorded_flights.csv";
+const std::string kHowToRecord =
+    "count up kRevision in libs/avoidance/include/hagen/avoidance/SettingsHash.h, and record again: "
+    "HAGEN_RECORD_FLIGHTS=1 scripts/test -R RecordedFlights";
+
+/// The recorded flights: "revision,N", then rows as in runs.csv. A flight may have several: it
+/// comes out as one of them, and which one depends on the machine (docs/octomap-compare.md).
+struct Recording {
+    int revision;
+    std::string rows;
+};
+
+std::string textOf(const Recording& recording) {
+    return "revision," + std::to_string(recording.revision) + "\n" + recording.rows;
+}
+
+Recording recordingFrom(const std::string& text) {
+    Recording recording{0, ""};
+    std::istringstream in(text);
+    std::string word;
+    std::getline(in, word, ',');
+    in >> recording.revision;
+    in.ignore();
+    std::getline(in, recording.rows, '\0');
+    return recording;
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+/// Which flights they are: the first five columns of each row, and its last two, air and distance.
+std::set<std::string> flightsOf(const std::vector<std::string>& rows) {
+    std::set<std::string> flights;
+    for (const std::string& row : rows) {
+        std::size_t five = 0;
+        for (int k = 0; k < 5 && five != std::string::npos; ++k) five = row.find(',', five + 1);
+        const std::size_t last_two = row.rfind(',', row.rfind(',') - 1);
+        flights.insert(row.substr(0, five) + row.substr(last_two));
+    }
+    return flights;
+}
+
+/// What is wrong with a recording, given the flights of this revision; empty: nothing.
+std::string faultOf(const Recording& recording, const Recording& flown) {
+    if (recording.revision != flown.revision) {
+        return "recorded at revision " + std::to_string(recording.revision) +
+               ", but kRevision is " + std::to_string(flown.revision) +
+               "; if it was counted up, record again: HAGEN_RECORD_FLIGHTS=1 scripts/test -R "
+               "RecordedFlights";
+    }
+    const std::vector<std::string> rows = linesOf(flown.rows), recorded = linesOf(recording.rows);
+    const std::set<std::string> known(recorded.begin(), recorded.end());
+    const bool are_known = std::all_of(
+        rows.begin(), rows.end(), [&](const std::string& row) { return known.count(row) > 0; });
+    if (are_known && flightsOf(rows) == flightsOf(recorded)) return "";
+    return "flights differ from the recorded ones; if the change is intended, " + kHowToRecord;
+}
+
+/// Why these flights may not replace the recorded ones; empty: they may.
+std::string obstacleTo(const Recording& flown, const Recording& recorded) {
+    if (flown.revision > recorded.revision || textOf(flown) == textOf(recorded)) return "";
+    return "flights or kRevision changed, but kRevision was not counted up; first " + kHowToRecord;
+}
+
+/// Latencies that do not depend on the profile that comes with the program.
+LatencyProfile someProfile() {
+    LatencyProfile profile = constantProfile(1);
+    for (auto& [stage, quantiles_ms] : profile.quantiles_ms) quantiles_ms = {2, 5, 8, 40};
+    return profile;
+}
+
+/// Every scenario, air, guidance, planner, pose error and kind of model at least once. Fast
+/// flights, because they are short; and those that come out the same if the directions of the
+/// LiDAR's rays change by 1e-6, because processors may differ by less.
+std::vector<std::string> keys() {
+    return {"forest-0.02,1,W-RoI,straight,10,primitives,none,1,optimistic,dusty,unbiased",
+            "forest-0.02,5,O-RoI-0.4,straight,10,3dvfh,noise,1,optimistic,dusty,unbiased",
+            "forest-0.05,2,W-RoI,straight,10,3dvfh,noise,1,optimistic,dusty,unbiased",
+            "forest-0.10,6,W-RoI,astar,6,3dvfh,none,1,optimistic,dusty,unbiased",
+            "orchard,6,O-Full-0.4,straight,10,3dvfh,none,1,optimistic,dusty,unbiased",
+            "gap,5,O-Full-0.4,astar,8,primitives,none,1,optimistic,dusty,unbiased",
+            "u-trap,6,oracle,astar,10,primitives,none,1,optimistic,dusty,unbiased",
+            "terrain,6,W-Full,astar,10,primitives,drift,1,optimistic,dusty,unbiased",
+            "wires,2,O-RoI+rays-0.4,straight,10,primitives,none,1,brake_known,dusty,unbiased",
+            "movers,1,W-RoI,astar,10,primitives,noise,4,optimistic,dusty,unbiased",
+            "street,10,G-Full,straight,10,3dvfh,none,1,optimistic,dusty,unbiased",
+            "forest-0.02,1,W-RoI,straight,10,primitives,none,1,optimistic,clear,as-stored"};
+}
+
+Recording fly() {
+    const LatencyProfile profile = someProfile();
+    Recording flown{kRevision, runHeader() + "\n"};
+    for (const std::string& key : keys()) {
+        hagen::avoidance::Run run = runOfKey(key);
+        const Course course = makeCourse(run.scenario, run.seed);
+        run.oracle_path_m = course.oracle_path_m;
+        run.result = runTrial(course, run.setup, profile);
+        flown.rows += rowOf(run) + "\n";
+    }
+    return flown;
+}
+
+TEST(RecordedFlights, ComeOutAsRecordedAtThisRevision) {
+    const Recording recorded = recordingFrom(test::readFile(kFile)), flown = fly();
+    if (std::getenv("HAGEN_RECORD_FLIGHTS") != nullptr) {
+        ASSERT_EQ(obstacleTo(flown, recorded), "");
+        std::ofstream(kFile, std::ios::binary) << textOf(flown);
+        return;
+    }
+    EXPECT_EQ(faultOf(recorded, flown), "") << "recorded:\n"
+                                            << recorded.rows << "flown:\n"
+                                            << flown.rows;
+}
+
+TEST(RecordedFlights, AChangeWithoutANewRevisionIsFoundAndCannotBeRecorded) {
+    const Recording recorded{3, "a,,\n"}, changed{3, "b,,\n"};
+    EXPECT_THAT(faultOf(recorded, changed), HasSubstr("count up kRevision"));
+    EXPECT_THAT(obstacleTo(changed, recorded), HasSubstr("count up kRevision"));
+    // The first flight comes out in two ways.
+    const std::string first = "f,1,W,s,10,", second = "f,2,W,s,10,", end = ",dusty,unbiased\n";
+    const std::string of_second = second + "x" + end;
+    const Recording either{3, first + "x" + end + first + "y" + end + of_second};
+    EXPECT_EQ(faultOf(either, {3, first + "x" + end + of_second}), "");
+    EXPECT_EQ(faultOf(either, {3, first + "y" + end + of_second}), "");
+    for (const std::string& rows : {first + "z" + end + of_second, first + "x" + end}) {
+        EXPECT_THAT(faultOf(either, {3, rows}), HasSubstr("count up kRevision")) << rows;
+    }
+    EXPECT_NE(obstacleTo({2, "b,,\n"}, recorded), "");
+    EXPECT_NE(obstacleTo({2, "a,,\n"}, recorded), "");
+    EXPECT_EQ(obstacleTo(recorded, recorded), "");
+}
+
+TEST(RecordedFlights, ANewRevisionIsRecorded) {
+    const Recording recorded{3, "a,,\n"}, changed{4, "b,,\n"};
+    EXPECT_THAT(faultOf(recorded, changed), HasSubstr("recorded at revision 3"));
+    EXPECT_EQ(obstacleTo(changed, recorded), "");
+    EXPECT_EQ(faultOf(recordingFrom(textOf(changed)), changed), "");
+    EXPECT_EQ(obstacleTo(recorded, recordingFrom("")), "");  // the first one
+}
+
+}  // namespace
+}  // namespace hagen::avoidance

@@ -1,0 +1,299 @@
+#include <gtest/gtest.h>
+#include <hagen/avoidance/Calibration.h>
+#include <hagen/avoidance/RunTable.h>
+#include <hagen/avoidance/Trial.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "avoidance/SimpleCourse.h"
+
+namespace hagen::avoidance {
+namespace {
+
+using test::emptyContent;
+using test::putWall;
+using test::simpleCourse;
+
+/// All of a result, to compare.
+std::string textOf(const TrialResult& result) {
+    hagen::avoidance::Run run{};
+    run.result = result;
+    return rowOf(run);
+}
+
+TEST(Trial, OverOpenGroundItFliesStraightToTheGoal) {
+    const Course course = simpleCourse(emptyContent());
+    for (const char* model : {"oracle", "W-RoI"}) {
+        TrialSetup setup;
+        setup.model = model;
+        setup.air = Air::Clear;
+        const TrialResult result = runTrial(course, setup, constantProfile(10));
+        EXPECT_EQ(result.outcome, Outcome::Success) << model;
+        EXPECT_NEAR(result.path_m, 18.5, 0.2);  // to where the goal counts as reached
+        EXPECT_NEAR(result.min_clearance_m, 2, 0.35);
+        EXPECT_TRUE(std::isnan(result.first_reaction_m));
+        EXPECT_EQ(result.emergency_stops, 0);
+        // At 4 m/s after 0.15 s of nothing and some 0.8 s of speeding up.
+        EXPECT_GT(result.time_s, 18.5 / 4);
+        EXPECT_LT(result.time_s, 18.5 / 4 + 2);
+    }
+}
+
+/// A course that leads aside is as straight as one ahead: it reacts to what is in the way, not at
+/// once.
+TEST(Trial, TheFirstReactionIsToTheObstacle) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -2.5f, 2.5f);
+    Course course = simpleCourse(std::move(content));
+    course.start_m.y() = -8;
+    course.goal_m.y() = 8;
+    TrialSetup setup;
+    setup.model = "oracle";
+    const TrialResult result = runTrial(course, setup, constantProfile(10));
+    EXPECT_EQ(result.outcome, Outcome::Success);
+    const double to_wall_m = std::hypot(10, 8);
+    EXPECT_GT(result.first_reaction_m, 1);
+    EXPECT_LT(result.first_reaction_m, to_wall_m - 3);
+}
+
+TEST(Trial, TheWorldModelIsToldOfTheCourseAndTheFlight) {
+    const Course course = simpleCourse(emptyContent());
+    TrialSetup setup;
+    setup.speed_m_s = 3;
+    setup.distance = ModelDistance::AsStored;
+    avoidance::WorldModelSetting told;
+    setup.make_world = [&](const auto& world) -> std::unique_ptr<avoidance::WorldModel> {
+        told = world;
+        throw std::runtime_error("that is enough");
+    };
+    EXPECT_THROW(runTrial(course, setup, constantProfile(10)), std::runtime_error);
+    EXPECT_EQ(told.bounds_m.min(), course.bounds_m.min().cast<float>());
+    EXPECT_EQ(told.bounds_m.max(), course.bounds_m.max().cast<float>());
+    EXPECT_EQ(told.distance, ModelDistance::AsStored);
+    EXPECT_EQ(told.pace.speed_m_s, 3);
+}
+
+TEST(Trial, LatencyIsTheSumOfTheStagesThatTheModelNeeds) {
+    const Course course = simpleCourse(emptyContent());
+    TrialSetup setup;
+    setup.model = "W-RoI";
+    EXPECT_NEAR(runTrial(course, setup, constantProfile(10)).latency_max_ms, 40, 1e-6);
+    setup.model = "W-Full";  // no filter
+    const TrialResult full = runTrial(course, setup, constantProfile(10));
+    EXPECT_NEAR(full.latency_p50_ms, 30, 1e-6);
+    EXPECT_EQ(full.dropped_scans, 0);
+    setup.latency_scale = 2;
+    EXPECT_NEAR(runTrial(course, setup, constantProfile(10)).latency_p95_ms, 60, 1e-6);
+}
+
+TEST(Trial, ABusyPlannerDropsAllButTheNewestScan) {
+    const Course course = simpleCourse(emptyContent());
+    TrialSetup setup;
+    setup.model = "oracle";
+    setup.speed_m_s = 1;
+    std::vector<double> given_s;
+    TrialListener listener;
+    listener.step = [&](const TrialStep& step) { given_s.push_back(step.time_s); };
+    // Three stages of 80 ms: from one plan to the next 240 ms, on the newest of 2 or 3 scans.
+    const TrialResult result = runTrial(course, setup, constantProfile(80), nullptr, listener);
+    ASSERT_GT(given_s.size(), 20u);
+    for (std::size_t i = 1; i < given_s.size(); ++i) {
+        EXPECT_NEAR(given_s[i] - given_s[i - 1], 0.24, 1e-6);
+    }
+    EXPECT_NEAR(result.dropped_scans, result.scans * (1 - 100.0 / 240), 2);
+    EXPECT_GE(result.latency_p50_ms, 240 - 1e-6);
+    EXPECT_LE(result.latency_max_ms, 340 + 1e-6);
+}
+
+TEST(Trial, AWallWithoutAGapStopsEveryModel) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -40, 40);
+    const Course course = simpleCourse(std::move(content));
+    for (const char* model : {"W-RoI", "W-Full", "oracle"}) {
+        TrialSetup setup;
+        setup.model = model;
+        setup.guidance = "straight";
+        const TrialResult result = runTrial(course, setup, constantProfile(10));
+        EXPECT_EQ(result.outcome, Outcome::Timeout) << model;
+        EXPECT_GT(result.min_clearance_m, 0.5) << model;
+        // The wall is 10 m ahead of the start.
+        EXPECT_GT(result.first_reaction_m, 0.5) << model;
+        EXPECT_LT(result.first_reaction_m, 10) << model;
+    }
+}
+
+TEST(Trial, AWallToFlyRoundIsFlownRound) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -4, 4);
+    const Course course = simpleCourse(std::move(content));
+    TrialSetup setup;
+    const TrialResult result = runTrial(course, setup, constantProfile(10));
+    EXPECT_EQ(result.outcome, Outcome::Success);
+    EXPECT_GT(result.path_m, 18.5 + 1);  // 2 hypot(10, 4.5) - 20 at the least, but for the arrival
+    EXPECT_GT(result.min_clearance_m, 0.3);
+}
+
+TEST(Trial, WhoDoesNotBrakeInTimeCollides) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -40, 40);
+    const Course course = simpleCourse(std::move(content));
+    TrialSetup setup;
+    setup.guidance = "straight";
+    setup.model = "oracle";
+    setup.speed_m_s = 8;
+    LatencyProfile profile =
+        constantProfile(1);  // half of the plans take seconds, against the median
+    profile.quantiles_ms["oracle/update"] = {1, 1, 20000};
+    const TrialResult result = runTrial(course, setup, profile);
+    EXPECT_EQ(result.outcome, Outcome::Collision);
+    EXPECT_LT(result.min_clearance_m, 0.3);
+}
+
+TEST(Trial, WhoKnowsToBeSlowStopsInTime) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -40, 40);
+    TrialSetup setup;
+    setup.latency_scale = 100;  // each plan takes three seconds, and the planner knows
+    setup.guidance = "straight";
+    setup.model = "oracle";
+    setup.speed_m_s = 8;
+    const Course course = simpleCourse(std::move(content));
+    EXPECT_NE(runTrial(course, setup, constantProfile(10)).outcome, Outcome::Collision);
+}
+
+TEST(Trial, TheSameSeedFliesTheSame) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -4, 4);
+    for (const PoseError error : {PoseError::None, PoseError::Noise, PoseError::Drift}) {
+        TrialSetup setup;
+        setup.pose_error = error;
+        LatencyProfile profile = constantProfile(10);
+        profile.quantiles_ms["W-RoI/update"] = {1, 80};
+        const TrialResult once = runTrial(simpleCourse(content), setup, profile);
+        const TrialResult again = runTrial(simpleCourse(content), setup, profile);
+        const TrialResult other = runTrial(simpleCourse(content, 2), setup, profile);
+        EXPECT_EQ(textOf(once), textOf(again));
+        EXPECT_NE(textOf(once), textOf(other));
+    }
+}
+
+TEST(Trial, WithSectorsAPlanIsMadeFiftyTimesPerSecondOnAllThatCame) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -4, 4);
+    const Course course = simpleCourse(std::move(content));
+    TrialSetup setup;
+    setup.updates = Updates::Sectors;
+    double turns = 0, last_s = 0;
+    TrialListener listener;
+    listener.step = [&](const TrialStep& step) {
+        const double expected_s = turns == 0 ? 0.104 : last_s + 0.02;  // four stages of 1 ms
+        EXPECT_NEAR(step.time_s, expected_s, 1e-9);
+        last_s = step.time_s;
+        turns += step.scan.turns;
+        EXPECT_NEAR(turns, 10 * step.scan.time_s, 1e-3);
+        EXPECT_LE(step.scan.time_s, step.time_s - 0.004 + 1e-9);
+        // A packet or two are not full, and up to two wait for a third.
+        EXPECT_GE(step.scan.time_s, step.time_s - 0.004 - 0.0054);
+        EXPECT_NEAR(step.latency_ms, 1e3 * (step.time_s - step.scan.time_s), 1e-6);
+    };
+    const TrialResult result = runTrial(course, setup, constantProfile(1), nullptr, listener);
+    EXPECT_EQ(result.outcome, Outcome::Success);
+    EXPECT_EQ(result.dropped_scans, 0);
+    EXPECT_NEAR(result.scans, 25 * result.time_s / 0.1, 0.5 * result.time_s / 0.1);
+    EXPECT_EQ(textOf(result), textOf(runTrial(course, setup, constantProfile(1))));
+}
+
+TEST(Trial, WithSectorsABusyPlannerTakesAllThatCameMeanwhile) {
+    const Course course = simpleCourse(emptyContent());
+    for (const char* model : {"W-Full", "R-Full-0.2", "oracle"}) {
+        TrialSetup setup;
+        setup.model = model;
+        setup.updates = Updates::Sectors;
+        double turns = 0, last_s = 0;
+        TrialListener listener;
+        listener.step = [&](const TrialStep& step) {
+            if (turns > 0) {
+                EXPECT_NEAR(step.time_s - last_s, 0.24, 1e-6) << model;
+            }
+            last_s = step.time_s;
+            turns += step.scan.turns;
+            EXPECT_NEAR(turns, 10 * step.scan.time_s, 1e-3) << model;
+        };
+        const TrialResult result = runTrial(course, setup, constantProfile(80), nullptr, listener);
+        EXPECT_EQ(result.outcome, Outcome::Success) << model;
+        EXPECT_EQ(result.dropped_scans, 0) << model;
+    }
+}
+
+TEST(Trial, AWallWithoutAGapStopsEveryModelWithSectors) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -40, 40);
+    const Course course = simpleCourse(std::move(content));
+    for (const char* model : {"W-RoI", "R-Full-0.2"}) {
+        TrialSetup setup;
+        setup.model = model;
+        setup.guidance = "straight";
+        setup.updates = Updates::Sectors;
+        setup.speed_m_s = 8;
+        const TrialResult result = runTrial(course, setup, constantProfile(10));
+        EXPECT_NE(result.outcome, Outcome::Collision) << model;
+        EXPECT_GT(result.min_clearance_m, 0.5) << model;
+    }
+}
+
+TEST(Trial, MeasuringAndListeningChangeNothing) {
+    simulation::SceneContent content = emptyContent();
+    putWall(content, -4, 4);
+    const Course course = simpleCourse(std::move(content));
+    const LatencyProfile profile = constantProfile(10);
+    TrialMeasurement measurement;
+    TrialListener listener;
+    int moves = 0, steps = 0;
+    std::size_t candidates = 0;
+    std::string last;
+    listener.moved = [&](double, const avoidance::VehicleState&) { ++moves; };
+    listener.event = [&](const std::string& what) { last = what; };
+    listener.step = [&](const TrialStep& step) {
+        ++steps;
+        candidates += step.plan.candidates.size();
+        EXPECT_EQ(step.scan.points_m.size(), step.scan.labels.size());
+        EXPECT_EQ(step.true_state.position_m, step.believed_state.position_m);
+    };
+    listener.keeps_candidates = true;
+    const TrialResult watched = runTrial(course, TrialSetup{}, profile, &measurement, listener);
+    EXPECT_EQ(textOf(watched), textOf(runTrial(course, TrialSetup{}, profile)));
+    EXPECT_NEAR(moves, watched.time_s / avoidance::kControlStep_s + 1, 1);
+    EXPECT_NEAR(steps, watched.scans, 1);
+    EXPECT_GT(candidates, 0u);
+    EXPECT_EQ(last, "success");
+    for (const char* stage : {"filter", "W-RoI/update", "W-RoI/astar", "W-RoI/astar+primitives"}) {
+        EXPECT_EQ(measurement.stage_ms[stage].size(), static_cast<std::size_t>(steps)) << stage;
+    }
+}
+
+TEST(Trial, WhatIsNotKnownIsNamed) {
+    const Course course = simpleCourse(emptyContent());
+    TrialSetup setup;
+    setup.model = "W-Nothing";
+    EXPECT_THROW(runTrial(course, setup, constantProfile(1)), std::invalid_argument);
+    setup = {};
+    setup.planner = "none";
+    EXPECT_THROW(runTrial(course, setup, constantProfile(1)), std::invalid_argument);
+    setup = {};
+    EXPECT_THROW(runTrial(course, setup, LatencyProfile{}), std::runtime_error);
+}
+
+TEST(Calibration, MeasuringMemoryEndsWithinAScan) {
+    struct Interrupted {};
+    int scans = 0;
+    const auto stopAtTheThird = [&] {
+        if (++scans == 3) throw Interrupted();
+    };
+    EXPECT_THROW(heapAlongFlight("W-RoI", 1000, stopAtTheThird), Interrupted);
+    EXPECT_EQ(scans, 3);
+}
+
+}  // namespace
+}  // namespace hagen::avoidance

@@ -1,0 +1,275 @@
+#include <gtest/gtest.h>
+#include <hagen/live/LivoxStream.h>
+#include <hagen/live/SectorDistances.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "support/LivoxPackets.h"
+
+namespace hagen::live {
+namespace {
+
+using Taken = LivoxStream::Taken;
+
+constexpr int kPoints = test::kLivoxPoints;
+constexpr std::int64_t kPacket_ns = test::kLivoxPacket_ns;
+const auto packetOf = test::livoxPacketOfWall;
+
+class LivoxStreamTest : public testing::Test {
+ protected:
+    Taken add(const std::string& packet, double time_s) {
+        return stream_.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
+                           time_s);
+    }
+    struct Frame {
+        std::size_t returns, roi_of_wall, wall;
+        double first_s, last_s;
+        bool has_turn;
+    };
+    std::vector<Frame> frames_;
+    LivoxStream stream_{
+        {}, [this](const LabelledSector& sector) {
+            EXPECT_FALSE(sector.sweep);
+            Frame frame{sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
+                        sector.has_turn};
+            for (std::size_t i = 0; i < frame.returns; ++i) {
+                const bool is_wall = std::abs(sector.returns.x_m[i] - 6) < 0.01f &&
+                                     sector.returns.z_m[i] > -1 && sector.returns.range_m[i] < 20;
+                frame.wall += is_wall;
+                frame.roi_of_wall += is_wall && sector.label[i] == Label::Roi;
+            }
+            frames_.push_back(frame);
+        }};
+};
+
+TEST_F(LivoxStreamTest, FramesAreTwentyMilliseconds) {
+    for (int i = 0; i < 420; ++i) {
+        EXPECT_EQ(add(packetOf(i, 1000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i), Taken::Yes);
+    }
+    EXPECT_NEAR(static_cast<double>(frames_.size()), 10, 1);
+    EXPECT_FALSE(frames_[0].has_turn);
+    std::size_t wall = 0, found = 0;
+    for (const Frame& frame : frames_) {
+        EXPECT_GT(frame.returns, 500u);
+        wall += frame.wall;
+        found += frame.roi_of_wall;
+    }
+    EXPECT_GT(wall, 500u);
+    EXPECT_EQ(found, wall);
+}
+
+TEST_F(LivoxStreamTest, TheSettingsLimitTheRanges) {
+    const auto limitsOf = [&](const Settings& settings) {
+        const LivoxStream stream(settings, [](const LabelledSector&) {});
+        const SensorModel& used = stream.segmenter().sensor();
+        return std::pair(used.min_range_m, used.max_range_m);
+    };
+    const SensorModel model = sensorModel("Mid-360");
+    Settings settings;
+    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
+    settings.sensor.min_range_m = 1.5f;
+    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
+    settings.sensor.max_range_m = 40.0f;
+    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
+}
+
+TEST_F(LivoxStreamTest, LossesRepetitionsAndJumpsAreCounted) {
+    const auto packet = [](int i, std::int64_t offset_ns = 0) {
+        return packetOf(i, 5000000000 + offset_ns + kPacket_ns * i);
+    };
+    double time_s = 0;
+    for (const int i : {0, 1, 1, 2, 5, 6, 8, 7, 9}) add(packet(i), time_s += 5e-4);
+    for (const int i : {10, 11, 12, 13}) {  // the clock was set
+        add(packet(i, -4000000000), time_s += 5e-4);
+    }
+    const auto& counts = stream_.counts();
+    EXPECT_EQ(counts.repeated, 1u);
+    EXPECT_EQ(counts.lost, 2u);
+    EXPECT_EQ(counts.late, 1u);
+    EXPECT_EQ(counts.interruptions, 1u);
+    EXPECT_EQ(counts.packets, 9u);
+}
+
+/// As PTP does. The packets that follow are as new as before: neither are they late, nor do they
+/// wait for a clock that has stood here already.
+TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothing) {
+    for (const std::int64_t back_ns : {20000000, 200000000, 900000000, 2000000000}) {
+        frames_.clear();
+        LivoxStream stream({}, [this](const LabelledSector& sector) {
+            frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
+                               sector.has_turn});
+        });
+        for (int i = 0; i < 1000; ++i) {
+            const std::int64_t time_ns = 5000000000 + kPacket_ns * i - (i < 500 ? 0 : back_ns);
+            const std::string packet = packetOf(i, time_ns);
+            stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
+                       1 + 1e-9 * kPacket_ns * i);
+        }
+        EXPECT_EQ(stream.counts().interruptions, 1u);
+        EXPECT_EQ(stream.counts().late, 0u);
+        EXPECT_EQ(stream.counts().too_late, 3u);
+        EXPECT_EQ(stream.counts().packets, 997u);
+        EXPECT_NEAR(static_cast<double>(frames_.size()), 24, 2);
+        double latest_s = 1;
+        for (const Frame& frame : frames_) {
+            EXPECT_LT(frame.last_s - frame.first_s, 0.021);
+            EXPECT_LT(frame.last_s - latest_s, 0.025);
+            latest_s = frame.last_s;
+        }
+    }
+}
+
+/// Each packet comes twice, as by a second network: at once, or after the next ones.
+TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothingWhereAllComesTwice) {
+    for (const std::int64_t back_ns : {20000000, 200000000, 2000000000}) {
+        for (const int later : {0, 1, 3}) {
+            LivoxStream stream({}, [](const LabelledSector&) {});
+            const auto addTo = [&](int i, int now) {
+                const std::int64_t time_ns = 5000000000 + kPacket_ns * i - (i < 500 ? 0 : back_ns);
+                const std::string packet = packetOf(i, time_ns);
+                return stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()),
+                                  packet.size(), 1 + 1e-9 * kPacket_ns * now);
+            };
+            for (int i = 0; i < 1000; ++i) {
+                addTo(i, i);
+                if (i < later) continue;
+                EXPECT_EQ(addTo(i - later, i), Taken::Repeated);
+            }
+            EXPECT_EQ(stream.counts().interruptions, 1u) << back_ns << " " << later;
+            // Copies of before come between the first ones.
+            const auto too_late = static_cast<std::size_t>(3 + later);
+            EXPECT_EQ(stream.counts().too_late, too_late) << back_ns << " " << later;
+            EXPECT_EQ(stream.counts().packets, 1000 - too_late) << back_ns << " " << later;
+        }
+    }
+}
+
+/// What waited in a network for long is not as new as what comes with it.
+TEST_F(LivoxStreamTest, PacketsThatAreFarTooLateAreLeftOut) {
+    const auto packet = [](int i) { return packetOf(i, 5000000000 + kPacket_ns * i); };
+    double time_s = 0;
+    for (int i = 0; i < 400; ++i) add(packet(i), time_s += 4.8e-4);
+    EXPECT_EQ(add(packet(500), time_s += 4.8e-4), Taken::Yes);
+    for (int i = 420; i < 423; ++i) {
+        EXPECT_EQ(add(packet(i), time_s += 4.8e-4), Taken::TooLate);
+    }
+    EXPECT_EQ(add(packet(501), time_s += 4.8e-4), Taken::Yes);
+    EXPECT_EQ(add(packet(423), time_s += 4.8e-4), Taken::TooLate);
+    EXPECT_EQ(add(packet(490), time_s += 4.8e-4), Taken::Yes);
+    EXPECT_EQ(add(packetOf(502, 5000000000 - 1200000000), time_s += 4.8e-4), Taken::TooLate);
+    EXPECT_EQ(add(packet(503), time_s += 4.8e-4), Taken::Yes);
+    for (int i = 0; i < 300; ++i) {  // copies, as by a slower path
+        EXPECT_EQ(add(packet(i), time_s += 1e-6), Taken::Repeated);
+    }
+    EXPECT_EQ(stream_.counts().too_late, 5u);
+    EXPECT_EQ(stream_.counts().late, 1u);
+    EXPECT_EQ(stream_.counts().interruptions, 0u);
+}
+
+/// A frame in progress does not wait for what comes after a silence.
+TEST_F(LivoxStreamTest, WhatCameBeforeASilenceIsAsOldAsItIs) {
+    SectorDistances distances(sensorModel("Mid-360"));
+    LivoxStream stream({}, [&](const LabelledSector& sector) {
+        frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
+                           sector.has_turn});
+        distances.take(sector);
+    });
+    const auto addTo = [&](const std::string& packet, double time_s) {
+        stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(), time_s);
+    };
+    for (int i = 0; i < 500; ++i) {
+        addTo(packetOf(i, 5000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i);
+    }
+    const std::size_t before = frames_.size();
+    const int again = 500 + 1875;  // 0.9 s
+    const double now_s = 1e-9 * kPacket_ns * again;
+    addTo(test::livoxPacket(std::vector<test::LivoxPoint>(kPoints, {0, 0, 0, 0}),
+                            5000000000 + kPacket_ns * again, again),
+          now_s);
+    ASSERT_EQ(frames_.size(), before + 1);
+    EXPECT_LT(frames_.back().last_s, 0.241);
+    stream.flush();
+    for (const auto& sector : distances.at(now_s)) {
+        EXPECT_EQ(sector.state, SectorDistances::State::Unknown);
+    }
+    // A frame is as old as its first packet.
+    for (std::size_t i = 0; i < before; ++i) {
+        EXPECT_NEAR(frames_[i].last_s - frames_[i].first_s, 0.0197, 0.001);
+    }
+}
+
+/// Of each ten packets six are lost, and the others come again after the next one: four measured.
+TEST_F(LivoxStreamTest, CopiesDoNotMakeUpForLostPackets) {
+    double measured_s = 0;
+    SectorDistances distances(sensorModel("Mid-360"));
+    LivoxStream stream({}, [&](const LabelledSector& sector) {
+        measured_s += sector.measured_s;
+        distances.take(sector);
+    });
+    const auto addTo = [&](const std::string& packet, double time_s) {
+        return stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
+                          time_s);
+    };
+    const std::vector<test::LivoxPoint> nothing(kPoints, {0, 0, 0, 0});
+    std::string before;
+    for (int i = 0; i < 1000; ++i) {
+        if (i % 10 >= 4) continue;
+        const double time_s = 1 + 1e-9 * kPacket_ns * i;
+        const std::string packet = test::livoxPacket(nothing, 1000000000 + kPacket_ns * i, i);
+        EXPECT_EQ(addTo(packet, time_s), Taken::Yes);
+        if (!before.empty()) {
+            EXPECT_EQ(addTo(before, time_s), Taken::Repeated);
+        }
+        before = packet;
+    }
+    stream.flush();
+    EXPECT_EQ(stream.counts().repeated, 399u);
+    EXPECT_EQ(stream.counts().late, 0u);
+    EXPECT_NEAR(measured_s, 0.4 * 1e-9 * kPacket_ns * 1000, 1e-6);
+    for (const auto& sector : distances.at(1 + 1e-9 * kPacket_ns * 1000)) {
+        EXPECT_EQ(sector.state, SectorDistances::State::Unknown);
+    }
+}
+
+/// What is near may be an obstacle, as long as little is known around.
+TEST_F(LivoxStreamTest, WhereMostPacketsAreLostNothingIsGround) {
+    double measured_s = 0;
+    std::size_t sectors = 0, doubtful = 0;
+    const auto fly = [&](int every) {
+        measured_s = 0;
+        sectors = doubtful = 0;
+        LivoxStream stream({}, [&](const LabelledSector& sector) {
+            measured_s += sector.measured_s;
+            ++sectors;
+            doubtful += sector.is_doubtful;
+        });
+        for (int i = 0; i < 2000; i += every) {
+            const std::string packet = packetOf(i, 1000000000 + kPacket_ns * i);
+            stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
+                       1e-9 * kPacket_ns * i);
+        }
+    };
+    fly(1);
+    EXPECT_NEAR(measured_s, 1e-9 * kPacket_ns * 2000, 0.021);
+    EXPECT_GT(sectors, 40u);
+    EXPECT_LT(doubtful, 6u);
+    fly(42);
+    EXPECT_NEAR(measured_s, 1e-9 * kPacket_ns * 2000 / 42, 0.001);
+    EXPECT_EQ(doubtful, sectors);
+}
+
+TEST_F(LivoxStreamTest, ForeignDatagramsAreRefused) {
+    EXPECT_EQ(add("", 0), Taken::Foreign);
+    EXPECT_EQ(add(std::string(1206, 'x'), 0), Taken::Foreign);
+    EXPECT_EQ(add(packetOf(0, 0).substr(2), 0), Taken::Foreign);
+    stream_.flush();
+    EXPECT_TRUE(frames_.empty());
+    EXPECT_EQ(stream_.counts().foreign, 3u);
+}
+
+}  // namespace
+}  // namespace hagen::live

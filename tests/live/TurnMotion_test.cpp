@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+#include <hagen/filter/Levelling.h>
+#include <hagen/live/TurnMotion.h>
+#include <hagen/scan/Angle.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/Random.h"
+#include "support/SimpleScene.h"
+
+namespace hagen::live {
+namespace {
+
+constexpr double kTurn_rad = 2 * kPi;
+constexpr int kColumns = 870, kSectors = 24;
+
+/// A sensor that moves by the same step from turn to turn, above a plane.
+struct Flight {
+    Eigen::Isometry3d plane_from_sensor = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 2.5));
+    Eigen::Isometry3d then_from_now = Eigen::Isometry3d::Identity();  ///< a turn apart
+    double noise_m = 0;
+    double strangers = 0;  ///< share of the returns that are 0.5 to 2 m nearer
+};
+
+Eigen::Isometry3d stepOf(double roll_deg, double pitch_deg, double rise_m) {
+    const Eigen::Vector3d turn(radians(roll_deg), radians(pitch_deg), 0);
+    Eigen::Isometry3d step(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()));
+    step.translation().z() = rise_m;
+    return step;
+}
+
+/// `step` a part of a turn.
+Eigen::Isometry3d part(const Eigen::Isometry3d& step, double turns) {
+    const Eigen::AngleAxisd turn(step.linear());
+    Eigen::Isometry3d motion(Eigen::AngleAxisd(turns * turn.angle(), turn.axis()));
+    motion.translation() = turns * step.translation();
+    return motion;
+}
+
+class TurnMotionTest : public testing::Test {
+ protected:
+    /// The sector's returns of the plane, all ROU, each from where the sensor is by then.
+    Scan sweep(const Flight& flight, int sector) {
+        Scan scan;
+        for (int k = 0; k < kColumns / kSectors; ++k) {
+            const int column = sector % kSectors * (kColumns / kSectors) + k;
+            const double azimuth_rad = kPi - (column + 0.5) * kTurn_rad / kColumns;
+            const double turns = (sector + static_cast<double>(k) * kSectors / kColumns) / kSectors;
+            const Eigen::Isometry3d pose =
+                flight.plane_from_sensor * part(flight.then_from_now, turns);
+            for (int row = 0; row < sensor_.rows(); ++row) {
+                const Eigen::Vector3d ray = test::directionOf(
+                    azimuth_rad, static_cast<double>(sensor_.elevations_rad[row]));
+                const double fall = (pose.linear() * ray).z();
+                double range_m = -pose.translation().z() / fall;
+                if (!(fall < 0) || range_m > 50) continue;
+                range_m += flight.noise_m * static_cast<double>(random_.real(-1, 1));
+                if (random_.chance(flight.strangers)) {
+                    range_m -= static_cast<double>(random_.real(0.5F, 2));
+                }
+                scan.x_m.push_back(static_cast<float>(range_m * ray.x()));
+                scan.y_m.push_back(static_cast<float>(range_m * ray.y()));
+                scan.z_m.push_back(static_cast<float>(range_m * ray.z()));
+                scan.range_m.push_back(static_cast<float>(range_m));
+                scan.azimuth_rad.push_back(static_cast<float>(azimuth_rad));
+                scan.row.push_back(static_cast<std::uint8_t>(row));
+            }
+        }
+        return scan;
+    }
+
+    void fly(const Flight& flight, int sectors, Label label = Label::Rou) {
+        for (int k = 0; k < sectors; ++k, ++swept_) {
+            const Scan scan = sweep(flight, swept_);
+            motion_.add(scan, std::vector<Label>(scan.size(), label),
+                        (swept_ + 1) * kTurn_rad / kSectors);
+        }
+    }
+
+    /// How far the told motion moves a place of the ground up or down against the true one, at most
+    /// up to 10 m away.
+    double worstHeight_m(const Flight& flight, double turns) const {
+        const auto told = motion_.since(turns);
+        if (!told) return std::nan("");
+        const Eigen::Isometry3d truth = part(flight.then_from_now, -turns);
+        const Eigen::Isometry3d now =
+            flight.plane_from_sensor * part(flight.then_from_now, double(swept_) / kSectors);
+        double worst_m = 0;
+        for (int k = 0; k < 12; ++k) {
+            const double azimuth_rad = k * kTurn_rad / 12;
+            const Eigen::Vector3d place_m =
+                10 * test::directionOf(azimuth_rad, std::atan2(-2.5, 10.0));
+            const Eigen::Vector3d apart_m = now.linear() * (*told * place_m - truth * place_m);
+            worst_m = std::max(worst_m, std::abs(apart_m.z()));
+        }
+        return worst_m;
+    }
+
+    const SensorModel sensor_ = sensorModel("VLP-16");
+    TurnMotion motion_{sensor_.rows(), kColumns, 20};
+    test::Random random_{1};
+    int swept_ = 0;
+};
+
+TEST_F(TurnMotionTest, NothingIsToldBeforeATurnCanBeCompared) {
+    EXPECT_FALSE(motion_.since(1));
+    fly({}, kSectors);
+    EXPECT_FALSE(motion_.since(1));
+    fly({}, kSectors);
+    ASSERT_TRUE(motion_.since(1));
+    EXPECT_LT(worstHeight_m({}, 1), 1e-3);
+}
+
+TEST_F(TurnMotionTest, TiltAndRiseAreFoundFromAnyStart) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(seed);
+        random_ = test::Random(seed);
+        motion_.forget();
+        swept_ = 0;
+        Flight flight;
+        flight.noise_m = 0.03;
+        flight.then_from_now = stepOf(static_cast<double>(random_.real(-3, 3)),
+                                      static_cast<double>(random_.real(-3, 3)),
+                                      static_cast<double>(random_.real(-0.1F, 0.1F)));
+        fly(flight, 3 * kSectors);
+        // Of up to 0.8 m: 4 degrees, 10 m away.
+        EXPECT_LT(worstHeight_m(flight, 1), 0.1);
+        EXPECT_LT(worstHeight_m(flight, 0.5), 0.05);
+    }
+}
+
+TEST_F(TurnMotionTest, WhatDoesNotFitHardlyCounts) {
+    Flight flight;
+    flight.then_from_now = stepOf(1, -2, 0.05);
+    fly(flight, 2 * kSectors);
+    flight.strangers = 0.2;
+    fly(flight, kSectors);
+    EXPECT_LT(worstHeight_m(flight, 1), 0.1);
+}
+
+TEST_F(TurnMotionTest, ASlopeIsNoTilt) {
+    Flight flight;
+    flight.plane_from_sensor.linear() =
+        levelFromSensor({static_cast<float>(radians(10.0)), static_cast<float>(radians(-8.0))})
+            .cast<double>();
+    fly(flight, 3 * kSectors);
+    EXPECT_LT(worstHeight_m(flight, 1), 1e-3);
+    flight.then_from_now = stepOf(-1, 1, 0);
+    fly(flight, 3 * kSectors);
+    EXPECT_LT(worstHeight_m(flight, 1), 0.1);
+}
+
+TEST_F(TurnMotionTest, ASensorThatLooksDownIsToldAsWell) {
+    Flight flight;
+    flight.plane_from_sensor.linear() =
+        levelFromSensor({0, static_cast<float>(radians(40.0))}).cast<double>();
+    flight.then_from_now = stepOf(2, 1, 0);
+    fly(flight, 3 * kSectors);
+    EXPECT_LT(worstHeight_m(flight, 1), 0.1);
+}
+
+TEST_F(TurnMotionTest, WhatIsBeyondTheZoneIsNotCompared) {
+    motion_ = TurnMotion(sensor_.rows(), kColumns, 9);  // the first ring is 9.7 m away
+    fly({}, 3 * kSectors);
+    EXPECT_FALSE(motion_.since(1));
+}
+
+TEST_F(TurnMotionTest, WhatWasSeenInTheSameTurnIsNotCompared) {
+    fly({}, kSectors);
+    --swept_;
+    fly({}, 1);
+    EXPECT_FALSE(motion_.since(1));
+}
+
+TEST_F(TurnMotionTest, OnlyGroundTells) {
+    fly({}, 3 * kSectors, Label::Roi);
+    EXPECT_FALSE(motion_.since(1));
+}
+
+TEST_F(TurnMotionTest, WithoutGroundItIsForgotten) {
+    fly({}, 3 * kSectors);
+    EXPECT_TRUE(motion_.since(1));
+    fly({}, kSectors, Label::Roi);
+    EXPECT_FALSE(motion_.since(1));
+    // What was seen before that turn is not compared.
+    fly({}, kSectors);
+    EXPECT_FALSE(motion_.since(1));
+}
+
+TEST_F(TurnMotionTest, PixelsThatWereNotSeenInTheTurnBeforeAreNotCompared) {
+    fly({}, kSectors);
+    swept_ += kSectors;
+    fly({}, kSectors);
+    EXPECT_FALSE(motion_.since(1));
+}
+
+}  // namespace
+}  // namespace hagen::live

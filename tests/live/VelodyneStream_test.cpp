@@ -1,0 +1,505 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/live/SectorDistances.h>
+#include <hagen/live/VelodyneStream.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/VelodyneEncoder.h>
+#include <hagen/recordings/ScanSource.h>
+#include <hagen/scan/Angle.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/CaptureWriter.h"
+#include "support/Captures.h"
+#include "support/Program.h"
+#include "support/SimpleFirings.h"
+
+namespace hagen::live {
+namespace {
+
+using mrpt::obs::CObservationVelodyneScan;
+using sensors::velodyneModel;
+using test::ByteString;
+using Taken = VelodyneStream::Taken;
+
+constexpr double kTurn_s = 0.1;
+constexpr std::size_t kPackets = 76;  // of a turn; the last one is not full
+
+struct Labelled {
+    std::vector<Label> label;
+    std::vector<float> range_m;
+    std::vector<bool> is_doubtful;
+    std::size_t sectors = 0;
+};
+
+StreamingSegmenter::Take into(Labelled& all) {
+    return [&all](const LabelledSector& sector) {
+        all.label.insert(all.label.end(), sector.label.begin(), sector.label.end());
+        all.range_m.insert(all.range_m.end(), sector.returns.range_m.begin(),
+                           sector.returns.range_m.end());
+        all.is_doubtful.resize(all.label.size(), sector.is_doubtful);
+        ++all.sectors;
+    };
+}
+
+/// Packets of a VLP-16 that stands 2 m above flat ground with a pole and a wall, turn after turn.
+std::vector<ByteString> turnsOf(int turns, std::uint32_t first_us = 1000000, bool is_dual = false,
+                                const char* name = "VLP-16") {
+    test::SimpleScene scene;
+    scene.poles.push_back({8, 3, 0.2, 6});
+    scene.boxes.push_back({{-12, -6, 0}, {-11, 6, 4}});
+    const auto& model = velodyneModel(name);
+    observations::Firings firings = test::fireAt(scene, model, {0, 0, 2});
+    if (is_dual) firings.last_range_m = firings.range_m;
+    std::vector<ByteString> packets;
+    for (int k = 0; k < turns; ++k) {
+        firings.first_time_us =
+            static_cast<std::uint32_t>((first_us + 100000ull * k) % 3600000000ull);
+        for (const auto& packet : encodePackets(model, firings)) {
+            packets.push_back(test::bytesOf(packet));
+        }
+    }
+    return packets;
+}
+
+Taken add(const ByteString& packet, double time_s, VelodyneStream& stream) {
+    return stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(), time_s);
+}
+
+void addAll(const std::vector<ByteString>& packets, VelodyneStream& stream, double start_s = 0) {
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+        add(packets[i], start_s + 1.33e-3 * static_cast<double>(i), stream);
+    }
+}
+
+class VelodyneStreamTest : public testing::Test {
+ protected:
+    Labelled all_;
+    VelodyneStream stream_{velodyneModel("VLP-16"), {}, into(all_)};
+};
+
+/// The share of the labels that are those of whole scans, where enough of a turn was known.
+double sameShare(const std::string& recording, const Settings& settings, std::size_t& near_missed) {
+    const auto source = recordings::openRecording(recording);
+    source->usePoses({});
+    Labelled all;
+    std::unique_ptr<VelodyneStream> stream;
+    std::unique_ptr<HagenFilter> filter;
+    observations::ObservedScan observed;
+    std::vector<Label> whole;
+    double time_s = 0;
+    while (const auto scan = source->nextScan()) {
+        const auto packets =
+            std::dynamic_pointer_cast<const CObservationVelodyneScan>(scan->observation);
+        if (!packets) continue;
+        observations::readObservation(*packets, settings, observed);
+        if (!stream) {
+            filter = std::make_unique<HagenFilter>(observed.sensor, settings.options);
+            stream = std::make_unique<VelodyneStream>(velodyneModel(observed.sensor.name), settings,
+                                                      into(all));
+        }
+        const auto& labels = filter->segment(observed.scan, scan->pose.attitude).returns.label;
+        whole.insert(whole.end(), labels.begin(), labels.end());
+        stream->setAttitude(scan->pose.attitude);
+        if (scan->pose.sensor_pose) {
+            stream->setPose(Eigen::Isometry3d(
+                scan->pose.sensor_pose->getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>()
+                    .asEigen()));
+        }
+        for (const auto& raw : packets->scan_packets) {
+            time_s += kTurn_s / static_cast<double>(packets->scan_packets.size());
+            ByteString packet = test::bytesOf(raw);
+            // Some recordings repeat a turn, with its times.
+            const auto time_us = static_cast<std::uint32_t>(std::lround(1e6 * time_s));
+            std::memcpy(packet.data() + sensors::kVelodyneTimeAt, &time_us, sizeof time_us);
+            add(packet, time_s, *stream);
+        }
+    }
+    stream->flush();
+    EXPECT_EQ(all.label.size(), whole.size());
+    if (all.label.size() != whole.size()) return 0;
+    std::size_t same = 0, compared = 0;
+    near_missed = 0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        compared += !all.is_doubtful[i];
+        same += !all.is_doubtful[i] && all.label[i] == whole[i];
+        near_missed += whole[i] == Label::Roi && all.label[i] != Label::Roi && all.range_m[i] < 5;
+    }
+    return static_cast<double>(same) / static_cast<double>(compared);
+}
+
+TEST(StreamedRecordings, LabelsAreThoseOfWholeScans) {
+    const std::string folder = std::string(HAGEN_SOURCE_DIR) + "/rawlogs/";
+    std::size_t near_missed = 0;
+    // Every other turn is missing, and each pose is that of its turn's beginning: the figures of
+    // docs/live.md are of flights without gaps.
+    EXPECT_GT(sameShare(folder + "orchard.rawlog", {}, near_missed), 0.97);
+    EXPECT_LT(near_missed, 300u);  // of 229 000
+    // A turn per second: no context but that of the turn itself.
+    sameShare(folder + "poles_and_wall.rawlog", {}, near_missed);
+    EXPECT_EQ(near_missed, 0u);
+}
+
+TEST(StreamedRecordings, LabelsOfRealCapturesAreThoseOfWholeScans) {
+    const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA is not set";
+    for (const char* name : {"sample_velodyne_vlp16_gps", "sample_velodyne_hdl32"}) {
+        std::size_t near_missed = 0;
+        EXPECT_GT(sameShare(folder / (std::string(name) + ".pcap"), {}, near_missed), 0.99) << name;
+        EXPECT_LT(near_missed, 40u) << name;  // of 33 000 and more
+    }
+}
+
+TEST_F(VelodyneStreamTest, EachReturnGetsItsLabelSoon) {
+    const auto packets = turnsOf(3);
+    addAll(packets, stream_);
+    EXPECT_EQ(stream_.counts().packets, packets.size());
+    EXPECT_EQ(stream_.counts().turns, 2u);
+    EXPECT_EQ(stream_.counts().lost, 0u);
+    EXPECT_EQ(stream_.counts().late, 0u);
+    EXPECT_NEAR(static_cast<double>(all_.sectors), 3 * kPackets / 3, 1);
+    stream_.flush();
+    EXPECT_GT(all_.label.size(), 30000u);
+    EXPECT_GT(std::count(all_.label.begin(), all_.label.end(), Label::Roi), 300);
+}
+
+TEST_F(VelodyneStreamTest, LostPacketsAreCounted) {
+    auto packets = turnsOf(3);
+    packets.erase(packets.begin() + 100, packets.begin() + 103);
+    packets.erase(packets.begin() + 30);
+    addAll(packets, stream_);
+    EXPECT_EQ(stream_.counts().lost, 4u);
+    EXPECT_EQ(stream_.counts().interruptions, 0u);
+}
+
+TEST_F(VelodyneStreamTest, RepeatedPacketsAreLeftOut) {
+    auto packets = turnsOf(2);
+    packets.insert(packets.begin() + 40, packets[38]);
+    packets.insert(packets.begin() + 60, packets[59]);
+    addAll(packets, stream_);
+    EXPECT_EQ(stream_.counts().repeated, 2u);
+    EXPECT_EQ(stream_.counts().packets, 2 * kPackets);
+    EXPECT_EQ(stream_.counts().late, 0u);
+}
+
+TEST_F(VelodyneStreamTest, LatePacketsAreLabelledAndNotLost) {
+    auto packets = turnsOf(2);
+    std::swap(packets[50], packets[51]);
+    const ByteString late = packets[80];
+    packets.erase(packets.begin() + 80);
+    packets.insert(packets.begin() + 90, late);
+    addAll(packets, stream_);
+    stream_.flush();
+    EXPECT_EQ(stream_.counts().late, 2u);
+    EXPECT_EQ(stream_.counts().lost, 0u);
+    EXPECT_EQ(stream_.counts().packets, 2 * kPackets);
+    Labelled in_order;
+    VelodyneStream other(velodyneModel("VLP-16"), {}, into(in_order));
+    addAll(turnsOf(2), other);
+    other.flush();
+    EXPECT_EQ(all_.label.size(), in_order.label.size());
+    const auto roi = std::count(all_.label.begin(), all_.label.end(), Label::Roi);
+    const auto expected = std::count(in_order.label.begin(), in_order.label.end(), Label::Roi);
+    EXPECT_NEAR(static_cast<double>(roi), static_cast<double>(expected),
+                0.05 * static_cast<double>(expected));
+}
+
+TEST_F(VelodyneStreamTest, TheClockWrapsEveryHour) {
+    addAll(turnsOf(4, 3600000000u - 150000), stream_);
+    EXPECT_EQ(stream_.counts().interruptions, 0u);
+    EXPECT_EQ(stream_.counts().lost, 0u);
+    EXPECT_EQ(stream_.counts().turns, 3u);
+    EXPECT_GT(stream_.segmenter().sectors(), 55u);
+}
+
+TEST_F(VelodyneStreamTest, AClockThatIsSetStartsAgain) {
+    addAll(turnsOf(2, 500000000), stream_);
+    addAll(turnsOf(2, 1000000), stream_, 0.2);
+    EXPECT_EQ(stream_.counts().interruptions, 1u);
+    EXPECT_EQ(stream_.counts().packets, 4 * kPackets);
+    EXPECT_EQ(stream_.counts().lost, 0u);
+}
+
+/// What a packet saw that was under way for more than a turn does not replace what is there now.
+TEST_F(VelodyneStreamTest, APacketThatComesATurnLateIsLeftOut) {
+    SectorDistances distances(sensorModel("VLP-16"));
+    const auto countFree = [&](double now_s) {
+        const auto at = distances.at(now_s);
+        return std::count_if(at.begin(), at.end(), [](const auto& direction) {
+            return direction.state == SectorDistances::State::SeenNothing;
+        });
+    };
+    VelodyneStream stream(velodyneModel("VLP-16"), {},
+                          [&](const LabelledSector& sector) { distances.take(sector); });
+    std::vector<ByteString> packets = turnsOf(4);
+    const auto first_late = packets.begin() + 20, end_late = first_late + 15;
+    const std::vector<ByteString> late(first_late, end_late);
+    packets.erase(first_late, end_late);
+    addAll(packets, stream, 15 * 1.33e-3);
+    const double now_s = 4 * kPackets * 1.33e-3;
+    const auto before = countFree(now_s);
+    ASSERT_GT(before, 0);
+    const std::size_t sectors = stream.segmenter().sectors();
+    for (const ByteString& packet : late) {
+        EXPECT_EQ(add(packet, now_s + 1e-5, stream), Taken::Late);
+    }
+    EXPECT_EQ(stream.segmenter().sectors(), sectors);
+    addAll(turnsOf(1, 1400000), stream, now_s + 1e-4);
+    EXPECT_EQ(countFree(now_s + 1e-4 + kPackets * 1.33e-3), before);
+    EXPECT_EQ(stream.counts().late, 15u);
+    EXPECT_EQ(stream.counts().too_late, 15u);
+    EXPECT_EQ(stream.counts().interruptions, 0u);
+    EXPECT_EQ(stream.counts().packets, 5 * kPackets - 15);
+}
+
+/// As by a second path that is slower, in a burst: no clock was set, and nothing new was seen.
+TEST_F(VelodyneStreamTest, CopiesOfATurnAgoAreNoNewPackets) {
+    const std::vector<ByteString> packets = turnsOf(5);
+    addAll(packets, stream_);
+    const std::size_t sectors = stream_.segmenter().sectors();
+    const double now_s = 5 * kPackets * 1.33e-3;
+    for (std::size_t i = 0; i < kPackets; ++i) {
+        EXPECT_EQ(add(packets[3 * kPackets + i], now_s + 1e-5, stream_), Taken::Repeated);
+    }
+    EXPECT_EQ(stream_.segmenter().sectors(), sectors);
+    EXPECT_EQ(stream_.counts().repeated, kPackets);
+    EXPECT_EQ(stream_.counts().interruptions, 0u);
+    addAll(turnsOf(1, 1500000), stream_, now_s + 1e-4);
+    EXPECT_EQ(stream_.counts().packets, 6 * kPackets);
+}
+
+/// Its packets are taken once it is certain that they are not late.
+TEST_F(VelodyneStreamTest, SixteenLatePacketsAreOfAClockThatWasSet) {
+    addAll(turnsOf(2), stream_);
+    const auto again = turnsOf(1, 500000);
+    for (std::size_t i = 0; i < 20; ++i) {
+        EXPECT_EQ(add(again[i], 0.3 + 1e-3 * static_cast<double>(i), stream_),
+                  i < 15 ? Taken::Late : Taken::Yes);
+    }
+    EXPECT_EQ(stream_.counts().packets, 2 * kPackets + 20);
+    EXPECT_EQ(stream_.counts().late, 0u);
+    EXPECT_EQ(stream_.counts().too_late, 0u);
+    EXPECT_EQ(stream_.counts().interruptions, 1u);
+}
+
+TEST_F(VelodyneStreamTest, AGapIsCountedAndSurvived) {
+    addAll(turnsOf(2), stream_);
+    addAll(turnsOf(2, 1000000 + 360000), stream_, 0.36);  // 0.16 s are missing
+    EXPECT_EQ(stream_.counts().interruptions, 1u);
+    EXPECT_EQ(stream_.counts().lost, 120u);
+    EXPECT_EQ(stream_.counts().packets, 4 * kPackets);
+}
+
+TEST_F(VelodyneStreamTest, ModesChange) {
+    addAll(turnsOf(2), stream_);
+    const std::size_t single = all_.label.size();
+    addAll(turnsOf(2, 1200000, true), stream_, 0.2);
+    EXPECT_TRUE(stream_.isDual());
+    addAll(turnsOf(1, 1400000), stream_, 0.4);
+    stream_.flush();
+    EXPECT_EQ(stream_.counts().mode_changes, 2u);
+    EXPECT_EQ(stream_.counts().lost, 0u);
+    EXPECT_EQ(stream_.counts().lost, 0u);
+    EXPECT_EQ(stream_.counts().interruptions, 0u);
+    EXPECT_GT(all_.label.size(), 3 * single);  // 2 turns, 2 with both returns, 1: 3.5 times
+}
+
+TEST_F(VelodyneStreamTest, ForeignDatagramsAreRefused) {
+    const ByteString packet = turnsOf(1)[0];
+    EXPECT_EQ(add("", 0, stream_), Taken::WrongSize);
+    EXPECT_EQ(add(packet.substr(1), 0, stream_), Taken::WrongSize);
+    EXPECT_EQ(add(ByteString(1206, 'x'), 0, stream_), Taken::WrongSize);
+    EXPECT_EQ(add(turnsOf(1, 0, false, "HDL-32E")[0], 0, stream_), Taken::OtherModel);
+    ByteString unsound = packet;
+    for (int block = 0; block < 12; ++block) {
+        unsound[100 * block + 2] = '\xff';  // an azimuth beyond the turn
+        unsound[100 * block + 3] = '\xff';
+    }
+    EXPECT_EQ(add(unsound, 0, stream_), Taken::Unsound);
+    EXPECT_EQ(add(packet, 0, stream_), Taken::Yes);
+    EXPECT_EQ(add(packet, 0, stream_), Taken::Repeated);
+    const auto& counts = stream_.counts();
+    EXPECT_EQ(counts.wrong_size, 3u);
+    EXPECT_EQ(counts.other_model, 1u);
+    EXPECT_EQ(counts.unsound, 1u);
+    EXPECT_EQ(counts.packets, 1u);
+    EXPECT_EQ(counts.repeated, 1u);
+}
+
+/// Two sound blocks that are far apart: as the rate of the whole packet, it would sweep more than
+/// a turn.
+TEST_F(VelodyneStreamTest, APacketThatSweepsMoreThanATurnIsABrokenReading) {
+    ByteString packet = turnsOf(1)[0];
+    const auto setAzimuth = [&](int block, unsigned centidegrees) {
+        packet[100 * block + 2] = static_cast<char>(centidegrees & 0xff);
+        packet[100 * block + 3] = static_cast<char>(centidegrees >> 8);
+    };
+    setAzimuth(0, 0);
+    setAzimuth(1, 4400);
+    for (int block = 2; block < 12; ++block) setAzimuth(block, 0xffff);
+    EXPECT_EQ(add(packet, 0, stream_), Taken::Yes);
+    stream_.flush();
+    EXPECT_EQ(stream_.counts().unsound_blocks, 10u);
+    EXPECT_GT(all_.label.size(), 0u);
+}
+
+/// What an unsound block would have seen is not known: no sweep goes over it.
+TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
+    auto packets = turnsOf(1);
+    const auto setHeader = [&](int block, char value) {
+        packets[20][100 * block] = packets[20][100 * block + 1] = value;
+    };
+    for (const int block : {0, 4, 5, 9}) setHeader(block, '\0');
+    packets[20][100 * 7 + 3] = static_cast<char>(packets[20][100 * 7 + 3] + 8);  // 20 degrees ahead
+    std::vector<Sweep> swept;
+    std::size_t returns = 0;
+    VelodyneStream stream(velodyneModel("VLP-16"), {}, [&](const LabelledSector& sector) {
+        swept.insert(swept.end(), sector.packets->begin(), sector.packets->end());
+        returns += sector.returns.size();
+    });
+    addAll(packets, stream);
+    stream.flush();
+    EXPECT_EQ(stream.counts().unsound_blocks, 4u);
+    EXPECT_GT(returns, 10000u);
+    ASSERT_EQ(swept.size(), kPackets + 3);
+    const double block_rad = (swept[21 + 3].from_rad - swept[19].to_rad) / 12;
+    EXPECT_NEAR(degrees(block_rad), 0.4, 0.01);
+    const std::vector<std::pair<int, int>> blocks{{1, 4}, {6, 7}, {8, 9}, {10, 12}};
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const double first_rad = swept[19].to_rad;
+        EXPECT_NEAR((swept[20 + i].from_rad - first_rad) / block_rad, blocks[i].first, 0.06) << i;
+        EXPECT_NEAR((swept[20 + i].to_rad - first_rad) / block_rad, blocks[i].second, 0.06) << i;
+    }
+}
+
+/// Of a firing with two returns, one block does not tell what the other would have seen.
+TEST_F(VelodyneStreamTest, HalfAFiringIsNotSwept) {
+    auto packets = turnsOf(1, 1000000, true);
+    packets[40][100 * 5] = '\0';
+    std::vector<Sweep> swept;
+    VelodyneStream stream(velodyneModel("VLP-16"), {}, [&](const LabelledSector& sector) {
+        swept.insert(swept.end(), sector.packets->begin(), sector.packets->end());
+    });
+    addAll(packets, stream);
+    stream.flush();
+    ASSERT_EQ(swept.size(), packets.size() + 1);
+    const double firing_rad = (swept[42].from_rad - swept[39].to_rad) / 6;
+    EXPECT_NEAR(swept[41].from_rad - swept[40].to_rad, firing_rad, 0.06 * firing_rad);
+}
+
+TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
+    const auto packets = turnsOf(1);
+    std::mt19937 random(1);
+    std::size_t given = 0;
+    for (int k = 0; k < 3000; ++k) {
+        ByteString packet = packets[random() % packets.size()];
+        for (auto changes = random() % 20; changes > 0; --changes) {
+            // All but the model: others are refused.
+            packet[random() % 1205] = static_cast<char>(random());
+        }
+        add(packet, 1e-3 * k, stream_);
+        ++given;
+    }
+    stream_.flush();
+    const auto& counts = stream_.counts();
+    EXPECT_EQ(counts.packets + counts.repeated + counts.unsound + counts.wrong_size +
+                  counts.other_model + counts.too_late,
+              given);
+    EXPECT_GT(counts.packets, 500u);  // in any order: many are too late
+}
+
+/// What only one beam sees: laser 9 of a VLP-32C looks 4.2 degrees behind the head.
+TEST(VelodyneStreams, WhatOnlyALaggingBeamSeesStaysAnObstacle) {
+    const auto& model = velodyneModel("VLP-32C");
+    observations::Firings firings = test::fireAt({}, model, {0, 0, 2});
+    firings.range_m.setZero();
+    for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
+        const double azimuth_deg = observations::firingAzimuthDeg(model, firings, 9, firing);
+        const bool is_hit = std::abs(std::remainder(azimuth_deg - 62.5, 360.0)) < 0.8;
+        if (is_hit) firings.range_m(9, firing) = 5;
+    }
+    SectorDistances distances(sensorModel("VLP-32C"));
+    BeamOffsets offsets;
+    VelodyneStream stream(model, {}, [&](const LabelledSector& sector) {
+        distances.take(sector);
+        offsets = sector.offsets;
+    });
+    for (int turn = 0; turn < 4; ++turn) {
+        firings.first_time_us = 1000000 + 100000 * static_cast<std::uint32_t>(turn);
+        const auto packets = encodePackets(model, firings);
+        for (std::size_t i = 0; i < packets.size(); ++i) {
+            const double part = static_cast<double>(i) / static_cast<double>(packets.size());
+            const double time_s = 0.1 * (turn + part);
+            add(test::bytesOf(packets[i]), time_s, stream);
+            if (turn < 2) continue;
+            ASSERT_EQ(distances.at(time_s)[12].state, SectorDistances::State::Obstacle) << time_s;
+            ASSERT_EQ(distances.at(time_s)[40].state, SectorDistances::State::SeenNothing);
+        }
+    }
+    EXPECT_NEAR(degrees(offsets.behind_rad), 4.2, 1e-9);
+    EXPECT_NEAR(degrees(offsets.ahead_rad), 4.2, 1e-9);
+}
+
+TEST(VelodyneStreams, AnHdl64NeedsItsCalibration) {
+    Labelled all;
+    EXPECT_THROW(VelodyneStream(sensors::hdl64Model(), {}, into(all)), std::invalid_argument);
+}
+
+/// The lower blocks tell an HDL-64E also where their azimuths are unsound.
+TEST(VelodyneStreams, UnsoundLowerBlocksOfAnHdl64EndNothing) {
+    sensors::VelodyneCalibration calibration;
+    for (int laser = 0; laser < 64; ++laser) {
+        const double elevation_rad = radians(-24 + 0.4 * laser);
+        sensors::VelodyneLaser& of_hdl64 = calibration.lasers.emplace_back();
+        of_hdl64.elevation_sine = std::sin(elevation_rad);
+        of_hdl64.elevation_cosine = std::cos(elevation_rad);
+    }
+    Labelled all;
+    VelodyneStream stream(sensors::hdl64Model(), {}, into(all), {}, &calibration);
+    std::string packet(1206, '\0');
+    for (int block = 0; block < 12; ++block) {
+        const unsigned reading = block % 2 == 0 ? 100 + 18 * block : 40000;
+        packet[100 * block] = '\xff';
+        packet[100 * block + 1] = block % 2 == 0 ? '\xee' : '\xdd';
+        packet[100 * block + 2] = static_cast<char>(reading & 255);
+        packet[100 * block + 3] = static_cast<char>(reading >> 8);
+    }
+    EXPECT_NO_THROW(add(packet, 1, stream));
+}
+
+TEST(VelodyneStreams, TheSettingsLimitTheRanges) {
+    const auto limitsOf = [&](const Settings& settings) {
+        const VelodyneStream stream(velodyneModel("VLP-16"), settings,
+                                    [](const LabelledSector&) {});
+        const SensorModel& used = stream.segmenter().sensor();
+        return std::pair(used.min_range_m, used.max_range_m);
+    };
+    const SensorModel model = sensorModel("VLP-16");
+    Settings settings;
+    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
+    settings.sensor.min_range_m = 1.5f;
+    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
+    settings.sensor.max_range_m = 40.0f;
+    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
+}
+
+TEST(VelodyneStreams, TheAirframeIsMasked) {
+    Settings settings;
+    settings.airframe.parts.spheres.push_back({{8, 3, 0}, 3});
+    Labelled all;
+    VelodyneStream stream(velodyneModel("VLP-16"), settings, into(all));
+    addAll(turnsOf(2), stream);
+    stream.flush();
+    const auto masked = std::count(all.label.begin(), all.label.end(), Label::Unclassified);
+    EXPECT_GT(masked, 50);
+    EXPECT_EQ(stream.counts().returns_masked, static_cast<std::size_t>(masked));
+}
+
+}  // namespace
+}  // namespace hagen::live

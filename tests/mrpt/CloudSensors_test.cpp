@@ -1,0 +1,184 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/mrpt/CloudSensors.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/Results.h>
+#include <hagen/scan/Angle.h>
+
+#include <limits>
+
+#include "support/Random.h"
+#include "support/SimpleFirings.h"
+#include "support/SimpleScene.h"
+
+namespace hagen::observations {
+namespace {
+
+using testing::HasSubstr;
+
+void add(const Eigen::Vector3d& point_m, Scan& scan) {
+    scan.x_m.push_back(static_cast<float>(point_m.x()));
+    scan.y_m.push_back(static_cast<float>(point_m.y()));
+    scan.z_m.push_back(static_cast<float>(point_m.z()));
+    scan.intensity.push_back(0.5f);
+}
+
+/// The inside of a sphere, seen by these beams.
+Scan scanOf(const std::vector<double>& beams_deg, int columns = 400) {
+    Scan scan;
+    for (int column = 0; column < columns; ++column) {
+        for (const double beam_deg : beams_deg) {
+            const double azimuth_rad = kPi - 2 * kPi * (column + 0.5) / columns;
+            add(10 * test::directionOf(azimuth_rad, radians(beam_deg)), scan);
+        }
+    }
+    return scan;
+}
+
+Scan scanOfModel(const std::string& model, int columns = 400) {
+    std::vector<double> beams_deg;
+    for (const float beam_rad : sensorModel(model).elevations_rad) {
+        beams_deg.push_back(degrees(static_cast<double>(beam_rad)));
+    }
+    return scanOf(beams_deg, columns);
+}
+
+Scan withoutRings(int returns) {
+    test::Random random(1);
+    Scan scan;
+    for (int i = 0; i < returns; ++i) {
+        const auto azimuth_rad = static_cast<double>(random.real(-3.1f, 3.1f));
+        add(10 * test::directionOf(azimuth_rad, static_cast<double>(random.real(-0.1f, 0.9f))),
+            scan);
+    }
+    return scan;
+}
+
+mrpt::obs::CObservationPointCloud::Ptr cloudOf(const Scan& scan, const std::string& label) {
+    return observationOf(scan, label, mrpt::Clock::fromDouble(1.0));
+}
+
+SharedBeams beamsOf(const Scan& scan) {
+    CloudSensors sensors;
+    sensors.see("a", scan);
+    return sensors.beamsOf("a");
+}
+
+TEST(CloudSensors, RecoversAModelFromTheFirstCloud) {
+    for (const std::string model : {"VLP-16", "HDL-64E"}) {
+        const SharedBeams beams = beamsOf(scanOfModel(model));
+        ASSERT_TRUE(beams);
+        EXPECT_EQ(beams->sensor.name, model);
+        EXPECT_EQ(beams->sensor.elevations_rad, sensorModel(model).elevations_rad);
+    }
+}
+
+TEST(CloudSensors, WithoutRingsThereAreVirtualRows) {
+    const SharedBeams beams = beamsOf(withoutRings(20000));
+    ASSERT_TRUE(beams);
+    EXPECT_FALSE(beams->sensor.has_rings);
+    EXPECT_GE(beams->sensor.rows(), 16);
+}
+
+TEST(CloudSensors, FewReturnsShowNothingAndDoNotCount) {
+    Scan padded = scanOfModel("VLP-16", 24);  // 384 returns
+    for (int i = 0; i < 1000; ++i) {
+        const float missing = i % 2 == 0 ? 0.0f : kNoValue;
+        for (auto* coordinate : {&padded.x_m, &padded.y_m, &padded.z_m}) {
+            coordinate->push_back(missing);
+        }
+    }
+    CloudSensors sensors;
+    EXPECT_FALSE(sensors.beamsOf("a"));
+    for (int i = 0; i < 20; ++i) {
+        sensors.see("a", Scan());
+        sensors.see("a", padded);
+    }
+    EXPECT_FALSE(sensors.beamsOf("a"));
+    EXPECT_FALSE(sensors.isSettled("a"));
+    sensors.see("a", scanOfModel("VLP-16"));
+    EXPECT_TRUE(sensors.beamsOf("a"));
+}
+
+TEST(CloudSensors, TwoBeamsAreNoImage) {
+    EXPECT_FALSE(beamsOf(scanOf({-3, 4})));
+    EXPECT_EQ(beamsOf(scanOf({-3, 1, 4}))->sensor.rows(), 3);
+}
+
+TEST(CloudSensors, OfTheFirstFiveCloudsTheFullestDecides) {
+    const std::vector<double> below{-20, -15, -11}, all{-20, -15, -11, -4, 2, 11};
+    CloudSensors sensors;
+    const auto rowsAfter = [&](const Scan& scan) {
+        sensors.see("a", scan);
+        return sensors.beamsOf("a")->sensor.rows();
+    };
+    EXPECT_EQ(rowsAfter(scanOf(below)), 3);
+    EXPECT_EQ(rowsAfter(scanOf(all)), 6);
+    EXPECT_EQ(rowsAfter(scanOf(below)), 6);
+    EXPECT_EQ(rowsAfter(scanOf({-19, -14, -10, -3, 3, 12})), 6);  // as full, but later
+    EXPECT_NEAR(degrees(sensors.beamsOf("a")->sensor.elevations_rad[0]), -20, 0.02);
+    EXPECT_FALSE(sensors.isSettled("a"));
+    EXPECT_EQ(rowsAfter(scanOf(below)), 6);
+    EXPECT_TRUE(sensors.isSettled("a"));
+    const SharedBeams settled = sensors.beamsOf("a");
+    EXPECT_EQ(rowsAfter(scanOfModel("VLP-16")), 6);
+    EXPECT_EQ(sensors.beamsOf("a"), settled);
+}
+
+TEST(CloudSensors, EachLabelHasItsOwn) {
+    CloudSensors sensors;
+    sensors.see(*cloudOf(scanOfModel("VLP-16"), "front"));
+    sensors.see(*cloudOf(scanOfModel("HDL-32E"), "rear"));
+    EXPECT_EQ(sensors.beamsOf("front")->sensor.name, "VLP-16");
+    EXPECT_EQ(sensors.beamsOf("rear")->sensor.name, "HDL-32E");
+    EXPECT_FALSE(sensors.beamsOf("top"));
+}
+
+TEST(CloudSensors, ACloudOfAVelodyneScanWithoutPacketsCounts) {
+    mrpt::obs::CObservationVelodyneScan observation;
+    const Scan scan = scanOfModel("VLP-16");
+    auto& cloud = observation.point_cloud;
+    cloud.x.assign(scan.x_m.begin(), scan.x_m.end());
+    cloud.y.assign(scan.y_m.begin(), scan.y_m.end());
+    cloud.z.assign(scan.z_m.begin(), scan.z_m.end());
+    cloud.intensity.assign(scan.size(), 7);
+    CloudSensors sensors;
+    sensors.see(observation);
+    EXPECT_EQ(sensors.beamsOf("")->sensor.name, "VLP-16");
+}
+
+TEST(CloudSensors, WhatIsNoCloudIsLeftAlone) {
+    CloudSensors sensors;
+    auto packets = test::poleScanFrom(0, "a");
+    const Scan scan = scanOfModel("VLP-16");
+    sensors.see(*packets);
+    const auto cloud = cloudOf(scan, "a");
+    sensors.see(*resultOf(*cloud, true, cloud->pointcloud));
+    mrpt::obs::CObservationPointCloud empty;  // cannot be read
+    empty.sensorLabel = "a";
+    sensors.see(empty);
+    mrpt::obs::CObservationVelodyneScan torn;
+    torn.sensorLabel = "a";
+    torn.point_cloud.x = {1, 2};
+    sensors.see(torn);
+    for (const char* label : {"a", "a_roi"}) EXPECT_FALSE(sensors.beamsOf(label)) << label;
+}
+
+TEST(CloudSensors, SaysWhatIsKnown) {
+    EXPECT_EQ(textOf(beamsOf(scanOfModel("VLP-16"))),
+              "16 beams recovered (VLP-16), 100.0 % of the returns lie on them");
+    EXPECT_EQ(textOf(beamsOf(scanOf({-15, -13, -11, -9, -7, -5}))),
+              "6 beams recovered (VLP-16, which has 16), 100.0 % of the returns lie on them");
+    EXPECT_EQ(textOf(beamsOf(scanOf({-12, -3.3, 4}))),
+              "3 beams recovered, 100.0 % of the returns lie on them");
+    const SharedBeams none = beamsOf(withoutRings(20000));
+    EXPECT_EQ(textOf(none),
+              "no beams found: " + std::to_string(none->sensor.rows()) + " virtual rows");
+    EXPECT_THAT(textOf(nullptr), HasSubstr("VLP-16 assumed"));
+    RecoveredBeams nearly = *beamsOf(scanOfModel("VLP-16"));
+    nearly.share = 0.9999f;
+    EXPECT_THAT(textOf(std::make_shared<RecoveredBeams>(nearly)), HasSubstr(" 99.9 %"));
+}
+
+}  // namespace
+}  // namespace hagen::observations

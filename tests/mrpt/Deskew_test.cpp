@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+#include <hagen/mrpt/Deskew.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+
+#include <cmath>
+
+#include "support/SimpleFirings.h"
+
+namespace hagen::observations {
+namespace {
+
+using mrpt::poses::CPose3D;
+const auto kStart = mrpt::Clock::fromDouble(1000.0);
+
+/// A vehicle that flies at this velocity for one second, 2 m up.
+Trajectory flight(double vx_m_s, double vz_m_s) {
+    Trajectory vehicle;
+    for (int i = 0; i <= 10; ++i) {
+        const double t = 0.1 * i;
+        vehicle.add(mrpt::Clock::fromDouble(1000.0 + t),
+                    CPose3D(vx_m_s * t, 0, 2 + vz_m_s * t, 0, 0, 0));
+    }
+    return vehicle;
+}
+
+/// A full revolution on that flight, of flat ground and a wall 10 m ahead of its start.
+Scan scanOnTheWay(double vx_m_s, double vz_m_s) {
+    test::SimpleScene scene;
+    scene.boxes.push_back({{10, -30, 0}, {11, 30, 10}});
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    Scan scan;
+    decodePackets(*encodeScan(model, test::fireAt(scene, model, {0, 0, 2}, {vx_m_s, 0, vz_m_s})),
+                  scan);
+    return scan;
+}
+
+/// The maximum distance of a return from the ground 2 m below or the wall 10 m ahead.
+double worstDistance_m(const Scan& scan) {
+    double worst = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const double to_ground = std::abs(scan.z_m[i] + 2.0),
+                     to_wall = std::abs(scan.x_m[i] - 10.0);
+        worst = std::max(worst, std::min(to_ground, to_wall));
+    }
+    return worst;
+}
+
+TEST(Deskew, PutsReturnsOfAMovingSensorWhereTheThingsAre) {
+    Scan scan = scanOnTheWay(15, 3);
+    EXPECT_GT(worstDistance_m(scan), 0.25);
+    ASSERT_TRUE(deskew(flight(15, 3), kStart, {}, sensorModel("VLP-16"), scan));
+    EXPECT_LT(worstDistance_m(scan), 0.01);  // packets resolve 2 mm
+}
+
+TEST(Deskew, KnowsWhereOnTheVehicleTheSensorSits) {
+    // The same flight of the sensor, which is mounted off-centre and rotated on its vehicle.
+    const CPose3D sensor_on_vehicle(0.5, -0.2, 0.3, 1.2, 0.1, -0.2);
+    Trajectory vehicle;
+    for (int i = 0; i <= 10; ++i) {
+        const double t = 0.1 * i;
+        vehicle.add(mrpt::Clock::fromDouble(1000.0 + t),
+                    CPose3D(15 * t, 0, 2 + 3 * t, 0, 0, 0) + (-sensor_on_vehicle));
+    }
+    Scan scan = scanOnTheWay(15, 3);
+    ASSERT_TRUE(deskew(vehicle, kStart, sensor_on_vehicle, sensorModel("VLP-16"), scan));
+    EXPECT_LT(worstDistance_m(scan), 0.01);
+}
+
+TEST(Deskew, FollowsTurnsToo) {
+    // The point (10, 0, 0) of the map, always seen from a sensor that turns on the spot.
+    Trajectory vehicle;
+    for (int i = 0; i <= 10; ++i) {
+        vehicle.add(mrpt::Clock::fromDouble(1000.0 + 0.01 * i), CPose3D(0, 0, 0, 0.05 * i, 0, 0));
+    }
+    Scan scan;
+    for (int i = 0; i < 100; ++i) {
+        const double t = 0.001 * i, yaw = 5.0 * t;
+        scan.x_m.push_back(static_cast<float>(10 * std::cos(yaw)));
+        scan.y_m.push_back(static_cast<float>(-10 * std::sin(yaw)));
+        scan.z_m.push_back(0.0f);
+        scan.intensity.push_back(0.5f);
+        scan.time_s.push_back(static_cast<float>(t));
+    }
+    ASSERT_TRUE(deskew(vehicle, kStart, {}, sensorModel("VLP-16"), scan));
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        ASSERT_NEAR(scan.x_m[i], 10.0f, 1e-3f);
+        ASSERT_NEAR(scan.y_m[i], 0.0f, 1e-3f);
+        ASSERT_NEAR(scan.azimuth_rad[i], 0.0f, 1e-3f);
+    }
+}
+
+TEST(Deskew, WithoutMotionChangesNothing) {
+    Scan scan = scanOnTheWay(0, 0);
+    const Scan before = scan;
+    ASSERT_TRUE(deskew(flight(0, 0), kStart, {}, sensorModel("VLP-16"), scan));
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        ASSERT_NEAR(scan.x_m[i], before.x_m[i], 1e-5f);
+        ASSERT_EQ(scan.row[i], before.row[i]);
+    }
+}
+
+TEST(Deskew, LeavesAScanAloneWherePosesDoNotReachToItsEnd) {
+    Trajectory vehicle;
+    vehicle.add(mrpt::Clock::fromDouble(1000.0), {});
+    vehicle.add(mrpt::Clock::fromDouble(1000.05), CPose3D(1, 0, 0, 0, 0, 0));
+    Scan scan = scanOnTheWay(15, 0);
+    const Scan before = scan;
+    EXPECT_FALSE(deskew(vehicle, kStart, {}, sensorModel("VLP-16"), scan));
+    EXPECT_EQ(scan.x_m, before.x_m);
+    EXPECT_FALSE(deskew(Trajectory(), kStart, {}, sensorModel("VLP-16"), scan));
+    // Nor where one of them is wild.
+    vehicle.add(mrpt::Clock::fromDouble(1000.07), CPose3D(1e300, 0, 0, 0, 0, 0));
+    vehicle.add(mrpt::Clock::fromDouble(1000.2), CPose3D(2, 0, 0, 0, 0, 0));
+    EXPECT_FALSE(deskew(vehicle, kStart, {}, sensorModel("VLP-16"), scan));
+    EXPECT_EQ(scan.x_m, before.x_m);
+    Scan nothing;
+    EXPECT_TRUE(deskew(vehicle, kStart, {}, sensorModel("VLP-16"), nothing));
+}
+
+}  // namespace
+}  // namespace hagen::observations

@@ -1,0 +1,203 @@
+// Packets of an HDL-64E and its calibration file, both made here.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/mrpt/VelodyneCalibrations.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/sensors/VelodyneCalibrationFile.h>
+#include <hagen/sensors/VelodyneModel.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "support/Hdl64.h"
+#include "support/Program.h"
+
+namespace hagen::observations {
+namespace {
+
+using mrpt::obs::CObservationVelodyneScan;
+using mrpt::obs::VelodyneCalibration;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A file of this process alone: tests run side by side.
+std::filesystem::path fileOf(const std::string& content) {
+    static const test::TemporaryFolder folder;
+    return test::writeBytes(folder / "calibration.xml", content);
+}
+
+std::string errorOf(const std::string& xml) {
+    try {
+        sensors::readVelodyneCalibration(fileOf(xml));
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+std::string replaced(const std::string& from, const std::string& to) {
+    std::string xml = test::hdl64Xml();
+    const std::size_t at = xml.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? xml : xml.replace(at, from.size(), to);
+}
+
+/// The range to the walls, the ground and the ceiling of a room around the sensor.
+double rangeInRoom(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direction) {
+    const Eigen::Vector3d low_m(-12, -9, -1.7), high_m(15, 7, 2.5);
+    double range_m = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double wall_m = direction[axis] > 0 ? high_m[axis] : low_m[axis];
+        if (direction[axis] != 0) {
+            range_m = std::min(range_m, (wall_m - origin_m[axis]) / direction[axis]);
+        }
+    }
+    return range_m;
+}
+
+CObservationVelodyneScan scanInRoom(int firings) {
+    const auto lasers = test::hdl64Lasers();
+    CObservationVelodyneScan scan;
+    scan.calibration = mrptCalibration(sensors::readVelodyneCalibration(fileOf(test::hdl64Xml())));
+    for (const auto& bytes : test::hdl64Packets(firings, [&](int laser, double azimuth_deg) {
+             return rangeInRoom(lasers[laser].origin_m(azimuth_deg),
+                                lasers[laser].direction(azimuth_deg));
+         })) {
+        auto& packet = scan.scan_packets.emplace_back();
+        std::memcpy(static_cast<void*>(&packet), bytes.data(), bytes.size());
+    }
+    return scan;
+}
+
+TEST(Hdl64, EveryReturnIsWhereTheLaserMetTheRoom) {
+    constexpr int kFirings = 1998;
+    const CObservationVelodyneScan observation = scanInRoom(kFirings);
+    Scan scan;
+    EXPECT_EQ(decodePackets(observation, scan), 0u);
+    const auto lasers = test::hdl64Lasers();
+    const auto calibration = sensors::readVelodyneCalibration(fileOf(test::hdl64Xml()));
+    ASSERT_EQ(scan.size(), std::size_t{64 * kFirings});
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const int firing = static_cast<int>(i / 64), laser = static_cast<int>(i % 64);
+        const double azimuth_deg = 0.18 * firing;
+        const Eigen::Vector3d origin_m = lasers[laser].origin_m(azimuth_deg);
+        const Eigen::Vector3d direction = lasers[laser].direction(azimuth_deg);
+        const double range_m = rangeInRoom(origin_m, direction);
+        const Eigen::Vector3d hit_m = origin_m + range_m * direction;
+        const Eigen::Vector3d there_m =
+            Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]).cast<double>();
+        // Ranges have steps of 2 mm, azimuths are up to 0.01 degrees ahead (azimuthOfReadingDeg()).
+        ASSERT_LT((there_m - hit_m).norm(), 0.002 + 2e-4 * range_m) << firing << " " << laser;
+        ASSERT_NEAR(scan.range_m[i], range_m, 0.0011);
+        ASSERT_NEAR(scan.time_s[i], 48e-6 * firing, 1e-7);
+        ASSERT_EQ(scan.row[i], sensors::rowOfLaser(calibration, laser));
+        ASSERT_FLOAT_EQ(scan.intensity[i], 0.2f);
+    }
+    EXPECT_EQ(scan.beams.rows, 64);
+}
+
+TEST(Hdl64, AScanIsReadWithItsOwnCalibration) {
+    CObservationVelodyneScan observation = scanInRoom(12);
+    ObservedScan observed;
+    readObservation(observation, {}, observed);
+    EXPECT_EQ(observed.sensor.name, "HDL-64E");
+    EXPECT_EQ(observed.sensor.rows(), 64);
+    EXPECT_EQ(observed.scan.size(), 64u * 12);
+    observation.calibration.laser_corrections.resize(32);
+    try {
+        readObservation(observation, {}, observed);
+        ADD_FAILURE() << "read";
+    } catch (const std::runtime_error& e) {
+        EXPECT_THAT(e.what(), HasSubstr("need its calibration"));
+    }
+}
+
+TEST(Hdl64, BlocksWithoutHeaderAreSkipped) {
+    CObservationVelodyneScan observation = scanInRoom(6);
+    auto* const bytes = reinterpret_cast<std::uint8_t*>(&observation.scan_packets.front());
+    bytes[300] = 0x12;  // the header of the fourth block
+    bytes[402] = 0xff;  // the azimuth of the fifth
+    bytes[403] = 0xff;
+    Scan scan;
+    EXPECT_EQ(decodePackets(observation, scan), 2u);
+    EXPECT_EQ(scan.size(), 10u * 32);
+}
+
+TEST(Hdl64, TheCalibrationIsWhatMrptReads) {
+    const VelodyneCalibration read =
+        mrptCalibration(sensors::readVelodyneCalibration(fileOf(test::hdl64Xml())));
+    VelodyneCalibration expected;
+    ASSERT_TRUE(expected.loadFromXMLText(test::hdl64Xml()));
+    ASSERT_EQ(read.laser_corrections.size(), 64u);
+    for (std::size_t i = 0; i < 64; ++i) {
+        const auto &a = read.laser_corrections[i], &b = expected.laser_corrections[i];
+        EXPECT_DOUBLE_EQ(a.azimuthCorrection, b.azimuthCorrection);
+        EXPECT_DOUBLE_EQ(a.verticalCorrection, b.verticalCorrection);
+        EXPECT_DOUBLE_EQ(a.distanceCorrection, b.distanceCorrection);
+        EXPECT_DOUBLE_EQ(a.verticalOffsetCorrection, b.verticalOffsetCorrection);
+        EXPECT_DOUBLE_EQ(a.horizontalOffsetCorrection, b.horizontalOffsetCorrection);
+        EXPECT_DOUBLE_EQ(a.sinVertCorrection, b.sinVertCorrection);
+        EXPECT_DOUBLE_EQ(a.cosVertCorrection, b.cosVertCorrection);
+    }
+}
+
+TEST(Hdl64, AWrongCalibrationIsNamedWithTheReason) {
+    EXPECT_EQ(errorOf(test::hdl64Xml()), "");
+    const auto saysOf = [](const std::string& why) {
+        return AllOf(HasSubstr("calibration.xml"), HasSubstr(why));
+    };
+    EXPECT_THAT(errorOf(""), saysOf("has no lasers"));
+    EXPECT_THAT(errorOf("{\"json\": 1}"), saysOf("has no lasers"));
+    EXPECT_THAT(errorOf("<a>"), saysOf("ends within a"));
+    EXPECT_THAT(errorOf("<a></b>"), saysOf("</b> closes nothing"));
+    EXPECT_THAT(errorOf("<>"), saysOf("empty tag"));
+    std::string deep;
+    for (int i = 0; i < 100000; ++i) deep += "<a>";
+    EXPECT_THAT(errorOf(deep), saysOf("nested too deeply"));
+    const std::string longest(64, 'a'), name(2000000, 'a');
+    EXPECT_THAT(errorOf("<" + longest + ">"), saysOf("ends within " + longest));
+    std::string within;
+    for (int i = 0; i < 250000; ++i) within += "<b/>";
+    const std::string error = errorOf("<" + name + ">" + within);
+    EXPECT_THAT(error, saysOf("aaa...' of an element has more than 64 letters"));
+    EXPECT_LT(error.size(), 400u);
+    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>8</id_>")),
+                saysOf("laser 8 is there twice"));
+    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_/>")), saysOf("no id_"));
+    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>-1e300</id_>")), saysOf("the id_"));
+    EXPECT_THAT(errorOf(replaced("<id_>63</id_>", "<id_>64</id_>")), saysOf("laser 63 is missing"));
+    EXPECT_THAT(errorOf(replaced("<item>1</item>", "<item>0</item>")), saysOf("63 lasers"));
+    EXPECT_THAT(errorOf(replaced("<item>1</item>", "<item/>")), saysOf("no number"));
+    EXPECT_THAT(errorOf(replaced("distCorrection_>90.000000", "distCorrection_>9e9")),
+                saysOf("laser 0: distCorrection_"));
+    EXPECT_THAT(errorOf(replaced("distCorrection_>90.000000", "distCorrection_>nan")),
+                saysOf("no number"));
+    EXPECT_THAT(errorOf(replaced("<vertOffsetCorrection_>20.000000</vertOffsetCorrection_>", "")),
+                saysOf("vertOffsetCorrection_ is missing"));
+    auto lasers = test::hdl64Lasers();
+    lasers[5].vert_deg = lasers[9].vert_deg;
+    EXPECT_THAT(errorOf(test::hdl64Xml(lasers)), saysOf("lasers 5 and 9 have the same elevation"));
+    lasers[5].vert_deg = 90.5;
+    EXPECT_THAT(errorOf(test::hdl64Xml(lasers)), saysOf("laser 5: vertCorrection_ is 90.5"));
+    EXPECT_THAT(errorOf(std::string(5 << 20, ' ')), saysOf("is larger than 4 MiB"));
+    EXPECT_THROW(sensors::readVelodyneCalibration("/no/such/file.xml"), std::runtime_error);
+    EXPECT_THROW(sensors::readVelodyneCalibration(std::filesystem::temp_directory_path()),
+                 std::runtime_error);
+}
+
+TEST(Hdl64, ACutCalibrationIsRefusedWhereverItIsCut) {
+    const std::string xml = test::hdl64Xml();
+    const std::size_t end = xml.rfind("</boost_serialization>");
+    for (std::size_t size = 0; size < end; size += 501) {
+        EXPECT_NE(errorOf(xml.substr(0, size)), "") << size;
+    }
+}
+
+}  // namespace
+}  // namespace hagen::observations

@@ -1,0 +1,369 @@
+// Clouds as MRPT 2.15 to 3 write them. Their bytes are made here, by hand or from those of the
+// installed MRPT.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/mrpt/MrptCompat.h>
+#include <hagen/mrpt/NewerClouds.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <mrpt/core/aligned_std_vector.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/stl_serialization.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "support/Random.h"
+
+namespace hagen::observations {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+template <class Object>
+std::string bytesOf(const Object& object) {
+    mrpt::io::CMemoryStream stream;
+    mrpt::serialization::archiveFrom(stream) << object;
+    return {static_cast<const char*>(stream.getRawBufferData()),
+            static_cast<std::size_t>(stream.getTotalBytesCount())};
+}
+
+mrpt::serialization::CSerializable::Ptr read(const std::string& bytes) {
+    registerMrptClasses();
+    mrpt::io::CMemoryStream stream(bytes.data(), bytes.size());
+    return mrpt::serialization::archiveFrom(stream).ReadObject();
+}
+
+template <class Number>
+std::string raw(Number number) {
+    std::string bytes(sizeof number, '\0');
+    std::memcpy(bytes.data(), &number, sizeof number);
+    return bytes;
+}
+template <class Number>
+std::string raw(const std::vector<Number>& numbers) {
+    std::string bytes;
+    for (const Number number : numbers) bytes += raw(number);
+    return bytes;
+}
+std::string rawText(const std::string& text) {
+    return raw(static_cast<std::uint32_t>(text.size())) + text;
+}
+
+/// The options that follow the fields: insertion without `disableDeletion`, likelihood.
+std::string options() {
+    return raw(std::int8_t{1}) + raw(0.02f) + std::string("\x01\0\0\0", 4) + raw(0.001f) +
+           raw(2.0f) + std::string("\0", 1) + raw(std::int8_t{0}) + raw(0.0025) + raw(1.0) +
+           raw(std::uint32_t{10});
+}
+
+template <class Number>
+std::string field(const std::string& name, const std::vector<Number>& values) {
+    return rawText(name) + raw(static_cast<std::uint32_t>(values.size())) + raw(values);
+}
+
+std::string objectOf(const std::string& name, int version, const std::string& content) {
+    return static_cast<char>(0x80 | static_cast<int>(name.size())) + name +
+           static_cast<char>(version) + content + '\x88';
+}
+
+std::string coordinates() {
+    return raw(std::uint32_t{2}) + raw(std::vector<float>{1, 2}) + raw(std::vector<float>{3, 4}) +
+           raw(std::vector<float>{5, 6});
+}
+
+const std::string kNone = raw(std::uint32_t{0});
+const std::string kOne = raw(std::uint32_t{1});
+const std::string kGeneric = "mrpt::maps::CGenericPointsMap";
+
+/// A cloud of two points with a field of each type.
+std::string genericCloud() {
+    return objectOf(
+        kGeneric, 4,
+        coordinates() + raw(std::uint32_t{2}) + field<float>("intensity", {0.25f, 0.75f}) +
+            field<float>("t", {0, 0.1f}) + kOne + field<double>("gps_time", {1, 2}) + kOne +
+            field<std::uint16_t>("ring", {7, 8}) + kOne + field<std::uint8_t>("color_r", {255, 0}) +
+            kOne + field<std::uint32_t>("rgba", {1, 2}) + options());
+}
+
+void expectTwoPoints(const mrpt::serialization::CSerializable& object) {
+    const auto* cloud = dynamic_cast<const mrpt::maps::CPointsMap*>(&object);
+    ASSERT_NE(cloud, nullptr);
+    EXPECT_THAT(cloud->getPointsBufferRef_x(), ElementsAre(1, 2));
+    EXPECT_THAT(cloud->getPointsBufferRef_y(), ElementsAre(3, 4));
+    EXPECT_THAT(cloud->getPointsBufferRef_z(), ElementsAre(5, 6));
+}
+
+/// A cloud of version 2, whose vectors MRPT itself writes.
+std::string cloudWithVectors() {
+    const auto vector = [](const auto& values) {
+        mrpt::io::CMemoryStream stream;
+        auto archive = mrpt::serialization::archiveFrom(stream);
+        archive << values;
+        return std::string(static_cast<const char*>(stream.getRawBufferData()),
+                           static_cast<std::size_t>(stream.getTotalBytesCount()));
+    };
+    return objectOf(
+        kGeneric, 2,
+        coordinates() + kNone + kOne + rawText("gps_time") +
+            vector(mrpt::aligned_std_vector<double>{1.5, 2.5}) + kOne + rawText("ring") +
+            vector(mrpt::aligned_std_vector<std::uint16_t>{7, 65535}) + kNone + options());
+}
+
+TEST(NewerClouds, AGenericCloudIsReadAndWrittenAsOneWithIntensities) {
+    const auto object = read(genericCloud());
+    expectTwoPoints(*object);
+    const auto cloud = std::dynamic_pointer_cast<IntensityCloud>(object);
+    ASSERT_NE(cloud, nullptr);
+    EXPECT_THAT(*intensitiesOf(*cloud), ElementsAre(0.25f, 0.75f));
+    EXPECT_THAT(fieldsNotKept(*cloud), ElementsAre("t", "gps_time", "ring", "color_r", "rgba"));
+    const PointTable* const others = otherFieldsOf(*cloud);
+    ASSERT_NE(others, nullptr);
+    EXPECT_EQ(namesOf(*others), "t, gps_time, ring, color_r, rgba");
+    EXPECT_THAT(columnOf(*others, others->fields[2]), ElementsAre(7, 8));
+    EXPECT_THAT(columnOf(*others, others->fields[3]), ElementsAre(255, 0));
+    EXPECT_EQ(others->fields[4].type, NumberType::UInt32);
+    EXPECT_EQ(cloud->likelihoodOptions.decimation, 10u);
+
+    const std::string written = bytesOf(*cloud);
+    EXPECT_EQ(written.substr(1, 26), "mrpt::maps::CPointsMapXYZI");
+    const auto again = std::dynamic_pointer_cast<IntensityCloud>(read(written));
+    ASSERT_NE(again, nullptr);
+    expectTwoPoints(*again);
+    EXPECT_THAT(*intensitiesOf(*again), ElementsAre(0.25f, 0.75f));
+    EXPECT_THAT(fieldsNotKept(*again), IsEmpty());
+}
+
+TEST(NewerClouds, EveryVersionOfAGenericCloud) {
+    const std::string ring = field<std::uint16_t>("ring", {7, 8});
+    expectTwoPoints(*read(
+        objectOf(kGeneric, 3, coordinates() + kNone + kNone + kOne + ring + kNone + options())));
+    // Before version 3, fields were written like vectors.
+    const std::string times = rawText("t") + raw(std::uint32_t{2}) + raw(std::vector<float>{0, 1});
+    for (const auto& [version, after] :
+         {std::pair{2, kNone + kNone + kNone}, {1, kNone + kNone}, {0, kNone}}) {
+        const auto object =
+            read(objectOf(kGeneric, version, coordinates() + kOne + times + after + options()));
+        expectTwoPoints(*object);
+    }
+}
+
+/// A table with a field of each type that the class has, and two of others.
+PointTable tableOfAllTypes() {
+    PointTable table;
+    table.points = 2;
+    addColumn("x", NumberType::Float32, {1, 2}, table);
+    addColumn("y", NumberType::Float32, {3, 4}, table);
+    addColumn("z", NumberType::Float32, {5, 6}, table);
+    addColumn("ring", NumberType::UInt16, {7, 8}, table);
+    addColumn("intensity", NumberType::Float32, {0.25, 0.75}, table);
+    addColumn("t", NumberType::Float32, {0, 0.1}, table);
+    addColumn("gps_time", NumberType::Float64, {1, 2}, table);
+    addColumn("color_r", NumberType::UInt8, {51, 0}, table);
+    addColumn("color_g", NumberType::UInt8, {102, 0}, table);
+    addColumn("color_b", NumberType::UInt8, {255, 0}, table);
+    addColumn("range", NumberType::UInt32, {4294967295.0, 1}, table);
+    return table;
+}
+
+TEST(NewerClouds, FieldsAreKeptLetterByLetterOrTheRemarkSaysWhyNot) {
+    const auto cloud = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(objectOf(
+        kGeneric, 3,
+        coordinates() + raw(std::uint32_t{2}) + field<float>("T", {20, 21}) +
+            field<float>("t", {0, 0.1f}) + raw(std::uint32_t{2}) + field<double>("short", {1}) +
+            field<double>("T", {1, 2}) + kNone + kNone + options())));
+    const PointTable& others = *otherFieldsOf(*cloud);
+    EXPECT_EQ(namesOf(others), "T, t");
+    EXPECT_THAT(columnOf(others, others.fields[0]), ElementsAre(20, 21));
+    EXPECT_THAT(fieldsNotKept(*cloud),
+                ElementsAre("T", "t", "short (but not this one: it has 1 values for 2 points)",
+                            "T (but not this one: there is another of this name)"));
+    mrpt::obs::CObservationPointCloud observation;
+    observation.pointcloud = cloud;
+    ObservedScan observed;
+    readObservation(observation, {}, observed);
+    EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));  // not the temperature
+}
+
+TEST(NewerClouds, ATableIsWrittenAsVersion3OfAGenericCloud) {
+    const auto cloud = genericCloudOf(tableOfAllTypes());
+    cloud->insertionOptions.horizontalTolerance = 0.001f;
+    const std::string two = raw(std::uint32_t{2}), three = raw(std::uint32_t{3});
+    std::string older_options = options();  // with `disableDeletion`
+    older_options[0] = 0;
+    older_options.insert(7, 1, '\1');
+    EXPECT_EQ(bytesOf(*cloud),
+              objectOf(kGeneric, 3,
+                       coordinates() + two + field<float>("intensity", {0.25f, 0.75f}) +
+                           field<float>("t", {0, 0.1f}) + two + field<double>("gps_time", {1, 2}) +
+                           field<double>("range", {4294967295.0, 1}) + kOne +
+                           field<std::uint16_t>("ring", {7, 8}) + three +
+                           field<std::uint8_t>("color_r", {51, 0}) +
+                           field<std::uint8_t>("color_g", {102, 0}) +
+                           field<std::uint8_t>("color_b", {255, 0}) + older_options));
+    EXPECT_NEAR(cloud->renderOptions.color.R, 0.2f, 1e-6);
+    EXPECT_NEAR(cloud->renderOptions.color.G, 0.4f, 1e-6);
+    EXPECT_NEAR(cloud->renderOptions.color.B, 1.0f, 1e-6);
+}
+
+TEST(NewerClouds, WhatIsWrittenAsAGenericCloudIsReadAgain) {
+    const std::string bytes = bytesOf(*genericCloudOf(tableOfAllTypes()));
+    const auto cloud = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(bytes));
+    ASSERT_NE(cloud, nullptr);
+    expectTwoPoints(*cloud);
+    EXPECT_NEAR(cloud->renderOptions.color.G, 0.4f, 1e-6);
+    EXPECT_THAT(fieldsNotKept(*cloud),
+                ElementsAre("t", "gps_time", "range", "ring", "color_r", "color_g", "color_b"));
+    EXPECT_EQ(bytesOf(*cloud).substr(1, 26), "mrpt::maps::CPointsMapXYZI");
+    writeAsGeneric(*cloud);
+    EXPECT_EQ(bytesOf(*cloud), bytes);
+}
+
+TEST(NewerClouds, SeveralNumbersPerPointAreFieldsOfTheirOwn) {
+    PointTable table = tableOfAllTypes();
+    PointField& t = table.fields[5];
+    ASSERT_EQ(t.name, "t");
+    t.type = NumberType::UInt16;
+    t.count = 2;
+    const std::string bytes = bytesOf(*genericCloudOf(table));
+    const auto cloud = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(bytes));
+    const PointTable& others = *otherFieldsOf(*cloud);
+    ASSERT_NE(findField(others, {"t_0"}), nullptr);
+    ASSERT_NE(findField(others, {"t_1"}), nullptr);
+    EXPECT_THAT(columnOf(others, *findField(others, {"t_0"})),
+                testing::ContainerEq(columnOf(table, t, 0)));
+    EXPECT_THAT(columnOf(others, *findField(others, {"t_1"})),
+                testing::ContainerEq(columnOf(table, t, 1)));
+}
+
+TEST(NewerClouds, AGenericCloudNeedsCoordinates) {
+    PointTable table = tableOfAllTypes();
+    table.fields[1].name = "why";
+    EXPECT_THROW(genericCloudOf(table), std::invalid_argument);
+}
+
+TEST(NewerClouds, IntensitiesOfAnyTypeAreScaledWhenTheScanIsRead) {
+    const auto cloud = read(objectOf(kGeneric, 4,
+                                     coordinates() + kNone + kNone + kOne +
+                                         field<std::uint16_t>("intensity", {51, 255}) + kNone +
+                                         kNone + options()));
+    mrpt::obs::CObservationPointCloud observation;
+    observation.pointcloud = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(cloud);
+    ObservedScan observed;
+    readObservation(observation, {}, observed);
+    EXPECT_THAT(observed.scan.intensity, ElementsAre(0.2f, 1.0f));
+    EXPECT_EQ(observed.remark, "");
+    observation.pointcloud =
+        std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(genericCloud()));
+    readObservation(observation, {}, observed);
+    EXPECT_EQ(observed.remark,
+              "the filter does not use these fields of its cloud; --cloud generic, --clouds and "
+              "--mcap keep them: gps_time, ring, color_r, rgba");
+    EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));
+}
+
+/// A simple cloud in the bytes of the installed MRPT, and in those of one since 2.15.3.
+std::pair<std::string, std::string> simpleClouds() {
+    PortableCloud cloud;
+    test::Random random(3);
+    for (int i = 0; i < 50; ++i) {
+        cloud.insertPoint(random.real(-50, 50), random.real(-50, 50), random.real(-5, 5));
+    }
+    cloud.insertionOptions.isPlanarMap = true;
+    cloud.renderOptions.point_size = 3;
+    const std::string bytes = bytesOf(cloud);
+    const std::string options =
+        raw(std::int8_t{0}) + raw(0.02f) + std::string("\x01\0\x01\0\x01", 5);
+    const std::size_t at = bytes.find(options);
+    EXPECT_NE(at, std::string::npos);
+    std::string newer = bytes;
+    newer.replace(at, options.size(),
+                  raw(std::int8_t{1}) + raw(0.02f) + std::string("\x01\0\0\x01", 4));
+    return {bytes, newer};
+}
+
+TEST(NewerClouds, ASimpleCloudIsReadAlsoWithNewerOptionsAndWrittenWithOlder) {
+    const auto [older, newer] = simpleClouds();
+    for (const std::string& bytes : {older, newer}) {
+        const auto object = read(bytes);
+        ASSERT_TRUE(std::dynamic_pointer_cast<PortableCloud>(object));
+        EXPECT_EQ(bytesOf(*object), older);
+    }
+}
+
+TEST(NewerClouds, ANewerVersionThanKnownIsRefused) {
+    std::string generic = genericCloud(), simple = simpleClouds().first;
+    generic[1 + kGeneric.size()] = 5;
+    simple[1 + std::string("mrpt::maps::CSimplePointsMap").size()] = 11;
+    for (const std::string& bytes : {generic, simple}) {
+        try {
+            read(bytes);
+            FAIL();
+        } catch (const std::exception& e) {
+            EXPECT_THAT(e.what(), testing::HasSubstr("ersion"));
+        }
+    }
+}
+
+TEST(NewerClouds, ACutCloudThrowsWhereverItIsCut) {
+    for (const std::string& whole : {genericCloud(), cloudWithVectors(), simpleClouds().second}) {
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            EXPECT_ANY_THROW(read(whole.substr(0, size))) << size;
+        }
+    }
+}
+
+TEST(NewerClouds, AWrongNumberOfPointsDoesNotTakeAllMemory) {
+    std::string bytes = genericCloud();
+    bytes.replace(bytes.find(coordinates()), 4, raw(std::uint32_t{0xffffffff}));
+    EXPECT_ANY_THROW(read(bytes));
+}
+
+TEST(NewerClouds, VectorsThatMrptWroteAreRead) {
+    const auto object = read(cloudWithVectors());
+    expectTwoPoints(*object);
+    const PointTable* const others =
+        otherFieldsOf(dynamic_cast<const mrpt::maps::CPointsMap&>(*object));
+    ASSERT_NE(others, nullptr);
+    EXPECT_EQ(namesOf(*others), "gps_time, ring");
+    EXPECT_THAT(columnOf(*others, others->fields[0]), ElementsAre(1.5, 2.5));
+    EXPECT_THAT(columnOf(*others, others->fields[1]), ElementsAre(7, 65535));
+}
+
+TEST(NewerClouds, AWrongNumberOfValuesOrLettersDoesNotTakeAllMemory) {
+    const std::string whole = cloudWithVectors();
+    for (const std::string before : {"double", "uint16_t", "gps_time", "ring"}) {
+        std::string bytes = whole;
+        // Behind the name of a type is the number of values; behind that of a field, of letters.
+        bytes.replace(bytes.find(before) + before.size(), 4, raw(std::uint32_t{0xffffffff}));
+        try {
+            read(bytes);
+            FAIL() << before;
+        } catch (const std::bad_alloc&) {
+            FAIL() << before << ": asks for all memory";
+        } catch (const std::exception&) {
+        }
+    }
+}
+
+TEST(NewerClouds, NoDamageCrashesIt) {
+    test::Random random(4);
+    for (int round = 0; round < 200; ++round) {
+        std::string bytes = random.chance(0.5)   ? genericCloud()
+                            : random.chance(0.5) ? cloudWithVectors()
+                                                 : simpleClouds().second;
+        for (int i = random.whole(1, 5); i > 0; --i) {
+            bytes[static_cast<std::size_t>(random.whole(0, static_cast<int>(bytes.size()) - 1))] =
+                static_cast<char>(random.whole(0, 255));
+        }
+        try {
+            read(bytes);
+        } catch (const std::exception&) {
+        }
+    }
+}
+
+}  // namespace
+}  // namespace hagen::observations

@@ -1,0 +1,443 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneEncoder.h>
+#include <hagen/scan/Angle.h>
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "support/Captures.h"
+#include "support/InstructionSets.h"
+#include "support/PlainVelodyneDecoder.h"
+#include "support/Program.h"
+#include "support/Random.h"
+
+namespace hagen::observations {
+namespace {
+
+using testing::HasSubstr;
+
+using mrpt::obs::CObservationVelodyneScan;
+
+/// MRPT decodes the first 16 returns of each block; these are the same returns among ours.
+std::vector<std::size_t> returnsInFirstHalfOfBlocks(const CObservationVelodyneScan& observation) {
+    std::vector<std::size_t> indices;
+    std::size_t index = 0;
+    for (const auto& packet : observation.scan_packets) {
+        for (const auto& block : packet.blocks) {
+            for (int i = 0; i < 32; ++i) {
+                if (block.laser_returns[i].distance() == 0) continue;
+                const double range_m = block.laser_returns[i].distance() * 0.002;
+                const bool in_range =
+                    range_m >= observation.minRange && range_m <= observation.maxRange;
+                if (i < 16 && in_range) indices.push_back(index);
+                ++index;
+            }
+        }
+    }
+    return indices;
+}
+
+void expectMrptAgrees(CObservationVelodyneScan observation) {
+    Scan scan;
+    EXPECT_EQ(decodePackets(observation, scan), 0u);
+    const auto shared = returnsInFirstHalfOfBlocks(observation);
+    observation.generatePointCloud();
+    const auto& cloud = observation.point_cloud;
+    ASSERT_EQ(cloud.size(), shared.size());
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+        const double distance_m =
+            std::hypot(scan.x_m[shared[i]] - cloud.x[i], scan.y_m[shared[i]] - cloud.y[i],
+                       scan.z_m[shared[i]] - cloud.z[i]);
+        ASSERT_LT(distance_m, 0.01) << "return " << i << " of MRPT's";
+        ASSERT_EQ(static_cast<int>(std::lround(255 * scan.intensity[shared[i]])),
+                  cloud.intensity[i]);
+    }
+}
+
+TEST(VelodyneDecoder, AllReturnsOfTheRealScanComeOutWhereMrptDecodesHalf) {
+    const auto observation = test::realVlp16Scan();
+    if (!observation) GTEST_SKIP() << "mrpt-common is not installed";
+    Scan scan;
+    EXPECT_EQ(decodePackets(*observation, scan), 0u);
+    EXPECT_EQ(scan.size(), 22591u);
+    expectMrptAgrees(*observation);
+}
+
+TEST(VelodyneDecoder, MrptAgreesOnCapturesOfVlp16AndHdl32e) {
+    const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    for (const auto& [file, calibration] : {std::pair{"sample_velodyne_vlp16_gps.pcap", "VLP16"},
+                                            {"sample_velodyne_hdl32.pcap", "HDL32"}}) {
+        const auto observation = test::readCapture(folder / file, calibration);
+        ASSERT_GT(observation->scan_packets.size(), 100u) << file;
+        expectMrptAgrees(*observation);
+    }
+}
+
+TEST(VelodyneDecoder, MrptAgreesOnACalibrationWithCorrections) {
+    auto observation = test::realVlp16Scan();
+    if (!observation) GTEST_SKIP() << "mrpt-common is not installed";
+    test::Random random(50);
+    for (auto& laser : observation->calibration.laser_corrections) {
+        laser.distanceCorrection = static_cast<double>(random.real(-0.2f, 0.2f));
+        laser.verticalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
+        laser.horizontalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
+    }
+    observation->minRange = 0.0;
+    expectMrptAgrees(*observation);
+}
+
+/// Firings with random ranges, some missing.
+Firings randomFirings(unsigned seed, const sensors::VelodyneModel& model, int count,
+                      double missing) {
+    test::Random random(seed);
+    Firings firings;
+    firings.range_m = random.image(model.lasers, count, 0.6f, 120.0f, missing);
+    firings.intensity = random.image(model.lasers, count, 0.0f, 1.0f, 0.0);
+    firings.first_azimuth_deg = 200.0;
+    return firings;
+}
+
+void expectReturns(const sensors::VelodyneModel& model, const Firings& firings, const Scan& scan) {
+    const auto rows = sensors::rowsOfLasers(sensors::defaultCalibration(model));
+    std::size_t i = 0;
+    for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
+        for (int laser = 0; laser < model.lasers; ++laser) {
+            const float range_m = firings.range_m(laser, firing);
+            if (!hasValue(range_m)) continue;
+            ASSERT_LT(i, scan.size());
+            const double azimuth_rad = -radians(firingAzimuthDeg(model, firings, laser, firing));
+            const double turned =
+                std::remainder(static_cast<double>(scan.azimuth_rad[i]) - azimuth_rad, 2 * kPi);
+            ASSERT_LT(std::abs(degrees(turned)), 0.016);  // azimuths are rounded twice to 0.01
+            ASSERT_NEAR(scan.range_m[i], range_m, 0.5f * model.distance_unit_m + 1e-5f);
+            ASSERT_EQ(scan.row[i], rows[laser]);
+            ASSERT_NEAR(scan.intensity[i], firings.intensity(laser, firing), 0.5 / 255 + 1e-6);
+            ASSERT_NEAR(std::hypot(scan.x_m[i], scan.y_m[i], scan.z_m[i]), range_m,
+                        model.distance_unit_m);
+            ASSERT_NEAR(std::remainder(std::atan2(scan.y_m[i], scan.x_m[i]) - scan.azimuth_rad[i],
+                                       static_cast<float>(2 * kPi)),
+                        0.0, 1e-5);
+            ++i;
+        }
+    }
+    ASSERT_EQ(i, scan.size());
+}
+
+TEST(VelodyneDecoder, GivesBackWhatWasEncoded) {
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
+        const sensors::VelodyneModel& model = sensors::velodyneModel(name);
+        for (unsigned seed = 51; seed < 55; ++seed) {
+            const Firings firings = randomFirings(seed, model, 24 * 40, 0.3);
+            Scan scan;
+            EXPECT_EQ(decodePackets(*encodeScan(model, firings), scan), 0u);
+            expectReturns(model, firings, scan);
+        }
+    }
+}
+
+TEST(VelodyneDecoder, DualModeGivesTheLastAndTheStrongestReturnOfEveryFiring) {
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
+        const sensors::VelodyneModel& model = sensors::velodyneModel(name);
+        Firings firings = randomFirings(55, model, 240, 0.0);
+        firings.last_range_m = firings.range_m + 1.0f;
+        Scan scan;
+        EXPECT_EQ(decodePackets(*encodeScan(model, firings), scan), 0u);
+        ASSERT_EQ(scan.size(), static_cast<std::size_t>(2 * firings.range_m.size()));
+
+        Scan strongest, last;  // alternating blocks
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            Scan& half = i / 32 % 2 == 0 ? last : strongest;
+            half.x_m.push_back(scan.x_m[i]);
+            half.y_m.push_back(scan.y_m[i]);
+            half.z_m.push_back(scan.z_m[i]);
+            half.range_m.push_back(scan.range_m[i]);
+            half.azimuth_rad.push_back(scan.azimuth_rad[i]);
+            half.row.push_back(scan.row[i]);
+            half.intensity.push_back(scan.intensity[i]);
+        }
+        expectReturns(model, firings, strongest);
+        firings.range_m = firings.last_range_m;
+        expectReturns(model, firings, last);
+    }
+}
+
+TEST(VelodyneDecoder, TimesGoOnFromLaserToLaserAndOverTheFullHour) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    Firings firings = randomFirings(56, model, 240, 0.0);
+    firings.first_time_us = 3599995000u;
+    Scan scan;
+    decodePackets(*encodeScan(model, firings), scan);
+    for (std::size_t i = 1; i < scan.size(); ++i) ASSERT_GT(scan.time_s[i], scan.time_s[i - 1]);
+    EXPECT_EQ(scan.time_s.front(), 0.0f);
+    EXPECT_NEAR(scan.time_s.back(), 1e-6 * (239 * 55.296 + 15 * 2.304), 2e-6);
+}
+
+TEST(VelodyneDecoder, APacketThatWasRecordedLateIsBeforeTheFirstOne) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    Firings firings = randomFirings(57, model, 240, 0.0);
+    for (const std::uint32_t first_us : {5000u, 3599999000u}) {
+        firings.first_time_us = first_us;
+        const auto packets = encodeScan(model, firings);
+        Scan in_order, late;
+        decodePackets(*packets, in_order);
+        std::swap(packets->scan_packets[0], packets->scan_packets[1]);
+        decodePackets(*packets, late);
+        ASSERT_EQ(late.size(), in_order.size());
+        std::sort(late.time_s.begin(), late.time_s.end());
+        const double packet_s = 1e-6 * 24 * 55.296;
+        for (std::size_t i = 0; i < late.size(); ++i) {
+            ASSERT_NEAR(late.time_s[i], static_cast<double>(in_order.time_s[i]) - packet_s, 3e-6);
+        }
+    }
+}
+
+TEST(VelodyneDecoder, MorePacketsThanAnyTurnHasAreRefused) {
+    const auto scan = encodeScan(sensors::velodyneModel("VLP-16"),
+                                 randomFirings(58, sensors::velodyneModel("VLP-16"), 24, 0.0));
+    Scan decoded;
+    scan->scan_packets.resize(43691, scan->scan_packets.front());  // 16777344 returns
+    EXPECT_THAT(test::messageOf([&] { decodePackets(*scan, decoded); }),
+                testing::HasSubstr("16777344 returns, more than the 16777216"));
+    EXPECT_EQ(decoded.size(), 0u);
+}
+
+TEST(VelodyneDecoder, BothReturnsOfAFiringHaveItsTime) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("HDL-32E");
+    Firings firings = randomFirings(61, model, 60, 0.0);
+    firings.last_range_m = firings.range_m;
+    Scan scan;
+    decodePackets(*encodeScan(model, firings), scan);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const int firing = static_cast<int>(i) / 64, laser = static_cast<int>(i) % 32;
+        ASSERT_NEAR(scan.time_s[i], 1e-6 * (46.08 * firing + 1.152 * laser), 2e-6);
+    }
+}
+
+TEST(VelodyneDecoder, AzimuthCorrectionsAreTakenFromTheReading) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    const auto observation = encodeScan(model, randomFirings(62, model, 24, 0.0));
+    Scan plain, corrected;
+    decodePackets(*observation, plain);
+    for (auto& laser : observation->calibration.laser_corrections) laser.azimuthCorrection = 3.0;
+    decodePackets(*observation, corrected);
+    // Readings go clockwise, azimuth_rad counter-clockwise.
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        const float turned = corrected.azimuth_rad[i] - plain.azimuth_rad[i];
+        ASSERT_NEAR(degrees(std::remainder(turned, static_cast<float>(2 * kPi))), 3.0, 1e-3);
+    }
+}
+
+/// Changes a byte of a packet as transmitted.
+void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte,
+             std::uint8_t value) {
+    std::uint8_t bytes[CObservationVelodyneScan::PACKET_SIZE];
+    std::memcpy(bytes, &observation.scan_packets[packet], sizeof bytes);
+    bytes[byte] = value;
+    std::memcpy(static_cast<void*>(&observation.scan_packets[packet]), bytes, sizeof bytes);
+}
+
+/// Expects a decoded scan to equal that of the reference decoder, up to rounding.
+void expectDecodedAsPlainly(const CObservationVelodyneScan& observation, Scan& scan) {
+    Scan plain;
+    const std::size_t unsound_blocks = test::decodePlainly(observation, plain);
+    ASSERT_EQ(decodePackets(observation, scan), unsound_blocks);
+    ASSERT_EQ(scan.range_m, plain.range_m);
+    ASSERT_EQ(scan.row, plain.row);
+    ASSERT_EQ(scan.intensity, plain.intensity);
+    for (const auto* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.azimuth_rad, &scan.time_s}) {
+        ASSERT_EQ(values->size(), plain.size());
+    }
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        const float rounding_m = 1e-6f * (1.0f + plain.range_m[i]);
+        ASSERT_NEAR(scan.x_m[i], plain.x_m[i], rounding_m);
+        ASSERT_NEAR(scan.y_m[i], plain.y_m[i], rounding_m);
+        ASSERT_NEAR(scan.z_m[i], plain.z_m[i], rounding_m);
+        ASSERT_NEAR(scan.azimuth_rad[i], plain.azimuth_rad[i], 2e-6);
+        ASSERT_NEAR(scan.time_s[i], plain.time_s[i], 1e-8f + 2e-7f * plain.time_s[i]);
+    }
+}
+
+TEST(VelodyneDecoder, RecordingsAreDecodedAsReturnByReturn) {
+    Scan scan;
+    if (const auto observation = test::realVlp16Scan()) expectDecodedAsPlainly(*observation, scan);
+    const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    for (const auto& [file, calibration] : {std::pair{"sample_velodyne_vlp16_gps.pcap", "VLP16"},
+                                            {"sample_velodyne_hdl32.pcap", "HDL32"}}) {
+        expectDecodedAsPlainly(*test::readCapture(folder / file, calibration), scan);
+    }
+}
+
+/// A random scan: any part of a revolution, any fraction of missing returns, half of them with dual
+/// returns, half with a calibration with all corrections.
+CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
+    const char* const names[] = {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"};
+    const sensors::VelodyneModel& model = sensors::velodyneModel(names[random.whole(0, 3)]);
+    const double missing = random.chance(0.2) ? 1.0 : static_cast<double>(random.real(0.0f, 0.9f));
+    Firings firings = randomFirings(static_cast<unsigned>(random.whole(0, 1000000)), model,
+                                    random.whole(1, 600), missing);
+    firings.first_azimuth_deg = static_cast<double>(random.real(0.0f, 360.0f));
+    firings.azimuth_step_deg = static_cast<double>(random.real(-0.7f, 0.7f));
+    if (random.chance(0.5)) firings.last_range_m = firings.range_m + 1.0f;
+    const auto observation = encodeScan(model, firings);
+    if (random.chance(0.5)) return observation;
+    for (auto& laser : observation->calibration.laser_corrections) {
+        const float most_deg = random.chance(0.1) ? 500.0f : 6.0f;
+        laser.azimuthCorrection = static_cast<double>(random.real(-most_deg, most_deg));
+        laser.distanceCorrection = static_cast<double>(random.real(-0.2f, 0.2f));
+        laser.verticalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
+        laser.horizontalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
+    }
+    return observation;
+}
+
+TEST(VelodyneDecoder, AnyScanIsDecodedAsReturnByReturn) {
+    test::Random random(63);
+    Scan scan;  // reused across scans
+    for (int round = 0; round < 200; ++round) {
+        SCOPED_TRACE(round);
+        const auto observation = randomObservation(random);
+        if (random.chance(0.2)) setByte(*observation, 0, 100 * random.whole(0, 11), 0x12);
+        expectDecodedAsPlainly(*observation, scan);
+    }
+}
+
+TEST(VelodyneDecoder, DecodesTheSameOnEveryInstructionSet) {
+    test::Random random(64);
+    for (int round = 0; round < 20; ++round) {
+        const auto observation = randomObservation(random);
+        Scan best;
+        decodePackets(*observation, best);
+        forEachInstructionSet([&](const std::string& name) {
+            SCOPED_TRACE(name);
+            Scan scan;
+            decodePackets(*observation, scan);
+            EXPECT_EQ(scan.x_m, best.x_m);
+            EXPECT_EQ(scan.y_m, best.y_m);
+            EXPECT_EQ(scan.z_m, best.z_m);
+            EXPECT_EQ(scan.intensity, best.intensity);
+            EXPECT_EQ(scan.range_m, best.range_m);
+            EXPECT_EQ(scan.azimuth_rad, best.azimuth_rad);
+            EXPECT_EQ(scan.time_s, best.time_s);
+            EXPECT_EQ(scan.row, best.row);
+        });
+    }
+}
+
+/// A motor that hardly turns has readings that go back by 0.01 degrees.
+TEST(VelodyneDecoder, ReadingsThatStepBackDoNotTurnReturnsAround) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    const auto observation = encodeScan(model, randomFirings(66, model, 24, 0.0));
+    ASSERT_EQ(observation->scan_packets.size(), 1u);
+    for (int block = 0; block < 12; ++block) {
+        const int reading = block % 2 == 0 ? 18000 : 17999;
+        setByte(*observation, 0, 100 * block + 2, static_cast<std::uint8_t>(reading & 0xff));
+        setByte(*observation, 0, 100 * block + 3, static_cast<std::uint8_t>(reading >> 8));
+    }
+    Scan scan;
+    decodePackets(*observation, scan);
+    ASSERT_EQ(scan.size(), 24u * 16);
+    for (const float azimuth_rad : scan.azimuth_rad) {
+        ASSERT_NEAR(degrees(std::abs(azimuth_rad)), 180, 0.02);
+    }
+}
+
+TEST(VelodyneDecoder, IntensitiesAreBytesOver255) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    Firings firings = randomFirings(65, model, 16, 0.0);
+    for (int i = 0; i < 256; ++i) firings.intensity.data()[i] = static_cast<float>(i) / 255.0f;
+    Scan scan;
+    decodePackets(*encodeScan(model, firings), scan);
+    for (std::size_t i = 0; i < 256; ++i) {
+        ASSERT_EQ(scan.intensity[i], static_cast<float>(i) / 255.0f);
+    }
+}
+
+TEST(VelodyneDecoder, BlocksWithoutAValidHeaderOrAzimuthAreLeftOutAndCounted) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    const auto observation = encodeScan(model, randomFirings(57, model, 240, 0.0));
+    setByte(*observation, 0, 0, 0x00);        // header of block 0
+    setByte(*observation, 3, 500 + 3, 0xff);  // azimuth of block 5
+    Scan scan;
+    EXPECT_EQ(decodePackets(*observation, scan), 2u);
+    EXPECT_EQ(scan.size(), 240u * 16 - 2 * 32);
+}
+
+TEST(VelodyneDecoder, APacketOfAnotherOrUnknownModelIsRefusedByItsNumber) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    for (const auto& [id, words] : {std::pair{0x21, "differs"}, {0x99, "unknown model id 0x99"}}) {
+        const auto observation = encodeScan(model, randomFirings(58, model, 240, 0.0));
+        setByte(*observation, 4, 1205, static_cast<std::uint8_t>(id));
+        Scan scan;
+        try {
+            decodePackets(*observation, scan);
+            FAIL();
+        } catch (const std::runtime_error& e) {
+            EXPECT_THAT(e.what(), HasSubstr("packet 4"));
+            EXPECT_THAT(e.what(), HasSubstr(words));
+            EXPECT_EQ(scan.size(), 0u);
+        }
+    }
+}
+
+/// Finite as doubles, but no floats: their differences would be no coordinates.
+TEST(VelodyneDecoder, CorrectionsThatNoLaserHasAreRefused) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    const auto observation = encodeScan(model, randomFirings(64, model, 24, 0.0));
+    auto& laser = observation->calibration.laser_corrections.at(5);
+    for (double* const correction :
+         {&laser.azimuthCorrection, &laser.distanceCorrection, &laser.verticalOffsetCorrection,
+          &laser.horizontalOffsetCorrection}) {
+        const bool is_angle = correction == &laser.azimuthCorrection;
+        for (const double wild : {1e307, -1e307, 1e30, is_angle ? 1e9 : 10.1}) {
+            const double before = std::exchange(*correction, wild);
+            Scan scan;
+            try {
+                decodePackets(*observation, scan);
+                ADD_FAILURE() << wild;
+            } catch (const std::runtime_error& e) {
+                EXPECT_THAT(e.what(), HasSubstr("calibration is corrupt: laser 5"));
+            }
+            *correction = before;
+        }
+    }
+    Scan scan;
+    EXPECT_NO_THROW(decodePackets(*observation, scan));
+}
+
+TEST(VelodyneDecoder, NoPacketsGiveNoReturns) {
+    Scan scan;
+    EXPECT_EQ(decodePackets(CObservationVelodyneScan(), scan), 0u);
+    EXPECT_EQ(scan.size(), 0u);
+    EXPECT_THROW(sensorOf(CObservationVelodyneScan()), std::runtime_error);
+}
+
+TEST(VelodyneDecoder, WithoutACalibrationTheModelsDefaultHolds) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("HDL-32E");
+    const auto observation = encodeScan(model, randomFirings(59, model, 240, 0.1));
+    Scan with, without;
+    decodePackets(*observation, with);
+    observation->calibration.clear();
+    decodePackets(*observation, without);
+    EXPECT_EQ(with.z_m, without.z_m);
+    EXPECT_EQ(sensorOf(*observation).rows(), 32);
+}
+
+TEST(VelodyneDecoder, TheSensorHasTheObservationsRangeLimits) {
+    const auto observation =
+        encodeScan(sensors::velodyneModel("VLP-16"),
+                   randomFirings(60, sensors::velodyneModel("VLP-16"), 24, 0.0));
+    observation->minRange = 0.9;
+    observation->maxRange = 77.0;
+    EXPECT_EQ(sensorOf(*observation).min_range_m, 0.9f);
+    EXPECT_EQ(sensorOf(*observation).max_range_m, 77.0f);
+    EXPECT_EQ(sensorOf(*observation).name, "VLP-16");
+}
+
+}  // namespace
+}  // namespace hagen::observations

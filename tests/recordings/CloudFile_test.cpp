@@ -1,0 +1,559 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/recordings/CloudFile.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/CloudFiles.h"
+#include "support/Program.h"
+
+namespace hagen::recordings {
+namespace {
+
+namespace fs = std::filesystem;
+using observations::NumberType;
+using observations::PointTable;
+using test::FilePoint;
+using test::filePoints;
+using testing::AllOf;
+using testing::AnyOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class CloudFileTest : public testing::Test {
+ protected:
+    void SetUp() override {
+        folder_ = fs::path(testing::TempDir()) /
+                  ("cloud_file_" +
+                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    fs::path write(const std::string& name, const std::string& text) const {
+        test::writeFile(folder_ / name, text);
+        return folder_ / name;
+    }
+    CloudFile read(const std::string& name, const std::string& text) const {
+        return readCloud(write(name, text));
+    }
+    /// The message of a file that cannot be read; empty if it can be.
+    std::string complaint(const std::string& name, const std::string& text) const {
+        try {
+            read(name, text);
+            return "";
+        } catch (const BrokenCloud& e) {
+            EXPECT_THAT(e.what(), HasSubstr((folder_ / name).string() + ": "));
+            return e.what();
+        }
+    }
+
+    fs::path folder_;
+};
+
+std::vector<double> column(const PointTable& table, const char* name) {
+    const auto* const field = findField(table, {name});
+    EXPECT_NE(field, nullptr) << name;
+    return field == nullptr ? std::vector<double>() : columnOf(table, *field);
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return text.replace(at, what.size(), with);
+}
+
+TEST_F(CloudFileTest, EveryFormatHasThePointsThatWereWritten) {
+    const std::vector<FilePoint> points = filePoints();
+    for (const auto& [name, text] : test::cloudFiles(points)) {
+        SCOPED_TRACE(name);
+        const PointTable table = read(name, text).table;
+        ASSERT_EQ(table.points, points.size());
+        const auto x = column(table, "x"), y = column(table, "y"), z = column(table, "z");
+        const bool is_las = name.find(".las") != std::string::npos;
+        const bool is_bin = name.find(".bin") != std::string::npos;
+        const auto rings = column(table, is_las || is_bin ? "intensity" : "ring");
+        const auto times =
+            is_bin ? std::vector<double>() : column(table, is_las ? "gps_time" : "t");
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_NEAR(x[i], points[i].x_m, 1e-9);
+            EXPECT_NEAR(y[i], points[i].y_m, 1e-9);
+            EXPECT_NEAR(z[i], points[i].z_m, 1e-9);
+            EXPECT_EQ(rings[i], is_las   ? 1000 + points[i].ring
+                                : is_bin ? 0.25 * points[i].ring
+                                         : points[i].ring);
+            if (!is_bin) {
+                EXPECT_DOUBLE_EQ(times[i], (is_las ? 1e-9 : 1.0) * points[i].t_ns);
+            }
+        }
+    }
+}
+
+/// A sparse file may be larger than all memory.
+TEST_F(CloudFileTest, AFileOfMoreThanAScanMayHaveIsNotRead) {
+    const fs::path file = write("huge.bin", "");
+    fs::resize_file(file, (std::uintmax_t{2} << 30) + 1);
+    try {
+        readCloud(file);
+        FAIL();
+    } catch (const BrokenCloud& e) {
+        EXPECT_THAT(e.what(), HasSubstr("huge.bin: is larger than 2 GiB"));
+    }
+}
+
+/// A map is refused before it takes memory beside its file.
+TEST_F(CloudFileTest, MorePointsThanAScanMayHaveAreNotRead) {
+    const std::string count = "16777217";
+    const std::string npy =
+        test::npy("{'descr': '|u1', 'fortran_order': False, 'shape': (" + count + ", 3), }", "");
+    const std::string pcd = "FIELDS x y z\nSIZE 1 1 1\nTYPE U U U\nCOUNT 1 1 1\nWIDTH " + count +
+                            "\nHEIGHT 1\nPOINTS " + count + "\nDATA binary\n";
+    const std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex " + count +
+                            "\nproperty uchar x\nproperty uchar y\nproperty uchar z\nend_header\n";
+    for (const std::string& header : {npy, pcd, ply}) {
+        const fs::path file = write("map", header);
+        fs::resize_file(file, header.size() + 3 * 16777217);
+        EXPECT_THAT(test::messageOf([&] { readCloud(file); }),
+                    HasSubstr("map: has 16777217 points, more than the 16777216 that a scan may "
+                              "have; is it a map of many scans?"))
+            << header;
+    }
+}
+
+TEST_F(CloudFileTest, FormatsAreToldByTheirContent) {
+    const auto format = [&](const std::string& text) { return cloudFormatOf(write("file", text)); };
+    EXPECT_EQ(format(test::asciiPcd(filePoints())), CloudFormat::Pcd);
+    EXPECT_EQ(format("VERSION 0.7\nFIELDS x\n"), CloudFormat::Pcd);
+    EXPECT_EQ(format(test::asciiPly(filePoints())), CloudFormat::Ply);
+    EXPECT_EQ(format(test::las(filePoints())), CloudFormat::Las);
+    EXPECT_EQ(format(test::structuredNpy(filePoints())), CloudFormat::Npy);
+    EXPECT_EQ(format(test::bin(filePoints())), CloudFormat::Bin);
+    EXPECT_EQ(format(test::bin(filePoints()) + "1234"), std::nullopt);
+    EXPECT_EQ(format(test::bin({{2000.0f, 0, 0, 0, 0}})), std::nullopt);
+    EXPECT_EQ(format(std::string(160, '\0')), std::nullopt);
+    EXPECT_EQ(format("A text of 32 bytes is no cloud.\n"), std::nullopt);
+    EXPECT_EQ(format(""), std::nullopt);
+    EXPECT_EQ(cloudFormatOf(folder_), std::nullopt);
+    EXPECT_EQ(cloudFormatOf(folder_ / "missing"), std::nullopt);
+}
+
+TEST_F(CloudFileTest, ANameDoesNotMatter) {
+    EXPECT_EQ(read("las.bin", test::las(filePoints())).table.points, 12u);
+    EXPECT_EQ(read("points", test::bin(filePoints())).table.points, 12u);
+    EXPECT_TRUE(hasCloudName("a/B.PCD"));
+    EXPECT_FALSE(hasCloudName("a/times.txt"));
+}
+
+/// Cut anywhere, a file is refused, except after its last number.
+TEST_F(CloudFileTest, ATruncatedFileIsNeverRead) {
+    for (const auto& [name, text] : test::cloudFiles()) {
+        for (std::size_t k = 0; k < 50; ++k) {
+            const std::size_t size = k * (text.size() - 1) / 49;
+            const std::string cut = text.substr(0, size);
+            const bool is_shorter_bin = name == "points.bin" && size % 16 == 0;
+            // What follows the vertices is not read; a number's last digits may be cut.
+            const std::size_t unread = name == "ascii.ply" ? 6 : name == "ascii.pcd" ? 7 : 5;
+            const bool may_be_whole = name.find(".ply") != std::string::npos || name == "ascii.pcd"
+                                          ? size + unread >= text.size()
+                                          : is_shorter_bin;
+            if (may_be_whole) continue;
+            EXPECT_THAT(complaint(name, cut), testing::Not(IsEmpty())) << name << " " << size;
+        }
+    }
+}
+
+/// Any byte of the header or data may be wrong: a file is read or refused, nothing else.
+TEST_F(CloudFileTest, AWrongByteIsReadOrRefused) {
+    for (const auto& [name, text] : test::cloudFiles(filePoints(3))) {
+        for (std::size_t at = 0; at < text.size(); at += 4) {
+            std::string changed = text;
+            changed[at] = std::string("\0009\xff", 3)[at % 3];
+            try {
+                const PointTable table = read(name, changed).table;
+                EXPECT_LE(table.points * table.bytes_per_point, 8 * text.size());
+            } catch (const BrokenCloud&) {
+            }
+        }
+    }
+}
+
+TEST_F(CloudFileTest, AbsurdNumbersOfPointsAreRefusedBeforeMemoryIsTaken) {
+    const std::string most = "18446744073709551615";
+    for (const auto& [name, text] : test::cloudFiles()) {
+        SCOPED_TRACE(name);
+        std::string absurd = text;
+        if (name.find(".pcd") != std::string::npos) {
+            absurd = replaced(replaced(text, "WIDTH 12", "WIDTH " + most), "POINTS 12",
+                              "POINTS " + most);
+        } else if (name.find(".ply") != std::string::npos) {
+            absurd = replaced(text, "vertex 12", "vertex " + most);
+        } else if (name.find(".npy") != std::string::npos) {
+            absurd = replaced(text, "(12,)", "(" + most + ",)");
+            absurd = replaced(absurd, std::string(most.size() - 2, ' '), "");
+        } else if (name.find(".las") != std::string::npos) {
+            absurd.replace(107, 4, "\xff\xff\xff\xff");
+            if (name == "new.las") absurd.replace(247, 8, std::string(8, '\xff'));
+        } else {
+            continue;  // has no header
+        }
+        EXPECT_THAT(complaint(name, absurd),
+                    AnyOf(HasSubstr("bytes are there"), HasSubstr("are there; is it truncated")));
+    }
+}
+
+/// Without points, no byte has to be there: the fields themselves are limited.
+TEST_F(CloudFileTest, AbsurdFieldsAreRefusedWithoutPoints) {
+    EXPECT_THAT(complaint("a.pcd",
+                          "FIELDS x y z a\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 4000000000\n"
+                          "WIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA binary\n"),
+                AllOf(HasSubstr("'a' (4000000000 times float32)"), HasSubstr("damaged")));
+    EXPECT_THAT(complaint("a.npy", test::npy("{'descr': [('x', '<f4', (288230376151711744,))], "
+                                             "'fortran_order': False, 'shape': (0,), }",
+                                             "")),
+                HasSubstr("'x' (288230376151711744 times float32)"));
+}
+
+// PCD
+
+TEST_F(CloudFileTest, PcdPaddingIsNoField) {
+    const CloudFile cloud = read("a.pcd", test::binaryPcd(filePoints()));
+    EXPECT_EQ(namesOf(cloud.table), "x, y, z, ring, t");
+    EXPECT_THAT(cloud.remarks, IsEmpty());
+    EXPECT_EQ(cloud.viewpoint, "");
+}
+
+TEST_F(CloudFileTest, PcdHeadersMayLackWhatIsUsual) {
+    const CloudFile cloud = read("a.pcd",
+                                 "VERSION 0.6\r\nCOLUMNS x y z\r\nSIZE 4 4 8\r\nTYPE F F F\r\n"
+                                 "WIDTH 2\r\nDATA ascii\r\n1 2 3\r\n\r\n nan\t-inf +7\r\n");
+    EXPECT_EQ(cloud.table.points, 2u);
+    EXPECT_TRUE(std::isnan(column(cloud.table, "x")[1]));
+    EXPECT_EQ(column(cloud.table, "y")[1], -std::numeric_limits<double>::infinity());
+    EXPECT_THAT(column(cloud.table, "z"), ElementsAre(3, 7));
+}
+
+TEST_F(CloudFileTest, PcdTextMayBeAsShortAsItCan) {
+    const std::string header = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nDATA ascii\n";
+    EXPECT_THAT(column(read("a.pcd", header + "1 2 3").table, "z"), ElementsAre(3));
+    EXPECT_THAT(complaint("a.pcd", header + "1 2"), HasSubstr("is it truncated?"));
+}
+
+TEST_F(CloudFileTest, PcdViewpointAndRestAreTold) {
+    const std::string moved =
+        replaced(test::binaryPcd(filePoints()), "VIEWPOINT 0 0 0", "VIEWPOINT 0 0 2");
+    const CloudFile cloud = read("a.pcd", moved + "more");
+    EXPECT_EQ(cloud.viewpoint, "0 0 2 1 0 0 0");
+    EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("4 bytes after")));
+}
+
+TEST_F(CloudFileTest, PcdComplaintsNameTheLine) {
+    const std::string text = test::asciiPcd(filePoints());
+    const auto complaintOn = [&](const std::string& what, const std::string& with) {
+        return complaint("a.pcd", replaced(text, what, with));
+    };
+    EXPECT_THAT(complaintOn("DATA ascii", "DATA binary_zip"),
+                AllOf(HasSubstr("line 11"), HasSubstr("binary_zip")));
+    EXPECT_THAT(complaintOn("SIZE 4 4", "SIZE 4"), HasSubstr("line 4: 5 values for 6 fields"));
+    EXPECT_THAT(complaintOn("SIZE 4", "SIZE 3"), HasSubstr("TYPE F and SIZE 3"));
+    EXPECT_THAT(complaintOn("COUNT 1", "COUNT x"), HasSubstr("'x' is no COUNT"));
+    EXPECT_THAT(complaintOn("WIDTH 12", "WIDTH 13"), HasSubstr("WIDTH times HEIGHT is 13"));
+    EXPECT_THAT(complaintOn("HEIGHT 1", "HEIGHTS 1"), HasSubstr("line 8: 'HEIGHTS'"));
+    EXPECT_THAT(complaintOn("HEIGHT 1", "WIDTH 1"), HasSubstr("line 8: WIDTH is there twice"));
+    EXPECT_THAT(complaintOn("1.500000 ", "1.5x "), HasSubstr("line 12: '1.5x' is no float32"));
+    EXPECT_THAT(complaintOn(" 70000\n", " 7e10\n"), HasSubstr("line 13: '7e10' is no uint32"));
+    EXPECT_THAT(complaintOn(" 70000\n", "\n"), HasSubstr("line 13: 8 numbers instead of 9"));
+    EXPECT_THAT(complaintOn("x y z", "x x z"), HasSubstr("'x' is there twice"));
+    EXPECT_THAT(complaintOn("COUNT 1", "COUNT 4294967295"), HasSubstr("bytes are there"));
+}
+
+TEST_F(CloudFileTest, PcdCompressedSizesAreChecked) {
+    std::string text = test::compressedPcd(filePoints());
+    const std::size_t sizes = text.find("binary_compressed\n") + 18;
+    const auto with = [&](std::size_t at, const std::string& bytes) {
+        std::string changed = text;
+        return complaint("a.pcd", changed.replace(sizes + at, bytes.size(), bytes));
+    };
+    EXPECT_THAT(with(0, "\xff\xff\xff\xff"), HasSubstr("is it truncated"));
+    EXPECT_THAT(with(4, "\xff\xff\xff\xff"), HasSubstr("cannot become 4294967295"));
+    EXPECT_THAT(with(4, std::string("\x10\0\0\0", 4)), HasSubstr("bytes are there"));
+    EXPECT_THAT(with(4, std::string("\x10\x7f\0\0", 4)), HasSubstr("but the header says 12 of 22"));
+    EXPECT_THAT(with(8, "\xff\xff"), HasSubstr("cannot be decompressed"));
+}
+
+// PLY
+
+TEST_F(CloudFileTest, PlyListsAndOtherElementsAreLeftOutAndTold) {
+    const std::string text = replaced(test::asciiPly({{1, 2, 3, 4, 5}}), "property uint t\n",
+                                      "property list int float more\nproperty uint t\n");
+    const CloudFile cloud = read("a.ply", replaced(text, " 4 5\n", " 4 2 7.5 8.5 5\n"));
+    EXPECT_EQ(namesOf(cloud.table), "x, y, z, ring, t");
+    EXPECT_THAT(column(cloud.table, "t"), ElementsAre(5));
+    EXPECT_THAT(cloud.remarks,
+                ElementsAre(HasSubstr("'camera'"), HasSubstr("more"), HasSubstr("'face'")));
+}
+
+TEST_F(CloudFileTest, PlyListsOfBinaryVerticesAreSkipped) {
+    test::Packed packed;
+    packed.addBig(1.0f).addBig(std::uint16_t{2}).addBig(7.0).addBig(8.0).addBig(2.0f).addBig(3.0f);
+    const std::string header =
+        "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\n"
+        "property list ushort double more\nproperty float y\nproperty float z\nend_header\n";
+    const CloudFile cloud = read("a.ply", header + packed.text);
+    EXPECT_THAT(column(cloud.table, "x"), ElementsAre(1));
+    EXPECT_THAT(column(cloud.table, "z"), ElementsAre(3));
+    packed.text[4] = '\x7f';  // a list of 32514
+    EXPECT_THAT(complaint("a.ply", header + packed.text), HasSubstr("but 0 are there"));
+}
+
+TEST_F(CloudFileTest, PlyComplaintsNameTheLine) {
+    const std::string text = test::asciiPly(filePoints());
+    const auto complaintOn = [&](const std::string& what, const std::string& with) {
+        return complaint("a.ply", replaced(text, what, with));
+    };
+    EXPECT_THAT(complaintOn("format ascii", "format zip"),
+                AllOf(HasSubstr("line 2"), HasSubstr("zip")));
+    EXPECT_THAT(complaintOn("format ascii 1.0\n", ""), HasSubstr("no format"));
+    EXPECT_THAT(complaintOn("property float x", "property half x"),
+                HasSubstr("line 7: 'half' is no type"));
+    EXPECT_THAT(complaintOn("list uchar float", "list float float"),
+                HasSubstr("line 5: the length of a list"));
+    EXPECT_THAT(complaintOn("element vertex", "element points"), HasSubstr("no 'vertex'"));
+    EXPECT_THAT(complaintOn("element camera", "elements camera"), HasSubstr("line 4: 'elements'"));
+    EXPECT_THAT(complaintOn(" 70000\n", "\n"), HasSubstr("line 17: 4 numbers, which do not fit"));
+    EXPECT_THAT(complaintOn(" 70000\n", " 1 2\n"), HasSubstr("line 17: 6 numbers"));
+    EXPECT_THAT(complaintOn(" 70000\n", " -1\n"), HasSubstr("'-1' is no uint32"));
+    EXPECT_THAT(complaintOn("2 1 2\n", "99 1 2\n"), HasSubstr("line 15"));
+}
+
+// LAS
+
+TEST_F(CloudFileTest, LasFieldsAreThoseOfThePointFormat) {
+    const PointTable old = read("a.las", test::las(filePoints(1))).table;
+    EXPECT_THAT(column(old, "return_number"), ElementsAre(2));
+    EXPECT_THAT(column(old, "number_of_returns"), ElementsAre(3));
+    EXPECT_THAT(column(old, "classification"), ElementsAre(2));
+    EXPECT_THAT(column(old, "scan_angle"), ElementsAre(-3));
+    EXPECT_THAT(column(old, "user_data"), ElementsAre(7));
+    EXPECT_THAT(column(old, "point_source_id"), ElementsAre(9));
+
+    const CloudFile modern = read("a.las", test::las(filePoints(1), true));
+    EXPECT_THAT(column(modern.table, "return_number"), ElementsAre(2));
+    EXPECT_THAT(column(modern.table, "number_of_returns"), ElementsAre(3));
+    EXPECT_THAT(column(modern.table, "scanner_channel"), ElementsAre(1));
+    EXPECT_THAT(column(modern.table, "classification"), ElementsAre(40));
+    EXPECT_THAT(column(modern.table, "scan_angle"), ElementsAre(testing::DoubleNear(-3, 1e-5)));
+    EXPECT_THAT(column(modern.table, "point_source_id"), ElementsAre(9));
+    EXPECT_THAT(modern.remarks, ElementsAre(HasSubstr("4 extra bytes")));
+}
+
+TEST_F(CloudFileTest, LasFlagsOfAPointAreFields) {
+    const std::size_t old_point = 227 + 3, new_point = 375 + 3;
+    std::string text = test::las(filePoints(2));  // the class byte is 0xe2: all three flags
+    text[old_point + 14] = '\x5a';                // with the scan direction
+    text[old_point + 28 + 14] = '\x9a';           // with the edge of the flight line
+    text[old_point + 28 + 15] = '\x82';           // withheld
+    const PointTable old = read("a.las", text).table;
+    EXPECT_THAT(column(old, "classification_flags"), ElementsAre(7, 4));
+    EXPECT_THAT(column(old, "scan_direction"), ElementsAre(1, 0));
+    EXPECT_THAT(column(old, "edge_of_flight_line"), ElementsAre(0, 1));
+    EXPECT_THAT(column(old, "return_number"), ElementsAre(2, 2));
+    EXPECT_THAT(column(old, "classification"), ElementsAre(2, 2));
+
+    text = test::las(filePoints(2), true);
+    text[new_point + 15] = '\x58';       // overlap, channel 1, scan direction
+    text[new_point + 34 + 15] = '\x91';  // synthetic, channel 1, edge of the flight line
+    const PointTable modern = read("a.las", text).table;
+    EXPECT_THAT(column(modern, "classification_flags"), ElementsAre(8, 1));
+    EXPECT_THAT(column(modern, "scan_direction"), ElementsAre(1, 0));
+    EXPECT_THAT(column(modern, "edge_of_flight_line"), ElementsAre(0, 1));
+    EXPECT_THAT(column(modern, "scanner_channel"), ElementsAre(1, 1));
+}
+
+TEST_F(CloudFileTest, LasRecordsBesideThePointsAreTold) {
+    std::string text = test::las(filePoints(), true);
+    text[100] = 2;
+    text[243] = 3;
+    EXPECT_THAT(
+        read("a.las", text + std::string(80, 'r')).remarks,
+        ElementsAre(HasSubstr("its variable length records (2)"),
+                    HasSubstr("extended variable length records (3)"), HasSubstr("4 extra bytes")));
+    EXPECT_THAT(read("a.las", test::las(filePoints()) + "more").remarks,
+                ElementsAre(HasSubstr("4 bytes after its last point")));
+}
+
+TEST_F(CloudFileTest, LasWithoutPointsHasItsFields) {
+    const PointTable table = read("a.las", test::las({})).table;
+    EXPECT_EQ(table.points, 0u);
+    EXPECT_THAT(namesOf(table), HasSubstr("gps_time"));
+}
+
+TEST_F(CloudFileTest, LasColoursFollowTheTime) {
+    std::string text = test::las(filePoints(1));
+    text[104] = 3;
+    text[105] = 34;
+    const PointTable table = read("a.las", text + std::string("\1\0\2\0\3\0", 6)).table;
+    EXPECT_THAT(column(table, "red"), ElementsAre(1));
+    EXPECT_THAT(column(table, "blue"), ElementsAre(3));
+}
+
+TEST_F(CloudFileTest, LasHeadersAreChecked) {
+    const auto with = [&](std::size_t at, const std::string& bytes) {
+        std::string text = test::las(filePoints());
+        return complaint("a.las", text.replace(at, bytes.size(), bytes));
+    };
+    EXPECT_THAT(with(104, "\x81"), HasSubstr("LAZ"));
+    EXPECT_THAT(with(104, "\x0b"), HasSubstr("byte 104: point format 11"));
+    EXPECT_THAT(with(25, "\5"), HasSubstr("LAS 1.5"));
+    EXPECT_THAT(with(105, std::string("\x1b\0", 2)), HasSubstr("27 bytes are too short"));
+    EXPECT_THAT(with(96, "\xff\xff\xff\xff"), HasSubstr("is it truncated"));
+    EXPECT_THAT(with(94, std::string("\1\0", 2)), HasSubstr("a header of 1 bytes"));
+    EXPECT_THAT(with(131, std::string(8, '\0')), HasSubstr("scale or offset"));
+    EXPECT_THAT(with(155, std::string(8, '\xff')), HasSubstr("scale or offset"));
+}
+
+// NPY
+
+TEST_F(CloudFileTest, NpyColumnsAreNamedByTheirPlace) {
+    const std::string numbers = test::Packed().add(1.0).add(2.0).add(3.0).add(4.0).add(5.0).text +
+                                test::Packed().add(6.0).add(7.0).add(8.0).add(9.0).add(10.0).text;
+    const auto header = [](const char* order, const char* shape) {
+        return std::string("{'descr': '<f8', 'fortran_order': ") + order + ", 'shape': " + shape +
+               ", }";
+    };
+    const PointTable rows = read("a.npy", test::npy(header("False", "(2, 5)"), numbers)).table;
+    EXPECT_EQ(namesOf(rows), "x, y, z, intensity, field_4");
+    EXPECT_THAT(column(rows, "y"), ElementsAre(2, 7));
+    EXPECT_THAT(column(rows, "field_4"), ElementsAre(5, 10));
+    const PointTable columns = read("a.npy", test::npy(header("True", "(2, 5)"), numbers)).table;
+    EXPECT_THAT(column(columns, "y"), ElementsAre(3, 4));
+    EXPECT_THAT(column(columns, "field_4"), ElementsAre(9, 10));
+    const PointTable image = read("a.npy", test::npy(header("False", "(1, 2, 5)"), numbers)).table;
+    EXPECT_THAT(column(image, "z"), ElementsAre(3, 8));
+}
+
+TEST_F(CloudFileTest, NpyHeadersAreChecked) {
+    const auto complaintOn = [&](const std::string& header) {
+        return complaint("a.npy", test::npy(header, std::string(240, '\0')));
+    };
+    const std::string rest = ", 'fortran_order': False, 'shape': (5, 3), }";
+    EXPECT_THAT(complaintOn("{'descr': '<f2'" + rest), HasSubstr("'<f2'"));
+    EXPECT_THAT(complaintOn("{'descr': '|O'" + rest), HasSubstr("'|O'"));
+    EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "(5, 3)", "(15,)")),
+                HasSubstr("1 dimensions"));
+    EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "5, 2")),
+                HasSubstr("2 numbers per point"));
+    EXPECT_THAT(
+        complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "9999999999, 9999999999, 3")),
+        HasSubstr("absurd"));
+    EXPECT_THAT(complaintOn("{'descr': [('x', '<f4'), ('y', '>f4')]" + rest),
+                HasSubstr("both byte orders"));
+    EXPECT_THAT(complaintOn("{'descr': [('x', '<f4', (9999999999, 9999999999))]" + rest),
+                HasSubstr("absurd"));
+    EXPECT_THAT(complaintOn("{'shape': (5, 3)}"), HasSubstr("'descr'"));
+    EXPECT_THAT(complaintOn("{'descr': '<f4"), HasSubstr("not understood at character"));
+    EXPECT_THAT(complaintOn("{'descr': " + std::string(60, '(')), HasSubstr("not understood"));
+    EXPECT_THAT(complaintOn("{'descr': __import__('os')" + rest), HasSubstr("not understood"));
+}
+
+TEST_F(CloudFileTest, NpyFieldsThatAreNoNumbersAreToldAndSkipped) {
+    test::Packed packed;
+    packed.add(1.0f).add(std::uint64_t{7}).add(2.0f).add(5.0f).add(6.0f).add(3.0f);
+    const CloudFile cloud =
+        read("a.npy", test::npy("{'descr': [('x', '<f4'), ('when', '<M8[ns]'), ('y', '<f4'), "
+                                "(('a title', 'n'), '<f4', (2,)), ('z', '<f4')], "
+                                "'fortran_order': False, 'shape': (1,), }",
+                                packed.text));
+    EXPECT_EQ(namesOf(cloud.table), "x, y, n, z");
+    EXPECT_THAT(column(cloud.table, "z"), ElementsAre(3));
+    EXPECT_THAT(columnOf(cloud.table, cloud.table.fields[2], 1), ElementsAre(6));
+    EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("when")));
+}
+
+// BIN
+
+TEST_F(CloudFileTest, BinFilesMayBeEmptyButNotCut) {
+    EXPECT_EQ(read("a.bin", "").table.points, 0u);
+    EXPECT_THAT(complaint("a", ""), HasSubstr("is empty"));
+    EXPECT_THAT(complaint("a.bin", std::string(15, '\0')), HasSubstr("15 bytes"));
+    EXPECT_THAT(complaint("a.bin", std::string(16, '\xee')),
+                HasSubstr("no point cloud: its first numbers are no points that a LiDAR sees"));
+    EXPECT_THAT(complaint("a.bin", std::string(16, 'x')), HasSubstr("it seems to be text. Known"));
+    // A picture is no cut .bin, whatever its size.
+    EXPECT_THAT(complaint("a.bin", "\xff\xd8\xff\xe0" + std::string(13, '\xee')),
+                HasSubstr("it seems to be a JPEG picture"));
+}
+
+/// Rows of sky before the first return, or no return at all.
+TEST_F(CloudFileTest, BinFilesMayBeginWithZeros) {
+    const std::vector<FilePoint> points = filePoints(400);
+    for (const int zeros : {300, 1000}) {
+        SCOPED_TRACE(zeros);
+        const auto without = static_cast<std::size_t>(zeros);
+        const PointTable none = read("a.bin", std::string(16 * without, '\0')).table;
+        EXPECT_THAT(column(none, "x"), AllOf(SizeIs(without), testing::Each(0)));
+        const PointTable four =
+            read("a.bin", std::string(16 * without, '\0') + test::bin(points)).table;
+        EXPECT_EQ(namesOf(four), "x, y, z, intensity");
+        ASSERT_EQ(four.points, without + 400);
+        EXPECT_EQ(column(four, "x")[without - 1], 0);
+        EXPECT_NEAR(column(four, "x")[without + 7], points[7].x_m, 1e-9);
+        const PointTable five =
+            read("a.bin", std::string(20 * without, '\0') + test::binWithRings(points)).table;
+        EXPECT_EQ(namesOf(five), "x, y, z, intensity, ring");
+        ASSERT_EQ(five.points, without + 400);
+        EXPECT_EQ(column(five, "ring")[without + 7], points[7].ring);
+    }
+    EXPECT_THAT(complaint("a.bin", std::string(8000, '\0') + std::string(1600, '\xee')),
+                HasSubstr("no point cloud: its first numbers are no points that a LiDAR sees"));
+    EXPECT_THAT(complaint("a", std::string(8000, '\0')), HasSubstr("no point cloud"));
+}
+
+TEST_F(CloudFileTest, BinPointsMayHaveRings) {
+    for (const int count : {20, 21, 400}) {  // of 20 points, the size is a multiple of 16, too
+        SCOPED_TRACE(count);
+        const std::vector<FilePoint> points = filePoints(count);
+        const PointTable table = read("a.pcd.bin", test::binWithRings(points)).table;
+        EXPECT_EQ(namesOf(table), "x, y, z, intensity, ring");
+        ASSERT_EQ(table.points, points.size());
+        EXPECT_NEAR(column(table, "y")[19], points[19].y_m, 1e-9);
+        EXPECT_EQ(column(table, "intensity")[19], 17);
+        EXPECT_EQ(column(table, "ring")[19], points[19].ring);
+    }
+    const std::string cut = test::binWithRings(filePoints(20)).substr(0, 384);
+    EXPECT_EQ(cloudFormatOf(write("cut", cut)), std::nullopt);
+    EXPECT_THAT(complaint("cut.bin", cut), HasSubstr("not a multiple of 20-byte points"));
+}
+
+/// The fifth numbers are 0 at first, as rings may be, and then times; intensities are up to 65535.
+TEST_F(CloudFileTest, BinPointsWithAnotherFifthNumberAreRefused) {
+    std::string text;
+    const auto add = [&](float number) {
+        text.append(reinterpret_cast<const char*>(&number), sizeof number);
+    };
+    for (int i = 0; i < 400; ++i) {
+        const auto number = static_cast<float>(i);
+        for (const float of_point : {0.3f + number, 2.5f, 1.2f, 30000 + number}) add(of_point);
+        add(i < 300 ? 0 : 1e-4f * number);
+    }
+    EXPECT_THAT(complaint("a.bin", text), HasSubstr("no point cloud: its first numbers are no "));
+}
+
+TEST_F(CloudFileTest, BinPointsWithoutRingsAreNotTakenForSome) {
+    std::vector<FilePoint> grid;  // whole metres, up to 255
+    for (int i = 0; i < 200; ++i) {
+        const auto number = static_cast<float>(i);
+        grid.push_back({number, std::fmod(number, 7.0f), 1, static_cast<std::uint16_t>(4), 0});
+    }
+    for (const auto& points : {grid, filePoints(20), filePoints(400)}) {
+        const PointTable table = read("a.bin", test::bin(points)).table;
+        EXPECT_EQ(namesOf(table), "x, y, z, intensity");
+        EXPECT_EQ(table.points, points.size());
+    }
+}
+
+}  // namespace
+}  // namespace hagen::recordings

@@ -1,0 +1,144 @@
+// Rawlogs as different MRPT versions pack them: not at all, with gzip, with zstd.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/mrpt/NewerClouds.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include <hagen/recordings/RawlogReader.h>
+#include <hagen/recordings/ScanSource.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <zstd.h>
+
+#include "support/Program.h"
+#include "support/Random.h"
+
+namespace hagen::recordings {
+namespace {
+
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+/// The entries of a log: comments with random text, together some 600 KB.
+std::string plainLog(int entries) {
+    mrpt::io::CMemoryStream stream;
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    test::Random random(9);
+    for (int i = 0; i < entries; ++i) {
+        mrpt::obs::CObservationComment comment;
+        comment.timestamp = mrpt::Clock::fromDouble(1.0);
+        for (int k = 0; k < 30000; ++k) {
+            comment.text += static_cast<char>('a' + random.whole(0, k < 15000 ? 25 : 1));
+        }
+        archive << comment;
+    }
+    return {static_cast<const char*>(stream.getRawBufferData()),
+            static_cast<std::size_t>(stream.getTotalBytesCount())};
+}
+
+std::string zstdOf(const std::string& bytes, bool has_checksum = false) {
+    const std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> context(ZSTD_createCCtx(),
+                                                                          ZSTD_freeCCtx);
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, has_checksum ? 1 : 0);
+    std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+    packed.resize(
+        ZSTD_compress2(context.get(), packed.data(), packed.size(), bytes.data(), bytes.size()));
+    return packed;
+}
+
+/// Reads a file to its end or to an error. Number of entries read, and the error message.
+std::pair<std::size_t, std::string> readAll(const fs::path& file) {
+    RawlogReader reader(file);
+    try {
+        while (reader.next()) {
+        }
+        EXPECT_EQ(reader.fractionRead(), 1.0);
+    } catch (const BrokenRawlog& e) {
+        return {reader.entries(), e.what()};
+    }
+    return {reader.entries(), ""};
+}
+
+TEST(PackedRawlog, TheSameEntriesHoweverItIsPacked) {
+    const test::TemporaryFolder folder;
+    const std::string plain = plainLog(20), packed = zstdOf(plain);
+    EXPECT_LT(packed.size(), plain.size());
+    const std::pair<std::size_t, std::string> all(20, "");
+    EXPECT_EQ(readAll(folder.write("plain", plain)), all);
+    EXPECT_EQ(readAll(folder.write("zstd", packed)), all);
+    EXPECT_EQ(readAll(folder.write("checked", zstdOf(plain, true))), all);
+    // Frames that end anywhere, one after the other.
+    EXPECT_EQ(readAll(folder.write("frames", zstdOf(plain.substr(0, 70000)) + zstdOf("") +
+                                                 zstdOf(plain.substr(70000)))),
+              all);
+    EXPECT_EQ(readAll(folder.write("twice", packed + packed)).first, 40u);
+}
+
+TEST(PackedRawlog, AZstdLogCutOffAnywhereGivesItsWholeEntriesAndThenSaysWhere) {
+    const test::TemporaryFolder folder;
+    const std::string packed = zstdOf(plainLog(20));
+    std::size_t most = 0;
+    for (std::size_t cut = 0; cut < 50; ++cut) {
+        const std::size_t size = 4 + cut * (packed.size() - 5) / 49;
+        const auto [entries, broken] = readAll(folder.write("cut", packed.substr(0, size)));
+        EXPECT_THAT(broken, HasSubstr("cut: entry " + std::to_string(entries) + " at byte "));
+        EXPECT_THAT(broken, HasSubstr("the file is truncated"));
+        EXPECT_GE(entries, most);
+        most = entries;
+    }
+    EXPECT_GE(most, 15u);
+}
+
+TEST(PackedRawlog, DamageOfAZstdLogIsTold) {
+    const test::TemporaryFolder folder;
+    std::string packed = zstdOf(plainLog(20), true);
+    packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 0x10);
+    EXPECT_NE(readAll(folder.write("damaged", packed)).second, "");
+    EXPECT_THAT(readAll(folder.write("behind", zstdOf(plainLog(2)) + "something else")).second,
+                HasSubstr("the compressed data is corrupt"));
+    EXPECT_NE(readAll(folder.write("magic", "\x28\xb5\x2f\xfd")).second, "");
+    // A frame with a window of 256 MiB, and its last block, which is empty.
+    const std::string long_window("\x28\xb5\x2f\xfd\x00\x90\x01\x00\x00", 9);
+    EXPECT_THAT(readAll(folder.write("long", long_window)).second,
+                HasSubstr("a window of more than 128 MiB; decompress it first"));
+}
+
+TEST(PackedRawlog, LogsOfMrpt3GiveTheirScansAndClouds) {
+    const auto folder = test::dataFolder("HAGEN_MRPT3_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA names no folder of logs of MRPT 3";
+    for (const char* name :
+         {"sample_mrpt3.rawlog", "sample_mrpt3_gzip.rawlog", "sample_mrpt3_simple_gzip.rawlog"}) {
+        SCOPED_TRACE(name);
+        const auto source = openRecording(folder / name);
+        const auto packets = source->nextScan();
+        const auto cloud = source->nextScan();
+        ASSERT_TRUE(packets && cloud);
+        EXPECT_FALSE(source->nextScan());
+        EXPECT_EQ(source->entriesKnown(), 5u);
+        EXPECT_EQ(cloud->observation->sensorLabel, "cloud");
+        // The cloud was made of the packets by MRPT.
+        auto scan = *std::dynamic_pointer_cast<const mrpt::obs::CObservationVelodyneScan>(
+            packets->observation);
+        scan.generatePointCloud();
+        Scan points;
+        ASSERT_TRUE(observations::readCloudPoints(*cloud->observation, points));
+        EXPECT_THAT(points.x_m, testing::ElementsAreArray(scan.point_cloud.x));
+        EXPECT_THAT(points.y_m, testing::ElementsAreArray(scan.point_cloud.y));
+        EXPECT_THAT(points.z_m, testing::ElementsAreArray(scan.point_cloud.z));
+        // What is written can be read again.
+        const test::TemporaryFolder out;
+        convert::RawlogWriter writer(out / "a.rawlog", false);
+        writer.write(*cloud->observation);
+        writer.commit();
+        Scan again;
+        const auto entry = RawlogReader(out / "a.rawlog").next();
+        observations::readCloudPoints(dynamic_cast<const mrpt::obs::CObservation&>(*entry), again);
+        EXPECT_EQ(again.x_m, points.x_m);
+        EXPECT_EQ(again.intensity, points.intensity);
+    }
+}
+
+}  // namespace
+}  // namespace hagen::recordings

@@ -1,0 +1,149 @@
+// The process that reads ahead, where it waits for a lock that nobody releases.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <signal.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <future>
+#include <thread>
+#include <vector>
+
+#include "recordings/rawlogs/RawlogTrial.h"
+#include "support/Program.h"
+
+namespace hagen::recordings {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+mrpt::obs::CObservationComment comment(const std::string& text) {
+    mrpt::obs::CObservationComment observation;
+    observation.text = text;
+    observation.timestamp = mrpt::Clock::fromDouble(1.0);
+    return observation;
+}
+
+/// An object whose reading takes long: it sleeps, then computes.
+class SlowObject : public mrpt::serialization::CSerializable {
+    DEFINE_SERIALIZABLE(SlowObject, hagen::recordings)
+};
+IMPLEMENTS_SERIALIZABLE(SlowObject, CSerializable, hagen::recordings)
+
+std::uint8_t SlowObject::serializeGetVersion() const { return 0; }
+void SlowObject::serializeTo(mrpt::serialization::CArchive&) const {}
+void SlowObject::serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(150);
+    while (std::chrono::steady_clock::now() < end) {
+    }
+}
+
+/// An object whose reading waits for what nobody does, as for a lock that another thread of the
+/// program held when its process was copied: once for each file in `locks`.
+class LockedObject : public mrpt::serialization::CSerializable {
+    DEFINE_SERIALIZABLE(LockedObject, hagen::recordings)
+};
+IMPLEMENTS_SERIALIZABLE(LockedObject, CSerializable, hagen::recordings)
+
+fs::path locks;
+
+std::uint8_t LockedObject::serializeGetVersion() const { return 0; }
+void LockedObject::serializeTo(mrpt::serialization::CArchive&) const {}
+void LockedObject::serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) {
+    if (fs::is_empty(locks)) return;
+    fs::remove(fs::directory_iterator(locks)->path());
+    std::promise<void>().get_future().wait();
+}
+
+class RawlogTrialTest : public testing::Test {
+ protected:
+    RawlogTrialTest() {
+        mrpt::rtti::registerClass(CLASS_ID(LockedObject));
+        locks = folder_ / "locks";
+        fs::create_directory(locks);
+        convert::RawlogWriter writer(folder_ / "a.rawlog", false);
+        writer.write(comment("before"));
+        writer.write(comment("before, too"));
+        writer.write(LockedObject());
+        writer.write(comment("after"));
+        writer.commit();
+    }
+
+    /// What comes of the entries where the reader waits `times` times.
+    std::vector<EntryVerdict> verdicts(int times) {
+        for (int i = 0; i < times; ++i) std::ofstream(locks / std::to_string(i)) << 'x';
+        const int file = open((folder_ / "a.rawlog").c_str(), O_RDONLY | O_CLOEXEC);
+        std::vector<EntryVerdict> verdicts;
+        {
+            RawlogTrial trial(folder_ / "a.rawlog", file, std::chrono::milliseconds(50));
+            do verdicts.push_back(trial.next());
+            while (verdicts.back().kind == EntryVerdict::Kind::Sound);
+        }
+        close(file);
+        return verdicts;
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(RawlogTrialTest, AnotherProcessTakesThePlaceOfOneThatStandsStill) {
+    const auto expected = verdicts(0);
+    ASSERT_EQ(expected.size(), 5u);
+    for (const int times : {1, 2}) {
+        const auto told = verdicts(times);
+        ASSERT_EQ(told.size(), 5u);
+        for (std::size_t entry = 0; entry < 5; ++entry) {
+            EXPECT_EQ(told[entry].kind, expected[entry].kind);
+            EXPECT_EQ(told[entry].end, expected[entry].end);
+        }
+        EXPECT_TRUE(fs::is_empty(locks));
+    }
+}
+
+/// Which is longer than the patience, but it does not wait for a lock.
+TEST_F(RawlogTrialTest, AReaderThatIsSlowIsWaitedFor) {
+    mrpt::rtti::registerClass(CLASS_ID(SlowObject));
+    convert::RawlogWriter writer(folder_ / "a.rawlog", true);
+    for (int i = 0; i < 4; ++i) writer.write(SlowObject());
+    writer.commit();
+    EXPECT_EQ(verdicts(0).size(), 5u);
+    EXPECT_EQ(verdicts(0).back().kind, EntryVerdict::Kind::End);
+}
+
+/// With an interval timer, whose signals end system calls early.
+TEST_F(RawlogTrialTest, SignalsDoNotProlongTheWait) {
+    struct sigaction none {
+    }, before{};
+    none.sa_handler = [](int) {};
+    sigaction(SIGALRM, &none, &before);
+    const itimerval often{{0, 10000}, {0, 10000}}, never{};
+    setitimer(ITIMER_REAL, &often, nullptr);
+    const auto told = verdicts(1);
+    setitimer(ITIMER_REAL, &never, nullptr);
+    sigaction(SIGALRM, &before, nullptr);
+    EXPECT_EQ(told.size(), 5u);
+    EXPECT_TRUE(fs::is_empty(locks));
+}
+
+TEST_F(RawlogTrialTest, AReaderThatAlwaysStandsStillIsGivenUp) {
+    const auto told = verdicts(10);
+    ASSERT_EQ(told.size(), 3u);
+    EXPECT_EQ(told[2].kind, EntryVerdict::Kind::Broken);
+    EXPECT_EQ(told[2].end, told[1].end);
+    EXPECT_THAT(told[2].why,
+                AllOf(HasSubstr("a.rawlog: entry 2 at byte " + std::to_string(told[1].end)),
+                      HasSubstr("MRPT's reader stands still at it")));
+    EXPECT_EQ(std::distance(fs::directory_iterator(locks), {}), 10 - RawlogTrial::kMostStarts);
+}
+
+}  // namespace
+}  // namespace hagen::recordings

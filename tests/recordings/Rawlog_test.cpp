@@ -1,0 +1,345 @@
+// Tests RawlogReader and RawlogWriter against each other and against MRPT's CRawlog.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/recordings/RawlogReader.h>
+#include <mrpt/io/CFileOutputStream.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CRawlog.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+#include "support/Program.h"
+
+namespace hagen::recordings {
+namespace {
+
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+using mrpt::obs::CObservationComment;
+
+CObservationComment comment(const std::string& text) {
+    CObservationComment observation;
+    observation.text = text;
+    observation.timestamp = mrpt::Clock::fromDouble(1.0);
+    return observation;
+}
+
+/// A log of comments "0", "1", ... with enough random text that it does not compress.
+void writeLog(const fs::path& file, int entries) {
+    convert::RawlogWriter writer(file, true);
+    for (int i = 0; i < entries; ++i) {
+        std::string text = std::to_string(i) + " ";
+        for (int k = 0; k < 300; ++k) text += static_cast<char>('a' + (i * 7919 + k * k * 31) % 26);
+        writer.write(comment(text));
+    }
+    writer.commit();
+}
+
+TEST(Rawlog, EntriesComeBackInOrder) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "a.rawlog", 20);
+    RawlogReader reader(folder / "a.rawlog");
+    for (int i = 0; i < 20; ++i) {
+        const auto entry = std::dynamic_pointer_cast<CObservationComment>(reader.next());
+        ASSERT_NE(entry, nullptr);
+        EXPECT_EQ(std::stoi(entry->text), i);
+    }
+    EXPECT_EQ(reader.next(), nullptr);
+    EXPECT_EQ(reader.next(), nullptr);
+    EXPECT_EQ(reader.entries(), 20u);
+}
+
+TEST(Rawlog, MrptReadsWhatWeWrite) {
+    const test::TemporaryFolder folder;
+    convert::RawlogWriter writer(folder / "a.rawlog", false);
+    for (int i = 0; i < 5; ++i) writer.write(mrpt::obs::CObservationRobotPose());
+    writer.commit();
+    mrpt::obs::CRawlog rawlog;
+    ASSERT_TRUE(rawlog.loadFromRawLogFile((folder / "a.rawlog").string()));
+    EXPECT_EQ(rawlog.size(), 5u);
+}
+
+TEST(Rawlog, TheSameEntriesGiveTheSameBytes) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "a.rawlog", 20);
+    writeLog(folder / "b.rawlog", 20);
+    EXPECT_EQ(test::readFile(folder / "a.rawlog"), test::readFile(folder / "b.rawlog"));
+}
+
+/// Reads a file to its end or to an error. Number of entries read, and the error message.
+std::pair<std::size_t, std::string> readAll(const fs::path& file) {
+    RawlogReader reader(file);
+    try {
+        while (reader.next()) {
+        }
+    } catch (const BrokenRawlog& e) {
+        EXPECT_THAT(e.what(), HasSubstr(file.string()));
+        return {reader.entries(), e.what()};
+    }
+    return {reader.entries(), ""};
+}
+
+TEST(Rawlog, ALogCutOffAnywhereGivesItsWholeEntriesAndThenSaysWhere) {
+    const test::TemporaryFolder folder;
+    for (const int entries : {3, 20}) {
+        writeLog(folder / "whole.rawlog", entries);
+        const std::string bytes = test::readFile(folder / "whole.rawlog");
+        for (std::size_t length = 1; length < bytes.size(); ++length) {
+            const auto [read, broken] =
+                readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
+            ASSERT_NE(broken, "") << length << " of " << bytes.size();
+            ASSERT_LE(read, static_cast<std::size_t>(entries));
+        }
+        EXPECT_EQ(readAll(folder / "whole.rawlog"),
+                  (std::pair<std::size_t, std::string>(entries, "")));
+    }
+}
+
+TEST(Rawlog, AnUnpackedLogCutOffAnywhereSaysSo) {
+    const test::TemporaryFolder folder;
+    std::string bytes;
+    {
+        mrpt::io::CFileOutputStream stream((folder / "plain.rawlog").string());
+        auto archive = mrpt::serialization::archiveFrom(stream);
+        for (int i = 0; i < 3; ++i) archive << comment("plain " + std::to_string(i));
+    }
+    bytes = test::readFile(folder / "plain.rawlog");
+    EXPECT_EQ(readAll(folder / "plain.rawlog").first, 3u);
+    const std::size_t entry = bytes.size() / 3;  // all entries have the same size
+    for (std::size_t length = 1; length < bytes.size(); ++length) {
+        const auto [read, broken] = readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
+        ASSERT_EQ(read, length / entry);
+        ASSERT_EQ(broken.empty(), length % entry == 0) << length;
+    }
+}
+
+TEST(Rawlog, DamagedBytesAreTold) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "whole.rawlog", 20);
+    std::string bytes = test::readFile(folder / "whole.rawlog");
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x10);
+    EXPECT_NE(readAll(folder.write("damaged.rawlog", bytes)).second, "");
+}
+
+TEST(Rawlog, GzipMembersOneAfterTheOtherAreOneLog) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "a.rawlog", 3);
+    const std::string bytes = test::readFile(folder / "a.rawlog");
+    EXPECT_EQ(readAll(folder.write("twice.rawlog", bytes + bytes)).first, 6u);
+}
+
+/// A log in which each entry fills a member, and the file size after each.
+std::vector<std::size_t> writeLargeEntries(const fs::path& file, int entries) {
+    convert::RawlogWriter writer(file, true);
+    std::vector<std::size_t> ends;
+    convert::Bytes bytes, member, packed;
+    for (int i = 0; i < entries; ++i) {
+        bytes.clear();
+        mrpt::obs::CObservationRobotPose entry;
+        entry.sensorLabel = std::string(300000, static_cast<char>('a' + i));
+        convert::serialise(entry, bytes);
+        writer.gather(bytes, member);
+        convert::packGzipMember(member, packed);
+        writer.writeMember(packed);
+        ends.push_back(packed.size() + (ends.empty() ? 0 : ends.back()));
+    }
+    writer.commit();
+    return ends;
+}
+
+/// As on a tape, or from a file system that had allocated more. gzip(1) ignores them, too.
+TEST(Rawlog, ZerosAfterTheLastMemberAreNoDamage) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "a.rawlog", 20);
+    const std::string log = test::readFile(folder / "a.rawlog");
+    for (const std::size_t zeros : {1u, 512u, 300000u}) {
+        RawlogReader reader(folder.write("zeros.rawlog", log + std::string(zeros, '\0')));
+        while (reader.next()) {
+        }
+        EXPECT_EQ(reader.entries(), 20u);
+        EXPECT_EQ(reader.fractionRead(), 1.0);
+    }
+    RawlogReader other(folder.write("other.rawlog", log + std::string(512, '\0') + "x"));
+    EXPECT_THROW(while (other.next()){}, BrokenRawlog);
+}
+
+TEST(Rawlog, AFileThatIsRemovedMeanwhileIsReadToItsEnd) {
+    const test::TemporaryFolder folder;
+    writeLog(folder / "a.rawlog", 20);
+    RawlogReader reader(folder / "a.rawlog");
+    ASSERT_NE(reader.next(), nullptr);
+    fs::remove(folder / "a.rawlog");
+    while (reader.next()) EXPECT_GT(reader.fractionRead(), 0);
+    EXPECT_EQ(reader.entries(), 20u);
+    EXPECT_EQ(reader.fractionRead(), 1.0);
+}
+
+TEST(Rawlog, MembersEndWithTheEntryThatFillsThem) {
+    const test::TemporaryFolder folder;
+    convert::RawlogWriter writer(folder / "a.rawlog", false);
+    convert::Bytes small(1000, 1), member;
+    for (int i = 0; i < 262; ++i) {
+        convert::Bytes entries = small;
+        writer.gather(entries, member);
+        ASSERT_TRUE(member.empty()) << i;
+    }
+    convert::Bytes entries(5000, 2);  // starts below 256 KiB and ends above
+    writer.gather(entries, member);
+    ASSERT_EQ(member.size(), 267000u);
+    EXPECT_EQ(member.front(), 1);
+    EXPECT_EQ(member.back(), 2);
+    entries = small;
+    writer.gather(entries, member);
+    EXPECT_TRUE(member.empty());
+}
+
+TEST(Rawlog, ALogOfSeveralMembersIsReadByMrptAndByUs) {
+    const test::TemporaryFolder folder;
+    const auto ends = writeLargeEntries(folder / "a.rawlog", 4);
+    EXPECT_EQ(fs::file_size(folder / "a.rawlog"), ends.back());
+    EXPECT_EQ(readAll(folder / "a.rawlog"), (std::pair<std::size_t, std::string>(4, "")));
+    mrpt::obs::CRawlog rawlog;
+    ASSERT_TRUE(rawlog.loadFromRawLogFile((folder / "a.rawlog").string()));
+    ASSERT_EQ(rawlog.size(), 4u);
+    EXPECT_EQ(rawlog.getAsObservation(3)->sensorLabel, std::string(300000, 'd'));
+}
+
+TEST(Rawlog, ALogCutOffWithinALaterMemberSaysSo) {
+    const test::TemporaryFolder folder;
+    const auto ends = writeLargeEntries(folder / "whole.rawlog", 3);
+    const std::string bytes = test::readFile(folder / "whole.rawlog");
+    // A file cut between two members looks complete.
+    for (std::size_t length = ends[0] + 1; length < ends[1]; ++length) {
+        const auto [read, broken] = readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
+        ASSERT_GE(read, 1u);  // the second one, too, if only its checksum is missing
+        ASSERT_NE(broken, "") << length;
+    }
+}
+
+TEST(Rawlog, WhatComesAfterAMemberAndIsNoneIsTold) {
+    const test::TemporaryFolder folder;
+    const auto ends = writeLargeEntries(folder / "whole.rawlog", 3);
+    const std::string bytes = test::readFile(folder / "whole.rawlog");
+    for (const std::size_t at : {ends[0], ends[0] + 1, ends[0] + 2, ends[1]}) {
+        std::string damaged = bytes;
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x20);  // in the next member's header
+        const auto [read, broken] = readAll(folder.write("damaged.rawlog", damaged));
+        EXPECT_EQ(read, at < ends[1] ? 1u : 2u);
+        EXPECT_THAT(broken, HasSubstr("compressed data is corrupt")) << at << broken;
+    }
+    const auto [read, broken] = readAll(folder.write("longer.rawlog", bytes + "garbage"));
+    EXPECT_EQ(read, 3u);
+    EXPECT_NE(broken, "");
+}
+
+TEST(Rawlog, ALogWithoutEntriesIsAGzipFileAllTheSame) {
+    const test::TemporaryFolder folder;
+    convert::RawlogWriter(folder / "a.rawlog", false).commit();
+    mrpt::obs::CRawlog rawlog;
+    EXPECT_TRUE(rawlog.loadFromRawLogFile((folder / "a.rawlog").string()));
+    EXPECT_EQ(rawlog.size(), 0u);
+}
+
+TEST(Rawlog, AClassThatIsNotKnownIsNamed) {
+    const test::TemporaryFolder folder;
+    mrpt::obs::CObservationRobotPose pose;
+    {
+        mrpt::io::CFileOutputStream stream((folder / "plain.rawlog").string());
+        mrpt::serialization::archiveFrom(stream) << pose;
+    }
+    std::string bytes = test::readFile(folder / "plain.rawlog");
+    bytes.replace(bytes.find("RobotPose"), 9, "RobotMood");
+    EXPECT_THAT(readAll(folder.write("mood.rawlog", bytes)).second,
+                HasSubstr("CObservationRobotMood"));
+}
+
+TEST(Rawlog, WhatIsNoRawlogIsRefused) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW(RawlogReader(folder / "none.rawlog"), std::runtime_error);
+    EXPECT_THROW(RawlogReader(folder.write("empty.rawlog", "")), std::runtime_error);
+    for (const std::string& text : {std::string("just some text, and more of it than a header"),
+                                    std::string(500, '\0'), std::string(500, '\xff')}) {
+        RawlogReader reader(folder.write("text.rawlog", text));
+        EXPECT_THROW(reader.next(), BrokenRawlog);
+    }
+    const std::string garbage = "just some text, and more of it than a header";
+    EXPECT_THAT(readAll(folder.write("text.rawlog", garbage)).second,
+                AllOf(HasSubstr("text.rawlog: is no recording: "), HasSubstr("Known are rawlogs")));
+    const auto packed = folder.write("log.bz2", "BZh91AY&SY");
+    EXPECT_THAT(readAll(packed).second,
+                HasSubstr("is no recording: it seems to be packed by bzip2: unpack it first"));
+    // Behind an entry, it is a recording.
+    convert::Bytes entry;
+    convert::serialise(comment("first"), entry);
+    const std::string bytes(entry.begin(), entry.end());
+    EXPECT_THAT(readAll(folder.write("longer.rawlog", bytes + garbage)).second,
+                HasSubstr("longer.rawlog: entry 1 at byte " + std::to_string(bytes.size()) +
+                          " (uncompressed) cannot be read: it is not an MRPT object"));
+}
+
+/// An object whose reading ends the process, as that of some of MRPT's does on corrupt data.
+class CrashingObject : public mrpt::serialization::CSerializable {
+    DEFINE_SERIALIZABLE(CrashingObject, hagen::recordings)
+};
+IMPLEMENTS_SERIALIZABLE(CrashingObject, CSerializable, hagen::recordings)
+
+std::uint8_t CrashingObject::serializeGetVersion() const { return 0; }
+void CrashingObject::serializeTo(mrpt::serialization::CArchive&) const {}
+void CrashingObject::serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) { std::abort(); }
+
+TEST(Rawlog, AnEntryThatCrashesItsReaderIsOneThatCannotBeRead) {
+    const test::TemporaryFolder folder;
+    mrpt::rtti::registerClass(CLASS_ID(CrashingObject));
+    convert::RawlogWriter writer(folder / "a.rawlog", false);
+    writer.write(comment("before"));
+    writer.write(CrashingObject());
+    writer.write(comment("after"));
+    writer.commit();
+    const auto [entries, why] = readAll(folder / "a.rawlog");
+    EXPECT_EQ(entries, 1u);
+    EXPECT_THAT(why, AllOf(HasSubstr("a.rawlog: entry 1 at byte "), HasSubstr("Aborted")));
+}
+
+/// The count of a text, 4 bytes before it, made larger than the file.
+TEST(Rawlog, ACountThatTheFileCannotHoldIsRefusedWhereItStands) {
+    const test::TemporaryFolder folder;
+    convert::Bytes bytes;
+    convert::serialise(comment("first"), bytes);
+    const std::size_t second = bytes.size();
+    convert::serialise(comment(std::string(1000, 'x')), bytes);
+    std::string text(bytes.begin(), bytes.end());
+    const std::size_t count = text.find("xxx") - 4;
+    for (const std::uint32_t wrong : {400'000'000u, 3'900'000'000u}) {
+        text.replace(count, 4, reinterpret_cast<const char*>(&wrong), 4);
+        const auto [entries, why] = readAll(folder.write("a.rawlog", text));
+        EXPECT_EQ(entries, 1u);
+        EXPECT_THAT(why, HasSubstr("entry 1 at byte " + std::to_string(second)));
+#ifndef __SANITIZE_ADDRESS__  // whose shadow memory no limit can tell from the reader's
+        EXPECT_THAT(why, HasSubstr("asks for more memory at byte " + std::to_string(count + 4)));
+#endif
+    }
+}
+
+TEST(Rawlog, AWriterThatIsGivenUpLeavesNothing) {
+    const test::TemporaryFolder folder;
+    { convert::RawlogWriter(folder / "a.rawlog", false).write(comment("a")); }
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Rawlog, APartIsWholeAndReadable) {
+    const test::TemporaryFolder folder;
+    convert::RawlogWriter writer(folder / "a.rawlog", false);
+    writer.write(comment("a"));
+    EXPECT_EQ(writer.keepPartial(), folder / "a.partial.rawlog");
+    RawlogReader reader(folder / "a.partial.rawlog");
+    EXPECT_NE(reader.next(), nullptr);
+    EXPECT_EQ(reader.next(), nullptr);
+}
+
+}  // namespace
+}  // namespace hagen::recordings

@@ -1,0 +1,466 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneEncoder.h>
+#include <hagen/recordings/VelodyneCapture.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/CaptureWriter.h"
+#include "support/Captures.h"
+#include "support/Hdl64.h"
+#include "support/Program.h"
+#include "support/Random.h"
+
+namespace hagen::recordings {
+namespace {
+
+using mrpt::obs::CObservationVelodyneScan;
+using observations::decodePackets;
+using sensors::velodyneModel;
+using test::ByteString;
+using test::CaptureWriter;
+using test::SentDatagram;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+using Packets = std::vector<ByteString>;
+using Turns = std::vector<CObservationVelodyneScan::Ptr>;
+
+/// Packets of a sensor that turns ten times per second, from this azimuth on.
+Packets packetsOf(const std::string& model_name, int firings, double first_azimuth_deg = 0,
+                  std::uint32_t first_time_us = 1000000, bool is_dual = false) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel(model_name);
+    test::Random random(static_cast<unsigned>(firings));
+    observations::Firings all;
+    all.range_m = random.image(model.lasers, firings, 1.0f, 50.0f, 0.1);
+    all.intensity = random.image(model.lasers, firings, 0.0f, 1.0f, 0.0);
+    if (is_dual) all.last_range_m = all.range_m;
+    all.first_azimuth_deg = first_azimuth_deg;
+    all.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;
+    all.first_time_us = first_time_us;
+    Packets packets;
+    for (const auto& packet : encodePackets(model, all)) packets.push_back(test::bytesOf(packet));
+    return packets;
+}
+
+double azimuthDegOf(const ByteString& packet) {
+    const auto at = [&](std::size_t i) { return static_cast<unsigned char>(packet[i]); };
+    return 0.01 * (at(2) + 256 * at(3));
+}
+
+Packets packetsOf(const Turns& turns) {
+    Packets packets;
+    for (const auto& turn : turns) {
+        for (const auto& packet : turn->scan_packets) packets.push_back(test::bytesOf(packet));
+    }
+    return packets;
+}
+
+class VelodyneCaptureTest : public testing::Test {
+ protected:
+    static SentDatagram sent(const ByteString& packet, double time_s = 1700000000) {
+        SentDatagram datagram;
+        datagram.content = packet;
+        datagram.time_s = time_s;
+        return datagram;
+    }
+    static CaptureWriter captureOf(const Packets& packets) {
+        CaptureWriter writer;
+        double time_s = 1700000000;
+        for (const ByteString& packet : packets) {
+            writer.datagram(sent(packet, time_s));
+            time_s += 0.001;
+        }
+        return writer;
+    }
+    Turns read(const ByteString& bytes) {
+        return readFile(test::writeBytes(folder_ / "a.pcap", bytes));
+    }
+    Turns readFile(const std::filesystem::path& file) {
+        VelodyneCapture capture(file);
+        Turns turns;
+        broken_ = test::messageOf([&] {
+            while (const auto turn = capture.next()) turns.push_back(turn);
+        });
+        remarks_ = capture.remarks();
+        return turns;
+    }
+    std::string broken_;
+    std::vector<std::string> remarks_;
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(VelodyneCaptureTest, ATurnEndsWhereTheAzimuthWraps) {
+    for (const std::string model : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
+        SCOPED_TRACE(model);
+        const double period_us = sensors::velodyneModel(model).firing_period_us;
+        const Packets packets = packetsOf(model, static_cast<int>(310e3 / period_us), 200.0);
+        const Turns turns = read(captureOf(packets).bytes());
+        ASSERT_EQ(turns.size(), 4u);  // 160 degrees, two whole turns, the rest
+        EXPECT_EQ(packetsOf(turns), packets);
+        for (std::size_t i = 0; i < turns.size(); ++i) {
+            const Packets of_turn = packetsOf({turns[i]});
+            EXPECT_TRUE(std::is_sorted(of_turn.begin(), of_turn.end(),
+                                       [](const ByteString& a, const ByteString& b) {
+                                           return azimuthDegOf(a) < azimuthDegOf(b);
+                                       }));
+            EXPECT_EQ(turns[i]->sensorLabel, "velodyne");
+            Scan scan;
+            EXPECT_EQ(decodePackets(*turns[i], scan), 0u);
+            EXPECT_EQ(observations::sensorOf(*turns[i]).name, model);
+            EXPECT_GT(scan.time_s.back(), 0.0f);
+            EXPECT_LT(scan.time_s.back(), 0.102f);
+        }
+        EXPECT_EQ(broken_, "");
+        EXPECT_EQ(remarks_[0], "velodyne (" + model + " at 10.0.0.100, port 2368): " +
+                                   std::to_string(packets.size()) + " packets in 4 turns");
+        EXPECT_THAT(remarks_[1], HasSubstr("; left out: none"));
+    }
+}
+
+TEST_F(VelodyneCaptureTest, ATurnHasTheTimeOfItsFirstPacketAndTheLimitsOfItsSensor) {
+    const Turns turns = read(captureOf(packetsOf("VLP-16", 24 * 100, 0.0)).bytes());
+    ASSERT_EQ(turns.size(), 2u);
+    EXPECT_NEAR(mrpt::Clock::toDouble(turns[0]->timestamp), 1700000000.0, 1e-6);
+    EXPECT_NEAR(mrpt::Clock::toDouble(turns[1]->timestamp),
+                1700000000.0 + 0.001 * static_cast<double>(turns[0]->scan_packets.size()), 1e-4);
+    EXPECT_EQ(turns[0]->minRange, 0.5);
+    EXPECT_EQ(turns[0]->maxRange, 120.0);
+}
+
+TEST_F(VelodyneCaptureTest, LostPacketsAreCountedByTheSensorsClock) {
+    Packets packets = packetsOf("VLP-16", 24 * 200);
+    packets.erase(packets.begin() + 50);
+    packets.erase(packets.begin() + 120, packets.begin() + 127);
+    EXPECT_EQ(packetsOf(read(captureOf(packets).bytes())), packets);
+    EXPECT_THAT(remarks_[0], HasSubstr(", 8 packets lost"));
+}
+
+TEST_F(VelodyneCaptureTest, ALossOfAWholeTurnDoesNotJoinTheTurnsAroundIt) {
+    Packets packets = packetsOf("VLP-16", 24 * 200);  // 75.4 packets a turn
+    packets.erase(packets.begin() + 10, packets.begin() + 110);
+    const Turns turns = read(captureOf(packets).bytes());
+    ASSERT_EQ(turns.size(), 3u);
+    EXPECT_EQ(turns[0]->scan_packets.size(), 10u);
+    EXPECT_THAT(remarks_[0], HasSubstr(", 100 packets lost"));
+}
+
+TEST_F(VelodyneCaptureTest, PacketsOutOfOrderArePutBack) {
+    const Packets packets = packetsOf("VLP-16", 24 * 200);
+    Packets mixed = packets;
+    std::swap(mixed[20], mixed[21]);
+    std::rotate(mixed.begin() + 70, mixed.begin() + 71, mixed.begin() + 82);  // across a wrap
+    const Turns turns = read(captureOf(mixed).bytes());
+    EXPECT_EQ(packetsOf(turns), packets);
+    EXPECT_EQ(turns.size(), 3u);
+    EXPECT_THAT(remarks_[0], HasSubstr(", 2 packets out of order, put back"));
+}
+
+TEST_F(VelodyneCaptureTest, RepeatedPacketsAreLeftOut) {
+    const Packets packets = packetsOf("HDL-32E", 12 * 100);
+    Packets doubled;
+    for (const ByteString& packet : packets) doubled.insert(doubled.end(), 2, packet);
+    EXPECT_EQ(packetsOf(read(captureOf(doubled).bytes())), packets);
+    EXPECT_THAT(remarks_[0], HasSubstr(", 100 packets repeated, left out"));
+}
+
+/// As by a slower path: each tenth packet comes again 30 ms later, and one came so late only.
+TEST_F(VelodyneCaptureTest, PacketsThatAreFarTooLateCutNoTurn) {
+    const Packets packets = packetsOf("VLP-16", 24 * 200);
+    Packets with_copies, without_one;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+        if (i != 100) {
+            with_copies.push_back(packets[i]);
+            without_one.push_back(packets[i]);
+        }
+        if (i >= 23 && i % 10 == 0) with_copies.push_back(packets[i - 23]);
+        if (i == 123) with_copies.push_back(packets[100]);
+    }
+    const Turns turns = read(captureOf(with_copies).bytes());
+    EXPECT_EQ(packetsOf(turns), without_one);
+    EXPECT_EQ(turns.size(), 3u);
+    EXPECT_THAT(remarks_[0], HasSubstr(", 1 packet lost"));
+    EXPECT_THAT(remarks_[0], HasSubstr(", 18 packets more than sixteen packets late, left out"));
+    EXPECT_EQ(remarks_[0].find("interruption"), std::string::npos) << remarks_[0];
+}
+
+/// By little more than sixteen packets, so that later ones could be late ones of before.
+TEST_F(VelodyneCaptureTest, AClockThatIsSetBackByLittleLosesNothing) {
+    for (const std::uint32_t back_us : {23000u, 30000u, 42000u}) {
+        Packets packets = packetsOf("VLP-16", 24 * 100, 0.0, 900000000u);
+        const auto end_us = static_cast<std::uint32_t>(900000000 + 100 * 1327);
+        const Packets later = packetsOf("VLP-16", 24 * 90, 100.0, end_us - back_us);
+        packets.insert(packets.end(), later.begin(), later.end());
+        EXPECT_EQ(packetsOf(read(captureOf(packets).bytes())), packets) << back_us;
+        EXPECT_THAT(remarks_[0], HasSubstr(", 1 interruption or jump")) << back_us;
+    }
+}
+
+/// The few packets after it say no less.
+TEST_F(VelodyneCaptureTest, AClockThatIsSetJustBeforeTheEndLosesNothing) {
+    Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 900000000u);
+    for (const std::uint32_t time_us : {100000000u, 50000000u}) {
+        const Packets later = packetsOf("VLP-16", 24 * 5, 200.0, time_us);
+        packets.insert(packets.end(), later.begin(), later.end());
+    }
+    EXPECT_EQ(packetsOf(read(captureOf(packets).bytes())), packets);
+    EXPECT_THAT(remarks_[0], HasSubstr(", 2 interruptions or jump"));
+}
+
+TEST_F(VelodyneCaptureTest, TheHourOfTheSensorsClockIsNoInterruption) {
+    const Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 3599980000u);
+    const Turns turns = read(captureOf(packets).bytes());
+    ASSERT_EQ(turns.size(), 1u);
+    EXPECT_EQ(packetsOf(turns), packets);
+    EXPECT_EQ(remarks_[0].find("lost"), std::string::npos) << remarks_[0];
+    EXPECT_EQ(remarks_[0].find("interruption"), std::string::npos) << remarks_[0];
+}
+
+TEST_F(VelodyneCaptureTest, AClockThatIsSetEndsATurnAndLosesNothing) {
+    Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 900000000u);
+    const Packets later = packetsOf("VLP-16", 24 * 30, 200.0, 100000000u);
+    packets.insert(packets.end(), later.begin(), later.end());
+    const Packets even_later = packetsOf("VLP-16", 24 * 20, 340.0, 200000000u);
+    packets.insert(packets.end(), even_later.begin(), even_later.end());
+    const Turns turns = read(captureOf(packets).bytes());
+    EXPECT_EQ(packetsOf(turns), packets);
+    ASSERT_GE(turns.size(), 3u);
+    EXPECT_EQ(turns[0]->scan_packets.size(), 40u);
+    EXPECT_EQ(turns[1]->scan_packets.size(), 30u);
+    EXPECT_THAT(remarks_[0], HasSubstr(", 2 interruptions or jump"));
+}
+
+TEST_F(VelodyneCaptureTest, ASensorThatStandsStillStillGivesScansOfBoundedSize) {
+    const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
+    observations::Firings firings;
+    firings.range_m.setConstant(16, 24 * 1000, 5.0f);
+    firings.intensity.setZero(16, 24 * 1000);
+    firings.azimuth_step_deg = 0;
+    Packets packets;
+    for (const auto& packet : encodePackets(model, firings))
+        packets.push_back(test::bytesOf(packet));
+    const Turns turns = read(captureOf(packets).bytes());
+    EXPECT_EQ(packetsOf(turns), packets);
+    for (const auto& turn : turns) EXPECT_LE(turn->scan_packets.size(), 190u);
+}
+
+TEST_F(VelodyneCaptureTest, DualReturnsAreDecodedAndNamed) {
+    const Packets packets = packetsOf("VLP-16", 24 * 100, 0.0, 0, true);
+    const Turns turns = read(captureOf(packets).bytes());
+    EXPECT_EQ(packetsOf(turns), packets);
+    EXPECT_EQ(turns.size(), 2u);
+    EXPECT_THAT(remarks_[0],
+                HasSubstr(", " + std::to_string(packets.size()) + " packets with dual returns"));
+    EXPECT_EQ(remarks_[0].find("lost"), std::string::npos);
+}
+
+TEST_F(VelodyneCaptureTest, SeveralSensorsAreToldApart) {
+    const Packets front = packetsOf("VLP-16", 24 * 20), rear = packetsOf("VLP-16", 24 * 30),
+                  top = packetsOf("HDL-32E", 12 * 40);
+    CaptureWriter writer;
+    for (std::size_t i = 0; i < 40; ++i) {
+        if (i < 20) writer.datagram(sent(front[i]));
+        SentDatagram other = sent(i < 30 ? rear[i] : "");
+        other.to_port = 2369;
+        if (i < 30) writer.datagram(other);
+        other = sent(top[i]);
+        other.from_ip = 0x0a000065;
+        writer.datagram(other);
+    }
+    const Turns turns = read(writer.bytes());
+    ASSERT_EQ(turns.size(), 3u);
+    EXPECT_EQ(turns[0]->sensorLabel, "velodyne");
+    EXPECT_EQ(packetsOf({turns[0]}), front);
+    EXPECT_EQ(turns[1]->sensorLabel, "velodyne_2");
+    EXPECT_EQ(packetsOf({turns[1]}), rear);
+    EXPECT_EQ(turns[2]->sensorLabel, "velodyne_3");
+    EXPECT_EQ(packetsOf({turns[2]}), top);
+    EXPECT_THAT(remarks_[2],
+                HasSubstr("velodyne_3 (HDL-32E at 10.0.0.101, port 2368): 40 packets"));
+}
+
+TEST_F(VelodyneCaptureTest, EverythingElseIsCounted) {
+    CaptureWriter writer = captureOf(packetsOf("VLP-16", 24 * 5));
+    SentDatagram position = sent(ByteString(512, '\0'));
+    position.to_port = 8308;
+    writer.datagram(position).datagram(position);
+    SentDatagram ouster = sent(ByteString(8448, '\0'));
+    ouster.to_port = 7502;
+    writer.datagram(ouster);
+    ByteString other_model = packetsOf("VLP-16", 24)[0];
+    other_model[1205] = '\xa1';
+    writer.datagram(sent(other_model));
+    ByteString hdl64 = packetsOf("VLP-16", 24)[0];
+    for (std::size_t block = 1; block < 12; block += 2) hdl64[100 * block + 1] = '\xdd';
+    writer.datagram(sent(hdl64)).datagram(sent(hdl64));
+    writer.frame("arp");
+    EXPECT_EQ(read(writer.bytes()).size(), 1u);
+    EXPECT_EQ(remarks_[1],
+              "12 frames; left out: 2 position packets (GPS), 2 packets of an HDL-64E, which need "
+              "its calibration: --calibration FILE, 1 packet of an unknown Velodyne (model id "
+              "0xa1), 1 other UDP datagram "
+              "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
+}
+
+TEST_F(VelodyneCaptureTest, NoEndOfSensorsFillsTheMemory) {
+    CaptureWriter writer;
+    const ByteString packet = packetsOf("VLP-16", 24)[0];
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        SentDatagram datagram = sent(packet);
+        datagram.from_ip = i;
+        writer.datagram(datagram);
+    }
+    EXPECT_EQ(read(writer.bytes()).size(), 16u);
+    EXPECT_THAT(remarks_.back(), HasSubstr("84 packets of further sensors"));
+}
+
+TEST_F(VelodyneCaptureTest, WithoutAPacketItSaysWhatThereIs) {
+    SentDatagram ouster = sent(ByteString(8448, '\0'));
+    ouster.to_port = 7502;
+    EXPECT_TRUE(read(CaptureWriter().datagram(ouster).datagram(ouster).bytes()).empty());
+    EXPECT_THAT(broken_,
+                HasSubstr("a.pcap: has no data packets of a known Velodyne (VLP-16 (0x22)"));
+    EXPECT_THAT(broken_, HasSubstr("2 other UDP datagrams (most: 2 of 8448 bytes to port 7502)"));
+    EXPECT_THAT(broken_, HasSubstr("--sensor-json FILE"));
+    EXPECT_TRUE(read(CaptureWriter().bytes()).empty());
+    EXPECT_THAT(broken_, HasSubstr("no frames"));
+}
+
+TEST_F(VelodyneCaptureTest, ACutFileGivesThePacketsBeforeTheCut) {
+    const Packets packets = packetsOf("VLP-16", 24 * 90);
+    const ByteString whole = captureOf(packets).bytes();
+    const std::size_t frame = (whole.size() - 24) / packets.size();
+    for (std::size_t cut = 1; cut <= 60; ++cut) {
+        const std::size_t size = whole.size() * cut / 61;
+        const Packets before(packets.begin(),
+                             packets.begin() + static_cast<std::ptrdiff_t>((size - 24) / frame));
+        EXPECT_EQ(packetsOf(read(whole.substr(0, size))), before);
+        if ((size - 24) % frame == 0) continue;  // looks like a shorter capture
+        EXPECT_THAT(broken_, HasSubstr("a.pcap: frame " + std::to_string(before.size()) +
+                                       " at byte " + std::to_string(24 + before.size() * frame)));
+    }
+}
+
+TEST_F(VelodyneCaptureTest, RealCapturesComeOutPacketForPacketInTheirOrder) {
+    const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    for (const auto& [file, calibration, count] :
+         {std::tuple{"sample_velodyne_vlp16_gps.pcap", "VLP16", 5u},
+          {"sample_velodyne_hdl32.pcap", "HDL32", 4u}}) {
+        SCOPED_TRACE(file);
+        const auto expected = test::readCapture(folder / file, calibration);
+        const Turns turns = readFile(folder / file);
+        EXPECT_EQ(broken_, "");
+        EXPECT_EQ(turns.size(), count);
+        EXPECT_EQ(packetsOf(turns), packetsOf({expected}));
+        // A turn is less than a whole one and a packet more.
+        for (const auto& turn : turns) {
+            Scan scan;
+            EXPECT_EQ(decodePackets(*turn, scan), 0u);
+            EXPECT_LT(scan.time_s.back(), 0.112f);  // nine turns per second and a packet
+        }
+        EXPECT_EQ(remarks_[0].find("lost"), std::string::npos) << remarks_[0];
+    }
+}
+
+TEST_F(VelodyneCaptureTest, MrptGroupsAndDecodesTheSamePackets) {
+    const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    // MRPT decodes the first half of each block: of an HDL-32E, half of the lasers.
+    for (const auto& turn : readFile(folder / "sample_velodyne_vlp16_gps.pcap")) {
+        turn->minRange = 0;
+        turn->maxRange = 1000;
+        Scan scan;
+        decodePackets(*turn, scan);
+        const auto packets = turn->scan_packets.size();
+        CObservationVelodyneScan::TGeneratePointCloudParameters all;
+        all.filterOutIsolatedPoints = false;
+        turn->generatePointCloud(all);
+        EXPECT_GT(turn->point_cloud.size(), packets * 10);
+        std::size_t next = 0;  // MRPT's returns are among ours, in the same order
+        for (std::size_t i = 0; i < turn->point_cloud.size(); ++i) {
+            const auto& cloud = turn->point_cloud;
+            while (next < scan.size() &&
+                   std::hypot(scan.x_m[next] - cloud.x[i], scan.y_m[next] - cloud.y[i],
+                              scan.z_m[next] - cloud.z[i]) > 0.01f) {
+                ++next;
+            }
+            ASSERT_LT(next, scan.size()) << "return " << i << " of MRPT's";
+            ++next;
+        }
+    }
+}
+
+TEST_F(VelodyneCaptureTest, ATableTopCaptureOfRawPackets) {
+    const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    const ByteString raw = test::readFile(folder / "vlp16_packets_1206.bin");
+    Packets packets;
+    for (std::size_t at = 0; at + 1206 <= raw.size(); at += 1206)
+        packets.push_back(raw.substr(at, 1206));
+    ASSERT_EQ(packets.size(), 1000u);
+    const Turns turns = read(captureOf(packets).bytes());
+    EXPECT_EQ(packetsOf(turns), packets);
+    EXPECT_EQ(turns.size(), 14u);  // 12 whole ones
+}
+
+/// A capture of an HDL-64E that sees something 5 m away all around.
+CaptureWriter hdl64Capture(int firings) {
+    CaptureWriter capture;
+    double time_s = 1700000000;
+    for (const auto& packet : test::hdl64Packets(firings, [](int, double) { return 5.0; })) {
+        SentDatagram sent;
+        sent.content = packet;
+        sent.time_s = time_s += 288e-6;
+        capture.datagram(sent);
+    }
+    return capture;
+}
+
+TEST_F(VelodyneCaptureTest, AnHdl64NeedsItsCalibration) {
+    const auto file = hdl64Capture(4200).write(folder_ / "hdl64.pcap");
+    const auto xml = test::writeBytes(folder_ / "db.xml", test::hdl64Xml());
+    VelodyneCapture capture(file, xml);
+    std::size_t returns = 0, turns = 0;
+    while (const auto turn = capture.next()) {
+        Scan scan;
+        EXPECT_EQ(decodePackets(*turn, scan), 0u);
+        returns += scan.size();
+        ++turns;
+    }
+    EXPECT_EQ(turns, 3u);
+    EXPECT_EQ(returns, 64u * 4200);
+    EXPECT_THAT(capture.remarks()[0], HasSubstr("HDL-64E at 10.0.0.100"));
+    EXPECT_THAT(capture.remarks()[0], HasSubstr("700 packets in 3 turns"));
+    EXPECT_THAT(capture.remarks()[0], Not(HasSubstr("lost")));
+
+    const auto errorOf = [](VelodyneCapture&& of) {
+        try {
+            of.next();
+        } catch (const sensors::BrokenCapture& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(errorOf(VelodyneCapture(file)), HasSubstr("--calibration FILE"));
+    CaptureWriter vlp16;
+    for (const ByteString& packet : packetsOf("VLP-16", 48)) {
+        SentDatagram sent;
+        sent.content = packet;
+        vlp16.datagram(sent);
+    }
+    const auto other = vlp16.write(folder_ / "vlp16.pcap");
+    VelodyneCapture without_hdl64(other, xml);
+    while (without_hdl64.next()) {
+    }
+    EXPECT_THAT(without_hdl64.remarks()[1], HasSubstr("db.xml is not used"));
+    EXPECT_THROW(VelodyneCapture(file, file), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace hagen::recordings

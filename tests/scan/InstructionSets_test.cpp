@@ -1,0 +1,90 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/scan/InstructionSets.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+
+#include "support/InstructionSets.h"
+#include "support/Program.h"
+
+namespace hagen {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> visited() {
+    std::vector<std::string> names;
+    forEachInstructionSet([&](const std::string& name) { names.push_back(name); });
+    return names;
+}
+
+TEST(InstructionSets, AreThoseUpToTheNamedOne) {
+    const auto all = instructionSets();
+    ASSERT_FALSE(all.empty());
+    for (std::size_t best = 0; best < all.size(); ++best) {
+        limitInstructionSets(all[best]);
+        EXPECT_EQ(
+            instructionSets(),
+            std::vector<std::string>(all.begin() + static_cast<std::ptrdiff_t>(best), all.end()));
+        EXPECT_EQ(visited().size(), all.size() - best);
+    }
+    limitInstructionSets("");
+    EXPECT_EQ(instructionSets(), all);
+}
+
+TEST(InstructionSets, AreNamedInAnyCaseAndPlainCodeAsScalar) {
+    const auto all = instructionSets();
+    std::string upper = all.front();
+    for (char& c : upper) c = static_cast<char>(std::toupper(c));
+    limitInstructionSets(upper);
+    EXPECT_EQ(instructionSets(), all);
+    if (all.back() == "emu128" || all.back() == "scalar") {
+        for (const char* const plain : {"scalar", "emu128"}) {
+            limitInstructionSets(plain);
+            EXPECT_THAT(instructionSets(), ElementsAre(all.back()));
+        }
+    }
+    limitInstructionSets("");
+}
+
+TEST(InstructionSets, ThatAreUnknownAreRefusedWithTheNames) {
+    const auto all = instructionSets();
+    try {
+        limitInstructionSets("mmx");
+        FAIL();
+    } catch (const std::invalid_argument& e) {
+        EXPECT_THAT(e.what(), HasSubstr("'mmx'"));
+        for (const std::string& name : all) EXPECT_THAT(e.what(), HasSubstr(name));
+    }
+    EXPECT_EQ(instructionSets(), all);
+}
+
+/// Run by the test below, in a process of its own.
+TEST(InstructionSets, DISABLED_OfTheEnvironment) {
+    const char* const wanted = std::getenv("HAGEN_SIMD");
+    ASSERT_NE(wanted, nullptr);
+    EXPECT_EQ(instructionSets().front(), wanted);
+}
+
+TEST(InstructionSets, OfTheEnvironmentHoldFromTheStart) {
+    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+    const auto start = [&](const std::string& name) {
+        return test::run("/usr/bin/env",
+                         {"HAGEN_SIMD=" + name, self, "--gtest_also_run_disabled_tests",
+                          "--gtest_filter=*DISABLED_OfTheEnvironment"});
+    };
+    for (const std::string& name : instructionSets()) {
+        const test::Outcome outcome = start(name);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+        EXPECT_EQ(outcome.err, "");
+    }
+    const test::Outcome unknown = start("mmx");
+    EXPECT_EQ(unknown.exit_code, 1);  // it is not the first one
+    EXPECT_THAT(unknown.err, HasSubstr("HAGEN_SIMD has no effect: 'mmx' is no instruction set"));
+}
+
+}  // namespace
+}  // namespace hagen

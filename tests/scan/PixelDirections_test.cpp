@@ -1,0 +1,28 @@
+#include <gtest/gtest.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/PixelDirections.h>
+#include <hagen/scan/RangeImage.h>
+#include <cmath>
+
+namespace hagen {
+namespace {
+
+TEST(PixelDirections, AreThoseOfTheBeamsAndOfTheColumnsMiddles) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const PixelDirections directions = pixelDirections(sensor, 8);
+    ASSERT_EQ(directions.row_sine.size(), 16u);
+    ASSERT_EQ(directions.row_cosine.size(), 16u);
+    ASSERT_EQ(directions.column_sine.size(), 8u);
+    ASSERT_EQ(directions.column_cosine.size(), 8u);
+    EXPECT_NEAR(directions.row_sine[0], -std::sin(radians(15)), 1e-6);
+    EXPECT_NEAR(directions.row_cosine[15], std::cos(radians(15)), 1e-6);
+    // Column 0 looks backwards, and columns go clockwise: of eight the fourth and fifth look ahead,
+    // the fourth half a column to the left.
+    EXPECT_NEAR(directions.column_cosine[0], -std::cos(radians(22.5)), 1e-6);
+    EXPECT_NEAR(directions.column_cosine[3], std::cos(radians(22.5)), 1e-6);
+    EXPECT_NEAR(directions.column_sine[3], std::sin(radians(22.5)), 1e-6);
+    EXPECT_NEAR(directions.column_sine[4], -std::sin(radians(22.5)), 1e-6);
+}
+
+}  // namespace
+}  // namespace hagen

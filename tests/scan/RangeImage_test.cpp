@@ -1,0 +1,241 @@
+#include <gtest/gtest.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/RangeImage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "support/InstructionSets.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+ProjectionWorkspace work;  // one for all tests, as a filter has one for all scans
+
+/// A scan known by its beams alone, all that the projection looks at.
+Scan randomScan(unsigned seed, int returns) {
+    test::Random random(seed);
+    Scan scan;
+    for (int i = 0; i < returns; ++i) {
+        scan.row.push_back(static_cast<std::uint8_t>(random.whole(0, 15)));
+        scan.azimuth_rad.push_back(random.real(-3.14159f, 3.14159f));
+        scan.range_m.push_back(random.chance(0.05) ? kNoValue : random.real(0.0f, 150.0f));
+        for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(0.0f);
+    }
+    return scan;
+}
+
+TEST(RangeImage, NearestColumnIsThatOfASearchThroughAllColumns) {
+    test::Random random(3);
+    for (const int columns : {8, 360, 870, 1800}) {
+        for (int i = 0; i < 300; ++i) {
+            const float azimuth_rad = random.real(-3.14159f, 3.14159f);
+            const auto distance = [&](int column) {
+                return std::abs(std::remainder(
+                    static_cast<double>(columnAzimuth(column, columns) - azimuth_rad), 2 * kPi));
+            };
+            const int found = nearestColumn(azimuth_rad, columns);
+            for (int column = 0; column < columns; ++column) {
+                ASSERT_LE(distance(found), distance(column) + 1e-5);
+            }
+        }
+    }
+}
+
+TEST(RangeImage, ForwardIsTheMiddleAndLeftIsLeft) {
+    EXPECT_NEAR(nearestColumn(0.0f, 870), 435, 1);
+    EXPECT_NEAR(nearestColumn(static_cast<float>(kPi / 2), 870), 217, 1);
+    EXPECT_NEAR(nearestColumn(static_cast<float>(-kPi / 2), 870), 652, 1);
+}
+
+TEST(RangeImage, EveryAzimuthHasAColumnUpToBothEndsOfTheTurn) {
+    for (const float azimuth_rad : {-3.1415928f, -3.1415925f, 3.1415925f, 3.1415928f}) {
+        EXPECT_GE(nearestColumn(azimuth_rad, 870), 0);
+        EXPECT_LT(nearestColumn(azimuth_rad, 870), 870);
+    }
+}
+
+TEST(RangeImage, KeepsTheClosestReturnOfEachPixel) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Scan scan = randomScan(4, 20000);
+    RangeImage image;
+    projectScan(scan, sensor, 100, kFar, image, work);
+
+    Image<float> closest;
+    closest.setConstant(16, 100, kFar);
+    Image<std::int32_t> closest_return =
+        Image<std::int32_t>::Constant(16, 100, RangeImage::kNoReturn);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const float range_m = scan.range_m[i];
+        if (!(range_m >= sensor.min_range_m && range_m <= sensor.max_range_m)) {
+            EXPECT_EQ(image.depth_mapper[i], RangeImage::kNoPixel);
+            continue;
+        }
+        const int column = nearestColumn(scan.azimuth_rad[i], 100);
+        EXPECT_EQ(image.depth_mapper[i], column * 16 + scan.row[i]);
+        if (!(range_m < closest(scan.row[i], column))) continue;
+        closest(scan.row[i], column) = range_m;
+        closest_return(scan.row[i], column) = static_cast<std::int32_t>(i);
+    }
+    closest = (closest == kFar).select(kNoValue, closest);
+    EXPECT_TRUE(test::same(image.depth_m, closest));
+    EXPECT_TRUE((image.closest_return == closest_return).all());
+}
+
+TEST(RangeImage, OfTwoEquallyCloseReturnsTheEarlierCounts) {
+    Scan scan;
+    for (const float range_m : {7.0f, 5.0f, 5.0f, 6.0f}) {
+        scan.row.push_back(3);
+        scan.azimuth_rad.push_back(0.1f);
+        scan.range_m.push_back(range_m);
+        for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(0.0f);
+    }
+    RangeImage image;
+    projectScan(scan, sensorModel("VLP-16"), 100, kFar, image, work);
+    EXPECT_EQ(image.closest_return.data()[image.depth_mapper[0]], 1);
+    EXPECT_EQ((image.closest_return == RangeImage::kNoReturn).count(), 16 * 100 - 1);
+}
+
+TEST(RangeImage, DepthDoesNotDependOnTheOrderOfReturns) {
+    test::Random random(5);
+    const SensorModel sensor = sensorModel("VLP-16");
+    const Scan scan = randomScan(5, 3000);
+    std::vector<std::size_t> order(scan.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), random.engine());
+    Scan shuffled;
+    for (const std::size_t i : order) {
+        shuffled.row.push_back(scan.row[i]);
+        shuffled.azimuth_rad.push_back(scan.azimuth_rad[i]);
+        shuffled.range_m.push_back(scan.range_m[i]);
+        for (auto* values : {&shuffled.x_m, &shuffled.y_m, &shuffled.z_m}) values->push_back(0.0f);
+    }
+    RangeImage image, shuffled_image;
+    projectScan(scan, sensor, 870, kFar, image, work);
+    projectScan(shuffled, sensor, 870, kFar, shuffled_image, work);
+    EXPECT_TRUE(test::same(image.depth_m, shuffled_image.depth_m));
+}
+
+TEST(RangeImage, ReturnsBeyondTheContextStayOut) {
+    const Scan scan = randomScan(6, 3000);
+    RangeImage image;
+    projectScan(scan, sensorModel("VLP-16"), 870, 20.0f, image, work);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const bool inside = scan.range_m[i] >= 0.5f && scan.range_m[i] <= 20.0f;
+        EXPECT_EQ(image.depth_mapper[i] != RangeImage::kNoPixel, inside);
+    }
+}
+
+/// The definition, return by return.
+void projectPlainly(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
+                    RangeImage& image) {
+    image.depth_m.setConstant(sensor.rows(), columns, kNoValue);
+    image.closest_return.setConstant(sensor.rows(), columns, RangeImage::kNoReturn);
+    image.depth_mapper.assign(scan.size(), RangeImage::kNoPixel);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const float range_m = scan.range_m[i];
+        if (!sensor.sees(range_m) || range_m > context_m) continue;
+        const int column = nearestColumn(scan.azimuth_rad[i], columns);
+        float& depth_m = image.depth_m(scan.row[i], column);
+        if (!(depth_m <= range_m)) {  // empty, or farther
+            depth_m = range_m;
+            image.closest_return(scan.row[i], column) = static_cast<std::int32_t>(i);
+        }
+        image.depth_mapper[i] = column * sensor.rows() + scan.row[i];
+    }
+}
+
+void expectSameImage(const RangeImage& a, const RangeImage& b) {
+    EXPECT_TRUE(test::same(a.depth_m, b.depth_m));
+    EXPECT_TRUE((a.closest_return == b.closest_return).all());
+    EXPECT_EQ(a.depth_mapper, b.depth_mapper);
+}
+
+/// A sensor of so many beams.
+SensorModel sensorOfRows(int rows) {
+    std::vector<double> elevations_deg(rows);
+    for (int row = 0; row < rows; ++row) elevations_deg[row] = -30.0 + 40.0 * row / rows;
+    return customSensorModel(elevations_deg);
+}
+
+/// Azimuths over the whole turn and up to both of its ends, many ranges equal, some no numbers.
+Scan scanWithTies(test::Random& random, int rows, int returns) {
+    Scan scan;
+    for (int i = 0; i < returns; ++i) {
+        scan.row.push_back(static_cast<std::uint8_t>(random.whole(0, rows - 1)));
+        const float end_rad = random.chance(0.5) ? 3.1415928f : -3.1415928f;
+        scan.azimuth_rad.push_back(random.chance(0.1) ? end_rad : random.real(-3.14159f, 3.14159f));
+        const float range_m = 0.25f * static_cast<float>(random.whole(0, 200));
+        scan.range_m.push_back(random.chance(0.05)   ? kNoValue
+                               : random.chance(0.05) ? kFar
+                                                     : range_m);
+        for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(0.0f);
+    }
+    return scan;
+}
+
+TEST(RangeImage, IsThatOfTheDefinitionReturnByReturn) {
+    test::Random random(8);
+    RangeImage plain, image;  // used again, as from scan to scan
+    for (int round = 0; round < 150; ++round) {
+        const int rows = random.whole(2, 128);
+        SensorModel sensor = sensorOfRows(rows);
+        sensor.min_range_m = random.chance(0.5) ? 0.0f : 0.75f;
+        const int columns = random.chance(0.1) ? 1 : random.whole(2, 1000);
+        const int returns = random.chance(0.5) ? random.whole(0, 300) : random.whole(0, 20000);
+        const Scan scan = scanWithTies(random, rows, returns);
+        const float context_m = random.chance(0.5) ? kFar : 30.0f;
+        projectPlainly(scan, sensor, columns, context_m, plain);
+        projectScan(scan, sensor, columns, context_m, image, work);
+        expectSameImage(image, plain);
+    }
+}
+
+TEST(RangeImage, IsTheSameOnEveryInstructionSet) {
+    test::Random random(9);
+    const SensorModel sensor = sensorOfRows(64);
+    const Scan scan = scanWithTies(random, 64, 20003);
+    RangeImage best;
+    projectScan(scan, sensor, 870, 40.0f, best, work);
+    forEachInstructionSet([&](const std::string& name) {
+        SCOPED_TRACE(name);
+        RangeImage image;
+        projectScan(scan, sensor, 870, 40.0f, image, work);
+        expectSameImage(image, best);
+    });
+}
+
+TEST(RangeImage, ReturnsByPixelHoldEachReturnOnceInItsPixel) {
+    const Scan scan = randomScan(7, 5000);
+    RangeImage image;
+    projectScan(scan, sensorModel("VLP-16"), 50, kFar, image, work);
+    const ReturnsByPixel by_pixel = returnsByPixel(image);
+    std::set<int> seen;
+    for (int pixel = 0; pixel < image.depth_m.size(); ++pixel) {
+        for (int k = by_pixel.first[pixel]; k < by_pixel.first[pixel + 1]; ++k) {
+            EXPECT_EQ(image.depth_mapper[by_pixel.returns[k]], pixel);
+            EXPECT_TRUE(seen.insert(by_pixel.returns[k]).second);
+        }
+    }
+    const auto mapped = std::count_if(image.depth_mapper.begin(), image.depth_mapper.end(),
+                                      [](int pixel) { return pixel != RangeImage::kNoPixel; });
+    EXPECT_EQ(seen.size(), static_cast<std::size_t>(mapped));
+}
+
+TEST(RangeImage, AnEmptyScanGivesAnEmptyImage) {
+    RangeImage image;
+    projectScan(Scan(), sensorModel("VLP-16"), 870, kFar, image, work);
+    EXPECT_EQ(image.depth_m.rows(), 16);
+    EXPECT_EQ(image.depth_m.cols(), 870);
+    EXPECT_TRUE(image.depth_m.isNaN().all());
+    EXPECT_TRUE((image.closest_return == RangeImage::kNoReturn).all());
+    EXPECT_TRUE(image.depth_mapper.empty());
+}
+
+}  // namespace
+}  // namespace hagen

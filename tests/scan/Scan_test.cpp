@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/Scan.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/InstructionSets.h"
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+void addPoint(float x, float y, float z, Scan& scan) {
+    scan.x_m.push_back(x);
+    scan.y_m.push_back(y);
+    scan.z_m.push_back(z);
+    scan.intensity.push_back(0.0f);
+}
+
+TEST(Scan, LocatesPointsMadeFromKnownBeamsAndAzimuths) {
+    test::Random random(2);
+    const SensorModel sensor = sensorModel("VLP-16");
+    Scan scan;
+    std::vector<int> rows;
+    std::vector<float> azimuths_rad, ranges_m;
+    for (int i = 0; i < 1000; ++i) {
+        rows.push_back(random.whole(0, 15));
+        azimuths_rad.push_back(random.real(-3.1f, 3.1f));
+        ranges_m.push_back(random.real(0.5f, 100.0f));
+        const float elevation = sensor.elevations_rad[rows[i]];
+        addPoint(ranges_m[i] * std::cos(elevation) * std::cos(azimuths_rad[i]),
+                 ranges_m[i] * std::cos(elevation) * std::sin(azimuths_rad[i]),
+                 ranges_m[i] * std::sin(elevation), scan);
+    }
+    locateBeams(sensor, scan);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        EXPECT_EQ(scan.row[i], rows[i]);
+        EXPECT_NEAR(scan.azimuth_rad[i], azimuths_rad[i], 1e-5);
+        EXPECT_NEAR(scan.range_m[i], ranges_m[i], 1e-4);
+    }
+}
+
+/// Beams that crowd, and beams up to straight above and below.
+std::vector<SensorModel> allSensors() {
+    std::vector<SensorModel> sensors;
+    for (const std::string& name : knownSensorModels()) sensors.push_back(sensorModel(name));
+    std::vector<double> crowded_deg;
+    for (int beam = 0; beam < 256; ++beam) crowded_deg.push_back(-2.0 + 0.01 * beam);
+    sensors.push_back(customSensorModel(crowded_deg));
+    sensors.push_back(customSensorModel({-90.0, -45.0, 0.0, 0.125, 89.5, 90.0}));
+    sensors.push_back(customSensorModel({3.0, 4.0}));
+    return sensors;
+}
+
+/// Points all around, of which some lie on axes or are no points.
+Scan pointsAround(test::Random& random, int count) {
+    const float specials[] = {0.0f,   -0.0f, 1.0f,     -1.0f,
+                              1e-30f, 1e30f, kNoValue, std::numeric_limits<float>::infinity()};
+    const auto coordinate = [&](float most) {
+        return random.chance(0.05) ? specials[random.whole(0, 7)] : random.real(-most, most);
+    };
+    Scan scan;
+    for (int i = 0; i < count; ++i) {
+        const float far_m = random.chance(0.2) ? 1.0f : 100.0f, x_m = coordinate(far_m),
+                    y_m = coordinate(far_m);
+        addPoint(x_m, y_m, coordinate(random.chance(0.2) ? 100.0f : 20.0f), scan);
+    }
+    return scan;
+}
+
+/// The paper's definition, point by point, in double precision.
+void expectBeamsOfDefinition(const SensorModel& sensor, const Scan& scan) {
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const float x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
+        const float range_m = std::sqrt(x * x + y * y + z * z);
+        if (!std::isfinite(range_m) || range_m == 0.0f) {
+            ASSERT_TRUE(std::isnan(scan.range_m[i]));
+            ASSERT_EQ(scan.azimuth_rad[i], 0.0f);
+            ASSERT_EQ(scan.row[i], 0);
+            continue;
+        }
+        ASSERT_EQ(scan.range_m[i], range_m);
+        const double azimuth_rad = std::atan2(static_cast<double>(y), static_cast<double>(x));
+        ASSERT_NEAR(scan.azimuth_rad[i], azimuth_rad, 5e-7) << x << " " << y;
+        // Another row only within rounding of the angle midway to it.
+        const double sine = static_cast<double>(z) / std::hypot(x, y, static_cast<double>(z));
+        const double elevation_rad = std::asin(std::clamp(sine, -1.0, 1.0));
+        const int row = scan.row[i],
+                  expected = sensor.nearestRow(static_cast<float>(elevation_rad));
+        ASSERT_LT(row, sensor.rows());
+        if (row == expected) continue;
+        ASSERT_EQ(std::abs(row - expected), 1);
+        const double midpoint_rad = 0.5 * (static_cast<double>(sensor.elevations_rad[row]) +
+                                           static_cast<double>(sensor.elevations_rad[expected]));
+        ASSERT_NEAR(sine, std::sin(midpoint_rad), 2e-7);
+    }
+}
+
+TEST(Scan, BeamsAreThoseOfTheDefinitionPointByPoint) {
+    test::Random random(10);
+    for (const SensorModel& sensor : allSensors()) {
+        SCOPED_TRACE(sensor.name + " of " + std::to_string(sensor.rows()));
+        for (int count = 0; count < 40; ++count) {
+            Scan scan = pointsAround(random, count);
+            locateBeams(sensor, scan);
+            expectBeamsOfDefinition(sensor, scan);
+        }
+        Scan scan = pointsAround(random, 20000);
+        locateBeams(sensor, scan);
+        expectBeamsOfDefinition(sensor, scan);
+    }
+}
+
+TEST(Scan, OfTwoEquallyCloseBeamsTheLowerCounts) {
+    Scan scan;
+    addPoint(5, 0, 0, scan);  // midway between -1 and 1 degrees
+    locateBeams(sensorModel("VLP-16"), scan);
+    EXPECT_EQ(scan.row[0], 7);
+}
+
+TEST(Scan, AzimuthsOnAndBetweenTheAxesAreThoseOfTheStandardLibrary) {
+    for (const float x : {0.0f, -0.0f, 2.0f, -2.0f}) {
+        for (const float y : {0.0f, -0.0f, 2.0f, -2.0f}) {
+            Scan scan;
+            addPoint(x, y, 1.0f, scan);
+            locateBeams(sensorModel("VLP-16"), scan);
+            EXPECT_NEAR(scan.azimuth_rad[0], std::atan2(y, x), 5e-7) << x << " " << y;
+            EXPECT_EQ(std::signbit(scan.azimuth_rad[0]), std::signbit(y));
+        }
+    }
+}
+
+TEST(Scan, BeamsAreTheSameOnEveryInstructionSet) {
+    test::Random random(11);
+    const Scan points = pointsAround(random, 10007);
+    const SensorModel sensor = sensorModel("HDL-64E");
+    Scan best = points;
+    locateBeams(sensor, best);
+    forEachInstructionSet([&](const std::string& name) {
+        SCOPED_TRACE(name);
+        Scan scan = points;
+        locateBeams(sensor, scan);
+        EXPECT_EQ(scan.row, best.row);
+        EXPECT_EQ(scan.azimuth_rad, best.azimuth_rad);
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            ASSERT_TRUE(scan.range_m[i] == best.range_m[i] ||
+                        (std::isnan(scan.range_m[i]) && std::isnan(best.range_m[i])));
+        }
+    });
+}
+
+TEST(Scan, PointsThatAreNowhereHaveNoRange) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    Scan scan;
+    addPoint(kNan, 1, 1, scan);
+    addPoint(1, kInfinity, 1, scan);
+    addPoint(1, 1, -kInfinity, scan);
+    addPoint(0, 0, 0, scan);
+    addPoint(1e30f, 0, 0, scan);  // its square is not finite
+    locateBeams(sensorModel("VLP-16"), scan);
+    for (const float range_m : scan.range_m) EXPECT_TRUE(std::isnan(range_m));
+}
+
+TEST(Scan, StraightUpAndDownGoToTheOutermostBeams) {
+    Scan scan;
+    addPoint(0, 0, 3, scan);
+    addPoint(0, 0, -3, scan);
+    locateBeams(sensorModel("VLP-16"), scan);
+    EXPECT_EQ(scan.row[0], 15);
+    EXPECT_EQ(scan.row[1], 0);
+}
+
+TEST(Scan, AnEmptyScanStaysEmpty) {
+    Scan scan;
+    locateBeams(sensorModel("VLP-16"), scan);
+    EXPECT_EQ(scan.size(), 0u);
+    EXPECT_TRUE(scan.range_m.empty());
+}
+
+TEST(Scan, ClearForgetsEverything) {
+    Scan scan;
+    addPoint(1, 2, 3, scan);
+    locateBeams(sensorModel("VLP-16"), scan);
+    scan.time_s.push_back(0.0f);
+    scan.clear();
+    EXPECT_TRUE(scan.x_m.empty() && scan.y_m.empty() && scan.z_m.empty() && scan.row.empty() &&
+                scan.range_m.empty() && scan.azimuth_rad.empty() && scan.intensity.empty() &&
+                scan.time_s.empty());
+}
+
+}  // namespace
+}  // namespace hagen

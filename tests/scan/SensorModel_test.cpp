@@ -1,0 +1,118 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/SensorModel.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "support/Random.h"
+
+namespace hagen {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(SensorModel, Vlp16HasSixteenBeamsTwoDegreesApart) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    ASSERT_EQ(sensor.rows(), 16);
+    for (int row = 0; row < 16; ++row) {
+        EXPECT_NEAR(degrees(sensor.elevations_rad[row]), -15.0 + 2.0 * row, 1e-5);
+    }
+}
+
+TEST(SensorModel, EveryKnownSensorHasItsBeamsFromLowToHigh) {
+    const std::vector<std::pair<std::string, int>> beams{
+        {"VLP-16", 16},  {"HDL-32E", 32},  {"HDL-64E", 64}, {"Puck Hi-Res", 16},
+        {"VLP-32C", 32}, {"OS0-128", 128}, {"OS1-64", 64},  {"Mid-360", 24}};
+    ASSERT_EQ(knownSensorModels().size(), beams.size());
+    for (const auto& [name, count] : beams) {
+        const SensorModel sensor = sensorModel(name);
+        EXPECT_EQ(sensor.name, name);
+        EXPECT_EQ(sensor.rows(), count);
+        EXPECT_LT(sensor.min_range_m, sensor.max_range_m);
+        EXPECT_TRUE(std::is_sorted(sensor.elevations_rad.begin(), sensor.elevations_rad.end()));
+    }
+}
+
+TEST(SensorModel, DataSheetsEndsOfTheFieldOfView) {
+    EXPECT_NEAR(degrees(sensorModel("HDL-32E").elevations_rad.front()), -30.67, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("HDL-32E").elevations_rad.back()), 10.67, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("HDL-64E").elevations_rad.front()), -24.33, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("HDL-64E").elevations_rad.back()), 2.0, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("OS0-128").elevations_rad.front()), -45.0, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("OS0-128").elevations_rad.back()), 45.0, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("OS1-64").elevations_rad.front()), -21.2, 0.01);
+    EXPECT_NEAR(degrees(sensorModel("OS1-64").elevations_rad.back()), 21.2, 0.01);
+}
+
+TEST(SensorModel, VirtualBeamsCoverTheFieldOfViewEvenly) {
+    const SensorModel sensor = sensorModel("Mid-360");
+    EXPECT_FALSE(sensor.has_rings);
+    EXPECT_EQ(sensor.min_range_m, 0.1f);
+    EXPECT_EQ(sensor.max_range_m, 70.0f);
+    for (int row = 0; row < sensor.rows(); ++row) {
+        EXPECT_NEAR(degrees(sensor.elevations_rad[row]), -6.5 + 2.5 * row, 1e-5);
+    }
+    for (double elevation_deg = -7; elevation_deg <= 52; elevation_deg += 0.01) {
+        const auto elevation_rad = static_cast<float>(radians(elevation_deg));
+        const float beam_rad = sensor.elevations_rad[sensor.nearestRow(elevation_rad)];
+        ASSERT_LE(std::abs(degrees(beam_rad - elevation_rad)), 1.2501) << elevation_deg;
+    }
+}
+
+TEST(SensorModel, EveryOtherKnownSensorHasRings) {
+    for (const std::string& name : knownSensorModels()) {
+        EXPECT_EQ(sensorModel(name).has_rings, name != "Mid-360") << name;
+    }
+    EXPECT_TRUE(customSensorModel({-10, 0, 5}).has_rings);
+}
+
+TEST(SensorModel, NearestRowIsThatOfASearchThroughAllBeams) {
+    test::Random random(1);
+    for (const std::string& name : knownSensorModels()) {
+        const SensorModel sensor = sensorModel(name);
+        for (int i = 0; i < 2000; ++i) {
+            const float elevation_rad = random.real(-1.0f, 1.0f);
+            int nearest = 0;
+            for (int row = 1; row < sensor.rows(); ++row) {
+                if (std::abs(sensor.elevations_rad[row] - elevation_rad) <
+                    std::abs(sensor.elevations_rad[nearest] - elevation_rad)) {
+                    nearest = row;
+                }
+            }
+            ASSERT_EQ(sensor.nearestRow(elevation_rad), nearest) << name << " " << elevation_rad;
+        }
+    }
+}
+
+TEST(SensorModel, EachBeamIsItsOwnNearestRow) {
+    const SensorModel sensor = sensorModel("HDL-64E");
+    for (int row = 0; row < sensor.rows(); ++row) {
+        EXPECT_EQ(sensor.nearestRow(sensor.elevations_rad[row]), row);
+    }
+}
+
+TEST(SensorModel, UnknownNameIsRefusedWithTheKnownOnes) {
+    try {
+        sensorModel("VLP-61");
+        FAIL();
+    } catch (const std::invalid_argument& e) {
+        EXPECT_THAT(e.what(), HasSubstr("VLP-61"));
+        EXPECT_THAT(e.what(), HasSubstr("HDL-32E"));
+    }
+}
+
+TEST(SensorModel, CustomBeamsMustGoUpwards) {
+    EXPECT_EQ(customSensorModel({-10, 0, 5}).rows(), 3);
+    EXPECT_THROW(customSensorModel({}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({1}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({0, 0}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({5, -5}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({0, 91}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel({0, NAN}), std::invalid_argument);
+    EXPECT_THROW(customSensorModel(std::vector<double>(257, 1.0)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hagen

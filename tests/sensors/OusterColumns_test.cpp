@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+#include <hagen/sensors/OusterColumns.h>
+
+#include <string>
+
+#include "support/OusterModes.h"
+
+namespace hagen::sensors {
+namespace {
+
+using test::OusterMode;
+using test::TurningOuster;
+
+const OusterMode kMode{1024, 10};
+const OusterMode kOthers[] = {{512, 10}, {2048, 10}, {512, 20}, {4096, 5}};
+
+class OusterColumnsTest : public testing::Test {
+ protected:
+    /// How many of the packets of some turns have certain columns.
+    std::size_t certain(const OusterMode& mode, int turns) {
+        std::size_t count = 0;
+        for (int k = 0; k < turns; ++k) {
+            for (const std::string& packet : ouster_.turn(mode)) {
+                count += columns_.take(reinterpret_cast<const std::uint8_t*>(packet.data()));
+            }
+        }
+        return count;
+    }
+
+    const OusterSensor sensor_ = ousterSensorOf(test::ousterJsonOf(kMode), "test");
+    TurningOuster ouster_;
+    OusterColumns columns_{sensor_};
+};
+
+TEST_F(OusterColumnsTest, ThoseOfTheMetadataAreCertain) {
+    EXPECT_EQ(certain(kMode, 5), 5 * 64u);
+    ouster_.setClock(5000000000000);
+    EXPECT_EQ(certain(kMode, 3), 3 * 64u);  // a clock that was set
+    ouster_.setClock(0);
+    EXPECT_EQ(certain(kMode, 3), 3 * 64u);
+    EXPECT_EQ(columns_.restarts(), 0u);
+}
+
+TEST_F(OusterColumnsTest, AnotherModeInFlightIsNoticedAtOnce) {
+    for (const OusterMode& mode : {kOthers[0], kOthers[1]}) {
+        TurningOuster ouster;
+        OusterColumns columns(sensor_);
+        const auto certainOf = [&](const OusterMode& now) {
+            std::size_t count = 0;
+            for (const std::string& packet : ouster.turn(now)) {
+                count += columns.take(reinterpret_cast<const std::uint8_t*>(packet.data()));
+            }
+            return count;
+        };
+        EXPECT_EQ(certainOf(kMode), 64u);
+        EXPECT_EQ(certainOf(kMode), 64u);
+        for (int k = 0; k < 4; ++k) EXPECT_EQ(certainOf(mode), 0u) << mode.text();
+        certainOf(kMode);
+        EXPECT_EQ(certainOf(kMode), 64u) << mode.text();
+    }
+}
+
+/// Where columns follow each other as fast as before, the number of the initialization tells.
+TEST_F(OusterColumnsTest, ASensorThatWasStartedAgainMustShowItsColumns) {
+    for (const OusterMode& mode : kOthers) {
+        certain(kMode, 3);
+        ++ouster_.initialization;
+        EXPECT_EQ(certain(mode, 5), 0u) << mode.text();
+        ++ouster_.initialization;
+        EXPECT_EQ(certain(kMode, 3), 2 * 64u);
+    }
+    EXPECT_EQ(columns_.restarts(), 8u);
+}
+
+/// It costs a turn: in the first one, no time from turn to turn is known.
+TEST_F(OusterColumnsTest, AnotherSpeedIsNoOtherMode) {
+    certain(kMode, 3);
+    EXPECT_EQ(certain({1024, 20}, 3), 2 * 64u);
+}
+
+TEST_F(OusterColumnsTest, InTheFirstTurnTheModeOfTheMetadataTells) {
+    EXPECT_EQ(certain({2048, 10}, 4), 0u);
+    TurningOuster other;
+    OusterColumns columns(sensor_);
+    for (const std::string& packet : other.turn({512, 10})) {
+        EXPECT_FALSE(columns.take(reinterpret_cast<const std::uint8_t*>(packet.data())));
+    }
+}
+
+TEST_F(OusterColumnsTest, LegacyPacketsHaveTheHeadsAngle) {
+    const OusterSensor sensor = ousterSensorOf(test::ousterJsonOf(kMode, "LEGACY"), "test");
+    TurningOuster ouster("LEGACY");
+    OusterColumns columns(sensor);
+    for (const OusterMode& mode : kOthers) {
+        for (const OusterMode& now : {kMode, mode}) {
+            for (const std::string& packet : ouster.turn(now)) {
+                const bool is_certain =
+                    columns.take(reinterpret_cast<const std::uint8_t*>(packet.data()));
+                EXPECT_EQ(is_certain, now.columns == 1024) << mode.text();
+            }
+        }
+    }
+}
+
+/// Metadata whose mode says nothing: numbers beyond the columns spoil the turn.
+TEST_F(OusterColumnsTest, NumbersBeyondTheColumnsAreOfAnotherMode) {
+    OusterSensor sensor = sensor_;
+    sensor.turn_s = 0;
+    OusterColumns columns(sensor);
+    const auto packets = ouster_.turn({2048, 10});
+    for (std::size_t p = 0; p < packets.size(); ++p) {
+        EXPECT_EQ(columns.take(reinterpret_cast<const std::uint8_t*>(packets[p].data())), p < 64);
+    }
+}
+
+}  // namespace
+}  // namespace hagen::sensors
