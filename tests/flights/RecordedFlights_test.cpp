@@ -23,7 +23,8 @@ using testing::HasSubstr;
 
 const char kFile[] = HAGEN_SOURCE_DIR "/tests/flights/recorded_flights.csv";
 const std::string kHowToRecord =
-    "count up kRevision in libs/avoidance/include/hagen/avoidance/SettingsHash.h, and record again: "
+    "count up kRevision in libs/avoidance/include/hagen/avoidance/SettingsHash.h, and record "
+    "again: "
     "HAGEN_RECORD_FLIGHTS=1 scripts/test -R RecordedFlights";
 
 /// The recorded flights: "revision,N", then rows as in runs.csv. A flight may have several: it
