@@ -56,7 +56,7 @@ constexpr Magic kMagics[] = {
     {0, "\x0a\x0d\x0d\x0a"sv, "a network capture", "pass it with -i"},
 };
 
-/// Kinds of text, by how it begins behind blanks.
+/// Texts, by their start after white space.
 constexpr Magic kTexts[] = {
     {0, "version https://git-lfs"sv, "a pointer of Git LFS, not the file itself",
      "fetch it with 'git lfs pull'"},
@@ -73,7 +73,7 @@ bool hasAt(std::string_view bytes, std::size_t at, std::string_view part) {
     return bytes.size() >= at + part.size() && bytes.substr(at, part.size()) == part;
 }
 
-/// Whether these are the data packets of a Velodyne, one after the other.
+/// True for Velodyne data packets one after the other.
 bool areVelodynePackets(std::string_view bytes) {
     constexpr std::size_t kPacket = 1206, kBlock = 100, kBlocks = 12;
     if (bytes.size() < kPacket) return false;
@@ -87,8 +87,8 @@ bool areVelodynePackets(std::string_view bytes) {
     return true;
 }
 
-/// Bytes of the character that begins with this byte in UTF-8; 0: none does, or one that no text
-/// has.
+/// Length of the UTF-8 character that starts with this byte; 0 if there is none, or for control
+/// characters.
 std::size_t bytesOfCharacter(char first) {
     const auto code = static_cast<unsigned char>(first);
     if (code < 0x20) return "\n\r\t\f"sv.find(first) == std::string_view::npos ? 0 : 1;

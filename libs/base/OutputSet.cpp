@@ -4,7 +4,6 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
-#include <vector>
 
 namespace hagen::base {
 
@@ -12,7 +11,7 @@ void OutputSet::write(const OutputPath& output, const std::function<void()>& ste
     for (Member& member : members_) {
         if (member.path == output.path()) return attempt(member, step);
     }
-    throw std::logic_error(output.path().string() + ": is no output of this set");
+    throw std::logic_error(output.path().string() + ": not an output of this set");
 }
 
 bool OutputSet::areAllGivenUp() const {
@@ -38,11 +37,6 @@ void OutputSet::attempt(Member& member, const std::function<void()>& step) {
 }
 
 void OutputSet::commit() {
-    std::vector<std::filesystem::path> complete;
-    for (const Member& member : members_) {
-        if (!member.is_given_up) complete.push_back(member.path);
-    }
-    const RenamingNote note(complete);
     for (Member& member : members_) attempt(member, member.commit);
     if (!failures_.empty()) throw std::runtime_error(failures_);
 }

@@ -28,7 +28,7 @@ TEST(BackgroundPrinter, PrintsInOrder) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), odd);
 }
 
-/// Standard error is a pipe that is full.
+/// Redirects standard error to a full pipe.
 class FullErrors {
  public:
     FullErrors() {
@@ -43,7 +43,7 @@ class FullErrors {
     static constexpr int kPipe = 4096;
 
     int readEnd() const { return ends_[0]; }
-    /// From here on it is what it was. Returns what is in the pipe; threads that wait go on.
+    /// Restores standard error. Returns the content of the pipe; waiting threads continue.
     std::string endAndRead() {
         if (usual_ < 0) return "";
         dup2(usual_, STDERR_FILENO);
@@ -62,7 +62,7 @@ class FullErrors {
     int ends_[2]{}, usual_ = -1;
 };
 
-TEST(BackgroundPrinter, WaitsForNobodyAndSaysWhatItLeftOut) {
+TEST(BackgroundPrinter, ReportsDroppedMessages) {
     FullErrors errors;
     {
         BackgroundPrinter printer;
@@ -81,13 +81,12 @@ TEST(BackgroundPrinter, WaitsForNobodyAndSaysWhatItLeftOut) {
         EXPECT_TRUE(printer.isOutputPrinted());
     }
     const std::string rest = errors.endAndRead();
-    EXPECT_NE(rest.find(" messages were left out, as nobody read them\nthe last\n"),
+    EXPECT_NE(rest.find(" messages dropped: the terminal or pipe was blocked\nthe last\n"),
               std::string::npos)
         << rest;
 }
 
-/// Output that waits behind what nobody reads, or had no place, is not printed.
-TEST(BackgroundPrinter, TellsWhetherOutputWasLeft) {
+TEST(BackgroundPrinter, ReportsUnprintedOutput) {
     FullErrors errors;
     for (const std::size_t texts : {std::size_t{1}, BackgroundPrinter::kMostWaiting + 50}) {
         BackgroundPrinter printer;

@@ -10,7 +10,7 @@
 namespace hagen::base {
 namespace {
 
-TEST(ProcessCost, CpuTimeIsThatOfThisThreadAlone) {
+TEST(ProcessCost, CountsThisThreadOnly) {
     const double before_ms = threadCpuTime_ms();
     std::thread other([] {
         const double start_ms = threadCpuTime_ms();
@@ -25,7 +25,7 @@ TEST(ProcessCost, CpuTimeIsThatOfThisThreadAlone) {
     EXPECT_GT(threadCpuTime(), start);
 }
 
-TEST(ProcessCost, CpuTimeOfAProcessStandsStillWhileItWaits) {
+TEST(ProcessCost, WaitingProcessUsesNoCpuTime) {
     int pipe[2];
     ASSERT_EQ(::pipe(pipe), 0);
     const pid_t child = fork();
@@ -49,9 +49,9 @@ TEST(ProcessCost, CpuTimeOfAProcessStandsStillWhileItWaits) {
     close(pipe[1]);
 }
 
-TEST(ProcessCost, TheHeapGrowsByWhatIsAllocated) {
+TEST(ProcessCost, HeapGrowsByAllocatedBytes) {
 #ifdef __SANITIZE_ADDRESS__
-    GTEST_SKIP() << "the sanitizer's heap does not tell its size";
+    GTEST_SKIP() << "the sanitizer's heap does not report its size";
 #endif
     constexpr std::size_t kBytes = 10'000'000;
     const double before = heapBytes();

@@ -14,7 +14,7 @@
 namespace hagen::base {
 namespace {
 
-/// What is written to standard error meanwhile, if it is a terminal.
+/// What is written to standard error if it is a terminal.
 std::string onTerminal(const std::function<void()>& write) {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) {
@@ -27,7 +27,7 @@ std::string onTerminal(const std::function<void()>& write) {
     dup2(before, STDERR_FILENO);
     close(before);
     close(program_side);
-    // The kernel hands it over bit by bit; after the last one, reading fails.
+    // Arrives in parts; after the last one, reading fails.
     std::string text, part(1000, 0);
     for (ssize_t size = 0; (size = read(terminal, part.data(), part.size())) > 0;) {
         text.append(part, 0, static_cast<std::size_t>(size));
@@ -36,7 +36,7 @@ std::string onTerminal(const std::function<void()>& write) {
     return text;
 }
 
-/// A busy machine may take more than no time.
+/// A busy machine may need more than 0 s.
 std::string withoutSeconds(std::string text) {
     const std::string before = "about ";
     for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
@@ -53,7 +53,7 @@ std::string clearing() {
     return text.str();
 }
 
-TEST(ProgressLine, OnATerminalIsOneLineThatIsGoneAtTheEnd) {
+TEST(ProgressLine, UpdatesOneLineOnTerminal) {
     const std::string clear = clearing();
     const std::string shown = onTerminal([] {
         ProgressLine line("scan");
@@ -66,13 +66,13 @@ TEST(ProgressLine, OnATerminalIsOneLineThatIsGoneAtTheEnd) {
               clear + "scan 0 of 2" + clear + "scan 1 of 2, about N s left" + clear + clear);
 }
 
-TEST(ProgressLine, ClearsWhatHasNotComeToItsEnd) {
+TEST(ProgressLine, ClearsUnfinishedLine) {
     const std::string clear = clearing();
     EXPECT_EQ(onTerminal([] { ProgressLine("scan").show(0, 2); }), clear + "scan 0 of 2" + clear);
     EXPECT_EQ(onTerminal([] { ProgressLine("scan").show(0, 0); }), "");
 }
 
-TEST(ProgressLine, ElsewhereHasALinePerTenth) {
+TEST(ProgressLine, PrintsLinePerTenthElsewhere) {
     testing::internal::CaptureStderr();
     {
         ProgressLine line("flight");
