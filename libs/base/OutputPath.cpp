@@ -9,9 +9,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <map>
-#include <mutex>
 #include <random>
+#include <regex>
 #include <stdexcept>
 #include <string>
 
@@ -108,44 +107,6 @@ void flushToDisk(const fs::path& path, const fs::path& named) {
     if (error != 0 && error != EINVAL) throwWriteError(named, error);
 }
 
-/// The outputs that this process is writing: their names by temporary name.
-class OpenOutputs {
- public:
-    void add(const fs::path& temporary, const fs::path& name) {
-        const std::lock_guard lock(mutex_);
-        names_.emplace(temporary.string(), name.string());
-    }
-    void remove(const fs::path& temporary) noexcept {
-        const std::lock_guard lock(mutex_);
-        names_.erase(temporary.native());
-    }
-    bool contains(const fs::path& file) const {
-        const std::lock_guard lock(mutex_);
-        return std::any_of(names_.begin(), names_.end(), [&](const auto& each) {
-            return fs::path(each.first).filename() == file.filename();
-        });
-    }
-    std::string named(std::string text) const {
-        const std::lock_guard lock(mutex_);
-        for (const auto& [temporary, name] : names_) {
-            for (std::size_t at = text.find(temporary); at != std::string::npos;
-                 at = text.find(temporary, at + name.size())) {
-                text.replace(at, temporary.size(), name);
-            }
-        }
-        return text;
-    }
-
- private:
-    mutable std::mutex mutex_;
-    std::map<std::string, std::string> names_;
-};
-
-OpenOutputs& openOutputs() {
-    static OpenOutputs all;
-    return all;
-}
-
 bool isNumber(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
@@ -161,7 +122,7 @@ std::string between(const std::string& start, const std::string& name, const std
 bool isLeftBehind(const fs::path& file, const std::string& output) {
     const std::string rest = between(output + kTemporaryMark, file.filename().string(), "");
     const std::string process = rest.substr(0, rest.find('-'));
-    if (!isNumber(process) || process.size() > 9 || openOutputs().contains(file)) return false;
+    if (!isNumber(process) || process.size() > 9) return false;
     // In a container, each run may have the same number.
     const int number = std::stoi(process);
     return number == getpid() || (kill(number, 0) != 0 && errno == ESRCH);
@@ -179,13 +140,11 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     const fs::path folder = parentOf(path_);
     if (!fs::is_directory(folder)) fail(folder, "no such folder to write to");
     temporary_ = secretName(path_, kTemporaryMark);
-    openOutputs().add(temporary_, path_);
 }
 
 OutputPath::~OutputPath() {
     std::error_code ignored;  // destructors must not throw
     fs::remove_all(temporary_, ignored);
-    openOutputs().remove(temporary_);
 }
 
 void OutputPath::checkFree() const {
@@ -225,10 +184,10 @@ void OutputPath::commit() {
     flushToDisk(parentOf(path_), path_);
     std::error_code error;
     if (!old.empty()) fs::remove_all(old, error);
-    if (!error) return;
-    openOutputs().remove(temporary_);  // the message means this name
-    fail(path_, "is complete, but the older one cannot be removed and is " + old.string() +
-                    " now: " + error.message());
+    if (error) {
+        fail(path_,
+             "is complete, but the older one beside it cannot be removed: " + error.message());
+    }
 }
 
 /// Gives the output its name. Returns where an older folder is now, if there was one.
@@ -268,7 +227,10 @@ fs::path OutputPath::keepPartial() {
     }
 }
 
-std::string withOutputNames(std::string message) { return openOutputs().named(std::move(message)); }
+std::string withOutputNames(const std::string& message) {
+    static const std::regex mark("\\.tmp-" + std::to_string(getpid()) + "-[0-9a-f]{16}");
+    return std::regex_replace(message, mark, "");
+}
 
 std::vector<fs::path> partialOutputs(const fs::path& output) {
     std::vector<fs::path> found;

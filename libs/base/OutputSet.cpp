@@ -31,7 +31,7 @@ void OutputSet::attempt(Member& member, const std::function<void()>& step) {
     }
     member.is_given_up = true;
     const std::string name = member.path.string();
-    why = withOutputNames(std::move(why));
+    why = withOutputNames(why);
     if (why.find(name) == std::string::npos) why = name + ": " + why;
     failures_ += (failures_.empty() ? "" : "; ") + why;
 }

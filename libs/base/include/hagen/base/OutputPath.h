@@ -59,7 +59,7 @@ class OutputPath {
 std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& output);
 
 /// A message with the names of outputs in place of their temporary ones.
-std::string withOutputNames(std::string message);
+std::string withOutputNames(const std::string& message);
 
 /// partialOutputs() of several outputs as a sentence for the user; "" if there are none.
 std::string leftBehind(const std::vector<std::filesystem::path>& outputs);
