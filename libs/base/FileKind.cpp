@@ -21,12 +21,7 @@ constexpr const char* kConvert = "convert it to PCD, PLY, LAS or NPY first";
 constexpr Magic kMagics[] = {
     {0, "\xff\xd8\xff"sv, "a JPEG picture", ""},
     {0, "\x89PNG\r\n"sv, "a PNG picture", ""},
-    {0, "GIF8"sv, "a GIF picture", ""},
-    {0, "II*\0"sv, "a TIFF picture", ""},
-    {0, "MM\0*"sv, "a TIFF picture", ""},
     {4, "ftyp"sv, "a video (MP4)", ""},
-    {0, "RIFF"sv, "a picture, sound or video (RIFF)", ""},
-    {0, "\x1a\x45\xdf\xa3"sv, "a video (Matroska)", ""},
     {0, "%PDF"sv, "a PDF document", ""},
     {0, "PK\3\4"sv, "a ZIP archive", "unpack it first (an .npz holds .npy files)"},
     {0, "7z\xbc\xaf\x27\x1c"sv, "a 7z archive", kUnpack},
@@ -45,10 +40,6 @@ constexpr Magic kMagics[] = {
      "record a network capture or a bag instead, or convert it"},
     {0, "ULog\1"sv, "a flight log of PX4 (ULog), which has no LiDAR scans", ""},
     {0, "SQLite format 3\0"sv, "an SQLite database", ""},
-    {0,
-     "\x7f"
-     "ELF"sv,
-     "a program", ""},
     {0, "#ROSBAG"sv, "a bag of ROS 1", "pass it with -i"},
     {0, "\x89MCAP"sv, "an MCAP", "pass it with -i"},
     {0, "\xd4\xc3\xb2\xa1"sv, "a network capture", "pass it with -i"},

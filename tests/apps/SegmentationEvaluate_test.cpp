@@ -248,7 +248,7 @@ TEST_F(SegmentationEvaluate, KeepsFilesOnTrouble) {
                                           pole + "\" --json \"" + path("pole.json") +
                                           "\" | true; exit ${PIPESTATUS[0]}"});
     EXPECT_EQ(piped.exit_code, 1);
-    EXPECT_THAT(piped.err, HasSubstr("cannot be printed"));
+    EXPECT_THAT(piped.err, HasSubstr("cannot write to standard output"));
     EXPECT_TRUE(fs::exists(path("pole.json")));
     const std::string settings = folder_.write("c.yaml", "beta_deg: 7\n");
     const std::vector<std::string> flags{"-i", pole, "--overwrite", "--json", settings};

@@ -258,7 +258,8 @@ namespace {
 /// opens would get its number, and messages would be written into that file.
 void reserveStandardStreams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-        if (fcntl(stream, F_GETFD) == -1) open("/dev/null", O_RDWR);  // gets the lowest number
+        if (fcntl(stream, F_GETFD) != -1) continue;
+        [[maybe_unused]] const int lowest = open("/dev/null", O_RDWR);  // is this number
     }
 }
 
@@ -279,7 +280,6 @@ void Program::footer(const std::string& text) { app_->footer(text); }
 void Program::version(const std::string& version) {
     app_->set_version_flag("--version", name_ + " " + version);
 }
-void Program::prints(const std::string& what) { printed_ = help_ = what; }
 
 Command Program::subcommand(const std::string& name, const std::string& help) {
     app_->require_subcommand(1);
@@ -292,9 +292,9 @@ int Program::fail(int exit_code, const std::string& message) const {
 }
 
 /// Checks that standard output was written completely.
-int Program::printed(int exit_code, const std::string& what) const {
+int Program::flushed(int exit_code) const {
     if (std::fflush(stdout) == 0 && std::cout.flush()) return exit_code;
-    return fail(kFailed, "the " + what + " cannot be printed");
+    return fail(kFailed, "cannot write to standard output");
 }
 
 int Program::run(int argc, char** argv, const std::function<int()>& work) {
@@ -306,10 +306,10 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
     try {
         app_->parse(argc, argv);
         limitMemory(static_cast<std::uint64_t>(memory_gb_ * kGb));
-        return printed(work ? work() : work_(), printed_);
+        return flushed(work ? work() : work_());
     } catch (const CLI::Success& e) {  // --help, --version
         app_->exit(e);
-        return printed(kDone, help_);
+        return flushed(kDone);
     } catch (const CLI::ParseError& e) {
         const bool lacks_subcommand =
             !app_->get_subcommands(nullptr).empty() && app_->get_subcommands().empty();

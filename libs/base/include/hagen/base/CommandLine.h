@@ -98,24 +98,22 @@ class Program : public Command {
 
     void footer(const std::string& text);
     void version(const std::string& version);  ///< --version
-    /// Name of the program's output in error messages (default: "summary"; "text" for --help).
-    void prints(const std::string& what);
     Command subcommand(const std::string& name, const std::string& help);
     /// Parses the command line and runs `work`, or by default that of the subcommand; either
     /// returns the exit code. Prints errors, and returns the program's exit code.
     int run(int argc, char** argv, const std::function<int()>& work = nullptr);
     /// Prints a message after the program's name; returns the exit code.
     int fail(int exit_code, const std::string& message) const;
-    /// What run() says of an exception.
+    /// The message of run() for an exception.
     static std::string messageOf(const std::exception& e);
 
  private:
     explicit Program(std::unique_ptr<CLI::App> app, std::string name);
-    int printed(int exit_code, const std::string& what) const;
+    int flushed(int exit_code) const;
 
     std::unique_ptr<CLI::App> owned_;
     std::function<int()> work_;
-    std::string name_, printed_ = "summary", help_ = "text";
+    std::string name_;
     double memory_gb_ = 0;
 };
 
