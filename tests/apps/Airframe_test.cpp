@@ -1,4 +1,4 @@
-// Simulated flights whose vehicle sees itself, and the masks against it, with the built programs.
+// Airframe masks in simulated flights whose LiDAR sees the vehicle.
 #include <hagen/convert/RawlogWriter.h>
 #include <hagen/convert/ScanFolderWriter.h>
 #include <hagen/mrpt/ObservationScan.h>
@@ -17,7 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
-/// What became of a flight's returns: those of the airframe, of dust, and of everything solid.
+/// Labels of a flight's returns: airframe, dust, and everything else.
 struct Tally {
     int airframe = 0, airframe_roi = 0, airframe_unclassified = 0;
     int others = 0, others_unclassified = 0, dust_unclassified = 0;
@@ -145,7 +145,7 @@ TEST_F(AirframeMask, AppliesToEvaluation) {
             .get<double>();
     };
     EXPECT_LT(missed(""), 0.1);
-    // A mask as large as the zone leaves nothing to be found.
+    // A mask as large as the zone leaves no obstacle.
     EXPECT_EQ(missed("airframe: [sphere: {centre_m: [0, 0, 0], radius_m: 20}]"), 1);
 }
 

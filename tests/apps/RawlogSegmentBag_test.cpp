@@ -177,7 +177,7 @@ class BagsOfOtherPrograms : public RawlogSegmentBag {
         }
         return text;
     }
-    /// The recording's packets as lines for the scripts in tests/bags.
+    /// The recording's packets as lines for the scripts in tests/recordings.
     std::string lines() const {
         std::string lines;
         const auto source = recordings::openRecording(recording());
@@ -202,7 +202,7 @@ class BagsOfOtherPrograms : public RawlogSegmentBag {
         return folder_.write("messages.jsonl", lines);
     }
     static std::string script(const std::string& name) {
-        return fs::path(HAGEN_SOURCE_DIR) / "tests/bags" / name;
+        return fs::path(HAGEN_SOURCE_DIR) / "tests/recordings" / name;
     }
 };
 

@@ -135,7 +135,7 @@ TEST_F(RawlogSegmentClouds, EveryFormatOfRealScansGetsSameLabels) {
     const fs::path data = test::dataFolder("HAGEN_LABELLED_DATA");
     if (data.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA names no folder of scans";
     const recordings::ScanFolder scans(data / "beams16" / "00");
-    // The folder names its beams; files of clouds are told so.
+    // The folder names its beams; cloud files need the settings.
     const std::vector<std::string> settings{"-q", "-c", config("vlp16"), "-c",
                                             scans.sensorFile().string()};
     expectSuccess(

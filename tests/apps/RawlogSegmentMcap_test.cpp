@@ -62,7 +62,7 @@ TEST_F(RawlogSegmentMcap, SummaryMatchesStatistics) {
                                        stats["mcap"]["boxes"].dump() + " boxes, 40 messages)"));
 }
 
-/// tests/recordings/read_mcap.mjs, which needs packages of npm: readers of the format's authors.
+/// tests/recordings/read_mcap.mjs uses the npm packages of the format's authors.
 TEST_F(RawlogSegmentMcap, ReferenceReaderAgrees) {
     const fs::path modules = test::dataFolder("HAGEN_NODE_MODULES");
     if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES names no folder with @mcap/core";

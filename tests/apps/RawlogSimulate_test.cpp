@@ -186,7 +186,7 @@ TEST_F(RawlogSimulate, SegmentationKeepsMount) {
                                                             path("b"), "--stats", path("b.json")});
     ASSERT_EQ(segmented.exit_code, 0) << segmented.err;
     EXPECT_THAT(test::readFile(folder_ / "b/sensor.yaml"), HasSubstr("mount_roll_deg: 170\n"));
-    // What the log has to say is not the settings'.
+    // The mount is stored in the log, not in the settings.
     EXPECT_THAT(test::readFile(path("b.json")), HasSubstr("\"sensor.mount_roll_deg\": 0"));
     EXPECT_THAT(test::run(HAGEN_RAWLOG_SEGMENT, {"--config-dump", "-i", path("b")}).out,
                 HasSubstr("mount_roll_deg: 170 "));

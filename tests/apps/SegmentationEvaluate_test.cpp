@@ -143,7 +143,7 @@ TEST_F(SegmentationEvaluate, ReportsUnusedFiles) {
                 HasSubstr("poses.tum has poses of 0 of the 1 scans; the others are not levelled"));
 }
 
-/// With a label map, such a folder can be scored; numbers of obstacles are those of the truth.
+/// A label map allows scoring such a folder, but its obstacle numbers are predictions.
 TEST_F(SegmentationEvaluate, DoesNotCountPredictedObstacles) {
     const std::string pole = poleWithKinds();
     const std::string found = (folder_ / "found").string();
@@ -173,7 +173,7 @@ TEST_F(SegmentationEvaluate, RecoversUnnamedSensor) {
         EXPECT_EQ(degraded.exit_code, 0) << degraded.err;
         EXPECT_THAT(degraded.out, HasSubstr("\n" + degradation)) << degraded.out;
     }
-    // Settings that name the sensor hold.
+    // Settings may name the sensor.
     EXPECT_THAT(run({"-i", pole, "-c", kConfig + "vlp16.yaml"}).out,
                 testing::Not(HasSubstr("recovered")));
 }
@@ -216,7 +216,7 @@ TEST_F(SegmentationEvaluate, BaselinesUseZoneOfSettings) {
     }
 }
 
-// What another program might have found, as files.
+// Label files of another program.
 TEST_F(SegmentationEvaluate, ScoresLabelsOfOtherPrograms) {
     const std::string pole = labelledPole();
     const auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
@@ -240,7 +240,7 @@ TEST_F(SegmentationEvaluate, ScoresLabelsOfOtherPrograms) {
     EXPECT_EQ(row(outcome.out, "theirs"), (std::vector<double>{1, 1, 1, 1, 1, 1})) << outcome.out;
 }
 
-/// A closed pipe, and settings, label maps and cameras as outputs.
+/// A closed pipe, an input as output, and an interruption.
 TEST_F(SegmentationEvaluate, KeepsFilesOnTrouble) {
     const std::string pole = labelledPole();
     const auto piped =
@@ -390,7 +390,7 @@ TEST_F(SegmentationEvaluate, PaperReachesItsScoresOnRealScans) {
     EXPECT_GE(row(outcome.out, "hagen").at(5), 0.92) << outcome.out;
 }
 
-// semantic/ is more detailed than labels/, and equivalent with the shipped map.
+// The shipped map turns the classes of semantic/ into the labels of labels/.
 TEST_F(SegmentationEvaluate, ShippedLabelMapMatchesData) {
     std::vector<std::string> arguments = sixteenBeamScans();
     if (arguments.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA names no folder of labelled scans";
