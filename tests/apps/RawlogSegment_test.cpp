@@ -410,7 +410,6 @@ TEST_F(RawlogSegment, RejectsUnreadableInputs) {
           "bytes are none of a kind that is known");
     folder_.write("scans/velodyne/000000.bin", "123");
     fails(path("scans"), "000000.bin");
-    fails(path("scans/velodyne/.."), "000000.bin");
     const auto poses = folder_.write("poses.tum", "1 2 3\n");
     expectFailures({"-i", recording(), "--kitti", path("out")}, 1,
                    {{{"--poses", poses}, "poses.tum:1"},
