@@ -14,7 +14,6 @@ int command(int argc, char** argv) {
         "  octomap-compare COMMAND --help\n"
         "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
     program.version(HAGEN_VERSION);
-    program.prints("results");
     hagen::addClosedLoop(program);
     hagen::addCalibrate(program);
     hagen::addDistances(program);

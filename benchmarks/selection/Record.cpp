@@ -11,13 +11,6 @@ namespace {
 
 using base::Json;
 
-template <class Value>
-Json list(const std::vector<Value>& values) {
-    Json items = Json::array();
-    for (const Value& value : values) items.push_back(Json(value));
-    return items;
-}
-
 Json json(const evaluation::ClassScore& score) {
     return Json::array({score.hits, score.misses, score.false_alarms});
 }
@@ -40,7 +33,7 @@ Json json(const std::vector<Counts>& counts) {
 }
 Json json(const Fold& fold) {
     return {{"left_out", fold.left_out},
-            {"chosen", list(fold.chosen)},
+            {"chosen", fold.chosen},
             {"start", fold.start},
             {"objective", fold.objective},
             {"missed_start", json(fold.missed_start)},
@@ -49,55 +42,56 @@ Json json(const Fold& fold) {
             {"rounds", fold.rounds}};
 }
 
-std::int64_t whole(const Json& json) { return static_cast<std::int64_t>(json.count()); }
-
-evaluation::ClassScore classScoreOf(const Json& json) {
-    return {whole(json.at(std::size_t{0})), whole(json.at(1)), whole(json.at(2))};
+evaluation::ClassScore classScoreOf(const nlohmann::json& json) {
+    return {json.at(0), json.at(1), json.at(2)};
 }
-Counts countsOf(const Json& json) {
-    const Json& missed = json.at("missed");
+Counts countsOf(const nlohmann::json& json) {
+    const nlohmann::json& missed = json.at("missed");
     return {{classScoreOf(json.at("roi")), classScoreOf(json.at("rou"))},
-            {whole(missed.at(std::size_t{0})), whole(missed.at(1))}};
+            {missed.at(0), missed.at(1)}};
 }
-MissedByGroup missedOf(const Json& json) {
+MissedByGroup missedOf(const nlohmann::json& json) {
     MissedByGroup missed{};
     for (std::size_t group = 0; group < kGroups; ++group)
-        missed[group] = whole(json.at(nameOf(static_cast<Group>(group))));
+        missed[group] = json.at(nameOf(static_cast<Group>(group)));
     return missed;
 }
 
-std::vector<Counts> listOfCounts(const Json& json) {
+std::vector<Counts> listOfCounts(const nlohmann::json& json) {
     std::vector<Counts> all;
-    for (const Json& item : json.items()) all.push_back(countsOf(item));
+    for (const nlohmann::json& item : json) all.push_back(countsOf(item));
     return all;
 }
 
-Fold foldOf(const Json& json) {
-    return {json.at("left_out").text(),        json.at("chosen").texts(),
-            json.at("start").number(),         json.at("objective").number(),
-            missedOf(json.at("missed_start")), missedOf(json.at("missed")),
-            missedOf(json.at("limit")),        static_cast<int>(json.at("rounds").count())};
+Fold foldOf(const nlohmann::json& json) {
+    return {json.at("left_out"),
+            json.at("chosen"),
+            json.at("start"),
+            json.at("objective"),
+            missedOf(json.at("missed_start")),
+            missedOf(json.at("missed")),
+            missedOf(json.at("limit")),
+            json.at("rounds")};
 }
 
-Record recordOf(const Json& json) {
+Record recordOf(const nlohmann::json& json) {
     Record record;
-    record.revision = json.at("revision").text();
-    for (const Json& seed : json.at("seeds").items()) record.seeds.push_back(seed.count());
-    record.hard_sets = json.at("hard_sets").texts();
-    record.scans = json.at("scans").count();
-    record.measured = json.at("measured").count();
-    for (const Json& item : json.at("settings").items()) {
-        record.settings.push_back(
-            {item.at("key").text(), item.at("present").text(), item.at("tried").texts()});
+    json.at("revision").get_to(record.revision);
+    json.at("seeds").get_to(record.seeds);
+    json.at("hard_sets").get_to(record.hard_sets);
+    json.at("scans").get_to(record.scans);
+    json.at("measured").get_to(record.measured);
+    for (const nlohmann::json& item : json.at("settings")) {
+        record.settings.push_back({item.at("key"), item.at("present"), item.at("tried")});
     }
-    for (const Json& item : json.at("searches").items()) {
-        Search search{item.at("start").text(), {}};
-        for (const Json& fold : item.at("folds").items()) search.folds.push_back(foldOf(fold));
+    for (const nlohmann::json& item : json.at("searches")) {
+        Search search{item.at("start"), {}};
+        for (const nlohmann::json& fold : item.at("folds")) search.folds.push_back(foldOf(fold));
         record.searches.push_back(search);
     }
-    for (const Json& item : json.at("scores").items()) {
-        record.scores.push_back({item.at("data").text(), item.at("drive").text(),
-                                 countsOf(item.at("present")), listOfCounts(item.at("with_all")),
+    for (const nlohmann::json& item : json.at("scores")) {
+        record.scores.push_back({item.at("data"), item.at("drive"), countsOf(item.at("present")),
+                                 listOfCounts(item.at("with_all")),
                                  listOfCounts(item.at("left_out"))});
     }
     return record;
@@ -131,7 +125,7 @@ const DriveScores* Record::find(const std::string& data_name, const std::string&
 std::string jsonOf(const Record& record) {
     Json settings = Json::array(), searches = Json::array(), scores = Json::array();
     for (const TriedSetting& s : record.settings)
-        settings.push_back({{"key", s.key}, {"present", s.present}, {"tried", list(s.tried)}});
+        settings.push_back({{"key", s.key}, {"present", s.present}, {"tried", s.tried}});
     for (const Search& search : record.searches) {
         Json folds = Json::array();
         for (const Fold& fold : search.folds) folds.push_back(json(fold));
@@ -146,8 +140,8 @@ std::string jsonOf(const Record& record) {
     }
     const Json all{{"made_by", "scripts/select-settings"},
                    {"revision", record.revision},
-                   {"seeds", list(record.seeds)},
-                   {"hard_sets", list(record.hard_sets)},
+                   {"seeds", record.seeds},
+                   {"hard_sets", record.hard_sets},
                    {"scans", record.scans},
                    {"measured", record.measured},
                    {"settings", settings},
@@ -161,8 +155,8 @@ Record readRecord(const std::filesystem::path& file) {
     if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     try {
-        return recordOf(Json::parse(text));
-    } catch (const std::runtime_error& e) {
+        return recordOf(base::parseJson(text));
+    } catch (const std::exception& e) {
         throw std::runtime_error(
             file.string() +
             ": is no record of scripts/select-settings, which makes it anew: " + e.what());

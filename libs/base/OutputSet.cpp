@@ -4,7 +4,6 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
-#include <vector>
 
 namespace hagen::base {
 
@@ -12,7 +11,7 @@ void OutputSet::write(const OutputPath& output, const std::function<void()>& ste
     for (Member& member : members_) {
         if (member.path == output.path()) return attempt(member, step);
     }
-    throw std::logic_error(output.path().string() + ": is no output of this set");
+    throw std::logic_error(output.path().string() + ": not an output of this set");
 }
 
 bool OutputSet::areAllGivenUp() const {
@@ -32,17 +31,12 @@ void OutputSet::attempt(Member& member, const std::function<void()>& step) {
     }
     member.is_given_up = true;
     const std::string name = member.path.string();
-    why = withOutputNames(std::move(why));
+    why = withOutputNames(why);
     if (why.find(name) == std::string::npos) why = name + ": " + why;
     failures_ += (failures_.empty() ? "" : "; ") + why;
 }
 
 void OutputSet::commit() {
-    std::vector<std::filesystem::path> complete;
-    for (const Member& member : members_) {
-        if (!member.is_given_up) complete.push_back(member.path);
-    }
-    const RenamingNote note(complete);
     for (Member& member : members_) attempt(member, member.commit);
     if (!failures_.empty()) throw std::runtime_error(failures_);
 }

@@ -43,7 +43,7 @@ std::string readText(const std::filesystem::path& file, std::size_t most_bytes) 
         text.append(block, static_cast<std::size_t>(in.gcount()));
         if (text.size() > most_bytes) {
             fail(file, "is larger than " + std::to_string(most_bytes >> 20) +
-                           " MiB, so this is no such text");
+                           " MiB, too large for a text");
         }
     }
     if (in.bad()) fail(file, "cannot be read");
@@ -54,7 +54,7 @@ bool nextLine(std::ifstream& in, std::string& line, const std::filesystem::path&
     line.clear();
     for (int c = in.get(); c != std::ifstream::traits_type::eof(); c = in.get()) {
         if (c == '\n') return true;
-        if (line.size() == kLongestLine) fail(file, "has a line longer than 1 MiB: it is no text");
+        if (line.size() == kLongestLine) fail(file, "has a line longer than 1 MiB and is not text");
         line += static_cast<char>(c);
     }
     return !line.empty();

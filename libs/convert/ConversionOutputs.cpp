@@ -267,7 +267,6 @@ std::string ConversionOutputs::whatFailed() {
 
 void ConversionOutputs::commit(const ConversionReport& report) {
     finish(report);
-    const base::RenamingNote note(outputsOf(conversion_));
     forEach([&](Part part, auto& output) { attempt(part, [&] { output.commit(); }); });
     const std::string failed = whatFailed();
     if (!failed.empty()) throw std::runtime_error(failed);

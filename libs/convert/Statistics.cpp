@@ -41,11 +41,6 @@ Json latencyOf(const std::vector<ScanReport>& scans) {
             {"max", latencies_ms.back()}};
 }
 
-/// File names need not be valid UTF-8; invalid bytes become U+FFFD.
-std::string dumped(const Json& json, int indent) {
-    return json.dump(indent, Json::NotUtf8::Replace);
-}
-
 double inMillimetres(float metres) {
     return std::round(static_cast<double>(metres) * 1e3) / 1e3;  // sensor resolution
 }
@@ -107,10 +102,10 @@ void writeStatistics(const std::filesystem::path& file, const Conversion& conver
 
     // Scans are written one by one. A single JSON value would take about 1 kB of memory per scan.
     std::ofstream out(file);
-    const std::string head = dumped(json, 1);
+    const std::string head = base::dumpJson(json, 1);
     out << head.substr(0, head.rfind("\n}")) << ",\n \"scans\": [";
     for (std::size_t i = 0; i < report.scan_reports.size(); ++i) {
-        out << (i == 0 ? "\n  " : ",\n  ") << dumped(lineOf(report.scan_reports[i]), -1);
+        out << (i == 0 ? "\n  " : ",\n  ") << base::dumpJson(lineOf(report.scan_reports[i]));
     }
     out << "]\n}\n";
     base::closeWritten(out, file);

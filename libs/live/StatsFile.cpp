@@ -70,7 +70,7 @@ void writeStats(const LiveReport& r, const LiveOptions& options, const LiveListe
         for (const auto& [what, number] : counts()) json[name][what] = number;
     }
     std::ofstream out(file.temporary());
-    out << json.dump(2, base::Json::NotUtf8::Replace) << '\n';
+    out << base::dumpJson(json, 2) << '\n';
     out.close();
     if (!out) throw std::runtime_error(file.path().string() + ": cannot be written");
     file.commit();

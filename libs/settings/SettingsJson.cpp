@@ -26,7 +26,7 @@ Json limit(const std::optional<float>& value) {
 
 }  // namespace
 
-base::Json jsonOf(const Settings& settings) {
+Json jsonOf(const Settings& settings) {
     Json json;
     for (const OptionKey& key : optionKeys()) json[key.name] = option(key, settings.options);
     const Settings::Sensor& sensor = settings.sensor;

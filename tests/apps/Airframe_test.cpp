@@ -1,6 +1,4 @@
-// Simulated flights whose vehicle sees itself, and the masks against it, with the built programs.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+// Airframe masks in simulated flights whose LiDAR sees the vehicle.
 #include <hagen/convert/RawlogWriter.h>
 #include <hagen/convert/ScanFolderWriter.h>
 #include <hagen/mrpt/ObservationScan.h>
@@ -9,9 +7,8 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
-#include "support/ProgramTest.h"
+#include "support/SegmentTest.h"
 
 namespace hagen {
 namespace {
@@ -20,19 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
-const fs::path kConfig = fs::path(HAGEN_SOURCE_DIR) / "config";
-const fs::path kRecording = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog";
-
-/// The low 16 bits of the numbers of a label file.
-std::vector<int> numbersOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::vector<int> numbers;
-    for (std::uint32_t number = 0; in.read(reinterpret_cast<char*>(&number), sizeof number);)
-        numbers.push_back(static_cast<int>(number & 0xffffu));
-    return numbers;
-}
-
-/// What became of a flight's returns: those of the airframe, of dust, and of everything solid.
+/// Labels of a flight's returns: airframe, dust, and everything else.
 struct Tally {
     int airframe = 0, airframe_roi = 0, airframe_unclassified = 0;
     int others = 0, others_unclassified = 0, dust_unclassified = 0;
@@ -42,15 +27,11 @@ struct Flight {
     std::string sensor, preset, roll_deg;
 };
 
-const Flight kVlp16{"VLP-16", "vlp16.yaml", "0"}, kMid360{"Mid-360", "mid360.yaml", "0"},
-    kMid360UpsideDown{"Mid-360", "mid360.yaml", "180"};
+const Flight kVlp16{"VLP-16", "vlp16", "0"}, kMid360{"Mid-360", "mid360", "0"},
+    kMid360UpsideDown{"Mid-360", "mid360", "180"};
 
-class AirframeMask : public test::ProgramTest {
+class AirframeMask : public test::SegmentTest {
  protected:
-    test::Outcome run(const std::vector<std::string>& arguments) const override {
-        return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
-    }
-
     /// Simulates a flight as NAME.rawlog and as the folder NAME.
     void fly(const Flight& flight, const std::string& name, const std::string& seed,
              const std::string& scans) const {
@@ -64,17 +45,15 @@ class AirframeMask : public test::ProgramTest {
 
     Tally segmented(const std::string& name, const Flight& flight,
                     const std::vector<std::string>& more) const {
-        const auto outcome =
-            run(with({"-i", path(name), "--kitti", path("labels"), "--overwrite", "--stats",
-                      path("stats.json"), "-c", kConfig / flight.preset},
-                     more));
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        expectSuccess(with({"-i", path(name), "--kitti", path("labels"), "--overwrite", "--stats",
+                            path("stats.json"), "-c", flight.preset},
+                           more));
         Tally tally;
         const recordings::ScanFolder truth(path(name)), labels(path("labels"));
         EXPECT_EQ(truth.size(), labels.size());
         for (std::size_t scan = 0; scan < truth.size(); ++scan) {
-            const auto kinds = numbersOf(truth.kindFile(scan));
-            const auto found = numbersOf(labels.labelFile(scan));
+            const auto kinds = recordings::readLabels(truth.kindFile(scan));
+            const auto found = recordings::readLabels(labels.labelFile(scan));
             EXPECT_EQ(kinds.size(), found.size());
             for (std::size_t i = 0; i < kinds.size(); ++i) {
                 const bool is_unclassified = found[i] == 0;
@@ -95,87 +74,65 @@ class AirframeMask : public test::ProgramTest {
         }
         return tally;
     }
-
-    nlohmann::json stats() const {
-        return nlohmann::json::parse(test::readFile(path("stats.json")));
-    }
 };
 
 class AirframeFlight : public AirframeMask, public testing::WithParamInterface<Flight> {};
 
-TEST_P(AirframeFlight, WithoutAMaskTheAirframeIsAnObstacle) {
-    fly(GetParam(), "flight", "3", "4");
-    const Tally tally = segmented("flight", GetParam(), {});
-    EXPECT_GT(tally.airframe, 4 * 100);
-    EXPECT_GT(tally.airframe_roi, 0.95 * tally.airframe);
-    EXPECT_EQ(tally.airframe_unclassified, 0);
-    EXPECT_EQ(stats()["returns_masked"], 0);
-}
+/// Without a mask, with a learned one, and with boxes if the sensor is upright.
+TEST_P(AirframeFlight, MasksRemoveAirframeOnly) {
+    fly(GetParam(), "flight", "3", "15");
+    fly(GetParam(), "other", "4", "4");
+    const Tally without = segmented("other", GetParam(), {});
+    EXPECT_GT(without.airframe, 4 * 100);
+    EXPECT_GT(without.airframe_roi, 0.95 * without.airframe);
+    EXPECT_EQ(without.airframe_unclassified, 0);
+    EXPECT_EQ(readJson("stats.json")["returns_masked"], 0);
 
-class UprightAirframe : public AirframeFlight {};
-
-TEST_P(UprightAirframe, BoxesMaskAllOfItAndNothingElse) {
-    fly(GetParam(), "flight", "3", "8");
-    const Tally tally =
-        segmented("flight", GetParam(), {"-c", kConfig / "airframe_simulated.yaml"});
-    EXPECT_GT(tally.airframe, 8 * 100);
-    EXPECT_EQ(tally.airframe_unclassified, tally.airframe);
-    EXPECT_EQ(tally.others_unclassified, 0);
-    EXPECT_LE(tally.dust_unclassified, 1);
-    EXPECT_EQ(stats()["returns_masked"], tally.airframe + tally.dust_unclassified);
-}
-
-TEST_P(AirframeFlight, WhatWasLearnedFromOneFlightMasksTheAirframeInAnother) {
-    fly(GetParam(), "one", "3", "15");
-    fly(GetParam(), "other", "4", "8");
-    const auto learned = run({"-i", path("one.rawlog"), "--learn-airframe", path("airframe.yaml"),
-                              "-c", kConfig / GetParam().preset});
-    ASSERT_EQ(learned.exit_code, 0) << learned.err;
+    const auto learned = expectSuccess({"-i", path("flight.rawlog"), "--learn-airframe",
+                                        path("airframe.yaml"), "-c", GetParam().preset});
     EXPECT_EQ(learned.err, "");
     EXPECT_THAT(learned.out, AllOf(HasSubstr("15 LiDAR scans of 'lidar'"),
                                    HasSubstr(" bins masked: "), HasSubstr(path("airframe.png"))));
     EXPECT_THAT(test::readFile(path("airframe.png")), HasSubstr("IEND"));
     const auto settings = folder_.write("drone.yaml", "airframe: [learned: airframe.yaml]");
-    const Tally tally = segmented("other", GetParam(), {"-c", settings});
-    EXPECT_GT(tally.airframe, 8 * 100);
-    EXPECT_GE(tally.airframe_unclassified, 0.99 * tally.airframe);
-    EXPECT_LE(tally.others_unclassified + tally.dust_unclassified, 8 * 2);
+    const Tally masked = segmented("other", GetParam(), {"-c", settings});
+    EXPECT_GE(masked.airframe_unclassified, 0.99 * masked.airframe);
+    EXPECT_LE(masked.others_unclassified + masked.dust_unclassified, 4 * 2);
+
+    if (GetParam().roll_deg != "0") return;
+    const Tally boxes = segmented("other", GetParam(), {"-c", config("airframe_simulated")});
+    EXPECT_EQ(boxes.airframe_unclassified, boxes.airframe);
+    EXPECT_EQ(boxes.others_unclassified, 0);
+    EXPECT_LE(boxes.dust_unclassified, 1);
+    EXPECT_EQ(readJson("stats.json")["returns_masked"], boxes.airframe + boxes.dust_unclassified);
 }
 
 INSTANTIATE_TEST_SUITE_P(Simulated, AirframeFlight,
                          testing::Values(kVlp16, kMid360, kMid360UpsideDown));
-INSTANTIATE_TEST_SUITE_P(Simulated, UprightAirframe, testing::Values(kVlp16, kMid360));
-
-TEST_F(AirframeMask, StatisticsCountWhatIsMasked) {
-    const auto mask = folder_.write("mask.yaml",
-                                    "airframe: [sphere: {centre_m: [10, 0, 0], "
-                                    "radius_m: 9}]");
-    const auto outcome = run({"-i", kRecording, "--stats", path("stats.json"), "-c", mask});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+TEST_F(AirframeMask, StatisticsCountMaskedReturns) {
+    const auto masked = [&](const std::string& sphere) {
+        const auto mask = folder_.write("mask.yaml", "airframe: [sphere: {" + sphere + "}]");
+        return expectSuccess(
+            {"-i", recording(), "--stats", path("stats.json"), "--overwrite", "-c", mask});
+    };
+    EXPECT_THAT(masked("centre_m: [0, 0, 5], radius_m: 0.2").err,
+                HasSubstr("the log: the airframe of the settings masks none"));
+    const auto outcome = masked("centre_m: [10, 0, 0], radius_m: 9");
     EXPECT_THAT(outcome.out, HasSubstr("of these: the airframe"));
     EXPECT_EQ(outcome.err, "");
-    const auto json = stats();
-    EXPECT_GT(json["returns_masked"], 1000);
-    EXPECT_EQ(json["settings"]["airframe"]["spheres"], 1);
-    int masked = 0;
-    for (const auto& scan : json["scans"]) {
+    const auto stats = readJson("stats.json");
+    EXPECT_GT(stats["returns_masked"], 1000);
+    EXPECT_EQ(stats["settings"]["airframe"]["spheres"], 1);
+    int in_scans = 0;
+    for (const auto& scan : stats["scans"]) {
         EXPECT_LE(scan["returns_masked"], scan["unclassified"]);
-        masked += scan["returns_masked"].get<int>();
+        in_scans += scan["returns_masked"].get<int>();
     }
-    EXPECT_EQ(masked, json["returns_masked"]);
-    EXPECT_LE(json["returns_masked"], json["returns"]["unclassified"]);
+    EXPECT_EQ(in_scans, stats["returns_masked"]);
+    EXPECT_LE(stats["returns_masked"], stats["returns"]["unclassified"]);
 }
 
-TEST_F(AirframeMask, AMaskThatMasksNothingIsRemarked) {
-    const auto mask = folder_.write("mask.yaml",
-                                    "airframe: [sphere: {centre_m: [0, 0, 5], "
-                                    "radius_m: 0.2}]");
-    const auto outcome = run({"-i", kRecording, "-o", path("out.rawlog"), "-c", mask});
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.err, HasSubstr("the log: the airframe of the settings masks none"));
-}
-
-TEST_F(AirframeMask, TheEvaluatedFilterHasTheSameMask) {
+TEST_F(AirframeMask, AppliesToEvaluation) {
     fly(kVlp16, "flight", "3", "3");
     const auto missed = [&](const std::string& mask) {
         const auto outcome =
@@ -183,16 +140,16 @@ TEST_F(AirframeMask, TheEvaluatedFilterHasTheSameMask) {
                       {"-i", path("flight"), "-c", folder_.write("mask.yaml", mask), "--json",
                        path("scores.json"), "--overwrite"});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        const auto json = nlohmann::json::parse(test::readFile(path("scores.json")));
-        return json["methods"][0]["drone"]["returns_above_half_metre"]["missed_share"]
+        return readJson(
+                   "scores.json")["methods"][0]["drone"]["returns_above_half_metre"]["missed_share"]
             .get<double>();
     };
     EXPECT_LT(missed(""), 0.1);
-    // A mask as large as the zone leaves nothing to be found.
+    // A mask as large as the zone leaves no obstacle.
     EXPECT_EQ(missed("airframe: [sphere: {centre_m: [0, 0, 0], radius_m: 20}]"), 1);
 }
 
-TEST_F(AirframeMask, WarnsWhereMostOfWhatIsSeenWouldBeMasked) {
+TEST_F(AirframeMask, WarnsIfMostIsMasked) {
     fs::create_directories(path("scans/velodyne"));
     for (int scan = 0; scan < 12; ++scan) {  // a wall all around a standing vehicle
         std::ofstream out(path("scans/velodyne/" + convert::scanName(scan) + ".bin"),
@@ -209,23 +166,18 @@ TEST_F(AirframeMask, WarnsWhereMostOfWhatIsSeenWouldBeMasked) {
     EXPECT_THAT(outcome.err, HasSubstr("WARNING: more than 20 % is masked. A wall beside"));
 }
 
-TEST_F(AirframeMask, LearnsFromAFlightInTheOpenThatThereIsNothingToMask) {
-    const auto outcome = run({"-i", kRecording, "--learn-airframe", path("a.yaml")});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+TEST_F(AirframeMask, LearnsEmptyMaskInOpenSpace) {
+    folder_.write("a.yaml", "mine");
+    const auto outcome =
+        expectSuccess({"-i", recording(), "--learn-airframe", path("a.yaml"), "--overwrite"});
     EXPECT_THAT(outcome.out, HasSubstr("10 LiDAR scans of 'lidar':\n  0 bins masked"));
     EXPECT_THAT(outcome.err, HasSubstr("no mask is needed"));
+    EXPECT_THAT(test::readFile(path("a.yaml")), HasSubstr("bins: []"));
     const auto settings = folder_.write("drone.yaml", "airframe: [learned: a.yaml]");
-    EXPECT_EQ(run({"-i", kRecording, "-o", path("out"), "-c", settings}).exit_code, 0);
+    expectSuccess({"-i", recording(), "-o", path("out"), "-c", settings});
 }
 
-TEST_F(AirframeMask, FailsToLearnFromTooFewScans) {
-    expectFailure({"-i", kRecording, "--learn-airframe", path("a.yaml"), "--learn-seconds", "0.5"},
-                  1, "at least 10 are needed");
-    expectFailure({"-i", kRecording, "--learn-airframe", path("a.yaml"), "--from", "5"}, 1,
-                  "--learn-seconds");
-}
-
-TEST_F(AirframeMask, FailsToLearnFromSeveralSensorsOrFromOneThatIsNotThere) {
+TEST_F(AirframeMask, LearnsFromOneSensorOnly) {
     convert::RawlogWriter writer(path("two.rawlog"), false);
     Scan scan;
     scan.x_m = scan.y_m = scan.z_m = {0.3f};
@@ -238,44 +190,34 @@ TEST_F(AirframeMask, FailsToLearnFromSeveralSensorsOrFromOneThatIsNotThere) {
     writer.commit();
     expectFailure({"-i", path("two.rawlog"), "--learn-airframe", path("a.yaml")}, 1,
                   "scans of 'front' and of 'rear'");
-    const auto outcome = run(
+    const auto outcome = expectSuccess(
         {"-i", path("two.rawlog"), "--learn-airframe", path("b.yaml"), "--sensor-label", "rear"});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("12 LiDAR scans of 'rear':\n  1 bin masked"));
-    expectFailure({"-i", kRecording, "--learn-airframe", path("a.yaml"), "--sensor-label", "rear"},
-                  1, "has 0 scans");
 }
 
-TEST_F(AirframeMask, FailsWhereTheFileOrThePictureExists) {
-    folder_.write("a.yaml", "mine");
+TEST_F(AirframeMask, RejectsWrongUsage) {
+    folder_.write("mine.yaml", "mine");
     folder_.write("b.png", "mine");
-    expectFailure({"-i", kRecording, "--learn-airframe", path("a.yaml")}, 1, "a.yaml");
-    expectFailure({"-i", kRecording, "--learn-airframe", path("b.yaml")}, 1, "b.png");
-    EXPECT_EQ(
-        run({"-q", "-i", kRecording, "--learn-airframe", path("a.yaml"), "--overwrite"}).exit_code,
-        0);
-    EXPECT_THAT(test::readFile(path("a.yaml")), HasSubstr("bins: []"));
-}
-
-TEST_F(AirframeMask, RefusesFlagsThatDoNotGoWithLearning) {
-    expectFailure({"-i", kRecording, "--learn-airframe", path("a.yaml"), "-o", path("out")}, 2,
-                  "learn first");
-    expectFailure({"-i", kRecording, "--learn-airframe", path("a.txt")}, 2, ".yaml");
-    expectFailure({"-i", kRecording, "--learn-airframe", path("a.yaml"), "--poses", kRecording}, 2,
-                  "needs no poses");
-    expectFailure({"-i", kRecording, "-o", path("out"), "--learn-seconds", "5"}, 2,
-                  "--learn-airframe");
-    expectFailure({"--learn-airframe", path("a.yaml")}, 2, "--input");
-    for (const char* seconds : {"0", "-1", "nan", "soon"}) {
-        expectFailure(
-            {"-i", kRecording, "--learn-airframe", path("a.yaml"), "--learn-seconds", seconds}, 2,
-            "--learn-seconds");
+    const Arguments learn{"-i", recording(), "--learn-airframe", path("a.yaml")};
+    expectFailures(learn, 1,
+                   {{{"--learn-seconds", "0.5"}, "at least 10 are needed"},
+                    {{"--from", "5"}, "--learn-seconds"},
+                    {{"--sensor-label", "rear"}, "has 0 scans"}});
+    for (const char* file : {"mine.yaml", "b.yaml"}) {  // or its picture exists
+        expectFailure({"-i", recording(), "--learn-airframe", path(file)}, 1, "--overwrite");
     }
-}
-
-TEST_F(AirframeMask, RefusesALearnedFileThatIsNotThere) {
+    expectFailures(
+        learn, 2,
+        {{{"-o", path("out")}, "learn first"}, {{"--poses", recording()}, "needs no poses"}});
+    for (const char* seconds : {"0", "-1", "nan", "soon"}) {
+        expectFailure(with(learn, {"--learn-seconds", seconds}), 2, "--learn-seconds");
+    }
     const auto settings = folder_.write("drone.yaml", "airframe:\n- learned: none.yaml");
-    expectFailure({"-i", kRecording, "-o", path("out"), "-c", settings}, 2, "drone.yaml:2: ");
+    expectFailures({"-i", recording()}, 2,
+                   {{{"--learn-airframe", path("a.txt")}, ".yaml"},
+                    {{"-o", path("out"), "--learn-seconds", "5"}, "--learn-airframe"},
+                    {{"-o", path("out"), "-c", settings}, "drone.yaml:2: "}});
+    expectFailure({"--learn-airframe", path("a.yaml")}, 2, "--input");
 }
 
 }  // namespace

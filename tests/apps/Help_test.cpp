@@ -23,7 +23,6 @@ TEST_P(Help, FitsATerminal) {
     std::istringstream lines(outcome.out);
     for (std::string line; std::getline(lines, line);) {
         EXPECT_LE(line.size(), 80u) << line;
-        // Only a blank line ends in nothing.
         EXPECT_TRUE(line.empty() || line.back() != ' ') << line;
     }
 }

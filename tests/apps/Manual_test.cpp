@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class Manual : public testing::TestWithParam<const char*> {};
 
-TEST_P(Manual, NamesEveryFlagOfHelp) {
+TEST_P(Manual, ListsEveryFlag) {
     const std::filesystem::path program = GetParam(), share = HAGEN_BUILT_SHARE;
     const std::string name = program.filename().string();
     const std::string page = std::regex_replace(test::readFile(share / "man/man1" / (name + ".1")),

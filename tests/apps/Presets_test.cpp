@@ -1,33 +1,32 @@
 // Presets by name, in every program that takes settings.
-#include <sstream>
-
-#include "support/ProgramTest.h"
+#include "support/SegmentTest.h"
 
 namespace hagen {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
-const std::string kConfig = HAGEN_SOURCE_DIR "/config/";
 
-class Presets : public test::ProgramTest {
+class Presets : public test::SegmentTest {
  protected:
-    test::Outcome run(const std::vector<std::string>& arguments) const override {
-        return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
+    /// Expects a program to reject its arguments.
+    static void expectRejected(const char* program, const Arguments& arguments,
+                               const char* words) {
+        const auto outcome = test::run(program, arguments);
+        EXPECT_EQ(outcome.exit_code, 2);
+        EXPECT_THAT(outcome.err, HasSubstr(words));
     }
 };
 
-TEST_F(Presets, ANameIsTheFile) {
+TEST_F(Presets, NameMeansFile) {
     for (const std::string name : {"vlp16", "hdl64e", "mid360", "paper"}) {
-        const auto by_name = run({"--config-dump", "-c", name});
-        EXPECT_EQ(by_name.exit_code, 0) << by_name.err;
-        EXPECT_EQ(by_name.out, run({"--config-dump", "-c", kConfig + name + ".yaml"}).out);
+        EXPECT_EQ(expectSuccess({"--config-dump", "-c", name}).out,
+                  run({"--config-dump", "-c", config(name)}).out);
     }
 }
 
-TEST_F(Presets, AProgramThatWasMovedTakesItsPresetsAlong) {
+TEST_F(Presets, AreFoundBesideMovedProgram) {
     fs::create_directories(folder_ / "moved/bin");
     folder_.write("moved/share/hagen/config/vlp16.yaml", "zone_m: 17\n");
     fs::copy_file(HAGEN_RAWLOG_SEGMENT, folder_ / "moved/bin/rawlog-segment");
@@ -36,28 +35,20 @@ TEST_F(Presets, AProgramThatWasMovedTakesItsPresetsAlong) {
     EXPECT_THAT(outcome.out, HasSubstr("zone_m: 17 "));
 }
 
-TEST_F(Presets, AnUnknownOneIsWrongUsageOfEveryProgram) {
-    expectFailure({"-i", kConfig, "-o", path("out.rawlog"), "-c", "vlp61"}, 2,
+TEST_F(Presets, UnknownNameIsWrongUsage) {
+    const std::string folder = HAGEN_SOURCE_DIR "/config";
+    expectFailure({"-i", folder, "-o", path("out.rawlog"), "-c", "vlp61"}, 2,
                   "vlp61: no such file or preset; did you mean 'vlp16'?");
-    const auto evaluate = test::run(HAGEN_SEGMENTATION_EVALUATE, {"-i", kConfig, "-c", "vlp61"});
-    EXPECT_EQ(evaluate.exit_code, 2);
-    EXPECT_THAT(evaluate.err, HasSubstr("did you mean 'vlp16'?"));
-    const auto openloop = test::run(HAGEN_OCTOMAP_COMPARE,
-                                    {"openloop", "-i", HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog",
-                                     "--models", "W-RoI", "-c", "vlp61", "-o", path("models")});
-    EXPECT_EQ(openloop.exit_code, 2);
-    EXPECT_THAT(openloop.err, HasSubstr("did you mean 'vlp16'?"));
-}
-
-TEST_F(Presets, FlagsListThoseOfTheirKind) {
-    const auto camera =
-        test::run(HAGEN_SEGMENTATION_EVALUATE, {"-i", kConfig, "--camera", "backward"});
-    EXPECT_EQ(camera.exit_code, 2);
-    EXPECT_THAT(camera.err, AllOf(HasSubstr("presets: camera_forward;"), HasSubstr("backward")));
-    const auto map =
-        test::run(HAGEN_SEGMENTATION_EVALUATE, {"-i", kConfig, "--label-map", "kitti"});
-    EXPECT_EQ(map.exit_code, 2);
-    EXPECT_THAT(map.err, HasSubstr("presets: semantic_kitti, semantic_kitti_without_vegetation;"));
+    expectRejected(HAGEN_SEGMENTATION_EVALUATE, {"-i", folder, "-c", "vlp61"},
+                   "did you mean 'vlp16'?");
+    expectRejected(
+        HAGEN_OCTOMAP_COMPARE,
+        {"openloop", "-i", recording(), "--models", "W-RoI", "-c", "vlp61", "-o", path("models")},
+        "did you mean 'vlp16'?");
+    expectRejected(HAGEN_SEGMENTATION_EVALUATE, {"-i", folder, "--camera", "backward"},
+                   "presets: camera_forward;");
+    expectRejected(HAGEN_SEGMENTATION_EVALUATE, {"-i", folder, "--label-map", "kitti"},
+                   "presets: semantic_kitti, semantic_kitti_without_vegetation;");
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
-// rawlog-segment on point cloud files, as a user would run it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+// rawlog-segment on point cloud files.
 #include <hagen/recordings/CloudFile.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/scan/Angle.h>
@@ -9,10 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "support/CloudFiles.h"
-#include "support/ProgramTest.h"
+#include "support/SegmentTest.h"
 #include "support/SimpleScene.h"
 
 namespace hagen {
@@ -24,7 +21,7 @@ using testing::Not;
 
 namespace fs = std::filesystem;
 
-/// Files of one scan, which test/support lays out byte by byte.
+/// A file format, and its bytes for a scan.
 struct Written {
     std::string ending;
     std::function<std::string(const Scan&)> text;
@@ -71,14 +68,8 @@ const std::vector<Written>& formats() {
     return kFormats;
 }
 
-class RawlogSegmentClouds : public test::ProgramTest {
+class RawlogSegmentClouds : public test::SegmentTest {
  protected:
-    test::Outcome run(const std::vector<std::string>& arguments) const override {
-        return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
-    }
-    static std::string config(const std::string& name) {
-        return std::string(HAGEN_SOURCE_DIR) + "/config/" + name + ".yaml";
-    }
     /// Poles on the ground, as a VLP-16 sees them.
     static Scan poles() {
         test::SimpleScene scene;
@@ -93,7 +84,7 @@ class RawlogSegmentClouds : public test::ProgramTest {
         return path(name);
     }
     /// The labels in a folder of labelled clouds, one file after the other.
-    std::vector<double> labelsOf(const std::string& folder) const {
+    std::vector<double> labelled(const std::string& folder) const {
         std::set<fs::path> files;
         for (const auto& file : fs::directory_iterator(path(folder))) {
             if (recordings::hasCloudName(file.path())) files.insert(file.path());
@@ -117,24 +108,22 @@ class RawlogSegmentClouds : public test::ProgramTest {
     }
 };
 
-TEST_F(RawlogSegmentClouds, EveryFormatGivesTheLabelsOfTheScanFolder) {
+TEST_F(RawlogSegmentClouds, EveryFormatGetsSameLabels) {
     const Scan scan = poles();
     fs::create_directories(path("scans") + "/velodyne");
     recordings::writeScan(path("scans") + "/velodyne/000000.bin", scan);
     for (const std::vector<std::string>& settings :
          {std::vector<std::string>{}, {"-c", config("vlp16")}}) {
-        fs::remove_all(path("kitti"));
-        ASSERT_EQ(run(with(settings, {"-i", path("scans"), "--kitti", path("kitti")})).exit_code,
-                  0);
+        expectSuccess(
+            with(settings, {"-i", path("scans"), "--kitti", path("kitti"), "--overwrite"}));
         const auto expected = labelsOfScanFolder(path("kitti"));
         ASSERT_GT(std::count(expected.begin(), expected.end(), 2.0), 100);
         ASSERT_GT(std::count(expected.begin(), expected.end(), 1.0), 100);
         for (const Written& format : formats()) {
             const std::string file = write("000000" + format.ending, format.text(scan));
             const auto outcome =
-                run(with(settings, {"-i", file, "--clouds", path("out"), "--overwrite"}));
-            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-            EXPECT_EQ(labelsOf("out"), expected) << format.ending;
+                expectSuccess(with(settings, {"-i", file, "--clouds", path("out"), "--overwrite"}));
+            EXPECT_EQ(labelled("out"), expected) << format.ending;
             EXPECT_THAT(outcome.out,
                         AllOf(HasSubstr("labelled clouds: " + path("out") + " ("),
                               HasSubstr(", 1 file, " + std::to_string(scan.size()) + " points)")));
@@ -142,17 +131,15 @@ TEST_F(RawlogSegmentClouds, EveryFormatGivesTheLabelsOfTheScanFolder) {
     }
 }
 
-TEST_F(RawlogSegmentClouds, EveryFormatGivesTheLabelsOfRealScanFolders) {
+TEST_F(RawlogSegmentClouds, EveryFormatOfRealScansGetsSameLabels) {
     const fs::path data = test::dataFolder("HAGEN_LABELLED_DATA");
     if (data.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA names no folder of scans";
     const recordings::ScanFolder scans(data / "beams16" / "00");
-    // The folder names its beams; files of clouds are told so.
+    // The folder names its beams; cloud files need the settings.
     const std::vector<std::string> settings{"-q", "-c", config("vlp16"), "-c",
                                             scans.sensorFile().string()};
-    ASSERT_EQ(
-        run(with(settings, {"-i", scans.path().string(), "--kitti", path("kitti"), "--to", "1"}))
-            .exit_code,
-        0);
+    expectSuccess(
+        with(settings, {"-i", scans.path().string(), "--kitti", path("kitti"), "--to", "1"}));
     const auto expected = labelsOfScanFolder(path("kitti"));
     for (const Written& format : formats()) {
         fs::remove_all(path("in"));
@@ -161,17 +148,15 @@ TEST_F(RawlogSegmentClouds, EveryFormatGivesTheLabelsOfRealScanFolders) {
             recordings::readScan(scans.scanFile(i), scan);
             write("in/" + scans.name(i) + format.ending, format.text(scan));
         }
-        const auto outcome = run(with(settings, {"-i", path("in"), "--clouds", path("out"),
-                                                 "--cloud-format", "pcd", "--overwrite"}));
-        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-        EXPECT_EQ(labelsOf("out"), expected) << format.ending;
+        expectSuccess(with(settings, {"-i", path("in"), "--clouds", path("out"), "--cloud-format",
+                                      "pcd", "--overwrite"}));
+        EXPECT_EQ(labelled("out"), expected) << format.ending;
     }
 }
 
-TEST_F(RawlogSegmentClouds, ASensorIsRecoveredAndRemarksAreTold) {
+TEST_F(RawlogSegmentClouds, RecoversSensorAndPrintsRemarks) {
     const std::string file = write("a.npy", npyOf(poles()));
-    const auto outcome = run({"-i", file, "-o", path("out.rawlog"), "--stats", path("out.json")});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto outcome = expectSuccess({"-i", file, "-o", path("out.rawlog")});
     EXPECT_THAT(outcome.out, HasSubstr("sensor lidar: "));
     EXPECT_THAT(outcome.out, HasSubstr("beams recovered"));
     EXPECT_THAT(outcome.err, HasSubstr("0.1 s apart"));
@@ -179,38 +164,25 @@ TEST_F(RawlogSegmentClouds, ASensorIsRecoveredAndRemarksAreTold) {
                 HasSubstr("does not hold (--cloud generic and --clouds do): intensity"));
 }
 
-TEST_F(RawlogSegmentClouds, LabelledCloudsAreInputsAgain) {
+TEST_F(RawlogSegmentClouds, ReadsOwnOutput) {
     write("in/1.pcd", pcdOf(poles()));
-    ASSERT_EQ(run({"-q", "-i", path("in"), "--clouds", path("a")}).exit_code, 0);
-    const auto outcome = run({"-i", path("a"), "--clouds", path("b"), "--cloud-format", "pcd",
-                              "--stats", path("b.json")});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    expectSuccess({"-q", "-i", path("in"), "--clouds", path("a")});
+    const auto outcome = expectSuccess({"-i", path("a"), "--clouds", path("b"), "--cloud-format",
+                                        "pcd", "--stats", path("b.json")});
     EXPECT_TRUE(fs::exists(path("b") + "/1.pcd"));
-    EXPECT_EQ(labelsOf("a"), labelsOf("b"));
+    EXPECT_EQ(labelled("a"), labelled("b"));
     EXPECT_THAT(outcome.err, HasSubstr("'input_obstacle'"));
-    const auto stats = nlohmann::json::parse(test::readFile(path("b.json")));
+    const auto stats = readJson("b.json");
     EXPECT_EQ(stats["clouds"]["files"], 1);
-    EXPECT_EQ(stats["clouds"]["points"], labelsOf("b").size());
+    EXPECT_EQ(stats["clouds"]["points"], labelled("b").size());
     EXPECT_EQ(stats["outputs"]["clouds"], path("b"));
 }
 
-TEST_F(RawlogSegmentClouds, TheSameBytesForAnyNumberOfThreads) {
-    for (const char* const name : {"in/1.pcd", "in/2.pcd", "in/3.pcd"}) write(name, pcdOf(poles()));
-    for (const std::string jobs : {"1", "3"}) {
-        ASSERT_EQ(
-            run({"-q", "-i", path("in"), "--clouds", path("out" + jobs), "--jobs", jobs}).exit_code,
-            0);
-    }
-    for (const char* const name : {"/1.ply", "/2.ply", "/3.ply"}) {
-        EXPECT_EQ(test::readFile(path("out1") + name), test::readFile(path("out3") + name));
-    }
-}
-
-TEST_F(RawlogSegmentClouds, FieldsOfMrpt3ReachTheLabelledClouds) {
+TEST_F(RawlogSegmentClouds, KeepsFieldsOfMrpt3) {
     const fs::path data = test::dataFolder("HAGEN_MRPT3_DATA");
     if (data.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA names no folder of logs of MRPT 3";
     const std::string log = (data / "sample_mrpt3.rawlog").string();
-    ASSERT_EQ(run({"-q", "-i", log, "--clouds", path("out")}).exit_code, 0);
+    expectSuccess({"-q", "-i", log, "--clouds", path("out")});
     const auto table = recordings::readCloud(path("out") + "/cloud/000000.ply").table;
     EXPECT_EQ(namesOf(table), "x, y, z, intensity, t, ring, label, obstacle");
     // Its rings are a VLP-16's laser numbers, which do not rise with the elevation.
@@ -227,9 +199,7 @@ TEST_F(RawlogSegmentClouds, FieldsOfMrpt3ReachTheLabelledClouds) {
     EXPECT_THAT(again.out, HasSubstr("its ring numbers do not agree with elevations"));
 }
 
-// Failures
-
-TEST_F(RawlogSegmentClouds, BrokenFilesFailNamingFileAndPlace) {
+TEST_F(RawlogSegmentClouds, ReportsPlaceOfErrors) {
     const auto fails = [&](const std::string& name, const std::string& text,
                            const std::string& words) {
         const std::string file = write(name, text);
@@ -251,7 +221,7 @@ TEST_F(RawlogSegmentClouds, BrokenFilesFailNamingFileAndPlace) {
           "is no point cloud: it seems to be a JPEG picture");
 }
 
-TEST_F(RawlogSegmentClouds, ABreakInAFolderKeepsWhatWasBefore) {
+TEST_F(RawlogSegmentClouds, KeepsCloudsBeforeBrokenOne) {
     write("in/1.pcd", pcdOf(poles()));
     write("in/2.pcd", pcdOf(poles()).substr(0, 1000));
     write("in/3.pcd", pcdOf(poles()));
@@ -263,28 +233,24 @@ TEST_F(RawlogSegmentClouds, ABreakInAFolderKeepsWhatWasBefore) {
     EXPECT_FALSE(fs::exists(path("out")));
 }
 
-TEST_F(RawlogSegmentClouds, WrongUsageIsToldFromFailure) {
-    const std::string file = write("a.pcd", pcdOf(poles()));
-    expectFailure({"-i", file, "--clouds", path("out"), "--cloud-format", "las"}, 2, "las");
-    expectFailure({"-i", file, "--kitti", path("out"), "--cloud-format", "pcd"}, 2, "--clouds");
-    expectFailure({"-i", file, "--clouds", ""}, 2, "must not be empty");
-    expectFailure({"-i", file, "--clouds", path("none") + "/out"}, 1, "none");
+TEST_F(RawlogSegmentClouds, RejectsWrongOutputs) {
+    const std::string file = write("in/a.pcd", pcdOf(poles()));
     fs::create_directory(path("taken"));
-    expectFailure({"-i", file, "--clouds", path("taken")}, 1, "taken exists");
-    fs::create_directory(path("notes"));
     write("notes/notes.txt", "mine");
-    expectFailure({"-i", file, "--clouds", path("notes"), "--overwrite"}, 1, "'made_by.txt'");
-    // Clouds of the user, which have the same names as labelled ones.
-    fs::create_directory(path("mine"));
-    fs::copy_file(file, path("mine/000000.pcd"));
-    expectFailure({"-i", file, "--clouds", path("mine"), "--overwrite"}, 1, "has no 'made_by.txt'");
-    EXPECT_TRUE(fs::exists(path("mine/000000.pcd")));
-    expectFailure({"-i", file, "--clouds", folder_.path().string(), "--overwrite"}, 1,
-                  "is or contains the input");
+    write("mine/000000.pcd", "mine");  // named like a labelled cloud
+    expectFailures({"-i", file}, 2,
+                   {{{"--clouds", path("out"), "--cloud-format", "las"}, "las"},
+                    {{"--kitti", path("out"), "--cloud-format", "pcd"}, "--clouds"},
+                    {{"--clouds", ""}, "must not be empty"}});
+    expectFailures({"-i", file}, 1,
+                   {{{"--clouds", path("none/out")}, "none"},
+                    {{"--clouds", path("taken")}, "taken exists"},
+                    {{"--clouds", path("notes"), "--overwrite"}, "'made_by.txt'"},
+                    {{"--clouds", path("mine"), "--overwrite"}, "has no 'made_by.txt'"},
+                    {{"--clouds", path("in"), "--overwrite"}, "is or contains the input"}});
     expectFailure({"-i", path("notes"), "--clouds", path("out")}, 1,
                   "notes: not a scan folder (no subfolder 'velodyne' with .bin files), and no "
-                  "folder of point "
-                  "clouds");
+                  "folder of point clouds");
 }
 
 }  // namespace

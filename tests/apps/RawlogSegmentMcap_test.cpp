@@ -1,12 +1,10 @@
-// rawlog-segment --mcap, as a user would run it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+// rawlog-segment --mcap.
 #include <hagen/recordings/CloudFile.h>
 
-#include <nlohmann/json.hpp>
+#include <map>
 #include <sstream>
 
-#include "support/ProgramTest.h"
+#include "support/SegmentTest.h"
 
 namespace hagen {
 namespace {
@@ -16,14 +14,8 @@ using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-class RawlogSegmentMcap : public test::ProgramTest {
+class RawlogSegmentMcap : public test::SegmentTest {
  protected:
-    test::Outcome run(const std::vector<std::string>& arguments) const override {
-        return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
-    }
-    /// Ten scans with poses.
-    static std::string recording() { return HAGEN_SOURCE_DIR "/rawlogs/poles_and_wall.rawlog"; }
-    static std::string config() { return std::string(HAGEN_SOURCE_DIR) + "/config/vlp16.yaml"; }
     /// All numbers of a field in a folder of labelled clouds.
     std::vector<double> columnOf(const std::string& folder, const char* name) const {
         std::set<fs::path> files;
@@ -40,31 +32,26 @@ class RawlogSegmentMcap : public test::ProgramTest {
     }
 };
 
-TEST_F(RawlogSegmentMcap, ItsOutputIsSegmentedToTheSameLabels) {
-    // Clouds, so that both runs get the same numbers: of packets, beams would be known better.
-    ASSERT_EQ(run({"-q", "-i", recording(), "--mcap", path("clouds.mcap")}).exit_code, 0);
-    ASSERT_EQ(run({"-q", "-i", path("clouds.mcap"), "-c", config(), "--mcap", path("a.mcap"),
-                   "--clouds", path("a")})
-                  .exit_code,
-              0);
-    const auto again = run({"-i", path("a.mcap"), "-c", config(), "--clouds", path("b")});
-    ASSERT_EQ(again.exit_code, 0) << again.err;
-    for (const char* const field : {"x", "y", "z", "intensity", "time", "ring", "label"}) {
-        const auto due = columnOf("a", field);
-        ASSERT_GT(due.size(), 100000u);
-        EXPECT_EQ(columnOf("b", field), due) << field;
+TEST_F(RawlogSegmentMcap, OwnOutputGetsSameLabels) {
+    // Clouds, so that both runs get the same numbers: beams of packets would be known better.
+    expectSuccess({"-q", "-i", recording(), "--mcap", path("clouds.mcap"), "--to", "9"});
+    expectSuccess({"-q", "-i", path("clouds.mcap"), "-c", config("vlp16"), "--mcap", path("a.mcap"),
+                   "--clouds", path("a")});
+    const auto again =
+        expectSuccess({"-i", path("a.mcap"), "-c", config("vlp16"), "--clouds", path("b")});
+    for (const char* const field :
+         {"x", "y", "z", "intensity", "time", "ring", "label", "obstacle", "input_label"}) {
+        EXPECT_TRUE(columnOf("b", field) == columnOf("a", field)) << field;
     }
-    EXPECT_EQ(columnOf("b", "obstacle"), columnOf("a", "obstacle"));
-    EXPECT_EQ(columnOf("b", "input_label"), columnOf("a", "input_label"));
-    EXPECT_EQ(columnOf("b", "input_label_"), columnOf("a", "label"));
-    EXPECT_THAT(again.out, HasSubstr("poses of 10 of 10 scans: geometry_msgs/PoseStamped on "));
+    EXPECT_GT(columnOf("a", "x").size(), 50000u);
+    EXPECT_TRUE(columnOf("b", "input_label_") == columnOf("a", "label"));
+    EXPECT_THAT(again.out, HasSubstr("poses of 5 of 5 scans: geometry_msgs/PoseStamped on "));
 }
 
-TEST_F(RawlogSegmentMcap, SummaryAndStatisticsCountTheSame) {
+TEST_F(RawlogSegmentMcap, SummaryMatchesStatistics) {
     const auto outcome =
-        run({"-i", recording(), "--mcap", path("out.mcap"), "--stats", path("out.json")});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const auto stats = nlohmann::json::parse(test::readFile(path("out.json")));
+        expectSuccess({"-i", recording(), "--mcap", path("out.mcap"), "--stats", path("out.json")});
+    const auto stats = readJson("out.json");
     EXPECT_EQ(stats["outputs"]["mcap"], path("out.mcap"));
     EXPECT_EQ(stats["mcap"]["scans"], stats["scans"].size());
     EXPECT_EQ(stats["mcap"]["points"], stats["returns"]["all"]);
@@ -75,23 +62,12 @@ TEST_F(RawlogSegmentMcap, SummaryAndStatisticsCountTheSame) {
                                        stats["mcap"]["boxes"].dump() + " boxes, 40 messages)"));
 }
 
-TEST_F(RawlogSegmentMcap, TheSameBytesForAnyNumberOfThreads) {
-    for (const std::string jobs : {"1", "3"}) {
-        ASSERT_EQ(run({"-q", "-i", recording(), "--mcap", path(jobs + ".mcap"), "--jobs", jobs})
-                      .exit_code,
-                  0);
-    }
-    EXPECT_TRUE(test::readFile(path("1.mcap")) == test::readFile(path("3.mcap")));
-}
-
-/// tests/recordings/read_mcap.mjs, which needs packages of npm: readers of the format's authors.
-TEST_F(RawlogSegmentMcap, AnotherReaderFindsTheSame) {
+/// tests/recordings/read_mcap.mjs uses the npm packages of the format's authors.
+TEST_F(RawlogSegmentMcap, ReferenceReaderAgrees) {
     const fs::path modules = test::dataFolder("HAGEN_NODE_MODULES");
     if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES names no folder with @mcap/core";
-    ASSERT_EQ(run({"-q", "-i", recording(), "--mcap", path("out.mcap"), "--clouds", path("out"),
-                   "--stats", path("out.json")})
-                  .exit_code,
-              0);
+    expectSuccess(
+        {"-q", "-i", recording(), "--mcap", path("out.mcap"), "--stats", path("out.json")});
     const auto read = test::run(
         "/usr/bin/env",
         {"-C", modules.string(), "node",
@@ -100,7 +76,7 @@ TEST_F(RawlogSegmentMcap, AnotherReaderFindsTheSame) {
         GTEST_SKIP() << "node, a package or zstd is not there: " << read.err;
     }
     ASSERT_EQ(read.exit_code, 0) << read.err;
-    const auto stats = nlohmann::json::parse(test::readFile(path("out.json")));
+    const auto stats = readJson("out.json");
     std::map<std::string, int> messages;
     std::size_t points = 0, boxes = 0;
     nlohmann::json line;
@@ -145,54 +121,34 @@ TEST_F(RawlogSegmentMcap, AnotherReaderFindsTheSame) {
     EXPECT_EQ(line["topics"].size(), 4u);
 }
 
-// Failures
-
-TEST_F(RawlogSegmentMcap, AnExistingFileIsReplacedOnlyIfAsked) {
+TEST_F(RawlogSegmentMcap, RejectsWrongOutputs) {
     folder_.write("out.mcap", "mine");
-    expectFailure({"-i", recording(), "--mcap", path("out.mcap")}, 1,
-                  "out.mcap exists; use --overwrite");
-    EXPECT_EQ(test::readFile(path("out.mcap")), "mine");
-    ASSERT_EQ(run({"-q", "-i", recording(), "--mcap", path("out.mcap"), "--overwrite"}).exit_code,
-              0);
-    EXPECT_GT(fs::file_size(path("out.mcap")), 100000u);
+    folder_.write("in.mcap", "mine");
     fs::create_directory(path("folder.mcap"));
-    expectFailure({"-i", recording(), "--mcap", path("folder.mcap"), "--overwrite"}, 1,
-                  "not a file");
-    fs::copy(path("out.mcap"), path("in.mcap"));
+    const Arguments log{"-i", recording()};
+    expectFailures(log, 1,
+                   {{{"--mcap", path("out.mcap")}, "out.mcap exists; use --overwrite"},
+                    {{"--mcap", path("folder.mcap"), "--overwrite"}, "not a file"},
+                    {{"--mcap", path("none/out.mcap")}, "none: no such folder"}});
+    expectFailures(log, 2,
+                   {{{"--mcap", path("out.bag")}, "does not end in .mcap"},
+                    {{"--mcap", ""}, "must not be empty"}});
     expectFailure({"-i", path("in.mcap"), "--mcap", path("in.mcap"), "--overwrite"}, 1,
                   "is or contains the input");
+    EXPECT_EQ(test::readFile(path("out.mcap")), "mine");
 }
 
-TEST_F(RawlogSegmentMcap, WhatCannotBeWrittenIsNamed) {
-    expectFailure({"-i", recording(), "--mcap", path("none") + "/out.mcap"}, 1,
-                  "none: no such folder");
-    expectFailure({"-i", recording(), "--mcap", path("out.bag")}, 2, "does not end in .mcap");
-    expectFailure({"-i", recording(), "--mcap", ""}, 2, "must not be empty");
-}
-
-TEST_F(RawlogSegmentMcap, AFullDiskLeavesNothing) {
-    // A limit on file sizes is as good as a full disk.
-    const auto outcome =
-        test::run("bash", {"-c", "trap \"\" XFSZ; ulimit -f 200; exec \"$0\" \"$@\"",
-                           HAGEN_RAWLOG_SEGMENT, "-i", recording(), "--mcap", path("out.mcap")});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("out.mcap: cannot be written"));
-    EXPECT_TRUE(files().empty());
-}
-
-TEST_F(RawlogSegmentMcap, ACutInputKeepsWhatWasBefore) {
-    ASSERT_EQ(run({"-q", "-i", recording(), "--mcap", path("in.mcap")}).exit_code, 0);
+TEST_F(RawlogSegmentMcap, KeepsReadablePartOfCutInput) {
+    expectSuccess({"-q", "-i", recording(), "--mcap", path("in.mcap")});
     fs::resize_file(path("in.mcap"), fs::file_size(path("in.mcap")) * 2 / 3);
     const auto outcome = run({"-i", path("in.mcap"), "--mcap", path("out.mcap")});
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("in.mcap: "), HasSubstr("is cut off"),
                                    HasSubstr("out.partial.mcap")));
     EXPECT_FALSE(fs::exists(path("out.mcap")));
-    const auto partial = run({"-i", path("out.partial.mcap"), "--stats", path("out.json")});
-    EXPECT_EQ(partial.exit_code, 0) << partial.err;
-    const auto stats = nlohmann::json::parse(test::readFile(path("out.json")));
-    EXPECT_GT(stats["scans"].size(), 2u);
-    EXPECT_LT(stats["scans"].size(), 10u);
+    expectSuccess({"-i", path("out.partial.mcap"), "--stats", path("out.json")});
+    EXPECT_GT(readJson("out.json")["scans"].size(), 2u);
+    EXPECT_LT(readJson("out.json")["scans"].size(), 10u);
 }
 
 }  // namespace

@@ -1,14 +1,10 @@
-// rawlog-segment --octomap, as a user would run it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+// rawlog-segment --octomap.
 #include <octomap/OcTree.h>
 
 #include <cmath>
-#include <filesystem>
-#include <memory>
 #include <set>
 
-#include "support/ProgramTest.h"
+#include "support/SegmentTest.h"
 
 namespace hagen {
 namespace {
@@ -16,21 +12,13 @@ namespace {
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
-const fs::path kRecording = fs::path(HAGEN_SOURCE_DIR) / "rawlogs/poles_and_wall.rawlog";
 
-class RawlogSegmentOctomap : public test::ProgramTest {
+class RawlogSegmentOctomap : public test::SegmentTest {
  protected:
-    test::Outcome run(const std::vector<std::string>& arguments) const override {
-        return test::run(HAGEN_RAWLOG_SEGMENT, arguments);
-    }
-
     /// A map of the recording, created with these flags.
     octomap::OcTree mapOf(const std::vector<std::string>& flags) {
-        std::vector<std::string> arguments = {"-i", kRecording, "--octomap", path("map.bt"),
-                                              "--overwrite"};
-        arguments.insert(arguments.end(), flags.begin(), flags.end());
-        const auto outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const auto outcome = expectSuccess(
+            with({"-i", recording(), "--octomap", path("map.bt"), "--overwrite"}, flags));
         EXPECT_EQ(outcome.err, "");
         EXPECT_THAT(outcome.out, HasSubstr("in the OctoMap: 10 of 10 scans"));
         octomap::OcTree tree(0.1);
@@ -63,7 +51,7 @@ bool isAtWall(const octomap::point3d& p) {
     return p.x() > 15.8 && p.x() < 16.7 && p.y() > -2.3 && p.y() < 3.3 && p.z() < 4.3;
 }
 
-TEST_F(RawlogSegmentOctomap, ObstaclesAreWhereTheyAreKnownToBe) {
+TEST_F(RawlogSegmentOctomap, ObstaclesAreAtTruePlaces) {
     const octomap::OcTree tree = mapOf({});
     EXPECT_EQ(tree.getResolution(), 0.2);
     std::set<int> poles;
@@ -90,7 +78,7 @@ TEST_F(RawlogSegmentOctomap, ObstaclesAreWhereTheyAreKnownToBe) {
     EXPECT_FALSE(tree.search(17.5, 0.1, 1.1)) << "behind the wall";
 }
 
-TEST_F(RawlogSegmentOctomap, ContentSaysWhatGoesIn) {
+TEST_F(RawlogSegmentOctomap, StoresRequestedContent) {
     const octomap::OcTree roi = mapOf({"--octomap-content", "roi"});
     const octomap::OcTree rays = mapOf({"--octomap-content", "roi+rays"});
     const octomap::OcTree full = mapOf({"--octomap-content", "full"});
@@ -107,27 +95,10 @@ TEST_F(RawlogSegmentOctomap, ContentSaysWhatGoesIn) {
     EXPECT_LT(roi.size(), rays.size() / 2);
 }
 
-TEST_F(RawlogSegmentOctomap, ResolutionIsTheVoxelsEdge) {
-    EXPECT_EQ(mapOf({"--octomap-resolution", "0.5"}).getResolution(), 0.5);
-}
-
-TEST_F(RawlogSegmentOctomap, TheSameBytesInEveryFormatWithAnyNumberOfThreads) {
-    for (const std::string name : {"a", "b"}) {
-        ASSERT_EQ(run({"-q", "-i", kRecording, "--octomap", path(name + ".bt"), "--octomap",
-                       path(name + ".ot"), "--octomap", path(name + ".3Dscene"), "--jobs",
-                       name == "a" ? "1" : "3"})
-                      .exit_code,
-                  0);
-    }
-    for (const std::string ending : {".bt", ".ot", ".3Dscene"}) {
-        EXPECT_EQ(test::readFile(path("a" + ending)), test::readFile(path("b" + ending)));
-    }
-}
-
-TEST_F(RawlogSegmentOctomap, AScanFolderWithPosesGivesTheSameObstacles) {
-    ASSERT_EQ(run({"-i", kRecording, "--kitti", path("scans")}).exit_code, 0);
+TEST_F(RawlogSegmentOctomap, ScanFolderGivesSameObstacles) {
+    expectSuccess({"-i", recording(), "--kitti", path("scans")});
     const octomap::OcTree of_log = mapOf({});
-    ASSERT_EQ(run({"-i", path("scans"), "--octomap", path("of_folder.bt")}).exit_code, 0);
+    expectSuccess({"-i", path("scans"), "--octomap", path("of_folder.bt")});
     octomap::OcTree of_folder(0.1);
     ASSERT_TRUE(of_folder.readBinary(path("of_folder.bt")));
     // Its returns have no times, so each scan is placed with one pose: errors of up to 0.3 m.
@@ -139,67 +110,50 @@ TEST_F(RawlogSegmentOctomap, AScanFolderWithPosesGivesTheSameObstacles) {
                 0.4 * static_cast<double>(occupiedOf(of_log).size()));
 }
 
-TEST_F(RawlogSegmentOctomap, ScansWithoutAPoseAreLeftOutAndNamed) {
-    // Poses for the first half second only.
-    std::string tum;
-    for (int i = 0; i <= 5; ++i) {
-        tum += std::to_string(1767225600 + 0.1 * i) + " " + std::to_string(0.3 * i) +
-               " 0 1.2 0 0 0 1\n";
-    }
-    const auto outcome = run(
-        {"-i", kRecording, "--octomap", path("map.bt"), "--poses", folder_.write("half.tum", tum)});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.out, HasSubstr("in the OctoMap: 6 of 10 scans"));
-    EXPECT_THAT(outcome.err, HasSubstr("it is not in the map"));
-}
-
-TEST_F(RawlogSegmentOctomap, APoseThatNoMapCanHoldCostsOnlyTheScansThatUseIt) {
-    std::string tum;
+TEST_F(RawlogSegmentOctomap, OmitsScansWithoutUsablePose) {
+    std::string half, far;  // for the first half second only; and beyond any map
     for (int i = 0; i < 10; ++i) {
-        tum += std::to_string(1767225600 + 0.1 * i) + (i == 7 ? " 1e9" : " 0") + " 0 1.2 0 0 0 1\n";
+        const std::string time = std::to_string(1767225600 + 0.1 * i);
+        if (i <= 5) half += time + " " + std::to_string(0.3 * i) + " 0 1.2 0 0 0 1\n";
+        far += time + (i == 7 ? " 1e9" : " 0") + " 0 1.2 0 0 0 1\n";
     }
-    const auto outcome = run({"-i", kRecording, "--octomap", path("map.bt"), "-o",
-                              path("out.rawlog"), "--poses", folder_.write("far.tum", tum)});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.out,
-                HasSubstr("in the OctoMap: 8 of 10 scans"));  // its own, and the one before, which
-                                                              // moves towards it
+    const auto partial = expectSuccess({"-i", recording(), "--octomap", path("half.bt"), "--poses",
+                                        folder_.write("half.tum", half)});
+    EXPECT_THAT(partial.out, HasSubstr("in the OctoMap: 6 of 10 scans"));
+    EXPECT_THAT(partial.err, HasSubstr("it is not in the map"));
+    const auto outcome =
+        expectSuccess({"-i", recording(), "--octomap", path("far.bt"), "-o", path("out.rawlog"),
+                       "--poses", folder_.write("far.tum", far)});
+    // The scan before it moves towards it.
+    EXPECT_THAT(outcome.out, HasSubstr("in the OctoMap: 8 of 10 scans"));
     EXPECT_THAT(outcome.out, HasSubstr("10 LiDAR scans"));
     EXPECT_THAT(outcome.err, HasSubstr("lies outside an OctoMap"));
     EXPECT_THAT(outcome.err, HasSubstr("it is not in the map"));
     EXPECT_TRUE(fs::exists(path("out.rawlog")));
 }
 
-TEST_F(RawlogSegmentOctomap, FailsWithoutPoses) {
-    if (test::realScan().empty()) GTEST_SKIP() << "mrpt-common is not installed";
-    expectFailure({"-i", test::realScan(), "--octomap", path("map.bt"), "-o", path("out.rawlog")},
-                  1, "--poses FILE.tum");
-}
-
-TEST_F(RawlogSegmentOctomap, FailsWherePosesAreOfAnotherClock) {
-    const std::string tum = folder_.write("old.tum", "1000 0 0 1 0 0 0 1\n1000.1 0 0 1 0 0 0 1\n");
-    expectFailure({"-q", "-i", kRecording, "--octomap", path("map.bt"), "--poses", tum}, 1,
-                  "from another clock");
-}
-
-TEST_F(RawlogSegmentOctomap, RefusesWrongUsage) {
+TEST_F(RawlogSegmentOctomap, RejectsWrongUsage) {
     const std::string map = path("map.bt");
+    const Arguments log{"-i", recording()};
     for (const std::string bad : {"0", "-0.2", "nan", "inf", "fine"}) {
-        expectFailure({"-i", kRecording, "--octomap", map, "--octomap-resolution", bad}, 2,
+        expectFailure(with(log, {"--octomap", map, "--octomap-resolution", bad}), 2,
                       "--octomap-resolution");
     }
-    expectFailure({"-i", kRecording, "--octomap", path("map.pcd")}, 2, ".3Dscene");
-    expectFailure({"-i", kRecording, "--octomap", ""}, 2, "--octomap");
-    expectFailure({"-i", kRecording, "--octomap", map, "--octomap-content", "all"}, 2,
-                  "--octomap-content: 'all' is not one of full, roi, roi+rays\n");
-    expectFailure({"-i", kRecording, "-o", path("x"), "--octomap-content", "roi"}, 2, "--octomap");
-}
-
-TEST_F(RawlogSegmentOctomap, ReplacesNothingUnasked) {
-    const std::string map = folder_.write("map.bt", "somebody's");
-    expectFailure({"-i", kRecording, "--octomap", map}, 1, "--overwrite");
-    expectFailure({"-i", kRecording, "--octomap", path("none/map.bt")}, 1, "none");
-    EXPECT_EQ(test::readFile(map), "somebody's");
+    expectFailures(log, 2,
+                   {{{"--octomap", path("map.pcd")}, ".3Dscene"},
+                    {{"--octomap", ""}, "--octomap"},
+                    {{"--octomap", map, "--octomap-content", "all"},
+                     "--octomap-content: 'all' is not one of full, roi, roi+rays\n"},
+                    {{"-o", path("x"), "--octomap-content", "roi"}, "--octomap"}});
+    folder_.write("map.bt", "mine");
+    const std::string tum = folder_.write("old.tum", "1000 0 0 1 0 0 0 1\n1000.1 0 0 1 0 0 0 1\n");
+    expectFailures(log, 1,
+                   {{{"--octomap", map}, "--overwrite"},
+                    {{"--octomap", path("none/map.bt")}, "none"},
+                    {{"-q", "--octomap", path("b.bt"), "--poses", tum}, "from another clock"}});
+    EXPECT_EQ(test::readFile(map), "mine");
+    if (test::realScan().empty()) GTEST_SKIP() << "mrpt-common is not installed";
+    expectFailure({"-i", test::realScan(), "--octomap", path("b.bt")}, 1, "--poses FILE.tum");
 }
 
 }  // namespace

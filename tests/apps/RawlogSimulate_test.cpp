@@ -1,6 +1,4 @@
-// Runs the built program, as a user would; compares its packets with the simulation.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+// rawlog-simulate; its packets are compared with the simulation.
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/Trajectory.h>
 #include <hagen/mrpt/VelodyneDecoder.h>
@@ -59,7 +57,7 @@ std::vector<double> readNumbers(const fs::path& file) {
 
 class RawlogSimulate : public test::ProgramTest {
  protected:
-    test::Outcome run(const std::vector<std::string>& arguments) const override {
+    test::Outcome run(const Arguments& arguments) const override {
         return test::run(HAGEN_RAWLOG_SIMULATE, arguments);
     }
 
@@ -68,10 +66,9 @@ class RawlogSimulate : public test::ProgramTest {
                                           "--every-s",  "0.5"};
 };
 
-TEST_F(RawlogSimulate, RawlogAndFolderHoldTheSameReturnsAndTheFolderTheTruth) {
-    const auto outcome =
-        run(with(wires_, {"-o", path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")}));
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+TEST_F(RawlogSimulate, WritesSameReturnsWithTruth) {
+    const auto outcome = expectSuccess(
+        with(wires_, {"-o", path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")}));
     EXPECT_EQ(outcome.err, "");
     EXPECT_THAT(outcome.out, HasSubstr("3 scans of wires"));
 
@@ -119,8 +116,8 @@ TEST_F(RawlogSimulate, RawlogAndFolderHoldTheSameReturnsAndTheFolderTheTruth) {
     EXPECT_EQ(recordings::readTumPoses(path("a.tum")).size(), log.poses.size());
 }
 
-TEST_F(RawlogSimulate, PosesReachOverTheWholeOfEachScan) {
-    ASSERT_EQ(run(with(wires_, {"-o", path("a.rawlog")})).exit_code, 0);
+TEST_F(RawlogSimulate, PosesCoverWholeScans) {
+    expectSuccess(with(wires_, {"-o", path("a.rawlog")}));
     const LogContent log = readLog(path("a.rawlog"));
     observations::Trajectory trajectory;
     for (const auto& pose : log.poses) trajectory.add(pose->timestamp, pose->pose.mean);
@@ -134,16 +131,17 @@ TEST_F(RawlogSimulate, PosesReachOverTheWholeOfEachScan) {
     }
 }
 
-TEST_F(RawlogSimulate, TheSameSeedMakesTheSameBytesAndAnotherSeedOthers) {
+TEST_F(RawlogSimulate, SeedDeterminesOutput) {
     const std::vector<std::string> gap{"--scenario", "gap", "--scans", "2", "--altitude", "1.5"};
-    ASSERT_EQ(run(with(gap, {"--seed", "5", "-o", path("a.rawlog")})).exit_code, 0);
-    ASSERT_EQ(run(with(gap, {"--seed", "5", "-o", path("b.rawlog")})).exit_code, 0);
-    ASSERT_EQ(run(with(gap, {"--seed", "6", "-o", path("c.rawlog")})).exit_code, 0);
+    for (const auto& [seed, name] :
+         {std::pair{"5", "a.rawlog"}, {"5", "b.rawlog"}, {"6", "c.rawlog"}}) {
+        expectSuccess(with(gap, {"--seed", seed, "-o", path(name)}));
+    }
     EXPECT_EQ(test::readFile(path("a.rawlog")), test::readFile(path("b.rawlog")));
     EXPECT_NE(test::readFile(path("a.rawlog")), test::readFile(path("c.rawlog")));
 }
 
-TEST_F(RawlogSimulate, ASensorWithoutPacketsGoesIntoAFolder) {
+TEST_F(RawlogSimulate, WritesSensorWithoutPacketsToFolder) {
     ASSERT_EQ(run({"--scenario", "street", "--scans", "1", "--altitude", "2", "--seed", "1",
                    "--sensor", "HDL-64E", "--kitti", path("a"), "-q"})
                   .out,
@@ -153,12 +151,10 @@ TEST_F(RawlogSimulate, ASensorWithoutPacketsGoesIntoAFolder) {
     EXPECT_GT(scan.size(), 50000u);
 }
 
-TEST_F(RawlogSimulate, AMountIsInTheLogAndTheFolderButNotInTheVehiclesPoses) {
-    ASSERT_EQ(run(with(wires_, {"--poses", path("upright.tum")})).exit_code, 0);
-    const auto outcome =
-        run(with(wires_, {"--mount-roll-deg", "180", "--mount-pitch-deg", "-20", "-o",
-                          path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")}));
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+TEST_F(RawlogSimulate, StoresMountOfSensor) {
+    expectSuccess(with(wires_, {"--poses", path("upright.tum")}));
+    expectSuccess(with(wires_, {"--mount-roll-deg", "180", "--mount-pitch-deg", "-20", "-o",
+                                path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")}));
     EXPECT_EQ(test::readFile(path("a.tum")), test::readFile(path("upright.tum")));
 
     const mrpt::poses::CPose3D mount(0, 0, 0, 0, radians(-20), radians(180));
@@ -184,23 +180,22 @@ TEST_F(RawlogSimulate, AMountIsInTheLogAndTheFolderButNotInTheVehiclesPoses) {
     EXPECT_EQ(settings.sensorModel().rows(), 16);
 }
 
-TEST_F(RawlogSimulate, AMountGoesWithTheScansThatAreSegmented) {
-    ASSERT_EQ(run(with(wires_, {"--mount-roll-deg", "170", "-o", path("a.rawlog")})).exit_code, 0);
+TEST_F(RawlogSimulate, SegmentationKeepsMount) {
+    expectSuccess(with(wires_, {"--mount-roll-deg", "170", "-o", path("a.rawlog")}));
     const auto segmented = test::run(HAGEN_RAWLOG_SEGMENT, {"-i", path("a.rawlog"), "--kitti",
                                                             path("b"), "--stats", path("b.json")});
     ASSERT_EQ(segmented.exit_code, 0) << segmented.err;
     EXPECT_THAT(test::readFile(folder_ / "b/sensor.yaml"), HasSubstr("mount_roll_deg: 170\n"));
-    // What the log has to say is not the settings'.
+    // The mount is stored in the log, not in the settings.
     EXPECT_THAT(test::readFile(path("b.json")), HasSubstr("\"sensor.mount_roll_deg\": 0"));
     EXPECT_THAT(test::run(HAGEN_RAWLOG_SEGMENT, {"--config-dump", "-i", path("b")}).out,
                 HasSubstr("mount_roll_deg: 170 "));
 }
 
-TEST_F(RawlogSimulate, AMid360GoesIntoARawlogAsCloudsThatAreSegmentedLikeItsFolder) {
-    const auto outcome = run({"--scenario", "forest-0.05", "--scans", "3", "--altitude", "2",
-                              "--seed", "3", "--sensor", "Mid-360", "-o", path("a.rawlog"),
-                              "--kitti", path("a"), "--mount-roll-deg", "180"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+TEST_F(RawlogSimulate, WritesMid360AsClouds) {
+    expectSuccess({"--scenario", "forest-0.05", "--scans", "3", "--altitude", "2", "--seed", "3",
+                   "--sensor", "Mid-360", "-o", path("a.rawlog"), "--kitti", path("a"),
+                   "--mount-roll-deg", "180"});
     const recordings::ScanFolder folder(path("a"));
     ASSERT_EQ(folder.size(), 3u);
     Settings settings;
@@ -239,24 +234,16 @@ TEST_F(RawlogSimulate, AMid360GoesIntoARawlogAsCloudsThatAreSegmentedLikeItsFold
     EXPECT_EQ(written, entries + 2 * scans);
 }
 
-TEST_F(RawlogSimulate, InClearAirNothingIsUnclassified) {
-    const auto dusty = run(with(wires_, {"-o", path("a.rawlog")}));
-    const auto clear = run(with(wires_, {"-o", path("b.rawlog"), "--clear-air"}));
-    ASSERT_EQ(clear.exit_code, 0) << clear.err;
-    EXPECT_THAT(dusty.out, Not(HasSubstr(" 0 unclassified")));
-    EXPECT_THAT(clear.out, HasSubstr(" 0 unclassified"));
-}
-
-TEST_F(RawlogSimulate, OverwritesWhereItIsToldTo) {
-    ASSERT_EQ(run(with(wires_, {"--kitti", path("a"), "-o", path("a.rawlog")})).exit_code, 0);
-    EXPECT_EQ(
-        run(with(wires_, {"--kitti", path("a"), "-o", path("a.rawlog"), "--overwrite"})).exit_code,
-        0);
+TEST_F(RawlogSimulate, ClearAirHasNoUnclassifiedReturns) {
+    const Arguments flags = with(wires_, {"-o", path("a.rawlog"), "--kitti", path("a")});
+    EXPECT_THAT(expectSuccess(flags).out, Not(HasSubstr(" 0 unclassified")));
+    EXPECT_THAT(expectSuccess(with(flags, {"--clear-air", "--overwrite"})).out,
+                HasSubstr(" 0 unclassified"));
 }
 
 /// The exact command is in rawlogs/README.md. If sines differ in the last bit between machines, a
 /// return may differ, and random numbers after it; so the comparison of returns has a tolerance.
-TEST_F(RawlogSimulate, TheCommandOfTheDemoRecordingStillMakesIt) {
+TEST_F(RawlogSimulate, ReproducesDemoRecording) {
     const std::string command =
         "rawlog-simulate --scenario orchard --scans 30 --every-s 0.2 "
         "--altitude 2 --seed 1 -o rawlogs/orchard.rawlog";
@@ -288,60 +275,45 @@ TEST_F(RawlogSimulate, TheCommandOfTheDemoRecordingStillMakesIt) {
     EXPECT_NEAR(rou, kRou, 0.002 * kRou);
 }
 
-TEST_F(RawlogSimulate, RefusesAnUnknownScenarioAndNamesTheKnown) {
+TEST_F(RawlogSimulate, RejectsWrongUsage) {
     expectFailure({"--scenario", "jungle", "--scans", "1", "--altitude", "2", "--seed", "1", "-o",
                    path("a.rawlog")},
                   2, "unknown scenario 'jungle'; known are orchard, field, forest-0.02");
-}
-
-TEST_F(RawlogSimulate, RefusesWhatCannotBeFlown) {
-    const std::vector<std::string> orchard{"--scenario", "orchard", "--seed",
-                                           "1",          "-o",      path("a.rawlog")};
-    expectFailure(with(orchard, {"--scans", "0", "--altitude", "2"}), 2, "--scans");
-    expectFailure(with(orchard, {"--scans", "1", "--altitude", "0.9"}), 2, "--altitude");
-    expectFailure(with(orchard, {"--scans", "1", "--altitude", "15.1"}), 2, "--altitude");
-    expectFailure(with(orchard, {"--scans", "1", "--altitude", "2", "--tilt-sd-deg", "16"}), 2,
-                  "--tilt-sd-deg");
-    expectFailure(with(orchard, {"--scans", "1", "--altitude", "2", "--every-s", "0.05"}), 2,
-                  "--every-s");
-    expectFailure(with(orchard, {"--scans", "1", "--altitude", "2", "--sensor", "VLP-99"}), 2,
-                  "VLP-99");
-    expectFailure(with(orchard, {"--altitude", "2"}), 2, "--scans is required");
-    const std::vector<std::string> one = with(orchard, {"--scans", "1", "--altitude", "2"});
-    expectFailure(with(one, {"--mount-roll-deg", "181"}), 2, "--mount-roll-deg");
-    expectFailure(with(one, {"--mount-roll-deg", "down"}), 2, "--mount-roll-deg");
+    const Arguments orchard{"--scenario", "orchard", "--seed", "1", "-o", path("a.rawlog")};
+    expectFailures(orchard, 2,
+                   {{{"--scans", "0", "--altitude", "2"}, "--scans"},
+                    {{"--scans", "1", "--altitude", "0.9"}, "--altitude"},
+                    {{"--scans", "1", "--altitude", "15.1"}, "--altitude"},
+                    {{"--altitude", "2"}, "--scans is required"}});
+    const Arguments one = with(orchard, {"--scans", "1", "--altitude", "2"});
     for (const std::string flag : {"--speed-m-s", "--tilt-sd-deg", "--every-s", "--mount-roll-deg",
                                    "--mount-pitch-deg", "--altitude", "--scans", "--seed"}) {
         expectFailure(with(one, {flag + "=nan"}), 2, flag);
     }
-    expectFailure(with(one, {"--seed=-1"}), 2, "--seed");
-    expectFailure(with(one, {"--mount-pitch-deg", "-91"}), 2, "--mount-pitch-deg");
+    for (const std::string wrong :
+         {"--seed=-1", "--mount-pitch-deg=-91", "--mount-roll-deg=181", "--mount-roll-deg=down",
+          "--tilt-sd-deg=16", "--every-s=0.05", "--sensor=VLP-99"}) {
+        expectFailure(with(one, {wrong}), 2, wrong.substr(0, wrong.find('=')));
+    }
+    expectFailures(wires_, 2,
+                   {{{}, "an output (-o, --kitti or --poses)"},
+                    {{"--sensor", "HDL-64E", "-o", path("a.rawlog")}, "HDL-64E"}});
 }
 
-TEST_F(RawlogSimulate, RefusesARawlogOfASensorWithoutPackets) {
-    expectFailure(with(wires_, {"--sensor", "HDL-64E", "-o", path("a.rawlog")}), 2, "HDL-64E");
-}
-
-TEST_F(RawlogSimulate, RefusesToSimulateForNothing) {
-    expectFailure(wires_, 2, "an output (-o, --kitti or --poses)");
-}
-
-TEST_F(RawlogSimulate, LeavesWhatExistsAlone) {
+TEST_F(RawlogSimulate, KeepsExistingFiles) {
     folder_.write("a.rawlog", "mine");
-    expectFailure(with(wires_, {"-o", path("a.rawlog"), "--kitti", path("a")}), 1,
-                  "a.rawlog exists; use --overwrite");
-    EXPECT_EQ(test::readFile(path("a.rawlog")), "mine");
-    fs::create_directory(path("work"));
     folder_.write("work/thesis.txt", "mine");
-    expectFailure(with(wires_, {"--kitti", path("work"), "--overwrite"}), 1, "thesis.txt");
+    expectFailures(
+        wires_, 1,
+        {{{"-o", path("a.rawlog"), "--kitti", path("a")}, "a.rawlog exists; use --overwrite"},
+         {{"--kitti", path("work"), "--overwrite"}, "thesis.txt"},
+         {{"--kitti", path("missing/a")}, path("missing")},
+         {{"--poses", path("missing/a.tum")}, path("missing")},
+         {{"-o", "/dev/full", "--overwrite"}, "/dev/full"}});
+    EXPECT_EQ(test::readFile(path("a.rawlog")), "mine");
 }
 
-TEST_F(RawlogSimulate, NamesAFolderThatIsNotThere) {
-    expectFailure(with(wires_, {"--kitti", path("missing/a")}), 1, path("missing"));
-    expectFailure(with(wires_, {"--poses", path("missing/a.tum")}), 1, path("missing"));
-}
-
-TEST_F(RawlogSimulate, KeepsWhatIsDoneWhenItIsInterrupted) {
+TEST_F(RawlogSimulate, KeepsOutputOnInterrupt) {
     const auto outcome =
         test::run("/usr/bin/timeout",
                   {"--preserve-status", "-s", "INT", "2", HAGEN_RAWLOG_SIMULATE, "--scenario",
@@ -357,15 +329,10 @@ TEST_F(RawlogSimulate, KeepsWhatIsDoneWhenItIsInterrupted) {
     EXPECT_EQ(recordings::readTumPoses(path("a.partial.tum")).size(), log.poses.size());
 }
 
-TEST_F(RawlogSimulate, SaysWhenTheDiskIsFull) {
-    if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
-    expectFailure(with(wires_, {"-o", "/dev/full", "--overwrite"}), 1, "/dev/full");
-}
-
-TEST_F(RawlogSimulate, AnOutputThatCannotBeWrittenCostsNoOther) {
+TEST_F(RawlogSimulate, UnwritableOutputDoesNotAffectOthers) {
     const std::vector<std::string> all =
         with(wires_, {"-o", path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")});
-    ASSERT_EQ(run(all).exit_code, 0);
+    expectSuccess(all);
     const std::uintmax_t poses = fs::file_size(path("a.tum")),
                          kinds = fs::file_size(path("a/kinds.yaml"));
     ASSERT_LT(poses, fs::file_size(path("a.rawlog")));
@@ -385,7 +352,7 @@ TEST_F(RawlogSimulate, AnOutputThatCannotBeWrittenCostsNoOther) {
 
 class EachPacketSensor : public testing::TestWithParam<const char*> {};
 
-TEST_P(EachPacketSensor, PacketsGiveTheSimulatedReturnsInTheirOrder) {
+TEST_P(EachPacketSensor, PacketsMatchSimulatedReturns) {
     const SensorModel sensor = sensorModel(GetParam());
     const simulation::Scene scene = simulation::makeScene("wires", 3);
     const simulation::Flight flight(scene.terrain(), scene.path(), {}, 3);

@@ -73,7 +73,7 @@ TEST(LatencyProfile, BrokenFilesAreNamedWithTheirKey) {
     const auto has = [](const std::string& text, const std::string& part) {
         return text.find(part) != std::string::npos;
     };
-    EXPECT_TRUE(has(messageFor("{"), "is no JSON: it ends too early"));
+    EXPECT_TRUE(has(messageFor("{"), "is not valid JSON: parse error at line 1"));
     EXPECT_TRUE(has(messageFor("{}"), "quantiles_ms"));
     EXPECT_TRUE(has(messageFor(R"({"quantiles_ms": {"filter": []}})"), "filter"));
     EXPECT_TRUE(has(messageFor(R"({"quantiles_ms": {"filter": [2, 1]}})"), "filter"));

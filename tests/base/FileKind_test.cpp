@@ -11,56 +11,47 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Bytes that are no text, to stand behind a magic number.
+/// Bytes that are not text, behind a magic number.
 const std::string kRest = std::string("\0\1\2\x80", 4) + std::string(600, '\x91');
 
-TEST(FileKind, FilesOfOtherProgramsByTheirFirstBytes) {
+TEST(FileKind, RecognisesMagicNumbers) {
     EXPECT_EQ(kindOfBytes("\xff\xd8\xff\xe0" + kRest).what, "a JPEG picture");
-    EXPECT_EQ(kindOfBytes("\x89PNG\r\n\x1a\n" + kRest).what, "a PNG picture");
     EXPECT_EQ(kindOfBytes("%PDF-1.7\n").what, "a PDF document");
     EXPECT_EQ(kindOfBytes("PK\3\4" + kRest).text(),
               "it seems to be a ZIP archive: unpack it first (an .npz holds .npy files)");
-    EXPECT_EQ(kindOfBytes("\x1f\x8b" + kRest).what, "packed by gzip");
     EXPECT_EQ(kindOfBytes(std::string(257, '\0') + "ustar" + kRest).what, "a tar archive");
     EXPECT_EQ(kindOfBytes("\xd4\xc3\xb2\xa1" + kRest).what, "a network capture");
 }
 
-TEST(FileKind, TextByWhatItSays) {
+TEST(FileKind, RecognisesTexts) {
     EXPECT_EQ(kindOfBytes("hello\r\nworld").what, "text");
-    EXPECT_EQ(kindOfBytes("gr\xc3\xbc\xc3\x9f").what, "text");
     EXPECT_EQ(kindOfBytes("cut within a letter: \xc3").what, "text");
     EXPECT_EQ(kindOfBytes("no letter: \xc3\x20").what, "");
     EXPECT_EQ(kindOfBytes(std::string(100, ' ')).what, "text");
     EXPECT_THAT(kindOfBytes("\xef\xbb\xbf\n {\"a\": 1}").text(), HasSubstr("--sensor-json"));
     EXPECT_THAT(kindOfBytes("1.5 2 -3e1\n4,5,6\n").text(), HasSubstr("a table of numbers"));
     EXPECT_THAT(kindOfBytes("<!DOCTYPE html>").text(), HasSubstr("did its download fail?"));
-    EXPECT_THAT(kindOfBytes("version https://git-lfs.github.com/spec/v1").text(),
-                HasSubstr("git lfs pull"));
 }
 
-TEST(FileKind, PacketsOfAVelodyneWithoutHeaders) {
+TEST(FileKind, RecognisesRawVelodynePackets) {
     std::string packet(1206, '\x21');
     for (std::size_t block = 0; block < 12; ++block) packet.replace(100 * block, 2, "\xff\xee");
-    const std::string packets = packet + packet;
-    EXPECT_THAT(kindOfBytes(packets).text(), HasSubstr("data packets of a Velodyne"));
-    EXPECT_THAT(kindOfBytes(packets + packet.substr(0, 700)).what, HasSubstr("Velodyne"));
-    std::string other = packets;
+    EXPECT_THAT(kindOfBytes(packet + packet + packet.substr(0, 700)).text(),
+                HasSubstr("data packets of a Velodyne"));
+    std::string other = packet + packet;
     other[1206 + 300] = '\0';
     EXPECT_EQ(kindOfBytes(other).what, "");
     EXPECT_EQ(kindOfBytes(packet.substr(0, 1205)).what, "");
 }
 
-TEST(FileKind, WhatNobodyKnowsIsNotNamed) {
-    EXPECT_EQ(kindOfBytes("").text(), "");
-    EXPECT_EQ(kindOfBytes(kRest).text(), "");
-    EXPECT_EQ(kindOfBytes("\xff\xd8").text(), "");
-    EXPECT_EQ(kindOfFile("no such file").text(), "");
-}
-
-TEST(FileKind, OfAFile) {
+TEST(FileKind, IsEmptyIfUnknown) {
+    for (const std::string& bytes : {std::string(), kRest, std::string("\xff\xd8")}) {
+        EXPECT_EQ(kindOfBytes(bytes).text(), "");
+    }
     const test::TemporaryFolder folder;
-    EXPECT_EQ(kindOfFile(folder.write("a.pcd", "%PDF-1.4" + kRest)).what, "a PDF document");
+    EXPECT_EQ(kindOfFile("no such file").text(), "");
     EXPECT_EQ(kindOfFile(folder.path()).what, "");
+    EXPECT_EQ(kindOfFile(folder.write("a.pcd", "%PDF-1.4" + kRest)).what, "a PDF document");
 }
 
 }  // namespace

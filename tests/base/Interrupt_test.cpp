@@ -8,7 +8,7 @@ namespace hagen::base {
 namespace {
 
 /// Each in a process of its own, which a signal that is not caught would end.
-TEST(Interrupt, TheSignalsThatEndAProgramAreCaught) {
+TEST(Interrupt, CatchesTerminatingSignals) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGQUIT, SIGUSR1}) {
         const auto wait = [&] {
             catchSignals();
@@ -21,7 +21,7 @@ TEST(Interrupt, TheSignalsThatEndAProgramAreCaught) {
     }
 }
 
-TEST(Interrupt, ASignalThatIsIgnoredStaysSo) {
+TEST(Interrupt, KeepsIgnoredSignalsIgnored) {
     const auto wait = [] {
         std::signal(SIGHUP, SIG_IGN);  // as nohup does
         catchSignals();

@@ -8,7 +8,7 @@
 namespace hagen::base {
 namespace {
 
-TEST(NumberText, TheShortestTextReadsBackAsTheSameNumber) {
+TEST(NumberText, ShortestTextRoundTrips) {
     EXPECT_EQ(shortestText(0.1), "0.1");
     EXPECT_EQ(shortestText(0.1f), "0.1");
     EXPECT_EQ(shortestText(4.0), "4");
@@ -19,7 +19,7 @@ TEST(NumberText, TheShortestTextReadsBackAsTheSameNumber) {
     }
 }
 
-TEST(NumberText, FixedTextHasTheDecimalsAndNoMinusBeforeZerosAlone) {
+TEST(NumberText, FixedTextHasNoNegativeZero) {
     EXPECT_EQ(fixedText(1.005, 1), "1.0");
     EXPECT_EQ(fixedText(-0.04, 1), "0.0");
     EXPECT_EQ(fixedText(-0.06, 1), "-0.1");
@@ -27,7 +27,7 @@ TEST(NumberText, FixedTextHasTheDecimalsAndNoMinusBeforeZerosAlone) {
     EXPECT_EQ(fixedText(std::numeric_limits<double>::max(), 2).size(), 309u + 3u);
 }
 
-TEST(NumberText, ANumberIsTheWholeTextOrNothing) {
+TEST(NumberText, ParsesWholeTextOnly) {
     EXPECT_EQ(numberFrom<int>("-12"), -12);
     EXPECT_EQ(numberFrom<double>("1e3"), 1000.0);
     for (const char* text : {"", " 1", "1 ", "1x", "x", "1,5", "+1", "0x10"}) {
@@ -37,7 +37,7 @@ TEST(NumberText, ANumberIsTheWholeTextOrNothing) {
     EXPECT_EQ(numberFrom<std::uint16_t>("-1"), std::nullopt);
 }
 
-TEST(NumberText, TwoNumbersAroundASeparator) {
+TEST(NumberText, ParsesNumberPairs) {
     EXPECT_EQ(numbersFrom<int>("12-34", '-'), std::pair(12, 34));
     EXPECT_EQ(numbersFrom<int>("1/4", '/'), std::pair(1, 4));
     for (const char* text : {"", "-", "12", "12-", "-34", "12-34-56", "12 - 34"}) {
@@ -46,7 +46,7 @@ TEST(NumberText, TwoNumbersAroundASeparator) {
     EXPECT_EQ(numbersFrom<int>("4294967297/4294967298", '/'), std::nullopt);
 }
 
-TEST(NumberText, SharesAreRoundedDown) {
+TEST(NumberText, PercentTextRoundsDown) {
     EXPECT_EQ(percentText(1.0f), "100.0 %");
     EXPECT_EQ(percentText(0.9999f), "99.9 %");
     EXPECT_EQ(percentText(0.5f), "50.0 %");

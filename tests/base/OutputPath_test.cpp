@@ -4,177 +4,146 @@
 #include <hagen/base/WriteFile.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
-#include <stdexcept>
+#include <string>
 
 #include "support/Program.h"
 
 namespace hagen::base {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 namespace fs = std::filesystem;
 
-TEST(OutputPath, AFileAppearsWhenItIsWhole) {
-    const test::TemporaryFolder folder;
-    OutputPath output(folder / "a.rawlog", kFile, false);
-    std::ofstream(output.temporary()) << "new";
-    EXPECT_FALSE(fs::exists(folder / "a.rawlog"));
-    output.commit();
-    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "new");
-}
+const OutputKind kAnyFolder{"a folder", [](const fs::path&) { return true; }};
 
-TEST(CloseWritten, TellsWhyAFileCannotBeWritten) {
-    const test::TemporaryFolder folder;
-    const auto refusal = [&](const fs::path& place) {
-        return test::messageOf([&] { writeText("text", place, "named.csv"); });
-    };
-    EXPECT_EQ(refusal(folder.path()), "named.csv: cannot be written: Is a directory");
-    EXPECT_EQ(refusal(folder / "no/a.csv"),
-              "named.csv: cannot be written: No such file or directory");
-    if (fs::exists("/dev/full")) {
-        EXPECT_EQ(refusal("/dev/full"), "named.csv: cannot be written: No space left on device");
-        std::ofstream out("/dev/full");  // full before it is closed
-        out << std::string(100000, 'x') << std::flush;
-        errno = EACCES;  // of something else since
-        EXPECT_EQ(test::messageOf([&] { closeWritten(out, "named.csv"); }),
-                  "named.csv: cannot be written: No space left on device");
+class OutputPathTest : public testing::Test {
+ protected:
+    std::string errorOf(const fs::path& path, const OutputKind& kind = kFile,
+                        bool overwrite = true) const {
+        return test::messageOf([&] { OutputPath(path, kind, overwrite); });
     }
-    EXPECT_EQ(refusal(folder / "a.csv"), "");
-    EXPECT_EQ(test::readFile(folder / "a.csv"), "text");
-}
 
-TEST(OutputPath, WhatExistsIsReplacedOnlyWhereWanted) {
-    const test::TemporaryFolder folder;
-    folder.write("a.rawlog", "old");
-    EXPECT_THROW(OutputPath(folder / "a.rawlog", kFile, false), std::runtime_error);
-    OutputPath output(folder / "a.rawlog", kFile, true);
+    test::TemporaryFolder folder_;
+    const fs::path file_ = folder_ / "a.rawlog";
+};
+
+TEST_F(OutputPathTest, AppearsWhenComplete) {
+    OutputPath output(file_, kFile, false);
     std::ofstream(output.temporary()) << "new";
-    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "old");
+    EXPECT_FALSE(fs::exists(file_));
     output.commit();
-    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "new");
+    EXPECT_EQ(test::readFile(file_), "new");
 }
 
-TEST(OutputPath, GivenUpLeavesWhatWasThere) {
-    const test::TemporaryFolder folder;
-    folder.write("a.rawlog", "old");
+TEST_F(OutputPathTest, ReplacesOnlyIfAllowed) {
+    folder_.write("a.rawlog", "old");
+    EXPECT_THAT(errorOf(file_, kFile, false), HasSubstr("a.rawlog exists; use --overwrite"));
+    OutputPath output(file_, kFile, true);
+    std::ofstream(output.temporary()) << "new";
+    EXPECT_EQ(test::readFile(file_), "old");
+    output.commit();
+    EXPECT_EQ(test::readFile(file_), "new");
+}
+
+TEST_F(OutputPathTest, RemovesTemporaryFileUnlessCommitted) {
+    folder_.write("a.rawlog", "old");
     {
-        OutputPath output(folder / "a.rawlog", kFile, true);
+        OutputPath output(file_, kFile, true);
         std::ofstream(output.temporary()) << "half";
     }
-    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "old");
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+    EXPECT_EQ(test::readFile(file_), "old");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1);
 }
 
-TEST(OutputPath, APartSaysSoInItsName) {
-    const test::TemporaryFolder folder;
-    OutputPath output(folder / "a.rawlog", kFile, false);
-    std::ofstream(output.temporary()) << "half";
-    EXPECT_EQ(output.keepPartial(), folder / "a.partial.rawlog");
-    EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "half");
-}
-
-TEST(OutputPath, AFolderThatIsNotThereIsNamed) {
-    const test::TemporaryFolder folder;
-    try {
-        OutputPath output(folder / "none/a.rawlog", kFile, false);
-        FAIL();
-    } catch (const std::runtime_error& e) {
-        EXPECT_THAT(e.what(), HasSubstr((folder / "none").string()));
+TEST_F(OutputPathTest, NumbersPartialNames) {
+    for (const char* name : {"a.partial.rawlog", "a.partial-2.rawlog"}) {
+        OutputPath output(file_, kFile, true);
+        std::ofstream(output.temporary()) << name;
+        EXPECT_EQ(output.keepPartial(), folder_ / name);
     }
+    EXPECT_EQ(test::readFile(folder_ / "a.partial.rawlog"), "a.partial.rawlog");
 }
 
-TEST(OutputPath, APartNeverReplacesAnother) {
-    const test::TemporaryFolder folder;
-    folder.write("a.partial.rawlog", "of another run");
-    OutputPath output(folder / "a.rawlog", kFile, true);
-    std::ofstream(output.temporary()) << "half";
-    EXPECT_EQ(output.keepPartial(), folder / "a.partial-2.rawlog");
-    EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "of another run");
-}
-
-TEST(OutputPath, PartsOfEarlierRunsAreFoundByTheirNames) {
-    const test::TemporaryFolder folder;
-    const fs::path file = folder / "a.rawlog", directory = folder / "out.v2";
-    EXPECT_TRUE(partialOutputs(file).empty());
-    EXPECT_TRUE(partialOutputs("").empty());
-    EXPECT_TRUE(partialOutputs(folder / "none/a.rawlog").empty());
-    for (int run = 0; run < 2; ++run) {
-        OutputPath output(file, kFile, true);
-        std::ofstream(output.temporary()) << "half";
-        output.keepPartial();
-        OutputPath parts(directory, kFile, true);
-        fs::create_directory(parts.temporary());
-        parts.keepPartial();
+TEST_F(OutputPathTest, FindsPartialOutputsOfEarlierRuns) {
+    const fs::path directory = folder_ / "out.v2";
+    for (const fs::path& none : {file_, fs::path(), folder_ / "none/a.rawlog"}) {
+        EXPECT_THAT(partialOutputs(none), IsEmpty());
     }
-    for (const char* other : {"a.partial.mcap", "a.partial-x.rawlog", "a.partial-.rawlog",
-                              "ab.partial.rawlog", "a.partial", "out.partial"}) {
-        folder.write(other, "of somebody");
+    for (const char* other :
+         {"a.partial.mcap", "a.partial-x.rawlog", "a.partial-.rawlog", "ab.partial.rawlog",
+          "a.partial", "out.partial", "a.partial.rawlog", "a.partial-2.rawlog", "out.v2.partial"}) {
+        folder_.write(other, "");
     }
-    EXPECT_THAT(partialOutputs(file),
-                testing::ElementsAre(folder / "a.partial-2.rawlog", folder / "a.partial.rawlog"));
+    EXPECT_THAT(partialOutputs(file_),
+                ElementsAre(folder_ / "a.partial-2.rawlog", folder_ / "a.partial.rawlog"));
     fs::create_directory(directory);
-    EXPECT_THAT(partialOutputs(directory),
-                testing::ElementsAre(folder / "out.v2.partial", folder / "out.v2.partial-2"));
+    EXPECT_THAT(partialOutputs(directory), ElementsAre(folder_ / "out.v2.partial"));
     EXPECT_EQ(partialOutputs(directory.string() + "/"), partialOutputs(directory));
 }
 
-/// Such as /dev/stdout.
-TEST(OutputPath, ALinkIsNotReplaced) {
-    const test::TemporaryFolder folder;
-    folder.write("file", "old");
-    fs::create_symlink("file", folder / "link");
-    fs::create_symlink("nowhere", folder / "dangling");
-    for (const char* name : {"link", "dangling"}) {
-        EXPECT_THAT(test::messageOf([&] { OutputPath(folder / name, kFile, true); }),
-                    HasSubstr("a link, so it is not replaced"));
-        EXPECT_TRUE(fs::is_symlink(folder / name));
-    }
+TEST_F(OutputPathTest, FindsTemporaryFilesOfEndedProcesses) {
+    const auto of = [&](const std::string& process) {
+        return folder_.write("a.rawlog.tmp-" + process + "-0123456789abcdef", "half");
+    };
+    of("1");  // is running
+    of("x");
+    EXPECT_THAT(partialOutputs(file_), IsEmpty());
+    const fs::path ended = of("999999999");
+    const fs::path reused = of(std::to_string(getpid()));  // of an earlier run in a container
+    EXPECT_THAT(partialOutputs(file_), testing::UnorderedElementsAre(ended, reused));
+    EXPECT_THAT(leftBehind({file_, folder_ / "b"}), HasSubstr(ended.string()));
+    EXPECT_EQ(leftBehind({folder_ / "b"}), "");
 }
 
-TEST(OutputPath, AFolderThatAppearsMeanwhileIsNotReplaced) {
-    const test::TemporaryFolder folder;
-    OutputPath output(folder / "scans", {"a folder", [](const fs::path&) { return true; }}, false);
+TEST_F(OutputPathTest, RefusesOtherTypes) {
+    folder_.write("file", "old");
+    fs::create_directory(folder_ / "folder");
+    fs::create_symlink("file", folder_ / "link");
+    fs::create_symlink("nowhere", folder_ / "dangling");
+    EXPECT_THAT(errorOf(folder_ / "link"), HasSubstr("link: is a symbolic link, so it is not"));
+    EXPECT_THAT(errorOf(folder_ / "dangling"), HasSubstr("is a symbolic link"));
+    EXPECT_THAT(errorOf(folder_ / "folder"), HasSubstr("not a file"));
+    EXPECT_THAT(errorOf(folder_ / "file", kAnyFolder), HasSubstr("not a folder"));
+    EXPECT_THAT(errorOf("/proc", kAnyFolder), HasSubstr("/proc: is a mount point"));
+    EXPECT_THAT(errorOf(folder_ / "new/"), HasSubstr("/new/: ends with '/'"));
+    EXPECT_THAT(errorOf(folder_ / "none/a"), HasSubstr("none: no such folder"));
+}
+
+TEST_F(OutputPathTest, KeepsFileThatAppearsMeanwhile) {
+    OutputPath output(file_, kFile, false);
+    std::ofstream(output.temporary()) << "new";
+    folder_.write("a.rawlog", "theirs");
+    EXPECT_THAT(test::messageOf([&] { output.commit(); }), HasSubstr("a.partial.rawlog"));
+    EXPECT_EQ(test::readFile(file_), "theirs");
+    EXPECT_EQ(test::readFile(folder_ / "a.partial.rawlog"), "new");
+}
+
+TEST_F(OutputPathTest, KeepsFolderThatAppearsMeanwhile) {
+    OutputPath output(folder_ / "scans", kAnyFolder, false);
     fs::create_directory(output.temporary());
-    std::ofstream(output.temporary() / "new");
-    fs::create_directory(folder / "scans");
-    folder.write("scans/precious", "theirs");
+    fs::create_directory(folder_ / "scans");
+    folder_.write("scans/precious", "theirs");
     EXPECT_THAT(test::messageOf([&] { output.commit(); }), HasSubstr("scans.partial"));
-    EXPECT_EQ(test::readFile(folder / "scans/precious"), "theirs");
-    EXPECT_TRUE(fs::exists(folder / "scans.partial/new"));
-    EXPECT_EQ(output.keepPartial(), folder / "scans.partial");  // already
+    EXPECT_EQ(test::readFile(folder_ / "scans/precious"), "theirs");
+    EXPECT_EQ(output.keepPartial(), folder_ / "scans.partial");  // already
 }
 
-TEST(OutputPath, AFolderThatCannotBeRenamedIsRefusedAtOnce) {
-    const OutputKind any{"a folder", [](const fs::path&) { return true; }};
-    const test::TemporaryFolder folder;
-    fs::create_directories(folder / "scans/velodyne");
-    const fs::path before = fs::current_path();
-    fs::current_path(folder / "scans/velodyne");
-    for (const fs::path& here : {fs::path(".."), folder / "scans", fs::path("../../scans/")}) {
-        EXPECT_THAT(test::messageOf([&] { OutputPath(here, any, true); }),
-                    HasSubstr("the program runs in this folder"));
-    }
-    EXPECT_EQ(test::messageOf([&] { OutputPath("../../other", any, true); }), "");
-    fs::current_path(before);
-    EXPECT_THAT(test::messageOf([&] { OutputPath("/proc", any, true); }),
-                HasSubstr("/proc: is a mount point"));
+TEST_F(OutputPathTest, MessagesNameOutputsNotTemporaryFiles) {
+    const OutputPath a(folder_ / "a", kFile, false), b(folder_ / "b", kFile, false);
+    EXPECT_EQ(
+        withOutputNames(a.temporary().string() + "/1.bin, " + b.temporary().string() + ": no"),
+        (folder_ / "a/1.bin").string() + ", " + (folder_ / "b").string() + ": no");
 }
 
-TEST(OutputPath, AFileDoesNotEndInASlash) {
-    const test::TemporaryFolder folder;
-    EXPECT_THAT(test::messageOf([&] { OutputPath(folder.path().string() + "/a/", kFile, true); }),
-                HasSubstr("/a/: ends like the name of a folder"));
-}
-
-TEST(OutputPath, WhatIsInAnInputIsNotReplaced) {
-    const test::TemporaryFolder folder;
-    fs::create_directories(folder / "in/velodyne");
-    folder.write("in/velodyne/000000.bin", "scan");
+TEST_F(OutputPathTest, RefusesOutputsInInputs) {
+    fs::create_directories(folder_ / "in/velodyne");
+    folder_.write("in/velodyne/000000.bin", "scan");
     const auto refusal = [&](const std::string& output) {
-        return test::messageOf([&] { checkApart({folder / output}, {folder / "in"}); });
+        return test::messageOf([&] { checkApart({folder_ / output}, {folder_ / "in"}); });
     };
     EXPECT_THAT(refusal("in/velodyne/000000.bin"), HasSubstr("may be a part of it"));
     EXPECT_THAT(refusal("in/velodyne"), HasSubstr("may be a part of it"));
@@ -183,60 +152,19 @@ TEST(OutputPath, WhatIsInAnInputIsNotReplaced) {
     EXPECT_EQ(refusal("inside"), "");
 }
 
-TEST(RenamingNote, IsDoneWithoutWhereItsNameIsTooLong) {
-    const test::TemporaryFolder folder;
-    const fs::path longest = folder / std::string(250, 'x');
-    EXPECT_NO_THROW(RenamingNote({longest, folder / "b"}));
-}
-
-/// The first process has a number that another one had before.
-TEST(OutputPath, ATemporaryFileOfBeforeItsProcessBeganIsLeftBehind) {
-    const test::TemporaryFolder folder;
-    const fs::path file = folder / "a.rawlog", left = folder / "a.rawlog.tmp-1-0123456789abcdef";
-    folder.write(left.filename().string(), "half");
-    EXPECT_TRUE(partialOutputs(file).empty());  // it runs
-    fs::last_write_time(left, fs::file_time_type::clock::now() - std::chrono::hours(24 * 365 * 20));
-    EXPECT_THAT(partialOutputs(file), testing::ElementsAre(left));
-    EXPECT_THAT(leftBehind({file, folder / "b"}), HasSubstr(left.string()));
-    EXPECT_EQ(leftBehind({folder / "b"}), "");
-}
-
-/// What this run writes was left by nobody.
-TEST(OutputPath, OwnTemporaryFilesAreNotLeftBehind) {
-    const test::TemporaryFolder folder;
-    const fs::path file = folder / "a.rawlog";
-    const fs::path left = folder / ("a.rawlog.tmp-" + std::to_string(getpid()) + "-0123456789");
-    folder.write(left.filename().string(), "of a process that had this number");
-    {
-        OutputPath output(file, kFile, false);
-        std::ofstream(output.temporary()) << "half";
-        EXPECT_THAT(partialOutputs(file), testing::ElementsAre(left));
-    }
-    EXPECT_THAT(partialOutputs(file), testing::ElementsAre(left));
-}
-
-TEST(OutputPath, MessagesNameOutputsInPlaceOfTemporaryFiles) {
-    const test::TemporaryFolder folder;
-    std::string temporary;
-    {
-        const OutputPath output(folder / "a", kFile, false), other(folder / "b", kFile, false);
-        temporary = output.temporary().string();
-        EXPECT_EQ(withOutputNames(temporary + "/1.bin, " + temporary + " and " +
-                                  other.temporary().string() + ": no space"),
-                  (folder / "a").string() + "/1.bin, " + (folder / "a").string() + " and " +
-                      (folder / "b").string() + ": no space");
-    }
-    EXPECT_EQ(withOutputNames(temporary), temporary);
-}
-
-TEST(OutputPath, WhatAppearsMeanwhileIsNotReplaced) {
-    const test::TemporaryFolder folder;
-    OutputPath output(folder / "a.rawlog", kFile, false);
-    std::ofstream(output.temporary()) << "new";
-    folder.write("a.rawlog", "somebody's");
-    EXPECT_THROW(output.commit(), std::runtime_error);
-    EXPECT_EQ(test::readFile(folder / "a.rawlog"), "somebody's");
-    EXPECT_EQ(test::readFile(folder / "a.partial.rawlog"), "new");
+TEST_F(OutputPathTest, WriteErrorsNameTheReason) {
+    const auto errorAt = [&](const fs::path& place) {
+        return test::messageOf([&] { writeText("text", place, "named.csv"); });
+    };
+    EXPECT_EQ(errorAt(folder_.path()), "named.csv: cannot be written: Is a directory");
+    EXPECT_EQ(errorAt("/dev/full"), "named.csv: cannot be written: No space left on device");
+    std::ofstream out("/dev/full");  // full before it is closed
+    out << std::string(100000, 'x') << std::flush;
+    errno = EACCES;  // of something else since
+    EXPECT_EQ(test::messageOf([&] { closeWritten(out, "named.csv"); }),
+              "named.csv: cannot be written: No space left on device");
+    EXPECT_EQ(errorAt(folder_ / "a.csv"), "");
+    EXPECT_EQ(test::readFile(folder_ / "a.csv"), "text");
 }
 
 }  // namespace

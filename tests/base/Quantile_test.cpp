@@ -16,7 +16,7 @@ TEST(Quantile, InterpolatesBetweenRanks) {
     EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
 }
 
-TEST(Quantile, TheNearestRankIsTheSmallestValueThatTheShareDoesNotExceed) {
+TEST(Quantile, NearestRankIsSmallestCoveringValue) {
     std::mt19937 random(3);
     for (std::size_t count = 1; count < 60; ++count) {
         std::vector<double> values(count);

@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,17 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-template <class Read>
-std::string errorOf(Read read) {
-    try {
-        read();
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
-}
-
-TEST(ReadFile, ReadsTextAndLinesToTheirEnds) {
+TEST(ReadFile, ReadsWholeTextAndLines) {
     const test::TemporaryFolder folder;
     const std::filesystem::path file =
         folder.write("a.txt", std::string("one\n\nth\0ree\r\nlast", 17));
@@ -36,19 +25,20 @@ TEST(ReadFile, ReadsTextAndLinesToTheirEnds) {
     EXPECT_EQ(lines, (std::vector<std::string>{"one", "", std::string("th\0ree\r", 7), "last"}));
 }
 
-TEST(ReadFile, NamesWhatIsNoFile) {
+TEST(ReadFile, RejectsPipesDevicesAndFolders) {
     const test::TemporaryFolder folder;
     const std::string pipe = (folder / "pipe").string();
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_THAT(errorOf([&] { openToRead(pipe); }), HasSubstr(pipe + ": is a pipe or a device"));
-    EXPECT_THAT(errorOf([] { readText("/dev/zero"); }), HasSubstr("/dev/zero: is a pipe"));
-    EXPECT_THAT(errorOf([&] { openToRead(folder.path()); }), HasSubstr("is a folder"));
-    EXPECT_THAT(errorOf([&] { openToRead(folder / "none"); }),
+    EXPECT_THAT(test::messageOf([&] { openToRead(pipe); }),
+                HasSubstr(pipe + ": is a pipe or a device"));
+    EXPECT_THAT(test::messageOf([] { readText("/dev/zero"); }), HasSubstr("/dev/zero: is a pipe"));
+    EXPECT_THAT(test::messageOf([&] { openToRead(folder.path()); }), HasSubstr("is a folder"));
+    EXPECT_THAT(test::messageOf([&] { openToRead(folder / "none"); }),
                 HasSubstr("none: cannot be read: No such file"));
-    EXPECT_EQ(errorOf([&] { checkIsFile(folder / "none"); }), "");
+    EXPECT_EQ(test::messageOf([&] { checkIsFile(folder / "none"); }), "");
 }
 
-TEST(ReadFile, LimitsTextsAndLines) {
+TEST(ReadFile, LimitsTextAndLineSizes) {
     const test::TemporaryFolder folder;
     constexpr std::size_t kMiB = 1 << 20;
     const std::filesystem::path file = folder.write("a.txt", std::string(kMiB, 'x'));
@@ -58,9 +48,11 @@ TEST(ReadFile, LimitsTextsAndLines) {
     EXPECT_TRUE(nextLine(whole, line, file));
     EXPECT_EQ(line.size(), kMiB);
     folder.write("a.txt", std::string(kMiB + 1, 'x'));
-    EXPECT_THAT(errorOf([&] { readText(file, kMiB); }), HasSubstr("a.txt: is larger than 1 MiB"));
+    EXPECT_THAT(test::messageOf([&] { readText(file, kMiB); }),
+                HasSubstr("a.txt: is larger than 1 MiB"));
     std::ifstream longer = openToRead(file);
-    EXPECT_THAT(errorOf([&] { nextLine(longer, line, file); }), HasSubstr("a.txt: has a line"));
+    EXPECT_THAT(test::messageOf([&] { nextLine(longer, line, file); }),
+                HasSubstr("a.txt: has a line"));
 }
 
 }  // namespace

@@ -677,7 +677,7 @@ TEST_P(ConversionTest, WhatRunsThatBrokeOffHaveLeftIsNamedByTheOneThatDoesNot) {
     }
     std::vector<std::string> remarks;
     convert(conversion(), remarksInto(remarks));
-    EXPECT_THAT(remarks, testing::Contains("the outputs: earlier runs that broke off left " +
+    EXPECT_THAT(remarks, testing::Contains("the outputs: earlier runs left " +
                                            (folder_ / "out.partial-2.rawlog").string() + ", " +
                                            (folder_ / "out.partial.rawlog").string() +
                                            "; delete what you do not need"));

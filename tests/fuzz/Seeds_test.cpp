@@ -1,6 +1,6 @@
-// Every fuzz target on its seeds, on their beginnings, and on some mutations of each; what
-// libFuzzer does for hours. HAGEN_FUZZ_SECONDS: how long each target is given mutations (default: a
-// few hundred, whatever that takes); HAGEN_FUZZ_SEED: of their random numbers (default: 1).
+// Every fuzz target with its seeds, their beginnings and some mutations. HAGEN_FUZZ_SECONDS: time
+// for mutations per target (default: a few hundred mutations); HAGEN_FUZZ_SEED: random seed
+// (default: 1).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class Seeds : public testing::TestWithParam<std::string> {
         return *std::find_if(all.begin(), all.end(),
                              [](const Target& each) { return each.name == GetParam(); });
     }
-    /// Fails, with the bytes, if the input does something that it may not.
+    /// Fails, with the bytes, on a finding.
     void run(const std::string& input) const {
         try {
             target().run(input);
@@ -54,7 +54,7 @@ class Seeds : public testing::TestWithParam<std::string> {
     }
 };
 
-TEST_P(Seeds, AndTheirBeginningsAreReadOrRefused) {
+TEST_P(Seeds, AreReadOrRejected) {
     const auto seeds = target().seeds();
     ASSERT_FALSE(seeds.empty());
     run("");
@@ -65,7 +65,7 @@ TEST_P(Seeds, AndTheirBeginningsAreReadOrRefused) {
     }
 }
 
-TEST_P(Seeds, WithMutationsAreReadOrRefused) {
+TEST_P(Seeds, MutationsAreReadOrRejected) {
     if (!target().is_bounded) GTEST_SKIP() << "it may take all memory: " << target().name;
     std::mt19937 random(numberFrom("HAGEN_FUZZ_SEED", 1));
     const auto seeds = target().seeds();
@@ -88,7 +88,9 @@ std::vector<std::string> names() {
 INSTANTIATE_TEST_SUITE_P(Fuzz, Seeds, testing::ValuesIn(names()),
                          [](const auto& each) { return each.param; });
 
-TEST(FuzzTargets, AreAllThere) { EXPECT_EQ(targets().size(), std::size_t{HAGEN_FUZZ_TARGETS}); }
+TEST(FuzzTargets, AreAllRegistered) {
+    EXPECT_EQ(targets().size(), std::size_t{HAGEN_FUZZ_TARGETS});
+}
 
 }  // namespace
 }  // namespace hagen::fuzz

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <utility>
 
 namespace hagen::fuzz {
@@ -39,6 +41,11 @@ bool add(Target target) {
                                     [&](const Target& other) { return other.name > target.name; });
     added().insert(place, std::move(target));
     return true;
+}
+
+std::vector<std::string> wordsIn(const std::string& text) {
+    std::istringstream words(text);
+    return {std::istream_iterator<std::string>(words), {}};
 }
 
 void require(bool holds, const std::string& what) {

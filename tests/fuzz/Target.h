@@ -1,7 +1,7 @@
 #pragma once
-// What all fuzz targets share. A target is a function of any bytes: it may return, or refuse them
-// with an error that has a message. Each file of this folder has one. scripts/fuzz runs them by
-// libFuzzer; Seeds_test.cpp runs the seeds, and some mutations of each, as an ordinary test.
+// Common parts of the fuzz targets. A target is a function of any bytes: it returns, or rejects
+// them with a std::runtime_error that has a message. Each file of this folder has one. scripts/fuzz
+// runs them with libFuzzer; Seeds_test.cpp runs the seeds and some mutations as an ordinary test.
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
@@ -20,29 +20,28 @@ struct Target {
     void (*run)(std::string_view input);
     /// Valid inputs to start from.
     Seeds (*seeds)();
-    /// Words of the format, for libFuzzer's dictionary.
+    /// Words of the format for libFuzzer's dictionary.
     std::vector<std::string> words = {};
     std::size_t longest = 4096;  ///< bytes of an input
-    /// Whether the ordinary test mutates its seeds, too.
-    bool is_bounded = true;
+    bool is_bounded = true;      ///< false: mutations may take all memory
 };
 
-/// Those of this program, by name.
+/// The targets of this program, sorted by name.
 const std::vector<Target>& targets();
-/// Adds a target; the result is of no meaning. At the end of each target's file:
-///
-///     const bool kAdded = add({"clouds", readAnyCloud, cloudSeeds});
+/// Adds a target, at the end of its file; returns true.
 bool add(Target target);
+/// The words of a text.
+std::vector<std::string> wordsIn(const std::string& text);
 
 /// An error that no input may cause.
 struct Violation : std::logic_error {
     using std::logic_error::logic_error;
 };
-/// Throws Violation if it does not hold.
+/// Throws Violation if a condition does not hold.
 void require(bool holds, const std::string& what);
 
-/// Calls what may refuse its input by a std::runtime_error with a message. Anything else that is
-/// thrown is a finding. False: it refused.
+/// Calls a function that may reject its input with a std::runtime_error that has a message; returns
+/// false if it does. Any other exception is a finding.
 template <class Call>
 bool mayRefuse(const Call& call) {
     try {
@@ -54,7 +53,7 @@ bool mayRefuse(const Call& call) {
     }
 }
 
-/// A file with these bytes, as long as it lives.
+/// A temporary file with these bytes.
 class InputFile {
  public:
     explicit InputFile(std::string_view bytes, const std::string& name = "input");
@@ -68,10 +67,10 @@ class InputFile {
     std::filesystem::path path_;
 };
 
-/// The folder for such files, of this process alone; in memory where the system has such a folder.
+/// A folder of this process for such files; in memory if possible.
 const std::filesystem::path& scratch();
 
-/// Takes an input apart. After its end, everything is zero.
+/// Splits an input. After its end, everything is zero.
 class Parts {
  public:
     explicit Parts(std::string_view input) : rest_(input) {}
@@ -87,13 +86,12 @@ class Parts {
     /// A number from 0 to below `end`.
     std::size_t below(std::size_t end) { return number<std::uint8_t>() % end; }
     bool chance() { return (number<std::uint8_t>() & 1) != 0; }
-    /// Fewer at the end.
     std::string_view take(std::size_t bytes) {
         const std::string_view taken = rest_.substr(0, bytes);
         rest_.remove_prefix(taken.size());
         return taken;
     }
-    /// Everything up to the next separator byte, which is taken, too.
+    /// Everything up to the next separator, which is skipped.
     std::string_view until(char separator) {
         const std::string_view taken = rest_.substr(0, rest_.find(separator));
         rest_.remove_prefix(taken.size() < rest_.size() ? taken.size() + 1 : rest_.size());

@@ -38,41 +38,13 @@ Seeds cloudSeeds() {
     return seeds;
 }
 
-const bool kAdded = add({"clouds",
-                         readAnyCloud,
-                         cloudSeeds,
-                         {"FIELDS ",
-                          "SIZE ",
-                          "TYPE ",
-                          "COUNT ",
-                          "WIDTH ",
-                          "HEIGHT ",
-                          "POINTS ",
-                          "VIEWPOINT ",
-                          "DATA ascii\n",
-                          "DATA binary\n",
-                          "DATA binary_compressed\n",
-                          "element vertex ",
-                          "property ",
-                          "property list uchar int ",
-                          "float ",
-                          "double ",
-                          "end_header\n",
-                          "format ascii 1.0\n",
-                          "format binary_big_endian 1.0\n",
-                          "LASF",
-                          "\x93NUMPY",
-                          "'descr': ",
-                          "'fortran_order': True",
-                          "'shape': (",
-                          "'<f4'",
-                          "'>f8'",
-                          "'|V2'",
-                          "nan",
-                          "-inf",
-                          "1e400",
-                          "18446744073709551615",
-                          "4294967296"}});
+const bool kAdded =
+    add({"clouds", readAnyCloud, cloudSeeds,
+         wordsIn("FIELDS SIZE TYPE COUNT WIDTH HEIGHT POINTS VIEWPOINT DATA ascii binary "
+                 "binary_compressed element vertex property list uchar int float double "
+                 "end_header format 1.0 binary_big_endian LASF \x93NUMPY 'descr': "
+                 "'fortran_order': True 'shape': ( '<f4' '>f8' '|V2' nan -inf 1e400 "
+                 "18446744073709551615 4294967296")});
 
 }  // namespace
 }  // namespace hagen::fuzz

@@ -26,29 +26,13 @@ Seeds metadataSeeds() {
             test::ousterJson("FUSA_RNG15_RFL8_NIR8_DUAL")};
 }
 
-const bool kAdded = add({"ouster_metadata",
-                         readMetadata,
-                         metadataSeeds,
-                         {"\"beam_altitude_angles\"",
-                          "\"beam_azimuth_angles\"",
-                          "\"lidar_data_format\"",
-                          "\"sensor_info\"",
-                          "\"beam_intrinsics\"",
-                          "\"lidar_intrinsics\"",
-                          "\"column_window\"",
-                          "\"columns_per_frame\"",
-                          "\"columns_per_packet\"",
-                          "\"pixels_per_column\"",
-                          "\"udp_profile_lidar\"",
-                          "\"pixel_shift_by_row\"",
-                          "\"lidar_to_sensor_transform\"",
-                          "\"beam_to_lidar_transform\"",
-                          "null",
-                          "1e999",
-                          "-1",
-                          "4294967296",
-                          "[]",
-                          "{}"}});
+const bool kAdded =
+    add({"ouster_metadata", readMetadata, metadataSeeds,
+         wordsIn("beam_altitude_angles beam_azimuth_angles lidar_data_format sensor_info "
+                 "beam_intrinsics lidar_intrinsics column_window columns_per_frame "
+                 "columns_per_packet pixels_per_column udp_profile_lidar pixel_shift_by_row "
+                 "lidar_to_sensor_transform beam_to_lidar_transform null 1e999 -1 4294967296 "
+                 "[] {}")});
 
 }  // namespace
 }  // namespace hagen::fuzz

@@ -144,9 +144,9 @@ TEST_F(SettingsTest, WhatIsInfiniteIsReadAgainAndATextInReports) {
     EXPECT_THAT(dumpSettings(settings), HasSubstr("context_m: .inf "));
     EXPECT_EQ(settingsOf(dumpSettings(settings)).options.context_m, settings.options.context_m);
     const base::Json json = jsonOf(settings);
-    EXPECT_EQ(json.at("context_m").text(), ".inf");
-    EXPECT_EQ(json.at("zone_m").number(), 20);
-    EXPECT_EQ(base::Json::parse(json.dump()).at("context_m").text(), ".inf");
+    EXPECT_EQ(json.at("context_m"), ".inf");
+    EXPECT_EQ(json.at("zone_m"), 20);
+    EXPECT_EQ(base::parseJson(json.dump()).at("context_m"), ".inf");
 }
 
 TEST_F(SettingsTest, SwitchesAreTrueOrFalse) {

@@ -53,9 +53,8 @@ std::vector<Run> openFolder(const fs::path& folder, const LatencyProfile& profil
     if (overwrites) {
         fs::remove(table);
     } else if (fs::exists(campaign)) {
-        if (Json::parse(base::readText(campaign)).at("settings").text() != settings) {
-            refuse(campaign);
-        }
+        const nlohmann::json before = base::parseJson(base::readText(campaign));
+        if (!before.contains("settings") || before["settings"] != settings) refuse(campaign);
     }
     const Json made{
         {"machine", profile.machine}, {"made_by", profile.made_by}, {"date", profile.date}};

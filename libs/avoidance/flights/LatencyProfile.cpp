@@ -17,14 +17,14 @@ using base::Json;
 
 double toMicroseconds(double latency_ms) { return std::round(1e3 * latency_ms) / 1e3; }
 
-std::vector<double> quantilesFrom(const Json& value) {
+std::vector<double> quantilesFrom(const nlohmann::json& value) {
     constexpr double kMost_ms = 60000;  // a flight waits for them, step by step
     const std::string rule = "must be numbers from 0 to 60000 [ms] that do not fall, one or more";
-    if (!value.isArray() || value.items().empty()) throw std::runtime_error(rule);
+    if (!value.is_array() || value.empty()) throw std::runtime_error(rule);
     std::vector<double> quantiles;
-    for (const Json& entry : value.items()) {
-        if (!entry.isNumber()) throw std::runtime_error(rule);
-        quantiles.push_back(toMicroseconds(entry.number()));
+    for (const nlohmann::json& entry : value) {
+        if (!entry.is_number()) throw std::runtime_error(rule);
+        quantiles.push_back(toMicroseconds(entry.get<double>()));
     }
     const bool are_latencies = std::all_of(quantiles.begin(), quantiles.end(),
                                            [](double q) { return q >= 0 && q <= kMost_ms; });
@@ -34,21 +34,21 @@ std::vector<double> quantilesFrom(const Json& value) {
     return quantiles;
 }
 
-LatencyProfile profileFrom(const Json& root) {
-    const Json* by_stage = root.find("quantiles_ms");
-    if (by_stage == nullptr || !by_stage->isObject()) {
+LatencyProfile profileFrom(const nlohmann::json& root) {
+    const auto by_stage = root.find("quantiles_ms");
+    if (by_stage == root.end() || !by_stage->is_object()) {
         throw std::runtime_error("has no key 'quantiles_ms'; expected a file made by `calibrate`");
     }
     LatencyProfile profile;
     for (const auto& [key, text] : {std::pair{"machine", &profile.machine},
                                     {"made_by", &profile.made_by},
                                     {"date", &profile.date}}) {
-        const Json* value = root.find(key);
-        if (value == nullptr) continue;
-        if (!value->isText()) throw std::runtime_error(std::string(key) + ": must be a text");
-        *text = value->text();
+        const auto value = root.find(key);
+        if (value == root.end()) continue;
+        if (!value->is_string()) throw std::runtime_error(std::string(key) + ": must be a text");
+        *text = *value;
     }
-    for (const auto& [stage, value] : by_stage->members()) {
+    for (const auto& [stage, value] : by_stage->items()) {
         try {
             profile.quantiles_ms[stage] = quantilesFrom(value);
         } catch (const std::runtime_error& e) {
@@ -102,7 +102,7 @@ std::vector<double> quantilesOf(const std::vector<double>& measured_ms, int coun
 }
 
 LatencyProfile latencyProfileFrom(const std::string& text) {
-    return profileFrom(Json::parse(text));
+    return profileFrom(base::parseJson(text));
 }
 
 LatencyProfile readLatencyProfile(const std::filesystem::path& file) {

@@ -212,8 +212,7 @@ void OpenLoopFiles::finish(const OpenLoop& open_loop, const OpenLoopResult& resu
     writeModels(models_->out, result);
     writeModelsMeasured(models_measured_->out, result);
     writeAgreement(agreement_->out, result);
-    // File names may not be UTF-8, JSON must be.
-    summary_->out << summaryOf(open_loop, result).dump(2, Json::NotUtf8::Replace) << "\n";
+    summary_->out << base::dumpJson(summaryOf(open_loop, result), 2) << "\n";
     for (const auto& file : files_) {
         all_.write(file->path, [&] { base::closeWritten(file->out, file->path.path()); });
     }

@@ -14,28 +14,29 @@ struct BackgroundPrinter::Waiting {
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<std::pair<To, std::string>> texts;
-    std::size_t left_out = 0;
+    std::size_t dropped = 0;
     bool is_printing = false, is_over = false;
-    bool is_printing_output = false, is_output_left = false;
+    bool is_printing_output = false, is_output_dropped = false;
 
     bool isIdle() const { return texts.empty() && !is_printing; }
 
     void add(To to, std::string&& text) {
         if (is_over || texts.size() >= kMostWaiting) {
-            ++left_out;
-            is_output_left = is_output_left || to == To::Output;
+            ++dropped;
+            is_output_dropped = is_output_dropped || to == To::Output;
             return;
         }
-        if (left_out > 0) {
-            const std::size_t count = std::exchange(left_out, 0);
-            texts.emplace_back(To::Errors, std::to_string(count) +
-                                               " messages were left out, as nobody read them\n");
+        if (dropped > 0) {
+            const std::size_t count = std::exchange(dropped, 0);
+            texts.emplace_back(
+                To::Errors,
+                std::to_string(count) + " messages dropped: the terminal or pipe was blocked\n");
         }
         texts.emplace_back(to, std::move(text));
         changed.notify_all();
     }
 
-    /// The thread's work.
+    /// Runs on the printing thread.
     void run() {
         std::unique_lock lock(mutex);
         for (;;) {
@@ -46,7 +47,7 @@ struct BackgroundPrinter::Waiting {
             is_printing = true;
             is_printing_output = to == To::Output;
             lock.unlock();
-            // This may wait.
+            // This may block.
             if (to == To::ErrorsInPlace) std::cerr << clearLine;
             (to == To::Output ? std::cout : std::cerr) << text << std::flush;
             lock.lock();
@@ -66,7 +67,7 @@ BackgroundPrinter::~BackgroundPrinter() {
         const std::lock_guard lock(waiting_->mutex);
         is_over = waiting_->is_over;
     }
-    if (!is_over) finish();  // who has waited in vain does not wait again
+    if (!is_over) finish();
 }
 
 void BackgroundPrinter::print(To to, std::string text) {
@@ -84,9 +85,9 @@ bool BackgroundPrinter::finish(std::chrono::milliseconds longest) {
     const bool is_printed =
         waiting_->changed.wait_for(lock, longest, [&] { return waiting_->isIdle(); });
     waiting_->is_over = true;
-    waiting_->is_output_left = waiting_->is_output_left || waiting_->is_printing_output;
+    waiting_->is_output_dropped = waiting_->is_output_dropped || waiting_->is_printing_output;
     for (const auto& [to, text] : waiting_->texts) {
-        if (to == To::Output) waiting_->is_output_left = true;
+        if (to == To::Output) waiting_->is_output_dropped = true;
     }
     waiting_->texts.clear();
     waiting_->changed.notify_all();
@@ -95,7 +96,7 @@ bool BackgroundPrinter::finish(std::chrono::milliseconds longest) {
 
 bool BackgroundPrinter::isOutputPrinted() const {
     const std::lock_guard lock(waiting_->mutex);
-    return !waiting_->is_output_left;
+    return !waiting_->is_output_dropped;
 }
 
 }  // namespace hagen::base

@@ -1,6 +1,7 @@
 #include <hagen/base/CommandLine.h>
 
-#include <sys/stat.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -20,8 +21,6 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/Terminal.h>
-#include "base/command_line/Stacks.h"
-#include "base/command_line/StandardStreams.h"
 
 namespace hagen::base {
 
@@ -32,7 +31,7 @@ namespace {
 constexpr std::size_t kHelpWidth = 80, kHelpColumn = 30;
 constexpr const char* kNotEmpty = "not empty";  // a check's name
 
-/// Breaks a line of --help between words. Its continuations begin where descriptions do.
+/// Breaks a line of --help between words. Continuations are indented like descriptions.
 std::string wrapped(std::string line) {
     std::string lines;
     while (line.size() > kHelpWidth) {
@@ -50,7 +49,7 @@ std::string wrapped(std::string line) {
     return lines + line;
 }
 
-/// CLI11's text of --help in lines of a terminal's width.
+/// CLI11's --help, wrapped at the width of a terminal.
 class HelpText : public CLI::Formatter {
  public:
     HelpText() { column_width(kHelpColumn); }
@@ -156,12 +155,12 @@ struct NumberIn<std::vector<Number>> {
     using Type = Number;
 };
 
-/// What is wrong with the text of a number; "" if nothing is. CLI11 takes nan, which passes each of
-/// its checks of ranges, and takes -1 and 99999999999999999999 for other unsigned numbers.
+/// The error in the text of a number; "" if there is none. CLI11 accepts nan, which passes its
+/// range checks, and turns -1 and 99999999999999999999 into other unsigned numbers.
 template <class Number>
 std::string errorOfNumber(const std::string& text) {
     const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
-    const auto number = base::numberFrom<Number>(std::string_view(text).substr(has_plus ? 1 : 0));
+    const auto number = numberFrom<Number>(std::string_view(text).substr(has_plus ? 1 : 0));
     if constexpr (std::is_floating_point_v<Number>) {
         return number && std::isfinite(*number) ? "" : "'" + text + "' is not a finite number";
     } else {
@@ -181,7 +180,7 @@ Flag Command::option(const std::string& names, Value& value, const std::string& 
     if constexpr (std::is_arithmetic_v<Number>) {
         option->check(CLI::Validator(errorOfNumber<Number>, ""));
     } else {
-        // A script's variable that is not set: an output that it names would be missing.
+        // An unset variable of a script must not drop an output.
         const auto errorOf = [](const std::string& text) {
             return text.empty() ? std::string("must not be empty") : std::string();
         };
@@ -213,24 +212,6 @@ Flag Command::printer(const std::string& names, std::function<void()> print,
     return Flag(*app_->add_flag_callback(names, stop, help));
 }
 
-Flag Command::choice(const std::string& names, const std::vector<std::string>& words,
-                     const std::string& help, std::function<void(std::size_t)> choose) {
-    const auto place = [words](const std::string& word) {
-        return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) -
-                                        words.begin());
-    };
-    const std::function<void(const std::string&)> set =
-        [place, choose = std::move(choose)](const std::string& word) { choose(place(word)); };
-    const auto errorOf = [place, words](const std::string& word) {
-        return place(word) < words.size()
-                   ? ""
-                   : "'" + word + "' is not one of " + CLI::detail::join(words, ", ");
-    };
-    return Flag(*app_->add_option_function(names, set, help)->check(CLI::Validator(errorOf, "")));
-}
-
-void Command::hide() { app_->group(""); }
-
 void Command::does(std::function<int()> work) {
     app_->callback([work = std::move(work), chosen = chosen_] {
         *chosen = [work] {
@@ -248,94 +229,38 @@ std::string subcommandsOf(const CLI::App& app, const std::string& program) {
     std::string text =
         unknown.empty() ? "no command given" : "'" + unknown[0] + "' is not a command";
     const char* before = "; there are ";
-    const auto is_shown = [](const CLI::App* command) { return !command->get_group().empty(); };
-    for (const CLI::App* command : app.get_subcommands(is_shown)) {
+    for (const CLI::App* command : app.get_subcommands(nullptr)) {
         text += before + command->get_name();
         before = ", ";
     }
     return text + " (" + program + " --help shows details)";
 }
 
-bool isFlag(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
-
-/// The command that was given, or the program.
-const CLI::App& givenCommand(const CLI::App& app) {
-    const std::vector<const CLI::App*> given =
-        app.get_subcommands([](const CLI::App* command) { return command->parsed(); });
-    return given.empty() ? app : *given.back();
-}
-
-/// What to do with a value that belongs to no flag; empty if there is nothing to say.
-std::string hintOn(const std::string& value, const std::vector<std::string>& words,
-                   const CLI::App& app) {
-    const auto at = std::find(words.begin(), words.end(), value);
-    const auto before = std::find_if(std::make_reverse_iterator(at), words.rend(), isFlag);
-    const CLI::Option* const flag =
-        before == words.rend() ? nullptr : app.get_option_no_throw(*before);
-    if (flag != nullptr && flag->get_items_expected_max() > 1 && before.base() != at) {
-        return "to name several, repeat the flag: " + *before + " " + *before.base() + " " +
-               *before + " " + value;
-    }
-    const bool is_of_unknown_flag = before != words.rend() && before.base() == at;
-    if (flag == nullptr && is_of_unknown_flag) return "";
-    const CLI::Option* const input = app.get_option_no_throw("--input");
-    if (input != nullptr && input->count() == 0) return "use -i " + value;
-    return "";
-}
-
-/// The error message about arguments that are no flags and values of none.
-std::string extrasText(const CLI::App& app, int argc, char** argv) {
-    const std::vector<std::string> words(argv + 1, argv + argc);
-    std::vector<std::string> extras = app.remaining(true);
-    // CLI11 does not keep the order.
-    std::stable_sort(extras.begin(), extras.end(), [&](const auto& a, const auto& b) {
-        return std::find(words.begin(), words.end(), a) < std::find(words.begin(), words.end(), b);
-    });
-    std::string text, hint;
-    for (const std::string& extra : extras) {
-        text += (text.empty() ? "" : ", ") + extra;
-        if (hint.empty() && !isFlag(extra)) hint = hintOn(extra, words, givenCommand(app));
-    }
-    const bool is_one = extras.size() == 1;
-    text = std::string("The following argument") + (is_one ? " was" : "s were") +
-           " not expected: " + text;
-    return hint.empty() ? text : text + "; " + hint;
-}
-
 }  // namespace
 
-namespace {
-
-int caught(const std::function<int()>& program) noexcept {
+int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept {
+    std::signal(SIGCHLD, SIG_DFL);  // if it is ignored, children cannot be waited for
     try {
-        return program();
+        return program(argc, argv);
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "%s: out of memory\n", program_invocation_short_name);
     } catch (const std::exception& e) {
-        // Perhaps with a text of the input, so by the stream that keeps terminals safe.
         std::cerr << program_invocation_short_name << ": " << e.what() << std::endl;
     } catch (...) {
-        std::fprintf(stderr, "%s: ended by an unknown error\n", program_invocation_short_name);
+        std::fprintf(stderr, "%s: unknown error\n", program_invocation_short_name);
     }
     return kFailed;
 }
 
-}  // namespace
-
-int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept {
-    // Who starts a program may have it ignore this; nobody could then wait for its children.
-    std::signal(SIGCHLD, SIG_DFL);
-    const auto call = [&] { return program(argc, argv); };
-    const auto work = [&] { return caught(std::cref(call)); };  // a reference takes no memory
-    return withRoomyStacks(std::cref(work));
-}
-
 namespace {
 
-/// Outputs can be read and removed by who writes them, whatever the umask.
-void keepOwnersRights() {
-    constexpr mode_t kOwner = S_IRWXU;
-    umask(umask(0) & ~kOwner);
+/// Opens /dev/null in place of a closed standard stream. Otherwise the next file that the program
+/// opens would get its number, and messages would be written into that file.
+void reserveStandardStreams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (fcntl(stream, F_GETFD) != -1) continue;
+        [[maybe_unused]] const int lowest = open("/dev/null", O_RDWR);  // is this number
+    }
 }
 
 }  // namespace
@@ -346,7 +271,6 @@ Program::Program(std::unique_ptr<CLI::App> app, std::string name)
     : Command(*app, work_), owned_(std::move(app)), name_(std::move(name)) {
     reserveStandardStreams();
     ignoreWriteSignals();
-    keepOwnersRights();
     keepTerminalSafe();
     app_->formatter(std::make_shared<HelpText>());  // subcommands inherit it
 }
@@ -356,7 +280,6 @@ void Program::footer(const std::string& text) { app_->footer(text); }
 void Program::version(const std::string& version) {
     app_->set_version_flag("--version", name_ + " " + version);
 }
-void Program::prints(const std::string& what) { printed_ = help_ = what; }
 
 Command Program::subcommand(const std::string& name, const std::string& help) {
     app_->require_subcommand(1);
@@ -369,34 +292,29 @@ int Program::fail(int exit_code, const std::string& message) const {
 }
 
 /// Checks that standard output was written completely.
-int Program::printed(int exit_code, const std::string& what) const {
+int Program::flushed(int exit_code) const {
     if (std::fflush(stdout) == 0 && std::cout.flush()) return exit_code;
-    return fail(kFailed, "the " + what + " cannot be printed");
+    return fail(kFailed, "cannot write to standard output");
 }
 
 int Program::run(int argc, char** argv, const std::function<int()>& work) {
     constexpr double kGb = 1e9;
-    memory_gb_ = static_cast<double>(base::machineBytes()) / 2 / kGb;
-    option("--memory-limit", memory_gb_,
-           "memory that the program may take, in GB (default: half of the machine's)")
+    memory_gb_ = static_cast<double>(machineBytes()) / 2 / kGb;
+    option("--memory-limit", memory_gb_, "memory limit in GB (default: half of the machine's)")
         .between(0.05, 1e6)
         .valueName("GB");
     try {
         app_->parse(argc, argv);
-        base::limitMemory(static_cast<std::uint64_t>(memory_gb_ * kGb));
-        return printed(work ? work() : work_(), printed_);
+        limitMemory(static_cast<std::uint64_t>(memory_gb_ * kGb));
+        return flushed(work ? work() : work_());
     } catch (const CLI::Success& e) {  // --help, --version
         app_->exit(e);
-        return printed(kDone, help_);
+        return flushed(kDone);
     } catch (const CLI::ParseError& e) {
         const bool lacks_subcommand =
             !app_->get_subcommands(nullptr).empty() && app_->get_subcommands().empty();
         if (lacks_subcommand) return fail(kWrongUsage, subcommandsOf(*app_, name_));
-        if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr) {
-            app_->exit(CLI::ValidationError(extrasText(*app_, argc, argv)));
-        } else {
-            app_->exit(e);
-        }
+        app_->exit(e);
         return kWrongUsage;
     } catch (const UsageError& e) {
         app_->exit(CLI::ValidationError(e.what()));
@@ -407,9 +325,7 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
 }
 
 std::string Program::messageOf(const std::exception& e) {
-    if (dynamic_cast<const std::bad_alloc*>(&e) != nullptr) {
-        return base::outOfMemory();
-    }
+    if (dynamic_cast<const std::bad_alloc*>(&e) != nullptr) return outOfMemory();
     if (const auto* of_file = dynamic_cast<const fs::filesystem_error*>(&e)) {
         return of_file->path1().string() + ": " + of_file->code().message();
     }
@@ -417,7 +333,7 @@ std::string Program::messageOf(const std::exception& e) {
 }
 
 void tellLeftBehind(const std::vector<std::filesystem::path>& outputs) {
-    const std::string left = base::leftBehind(outputs);
+    const std::string left = leftBehind(outputs);
     if (!left.empty()) std::cerr << left << "\n";
 }
 

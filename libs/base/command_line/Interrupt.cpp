@@ -20,7 +20,7 @@ void interrupt(int signal) {
     std::time_t before = 0;
     if (interrupted_at.compare_exchange_strong(before, now)) {
         is_interrupted = true;
-    } else if (now > before + 1 && signal != SIGXCPU) {  // which comes each second
+    } else if (now > before + 1 && signal != SIGXCPU) {  // sent every second
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }

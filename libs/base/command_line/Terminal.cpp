@@ -1,6 +1,7 @@
 #include <hagen/base/Terminal.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <streambuf>
 #include <string>
@@ -8,49 +9,40 @@
 namespace hagen::base {
 namespace {
 
-/// Replaces what commands a terminal, byte by byte: control characters, also those from 0x80 on
-/// (such as U+009B, which begins commands) in UTF-8, and bytes that are no UTF-8, which are control
-/// characters of terminals with 8 bits.
-class Utf8Filter {
- public:
-    char printable(char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x80) {
-            following_ = 0;
-            const bool is_control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
-            return is_control ? '?' : c;
-        }
-        if (byte < 0xc0) {
-            const bool is_control = following_ == 0 || (is_latin_ && byte < 0xa0);
-            following_ = std::max(0, following_ - 1);
-            return is_control ? '?' : c;
-        }
-        const bool is_first = byte >= 0xc2 && byte < 0xf5;
-        following_ = !is_first ? 0 : byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 3;
-        is_latin_ = byte == 0xc2;
-        return is_first ? c : '?';
+/// Bytes of the UTF-8 character at the start of a text; 1 if there is none.
+std::size_t bytesOfCharacter(const std::string& text, std::size_t at) {
+    const auto first = static_cast<unsigned char>(text[at]);
+    const std::size_t bytes = first < 0xc2 || first > 0xf4 ? 1
+                              : first < 0xe0               ? 2
+                              : first < 0xf0               ? 3
+                                                           : 4;
+    for (std::size_t i = 1; i < bytes; ++i) {
+        if (at + i >= text.size() || (text[at + i] & 0xc0) != 0x80) return 1;
     }
+    return bytes;
+}
 
- private:
-    int following_ = 0;      ///< bytes of the character that are still to come
-    bool is_latin_ = false;  ///< it is one from U+0080 to U+00BF
-};
-
-/// Replaces marks that reverse or break what follows on a line: a message could be disguised.
-/// U+0080 to U+009F, U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, in UTF-8.
-void hideOverrides(std::string& text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-        if (byte(i) == 0xc2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xa0) {
-            text.replace(i, 2, "??");
-        } else if (byte(i) == 0xe2 && i + 2 < text.size()) {
-            const unsigned char last = byte(i + 2);
-            const bool is_mark = (byte(i + 1) == 0x80 && (last == 0x8e || last == 0x8f ||  //
-                                                          (last >= 0xa8 && last <= 0xae))) ||
-                                 (byte(i + 1) == 0x81 && last >= 0xa6 && last <= 0xa9);
-            if (is_mark) text.replace(i, 3, "???");
-        }
+/// Control characters send commands to a terminal, and marks of the writing direction disguise
+/// messages. A single byte from 0x80 on is not UTF-8, and a control character of some terminals.
+bool isHarmful(const std::string& text, std::size_t at, std::size_t bytes) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
+    if (bytes == 1) {
+        return (byte(0) < 0x20 && text[at] != '\n' && text[at] != '\t') || byte(0) >= 0x7f;
     }
+    if (bytes == 2) return byte(0) == 0xc2 && byte(1) < 0xa0;  // U+0080 to U+009F
+    const std::uint32_t code = byte(0) == 0xe2 ? byte(1) << 8 | byte(2) : 0;
+    return code == 0x808e || code == 0x808f ||    // U+200E, U+200F
+           (code >= 0x80a8 && code <= 0x80ae) ||  // U+2028 to U+202E
+           (code >= 0x81a6 && code <= 0x81a9);    // U+2066 to U+2069
+}
+
+std::string printable(std::string text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t bytes = bytesOfCharacter(text, at);
+        if (isHarmful(text, at, bytes)) text.replace(at, bytes, bytes, '?');
+        at += bytes;
+    }
+    return text;
 }
 
 /// Passes text on to the buffer of a standard stream.
@@ -66,14 +58,10 @@ class PrintableBuffer : public std::streambuf {
  protected:
     int_type overflow(int_type c) override {
         if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
-        return stream_->sputc(Utf8Filter().printable(traits_type::to_char_type(c)));
+        return stream_->sputc(printable({traits_type::to_char_type(c)})[0]);
     }
     std::streamsize xsputn(const char* text, std::streamsize size) override {
-        std::string safe(text, static_cast<std::size_t>(size));
-        hideOverrides(safe);
-        Utf8Filter filter;  // several threads may print
-        for (char& c : safe) c = filter.printable(c);
-        return stream_->sputn(safe.data(), size);
+        return stream_->sputn(printable({text, static_cast<std::size_t>(size)}).data(), size);
     }
     int sync() override { return stream_->pubsync(); }
 

@@ -139,8 +139,7 @@ void writeJson(const std::filesystem::path& file, const Summary& summary) {
         report["hard_sets"].push_back({{"name", set.name}, {"methods", methods}});
     }
 
-    // File names may be invalid UTF-8, which JSON does not allow.
-    base::writeText(report.dump(2, Json::NotUtf8::Replace) + "\n", file, file);
+    base::writeText(base::dumpJson(report, 2) + "\n", file, file);
 }
 
 }  // namespace hagen::evaluation

@@ -16,7 +16,7 @@
 namespace hagen::sensors {
 namespace {
 
-using base::Json;
+using nlohmann::json;
 
 constexpr std::size_t kLegacyColumnHeader = 16, kLegacyColumnFooter = 4;
 constexpr std::size_t kColumnHeader = 12, kPacketHeader = 32, kPacketFooter = 32;
@@ -36,53 +36,62 @@ const std::vector<OusterProfile>& profiles() {
     return known;
 }
 
-/// Reads a value; errors name its key.
-template <class Read>
-auto named(const std::string& key, Read read) {
-    try {
-        return read();
-    } catch (const std::runtime_error& e) {
-        throw std::runtime_error("'" + key + "': " + e.what());
-    }
+/// Throws unless a value has the expected type.
+void checkType(bool is_expected, const std::string& key, const char* expected, const json& found) {
+    if (is_expected) return;
+    throw std::runtime_error("'" + key + "': expected " + expected + ", not: " + found.dump());
+}
+
+/// nullptr if this is not an object, or does not have the key.
+const json* member(const json& object, const std::string& key) {
+    const auto found = object.find(key);
+    return found == object.end() ? nullptr : &*found;
 }
 
 /// Metadata as read: keys are at the top or, since firmware 3, in sections.
 class Metadata {
  public:
-    explicit Metadata(const Json& json) : json_(json) {}
+    explicit Metadata(const json& root) : root_(root) {}
 
-    const Json* find(const std::string& key) const {
-        if (const Json* found = json_.find(key)) return found;
+    const json* find(const std::string& key) const {
+        if (const json* found = member(root_, key)) return found;
         for (const char* section : {"sensor_info", "beam_intrinsics", "lidar_intrinsics",
                                     "lidar_data_format", "data_format", "config_params"}) {
-            const Json* const in = json_.find(section);
-            const Json* const found = in == nullptr ? nullptr : in->find(key);
+            const json* const in = member(root_, section);
+            const json* const found = in == nullptr ? nullptr : member(*in, key);
             if (found != nullptr) return found;
         }
         return nullptr;
     }
-    const Json& at(const std::string& key) const {
-        if (const Json* found = find(key)) return *found;
+    const json& at(const std::string& key) const {
+        if (const json* found = find(key)) return *found;
         throw std::runtime_error("the key '" + key + "' is missing");
     }
     std::string text(const std::string& key) const {
-        const Json* const found = find(key);
-        return found == nullptr ? "" : named(key, [&] { return found->text(); });
+        const json* const found = find(key);
+        if (found == nullptr) return "";
+        checkType(found->is_string(), key, "text", *found);
+        return *found;
     }
     std::string requiredText(const std::string& key) const {
         at(key);
         return text(key);
     }
     double number(const std::string& key) const {
-        return named(key, [&] { return at(key).number(); });
+        const json& found = at(key);
+        checkType(found.is_number(), key, "a number", found);
+        return found;
     }
     std::size_t items(const std::string& key) const {
-        return named(key, [&] { return at(key).items().size(); });
+        const json& found = at(key);
+        checkType(found.is_array(), key, "an array", found);
+        return found.size();
     }
     /// An integer within limits.
     std::size_t count(const std::string& key, std::size_t least, std::size_t most) const {
-        const Json& found = at(key);
-        const std::uint64_t value = named(key, [&] { return found.count(); });
+        const json& found = at(key);
+        checkType(found.is_number_unsigned(), key, "an integer of at least 0", found);
+        const std::uint64_t value = found;
         if (value < least || value > most) {
             throw std::runtime_error("'" + key + "' is " + std::to_string(value) + ", not " +
                                      std::to_string(least) + " ... " + std::to_string(most));
@@ -91,8 +100,13 @@ class Metadata {
     }
     /// Numbers, all within +-`most`.
     std::vector<double> numbers(const std::string& key, std::size_t count, double most) const {
-        const Json& found = at(key);
-        std::vector<double> values = named(key, [&] { return found.numbers(); });
+        const json& found = at(key);
+        checkType(found.is_array(), key, "an array", found);
+        std::vector<double> values;
+        for (const json& item : found) {
+            checkType(item.is_number(), key, "numbers", item);
+            values.push_back(item);
+        }
         if (values.size() != count) {
             throw std::runtime_error("'" + key + "' has " + std::to_string(values.size()) +
                                      " numbers, not " + std::to_string(count));
@@ -106,7 +120,7 @@ class Metadata {
     }
 
  private:
-    const Json& json_;
+    const json& root_;
 };
 
 /// The number of columns from a mode like "1024x10".
@@ -119,9 +133,9 @@ std::size_t columnsOfMode(const std::string& mode) {
 
 /// From a mode like "1024x10": turns per second; 0: it is none.
 double turnTimeOfMode(const Metadata& metadata) {
-    const Json* const found = metadata.find("lidar_mode");
-    if (found == nullptr || !found->isText()) return 0;
-    const std::string mode = found->text();
+    const json* const found = metadata.find("lidar_mode");
+    if (found == nullptr || !found->is_string()) return 0;
+    const std::string mode = *found;
     const std::size_t at = mode.find('x');
     const auto turns =
         at == std::string::npos ? std::nullopt : base::numberFrom<unsigned>(mode.substr(at + 1));
@@ -316,8 +330,8 @@ std::optional<std::uint32_t> initializationOf(const std::uint8_t* packet,
 OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) {
     try {
         checkText(text);
-        const Json json = Json::parse(text);
-        const Metadata metadata(json);
+        const json root = base::parseJson(text);
+        const Metadata metadata(root);
         if (metadata.find("beam_altitude_angles") == nullptr) {
             throw std::runtime_error(
                 "the key 'beam_altitude_angles' is missing; is it an Ouster's metadata?");

@@ -5,12 +5,12 @@
 
 namespace hagen::base {
 
-/// Prints from a thread of its own, for work that must not wait until somebody reads: a terminal
-/// that is stopped (Ctrl-S), or a pipe that is full. What does not fit is left out, and counted.
+/// Prints on a separate thread, so that a stopped terminal (Ctrl-S) or a full pipe does not block
+/// the caller. Messages beyond the queue's size are dropped and counted.
 class BackgroundPrinter {
  public:
     static constexpr std::size_t kMostWaiting = 1000;  ///< texts
-    /// The last: in place of what is on the terminal's line.
+    /// ErrorsInPlace replaces the current line of the terminal.
     enum class To { Output, Errors, ErrorsInPlace };
 
     /// Throws std::system_error if no thread can be started.
@@ -19,14 +19,14 @@ class BackgroundPrinter {
     BackgroundPrinter(const BackgroundPrinter&) = delete;
     BackgroundPrinter& operator=(const BackgroundPrinter&) = delete;
 
-    /// Of any thread; never waits.
+    /// Thread-safe; never blocks.
     void print(To to, std::string text);
-    /// The same, unless something waits to be printed: for what a later text replaces.
+    /// The same, but drops the text if another one waits: for a status that a later one replaces.
     void printIfIdle(To to, std::string text);
-    /// Waits until all is printed, but not longer than this; returns whether it is. Later texts are
-    /// left out.
+    /// Waits until all texts are printed or the time is over; returns false if some are left. Later
+    /// texts are dropped.
     bool finish(std::chrono::milliseconds longest = std::chrono::seconds(2));
-    /// After finish(): whether all texts of To::Output were printed.
+    /// After finish(): true if all texts of To::Output were printed.
     bool isOutputPrinted() const;
 
  private:

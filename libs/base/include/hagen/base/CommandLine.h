@@ -5,7 +5,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -20,12 +19,12 @@ namespace hagen::base {
 /// Exit codes of all programs.
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
 
-/// What main() returns: the exit code of `program`. Should it throw (out of memory, before or after
-/// Program::run()), prints so with no more memory, and returns kFailed.
+/// Returns the exit code of `program`. If it throws, as out of memory outside of Program::run(),
+/// prints the error and returns kFailed.
 int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept;
 
-/// Wrong usage that is detected only after parsing all flags. Programs print the message and how to
-/// get help, and exit with kWrongUsage.
+/// Wrong usage that is detected after parsing. Programs print the message and how to get help, and
+/// exit with kWrongUsage.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
     UsageError(const std::string& flag, const std::string& message)
@@ -50,9 +49,9 @@ class Flag {
     Flag& existingFile();
     Flag& existingFolder();
     Flag& existingPath();
-    /// `errorOf` returns what is wrong with a value, or ""; `type` is shown by --help.
+    /// `errorOf` returns the error in a value, or ""; `type` is shown by --help.
     Flag& check(std::function<std::string(const std::string&)> errorOf, const std::string& type);
-    Flag& mayBeEmpty();  ///< of texts, which otherwise may not
+    Flag& mayBeEmpty();  ///< by default, texts may not be empty
     /// Rewrites values before they are checked.
     Flag& transform(std::function<std::string(const std::string&)> rewrite);
 
@@ -75,20 +74,9 @@ class Command {
     template <class Value>
     Flag option(const std::string& names, Value& value, const std::string& help);
     Flag flag(const std::string& names, bool& value, const std::string& help);
-    /// A choice of words, each for a value.
-    template <class Value>
-    Flag choice(const std::string& names, Value& value,
-                const std::vector<std::pair<std::string, Value>>& meanings,
-                const std::string& help) {
-        std::vector<std::string> words;
-        for (const auto& meaning : meanings) words.push_back(meaning.first);
-        return choice(names, words, help,
-                      [&value, meanings](std::size_t i) { value = meanings[i].second; });
-    }
     /// A flag that prints something and exits.
     Flag printer(const std::string& names, std::function<void()> print, const std::string& help);
 
-    void hide();  ///< in --help
     /// Sets the work of a subcommand, which returns the exit code. Signals are caught
     /// (Interrupt.h).
     void does(std::function<int()> work);
@@ -99,8 +87,6 @@ class Command {
 
  private:
     friend class Program;
-    Flag choice(const std::string& names, const std::vector<std::string>& words,
-                const std::string& help, std::function<void(std::size_t)> choose);
     std::function<int()>* chosen_;  ///< work of the selected subcommand
 };
 
@@ -112,28 +98,26 @@ class Program : public Command {
 
     void footer(const std::string& text);
     void version(const std::string& version);  ///< --version
-    /// Name of the program's output in error messages (default: "summary"; "text" for --help).
-    void prints(const std::string& what);
     Command subcommand(const std::string& name, const std::string& help);
     /// Parses the command line and runs `work`, or by default that of the subcommand; either
     /// returns the exit code. Prints errors, and returns the program's exit code.
     int run(int argc, char** argv, const std::function<int()>& work = nullptr);
     /// Prints a message after the program's name; returns the exit code.
     int fail(int exit_code, const std::string& message) const;
-    /// What run() says of an exception.
+    /// The message of run() for an exception.
     static std::string messageOf(const std::exception& e);
 
  private:
     explicit Program(std::unique_ptr<CLI::App> app, std::string name);
-    int printed(int exit_code, const std::string& what) const;
+    int flushed(int exit_code) const;
 
     std::unique_ptr<CLI::App> owned_;
     std::function<int()> work_;
-    std::string name_, printed_ = "summary", help_ = "text";
+    std::string name_;
     double memory_gb_ = 0;
 };
 
-/// Tells on standard error what earlier runs left of these outputs (base::leftBehind()).
+/// Prints what earlier runs left of these outputs (leftBehind()) on standard error.
 void tellLeftBehind(const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace hagen::base

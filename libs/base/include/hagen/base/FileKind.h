@@ -6,23 +6,23 @@
 
 namespace hagen::base {
 
-/// What a file seems to be that no reader knows, for messages.
+/// What an unreadable file seems to be, for messages.
 struct FileKind {
-    std::string what;    ///< "a JPEG picture", "text"; empty: none that is known
-    std::string advice;  ///< "unpack it first"; empty: there is none
-    /// "it seems to be a ZIP archive: unpack it first"; empty if it is none that is known.
+    std::string what;    ///< "a JPEG picture", "text"; empty if unknown
+    std::string advice;  ///< "unpack it first"; may be empty
+    /// "it seems to be a ZIP archive: unpack it first"; empty if unknown.
     std::string text() const;
 };
 
-constexpr std::size_t kFileKindBytes = 4096;  ///< first bytes of a file that tell its kind
+constexpr std::size_t kFileKindBytes = 4096;  ///< enough for each kind
 
-/// Whether bytes are text in UTF-8, with no control characters but white space; its last character
-/// may be cut.
+/// True for UTF-8 text without control characters other than white space. Its last character may be
+/// cut.
 bool isText(std::string_view bytes);
 
-/// By the first bytes of a file: kFileKindBytes, or all if it has fewer.
+/// From the first kFileKindBytes of a file, or all of a shorter one.
 FileKind kindOfBytes(std::string_view start);
-/// The same of a file; none that is known if it cannot be read.
+/// The same for a file; unknown if it cannot be read.
 FileKind kindOfFile(const std::filesystem::path& file);
 
 }  // namespace hagen::base

@@ -2,12 +2,12 @@
 
 namespace hagen::base {
 
-/// Shuts a program down cleanly: after SIGINT, SIGTERM, SIGHUP, SIGXCPU (a limit of CPU time) or
-/// another signal that would end it, unless ignored, isInterrupted() returns true. A later signal
-/// ends the program at once.
+/// For a clean shutdown: after SIGINT, SIGTERM, SIGHUP, SIGXCPU (CPU time limit) or another signal
+/// that would end the program, isInterrupted() returns true. Ignored signals stay ignored. A signal
+/// more than a second later ends the program.
 void catchSignals();
 
-/// Ignores SIGPIPE and SIGXFSZ, so that the failed write reports the error. Each Program does.
+/// Ignores SIGPIPE and SIGXFSZ, so that the failed write reports the error.
 void ignoreWriteSignals();
 
 bool isInterrupted();

@@ -16,7 +16,7 @@ std::string shortestText(float value);
 /// minus sign if all digits are zero.
 std::string fixedText(double value, int decimals);
 
-/// "99.9 %" for a share from 0 to 1. Rounded down: 100.0 % is all of them.
+/// "99.9 %" for a share from 0 to 1, rounded down: 100.0 % means all.
 std::string percentText(float share);
 
 /// Parses the entire text as a number, independent of the locale; nullopt for anything else.

@@ -8,28 +8,27 @@
 
 namespace hagen::base {
 
-/// The outputs of one run. One that cannot be written, or cannot get its name, is given up with its
-/// reason, and the others go on.
+/// The outputs of one run. If one fails, its error is kept, and the others continue.
 class OutputSet {
  public:
     void add(OutputPath& output) { add(output, output); }
-    /// Any other output that has a commit(), by its place. Each is to live as long as the set.
+    /// Any other output that has a commit(), by its place. Outputs must outlive the set.
     template <class Output>
     void add(const OutputPath& place, Output& output) {
         members_.push_back({place.path(), [&output] { output.commit(); }});
     }
 
-    /// Calls what writes an output, or a part of it, to its temporary place, unless the output was
-    /// given up. The output is one that was added.
+    /// Runs a step that writes an output, unless the output has failed. Throws std::logic_error if
+    /// the output was not added.
     void write(const OutputPath& output, const std::function<void()>& step);
 
-    /// Whether no output is left to write.
+    /// True if all outputs have failed.
     bool areAllGivenUp() const;
-    /// Why outputs were given up; "" if none was.
+    /// The errors of failed outputs; "" if there are none.
     const std::string& failures() const { return failures_; }
 
-    /// Has the outputs that are left get their names, in the order in which they were added and
-    /// with a RenamingNote. Throws std::runtime_error with each reason if any was given up.
+    /// Commits the other outputs in the order in which they were added. Throws std::runtime_error
+    /// with all errors if any output has failed.
     void commit();
 
  private:

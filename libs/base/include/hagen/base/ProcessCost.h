@@ -10,10 +10,10 @@ namespace hagen::base {
 std::chrono::nanoseconds threadCpuTime();
 double threadCpuTime_ms();
 
-/// CPU time used by a process, all threads together; none if there is no such process.
+/// CPU time of all threads of a process; nullopt if it does not exist.
 std::optional<std::chrono::nanoseconds> cpuTimeOf(pid_t process);
 
-/// Heap memory in use by this process, all threads together [bytes].
+/// Heap memory in use by this process [bytes].
 double heapBytes();
 
 }  // namespace hagen::base

@@ -4,13 +4,11 @@
 
 namespace hagen::base {
 
-/// Has std::cout and std::cerr print '?' for control characters other than tab and new line. Sensor
-/// labels, file names and messages come from files, which could otherwise send commands to the
-/// terminal.
+/// Makes std::cout and std::cerr print '?' for control characters except tab and newline: sensor
+/// labels and file names from recordings could send commands to the terminal.
 void keepTerminalSafe();
 
-/// A message without control characters: text of a recording, such as the label of a sensor, begins
-/// no line of its own.
+/// A message without control characters: text from a recording cannot start a new line.
 std::string oneLine(std::string message);
 
 /// Erases the current line of a terminal. The only command that keepTerminalSafe() lets through.

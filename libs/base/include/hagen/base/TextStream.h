@@ -5,8 +5,8 @@
 
 namespace hagen::base {
 
-/// A text that is written with <<, the same in every locale. If memory runs out it throws
-/// std::bad_alloc; a plain std::ostringstream ends the text there, and says nothing.
+/// A locale-independent std::ostringstream that throws std::bad_alloc if memory runs out, instead
+/// of truncating the text.
 class TextStream : public std::ostringstream {
  public:
     TextStream() {
