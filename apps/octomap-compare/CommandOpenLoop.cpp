@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include <hagen/avoidance/OpenLoopFiles.h>
-#include <hagen/avoidance/OpenLoopTable.h>
 #include <hagen/base/Interrupt.h>
 #include <hagen/base/ProgressLine.h>
 #include <hagen/base/Terminal.h>

@@ -49,7 +49,8 @@ int run(const Flags& flags) {
     base::OutputPath scene(into / (name + ".3Dscene"), base::kFile, flags.overwrite);
 
     endIfInterrupted();
-    const avoidance::Recording recording = avoidance::record(wanted, profile, {}, endIfInterrupted);
+    const avoidance::FlightRecording recording =
+        avoidance::record(wanted, profile, {}, endIfInterrupted);
     endIfInterrupted();
     base::OutputSet outputs;
     outputs.add(page);

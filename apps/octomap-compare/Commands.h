@@ -32,7 +32,6 @@ std::vector<std::string> namesFrom(const std::string& flag, const std::vector<st
 // Each adds a subcommand with its flags.
 void addClosedLoop(Program& program);
 void addCalibrate(Program& program);
-void addDistances(Program& program);
 void addOpenLoop(Program& program);
 void addReplay(Program& program);
 

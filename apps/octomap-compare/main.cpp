@@ -17,7 +17,6 @@ int command(int argc, char** argv) {
     program.prints("results");
     hagen::addClosedLoop(program);
     hagen::addCalibrate(program);
-    hagen::addDistances(program);
     hagen::addOpenLoop(program);
     hagen::addReplay(program);
     return program.run(argc, argv);

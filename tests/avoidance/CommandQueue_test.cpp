@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <hagen/avoidance/CommandQueue.h>
+#include <hagen/avoidance/Vehicle.h>
 
 namespace hagen::avoidance {
 namespace {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/avoidance/Air.h>
 #include <hagen/avoidance/Course.h>
+#include <hagen/avoidance/TrialSensor.h>
 #include <hagen/scan/Angle.h>
 
 #include <algorithm>

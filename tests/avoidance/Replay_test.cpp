@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <hagen/avoidance/Calibration.h>
-#include <hagen/avoidance/Ending.h>
+#include <hagen/avoidance/FlightRecording.h>
 #include <hagen/avoidance/Replay.h>
 #include <hagen/mrpt/MrptScene.h>
 #include "SampleRuns.h"
@@ -16,8 +16,8 @@ using testing::HasSubstr;
 
 using namespace test;
 
-avoidance::Recording smallRecording() {
-    avoidance::Recording recording;
+avoidance::FlightRecording smallRecording() {
+    avoidance::FlightRecording recording;
     recording.run = test::runOf("gap", 1, "O-Full-0.4", "astar", kWon);
     recording.is_same = true;
     recording.ending = "reached the goal at 9.00 s";
@@ -42,11 +42,11 @@ TEST(Replay, APageHoldsCentimetresFromTheStart) {
     EXPECT_THAT(page, HasSubstr("\"ending\":\"reached the goal at 9.00 s\""));
     EXPECT_THAT(page, HasSubstr("\"way_sizes\":[-2]"));  // not free
     EXPECT_THAT(page, HasSubstr("<title>gap, seed 1, OctoMap 0.4 m, A*, 4 m/s: success</title>"));
-    EXPECT_THAT(avoidance::replayPage(avoidance::Recording{}), HasSubstr("\"steps\":[]"));
+    EXPECT_THAT(avoidance::replayPage(avoidance::FlightRecording{}), HasSubstr("\"steps\":[]"));
 }
 
 TEST(Replay, PageEscapesItsTexts) {
-    avoidance::Recording recording = smallRecording();
+    avoidance::FlightRecording recording = smallRecording();
     recording.run.scenario = "a & <b>";
     recording.ending = "</script>";
     const std::string page = avoidance::replayPage(recording);
@@ -80,7 +80,7 @@ TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
     EXPECT_EQ(roi->size(), 1u);
     ASSERT_NE(scene.getByName("vehicle"), nullptr);
     EXPECT_EQ(scene.getByName("vehicle")->getPose().x, 6);
-    avoidance::writeReplayScene(avoidance::Recording{}, folder / "empty.3Dscene", "empty");
+    avoidance::writeReplayScene(avoidance::FlightRecording{}, folder / "empty.3Dscene", "empty");
     // Blamed is the file that was asked for, not its temporary name.
     EXPECT_EQ(test::messageOf([&] {
                   avoidance::writeReplayScene({}, folder / "no/a.partial", "no/a.3Dscene");
@@ -102,7 +102,7 @@ avoidance::TrueScene smallScene() {
 }
 
 TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
-    avoidance::Recording recording = smallRecording();
+    avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
     const std::string page = avoidance::replayPage(recording);
     // Half centimetres: nine numbers, of which the fourth is 1 and the ninth 2.
@@ -121,7 +121,7 @@ TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
 
 TEST(Replay, ASceneHoldsWhatTrulyStands) {
     const test::TemporaryFolder folder;
-    avoidance::Recording recording = smallRecording();
+    avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
     recording.scene.ground = {{0, 0}, 2, 3, 2, {1.5, 2.5, 3.5, 1.5, 2.5, 3.5}};
     avoidance::writeReplayScene(recording, folder / "a.3Dscene", "a");

@@ -67,10 +67,10 @@ std::optional<double> oraclePath_m(const Course& course) {
         if (height_m < kLowest_m || height_m > kHighest_m) return 0.0f;
         return course.distance.toStatic(at);
     };
-    avoidance::PathSearchOptions options;
+    PathSearchOptions options;
     options.bounds_m = course.bounds_m;
     options.min_clearance_m = options.wanted_clearance_m = kCourseClearance_m;
-    const auto path = avoidance::findPath(clearance_m, course.start_m, course.goal_m, options);
+    const auto path = findPath(clearance_m, course.start_m, course.goal_m, options);
     if (!path) return std::nullopt;
     return cutLength_m(clearance_m, *path);
 }
@@ -80,7 +80,7 @@ Course courseThrough(const CourseKind& kind, std::uint64_t seed, const simulatio
         return Vector3d(at.x(), at.y(), scene.terrain().height_m(at.x(), at.y()) + kind.altitude_m);
     };
     const Eigen::AlignedBox3d bounds_m = boundsOver(scene.terrain());
-    const auto reach_m = static_cast<double>(avoidance::WorldModel::kReach_m);
+    const auto reach_m = static_cast<double>(WorldModel::kReach_m);
     return {kind.name,
             seed,
             scene,

@@ -198,7 +198,7 @@ void OpenLoopFiles::add(const OpenLoopRow& row, const OpenLoopCost& cost) {
     writeCounts(scans_->out, row.all);
     writeCounts(scans_->out, row.level);
     scans_->out << "\n";
-    scans_measured_->out << cost.scan << "," << cost.model << "," << Fixed{cost.filter_ms, 3} << ","
+    scans_measured_->out << row.scan << "," << row.model << "," << Fixed{cost.filter_ms, 3} << ","
                          << Fixed{cost.update_ms, 3} << "," << Fixed{cost.queries_ms, 3} << ","
                          << Fixed{cost.heap_bytes, 0} << "\n";
     for (File* file : {scans_, scans_measured_}) {

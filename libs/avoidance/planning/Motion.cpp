@@ -1,4 +1,5 @@
 #include "avoidance/planning/Motion.h"
+#include <hagen/avoidance/Planner.h>
 #include <algorithm>
 #include <cmath>
 
@@ -93,6 +94,12 @@ double speedTowardsGoal(const PlanningTask& task) {
 double outOfAltitudes(double height_m, const PlanningTask& task) {
     const double altitude_m = height_m - task.ground_m;
     return std::max({0.0, task.lowest_m - altitude_m, altitude_m - task.highest_m});
+}
+
+bool mustStop(const WorldModel& world, const PlanningTask& task) {
+    std::vector<Eigen::Vector3f> path_m;
+    rollOut(task.start, task.start.velocity_m_s, task.period_s, task.limits, path_m);
+    return !freeClearance(world, path_m, task.start_after_s, task.limits.radius_m);
 }
 
 }  // namespace hagen::avoidance

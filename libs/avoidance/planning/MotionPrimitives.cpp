@@ -1,9 +1,9 @@
-#include "avoidance/planning/MotionPrimitives.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include "avoidance/planning/Motion.h"
+#include "avoidance/planning/Planners.h"
 
 namespace hagen::avoidance {
 namespace {

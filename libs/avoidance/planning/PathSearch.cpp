@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <queue>
 #include <stdexcept>
 
 namespace hagen::avoidance {
@@ -35,8 +37,8 @@ struct Cell {
 constexpr int kNeighbours = 27, kItself = 13;
 
 /// A way into a cell. Among equal estimates, the one with more path done goes first, then those
-/// whose clearance was queried, then the lower cell, then the lower parent. All of that is in the
-/// bits of one number: the more of an estimate is done, the less is left.
+/// whose clearance was queried, then the lower cell, then the lower parent. The rank has all of
+/// that in its bits, since comparisons take much of the time of a search.
 struct Entry {
     static constexpr int kParentBits = 5, kCellBits = 25, kLeftBits = 33;
 
@@ -58,70 +60,16 @@ struct Entry {
     Cost left() const { return static_cast<Cost>(rank >> (kParentBits + kCellBits + 1)); }
     Cost cost() const { return estimate - left(); }
 
-    bool goesBefore(const Entry& other) const {
-        return estimate != other.estimate ? estimate < other.estimate : rank < other.rank;
+    bool operator>(const Entry& other) const {
+        return estimate != other.estimate ? estimate > other.estimate : rank > other.rank;
     }
 };
 static_assert(Entry::kParentBits + Entry::kCellBits + 1 + Entry::kLeftBits == 64);
 static_assert(kNeighbours <= 1 << Entry::kParentBits);
 static_assert(kMostCellsOfGrid <= 1 << Entry::kCellBits);
 
-/// Returns entries in their order: small heaps for one range of estimates each, of which only those
-/// that are reached become heaps. No two entries are equal in order without being the same, so what
-/// comes out next does not depend on the kind of queue.
-class Queue {
- public:
-    bool isEmpty() const { return count_ == 0; }
-
-    void clear() {
-        for (std::size_t i = 0; i < end_; ++i) {
-            buckets_[i].entries.clear();
-            buckets_[i].is_heap = false;
-        }
-        count_ = end_ = 0;
-    }
-
-    void push(const Entry& entry) {
-        const auto range = static_cast<std::size_t>(
-            std::min<Cost>(entry.estimate / kRange, static_cast<Cost>(kMostBuckets) - 1));
-        if (range >= buckets_.size()) buckets_.resize(range + 1);
-        Bucket& bucket = buckets_[range];
-        bucket.entries.push_back(entry);
-        if (bucket.is_heap) std::push_heap(bucket.entries.begin(), bucket.entries.end(), goesAfter);
-        first_ = count_ == 0 ? range : std::min(first_, range);
-        end_ = std::max(end_, range + 1);
-        ++count_;
-    }
-
-    /// Not of an empty queue.
-    Entry pop() {
-        while (buckets_[first_].entries.empty()) ++first_;
-        Bucket& bucket = buckets_[first_];
-        if (!bucket.is_heap)
-            std::make_heap(bucket.entries.begin(), bucket.entries.end(), goesAfter);
-        bucket.is_heap = true;
-        std::pop_heap(bucket.entries.begin(), bucket.entries.end(), goesAfter);
-        const Entry first = bucket.entries.back();
-        bucket.entries.pop_back();
-        --count_;
-        return first;
-    }
-
- private:
-    static constexpr Cost kRange = 32;
-    static constexpr std::size_t kMostBuckets = 1 << 16;  ///< all that is farther shares the last
-
-    struct Bucket {
-        std::vector<Entry> entries;
-        bool is_heap = false;
-    };
-    static constexpr auto goesAfter = [](const Entry& a, const Entry& b) {
-        return b.goesBefore(a);
-    };
-
-    std::vector<Bucket> buckets_;
-    std::size_t count_ = 0, first_ = 0, end_ = 0;
-};
+/// The next entry first.
+using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
 double extraCost(double clearance_m, double height_m, const PathSearchOptions& options) {
     const double range_m = options.wanted_clearance_m - options.min_clearance_m;
@@ -158,7 +106,7 @@ class Search {
     std::uint32_t number_ = 0;
     Cost heuristic_permille_;
     std::vector<Cell>& cells_;
-    Queue& queue_;
+    Queue queue_;
     std::array<Cost, 4> lengths_{};  ///< of a step along as many axes
     Eigen::Vector3i goal_place_{0, 0, 0};
     std::array<int, kNeighbours> offsets_{};             ///< of a neighbour's index
@@ -168,7 +116,6 @@ class Search {
 /// Reused by later searches, because clearing it would cost more than most searches.
 struct Memory {
     std::vector<Cell> cells;
-    Queue queue;
     std::uint32_t search = 0;
 };
 Memory& memory() {
@@ -183,8 +130,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
       goal_m_(goal_m),
       options_(options),
       heuristic_permille_(std::llround(1000 * std::max(1.0, options.heuristic_weight))),
-      cells_(memory().cells),
-      queue_(memory().queue) {
+      cells_(memory().cells) {
     if (!(options.cell_m > 0) || options.bounds_m.isEmpty()) {
         throw std::invalid_argument("path search: cells need a size, and bounds to lie in");
     }
@@ -235,7 +181,6 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
         neighbour_lengths_[static_cast<std::size_t>(i)] =
             lengths_[static_cast<std::size_t>(std::abs(x) + std::abs(y) + std::abs(z))];
     }
-    queue_.clear();
 }
 
 Cell& Search::cell(int index) {
@@ -350,7 +295,7 @@ void Search::open(int index) {
                 if (cost >= there.cost) continue;
                 const Cost left = leastCostToGoal(x, y, z);
                 const int back = kNeighbours - 1 - neighbour;
-                queue_.push({cost + left, left, false, next, back});
+                queue_.emplace(cost + left, left, false, next, back);
             }
         }
     }
@@ -374,8 +319,9 @@ std::optional<std::vector<Eigen::Vector3d>> Search::run() {
     cell(start_).cost = 0;
     open(start_);
     int opened = 1;
-    while (!queue_.isEmpty() && opened < options_.max_cells) {
-        const Entry entry = queue_.pop();
+    while (!queue_.empty() && opened < options_.max_cells) {
+        const Entry entry = queue_.top();
+        queue_.pop();
         const int index = entry.cell();
         Cell& at = cell(index);
         if (at.is_closed || (!entry.isExact() && entry.cost() >= at.cost)) continue;
@@ -390,7 +336,7 @@ std::optional<std::vector<Eigen::Vector3d>> Search::run() {
             at.parent = from;
             const Cost more = cost - entry.cost();
             if (more > 0) {
-                queue_.push({entry.estimate + more, entry.left(), true, index, entry.parent()});
+                queue_.emplace(entry.estimate + more, entry.left(), true, index, entry.parent());
                 continue;
             }
         } else if (entry.cost() > at.cost) {

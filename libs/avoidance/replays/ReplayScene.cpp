@@ -87,7 +87,7 @@ CSetOfLines::Ptr trackOf(const std::vector<RecordedMoment>& track) {
 }
 
 /// The model's obstacles at the last step.
-std::vector<Eigen::Vector3f> lastOf(const Recording& recording) {
+std::vector<Eigen::Vector3f> lastOf(const FlightRecording& recording) {
     const int last = static_cast<int>(recording.steps.size());
     std::vector<Eigen::Vector3f> centres_m;
     for (const ModelCell& cell : recording.model) {
@@ -111,15 +111,14 @@ void addShape(const simulation::Shape& shape, const Eigen::Affine3f& pose, const
 }
 
 /// The true scene, with movers where they were at the end.
-CSetOfTriangles::Ptr trueSceneOf(const Recording& recording) {
+CSetOfTriangles::Ptr trueSceneOf(const FlightRecording& recording) {
     const TColor standing(110, 130, 105), moving(170, 60, 60);
     const TrueScene& scene = recording.scene;
     const auto all = CSetOfTriangles::Create();
     for (const simulation::SceneObject& object : scene.objects) {
         addShape(scene.shapes[object.shape], object.pose, standing, *all);
     }
-    const double end_s =
-        avoidance::kControlStep_s * static_cast<double>(recording.track.size() - 1);
+    const double end_s = kControlStep_s * static_cast<double>(recording.track.size() - 1);
     for (const TrueScene::Mover& mover : scene.movers) {
         addShape(scene.shapes[mover.shape], poseAt(mover, end_s), moving, *all);
     }
@@ -129,7 +128,7 @@ CSetOfTriangles::Ptr trueSceneOf(const Recording& recording) {
 
 }  // namespace
 
-void writeReplayScene(const Recording& recording, const std::filesystem::path& place,
+void writeReplayScene(const FlightRecording& recording, const std::filesystem::path& place,
                       const std::filesystem::path& file) {
     base::openToWrite(place, file);  // MRPT does not report why writing fails
     Scene scene;

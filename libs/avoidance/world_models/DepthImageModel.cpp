@@ -153,10 +153,6 @@ bool DepthImageModel::mayHaveFree(const Eigen::Vector3f& to_corner_m, int voxels
     return outline.least_away_m < depths.farthest_m;
 }
 
-float DepthImageModel::clearance_m(const Eigen::Vector3f& point_m) const {
-    return occupied_.distance_m(box_, point_m, kReach_m);
-}
-
 float DepthImageModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
     return occupied_.distance_m(box_, point_m, std::min(limit_m, kReach_m));
 }

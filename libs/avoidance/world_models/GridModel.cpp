@@ -88,10 +88,6 @@ std::vector<Eigen::Vector3f> GridModel::occupied_m() const {
     return centres_m;
 }
 
-float GridModel::clearance_m(const Eigen::Vector3f& point_m) const {
-    return obstacles_.distance_m(point_m, kReach_m);
-}
-
 float GridModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
     return obstacles_.distance_m(point_m, std::min(limit_m, kReach_m));
 }

@@ -172,10 +172,6 @@ void WindowModel::forgetOldest() {
     if (oldest.views.empty()) past_.pop_back();
 }
 
-float WindowModel::clearance_m(const Eigen::Vector3f& point_m) const {
-    return clearanceWithin_m(point_m, kReach_m);
-}
-
 float WindowModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
     Nearest nearest(std::min(limit_m, kReach_m));
     for (const auto& past : past_) {

@@ -1,4 +1,3 @@
-#include <hagen/avoidance/DistanceBias.h>
 #include <hagen/avoidance/UnbiasedModel.h>
 #include <hagen/avoidance/WorldModel.h>
 
@@ -8,8 +7,7 @@
 
 #include "avoidance/world_models/DepthImageModel.h"
 #include "avoidance/world_models/GridModel.h"
-#include "avoidance/world_models/MapWithMotion.h"
-#include "avoidance/world_models/MotionWindow.h"
+#include "avoidance/world_models/ModelsWithMotion.h"
 #include "avoidance/world_models/OctoMapModel.h"
 #include "avoidance/world_models/RollingGridModel.h"
 #include "avoidance/world_models/WindowModel.h"
@@ -69,7 +67,7 @@ std::unique_ptr<WorldModel> makeWindow(const WorldModelSetting& setting) {
 
 template <bool kRoiOnly>
 std::unique_ptr<WorldModel> makeMotionWindow(const WorldModelSetting& setting) {
-    return std::make_unique<MotionWindow>(kRoiOnly, windowSizeFor(setting.pace));
+    return std::make_unique<WindowWithMotion>(kRoiOnly, windowSizeFor(setting.pace));
 }
 
 template <observations::MapContent kContent, int kResolution_cm>

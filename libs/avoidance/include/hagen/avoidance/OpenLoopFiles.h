@@ -59,4 +59,7 @@ class OpenLoopFiles {
 /// A description of the ground truth.
 std::string truthOf(const OpenLoop& open_loop);
 
+/// The result for a terminal: the log, one line per model, and the agreement of the models.
+std::string tableOf(const OpenLoop& open_loop, const OpenLoopResult& result);
+
 }  // namespace hagen::avoidance

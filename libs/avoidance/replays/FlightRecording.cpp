@@ -1,11 +1,9 @@
-#include <hagen/avoidance/Recording.h>
+#include <hagen/avoidance/FlightRecording.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-
-#include <hagen/avoidance/Ending.h>
 
 namespace hagen::avoidance {
 namespace {
@@ -21,7 +19,7 @@ std::vector<Item> thinned(const std::vector<Item>& all, std::size_t most) {
     return kept;
 }
 
-void addReturns(const observations::MappedScan& scan, const RecordingLimits& limits,
+void addReturns(const observations::MappedScan& scan, const FlightRecordingLimits& limits,
                 RecordedStep& step) {
     const Eigen::Vector3f origin = scan.origin_m.cast<float>();
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
@@ -33,9 +31,9 @@ void addReturns(const observations::MappedScan& scan, const RecordingLimits& lim
     step.rou_m = thinned(step.rou_m, limits.points);
 }
 
-void addMotions(const avoidance::Plan& plan, const RecordingLimits& limits, RecordedStep& step) {
+void addMotions(const Plan& plan, const FlightRecordingLimits& limits, RecordedStep& step) {
     constexpr std::size_t kPointsOfPath = 8;
-    for (const avoidance::CandidateMotion& motion : thinned(plan.candidates, limits.motions)) {
+    for (const CandidateMotion& motion : thinned(plan.candidates, limits.motions)) {
         RecordedMotion kept{thinned(motion.path_m, kPointsOfPath), motion.is_free};
         if (kept.path_m.empty()) continue;
         kept.path_m.push_back(motion.path_m.back());
@@ -46,9 +44,9 @@ void addMotions(const avoidance::Plan& plan, const RecordingLimits& limits, Reco
 /// Collects the cells of all steps.
 class ModelHistory {
  public:
-    explicit ModelHistory(const RecordingLimits& limits) : limits_(limits) {}
+    explicit ModelHistory(const FlightRecordingLimits& limits) : limits_(limits) {}
 
-    void add(const avoidance::WorldModel::Obstacles& obstacles, int step) {
+    void add(const WorldModel::Obstacles& obstacles, int step) {
         edge_m_ = obstacles.edge_m;
         const float grid_m = edge_m_ > 0 ? edge_m_ : limits_.point_grid_m;
         for (const Eigen::Vector3f& centre_m : obstacles.centre_m) {
@@ -64,7 +62,7 @@ class ModelHistory {
             }
         }
     }
-    void writeTo(Recording& recording) const {
+    void writeTo(FlightRecording& recording) const {
         recording.model_edge_m = edge_m_;
         for (const auto& [key, stays] : cells_) {
             recording.model.insert(recording.model.end(), stays.begin(), stays.end());
@@ -73,14 +71,13 @@ class ModelHistory {
     }
 
  private:
-    const RecordingLimits& limits_;
+    const FlightRecordingLimits& limits_;
     float edge_m_ = 0;
     std::map<std::array<int, 3>, std::vector<ModelCell>> cells_;
 };
 
-RecordedStep recorded(const avoidance::TrialStep& step,
-                      const avoidance::WorldModel::Obstacles& obstacles,
-                      const RecordingLimits& limits) {
+RecordedStep recorded(const TrialStep& step, const WorldModel::Obstacles& obstacles,
+                      const FlightRecordingLimits& limits) {
     RecordedStep kept{step.time_s,
                       step.latency_ms,
                       step.plan.command_m_s,
@@ -100,7 +97,7 @@ RecordedStep recorded(const avoidance::TrialStep& step,
 }
 
 /// Long runs keep fewer points per step.
-void thinLongRun(const RecordingLimits& limits, Recording& recording) {
+void thinLongRun(const FlightRecordingLimits& limits, FlightRecording& recording) {
     const std::size_t steps = recording.steps.size();
     if (steps <= limits.full_steps) return;
     const auto share = [&](std::size_t most) { return most * limits.full_steps / steps; };
@@ -112,11 +109,11 @@ void thinLongRun(const RecordingLimits& limits, Recording& recording) {
 }
 
 /// Adds what needs the course: true clearances, ending, true scene.
-void addTruth(const Reflown& again, Recording& recording) {
+void addTruth(const Reflown& again, FlightRecording& recording) {
     for (std::size_t i = 0; i < recording.track.size(); ++i) {
         RecordedMoment& moment = recording.track[i];
         moment.clearance_m = static_cast<double>(again.course.distance.at(
-            moment.at_m.cast<float>(), avoidance::kControlStep_s * static_cast<double>(i)));
+            moment.at_m.cast<float>(), kControlStep_s * static_cast<double>(i)));
     }
     recording.ending = endingOf(again.course, again.result, recording.run.setup.speed_m_s,
                                 recording.track.back().at_m);
@@ -125,21 +122,32 @@ void addTruth(const Reflown& again, Recording& recording) {
 
 }  // namespace
 
-Recording record(const avoidance::Run& run, const avoidance::LatencyProfile& profile,
-                 const RecordingLimits& limits, const std::function<void()>& continuing) {
-    Recording recording;
+Reflown flyAgain(const Run& run, const LatencyProfile& profile, const TrialListener& listener) {
+    Reflown again{makeCourse(run.scenario, run.seed), {}, false};
+    again.result = runTrial(again.course, run.setup, profile, nullptr, listener);
+    Run flown = run;
+    flown.result = again.result;
+    flown.oracle_path_m = again.course.oracle_path_m;
+    again.is_same = rowOf(flown, true) == rowOf(run, true);
+    return again;
+}
+
+FlightRecording record(const Run& run, const LatencyProfile& profile,
+                       const FlightRecordingLimits& limits,
+                       const std::function<void()>& continuing) {
+    FlightRecording recording;
     recording.run = run;
     ModelHistory model(limits);
     double now_s = 0;
-    avoidance::TrialListener listener;
+    TrialListener listener;
     listener.keeps_candidates = true;
-    listener.step = [&](const avoidance::TrialStep& step) {
+    listener.step = [&](const TrialStep& step) {
         continuing();
-        const avoidance::WorldModel::Obstacles obstacles = step.world.obstacles();
+        const WorldModel::Obstacles obstacles = step.world.obstacles();
         model.add(obstacles, static_cast<int>(recording.steps.size()));
         recording.steps.push_back(recorded(step, obstacles, limits));
     };
-    listener.moved = [&](double time_s, const avoidance::VehicleState& state) {
+    listener.moved = [&](double time_s, const VehicleState& state) {
         now_s = time_s;
         recording.track.push_back({state.position_m, state.velocity_m_s.norm(), 0});
     };
