@@ -34,7 +34,7 @@ avoidance::FlightRecording smallRecording() {
     return recording;
 }
 
-TEST(Replay, APageHoldsCentimetresFromTheStart) {
+TEST(Replay, PageHoldsCentimetresFromStart) {
     const std::string page = avoidance::replayPage(smallRecording());
     // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
     EXPECT_THAT(page, HasSubstr("\"track\":\"ZADIACwB\""));
@@ -54,7 +54,7 @@ TEST(Replay, PageEscapesItsTexts) {
     EXPECT_THAT(page, HasSubstr("\"ending\":\"\\u003c/script>\""));
 }
 
-TEST(Replay, CanBeEndedWhileItFlies) {
+TEST(Replay, RecordingIsInterruptible) {
     struct Interrupted {};
     const avoidance::Run run = test::runOf("gap", 1, "W-RoI", "straight", test::kWon);
     const auto profile = avoidance::constantProfile(1);
@@ -65,7 +65,7 @@ TEST(Replay, CanBeEndedWhileItFlies) {
     EXPECT_THROW(avoidance::record(run, profile, {}, endAtTheThird), Interrupted);
 }
 
-TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
+TEST(Replay, SceneHoldsModelAtEnd) {
     const test::TemporaryFolder folder;
     avoidance::writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
     observations::Scene scene;
@@ -101,7 +101,7 @@ avoidance::TrueScene smallScene() {
     return scene;
 }
 
-TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
+TEST(Replay, PageHoldsShapesAndPoses) {
     avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
     const std::string page = avoidance::replayPage(recording);
@@ -119,7 +119,7 @@ TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
     EXPECT_THAT(page, HasSubstr("\"along_x\":1,\"along_y\":1,\"heights\":\"zv8=\""));  // -50: CE FF
 }
 
-TEST(Replay, ASceneHoldsWhatTrulyStands) {
+TEST(Replay, SceneHoldsTrueObstacles) {
     const test::TemporaryFolder folder;
     avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
@@ -139,7 +139,7 @@ TEST(Replay, ASceneHoldsWhatTrulyStands) {
     EXPECT_EQ(ground->getBoundingBox().max.z, 3.5f);
 }
 
-TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
+TEST(TrueScene, MatchesCourse) {
     const avoidance::Course course = avoidance::makeCourse("movers", 3);
     const simulation::SceneContent& content = course.scene.content();
     const avoidance::TrueScene seen = avoidance::trueSceneOf(course.scene, course.bounds_m, 3);
@@ -165,7 +165,7 @@ TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
               content.terrain.height_m(ground.least_m.x() + 10, ground.least_m.y() + 6));
 }
 
-TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
+TEST(Ending, DescribesOutcome) {
     const avoidance::Course course = avoidance::makeCourse("movers", 3);
     avoidance::TrialResult result{};
     result.time_s = 2.5;

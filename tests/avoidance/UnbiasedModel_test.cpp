@@ -31,14 +31,14 @@ UnbiasedModel wallWith(float bias_m) {
     return UnbiasedModel(std::make_unique<WallModel>(), bias_m);
 }
 
-TEST(UnbiasedModel, SubtractsTheBias) {
+TEST(UnbiasedModel, SubtractsBias) {
     EXPECT_FLOAT_EQ(wallWith(0.2f).clearance_m({1, 0, 0}), 0.8f);
     EXPECT_FLOAT_EQ(wallWith(-0.2f).clearance_m({1, 0, 0}), 1.2f);
     EXPECT_FLOAT_EQ(wallWith(0.2f).clearanceAfter_m({1, 0, 0}, 0.5), 0.3f);
     EXPECT_FLOAT_EQ(wallWith(-0.2f).clearanceAfter_m({1, 0, 0}, 0.5), 0.7f);
 }
 
-TEST(UnbiasedModel, ClearancesStayBetweenZeroAndTheReach) {
+TEST(UnbiasedModel, KeepsClearanceRange) {
     for (const float bias_m : {0.3f, -0.3f}) {
         const UnbiasedModel model = wallWith(bias_m);
         for (float x_m = -1; x_m < 5; x_m += 0.01f) {
@@ -54,7 +54,7 @@ TEST(UnbiasedModel, ClearancesStayBetweenZeroAndTheReach) {
     EXPECT_FLOAT_EQ(wallWith(-0.3f).clearance_m({9, 0, 0}), 3.0f);
 }
 
-TEST(UnbiasedModel, AClearanceUpToALimitIsTheSameCutThere) {
+TEST(UnbiasedModel, LimitedClearanceIsCutOff) {
     simulation::Random random(1);
     for (int i = 0; i < 2000; ++i) {
         const auto bias_m = static_cast<float>(random.uniform(-0.4, 0.4));
@@ -67,7 +67,7 @@ TEST(UnbiasedModel, AClearanceUpToALimitIsTheSameCutThere) {
     }
 }
 
-TEST(UnbiasedModel, EverythingElseIsTheModels) {
+TEST(UnbiasedModel, ForwardsOtherQueries) {
     auto inner = std::make_unique<WallModel>();
     const WallModel* seen = inner.get();
     UnbiasedModel model(std::move(inner), 0.1f);
@@ -82,7 +82,7 @@ TEST(UnbiasedModel, EverythingElseIsTheModels) {
     EXPECT_EQ(model.obstacles().edge_m, 0.2f);
 }
 
-TEST(DistanceBias, IsKnownForEveryModelThatMeasures) {
+TEST(DistanceBias, IsKnownForEveryModel) {
     for (const std::string& name : worldModelNames()) {
         if (needsTruth(name)) continue;
         EXPECT_LT(std::abs(distanceBias_m(name)), 0.5f) << name;
@@ -95,7 +95,7 @@ TEST(DistanceBias, IsKnownForEveryModelThatMeasures) {
     }
 }
 
-TEST(DistanceBias, IsSubtractedUnlessDistancesAreWantedAsStored) {
+TEST(DistanceBias, IsNotSubtractedAsStored) {
     WorldModelSetting setting;
     setting.bounds_m = {Eigen::Vector3f(-6, -6, -2), Eigen::Vector3f(10, 6, 4)};
     setting.true_clearance_m = [](const Eigen::Vector3f&, double) { return 1.5f; };
