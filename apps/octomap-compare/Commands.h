@@ -14,7 +14,7 @@ using namespace base;  // Program, Command, Flag, UsageError
 /// Rejects any other text except those in `also`, and lists the names.
 void takesWorldModels(Flag flag, const std::vector<std::string>& also = {});
 
-/// What is given twice would be flown or measured twice. Throws UsageError.
+/// Throws UsageError for duplicates, which would be flown or measured twice.
 template <class Value>
 void requireOnce(const std::string& flag, const std::vector<Value>& values) {
     for (auto value = values.begin(); value != values.end(); ++value) {

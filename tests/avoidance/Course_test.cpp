@@ -32,13 +32,12 @@ Vector3f above(const Course& course, double x_m, double y_m, double height_m) {
 }
 
 /// The least clearance on the straight way, at the altitude wanted, with what stands.
-float leastClearanceStraight_m(const Course& course) {
-    float least_m = 1e9f;
+float minClearanceStraight_m(const Course& course) {
+    float min_m = 1e9f;
     for (double x_m = course.start_m.x(); x_m <= course.goal_m.x(); x_m += 0.05) {
-        least_m =
-            std::min(least_m, course.distance.toStatic(above(course, x_m, 0, course.altitude_m)));
+        min_m = std::min(min_m, course.distance.toStatic(above(course, x_m, 0, course.altitude_m)));
     }
-    return least_m;
+    return min_m;
 }
 
 int count(const Course& course, simulation::ObjectClass kind) {
@@ -131,11 +130,11 @@ TEST(CourseTest, TrapBlocksAllAltitudes) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Course& c = course("u-trap", seed);
         for (const double height_m : {1.0, 2.0, 4.5}) {
-            float least_m = 9;
+            float min_m = 9;
             for (double x_m = 15; x_m < 32; x_m += 0.05) {
-                least_m = std::min(least_m, c.distance.toStatic(above(c, x_m, 0, height_m)));
+                min_m = std::min(min_m, c.distance.toStatic(above(c, x_m, 0, height_m)));
             }
-            EXPECT_LT(least_m, 0.05f) << "seed " << seed << ", " << height_m << " m";
+            EXPECT_LT(min_m, 0.05f) << "seed " << seed << ", " << height_m << " m";
         }
         EXPECT_GT(c.oracle_path_m, 40.5);
     }
@@ -166,7 +165,7 @@ TEST(CourseTest, WiresCrossStraightPath) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         for (const auto& [name, thickness_m] : {std::pair("wires", 0.024), {"wires-thin", 0.01}}) {
             const Course& c = course(name, seed);
-            EXPECT_LT(leastClearanceStraight_m(c), 0.65) << name << ", seed " << seed;
+            EXPECT_LT(minClearanceStraight_m(c), 0.65) << name << ", seed " << seed;
             const std::vector<double> widths_m = wireWidths_m(c);
             EXPECT_GT(widths_m.size(), 2u) << name << ", seed " << seed;
             for (const double width_m : widths_m) EXPECT_NEAR(width_m, thickness_m, 0.0015);
@@ -188,13 +187,13 @@ TEST(CourseTest, MoversCrossPathAtSpeed) {
             const double speed_m_s = (at(5.05) - at(4.95)).norm() / 0.1;
             EXPECT_GT(speed_m_s, 0.99);
             EXPECT_LT(speed_m_s, 3.01);
-            double least_y_m = 99, most_y_m = -99;
+            double min_y_m = 99, max_y_m = -99;
             for (double time_s = 0; time_s < 70; time_s += 0.2) {
-                least_y_m = std::min(least_y_m, at(time_s).y());
-                most_y_m = std::max(most_y_m, at(time_s).y());
+                min_y_m = std::min(min_y_m, at(time_s).y());
+                max_y_m = std::max(max_y_m, at(time_s).y());
             }
-            EXPECT_LT(least_y_m, 0);
-            EXPECT_GT(most_y_m, 0);
+            EXPECT_LT(min_y_m, 0);
+            EXPECT_GT(max_y_m, 0);
         }
     }
 }
@@ -204,7 +203,7 @@ TEST(CourseTest, ObstaclesBlockStraightPath) {
          {"forest-0.10", "orchard", "gap", "u-trap", "wires", "wires-thin", "street"}) {
         int blocked = 0;
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-            blocked += leastClearanceStraight_m(course(name, seed)) < 0.45f ? 1 : 0;
+            blocked += minClearanceStraight_m(course(name, seed)) < 0.45f ? 1 : 0;
         }
         EXPECT_EQ(blocked, 3) << name;
     }

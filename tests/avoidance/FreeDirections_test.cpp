@@ -13,9 +13,9 @@ namespace {
 using Points = std::vector<Eigen::Vector3f>;
 
 float nearest(const Points& points_m, const Eigen::Vector3f& to_m) {
-    float least_m = 3.0f;  // as far as world models tell
-    for (const auto& point_m : points_m) least_m = std::min(least_m, (point_m - to_m).norm());
-    return least_m;
+    float min_m = 3.0f;  // as far as world models tell
+    for (const auto& point_m : points_m) min_m = std::min(min_m, (point_m - to_m).norm());
+    return min_m;
 }
 
 /// From a point to the way that a direction leads.
@@ -65,13 +65,13 @@ TEST(FreeDirections, MatchBruteForce) {
         const auto blocked =
             blockedDirections([&](const auto& p) { return nearest(points_m, p); }, {0, 0, 0});
         for (std::size_t n = 0; n < kDirections; ++n) {
-            float least_m = std::numeric_limits<float>::infinity();
+            float min_m = std::numeric_limits<float>::infinity();
             for (const auto& p : points_m) {
-                least_m = std::min(least_m, distanceToPath(p, directionOf(n), 8.0f));
+                min_m = std::min(min_m, distanceToPath(p, directionOf(n), 8.0f));
             }
             // A least step may pass what the sphere would but graze.
-            if (std::abs(least_m - 0.65f) > 0.002f) {
-                EXPECT_EQ(blocked[n], least_m < 0.65f) << seed << " " << n;
+            if (std::abs(min_m - 0.65f) > 0.002f) {
+                EXPECT_EQ(blocked[n], min_m < 0.65f) << seed << " " << n;
             }
         }
     }

@@ -110,12 +110,12 @@ TEST(LaterScansTruth, MatchesBruteForce) {
         for (std::size_t n = 0; n < kDirections; ++n) {
             int points = 0;
             for (const auto& p : scan.points_m) {
-                float least_m = std::numeric_limits<float>::infinity();
+                float min_m = std::numeric_limits<float>::infinity();
                 for (float distance_m = 0; distance_m <= 8; distance_m += 0.04f) {
-                    least_m = std::min(least_m, (p - distance_m * directionOf(n)).norm());
+                    min_m = std::min(min_m, (p - distance_m * directionOf(n)).norm());
                 }
-                if (std::abs(least_m - 0.65f) < 0.001f) points = 100;  // too close to call
-                points += least_m < 0.65f;
+                if (std::abs(min_m - 0.65f) < 0.001f) points = 100;  // too close to call
+                points += min_m < 0.65f;
             }
             if (points >= 100) continue;
             EXPECT_EQ(truth.blocked[n], points >= 2) << seed << " " << n;

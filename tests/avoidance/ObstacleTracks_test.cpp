@@ -112,7 +112,7 @@ TEST(ObstacleTracks, EstimateVelocities) {
 }
 
 /// Scans of a pillar that moves, of which only the part within a height is seen.
-std::vector<observations::MappedScan> slicesOfWalker(double most_height_m) {
+std::vector<observations::MappedScan> slicesOfWalker(double max_height_m) {
     simulation::Random random(5);
     std::vector<observations::MappedScan> all;
     for (int number = 0; number < 14; ++number) {
@@ -120,7 +120,7 @@ std::vector<observations::MappedScan> slicesOfWalker(double most_height_m) {
         addReturns(moved(kWalker, kWalk_m_s, whole.time_s), 1, 0, random, whole);
         for (std::size_t i = 0; i < whole.points_m.size(); ++i) {
             const auto above_m = static_cast<double>(whole.points_m[i].z()) - 0.7;
-            if (std::abs(above_m) > most_height_m / 2) continue;
+            if (std::abs(above_m) > max_height_m / 2) continue;
             scan.points_m.push_back(whole.points_m[i]);
             scan.labels.push_back(Label::Roi);
             scan.obstacles.push_back(1);
@@ -357,14 +357,14 @@ class BallModel : public WorldModel {
 /// The least distance from the ball's surface in 2 s, of which a command is held for 1.2 s.
 double nearestWay_m(const Eigen::Vector3d& command_m_s, double ball_first_m) {
     VehicleState state{{0, 0, 2}, {0, 0, 0}};
-    double least_m = 1e9;
+    double min_m = 1e9;
     for (double time_s = 0; time_s < 2; time_s += kControlStep_s) {
         const Eigen::Vector3d ball_m(ball_first_m - 3 * time_s, 0, 2);
-        least_m = std::min(least_m, (state.position_m - ball_m).norm() - 0.5);
+        min_m = std::min(min_m, (state.position_m - ball_m).norm() - 0.5);
         const Eigen::Vector3d held_m_s = time_s < 1.2 ? command_m_s : Eigen::Vector3d::Zero();
         state = advance(state, held_m_s, kControlStep_s, {});
     }
-    return least_m;
+    return min_m;
 }
 
 PlanningTask taskTowards(const Eigen::Vector3d& carrot_m, double start_after_s) {

@@ -15,9 +15,9 @@ namespace {
 using test::SolidWorld;
 using Path = std::vector<Eigen::Vector3d>;
 
-PathSearchOptions within(const Eigen::Vector3d& least_m, const Eigen::Vector3d& most_m) {
+PathSearchOptions within(const Eigen::Vector3d& min_m, const Eigen::Vector3d& max_m) {
     PathSearchOptions options;
-    options.bounds_m = {least_m, most_m};
+    options.bounds_m = {min_m, max_m};
     return options;
 }
 
@@ -34,16 +34,16 @@ double lengthOf(const Path& path_m) {
 }
 
 /// The least clearance along the path, in steps of a centimetre.
-double leastClearance(const SolidWorld& world, const Path& path_m) {
-    double least_m = WorldModel::kReach_m;
+double minClearance(const SolidWorld& world, const Path& path_m) {
+    double min_m = WorldModel::kReach_m;
     for (std::size_t i = 1; i < path_m.size(); ++i) {
         const Eigen::Vector3d offset_m = path_m[i] - path_m[i - 1];
         for (double at = 0; at <= 1; at += 0.01 / offset_m.norm()) {
-            least_m = std::min<double>(
-                least_m, world.clearance_m((path_m[i - 1] + at * offset_m).cast<float>()));
+            min_m = std::min<double>(
+                min_m, world.clearance_m((path_m[i - 1] + at * offset_m).cast<float>()));
         }
     }
-    return least_m;
+    return min_m;
 }
 
 TEST(PathSearch, CrossesEmptySpaceStraight) {
@@ -79,7 +79,7 @@ TEST(PathSearch, FindsWideGapAnywhere) {
         const SolidWorld world = wallWithGap(middle_m, 1.6f);
         const auto path = search(world, {0, 0, 2}, {20, 0, 2}, options);
         ASSERT_TRUE(path) << middle_m;
-        EXPECT_GT(leastClearance(world, *path), options.min_clearance_m - 0.1) << middle_m;
+        EXPECT_GT(minClearance(world, *path), options.min_clearance_m - 0.1) << middle_m;
     }
 }
 
@@ -133,7 +133,7 @@ TEST(PathSearch, PrefersWantedClearance) {
     const SolidWorld world = SolidWorld().trunk({10, 0}, 0.3f);
     const auto path = search(world, {0, 0, 2}, {20, 0, 2}, within({-1, -10, 2}, {21, 10, 2}));
     ASSERT_TRUE(path);
-    EXPECT_GT(leastClearance(world, *path), 0.9);
+    EXPECT_GT(minClearance(world, *path), 0.9);
     EXPECT_LT(lengthOf(*path), 22);
 }
 
@@ -141,10 +141,10 @@ TEST(PathSearch, HeightCostPreventsClimbing) {
     const SolidWorld world = SolidWorld().box({9, -3, 0}, {10, 3, 2.6f});
     PathSearchOptions options = within({-1, -10, 0}, {21, 10, 5});
     const auto heights = [&] {
-        double most_m = 0;
+        double max_m = 0;
         const auto path = search(world, {0, 0, 2}, {20, 0, 2}, options);
-        for (const Eigen::Vector3d& at : path.value()) most_m = std::max(most_m, at.z());
-        return most_m;
+        for (const Eigen::Vector3d& at : path.value()) max_m = std::max(max_m, at.z());
+        return max_m;
     };
     EXPECT_GT(heights(), 3);
     options.wanted_height_m = 2;
@@ -205,9 +205,9 @@ class PlainGraph {
     }
     bool mayPass(const Key& a, const Key& b) const {
         const Eigen::Vector3d from_m = pointOf(a), to_m = pointOf(b);
-        const double least_m = options_.min_clearance_m;
-        if (clearance(to_m) < least_m || clearance(from_m) < least_m) return false;
-        return leastClearance(world_, {from_m, to_m}) >= least_m - 0.05;
+        const double min_m = options_.min_clearance_m;
+        if (clearance(to_m) < min_m || clearance(from_m) < min_m) return false;
+        return minClearance(world_, {from_m, to_m}) >= min_m - 0.05;
     }
 
     /// Infinite where there is no way.

@@ -162,7 +162,7 @@ TEST(TrueScene, MatchesCourse) {
     const avoidance::TrueScene::Ground& ground = seen.ground;
     ASSERT_EQ(ground.heights_m.size(), std::size_t(ground.along_x * ground.along_y));
     EXPECT_EQ(ground.heights_m[std::size_t(3 * ground.along_x + 5)],
-              content.terrain.height_m(ground.least_m.x() + 10, ground.least_m.y() + 6));
+              content.terrain.height_m(ground.min_m.x() + 10, ground.min_m.y() + 6));
 }
 
 TEST(Ending, DescribesOutcome) {

@@ -185,7 +185,11 @@ void flyPast(const Obstacle& kind, std::uint64_t seed, ModelDistance distance,
                 const auto error_m = static_cast<double>(model->clearance_m(at_m) - true_m);
                 Errors& of_kind = obstacle.isPole() ? errors[name].pole : errors[name].wall;
                 ++of_kind.queries;
-                (error_m > 1 ? of_kind.missed += 1 : of_kind.sum_m += error_m);
+                if (error_m > 1) {
+                    ++of_kind.missed;
+                } else {
+                    of_kind.sum_m += error_m;
+                }
             }
         }
     }

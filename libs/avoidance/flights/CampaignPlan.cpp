@@ -45,8 +45,8 @@ void checkUpdates(const CampaignPlan& plan) {
     for (const std::string& model : plan.models) {
         if (!predictsMotion(model) || needsTruth(model)) continue;
         throw std::invalid_argument("the world model '" + model +
-                                    "' follows the obstacles of whole scans, and cannot be updated "
-                                    "with sectors; fly it with scans only");
+                                    "' tracks the obstacles of whole scans and does not support "
+                                    "sectors; fly it with --updates scans");
     }
 }
 
@@ -62,7 +62,7 @@ void checkNumberOfFlights(const CampaignPlan& plan) {
     }
     if (flights <= kMostFlights) return;
     throw std::invalid_argument("at most " + std::to_string(kMostFlights) +
-                                " flights in a plan; fly the others into a folder of their own");
+                                " flights in a plan; split them over several folders");
 }
 
 void check(const CampaignPlan& plan, const Shard& shard) {

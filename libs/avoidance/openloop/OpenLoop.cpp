@@ -156,7 +156,7 @@ class Run {
     std::string why_ended_;
 };
 
-/// Makes the models, and makes them anew when the vehicle nears the border of their box.
+/// Makes the models, and again when the vehicle nears the border of their box.
 void Run::prepareModels(const LoggedScan& scan) {
     const bool is_begun = result_.scans > 0;
     const Eigen::AlignedBox3f inner = widened(box_m_, -kBorder_m, -kBorderUp_m);
@@ -328,7 +328,7 @@ void checkOpenLoop(const OpenLoop& open_loop) {
         }
         if (predictsMotion(model)) {
             throw std::invalid_argument("'" + model +
-                                        "' predicts motion, which open loop does not ask for");
+                                        "' predicts motion, which openloop does not evaluate");
         }
         if (needsTruth(model) && !open_loop.scene) {
             throw std::invalid_argument(

@@ -19,7 +19,7 @@ constexpr double kCostPerMetre = 10000;
 constexpr double kProximityCost = 2;  ///< extra cost per metre at the minimum clearance
 constexpr double kCheckStep_m = 0.1;
 constexpr double kGrazing_m = 0.05;  ///< tolerance of edges between cells
-constexpr std::int64_t kMostCellsOfGrid = 30'000'000;
+constexpr std::int64_t kMaxCellsOfGrid = 30'000'000;
 
 /// State of a cell. Valid only if it has the number of the current search. 32 bytes, as most of a
 /// long search's time goes into fetching cells.
@@ -66,7 +66,7 @@ struct Entry {
 };
 static_assert(Entry::kParentBits + Entry::kCellBits + 1 + Entry::kLeftBits == 64);
 static_assert(kNeighbours <= 1 << Entry::kParentBits);
-static_assert(kMostCellsOfGrid <= 1 << Entry::kCellBits);
+static_assert(kMaxCellsOfGrid <= 1 << Entry::kCellBits);
 
 /// The next entry first.
 using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
@@ -94,7 +94,7 @@ class Search {
     Eigen::Vector3d pointOf(int index, int place) const;
     void look(int index);
     bool mayPass(int from, int to);
-    Cost leastCostToGoal(int x, int y, int z) const;
+    Cost minCostToGoal(int x, int y, int z) const;
     void open(int index);
     std::vector<Eigen::Vector3d> pathTo(int index) const;
 
@@ -145,7 +145,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
     const Eigen::Vector3d first = low.array().ceil().min(nearest(start_m).array());
     const Eigen::Vector3d last = high.array().floor().max(nearest(start_m).array());
     const Eigen::Vector3d count = (last - first).array() + 1;
-    if (!((count.array() >= 1).all() && count.prod() <= double(kMostCellsOfGrid))) {
+    if (!((count.array() >= 1).all() && count.prod() <= double(kMaxCellsOfGrid))) {
         throw std::invalid_argument("path search: the bounds hold no cells, or too many");
     }
     least_ = first.cast<int>();
@@ -212,12 +212,12 @@ Eigen::Vector3d Search::pointOf(int index, int place) const {
 void Search::look(int index) {
     Cell& at = cell(index);
     if (at.place != -1) return;
-    const double least_m = options_.min_clearance_m;
+    const double min_m = options_.min_clearance_m;
     at.place = 0;
     at.clearance_m = clearance_m_(pointOf(index, 0).cast<float>());
     // Clearance is 1-Lipschitz, so only near misses need more queries.
     const double beside_m = options_.cell_m / 4 * std::sqrt(2.0);
-    if (at.clearance_m < least_m && at.clearance_m + beside_m >= least_m && index != start_ &&
+    if (at.clearance_m < min_m && at.clearance_m + beside_m >= min_m && index != start_ &&
         index != goal_) {
         for (std::int8_t place = 1; place <= 4; ++place) {
             const float there_m = clearance_m_(pointOf(index, place).cast<float>());
@@ -236,20 +236,20 @@ void Search::look(int index) {
 bool Search::mayPass(int from, int to) {
     const Cell &a = cell(from), &b = cell(to);
     const double ends_m = std::min(a.clearance_m, b.clearance_m);
-    const double least_m = std::min(options_.min_clearance_m - kGrazing_m, ends_m);
+    const double min_m = std::min(options_.min_clearance_m - kGrazing_m, ends_m);
     if (b.clearance_m < options_.min_clearance_m && !(b.clearance_m > a.clearance_m)) {
         return false;
     }
     const Eigen::Vector3d start_m = pointOf(from, a.place);
     const Eigen::Vector3d offset_m = pointOf(to, b.place) - start_m;
     const double length_m = offset_m.norm();
-    double at_m = std::max(a.clearance_m - least_m, kCheckStep_m);
-    const double end_m = length_m - std::max(b.clearance_m - least_m, kCheckStep_m);
+    double at_m = std::max(a.clearance_m - min_m, kCheckStep_m);
+    const double end_m = length_m - std::max(b.clearance_m - min_m, kCheckStep_m);
     while (at_m < end_m) {
         const Eigen::Vector3d point_m = start_m + at_m / length_m * offset_m;
         const double clearance_m = clearance_m_(point_m.cast<float>());
-        if (clearance_m < least_m) return false;
-        at_m += std::max(clearance_m - least_m, kCheckStep_m);
+        if (clearance_m < min_m) return false;
+        at_m += std::max(clearance_m - min_m, kCheckStep_m);
     }
     return true;
 }
@@ -260,7 +260,7 @@ Cost costOfStep(Cost length, const Cell& a, const Cell& b) {
 }
 
 /// The distance through empty space on a grid with diagonals, times the heuristic weight.
-Cost Search::leastCostToGoal(int x, int y, int z) const {
+Cost Search::minCostToGoal(int x, int y, int z) const {
     x = std::abs(x - goal_place_.x());
     y = std::abs(y - goal_place_.y());
     z = std::abs(z - goal_place_.z());
@@ -293,7 +293,7 @@ void Search::open(int index) {
                                            : length + length * here.extra_permille / 2000;
                 const Cost cost = here.cost + step;
                 if (cost >= there.cost) continue;
-                const Cost left = leastCostToGoal(x, y, z);
+                const Cost left = minCostToGoal(x, y, z);
                 const int back = kNeighbours - 1 - neighbour;
                 queue_.emplace(cost + left, left, false, next, back);
             }

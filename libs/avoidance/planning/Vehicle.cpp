@@ -31,14 +31,14 @@ Eigen::Vector3d CommandQueue::at(double time_s) const {
 
 VehicleState CommandQueue::advanced(VehicleState state, double from_s, double to_s,
                                     const VehicleLimits& limits) const {
-    constexpr double kLeast_s = 1e-9;
+    constexpr double kMin_s = 1e-9;
     double now_s = from_s;
-    while (to_s - now_s > kLeast_s) {
+    while (to_s - now_s > kMin_s) {
         double next_s = std::min(to_s, now_s + kControlStep_s);
         for (const Command& command : commands_) {
-            if (command.from_s > now_s + kLeast_s) next_s = std::min(next_s, command.from_s);
+            if (command.from_s > now_s + kMin_s) next_s = std::min(next_s, command.from_s);
         }
-        state = advance(state, at(now_s + kLeast_s), next_s - now_s, limits);
+        state = advance(state, at(now_s + kMin_s), next_s - now_s, limits);
         now_s = next_s;
     }
     return state;

@@ -50,12 +50,12 @@ bool matches(const Run& run, const RunWanted& wanted) {
 }
 
 std::string listOf(const std::vector<Run>& runs) {
-    constexpr std::size_t kMost = 40;
+    constexpr std::size_t kMax = 40;
     std::string list;
-    for (std::size_t i = 0; i < std::min(kMost, runs.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kMax, runs.size()); ++i) {
         list += "\n  " + choiceOf(runs[i], runs);
     }
-    if (runs.size() > kMost) list += "\n  ...";
+    if (runs.size() > kMax) list += "\n  ...";
     return list;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 /// Every n-th item, so that at most `most` are left.
 template <class Item>
-std::vector<Item> thinned(const std::vector<Item>& all, std::size_t most) {
+std::vector<Item> sampled(const std::vector<Item>& all, std::size_t most) {
     const std::size_t every = (all.size() + most - 1) / std::max<std::size_t>(most, 1);
     std::vector<Item> kept;
     for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(every, 1)) {
@@ -27,14 +27,14 @@ void addReturns(const observations::MappedScan& scan, const FlightRecordingLimit
         auto& points = scan.labels[i] == Label::Roi ? step.roi_m : step.rou_m;
         points.push_back(scan.points_m[i]);
     }
-    step.roi_m = thinned(step.roi_m, limits.points);
-    step.rou_m = thinned(step.rou_m, limits.points);
+    step.roi_m = sampled(step.roi_m, limits.points);
+    step.rou_m = sampled(step.rou_m, limits.points);
 }
 
 void addMotions(const Plan& plan, const FlightRecordingLimits& limits, RecordedStep& step) {
     constexpr std::size_t kPointsOfPath = 8;
-    for (const CandidateMotion& motion : thinned(plan.candidates, limits.motions)) {
-        RecordedMotion kept{thinned(motion.path_m, kPointsOfPath), motion.is_free};
+    for (const CandidateMotion& motion : sampled(plan.candidates, limits.motions)) {
+        RecordedMotion kept{sampled(motion.path_m, kPointsOfPath), motion.is_free};
         if (kept.path_m.empty()) continue;
         kept.path_m.push_back(motion.path_m.back());
         step.motions.push_back(kept);
@@ -67,7 +67,7 @@ class ModelHistory {
         for (const auto& [key, stays] : cells_) {
             recording.model.insert(recording.model.end(), stays.begin(), stays.end());
         }
-        recording.model = thinned(recording.model, limits_.cells);
+        recording.model = sampled(recording.model, limits_.cells);
     }
 
  private:
@@ -88,7 +88,7 @@ RecordedStep recorded(const TrialStep& step, const WorldModel::Obstacles& obstac
                       {},
                       {},
                       {}};
-    for (const Eigen::Vector3d& at : thinned(step.carrot.path_m, 60)) {
+    for (const Eigen::Vector3d& at : sampled(step.carrot.path_m, 60)) {
         kept.path_m.push_back(at.cast<float>());
     }
     addReturns(step.scan, limits, kept);
@@ -102,9 +102,9 @@ void thinLongRun(const FlightRecordingLimits& limits, FlightRecording& recording
     if (steps <= limits.full_steps) return;
     const auto share = [&](std::size_t most) { return most * limits.full_steps / steps; };
     for (RecordedStep& step : recording.steps) {
-        step.roi_m = thinned(step.roi_m, share(limits.points));
-        step.rou_m = thinned(step.rou_m, share(limits.points));
-        step.motions = thinned(step.motions, share(limits.motions));
+        step.roi_m = sampled(step.roi_m, share(limits.points));
+        step.rou_m = sampled(step.rou_m, share(limits.points));
+        step.motions = sampled(step.motions, share(limits.motions));
     }
 }
 

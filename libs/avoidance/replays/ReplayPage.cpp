@@ -205,8 +205,8 @@ class PageWriter {
         for (const double height_m : ground.heights_m) {
             heights.add((height_m - recording_.start_m.z()) / kUnit_m);
         }
-        return {{"x_m", rounded(ground.least_m.x() - recording_.start_m.x())},
-                {"y_m", rounded(ground.least_m.y() - recording_.start_m.y())},
+        return {{"x_m", rounded(ground.min_m.x() - recording_.start_m.x())},
+                {"y_m", rounded(ground.min_m.y() - recording_.start_m.y())},
                 {"step_m", ground.step_m},
                 {"along_x", ground.along_x},
                 {"along_y", ground.along_y},

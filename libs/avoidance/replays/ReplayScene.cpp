@@ -59,8 +59,8 @@ CSphere::Ptr sphereAt(const Eigen::Vector3d& at, float radius_m, const TColor& c
 CSetOfLines::Ptr linesOf(const TrueScene::Ground& ground) {
     const auto lines = CSetOfLines::Create();
     const auto corner = [&](int i, int j) {
-        return mrpt::math::TPoint3D(ground.least_m.x() + i * ground.step_m,
-                                    ground.least_m.y() + j * ground.step_m,
+        return mrpt::math::TPoint3D(ground.min_m.x() + i * ground.step_m,
+                                    ground.min_m.y() + j * ground.step_m,
                                     ground.heights_m[std::size_t(j * ground.along_x + i)]);
     };
     for (int j = 0; j < ground.along_y; ++j) {

@@ -35,7 +35,7 @@ void RollingGridModel::update(const observations::MappedScan& scan) {
     markEnds(scan);
     const Eigen::Array3f origin = box_.inVoxels(scan.origin_m);
     for (const Eigen::Array3i& end : ends_) trace(origin, end);
-    for (const std::uint32_t index : hits_) marks_[index] = kIsHit;  // whatever passes
+    for (const std::uint32_t index : hits_) marks_[index] = kIsHit;  // even if other rays pass
     apply();
 }
 
@@ -74,7 +74,7 @@ void RollingGridModel::markEnds(const observations::MappedScan& scan) {
 }
 
 /// Marks the voxels from the origin to the end (without it) as passed (Amanatides & Woo 1987). The
-/// ray's length is 2^32, in integers, so that no rounding leads astray.
+/// ray's length is 2^32, in integers, so that rounding errors do not add up.
 void RollingGridModel::trace(const Eigen::Array3f& origin, const Eigen::Array3i& end) {
     constexpr double kLength = 4294967296.0, kNever = 1e15;
     const Eigen::Array3i start = origin.cast<int>();

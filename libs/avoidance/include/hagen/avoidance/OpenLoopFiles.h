@@ -46,14 +46,12 @@ class OpenLoopFiles {
         base::OutputPath path;
         std::ofstream out;
     };
-    File& open(const std::string& name, bool overwrite);
     void finish(const OpenLoop& open_loop, const OpenLoopResult& result);
 
     std::filesystem::path folder_;
     bool is_own_folder_;
     std::vector<std::unique_ptr<File>> files_;
     base::OutputSet all_;
-    File *models_, *scans_, *agreement_, *summary_, *models_measured_, *scans_measured_;
 };
 
 /// A description of the ground truth.
