@@ -108,29 +108,19 @@ void thinLongRun(const FlightRecordingLimits& limits, FlightRecording& recording
     }
 }
 
-/// Adds what needs the course: true clearances, ending, true scene.
-void addTruth(const Reflown& again, FlightRecording& recording) {
+/// Adds true clearances, the ending and the true scene.
+void addTruth(const Course& course, const TrialResult& result, FlightRecording& recording) {
     for (std::size_t i = 0; i < recording.track.size(); ++i) {
         RecordedMoment& moment = recording.track[i];
-        moment.clearance_m = static_cast<double>(again.course.distance.at(
-            moment.at_m.cast<float>(), kControlStep_s * static_cast<double>(i)));
+        moment.clearance_m = static_cast<double>(
+            course.distance.at(moment.at_m.cast<float>(), kControlStep_s * static_cast<double>(i)));
     }
-    recording.ending = endingOf(again.course, again.result, recording.run.setup.speed_m_s,
-                                recording.track.back().at_m);
-    recording.scene = trueSceneOf(again.course.scene, again.course.bounds_m, again.result.time_s);
+    recording.ending =
+        endingOf(course, result, recording.run.setup.speed_m_s, recording.track.back().at_m);
+    recording.scene = trueSceneOf(course.scene, course.bounds_m, result.time_s);
 }
 
 }  // namespace
-
-Reflown flyAgain(const Run& run, const LatencyProfile& profile, const TrialListener& listener) {
-    Reflown again{makeCourse(run.scenario, run.seed), {}, false};
-    again.result = runTrial(again.course, run.setup, profile, nullptr, listener);
-    Run flown = run;
-    flown.result = again.result;
-    flown.oracle_path_m = again.course.oracle_path_m;
-    again.is_same = rowOf(flown, true) == rowOf(run, true);
-    return again;
-}
 
 FlightRecording record(const Run& run, const LatencyProfile& profile,
                        const FlightRecordingLimits& limits,
@@ -152,13 +142,16 @@ FlightRecording record(const Run& run, const LatencyProfile& profile,
         recording.track.push_back({state.position_m, state.velocity_m_s.norm(), 0});
     };
     listener.event = [&](const std::string& what) { recording.events.push_back({now_s, what}); };
-    const Reflown again = flyAgain(run, profile, listener);
-    recording.is_same = again.is_same;
-    recording.start_m = again.course.start_m;
-    recording.goal_m = again.course.goal_m;
+    const Course course = makeCourse(run.scenario, run.seed);
+    Run flown = run;
+    flown.result = runTrial(course, run.setup, profile, nullptr, listener);
+    flown.oracle_path_m = course.oracle_path_m;
+    recording.is_same = rowOf(flown, true) == rowOf(run, true);
+    recording.start_m = course.start_m;
+    recording.goal_m = course.goal_m;
     recording.ground_m =
-        again.course.scene.terrain().height_m(recording.start_m.x(), recording.start_m.y());
-    addTruth(again, recording);
+        course.scene.terrain().height_m(recording.start_m.x(), recording.start_m.y());
+    addTruth(course, flown.result, recording);
     model.writeTo(recording);
     thinLongRun(limits, recording);
     return recording;

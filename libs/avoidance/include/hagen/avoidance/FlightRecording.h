@@ -16,16 +16,6 @@ namespace hagen::avoidance {
 std::string endingOf(const Course& course, const TrialResult& result, double speed_m_s,
                      const Eigen::Vector3d& end_m);
 
-/// A run of a table, flown again.
-struct Reflown {
-    Course course;
-    TrialResult result;
-    bool is_same;  ///< every field of the row is the same
-};
-
-/// Flies a run again with its setup. Throws like makeCourse() and runTrial().
-Reflown flyAgain(const Run& run, const LatencyProfile& profile, const TrialListener& listener);
-
 /// A voxel or point of the world model, present from step `from_step` until before `until_step`.
 struct ModelCell {
     Eigen::Vector3f centre_m;
@@ -62,7 +52,7 @@ struct RecordedEvent {
 /// A whole run, small enough for a web page.
 struct FlightRecording {
     Run run{};
-    bool is_same = false;
+    bool is_same = false;  ///< every field of its row came out the same
     Eigen::Vector3d start_m{0, 0, 0}, goal_m{0, 0, 0};
     double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
@@ -83,8 +73,8 @@ struct FlightRecordingLimits {
     float reach_m = 25;            ///< of the returns that are kept
 };
 
-/// Flies the run again and records it. Throws like flyAgain(), and whatever `continuing` throws: it
-/// is called at each planning step.
+/// Flies the run again and records it. Throws like makeCourse() and runTrial(), and what
+/// `continuing` throws, which is called at each planning step.
 FlightRecording record(
     const Run& run, const LatencyProfile& profile, const FlightRecordingLimits& limits = {},
     const std::function<void()>& continuing = [] {});

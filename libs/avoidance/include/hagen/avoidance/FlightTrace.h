@@ -23,7 +23,6 @@ class FlightTrace {
     /// Distance flown until then.
     double distance_m(double time_s) const;
 
-    double end_s() const { return kControlStep_s * static_cast<double>(samples_.size() - 1); }
     /// Root mean square of the smoothed acceleration's rate of change.
     double rmsJerk_m_s3() const;
 
