@@ -137,9 +137,7 @@ TEST(Guidance, HeadsStraightWithoutPath) {
     EXPECT_EQ(none.beyond_m, 0);
 }
 
-TEST(Guidance, RejectsUnknownNames) {
-    EXPECT_THROW(makeGuidance("rrt"), std::invalid_argument);
-}
+TEST(Guidance, RejectsUnknownNames) { EXPECT_THROW(makeGuidance("rrt"), std::invalid_argument); }
 
 }  // namespace
 }  // namespace hagen::avoidance

@@ -1,10 +1,10 @@
 // The distances of world models, measured on simulated flights past a wall and poles.
 //
-// To measure the biases in UnbiasedModel.cpp again, run this test with kSeeds of 0 to 29 and
+// To measure the biases in WorldModel.cpp again, run this test with kSeeds of 0 to 29 and
 // ModelDistance::AsStored: its failures print them.
 #include <gtest/gtest.h>
 #include <hagen/avoidance/TrialSensor.h>
-#include <hagen/avoidance/UnbiasedModel.h>
+#include <hagen/avoidance/WorldModel.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/simulation/SceneBuilder.h>
 
@@ -214,7 +214,7 @@ TEST(DistanceBias, RemainingBiasIsSmall) {
         for (const Obstacle& pole : kPoles) flyPast(pole, seed, ModelDistance::Unbiased, errors);
     }
     for (const auto& [model, found] : errors) {
-        EXPECT_NEAR(found.bias_m(), 0, tolerance_m(model)) << model << ": update UnbiasedModel.cpp";
+        EXPECT_NEAR(found.bias_m(), 0, tolerance_m(model)) << model << ": update WorldModel.cpp";
         EXPECT_LT(found.wall.missed, 0.02 * found.wall.queries) << model;
         EXPECT_LT(found.pole.missed, 0.02 * found.pole.queries) << model;
     }

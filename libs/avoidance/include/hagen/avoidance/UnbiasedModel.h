@@ -1,13 +1,7 @@
 #pragma once
 #include <hagen/avoidance/WorldModel.h>
-#include <string>
 
 namespace hagen::avoidance {
-
-/// Mean difference between a model's clearance and the true one [m], measured by
-/// tests/flights/DistanceBias_test.cpp. Throws std::invalid_argument for a model that was not
-/// measured.
-float distanceBias_m(const std::string& model);
 
 /// A model whose clearances are, by `bias_m` on average, larger than the true ones: subtracts it.
 /// With a negative bias, clearances grow; none exceeds kReach_m, and none falls below 0.

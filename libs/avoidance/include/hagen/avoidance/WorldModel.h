@@ -122,6 +122,11 @@ bool needsTruth(const std::string& model);
 /// Whether a model predicts motion (clearanceAfter_m()). False for unknown names.
 bool predictsMotion(const std::string& model);
 
+/// Mean difference between a model's clearance and the true one [m], measured by
+/// tests/flights/DistanceBias_test.cpp; 0 for oracles. Throws std::invalid_argument for unknown
+/// names.
+float distanceBias_m(const std::string& model);
+
 /// Throws std::invalid_argument for unknown names and lists the known ones; also if an oracle gets
 /// no true clearance.
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
