@@ -50,7 +50,7 @@ void checkUpdates(const CampaignPlan& plan) {
     }
 }
 
-constexpr double kLeastSpeed_m_s = 0.1;
+constexpr double kMinSpeed_m_s = 0.1;
 
 void checkNumberOfFlights(const CampaignPlan& plan) {
     double flights = static_cast<double>(plan.last_seed - plan.first_seed) + 1;
@@ -72,7 +72,7 @@ void check(const CampaignPlan& plan, const Shard& shard) {
     checkNames("planner", plan.planners, plannerNames(), joined(plannerNames()));
     checkPositive("speed", plan.speeds_m_s);
     for (const double speed_m_s : plan.speeds_m_s) {
-        if (speed_m_s < kLeastSpeed_m_s) {  // a flight would not end
+        if (speed_m_s < kMinSpeed_m_s) {  // a flight would not end
             throw std::invalid_argument("a speed must be at least 0.1 m/s");
         }
     }
