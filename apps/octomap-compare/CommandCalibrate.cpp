@@ -1,6 +1,5 @@
 // octomap-compare calibrate: measures the latency of each stage on this machine.
 #include <hagen/avoidance/Calibration.h>
-#include <hagen/avoidance/HeapCurves.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/base/OutputSet.h>

@@ -29,6 +29,14 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
+template <class Value>
+std::vector<Value> valuesOf(const std::vector<std::string>& names,
+                            Value (*from)(const std::string&)) {
+    std::vector<Value> values;
+    for (const std::string& name : names) values.push_back(from(name));
+    return values;
+}
+
 std::vector<avoidance::CourseFlights> flightsFrom(Flags& flags) {
     avoidance::CampaignPlan& plan = flags.plan;
     const auto one_seed = base::numberFrom<std::uint64_t>(flags.seeds);
@@ -42,22 +50,12 @@ std::vector<avoidance::CourseFlights> flightsFrom(Flags& flags) {
     requireOnce("--speed", plan.speeds_m_s);
     requireOnce("--latency-scale", plan.latency_scales);
     requireOnce("--pose-error", flags.pose_errors);
-    plan.pose_errors.clear();
-    for (const std::string& name : flags.pose_errors)
-        plan.pose_errors.push_back(avoidance::poseErrorFrom(name));
-    plan.airs.clear();
-    for (const std::string& name : namesFrom("--air", flags.airs, {"dusty", "clear"})) {
-        plan.airs.push_back(avoidance::airFrom(name));
-    }
-    plan.distances.clear();
-    for (const std::string& name :
-         namesFrom("--distance", flags.distances, {"unbiased", "as-stored"})) {
-        plan.distances.push_back(avoidance::distanceFrom(name));
-    }
-    plan.updates.clear();
-    for (const std::string& name : namesFrom("--updates", flags.updates, {"scans", "sectors"})) {
-        plan.updates.push_back(avoidance::updatesFrom(name));
-    }
+    plan.pose_errors = valuesOf(flags.pose_errors, avoidance::poseErrorFrom);
+    plan.airs = valuesOf(namesFrom("--air", flags.airs, {"dusty", "clear"}), avoidance::airFrom);
+    plan.distances = valuesOf(namesFrom("--distance", flags.distances, {"unbiased", "as-stored"}),
+                              avoidance::distanceFrom);
+    plan.updates = valuesOf(namesFrom("--updates", flags.updates, {"scans", "sectors"}),
+                            avoidance::updatesFrom);
     plan.scenarios = namesFrom("--scenario", plan.scenarios, avoidance::courseNames());
     plan.models = namesFrom("--models", plan.models, avoidance::worldModelNames());
     plan.guidances = namesFrom("--guidance", plan.guidances, avoidance::guidanceNames());

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include <hagen/avoidance/OpenLoopFiles.h>
-#include <hagen/avoidance/OpenLoopTable.h>
 #include <hagen/base/Interrupt.h>
 #include <hagen/base/ProgressLine.h>
 #include <hagen/base/Terminal.h>
@@ -53,10 +52,10 @@ void printLosses(const avoidance::OpenLoopResult& result) {
 
 /// Prints what limits the figures.
 void printLimits(const avoidance::OpenLoopResult& result) {
-    print(
-        result.scans_placed_by_one_pose,
-        "scans were placed by one pose each, because their returns have no times, or the poses end "
-        "before the scan or leave a gap in it");
+    print(result.scans_placed_by_one_pose,
+          "scans were placed by one pose each, because their returns have no times or the poses do "
+          "not "
+          "cover the whole scan");
     print(result.model_resets,
           "resets of all models, because the flight is longer than the box of the maps");
     if (!result.poses_have_horizon) {
@@ -131,9 +130,7 @@ void addOpenLoop(Program& program) {
                "layout)")
         .existingPath()
         .required();
-    sub.option("--sensor-json", source.sensor_json,
-               "metadata of the Ouster whose packets a capture or bag has")
-        .existingFile();
+    sub.option("--sensor-json", source.sensor_json, "Ouster metadata file (JSON)").existingFile();
     sub.option("--topic", source.topics, "read only this LiDAR topic of a ROS recording").once();
     sub.option("--poses", source.poses,
                "poses of the vehicle (TUM) or of the sensor, one per scan (KITTI); overrides the "
@@ -151,7 +148,7 @@ void addOpenLoop(Program& program) {
         sub.option("--truth-scenario", flags->scenario,
                    "scenario of rawlog-simulate that the log was made in, used as "
                    "ground truth (default: raw points of later scans)");
-    sub.option("--truth-seed", flags->seed, "its seed").needs(scenario).showDefault();
+    sub.option("--truth-seed", flags->seed, "seed of that scenario").needs(scenario).showDefault();
     sub.option("-c,--config", flags->configs,
                "settings file, or the name of a preset such as hdl32e; repeatable, later ones "
                "override earlier ones")

@@ -49,7 +49,8 @@ int run(const Flags& flags) {
     base::OutputPath scene(into / (name + ".3Dscene"), base::kFile, flags.overwrite);
 
     endIfInterrupted();
-    const avoidance::Recording recording = avoidance::record(wanted, profile, {}, endIfInterrupted);
+    const avoidance::FlightRecording recording =
+        avoidance::record(wanted, profile, {}, endIfInterrupted);
     endIfInterrupted();
     base::OutputSet outputs;
     outputs.add(page);
@@ -67,10 +68,8 @@ int run(const Flags& flags) {
               << scene.path().string() << "\n";
     tellLeftBehind({page.path(), scene.path()});
     if (recording.is_same) return 0;
-    std::cerr << "octomap-compare: flown again, the result differs from the table; was it flown by "
-                 "another version (this is "
-              << HAGEN_VERSION << ", the table's is " << wanted.version
-              << ") or on another machine?\n";
+    std::cerr << "octomap-compare: the result differs from the table (this is version "
+              << HAGEN_VERSION << ", the table was made by " << wanted.version << ")\n";
     return 1;
 }
 

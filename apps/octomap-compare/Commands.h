@@ -14,7 +14,7 @@ using namespace base;  // Program, Command, Flag, UsageError
 /// Rejects any other text except those in `also`, and lists the names.
 void takesWorldModels(Flag flag, const std::vector<std::string>& also = {});
 
-/// What is given twice would be flown or measured twice. Throws UsageError.
+/// Throws UsageError for duplicates, which would be flown or measured twice.
 template <class Value>
 void requireOnce(const std::string& flag, const std::vector<Value>& values) {
     for (auto value = values.begin(); value != values.end(); ++value) {
@@ -32,7 +32,6 @@ std::vector<std::string> namesFrom(const std::string& flag, const std::vector<st
 // Each adds a subcommand with its flags.
 void addClosedLoop(Program& program);
 void addCalibrate(Program& program);
-void addDistances(Program& program);
 void addOpenLoop(Program& program);
 void addReplay(Program& program);
 

@@ -16,7 +16,6 @@ int command(int argc, char** argv) {
     program.version(HAGEN_VERSION);
     hagen::addClosedLoop(program);
     hagen::addCalibrate(program);
-    hagen::addDistances(program);
     hagen::addOpenLoop(program);
     hagen::addReplay(program);
     return program.run(argc, argv);

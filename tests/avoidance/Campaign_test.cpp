@@ -100,7 +100,7 @@ TEST_F(Campaign, ExtendsTableForSectors) {
     EXPECT_THAT(table("c"), HasSubstr(runHeader() + "\n"));
     plan_.updates = {Updates::Sectors};
     fly("c");
-    EXPECT_THAT(table("c"), HasSubstr(fullRunHeader() + "\n"));
+    EXPECT_THAT(table("c"), HasSubstr(runHeader(true) + "\n"));
     EXPECT_THAT(table("c"), HasSubstr(",scans\n"));
     EXPECT_THAT(table("c"), HasSubstr(",sectors\n"));
 }

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-TEST(ChooseRun, FilesOfDifferentRunsHaveDifferentNames) {
+TEST(ChooseRun, FileNamesAreUnique) {
     Row run = test::runOf("forest-0.10", 7, "O-RoI+rays-0.4", "astar", kWon);
     EXPECT_EQ(avoidance::fileNameOf(run), "forest-0.10-7-O-RoI+rays-0.4-astar-4mps");
     run.setup.speed_m_s = 2.5;
@@ -25,7 +25,7 @@ TEST(ChooseRun, FilesOfDifferentRunsHaveDifferentNames) {
               "as-stored");
 }
 
-TEST(ChooseRun, ListsWhatThereIsInstead) {
+TEST(ChooseRun, ListsAvailableRuns) {
     const std::vector<Row> runs = threeContenders();
     avoidance::RunWanted wanted;
     wanted.seed = 77;
@@ -47,7 +47,7 @@ TEST(ChooseRun, ListsWhatThereIsInstead) {
     EXPECT_EQ(refusal({}), "has no run of seed 3, nor any other");
 }
 
-TEST(ChooseRun, ListsTheFlagsThatTellRunsApart) {
+TEST(ChooseRun, ListsDistinguishingFlags) {
     const Row plain = test::runOf("gap", 1, "W-RoI", "astar", kWon);
     std::vector<Row> runs(6, plain);
     runs[1].setup.speed_m_s = 0.1 + 0.2;  // needs all of its digits
@@ -68,19 +68,7 @@ TEST(ChooseRun, ListsTheFlagsThatTellRunsApart) {
               named + "4 --unknown brake-known   # success");
 }
 
-TEST(ChooseRun, TellsWaysOfUnknownSpaceApart) {
-    std::vector<Row> runs{test::runOf("gap", 1, "W-RoI", "astar", kWon),
-                          test::runOf("gap", 1, "W-RoI", "astar", kHit)};
-    runs[1].setup.brakes_in_known_space = true;
-    avoidance::RunWanted wanted;
-    wanted.seed = 1;
-    wanted.unknown = "brake-known";
-    EXPECT_TRUE(avoidance::chooseRun(runs, wanted).setup.brakes_in_known_space);
-    wanted.unknown = "optimistic";
-    EXPECT_FALSE(avoidance::chooseRun(runs, wanted).setup.brakes_in_known_space);
-}
-
-TEST(ChooseRun, TellsAirsAndDistancesApart) {
+TEST(ChooseRun, SelectsByCondition) {
     std::vector<Row> runs{test::runOf("gap", 1, "W-RoI", "astar", kWon),
                           test::runOf("gap", 1, "W-RoI", "astar", kHit)};
     runs[1].setup.air = avoidance::Air::Clear;

@@ -8,10 +8,10 @@ namespace {
 
 /// A second at this acceleration along x, from rest.
 FlightTrace accelerating(double acceleration_m_s2) {
-    avoidance::VehicleState state;
+    VehicleState state;
     FlightTrace trace(state);
     for (int step = 1; step <= 50; ++step) {
-        const double time_s = step * avoidance::kControlStep_s;
+        const double time_s = step * kControlStep_s;
         state.position_m.x() = 0.5 * acceleration_m_s2 * time_s * time_s;
         state.velocity_m_s.x() = acceleration_m_s2 * time_s;
         trace.add(state, {acceleration_m_s2, 0, 0});
@@ -19,7 +19,7 @@ FlightTrace accelerating(double acceleration_m_s2) {
     return trace;
 }
 
-TEST(FlightTrace, LeansIntoItsAccelerationWithItsNoseAhead) {
+TEST(FlightTrace, LeansIntoAcceleration) {
     const FlightTrace trace = accelerating(9.81);
     EXPECT_NEAR((trace.at(0).attitude.toRotationMatrix() - Eigen::Matrix3d::Identity()).norm(), 0,
                 1e-12);
@@ -28,7 +28,7 @@ TEST(FlightTrace, LeansIntoItsAccelerationWithItsNoseAhead) {
     EXPECT_NEAR(attitude(1, 0), 0, 1e-12);  // the nose stays over x
 }
 
-TEST(FlightTrace, BetweenSamplesItGoesStraightAndBeyondThemItStays) {
+TEST(FlightTrace, InterpolatesBetweenSamples) {
     const FlightTrace trace = accelerating(2);
     EXPECT_NEAR(trace.at(0.51).position_m.x(), 0.5 * (0.25 + 0.2704), 1e-9);
     EXPECT_EQ(trace.at(7).position_m, trace.at(1).position_m);
@@ -36,20 +36,20 @@ TEST(FlightTrace, BetweenSamplesItGoesStraightAndBeyondThemItStays) {
     EXPECT_NEAR(trace.distance_m(1), 1, 1e-9);
 }
 
-TEST(FlightTrace, JerkIsThatOfTheSmoothedAcceleration) {
-    EXPECT_EQ(FlightTrace(avoidance::VehicleState{}).rmsJerk_m_s3(), 0);
+TEST(FlightTrace, JerkMatchesSmoothedAcceleration) {
+    EXPECT_EQ(FlightTrace(VehicleState{}).rmsJerk_m_s3(), 0);
     // A step of 3 m/s^2 becomes 3 (1 - exp(-t / 0.1 s)): its jerk squared integrates to 9 / 0.2.
     EXPECT_NEAR(accelerating(3).rmsJerk_m_s3(), std::sqrt(9 / 0.2), 0.3);
 }
 
-TEST(PoseBelief, WithoutErrorItIsTheTruth) {
+TEST(PoseBelief, EqualsTruthWithoutError) {
     const FlightTrace trace = accelerating(2);
     PoseBelief belief(PoseError::None, 1);
     EXPECT_EQ(belief.at(trace, 0.33).position_m, trace.at(0.33).position_m);
     EXPECT_EQ(belief.at(trace, 0.33).attitude.coeffs(), trace.at(0.33).attitude.coeffs());
 }
 
-TEST(PoseBelief, DriftIsAHundredthOfTheWayInOneDirection) {
+TEST(PoseBelief, DriftGrowsWithDistance) {
     const FlightTrace trace = accelerating(20);  // 10 m
     PoseBelief belief(PoseError::Drift, 1);
     EXPECT_NEAR(belief.offset_m(trace, 1).norm(), 0.1, 1e-9);
@@ -59,8 +59,8 @@ TEST(PoseBelief, DriftIsAHundredthOfTheWayInOneDirection) {
                 0, 1e-12);
 }
 
-TEST(PoseBelief, NoiseHasItsSizeIsSmoothAndDependsOnTheSeedAlone) {
-    const FlightTrace trace(avoidance::VehicleState{});
+TEST(PoseBelief, NoiseMatchesItsDeviation) {
+    const FlightTrace trace(VehicleState{});
     PoseBelief belief(PoseError::Noise, 5), late(PoseError::Noise, 5), other(PoseError::Noise, 6);
     const Eigen::Vector3d last = late.offset_m(trace, 99);  // asked out of turn
     double squares_m2 = 0, squares_rad2 = 0;

@@ -20,7 +20,7 @@ Carrot carrot(const std::string& guidance, const SolidWorld& world, const Guidan
     return makeGuidance(guidance)->carrot(world, task);
 }
 
-TEST(Guidance, StraightIsTheGoalAtTheAltitudeWanted) {
+TEST(Guidance, StraightHeadsForGoal) {
     GuidanceTask task = eastwards();
     task.ground_m = 3;
     task.altitude_m = 2.5;
@@ -34,7 +34,7 @@ TEST(Guidance, StraightIsTheGoalAtTheAltitudeWanted) {
     EXPECT_EQ(carrot("straight", {}, task).at_m, Eigen::Vector3d(40, 0, 6));
 }
 
-TEST(Guidance, APathThroughEmptySpaceIsStraight) {
+TEST(Guidance, PathThroughEmptySpaceIsStraight) {
     GuidanceTask task = eastwards();
     const Carrot ahead = carrot("astar", {}, task);
     EXPECT_TRUE(ahead.at_m.isApprox(Eigen::Vector3d(4, 0, 2), 1e-9));
@@ -46,7 +46,7 @@ TEST(Guidance, APathThroughEmptySpaceIsStraight) {
 
 /// The grid path turns by 45 degrees. The straight line to the goal is as far from the posts as it
 /// is between the two rows.
-TEST(Guidance, CornersAreCutWhereThereIsRoom) {
+TEST(Guidance, CutsCornersWithClearance) {
     constexpr float kRoom_m = 1.4f, kPost_m = 0.2f;
     const Eigen::Vector2f along = Eigen::Vector2f(2, 1).normalized();
     const Eigen::Vector2f across(-along.y(), along.x());
@@ -63,7 +63,7 @@ TEST(Guidance, CornersAreCutWhereThereIsRoom) {
     EXPECT_LT(std::abs(ahead_m.head<2>().dot(across.cast<double>())), 0.25);
 }
 
-TEST(Guidance, TheCarrotIsTheGoalWhereThatIsNear) {
+TEST(Guidance, CarrotEndsAtGoal) {
     GuidanceTask task = eastwards();
     task.position_m = {37, 0, 2};
     const Carrot near = carrot("astar", {}, task);
@@ -72,7 +72,7 @@ TEST(Guidance, TheCarrotIsTheGoalWhereThatIsNear) {
 }
 
 /// Planners fly straight at it: it must not hide behind a bend of the path.
-TEST(Guidance, TheCarrotIsInSight) {
+TEST(Guidance, CarrotStaysInSight) {
     SolidWorld world;  // an S between two walls, 2.2 m wide
     world.box({2, -20, -10}, {2.4f, 0.7f, 20}).box({4.6f, -0.7f, -10}, {5, 20, 20});
     GuidanceTask task = eastwards();
@@ -89,7 +89,7 @@ TEST(Guidance, TheCarrotIsInSight) {
     }
 }
 
-TEST(Guidance, ThePathLeadsAroundAWall) {
+TEST(Guidance, PathLeadsAroundWall) {
     SolidWorld world;
     world.box({6, -15, -10}, {7, 5, 20});
     const Carrot around = carrot("astar", world, eastwards());
@@ -100,7 +100,7 @@ TEST(Guidance, ThePathLeadsAroundAWall) {
     EXPECT_EQ(around.path_m.back(), eastwards().goal_m);
 }
 
-TEST(Guidance, ThePathKeepsToTheAltitudes) {
+TEST(Guidance, PathKeepsAltitudeLimits) {
     SolidWorld world;
     world.box({6, -30, -10}, {7, 30, 3.5f});  // over it there would be room from 4.15 m
     GuidanceTask task = eastwards();
@@ -114,7 +114,7 @@ TEST(Guidance, ThePathKeepsToTheAltitudes) {
     EXPECT_TRUE(carrot("astar", world, task).path_m.empty());
 }
 
-TEST(Guidance, ToAFreePlaceNearAGoalThatIsBlockedOrOutOfBounds) {
+TEST(Guidance, ReplacesBlockedGoal) {
     GuidanceTask task = eastwards();
     const SolidWorld world = SolidWorld().trunk({40, 0}, 0.3f);
     const Carrot beside = carrot("astar", world, task);
@@ -128,7 +128,7 @@ TEST(Guidance, ToAFreePlaceNearAGoalThatIsBlockedOrOutOfBounds) {
     EXPECT_EQ(inside.path_m.back(), Eigen::Vector3d(45, 0, 2));
 }
 
-TEST(Guidance, StraightWhereThereIsNoPath) {
+TEST(Guidance, HeadsStraightWithoutPath) {
     SolidWorld world;
     world.box({6, -30, -10}, {7, 30, 20});
     const Carrot none = carrot("astar", world, eastwards());
@@ -137,9 +137,7 @@ TEST(Guidance, StraightWhereThereIsNoPath) {
     EXPECT_EQ(none.beyond_m, 0);
 }
 
-TEST(Guidance, UnknownNamesAreToldWithTheKnown) {
-    EXPECT_THROW(makeGuidance("rrt"), std::invalid_argument);
-}
+TEST(Guidance, RejectsUnknownNames) { EXPECT_THROW(makeGuidance("rrt"), std::invalid_argument); }
 
 }  // namespace
 }  // namespace hagen::avoidance

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using test::messageOf;
 using test::TemporaryFolder;
 
-TEST(LatencyProfile, DrawsLieAsTheQuantilesSay) {
+TEST(LatencyProfile, DrawsMatchQuantiles) {
     LatencyProfile profile;
     profile.quantiles_ms["a"] = {1, 2, 10};  // a half in 1..2, a half in 2..10
     simulation::Random random(7);
@@ -31,13 +31,13 @@ TEST(LatencyProfile, DrawsLieAsTheQuantilesSay) {
     EXPECT_EQ(profile.median_ms("a"), 2);
 }
 
-TEST(LatencyProfile, QuantilesOfWhatWasMeasured) {
+TEST(LatencyProfile, ComputesQuantiles) {
     EXPECT_TRUE(quantilesOf({}).empty());
     EXPECT_EQ(quantilesOf({3, 1, 2}, 3), (std::vector<double>{1, 2, 3}));
     EXPECT_EQ(quantilesOf({4}, 2), (std::vector<double>{4, 4}));
 }
 
-TEST(LatencyProfile, IsReadBackAsItWasWritten) {
+TEST(LatencyProfile, RoundTrips) {
     const TemporaryFolder folder;
     LatencyProfile profile = constantProfile(1.25);
     profile.machine = "a \"machine\"";
@@ -49,20 +49,20 @@ TEST(LatencyProfile, IsReadBackAsItWasWritten) {
     EXPECT_EQ(textOf(read), textOf(profile));
 }
 
-TEST(LatencyProfile, TheStandardOneHasEveryStage) {
+TEST(LatencyProfile, StandardProfileIsComplete) {
     const LatencyProfile standard = standardLatencyProfile();
     for (const auto& [stage, quantiles] : constantProfile(1).quantiles_ms) {
         EXPECT_GT(standard.median_ms(stage), -1) << stage;
     }
 }
 
-TEST(LatencyProfile, WhatItDoesNotHaveIsNamed) {
+TEST(LatencyProfile, NamesMissingStage) {
     const LatencyProfile profile;
     EXPECT_THAT(messageOf([&] { profile.median_ms("W-RoI/update"); }),
                 HasSubstr("\"W-RoI/update\""));
 }
 
-TEST(LatencyProfile, BrokenFilesAreNamedWithTheirKey) {
+TEST(LatencyProfile, NamesBrokenKey) {
     const TemporaryFolder folder;
     const auto messageFor = [&](const std::string& text) {
         const auto file = folder.write("p.json", text);

@@ -56,7 +56,7 @@ class LoggedScansTest : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(LoggedScansTest, PutsPointsWhereVehicleAndSensorWere) {
+TEST_F(LoggedScansTest, PlacesPointsByPoses) {
     LoggedScans scans({poleLog(2), posesAt({10, 11}), "", {}});
     LoggedScan scan;
     ASSERT_TRUE(scans.next(scan));
@@ -85,7 +85,7 @@ TEST_F(LoggedScansTest, PutsPointsWhereVehicleAndSensorWere) {
     EXPECT_EQ(scans.scans(), 2u);
 }
 
-TEST_F(LoggedScansTest, OwnReturnsAreLeftOut) {
+TEST_F(LoggedScansTest, SkipsOwnReturns) {
     LogSource source{poleLog(1), posesAt({10}), "", {}};
     source.own_reach_m = 6.5f;
     LoggedScan scan;
@@ -97,7 +97,7 @@ TEST_F(LoggedScansTest, OwnReturnsAreLeftOut) {
 }
 
 /// The recording was flown at 4 m/s, so that a turn is 0.4 m long.
-TEST_F(LoggedScansTest, EachReturnIsPlacedByThePoseAtItsOwnTime) {
+TEST_F(LoggedScansTest, PlacesReturnsAtTheirTimes) {
     LoggedScans scans({HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog", "", "", {}});
     EXPECT_THAT(scans.poseSource(), HasSubstr("CObservationRobotPose"));
     EXPECT_EQ(scans.scans(), 30u);
@@ -122,7 +122,7 @@ TEST_F(LoggedScansTest, EachReturnIsPlacedByThePoseAtItsOwnTime) {
     }
 }
 
-TEST_F(LoggedScansTest, ScansWithoutAPoseAreLeftOutAndCounted) {
+TEST_F(LoggedScansTest, SkipsScansWithoutPose) {
     LoggedScans scans({poleLog(4), posesAt({10, 12}), "", {}});
     EXPECT_EQ(scans.scans(), 4u);
     EXPECT_EQ(scans.scansWithoutPose(), 2u);
@@ -133,7 +133,7 @@ TEST_F(LoggedScansTest, ScansWithoutAPoseAreLeftOutAndCounted) {
     EXPECT_FALSE(scans.next(scan));
 }
 
-TEST_F(LoggedScansTest, TellsWhatIsMissing) {
+TEST_F(LoggedScansTest, ReportsMissingData) {
     EXPECT_THAT(messageOf({folder_ / "none.rawlog", "", "", {}}),
                 HasSubstr("none.rawlog: no such file"));
     EXPECT_THAT(messageOf({poleLog(1), "", "", {}}), HasSubstr("has no poses; provide them"));
@@ -155,12 +155,12 @@ TEST_F(LoggedScansTest, TellsWhatIsMissing) {
                 HasSubstr("has no LiDAR scan"));
 }
 
-TEST_F(LoggedScansTest, ReadingInAdvanceIsInterruptible) {
+TEST_F(LoggedScansTest, LookAheadIsInterruptible) {
     EXPECT_THROW(LoggedScans({poleLog(2), posesAt({10, 11}), "", {}}, [] { return false; }),
                  recordings::Interrupted);
 }
 
-TEST_F(LoggedScansTest, ABrokenLogGivesWhatIsBeforeTheBreak) {
+TEST_F(LoggedScansTest, ReadsTruncatedLogUpToBreak) {
     const fs::path log = poleLog(8);
     fs::resize_file(log, fs::file_size(log) * 3 / 4);
     LoggedScans scans({log, posesAt({10, 11, 12, 13, 14, 15, 16, 17}), "", {}});

@@ -90,7 +90,7 @@ const ObstacleTrack& trackNear(const ObstacleTracks& tracks, const Eigen::Vector
                              });
 }
 
-TEST(ObstacleTracks, FollowThroughChangingNumbers) {
+TEST(ObstacleTracks, SurviveChangingNumbers) {
     ObstacleTracks tracks;
     for (const auto& scan : walkerAndPost(10)) tracks.update(scan);
     ASSERT_EQ(tracks.tracks().size(), 2u);
@@ -99,18 +99,7 @@ TEST(ObstacleTracks, FollowThroughChangingNumbers) {
     EXPECT_EQ(tracks.trackOfObstacle(), (std::vector<std::uint32_t>{0, 2, 1}));
 }
 
-TEST(ObstacleTracks, NothingIsKnownOfTheVelocityAfterOneScan) {
-    ObstacleTracks tracks;
-    tracks.update(walkerAndPost(1).front());
-    ASSERT_EQ(tracks.tracks().size(), 2u);
-    for (const ObstacleTrack& track : tracks.tracks()) {
-        EXPECT_EQ(track.velocity_m_s, Eigen::Vector2d::Zero());
-        EXPECT_EQ(track.seen_scans, 1);
-        EXPECT_FALSE(track.is_moving);
-    }
-}
-
-TEST(ObstacleTracks, TellVelocityAndWhatStands) {
+TEST(ObstacleTracks, EstimateVelocities) {
     ObstacleTracks tracks;
     for (const auto& scan : walkerAndPost(12)) tracks.update(scan);
     const ObstacleTrack& walker = trackNear(tracks, moved(kWalker, kWalk_m_s, 1.2).at_m);
@@ -123,7 +112,7 @@ TEST(ObstacleTracks, TellVelocityAndWhatStands) {
 }
 
 /// Scans of a pillar that moves, of which only the part within a height is seen.
-std::vector<observations::MappedScan> slicesOfWalker(double most_height_m) {
+std::vector<observations::MappedScan> slicesOfWalker(double max_height_m) {
     simulation::Random random(5);
     std::vector<observations::MappedScan> all;
     for (int number = 0; number < 14; ++number) {
@@ -131,7 +120,7 @@ std::vector<observations::MappedScan> slicesOfWalker(double most_height_m) {
         addReturns(moved(kWalker, kWalk_m_s, whole.time_s), 1, 0, random, whole);
         for (std::size_t i = 0; i < whole.points_m.size(); ++i) {
             const auto above_m = static_cast<double>(whole.points_m[i].z()) - 0.7;
-            if (std::abs(above_m) > most_height_m / 2) continue;
+            if (std::abs(above_m) > max_height_m / 2) continue;
             scan.points_m.push_back(whole.points_m[i]);
             scan.labels.push_back(Label::Roi);
             scan.obstacles.push_back(1);
@@ -158,7 +147,7 @@ int movingScans(std::vector<observations::MappedScan> scans, int first_with_back
 }
 
 // Where no scan sees farther, it may be another part of what stands there.
-TEST(ObstacleTracks, OnlyWhatCrossesFreeSpaceMoves) {
+TEST(ObstacleTracks, MotionRequiresCrossingFreeSpace) {
     constexpr int kNever = 100;
     const auto walker = slicesOfWalker(1.5);
     EXPECT_EQ(movingScans(walker, kNever, kNever), 0);
@@ -168,7 +157,7 @@ TEST(ObstacleTracks, OnlyWhatCrossesFreeSpaceMoves) {
 }
 
 // Rays pass a wire on both sides: where its pieces were, and where they are.
-TEST(ObstacleTracks, WhatIsFlatNeedsBothSigns) {
+TEST(ObstacleTracks, FlatObstaclesNeedBothCriteria) {
     const auto slice = slicesOfWalker(0.1);
     EXPECT_GT(slice[0].points_m.size(), 3u);
     EXPECT_GT(movingScans(slice, 0, 100), 5);
@@ -177,7 +166,7 @@ TEST(ObstacleTracks, WhatIsFlatNeedsBothSigns) {
 }
 
 // A wall is seen more and more as the vehicle passes: its middle moves at 3 m/s, its points do not.
-TEST(ObstacleTracks, AWallOfWhichMoreIsSeenDoesNotMove) {
+TEST(ObstacleTracks, GrowingWallDoesNotMove) {
     ObstacleTracks tracks;
     simulation::Random random(2);
     for (int number = 0; number < 10; ++number) {
@@ -196,7 +185,7 @@ TEST(ObstacleTracks, AWallOfWhichMoreIsSeenDoesNotMove) {
     }
 }
 
-TEST(ObstacleTracks, NoiseMakesNothingMove) {
+TEST(ObstacleTracks, NoiseCausesNoMotion) {
     simulation::Random random(3);
     ObstacleTracks tracks;
     int moving = 0;
@@ -214,7 +203,7 @@ TEST(ObstacleTracks, NoiseMakesNothingMove) {
     EXPECT_EQ(moving, 0);  // of 2000
 }
 
-TEST(ObstacleTracks, AnObstacleThatIsHiddenForNineScansIsTheSame) {
+TEST(ObstacleTracks, SurviveNineHiddenScans) {
     ObstacleTracks tracks;
     const auto scans = walkerAndPost(18);
     for (int number = 0; number < 18; ++number) {
@@ -231,7 +220,7 @@ TEST(ObstacleTracks, AnObstacleThatIsHiddenForNineScansIsTheSame) {
     EXPECT_TRUE(tracks.tracks().empty());
 }
 
-TEST(ObstacleTracks, WithoutNumbersThereAreNone) {
+TEST(ObstacleTracks, NeedObstacleNumbers) {
     ObstacleTracks tracks;
     observations::MappedScan scan = walkerAndPost(1)[0];
     scan.obstacles.clear();
@@ -252,7 +241,7 @@ std::unique_ptr<WorldModel> modelOf(const std::string& name,
     return model;
 }
 
-TEST(MotionWindow, MoversAreWhereTheyWillBeAndLeaveNoTrail) {
+TEST(WindowWithMotion, PredictsMoversWithoutTrail) {
     const auto scans = walkerAndPost(12);
     const auto moving = modelOf("W-RoI+motion", scans), standing = modelOf("W-RoI", scans);
     const auto placeAfter = [&](double after_s) {
@@ -271,7 +260,7 @@ TEST(MotionWindow, MoversAreWhereTheyWillBeAndLeaveNoTrail) {
     EXPECT_EQ(standing->fastest_m_s(), 0);
 }
 
-TEST(MapWithMotion, MoversAreWhereTheyWillBeAndTheRestIsTheMap) {
+TEST(MapWithMotion, PredictsMoversAndKeepsMap) {
     const auto scans = walkerAndPost(12);
     for (const std::string name : {"G-Full", "R-Full-0.2"}) {
         const auto moving = modelOf(name + "+motion", scans), standing = modelOf(name, scans);
@@ -322,7 +311,7 @@ TEST(MapWithMotion, RaysUpToMoversClear) {
     }
 }
 
-TEST(MotionWindow, WhereNothingMovesItIsTheWindow) {
+TEST(WindowWithMotion, EqualsWindowWithoutMovers) {
     std::vector<observations::MappedScan> scans;
     simulation::Random random(4);
     for (int number = 0; number < 10; ++number) {
@@ -368,14 +357,14 @@ class BallModel : public WorldModel {
 /// The least distance from the ball's surface in 2 s, of which a command is held for 1.2 s.
 double nearestWay_m(const Eigen::Vector3d& command_m_s, double ball_first_m) {
     VehicleState state{{0, 0, 2}, {0, 0, 0}};
-    double least_m = 1e9;
+    double min_m = 1e9;
     for (double time_s = 0; time_s < 2; time_s += kControlStep_s) {
         const Eigen::Vector3d ball_m(ball_first_m - 3 * time_s, 0, 2);
-        least_m = std::min(least_m, (state.position_m - ball_m).norm() - 0.5);
+        min_m = std::min(min_m, (state.position_m - ball_m).norm() - 0.5);
         const Eigen::Vector3d held_m_s = time_s < 1.2 ? command_m_s : Eigen::Vector3d::Zero();
         state = advance(state, held_m_s, kControlStep_s, {});
     }
-    return least_m;
+    return min_m;
 }
 
 PlanningTask taskTowards(const Eigen::Vector3d& carrot_m, double start_after_s) {
@@ -387,7 +376,7 @@ PlanningTask taskTowards(const Eigen::Vector3d& carrot_m, double start_after_s) 
 }
 
 // Straight ahead there is room for the way until the vehicle stops, but the ball comes.
-TEST(MotionPrimitives, LeaveTheWayOfWhatComes) {
+TEST(MotionPrimitives, AvoidApproachingObstacle) {
     const PlanningTask task = taskTowards({12, 0, 2}, 0.3);
     const double ball_m = 6 - 3 * 0.3;
     const auto planner = makePlanner("primitives");
@@ -399,14 +388,14 @@ TEST(MotionPrimitives, LeaveTheWayOfWhatComes) {
 }
 
 // The ball stands in the way, or is gone before the vehicle is there.
-TEST(PolarHistogram, RanksDirectionsByWhereObstaclesWillBe) {
+TEST(PolarHistogram, RanksDirectionsByPrediction) {
     const PlanningTask task = taskTowards({20, 0, 2}, 0);
     const auto planner = makePlanner("3dvfh");
     EXPECT_EQ(planner->plan(BallModel(-3.0f), task).command_m_s.y(), 0);
     EXPECT_GT(std::abs(planner->plan(BallModel(false), task).command_m_s.y()), 0.3);
 }
 
-TEST(MotionPrimitives, EvadeWhereNothingIsFree) {
+TEST(MotionPrimitives, EvadeWhenNothingIsFree) {
     // Hovering at the goal; the ball's surface is 1.15 m away, and here 0.4 s later.
     const PlanningTask task = taskTowards({0, 0, 2}, 1.45);
     const double ball_m = 6 - 3 * 1.45;
@@ -422,7 +411,7 @@ TEST(MotionPrimitives, EvadeWhereNothingIsFree) {
     EXPECT_TRUE(!brakes.is_emergency || brakes.command_m_s.isZero());
 }
 
-TEST(MotionPrimitives, EvadeWithinTheAltitudesAndWithinKnownSpace) {
+TEST(MotionPrimitives, EvasionRespectsLimits) {
     PlanningTask task = taskTowards({0, 0, 2}, 1.45);
     const auto heightOf = [](const Plan& plan) { return plan.command_m_s.z(); };
     const auto planner = makePlanner("primitives");

@@ -22,13 +22,13 @@ using mrpt::poses::CPose3D;
 constexpr float kWall_m = 6;
 
 /// A model that knows flat ground and a wall from the start, and notes what it is told.
-class WallModel : public avoidance::WorldModel {
+class WallModel : public WorldModel {
  public:
     struct Notes {
         std::vector<Eigen::AlignedBox3f> bounds_m;  ///< an entry a model
         std::vector<int> updates;
     };
-    WallModel(const avoidance::WorldModelSetting& setting, Notes& notes) : notes_(notes) {
+    WallModel(const WorldModelSetting& setting, Notes& notes) : notes_(notes) {
         notes_.bounds_m.push_back(setting.bounds_m);
         notes_.updates.push_back(0);
     }
@@ -76,7 +76,7 @@ class OpenLoopTest : public testing::Test {
     /// Every model is a WallModel.
     OpenLoop wallsOnly(const fs::path& log) {
         OpenLoop open_loop = openLoop(log, {"W-Full"});
-        open_loop.make = [this](const std::string&, const avoidance::WorldModelSetting& setting) {
+        open_loop.make = [this](const std::string&, const WorldModelSetting& setting) {
             return std::make_unique<WallModel>(setting, notes_);
         };
         return open_loop;
@@ -85,7 +85,7 @@ class OpenLoopTest : public testing::Test {
     WallModel::Notes notes_;
 };
 
-TEST_F(OpenLoopTest, WhoKnowsTheWorldIsRightByTheLaterScansToo) {
+TEST_F(OpenLoopTest, PerfectModelScoresPerfectly) {
     const auto result = runOpenLoop(wallsOnly(wallFlight(8)));
     EXPECT_EQ(result.scans, 8u);
     const OpenLoopModel& model = result.models.at(0);
@@ -99,7 +99,7 @@ TEST_F(OpenLoopTest, WhoKnowsTheWorldIsRightByTheLaterScansToo) {
     EXPECT_EQ(result.scans_placed_by_one_pose, 8u);
 }
 
-TEST_F(OpenLoopTest, ModelsOfScansSeeTheWall) {
+TEST_F(OpenLoopTest, ModelsSeeWall) {
     const auto result = runOpenLoop(openLoop(wallFlight(8), {"W-RoI", "W-Full", "O-Full-0.4"}));
     for (const OpenLoopModel& model : result.models) {
         EXPECT_GE(model.level.recall(), 0.95) << model.name;
@@ -115,12 +115,11 @@ TEST_F(OpenLoopTest, ModelsOfScansSeeTheWall) {
     EXPECT_EQ(result.agreement[2][2], 1);
 }
 
-TEST_F(OpenLoopTest, RowsComeInOrderAndAddUp) {
+TEST_F(OpenLoopTest, RowsAddUpToTotals) {
     DirectionCounts sum;
     std::vector<std::size_t> scans;
     OpenLoopListener listener;
-    listener.row = [&](const OpenLoopRow& row, const OpenLoopCost& cost) {
-        EXPECT_EQ(row.scan, cost.scan);
+    listener.row = [&](const OpenLoopRow& row, const OpenLoopCost&) {
         EXPECT_EQ(row.all.hits + row.all.misses, row.truly_blocked);
         scans.push_back(row.scan);
         sum += row.all;
@@ -131,17 +130,7 @@ TEST_F(OpenLoopTest, RowsComeInOrderAndAddUp) {
     EXPECT_EQ(sum.scored, result.models[0].all.scored);
 }
 
-TEST_F(OpenLoopTest, OfTheLastScanNothingIsKnownByLaterOnes) {
-    std::size_t last_scored = 1;
-    OpenLoopListener listener;
-    listener.row = [&](const OpenLoopRow& row, const OpenLoopCost&) {
-        last_scored = row.all.scored;
-    };
-    runOpenLoop(wallsOnly(wallFlight(3)), listener);
-    EXPECT_EQ(last_scored, 0u);
-}
-
-TEST_F(OpenLoopTest, AShortFlightHasOneBoxOfMaps) {
+TEST_F(OpenLoopTest, ShortFlightNeedsNoReset) {
     const auto result = runOpenLoop(wallsOnly(wallFlight(5)));
     EXPECT_EQ(result.model_resets, 0u);
     EXPECT_EQ(notes_.bounds_m.size(), 1u);
@@ -149,7 +138,7 @@ TEST_F(OpenLoopTest, AShortFlightHasOneBoxOfMaps) {
     EXPECT_TRUE(notes_.bounds_m[0].contains(Eigen::Vector3f(-19.9f, 19.9f, 11.9f)));
 }
 
-TEST_F(OpenLoopTest, OnALongFlightMapsMoveWithTheVehicle) {
+TEST_F(OpenLoopTest, LongFlightResetsMaps) {
     // 10 m a second, away from the wall.
     const auto result = runOpenLoop(wallsOnly(wallFlight(25, -10, 1, 90)));
     EXPECT_GE(result.model_resets, 10u);
@@ -165,7 +154,7 @@ TEST_F(OpenLoopTest, OnALongFlightMapsMoveWithTheVehicle) {
     EXPECT_GE(notes_.updates.at(3), 3 + 2);
 }
 
-TEST_F(OpenLoopTest, RefusesWhatCannotBeCompared) {
+TEST_F(OpenLoopTest, RejectsInvalidRequests) {
     const fs::path log = folder_ / "none";
     EXPECT_THROW(runOpenLoop(openLoop(log, {})), std::invalid_argument);
     EXPECT_THROW(runOpenLoop(openLoop(log, {"W-Roy"})), std::invalid_argument);
@@ -177,7 +166,7 @@ TEST_F(OpenLoopTest, RefusesWhatCannotBeCompared) {
     EXPECT_THROW(runOpenLoop(jungle), std::invalid_argument);
 }
 
-TEST_F(OpenLoopTest, ASceneThatIsNotTheLogsIsNotTheTruth) {
+TEST_F(OpenLoopTest, RejectsWrongScene) {
     OpenLoop open_loop = openLoop(HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog", {"oracle"});
     open_loop.scene = {"wires", 1};
     EXPECT_THAT(test::messageOf([&] { runOpenLoop(open_loop); }),
@@ -185,7 +174,7 @@ TEST_F(OpenLoopTest, ASceneThatIsNotTheLogsIsNotTheTruth) {
 }
 
 /// The scans after a clock went back are no later scans of those before.
-TEST_F(OpenLoopTest, AClockThatGoesBackBeginsAnew) {
+TEST_F(OpenLoopTest, RestartsWhenClockGoesBack) {
     const fs::path log = wallFlight(8);
     const auto hitsWith = [&](double first_s) {
         std::ofstream times(log / "times.txt");
@@ -214,7 +203,7 @@ TEST_F(OpenLoopTest, AClockThatGoesBackBeginsAnew) {
               std::vector<std::size_t>(in_order.begin() + 1, in_order.end()));
 }
 
-TEST_F(OpenLoopTest, WhatWasDigestedBeforeABreakIsTold) {
+TEST_F(OpenLoopTest, KeepsResultsBeforeBreak) {
     const fs::path log = wallFlight(6);
     fs::resize_file(log / "velodyne/1004.bin", 1001);
     try {

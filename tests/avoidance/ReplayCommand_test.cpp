@@ -23,7 +23,7 @@ class ReplayCommand : public test::ProgramTest {
     std::string folder() const { return folder_.path().string(); }
     void writeRuns(const std::vector<Row>& runs) {
         std::string text = avoidance::runHeader() + "\n";
-        for (const Row& one : runs) text += avoidance::rowOf(one) + "\n";
+        for (const Row& one : runs) text += avoidance::rowOf(one, false) + "\n";
         folder_.write("runs.csv", text);
     }
 };
@@ -38,7 +38,7 @@ TEST_F(ReplayCommand, NamesMissingTable) {
 }
 
 TEST_F(ReplayCommand, ListsCommandsInstead) {
-    const std::string there_are = "there are closedloop, calibrate, distances, openloop, replay";
+    const std::string there_are = "there are closedloop, calibrate, openloop, replay";
     expectFailure({"fly"}, 2, "'fly' is not a command; " + there_are);
     expectFailure({}, 2, "no command given; " + there_are);
 }

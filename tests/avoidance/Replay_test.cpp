@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <hagen/avoidance/Calibration.h>
-#include <hagen/avoidance/Ending.h>
+#include <hagen/avoidance/FlightRecording.h>
 #include <hagen/avoidance/Replay.h>
 #include <hagen/mrpt/MrptScene.h>
 #include "SampleRuns.h"
@@ -16,8 +16,8 @@ using testing::HasSubstr;
 
 using namespace test;
 
-avoidance::Recording smallRecording() {
-    avoidance::Recording recording;
+avoidance::FlightRecording smallRecording() {
+    avoidance::FlightRecording recording;
     recording.run = test::runOf("gap", 1, "O-Full-0.4", "astar", kWon);
     recording.is_same = true;
     recording.ending = "reached the goal at 9.00 s";
@@ -34,7 +34,7 @@ avoidance::Recording smallRecording() {
     return recording;
 }
 
-TEST(Replay, APageHoldsCentimetresFromTheStart) {
+TEST(Replay, PageHoldsCentimetresFromStart) {
     const std::string page = avoidance::replayPage(smallRecording());
     // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
     EXPECT_THAT(page, HasSubstr("\"track\":\"ZADIACwB\""));
@@ -42,11 +42,11 @@ TEST(Replay, APageHoldsCentimetresFromTheStart) {
     EXPECT_THAT(page, HasSubstr("\"ending\":\"reached the goal at 9.00 s\""));
     EXPECT_THAT(page, HasSubstr("\"way_sizes\":[-2]"));  // not free
     EXPECT_THAT(page, HasSubstr("<title>gap, seed 1, OctoMap 0.4 m, A*, 4 m/s: success</title>"));
-    EXPECT_THAT(avoidance::replayPage(avoidance::Recording{}), HasSubstr("\"steps\":[]"));
+    EXPECT_THAT(avoidance::replayPage(avoidance::FlightRecording{}), HasSubstr("\"steps\":[]"));
 }
 
 TEST(Replay, PageEscapesItsTexts) {
-    avoidance::Recording recording = smallRecording();
+    avoidance::FlightRecording recording = smallRecording();
     recording.run.scenario = "a & <b>";
     recording.ending = "</script>";
     const std::string page = avoidance::replayPage(recording);
@@ -54,7 +54,7 @@ TEST(Replay, PageEscapesItsTexts) {
     EXPECT_THAT(page, HasSubstr("\"ending\":\"\\u003c/script>\""));
 }
 
-TEST(Replay, CanBeEndedWhileItFlies) {
+TEST(Replay, RecordingIsInterruptible) {
     struct Interrupted {};
     const avoidance::Run run = test::runOf("gap", 1, "W-RoI", "straight", test::kWon);
     const auto profile = avoidance::constantProfile(1);
@@ -65,7 +65,7 @@ TEST(Replay, CanBeEndedWhileItFlies) {
     EXPECT_THROW(avoidance::record(run, profile, {}, endAtTheThird), Interrupted);
 }
 
-TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
+TEST(Replay, SceneHoldsModelAtEnd) {
     const test::TemporaryFolder folder;
     avoidance::writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
     observations::Scene scene;
@@ -80,7 +80,7 @@ TEST(Replay, ASceneHoldsWhatTheModelHeldAtTheEnd) {
     EXPECT_EQ(roi->size(), 1u);
     ASSERT_NE(scene.getByName("vehicle"), nullptr);
     EXPECT_EQ(scene.getByName("vehicle")->getPose().x, 6);
-    avoidance::writeReplayScene(avoidance::Recording{}, folder / "empty.3Dscene", "empty");
+    avoidance::writeReplayScene(avoidance::FlightRecording{}, folder / "empty.3Dscene", "empty");
     // Blamed is the file that was asked for, not its temporary name.
     EXPECT_EQ(test::messageOf([&] {
                   avoidance::writeReplayScene({}, folder / "no/a.partial", "no/a.3Dscene");
@@ -101,8 +101,8 @@ avoidance::TrueScene smallScene() {
     return scene;
 }
 
-TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
-    avoidance::Recording recording = smallRecording();
+TEST(Replay, PageHoldsShapesAndPoses) {
+    avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
     const std::string page = avoidance::replayPage(recording);
     // Half centimetres: nine numbers, of which the fourth is 1 and the ninth 2.
@@ -119,9 +119,9 @@ TEST(Replay, APageHoldsShapesOnceAndWhereTheyStandAndMove) {
     EXPECT_THAT(page, HasSubstr("\"along_x\":1,\"along_y\":1,\"heights\":\"zv8=\""));  // -50: CE FF
 }
 
-TEST(Replay, ASceneHoldsWhatTrulyStands) {
+TEST(Replay, SceneHoldsTrueObstacles) {
     const test::TemporaryFolder folder;
-    avoidance::Recording recording = smallRecording();
+    avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
     recording.scene.ground = {{0, 0}, 2, 3, 2, {1.5, 2.5, 3.5, 1.5, 2.5, 3.5}};
     avoidance::writeReplayScene(recording, folder / "a.3Dscene", "a");
@@ -139,7 +139,7 @@ TEST(Replay, ASceneHoldsWhatTrulyStands) {
     EXPECT_EQ(ground->getBoundingBox().max.z, 3.5f);
 }
 
-TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
+TEST(TrueScene, MatchesCourse) {
     const avoidance::Course course = avoidance::makeCourse("movers", 3);
     const simulation::SceneContent& content = course.scene.content();
     const avoidance::TrueScene seen = avoidance::trueSceneOf(course.scene, course.bounds_m, 3);
@@ -162,10 +162,10 @@ TEST(TrueScene, HasAllButTheGroundAndMoversWhereTheyAreAtEachTime) {
     const avoidance::TrueScene::Ground& ground = seen.ground;
     ASSERT_EQ(ground.heights_m.size(), std::size_t(ground.along_x * ground.along_y));
     EXPECT_EQ(ground.heights_m[std::size_t(3 * ground.along_x + 5)],
-              content.terrain.height_m(ground.least_m.x() + 10, ground.least_m.y() + 6));
+              content.terrain.height_m(ground.min_m.x() + 10, ground.min_m.y() + 6));
 }
 
-TEST(Ending, NamesWhatWasHitHowNearAndWhen) {
+TEST(Ending, DescribesOutcome) {
     const avoidance::Course course = avoidance::makeCourse("movers", 3);
     avoidance::TrialResult result{};
     result.time_s = 2.5;

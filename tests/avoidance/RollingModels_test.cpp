@@ -11,16 +11,8 @@
 #include <string>
 #include <vector>
 
+namespace hagen::avoidance {
 namespace {
-
-/// The distances of their voxels, without the correction of their bias.
-std::unique_ptr<hagen::avoidance::WorldModel> makeAsStored(
-    const std::string& name, hagen::avoidance::WorldModelSetting setting) {
-    setting.distance = hagen::avoidance::ModelDistance::AsStored;
-    return hagen::avoidance::makeWorldModel(name, setting);
-}
-
-using namespace hagen;
 
 const std::vector<std::string> kNames{"R-Full-0.1", "R-Full-0.2", "D-Full"};
 // At 4 m/s, in x, y, z; and what a box may hold in addition, as it consists of whole groups.
@@ -29,8 +21,8 @@ constexpr float kMore_m = 4;
 
 float edgeOf(const std::string& name) { return name == "R-Full-0.1" ? 0.1f : 0.2f; }
 
-std::unique_ptr<avoidance::WorldModel> make(const std::string& name) {
-    return makeAsStored(name, {{}, nullptr, {}});
+std::unique_ptr<WorldModel> make(const std::string& name, const FlightPace& pace = {}) {
+    return makeWorldModel(name, {{}, nullptr, pace, ModelDistance::AsStored});
 }
 
 observations::MappedScan scanOf(const Eigen::Vector3f& origin,
@@ -52,8 +44,8 @@ std::vector<Eigen::Vector3f> randomPoints(simulation::Random& random, const Eige
 }
 
 /// Distance to the nearest face of any voxel, one by one.
-float bruteForce(const avoidance::WorldModel::Obstacles& voxels, const Eigen::Vector3f& at) {
-    float least = avoidance::WorldModel::kReach_m;
+float bruteForce(const WorldModel::Obstacles& voxels, const Eigen::Vector3f& at) {
+    float least = WorldModel::kReach_m;
     for (const Eigen::Vector3f& centre : voxels.centre_m) {
         const Eigen::Array3f beyond =
             ((at - centre).array().abs() - voxels.edge_m / 2).max(Eigen::Array3f::Zero());
@@ -62,7 +54,7 @@ float bruteForce(const avoidance::WorldModel::Obstacles& voxels, const Eigen::Ve
     return least;
 }
 
-TEST(RollingModels, ClearanceIsThatOfTheirVoxelsWhileTheBoxMoves) {
+TEST(RollingModels, ClearanceMatchesVoxelsWhileMoving) {
     const std::vector<Eigen::Vector3f> steps{
         {0.3f, 0.1f, 0},       {0.5f, -0.7f, 0.2f}, {-3.1f, 5.3f, -2},  {7, 0, 0},
         {0, -13, 1},           {-21, -22, 9},       {0.1f, 0.1f, 0.1f}, {400, 0, 0},
@@ -92,7 +84,7 @@ TEST(RollingModels, ClearanceIsThatOfTheirVoxelsWhileTheBoxMoves) {
 }
 
 /// As for an OctoMap, which is neither cut to a box nor in bytes.
-TEST(RollingModels, ARollingGridHoldsWhatAnOctoMapHolds) {
+TEST(RollingModels, GridMatchesOctoMap) {
     for (const std::string name : {"R-Full-0.1", "R-Full-0.2"}) {
         const float edge = edgeOf(name);
         simulation::Random random(4);
@@ -140,7 +132,7 @@ TEST(RollingModels, ARollingGridHoldsWhatAnOctoMapHolds) {
 }
 
 /// OctoMap's log odds: -2 to 3.5, +0.85 per hit, -0.41 per miss.
-TEST(RollingModels, ARollingGridChangesItsMindAsFastAsAnOctoMap) {
+TEST(RollingModels, GridUpdatesAsFastAsOctoMap) {
     const Eigen::Vector3f origin(0, 0, 0), here(3.15f, 0.05f, 0.05f), beyond = 2 * here;
     for (const std::string name : {"R-Full-0.1", "R-Full-0.2"}) {
         const auto model = make(name);
@@ -159,7 +151,7 @@ TEST(RollingModels, ARollingGridChangesItsMindAsFastAsAnOctoMap) {
     }
 }
 
-TEST(RollingModels, WhatIsNearStaysAndWhatLeavesTheBoxIsForgotten) {
+TEST(RollingModels, ForgetsOnlyWhatLeavesBox) {
     for (const std::string& name : kNames) {
         simulation::Random random(5);
         const auto model = make(name);
@@ -195,7 +187,7 @@ TEST(RollingModels, WhatIsNearStaysAndWhatLeavesTheBoxIsForgotten) {
     }
 }
 
-TEST(RollingModels, MemoryIsConstantOnALongFlight) {
+TEST(RollingModels, MemoryStaysConstant) {
     for (const std::string& name : kNames) {
         simulation::Random random(6);
         const auto model = make(name);
@@ -213,7 +205,7 @@ TEST(RollingModels, MemoryIsConstantOnALongFlight) {
     }
 }
 
-TEST(RollingModels, TheSameScansGiveTheSame) {
+TEST(RollingModels, IgnoresOrderOfReturns) {
     for (const std::string& name : kNames) {
         simulation::Random random(7);
         const auto one = make(name), other = make(name);
@@ -234,12 +226,12 @@ TEST(RollingModels, TheSameScansGiveTheSame) {
 }
 
 /// Faster flights reach farther, also up and down.
-TEST(RollingModels, TheBoxGrowsWithThePace) {
+TEST(RollingModels, BoxGrowsWithSpeed) {
     for (const std::string& name : kNames) {
-        avoidance::FlightPace pace;
+        FlightPace pace;
         for (const double speed_m_s : {4.0, 10.0}) {
             pace.speed_m_s = speed_m_s;
-            const auto model = makeAsStored(name, {{}, nullptr, pace});
+            const auto model = make(name, pace);
             model->update(scanOf({0, 0, 0}, {{26, 0.05f, 0.05f}, {0.05f, 4, 8.5f}}));
             EXPECT_EQ(model->clearance_m({26, 0.05f, 0.05f}) == 0, speed_m_s == 10) << name;
             EXPECT_EQ(model->clearance_m({0.05f, 4, 8.5f}) == 0, speed_m_s == 10) << name;
@@ -265,7 +257,7 @@ std::vector<Eigen::Vector3f> rows(const Eigen::Vector3f& origin, float pillar_m)
 }
 
 /// Voxel by voxel against the returns, by angles.
-TEST(DepthImageMap, IsKnownWhereReturnsLieBeyond) {
+TEST(DepthImageMap, KnownSpaceMatchesBruteForce) {
     constexpr float kEdge_m = 0.2f, kDegree = static_cast<float>(M_PI / 180);
     const Eigen::Vector3f origin(0.11f, -0.05f, 1.02f);
     const auto points = rows(origin, 5);
@@ -312,7 +304,7 @@ TEST(DepthImageMap, IsKnownWhereReturnsLieBeyond) {
     EXPECT_GT(must_be_known, 80);
 }
 
-TEST(DepthImageMap, BetweenRowsIsKnownOnlyNearThem) {
+TEST(DepthImageMap, IsUnknownBetweenRows) {
     const auto model = make("D-Full");
     const Eigen::Vector3f origin(0, 0, 0);
     std::vector<Eigen::Vector3f> row;  // only one, level
@@ -325,7 +317,7 @@ TEST(DepthImageMap, BetweenRowsIsKnownOnlyNearThem) {
     EXPECT_FALSE(model->isKnown({10.1f, 0.1f, -0.9f}));
 }
 
-TEST(DepthImageMap, WhatIsKnownStaysKnown) {
+TEST(DepthImageMap, KnownSpaceStaysKnown) {
     const auto model = make("D-Full");
     const Eigen::Vector3f origin(0.11f, -0.05f, 1.02f);
     std::vector<Eigen::Vector3f> known;
@@ -342,7 +334,7 @@ TEST(DepthImageMap, WhatIsKnownStaysKnown) {
 }
 
 /// Three images that see through a pillar make it disappear, and only it.
-TEST(DepthImageMap, APillarThatIsSeenThroughDisappears) {
+TEST(DepthImageMap, RemovesPillarSeenThrough) {
     const auto model = make("D-Full");
     const Eigen::Vector3f origin(0.11f, -0.05f, 1.02f), beside = origin + Eigen::Vector3f(4, 0, 0);
     model->update(scanOf(origin, rows(origin, 5)));
@@ -356,7 +348,7 @@ TEST(DepthImageMap, APillarThatIsSeenThroughDisappears) {
 }
 
 /// A voxel in which one ray ends and past which another goes is not seen through.
-TEST(DepthImageMap, AVoxelWithAReturnInItIsNotCleared) {
+TEST(DepthImageMap, KeepsVoxelWithReturn) {
     const auto model = make("D-Full");
     std::vector<Eigen::Vector3f> points;
     for (float y = -0.5f; y <= 0.5f; y += 0.01f) {
@@ -373,3 +365,4 @@ TEST(DepthImageMap, AVoxelWithAReturnInItIsNotCleared) {
 }
 
 }  // namespace
+}  // namespace hagen::avoidance

@@ -29,22 +29,22 @@ Row someRun() {
     return run;
 }
 
-TEST(RunTable, AnExampleReadsAsTheHeaderSays) {
+TEST(RunTable, RowMatchesHeader) {
     EXPECT_EQ(runHeader(),
               "scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,"
               "pose_error,latency_scale,unknown,oracle_path_m,first_reaction_m,rms_jerk_m_s3,scans,"
               "dropped_scans,emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,"
               "version,air,distance");
-    EXPECT_EQ(rowOf(someRun()),
+    EXPECT_EQ(rowOf(someRun(), false),
               "forest-0.05,1007,W-RoI,astar,4,success,0.7312,43.250,12.340,primitives,none,1,"
               "optimistic,41.500,,21.500,123,4,1,3.500,7.250,9.000,1234abcd,0.1.0,dusty,unbiased");
 }
 
-TEST(RunTable, NothingIsMinusZeroAndNothingDependsOnTheLocale) {
+TEST(RunTable, IgnoresLocaleAndNegativeZero) {
     Row run = someRun();
     run.result.min_clearance_m = -1e-9;
     std::setlocale(LC_ALL, "de_DE.UTF-8");  // decimal commas, where it is installed
-    const std::string row = rowOf(run);
+    const std::string row = rowOf(run, false);
     std::setlocale(LC_ALL, "C");
     EXPECT_THAT(row, HasSubstr(",success,0.0000,43.250,"));
 }
@@ -74,20 +74,20 @@ Row anyRun(simulation::Random& random) {
     return run;
 }
 
-TEST(RunTable, WhatIsWrittenIsReadAndWrittenTheSameAgain) {
+TEST(RunTable, RoundTrips) {
     const test::TemporaryFolder folder;
     simulation::Random random(1);
-    std::string text = fullRunHeader() + "\n";
-    for (int r = 0; r < 300; ++r) text += fullRowOf(anyRun(random)) + "\n";
+    std::string text = runHeader(true) + "\n";
+    for (int r = 0; r < 300; ++r) text += rowOf(anyRun(random), true) + "\n";
     const std::vector<Row> runs = readRuns(folder.write("runs.csv", text));
     ASSERT_EQ(runs.size(), 300u);
-    std::string again = fullRunHeader() + "\n";
-    for (const Row& run : runs) again += fullRowOf(run) + "\n";
+    std::string again = runHeader(true) + "\n";
+    for (const Row& run : runs) again += rowOf(run, true) + "\n";
     EXPECT_EQ(again, text);
     EXPECT_TRUE(std::isnan(runs[0].result.first_reaction_m));
 }
 
-TEST(RunTable, AKeyIsTheCourseAndSetupOfARowAndIsReadBack) {
+TEST(RunTable, KeyRoundTrips) {
     EXPECT_EQ(keyOf(someRun()),
               "forest-0.05,1007,W-RoI,astar,4,primitives,none,1,optimistic,dusty,unbiased");
     simulation::Random random(3);
@@ -99,7 +99,7 @@ TEST(RunTable, AKeyIsTheCourseAndSetupOfARowAndIsReadBack) {
         unflown.oracle_path_m = run.oracle_path_m;
         unflown.settings_hash = run.settings_hash;
         unflown.version = run.version;
-        EXPECT_EQ(rowOf(unflown), rowOf(run));
+        EXPECT_EQ(rowOf(unflown, true), rowOf(run, true));
     }
     EXPECT_EQ(test::messageOf([] { runOfKey("gap,1"); }), "2 fields, not 11");
     EXPECT_EQ(test::messageOf([] {
@@ -108,7 +108,7 @@ TEST(RunTable, AKeyIsTheCourseAndSetupOfARowAndIsReadBack) {
               "column seed: \"x\" is not a number");
 }
 
-TEST(RunTable, TheOrderDoesNotDependOnTheOneBefore) {
+TEST(RunTable, SortingIsDeterministic) {
     simulation::Random random(2);
     std::vector<Row> runs;
     for (int r = 0; r < 200; ++r) runs.push_back(anyRun(random));
@@ -116,23 +116,17 @@ TEST(RunTable, TheOrderDoesNotDependOnTheOneBefore) {
     sortRuns(runs);
     sortRuns(reversed);
     ASSERT_EQ(runs.size(), reversed.size());
-    for (std::size_t r = 0; r < runs.size(); ++r) EXPECT_EQ(rowOf(runs[r]), rowOf(reversed[r]));
+    for (std::size_t r = 0; r < runs.size(); ++r)
+        EXPECT_EQ(rowOf(runs[r], true), rowOf(reversed[r], true));
     EXPECT_TRUE(std::is_sorted(runs.begin(), runs.end(), [](const Row& a, const Row& b) {
         return a.scenario < b.scenario ||
                (a.scenario == b.scenario && a.setup.speed_m_s < b.setup.speed_m_s);
     }));
 }
 
-TEST(RunTable, ATableWithoutRunsIsEmpty) {
+TEST(RunTable, NamesBrokenLineAndColumn) {
     const test::TemporaryFolder folder;
-    EXPECT_TRUE(readRuns(folder.write("runs.csv", runHeader() + "\n")).empty());
-    std::vector<Row> none;
-    sortRuns(none);
-}
-
-TEST(RunTable, SaysWhichLineAndColumnIsBroken) {
-    const test::TemporaryFolder folder;
-    const std::string good = rowOf(someRun());
+    const std::string good = rowOf(someRun(), false);
     const auto broken = [&](const std::string& row) {
         return test::messageOf([&] {
             readRuns(folder.write("runs.csv", runHeader() + "\n" + good + "\n" + row + "\n"));
@@ -160,9 +154,9 @@ TEST(RunTable, SaysWhichLineAndColumnIsBroken) {
               at + "column unknown: \"\" is not one of optimistic, brake_known");
 }
 
-TEST(RunTable, OlderTablesAreOfClearAirAndDistancesAsStored) {
+TEST(RunTable, ReadsOlderTables) {
     const test::TemporaryFolder folder;
-    std::string header = runHeader(), row = rowOf(someRun());
+    std::string header = runHeader(), row = rowOf(someRun(), false);
     const auto drop = [](std::string& line) { line.erase(line.rfind(',')); };
     drop(header);
     drop(row);
@@ -176,40 +170,40 @@ TEST(RunTable, OlderTablesAreOfClearAirAndDistancesAsStored) {
     EXPECT_EQ(readRuns(file)[0].setup.air, Air::Clear);
     EXPECT_EQ(readRuns(file)[0].setup.distance, ModelDistance::AsStored);
     EXPECT_EQ(readRuns(file)[0].version, "0.1.0");
-    folder.write("runs.csv", header + "\n" + rowOf(someRun()) + "\n");
+    folder.write("runs.csv", header + "\n" + rowOf(someRun(), false) + "\n");
     EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":2: 26 fields, not 24"));
     drop(header);
     folder.write("runs.csv", header + "\n");
     EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":1: not the header"));
 }
 
-TEST(RunTable, RunsWithSectorsHaveAColumnMoreAndTablesWithOneInAllRows) {
+TEST(RunTable, SectorsAddAColumn) {
     const Row scans = someRun();
     Row sectors = scans;
     sectors.setup.updates = Updates::Sectors;
-    EXPECT_EQ(rowOf(sectors), rowOf(scans) + ",sectors");
+    EXPECT_EQ(rowOf(sectors, true), rowOf(scans, false) + ",sectors");
     EXPECT_EQ(keyOf(sectors), keyOf(scans) + ",sectors");
-    EXPECT_EQ(fullRowOf(scans), rowOf(scans) + ",scans");
-    EXPECT_EQ(fullRunHeader(), runHeader() + ",updates");
-    EXPECT_FALSE(needsAllColumns(scans));
-    EXPECT_TRUE(needsAllColumns(sectors));
+    EXPECT_EQ(rowOf(scans, true), rowOf(scans, false) + ",scans");
+    EXPECT_EQ(runHeader(true), runHeader() + ",updates");
+    EXPECT_FALSE(needsUpdates(scans));
+    EXPECT_TRUE(needsUpdates(sectors));
     EXPECT_EQ(runOfKey(keyOf(sectors)).setup.updates, Updates::Sectors);
     EXPECT_EQ(runOfKey(keyOf(scans)).setup.updates, Updates::Scans);
     const test::TemporaryFolder folder;
-    const auto file = folder.write(
-        "runs.csv", fullRunHeader() + "\n" + fullRowOf(scans) + "\n" + fullRowOf(sectors) + "\n");
+    const auto file = folder.write("runs.csv", runHeader(true) + "\n" + rowOf(scans, true) + "\n" +
+                                                   rowOf(sectors, true) + "\n");
     const std::vector<Row> runs = readRuns(file);
     ASSERT_EQ(runs.size(), 2u);
-    EXPECT_EQ(rowOf(runs[0]), rowOf(scans));
-    EXPECT_EQ(rowOf(runs[1]), rowOf(sectors));
-    folder.write("runs.csv", fullRunHeader() + "\n" + rowOf(scans) + "\n");
+    EXPECT_EQ(rowOf(runs[0], true), rowOf(scans, true));
+    EXPECT_EQ(rowOf(runs[1], true), rowOf(sectors, true));
+    folder.write("runs.csv", runHeader(true) + "\n" + rowOf(scans, false) + "\n");
     EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":2: 26 fields, not 27"));
-    folder.write("runs.csv", fullRunHeader() + "\n" + rowOf(scans) + ",turns\n");
+    folder.write("runs.csv", runHeader(true) + "\n" + rowOf(scans, false) + ",turns\n");
     EXPECT_THAT(test::messageOf([&] { readRuns(file); }),
                 HasSubstr("column updates: \"turns\" is not one of scans, sectors"));
 }
 
-TEST(RunTable, SaysWhichFileIsNoTable) {
+TEST(RunTable, NamesInvalidFile) {
     const test::TemporaryFolder folder;
     const auto said = [](const std::filesystem::path& file) {
         return test::messageOf([&] { readRuns(file); });
@@ -220,28 +214,12 @@ TEST(RunTable, SaysWhichFileIsNoTable) {
     EXPECT_THAT(said(folder.write("b.csv", "a,b\n1,2\n")), HasSubstr("b.csv:1: not the header"));
 }
 
-TEST(RunTable, NamesOfPoseErrorsAreReadBack) {
-    EXPECT_EQ(poseErrorFrom("drift"), PoseError::Drift);
-    EXPECT_EQ(nameOf(PoseError::Noise), "noise");
-    EXPECT_THROW(poseErrorFrom("fog"), std::invalid_argument);
-}
-
-TEST(RunTable, NamesOfAirsAreReadBack) {
-    EXPECT_EQ(airFrom("clear"), Air::Clear);
-    EXPECT_EQ(nameOf(Air::Dusty), "dusty");
+TEST(FlightConditions, NamesAreReadBack) {
+    EXPECT_EQ(poseErrorFrom(nameOf(PoseError::Drift)), PoseError::Drift);
+    EXPECT_EQ(airFrom(nameOf(Air::Clear)), Air::Clear);
+    EXPECT_EQ(updatesFrom(nameOf(Updates::Sectors)), Updates::Sectors);
+    EXPECT_EQ(distanceFrom(nameOf(ModelDistance::AsStored)), ModelDistance::AsStored);
     EXPECT_THROW(airFrom("fog"), std::invalid_argument);
-}
-
-TEST(RunTable, NamesOfUpdatesAreReadBack) {
-    EXPECT_EQ(updatesFrom("sectors"), Updates::Sectors);
-    EXPECT_EQ(nameOf(Updates::Scans), "scans");
-    EXPECT_THROW(updatesFrom("turns"), std::invalid_argument);
-}
-
-TEST(RunTable, NamesOfDistancesAreReadBack) {
-    EXPECT_EQ(distanceFrom("as-stored"), ModelDistance::AsStored);
-    EXPECT_EQ(nameOf(ModelDistance::Unbiased), "unbiased");
-    EXPECT_THROW(distanceFrom("far"), std::invalid_argument);
 }
 
 }  // namespace

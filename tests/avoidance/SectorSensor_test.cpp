@@ -16,12 +16,12 @@ using test::emptyContent;
 using test::putWall;
 using test::simpleCourse;
 
-constexpr double kStep_s = avoidance::kControlStep_s;
+constexpr double kStep_s = kControlStep_s;
 constexpr double kLongestSector_s = 0.1 * 15 / 360;
 
 /// A flight along x at a speed, which turns aside from 0.25 s on.
 FlightTrace traceUntil(int steps, double speed_m_s = 8) {
-    avoidance::VehicleState state{{0, 0, 2}, {speed_m_s, 0, 0}};
+    VehicleState state{{0, 0, 2}, {speed_m_s, 0, 0}};
     FlightTrace trace(state);
     for (int step = 0; step < steps; ++step) {
         const Eigen::Vector3d push(0, kStep_s * step < 0.25 ? 0 : 5, 0);
@@ -53,7 +53,7 @@ std::vector<observations::MappedScan> sectorsOf(const Course& course, Air air, P
     return sectors;
 }
 
-TEST(SectorSensor, ASectorIsAtMostFifteenDegreesAndThereWithItsLastPacket) {
+TEST(SectorSensor, SectorsEndWithTheirLastPacket) {
     const auto sectors = sectorsOf(courseWithWall(), Air::Clear, PoseError::None, 15);
     ASSERT_GT(sectors.size(), 70u);
     double last_s = 0, turns = 0;
@@ -73,7 +73,7 @@ TEST(SectorSensor, ASectorIsAtMostFifteenDegreesAndThereWithItsLastPacket) {
 }
 
 /// Simulating parts of a turn is tested with the simulation: AllPartsOfATurnAreTheTurn.
-TEST(SectorSensor, AllReturnsOfTurnsComeOnceAndLieWhereThoseOfTheWholeScanDo) {
+TEST(SectorSensor, ReturnsMatchWholeScans) {
     const Course course = courseWithWall();
     const TrialSensor whole(course, Air::Dusty);
     const FlightTrace trace = traceUntil(20);
@@ -109,7 +109,7 @@ TEST(SectorSensor, AllReturnsOfTurnsComeOnceAndLieWhereThoseOfTheWholeScanDo) {
     }
 }
 
-TEST(SectorSensor, LabelsAreThoseOfTheWholeScanButForAFew) {
+TEST(SectorSensor, LabelsMatchGround) {
     const Course course = courseWithWall();
     int right = 0, all = 0;
     double turns = 0;
@@ -133,9 +133,9 @@ TEST(SectorSensor, LabelsAreThoseOfTheWholeScanButForAFew) {
 /// When the model knows of an obstacle at a point.
 double knownAt_s(const std::string& name, bool by_sectors, const Eigen::Vector3f& point_m) {
     const Course course = courseWithWall();
-    avoidance::WorldModelSetting setting;
+    WorldModelSetting setting;
     setting.bounds_m = course.bounds_m.cast<float>();
-    const auto model = avoidance::makeWorldModel(name, setting);
+    const auto model = makeWorldModel(name, setting);
     const FlightTrace trace = traceUntil(20, 0);  // hovers
     PoseBelief belief(PoseError::None, 3);
     SectorSensor sectors(course, Air::Clear);
@@ -156,7 +156,7 @@ double knownAt_s(const std::string& name, bool by_sectors, const Eigen::Vector3f
     return 1;
 }
 
-TEST(SectorSensor, AWallIsInTheWorldModelOneSectorAfterItIsSeen) {
+TEST(SectorSensor, WallReachesModelWithinSector) {
     for (const char* model : {"W-RoI", "W-Full", "R-Full-0.2", "O-Full-0.4"}) {
         for (const float y_m : {-3.0f, 3.0f}) {
             const Eigen::Vector3f on_wall(10, y_m, 2);
@@ -172,7 +172,7 @@ TEST(SectorSensor, AWallIsInTheWorldModelOneSectorAfterItIsSeen) {
     }
 }
 
-TEST(SectorSensor, JoinedSectorsHaveAllReturnsAndTheirAges) {
+TEST(SectorSensor, JoinedSectorsKeepReturnsAndAges) {
     const auto sectors = sectorsOf(courseWithWall(), Air::Dusty, PoseError::None, 10);
     const observations::MappedScan all = joined(sectors);
     std::size_t at = 0;

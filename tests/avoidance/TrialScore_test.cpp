@@ -13,7 +13,7 @@ using test::emptyContent;
 using test::putWall;
 using test::simpleCourse;
 
-TEST(TrialJudge, ACollisionComesBeforeTheGoal) {
+TEST(TrialJudge, CollisionPrecedesGoal) {
     const Course course = simpleCourse(emptyContent());
     TrialJudge judge(course, 4);
     EXPECT_EQ(judge.judge({20, 0, 2}, 0.29, 0.3, 1), Outcome::Collision);
@@ -21,7 +21,7 @@ TEST(TrialJudge, ACollisionComesBeforeTheGoal) {
     EXPECT_EQ(judge.judge({18.4, 0, 2}, 2, 0.3, 1), std::nullopt);
 }
 
-TEST(TrialJudge, WhoComesNoNearerIsLateAndWhoLeavesTheCourseIsLost) {
+TEST(TrialJudge, TimesOutWithoutProgress) {
     const Course course = simpleCourse(emptyContent());
     TrialJudge judge(course, 4);  // may stall for 20 / 4 + 10 s
     EXPECT_EQ(judge.judge({5, 0, 2}, 2, 0.3, 2), std::nullopt);
@@ -32,7 +32,7 @@ TEST(TrialJudge, WhoComesNoNearerIsLateAndWhoLeavesTheCourseIsLost) {
     EXPECT_EQ(other.judge({5, 13.1, 2}, 2, 0.3, 2), Outcome::Timeout);
 }
 
-TEST(TrialJudge, NoFlightIsEndless) {
+TEST(TrialJudge, LimitsFlightTime) {
     const Course course = simpleCourse(emptyContent());
     TrialJudge judge(course, 4);
     for (double time_s = 0; time_s < 34.9; time_s += 5) {  // a metre and a bit in five seconds
@@ -42,7 +42,7 @@ TEST(TrialJudge, NoFlightIsEndless) {
     EXPECT_EQ(TrialJudge::longestFlight_s(course, 4), 35);
 }
 
-TEST(FreeDistance, EndsWhereTheRoomDoes) {
+TEST(FreeDistance, EndsAtObstacle) {
     simulation::SceneContent content = emptyContent();
     EXPECT_TRUE(std::isnan(freeDistance_m(simpleCourse(content), {0, 0, 2}, 0.65, 0)));
     putWall(content, -5, 5);
@@ -52,7 +52,7 @@ TEST(FreeDistance, EndsWhereTheRoomDoes) {
     EXPECT_TRUE(std::isnan(freeDistance_m(course, {12, 0, 2}, 0.65, 0)));
 }
 
-TEST(LeavesCourse, AsideOrSlow) {
+TEST(LeavesCourse, DetectsTurnsAndBraking) {
     const Eigen::Vector3d ahead(20, 0, 0);
     const auto towards = [](double angle_deg, double speed) {
         return Eigen::Vector3d(speed * std::cos(radians(angle_deg)),

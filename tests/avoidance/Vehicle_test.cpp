@@ -4,7 +4,7 @@
 namespace hagen::avoidance {
 namespace {
 
-TEST(Vehicle, AcceleratesTowardsTheCommandWithinItsLimits) {
+TEST(Vehicle, AcceleratesWithinLimits) {
     const VehicleLimits limits;
     const Eigen::Vector3d hard = accelerationFor({}, {8, 6, 0}, limits);
     EXPECT_TRUE(hard.isApprox(Eigen::Vector3d(4, 3, 0)));
@@ -12,7 +12,7 @@ TEST(Vehicle, AcceleratesTowardsTheCommandWithinItsLimits) {
     EXPECT_TRUE(soft.isApprox(Eigen::Vector3d(2.5, 0, 0)));
 }
 
-TEST(Vehicle, StopsAfterTheWayThatPhysicsTells) {
+TEST(Vehicle, StoppingDistanceMatchesPhysics) {
     const VehicleLimits limits;
     VehicleState state{{0, 0, 2}, {4, 0, 0}};
     for (int step = 0; step < 200; ++step) {
@@ -23,11 +23,50 @@ TEST(Vehicle, StopsAfterTheWayThatPhysicsTells) {
     EXPECT_NEAR(state.velocity_m_s.norm(), 0, 1e-6);
 }
 
-TEST(Vehicle, AStepOfNothingChangesNothing) {
+TEST(Vehicle, ZeroStepChangesNothing) {
     const VehicleState state{{1, 2, 3}, {4, 5, 6}};
     const VehicleState same = advance(state, {0, 0, 0}, 0, {});
     EXPECT_EQ(same.position_m, state.position_m);
     EXPECT_EQ(same.velocity_m_s, state.velocity_m_s);
+}
+
+TEST(CommandQueue, NoCommandMeansNoMotion) {
+    const CommandQueue commands;
+    const VehicleState state =
+        commands.advanced({{1, 2, 3}, Eigen::Vector3d::Zero()}, 0, 1, VehicleLimits{});
+    EXPECT_EQ(state.position_m, Eigen::Vector3d(1, 2, 3));
+    EXPECT_EQ(state.velocity_m_s, Eigen::Vector3d::Zero());
+}
+
+TEST(CommandQueue, FollowsCommandsOnTime) {
+    CommandQueue commands;
+    commands.add(0.113, {4, 0, 0});
+    commands.add(0.5, {0, 0, 0});
+    EXPECT_EQ(commands.at(0.1), Eigen::Vector3d::Zero());
+    EXPECT_EQ(commands.at(0.2), Eigen::Vector3d(4, 0, 0));
+    EXPECT_EQ(commands.at(0.6), Eigen::Vector3d::Zero());
+    const VehicleLimits limits;
+    const VehicleState before = commands.advanced(VehicleState{}, 0, 0.113, limits);
+    EXPECT_EQ(before.velocity_m_s.x(), 0);
+    // Saturated: 5 m/s^2 for 0.2 s, of which every millisecond counts.
+    const VehicleState after = commands.advanced(VehicleState{}, 0, 0.313, limits);
+    EXPECT_NEAR(after.velocity_m_s.x(), 1.0, 1e-12);
+    EXPECT_NEAR(after.position_m.x(), 0.5 * 5 * 0.04, 1e-12);
+}
+
+TEST(CommandQueue, ForgettingKeepsFuture) {
+    CommandQueue all, some;
+    for (CommandQueue* commands : {&all, &some}) {
+        commands->add(0.1, {1, 0, 0});
+        commands->add(0.2, {0, 2, 0});
+        commands->add(0.3, {0, 0, 1});
+    }
+    some.forgetBefore(0.25);
+    const VehicleLimits limits;
+    const VehicleState a = all.advanced(VehicleState{}, 0.25, 0.7, limits);
+    const VehicleState b = some.advanced(VehicleState{}, 0.25, 0.7, limits);
+    EXPECT_EQ(a.position_m, b.position_m);
+    EXPECT_EQ(a.velocity_m_s, b.velocity_m_s);
 }
 
 }  // namespace

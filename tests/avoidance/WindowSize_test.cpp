@@ -22,7 +22,7 @@ Braking brakingFrom(double speed_m_s) {
     return braking;
 }
 
-TEST(WindowSize, OfSpeedsThatAreFlown) {
+TEST(WindowSize, MatchesDocumentedSpeeds) {
     EXPECT_EQ(windowSizeFor(paceOf(2)).scans, 7u);
     EXPECT_EQ(windowSizeFor(paceOf(4)).scans, 11u);
     EXPECT_EQ(windowSizeFor(paceOf(10)).scans, 23u);
@@ -34,13 +34,13 @@ TEST(WindowSize, OfSpeedsThatAreFlown) {
     EXPECT_FLOAT_EQ(windowSizeFor(paceOf(30)).radius_m, 50);
 }
 
-TEST(WindowSize, FilterAndMapsSeeAsFarAsAWindowAndTwentyMetres) {
+TEST(WindowSize, PerceptionRangeCoversWindow) {
     EXPECT_FLOAT_EQ(perceptionRangeFor_m(paceOf(4)), 20);
     EXPECT_FLOAT_EQ(perceptionRangeFor_m(paceOf(8)), windowSizeFor(paceOf(8)).radius_m);
     EXPECT_FLOAT_EQ(perceptionRangeFor_m(paceOf(10)), 27.5f);
 }
 
-TEST(WindowSize, LastsUntilTheVehicleHasStopped) {
+TEST(WindowSize, CoversStoppingTime) {
     for (double speed_m_s = 2; speed_m_s <= 14; speed_m_s += 0.5) {
         const FlightPace pace = paceOf(speed_m_s);
         const WindowSize size = windowSizeFor(pace);
@@ -51,7 +51,7 @@ TEST(WindowSize, LastsUntilTheVehicleHasStopped) {
     }
 }
 
-TEST(WindowSize, ReachesAsFarAsAPlanAndItsClearance) {
+TEST(WindowSize, CoversPlanAndClearance) {
     constexpr double kLookAhead_s = 1.2;
     for (double speed_m_s = 6; speed_m_s <= 14; speed_m_s += 0.5) {
         const FlightPace pace = paceOf(speed_m_s);
@@ -62,7 +62,7 @@ TEST(WindowSize, ReachesAsFarAsAPlanAndItsClearance) {
     }
 }
 
-TEST(WindowSize, CountsInScansOfTheSensor) {
+TEST(WindowSize, DependsOnScanPeriod) {
     FlightPace pace = paceOf(4);
     pace.scan_period_s = 0.05;  // 20 Hz: reacts 0.1 s earlier
     EXPECT_EQ(windowSizeFor(pace).scans, 19u);

@@ -34,8 +34,8 @@ Seeds campaignFiles() {
     avoidance::LatencyProfile profile = avoidance::standardLatencyProfile();
     for (auto& [stage, quantiles] : profile.quantiles_ms) quantiles.resize(3);
     return {avoidance::textOf(profile),
-            avoidance::runHeader() + "\n" + avoidance::rowOf(run) + "\n",
-            avoidance::fullRunHeader() + "\n" + avoidance::fullRowOf(run) + "\n",
+            avoidance::runHeader() + "\n" + avoidance::rowOf(run, false) + "\n",
+            avoidance::runHeader(true) + "\n" + avoidance::rowOf(run, true) + "\n",
             avoidance::keyOf(run)};
 }
 

@@ -1,12 +1,12 @@
 #include <hagen/avoidance/Calibration.h>
 #include <hagen/avoidance/Trial.h>
 #include <hagen/base/ProcessCost.h>
-
+#include <hagen/base/WriteFile.h>
 #include <array>
+#include <cmath>
 #include <ctime>
 #include <fstream>
 #include <memory>
-
 #include "avoidance/flights/Stopwatch.h"
 
 namespace hagen::avoidance {
@@ -45,7 +45,7 @@ RecordedScans recordFlight(const Course& course, const std::function<void()>& co
     RecordedScans recorded;
     TrialListener listener;
     Eigen::Vector3d last = course.start_m;
-    listener.moved = [&](double, const avoidance::VehicleState& state) {
+    listener.moved = [&](double, const VehicleState& state) {
         recorded.length_m += (state.position_m - last).norm();
         last = state.position_m;
     };
@@ -70,11 +70,11 @@ void moveOn(observations::MappedScan& scan, float by_m, double by_s) {
 LatencyProfile constantProfile(double latency_ms) {
     LatencyProfile profile;
     TrialSetup setup;
-    for (const std::string& model : avoidance::worldModelNames()) {
+    for (const std::string& model : worldModelNames()) {
         setup.model = model;
-        for (const std::string& guidance : avoidance::guidanceNames()) {
+        for (const std::string& guidance : guidanceNames()) {
             setup.guidance = guidance;
-            for (const std::string& planner : avoidance::plannerNames()) {
+            for (const std::string& planner : plannerNames()) {
                 setup.planner = planner;
                 for (const std::string& stage : stagesOf(setup)) {
                     profile.quantiles_ms[stage] = {latency_ms};
@@ -91,7 +91,7 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
     TrialSetup setup;
     setup.speed_m_s = kCalibrated_m_s;
     TrialListener listener;
-    listener.moved = [&](double, const avoidance::VehicleState&) {
+    listener.moved = [&](double, const VehicleState&) {
         if (options.continuing) options.continuing();
     };
     for (const std::string& model : options.models) {
@@ -101,9 +101,9 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
             const Course course =
                 makeCourse(kCourses[static_cast<std::size_t>(seed) % kCourses.size()],
                            static_cast<std::uint64_t>(seed));
-            for (const std::string& guidance : avoidance::guidanceNames()) {
+            for (const std::string& guidance : guidanceNames()) {
                 setup.guidance = guidance;
-                for (const std::string& planner : avoidance::plannerNames()) {
+                for (const std::string& planner : plannerNames()) {
                     setup.planner = planner;
                     runTrial(course, setup, nominal, &measurement, listener);
                 }
@@ -125,14 +125,12 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m,
     constexpr double kEvery_m = 10;
     const Course course = makeCourse(kCourses[0], 0);
     RecordedScans recorded = recordFlight(course, continuing);
-    avoidance::WorldModelSetting setting;
+    WorldModelSetting setting;
     setting.bounds_m = course.bounds_m.cast<float>();
     setting.bounds_m.max().x() += static_cast<float>(path_m);
-    setting.true_clearance_m = [](const Eigen::Vector3f&, double) {
-        return avoidance::WorldModel::kReach_m;
-    };
+    setting.true_clearance_m = [](const Eigen::Vector3f&, double) { return WorldModel::kReach_m; };
     const double before = base::heapBytes();
-    const auto world = avoidance::makeWorldModel(model, setting);
+    const auto world = makeWorldModel(model, setting);
     std::vector<HeapSample> samples{{0, base::heapBytes() - before}};
     double held = samples[0].bytes;
     const double lap_s = recorded.scans.back().time_s;  // the first scan ends a turn after 0
@@ -149,6 +147,24 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m,
         }
     }
     return samples;
+}
+
+namespace fs = std::filesystem;
+
+void writeHeapCurves(const std::vector<std::string>& models, double path_m,
+                     const std::function<void(const std::string& model)>& begin,
+                     const std::function<void()>& continuing, const fs::path& place,
+                     const fs::path& file) {
+    std::ofstream out = base::openToWrite(place, file);
+    out << "model,path_m,bytes\n";
+    for (const std::string& model : models) {
+        begin(model);
+        for (const HeapSample& sample : heapAlongFlight(model, path_m, continuing)) {
+            out << model << "," << std::round(10 * sample.path_m) / 10 << ","
+                << static_cast<long long>(sample.bytes) << "\n";
+        }
+    }
+    base::closeWritten(out, file);
 }
 
 }  // namespace hagen::avoidance

@@ -94,40 +94,19 @@ std::vector<CourseFlights> missingFlights(const std::vector<CourseFlights>& flig
     return missing;
 }
 
-/// runs.csv of a folder.
-class Table {
- public:
-    Table(fs::path file, bool is_full) : file_(std::move(file)), is_full_(is_full) {}
-
-    void write(std::vector<Run> runs) const {
-        sortRuns(runs);
-        std::string text = (is_full_ ? fullRunHeader() : runHeader()) + "\n";
-        for (const Run& run : runs) text += rowText(run);
-        replace(file_, text);
-    }
-
-    void append(const Run& run) const {
-        std::ofstream out(file_, std::ios::binary | std::ios::app);
-        out << rowText(run);
-        base::closeWritten(out, file_);
-    }
-
- private:
-    std::string rowText(const Run& run) const {
-        return (is_full_ ? fullRowOf(run) : rowOf(run)) + "\n";
-    }
-
-    fs::path file_;
-    bool is_full_;
-};
+void writeTable(const fs::path& file, std::vector<Run> runs, bool has_updates) {
+    sortRuns(runs);
+    std::string text = runHeader(has_updates) + "\n";
+    for (const Run& run : runs) text += rowOf(run, has_updates) + "\n";
+    replace(file, text);
+}
 
 bool hasSectors(const std::vector<Run>& runs, const std::vector<CourseFlights>& flights) {
-    if (std::any_of(runs.begin(), runs.end(), needsAllColumns)) return true;
+    if (std::any_of(runs.begin(), runs.end(), needsUpdates)) return true;
     if (flights.empty()) return false;
     const CourseFlights& any = flights.front();  // all courses have the same setups
-    return std::any_of(any.setups.begin(), any.setups.end(), [&](const TrialSetup& setup) {
-        return needsAllColumns(unflown(any, setup));
-    });
+    return std::any_of(any.setups.begin(), any.setups.end(),
+                       [&](const TrialSetup& setup) { return needsUpdates(unflown(any, setup)); });
 }
 
 }  // namespace
@@ -138,8 +117,8 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
     const std::string settings = hashOfSettings(profile);
     const std::vector<Run> before = openFolder(folder, profile, settings, options.overwrites);
     const fs::path file = folder / "runs.csv";
-    const Table table(file, hasSectors(before, flights));
-    table.write(before);
+    const bool has_updates = hasSectors(before, flights);
+    writeTable(file, before, has_updates);
 
     const std::vector<CourseFlights> courses = missingFlights(flights, before);
     std::size_t done = 0, all = 0;
@@ -149,7 +128,7 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
     std::atomic<std::size_t> next{0};
     std::atomic<bool> has_failed{false};
     TrialListener listener;
-    listener.moved = [&](double, const avoidance::VehicleState&) {
+    listener.moved = [&](double, const VehicleState&) {
         if (has_failed || (options.keep_going && !options.keep_going())) throw Stopped();
     };
     const auto flyCourse = [&](const CourseFlights& flown) {
@@ -161,7 +140,9 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
             run.version = HAGEN_VERSION;
             run.result = runTrial(course, setup, profile, nullptr, listener);
             const std::lock_guard lock(mutex);
-            table.append(run);
+            std::ofstream out(file, std::ios::binary | std::ios::app);
+            out << rowOf(run, has_updates) + "\n";
+            base::closeWritten(out, file);
             ++done;
             if (options.progress) options.progress(done, all);
         }
@@ -186,7 +167,7 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
                               "; the same command resumes there");
     }
     std::vector<Run> runs = readRuns(file);
-    table.write(runs);
+    writeTable(file, runs, has_updates);
     sortRuns(runs);
     return runs;
 }

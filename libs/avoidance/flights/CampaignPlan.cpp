@@ -15,9 +15,14 @@ std::string joined(const std::vector<std::string>& names) {
     return all;
 }
 
+template <class Value>
+void checkGiven(const std::string& what, const std::vector<Value>& values) {
+    if (values.empty()) throw std::invalid_argument("no " + what + " is given");
+}
+
 void checkNames(const std::string& what, const std::vector<std::string>& names,
                 const std::vector<std::string>& known, const std::string& list) {
-    if (names.empty()) throw std::invalid_argument("no " + what + " is given");
+    checkGiven(what, names);
     for (const std::string& name : names) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         throw std::invalid_argument("unknown " + what + " '" + name + "'; known are " + list);
@@ -25,7 +30,7 @@ void checkNames(const std::string& what, const std::vector<std::string>& names,
 }
 
 void checkPositive(const std::string& what, const std::vector<double>& values) {
-    if (values.empty()) throw std::invalid_argument("no " + what + " is given");
+    checkGiven(what, values);
     for (const double value : values) {
         if (!(value > 0 && value <= 100)) {
             throw std::invalid_argument("a " + what + " must be above 0 and at most 100");
@@ -35,17 +40,17 @@ void checkPositive(const std::string& what, const std::vector<double>& values) {
 
 /// Sectors have no obstacle numbers.
 void checkUpdates(const CampaignPlan& plan) {
-    if (plan.updates.empty()) throw std::invalid_argument("no update is given");
+    checkGiven("update", plan.updates);
     if (std::count(plan.updates.begin(), plan.updates.end(), Updates::Sectors) == 0) return;
     for (const std::string& model : plan.models) {
-        if (!avoidance::predictsMotion(model) || avoidance::needsTruth(model)) continue;
+        if (!predictsMotion(model) || needsTruth(model)) continue;
         throw std::invalid_argument("the world model '" + model +
-                                    "' follows the obstacles of whole scans, and cannot be updated "
-                                    "with sectors; fly it with scans only");
+                                    "' tracks the obstacles of whole scans and does not support "
+                                    "sectors; fly it with --updates scans");
     }
 }
 
-constexpr double kLeastSpeed_m_s = 0.1;
+constexpr double kMinSpeed_m_s = 0.1;
 
 void checkNumberOfFlights(const CampaignPlan& plan) {
     double flights = static_cast<double>(plan.last_seed - plan.first_seed) + 1;
@@ -57,28 +62,25 @@ void checkNumberOfFlights(const CampaignPlan& plan) {
     }
     if (flights <= kMostFlights) return;
     throw std::invalid_argument("at most " + std::to_string(kMostFlights) +
-                                " flights in a plan; fly the others into a folder of their own");
+                                " flights in a plan; split them over several folders");
 }
 
 void check(const CampaignPlan& plan, const Shard& shard) {
     checkNames("scenario", plan.scenarios, courseNames(), joined(courseNames()));
-    checkNames("world model", plan.models, avoidance::worldModelNames(),
-               avoidance::worldModelList());
-    checkNames("guidance", plan.guidances, avoidance::guidanceNames(),
-               joined(avoidance::guidanceNames()));
-    checkNames("planner", plan.planners, avoidance::plannerNames(),
-               joined(avoidance::plannerNames()));
+    checkNames("world model", plan.models, worldModelNames(), worldModelList());
+    checkNames("guidance", plan.guidances, guidanceNames(), joined(guidanceNames()));
+    checkNames("planner", plan.planners, plannerNames(), joined(plannerNames()));
     checkPositive("speed", plan.speeds_m_s);
     for (const double speed_m_s : plan.speeds_m_s) {
-        if (speed_m_s < kLeastSpeed_m_s) {  // a flight would not end
+        if (speed_m_s < kMinSpeed_m_s) {  // a flight would not end
             throw std::invalid_argument("a speed must be at least 0.1 m/s");
         }
     }
     checkPositive("latency scale", plan.latency_scales);
-    if (plan.airs.empty()) throw std::invalid_argument("no air is given");
-    if (plan.distances.empty()) throw std::invalid_argument("no distance is given");
+    checkGiven("air", plan.airs);
+    checkGiven("distance", plan.distances);
     checkUpdates(plan);
-    if (plan.pose_errors.empty()) throw std::invalid_argument("no pose error is given");
+    checkGiven("pose error", plan.pose_errors);
     if (plan.last_seed < plan.first_seed) {
         throw std::invalid_argument("the last seed is before the first");
     }

@@ -33,14 +33,14 @@ Eigen::AlignedBox3d boundsOver(const simulation::Terrain& terrain) {
 /// Whether the straight line between two places is clear, by sphere stepping.
 bool isStraightWayClear(const Clearance& clearance_m, const Vector3d& from_m,
                         const Vector3d& to_m) {
-    constexpr double kLeastStep_m = 0.05;
+    constexpr double kMinStep_m = 0.05;
     const double length_m = (to_m - from_m).norm();
     for (double at_m = 0; at_m < length_m;) {
         const Vector3d place = from_m + at_m / length_m * (to_m - from_m);
         const double spare_m =
             static_cast<double>(clearance_m(place.cast<float>())) - kCourseClearance_m;
         if (spare_m < 0) return false;
-        at_m += std::max(kLeastStep_m, spare_m);
+        at_m += std::max(kMinStep_m, spare_m);
     }
     return true;
 }
@@ -67,10 +67,10 @@ std::optional<double> oraclePath_m(const Course& course) {
         if (height_m < kLowest_m || height_m > kHighest_m) return 0.0f;
         return course.distance.toStatic(at);
     };
-    avoidance::PathSearchOptions options;
+    PathSearchOptions options;
     options.bounds_m = course.bounds_m;
     options.min_clearance_m = options.wanted_clearance_m = kCourseClearance_m;
-    const auto path = avoidance::findPath(clearance_m, course.start_m, course.goal_m, options);
+    const auto path = findPath(clearance_m, course.start_m, course.goal_m, options);
     if (!path) return std::nullopt;
     return cutLength_m(clearance_m, *path);
 }
@@ -80,7 +80,7 @@ Course courseThrough(const CourseKind& kind, std::uint64_t seed, const simulatio
         return Vector3d(at.x(), at.y(), scene.terrain().height_m(at.x(), at.y()) + kind.altitude_m);
     };
     const Eigen::AlignedBox3d bounds_m = boundsOver(scene.terrain());
-    const auto reach_m = static_cast<double>(avoidance::WorldModel::kReach_m);
+    const auto reach_m = static_cast<double>(WorldModel::kReach_m);
     return {kind.name,
             seed,
             scene,
@@ -113,9 +113,9 @@ const std::vector<std::string>& courseNames() {
 }
 
 Course makeCourse(const std::string& scenario, std::uint64_t seed) {
-    constexpr std::uint64_t kFirstStream = 100, kMostAttempts = 50;
+    constexpr std::uint64_t kFirstStream = 100, kMaxAttempts = 50;
     const CourseKind& kind = kindNamed(scenario);
-    for (std::uint64_t attempt = 0; attempt < kMostAttempts; ++attempt) {
+    for (std::uint64_t attempt = 0; attempt < kMaxAttempts; ++attempt) {
         Course course =
             courseThrough(kind, seed, kind.make(simulation::Random(seed, kFirstStream + attempt)));
         if (const std::optional<double> length_m = oraclePath_m(course)) {
@@ -124,7 +124,7 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed) {
         }
     }
     throw std::runtime_error("course '" + scenario + "', seed " + std::to_string(seed) +
-                             ": no scene of " + std::to_string(kMostAttempts) +
+                             ": no scene of " + std::to_string(kMaxAttempts) +
                              " has a path; choose another seed");
 }
 

@@ -15,25 +15,24 @@ Eigen::Quaterniond tiltedBy(const Eigen::Vector3d& acceleration_m_s2) {
 
 }  // namespace
 
-FlightTrace::FlightTrace(const avoidance::VehicleState& start) {
+FlightTrace::FlightTrace(const VehicleState& start) {
     const Eigen::Vector3d none = Eigen::Vector3d::Zero();
     samples_.push_back({{start.position_m, tiltedBy(none)}, none, 0});
 }
 
-void FlightTrace::add(const avoidance::VehicleState& state,
-                      const Eigen::Vector3d& acceleration_m_s2) {
+void FlightTrace::add(const VehicleState& state, const Eigen::Vector3d& acceleration_m_s2) {
     const Sample& last = samples_.back();
-    const double share = 1 - std::exp(-avoidance::kControlStep_s / kTilt_s);
+    const double share = 1 - std::exp(-kControlStep_s / kTilt_s);
     const Eigen::Vector3d change = share * (acceleration_m_s2 - last.smooth_m_s2);
     const Eigen::Vector3d smooth = last.smooth_m_s2 + change;
     const double distance_m = last.distance_m + (state.position_m - last.pose.position_m).norm();
-    squared_jerk_ += (change / avoidance::kControlStep_s).squaredNorm();
+    squared_jerk_ += (change / kControlStep_s).squaredNorm();
     samples_.push_back({{state.position_m, tiltedBy(smooth)}, smooth, distance_m});
 }
 
 FlightTrace::Place FlightTrace::placeOf(double time_s) const {
     const auto last = static_cast<double>(samples_.size() - 1);
-    const double at = std::clamp(time_s / avoidance::kControlStep_s, 0.0, last);
+    const double at = std::clamp(time_s / kControlStep_s, 0.0, last);
     const auto before = static_cast<std::size_t>(at);
     const std::size_t after = std::min(before + 1, samples_.size() - 1);
     return {samples_[before], samples_[after], at - static_cast<double>(before)};

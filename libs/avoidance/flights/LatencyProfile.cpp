@@ -18,8 +18,8 @@ using base::Json;
 double toMicroseconds(double latency_ms) { return std::round(1e3 * latency_ms) / 1e3; }
 
 std::vector<double> quantilesFrom(const nlohmann::json& value) {
-    constexpr double kMost_ms = 60000;  // a flight waits for them, step by step
-    const std::string rule = "must be numbers from 0 to 60000 [ms] that do not fall, one or more";
+    constexpr double kMax_ms = 60000;  // a flight waits for them, step by step
+    const std::string rule = "must be one or more numbers from 0 to 60000 [ms] in ascending order";
     if (!value.is_array() || value.empty()) throw std::runtime_error(rule);
     std::vector<double> quantiles;
     for (const nlohmann::json& entry : value) {
@@ -27,7 +27,7 @@ std::vector<double> quantilesFrom(const nlohmann::json& value) {
         quantiles.push_back(toMicroseconds(entry.get<double>()));
     }
     const bool are_latencies = std::all_of(quantiles.begin(), quantiles.end(),
-                                           [](double q) { return q >= 0 && q <= kMost_ms; });
+                                           [](double q) { return q >= 0 && q <= kMax_ms; });
     if (!are_latencies || !std::is_sorted(quantiles.begin(), quantiles.end())) {
         throw std::runtime_error(rule);
     }

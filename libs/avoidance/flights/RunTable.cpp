@@ -1,44 +1,147 @@
 #include <hagen/avoidance/RunTable.h>
+#include <hagen/base/NumberText.h>
 #include <hagen/base/ReadFile.h>
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <tuple>
-
-#include "avoidance/flights/RunColumns.h"
 
 namespace hagen::avoidance {
 namespace {
 
+/// A column of runs.csv.
+struct RunColumn {
+    const char* name;
+    std::function<std::string(const Run&)> write;
+    std::function<void(const std::string&, Run&)> read;  ///< throws
+    bool is_key = false;                                 ///< identifies a run
+    std::string before{};  ///< value in older tables, which lack the column; empty: all have it
+};
+
+/// A number; NaN is an empty field.
+std::string measureText(double value, int decimals) {
+    return std::isnan(value) ? "" : base::fixedText(value, decimals);
+}
+
+template <class Number>
+Number numberFrom(const std::string& text) {
+    if (const auto value = base::numberFrom<Number>(text)) return *value;
+    throw std::runtime_error("\"" + text + "\" is not a number");
+}
+
+double measureFrom(const std::string& text) {
+    if (text.empty()) return NAN;
+    const auto value = numberFrom<double>(text);
+    if (!std::isfinite(value)) throw std::runtime_error("\"" + text + "\" is not finite");
+    return value;
+}
+
+bool brakesFrom(const std::string& text) {
+    if (text == "brake_known") return true;
+    if (text == "optimistic") return false;
+    throw std::runtime_error("\"" + text + "\" is not one of optimistic, brake_known");
+}
+
+RunColumn key(RunColumn column, const std::string& before = "") {
+    column.is_key = true;
+    column.before = before;
+    return column;
+}
+
+RunColumn measure(const char* name, double TrialResult::*field, int decimals) {
+    return {name, [=](const Run& run) { return measureText(run.result.*field, decimals); },
+            [=](const std::string& text, Run& run) { run.result.*field = measureFrom(text); }};
+}
+
+RunColumn count(const char* name, int TrialResult::*field) {
+    return {name, [=](const Run& run) { return std::to_string(run.result.*field); },
+            [=](const std::string& text, Run& run) { run.result.*field = numberFrom<int>(text); }};
+}
+
+RunColumn setting(const char* name, double TrialSetup::*field, double min = 0) {
+    constexpr double kMax = 100;  // as in a plan
+    return {name, [=](const Run& run) { return base::shortestText(run.setup.*field); },
+            [=](const std::string& text, Run& run) {
+                const auto value = numberFrom<double>(text);
+                if (!(value > 0 && value <= kMax)) {
+                    throw std::runtime_error("\"" + text + "\" is not above 0 and at most 100");
+                }
+                if (value < min) throw std::runtime_error("\"" + text + "\" is too small");
+                run.setup.*field = value;
+            }};
+}
+
+RunColumn setting(const char* name, std::string TrialSetup::*field) {
+    return {name, [=](const Run& run) { return run.setup.*field; },
+            [=](const std::string& text, Run& run) { run.setup.*field = text; }};
+}
+
+template <class Value>
+RunColumn condition(const char* name, Value TrialSetup::*field, Value (*from)(const std::string&)) {
+    return {name, [=](const Run& run) { return nameOf(run.setup.*field); },
+            [=](const std::string& text, Run& run) { run.setup.*field = from(text); }};
+}
+
+RunColumn word(const char* name, std::string Run::*field) {
+    return {name, [=](const Run& run) { return run.*field; },
+            [=](const std::string& text, Run& run) { run.*field = text; }};
+}
+
+/// In the order of the table. The last ones are missing in older tables; the very last one is also
+/// missing in tables of whole scans only.
+const std::vector<RunColumn>& allColumns() {
+    static const std::vector<RunColumn> all{
+        key(word("scenario", &Run::scenario)),
+        key({"seed", [](const Run& run) { return std::to_string(run.seed); },
+             [](const std::string& text, Run& run) {
+                 run.seed = numberFrom<std::uint64_t>(text);
+             }}),
+        key(setting("model", &TrialSetup::model)),
+        key(setting("guidance", &TrialSetup::guidance)),
+        key(setting("speed", &TrialSetup::speed_m_s, 0.1)),
+        {"outcome", [](const Run& run) { return nameOf(run.result.outcome); },
+         [](const std::string& text, Run& run) { run.result.outcome = outcomeFrom(text); }},
+        measure("min_clearance_m", &TrialResult::min_clearance_m, 4),
+        measure("path_m", &TrialResult::path_m, 3),
+        measure("time_s", &TrialResult::time_s, 3),
+        key(setting("planner", &TrialSetup::planner)),
+        key(condition("pose_error", &TrialSetup::pose_error, poseErrorFrom)),
+        key(setting("latency_scale", &TrialSetup::latency_scale)),
+        key({"unknown",
+             [](const Run& run) {
+                 return run.setup.brakes_in_known_space ? "brake_known" : "optimistic";
+             },
+             [](const std::string& text, Run& run) {
+                 run.setup.brakes_in_known_space = brakesFrom(text);
+             }}),
+        {"oracle_path_m", [](const Run& run) { return measureText(run.oracle_path_m, 3); },
+         [](const std::string& text, Run& run) { run.oracle_path_m = measureFrom(text); }},
+        measure("first_reaction_m", &TrialResult::first_reaction_m, 3),
+        measure("rms_jerk_m_s3", &TrialResult::rms_jerk_m_s3, 3),
+        count("scans", &TrialResult::scans),
+        count("dropped_scans", &TrialResult::dropped_scans),
+        count("emergency_stops", &TrialResult::emergency_stops),
+        measure("latency_p50_ms", &TrialResult::latency_p50_ms, 3),
+        measure("latency_p95_ms", &TrialResult::latency_p95_ms, 3),
+        measure("latency_max_ms", &TrialResult::latency_max_ms, 3),
+        word("settings", &Run::settings_hash),
+        word("version", &Run::version),
+        key(condition("air", &TrialSetup::air, airFrom), "clear"),
+        key(condition("distance", &TrialSetup::distance, distanceFrom), "as-stored"),
+        key(condition("updates", &TrialSetup::updates, updatesFrom), "scans")};
+    return all;
+}
+
 using Columns = std::vector<const RunColumn*>;
 
-Columns columnsThat(bool (*fit)(const RunColumn&)) {
+Columns columnsOf(bool has_updates, bool keys_only = false) {
     Columns columns;
-    for (const RunColumn& column : runColumns()) {
-        if (fit(column)) columns.push_back(&column);
+    for (const RunColumn& column : allColumns()) {
+        if (column.is_key || !keys_only) columns.push_back(&column);
     }
-    return columns;
-}
-
-const Columns& allColumns() {
-    static const Columns columns = columnsThat([](const RunColumn&) { return true; });
-    return columns;
-}
-
-const Columns& rowColumns() {
-    static const Columns columns =
-        columnsThat([](const RunColumn& one) { return !one.is_optional; });
-    return columns;
-}
-
-const Columns& allKeyColumns() {
-    static const Columns columns = columnsThat([](const RunColumn& one) { return one.is_key; });
-    return columns;
-}
-
-const Columns& keyColumns() {
-    static const Columns columns =
-        columnsThat([](const RunColumn& one) { return one.is_key && !one.is_optional; });
+    if (!has_updates) columns.pop_back();
     return columns;
 }
 
@@ -81,57 +184,37 @@ Run runFrom(const std::string& line, const Columns& columns) {
     for (std::size_t c = 0; c < fields.size(); ++c) {
         try {
             columns[c]->read(fields[c], run);
-        } catch (const std::runtime_error& e) {
+        } catch (const std::exception& e) {
             throw std::runtime_error(std::string("column ") + columns[c]->name + ": " + e.what());
         }
     }
     return run;
 }
 
-std::size_t fieldsIn(const std::string& line) {
-    return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
-}
-
-/// The columns of a table by its header. Older tables lack the last ones. None: it is no table.
-Columns columnsOf(const std::string& header) {
-    Columns columns = allColumns();
+/// The columns of a table by its header; empty: the file is not a table of runs.
+Columns columnsIn(const std::string& header) {
+    Columns columns = columnsOf(true);
     while (headerOf(columns) != header) {
-        if (columns.empty() || columns.back()->before.empty()) return {};
+        if (columns.back()->before.empty()) return {};
         columns.pop_back();
     }
     return columns;
 }
 
-/// The run of a row with some of the columns.
-Run runOfOlder(const std::string& row, const Columns& columns) {
-    Run run = runFrom(row, columns);
-    for (std::size_t c = columns.size(); c < allColumns().size(); ++c) {
-        allColumns()[c]->read(allColumns()[c]->before, run);
-    }
-    return run;
-}
-
 }  // namespace
 
-std::string runHeader() { return headerOf(rowColumns()); }
-std::string rowOf(const Run& run) {
-    return fieldsOf(run, needsAllColumns(run) ? allColumns() : rowColumns());
+std::string runHeader(bool has_updates) { return headerOf(columnsOf(has_updates)); }
+
+std::string rowOf(const Run& run, bool has_updates) {
+    return fieldsOf(run, columnsOf(has_updates));
 }
 
-bool needsAllColumns(const Run& run) {
-    return std::any_of(allColumns().begin(), allColumns().end(), [&](const RunColumn* one) {
-        return one->is_optional && one->write(run) != one->before;
-    });
-}
-std::string fullRunHeader() { return headerOf(allColumns()); }
-std::string fullRowOf(const Run& run) { return fieldsOf(run, allColumns()); }
+bool needsUpdates(const Run& run) { return run.setup.updates != Updates::Scans; }
 
-std::string keyOf(const Run& run) {
-    return fieldsOf(run, needsAllColumns(run) ? allKeyColumns() : keyColumns());
-}
+std::string keyOf(const Run& run) { return fieldsOf(run, columnsOf(needsUpdates(run), true)); }
+
 Run runOfKey(const std::string& key) {
-    const bool is_full = fieldsIn(key) == allKeyColumns().size();
-    return runFrom(key, is_full ? allKeyColumns() : keyColumns());
+    return runFrom(key, columnsOf(split(key).size() == columnsOf(true, true).size(), true));
 }
 
 std::vector<Run> readRuns(const std::filesystem::path& file) {
@@ -147,14 +230,17 @@ std::vector<Run> readRuns(const std::filesystem::path& file) {
         ++line;
         if (!text.empty() && text.back() == '\r') text.pop_back();
         if (line == 1) {
-            columns = columnsOf(text);
+            columns = columnsIn(text);
             if (columns.empty()) fail(line, "not the header of runs; it must be " + runHeader());
             continue;
         }
         try {
-            runs.push_back(runOfOlder(text, columns));
+            runs.push_back(runFrom(text, columns));
         } catch (const std::runtime_error& e) {
             fail(line, e.what());
+        }
+        for (std::size_t c = columns.size(); c < allColumns().size(); ++c) {
+            allColumns()[c].read(allColumns()[c].before, runs.back());
         }
     }
     if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read");

@@ -57,7 +57,7 @@ class Sectors : public ScanFeed {
     void receive(int step, const FlightTrace& trace, PoseBelief& belief) override {
         step_ = step;
         for (observations::MappedScan& sector :
-             sensor_.measureUntil(avoidance::kControlStep_s * step, trace, belief)) {
+             sensor_.measureUntil(kControlStep_s * step, trace, belief)) {
             ++received_;
             waiting_.push_back(std::move(sector));
         }
@@ -68,7 +68,7 @@ class Sectors : public ScanFeed {
         return {joined(sectors), sectors.back().time_s,
                 streams::kAltimeterStep + static_cast<std::uint64_t>(step_)};
     }
-    double period_s() const override { return avoidance::kControlStep_s; }
+    double period_s() const override { return kControlStep_s; }
     int received() const override { return received_; }
     int dropped() const override { return 0; }
 

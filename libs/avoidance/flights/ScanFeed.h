@@ -2,7 +2,7 @@
 #include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/FlightTrace.h>
 #include <hagen/avoidance/PoseBelief.h>
-#include <hagen/avoidance/TrialSetup.h>
+#include <hagen/avoidance/Trial.h>
 #include <hagen/mrpt/MappedScan.h>
 #include <cstdint>
 #include <memory>

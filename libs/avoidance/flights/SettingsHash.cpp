@@ -1,4 +1,3 @@
-#include <hagen/avoidance/Air.h>
 #include <hagen/avoidance/SettingsHash.h>
 #include <hagen/avoidance/TrialSensor.h>
 #include <hagen/avoidance/Vehicle.h>
@@ -38,16 +37,16 @@ std::string filterText() {
 std::string reachText() {
     std::string text;
     for (const double speed_m_s : {1, 4, 8, 10, 14, 100}) {
-        const avoidance::FlightPace pace{speed_m_s, TrialSensor::kTurn_s, {}};
-        text += std::to_string(avoidance::windowSizeFor(pace).radius_m) + " " +
-                std::to_string(avoidance::perceptionRangeFor_m(pace)) + "\n";
+        const FlightPace pace{speed_m_s, TrialSensor::kTurn_s, {}};
+        text += std::to_string(windowSizeFor(pace).radius_m) + " " +
+                std::to_string(perceptionRangeFor_m(pace)) + "\n";
     }
     return text;
 }
 
 /// As JSON.
 std::string vehicleText() {
-    const avoidance::VehicleLimits limits;
+    const VehicleLimits limits;
     return base::Json{{"acceleration_m_s2", limits.acceleration_m_s2},
                       {"actuation_delay_s", limits.actuation_delay_s},
                       {"radius_m", limits.radius_m},

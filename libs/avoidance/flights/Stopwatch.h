@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/avoidance/TrialMeasurement.h>
+#include <hagen/avoidance/Trial.h>
 #include <hagen/base/ProcessCost.h>
 
 #include <string>

@@ -1,13 +1,12 @@
-#include <hagen/avoidance/CommandQueue.h>
 #include <hagen/avoidance/FlightTrace.h>
 #include <hagen/avoidance/PoseBelief.h>
 #include <hagen/avoidance/Trial.h>
 #include <hagen/avoidance/TrialScore.h>
 #include <hagen/avoidance/TrialSensor.h>
+#include <hagen/avoidance/Vehicle.h>
 #include <hagen/base/Quantile.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -25,7 +24,7 @@ double groundHeight_m(const Course& course, const Eigen::Vector3d& at) {
 }
 
 // Sectors come more often, but a direction is looked at once per turn, too.
-avoidance::FlightPace paceOf(const TrialSetup& setup) {
+FlightPace paceOf(const TrialSetup& setup) {
     return {setup.speed_m_s, TrialSensor::kTurn_s, setup.limits};
 }
 
@@ -38,28 +37,27 @@ class TrialFlight {
           setup_(setup),
           listener_(listener),
           stopwatch_(measurement),
-          feed_(makeFeed(course, setup, avoidance::perceptionRangeFor_m(paceOf(setup)))),
+          feed_(makeFeed(course, setup, perceptionRangeFor_m(paceOf(setup)))),
           belief_(setup.pose_error, course.seed),
           latencies_(course, setup, profile),
-          guidance_(avoidance::makeGuidance(setup.guidance)),
-          planner_(avoidance::makePlanner(setup.planner)),
+          guidance_(makeGuidance(setup.guidance)),
+          planner_(makePlanner(setup.planner)),
           state_{course.start_m, Eigen::Vector3d::Zero()},
           trace_(state_) {
-        avoidance::WorldModelSetting world;
+        WorldModelSetting world;
         world.bounds_m = course.bounds_m.cast<float>();
         world.true_clearance_m = [this](const Eigen::Vector3f& believed_m, double after_s) {
             return course_.distance.at(believed_m - scan_offset_m_, scan_s_ + after_s);
         };
         world.distance = setup.distance;
         world.pace = paceOf(setup);
-        world_ = setup.make_world ? setup.make_world(world)
-                                  : avoidance::makeWorldModel(setup.model, world);
+        world_ = setup.make_world ? setup.make_world(world) : makeWorldModel(setup.model, world);
     }
 
     TrialResult fly() {
         TrialJudge judge(course_, setup_.speed_m_s);
         for (int step = 0;; ++step) {
-            const double time_s = avoidance::kControlStep_s * step;
+            const double time_s = kControlStep_s * step;
             const auto clearance_m =
                 static_cast<double>(course_.distance.at(state_.position_m.cast<float>(), time_s));
             result_.min_clearance_m = std::min(result_.min_clearance_m, clearance_m);
@@ -68,7 +66,7 @@ class TrialFlight {
                 judge.judge(state_.position_m, clearance_m, setup_.limits.collision_m, time_s);
             if (outcome) return finish(*outcome, time_s);
             if (step > 0) feed_->receive(step, trace_, belief_);
-            const bool is_free = free_s_ < time_s + avoidance::kControlStep_s;
+            const bool is_free = free_s_ < time_s + kControlStep_s;
             if (feed_->isWaiting() && is_free) think(time_s);
             move(time_s);
         }
@@ -90,18 +88,16 @@ class TrialFlight {
         const std::string planner = prefix + setup_.guidance + "+" + setup_.planner;
         stopwatch_.time(prefix + "update", [&] { world_->update(scan); });
 
-        const avoidance::VehicleState now =
-            commands_.advanced(state_, time_s, start_s, setup_.limits);
-        avoidance::VehicleState believed = now;
+        const VehicleState now = commands_.advanced(state_, time_s, start_s, setup_.limits);
+        VehicleState believed = now;
         believed.position_m += belief_.offset_m(trace_, start_s);
         const double followed_s = start_s + expected_s + setup_.limits.actuation_delay_s;
-        const avoidance::VehicleState then =
-            commands_.advanced(believed, start_s, followed_s, setup_.limits);
+        const VehicleState then = commands_.advanced(believed, start_s, followed_s, setup_.limits);
         const double ground_m = believed.position_m.z() - altimeter_m(fed.stream, now.position_m);
-        const avoidance::Carrot carrot = stopwatch_.time(prefix + setup_.guidance, [&] {
+        const Carrot carrot = stopwatch_.time(prefix + setup_.guidance, [&] {
             return guidance_->carrot(*world_, guidanceTask(then, ground_m));
         });
-        const avoidance::Plan plan = stopwatch_.time(planner, [&] {
+        const Plan plan = stopwatch_.time(planner, [&] {
             return planner_->plan(*world_,
                                   planningTask(then, followed_s - scan_s_, carrot, ground_m));
         });
@@ -116,13 +112,12 @@ class TrialFlight {
     void move(double time_s) {
         const Eigen::Vector3d before_m_s = state_.velocity_m_s;
         commands_.forgetBefore(time_s);
-        state_ =
-            commands_.advanced(state_, time_s, time_s + avoidance::kControlStep_s, setup_.limits);
+        state_ = commands_.advanced(state_, time_s, time_s + kControlStep_s, setup_.limits);
         result_.path_m += (state_.position_m - trace_.at(time_s).position_m).norm();
-        trace_.add(state_, (state_.velocity_m_s - before_m_s) / avoidance::kControlStep_s);
+        trace_.add(state_, (state_.velocity_m_s - before_m_s) / kControlStep_s);
     }
 
-    double clearance_m(const avoidance::VehicleState& state, double time_s) const {
+    double clearance_m(const VehicleState& state, double time_s) const {
         return static_cast<double>(course_.distance.at(state.position_m.cast<float>(), time_s));
     }
 
@@ -133,9 +128,8 @@ class TrialFlight {
         return at.z() - groundHeight_m(course_, at) + kNoise_m * random.normal();
     }
 
-    avoidance::GuidanceTask guidanceTask(const avoidance::VehicleState& state,
-                                         double ground_m) const {
-        avoidance::GuidanceTask task;
+    GuidanceTask guidanceTask(const VehicleState& state, double ground_m) const {
+        GuidanceTask task;
         task.position_m = state.position_m;
         task.goal_m = course_.goal_m;
         task.ground_m = ground_m;
@@ -145,9 +139,9 @@ class TrialFlight {
         return task;
     }
 
-    avoidance::PlanningTask planningTask(const avoidance::VehicleState& state, double after_s,
-                                         const avoidance::Carrot& carrot, double ground_m) const {
-        avoidance::PlanningTask task;
+    PlanningTask planningTask(const VehicleState& state, double after_s, const Carrot& carrot,
+                              double ground_m) const {
+        PlanningTask task;
         task.start = state;
         task.start_after_s = after_s;
         task.carrot_m = carrot.at_m;
@@ -162,7 +156,7 @@ class TrialFlight {
         return task;
     }
 
-    void note(const avoidance::Plan& plan, const avoidance::VehicleState& now, double time_s) {
+    void note(const Plan& plan, const VehicleState& now, double time_s) {
         if (plan.is_emergency && !in_emergency_) {
             ++result_.emergency_stops;
             notify("emergency stop");
@@ -185,9 +179,7 @@ class TrialFlight {
         result_.latency_p50_ms = base::quantile(latency_ms_, 0.5);
         result_.latency_p95_ms = base::quantile(latency_ms_, 0.95);
         result_.latency_max_ms = base::quantile(latency_ms_, 1);
-        notify(outcome == Outcome::Success     ? "success"
-               : outcome == Outcome::Collision ? "collision"
-                                               : "timeout");
+        notify(nameOf(outcome));
         return result_;
     }
 
@@ -202,11 +194,11 @@ class TrialFlight {
     std::unique_ptr<ScanFeed> feed_;
     PoseBelief belief_;
     TrialLatencies latencies_;
-    std::unique_ptr<avoidance::WorldModel> world_;
-    std::unique_ptr<avoidance::Guidance> guidance_;
-    std::unique_ptr<avoidance::Planner> planner_;
+    std::unique_ptr<WorldModel> world_;
+    std::unique_ptr<Guidance> guidance_;
+    std::unique_ptr<Planner> planner_;
 
-    avoidance::VehicleState state_;  ///< true
+    VehicleState state_;  ///< true
     FlightTrace trace_;
     CommandQueue commands_;
     double free_s_ = 0;  ///< when the planner is free again
@@ -214,18 +206,7 @@ class TrialFlight {
     Eigen::Vector3f scan_offset_m_{0, 0, 0};
     bool in_emergency_ = false;
     std::vector<double> latency_ms_;
-    TrialResult result_{Outcome::Timeout,
-                        std::numeric_limits<double>::infinity(),
-                        0,
-                        0,
-                        std::numeric_limits<double>::quiet_NaN(),
-                        0,
-                        0,
-                        0,
-                        0,
-                        0,
-                        0,
-                        0};
+    TrialResult result_;
 };
 
 }  // namespace

@@ -4,6 +4,17 @@
 
 namespace hagen::avoidance {
 
+std::vector<std::string> stagesOf(const TrialSetup& setup) {
+    std::vector<std::string> stages;
+    if (needsLabels(setup.model)) stages.push_back("filter");
+    const std::string prefix = setup.model + "/";
+    for (const std::string& part :
+         {std::string("update"), setup.guidance, setup.guidance + "+" + setup.planner}) {
+        stages.push_back(prefix + part);
+    }
+    return stages;
+}
+
 TrialLatencies::TrialLatencies(const Course& course, const TrialSetup& setup,
                                const LatencyProfile& profile)
     : profile_(profile), scale_(setup.latency_scale) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/LatencyProfile.h>
-#include <hagen/avoidance/TrialSetup.h>
+#include <hagen/avoidance/Trial.h>
 #include <hagen/simulation/Random.h>
 #include <string>
 #include <vector>

@@ -45,14 +45,14 @@ bool TrialJudge::isLate(const Eigen::Vector3d& position_m, double time_s) {
 
 double freeDistance_m(const Course& course, const Eigen::Vector3d& position_m,
                       double clearance_radius_m, double time_s) {
-    constexpr double kLeastStep_m = 0.05;
+    constexpr double kMinStep_m = 0.05;
     const Eigen::Vector3d to_goal = course.goal_m - position_m;
     const double all_m = to_goal.norm();
     for (double distance_m = 0; distance_m < all_m;) {
         const Eigen::Vector3d at = position_m + to_goal * (distance_m / all_m);
         const auto clearance_m = static_cast<double>(course.distance.at(at.cast<float>(), time_s));
         if (clearance_m < clearance_radius_m) return distance_m;
-        distance_m += std::max(kLeastStep_m, clearance_m - clearance_radius_m);
+        distance_m += std::max(kMinStep_m, clearance_m - clearance_radius_m);
     }
     return kNone;
 }

@@ -99,7 +99,7 @@ void LoggedScans::placeAll(const std::vector<TimePoint>& times, const std::strin
     throw std::runtime_error(poseSource() + ": " + which + (placed == 0 ? " scans" : "") + " of " +
                              log + ", whose first scan is at " +
                              std::to_string(observations::secondsOf(times.front())) +
-                             " s; do they belong to another flight or another clock?");
+                             " s; check that both belong to the same flight and clock");
 }
 
 bool LoggedScans::next(LoggedScan& scan) {

@@ -34,11 +34,11 @@ Eigen::AlignedBox3f widened(const Eigen::AlignedBox3f& box, float aside_m, float
 /// The true scene of a simulated log.
 class SceneTruth {
  public:
-    SceneTruth(const OpenLoop::TrueScene& scene, const Eigen::AlignedBox3f& flight_m)
+    SceneTruth(const OpenLoop::SimulatedScene& scene, const Eigen::AlignedBox3f& flight_m)
         : name_(scene.scenario + " of seed " + std::to_string(scene.seed)),
           distance_(simulation::makeScene(scene.scenario, scene.seed),
                     widened(flight_m, kMapMargin_m, kMapMarginUp_m).cast<double>(),
-                    avoidance::WorldModel::kReach_m) {}
+                    WorldModel::kReach_m) {}
 
     /// At the time of the last scan.
     float clearance_m(const Eigen::Vector3f& point_m) const {
@@ -147,7 +147,7 @@ class Run {
     std::optional<SceneTruth> truth_;
     bool maps_whole_flight_ = false;
     Eigen::AlignedBox3f box_m_;
-    std::vector<std::unique_ptr<avoidance::WorldModel>> models_;
+    std::vector<std::unique_ptr<WorldModel>> models_;
     std::vector<double> heap_bytes_;
     std::deque<observations::MappedScan> kept_;
     std::deque<PendingScan> waiting_;
@@ -156,7 +156,7 @@ class Run {
     std::string why_ended_;
 };
 
-/// Makes the models, and makes them anew when the vehicle nears the border of their box.
+/// Makes the models, and again when the vehicle nears the border of their box.
 void Run::prepareModels(const LoggedScan& scan) {
     const bool is_begun = result_.scans > 0;
     const Eigen::AlignedBox3f inner = widened(box_m_, -kBorder_m, -kBorderUp_m);
@@ -165,7 +165,7 @@ void Run::prepareModels(const LoggedScan& scan) {
     if (!maps_whole_flight_) {
         box_m_ = widened({scan.vehicle_m, scan.vehicle_m}, kHalfBox_m, kHalfBoxUp_m);
     }
-    avoidance::WorldModelSetting setting;
+    WorldModelSetting setting;
     setting.bounds_m = box_m_;
     if (truth_) {
         setting.true_clearance_m = [this](const auto& point_m, double) {
@@ -182,7 +182,7 @@ void Run::prepareModels(const LoggedScan& scan) {
 }
 
 void Run::updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pending) {
-    avoidance::WorldModel& model = *models_[m];
+    WorldModel& model = *models_[m];
     OpenLoopRow& row = pending.rows[m];
     OpenLoopCost& cost = pending.costs[m];
     const double before = base::heapBytes(), start_ms = base::threadCpuTime_ms();
@@ -216,8 +216,6 @@ PendingScan Run::pendingScanOf(const LoggedScan& scan) const {
         row.model = open_loop_.models[m];
         row.returns = labels.size();
         row.roi = static_cast<std::size_t>(std::count(labels.begin(), labels.end(), Label::Roi));
-        pending.costs[m].scan = row.scan;
-        pending.costs[m].model = row.model;
         pending.costs[m].filter_ms = scan.filter_ms;
     }
     if (!truth_) return pending;
@@ -324,15 +322,15 @@ OpenLoopResult Run::finish() {
 void checkOpenLoop(const OpenLoop& open_loop) {
     if (open_loop.models.empty()) throw std::invalid_argument("no world model is given");
     for (const std::string& model : open_loop.models) {
-        avoidance::needsLabels(model);  // throws for unknown names
+        needsLabels(model);  // throws for unknown names
         if (std::count(open_loop.models.begin(), open_loop.models.end(), model) > 1) {
             throw std::invalid_argument("world model '" + model + "' is listed twice");
         }
-        if (avoidance::predictsMotion(model)) {
+        if (predictsMotion(model)) {
             throw std::invalid_argument("'" + model +
-                                        "' predicts motion, which open loop does not ask for");
+                                        "' predicts motion, which openloop does not evaluate");
         }
-        if (avoidance::needsTruth(model) && !open_loop.scene) {
+        if (needsTruth(model) && !open_loop.scene) {
             throw std::invalid_argument(
                 "the true scene (oracle) needs the scenario that the log was simulated in "
                 "(--truth-scenario, --truth-seed)");

@@ -76,6 +76,11 @@ void writeAgreement(std::ostream& out, const OpenLoopResult& result) {
     }
 }
 
+enum Name { Models, Scans, Agreement, Summary, ModelsMeasured, ScansMeasured };
+constexpr const char* kNames[] = {"openloop.csv",          "scans.csv",
+                                  "agreement.csv",         "summary.json",
+                                  "openloop_measured.csv", "scans_measured.csv"};
+
 Json number(double value) { return std::isnan(value) ? Json() : Json(value); }
 
 Json json(const DirectionCounts& counts) {
@@ -152,37 +157,25 @@ OpenLoopFiles::OpenLoopFiles(const fs::path& folder, bool overwrite,
                              const std::vector<fs::path>& inputs)
     : folder_(folder), is_own_folder_(!fs::exists(folder)) {
     std::vector<fs::path> outputs;
-    for (const char* name : {"openloop.csv", "scans.csv", "agreement.csv", "summary.json",
-                             "openloop_measured.csv", "scans_measured.csv"}) {
-        outputs.push_back(folder / name);
-    }
+    for (const char* name : kNames) outputs.push_back(folder / name);
     base::checkApart(outputs, inputs);
     fs::create_directories(folder);
-    models_ = &open("openloop.csv", overwrite);
-    scans_ = &open("scans.csv", overwrite);
-    agreement_ = &open("agreement.csv", overwrite);
-    summary_ = &open("summary.json", overwrite);
-    models_measured_ = &open("openloop_measured.csv", overwrite);
-    scans_measured_ = &open("scans_measured.csv", overwrite);
-    scans_->out << "scan,entry,time_s,model,returns,roi,obstacles,bytes,blocked,truly_blocked,"
-                   "scored,hits,false_alarms,misses,level_scored,level_hits,level_false_alarms,"
-                   "level_misses\n";
-    scans_measured_->out << "scan,model,filter_ms,update_ms,queries_ms,heap_bytes\n";
+    for (const fs::path& output : outputs) {
+        File& file = *files_.emplace_back(std::make_unique<File>(output, overwrite));
+        all_.add(file.path);
+        file.out = base::openToWrite(file.path.temporary(), output);
+        file.out.imbue(std::locale::classic());
+    }
+    files_[Scans]->out << "scan,entry,time_s,model,returns,roi,obstacles,bytes,blocked,"
+                          "truly_blocked,scored,hits,false_alarms,misses,level_scored,level_hits,"
+                          "level_false_alarms,level_misses\n";
+    files_[ScansMeasured]->out << "scan,model,filter_ms,update_ms,queries_ms,heap_bytes\n";
 }
 
 OpenLoopFiles::~OpenLoopFiles() {
     files_.clear();  // removes temporary files
     std::error_code ignored;
     if (is_own_folder_) fs::remove(folder_, ignored);  // only if it is empty
-}
-
-OpenLoopFiles::File& OpenLoopFiles::open(const std::string& name, bool overwrite) {
-    files_.push_back(std::make_unique<File>(folder_ / name, overwrite));
-    all_.add(files_.back()->path);
-    File& file = *files_.back();
-    file.out = base::openToWrite(file.path.temporary(), file.path.path());
-    file.out.imbue(std::locale::classic());
-    return file;
 }
 
 std::vector<fs::path> OpenLoopFiles::paths() const {
@@ -192,27 +185,30 @@ std::vector<fs::path> OpenLoopFiles::paths() const {
 }
 
 void OpenLoopFiles::add(const OpenLoopRow& row, const OpenLoopCost& cost) {
-    scans_->out << row.scan << "," << row.entry << "," << Fixed{row.time_s, 6} << "," << row.model
-                << "," << row.returns << "," << row.roi << "," << row.obstacles << "," << row.bytes
-                << "," << row.blocked << "," << row.truly_blocked;
-    writeCounts(scans_->out, row.all);
-    writeCounts(scans_->out, row.level);
-    scans_->out << "\n";
-    scans_measured_->out << cost.scan << "," << cost.model << "," << Fixed{cost.filter_ms, 3} << ","
-                         << Fixed{cost.update_ms, 3} << "," << Fixed{cost.queries_ms, 3} << ","
-                         << Fixed{cost.heap_bytes, 0} << "\n";
-    for (File* file : {scans_, scans_measured_}) {
-        all_.write(file->path, [&] {
-            if (!file->out) base::closeWritten(file->out, file->path.path());  // throws
+    std::ostream& out = files_[Scans]->out;
+    out << row.scan << "," << row.entry << "," << Fixed{row.time_s, 6} << "," << row.model << ","
+        << row.returns << "," << row.roi << "," << row.obstacles << "," << row.bytes << ","
+        << row.blocked << "," << row.truly_blocked;
+    writeCounts(out, row.all);
+    writeCounts(out, row.level);
+    out << "\n";
+    files_[ScansMeasured]->out << row.scan << "," << row.model << "," << Fixed{cost.filter_ms, 3}
+                               << "," << Fixed{cost.update_ms, 3} << ","
+                               << Fixed{cost.queries_ms, 3} << "," << Fixed{cost.heap_bytes, 0}
+                               << "\n";
+    for (const Name name : {Scans, ScansMeasured}) {
+        File& file = *files_[name];
+        all_.write(file.path, [&] {
+            if (!file.out) base::closeWritten(file.out, file.path.path());  // throws
         });
     }
 }
 
 void OpenLoopFiles::finish(const OpenLoop& open_loop, const OpenLoopResult& result) {
-    writeModels(models_->out, result);
-    writeModelsMeasured(models_measured_->out, result);
-    writeAgreement(agreement_->out, result);
-    summary_->out << base::dumpJson(summaryOf(open_loop, result), 2) << "\n";
+    writeModels(files_[Models]->out, result);
+    writeModelsMeasured(files_[ModelsMeasured]->out, result);
+    writeAgreement(files_[Agreement]->out, result);
+    files_[Summary]->out << base::dumpJson(summaryOf(open_loop, result), 2) << "\n";
     for (const auto& file : files_) {
         all_.write(file->path, [&] { base::closeWritten(file->out, file->path.path()); });
     }

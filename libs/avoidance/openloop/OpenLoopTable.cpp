@@ -1,12 +1,10 @@
-#include <hagen/avoidance/OpenLoopTable.h>
+#include <hagen/avoidance/OpenLoopFiles.h>
 #include <hagen/base/TextStream.h>
 
 #include <hagen/evaluation/Latency.h>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-
-#include <hagen/avoidance/OpenLoopFiles.h>
 
 namespace hagen::avoidance {
 namespace {
@@ -24,7 +22,7 @@ std::string cell(double value, int decimals, int width) {
 int nameWidth(const OpenLoopResult& result) {
     std::size_t width = 11;
     for (const OpenLoopModel& model : result.models) {
-        width = std::max(width, avoidance::displayName(model.name).size());
+        width = std::max(width, displayName(model.name).size());
     }
     return static_cast<int>(width) + 1;
 }
@@ -42,7 +40,7 @@ void addModels(std::ostream& out, const OpenLoopResult& result) {
         << "\n";
     for (const OpenLoopModel& model : result.models) {
         const evaluation::Latency update = evaluation::latencyOf(model.update_ms);
-        out << std::left << std::setw(width) << avoidance::displayName(model.name) << std::right
+        out << std::left << std::setw(width) << displayName(model.name) << std::right
             << cell(update.p50_ms, 2, 8) << cell(update.p95_ms, 2, 8) << cell(update.max_ms, 2, 8)
             << cell(evaluation::latencyOf(model.queries_ms).p50_ms, 2, 9)
             << cell(model.peak_heap_bytes / 1e6, 1, 9)
@@ -63,7 +61,7 @@ void addAgreement(std::ostream& out, const OpenLoopResult& result) {
     out << "\n";
     for (std::size_t a = 0; a < result.models.size(); ++a) {
         out << std::left << std::setw(5) << number(a) << std::setw(width - 5)
-            << avoidance::displayName(result.models[a].name) << std::right;
+            << displayName(result.models[a].name) << std::right;
         for (std::size_t b = 0; b < result.models.size(); ++b) {
             out << cell(result.agreement[a][b], 3, kWidth);
         }

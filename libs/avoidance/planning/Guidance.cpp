@@ -14,7 +14,7 @@ constexpr double kCutClearance_m = 0.9;  ///< needed for cutting a corner
 constexpr double kGoalSearch_m = 3;      ///< search radius for a substitute of a blocked goal
 constexpr double kHeightCost_per_m = 0.5;
 constexpr double kHeuristicWeight = 1.3;  ///< saves two thirds of the queries in dense forest
-constexpr int kMostCells = 4000;
+constexpr int kMaxCells = 4000;
 
 /// The goal, level at the wanted altitude while it is far off: the ground in between is unknown.
 Eigen::Vector3d levelGoal(const GuidanceTask& task) {
@@ -38,7 +38,7 @@ PathSearchOptions searchOptions(const GuidanceTask& task) {
     options.height_cost_per_m = kHeightCost_per_m;
     options.anchor_m.z() = options.wanted_height_m;
     options.heuristic_weight = kHeuristicWeight;
-    options.max_cells = kMostCells;
+    options.max_cells = kMaxCells;
     return options;
 }
 
@@ -69,13 +69,13 @@ Eigen::Vector3d freePlaceNear(const WorldModel& world, const Eigen::Vector3d& go
 }
 
 bool isInSight(const WorldModel& world, const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m,
-               double least_m) {
+               double min_m) {
     const double length_m = (to_m - from_m).norm();
     for (double at_m = 0; at_m < length_m;) {
         const Eigen::Vector3d point_m = from_m + at_m / length_m * (to_m - from_m);
         const double clearance_m = world.clearance_m(point_m.cast<float>());
-        if (clearance_m < least_m) return false;
-        at_m += std::max(clearance_m - least_m, 0.1);
+        if (clearance_m < min_m) return false;
+        at_m += std::max(clearance_m - min_m, 0.1);
     }
     return true;
 }
@@ -99,10 +99,10 @@ double lengthOf(const std::vector<Eigen::Vector3d>& path_m) {
 
 /// The maximum path distance of the carrot: planners fly straight, so it must not be behind a bend.
 double carrotWay_m(const WorldModel& world, const std::vector<Eigen::Vector3d>& path_m,
-                   double least_m) {
+                   double min_m) {
     double ahead_m = kCarrot_m;
     while (ahead_m > kNearestCarrot_m &&
-           !isInSight(world, path_m.front(), placeAt(path_m, ahead_m), least_m)) {
+           !isInSight(world, path_m.front(), placeAt(path_m, ahead_m), min_m)) {
         ahead_m -= 0.5;
     }
     return ahead_m;

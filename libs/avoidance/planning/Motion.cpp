@@ -1,4 +1,5 @@
 #include "avoidance/planning/Motion.h"
+#include <hagen/avoidance/Planner.h>
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +9,7 @@ namespace {
 constexpr double kStanding_m_s = 0.05;
 constexpr float kCheckStep_m = 0.08f;
 constexpr double kApproachShare = 0.4;  ///< of the acceleration, to stop at the goal
-constexpr double kLeastApproach_m_s = 0.5;
+constexpr double kMinApproach_m_s = 0.5;
 
 }  // namespace
 
@@ -29,7 +30,7 @@ std::optional<float> freeClearance(const WorldModel& world,
                                    const std::vector<Eigen::Vector3f>& path_m, double start_after_s,
                                    double clearance_radius_m) {
     const float approach_m = world.fastest_m_s() * static_cast<float>(kControlStep_s);
-    float least_m = WorldModel::kReach_m, needed_m = 0, free_m = 0;
+    float min_m = WorldModel::kReach_m, needed_m = 0, free_m = 0;
     for (std::size_t i = 0; i < path_m.size(); ++i) {
         // Points within the sphere of the last clearance need no query.
         if (i > 0) free_m -= (path_m[i] - path_m[i - 1]).norm() + approach_m;
@@ -39,25 +40,25 @@ std::optional<float> freeClearance(const WorldModel& world,
         if (clearance_m < needed_m) return std::nullopt;
         const auto room = static_cast<float>(clearance_radius_m);
         needed_m = clearance_m >= room ? room : clearance_m;
-        least_m = std::min(least_m, clearance_m);
+        min_m = std::min(min_m, clearance_m);
         free_m = std::max(clearance_m - needed_m, kCheckStep_m);
     }
-    return least_m;
+    return min_m;
 }
 
-float leastClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
-                       double start_after_s) {
+float minClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
+                     double start_after_s) {
     const float approach_m = world.fastest_m_s() * static_cast<float>(kControlStep_s);
-    float least_m = WorldModel::kReach_m, spare_m = 0;  // above the least so far
+    float min_m = WorldModel::kReach_m, spare_m = 0;  // above the least so far
     for (std::size_t i = 0; i < path_m.size(); ++i) {
         if (i > 0) spare_m -= (path_m[i] - path_m[i - 1]).norm() + approach_m;
         if (spare_m > 0) continue;
         const double after_s = start_after_s + kControlStep_s * static_cast<double>(i);
         const float clearance_m = world.clearanceAfter_m(path_m[i], after_s);
-        least_m = std::min(least_m, clearance_m);
-        spare_m = std::max(clearance_m - least_m, kCheckStep_m);
+        min_m = std::min(min_m, clearance_m);
+        spare_m = std::max(clearance_m - min_m, kCheckStep_m);
     }
-    return least_m;
+    return min_m;
 }
 
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
@@ -87,12 +88,18 @@ double speedTowardsGoal(const PlanningTask& task) {
     const double distance_m = (task.carrot_m - task.start.position_m).norm() + task.beyond_carrot_m;
     const double stopping_m_s =
         std::sqrt(2 * kApproachShare * task.limits.acceleration_m_s2 * distance_m);
-    return std::min(task.speed_m_s, std::max(kLeastApproach_m_s, stopping_m_s));
+    return std::min(task.speed_m_s, std::max(kMinApproach_m_s, stopping_m_s));
 }
 
 double outOfAltitudes(double height_m, const PlanningTask& task) {
     const double altitude_m = height_m - task.ground_m;
     return std::max({0.0, task.lowest_m - altitude_m, altitude_m - task.highest_m});
+}
+
+bool mustStop(const WorldModel& world, const PlanningTask& task) {
+    std::vector<Eigen::Vector3f> path_m;
+    rollOut(task.start, task.start.velocity_m_s, task.period_s, task.limits, path_m);
+    return !freeClearance(world, path_m, task.start_after_s, task.limits.radius_m);
 }
 
 }  // namespace hagen::avoidance

@@ -21,8 +21,8 @@ std::optional<float> freeClearance(const WorldModel& world,
                                    double clearance_radius_m);
 
 /// The minimum clearance along such a path, whatever it is, at most that at its start.
-float leastClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
-                       double start_after_s);
+float minClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
+                     double start_after_s);
 
 /// The paths of a command: held and then braking, and interrupted after one period.
 struct CommandPaths {

@@ -1,9 +1,9 @@
-#include "avoidance/planning/MotionPrimitives.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include "avoidance/planning/Motion.h"
+#include "avoidance/planning/Planners.h"
 
 namespace hagen::avoidance {
 namespace {
@@ -147,7 +147,7 @@ Plan cheapestFree(const WorldModel& world, const PlanningTask& task) {
 bool isBrakingUnsafe(const WorldModel& world, const PlanningTask& task) {
     std::vector<Eigen::Vector3f> path_m;
     rollOut(task.start, Eigen::Vector3d::Zero(), kLookAhead_s, task.limits, path_m);
-    return static_cast<double>(leastClearance_m(world, path_m, task.start_after_s)) <
+    return static_cast<double>(minClearance_m(world, path_m, task.start_after_s)) <
            task.limits.radius_m;
 }
 
@@ -165,7 +165,7 @@ Eigen::Vector3d evadingCommand(const WorldModel& world, PlanningTask task) {
         const auto end_m = static_cast<double>(path_m.back().z());
         if (outOfAltitudes(end_m, task) > outOfAltitudes(task.start.position_m.z(), task)) continue;
         if (task.brakes_in_known_space && !world.isKnown(path_m.back())) continue;
-        const float clearance_m = leastClearance_m(world, path_m, task.start_after_s);
+        const float clearance_m = minClearance_m(world, path_m, task.start_after_s);
         if (clearance_m > best_m) {
             best_m = clearance_m;
             best_m_s = candidate.command_m_s;

@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <queue>
 #include <stdexcept>
 
 namespace hagen::avoidance {
@@ -17,7 +19,7 @@ constexpr double kCostPerMetre = 10000;
 constexpr double kProximityCost = 2;  ///< extra cost per metre at the minimum clearance
 constexpr double kCheckStep_m = 0.1;
 constexpr double kGrazing_m = 0.05;  ///< tolerance of edges between cells
-constexpr std::int64_t kMostCellsOfGrid = 30'000'000;
+constexpr std::int64_t kMaxCellsOfGrid = 30'000'000;
 
 /// State of a cell. Valid only if it has the number of the current search. 32 bytes, as most of a
 /// long search's time goes into fetching cells.
@@ -35,8 +37,8 @@ struct Cell {
 constexpr int kNeighbours = 27, kItself = 13;
 
 /// A way into a cell. Among equal estimates, the one with more path done goes first, then those
-/// whose clearance was queried, then the lower cell, then the lower parent. All of that is in the
-/// bits of one number: the more of an estimate is done, the less is left.
+/// whose clearance was queried, then the lower cell, then the lower parent. The rank has all of
+/// that in its bits, since comparisons take much of the time of a search.
 struct Entry {
     static constexpr int kParentBits = 5, kCellBits = 25, kLeftBits = 33;
 
@@ -58,70 +60,16 @@ struct Entry {
     Cost left() const { return static_cast<Cost>(rank >> (kParentBits + kCellBits + 1)); }
     Cost cost() const { return estimate - left(); }
 
-    bool goesBefore(const Entry& other) const {
-        return estimate != other.estimate ? estimate < other.estimate : rank < other.rank;
+    bool operator>(const Entry& other) const {
+        return estimate != other.estimate ? estimate > other.estimate : rank > other.rank;
     }
 };
 static_assert(Entry::kParentBits + Entry::kCellBits + 1 + Entry::kLeftBits == 64);
 static_assert(kNeighbours <= 1 << Entry::kParentBits);
-static_assert(kMostCellsOfGrid <= 1 << Entry::kCellBits);
+static_assert(kMaxCellsOfGrid <= 1 << Entry::kCellBits);
 
-/// Returns entries in their order: small heaps for one range of estimates each, of which only those
-/// that are reached become heaps. No two entries are equal in order without being the same, so what
-/// comes out next does not depend on the kind of queue.
-class Queue {
- public:
-    bool isEmpty() const { return count_ == 0; }
-
-    void clear() {
-        for (std::size_t i = 0; i < end_; ++i) {
-            buckets_[i].entries.clear();
-            buckets_[i].is_heap = false;
-        }
-        count_ = end_ = 0;
-    }
-
-    void push(const Entry& entry) {
-        const auto range = static_cast<std::size_t>(
-            std::min<Cost>(entry.estimate / kRange, static_cast<Cost>(kMostBuckets) - 1));
-        if (range >= buckets_.size()) buckets_.resize(range + 1);
-        Bucket& bucket = buckets_[range];
-        bucket.entries.push_back(entry);
-        if (bucket.is_heap) std::push_heap(bucket.entries.begin(), bucket.entries.end(), goesAfter);
-        first_ = count_ == 0 ? range : std::min(first_, range);
-        end_ = std::max(end_, range + 1);
-        ++count_;
-    }
-
-    /// Not of an empty queue.
-    Entry pop() {
-        while (buckets_[first_].entries.empty()) ++first_;
-        Bucket& bucket = buckets_[first_];
-        if (!bucket.is_heap)
-            std::make_heap(bucket.entries.begin(), bucket.entries.end(), goesAfter);
-        bucket.is_heap = true;
-        std::pop_heap(bucket.entries.begin(), bucket.entries.end(), goesAfter);
-        const Entry first = bucket.entries.back();
-        bucket.entries.pop_back();
-        --count_;
-        return first;
-    }
-
- private:
-    static constexpr Cost kRange = 32;
-    static constexpr std::size_t kMostBuckets = 1 << 16;  ///< all that is farther shares the last
-
-    struct Bucket {
-        std::vector<Entry> entries;
-        bool is_heap = false;
-    };
-    static constexpr auto goesAfter = [](const Entry& a, const Entry& b) {
-        return b.goesBefore(a);
-    };
-
-    std::vector<Bucket> buckets_;
-    std::size_t count_ = 0, first_ = 0, end_ = 0;
-};
+/// The next entry first.
+using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
 double extraCost(double clearance_m, double height_m, const PathSearchOptions& options) {
     const double range_m = options.wanted_clearance_m - options.min_clearance_m;
@@ -146,7 +94,7 @@ class Search {
     Eigen::Vector3d pointOf(int index, int place) const;
     void look(int index);
     bool mayPass(int from, int to);
-    Cost leastCostToGoal(int x, int y, int z) const;
+    Cost minCostToGoal(int x, int y, int z) const;
     void open(int index);
     std::vector<Eigen::Vector3d> pathTo(int index) const;
 
@@ -158,7 +106,7 @@ class Search {
     std::uint32_t number_ = 0;
     Cost heuristic_permille_;
     std::vector<Cell>& cells_;
-    Queue& queue_;
+    Queue queue_;
     std::array<Cost, 4> lengths_{};  ///< of a step along as many axes
     Eigen::Vector3i goal_place_{0, 0, 0};
     std::array<int, kNeighbours> offsets_{};             ///< of a neighbour's index
@@ -168,7 +116,6 @@ class Search {
 /// Reused by later searches, because clearing it would cost more than most searches.
 struct Memory {
     std::vector<Cell> cells;
-    Queue queue;
     std::uint32_t search = 0;
 };
 Memory& memory() {
@@ -183,8 +130,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
       goal_m_(goal_m),
       options_(options),
       heuristic_permille_(std::llround(1000 * std::max(1.0, options.heuristic_weight))),
-      cells_(memory().cells),
-      queue_(memory().queue) {
+      cells_(memory().cells) {
     if (!(options.cell_m > 0) || options.bounds_m.isEmpty()) {
         throw std::invalid_argument("path search: cells need a size, and bounds to lie in");
     }
@@ -199,7 +145,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
     const Eigen::Vector3d first = low.array().ceil().min(nearest(start_m).array());
     const Eigen::Vector3d last = high.array().floor().max(nearest(start_m).array());
     const Eigen::Vector3d count = (last - first).array() + 1;
-    if (!((count.array() >= 1).all() && count.prod() <= double(kMostCellsOfGrid))) {
+    if (!((count.array() >= 1).all() && count.prod() <= double(kMaxCellsOfGrid))) {
         throw std::invalid_argument("path search: the bounds hold no cells, or too many");
     }
     least_ = first.cast<int>();
@@ -235,7 +181,6 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
         neighbour_lengths_[static_cast<std::size_t>(i)] =
             lengths_[static_cast<std::size_t>(std::abs(x) + std::abs(y) + std::abs(z))];
     }
-    queue_.clear();
 }
 
 Cell& Search::cell(int index) {
@@ -267,12 +212,12 @@ Eigen::Vector3d Search::pointOf(int index, int place) const {
 void Search::look(int index) {
     Cell& at = cell(index);
     if (at.place != -1) return;
-    const double least_m = options_.min_clearance_m;
+    const double min_m = options_.min_clearance_m;
     at.place = 0;
     at.clearance_m = clearance_m_(pointOf(index, 0).cast<float>());
     // Clearance is 1-Lipschitz, so only near misses need more queries.
     const double beside_m = options_.cell_m / 4 * std::sqrt(2.0);
-    if (at.clearance_m < least_m && at.clearance_m + beside_m >= least_m && index != start_ &&
+    if (at.clearance_m < min_m && at.clearance_m + beside_m >= min_m && index != start_ &&
         index != goal_) {
         for (std::int8_t place = 1; place <= 4; ++place) {
             const float there_m = clearance_m_(pointOf(index, place).cast<float>());
@@ -291,20 +236,20 @@ void Search::look(int index) {
 bool Search::mayPass(int from, int to) {
     const Cell &a = cell(from), &b = cell(to);
     const double ends_m = std::min(a.clearance_m, b.clearance_m);
-    const double least_m = std::min(options_.min_clearance_m - kGrazing_m, ends_m);
+    const double min_m = std::min(options_.min_clearance_m - kGrazing_m, ends_m);
     if (b.clearance_m < options_.min_clearance_m && !(b.clearance_m > a.clearance_m)) {
         return false;
     }
     const Eigen::Vector3d start_m = pointOf(from, a.place);
     const Eigen::Vector3d offset_m = pointOf(to, b.place) - start_m;
     const double length_m = offset_m.norm();
-    double at_m = std::max(a.clearance_m - least_m, kCheckStep_m);
-    const double end_m = length_m - std::max(b.clearance_m - least_m, kCheckStep_m);
+    double at_m = std::max(a.clearance_m - min_m, kCheckStep_m);
+    const double end_m = length_m - std::max(b.clearance_m - min_m, kCheckStep_m);
     while (at_m < end_m) {
         const Eigen::Vector3d point_m = start_m + at_m / length_m * offset_m;
         const double clearance_m = clearance_m_(point_m.cast<float>());
-        if (clearance_m < least_m) return false;
-        at_m += std::max(clearance_m - least_m, kCheckStep_m);
+        if (clearance_m < min_m) return false;
+        at_m += std::max(clearance_m - min_m, kCheckStep_m);
     }
     return true;
 }
@@ -315,7 +260,7 @@ Cost costOfStep(Cost length, const Cell& a, const Cell& b) {
 }
 
 /// The distance through empty space on a grid with diagonals, times the heuristic weight.
-Cost Search::leastCostToGoal(int x, int y, int z) const {
+Cost Search::minCostToGoal(int x, int y, int z) const {
     x = std::abs(x - goal_place_.x());
     y = std::abs(y - goal_place_.y());
     z = std::abs(z - goal_place_.z());
@@ -348,9 +293,9 @@ void Search::open(int index) {
                                            : length + length * here.extra_permille / 2000;
                 const Cost cost = here.cost + step;
                 if (cost >= there.cost) continue;
-                const Cost left = leastCostToGoal(x, y, z);
+                const Cost left = minCostToGoal(x, y, z);
                 const int back = kNeighbours - 1 - neighbour;
-                queue_.push({cost + left, left, false, next, back});
+                queue_.emplace(cost + left, left, false, next, back);
             }
         }
     }
@@ -374,8 +319,9 @@ std::optional<std::vector<Eigen::Vector3d>> Search::run() {
     cell(start_).cost = 0;
     open(start_);
     int opened = 1;
-    while (!queue_.isEmpty() && opened < options_.max_cells) {
-        const Entry entry = queue_.pop();
+    while (!queue_.empty() && opened < options_.max_cells) {
+        const Entry entry = queue_.top();
+        queue_.pop();
         const int index = entry.cell();
         Cell& at = cell(index);
         if (at.is_closed || (!entry.isExact() && entry.cost() >= at.cost)) continue;
@@ -390,7 +336,7 @@ std::optional<std::vector<Eigen::Vector3d>> Search::run() {
             at.parent = from;
             const Cost more = cost - entry.cost();
             if (more > 0) {
-                queue_.push({entry.estimate + more, entry.left(), true, index, entry.parent()});
+                queue_.emplace(entry.estimate + more, entry.left(), true, index, entry.parent());
                 continue;
             }
         } else if (entry.cost() > at.cost) {

@@ -1,7 +1,6 @@
 #include <hagen/avoidance/Planner.h>
 #include <stdexcept>
-#include "avoidance/planning/MotionPrimitives.h"
-#include "avoidance/planning/PolarHistogram.h"
+#include "avoidance/planning/Planners.h"
 
 namespace hagen::avoidance {
 

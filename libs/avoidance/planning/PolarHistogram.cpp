@@ -1,8 +1,8 @@
-#include "avoidance/planning/PolarHistogram.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include "avoidance/planning/Motion.h"
+#include "avoidance/planning/Planners.h"
 
 namespace hagen::avoidance {
 namespace {

@@ -11,15 +11,34 @@
 namespace hagen::avoidance {
 namespace {
 
-std::string unknownOf(const avoidance::Run& run) {
+/// A condition that is left out where it has its default.
+struct Condition {
+    std::string flag;
+    std::string (*valueOf)(const Run&);
+};
+
+std::string unknownOf(const Run& run) {
     return run.setup.brakes_in_known_space ? "brake-known" : "optimistic";
 }
 
-bool matches(const avoidance::Run& run, const RunWanted& wanted) {
+const std::vector<Condition>& conditions() {
+    static const std::vector<Condition> all{
+        {"--planner", [](const Run& run) { return run.setup.planner; }},
+        {"--pose-error", [](const Run& run) { return nameOf(run.setup.pose_error); }},
+        {"--latency-scale",
+         [](const Run& run) { return base::shortestText(run.setup.latency_scale); }},
+        {"--unknown", unknownOf},
+        {"--air", [](const Run& run) { return nameOf(run.setup.air); }},
+        {"--distance", [](const Run& run) { return nameOf(run.setup.distance); }},
+        {"--updates", [](const Run& run) { return nameOf(run.setup.updates); }}};
+    return all;
+}
+
+bool matches(const Run& run, const RunWanted& wanted) {
     const auto is = [](const std::string& name, const std::string& value) {
         return name.empty() || name == value;
     };
-    const avoidance::TrialSetup& setup = run.setup;
+    const TrialSetup& setup = run.setup;
     return run.seed == wanted.seed && is(wanted.scenario, run.scenario) &&
            is(wanted.model, setup.model) && is(wanted.guidance, setup.guidance) &&
            is(wanted.planner, setup.planner) && is(wanted.pose_error, nameOf(setup.pose_error)) &&
@@ -30,13 +49,13 @@ bool matches(const avoidance::Run& run, const RunWanted& wanted) {
            (wanted.latency_scale == 0 || wanted.latency_scale == setup.latency_scale);
 }
 
-std::string listOf(const std::vector<avoidance::Run>& runs) {
-    constexpr std::size_t kMost = 40;
+std::string listOf(const std::vector<Run>& runs) {
+    constexpr std::size_t kMax = 40;
     std::string list;
-    for (std::size_t i = 0; i < std::min(kMost, runs.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kMax, runs.size()); ++i) {
         list += "\n  " + choiceOf(runs[i], runs);
     }
-    if (runs.size() > kMost) list += "\n  ...";
+    if (runs.size() > kMax) list += "\n  ...";
     return list;
 }
 
@@ -47,13 +66,13 @@ std::string joined(const std::set<std::string>& names) {
 }
 
 /// One line per scenario: "gap: seeds 1000-1049, 4 m/s, G-Full,W-RoI, astar".
-std::string overviewOf(const std::vector<avoidance::Run>& runs) {
+std::string overviewOf(const std::vector<Run>& runs) {
     struct Scenario {
         std::set<std::uint64_t> seeds;
         std::set<std::string> speeds_m_s, models, guidances;
     };
     std::map<std::string, Scenario> scenarios;
-    for (const avoidance::Run& run : runs) {
+    for (const Run& run : runs) {
         Scenario& scenario = scenarios[run.scenario];
         scenario.seeds.insert(run.seed);
         scenario.speeds_m_s.insert(base::shortestText(run.setup.speed_m_s));
@@ -73,73 +92,48 @@ std::string overviewOf(const std::vector<avoidance::Run>& runs) {
 
 }  // namespace
 
-std::string choiceOf(const avoidance::Run& run, const std::vector<avoidance::Run>& among) {
-    const avoidance::TrialSetup &setup = run.setup, usual;
-    std::string flags = "--scenario " + run.scenario + " --model " + setup.model + " --guidance " +
-                        setup.guidance + " --speed " + base::shortestText(setup.speed_m_s);
-    // Defaults are left out unless other runs differ in them.
-    const auto add = [&](const std::string& flag, const auto& valueOf, bool is_usual) {
-        const auto differs = [&](const avoidance::Run& other) {
-            return valueOf(other) != valueOf(run);
-        };
-        if (is_usual && std::none_of(among.begin(), among.end(), differs)) return;
-        flags += " " + flag + " " + valueOf(run);
-    };
-    add(
-        "--planner", [](const avoidance::Run& one) { return one.setup.planner; },
-        setup.planner == usual.planner);
-    add(
-        "--pose-error", [](const avoidance::Run& one) { return nameOf(one.setup.pose_error); },
-        setup.pose_error == usual.pose_error);
-    add(
-        "--latency-scale",
-        [](const avoidance::Run& one) { return base::shortestText(one.setup.latency_scale); },
-        setup.latency_scale == usual.latency_scale);
-    add("--unknown", unknownOf, setup.brakes_in_known_space == usual.brakes_in_known_space);
-    add(
-        "--air", [](const avoidance::Run& one) { return nameOf(one.setup.air); },
-        setup.air == usual.air);
-    add(
-        "--distance", [](const avoidance::Run& one) { return nameOf(one.setup.distance); },
-        setup.distance == usual.distance);
-    add(
-        "--updates", [](const avoidance::Run& one) { return nameOf(one.setup.updates); },
-        setup.updates == usual.updates);
+std::string choiceOf(const Run& run, const std::vector<Run>& among) {
+    std::string flags = "--scenario " + run.scenario + " --model " + run.setup.model +
+                        " --guidance " + run.setup.guidance + " --speed " +
+                        base::shortestText(run.setup.speed_m_s);
+    for (const Condition& condition : conditions()) {
+        const std::string value = condition.valueOf(run);
+        const bool is_common = value == condition.valueOf(Run{}) &&
+                               std::all_of(among.begin(), among.end(), [&](const Run& other) {
+                                   return condition.valueOf(other) == value;
+                               });
+        if (!is_common) flags += " " + condition.flag + " " + value;
+    }
     return flags + "   # " + nameOf(run.result.outcome);
 }
 
-std::string fileNameOf(const avoidance::Run& run) {
-    const avoidance::TrialSetup &setup = run.setup, usual;
+std::string fileNameOf(const Run& run) {
+    const TrialSetup& setup = run.setup;
     std::string name = run.scenario + "-" + std::to_string(run.seed) + "-" + setup.model + "-" +
                        setup.guidance + "-" + base::shortestText(setup.speed_m_s) + "mps";
-    if (setup.planner != usual.planner) name += "-" + setup.planner;
-    if (setup.pose_error != usual.pose_error) name += "-" + nameOf(setup.pose_error);
-    if (setup.latency_scale != usual.latency_scale) {
-        name += "-latency" + base::shortestText(setup.latency_scale);
+    for (const Condition& condition : conditions()) {
+        const std::string value = condition.valueOf(run);
+        if (value == condition.valueOf(Run{})) continue;
+        name += (condition.flag == "--latency-scale" ? "-latency" : "-") + value;
     }
-    if (setup.brakes_in_known_space) name += "-brake-known";
-    if (setup.air != usual.air) name += "-" + nameOf(setup.air);
-    if (setup.distance != usual.distance) name += "-" + nameOf(setup.distance);
-    if (setup.updates != usual.updates) name += "-" + nameOf(setup.updates);
     return name;
 }
 
-avoidance::Run chooseRun(const std::vector<avoidance::Run>& runs, const RunWanted& wanted) {
+Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted) {
     const auto thoseThat = [&](const auto& fit) {
-        std::vector<avoidance::Run> found;
+        std::vector<Run> found;
         std::copy_if(runs.begin(), runs.end(), std::back_inserter(found), fit);
         return found;
     };
-    const std::vector<avoidance::Run> found =
-        thoseThat([&](const avoidance::Run& run) { return matches(run, wanted); });
+    const std::vector<Run> found = thoseThat([&](const Run& run) { return matches(run, wanted); });
     if (found.size() == 1) return found[0];
     const std::string seed = "of seed " + std::to_string(wanted.seed);
     if (!found.empty()) {
         throw std::invalid_argument(std::to_string(found.size()) + " runs " + seed +
                                     " match; select one by flags:" + listOf(found));
     }
-    const std::vector<avoidance::Run> of_seed =
-        thoseThat([&](const avoidance::Run& run) { return run.seed == wanted.seed; });
+    const std::vector<Run> of_seed =
+        thoseThat([&](const Run& run) { return run.seed == wanted.seed; });
     if (!of_seed.empty()) {
         throw std::invalid_argument("has no run " + seed +
                                     " with these flags; that seed has:" + overviewOf(of_seed));

@@ -1,4 +1,4 @@
-#include <hagen/avoidance/Ending.h>
+#include <hagen/avoidance/FlightRecording.h>
 
 #include <hagen/avoidance/TrialScore.h>
 #include <hagen/scan/Angle.h>
@@ -65,22 +65,20 @@ std::string wordsFor(simulation::ObjectClass kind) {
 }
 
 /// Which limit of the judge a timeout exceeded.
-std::string wordsForTimeout(const avoidance::Course& course, const avoidance::TrialResult& result,
-                            double speed_m_s, const Eigen::Vector3d& end_m) {
-    if (course.bounds_m.exteriorDistance(end_m) > avoidance::TrialJudge::kOutside_m)
-        return "left the course";
-    if (result.time_s > avoidance::TrialJudge::longestFlight_s(course, speed_m_s))
-        return "ran out of time";
+std::string wordsForTimeout(const Course& course, const TrialResult& result, double speed_m_s,
+                            const Eigen::Vector3d& end_m) {
+    if (course.bounds_m.exteriorDistance(end_m) > TrialJudge::kOutside_m) return "left the course";
+    if (result.time_s > TrialJudge::longestFlight_s(course, speed_m_s)) return "ran out of time";
     return "gave up for lack of progress";
 }
 
 }  // namespace
 
-std::string endingOf(const avoidance::Course& course, const avoidance::TrialResult& result,
-                     double speed_m_s, const Eigen::Vector3d& end_m) {
+std::string endingOf(const Course& course, const TrialResult& result, double speed_m_s,
+                     const Eigen::Vector3d& end_m) {
     const std::string at = " at " + base::fixedText(result.time_s, 2) + " s";
-    if (result.outcome == avoidance::Outcome::Success) return "reached the goal" + at;
-    if (result.outcome == avoidance::Outcome::Timeout) {
+    if (result.outcome == Outcome::Success) return "reached the goal" + at;
+    if (result.outcome == Outcome::Timeout) {
         return wordsForTimeout(course, result, speed_m_s, end_m) + at;
     }
     const auto clearance_m =

@@ -1,18 +1,77 @@
-#include <cmath>
-#include <map>
-
 #include <hagen/avoidance/Replay.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/Json.h>
 #include <hagen/base/NumberText.h>
-#include "avoidance/replays/PackedNumbers.h"
-#include "avoidance/replays/PageTemplate.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 #include "avoidance/replays/ReplayTexts.h"
 
 namespace hagen::avoidance {
 namespace {
 
 using base::Json;
+
+/// 16-bit integers, little-endian, embedded in pages as base64.
+class PackedNumbers {
+ public:
+    /// Rounds the value and clamps it to 16 bits.
+    void add(double value);
+    std::string text() const;
+
+ private:
+    std::vector<std::uint8_t> bytes_;
+};
+
+void PackedNumbers::add(double value) {
+    const auto whole =
+        static_cast<std::int16_t>(std::lround(std::fmax(-32768, std::fmin(32767, value))));
+    bytes_.push_back(static_cast<std::uint8_t>(whole & 0xff));
+    bytes_.push_back(static_cast<std::uint8_t>((whole >> 8) & 0xff));
+}
+
+std::string PackedNumbers::text() const {
+    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes_.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes_.size(); i += 3) {
+        const std::size_t left = std::min<std::size_t>(3, bytes_.size() - i);
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k) group = (group << 8) | (k < left ? bytes_[i + k] : 0u);
+        for (std::size_t digit = 0; digit < 4; ++digit) {
+            text += digit <= left ? kDigits[(group >> (18 - 6 * digit)) & 63u] : '=';
+        }
+    }
+    return text;
+}
+
+std::string filled(std::string_view page, const std::map<std::string, std::string_view>& values) {
+    std::string text;
+    for (;;) {
+        const std::size_t begin = page.find("{{");
+        if (begin == std::string_view::npos) return text.append(page);
+        const std::size_t end = page.find("}}", begin);
+        const std::string name(page.substr(begin + 2, end - begin - 2));
+        const auto value = values.find(name);
+        if (value == values.end()) throw std::logic_error("the page has no value for " + name);
+        text.append(page.substr(0, begin)).append(value->second);
+        page.remove_prefix(end + 2);
+    }
+}
+
+std::string scriptText(std::string json) {
+    // In a string, "</script>" would end the element, and "<!--<script>" would hide its end. JSON
+    // has a '<' only in strings.
+    const std::string escaped = "\\u003c";
+    for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos; at += escaped.size())
+        json.replace(at, 1, escaped);
+    return json;
+}
 
 /// Coordinates of pages are 16-bit centimetres from the start, so they reach 327 m.
 constexpr double kUnit_m = 0.01;
@@ -21,7 +80,7 @@ constexpr double kTurnUnit_rad = 0.0001;  // more than half a turn
 
 class PageWriter {
  public:
-    explicit PageWriter(const Recording& recording) : recording_(recording) {}
+    explicit PageWriter(const FlightRecording& recording) : recording_(recording) {}
 
     Json data() const {
         Json data = head();
@@ -48,18 +107,18 @@ class PageWriter {
 
  private:
     Json head() const {
-        const avoidance::Run& run = recording_.run;
+        const Run& run = recording_.run;
         return {
             {"scenario", run.scenario},
             {"seed", run.seed},
-            {"model_name", avoidance::displayName(run.setup.model)},
+            {"model_name", displayName(run.setup.model)},
             {"guidance", run.setup.guidance},
             {"speed_m_s", run.setup.speed_m_s},
-            {"outcome", avoidance::nameOf(run.result.outcome)},
+            {"outcome", nameOf(run.result.outcome)},
             {"ending", recording_.ending},
             {"is_same", recording_.is_same},
             {"unit_m", kUnit_m},
-            {"control_step_s", avoidance::kControlStep_s},
+            {"control_step_s", kControlStep_s},
             {"start_m", {recording_.start_m.x(), recording_.start_m.y(), recording_.start_m.z()}},
             {"ground_m", rounded(recording_.ground_m - recording_.start_m.z())},
             {"goal", points(std::vector<Eigen::Vector3d>{recording_.goal_m})},
@@ -146,8 +205,8 @@ class PageWriter {
         for (const double height_m : ground.heights_m) {
             heights.add((height_m - recording_.start_m.z()) / kUnit_m);
         }
-        return {{"x_m", rounded(ground.least_m.x() - recording_.start_m.x())},
-                {"y_m", rounded(ground.least_m.y() - recording_.start_m.y())},
+        return {{"x_m", rounded(ground.min_m.x() - recording_.start_m.x())},
+                {"y_m", rounded(ground.min_m.y() - recording_.start_m.y())},
                 {"step_m", ground.step_m},
                 {"along_x", ground.along_x},
                 {"along_y", ground.along_y},
@@ -193,27 +252,27 @@ class PageWriter {
 
     static double rounded(double value) { return std::round(1000 * value) / 1000; }
 
-    const Recording& recording_;
+    const FlightRecording& recording_;
 };
 
 /// Scenario, seed, contender, speed, deviations from the default condition, outcome.
-std::string headingOf(const avoidance::Run& run) {
-    const avoidance::TrialSetup& setup = run.setup;
+std::string headingOf(const Run& run) {
+    const TrialSetup& setup = run.setup;
     std::string text = run.scenario + ", seed " + std::to_string(run.seed) + ", " +
-                       avoidance::displayName(setup.model) + ", " +
+                       displayName(setup.model) + ", " +
                        (setup.guidance == "astar" ? "A*" : setup.guidance) + ", " +
                        base::shortestText(setup.speed_m_s) + " m/s";
     const auto add = [&](bool deviates, const std::string& what) {
         if (deviates) text += ", " + what;
     };
     add(setup.planner != "primitives", "planner " + setup.planner);
-    add(setup.pose_error != avoidance::PoseError::None, "pose " + nameOf(setup.pose_error));
+    add(setup.pose_error != PoseError::None, "pose " + nameOf(setup.pose_error));
     add(setup.latency_scale != 1, "latency x" + base::shortestText(setup.latency_scale));
     add(setup.brakes_in_known_space, "brakes in known space");
-    add(setup.air != avoidance::Air::Dusty, nameOf(setup.air) + " air");
-    add(setup.distance != avoidance::ModelDistance::Unbiased, "distances as stored");
-    add(setup.updates != avoidance::Updates::Scans, nameOf(setup.updates));
-    return text + ": " + avoidance::nameOf(run.result.outcome);
+    add(setup.air != Air::Dusty, nameOf(setup.air) + " air");
+    add(setup.distance != ModelDistance::Unbiased, "distances as stored");
+    add(setup.updates != Updates::Scans, nameOf(setup.updates));
+    return text + ": " + nameOf(run.result.outcome);
 }
 
 /// For the text of an HTML element.
@@ -233,7 +292,7 @@ std::string htmlText(const std::string& text) {
 
 }  // namespace
 
-std::string replayPage(const Recording& recording) {
+std::string replayPage(const FlightRecording& recording) {
     const std::string data = scriptText(PageWriter(recording).data().dump());
     const std::string heading = htmlText(headingOf(recording.run));
     return filled(texts::replay_html, {{"style", texts::replay_css},

@@ -59,8 +59,8 @@ CSphere::Ptr sphereAt(const Eigen::Vector3d& at, float radius_m, const TColor& c
 CSetOfLines::Ptr linesOf(const TrueScene::Ground& ground) {
     const auto lines = CSetOfLines::Create();
     const auto corner = [&](int i, int j) {
-        return mrpt::math::TPoint3D(ground.least_m.x() + i * ground.step_m,
-                                    ground.least_m.y() + j * ground.step_m,
+        return mrpt::math::TPoint3D(ground.min_m.x() + i * ground.step_m,
+                                    ground.min_m.y() + j * ground.step_m,
                                     ground.heights_m[std::size_t(j * ground.along_x + i)]);
     };
     for (int j = 0; j < ground.along_y; ++j) {
@@ -87,7 +87,7 @@ CSetOfLines::Ptr trackOf(const std::vector<RecordedMoment>& track) {
 }
 
 /// The model's obstacles at the last step.
-std::vector<Eigen::Vector3f> lastOf(const Recording& recording) {
+std::vector<Eigen::Vector3f> lastOf(const FlightRecording& recording) {
     const int last = static_cast<int>(recording.steps.size());
     std::vector<Eigen::Vector3f> centres_m;
     for (const ModelCell& cell : recording.model) {
@@ -111,15 +111,14 @@ void addShape(const simulation::Shape& shape, const Eigen::Affine3f& pose, const
 }
 
 /// The true scene, with movers where they were at the end.
-CSetOfTriangles::Ptr trueSceneOf(const Recording& recording) {
+CSetOfTriangles::Ptr trueSceneOf(const FlightRecording& recording) {
     const TColor standing(110, 130, 105), moving(170, 60, 60);
     const TrueScene& scene = recording.scene;
     const auto all = CSetOfTriangles::Create();
     for (const simulation::SceneObject& object : scene.objects) {
         addShape(scene.shapes[object.shape], object.pose, standing, *all);
     }
-    const double end_s =
-        avoidance::kControlStep_s * static_cast<double>(recording.track.size() - 1);
+    const double end_s = kControlStep_s * static_cast<double>(recording.track.size() - 1);
     for (const TrueScene::Mover& mover : scene.movers) {
         addShape(scene.shapes[mover.shape], poseAt(mover, end_s), moving, *all);
     }
@@ -129,7 +128,7 @@ CSetOfTriangles::Ptr trueSceneOf(const Recording& recording) {
 
 }  // namespace
 
-void writeReplayScene(const Recording& recording, const std::filesystem::path& place,
+void writeReplayScene(const FlightRecording& recording, const std::filesystem::path& place,
                       const std::filesystem::path& file) {
     base::openToWrite(place, file);  // MRPT does not report why writing fails
     Scene scene;

@@ -7,7 +7,7 @@ namespace hagen::avoidance {
 namespace {
 
 /// Thin rods are drawn thicker: a wire of 24 mm would be less than a pixel wide.
-constexpr float kLeastRadius_m = 0.03f;
+constexpr float kMinRadius_m = 0.03f;
 
 simulation::Shape drawn(const simulation::Shape& shape) {
     constexpr int kSides = 6;
@@ -16,8 +16,8 @@ simulation::Shape drawn(const simulation::Shape& shape) {
     triangles.triangles = shape.triangles;
     for (const std::uint32_t knot : shape.segments) {
         Eigen::Vector4f from = shape.polyline_m[knot], to = shape.polyline_m[knot + 1];
-        from.w() = std::max(from.w(), kLeastRadius_m);
-        to.w() = std::max(to.w(), kLeastRadius_m);
+        from.w() = std::max(from.w(), kMinRadius_m);
+        to.w() = std::max(to.w(), kMinRadius_m);
         triangles.addTube({from, to}, kSides);
     }
     return triangles;
@@ -27,14 +27,14 @@ TrueScene::Ground groundOf(const simulation::Terrain& terrain,
                            const Eigen::AlignedBox3d& bounds_m) {
     constexpr double kAround_m = 20;
     TrueScene::Ground ground;
-    ground.least_m = bounds_m.min().head<2>().array() - kAround_m;
+    ground.min_m = bounds_m.min().head<2>().array() - kAround_m;
     const Eigen::Vector2d size_m = bounds_m.sizes().head<2>().array() + 2 * kAround_m;
     ground.along_x = 1 + static_cast<int>(std::ceil(size_m.x() / ground.step_m));
     ground.along_y = 1 + static_cast<int>(std::ceil(size_m.y() / ground.step_m));
     for (int j = 0; j < ground.along_y; ++j) {
         for (int i = 0; i < ground.along_x; ++i) {
-            ground.heights_m.push_back(terrain.height_m(ground.least_m.x() + i * ground.step_m,
-                                                        ground.least_m.y() + j * ground.step_m));
+            ground.heights_m.push_back(terrain.height_m(ground.min_m.x() + i * ground.step_m,
+                                                        ground.min_m.y() + j * ground.step_m));
         }
     }
     return ground;

@@ -7,7 +7,7 @@ namespace hagen::avoidance {
 
 namespace {
 
-constexpr std::uint16_t kMost_mm = 65535;
+constexpr std::uint16_t kMax_mm = 65535;
 
 }  // namespace
 
@@ -17,7 +17,7 @@ DepthImage::DepthImage() {
         first_[level] = pixels;
         pixels += static_cast<std::size_t>((kColumns >> level) * (kRows >> level));
     }
-    pixels_.assign(pixels, {kMost_mm, 0});
+    pixels_.assign(pixels, {kMax_mm, 0});
 }
 
 /// Columns count around a square whose corners lie on the axes, rows likewise from pole to pole.
@@ -33,7 +33,7 @@ DepthImage::Place DepthImage::placeOf(const Eigen::Vector3f& ray) {
 
 void DepthImage::project(const std::vector<Eigen::Vector3f>& points_m,
                          const Eigen::Vector3f& origin_m) {
-    std::fill(pixels_.begin(), pixels_.end(), Pixel{kMost_mm, 0});
+    std::fill(pixels_.begin(), pixels_.end(), Pixel{kMax_mm, 0});
     for (const Eigen::Vector3f& point_m : points_m) {
         const Eigen::Vector3f ray = point_m - origin_m;
         const float range_mm = std::clamp(1000 * ray.norm(), 1.0f, 65534.0f);
@@ -63,17 +63,17 @@ void DepthImage::project(const std::vector<Eigen::Vector3f>& points_m,
     }
 }
 
-int DepthImage::levelFor(float half_columns, float half_rows, float most_half) {
+int DepthImage::levelFor(float half_columns, float half_rows, float max_half) {
     constexpr float kMoreColumns = 16;
     int level = 0;
     float half = std::max(half_columns / kMoreColumns, half_rows);
-    for (; half > most_half && level < kLevels - 1; half /= 2) ++level;
+    for (; half > max_half && level < kLevels - 1; half /= 2) ++level;
     return level;
 }
 
 DepthImage::Depths DepthImage::depthsIn(int level, int left, int right, int low, int high) const {
     const int columns = kColumns >> level;
-    std::uint16_t nearest_mm = kMost_mm, farthest_mm = 0;
+    std::uint16_t nearest_mm = kMax_mm, farthest_mm = 0;
     for (int row = low; row <= high; ++row) {
         for (int column = left; column <= right; ++column) {
             const Pixel& pixel = pixels_[indexOf(level, column & (columns - 1), row)];
@@ -86,8 +86,8 @@ DepthImage::Depths DepthImage::depthsIn(int level, int left, int right, int low,
 }
 
 DepthImage::Depths DepthImage::depthsAround(const Place& place, float half_columns, float half_rows,
-                                            float most_half) const {
-    const int level = levelFor(half_columns, half_rows, most_half);
+                                            float max_half) const {
+    const int level = levelFor(half_columns, half_rows, max_half);
     const float scale = 1 / static_cast<float>(1 << level);
     const int columns = kColumns >> level, rows = kRows >> level;
     const auto pixelOf = [&](float at) { return static_cast<int>(std::floor(at * scale)); };
@@ -98,7 +98,7 @@ DepthImage::Depths DepthImage::depthsAround(const Place& place, float half_colum
 }
 
 DepthImage::Block DepthImage::block(const Eigen::Vector3f& to_first_m, float step_m,
-                                    float half_columns, float half_rows, float most_half) {
+                                    float half_columns, float half_rows, float max_half) {
     static const Values kX = Values::NullaryExpr([](Eigen::Index i) { return float(i & 3); });
     static const Values kY = Values::NullaryExpr([](Eigen::Index i) { return float(i >> 2 & 3); });
     static const Values kZ = Values::NullaryExpr([](Eigen::Index i) { return float(i >> 4); });
@@ -111,7 +111,7 @@ DepthImage::Block DepthImage::block(const Eigen::Vector3f& to_first_m, float ste
     const Values across = y / (x.abs() + y.abs()).max(1e-9f);
     const Values column = (x >= 0).select((y >= 0).select(across, 4 + across), 2 - across);
     const Values row = z / (around2.sqrt() + z.abs()).max(1e-9f);
-    block.level = levelFor(half_columns, half_rows, most_half);
+    block.level = levelFor(half_columns, half_rows, max_half);
     const float scale = 1 / static_cast<float>(1 << block.level);
     const float per_unit = kPixelsPerUnit * scale;
     const int columns = kColumns >> block.level, rows = kRows >> block.level;

@@ -28,10 +28,10 @@ class DepthImage {
     void project(const std::vector<Eigen::Vector3f>& points_m, const Eigen::Vector3f& origin_m);
 
     /// Depths within a rectangle of pixels around a place, enlarged to whole pixels of the finest
-    /// image of the pyramid in which half of it spans at most `most_half` rows and 16 times as many
+    /// image of the pyramid in which half of it spans at most `max_half` rows and 16 times as many
     /// columns (near the poles, columns are narrow).
     Depths depthsAround(const Place& place, float half_columns, float half_rows,
-                        float most_half) const;
+                        float max_half) const;
 
     /// 4 x 4 x 4 places in space at once, in the order of a block of RollingBox, and the rectangle
     /// of pixels around each in the image of one level.
@@ -43,7 +43,7 @@ class DepthImage {
         int level;
     };
     static Block block(const Eigen::Vector3f& to_first_m, float step_m, float half_columns,
-                       float half_rows, float most_half);
+                       float half_rows, float max_half);
     Depths depths(const Block& block, unsigned place) const {
         return depthsIn(block.level, block.left[place], block.right[place], block.low[place],
                         block.high[place]);
@@ -56,7 +56,7 @@ class DepthImage {
     struct Pixel {
         std::uint16_t nearest_mm, farthest_mm;
     };
-    static int levelFor(float half_columns, float half_rows, float most_half);
+    static int levelFor(float half_columns, float half_rows, float max_half);
     Depths depthsIn(int level, int left, int right, int low, int high) const;
     std::size_t indexOf(int level, int column, int row) const {
         return first_[level] + static_cast<std::size_t>((row << (9 - level)) + column);

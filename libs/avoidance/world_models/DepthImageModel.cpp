@@ -8,7 +8,7 @@ namespace hagen::avoidance {
 namespace {
 
 // In units of 1/24, as in the rolling grid.
-constexpr int kHit = 20, kMiss = 10, kMost = 84;
+constexpr int kHit = 20, kMiss = 10, kMax = 84;
 constexpr float kHalfRow = 2.2f;  ///< a degree in rows of the image; a VLP-16 has 2 degrees
 // Cells are looked up in finer images than voxels, for a tighter outline. The image of a cell must
 // not be finer than those of its voxels, so that its pixels contain theirs.
@@ -51,7 +51,7 @@ void DepthImageModel::addHits(const observations::MappedScan& scan) {
         if (hit_[block] == 0) hits_.push_back(block);
         hit_[block] |= bit;
         const int was = occupied_.has(index) ? log_odds_[index] : 0;
-        log_odds_[index] = static_cast<std::int8_t>(std::min(was + kHit, kMost));
+        log_odds_[index] = static_cast<std::int8_t>(std::min(was + kHit, kMax));
         occupied_.setBlock(block, occupied_.block(block) | bit);
         unknown_.setBlock(block, unknown_.block(block) & ~bit);
     }
@@ -111,24 +111,24 @@ DepthImageModel::Outline DepthImageModel::outlineOf(const Eigen::Vector3f& to_co
     outline.to_middle_m =
         to_corner_m + Eigen::Vector3f::Constant(half_m * static_cast<float>(voxels - 1));
     outline.spread_m = std::sqrt(3.0f) * half_m * static_cast<float>(voxels - 1) + 1e-3f;
-    outline.least_away_m = std::max(outline.to_middle_m.norm() - outline.spread_m, half_m);
-    outline.least_around_m =
+    outline.min_away_m = std::max(outline.to_middle_m.norm() - outline.spread_m, half_m);
+    outline.min_around_m =
         std::max(outline.to_middle_m.head<2>().norm() - outline.spread_m, half_m);
-    outline.half_columns = DepthImage::kPixelsPerUnit * half_m / outline.least_around_m;
-    outline.half_rows = DepthImage::kPixelsPerUnit * half_m / outline.least_away_m;
+    outline.half_columns = DepthImage::kPixelsPerUnit * half_m / outline.min_around_m;
+    outline.half_rows = DepthImage::kPixelsPerUnit * half_m / outline.min_away_m;
     return outline;
 }
 
 /// The voxels of a block, of those asked for, that are nearer than all returns in their part of the
 /// image, of which there are some. A part is as large as the block's nearest voxel, and at least
-/// `least_half_rows` up and down.
+/// `min_half_rows` up and down.
 std::uint64_t DepthImageModel::nearerVoxels(const Eigen::Vector3f& to_corner_m,
-                                            std::uint64_t voxels, float least_half_rows) const {
+                                            std::uint64_t voxels, float min_half_rows) const {
     const Outline outline = outlineOf(to_corner_m, RollingBox::kBlock);
-    if (outline.least_away_m > max_range_m_) return 0;
+    if (outline.min_away_m > max_range_m_) return 0;
     const DepthImage::Block block =
         DepthImage::block(to_corner_m, box_.edge_m(), outline.half_columns,
-                          std::max(outline.half_rows, least_half_rows), kVoxelHalf);
+                          std::max(outline.half_rows, min_half_rows), kVoxelHalf);
     const float to_back_m = std::sqrt(0.75f) * box_.edge_m();
     std::uint64_t nearer = 0;
     forEachBit(voxels, [&](unsigned bit) {
@@ -142,19 +142,15 @@ std::uint64_t DepthImageModel::nearerVoxels(const Eigen::Vector3f& to_corner_m,
 /// Whether nearerVoxels() may find one in a cell for kHalfRow. The answer no is certain.
 bool DepthImageModel::mayHaveFree(const Eigen::Vector3f& to_corner_m, int voxels) const {
     const Outline outline = outlineOf(to_corner_m, voxels);
-    if (outline.least_away_m > max_range_m_) return false;
+    if (outline.min_away_m > max_range_m_) return false;
     // The voxels' middles are at most the spread from that of the cell. The gradient of a column is
     // at most 1 / (distance from the vertical axis), that of a row 1 / (distance).
     const float spread = DepthImage::kPixelsPerUnit * outline.spread_m;
     const DepthImage::Depths depths = image_.depthsAround(
         DepthImage::placeOf(outline.to_middle_m),
-        outline.half_columns + spread / outline.least_around_m,
-        std::max(outline.half_rows, kHalfRow) + spread / outline.least_away_m, kCellHalf);
-    return outline.least_away_m < depths.farthest_m;
-}
-
-float DepthImageModel::clearance_m(const Eigen::Vector3f& point_m) const {
-    return occupied_.distance_m(box_, point_m, kReach_m);
+        outline.half_columns + spread / outline.min_around_m,
+        std::max(outline.half_rows, kHalfRow) + spread / outline.min_away_m, kCellHalf);
+    return outline.min_away_m < depths.farthest_m;
 }
 
 float DepthImageModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {

@@ -29,7 +29,6 @@ class DepthImageModel : public WorldModel {
     DepthImageModel(float edge_m, const FlightPace& pace);
 
     void update(const observations::MappedScan& scan) override;
-    float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
     std::size_t bytes() const override;
@@ -44,12 +43,12 @@ class DepthImageModel : public WorldModel {
     struct Outline {
         Eigen::Vector3f to_middle_m;
         float spread_m;  ///< from the middle to that of the farthest voxel
-        float least_away_m, least_around_m, half_columns, half_rows;
+        float min_away_m, min_around_m, half_columns, half_rows;
     };
     Eigen::Vector3f cornerOf(const Eigen::Array3i& first, const Eigen::Vector3f& origin_m) const;
     Outline outlineOf(const Eigen::Vector3f& to_corner_m, int voxels) const;
     std::uint64_t nearerVoxels(const Eigen::Vector3f& to_corner_m, std::uint64_t voxels,
-                               float least_half_rows) const;
+                               float min_half_rows) const;
     bool mayHaveFree(const Eigen::Vector3f& to_corner_m, int voxels) const;
 
     float max_range_m_;

@@ -9,7 +9,7 @@ namespace hagen::avoidance {
 
 namespace {
 
-constexpr float kMostPlaceInCells = 1e6F;  // where floats tell a cell from a sixteenth of it
+constexpr float kMaxPlaceInCells = 1e6F;  // floats still resolve a sixteenth of a cell
 
 mrpt::math::TPoint3D pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -41,10 +41,10 @@ GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float ma
     const Eigen::Array3f most = ((bounds_m.max().array() + kMapMargin_m) / edge_m).ceil() + 1;
     corner_m_ = least * edge_m;
     const float farthest_m = corner_m_.abs().max((most * edge_m).abs()).maxCoeff();
-    if (!(farthest_m <= kMostPlaceInCells * edge_m)) {
+    if (!(farthest_m <= kMaxPlaceInCells * edge_m)) {
         throw std::runtime_error("a grid of cells of " + std::to_string(edge_m) +
                                  " m cannot be made at places up to " + std::to_string(farthest_m) +
-                                 " m; have coordinates begin nearer to the path");
+                                 " m; shift the origin of the coordinates towards the path");
     }
     map_->setSize(pointOf(corner_m_), pointOf(most * edge_m), edge_m);
     const auto& grid = map_->m_grid;  // rounded by MRPT
@@ -86,10 +86,6 @@ std::vector<Eigen::Vector3f> GridModel::occupied_m() const {
         }
     }
     return centres_m;
-}
-
-float GridModel::clearance_m(const Eigen::Vector3f& point_m) const {
-    return obstacles_.distance_m(point_m, kReach_m);
 }
 
 float GridModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {

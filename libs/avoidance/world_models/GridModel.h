@@ -19,7 +19,6 @@ class GridModel : public WorldModel {
     ~GridModel() override;
 
     void update(const observations::MappedScan& scan) override;
-    float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
     std::size_t bytes() const override;

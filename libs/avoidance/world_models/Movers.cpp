@@ -66,16 +66,16 @@ void Movers::update(const observations::MappedScan& scan, const std::shared_ptr<
 
 float Movers::clearanceWithin_m(const Eigen::Vector3f& point_m, float after_s,
                                 float limit_m) const {
-    float least_m = limit_m;
+    float min_m = limit_m;
     for (const auto& mover : movers_) {
         const Eigen::Vector3f at_m = point_m - after_s * mover->velocity_m_s;
         const float doubt_m = mover->doubt_m + after_s * mover->doubt_m_s;
-        if ((at_m - mover->middle_m).norm() - mover->radius_m - doubt_m >= least_m) continue;
-        Nearest nearest(least_m + doubt_m);
+        if ((at_m - mover->middle_m).norm() - mover->radius_m - doubt_m >= min_m) continue;
+        Nearest nearest(min_m + doubt_m);
         mover->tree.findNeighbors(nearest, at_m.data(), {});
-        least_m = std::min(least_m, std::max(0.0f, std::sqrt(nearest.worstDist()) - doubt_m));
+        min_m = std::min(min_m, std::max(0.0f, std::sqrt(nearest.worstDist()) - doubt_m));
     }
-    return least_m;
+    return min_m;
 }
 
 std::size_t Movers::bytes() const {

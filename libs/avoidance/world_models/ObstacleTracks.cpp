@@ -25,15 +25,15 @@ constexpr double kFirstSpeedSigma_m_s = 2;
 // Matching.
 constexpr double kGate_m = 0.6, kGateOfWidth = 0.25;
 constexpr float kWidthChange_m = 1.4f, kWidthRatio = 1.4f;
-constexpr int kMostMissed = 10;
+constexpr int kMaxMissed = 10;
 
 // What counts as moving.
-constexpr int kLeastSeen = 3;
+constexpr int kMinSeen = 3;
 constexpr double kLeastSpeed_m_s = 0.5, kSigmas = 3, kRemembered_s = 0.6;
 constexpr std::size_t kCompared = 50;  // points of each sight
 constexpr float kFarFit_m = 0.5f;      // distances count as this at most
 constexpr double kBetterFit = 0.8;
-constexpr float kLeastHeight_m = 0.15f;
+constexpr float kMinHeight_m = 0.15f;
 constexpr double kCrossedShare = 0.1;
 constexpr int kFewestCrossed = 2;
 
@@ -182,11 +182,11 @@ double misfit_m(const std::vector<Eigen::Vector3f>& points_m,
                 const std::vector<Eigen::Vector3f>& others_m, const Eigen::Vector3f& by_m) {
     double sum_m = 0;
     for (const Eigen::Vector3f& point : points_m) {
-        float least_m2 = kFarFit_m * kFarFit_m;
+        float min_m2 = kFarFit_m * kFarFit_m;
         for (const Eigen::Vector3f& other : others_m) {
-            least_m2 = std::min(least_m2, (other + by_m - point).squaredNorm());
+            min_m2 = std::min(min_m2, (other + by_m - point).squaredNorm());
         }
-        sum_m += std::sqrt(static_cast<double>(least_m2));
+        sum_m += std::sqrt(static_cast<double>(min_m2));
     }
     return sum_m / static_cast<double>(points_m.size());
 }
@@ -232,14 +232,13 @@ bool crossesFreeSpace(const ObstacleTrack& track, const Views& views) {
     const ObstacleTrack::Sight &now = track.sights.front(), &before = track.sights.back();
     const bool was_free = sawFreeSpaceAt(viewAt(before.time_s, views), sampleOf(now.points_m));
     const bool is_free = sawFreeSpaceAt(*views.front(), sampleOf(before.points_m));
-    const bool is_flat =
-        std::min(heightOf(now.points_m), heightOf(before.points_m)) < kLeastHeight_m;
+    const bool is_flat = std::min(heightOf(now.points_m), heightOf(before.points_m)) < kMinHeight_m;
     return is_flat ? was_free && is_free : was_free || is_free;
 }
 
 bool isFastEnough(const ObstacleTrack& track) {
     const double speed_m_s = track.velocity_m_s.norm();
-    return track.seen_scans >= kLeastSeen && speed_m_s > kLeastSpeed_m_s &&
+    return track.seen_scans >= kMinSeen && speed_m_s > kLeastSpeed_m_s &&
            speed_m_s > kSigmas * track.velocitySigma_m_s();
 }
 
@@ -281,10 +280,9 @@ void ObstacleTracks::update(const observations::MappedScan& scan,
     for (std::size_t t = 0; t < is_track_taken.size(); ++t) {
         tracks_[t].missed_scans += !is_track_taken[t];
     }
-    tracks_.erase(
-        std::remove_if(tracks_.begin(), tracks_.end(),
-                       [](const auto& track) { return track.missed_scans > kMostMissed; }),
-        tracks_.end());
+    tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(),
+                                 [](const auto& track) { return track.missed_scans > kMaxMissed; }),
+                  tracks_.end());
     for (std::size_t s = 0; s < all.size(); ++s) {
         if (is_seen_taken[s]) continue;
         track_of_obstacle_[static_cast<std::size_t>(all[s].obstacle)] = ++tracks_begun_;

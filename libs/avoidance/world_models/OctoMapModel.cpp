@@ -46,10 +46,6 @@ void OctoMapModel::noteChanges() {
     tree.resetChangeDetection();
 }
 
-float OctoMapModel::clearance_m(const Eigen::Vector3f& point_m) const {
-    return obstacles_.distance_m(point_m, kReach_m);
-}
-
 float OctoMapModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
     return obstacles_.distance_m(point_m, std::min(limit_m, kReach_m));
 }

@@ -16,7 +16,6 @@ class OctoMapModel : public WorldModel {
     OctoMapModel(const observations::ScanMapOptions& options, const Eigen::AlignedBox3f& bounds_m);
 
     void update(const observations::MappedScan& scan) override;
-    float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
     std::size_t bytes() const override;

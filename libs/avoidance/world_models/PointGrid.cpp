@@ -10,8 +10,8 @@ namespace hagen::avoidance {
 namespace {
 
 constexpr float kSlack_m = 1e-3f;  ///< for the rounding of cells; several kilometres have less
-constexpr double kMostCells = 1e6;
-constexpr int kMostRows = 8;  ///< on each side of a query's
+constexpr double kMaxCells = 1e6;
+constexpr int kMaxRows = 8;  ///< on each side of a query's
 /// Nanoflann compares distances with sums of up to some dozen rounded terms.
 constexpr float kRounding = 1e-5f;
 
@@ -44,8 +44,7 @@ PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points_m, const Eigen::
     const auto cellsWith = [&](float edge_m) {
         return ((occupied_m.sizes() / edge_m).array().floor() + 1).cast<double>().prod();
     };
-    while (cellsWith(edge_m_) > kMostCells || limit_m_ + kSlack_m > kMostRows * edge_m_)
-        edge_m_ *= 2;
+    while (cellsWith(edge_m_) > kMaxCells || limit_m_ + kSlack_m > kMaxRows * edge_m_) edge_m_ *= 2;
     size_ = (occupied_m.sizes() / edge_m_).cast<int>().array() + 1;
     sortPoints(near_m);
     listRows();
@@ -79,13 +78,13 @@ void PointGrid::listRows() {
     };
     for (int z = -most_; z <= most_; ++z) {
         for (int y = -most_; y <= most_; ++y) {
-            const float least_m2 = gap_m(y) * gap_m(y) + gap_m(z) * gap_m(z);
-            if (least_m2 <= limit_m_ * limit_m_) rows_.push_back({y, z, least_m2});
+            const float min_m2 = gap_m(y) * gap_m(y) + gap_m(z) * gap_m(z);
+            if (min_m2 <= limit_m_ * limit_m_) rows_.push_back({y, z, min_m2});
         }
     }
     std::sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) {
         const int cells2_of_a = a.y * a.y + a.z * a.z, cells2_of_b = b.y * b.y + b.z * b.z;
-        return a.least_m2 != b.least_m2 ? a.least_m2 < b.least_m2 : cells2_of_a < cells2_of_b;
+        return a.min_m2 != b.min_m2 ? a.min_m2 < b.min_m2 : cells2_of_a < cells2_of_b;
     });
 }
 
@@ -94,14 +93,14 @@ float PointGrid::distanceToCell_m(float at_m, int cell, int axis) const {
     return std::max({0.0f, low_m - at_m - kSlack_m, at_m - low_m - edge_m_ - kSlack_m});
 }
 
-std::optional<float> PointGrid::leastDistance_m2(const Eigen::Vector3f& point_m) const {
+std::optional<float> PointGrid::minDistance_m2(const Eigen::Vector3f& point_m) const {
     if (!box_m_.contains(point_m)) return std::nullopt;
-    float least_m2 = limit_m_ * limit_m_, relevant_m2 = least_m2 * (1 + kRounding);
-    if (begin_.empty()) return least_m2;
+    float min_m2 = limit_m_ * limit_m_, relevant_m2 = min_m2 * (1 + kRounding);
+    if (begin_.empty()) return min_m2;
     bool is_close = false;  // whether another distance is hardly more than the least
     const Eigen::Array3f in_cells = ((point_m - corner_m_) / edge_m_).array();
     const Eigen::Array3i at = in_cells.floor().cast<int>();
-    std::array<float, 2 * kMostRows + 1> to_y_m2, to_z_m2;
+    std::array<float, 2 * kMaxRows + 1> to_y_m2, to_z_m2;
     for (int i = -most_; i <= most_; ++i) {
         const float y_m = distanceToCell_m(point_m.y(), at.y() + i, 1);
         const float z_m = distanceToCell_m(point_m.z(), at.z() + i, 2);
@@ -111,7 +110,7 @@ std::optional<float> PointGrid::leastDistance_m2(const Eigen::Vector3f& point_m)
     float reach_m2 = 0;  // within which cells of a row matter
     int first = 0, last = 0;
     for (const Row& row : rows_) {
-        if (row.least_m2 > relevant_m2) break;
+        if (row.min_m2 > relevant_m2) break;
         const int y = at.y() + row.y, z = at.z() + row.z;
         if (y < 0 || z < 0 || y >= size_.y() || z >= size_.z()) continue;
         const float to_row_m2 = to_y_m2[static_cast<std::size_t>(row.y + most_)] +
@@ -138,19 +137,19 @@ std::optional<float> PointGrid::leastDistance_m2(const Eigen::Vector3f& point_m)
             if ((halves[0] | halves[1]) == 0) continue;
             for (int lane = 0; lane < 4; ++lane) {
                 const float distance_m2 = distances_m2[lane];
-                if (!(distance_m2 <= relevant_m2) || distance_m2 == least_m2) continue;
-                if (distance_m2 > least_m2) {
+                if (!(distance_m2 <= relevant_m2) || distance_m2 == min_m2) continue;
+                if (distance_m2 > min_m2) {
                     is_close = true;
                     continue;
                 }
-                is_close = least_m2 <= distance_m2 * (1 + kRounding);
-                least_m2 = distance_m2;
-                relevant_m2 = least_m2 * (1 + kRounding);
+                is_close = min_m2 <= distance_m2 * (1 + kRounding);
+                min_m2 = distance_m2;
+                relevant_m2 = min_m2 * (1 + kRounding);
             }
         }
     }
     if (is_close) return std::nullopt;
-    return least_m2;
+    return min_m2;
 }
 
 }  // namespace hagen::avoidance

@@ -20,13 +20,13 @@ class PointGrid {
     /// the bits that `Nearest` gives after a search of nanoflann. Nothing for a point outside the
     /// box; nor if another distance differs by less than the rounding errors with which nanoflann
     /// chooses where not to look, so that its answer may be either.
-    std::optional<float> leastDistance_m2(const Eigen::Vector3f& point_m) const;
+    std::optional<float> minDistance_m2(const Eigen::Vector3f& point_m) const;
 
  private:
     /// A row of cells along x, relative to the one of a query.
     struct Row {
         int y, z;
-        float least_m2;  ///< squared distance from any point in the query's row, rather too short
+        float min_m2;  ///< squared distance from any point in the query's row, rather too short
     };
     void sortPoints(const std::vector<Eigen::Vector3f>& points_m);
     void listRows();

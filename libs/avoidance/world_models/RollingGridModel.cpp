@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace hagen::avoidance {
@@ -11,21 +10,8 @@ namespace {
 
 // Log odds in units of 1/24, so that they fit into a byte. OctoMap's: +0.85 (probability 0.7) for
 // a hit, -0.41 (0.4) for a ray that passes, from -2 (0.12) to 3.5 (0.97). Occupied: 0 or more.
-constexpr std::int8_t kHit = 20, kMiss = 10, kLeast = -48, kMost = 84;
+constexpr int kHit = 20, kMiss = 10, kMin = -48, kMax = 84;
 constexpr std::int8_t kUnknown = std::numeric_limits<std::int8_t>::min();
-
-/// 16 voxels at once.
-using Bytes = std::int8_t __attribute__((vector_size(16)));
-
-/// A bit for each of 16 bytes, which are -1 or 0.
-std::uint64_t bitsOf(Bytes bytes) {
-    std::uint64_t halves[2], bits = 0;
-    std::memcpy(halves, &bytes, 16);
-    for (unsigned i = 0; i < 2; ++i) {
-        bits |= ((halves[i] & 0x0101010101010101) * 0x0102040810204080 >> 56) << (8 * i);
-    }
-    return bits;
-}
 
 // Marks of voxels. They are bytes, which a ray sets without reading them: bits would make each step
 // wait for the one before.
@@ -49,7 +35,7 @@ void RollingGridModel::update(const observations::MappedScan& scan) {
     markEnds(scan);
     const Eigen::Array3f origin = box_.inVoxels(scan.origin_m);
     for (const Eigen::Array3i& end : ends_) trace(origin, end);
-    for (const std::uint32_t index : hits_) marks_[index] = kIsHit;  // whatever passes
+    for (const std::uint32_t index : hits_) marks_[index] = kIsHit;  // even if other rays pass
     apply();
 }
 
@@ -88,7 +74,7 @@ void RollingGridModel::markEnds(const observations::MappedScan& scan) {
 }
 
 /// Marks the voxels from the origin to the end (without it) as passed (Amanatides & Woo 1987). The
-/// ray's length is 2^32, in integers, so that no rounding leads astray.
+/// ray's length is 2^32, in integers, so that rounding errors do not add up.
 void RollingGridModel::trace(const Eigen::Array3f& origin, const Eigen::Array3i& end) {
     constexpr double kLength = 4294967296.0, kNever = 1e15;
     const Eigen::Array3i start = origin.cast<int>();
@@ -133,26 +119,19 @@ void RollingGridModel::apply() {
         if (is_marked_[block] == 0) continue;
         is_marked_[block] = 0;
         std::uint64_t occupied = 0;
-        for (unsigned row = 0; row < 64; row += 16) {
-            std::int8_t* at = &log_odds_[64 * block + row];
-            Bytes was, mark;
-            std::memcpy(&was, at, 16);
-            std::memcpy(&mark, &marks_[64 * block + row], 16);
-            const Bytes is_hit = mark == kIsHit, is_miss = mark == kPassed;
-            Bytes now = (was & (was != kUnknown)) + (is_hit & kHit) - (is_miss & kMiss);
-            now = now < kLeast ? Bytes{} + kLeast : now;
-            now = now > kMost ? Bytes{} + kMost : now;
-            now = (is_hit | is_miss) != 0 ? now : was;
-            std::memcpy(at, &now, 16);
-            occupied |= bitsOf(now >= 0) << row;
+        for (unsigned bit = 0; bit < 64; ++bit) {
+            std::int8_t& at = log_odds_[64 * block + bit];
+            const std::int8_t mark = marks_[64 * block + bit];
+            if (mark != kNotSeen) {
+                const int was = at == kUnknown ? 0 : at;
+                at = static_cast<std::int8_t>(
+                    std::clamp(was + (mark == kIsHit ? kHit : -kMiss), kMin, kMax));
+            }
+            occupied |= std::uint64_t{at >= 0} << bit;
         }
         std::fill_n(&marks_[64 * block], 64, kNotSeen);
         if (occupied != occupied_.block(block)) occupied_.setBlock(block, occupied);
     }
-}
-
-float RollingGridModel::clearance_m(const Eigen::Vector3f& point_m) const {
-    return occupied_.distance_m(box_, point_m, kReach_m);
 }
 
 float RollingGridModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {

@@ -18,9 +18,8 @@ SeenDirections::Cell SeenDirections::cellOf(const Eigen::Vector3f& direction) {
 }
 
 void SeenDirections::see(const Eigen::Vector3f& from_origin_m) {
-    constexpr float kMost_cm = kNone_cm - 1;
-    const auto range_cm =
-        static_cast<std::uint16_t>(std::min(kMost_cm, 100 * from_origin_m.norm()));
+    constexpr float kMax_cm = kNone_cm - 1;
+    const auto range_cm = static_cast<std::uint16_t>(std::min(kMax_cm, 100 * from_origin_m.norm()));
     Returns& returns = seen_[cellOf(from_origin_m).index()];
     returns.nearest_cm = std::min(returns.nearest_cm, range_cm);
     returns.farthest_cm = std::max(returns.farthest_cm, range_cm);

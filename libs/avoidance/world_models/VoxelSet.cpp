@@ -28,9 +28,9 @@ struct Column {
     std::uint32_t part;    ///< of the group's number
     std::uint64_t blocks;  ///< mask of its blocks that lie in the box and within reach
 };
-constexpr int kMostColumns = 16;
+constexpr int kMaxColumns = 16;
 struct Columns {
-    std::array<Column, kMostColumns> of;
+    std::array<Column, kMaxColumns> of;
     int count = 0;
 };
 

@@ -24,7 +24,7 @@ constexpr std::size_t kPointsPerQuery = 384;
 
 // Isolated points.
 constexpr float kNeighbourhood = 0.05f;  // share of the range: 1.5 rows of a VLP-16
-constexpr float kLeastNeighbourhood_m = 0.15f;
+constexpr float kMinNeighbourhood_m = 0.15f;
 
 struct PastView {
     std::shared_ptr<const View> view;
@@ -133,8 +133,8 @@ void WindowModel::confirmIsolated() {
     const PastView& last = newest.views.front();
     const auto hasNeighbour = [&](const PastScans& past, std::size_t i, bool is_of_newest) {
         const Eigen::Vector3f point_m = past.points.at_m[i];
-        const float radius_m = std::max(kLeastNeighbourhood_m,
-                                        kNeighbourhood * (point_m - last.view->origin_m).norm());
+        const float radius_m =
+            std::max(kMinNeighbourhood_m, kNeighbourhood * (point_m - last.view->origin_m).norm());
         if (!is_of_newest) return newest.hasAny(point_m, {radius_m, last.points});
         return std::any_of(past_.begin(), past_.end(), [&](const auto& other) {
             const bool is_own = other.get() == &past;
@@ -172,10 +172,6 @@ void WindowModel::forgetOldest() {
     if (oldest.views.empty()) past_.pop_back();
 }
 
-float WindowModel::clearance_m(const Eigen::Vector3f& point_m) const {
-    return clearanceWithin_m(point_m, kReach_m);
-}
-
 float WindowModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
     Nearest nearest(std::min(limit_m, kReach_m));
     for (const auto& past : past_) {
@@ -195,7 +191,7 @@ WorldModel::ClearanceQuery WindowModel::clearanceQuery(const Eigen::AlignedBox3f
             grid = std::make_shared<PointGrid>(obstacles().centre_m, box_m,
                                                std::min(limit_m, kReach_m));
         }
-        const auto found_m2 = grid ? grid->leastDistance_m2(point_m) : std::nullopt;
+        const auto found_m2 = grid ? grid->minDistance_m2(point_m) : std::nullopt;
         return found_m2 ? std::sqrt(*found_m2) : clearanceWithin_m(point_m, limit_m);
     };
 }

@@ -8,8 +8,8 @@
 namespace hagen::avoidance {
 namespace {
 
-constexpr double kLeastRadius_m = 15, kMostRadius_m = 50;
-constexpr float kLeastPerceptionRange_m = 20;
+constexpr double kMinRadius_m = 15, kMaxRadius_m = 50;
+constexpr float kMinPerceptionRange_m = 20;
 
 }  // namespace
 
@@ -19,11 +19,11 @@ WindowSize windowSizeFor(const FlightPace& pace) {
     const double touched_m = pace.speed_m_s * (pace.reaction_s() + kLookAhead_s) +
                              pace.stopping_m() + static_cast<double>(WorldModel::kReach_m);
     return {static_cast<std::size_t>(std::ceil(remembered_s / pace.scan_period_s - kRounding)),
-            static_cast<float>(std::clamp(touched_m, kLeastRadius_m, kMostRadius_m))};
+            static_cast<float>(std::clamp(touched_m, kMinRadius_m, kMaxRadius_m))};
 }
 
 float perceptionRangeFor_m(const FlightPace& pace) {
-    return std::max(kLeastPerceptionRange_m, windowSizeFor(pace).radius_m);
+    return std::max(kMinPerceptionRange_m, windowSizeFor(pace).radius_m);
 }
 
 }  // namespace hagen::avoidance

@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/avoidance/LatencyProfile.h>
-#include <hagen/avoidance/TrialSetup.h>
+#include <hagen/avoidance/Trial.h>
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -17,14 +17,14 @@ struct RunWanted {
 
 /// The run that matches. Throws std::invalid_argument and lists the candidates if none or several
 /// match.
-avoidance::Run chooseRun(const std::vector<avoidance::Run>& runs, const RunWanted& wanted);
+Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted);
 
 /// The flags that select a run `among` others of its seed, for a shell:
 /// "--scenario gap --model W-RoI --guidance astar --speed 4 --latency-scale 4   # success".
-std::string choiceOf(const avoidance::Run& run, const std::vector<avoidance::Run>& among);
+std::string choiceOf(const Run& run, const std::vector<Run>& among);
 
 /// A unique name of a run for files: "gap-7-W-RoI-astar-4mps", followed by conditions that differ
 /// from the defaults: "-3dvfh-noise-latency4-brake-known-clear-as-stored".
-std::string fileNameOf(const avoidance::Run& run);
+std::string fileNameOf(const Run& run);
 
 }  // namespace hagen::avoidance

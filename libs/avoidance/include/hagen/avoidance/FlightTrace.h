@@ -13,19 +13,16 @@ class FlightTrace {
  public:
     static constexpr double kTilt_s = 0.1;  ///< time constant of the tilt
 
-    explicit FlightTrace(const avoidance::VehicleState& start);
+    explicit FlightTrace(const VehicleState& start);
 
     /// Adds the state one control step later, and the acceleration that led to it.
-    void add(const avoidance::VehicleState& state, const Eigen::Vector3d& acceleration_m_s2);
+    void add(const VehicleState& state, const Eigen::Vector3d& acceleration_m_s2);
 
     /// The sensor's true pose, clamped to the first and last sample.
     simulation::SensorPose at(double time_s) const;
     /// Distance flown until then.
     double distance_m(double time_s) const;
 
-    double end_s() const {
-        return avoidance::kControlStep_s * static_cast<double>(samples_.size() - 1);
-    }
     /// Root mean square of the smoothed acceleration's rate of change.
     double rmsJerk_m_s3() const;
 

@@ -19,15 +19,14 @@ struct OpenLoop {
 
     /// The scene that the log was simulated in (rawlog-simulate), used as ground truth. Without it,
     /// later scans are the truth (LaterScansTruth).
-    struct TrueScene {
+    struct SimulatedScene {
         std::string scenario;
         std::uint64_t seed = 1;
     };
-    std::optional<TrueScene> scene;
+    std::optional<SimulatedScene> scene;
 
-    std::function<std::unique_ptr<avoidance::WorldModel>(const std::string&,
-                                                         const avoidance::WorldModelSetting&)>
-        make = avoidance::makeWorldModel;
+    std::function<std::unique_ptr<WorldModel>(const std::string&, const WorldModelSetting&)> make =
+        makeWorldModel;
 };
 
 /// The result of a model for a scan. Does not depend on the machine.
@@ -46,8 +45,6 @@ struct OpenLoopRow {
 
 /// The cost on this machine: CPU time of the thread, and heap.
 struct OpenLoopCost {
-    std::size_t scan = 0;
-    std::string model;
     double filter_ms = 0;   ///< of the scan, the same for all models
     double update_ms = 0;   ///< of the model
     double queries_ms = 0;  ///< of all directions

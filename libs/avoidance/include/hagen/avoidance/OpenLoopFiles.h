@@ -46,17 +46,18 @@ class OpenLoopFiles {
         base::OutputPath path;
         std::ofstream out;
     };
-    File& open(const std::string& name, bool overwrite);
     void finish(const OpenLoop& open_loop, const OpenLoopResult& result);
 
     std::filesystem::path folder_;
     bool is_own_folder_;
     std::vector<std::unique_ptr<File>> files_;
     base::OutputSet all_;
-    File *models_, *scans_, *agreement_, *summary_, *models_measured_, *scans_measured_;
 };
 
 /// A description of the ground truth.
 std::string truthOf(const OpenLoop& open_loop);
+
+/// The result for a terminal: the log, one line per model, and the agreement of the models.
+std::string tableOf(const OpenLoop& open_loop, const OpenLoopResult& result);
 
 }  // namespace hagen::avoidance

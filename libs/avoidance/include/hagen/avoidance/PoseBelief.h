@@ -1,6 +1,6 @@
 #pragma once
+#include <hagen/avoidance/FlightConditions.h>
 #include <hagen/avoidance/FlightTrace.h>
-#include <hagen/avoidance/PoseError.h>
 #include <hagen/simulation/Random.h>
 #include <cstdint>
 #include <vector>

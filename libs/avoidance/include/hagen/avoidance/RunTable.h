@@ -1,6 +1,5 @@
 #pragma once
-#include <hagen/avoidance/TrialResult.h>
-#include <hagen/avoidance/TrialSetup.h>
+#include <hagen/avoidance/Trial.h>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -18,30 +17,23 @@ struct Run {
     std::string settings_hash, version;
 };
 
-/// Columns: scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,
+/// The columns: scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,
 /// pose_error,latency_scale,unknown,oracle_path_m,first_reaction_m,rms_jerk_m_s3,scans,
-/// dropped_scans,emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,version,air,distance
-/// outcome: success, collision, timeout; pose_error: none, noise, drift; unknown: optimistic,
-/// brake_known; air: dusty, clear; distance: unbiased,
-/// as-stored; NaN is an empty field. Fixed decimals, '.' in every locale, \n.
-/// The row of a run with sectors has one more: `updates` (scans, sectors).
-std::string runHeader();
-std::string rowOf(const Run& run);
+/// dropped_scans,emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,version,
+/// air,distance; if `has_updates`, also updates. unknown: optimistic, brake_known; conditions as in
+/// FlightConditions.h; NaN is an empty field. Fixed decimals, '.' in every locale, \n.
+std::string runHeader(bool has_updates = false);
+std::string rowOf(const Run& run, bool has_updates);
 
 /// Whether a table with this run needs the column `updates`; then all of its rows have it.
-bool needsAllColumns(const Run& run);
-/// What the header and a row are with it.
-std::string fullRunHeader();
-std::string fullRowOf(const Run& run);
+bool needsUpdates(const Run& run);
 
-/// A run's key identifies it: the fields of its course and setup, as in its row. The header's
-/// columns:
+/// A run's key identifies it: the fields of its course and setup, in the order of the columns:
 /// scenario,seed,model,guidance,speed,planner,pose_error,latency_scale,unknown,air,distance
 /// and, of a run with sectors, updates.
 std::string keyOf(const Run& run);
 
-/// A run of this course and setup that was not flown yet. Throws std::runtime_error, naming the
-/// column.
+/// An unflown run of this course and setup. Throws std::runtime_error, naming the column.
 Run runOfKey(const std::string& key);
 
 /// Tables of older versions have neither column `air` nor `distance`: clear air, as-stored. Without

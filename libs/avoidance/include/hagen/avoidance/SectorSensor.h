@@ -9,7 +9,7 @@
 namespace hagen::avoidance {
 
 /// The LiDAR of TrialSensor, labelled while it turns: packets of 24 firings go into a
-/// StreamingSegmenter, with the believed pose and tilt, as a vehicle's autopilot tells them. The
+/// StreamingSegmenter, with the believed pose and tilt, as an autopilot would report them. The
 /// last packet of a turn has the 9 firings that are left.
 class SectorSensor {
  public:

@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/avoidance/Course.h>
-#include <hagen/avoidance/TrialResult.h>
+#include <hagen/avoidance/Trial.h>
 #include <optional>
 
 namespace hagen::avoidance {

@@ -1,13 +1,22 @@
 #pragma once
-#include <hagen/avoidance/Air.h>
 #include <hagen/avoidance/Course.h>
+#include <hagen/avoidance/FlightConditions.h>
 #include <hagen/avoidance/FlightTrace.h>
 #include <hagen/avoidance/PoseBelief.h>
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/mrpt/MappedScan.h>
+#include <hagen/scan/Airframe.h>
 #include <hagen/simulation/Lidar.h>
 
 namespace hagen::avoidance {
+
+/// The LiDAR's faults in a trial: 2 cm of noise, 1 % of returns lost, thin wires missed more often
+/// with distance, and those of the air.
+simulation::SensorErrorModel trialErrorModel(Air air);
+
+/// The vehicle's own parts as its settings mask them: those of config/airframe_simulated.yaml. None
+/// in clear air, where the sensor does not see them.
+Airframe trialAirframe(Air air);
 
 /// The LiDAR on board and the filter behind it: a VLP-16 that turns ten times a second, segmented
 /// with the settings of config/vlp16.yaml. Returns from the vehicle itself are masked.

@@ -16,7 +16,7 @@ struct TrueScene {
     };
     /// Heights at the corners of a grid, row by row (x varies fastest).
     struct Ground {
-        Eigen::Vector2d least_m{0, 0};
+        Eigen::Vector2d min_m{0, 0};
         double step_m = 2;
         int along_x = 0, along_y = 0;
         std::vector<double> heights_m;

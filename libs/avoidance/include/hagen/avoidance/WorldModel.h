@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/avoidance/ModelDistance.h>
+#include <hagen/avoidance/FlightConditions.h>
 #include <hagen/avoidance/WindowSize.h>
 #include <hagen/mrpt/MappedScan.h>
 #include <hagen/mrpt/ScanMap.h>
@@ -29,9 +29,11 @@ class WorldModel {
 
     /// Distance from a point to the nearest known obstacle, at most kReach_m; 0 inside one. Unknown
     /// space counts as free.
-    virtual float clearance_m(const Eigen::Vector3f& point_m) const = 0;
-
-    /// The same, at most `limit_m`, which may be faster to compute.
+    virtual float clearance_m(const Eigen::Vector3f& point_m) const {
+        return clearanceWithin_m(point_m, kReach_m);
+    }
+    /// The same, at most `limit_m`, which may be faster to compute. A model overrides at least one
+    /// of the two.
     virtual float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
         return std::min(clearance_m(point_m), limit_m);
     }
@@ -119,6 +121,11 @@ bool needsTruth(const std::string& model);
 
 /// Whether a model predicts motion (clearanceAfter_m()). False for unknown names.
 bool predictsMotion(const std::string& model);
+
+/// Mean difference between a model's clearance and the true one [m], measured by
+/// tests/flights/DistanceBias_test.cpp; 0 for oracles. Throws std::invalid_argument for unknown
+/// names.
+float distanceBias_m(const std::string& model);
 
 /// Throws std::invalid_argument for unknown names and lists the known ones; also if an oracle gets
 /// no true clearance.

@@ -1,14 +1,20 @@
 #pragma once
+#include <hagen/avoidance/Course.h>
+#include <hagen/avoidance/RunTable.h>
+#include <hagen/avoidance/Trial.h>
+#include <hagen/avoidance/TrueScene.h>
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "Refly.h"
-#include "TrueScene.h"
-
 namespace hagen::avoidance {
+
+/// How a flight ended: "hit a tree at 7.42 s: 0.28 m from the vehicle's centre".
+/// `speed_m_s` is the maximum speed of the run, `end_m` the vehicle's last position.
+std::string endingOf(const Course& course, const TrialResult& result, double speed_m_s,
+                     const Eigen::Vector3d& end_m);
 
 /// A voxel or point of the world model, present from step `from_step` until before `until_step`.
 struct ModelCell {
@@ -44,9 +50,9 @@ struct RecordedEvent {
 };
 
 /// A whole run, small enough for a web page.
-struct Recording {
-    avoidance::Run run{};
-    bool is_same = false;
+struct FlightRecording {
+    Run run{};
+    bool is_same = false;  ///< every field of its row came out the same
     Eigen::Vector3d start_m{0, 0, 0}, goal_m{0, 0, 0};
     double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
@@ -58,7 +64,7 @@ struct Recording {
     std::vector<RecordedEvent> events;
 };
 
-struct RecordingLimits {
+struct FlightRecordingLimits {
     std::size_t full_steps = 150;  ///< longer runs keep fewer points per step
     std::size_t points = 2500;     ///< per label and step
     std::size_t motions = 60;      ///< per step
@@ -67,10 +73,10 @@ struct RecordingLimits {
     float reach_m = 25;            ///< of the returns that are kept
 };
 
-/// Flies the run again and records it. Throws like flyAgain(), and whatever `continuing` throws: it
-/// is called at each planning step.
-Recording record(
-    const avoidance::Run& run, const avoidance::LatencyProfile& profile,
-    const RecordingLimits& limits = {}, const std::function<void()>& continuing = [] {});
+/// Flies the run again and records it. Throws like makeCourse() and runTrial(), and what
+/// `continuing` throws, which is called at each planning step.
+FlightRecording record(
+    const Run& run, const LatencyProfile& profile, const FlightRecordingLimits& limits = {},
+    const std::function<void()>& continuing = [] {});
 
 }  // namespace hagen::avoidance

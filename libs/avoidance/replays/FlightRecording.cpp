@@ -1,18 +1,16 @@
-#include <hagen/avoidance/Recording.h>
+#include <hagen/avoidance/FlightRecording.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
-#include <hagen/avoidance/Ending.h>
-
 namespace hagen::avoidance {
 namespace {
 
 /// Every n-th item, so that at most `most` are left.
 template <class Item>
-std::vector<Item> thinned(const std::vector<Item>& all, std::size_t most) {
+std::vector<Item> sampled(const std::vector<Item>& all, std::size_t most) {
     const std::size_t every = (all.size() + most - 1) / std::max<std::size_t>(most, 1);
     std::vector<Item> kept;
     for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(every, 1)) {
@@ -21,7 +19,7 @@ std::vector<Item> thinned(const std::vector<Item>& all, std::size_t most) {
     return kept;
 }
 
-void addReturns(const observations::MappedScan& scan, const RecordingLimits& limits,
+void addReturns(const observations::MappedScan& scan, const FlightRecordingLimits& limits,
                 RecordedStep& step) {
     const Eigen::Vector3f origin = scan.origin_m.cast<float>();
     for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
@@ -29,14 +27,14 @@ void addReturns(const observations::MappedScan& scan, const RecordingLimits& lim
         auto& points = scan.labels[i] == Label::Roi ? step.roi_m : step.rou_m;
         points.push_back(scan.points_m[i]);
     }
-    step.roi_m = thinned(step.roi_m, limits.points);
-    step.rou_m = thinned(step.rou_m, limits.points);
+    step.roi_m = sampled(step.roi_m, limits.points);
+    step.rou_m = sampled(step.rou_m, limits.points);
 }
 
-void addMotions(const avoidance::Plan& plan, const RecordingLimits& limits, RecordedStep& step) {
+void addMotions(const Plan& plan, const FlightRecordingLimits& limits, RecordedStep& step) {
     constexpr std::size_t kPointsOfPath = 8;
-    for (const avoidance::CandidateMotion& motion : thinned(plan.candidates, limits.motions)) {
-        RecordedMotion kept{thinned(motion.path_m, kPointsOfPath), motion.is_free};
+    for (const CandidateMotion& motion : sampled(plan.candidates, limits.motions)) {
+        RecordedMotion kept{sampled(motion.path_m, kPointsOfPath), motion.is_free};
         if (kept.path_m.empty()) continue;
         kept.path_m.push_back(motion.path_m.back());
         step.motions.push_back(kept);
@@ -46,9 +44,9 @@ void addMotions(const avoidance::Plan& plan, const RecordingLimits& limits, Reco
 /// Collects the cells of all steps.
 class ModelHistory {
  public:
-    explicit ModelHistory(const RecordingLimits& limits) : limits_(limits) {}
+    explicit ModelHistory(const FlightRecordingLimits& limits) : limits_(limits) {}
 
-    void add(const avoidance::WorldModel::Obstacles& obstacles, int step) {
+    void add(const WorldModel::Obstacles& obstacles, int step) {
         edge_m_ = obstacles.edge_m;
         const float grid_m = edge_m_ > 0 ? edge_m_ : limits_.point_grid_m;
         for (const Eigen::Vector3f& centre_m : obstacles.centre_m) {
@@ -64,23 +62,22 @@ class ModelHistory {
             }
         }
     }
-    void writeTo(Recording& recording) const {
+    void writeTo(FlightRecording& recording) const {
         recording.model_edge_m = edge_m_;
         for (const auto& [key, stays] : cells_) {
             recording.model.insert(recording.model.end(), stays.begin(), stays.end());
         }
-        recording.model = thinned(recording.model, limits_.cells);
+        recording.model = sampled(recording.model, limits_.cells);
     }
 
  private:
-    const RecordingLimits& limits_;
+    const FlightRecordingLimits& limits_;
     float edge_m_ = 0;
     std::map<std::array<int, 3>, std::vector<ModelCell>> cells_;
 };
 
-RecordedStep recorded(const avoidance::TrialStep& step,
-                      const avoidance::WorldModel::Obstacles& obstacles,
-                      const RecordingLimits& limits) {
+RecordedStep recorded(const TrialStep& step, const WorldModel::Obstacles& obstacles,
+                      const FlightRecordingLimits& limits) {
     RecordedStep kept{step.time_s,
                       step.latency_ms,
                       step.plan.command_m_s,
@@ -91,7 +88,7 @@ RecordedStep recorded(const avoidance::TrialStep& step,
                       {},
                       {},
                       {}};
-    for (const Eigen::Vector3d& at : thinned(step.carrot.path_m, 60)) {
+    for (const Eigen::Vector3d& at : sampled(step.carrot.path_m, 60)) {
         kept.path_m.push_back(at.cast<float>());
     }
     addReturns(step.scan, limits, kept);
@@ -100,57 +97,61 @@ RecordedStep recorded(const avoidance::TrialStep& step,
 }
 
 /// Long runs keep fewer points per step.
-void thinLongRun(const RecordingLimits& limits, Recording& recording) {
+void thinLongRun(const FlightRecordingLimits& limits, FlightRecording& recording) {
     const std::size_t steps = recording.steps.size();
     if (steps <= limits.full_steps) return;
     const auto share = [&](std::size_t most) { return most * limits.full_steps / steps; };
     for (RecordedStep& step : recording.steps) {
-        step.roi_m = thinned(step.roi_m, share(limits.points));
-        step.rou_m = thinned(step.rou_m, share(limits.points));
-        step.motions = thinned(step.motions, share(limits.motions));
+        step.roi_m = sampled(step.roi_m, share(limits.points));
+        step.rou_m = sampled(step.rou_m, share(limits.points));
+        step.motions = sampled(step.motions, share(limits.motions));
     }
 }
 
-/// Adds what needs the course: true clearances, ending, true scene.
-void addTruth(const Reflown& again, Recording& recording) {
+/// Adds true clearances, the ending and the true scene.
+void addTruth(const Course& course, const TrialResult& result, FlightRecording& recording) {
     for (std::size_t i = 0; i < recording.track.size(); ++i) {
         RecordedMoment& moment = recording.track[i];
-        moment.clearance_m = static_cast<double>(again.course.distance.at(
-            moment.at_m.cast<float>(), avoidance::kControlStep_s * static_cast<double>(i)));
+        moment.clearance_m = static_cast<double>(
+            course.distance.at(moment.at_m.cast<float>(), kControlStep_s * static_cast<double>(i)));
     }
-    recording.ending = endingOf(again.course, again.result, recording.run.setup.speed_m_s,
-                                recording.track.back().at_m);
-    recording.scene = trueSceneOf(again.course.scene, again.course.bounds_m, again.result.time_s);
+    recording.ending =
+        endingOf(course, result, recording.run.setup.speed_m_s, recording.track.back().at_m);
+    recording.scene = trueSceneOf(course.scene, course.bounds_m, result.time_s);
 }
 
 }  // namespace
 
-Recording record(const avoidance::Run& run, const avoidance::LatencyProfile& profile,
-                 const RecordingLimits& limits, const std::function<void()>& continuing) {
-    Recording recording;
+FlightRecording record(const Run& run, const LatencyProfile& profile,
+                       const FlightRecordingLimits& limits,
+                       const std::function<void()>& continuing) {
+    FlightRecording recording;
     recording.run = run;
     ModelHistory model(limits);
     double now_s = 0;
-    avoidance::TrialListener listener;
+    TrialListener listener;
     listener.keeps_candidates = true;
-    listener.step = [&](const avoidance::TrialStep& step) {
+    listener.step = [&](const TrialStep& step) {
         continuing();
-        const avoidance::WorldModel::Obstacles obstacles = step.world.obstacles();
+        const WorldModel::Obstacles obstacles = step.world.obstacles();
         model.add(obstacles, static_cast<int>(recording.steps.size()));
         recording.steps.push_back(recorded(step, obstacles, limits));
     };
-    listener.moved = [&](double time_s, const avoidance::VehicleState& state) {
+    listener.moved = [&](double time_s, const VehicleState& state) {
         now_s = time_s;
         recording.track.push_back({state.position_m, state.velocity_m_s.norm(), 0});
     };
     listener.event = [&](const std::string& what) { recording.events.push_back({now_s, what}); };
-    const Reflown again = flyAgain(run, profile, listener);
-    recording.is_same = again.is_same;
-    recording.start_m = again.course.start_m;
-    recording.goal_m = again.course.goal_m;
+    const Course course = makeCourse(run.scenario, run.seed);
+    Run flown = run;
+    flown.result = runTrial(course, run.setup, profile, nullptr, listener);
+    flown.oracle_path_m = course.oracle_path_m;
+    recording.is_same = rowOf(flown, true) == rowOf(run, true);
+    recording.start_m = course.start_m;
+    recording.goal_m = course.goal_m;
     recording.ground_m =
-        again.course.scene.terrain().height_m(recording.start_m.x(), recording.start_m.y());
-    addTruth(again, recording);
+        course.scene.terrain().height_m(recording.start_m.x(), recording.start_m.y());
+    addTruth(course, flown.result, recording);
     model.writeTo(recording);
     thinLongRun(limits, recording);
     return recording;
