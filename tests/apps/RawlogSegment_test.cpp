@@ -320,7 +320,7 @@ TEST_F(RawlogSegment, ListsEveryKeyOfSettingsFiles) {
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.err, "");
     for (const OptionKey& key : optionKeys()) {
-        EXPECT_THAT(outcome.out, HasSubstr("\n| " + key.name + " ")) << key.name;
+        EXPECT_THAT(outcome.out, HasSubstr("\n| " + nameInFiles(key) + " ")) << key.name;
         EXPECT_THAT(outcome.out, HasSubstr(key.what)) << key.name;
     }
 }

@@ -21,38 +21,38 @@ Image<float> repaired(const Image<float>& depth_m, float max_step_m) {
     return result;
 }
 
-TEST(GapRepair, AHoleBetweenTwoThatAgreeGetsTheirMean) {
+TEST(GapRepair, FillsHoleWithMeanOfNeighbours) {
     EXPECT_TRUE(test::same(repaired(column({10.0f, kNoValue, 10.5f}), 1.0f),
                            column({10.0f, 10.25f, 10.5f})));
 }
 
-TEST(GapRepair, AHoleBetweenTwoThatDisagreeStays) {
+TEST(GapRepair, KeepsHoleBetweenDistantNeighbours) {
     const auto depth = column({10.0f, kNoValue, 11.0f});
     EXPECT_TRUE(test::same(repaired(depth, 1.0f), depth));
 }
 
-TEST(GapRepair, ATwoPixelHoleStays) {
+TEST(GapRepair, KeepsTwoPixelHole) {
     const auto depth = column({10.0f, kNoValue, kNoValue, 10.0f});
     EXPECT_TRUE(test::same(repaired(depth, 1.0f), depth));
 }
 
-TEST(GapRepair, NeverFeedsOnItsOwnOutput) {
+TEST(GapRepair, IgnoresItsOwnOutput) {
     EXPECT_TRUE(test::same(
         repaired(column({10.0f, kNoValue, 10.5f, kNoValue, 11.0f, kNoValue, kNoValue}), 1.0f),
         column({10.0f, 10.25f, 10.5f, 10.75f, 11.0f, kNoValue, kNoValue})));
 }
 
-TEST(GapRepair, TheOutermostRowsHaveNoTwoNeighbours) {
+TEST(GapRepair, KeepsOutermostRows) {
     const auto depth = column({kNoValue, 10.0f, kNoValue});
     EXPECT_TRUE(test::same(repaired(depth, 1.0f), depth));
 }
 
-TEST(GapRepair, AStepOfZeroRepairsNothing) {
+TEST(GapRepair, StepOfZeroDisablesRepair) {
     const auto depth = column({10.0f, kNoValue, 10.0f});
     EXPECT_TRUE(test::same(repaired(depth, 0.0f), depth));
 }
 
-TEST(GapRepair, LeavesEveryPixelWithDepthAsItIs) {
+TEST(GapRepair, KeepsPixelsWithDepth) {
     test::Random random(8);
     for (int round = 0; round < 20; ++round) {
         const Image<float> depth_m = random.image(16, 50, 1.0f, 5.0f, 0.4);
@@ -70,7 +70,7 @@ TEST(GapRepair, LeavesEveryPixelWithDepthAsItIs) {
     }
 }
 
-TEST(GapRepair, IsThatOfThePlainDefinition) {
+TEST(GapRepair, MatchesDefinition) {
     test::Random random(9);
     for (int round = 0; round < 100; ++round) {
         const Image<float> depth_m =
@@ -87,7 +87,7 @@ TEST(GapRepair, IsThatOfThePlainDefinition) {
     }
 }
 
-TEST(GapRepair, AnEmptyImageStaysEmpty) {
+TEST(GapRepair, EmptyImageStaysEmpty) {
     EXPECT_TRUE(repaired(Image<float>::Constant(16, 870, kNoValue), 1.0f).isNaN().all());
 }
 

@@ -133,26 +133,18 @@ void expectSame(std::vector<Maximum> found, std::vector<Maximum> expected) {
     }
 }
 
-TEST(PersistentMaxima, AgreeWithBruteForceOnRandomImages) {
+TEST(PersistentMaxima, MatchBruteForce) {
     test::Random random(9);
     for (int round = 0; round < 60; ++round) {
-        const Image<float> proximity_m =
+        Image<float> proximity_m =
             random.image(random.whole(1, 5), random.whole(3, 8), -2.0f, 8.0f, 0.15).max(0.0f);
+        if (round % 2 == 0) proximity_m = proximity_m.round();  // many are equally high
         const float least = random.chance(0.5) ? 0.0f : 1.0f;
         expectSame(maximaOf(proximity_m, least), bruteForceMaxima(proximity_m, least));
     }
 }
 
-TEST(PersistentMaxima, AgreeWithBruteForceWhereManyPixelsAreEquallyHigh) {
-    test::Random random(10);
-    for (int round = 0; round < 60; ++round) {
-        Image<float> proximity_m = random.image(4, 7, 0.0f, 4.0f, 0.2);
-        proximity_m = proximity_m.round();
-        expectSame(maximaOf(proximity_m), bruteForceMaxima(proximity_m, 0.0f));
-    }
-}
-
-TEST(PersistentMaxima, AreThoseOfAPlainSweepOnEveryInstructionSet) {
+TEST(PersistentMaxima, MatchSweepOnEveryInstructionSet) {
     test::Random random(21);
     for (int round = 0; round < 150; ++round) {
         const int rows = random.chance(0.5) ? random.whole(1, 12) : random.whole(13, 128);
@@ -175,7 +167,7 @@ TEST(PersistentMaxima, AreThoseOfAPlainSweepOnEveryInstructionSet) {
     }
 }
 
-TEST(PersistentMaxima, AWindingWayUpHasOneMaximumAtItsEnd) {
+TEST(PersistentMaxima, SerpentineHasOneMaximum) {
     // A serpentine over the whole image that rises by one step per pixel, with distant turns.
     constexpr int kRows = 31, kColumns = 200;
     Image<float> proximity_m = Image<float>::Constant(kRows, kColumns, kNoValue);
@@ -195,7 +187,7 @@ TEST(PersistentMaxima, AWindingWayUpHasOneMaximumAtItsEnd) {
     EXPECT_EQ(maximaOf(proximity_m).size(), 1u);
 }
 
-TEST(PersistentMaxima, TheLowerOfTwoPeaksDiesAtTheSaddle) {
+TEST(PersistentMaxima, LowerPeakDiesAtSaddle) {
     Image<float> proximity_m(1, 6);
     proximity_m << 5, 2, 4, 1, 0, 1;
     const auto maxima = maximaOf(proximity_m, 0.5f);
@@ -209,21 +201,21 @@ TEST(PersistentMaxima, TheLowerOfTwoPeaksDiesAtTheSaddle) {
     EXPECT_EQ(maxima[1].persistence_m(), 2.0f);
 }
 
-TEST(PersistentMaxima, PersistenceAtTheThresholdIsKept) {
+TEST(PersistentMaxima, KeepsPersistenceAtThreshold) {
     Image<float> proximity_m(1, 5);
     proximity_m << 5, 2, 2.5, 0, 0;
     EXPECT_EQ(maximaOf(proximity_m, 0.5f).size(), 2u);
     EXPECT_EQ(maximaOf(proximity_m, 0.51f).size(), 1u);
 }
 
-TEST(PersistentMaxima, APlateauHasOneMaximumAtItsFirstPixel) {
+TEST(PersistentMaxima, PlateauHasOneMaximum) {
     const auto maxima = maximaOf(Image<float>::Constant(4, 9, 3.0f));
     ASSERT_EQ(maxima.size(), 1u);
     EXPECT_EQ(maxima[0].row, 0);
     EXPECT_EQ(maxima[0].column, 0);
 }
 
-TEST(PersistentMaxima, TheAzimuthWrapsAroundAndRowsDoNot) {
+TEST(PersistentMaxima, AzimuthWrapsRowsDoNot) {
     Image<float> proximity_m = Image<float>::Constant(5, 9, kNoValue);
     proximity_m(2, 0) = 3.0f;
     proximity_m(2, 8) = 2.0f;  // next to the first, around the back: not a maximum
@@ -241,12 +233,7 @@ TEST(PersistentMaxima, EmptyPixelsSeparate) {
     EXPECT_EQ(maximaOf(proximity_m).size(), 3u);
 }
 
-TEST(PersistentMaxima, NothingInTheZoneHasNone) {
-    EXPECT_TRUE(maximaOf(Image<float>::Constant(4, 9, 0.0f)).empty());
-    EXPECT_TRUE(maximaOf(Image<float>::Constant(4, 9, kNoValue)).empty());
-}
-
-TEST(Proximity, ClosestIsHighestAndEmptyStaysEmpty) {
+TEST(Proximity, ClosestIsHighest) {
     Image<float> depth_m(1, 5), proximity_m, expected(1, 5);
     depth_m << 0.5f, 19.0f, 20.0f, 90.0f, kNoValue;
     expected << 19.5f, 1.0f, 0.0f, 0.0f, kNoValue;

@@ -52,7 +52,7 @@ Image<std::int32_t> floodedNumbers(const Image<float>& depth_m, const Image<Labe
     return components;
 }
 
-TEST(RoiComponents, AreThoseOfAPlainFloodOnEveryInstructionSet) {
+TEST(RoiComponents, MatchFloodFillOnEveryInstructionSet) {
     test::Random random(20);
     for (int round = 0; round < 150; ++round) {
         const int rows = random.chance(0.5) ? random.whole(2, 16) : random.whole(17, 200);
@@ -76,7 +76,7 @@ TEST(RoiComponents, AreThoseOfAPlainFloodOnEveryInstructionSet) {
     }
 }
 
-TEST(RoiComponents, TheNearestObstacleIsNumberOne) {
+TEST(RoiComponents, NearestObstacleIsNumberOne) {
     Image<float> depth_m(1, 7);
     depth_m << 9.0f, 9.1f, 5.0f, 5.1f, 4.9f, 12.0f, 12.0f;
     Image<Label> labels = Image<Label>::Constant(1, 7, Label::Roi);
@@ -86,7 +86,7 @@ TEST(RoiComponents, TheNearestObstacleIsNumberOne) {
     EXPECT_TRUE((numbered(depth_m, labels) == expected).all());
 }
 
-TEST(RoiComponents, GoAroundTheBackAndNotDiagonally) {
+TEST(RoiComponents, WrapInAzimuthNotDiagonally) {
     Image<float> depth_m = Image<float>::Constant(2, 6, 5.0f);
     Image<Label> labels = Image<Label>::Constant(2, 6, Label::Rou);
     labels(0, 0) = labels(0, 5) = labels(1, 1) = Label::Roi;
@@ -95,7 +95,7 @@ TEST(RoiComponents, GoAroundTheBackAndNotDiagonally) {
     EXPECT_NE(components(0, 0), components(1, 1));
 }
 
-TEST(RoiComponents, AreTheClassesOfTheNeighbourRelation) {
+TEST(RoiComponents, AreClassesOfNeighbourRelation) {
     test::Random random(19);
     for (int round = 0; round < 20; ++round) {
         const int rows = 6, columns = 15;

@@ -13,7 +13,7 @@
 #include <hwy/foreach_target.h>  // once per instruction set
 #include <hwy/highway.h>
 
-#include "filter/MaskBits.h"
+#include "filter/simd/MaskBits.h"
 #include "filter/paper/EigenBatch-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -96,7 +96,8 @@ struct SettingsKey {
 /// Returns every key: those of optionKeys(), the sensor's, `airframe` and `include`.
 std::vector<SettingsKey> settingsKeys();
 
-/// Sets one option from text, as `--sweep KEY=VALUE` does. Throws SettingsError.
+/// Sets one option from text, as `--sweep KEY=VALUE` does, by its name with or without section.
+/// Throws SettingsError.
 void setOption(const std::string& key, const std::string& value, Settings& settings);
 
 }  // namespace hagen
