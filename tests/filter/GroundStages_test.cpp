@@ -4,6 +4,7 @@
 #include <hagen/scan/InstructionSets.h>
 #include "filter/FilterWorkspace.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -100,8 +101,8 @@ Judged judged(const Sight& sight) {
     fitGroundSurface(pixels, work.candidates, j.surface, work.ground_surface);
     heightsAbove(j.surface, pixels, j.height_m);
     findCellTops(j.cells, j.height_m, j.tops);
-    toleratedHeights(pixels, j.cells, j.tops, kTolerance, j.frame.translation().z(), j.tolerance_m,
-                     work.tolerance);
+    toleratedHeights(pixels, j.cells, j.tops, kTolerance, std::max(j.frame.translation().z(), 0.1f),
+                     j.tolerance_m, work.tolerance);
     const Image<float> before_m = j.tolerance_m;
     tolerateCanopy(j.cells, j.tops, j.tolerance_m);
     j.raised = !test::same(before_m, j.tolerance_m);

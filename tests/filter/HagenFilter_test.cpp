@@ -507,6 +507,9 @@ TEST(HagenFilter, EveryOptionReachesItsStage) {
     const Scan scan = hillyScan(57, sensorModel("HDL-32E"));
     Options standard;
     standard.ground_is_roi_below_m = 1.2f;
+    standard.canopy_layer = false;  // it would hide the other tolerances
+    standard.ground_tolerance_per_m = 0.02f;
+    standard.ground_tolerance_beside_tall = 0.2f;
     standard.ground_evidence = false;  // as nearly all of this ground is rough
     const auto expected = imagesWith(standard, scan);
     for (const OptionKey& key : optionKeys()) {
