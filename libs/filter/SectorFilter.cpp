@@ -46,7 +46,7 @@ void copyColumns(const PixelDirections& from, Eigen::Index first, Eigen::Index c
     copy(from.column_cosine, to.column_cosine);
 }
 
-/// What is known of each pixel by its closest return, unless that is of the sector.
+/// What is known of each pixel by its closest return, unless that belongs to the sector.
 void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<Label>& labels,
                  Image<float>& known_m) {
     labels.resize(image.depth_m.rows(), image.depth_m.cols());
@@ -153,8 +153,8 @@ Columns SectorFilter::State::judgedColumns(const SectorOfInterest& sector) const
     return {first, std::min(rounded, columns - first)};
 }
 
-/// Stages 1 and 2. Gaps are repaired where the pixels are judged; which beams are dead, the whole
-/// turn tells.
+/// Stages 1 and 2. Gaps are repaired only in the judged columns. Dead beams are found in the whole
+/// turn.
 void SectorFilter::State::project(const Scan& scan, const SectorOfInterest& sector) {
     const Options& o = options;
     SegmentationResult& r = result;

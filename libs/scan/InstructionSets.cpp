@@ -55,7 +55,7 @@ void limitInstructionSets(const std::string& best) {
         if (named == sets.end()) {
             std::string names;
             for (const std::int64_t set : sets) names += (names.empty() ? "" : ", ") + nameOf(set);
-            throw std::invalid_argument("'" + best + "' is no instruction set of this build (" +
+            throw std::invalid_argument("'" + best + "' is not an instruction set of this build (" +
                                         names + ", " + kPlain + ")");
         }
         better = *named - 1;

@@ -195,7 +195,7 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings& sett
     if (!sensor.elevations_deg.empty() && sensor.model.value_or("") != "custom") {
         throw SettingsError(
             at(file, section) +
-            "sensor.elevations_deg goes with 'model: custom'; a known model has its own");
+            "sensor.elevations_deg requires 'model: custom'; a known model has its own");
     }
 }
 
@@ -230,10 +230,10 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
         if (includes.origin == SettingsOrigin::Recording && fs::path(name).has_parent_path()) {
             throw SettingsError(
                 at(file, node) + "includes '" + name +
-                "'; settings of a recording include files of their own folder only");
+                "'; settings of a recording may include only files of their own folder");
         }
         if (name.empty() || name.size() > kLongestName || name.find('\0') != std::string::npos) {
-            throw SettingsError(at(file, node) + "an entry of 'include' is no file name");
+            throw SettingsError(at(file, node) + "an entry of 'include' is not a file name");
         }
         fs::path included = file.parent_path() / name;
         std::error_code none;
@@ -241,13 +241,13 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
             const fs::path preset = findPreset(name);
             if (preset.empty()) {
                 throw SettingsError(at(file, node) + "includes " + included.string() +
-                                    ", which does not exist, nor does a preset of this name");
+                                    ", but there is no such file or preset");
             }
             included = preset;
         }
         if (!fs::is_regular_file(included, none)) {
             throw SettingsError(at(file, node) + "includes " + included.string() +
-                                ", which is no file");
+                                ", which is not a file");
         }
         if (++includes.files > kMostIncludes) {
             throw SettingsError(at(file, node) + "settings include more than " +

@@ -24,7 +24,7 @@ std::string nearestOf(const std::string& word, const std::vector<std::string>& k
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known);
 
 /// Calls visit(key, value, place of the key for messages) for each entry of a map. Throws
-/// SettingsError if it is none, such as `example`, or if a key occurs twice.
+/// SettingsError if it is not a map (with `example`), or if a key occurs twice.
 template <class Visit>
 void forEachKey(const std::filesystem::path& file, const YAML::Node& map,
                 const std::string& section, const std::string& example, Visit visit) {

@@ -391,9 +391,9 @@ TEST_F(RawlogSegmentTrouble, IncludesOfARecordingsSettingsAreLimited) {
     folder_.write("secret.yaml", "");
     for (const std::string& elsewhere : {std::string("../secret.yaml"), path("secret.yaml")}) {
         folder_.write("scans/sensor.yaml", "include: " + elsewhere + "\n");
-        expectFailure(flags, 2, "of their own folder only");
+        expectFailure(flags, 2, "only files of their own folder");
         folder_.write("scans/sensor.yaml", "airframe:\n  - learned: " + elsewhere + "\n");
-        expectFailure(flags, 2, "of their own folder only");
+        expectFailure(flags, 2, "only files of their own folder");
     }
     folder_.write("scans/sensor.yaml", "# " + std::string(1 << 20, 'x'));
     expectFailure(flags, 2, "larger than 1 MiB");

@@ -116,26 +116,6 @@ TEST(Labelling, FollowsWindingPath) {
     }
 }
 
-TEST(Labelling, RegionsEndAtBeta) {
-    Image<float> angle_rad(4, 3);
-    angle_rad.row(0) << 0.0f, 0.0f, 0.0f;
-    angle_rad.row(1) << 0.09f, 0.09f, 0.09f;
-    angle_rad.row(2) << 0.25f, 0.25f, 0.25f;  // 0.16 above the row below
-    angle_rad.row(3) << 0.30f, 0.30f, 0.30f;
-    const Image<float> depth_m = Image<float>::Constant(4, 3, 10.0f);
-    const Image<Label> labels = labelled(depth_m, angle_rad, 0.1f);
-    for (const int row : {0, 1}) EXPECT_TRUE((labels.row(row) == Label::Rou).all());
-    for (const int row : {2, 3}) EXPECT_TRUE((labels.row(row) == Label::Roi).all());
-}
-
-TEST(Labelling, ExactlyBetaDoesNotJoin) {
-    Image<float> angle_rad = Image<float>::Zero(2, 3);
-    angle_rad.row(1) = 0.5f;
-    const Image<float> depth_m = Image<float>::Constant(2, 3, 10.0f);
-    EXPECT_TRUE((labelled(depth_m, angle_rad, 0.5f).row(1) == Label::Roi).all());
-    EXPECT_TRUE((labelled(depth_m, angle_rad, 0.5001f).row(1) == Label::Rou).all());
-}
-
 TEST(Labelling, RegionsWrapInAzimuth) {
     // Only column 0 has a seed with a path up; its upper pixel reaches the last column sideways.
     Image<float> angle_rad = Image<float>::Constant(2, 5, 1.5f);
@@ -144,15 +124,6 @@ TEST(Labelling, RegionsWrapInAzimuth) {
     const Image<Label> labels = labelled(Image<float>::Constant(2, 5, 10.0f), angle_rad, 0.1f);
     EXPECT_EQ(labels(1, 4), Label::Rou);
     EXPECT_EQ(labels(1, 2), Label::Roi);
-}
-
-TEST(Labelling, PixelWithoutAngleIsRoi) {
-    const Image<float> depth_m = Image<float>::Constant(3, 3, 10.0f);
-    Image<float> angle_rad = Image<float>::Zero(3, 3);
-    angle_rad(1, 1) = kNoValue;
-    for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
-        EXPECT_EQ(labelled(depth_m, angle_rad, 0.1f, seeds)(1, 1), Label::Roi);
-    }
 }
 
 TEST(Labelling, SeedNeedsAngle) {
@@ -233,11 +204,6 @@ TEST(Labelling, EverySeedMarksAllRou) {
         EXPECT_TRUE(((labels == Label::Unclassified) == depth_m.isNaN()).all());
         EXPECT_TRUE(((labels == Label::Rou) == (!depth_m.isNaN() && !angle_rad.isNaN())).all());
     }
-}
-
-TEST(Labelling, EmptyImageIsUnclassified) {
-    const Image<float> empty = Image<float>::Constant(16, 20, kNoValue);
-    EXPECT_TRUE((labelled(empty, empty, 0.1f) == Label::Unclassified).all());
 }
 
 TEST(Zone, BeyondZoneIsRou) {

@@ -44,7 +44,7 @@ TEST(CheckLocated, RejectsTooManyReturns) {
     Scan scan;
     scan.x_m.resize(kMostReturns + 1);
     EXPECT_EQ(objection(scan, sensorModel("VLP-16")),
-              "the scan has 16777217 returns, more than the 16777216 that it may have");
+              "the scan has 16777217 returns; the maximum is 16777216");
     scan.x_m.resize(kMostReturns);
     EXPECT_THAT(objection(scan, sensorModel("VLP-16")), HasSubstr("differ in number"));
 }

@@ -216,10 +216,10 @@ TEST_F(SettingsTest, RejectsInvalidIncludeNames) {
     for (const std::string& include : {std::string("[vlp16, [hdl32e]]"), std::string("[{}]"),
                                        std::string("\"vlp16\\0\""), std::string(5000, 'a')}) {
         EXPECT_TRUE(says(refusalOf("include: " + include),
-                         "refused.yaml:1: an entry of 'include' is no file name"))
+                         "refused.yaml:1: an entry of 'include' is not a file name"))
             << include;
     }
-    EXPECT_TRUE(says(refusalOf("include: " + std::string(300, 'a')), "does not exist"));
+    EXPECT_TRUE(says(refusalOf("include: " + std::string(300, 'a')), "no such file or preset"));
 }
 
 TEST_F(SettingsTest, SuggestsNearestKey) {
@@ -247,9 +247,9 @@ TEST_F(SettingsTest, RejectsInvalidYaml) {
     EXPECT_TRUE(says(refusalOf("just words"), "key: value"));
     EXPECT_TRUE(says(refusalOf("zone_m: 20\n---\nzone: 30\n"), "several documents"));
     // yaml-cpp finds documents without end in these.
-    EXPECT_TRUE(says(refusalOf(","), "text that is no YAML"));
+    EXPECT_TRUE(says(refusalOf(","), "invalid YAML"));
     EXPECT_TRUE(
-        says(refusalOf(std::string(",nclude: (\0\0\0\0\0\0\0\1", 18)), "text that is no YAML"));
+        says(refusalOf(std::string(",nclude: (\0\0\0\0\0\0\0\1", 18)), "invalid YAML"));
     Settings settings;
     EXPECT_THROW(mergeSettings("/no/such/file.yaml", settings), SettingsError);
     EXPECT_THROW(mergeSettings(folder_.path(), settings), SettingsError);

@@ -27,17 +27,9 @@ struct Surroundings {
         sum_m += top_m;
         sum_m2 += static_cast<double>(top_m) * top_m;
     }
-    /// The height that plants do not exceed; 0 without a canopy.
+    /// 0 without a canopy.
     float canopy_m() const {
-        const auto all = static_cast<float>(seen);
-        if (all < kMinCells || static_cast<float>(plants) < kMinShare * all ||
-            static_cast<float>(tall) > kMaxTall * all) {
-            return 0;
-        }
-        const double mean_m = sum_m / plants;
-        const double variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0);
-        const double spread_m = std::min(kDeviations * std::sqrt(variance_m2), mean_m);
-        return static_cast<float>(mean_m + spread_m + kMargin_m);
+        return isCanopy(seen, tall, plants) ? canopyHeight_m(plants, sum_m, sum_m2) : 0.0f;
     }
 };
 

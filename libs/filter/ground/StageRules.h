@@ -1,7 +1,8 @@
 // The numbers of the ground stages, for their definitions and for simd/. Distances are in metres,
 // slopes in metres per metre; each stage's header gives the reasons.
 #pragma once
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
 
 namespace hagen {
 
@@ -62,6 +63,22 @@ constexpr float kMinCells = 30;                       // seen nearby; with fewer
 constexpr double kDeviations = 2.0;
 constexpr double kMargin_m = 0.1;
 constexpr float kStandsOut_m = 0.1f;  // above the canopy: an obstacle in it
+
+/// Whether cells with returns are a canopy, by how many are higher than plants and how many are as
+/// high as plants.
+inline bool isCanopy(int seen, int tall, int plants) {
+    const auto all = static_cast<float>(seen);
+    return all >= kMinCells && static_cast<float>(plants) >= kMinShare * all &&
+           static_cast<float>(tall) <= kMaxTall * all;
+}
+
+/// The height that plants do not exceed, by the sums of their heights and of the squares of these.
+inline float canopyHeight_m(int plants, double sum_m, double sum_m2) {
+    const double mean_m = sum_m / plants;
+    const double variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0);
+    const double spread_m = std::min(kDeviations * std::sqrt(variance_m2), mean_m);
+    return static_cast<float>(mean_m + spread_m + kMargin_m);
+}
 }  // namespace canopy_rules
 
 namespace feet_rules {

@@ -32,11 +32,7 @@ struct Census {
         tall -= other.tall;
         plants -= other.plants;
     }
-    bool isCanopy() const {
-        const auto all = static_cast<float>(seen);
-        return all >= kMinCells && static_cast<float>(plants) >= kMinShare * all &&
-               static_cast<float>(tall) <= kMaxTall * all;
-    }
+    bool isCanopy() const { return canopy_rules::isCanopy(seen, tall, plants); }
 };
 
 /// The heights of the plants in the cells of one or more blocks. Sums are double, so that
@@ -52,13 +48,6 @@ struct Heights {
     void remove(const Heights& other) {
         sum_m -= other.sum_m;
         sum_m2 -= other.sum_m2;
-    }
-    /// The height that this many plants do not exceed.
-    float canopy_m(int plants) const {
-        const double mean_m = sum_m / plants;
-        const double variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0);
-        const double spread_m = std::min(kDeviations * std::sqrt(variance_m2), mean_m);
-        return static_cast<float>(mean_m + spread_m + kMargin_m);
     }
 };
 
@@ -137,7 +126,8 @@ void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>&
     BlocksAndNone<float> canopy_m{};
     for (std::size_t block = 0; block < around.size(); ++block) {
         if (!around[block].isCanopy()) continue;
-        canopy_m[block] = heights[block].canopy_m(around[block].plants);
+        canopy_m[block] =
+            canopyHeight_m(around[block].plants, heights[block].sum_m, heights[block].sum_m2);
     }
     raiseTolerances(cells, tops, canopy_m, tolerance_m);
 }

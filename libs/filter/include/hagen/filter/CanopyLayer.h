@@ -7,7 +7,7 @@ namespace hagen {
 
 /// Raises the tolerance over crops. If plants 0.1 to 1 m high stand in 35 % of all cells (0.75 m)
 /// seen within 18 m, they are a canopy, which is flown over like the ground. Bushes, hedges and
-/// cars in a street cover less. If more than 20 % of these cells are higher, it is none: in a room,
+/// cars in a street cover less. If more than 20 % of these cells are higher, there is no canopy: in a room,
 /// desks are as high as crops, but walls stand around them. In a canopy a return is an obstacle
 /// only if it is higher than the plants: the mean + 2 standard deviations of the cells' highest
 /// returns, but not more than twice the mean (short grass with trunks in it is no high crop), + 0.1

@@ -33,7 +33,7 @@ struct SectorOfInterest {
 /// The stages of HagenFilter for a part of a turn. Stages 3 to 8, which compare a pixel with its
 /// neighbours, run on the columns of the sector and a few beside it; other returns keep the region
 /// that they got there. The ground is found under all of them, and only the sector is labelled by
-/// it: its labels are those of a whole scan but for a few. Whether a canopy is around is told by
+/// it: its labels are those of a whole scan but for a few. A canopy is recognised by
 /// how high the cells of the context were in their own sectors. Obstacles are not numbered.
 class SectorFilter {
  public:
