@@ -83,7 +83,8 @@ TEST(InstructionSets, FollowTheEnvironment) {
     }
     const test::Outcome unknown = start("mmx");
     EXPECT_EQ(unknown.exit_code, 1);  // it is not the first one
-    EXPECT_THAT(unknown.err, HasSubstr("HAGEN_SIMD has no effect: 'mmx' is not an instruction set"));
+    EXPECT_THAT(unknown.err,
+                HasSubstr("HAGEN_SIMD has no effect: 'mmx' is not an instruction set"));
 }
 
 }  // namespace

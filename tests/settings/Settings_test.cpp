@@ -248,8 +248,7 @@ TEST_F(SettingsTest, RejectsInvalidYaml) {
     EXPECT_TRUE(says(refusalOf("zone_m: 20\n---\nzone: 30\n"), "several documents"));
     // yaml-cpp finds documents without end in these.
     EXPECT_TRUE(says(refusalOf(","), "invalid YAML"));
-    EXPECT_TRUE(
-        says(refusalOf(std::string(",nclude: (\0\0\0\0\0\0\0\1", 18)), "invalid YAML"));
+    EXPECT_TRUE(says(refusalOf(std::string(",nclude: (\0\0\0\0\0\0\0\1", 18)), "invalid YAML"));
     Settings settings;
     EXPECT_THROW(mergeSettings("/no/such/file.yaml", settings), SettingsError);
     EXPECT_THROW(mergeSettings(folder_.path(), settings), SettingsError);

@@ -6,8 +6,8 @@
 
 namespace hagen {
 
-/// A settings key of an option, by its name in reports and sweeps. Parsing, range checks, sweeps and
-/// `rawlog-segment --config-keys` all use this table.
+/// A settings key of an option, by its name in reports and sweeps. Parsing, range checks, sweeps
+/// and `rawlog-segment --config-keys` all use this table.
 struct OptionKey {
     std::string name, unit;
     double least, most;        ///< allowed range, both inclusive
