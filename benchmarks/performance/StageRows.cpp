@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "filter/FilterWorkspace.h"
+
 namespace hagen {
 namespace {
 

@@ -10,7 +10,7 @@
 #include <hwy/highway.h>
 
 #include "filter/ExtractionParts.h"
-#include "filter/MaskBits.h"
+#include "filter/simd/MaskBits.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {

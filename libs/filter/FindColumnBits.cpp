@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "filter/MaskBits.h"
+#include "filter/simd/MaskBits.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {

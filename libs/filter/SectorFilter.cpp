@@ -1,4 +1,4 @@
-#include <hagen/filter/Clearance.h>
+#include <hagen/filter/CanopyLayer.h>
 #include <hagen/filter/DeadBeams.h>
 #include <hagen/filter/GapRepair.h>
 #include <hagen/filter/SectorFilter.h>
@@ -13,6 +13,10 @@ namespace {
 constexpr std::int32_t kBeside = 5;     // columns on both sides of a sector, for its regions
 constexpr std::int32_t kTogether = 16;  // columns; so that most sectors need images of one size
 constexpr std::size_t kPlaneEvery = 2;  // of the columns that are spread over the turn
+
+struct Columns {
+    Eigen::Index first = 0, count = 0;
+};
 
 /// Some columns of an image, and an empty one, which keeps the last from the first: they are no
 /// neighbours, though columns wrap around.
@@ -42,7 +46,7 @@ void copyColumns(const PixelDirections& from, Eigen::Index first, Eigen::Index c
     copy(from.column_cosine, to.column_cosine);
 }
 
-/// What is known of each pixel by its closest return, unless that is of the sector.
+/// What is known of each pixel by its closest return, unless that belongs to the sector.
 void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<Label>& labels,
                  Image<float>& known_m) {
     labels.resize(image.depth_m.rows(), image.depth_m.cols());
@@ -57,36 +61,82 @@ void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<
     }
 }
 
+/// The cells of the judged pixels in the zone, and those around that their tolerance depends on.
+CellArea areaOf(const Ground& ground, const Columns& judged, const Options& options) {
+    constexpr float kBeyond_m = 1;  // of the zone: neighbours of pixels at its edge
+    constexpr int kSides = 1;       // beside a cell, what is tall matters
+    const float max_m = options.zone_m + kBeyond_m;
+    const Eigen::Index rows = ground.cells.cell.rows();
+    CellArea area{CellArea::kSide, 0, CellArea::kSide, 0};
+    for (Eigen::Index k = judged.first * rows; k < (judged.first + judged.count) * rows; ++k) {
+        const float x_m = ground.pixels.x_m.data()[k], y_m = ground.pixels.y_m.data()[k];
+        if (!(x_m * x_m + y_m * y_m < max_m * max_m)) continue;  // or empty
+        const int cell = ground.cells.cell.data()[k];
+        const int row = cell % CellArea::kSide, column = cell / CellArea::kSide;
+        area.first_row = std::min(area.first_row, row);
+        area.end_row = std::max(area.end_row, row + 1);
+        area.first_column = std::min(area.first_column, column);
+        area.end_column = std::max(area.end_column, column + 1);
+    }
+    if (area.end_row == 0) return {0, 0, 0, 0};
+    return area.grownBy(options.canopy_layer ? kCanopyReach : kSides);
+}
+
 }  // namespace
 
+struct SectorFilter::State {
+    SensorModel sensor;
+    Options options;
+    PixelDirections turn;             ///< of all columns of a turn
+    PixelDirections directions;       ///< of the image's
+    PixelDirections near_directions;  ///< of those that are judged
+    SegmentationResult result;
+    Columns judged;           ///< of its images
+    SegmentationResult near;  ///< images of the columns that are judged, and an empty one
+    std::vector<ContextReturn> found;
+    Image<float> known_m;  ///< how high the cell of each pixel is known to be
+    std::vector<std::int32_t> plane_columns;
+    FilterWorkspace work;
+
+    Columns judgedColumns(const SectorOfInterest& sector) const;
+    void project(const Scan& scan, const SectorOfInterest& sector);
+    void findRegions(const SectorOfInterest& sector, const std::optional<Attitude>& horizon);
+    void findGround(const Scan& scan, const SectorOfInterest& sector,
+                    const std::optional<Attitude>& horizon);
+    void keepHeights();
+    void labelSector(const SectorOfInterest& sector, const std::optional<Attitude>& horizon);
+};
+
 SectorFilter::SectorFilter(const SensorModel& sensor, const Options& options)
-    : sensor_(sensor), options_(options), turn_(pixelDirections(sensor, options.columns)) {
-    checkOptions(options_, sensor_.rows());
+    : state_(std::make_unique<State>()) {
+    checkOptions(options, sensor.rows());
+    state_->sensor = sensor;
+    state_->options = options;
+    state_->turn = pixelDirections(sensor, options.columns);
 }
+
+SectorFilter::SectorFilter(SectorFilter&&) noexcept = default;
+SectorFilter& SectorFilter::operator=(SectorFilter&&) noexcept = default;
+SectorFilter::~SectorFilter() = default;
+
+const std::vector<ContextReturn>& SectorFilter::found() const { return state_->found; }
 
 const SegmentationResult& SectorFilter::segment(const Scan& scan,
                                                 const std::optional<Attitude>& attitude,
                                                 const SectorOfInterest& sector) {
-    const std::optional<Attitude> horizon = options_.level_by_attitude ? attitude : std::nullopt;
-    project(scan, sector);
-    findRegions(sector, horizon);
-    if (options_.ground_surface || options_.ground_is_roi_below_m > 0) {
-        const std::vector<std::int32_t>& even = sector.columns.even;
-        plane_columns_.clear();
-        for (std::size_t k = 0; k < even.size(); k += kPlaneEvery) {
-            plane_columns_.push_back(even[k]);
-        }
-        const JudgedPart part{judged_.first, judged_.count, plane_columns_, even, known_m_};
-        findGround(scan, directions_, result_, horizon, options_, &part, result_.ground, work_);
-    }
-    keepHeights();
-    labelSector(sector, horizon);
-    return result_;
+    State& s = *state_;
+    const std::optional<Attitude> horizon = s.options.level_by_attitude ? attitude : std::nullopt;
+    s.project(scan, sector);
+    s.findRegions(sector, horizon);
+    if (usesGround(s.options)) s.findGround(scan, sector, horizon);
+    s.keepHeights();
+    s.labelSector(sector, horizon);
+    return s.result;
 }
 
 /// All that have returns of the sector, and some beside it.
-SectorFilter::Columns SectorFilter::judgedColumns(const SectorOfInterest& sector) const {
-    const RangeImage& image = result_.range_image;
+Columns SectorFilter::State::judgedColumns(const SectorOfInterest& sector) const {
+    const RangeImage& image = result.range_image;
     const auto rows = static_cast<std::int32_t>(image.depth_m.rows());
     const auto columns = static_cast<std::int32_t>(image.depth_m.cols());
     std::int32_t first = rows * columns, last = -1;  // pixels, column by column
@@ -103,82 +153,92 @@ SectorFilter::Columns SectorFilter::judgedColumns(const SectorOfInterest& sector
     return {first, std::min(rounded, columns - first)};
 }
 
-/// Stages 1 and 2. Gaps are repaired where the pixels are judged; which beams are dead, the whole
-/// turn tells.
-void SectorFilter::project(const Scan& scan, const SectorOfInterest& sector) {
-    const Options& o = options_;
-    SegmentationResult& r = result_;
+/// Stages 1 and 2. Gaps are repaired only in the judged columns. Dead beams are found in the whole
+/// turn.
+void SectorFilter::State::project(const Scan& scan, const SectorOfInterest& sector) {
+    const Options& o = options;
+    SegmentationResult& r = result;
     const Image<float>& depth_m = r.range_image.depth_m;
-    projectScan(scan, sensor_, sector.columns, std::max(o.context_m, o.zone_m), r.range_image,
-                work_.projection);
-    mapDirections(turn_, sector.columns, directions_);
-    judged_ = judgedColumns(sector);
-    const auto [first, count] = judged_;
-    copyColumns(directions_, first, count, near_directions_);
-    copyColumns(depth_m, first, count, kNoValue, near_.range_image.depth_m);
-    repairGaps(near_.range_image.depth_m, o.repair_max_step_m, near_.repaired_m);
+    projectScan(scan, sensor, sector.columns, std::max(o.context_m, o.zone_m), r.range_image,
+                work.projection);
+    mapDirections(turn, sector.columns, directions);
+    judged = judgedColumns(sector);
+    const auto [first, count] = judged;
+    copyColumns(directions, first, count, near_directions);
+    copyColumns(depth_m, first, count, kNoValue, near.range_image.depth_m);
+    repairGaps(near.range_image.depth_m, o.repair_max_step_m, near.repaired_m);
     if (o.bridge_dead_beams)
-        bridgeDeadBeams(depth_m, near_directions_, near_.repaired_m, work_.dead_beams);
+        bridgeDeadBeams(depth_m, near_directions, near.repaired_m, work.dead_beams);
     r.repaired_m = depth_m;
-    r.repaired_m.middleCols(first, count) = near_.repaired_m.leftCols(count);
+    r.repaired_m.middleCols(first, count) = near.repaired_m.leftCols(count);
 }
 
-/// Stages 3 to 8 for the columns that are judged; `result_.labels` are the regions of all.
-void SectorFilter::findRegions(const SectorOfInterest& sector,
-                               const std::optional<Attitude>& horizon) {
-    SegmentationResult& r = result_;
-    labelByAngles(near_.repaired_m, near_directions_, sensor_.min_range_m, horizon, options_, near_,
-                  work_);
-    readContext(r.range_image, sector, r.labels, known_m_);
-    r.labels.middleCols(judged_.first, judged_.count) = near_.labels.leftCols(judged_.count);
+/// Stages 3 to 8 for the columns that are judged; `result.labels` are the regions of all.
+void SectorFilter::State::findRegions(const SectorOfInterest& sector,
+                                      const std::optional<Attitude>& horizon) {
+    SegmentationResult& r = result;
+    labelByAngles(near_directions, sensor.min_range_m, horizon, options, near, work);
+    readContext(r.range_image, sector, r.labels, known_m);
+    r.labels.middleCols(judged.first, judged.count) = near.labels.leftCols(judged.count);
 
-    found_.assign(sector.returns.size(), {});
-    for (std::size_t i = 0; i < found_.size(); ++i) {
+    found.assign(sector.returns.size(), {});
+    for (std::size_t i = 0; i < found.size(); ++i) {
         const std::int32_t pixel = r.range_image.depth_mapper[i];
-        if (pixel != RangeImage::kNoPixel) found_[i].region = r.labels.data()[pixel];
+        if (pixel != RangeImage::kNoPixel) found[i].region = r.labels.data()[pixel];
     }
 }
 
+/// Under all columns of the map.
+void SectorFilter::State::findGround(const Scan& scan, const SectorOfInterest& sector,
+                                     const std::optional<Attitude>& horizon) {
+    const std::vector<std::int32_t>& even = sector.columns.even;
+    plane_columns.clear();
+    for (std::size_t k = 0; k < even.size(); k += kPlaneEvery) plane_columns.push_back(even[k]);
+    Ground& g = result.ground;
+    findGroundPlane(scan, directions, horizon, options, &plane_columns, result, work);
+    if (!g.has_surface) return;
+    findGroundSurface(result.labels, options, &even, g, work);
+    const CellArea area = areaOf(g, judged, options);
+    findCellTops(g.cells, g.height_m, g.tops, area);
+    raiseHighest(g.cells, known_m, g.tops);
+    findTolerances(options, area, g, work);
+}
+
 /// How high the cells of the sector's returns are, now that all of its returns are in them.
-void SectorFilter::keepHeights() {
-    const Ground& ground = result_.ground;
+void SectorFilter::State::keepHeights() {
+    const Ground& ground = result.ground;
     if (!ground.has_surface) return;
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-        const std::int32_t pixel = result_.range_image.depth_mapper[i];
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const std::int32_t pixel = result.range_image.depth_mapper[i];
         if (pixel == RangeImage::kNoPixel) continue;
-        found_[i].cell_height_m = highestOf(ground.tops, ground.cells.cell.data()[pixel]);
+        found[i].cell_height_m = highestOf(ground.tops, ground.cells.cell.data()[pixel]);
     }
 }
 
 /// What follows the ground, for the columns that are judged, and stage 9.
-void SectorFilter::labelSector(const SectorOfInterest& sector,
-                               const std::optional<Attitude>& horizon) {
-    const Options& o = options_;
-    SegmentationResult& r = result_;
+void SectorFilter::State::labelSector(const SectorOfInterest& sector,
+                                      const std::optional<Attitude>& horizon) {
+    const Options& o = options;
+    SegmentationResult& r = result;
     const Ground& g = r.ground;
-    const auto [first, count] = judged_;
+    const auto [first, count] = judged;
+    Ground& own = near.ground;
+    own.is_seen = g.is_seen;
+    own.has_surface = g.has_surface;
     if (g.has_surface) {
-        Ground& near = near_.ground;
-        copyColumns(g.pixels, first, count, near.pixels);
-        copyColumns(g.height_m, first, count, kNoValue, near.height_m);
-        copyColumns(g.tolerance_m, first, count, kNoValue, near.tolerance_m);
-        relabelByHeight(near.pixels, near.height_m, near.tolerance_m, o, near_.labels, work_);
+        copyColumns(g.pixels, first, count, own.pixels);
+        copyColumns(g.height_m, first, count, kNoValue, own.height_m);
+        copyColumns(g.tolerance_m, first, count, kNoValue, own.tolerance_m);
     }
-    if (o.ground_surface && o.ground_evidence && !g.is_seen) doubtAll(near_.labels);
-    if (o.context_m > o.zone_m) limitToZone(near_.repaired_m, o.zone_m, near_.labels);
+    relabelByGround(own, o, near.labels, work);
+    if (o.context_m > o.zone_m) limitToZone(near.repaired_m, o.zone_m, near.labels);
     r.labels.setConstant(Label::Unclassified);
-    r.labels.middleCols(first, count) = near_.labels.leftCols(count);
+    r.labels.middleCols(first, count) = near.labels.leftCols(count);
     r.own_labels.label.clear();
     r.own_labels.returns.clear();
-    if (o.ground_surface || o.ground_is_roi_below_m > 0) {
-        const Clearance clearance{upwards(g, horizon), o.ground_is_roi_below_m};
-        alarmLowGround(g, clearance, r.labels);
-        judgeFartherReturns(sector.returns, r.range_image, g, clearance, o.zone_m, r.own_labels,
-                            work_.farther_returns);
-    }
+    if (usesGround(o)) judgeClearance(sector.returns, horizon, o, r, work);
     r.components.setZero(r.labels.rows(), r.labels.cols());
-    extractReturns(sector.returns, {r.range_image, r.labels, r.components}, r.own_labels,
-                   {o.zone_m, o.component_gap_m}, r.returns, work_.extraction);
+    labelReturns(sector.returns, o, r, work);
 }
 
 }  // namespace hagen

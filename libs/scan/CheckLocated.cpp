@@ -62,8 +62,7 @@ BeamSpan beamSpan(const SensorModel& sensor) {
 void checkRows(const Scan& scan, const SensorModel& sensor) {
     if (scan.size() > kMostReturns) {
         throw std::invalid_argument("the scan has " + std::to_string(scan.size()) +
-                                    " returns, more than the " + std::to_string(kMostReturns) +
-                                    " that it may have");
+                                    " returns; the maximum is " + std::to_string(kMostReturns));
     }
     if (scan.y_m.size() != scan.size() || scan.z_m.size() != scan.size()) {
         throw std::invalid_argument("the scan's x, y and z coordinates differ in number");
@@ -71,7 +70,7 @@ void checkRows(const Scan& scan, const SensorModel& sensor) {
     for (const std::size_t size : {scan.range_m.size(), scan.azimuth_rad.size(), scan.row.size()}) {
         if (size == scan.size()) continue;
         refuse("the scan has " + std::to_string(scan.size()) +
-               " returns, but ranges, azimuths or " + "rows of " + std::to_string(size));
+               " returns, but ranges, azimuths or rows of " + std::to_string(size));
     }
     if (scan.beams.rows > 0 && !areAlike(scan.beams, beamSpan(sensor))) {
         refuseRows("rows of " + textOf(scan.beams), sensor);

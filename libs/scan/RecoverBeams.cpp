@@ -21,6 +21,7 @@ constexpr int kBins = 18001;
 /// Elevations and azimuths of the returns with a range, degrees.
 struct Directions {
     std::vector<double> elevation_deg, azimuth_deg;
+    std::vector<std::size_t> index;  ///< in the scan
     std::size_t size() const { return elevation_deg.size(); }
 };
 
@@ -28,12 +29,14 @@ Directions directionsOf(const Scan& scan) {
     Directions directions;
     directions.elevation_deg.reserve(scan.size());
     directions.azimuth_deg.reserve(scan.size());
+    directions.index.reserve(scan.size());
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const double x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
         const double level_m = std::hypot(x, y);
         if (!std::isfinite(level_m + z) || (level_m == 0 && z == 0)) continue;
         directions.elevation_deg.push_back(degrees(std::atan2(z, level_m)));
         directions.azimuth_deg.push_back(degrees(std::atan2(y, x)));
+        directions.index.push_back(i);
     }
     return directions;
 }
@@ -179,6 +182,15 @@ std::optional<SensorModel> modelWith(const std::vector<double>& beams_deg) {
     return model;
 }
 
+/// A sensor of these beams, of any range.
+SensorModel sensorOf(const std::vector<double>& beams_deg) {
+    SensorModel sensor = customSensorModel(beams_deg);
+    sensor.name = kRecoveredName;
+    sensor.min_range_m = 0.0f;
+    sensor.max_range_m = kFarthest_m;
+    return sensor;
+}
+
 /// The number of firings per revolution: the nearest returns of a beam are one firing apart.
 int firingsOn(const std::vector<double>& beams_deg, const Directions& directions) {
     std::vector<std::vector<double>> azimuths_deg(beams_deg.size());
@@ -205,6 +217,19 @@ int firingsOn(const std::vector<double>& beams_deg, const Directions& directions
     const auto third = steps_deg.begin() + static_cast<std::ptrdiff_t>(steps_deg.size() / 3);
     std::nth_element(steps_deg.begin(), third, steps_deg.end());
     return static_cast<int>(std::lround(360.0 / *third));
+}
+
+RecoveredBeams withBeams(const std::vector<double>& beams_deg, const Directions& directions) {
+    RecoveredBeams recovered;
+    recovered.sensor = sensorOf(beams_deg);
+    recovered.seen_rad = recovered.sensor.elevations_rad;
+    if (auto model = modelWith(beams_deg)) {
+        recovered.sensor = std::move(*model);
+        recovered.sensor.min_range_m = 0.0f;
+        recovered.sensor.max_range_m = kFarthest_m;
+    }
+    recovered.most_columns = firingsOn(beams_deg, directions);
+    return recovered;
 }
 
 // Virtual rows.
@@ -280,7 +305,7 @@ RecoveredBeams virtualRows(const Directions& directions, const std::vector<doubl
     for (int row = 0; row < rows; ++row) {
         elevations_deg[row] = span.lowest_deg + (row + 0.5) * span.size_deg / rows;
     }
-    recovered.sensor = customSensorModel(elevations_deg);
+    recovered.sensor = sensorOf(elevations_deg);
     recovered.sensor.has_rings = false;
     return recovered;
 }
@@ -289,26 +314,18 @@ RecoveredBeams virtualRows(const Directions& directions, const std::vector<doubl
 
 constexpr std::size_t kFewestOnRing = 5;
 
-/// The elevations of the returns on each ring, ascending; and all directions.
-struct RingDirections {
-    std::map<std::int32_t, std::vector<double>> elevations_deg;
-    Directions all;
-};
+/// The elevations of the returns on each ring, ascending.
+using OnRings = std::map<std::int32_t, std::vector<double>>;
 
-RingDirections directionsOfRings(const Scan& scan, const std::vector<std::int32_t>& rings) {
-    RingDirections directions;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const double x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
-        const double level_m = std::hypot(x, y);
-        if (!std::isfinite(level_m + z) || (level_m == 0 && z == 0)) continue;
-        directions.all.elevation_deg.push_back(degrees(std::atan2(z, level_m)));
-        directions.all.azimuth_deg.push_back(degrees(std::atan2(y, x)));
-        directions.elevations_deg[rings[i]].push_back(directions.all.elevation_deg.back());
+OnRings elevationsOnRings(const Directions& directions, const std::vector<std::int32_t>& rings) {
+    OnRings on_rings;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        on_rings[rings[directions.index[i]]].push_back(directions.elevation_deg[i]);
     }
-    for (auto& [ring, elevations_deg] : directions.elevations_deg) {
+    for (auto& [ring, elevations_deg] : on_rings) {
         std::sort(elevations_deg.begin(), elevations_deg.end());
     }
-    return directions;
+    return on_rings;
 }
 
 /// How many returns are closest to their own beam, of beams that rise.
@@ -333,14 +350,15 @@ std::size_t closestToOwn(const std::vector<double>& beams_deg,
 std::optional<RecoveredBeams> ringBeams(const Scan& scan, const std::vector<std::int32_t>& rings) {
     constexpr double kMostOnOthers = 0.05;
     constexpr std::size_t kFewestRings = 3;
-    const RingDirections directions = directionsOfRings(scan, rings);
-    if (directions.all.size() < kFewestReturnsForBeams) return std::nullopt;
-    const auto returns = static_cast<double>(directions.all.size());
+    const Directions directions = directionsOf(scan);
+    if (directions.size() < kFewestReturnsForBeams) return std::nullopt;
+    const auto returns = static_cast<double>(directions.size());
+    const OnRings of_rings = elevationsOnRings(directions, rings);
     std::vector<std::int32_t> numbers;
     std::vector<double> beams_deg;
     std::vector<const std::vector<double>*> elevations_deg;
     std::size_t on_rings = 0;
-    for (const auto& [ring, of_ring_deg] : directions.elevations_deg) {
+    for (const auto& [ring, of_ring_deg] : of_rings) {
         if (ring < 0 || of_ring_deg.size() < kFewestOnRing) continue;
         numbers.push_back(ring);
         beams_deg.push_back(of_ring_deg[of_ring_deg.size() / 2]);
@@ -361,15 +379,8 @@ std::optional<RecoveredBeams> ringBeams(const Scan& scan, const std::vector<std:
                          static_cast<double>(on_rings);
     if (share < kLeastShare) return std::nullopt;
 
-    RecoveredBeams recovered;
-    recovered.sensor = customSensorModel(beams_deg);
-    recovered.sensor.name = kRecoveredName;
-    recovered.seen_rad = recovered.sensor.elevations_rad;
-    if (auto model = modelWith(beams_deg)) recovered.sensor = std::move(*model);
-    recovered.most_columns = firingsOn(beams_deg, directions.all);
+    RecoveredBeams recovered = withBeams(beams_deg, directions);
     recovered.share = static_cast<float>(share);
-    recovered.sensor.min_range_m = 0.0f;
-    recovered.sensor.max_range_m = kFarthest_m;
     recovered.row_of_ring.assign(
         static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end())) + 1, -1);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -386,20 +397,10 @@ std::optional<RecoveredBeams> recoverBeams(const Scan& scan) {
     std::sort(ascending_deg.begin(), ascending_deg.end());
 
     const Beams beams = bestBeams(ascending_deg);
-    RecoveredBeams recovered;
-    if (beams.share >= kLeastShare) {
-        recovered.sensor = customSensorModel(beams.elevations_deg);
-        recovered.sensor.name = kRecoveredName;
-        recovered.seen_rad = recovered.sensor.elevations_rad;
-        if (auto model = modelWith(beams.elevations_deg)) recovered.sensor = std::move(*model);
-        recovered.most_columns = firingsOn(beams.elevations_deg, directions);
-    } else {
-        recovered = virtualRows(directions, ascending_deg);
-        recovered.sensor.name = kRecoveredName;
-    }
+    RecoveredBeams recovered = beams.share >= kLeastShare
+                                   ? withBeams(beams.elevations_deg, directions)
+                                   : virtualRows(directions, ascending_deg);
     recovered.share = static_cast<float>(beams.share);
-    recovered.sensor.min_range_m = 0.0f;
-    recovered.sensor.max_range_m = kFarthest_m;
     return recovered;
 }
 

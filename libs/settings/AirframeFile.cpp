@@ -3,7 +3,6 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/settings/Settings.h>
 #include <cmath>
-#include <set>
 
 #include "settings/YamlParts.h"
 
@@ -46,16 +45,11 @@ Image<float> readAirframeBins(const fs::path& file) {
                             ": not a learned airframe: bin_deg and bins are expected; "
                             "'rawlog-segment --learn-airframe' writes such files");
     }
-    std::set<std::string> seen;
-    for (const auto& entry : document) {
-        const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
+    forEachKey(file, document, "", "", [&](const auto& key, const auto&, const auto& place) {
         if (key != "bin_deg" && key != "bins") {
-            throw SettingsError(at(file, entry.first) + unknownKey(key, {"bin_deg", "bins"}));
+            throw SettingsError(place + unknownKey(key, {"bin_deg", "bins"}));
         }
-        if (!seen.insert(key).second) {
-            throw SettingsError(at(file, entry.first) + "key '" + key + "' occurs twice");
-        }
-    }
+    });
     const YAML::Node size = document["bin_deg"], bins = document["bins"];
     double bin_deg = 0;
     try {

@@ -86,8 +86,9 @@ void parsePart(const fs::path& file, const YAML::Node& part, SettingsOrigin orig
             throw SettingsError("airframe.learned must be a file name");
         }
         if (origin == SettingsOrigin::Recording && fs::path(value.Scalar()).has_parent_path()) {
-            throw SettingsError("airframe.learned is '" + value.Scalar() +
-                                "'; settings of a recording name files of their own folder only");
+            throw SettingsError(
+                "airframe.learned is '" + value.Scalar() +
+                "'; settings of a recording may name only files of their own folder");
         }
         mask.learned = fs::absolute(file.parent_path() / value.Scalar()).lexically_normal();
         mask.parts.bin_range_m = readAirframeBins(mask.learned);
@@ -124,7 +125,7 @@ Settings::AirframeMask parseAirframe(const fs::path& file, const YAML::Node& sec
 }
 
 std::string airframeText(const Settings::AirframeMask& mask) {
-    if (mask.parts.isEmpty() && mask.learned.empty()) return "# airframe: none is masked\n";
+    if (mask.parts.isEmpty() && mask.learned.empty()) return "# airframe: nothing is masked\n";
     base::TextStream text;
     text << "airframe:  # parts of the vehicle in the sensor frame: their returns are "
             "unclassified\n";

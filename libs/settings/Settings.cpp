@@ -103,6 +103,40 @@ std::string refusalOf(const std::string& key, const std::vector<std::string>& kn
            "scans lowered the scores of the presets (docs/paper.md). Delete this line";
 }
 
+constexpr const char* kPaper = "paper";
+
+/// Sets an option and marks it as given. `seen`: the options that this file gave already.
+void mergeOption(const fs::path& file, const OptionKey& key, const YAML::Node& value,
+                 std::set<std::string>& seen, Settings& settings) {
+    if (!seen.insert(key.name).second) {
+        throw SettingsError(at(file, value) + "'" + key.name + "' is a key of the file and of '" +
+                            key.section + "'; keep one of them");
+    }
+    try {
+        parseOption(key, value, settings.options);
+        settings.given.insert(key.name);
+    } catch (const SettingsError& e) {
+        throw SettingsError(at(file, value) + e.what());
+    }
+}
+
+/// The section `paper:`.
+void parseReadings(const fs::path& file, const YAML::Node& section, std::set<std::string>& seen,
+                   Settings& settings) {
+    std::vector<std::string> known;
+    for (const OptionKey& key : optionKeys()) {
+        if (key.section == kPaper) known.push_back(key.name);
+    }
+    forEachKey(file, section, kPaper, "'seeds: every'",
+               [&](const std::string& name, const YAML::Node& value, const std::string& place) {
+                   const OptionKey* const key = findOption(name);
+                   if (key == nullptr || key->section != kPaper) {
+                       throw SettingsError(place + unknownKey(name, known) + " (in 'paper')");
+                   }
+                   mergeOption(file, *key, value, seen, settings);
+               });
+}
+
 float parseAngle(const YAML::Node& node, const std::string& key, double most_deg) {
     return static_cast<float>(radians(parseNumber<double>(node, key, -most_deg, most_deg)));
 }
@@ -119,55 +153,49 @@ void checkModel(const std::string& name) {
 
 void parseSensor(const fs::path& file, const YAML::Node& section, Settings& settings) {
     Settings::Sensor& sensor = settings.sensor;
-    if (!section.IsMap()) {
-        throw SettingsError(at(file, section) +
-                            "sensor must contain keys, such as 'model: VLP-16'");
-    }
-    if (section["model"]) sensor = {};  // a new model discards the settings of the previous sensor
-    std::set<std::string> seen;
-    for (const auto& entry : section) {
-        const std::string key = entry.first.Scalar();
-        if (!seen.insert(key).second) {
-            throw SettingsError(at(file, entry.first) + "key 'sensor." + key + "' occurs twice");
-        }
-        const YAML::Node& value = entry.second;
-        try {
-            if (key == "model") {
-                if (!value.IsScalar()) throw SettingsError("sensor.model must be a name");
-                const std::string& name = value.Scalar();
-                if (name != "custom" && name != kRecoveredName) checkModel(name);
-                if (name != kRecoveredName) sensor.model = name;
-            } else if (key == "elevations_deg") {
-                if (!value.IsSequence()) {
-                    throw SettingsError("sensor.elevations_deg must be a list, lowest beam first");
+    // A new model discards the settings of the previous sensor.
+    if (section.IsMap() && section["model"]) sensor = {};
+    forEachKey(
+        file, section, "sensor", "'model: VLP-16'",
+        [&](const auto& key, const auto& value, const auto&) {
+            try {
+                if (key == "model") {
+                    if (!value.IsScalar()) throw SettingsError("sensor.model must be a name");
+                    const std::string& name = value.Scalar();
+                    if (name != "custom" && name != kRecoveredName) checkModel(name);
+                    if (name != kRecoveredName) sensor.model = name;
+                } else if (key == "elevations_deg") {
+                    if (!value.IsSequence()) {
+                        throw SettingsError(
+                            "sensor.elevations_deg must be a list, lowest beam first");
+                    }
+                    sensor.elevations_deg.clear();
+                    for (const YAML::Node& elevation : value) {
+                        sensor.elevations_deg.push_back(parseNumber<double>(
+                            elevation, "each of sensor.elevations_deg", -90, 90));
+                    }
+                    customSensorModel(sensor.elevations_deg);
+                } else if (key == "min_range_m") {
+                    sensor.min_range_m =
+                        parseNumber<float>(value, "sensor.min_range_m", 0, kMostRange_m);
+                } else if (key == "max_range_m") {
+                    sensor.max_range_m =
+                        parseNumber<float>(value, "sensor.max_range_m", 0, kMostRange_m);
+                } else if (key == "mount_roll_deg") {
+                    settings.mount.roll_rad = parseAngle(value, "sensor.mount_roll_deg", 180);
+                } else if (key == "mount_pitch_deg") {
+                    settings.mount.pitch_rad = parseAngle(value, "sensor.mount_pitch_deg", 90);
+                } else {
+                    throw SettingsError(unknownKey(key, namesOf(sensorKeys())) + " (in 'sensor')");
                 }
-                sensor.elevations_deg.clear();
-                for (const YAML::Node& elevation : value) {
-                    sensor.elevations_deg.push_back(
-                        parseNumber<double>(elevation, "each of sensor.elevations_deg", -90, 90));
-                }
-                customSensorModel(sensor.elevations_deg);
-            } else if (key == "min_range_m") {
-                sensor.min_range_m =
-                    parseNumber<float>(value, "sensor.min_range_m", 0, kMostRange_m);
-            } else if (key == "max_range_m") {
-                sensor.max_range_m =
-                    parseNumber<float>(value, "sensor.max_range_m", 0, kMostRange_m);
-            } else if (key == "mount_roll_deg") {
-                settings.mount.roll_rad = parseAngle(value, "sensor.mount_roll_deg", 180);
-            } else if (key == "mount_pitch_deg") {
-                settings.mount.pitch_rad = parseAngle(value, "sensor.mount_pitch_deg", 90);
-            } else {
-                throw SettingsError(unknownKey(key, namesOf(sensorKeys())) + " (in 'sensor')");
+            } catch (const std::exception& e) {
+                throw SettingsError(at(file, value) + e.what());
             }
-        } catch (const std::exception& e) {
-            throw SettingsError(at(file, value) + e.what());
-        }
-    }
+        });
     if (!sensor.elevations_deg.empty() && sensor.model.value_or("") != "custom") {
         throw SettingsError(
             at(file, section) +
-            "sensor.elevations_deg goes with 'model: custom'; a known model has its own");
+            "sensor.elevations_deg requires 'model: custom'; a known model has its own");
     }
 }
 
@@ -202,10 +230,10 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
         if (includes.origin == SettingsOrigin::Recording && fs::path(name).has_parent_path()) {
             throw SettingsError(
                 at(file, node) + "includes '" + name +
-                "'; settings of a recording include files of their own folder only");
+                "'; settings of a recording may include only files of their own folder");
         }
         if (name.empty() || name.size() > kLongestName || name.find('\0') != std::string::npos) {
-            throw SettingsError(at(file, node) + "an entry of 'include' is no file name");
+            throw SettingsError(at(file, node) + "an entry of 'include' is not a file name");
         }
         fs::path included = file.parent_path() / name;
         std::error_code none;
@@ -213,13 +241,13 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
             const fs::path preset = findPreset(name);
             if (preset.empty()) {
                 throw SettingsError(at(file, node) + "includes " + included.string() +
-                                    ", which does not exist, nor does a preset of this name");
+                                    ", but there is no such file or preset");
             }
             included = preset;
         }
         if (!fs::is_regular_file(included, none)) {
             throw SettingsError(at(file, node) + "includes " + included.string() +
-                                ", which is no file");
+                                ", which is not a file");
         }
         if (++includes.files > kMostIncludes) {
             throw SettingsError(at(file, node) + "settings include more than " +
@@ -242,33 +270,28 @@ void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
     }
     if (document["include"]) mergeIncludes(file, document["include"], includes, settings);
 
-    std::vector<std::string> known{"include", "sensor", "airframe"};
+    std::vector<std::string> known{"include", "sensor", "airframe", kPaper};
     for (const OptionKey& key : optionKeys()) known.push_back(key.name);
-    std::set<std::string> seen;
-    for (const auto& entry : document) {
-        const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "?";
-        if (!seen.insert(name).second) {
-            throw SettingsError(at(file, entry.first) + "key '" + name + "' occurs twice");
-        }
-        if (name == "include") continue;
+    std::set<std::string> seen;  // options
+    const auto read = [&](const std::string& name, const YAML::Node& value,
+                          const std::string& place) {
+        if (name == "include") return;
         if (name == "sensor") {
-            parseSensor(file, entry.second, settings);
+            parseSensor(file, value, settings);
+        } else if (name == kPaper) {
+            parseReadings(file, value, seen, settings);
         } else if (name == "airframe") {
-            settings.airframe = parseAirframe(file, entry.second, includes.origin);
+            settings.airframe = parseAirframe(file, value, includes.origin);
             if (!settings.airframe.learned.empty()) {
                 settings.files.push_back(settings.airframe.learned);
             }
         } else if (const OptionKey* key = findOption(name)) {
-            try {
-                parseOption(*key, entry.second, settings.options);
-                settings.given.insert(name);
-            } catch (const SettingsError& e) {
-                throw SettingsError(at(file, entry.second) + e.what());
-            }
-        } else if (name != kRemovedKey || entry.second.as<double>(0) != 1) {
-            throw SettingsError(at(file, entry.first) + refusalOf(name, known));
+            mergeOption(file, *key, value, seen, settings);
+        } else if (name != kRemovedKey || value.as<double>(0) != 1) {
+            throw SettingsError(place + refusalOf(name, known));
         }
-    }
+    };
+    forEachKey(file, document, "", "", read);
 }
 
 }  // namespace
@@ -353,12 +376,18 @@ std::string dumpSettings(const Settings& settings) {
              << (k.unit.empty() ? "" : "[" + k.unit + "] ") << k.what
              << (k.symbol.empty() ? "" : " (the paper's " + k.symbol + ")") << "\n";
     };
-    for (const OptionKey& key : optionKeys()) {
-        // Given in a file, it would hold as it is.
-        const std::string comment = isAdapted(key.name, settings) ? "# " : "";
-        line(comment + key.name, textOf(key, settings.options),
-             {key.name, key.unit, "", "", key.what, key.symbol});
-    }
+    const auto options = [&](const std::string& section, const std::string& indent) {
+        for (const OptionKey& key : optionKeys()) {
+            if (key.section != section) continue;
+            // Given in a file, it would hold as it is.
+            const std::string comment = isAdapted(key.name, settings) ? "# " : "";
+            line(indent + comment + key.name, textOf(key, settings.options),
+                 {key.name, key.unit, "", "", key.what, key.symbol});
+        }
+    };
+    options("", "");
+    text << kPaper << ":  # readings of the paper\n";
+    options(kPaper, "  ");
     const Settings::Sensor& sensor = settings.sensor;
     std::map<std::string, std::string> values;
     values["model"] = sensor.model.value_or(kRecoveredName);
@@ -389,8 +418,8 @@ std::string dumpSettings(const Settings& settings) {
 std::vector<SettingsKey> settingsKeys() {
     std::vector<SettingsKey> keys;
     for (const OptionKey& key : optionKeys()) {
-        keys.push_back(
-            {key.name, key.unit, textOf(key, Options()), rangeOf(key), key.what, key.symbol});
+        keys.push_back({nameInFiles(key), key.unit, textOf(key, Options()), rangeOf(key), key.what,
+                        key.symbol});
     }
     for (SettingsKey key : sensorKeys()) {
         key.name = "sensor." + key.name;
@@ -403,14 +432,15 @@ std::vector<SettingsKey> settingsKeys() {
 }
 
 void setOption(const std::string& key, const std::string& value, Settings& settings) {
-    const OptionKey* option = findOption(key);
-    if (option == nullptr) {
-        std::vector<std::string> known;
-        for (const OptionKey& k : optionKeys()) known.push_back(k.name);
-        throw SettingsError(refusalOf(key, known));
+    std::vector<std::string> known;
+    for (const OptionKey& option : optionKeys()) {
+        known.push_back(option.name);
+        if (key != option.name && key != nameInFiles(option)) continue;
+        parseOption(option, YAML::Node(value), settings.options);
+        settings.given.insert(option.name);
+        return;
     }
-    parseOption(*option, YAML::Node(value), settings.options);
-    settings.given.insert(key);
+    throw SettingsError(refusalOf(key, known));
 }
 
 }  // namespace hagen

@@ -34,7 +34,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-/// Takes no notice of what a document holds.
+/// Ignores the content of a document.
 struct NoNodes : YAML::EventHandler {
     void OnDocumentStart(const YAML::Mark&) override {}
     void OnDocumentEnd() override {}
@@ -50,8 +50,7 @@ struct NoNodes : YAML::EventHandler {
     void OnMapEnd() override {}
 };
 
-/// Whether a second document follows. YAML::LoadAll() would tell, too, but in a file such as ","
-/// it finds empty documents without end.
+/// Whether a second document follows. YAML::LoadAll() never ends for a file such as ",".
 bool hasSeveralDocuments(const std::string& text) {
     std::istringstream in(text);
     YAML::Parser parser(in);
@@ -77,8 +76,8 @@ YAML::Node parseFile(const fs::path& file, std::size_t most_bytes) {
         const std::string text = base::readText(file, most_bytes);
         if (hasSeveralDocuments(text)) {
             throw SettingsError(file.string() +
-                                ": contains several documents (---), or text that is no YAML; only "
-                                "one document is allowed");
+                                ": contains several documents (---) or invalid YAML; only one "
+                                "document is allowed");
         }
         return YAML::Load(text);
     } catch (const SettingsError&) {

@@ -7,6 +7,7 @@
 #include <hagen/settings/Settings.h>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -21,6 +22,26 @@ std::string nearestOf(const std::string& word, const std::vector<std::string>& k
 
 /// The message for an unknown key, with the nearest of the known ones.
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known);
+
+/// Calls visit(key, value, place of the key for messages) for each entry of a map. Throws
+/// SettingsError if it is not a map (with `example`), or if a key occurs twice.
+template <class Visit>
+void forEachKey(const std::filesystem::path& file, const YAML::Node& map,
+                const std::string& section, const std::string& example, Visit visit) {
+    if (!map.IsMap()) {
+        throw SettingsError(at(file, map) + section + " must contain keys, such as " + example);
+    }
+    std::set<std::string> seen;
+    for (const auto& entry : map) {
+        const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
+        const std::string place = at(file, entry.first);
+        if (!seen.insert(key).second) {
+            throw SettingsError(place + "key '" + (section.empty() ? "" : section + ".") + key +
+                                "' occurs twice");
+        }
+        visit(key, entry.second, place);
+    }
+}
 
 /// Reads a file of one YAML document. Throws SettingsError naming file and line.
 YAML::Node parseFile(const std::filesystem::path& file,

@@ -308,8 +308,8 @@ TEST_F(RawlogSegmentTrouble, LimitsIncludesOfRecordedSettings) {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"include: [next.yaml]\n", "nested too deeply"},
         {flat, "include more than 32 files"},
-        {"include: ../secret.yaml\n", "of their own folder only"},
-        {"airframe:\n  - learned: " + path("secret.yaml") + "\n", "of their own folder only"},
+        {"include: ../secret.yaml\n", "only files of their own folder"},
+        {"airframe:\n  - learned: " + path("secret.yaml") + "\n", "only files of their own folder"},
         {"# " + std::string(1 << 20, 'x'), "larger than 1 MiB"}};
     for (const auto& [text, words] : cases) {
         folder_.write("scans/sensor.yaml", text);

@@ -293,7 +293,7 @@ TEST_F(RawlogSegment, PrintsHelpVersionAndSettings) {
     EXPECT_THAT(expectSuccess({"--version"}).out, HasSubstr("rawlog-segment 0."));
     const std::string keys = expectSuccess({"--config-keys"}).out;
     for (const OptionKey& key : optionKeys()) {
-        EXPECT_THAT(keys, HasSubstr("\n| " + key.name + " ")) << key.name;
+        EXPECT_THAT(keys, HasSubstr("\n| " + nameInFiles(key) + " ")) << key.name;
         EXPECT_THAT(keys, HasSubstr(key.what)) << key.name;
     }
     EXPECT_THAT(test::readFile(HAGEN_SOURCE_DIR "/docs/settings.md"), HasSubstr(keys))

@@ -42,7 +42,7 @@ Crops makeCrops(unsigned seed) {
     return crops;
 }
 
-TEST(CellArea, GrowsUpToTheGridsBorder) {
+TEST(CellArea, GrowsUpToGridBorder) {
     const CellArea area = CellArea{10, 20, 120, 125}.grownBy(8);
     EXPECT_EQ(area.first_row, 2);
     EXPECT_EQ(area.end_row, 28);
@@ -50,7 +50,7 @@ TEST(CellArea, GrowsUpToTheGridsBorder) {
     EXPECT_EQ(area.end_column, 130);
 }
 
-TEST(CellArea, WhatIsFoundInsideIsWhatTheWholeGridShows) {
+TEST(CellArea, MatchesWholeGridInside) {
     const Crops crops = makeCrops(5);
     CellTops whole;
     findCellTops(crops.cells, crops.height_m, whole);
@@ -92,7 +92,7 @@ TEST(CellArea, WhatIsFoundInsideIsWhatTheWholeGridShows) {
     }
 }
 
-TEST(CellTops, CellsThatAreKnownToBeHigherAreRaised) {
+TEST(CellTops, RaisesCellsKnownToBeHigher) {
     const Crops crops = makeCrops(6);
     CellTops all;
     findCellTops(crops.cells, crops.height_m, all);
@@ -136,7 +136,7 @@ TEST(CellTops, CellsThatAreKnownToBeHigherAreRaised) {
     }
 }
 
-TEST(CellTops, OfCellsThatWereNotComputedNothingIsKnown) {
+TEST(CellTops, UnknownOutsideComputedArea) {
     const Crops crops = makeCrops(7);
     CellTops tops;
     const CellArea area{40, 60, 50, 90};

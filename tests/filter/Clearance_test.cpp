@@ -22,7 +22,7 @@ Ground groundAt(float height_m, const PixelPoints& pixels) {
     return ground;
 }
 
-TEST(Clearance, GroundThatIsLessThanThisBelowIsRoi) {
+TEST(Clearance, GroundAboveLimitIsRoi) {
     const PixelPoints pixels = pixelsAt({{5, 0, 0}, {5, 0, 0.9f}, {5, 0, 1.1f}, {5, 0, 4}});
     Image<Label> labels = Image<Label>::Constant(1, 4, Label::Rou), expected(1, 4);
     alarmLowGround(groundAt(3, pixels), {Eigen::Vector3f::UnitZ(), 2}, labels);
@@ -30,19 +30,19 @@ TEST(Clearance, GroundThatIsLessThanThisBelowIsRoi) {
     EXPECT_TRUE((labels == expected).all());
 }
 
-TEST(Clearance, ExactlyThisBelowIsFarEnough) {
+TEST(Clearance, GroundAtLimitStaysRou) {
     Image<Label> labels = Image<Label>::Constant(1, 1, Label::Rou);
     alarmLowGround(groundAt(3, pixelsAt({{5, 0, 1}})), {Eigen::Vector3f::UnitZ(), 2}, labels);
     EXPECT_EQ(labels(0, 0), Label::Rou);
 }
 
-TEST(Clearance, ZeroRaisesNoAlarmWhateverIsAbove) {
+TEST(Clearance, ZeroDisablesAlarm) {
     Image<Label> labels = Image<Label>::Constant(1, 1, Label::Rou);
     alarmLowGround(groundAt(3, pixelsAt({{5, 0, 9}})), {Eigen::Vector3f::UnitZ(), 0}, labels);
     EXPECT_EQ(labels(0, 0), Label::Rou);
 }
 
-TEST(Clearance, OnlyTheRouIsAlarmed) {
+TEST(Clearance, ChangesOnlyRou) {
     const PixelPoints pixels = pixelsAt({{5, 0, 0}, test::kEmptyPixel});
     Image<Label> labels(1, 2);
     labels << Label::Roi, Label::Unclassified;
@@ -53,7 +53,7 @@ TEST(Clearance, OnlyTheRouIsAlarmed) {
 
 // 3 m above ground that rises ahead by 15 degrees, with a level sensor: along gravity, the ground
 // at x ahead is 3 - x tan 15 below; along its normal the distance is constant.
-TEST(Clearance, OverASlopeItIsByGravityWhereTheAttitudeIsKnown) {
+TEST(Clearance, FollowsGravityOverSlopes) {
     const float rise = static_cast<float>(std::tan(radians(15)));
     const auto points =
         test::groundPoints(20, 0.5f, [&](float x_m, float) { return rise * x_m - 3; });
@@ -87,7 +87,7 @@ TEST(Clearance, OverASlopeItIsByGravityWhereTheAttitudeIsKnown) {
     }
 }
 
-TEST(Clearance, WhereNoGroundIsSeenItIsAlongTheSensorsAxis) {
+TEST(Clearance, FollowsSensorAxisWithoutGround) {
     Ground ground = groundAt(3, pixelsAt({{5, 0, 0}}));
     ground.from_sensor.linear() = levelFromSensor({0.4f, 0});
     EXPECT_EQ(upwards(ground, std::nullopt), Eigen::Vector3f::UnitZ());

@@ -29,7 +29,7 @@ Image<float> bridged(const Image<float>& depth_m) {
     return repaired_m;
 }
 
-TEST(DeadBeams, OfAPlaneAreWhereTheBeamMeetsIt) {
+TEST(DeadBeams, FillsPlaneWhereBeamMeetsIt) {
     const Image<float> whole_m = planeDepth(2);
     for (const int row : {1, 2, 5}) {
         Image<float> depth_m = whole_m;
@@ -42,7 +42,7 @@ TEST(DeadBeams, OfAPlaneAreWhereTheBeamMeetsIt) {
     }
 }
 
-TEST(DeadBeams, OfAWallAreOnTheWall) {
+TEST(DeadBeams, FillsWallOnWall) {
     Image<float> wall_m(kSensor.rows(), 40);
     for (int row = 0; row < kSensor.rows(); ++row)
         wall_m.row(row) = 7 / kDirections.row_cosine[row];
@@ -51,7 +51,7 @@ TEST(DeadBeams, OfAWallAreOnTheWall) {
     EXPECT_LT((bridged(depth_m).row(8) - wall_m.row(8)).abs().maxCoeff(), 1e-4f);
 }
 
-TEST(DeadBeams, OneReturnMakesARowLive) {
+TEST(DeadBeams, OneReturnMakesRowLive) {
     Image<float> depth_m = planeDepth(2);
     depth_m.row(3) = kNoValue;
     depth_m(3, 17) = 9;
@@ -60,7 +60,7 @@ TEST(DeadBeams, OneReturnMakesARowLive) {
     EXPECT_EQ(result_m.row(3).isNaN().count(), 39);
 }
 
-TEST(DeadBeams, AtTheEdgeOrMoreThanTwoStayEmpty) {
+TEST(DeadBeams, LeavesEdgesAndWideGapsEmpty) {
     Image<float> depth_m = planeDepth(2);
     depth_m.row(0) = kNoValue;
     for (const int row : {3, 4, 5}) depth_m.row(row) = kNoValue;
@@ -68,7 +68,7 @@ TEST(DeadBeams, AtTheEdgeOrMoreThanTwoStayEmpty) {
     for (const int row : {0, 3, 4, 5, 12}) EXPECT_TRUE(result_m.row(row).isNaN().all()) << row;
 }
 
-TEST(DeadBeams, APixelWithoutNeighboursStaysEmpty) {
+TEST(DeadBeams, NeedsBothNeighbours) {
     Image<float> depth_m = planeDepth(2);
     depth_m.row(3) = kNoValue;
     depth_m(2, 5) = depth_m(4, 6) = kNoValue;
@@ -77,7 +77,7 @@ TEST(DeadBeams, APixelWithoutNeighboursStaysEmpty) {
     EXPECT_EQ(result_m.row(3).isNaN().count(), 2);
 }
 
-TEST(DeadBeams, LiveRowsAreNotTouched) {
+TEST(DeadBeams, KeepsLiveRows) {
     test::Random random(4);
     Image<float> depth_m(kSensor.rows(), 40);
     for (float& depth : depth_m.reshaped()) {

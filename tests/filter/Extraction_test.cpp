@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/filter/Extraction.h>
-#include <hagen/filter/FilterWorkspace.h>
+#include "filter/FilterWorkspace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +101,7 @@ LabelledReturns plainReturns(const Scan& scan, const RangeImage& image, const Im
     return returns;
 }
 
-TEST(Extraction, IsThatOfThePlainDefinitionOnEveryInstructionSet) {
+TEST(Extraction, MatchesDefinitionOnEveryInstructionSet) {
     test::Random random(23);
     const SensorModel sensor = sensorModel("VLP-16");
     LabelledReturns returns;  // reused, as in the filter
@@ -142,15 +142,17 @@ TEST(Extraction, IsThatOfThePlainDefinitionOnEveryInstructionSet) {
     }
 }
 
-TEST(Extraction, EveryReturnTakesItsPixelsLabelAndComponent) {
-    const Example example;
-    EXPECT_EQ(example.returns.label[0], Label::Roi);
-    EXPECT_EQ(example.returns.label[1], Label::Roi);  // farther, in the same pixel
-    EXPECT_EQ(example.returns.label[3], Label::Rou);
-    EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{1, 1, 0, 0, 0, 0, 0}));
+TEST(Extraction, LabelsByPixelZoneAndRange) {
+    const LabelledReturns returns = Example().returns;
+    // 0 and 1: of a RoI pixel; 2: beyond the zone; 3: of a ROU pixel; 4: too near for the sensor;
+    // 5: too far for it; 6: without a range.
+    EXPECT_EQ(returns.roi, (std::vector<std::uint32_t>{0, 1, 4}));
+    EXPECT_EQ(returns.rou, (std::vector<std::uint32_t>{2, 3, 5}));
+    EXPECT_EQ(returns.unclassified, (std::vector<std::uint32_t>{6}));
+    EXPECT_EQ(returns.component, (std::vector<std::int32_t>{1, 1, 0, 0, 0, 0, 0}));
 }
 
-TEST(Extraction, ComponentsAreNumberedWithoutGapsInTheirOrder) {
+TEST(Extraction, NumbersComponentsWithoutGaps) {
     Example example;
     example.labels.data()[example.image.depth_mapper[3]] = Label::Roi;
     example.components.data()[example.image.depth_mapper[3]] = 3;  // before the other one, 7
@@ -158,7 +160,7 @@ TEST(Extraction, ComponentsAreNumberedWithoutGapsInTheirOrder) {
     EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{2, 2, 0, 1, 0, 0, 0}));
 }
 
-TEST(Extraction, WhatTheImageDoesNotReachIsRoiInTheZone) {
+TEST(Extraction, UnmappedReturnInZoneIsRoi) {
     Example example;
     projectScan(example.scan, example.sensor, 8, 10.0f, example.image,
                 work.projection);  // context smaller than the zone
@@ -169,7 +171,7 @@ TEST(Extraction, WhatTheImageDoesNotReachIsRoiInTheZone) {
     EXPECT_EQ(example.returns.label[2], Label::Rou);
 }
 
-TEST(Extraction, ALabelOfItsOwnOverrulesThePixels) {
+TEST(Extraction, OwnLabelOverridesPixel) {
     Example example;
     const auto extracted = [&](const std::vector<Label>& own_label) {
         example.extract(ownLabels(own_label));
@@ -189,7 +191,7 @@ TEST(Extraction, ALabelOfItsOwnOverrulesThePixels) {
     EXPECT_EQ(example.returns.label[6], Label::Unclassified);
 }
 
-TEST(Extraction, WhatIsSeenPastAnObstacleIsOfNoComponent) {
+TEST(Extraction, ReturnsFarBehindHaveNoComponent) {
     Example example;  // its second return is 10 m behind the first, which is in component 7
     const std::vector<Label> own_label(7, Label::Roi);
     const auto component = [&](float component_gap_m) {
@@ -203,19 +205,7 @@ TEST(Extraction, WhatIsSeenPastAnObstacleIsOfNoComponent) {
     EXPECT_EQ(example.returns.component[0], 1);
 }
 
-TEST(Extraction, BeyondTheZoneIsRouWhateverThePixelSays) {
-    const Example example;
-    EXPECT_EQ(example.returns.label[2], Label::Rou);
-}
-
-TEST(Extraction, OutOfTheSensorsRangeIsRoiInTheZone) {
-    const Example example;  // 4: too near, 5: too far
-    EXPECT_EQ(example.returns.label[4], Label::Roi);
-    EXPECT_EQ(example.returns.component[4], 0);
-    EXPECT_EQ(example.returns.label[5], Label::Rou);
-}
-
-TEST(Extraction, OnlyWhatHasNoRangeIsUnclassified) {
+TEST(Extraction, OnlyReturnsWithoutRangeAreUnclassified) {
     Example example;
     EXPECT_EQ(example.returns.unclassified, (std::vector<std::uint32_t>{6}));
     for (const float range_m : {0.0f, std::numeric_limits<float>::infinity(), kNoValue}) {
@@ -226,13 +216,6 @@ TEST(Extraction, OnlyWhatHasNoRangeIsUnclassified) {
     example.scan.range_m[1] = 1e-6f;
     example.extract();
     EXPECT_EQ(example.returns.label[1], Label::Roi);
-}
-
-TEST(Extraction, EveryReturnIsInExactlyOneList) {
-    const Example example;
-    EXPECT_EQ(example.returns.roi, (std::vector<std::uint32_t>{0, 1, 4}));
-    EXPECT_EQ(example.returns.rou, (std::vector<std::uint32_t>{2, 3, 5}));
-    EXPECT_EQ(example.returns.unclassified, (std::vector<std::uint32_t>{6}));
 }
 
 }  // namespace

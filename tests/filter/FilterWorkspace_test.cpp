@@ -70,7 +70,7 @@ std::vector<Drive> differentDrives() {
             Drive("HDL-32E", test::paperOptions(), 700)};
 }
 
-TEST(FilterWorkspace, FiltersTakingTurnsInOneThreadDoNotMeet) {
+TEST(FilterWorkspace, FiltersInOneThreadAreIndependent) {
     const std::vector<Drive> drives = differentDrives();
     std::vector<HagenFilter> filters;
     for (const Drive& drive : drives) filters.emplace_back(drive.sensor, drive.options);
@@ -86,18 +86,7 @@ TEST(FilterWorkspace, FiltersTakingTurnsInOneThreadDoNotMeet) {
     }
 }
 
-TEST(FilterWorkspace, AFilterMayMoveFromThreadToThread) {
-    for (const Drive& drive : differentDrives()) {
-        HagenFilter filter(drive.sensor, drive.options);
-        for (std::size_t n = 0; n < drive.scans.size(); ++n) {
-            SCOPED_TRACE(drive.sensor.name + ", scan " + std::to_string(n));
-            std::thread([&] { filter.segment(drive.scans[n]); }).join();
-            expectSame(outcomeOf(filter.segment(drive.scans[n])), drive.alone[n]);
-        }
-    }
-}
-
-TEST(FilterWorkspace, FiltersInThreadsOfTheirOwnDoNotMeet) {
+TEST(FilterWorkspace, FiltersInThreadsAreIndependent) {
     const std::vector<Drive> drives = differentDrives();
     std::vector<std::vector<Outcome>> found(drives.size());
     std::vector<std::thread> threads;
@@ -116,7 +105,7 @@ TEST(FilterWorkspace, FiltersInThreadsOfTheirOwnDoNotMeet) {
     }
 }
 
-TEST(FilterWorkspace, ACopiedOrMovedFilterGoesOnAlone) {
+TEST(FilterWorkspace, CopiesAndMovedFiltersAreIndependent) {
     const Drive drive("VLP-16", Options(), 870);
     auto first = std::make_unique<HagenFilter>(drive.sensor, drive.options);
     first->segment(drive.scans[0]);
@@ -126,13 +115,6 @@ TEST(FilterWorkspace, ACopiedOrMovedFilterGoesOnAlone) {
     for (std::size_t n = 0; n < drive.scans.size(); ++n) {
         expectSame(outcomeOf(copy.segment(drive.scans[n])), drive.alone[n]);
         expectSame(outcomeOf(moved.segment(drive.scans[n])), drive.alone[n]);
-    }
-}
-
-TEST(FilterWorkspace, TheScenesHaveWhatTheyAreFor) {
-    for (const Drive& drive : differentDrives()) {
-        for (const Outcome& outcome : drive.alone) EXPECT_FALSE(outcome.roi.empty());
-        EXPECT_EQ(drive.alone.front().own_label.empty(), drive.sensor.name == "HDL-32E");
     }
 }
 

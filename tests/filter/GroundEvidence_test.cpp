@@ -79,7 +79,7 @@ TEST(FindLevelPixels, GroundIsLevel) {
     }
 }
 
-TEST(FindLevelPixels, AWallIsNot) {
+TEST(FindLevelPixels, WallIsNotLevel) {
     test::SimpleScene scene;
     scene.boxes = {{{8, -9, 0}, {9, 9, 9}}, {{-9, -9, 0}, {-8, 9, 9}}};
     const PixelPoints pixels = seen(scene, sensorModel("VLP-16"), 1.5);
@@ -92,7 +92,7 @@ TEST(FindLevelPixels, AWallIsNot) {
     EXPECT_EQ(ground.level, ground.pixels);
 }
 
-TEST(FindLevelPixels, ACeilingIsNotBecauseItComesCloserWithElevation) {
+TEST(FindLevelPixels, CeilingIsNotLevel) {
     test::SimpleScene scene;
     scene.boxes = {{{-40, -40, 3}, {40, 40, 4}}};
     const PixelPoints pixels = seen(scene, sensorModel("VLP-16"), 1.5);
@@ -101,7 +101,7 @@ TEST(FindLevelPixels, ACeilingIsNotBecauseItComesCloserWithElevation) {
     EXPECT_EQ(ceiling.level, 0);
 }
 
-TEST(FindLevelPixels, AStepIsLevelIfItsSlopeIsLessThanThreeTenths) {
+TEST(FindLevelPixels, StepSlopeIsBelowThreeTenths) {
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0.299f}}), (std::vector{1, 1}));
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0.301f}}), (std::vector{0, 0}));
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, -0.299f}}), (std::vector{1, 1}));
@@ -111,7 +111,7 @@ TEST(FindLevelPixels, AStepIsLevelIfItsSlopeIsLessThanThreeTenths) {
     EXPECT_EQ(levelInColumn({{5, -12, 0}, {10, -24, 3.91f}}), (std::vector{0, 0}));
 }
 
-TEST(FindLevelPixels, AStepIsLevelOnlyOutwards) {
+TEST(FindLevelPixels, StepLeadsOutwards) {
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0}}), (std::vector{1, 1}));
     EXPECT_EQ(levelInColumn({{6, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));
     EXPECT_EQ(levelInColumn({{-5, 0, 0}, {-6, 0, 0}}), (std::vector{1, 1}));
@@ -119,14 +119,7 @@ TEST(FindLevelPixels, AStepIsLevelOnlyOutwards) {
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));  // nowhere
 }
 
-TEST(FindLevelPixels, OneLevelStepIsEnoughForBothOfItsPixels) {
-    // Ground, the foot of a wall, the wall.
-    EXPECT_EQ(levelInColumn({{4, 0, 0}, {6, 0, 0}, {8, 0, 0}, {8, 0, 0.7f}, {8, 0, 1.5f}}),
-              (std::vector{1, 1, 1, 0, 0}));
-    EXPECT_EQ(levelInColumn({{4, 0, 0}, {4, 0, 0.2f}, {6, 0, 0.2f}}), (std::vector{0, 1, 1}));
-}
-
-TEST(FindLevelPixels, OverAShortWayTheNextButOneMakesTheStep) {
+TEST(FindLevelPixels, ShortStepsAreSkipped) {
     // Ranges are 2 cm off: the short steps are steep, the long one is not.
     EXPECT_EQ(levelInColumn({{1, 0, 0}, {1.05f, 0, 0.02f}, {1.1f, 0, 0}}), (std::vector{1, 0, 1}));
     EXPECT_EQ(levelInColumn({{1, 0, 0}, {1.05f, 0, 0.09f}, {1.1f, 0, 0}}), (std::vector{0, 0, 0}));
@@ -138,7 +131,7 @@ TEST(FindLevelPixels, OverAShortWayTheNextButOneMakesTheStep) {
               (std::vector{0, 0, 0, 0}));
 }
 
-TEST(FindLevelPixels, OverEmptyPixelsTheNextReturnMakesTheStep) {
+TEST(FindLevelPixels, EmptyPixelsAreSkipped) {
     const Eigen::Vector3f low(3, 0, 0), high(4, 0, 0.2f), steep(4, 0, 0.4f), none = kEmptyPixel;
     EXPECT_EQ(levelInColumn({low, none, high}), (std::vector{1, 0, 1}));
     EXPECT_EQ(levelInColumn({low, none, none, none, high}), (std::vector{1, 0, 0, 0, 1}));
@@ -157,7 +150,7 @@ TEST(FindLevelPixels, OverEmptyPixelsTheNextReturnMakesTheStep) {
 }
 
 // The table top is 0.75 m up, in the cell from 3 to 3.75 m.
-TEST(FindLevelPixels, ATableOverTheFloorIsNot) {
+TEST(FindLevelPixels, TableOverFloorIsNotLevel) {
     const std::vector<Eigen::Vector3f> floor{{3.1f, 0.1f, 0}, {4.6f, 0.1f, 0}};
     const std::vector<Eigen::Vector3f> table{{3.2f, 0.3f, 0.75f}, {3.6f, 0.3f, 0.75f}};
     EXPECT_EQ(levelInColumn(floor), (std::vector{1, 1}));
@@ -169,7 +162,7 @@ TEST(FindLevelPixels, ATableOverTheFloorIsNot) {
               (std::vector{1, 1, 1, 1}));
 }
 
-TEST(FindLevelPixels, UpToThreeTenthsOfAMetreBelowMayBeTheSameGround) {
+TEST(FindLevelPixels, ToleratesThreeTenthsOfAMetreBelow) {
     const auto over = [](float below_m) {
         return level({{3.2f, 0.3f, 1}, {3.6f, 0.3f, 1}, {3.4f, 0.1f, 1 - below_m}, kEmptyPixel}, 2);
     };
@@ -177,7 +170,7 @@ TEST(FindLevelPixels, UpToThreeTenthsOfAMetreBelowMayBeTheSameGround) {
     EXPECT_EQ(over(0.31f), (std::vector{0, 0, 0, 0}));
 }
 
-TEST(FindLevelPixels, TheTopOfAColumnIsNoStepToTheNextColumn) {
+TEST(FindLevelPixels, ColumnsAreIndependent) {
     EXPECT_EQ(level({{4, 0, 0}, {5, 0, 2}, {6, 0, 2}, {6, 0, 5}}, 2), (std::vector{0, 0, 0, 0}));
     EXPECT_EQ(levelInColumn({{4, 0, 0}, {5, 0, 2}, {6, 0, 2}, {6, 0, 5}}),
               (std::vector{0, 1, 1, 0}));
@@ -190,12 +183,7 @@ TEST(FindLevelPixels, EmptyPixelsAreNotLevel) {
     EXPECT_EQ(levelInColumn({kEmptyPixel, kEmptyPixel}), (std::vector{0, 0}));
 }
 
-TEST(FindLevelPixels, AnEmptyImageHasNone) {
-    EXPECT_TRUE(level({}, 1).empty());
-    EXPECT_TRUE(level({}, 16).empty());
-}
-
-TEST(KeepLevelRou, OnlyPixelsThatAreBothStayRou) {
+TEST(KeepLevelRou, KeepsOnlyLevelRou) {
     Image<Label> labels(2, 3), expected(2, 3), candidates;
     labels << Label::Rou, Label::Roi, Label::Unclassified, Label::Rou, Label::Roi,
         Label::Unclassified;
@@ -250,7 +238,7 @@ bool allAre(float value, const std::vector<float>& values) {
     return std::all_of(values.begin(), values.end(), [&](float v) { return v == value; });
 }
 
-TEST(RequireEvidence, FiftyFivePercentOfTheClosePixelsMustBeLevel) {
+TEST(RequireEvidence, NeedsFiftyFivePercentLevel) {
     EXPECT_TRUE(allAre(kWithdrawn, required(closePixels(1000, 549))));
     EXPECT_TRUE(allAre(0.5f, required(closePixels(1000, 551))));
     EXPECT_TRUE(allAre(kWithdrawn, required(closePixels(1000, 0))));
@@ -258,7 +246,7 @@ TEST(RequireEvidence, FiftyFivePercentOfTheClosePixelsMustBeLevel) {
     EXPECT_TRUE(allAre(0.5f, required(closePixels(1, 1))));
 }
 
-TEST(RequireEvidence, TheShareIsThatOfAllCellsTogether) {
+TEST(RequireEvidence, SumsSharesOverCells) {
     // The cell at 1 m alone would have evidence, that at 5 m not.
     std::vector<Seen> pixels = closePixels(100, 80);
     const auto join = [&](const std::vector<Seen>& more) {
@@ -271,7 +259,7 @@ TEST(RequireEvidence, TheShareIsThatOfAllCellsTogether) {
 }
 
 // Blocks are 3 m wide: x = 1 is in the block from 0 to 3 m, x = 12 is in the fourth after it.
-TEST(RequireEvidence, ReachesFourBlocksInEachDirection) {
+TEST(RequireEvidence, ReachesFourBlocks) {
     const auto toleratedAt = [](float x_m, float y_m) {
         return required({{1, 1, 0, true}, {x_m, y_m, 5, false}}).back();
     };
@@ -287,14 +275,14 @@ TEST(RequireEvidence, ReachesFourBlocksInEachDirection) {
     }
 }
 
-TEST(RequireEvidence, EndsAtTheEdgeOfTheGrid) {
+TEST(RequireEvidence, EndsAtGridEdge) {
     // Grid columns follow one another in memory; what is at the end of one is not near the next.
     const std::vector<float> tolerance_m =
         required({{47.9f, 47.9f, 0, true}, {-47.9f, 47.9f, 5, false}, {47.9f, -47.9f, 5, false}});
     EXPECT_EQ(tolerance_m, (std::vector{0.5f, kWithdrawn, kWithdrawn}));
 }
 
-TEST(RequireEvidence, CloseIsTwoTenthsOfAMetreAndHalfACentimetrePerMetre) {
+TEST(RequireEvidence, ToleranceGrowsWithDistance) {
     const auto isEvidence = [](float x_m, float y_m, float height_m) {
         return required({{x_m, y_m, height_m, true}}).front() == 0.5f;
     };
@@ -306,16 +294,7 @@ TEST(RequireEvidence, CloseIsTwoTenthsOfAMetreAndHalfACentimetrePerMetre) {
     }
 }
 
-TEST(RequireEvidence, WhatIsNotCloseDoesNotCount) {
-    std::vector<Seen> pixels = closePixels(10, 6);
-    for (int i = 0; i < 100; ++i) pixels.push_back({1, 1, 0.25f, false});
-    EXPECT_TRUE(allAre(0.5f, required(pixels)));
-    pixels = closePixels(10, 5);
-    for (int i = 0; i < 100; ++i) pixels.push_back({1, 1, -0.25f, true});
-    EXPECT_TRUE(allAre(kWithdrawn, required(pixels)));
-}
-
-TEST(RequireEvidence, OutsideTheGridIsNone) {
+TEST(RequireEvidence, OutsideGridHasNoEvidence) {
     // Neither has a pixel outside a tolerance, nor does it show anything about the cells inside.
     for (const auto& [x_m, y_m] : {std::pair{48.1f, 0.0f},
                                    {-48.1f, 0.0f},
@@ -330,7 +309,7 @@ TEST(RequireEvidence, OutsideTheGridIsNone) {
     }
 }
 
-TEST(RequireEvidence, EmptyPixelsStayEmptyAndDoNotCount) {
+TEST(RequireEvidence, IgnoresEmptyPixels) {
     const Seen empty{kNoValue, kNoValue, kNoValue, false};
     std::vector<Seen> pixels = closePixels(4, 4);
     for (int i = 0; i < 8; ++i) pixels.push_back(empty);
@@ -338,16 +317,6 @@ TEST(RequireEvidence, EmptyPixelsStayEmptyAndDoNotCount) {
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(tolerance_m[i], 0.5f);
     for (std::size_t i = 4; i < 12; ++i) EXPECT_FALSE(hasValue(tolerance_m[i]));
     for (const float t_m : required({empty, empty})) EXPECT_FALSE(hasValue(t_m));
-}
-
-TEST(RequireEvidence, AnEmptyImageStaysEmpty) {
-    EXPECT_TRUE(required({}).empty());
-    EXPECT_TRUE(required({}, 16).empty());
-}
-
-TEST(RequireEvidence, AnEarlierScanLeavesNothing) {
-    EXPECT_TRUE(allAre(0.5f, required(closePixels(100, 100))));
-    EXPECT_TRUE(allAre(kWithdrawn, required({{1, 1, 5, false}})));
 }
 
 }  // namespace

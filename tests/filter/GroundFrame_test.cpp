@@ -45,7 +45,7 @@ float greatestHeight(const Eigen::Isometry3f& ground_from_sensor,
 
 GroundFrameWorkspace work;  // shared by all tests, as by all scans in a filter
 
-TEST(GroundFrame, APlaneHasNoHeightWhateverTheTilt) {
+TEST(GroundFrame, PlaneHasZeroHeightAtAnyTilt) {
     test::Random random(70);
     for (int round = 0; round < 20; ++round) {
         const Attitude attitude = randomAttitude(random);
@@ -60,7 +60,7 @@ TEST(GroundFrame, APlaneHasNoHeightWhateverTheTilt) {
     }
 }
 
-TEST(GroundFrame, IsAFrame) {
+TEST(GroundFrame, IsRigidTransform) {
     const Eigen::Isometry3f frame =
         fitGroundFrame(pixelsAt(ringsOnPlane({0.2f, -0.1f}, 2)), Attitude{}, work);
     const Eigen::Matrix3f product = frame.linear() * frame.linear().transpose();
@@ -68,7 +68,7 @@ TEST(GroundFrame, IsAFrame) {
     EXPECT_NEAR(frame.linear().determinant(), 1, 1e-5);
 }
 
-TEST(GroundFrame, DoesNotTurnTheSensorsHeading) {
+TEST(GroundFrame, KeepsHeading) {
     // The shortest rotation turns the normal to z: forward stays forward in top view.
     const Eigen::Isometry3f frame =
         fitGroundFrame(pixelsAt(ringsOnPlane({0, 0.2f}, 2)), Attitude{}, work);
@@ -76,7 +76,7 @@ TEST(GroundFrame, DoesNotTurnTheSensorsHeading) {
     EXPECT_GT(frame.linear()(0, 0), 0.97f);
 }
 
-TEST(GroundFrame, WallsAndCrownsAboveThePlaneDoNotTiltIt) {
+TEST(GroundFrame, IgnoresWallsAndCrowns) {
     test::Random random(71);
     for (int round = 0; round < 20; ++round) {
         const Attitude attitude = randomAttitude(random);
@@ -107,7 +107,7 @@ TEST(GroundFrame, WallsAndCrownsAboveThePlaneDoNotTiltIt) {
     }
 }
 
-TEST(GroundFrame, StrayReturnsBelowThePlaneDoNotLowerIt) {
+TEST(GroundFrame, IgnoresStraysBelow) {
     test::Random random(72);
     const auto ground = ringsOnPlane({}, 2);
     auto points = ground;
@@ -117,7 +117,7 @@ TEST(GroundFrame, StrayReturnsBelowThePlaneDoNotLowerIt) {
     EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}, work), ground), 0.05f);
 }
 
-TEST(GroundFrame, WhatIsAboveThePlaneMovesItLessThanWhatIsBelow) {
+TEST(GroundFrame, WeighsPointsAboveLess) {
     const auto movedBy = [](float off_m) {  // every fourth point, one per cell
         auto points = test::groundPoints(36, 1.5f, [](float, float) { return -2.0f; });
         for (std::size_t i = 0; i < points.size(); i += 4) points[i].z() += off_m;
@@ -128,7 +128,7 @@ TEST(GroundFrame, WhatIsAboveThePlaneMovesItLessThanWhatIsBelow) {
     EXPECT_LT(movedBy(0.5f), 0.8f * movedBy(-0.5f));
 }
 
-TEST(GroundFrame, WhatIsBeyondFortyMetresDoesNotCount) {
+TEST(GroundFrame, IgnoresReturnsBeyondFortyMetres) {
     auto points = ringsOnPlane({}, 2);
     const auto ground = points;
     for (int step = 0; step < 100; ++step) {
@@ -137,21 +137,21 @@ TEST(GroundFrame, WhatIsBeyondFortyMetresDoesNotCount) {
     EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}, work), ground), 1e-4f);
 }
 
-TEST(GroundFrame, EmptyPixelsDoNotCount) {
+TEST(GroundFrame, IgnoresEmptyPixels) {
     auto points = ringsOnPlane({}, 2);
     const auto ground = points;
     points.insert(points.end(), 1000, test::kEmptyPixel);
     EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}, work), ground), 1e-4f);
 }
 
-TEST(GroundFrame, OfFewerThanThreeCellsIsALevelPlaneThroughTheLowest) {
+TEST(GroundFrame, TwoCellsGiveLevelPlane) {
     const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt({{5, 0, -1.5f}, {8, 3, -2}}), {}, work);
     EXPECT_TRUE(frame.linear().isIdentity());
     EXPECT_FLOAT_EQ(frame.translation().z(), 2);
     EXPECT_FLOAT_EQ(fitGroundFrame(pixelsAt({{5, 0, -1.5f}}), {}, work).translation().z(), 1.5f);
 }
 
-TEST(GroundFrame, OfNoPixelIsThatOfALevelPlaneThroughTheSensor) {
+TEST(GroundFrame, NoPixelGivesLevelPlaneThroughSensor) {
     const PixelPoints none = pixelsAt({test::kEmptyPixel, test::kEmptyPixel});
     EXPECT_TRUE(fitGroundFrame(none, {}, work).isApprox(Eigen::Isometry3f::Identity()));
     const Attitude attitude{0.1f, 0.2f};
@@ -159,7 +159,7 @@ TEST(GroundFrame, OfNoPixelIsThatOfALevelPlaneThroughTheSensor) {
     EXPECT_TRUE(fitGroundFrame(none, attitude, work).translation().isZero());
 }
 
-TEST(GroundFrame, PointsOnALineAreNoError) {
+TEST(GroundFrame, AcceptsCollinearPoints) {
     std::vector<Eigen::Vector3f> line;
     for (int i = 1; i < 20; ++i) line.emplace_back(static_cast<float>(i), 0, -2);
     const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(line), {}, work);
@@ -167,7 +167,7 @@ TEST(GroundFrame, PointsOnALineAreNoError) {
     EXPECT_LT(greatestHeight(frame, line), 0.01f);
 }
 
-TEST(CanBeGround, IsSaidOfWhatLiesBelowAndIsNotTooSteep) {
+TEST(CanBeGround, NeedsSensorAboveLevelGround) {
     const auto frameAt = [](float height_m, double tilt_deg) {
         Eigen::Isometry3f frame = Eigen::Isometry3f::Identity();
         frame.linear() = levelFromSensor({static_cast<float>(radians(tilt_deg)), 0});
@@ -194,20 +194,20 @@ TEST(CanBeGround, IsSaidOfWhatLiesBelowAndIsNotTooSteep) {
     EXPECT_FALSE(canBeGround(frameAt(2, 0), {}, labels));
 }
 
-TEST(Upwards, WithoutAttitudeIsTheGroundsNormal) {
+TEST(Upwards, WithoutAttitudeIsGroundNormal) {
     const Eigen::Isometry3f frame =
         fitGroundFrame(pixelsAt(ringsOnPlane({0.2f, 0.1f}, 2)), {}, work);
     EXPECT_EQ(upwards(frame, std::nullopt), Eigen::Vector3f::UnitZ());
 }
 
-TEST(Upwards, OverLevelGroundATiltedSensorThatKnowsItFindsTheNormal) {
+TEST(Upwards, LevelGroundGivesNormal) {
     const Attitude attitude{0.2f, -0.15f};
     const Eigen::Isometry3f frame =
         fitGroundFrame(pixelsAt(ringsOnPlane(attitude, 2)), attitude, work);
     EXPECT_LT((upwards(frame, attitude) - Eigen::Vector3f::UnitZ()).norm(), 1e-3f);
 }
 
-TEST(Upwards, OverASlopeIsAsFarOffTheNormalAsTheSlopeIsSteep) {
+TEST(Upwards, SlopeLeansFromNormal) {
     // A level sensor over ground that rises ahead by 10 degrees is nose down against it, and up
     // leans forward from the ground normal.
     const Attitude against_slope{0, static_cast<float>(radians(10))};

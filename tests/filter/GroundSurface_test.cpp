@@ -48,7 +48,7 @@ const auto kHill = [](float x_m, float y_m) {
     return 1.5f * std::exp(-(x_m * x_m + y_m * y_m) / (2 * 8 * 8));
 };
 
-TEST(GroundSurface, BetweenMiddlesOfCellsItIsBilinear) {
+TEST(GroundSurface, IsBilinearBetweenCellCentres) {
     GroundSurface surface;
     surface.height_m = Grid::Zero(kCells, kCells);
     surface.height_m(64, 70) = 1;
@@ -66,7 +66,7 @@ TEST(GroundSurface, BetweenMiddlesOfCellsItIsBilinear) {
     EXPECT_NEAR(surface.at(x_m + 0.25f * kCell_m, y_m + 0.5f * kCell_m), 2.375f, 1e-4);
 }
 
-TEST(GroundSurface, BeyondTheSquareItIsThatOfTheBorder) {
+TEST(GroundSurface, ExtendsBorderOutwards) {
     GroundSurface surface;
     surface.height_m = Grid::Zero(kCells, kCells);
     surface.height_m(0, 0) = 1;
@@ -75,7 +75,7 @@ TEST(GroundSurface, BeyondTheSquareItIsThatOfTheBorder) {
     EXPECT_FLOAT_EQ(surface.at(100, middleOf(64)), 2);
 }
 
-TEST(GroundSurface, OfNoCandidateIsThePlane) {
+TEST(GroundSurface, IsPlaneWithoutCandidates) {
     EXPECT_TRUE((surfaceUnder({test::kEmptyPixel}).height_m == 0).all());
     GroundSurface surface;
     const PixelPoints high = pixelsAt({{5, 0, 3}});
@@ -85,18 +85,7 @@ TEST(GroundSurface, OfNoCandidateIsThePlane) {
     EXPECT_TRUE((surface.height_m == 0).all());
 }
 
-TEST(GroundSurface, OfAnEmptyLabelledImageIsThePlane) {
-    PixelPoints pixels = pixelsAt(std::vector<Eigen::Vector3f>(16 * 20, test::kEmptyPixel), 16);
-    GroundSurface surface;
-    fitGroundSurface(pixels, Image<Label>::Constant(16, 20, Label::Unclassified).eval(), surface,
-                     work);
-    EXPECT_TRUE((surface.height_m == 0).all());
-    Image<float> height_m;
-    heightsAbove(surface, pixels, height_m);
-    EXPECT_TRUE(height_m.isNaN().all());
-}
-
-TEST(GroundSurface, OneHeightFillsTheWholeSquare) {
+TEST(GroundSurface, OneHeightFillsSquare) {
     test::Random random(80);
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 40; ++i) {
@@ -106,7 +95,7 @@ TEST(GroundSurface, OneHeightFillsTheWholeSquare) {
     EXPECT_LT((surfaceUnder({points.front()}).height_m - 0.7f).abs().maxCoeff(), 1e-5f);
 }
 
-TEST(GroundSurface, LiesWithinTheHeightsOfItsCandidates) {
+TEST(GroundSurface, LiesWithinCandidateHeights) {
     test::Random random(81);
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 3000; ++i) {
@@ -190,7 +179,7 @@ Grid slowSurface(const std::vector<Eigen::Vector3f>& points_m) {
     return expected_m;
 }
 
-TEST(GroundSurface, AgreesWithASlowerFitWhereAllIsSeen) {
+TEST(GroundSurface, MatchesSlowFitWhereAllIsSeen) {
     for (unsigned seed = 82; seed < 84; ++seed) {
         test::Random random(seed);
         std::vector<Eigen::Vector3f> points;
@@ -225,7 +214,7 @@ bool isGround(int cells, float height_m, bool diagonally, bool seen_between) {
     return !(surfaceUnder(points).height_m == 0).all();
 }
 
-TEST(GroundSurface, HowSteepGroundMayBeIsAsTheHeaderSays) {
+TEST(GroundSurface, RemovesCellsAboveSteepestSlopes) {
     // The last step is into a cell with a candidate, the others are over cells without.
     const float cells = 10, step_m = 0.75f;
     const float unseen_m = (0.15f * (cells - 1) + 0.3f) * step_m + 0.15f;
@@ -239,7 +228,7 @@ TEST(GroundSurface, HowSteepGroundMayBeIsAsTheHeaderSays) {
     EXPECT_FALSE(isGround(10, across_m + 0.01f, true, false));
 }
 
-TEST(GroundSurface, SlopesAreTheSameInEveryDirection) {
+TEST(GroundSurface, SlopesAreIsotropic) {
     // Level ground in 3 x 3 cells, a plateau in 3 x 3 others, walls everywhere else. To the far
     // corner of the plateau it is 9 cells in one axis and 5 in the other: 4 straight steps, 5
     // diagonal ones.
@@ -263,27 +252,17 @@ TEST(GroundSurface, SlopesAreTheSameInEveryDirection) {
     }
 }
 
-TEST(GroundSurface, FollowsAGentleHill) {
+TEST(GroundSurface, FollowsGentleHill) {
     EXPECT_LT(greatestError(surfaceUnder(groundPoints(40, 0.25f, kHill)), 38, kHill), 0.05f);
 }
 
-TEST(GroundSurface, FollowsAGentleHillBetweenSparseReturns) {
-    test::Random random(84);
-    std::vector<Eigen::Vector3f> points;
-    for (int i = 0; i < 3000; ++i) {
-        const float x_m = random.real(-30, 30), y_m = random.real(-30, 30);
-        points.emplace_back(x_m, y_m, kHill(x_m, y_m));
-    }
-    EXPECT_LT(greatestError(surfaceUnder(points), 28, kHill), 0.1f);
-}
-
-TEST(GroundSurface, StraysBelowTheGroundDoNotDragIt) {
+TEST(GroundSurface, IgnoresStraysBelow) {
     auto points = groundPoints(20, 0.25f, kLevel);
     for (std::size_t i = 300; i < points.size(); i += 613) points[i].z() = -2;
     EXPECT_LT(greatestError(surfaceUnder(points), 18, kLevel), 0.01f);
 }
 
-TEST(GroundSurface, AWallThatHidesTheGroundDoesNotLiftIt) {
+TEST(GroundSurface, WallDoesNotLiftHiddenGround) {
     // The ground is not visible within 1 m of the wall, nor for 6 m behind it.
     std::vector<Eigen::Vector3f> points;
     for (const Eigen::Vector3f& p : groundPoints(25, 0.25f, kLevel)) {
@@ -298,7 +277,7 @@ TEST(GroundSurface, AWallThatHidesTheGroundDoesNotLiftIt) {
     EXPECT_LT(greatestError(surfaceUnder(points), 20, kLevel), 0.02f);
 }
 
-TEST(GroundSurface, OutsideTheSquareAndWithoutCoordinatesNothingCounts) {
+TEST(GroundSurface, IgnoresPointsOutsideSquare) {
     auto points = groundPoints(10, 0.5f, kLevel);
     points.emplace_back(48.01f, 0.0f, -5.0f);
     points.emplace_back(0.0f, -48.01f, -5.0f);
@@ -306,7 +285,7 @@ TEST(GroundSurface, OutsideTheSquareAndWithoutCoordinatesNothingCounts) {
     EXPECT_TRUE((surfaceUnder(points).height_m == 0).all());
 }
 
-TEST(GroundSurface, OnlyCandidatesCount) {
+TEST(GroundSurface, IgnoresOtherPixels) {
     auto points = groundPoints(10, 0.5f, kLevel);
     const std::size_t ground = points.size();
     for (std::size_t i = 0; i < ground; ++i) points.push_back(points[i] - Eigen::Vector3f(0, 0, 1));
@@ -318,7 +297,7 @@ TEST(GroundSurface, OnlyCandidatesCount) {
     EXPECT_TRUE((surface.height_m == 0).all());
 }
 
-TEST(GroundSurface, GroundThatTheLabelsCutOffComesBack) {
+TEST(GroundSurface, RecoversGroundCutOffByLabels) {
     // A mound of 0.15 m that the labelling took for an obstacle, with a 2 m bush on it.
     const auto mound = [](float x_m, float y_m) {
         return 0.15f * std::exp(-((x_m - 8) * (x_m - 8) + y_m * y_m) / (2 * 2 * 2));
@@ -344,7 +323,7 @@ TEST(GroundSurface, GroundThatTheLabelsCutOffComesBack) {
 
 // Blocks 0.3 m high that hide the ground: the slopes allow them, the first fit does not. The same
 // for mirror images below the ground.
-TEST(GroundSurface, WhatTheLabelsCutOffAndIsNotCloseStaysCutOff) {
+TEST(GroundSurface, KeepsFarPixelsCutOff) {
     for (const float height_m : {0.3f, -0.5f}) {
         auto points = groundPoints(20, 0.25f, kLevel);
         std::vector<Label> labels;
@@ -362,7 +341,7 @@ TEST(GroundSurface, WhatTheLabelsCutOffAndIsNotCloseStaysCutOff) {
     }
 }
 
-TEST(GroundSurface, HeightsAreAboveIt) {
+TEST(GroundSurface, HeightsAreAboveSurface) {
     GroundSurface surface;
     surface.height_m = Grid::Constant(kCells, kCells, 0.5f);
     Image<float> height_m;

@@ -8,18 +8,18 @@
 namespace hagen {
 namespace {
 
-TEST(Options, DefaultsFitEverySensorOfSixteenBeamsAndMore) {
+TEST(Options, DefaultsFitSixteenBeams) {
     EXPECT_NO_THROW(checkOptions(Options(), 16));
     EXPECT_NO_THROW(checkOptions(Options(), 64));
 }
 
-TEST(Options, MoreComponentsThanTheWindowAreRefused) {
+TEST(Options, RejectsMoreComponentsThanWindow) {
     Options options;
     options.principal_components = options.window_size + 1;
     EXPECT_THROW(checkOptions(options, 16), std::invalid_argument);
 }
 
-TEST(Options, EveryOptionHasItsRange) {
+TEST(Options, ChecksEveryRange) {
     for (const OptionKey& key : optionKeys()) {
         if (std::holds_alternative<bool Options::*>(key.field)) continue;  // no invalid values
         Options options;
@@ -38,7 +38,7 @@ TEST(Options, EveryOptionHasItsRange) {
     }
 }
 
-TEST(Options, TheEndsOfEveryRangeAreAllowed) {
+TEST(Options, AcceptsEndsOfRanges) {
     for (const OptionKey& key : optionKeys()) {
         for (const double end : {key.least, key.most}) {
             Options options;
@@ -55,7 +55,7 @@ TEST(Options, TheEndsOfEveryRangeAreAllowed) {
     }
 }
 
-TEST(Options, AWindowLongerThanAColumnIsRefused) {
+TEST(Options, RejectsWindowLongerThanColumn) {
     Options options;
     options.window_size = 15;
     EXPECT_NO_THROW(checkOptions(options, 16));

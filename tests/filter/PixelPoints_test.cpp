@@ -33,7 +33,7 @@ Located located(const SensorModel& sensor, const std::vector<Eigen::Vector3f>& p
     return l;
 }
 
-TEST(PixelPoints, APixelIsWhereItsClosestReturnIs) {
+TEST(PixelPoints, PixelIsAtClosestReturn) {
     const SensorModel sensor = sensorModel("VLP-16");
     // Off the centre of beam and column, as real returns are.
     const Eigen::Vector3f near = test::onBeam(sensor, 3, 40.2, 6) + Eigen::Vector3f(0, 0, 0.02f);
@@ -48,7 +48,7 @@ TEST(PixelPoints, APixelIsWhereItsClosestReturnIs) {
     }
 }
 
-TEST(PixelPoints, AFilledHoleIsWhereItsBeamMeetsItsDepth) {
+TEST(PixelPoints, RepairedPixelIsOnItsBeam) {
     const SensorModel sensor = sensorModel("VLP-16");
     const Located l = located(sensor, {}, [](Image<float>& depth_m) {
         depth_m(2, 7) = 5.0f;
@@ -63,14 +63,14 @@ TEST(PixelPoints, AFilledHoleIsWhereItsBeamMeetsItsDepth) {
     EXPECT_EQ((!l.pixels.x_m.isNaN()).count(), 2);
 }
 
-TEST(PixelPoints, AnEmptyScanHasNone) {
+TEST(PixelPoints, EmptyScanHasNone) {
     const Located l = located(sensorModel("VLP-16"), {}, [](Image<float>&) {});
     EXPECT_EQ(l.pixels.x_m.rows(), 16);
     EXPECT_EQ(l.pixels.x_m.cols(), kColumns);
     EXPECT_TRUE(l.pixels.x_m.isNaN().all());
 }
 
-TEST(PixelPoints, MovedPixelsKeepTheirDistancesAndEmptyOnesStayEmpty) {
+TEST(PixelPoints, MovingKeepsDistances) {
     test::Random random(65);
     PixelPoints pixels;
     pixels.x_m = random.image(4, 9, -20, 20, 0.3);

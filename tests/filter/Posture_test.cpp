@@ -16,7 +16,7 @@ Attitude tilt(double roll_deg, double pitch_deg = 0) {
     return {static_cast<float>(radians(roll_deg)), static_cast<float>(radians(pitch_deg))};
 }
 
-TEST(Posture, ByTheTiltOfTheSensorsAxis) {
+TEST(Posture, FollowsTiltOfSensorAxis) {
     EXPECT_EQ(postureOf(std::nullopt), Posture::Upright);
     for (const auto& upright : {tilt(0), tilt(29), tilt(-29), tilt(0, 29), tilt(20, -20)})
         EXPECT_EQ(postureOf(upright), Posture::Upright);
@@ -26,7 +26,7 @@ TEST(Posture, ByTheTiltOfTheSensorsAxis) {
         EXPECT_EQ(postureOf(down), Posture::UpsideDown);
 }
 
-TEST(Posture, RowsOfTheImageRise) {
+TEST(Posture, ImageRowsRise) {
     for (const char* name : {"VLP-16", "HDL-64E"}) {
         const SensorModel sensor = sensorModel(name);
         for (const auto posture : {Posture::Upright, Posture::UpsideDown, Posture::OnItsSide}) {
@@ -43,7 +43,7 @@ TEST(Posture, RowsOfTheImageRise) {
 }
 
 // The image's frame is the sensor's, turned; what is left of the tilt completes it.
-TEST(Posture, TheFrameOfTheImageAndItsTiltMakeTheTilt) {
+TEST(Posture, FrameAndRestMakeTheTilt) {
     test::Random random(8);
     for (int k = 0; k < 200; ++k) {
         const Attitude attitude = tilt(static_cast<double>(random.real(-180, 180)),
@@ -58,7 +58,7 @@ TEST(Posture, TheFrameOfTheImageAndItsTiltMakeTheTilt) {
     }
 }
 
-TEST(Posture, ATurnedScanIsTheRotatedScanWithRowsOfItsOwn) {
+TEST(Posture, TurnedScanIsRotated) {
     const SensorModel sensor = sensorModel("VLP-16");
     test::Random random(9);
     std::vector<Eigen::Vector3f> points_m;
@@ -86,7 +86,7 @@ TEST(Posture, ATurnedScanIsTheRotatedScanWithRowsOfItsOwn) {
     }
 }
 
-TEST(Posture, WhatHasNoRangeGetsNoneByATurn) {
+TEST(Posture, TurningKeepsMissingRanges) {
     const SensorModel sensor = sensorModel("VLP-16");
     Scan scan = test::scanOf(sensor, {{5, 1, 0}, {4, 0, 0.5f}, {0, 2.65e-23f, 0}, {0, 0, 0}});
     scan.range_m[1] = kNoValue;     // the airframe
@@ -124,7 +124,7 @@ test::LabelledScan sceneFrom(const SensorModel& sensor, const Attitude& attitude
     return result;
 }
 
-TEST(Posture, AtAnyRollAWallIsAnObstacleAndTheGroundIsNot) {
+TEST(Posture, LabelsHoldAtAnyRoll) {
     const SensorModel sensor = sensorModel("VLP-16");
     HagenFilter filter(sensor);
     for (const double roll_deg : {0.0, 20.0, 35.0, 60.0, 90.0, 120.0, 145.0, 160.0, 180.0, -90.0}) {
@@ -152,7 +152,7 @@ TEST(Posture, AtAnyRollAWallIsAnObstacleAndTheGroundIsNot) {
     }
 }
 
-TEST(Posture, UpsideDownWithoutItsAttitudeEverythingInTheZoneIsAnObstacle) {
+TEST(Posture, UpsideDownWithoutAttitudeIsRoi) {
     const SensorModel sensor = sensorModel("VLP-16");
     const test::LabelledScan seen = sceneFrom(sensor, tilt(180));
     HagenFilter filter(sensor);

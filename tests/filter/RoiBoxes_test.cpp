@@ -13,7 +13,7 @@ std::vector<RoiBox> boxesOf(const std::vector<Eigen::Vector3f>& points_m,
     return boxRoiComponents(test::scanOf(sensorModel("VLP-16"), points_m), returns);
 }
 
-TEST(RoiBoxes, ABoxHoldsTheReturnsOfItsComponent) {
+TEST(RoiBoxes, BoxHoldsReturnsOfItsComponent) {
     const auto boxes = boxesOf({{6, 8, 0}, {3, 4, 0}, {3, -4, 0}, {7, 6, 1}, {6, 8, -2}, {0, 1, 0}},
                                {2, 1, 1, 2, 2, 0});
     ASSERT_EQ(boxes.size(), 2u);
@@ -29,14 +29,14 @@ TEST(RoiBoxes, ABoxHoldsTheReturnsOfItsComponent) {
     EXPECT_EQ(boxes[1].extents_m.max(), Eigen::Vector3f(7, 8, 1));
 }
 
-TEST(RoiBoxes, ALoneReturnIsABoxWithoutExtent) {
+TEST(RoiBoxes, LoneReturnHasNoExtent) {
     const auto boxes = boxesOf({{6, 8, 0.5f}}, {1});
     ASSERT_EQ(boxes.size(), 1u);
     EXPECT_EQ(boxes[0].extents_m.sizes(), Eigen::Vector3f::Zero());
     EXPECT_FALSE(boxes[0].extents_m.isEmpty());
 }
 
-TEST(RoiBoxes, WithoutObstaclesThereIsNone) {
+TEST(RoiBoxes, NoObstaclesGiveNoBoxes) {
     EXPECT_TRUE(boxesOf({{6, 8, 0}}, {0}).empty());
     EXPECT_TRUE(boxesOf({}, {}).empty());
 }
@@ -52,7 +52,7 @@ std::vector<std::int32_t> drawn(const std::vector<RoiBox>& boxes) {
     return components;
 }
 
-TEST(RoiBoxes, DrawnAreLargeOnesThatAreNotInsideOthers) {
+TEST(RoiBoxes, DrawsLargeOuterBoxes) {
     using Components = std::vector<std::int32_t>;
     EXPECT_EQ(drawn({box(1, 30, 1), box(2, 29, 9)}), Components{1});
     EXPECT_EQ(drawn({box(1, 30, 1), box(2, 30, 2), box(3, 30, 0.5f)}), Components{2});

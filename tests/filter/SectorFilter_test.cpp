@@ -69,7 +69,7 @@ SimpleScene sceneWithPole() {
     return scene;
 }
 
-TEST(SectorFilter, ItsLabelsAreThoseOfTheWholeScan) {
+TEST(SectorFilter, MatchesWholeScan) {
     for (const char* name : {"VLP-16", "HDL-32E"}) {
         const SensorModel sensor = sensorModel(name);
         const Turn turn = turnOf(sceneWithPole(), sensor, radians(20.0));
@@ -93,7 +93,7 @@ TEST(SectorFilter, ItsLabelsAreThoseOfTheWholeScan) {
 }
 
 /// On flat ground, most pixels of the ground are in regions of uninterest.
-TEST(SectorFilter, RegionsAreWhatThePaperFindsWithoutTheGround) {
+TEST(SectorFilter, FindsRegionsWithoutGround) {
     const SensorModel sensor = sensorModel("VLP-16");
     const Turn turn = turnOf(sceneWithPole(), sensor, radians(20.0));
     const ColumnMap columns = windowInFront();
@@ -114,7 +114,7 @@ TEST(SectorFilter, RegionsAreWhatThePaperFindsWithoutTheGround) {
 }
 
 /// Of a sector that sees a wall only, the context shows whether there is ground.
-TEST(SectorFilter, RegionsOfTheContextShowTheGround) {
+TEST(SectorFilter, ContextRevealsGround) {
     SimpleScene scene;
     scene.boxes.push_back({{2, -20, 0}, {3, 20, 6}});
     const SensorModel sensor = sensorModel("VLP-16");
@@ -131,7 +131,7 @@ TEST(SectorFilter, RegionsOfTheContextShowTheGround) {
     for (const Label label : doubtful.returns.label) EXPECT_EQ(label, Label::Roi);
 }
 
-TEST(SectorFilter, ASectorWithoutReturnsHasNoLabels) {
+TEST(SectorFilter, EmptySectorHasNoLabels) {
     const SensorModel sensor = sensorModel("VLP-16");
     SectorFilter filter(sensor, {});
     Scan none;
@@ -144,7 +144,7 @@ TEST(SectorFilter, ASectorWithoutReturnsHasNoLabels) {
     EXPECT_TRUE(filter.segment(scan, {}, {none, columns, contextOf(rou)}).returns.label.empty());
 }
 
-TEST(SectorFilter, ReturnsThatWereNotLocatedAreRefused) {
+TEST(SectorFilter, RejectsUnlocatedReturns) {
     const SensorModel sensor = sensorModel("VLP-16");
     SectorFilter filter(sensor, {});
     Scan scan;
@@ -183,7 +183,7 @@ Turn thinned(const Turn& turn, std::vector<std::size_t>& kept) {
     return thin;
 }
 
-TEST(SectorFilter, ACanopyIsToldByHowHighTheCellsOfTheContextWere) {
+TEST(SectorFilter, CanopyNeedsHeightsOfContext) {
     const SensorModel sensor = sensorModel("VLP-16");
     const Turn turn = turnOf(sceneWithCrops(), sensor, radians(7.5));
     std::vector<std::size_t> kept;

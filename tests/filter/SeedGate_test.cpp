@@ -21,29 +21,29 @@ bool passes(const std::vector<float>& column_m, float angle_rad, float gate_rad 
 
 TEST(SeedGate, LevelGroundSeeds) { EXPECT_TRUE(passes({5, 8, 20}, 0.0f)); }
 
-TEST(SeedGate, WhatIsAsSteepAsTheGateSeedsNothing) {
+TEST(SeedGate, RejectsSteepSeeds) {
     EXPECT_TRUE(passes({5, 8, 20}, 0.499f));
     EXPECT_FALSE(passes({5, 8, 20}, 0.5f));
 }
 
-TEST(SeedGate, WithoutAnAngleNothingSeeds) { EXPECT_FALSE(passes({5, 8, 20}, kNoValue)); }
+TEST(SeedGate, RejectsSeedsWithoutAngle) { EXPECT_FALSE(passes({5, 8, 20}, kNoValue)); }
 
-TEST(SeedGate, UnderWhatIsNotFartherNothingSeeds) {
+TEST(SeedGate, RejectsSeedsUnderNearerPixels) {
     EXPECT_FALSE(passes({5, 4.9f, 20}, 0.0f));
     EXPECT_FALSE(passes({5, 5, 20}, 0.0f));
 }
 
-TEST(SeedGate, TheNextPixelAboveIsThatWithAValue) {
+TEST(SeedGate, SkipsEmptyPixelsAbove) {
     EXPECT_TRUE(passes({5, kNoValue, 8}, 0.0f));
     EXPECT_FALSE(passes({5, kNoValue, 4}, 0.0f));
 }
 
-TEST(SeedGate, WithNothingAboveItNothingSeeds) {
+TEST(SeedGate, NeedsPixelAbove) {
     EXPECT_FALSE(passes({5}, 0.0f));
     EXPECT_FALSE(passes({5, kNoValue, kNoValue}, 0.0f));
 }
 
-TEST(SeedGate, ItsColumnIsAllThatASeedIsJudgedBy) {
+TEST(SeedGate, JudgesColumnsAlone) {
     Image<float> depth_m(2, 3);
     depth_m << 5, 6, 7,  //
         kNoValue, 8, kNoValue;
@@ -52,7 +52,7 @@ TEST(SeedGate, ItsColumnIsAllThatASeedIsJudgedBy) {
     EXPECT_EQ(seeds, std::vector<int>{2});
 }
 
-TEST(SeedGate, OrderIsKept) {
+TEST(SeedGate, KeepsOrder) {
     Image<float> depth_m(2, 4);
     depth_m << 5, 5, 5, 5,  //
         8, 8, 4, 8;
@@ -61,7 +61,7 @@ TEST(SeedGate, OrderIsKept) {
     EXPECT_EQ(seeds, (std::vector<int>{6, 0, 2}));
 }
 
-TEST(SeedGate, NoSeedsStayNone) {
+TEST(SeedGate, AcceptsNoSeeds) {
     std::vector<int> seeds;
     gateSeeds(Image<float>::Constant(4, 3, kNoValue), Image<float>::Constant(4, 3, kNoValue), 0.5f,
               seeds);

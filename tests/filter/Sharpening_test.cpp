@@ -8,14 +8,14 @@
 namespace hagen {
 namespace {
 
-TEST(Sharpening, AMaximumOnAPlateauDoublesItsProximity) {
+TEST(Sharpening, PlateauMaximumDoubles) {
     const Image<float> proximity_m = Image<float>::Constant(3, 5, 4.0f);
     Image<float> sharpened_m;
     sharpenMaxima(proximity_m, {{1, 2, 4.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m);
     EXPECT_NEAR(sharpened_m(1, 2), 8.0f, 1e-6f);  // 4 + mean of fours
 }
 
-TEST(Sharpening, FollowsTheEquationWithTwoNeighbours) {
+TEST(Sharpening, FollowsEquation) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
     proximity_m(1, 2) = 6.0f;
     proximity_m(1, 3) = 5.0f;  // edge neighbour
@@ -27,7 +27,7 @@ TEST(Sharpening, FollowsTheEquationWithTwoNeighbours) {
     EXPECT_NEAR(sharpened_m(1, 2), 6 + (5 * beside + 4 * diagonal) / (beside + diagonal), 1e-5);
 }
 
-TEST(Sharpening, WithItselfUnderTheSumAMaximumDoublesWhateverItsNeighboursAre) {
+TEST(Sharpening, OwnValueUnderSumDoubles) {
     test::Random random(14);
     for (int round = 0; round < 20; ++round) {
         Image<float> image_m = random.image(3, 5, 0.5f, 3.0f, 0.3);
@@ -41,14 +41,7 @@ TEST(Sharpening, WithItselfUnderTheSumAMaximumDoublesWhateverItsNeighboursAre) {
     }
 }
 
-TEST(Sharpening, WithItselfUnderTheSumAMaximumWithoutNeighboursStays) {
-    Image<float> image_m = Image<float>::Constant(3, 5, kNoValue), sharpened_m;
-    image_m(1, 2) = 6.0f;
-    sharpenMaxima(image_m, {{1, 2, 6.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m, false);
-    EXPECT_EQ(sharpened_m(1, 2), 6.0f);
-}
-
-TEST(Sharpening, NeighboursAreFoundAroundTheBack) {
+TEST(Sharpening, NeighboursWrapInAzimuth) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
     proximity_m(1, 0) = 6.0f;
     proximity_m(1, 4) = 6.0f;
@@ -57,15 +50,17 @@ TEST(Sharpening, NeighboursAreFoundAroundTheBack) {
     EXPECT_FLOAT_EQ(sharpened_m(1, 0), 12.0f);
 }
 
-TEST(Sharpening, AMaximumWithoutNeighboursStays) {
+TEST(Sharpening, LoneMaximumStays) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
     proximity_m(1, 2) = 6.0f;
     Image<float> sharpened_m;
-    sharpenMaxima(proximity_m, {{1, 2, 6.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m);
-    EXPECT_EQ(sharpened_m(1, 2), 6.0f);
+    for (const bool by_neighbours : {true, false}) {
+        sharpenMaxima(proximity_m, {{1, 2, 6.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m, by_neighbours);
+        EXPECT_EQ(sharpened_m(1, 2), 6.0f);
+    }
 }
 
-TEST(Sharpening, NeighboursTooFarToWeighAnythingLeaveANumber) {
+TEST(Sharpening, NegligibleWeightsStayFinite) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, 0.0f);
     proximity_m(1, 2) = 900.0f;
     Image<float> sharpened_m;
@@ -73,7 +68,7 @@ TEST(Sharpening, NeighboursTooFarToWeighAnythingLeaveANumber) {
     EXPECT_EQ(sharpened_m(1, 2), 900.0f);
 }
 
-TEST(Merge, MovesAMaximumNearerByHalfOfWhatWasAdded) {
+TEST(Merge, MovesNearerByHalf) {
     Image<float> depth_m = Image<float>::Constant(3, 5, 18.0f);
     Image<float> proximity_m = 20.0f - depth_m, sharpened_m = proximity_m, merged_m;
     sharpened_m(1, 2) = 2.0f + 3.0f;
@@ -83,7 +78,7 @@ TEST(Merge, MovesAMaximumNearerByHalfOfWhatWasAdded) {
     EXPECT_TRUE(test::same(merged_m, depth_m));
 }
 
-TEST(Merge, StopsAtTheSensorsMinimumRange) {
+TEST(Merge, StopsAtMinimumRange) {
     const Image<float> depth_m = Image<float>::Constant(1, 5, 2.0f);
     Image<float> proximity_m = 20.0f - depth_m, sharpened_m, merged_m;
     const std::vector<Maximum> maxima{{0, 2, 18.0f, 0.0f}};
@@ -92,7 +87,7 @@ TEST(Merge, StopsAtTheSensorsMinimumRange) {
     EXPECT_EQ(merged_m(0, 2), 0.5f);
 }
 
-TEST(Merge, OfDepthsMovesAMaximumAwayByHalfOfItsNeighboursDepth) {
+TEST(Merge, DepthsMoveAway) {
     const Image<float> depth_m = Image<float>::Constant(3, 5, 6.0f);
     const std::vector<Maximum> maxima{{1, 2, 14.0f, 0.0f}};
     Image<float> sharpened_m, merged_m;
@@ -103,7 +98,7 @@ TEST(Merge, OfDepthsMovesAMaximumAwayByHalfOfItsNeighboursDepth) {
     EXPECT_TRUE(test::same(merged_m, depth_m));
 }
 
-TEST(SharpeningAndMerge, OnlyMaximaMoveAndOnlyNearer) {
+TEST(SharpeningAndMerge, OnlyMaximaMove) {
     test::Random random(11);
     MaximaWorkspace work;
     for (int round = 0; round < 20; ++round) {

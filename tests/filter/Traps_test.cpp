@@ -171,7 +171,7 @@ const std::vector<Vector3d> kPlacesInRoom{{0.3, 0.2, 1.1},   {-1.5, -0.8, 1.1}, 
                                           {-0.3, -0.2, 1.1}, {0.9, -0.8, 1.1},  {1.5, -0.5, 1.1},
                                           {0.3, 0.2, 1.5}};
 
-TEST(Traps, AnEmptyRoom) {
+TEST(Traps, EmptyRoom) {
     forEachSensor({emptyRoom(), {0.3, 0.2, 1.1}}, [](const Outcome& o, const std::string& sensor) {
         EXPECT_GT(o.dangers, 10000);
         EXPECT_EQ(o.missed_dangers, 0);
@@ -182,7 +182,7 @@ TEST(Traps, AnEmptyRoom) {
     });
 }
 
-TEST(Traps, AFurnishedRoom) {
+TEST(Traps, FurnishedRoom) {
     forEachSensor({furnishedRoom(), kPlacesInRoom.front()},
                   [](const Outcome& o, const std::string& sensor) {
                       EXPECT_GT(o.dangers, 10000);
@@ -199,14 +199,14 @@ TEST(Traps, AFurnishedRoom) {
 }
 
 // Desks are as high as crops and cover as much, but walls stand around them.
-TEST(Traps, AFurnishedRoomIsNoCrop) {
+TEST(Traps, FurnishedRoomIsNotCrop) {
     EXPECT_EQ(outcome({furnishedRoom(), {0.3, 0.2, 1.1}, {0, 0.15}}, "HDL-64E").missed_dangers, 0);
     const Outcome pitched = outcome({furnishedRoom(), {-0.9, -0.5, 1.1}, {0.2, 0}}, "HDL-64E");
     EXPECT_LE(pitched.missed_dangers, 0.002 * pitched.dangers);  // close to a plane that is tilted
 }
 
 // The same with a level sensor.
-TEST(Traps, AClassroomIsNoCrop) {
+TEST(Traps, ClassroomIsNotCrop) {
     for (const Vector3d& place_m : {Vector3d(0.2, 0.6, 1.1), {0, 0, 1.1}, {0.2, 0.6, 1.5}}) {
         EXPECT_EQ(outcome({classroom(), place_m}, "HDL-32E").missed_dangers, 0)
             << place_m.transpose();
@@ -215,7 +215,7 @@ TEST(Traps, AClassroomIsNoCrop) {
 
 SimpleScene corridor() { return indoors({-15, -1}, {15, 1}, 2.5); }
 
-TEST(Traps, ACorridor) {
+TEST(Traps, Corridor) {
     for (const std::string& sensor : kSensors) {
         for (const double x_m : {-12.0, 0.0}) {
             const Outcome o = outcome({corridor(), {x_m, 0.2, 1.1}}, sensor);
@@ -232,19 +232,19 @@ TEST(Traps, ACorridor) {
     EXPECT_GT(rolled.floorShare(), 0.95);
 }
 
-TEST(Traps, TheEndOfACorridorIsNoCrop) {
+TEST(Traps, CorridorEndIsNotCrop) {
     const Outcome pitched = outcome({corridor(), {-12, 0.2, 1.1}, {0.2, 0}}, "HDL-64E");
     EXPECT_LE(pitched.missed_dangers, 0.003 * pitched.dangers);  // close to a plane that is tilted
 }
 
 // The plane is 3 degrees off, and some of the lowest returns of the walls are close to it.
-TEST(Traps, DISABLED_ACorridorThatAPitchedSensorSees) {
+TEST(Traps, DISABLED_CorridorPitched) {
     EXPECT_EQ(outcome({corridor(), {0, 0.2, 1.1}, {0.2, 0}}, "VLP-16").missed_dangers, 0);
 }
 
 SimpleScene hall() { return indoors({-20, -15}, {20, 15}, 8); }
 
-TEST(Traps, AHallWithACeiling) {
+TEST(Traps, HallWithCeiling) {
     for (const std::string& sensor : kSensors) {
         for (const double height_m : {1.1, 4.0, 7.0}) {
             const Outcome o = outcome({hall(), {3, 2, height_m}}, sensor);
@@ -259,7 +259,7 @@ TEST(Traps, AHallWithACeiling) {
 
 // The plane is 16 degrees off, so the floor is still level enough to be evidence, also for the
 // walls; the surface ends above their feet.
-TEST(Traps, DISABLED_AHallThatATiltedSensorSees) {
+TEST(Traps, DISABLED_HallTilted) {
     EXPECT_EQ(outcome({hall(), {3, 2, 4}, {0.2, 0}}, "VLP-16").missed_dangers, 0);
     EXPECT_EQ(outcome({hall(), {3, 2, 4}, {0, 0.15}}, "VLP-16").missed_dangers, 0);
     EXPECT_EQ(outcome({hall(), {3, 2, 7}, {0.2, 0}}, "HDL-64E").missed_dangers, 0);
@@ -277,7 +277,7 @@ SimpleScene bridge() {
     return scene;
 }
 
-TEST(Traps, UnderABridge) {
+TEST(Traps, UnderBridge) {
     for (const double height_m : {1.5, 3.5}) {
         forEachSensor({bridge(), {1, 3, height_m}}, [](const Outcome& o, const std::string&) {
             EXPECT_GT(o.dangers, 2000);
@@ -303,7 +303,7 @@ SimpleScene balcony() {
     return scene;
 }
 
-TEST(Traps, ABalconyRailFarAboveTheStreet) {
+TEST(Traps, BalconyRail) {
     for (const Vector3d& place_m : {Vector3d(0.5, 0, 13.5), {-1.5, 0.3, 13.2}}) {
         Sight sight{balcony(), place_m};
         sight.floor_m = 12;
@@ -328,7 +328,7 @@ SimpleScene yard() {
     return scene;
 }
 
-TEST(Traps, OnlyBeamsAboveTheHorizon) {
+TEST(Traps, OnlyBeamsAboveHorizon) {
     for (Sight sight :
          {Sight{yard(), {0, 0, 1.5}}, Sight{furnishedRoom(), {0.3, 0.2, 1.1}},
           Sight{hall(), {3, 2, 1.5}}, Sight{bridge(), {1, 3, 1.5}}, Sight{corridor(), {0, 0, 1}}}) {
@@ -385,7 +385,7 @@ TEST(Traps, FoliageWithLittleGround) {
 
 // The lowest leaves between the sensor and the first ring of ground, 11 m away, look like ground
 // that rises to 1.5 m: a little more than hidden ground may.
-TEST(Traps, LeavesBeforeTheFirstRingOfGround) {
+TEST(Traps, LeavesBeforeFirstGroundRing) {
     Sight sight{{}, {0, 0, 3}};
     sight.change = leaves(0.6);
     EXPECT_EQ(outcome(sight, "VLP-16").missed_dangers, 0);
@@ -393,7 +393,7 @@ TEST(Traps, LeavesBeforeTheFirstRingOfGround) {
 
 // The tops of cars and boxes before the first ring are taken for ground that rises to them. That
 // ring is the evidence.
-TEST(Traps, DISABLED_ACarBeforeTheFirstRingOfGround) {
+TEST(Traps, DISABLED_CarBeforeFirstGroundRing) {
     SimpleScene car;
     car.boxes = {{{9, -2.2, 0}, {12, 2.2, 1.5}}, {{-2.2, 9, 0}, {2.2, 10.8, 1.5}}};
     EXPECT_EQ(outcome({car, {0, 0, 4}}, "VLP-16").missed_dangers, 0);
@@ -412,7 +412,7 @@ SimpleScene cliff() {
     return scene;
 }
 
-TEST(Traps, ACliff) {
+TEST(Traps, Cliff) {
     for (const double x_m : {0.0, 6.0}) {
         forEachSensor({cliff(), {x_m, 0, 2}}, [](const Outcome& o, const std::string& sensor) {
             EXPECT_GT(o.dangers, 200);
@@ -441,7 +441,7 @@ SimpleScene lake() {
     return scene;
 }
 
-TEST(Traps, WaterUpToTheFarBank) {
+TEST(Traps, WaterUpToFarBank) {
     for (const auto& [reach_m, height_m] : {std::pair{10.0, 1.5}, {15.0, 1.5}, {15.0, 4.0}}) {
         Sight sight{lake(), {0, 0, height_m}};
         sight.change = water(reach_m);
@@ -463,7 +463,7 @@ TEST(Traps, OpenWater) {
 }
 
 // Like the car: the bank, within reach, is evidence for a hill under the pontoon.
-TEST(Traps, DISABLED_APontoonInTheWater) {
+TEST(Traps, DISABLED_PontoonInWater) {
     Sight sight{lake(), {0, 0, 4}};
     sight.scene.boxes.push_back({{-2, 8, 0}, {3, 10, 1.5}});
     sight.change = water(15);
@@ -471,7 +471,7 @@ TEST(Traps, DISABLED_APontoonInTheWater) {
                   [](const Outcome& o, const std::string&) { EXPECT_EQ(o.missed_dangers, 0); });
 }
 
-TEST(Traps, HoveringCloseAboveTheGround) {
+TEST(Traps, HoveringNearGround) {
     SimpleScene scene;
     scene.poles = {{3, 1, 0.1, 2}, {-4, 2, 0.05, 1}, {1, -2, 0.05, 1}};
     scene.boxes = {{{5, -4, 0}, {6, 0, 2}}, {{-3, -3, 0}, {-2.5, -2.5, 0.5}}};
@@ -483,7 +483,7 @@ TEST(Traps, HoveringCloseAboveTheGround) {
     });
 }
 
-TEST(Traps, BesideATowerHighUp) {
+TEST(Traps, BesideTower) {
     SimpleScene scene;
     scene.boxes = {{{10, -8, 0}, {20, 8, 60}}};
     forEachSensor({scene, {0, 0, 30}}, [](const Outcome& o, const std::string&) {

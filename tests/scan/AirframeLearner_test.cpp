@@ -37,7 +37,7 @@ float rangeAt(const LearnedAirframe& learned, double azimuth_deg, double elevati
     return learned.bin_range_m(row, column);
 }
 
-TEST(AirframeLearner, LearnsWhatIsNearInMostScansAtTheSameRange) {
+TEST(AirframeLearner, LearnsConstantNearRanges) {
     test::Random random(5);
     const LearnedAirframe learned = learnedFrom(40, [&](int number, Scan& scan) {
         addReturn(31, 11, 0.5 + 0.001 * (number % 10), scan);  // a leg
@@ -53,7 +53,7 @@ TEST(AirframeLearner, LearnsWhatIsNearInMostScansAtTheSameRange) {
     EXPECT_EQ((learned.bin_range_m > 0).count(), 2);
 }
 
-TEST(AirframeLearner, TheEdgeOfAPartIsLearnedWithIt) {
+TEST(AirframeLearner, LearnsEdges) {
     const LearnedAirframe learned = learnedFrom(50, [](int number, Scan& scan) {
         addReturn(179, 11, 0.5, scan);
         if (number % 10 == 0) addReturn(-179, 13, 0.52, scan);  // beside it, across the seam
@@ -67,7 +67,7 @@ TEST(AirframeLearner, TheEdgeOfAPartIsLearnedWithIt) {
     EXPECT_NEAR(rangeAt(learned, -177, 13), 0.6, 1e-5);
 }
 
-TEST(AirframeLearner, SharesAreThoseOfSolidAngles) {
+TEST(AirframeLearner, SharesAreSolidAngles) {
     const LearnedAirframe learned = learnedFrom(10, [](int, Scan& scan) {
         for (int azimuth_deg = -179; azimuth_deg < 180; azimuth_deg += 2) {
             for (int elevation_deg = -29; elevation_deg < 0; elevation_deg += 2)
@@ -81,7 +81,7 @@ TEST(AirframeLearner, SharesAreThoseOfSolidAngles) {
     EXPECT_NEAR(learned.share_of_seen, 0.25 / 0.75, 1e-9);
 }
 
-TEST(AirframeLearner, WhatIsLearnedMasksItsReturns) {
+TEST(AirframeLearner, LearnedBinsMaskReturns) {
     test::Random random(6);
     const auto fill = [&](int, Scan& scan) {
         for (int i = 0; i < 30; ++i)
@@ -96,14 +96,14 @@ TEST(AirframeLearner, WhatIsLearnedMasksItsReturns) {
     EXPECT_EQ(maskAirframe(airframe, scan), 30u);
 }
 
-TEST(AirframeLearner, NothingNearIsNoAirframe) {
+TEST(AirframeLearner, NothingNearGivesNoBins) {
     const LearnedAirframe learned =
         learnedFrom(10, [](int, Scan& scan) { addReturn(0, 0, 5, scan); });
     EXPECT_EQ(learned.bins, 0);
     EXPECT_EQ(learned.share_of_seen, 0);
 }
 
-TEST(AirframeLearner, NothingIsLearnedFromEmptyScansOrReturnsWithoutRange) {
+TEST(AirframeLearner, IgnoresEmptyScansAndMissingRanges) {
     const LearnedAirframe learned = learnedFrom(10, [](int, Scan& scan) {
         addReturn(0, 0, 0.5, scan);
         scan.range_m.back() = kNoValue;
@@ -112,7 +112,7 @@ TEST(AirframeLearner, NothingIsLearnedFromEmptyScansOrReturnsWithoutRange) {
     EXPECT_EQ(learned.share_of_seen, 0);
 }
 
-TEST(AirframeLearner, RefusesToLearnFromTooFewScans) {
+TEST(AirframeLearner, RejectsTooFewScans) {
     AirframeLearner learner;
     for (int i = 0; i < 9; ++i) learner.add({});
     EXPECT_THROW(learner.learn(), std::invalid_argument);

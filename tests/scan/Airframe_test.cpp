@@ -70,7 +70,7 @@ bool isMasked(const Airframe& airframe, double x, double y, double z, double ran
     return range_m <= airframe.bin_range_m(std::min(row, rows - 1), std::min(column, 2 * rows - 1));
 }
 
-TEST(Airframe, MasksWhatIsInABoxASphereOrABinAndNothingElse) {
+TEST(Airframe, MasksBoxesSpheresAndBins) {
     test::Random random(11);
     std::size_t all_masked = 0;
     for (int trial = 0; trial < 30; ++trial) {
@@ -97,7 +97,7 @@ TEST(Airframe, MasksWhatIsInABoxASphereOrABinAndNothingElse) {
     EXPECT_GT(all_masked, 400u);
 }
 
-TEST(Airframe, BordersAreMasked) {
+TEST(Airframe, MasksBorders) {
     Airframe airframe;
     airframe.boxes.push_back({{0, 0, 0}, {1, 1, 1}});
     airframe.spheres.push_back({{-2, 0, 0}, 1});
@@ -106,7 +106,7 @@ TEST(Airframe, BordersAreMasked) {
     EXPECT_EQ(hasValue(scan.range_m[1]) + hasValue(scan.range_m[3]), 2);
 }
 
-TEST(Airframe, BinsEndAtPolesAndMeetBehindTheSensor) {
+TEST(Airframe, BinsMeetAtPolesAndSeam) {
     EXPECT_EQ(airframeBinOf({0, 0, 1}, 90).row, 89);
     EXPECT_EQ(airframeBinOf({0, 0, -1}, 90).row, 0);
     EXPECT_EQ(airframeBinOf({-1, 0.0f, 0}, 90).column, 179);
@@ -115,14 +115,14 @@ TEST(Airframe, BinsEndAtPolesAndMeetBehindTheSensor) {
     EXPECT_EQ(airframeBinOf({1, 0.001f, 0.001f}, 90).row, 45);
 }
 
-TEST(Airframe, AnEmptyOneMasksNothing) {
+TEST(Airframe, EmptyMasksNothing) {
     Scan scan = scanOf({{0.1f, 0, 0}, {5, 5, 5}});
     const Scan before = scan;
     EXPECT_EQ(maskAirframe({}, scan), 0u);
     EXPECT_EQ(scan.range_m, before.range_m);
 }
 
-TEST(Airframe, ReturnsWithoutARangeStayAndDoNotCount) {
+TEST(Airframe, IgnoresReturnsWithoutRange) {
     Airframe airframe;
     airframe.spheres.push_back({{0, 0, 0}, 2});
     airframe.bin_range_m = Image<float>::Constant(90, 180, 2.0f);

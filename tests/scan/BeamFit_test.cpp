@@ -38,7 +38,7 @@ std::vector<double> beamsEvery(double step_deg, double lowest_deg, double highes
     return beams_deg;
 }
 
-TEST(BeamFit, EveryKnownModelFitsItself) {
+TEST(BeamFit, KnownModelsFitThemselves) {
     for (const std::string& name : knownSensorModels()) {
         SCOPED_TRACE(name);
         const SensorModel sensor = sensorModel(name);
@@ -57,7 +57,7 @@ TEST(BeamFit, EveryKnownModelFitsItself) {
     }
 }
 
-TEST(BeamFit, FewerBeamsLeaveRowsEmptyEvenIfTheirReturnsAreBlurred) {
+TEST(BeamFit, FewerBeamsLeaveRowsEmpty) {
     // Sixteen blurred beams, taken for 64 between which nothing is farther than the tolerance.
     const auto beams_deg = beamsEvery(2, -15, 15);
     const auto fit =
@@ -69,7 +69,7 @@ TEST(BeamFit, FewerBeamsLeaveRowsEmptyEvenIfTheirReturnsAreBlurred) {
     EXPECT_GT(fitBeams(scanOf(beams_deg, 0.5f), sensorModel("VLP-16"), 600)->filled, 0.99f);
 }
 
-TEST(BeamFit, ReturnsWithinTheToleranceCount) {
+TEST(BeamFit, CountsReturnsWithinTolerance) {
     // Uniform jitter of 0.8 degrees: half of the returns are within 0.4.
     const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 15), 0.8f), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
@@ -85,7 +85,7 @@ TEST(BeamFit, ShiftedBeamsDoNotFit) {
     EXPECT_EQ(fit->share(), 0.0f);
 }
 
-TEST(BeamFit, ElevationsInRadiansDoNotFit) {
+TEST(BeamFit, RadiansDoNotFit) {
     std::vector<double> wrong;
     for (const double beam_deg : beamsEvery(2, -15, 15)) wrong.push_back(radians(beam_deg));
     const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 15)), customSensorModel(wrong), 600);
@@ -94,7 +94,7 @@ TEST(BeamFit, ElevationsInRadiansDoNotFit) {
     EXPECT_LT(fit->share(), 0.15f);
 }
 
-TEST(BeamFit, AnotherNumberOfBeamsShowsEvenIfAllReturnsLieOnBeams) {
+TEST(BeamFit, WrongBeamCountShows) {
     const std::vector<double> half_deg = beamsEvery(4, -15, 15);
     const auto fewer = fitBeams(scanOf(half_deg), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fewer);
@@ -110,21 +110,21 @@ TEST(BeamFit, AnotherNumberOfBeamsShowsEvenIfAllReturnsLieOnBeams) {
     EXPECT_FLOAT_EQ(more->share(), 0.5f);
 }
 
-TEST(BeamFit, BeamsThatSeeOnlySkyAreNotMissed) {
+TEST(BeamFit, IgnoresBeamsInSky) {
     const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 1)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->beams, 9u);
     EXPECT_EQ(fit->share(), 1.0f);
 }
 
-TEST(BeamFit, ACloudWithoutBeamsIsJudgedByItsReturns) {
+TEST(BeamFit, WithoutBeamsCountsReturns) {
     const auto fit = fitBeams(scanOf(beamsEvery(0.05, -15, 15)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->beams_shown, 0u);
     EXPECT_NEAR(fit->share(), 0.4, 0.03);  // 0.8 of every 2 degrees
 }
 
-TEST(BeamFit, TooFewReturnsSayNothing) {
+TEST(BeamFit, NeedsEnoughReturns) {
     Scan scan = scanOf({-15, 0, 15});
     scan.x_m.resize(kFewestReturnsForBeams);
     scan.y_m.resize(kFewestReturnsForBeams);

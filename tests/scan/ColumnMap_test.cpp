@@ -12,7 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 
-TEST(ColumnMap, AWindowKeepsItsColumnsAndOtherGroupsHaveOne) {
+TEST(ColumnMap, WindowKeepsItsColumns) {
     ColumnMap map;
     mapColumns(16, 4, 1, 1, map);  // columns 4 to 7; opposite is 12
     EXPECT_THAT(map.to_turn, ElementsAre(12, 0, 4, 5, 6, 7, 8));
@@ -21,7 +21,7 @@ TEST(ColumnMap, AWindowKeepsItsColumnsAndOtherGroupsHaveOne) {
     EXPECT_EQ(map.columns(), 16);
 }
 
-TEST(ColumnMap, AWindowAtTheSeamIsOnePiece) {
+TEST(ColumnMap, WindowAtSeamIsContiguous) {
     ColumnMap map;
     mapColumns(16, 4, 3, 2, map);  // columns 12 to 15 and 0 to 3
     EXPECT_THAT(map.to_turn, ElementsAre(8, 12, 13, 14, 15, 0, 1, 2, 3, 4));
@@ -29,7 +29,7 @@ TEST(ColumnMap, AWindowAtTheSeamIsOnePiece) {
 
 /// Whatever the window: the image has the same size, each column of the turn has a place, the first
 /// ones of groups are apart, and neighbours stay in order.
-TEST(ColumnMap, WhereverTheWindowIsEachColumnHasAPlaceOfItsGroup) {
+TEST(ColumnMap, EveryColumnMapsToItsGroup) {
     for (const int columns : {870, 1024, 19}) {
         for (const int group : {1, 2, 3, 4, 6}) {
             const int groups = (columns + group - 1) / group;
@@ -59,7 +59,7 @@ TEST(ColumnMap, WhereverTheWindowIsEachColumnHasAPlaceOfItsGroup) {
     }
 }
 
-TEST(ColumnMap, WhatDoesNotFitIsRefused) {
+TEST(ColumnMap, RejectsInvalidWindows) {
     ColumnMap map;
     EXPECT_THROW(mapColumns(0, 4, 0, 0, map), std::invalid_argument);
     EXPECT_THROW(mapColumns(16, 0, 0, 1, map), std::invalid_argument);
@@ -68,7 +68,7 @@ TEST(ColumnMap, WhatDoesNotFitIsRefused) {
     EXPECT_THROW(mapColumns(16, 4, -1, 1, map), std::invalid_argument);
 }
 
-TEST(ColumnMap, DirectionsAreThoseOfTheTurnsColumns) {
+TEST(ColumnMap, DirectionsMatchTurn) {
     const SensorModel sensor = sensorModel("VLP-16");
     const PixelDirections turn = pixelDirections(sensor, 16);
     ColumnMap map;
@@ -81,7 +81,7 @@ TEST(ColumnMap, DirectionsAreThoseOfTheTurnsColumns) {
     EXPECT_EQ(image.column_cosine[6], turn.column_cosine[8]);
 }
 
-TEST(ColumnMap, AWindowOfAllColumnsIsTheImageOfTheWholeTurn) {
+TEST(ColumnMap, FullWindowMatchesWholeTurn) {
     Scan scan;
     const SensorModel sensor = sensorModel("VLP-16");
     for (int i = 0; i < 3000; ++i) {

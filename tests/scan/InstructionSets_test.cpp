@@ -21,7 +21,7 @@ std::vector<std::string> visited() {
     return names;
 }
 
-TEST(InstructionSets, AreThoseUpToTheNamedOne) {
+TEST(InstructionSets, EndAtTheLimit) {
     const auto all = instructionSets();
     ASSERT_FALSE(all.empty());
     for (std::size_t best = 0; best < all.size(); ++best) {
@@ -35,7 +35,7 @@ TEST(InstructionSets, AreThoseUpToTheNamedOne) {
     EXPECT_EQ(instructionSets(), all);
 }
 
-TEST(InstructionSets, AreNamedInAnyCaseAndPlainCodeAsScalar) {
+TEST(InstructionSets, IgnoreCaseAndAcceptScalarNames) {
     const auto all = instructionSets();
     std::string upper = all.front();
     for (char& c : upper) c = static_cast<char>(std::toupper(c));
@@ -50,7 +50,7 @@ TEST(InstructionSets, AreNamedInAnyCaseAndPlainCodeAsScalar) {
     limitInstructionSets("");
 }
 
-TEST(InstructionSets, ThatAreUnknownAreRefusedWithTheNames) {
+TEST(InstructionSets, RejectUnknownNames) {
     const auto all = instructionSets();
     try {
         limitInstructionSets("mmx");
@@ -69,7 +69,7 @@ TEST(InstructionSets, DISABLED_OfTheEnvironment) {
     EXPECT_EQ(instructionSets().front(), wanted);
 }
 
-TEST(InstructionSets, OfTheEnvironmentHoldFromTheStart) {
+TEST(InstructionSets, FollowTheEnvironment) {
     const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
     const auto start = [&](const std::string& name) {
         return test::run("/usr/bin/env",
@@ -83,7 +83,8 @@ TEST(InstructionSets, OfTheEnvironmentHoldFromTheStart) {
     }
     const test::Outcome unknown = start("mmx");
     EXPECT_EQ(unknown.exit_code, 1);  // it is not the first one
-    EXPECT_THAT(unknown.err, HasSubstr("HAGEN_SIMD has no effect: 'mmx' is no instruction set"));
+    EXPECT_THAT(unknown.err,
+                HasSubstr("HAGEN_SIMD has no effect: 'mmx' is not an instruction set"));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace hagen {
 namespace {
 
-TEST(PixelDirections, AreThoseOfTheBeamsAndOfTheColumnsMiddles) {
+TEST(PixelDirections, MatchBeamsAndColumnCentres) {
     const SensorModel sensor = sensorModel("VLP-16");
     const PixelDirections directions = pixelDirections(sensor, 8);
     ASSERT_EQ(directions.row_sine.size(), 16u);

@@ -45,7 +45,7 @@ class PresetsTest : public testing::Test {
     std::optional<std::string> variable_ = variable();
 };
 
-TEST_F(PresetsTest, AProgramOfABuildFindsThoseOfTheSources) {
+TEST_F(PresetsTest, BuildFindsPresetsOfSources) {
     for (const char* name : {"vlp16", "hdl32e", "paper", "common"}) {
         const fs::path file = presetFile(name);
         EXPECT_TRUE(fs::equivalent(file, kSources / (std::string(name) + ".yaml"))) << file;
@@ -53,7 +53,7 @@ TEST_F(PresetsTest, AProgramOfABuildFindsThoseOfTheSources) {
     EXPECT_TRUE(fs::equivalent(presetFile("vlp16.yaml"), kSources / "vlp16.yaml"));
 }
 
-TEST_F(PresetsTest, AddedFoldersComeAfterThoseOfTheUserAndBeforeTheInstalledOnes) {
+TEST_F(PresetsTest, AddedFoldersRankBetweenUserAndInstalled) {
     folder_.write("library/vlp16.yaml", "zone_m: 11");
     folder_.write("library/drone.yaml", "zone_m: 12");
     folder_.write("user/drone.yaml", "zone_m: 13");
@@ -77,7 +77,7 @@ TEST_F(PresetsTest, EachFolderHidesTheNext) {
     EXPECT_THAT(presetNames(isSettingsFile), Contains("drone"));
 }
 
-TEST_F(PresetsTest, AnExistingFileIsNoPreset) {
+TEST_F(PresetsTest, ExistingFileWins) {
     folder_.write("vlp16", "zone_m: 14");
     EXPECT_EQ(zoneOf(presetFile("vlp16")), 14);
     folder_.write("mine.yaml", "zone_m: 15");
@@ -88,7 +88,7 @@ TEST_F(PresetsTest, AnExistingFileIsNoPreset) {
     EXPECT_TRUE(fs::equivalent(presetFile("hdl32e"), kSources / "hdl32e.yaml"));
 }
 
-TEST_F(PresetsTest, SettingsOfYourOwnIncludeOne) {
+TEST_F(PresetsTest, UserSettingsIncludePresets) {
     Settings settings;
     mergeSettings(folder_.write("drone.yaml", "include: hdl32e\nzone_m: 9"), settings);
     EXPECT_EQ(settings.sensor.model, "HDL-32E");
@@ -101,14 +101,14 @@ TEST_F(PresetsTest, SettingsOfYourOwnIncludeOne) {
                 AllOf(HasSubstr("c.yaml:2: includes "), HasSubstr("preset")));
 }
 
-TEST_F(PresetsTest, EveryPresetOfTheListCanBeRead) {
+TEST_F(PresetsTest, EveryListedPresetIsReadable) {
     const std::vector<std::string> names = presetNames(isSettingsFile);
     EXPECT_THAT(names, AllOf(Contains("vlp16"), Contains("mid360"), Contains("airframe_simulated"),
                              Not(Contains("semantic_kitti")), Not(Contains("camera_forward"))));
     for (const std::string& name : names) EXPECT_TRUE(isSettingsFile(presetFile(name))) << name;
 }
 
-TEST_F(PresetsTest, AnUnknownNameListsThePresetsAndTheFolders) {
+TEST_F(PresetsTest, UnknownNameListsPresetsAndFolders) {
     folder_.write("a/drone.yaml", "zone_m: 13");
     search((folder_ / "a").string() + ":" + (folder_ / "none").string());
     const auto message = test::messageOf([] { presetFile("vlp61"); });
@@ -121,7 +121,7 @@ TEST_F(PresetsTest, AnUnknownNameListsThePresetsAndTheFolders) {
     EXPECT_THROW(presetFile("vlp61"), SettingsError);
 }
 
-TEST_F(PresetsTest, APathIsNeverAPreset) {
+TEST_F(PresetsTest, PathIsNotAPreset) {
     EXPECT_THAT(test::messageOf([] { presetFile("conf/drone.yaml"); }),
                 HasSubstr("conf/drone.yaml: no such file"));
     // The file of a guide, from another folder.
@@ -132,7 +132,7 @@ TEST_F(PresetsTest, APathIsNeverAPreset) {
     EXPECT_THROW(presetFile(".yaml"), SettingsError);
 }
 
-TEST_F(PresetsTest, ABrokenPresetIsFoundButNotListed) {
+TEST_F(PresetsTest, BrokenPresetIsNotListed) {
     folder_.write("a/broken.yaml", "zone_m: [");
     fs::create_directories(folder_ / "a/folder.yaml");
     search((folder_ / "a").string());

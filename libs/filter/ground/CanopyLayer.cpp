@@ -1,149 +1,64 @@
-#include <hagen/filter/CanopyLayer.h>
-#include <hagen/filter/GroundSurface.h>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
+#include <vector>
 
 #include "filter/ground/BlockSums.h"
+#include "filter/ground/PlainStages.h"
+#include "filter/ground/StageRules.h"
 
-namespace hagen {
+namespace hagen::plain {
 namespace {
 
-constexpr int kCells = GroundSurface::kCells;
-constexpr int kReach = 6;  // blocks in each direction
+using namespace canopy_rules;
 
-constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of a canopy's plants
-constexpr float kLeastShare = 0.35f;                  // of the cells seen nearby
-constexpr float kMostTall = 0.2f;                     // share of higher cells: walls, trees
-constexpr float kLeastCells = 30;                     // seen nearby; with fewer, no canopy
-constexpr double kDeviations = 2.0;
-constexpr double kMargin_m = 0.1;
-constexpr float kStandsOut_m = 0.1f;  // above the canopy: an obstacle in it
+/// The cells around a block that have returns.
+struct Surroundings {
+    int seen = 0;                  ///< all of them
+    int tall = 0;                  ///< whose highest return is higher than plants
+    int plants = 0;                ///< whose highest return is that of a low plant
+    double sum_m = 0, sum_m2 = 0;  ///< of the plants' heights, and of their squares
 
-/// The cells of one or more blocks, counted.
-struct Census {
-    int seen = 0;    ///< with returns
-    int tall = 0;    ///< whose highest return is higher than plants
-    int plants = 0;  ///< whose highest return is that of a low plant
-
-    void add(const Census& other) {
-        seen += other.seen;
-        tall += other.tall;
-        plants += other.plants;
+    void addCell(float top_m) {
+        if (top_m == CellTops::kNone_m) return;
+        seen += 1;
+        tall += top_m >= kTallest_m;
+        if (!(top_m > kLowest_m && top_m < kTallest_m)) return;
+        plants += 1;
+        sum_m += top_m;
+        sum_m2 += static_cast<double>(top_m) * top_m;
     }
-    void remove(const Census& other) {
-        seen -= other.seen;
-        tall -= other.tall;
-        plants -= other.plants;
-    }
-    bool isCanopy() const {
-        const auto all = static_cast<float>(seen);
-        return all >= kLeastCells && static_cast<float>(plants) >= kLeastShare * all &&
-               static_cast<float>(tall) <= kMostTall * all;
+    /// 0 without a canopy.
+    float canopy_m() const {
+        return isCanopy(seen, tall, plants) ? canopyHeight_m(plants, sum_m, sum_m2) : 0.0f;
     }
 };
 
-/// The heights of the plants in the cells of one or more blocks. Sums are double, so that
-/// subtracting a block leaves hardly any rounding error.
-struct Heights {
-    double sum_m = 0;   ///< sum of the plants' heights
-    double sum_m2 = 0;  ///< sum of their squares
-
-    void add(const Heights& other) {
-        sum_m += other.sum_m;
-        sum_m2 += other.sum_m2;
+Surroundings surroundingsOf(int block, const CellTops& tops) {
+    // Cells along one axis of the square around the block; the grid has a border of one cell.
+    const auto first = [](int b) { return std::max(b - kReach, 0) * kBlockCells + 1; };
+    const auto end = [](int b) { return std::min(b + kReach + 1, kBlocks) * kBlockCells + 1; };
+    const int row = block % kBlocks, column = block / kBlocks;
+    Surroundings around;
+    for (int j = first(column); j < end(column); ++j) {
+        for (int i = first(row); i < end(row); ++i) around.addCell(tops.highest_m(i, j));
     }
-    void remove(const Heights& other) {
-        sum_m -= other.sum_m;
-        sum_m2 -= other.sum_m2;
-    }
-    /// The height that this many plants do not exceed.
-    float canopy_m(int plants) const {
-        const double mean_m = sum_m / plants;
-        const double variance_m2 = std::max(sum_m2 / plants - mean_m * mean_m, 0.0);
-        const double spread_m = std::min(kDeviations * std::sqrt(variance_m2), mean_m);
-        return static_cast<float>(mean_m + spread_m + kMargin_m);
-    }
-};
-
-bool isPlant(float top_m) { return (top_m > kLowest_m) & (top_m < kTallest_m); }
-
-/// The highest return of each cell in a column of the grid, without the border.
-const float* columnOf(const CellTops& tops, int j) { return tops.highest_m.col(j + 1).data() + 1; }
-
-void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blocks) {
-    constexpr std::int32_t kTall = 1 << 8, kPlants = 1 << 16;  // three counts in one number
-    for (int column = area.first_column; column < area.end_column; ++column) {
-        std::int32_t counts[kCells] = {};
-        const int first = column * kBlockCells;
-        for (int j = first; j < first + kBlockCells; ++j) {
-            const float* const top_m = columnOf(tops, j);
-            for (int i = 0; i < kCells; ++i) {  // all: so that the compiler vectorises it
-                counts[i] += (top_m[i] != CellTops::kNone_m ? 1 : 0) +
-                             (top_m[i] >= kTallest_m ? kTall : 0) +
-                             (isPlant(top_m[i]) ? kPlants : 0);
-            }
-        }
-        for (int block = area.first_row; block < area.end_row; ++block) {
-            std::int32_t sum = 0;
-            for (int k = 0; k < kBlockCells; ++k) sum += counts[block * kBlockCells + k];
-            blocks[column * kBlocks + block] = {sum % kTall, sum / kTall % kTall, sum / kPlants};
-        }
-    }
-}
-
-/// `own`: what is in each block. Most have no plants.
-void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>& blocks) {
-    for (int block = 0; block < kBlocks * kBlocks; ++block) {
-        blocks[block] = {};
-        if (own[block].plants == 0) continue;
-        for (int j = 0; j < kBlockCells; ++j) {
-            const float* const column_m = columnOf(tops, block / kBlocks * kBlockCells + j);
-            for (int i = 0; i < kBlockCells; ++i) {
-                const float top_m = column_m[block % kBlocks * kBlockCells + i];
-                if (!isPlant(top_m)) continue;
-                blocks[block].add({top_m, static_cast<double>(top_m) * top_m});
-            }
-        }
-    }
-}
-
-/// Raises the tolerance of each pixel to the canopy of its block, unless something stands out of it
-/// in its cell; NaN stays NaN.
-void raiseTolerances(const PixelCells& cells, const CellTops& tops,
-                     const BlocksAndNone<float>& canopy_m, Image<float>& tolerance_m) {
-    for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
-        float& tolerated_m = tolerance_m.data()[pixel];
-        const float of_block_m = canopy_m[cells.block.data()[pixel]];
-        const float stands_m = tops.top_m.data()[cells.cell.data()[pixel]];
-        const bool is_canopy = stands_m <= of_block_m + kStandsOut_m && of_block_m > tolerated_m;
-        tolerated_m = is_canopy ? of_block_m : tolerated_m;
-    }
+    return around;
 }
 
 }  // namespace
 
-void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m,
-                    const CellArea& area) {
-    static_assert(kCanopyReach == kReach * kBlockCells + kBlockCells);
-    const BlockArea blocks = blocksIn(area);
-    Blocks<Census> own{};
-    countCells(tops, blocks, own);
-    Blocks<Census> around = own;
-    sumAround<kReach>(around, blocks);
-    const auto isCanopy = [](const Census& census) { return census.isCanopy(); };
-    if (std::none_of(around.begin(), around.end(), isCanopy)) return;  // nearly always
-
-    Blocks<Heights> heights;
-    sumHeights(tops, own, heights);
-    sumAround<kReach>(heights, blocks);
-    BlocksAndNone<float> canopy_m{};
-    for (std::size_t block = 0; block < around.size(); ++block) {
-        if (!around[block].isCanopy()) continue;
-        canopy_m[block] = heights[block].canopy_m(around[block].plants);
+void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m) {
+    std::vector<float> canopy_m(kBlocks * kBlocks + 1, 0.0f);  // last: beyond the grid
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+        canopy_m[block] = surroundingsOf(block, tops).canopy_m();
     }
-    raiseTolerances(cells, tops, canopy_m, tolerance_m);
+    for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
+        float& tolerated_m = tolerance_m.data()[pixel];
+        const float of_block_m = canopy_m[cells.block.data()[pixel]];
+        const bool stands_out =
+            tops.top_m.data()[cells.cell.data()[pixel]] > of_block_m + kStandsOut_m;
+        if (!stands_out && of_block_m > tolerated_m) tolerated_m = of_block_m;
+    }
 }
 
-}  // namespace hagen
+}  // namespace hagen::plain

@@ -48,7 +48,7 @@ void locate(const Scan& scan, const Eigen::Isometry3f& ground_from_sensor, std::
     }
 }
 
-/// Whether the surface at a place is ground, or nobody asked.
+/// Whether the surface at a place is ground; true if evidence is not required.
 bool hasEvidence(const std::vector<std::uint8_t>& of_block, float x_m, float y_m) {
     if (of_block.empty()) return true;
     constexpr float kBlock_m = kBlockCells * GroundSurface::kCell_m, kMiddle = 0.5f * kBlocks;

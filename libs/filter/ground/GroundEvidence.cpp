@@ -1,217 +1,98 @@
 #include <hagen/filter/GroundEvidence.h>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-// Compiled once per instruction set: Highway includes this file again for each.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "filter/ground/GroundEvidence.cpp"
-#include <hwy/foreach_target.h>
 #include "filter/ground/BlockSums.h"
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/ground/GroundGrid.h"
+#include "filter/ground/PlainStages.h"
+#include "filter/ground/StageRules.h"
 
-#ifndef HAGEN_GROUND_EVIDENCE
-#define HAGEN_GROUND_EVIDENCE
 namespace hagen {
+namespace plain {
 namespace {
 
-constexpr float kSteepest = 0.3f;  // slope of a level step
-constexpr float kShort_m = 0.08f;  // a step as short as this is too noisy
-constexpr float kFar_m = 2.0f;     // no step over other pixels is longer
-constexpr float kDrop_m = 0.3f;    // nothing in a cell is farther below a level pixel
+using namespace evidence_rules;
 
-constexpr float kClose_m = 0.2f, kClose_per_m = 0.005f;  // to the surface
-constexpr float kLeastShare = 0.55f;                     // of level pixels among the close ones
-constexpr int kCells = GroundSurface::kCells;
-constexpr int kReach = 4;  // blocks in each direction
-
-/// A step leads to one of this many pixels above. The marks of a pixel have a bit for each.
-constexpr int kAbove = 4;
-constexpr std::uint8_t markOf(int above) { return static_cast<std::uint8_t>(1 << (above - 1)); }
-
-}  // namespace
-}  // namespace hagen
-#endif
-
-HWY_BEFORE_NAMESPACE();
-namespace hagen {
-namespace HWY_NAMESPACE {
-namespace {
-
-template <class D>
-using Bytes = hn::Rebind<std::uint8_t, D>;
-
-/// Stores 1 for true and 0 for false.
-template <class D>
-HWY_INLINE void storeMask(D, hn::Mask<D> mask, std::uint8_t* HWY_RESTRICT to) {
-    const hn::RebindToSigned<D> di;
-    const auto ones = hn::IfThenElseZero(hn::RebindMask(di, mask), hn::Set(di, 1));
-    hn::StoreU(hn::DemoteTo(Bytes<D>(), ones), Bytes<D>(), to);
-}
-
-/// Marks of the level steps from each pixel to those that follow it in memory. At the top of a
-/// column, where these are in another column, the caller corrects it.
-void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
-                  const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT steps) {
-    const auto markSteps = [&](auto d, std::size_t pixel, int most_above) HAGEN_INLINE {
-        const hn::RebindToSigned<decltype(d)> di;
-        const Bytes<decltype(d)> d8;
-        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
-        const auto z = hn::LoadU(d, z_m + pixel);
-        auto marks = hn::Zero(di);
-        auto is_open = hn::Not(hn::IsNaN(z));  // until a pixel is found that is far enough
-        for (int above = 1; above <= most_above && !hn::AllFalse(d, is_open); ++above) {
-            const std::size_t next = pixel + static_cast<std::size_t>(above);
-            const auto dx = hn::Sub(hn::LoadU(d, x_m + next), x);
-            const auto dy = hn::Sub(hn::LoadU(d, y_m + next), y);
-            const auto dz = hn::Sub(hn::LoadU(d, z_m + next), z);
-            const auto run_m2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
-            const auto rise_m2 = hn::Mul(dz, dz), length_m2 = hn::Add(run_m2, rise_m2);
-            const auto outwards = hn::Add(hn::Mul(dx, x), hn::Mul(dy, y));
-            auto is_level =  // false for NaN
-                hn::And(hn::Lt(rise_m2, hn::Mul(hn::Set(d, kSteepest * kSteepest), run_m2)),
-                        hn::Gt(outwards, hn::Zero(d)));
-            if (above > 1)
-                is_level = hn::And(is_level, hn::Lt(length_m2, hn::Set(d, kFar_m * kFar_m)));
-            marks = hn::Or(marks, hn::IfThenElseZero(hn::RebindMask(di, hn::And(is_open, is_level)),
-                                                     hn::Set(di, markOf(above))));
-            is_open = hn::AndNot(hn::Ge(length_m2, hn::Set(d, kShort_m * kShort_m)), is_open);
-        }
-        hn::StoreU(hn::DemoteTo(d8, marks), d8, steps + pixel);
+/// Whether two pixels of a column are a level step.
+bool isStep(const PixelPoints& pixels, Eigen::Index low, Eigen::Index high) {
+    const Eigen::Vector3f below = pixels.at(low);
+    const auto length_m2 = [&](const Eigen::Vector3f& step) {
+        return step.x() * step.x() + step.y() * step.y() + step.z() * step.z();
     };
-    const std::size_t whole = pixels - std::min<std::size_t>(pixels, kAbove);
-    forEachVector(whole,
-                  [&](auto d, std::size_t pixel) HAGEN_INLINE { markSteps(d, pixel, kAbove); });
-    for (std::size_t pixel = whole; pixel < pixels; ++pixel) {
-        markSteps(hn::CappedTag<float, 1>(), pixel, static_cast<int>(pixels - 1 - pixel));
+    for (Eigen::Index between = low + 1; between < high; ++between) {  // empty, or close
+        if (length_m2(pixels.at(between) - below) >= kShort_m * kShort_m) return false;
     }
+    const Eigen::Vector3f step = pixels.at(high) - below;
+    if (high > low + 1 && !(length_m2(step) < kFar_m * kFar_m)) return false;
+    const float run_m2 = step.x() * step.x() + step.y() * step.y();
+    const float outwards = step.x() * below.x() + step.y() * below.y();
+    return outwards > 0 && step.z() * step.z() < kSteepest * kSteepest * run_m2;
 }
 
-/// Marks both pixels of each step, unless their cell has something below. `steps` has kAbove more
-/// values before the first.
-void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
-                 const std::uint16_t* HWY_RESTRICT cell, const float* HWY_RESTRICT lowest_m,
-                 const std::uint8_t* HWY_RESTRICT steps, std::uint8_t* HWY_RESTRICT is_level) {
-    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const hn::RebindToSigned<decltype(d)> di;
-        const Bytes<decltype(d)> d8;
-        const auto low_m = gatherAt(d, lowest_m, cell + pixel);
-        const auto is_lowest =
-            hn::Le(hn::LoadU(d, z_m + pixel), hn::Add(low_m, hn::Set(d, kDrop_m)));
-        auto to_or_from = hn::LoadU(d8, steps + pixel);
-        for (int below = 1; below <= kAbove; ++below) {
-            const auto marks = hn::LoadU(d8, steps + pixel - below);
-            to_or_from = hn::Or(to_or_from, hn::And(marks, hn::Set(d8, markOf(below))));
-        }
-        const auto marks = hn::PromoteTo(di, to_or_from);
-        storeMask(d, hn::And(is_lowest, hn::RebindMask(d, hn::Gt(marks, hn::Zero(di)))),
-                  is_level + pixel);
-    });
-}
-
-/// For each pixel: 0 unless it is close to the surface, 1 if it is, 2 if it is level, too.
-void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
-             const float* HWY_RESTRICT height_m, const std::uint8_t* HWY_RESTRICT is_level,
-             std::uint8_t* HWY_RESTRICT close) {
-    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const hn::RebindToSigned<decltype(d)> di;
-        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
-        const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-        const auto most_m =
-            hn::Add(hn::Set(d, kClose_m), hn::Mul(hn::Set(d, kClose_per_m), distance_m));
-        const auto is_close = hn::Lt(hn::Abs(hn::LoadU(d, height_m + pixel)), most_m);
-        const Bytes<decltype(d)> d8;
-        const auto level = hn::PromoteTo(di, hn::LoadU(d8, is_level + pixel));
-        const auto kind = hn::Add(level, hn::Set(di, 1));
-        hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(hn::RebindMask(di, is_close), kind)), d8,
-                   close + pixel);
-    });
-}
-
-/// Lowers the tolerance of each pixel to `least_m` of its block, if that is minus infinity.
-void WithdrawIn(std::size_t pixels, const std::uint16_t* HWY_RESTRICT block,
-                const float* HWY_RESTRICT least_m, float* HWY_RESTRICT tolerance_m) {
-    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const auto least = gatherAt(d, least_m, block + pixel);
-        // NaN stays NaN.
-        hn::StoreU(hn::Add(hn::LoadU(d, tolerance_m + pixel), least), d, tolerance_m + pixel);
-    });
-}
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace hagen
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace hagen {
-namespace {
-
-HWY_EXPORT(LevelStepsIn);
-HWY_EXPORT(MarkLevelIn);
-HWY_EXPORT(CloseIn);
-HWY_EXPORT(WithdrawIn);
-
-/// Pixels close to the surface, and those of them that are level.
-struct Counts {
-    int close = 0, level = 0;
-
-    void add(const Counts& other) { close += other.close, level += other.level; }
-    void remove(const Counts& other) { close -= other.close, level -= other.level; }
-    bool isGround() const {
-        return level > 0 && static_cast<float>(level) >= kLeastShare * static_cast<float>(close);
-    }
-};
-
-/// Counts the pixels of each block, by what CloseIn() found.
-void countClose(const Image<std::uint16_t>& block, const std::uint8_t* close,
-                Blocks<Counts>& blocks) {
-    // Both counts of a block in one number.
-    constexpr std::uint64_t kClose = 1, kLevelToo = kClose + (std::uint64_t{1} << 32);
-    static constexpr std::uint64_t kOfKind[] = {0, kClose, kLevelToo};
-    BlocksAndNone<std::uint64_t> counts{};
-    const std::uint16_t* const of_pixel = block.data();
-    visitByTurns(
-        static_cast<std::size_t>(block.size()),
-        [ =, &counts ](std::size_t pixel)
-            __attribute__((always_inline)) { counts[of_pixel[pixel]] += kOfKind[close[pixel]]; });
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-        blocks[k] = {static_cast<int>(counts[k] & 0xffffffff), static_cast<int>(counts[k] >> 32)};
-    }
+/// Whether most pixels around a block that are close to the surface are level. `close` and `level`
+/// count those of each block.
+using Counts = Eigen::Array<int, kBlocks, kBlocks>;
+bool hasEvidence(const Counts& close, const Counts& level, int i, int j) {
+    const int first_i = std::max(i - kReach, 0), first_j = std::max(j - kReach, 0);
+    const int size_i = std::min(i + kReach + 1, kBlocks) - first_i;
+    const int size_j = std::min(j + kReach + 1, kBlocks) - first_j;
+    const int all = close.block(first_i, first_j, size_i, size_j).sum();
+    const int flat = level.block(first_i, first_j, size_i, size_j).sum();
+    return flat > 0 && static_cast<float>(flat) >= kMinShare * static_cast<float>(all);
 }
 
 }  // namespace
 
 void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
-                     Image<std::uint8_t>& is_level, GroundEvidenceWorkspace& work) {
-    const Eigen::Index rows = pixels.x_m.rows(), columns = pixels.x_m.cols();
-    const auto size = static_cast<std::size_t>(rows * columns);
-    is_level.resize(rows, columns);
-    if (size == 0) return;
-    // Steps from the pixels before the first: none.
-    work.steps.resize(size + kAbove);
-    std::fill_n(work.steps.begin(), kAbove, std::uint8_t{0});
-    std::uint8_t* const steps = work.steps.data() + kAbove;
-    HWY_DYNAMIC_DISPATCH(LevelStepsIn)
-    (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), steps);
-    const Eigen::Index last_rows = std::min<Eigen::Index>(rows, kAbove);
-    for (Eigen::Index end = rows; end <= rows * columns; end += rows) {
-        for (int above = 0; above < last_rows; ++above) {  // so many rows are above
-            steps[end - 1 - above] &= static_cast<std::uint8_t>((1 << above) - 1);
+                     Image<std::uint8_t>& is_level) {
+    const Eigen::Index rows = pixels.x_m.rows(), size = pixels.x_m.size();
+    std::vector<float> lowest_m(kGridSize, kNoHeight);
+    for (Eigen::Index pixel = 0; pixel < size; ++pixel) {
+        const float z_m = pixels.z_m.data()[pixel];
+        float& low_m = lowest_m[cells.cell.data()[pixel]];
+        if (z_m < low_m) low_m = z_m;  // ignores NaN
+    }
+    is_level.setZero(rows, pixels.x_m.cols());
+    for (Eigen::Index low = 0; low < size; ++low) {
+        const Eigen::Index end = std::min(low + kAbove + 1, (low / rows + 1) * rows);
+        for (Eigen::Index high = low + 1; high < end; ++high) {
+            if (!isStep(pixels, low, high)) continue;
+            is_level.data()[low] = is_level.data()[high] = 1;
         }
     }
-
-    work.lowest_m.assign(kGridSize, kNoHeight);
-    float* const lowest_m = work.lowest_m.data();
-    const std::uint16_t* const cell = cells.cell.data();
-    const float* const z_m = pixels.z_m.data();
-    visitByTurns(
-        size, [=](std::size_t pixel) __attribute__((always_inline)) {
-            float& low_m = lowest_m[cell[pixel]];
-            low_m = z_m[pixel] < low_m ? z_m[pixel] : low_m;  // ignores NaN
-        });
-    HWY_DYNAMIC_DISPATCH(MarkLevelIn)
-    (size, z_m, cell, lowest_m, steps, is_level.data());
+    for (Eigen::Index pixel = 0; pixel < size; ++pixel) {
+        const float low_m = lowest_m[cells.cell.data()[pixel]];
+        if (!(pixels.z_m.data()[pixel] <= low_m + kDrop_m)) is_level.data()[pixel] = 0;
+    }
 }
+
+void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
+                     const Image<float>& height_m, const Image<std::uint8_t>& is_level,
+                     Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence) {
+    Counts close = Counts::Zero(), level = Counts::Zero();
+    for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
+        const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
+        const float max_m = kClose_m + kClose_per_m * std::sqrt(x_m * x_m + y_m * y_m);
+        const std::uint16_t block = cells.block.data()[pixel];
+        if (block == PixelCells::kNoBlock) continue;
+        if (!(std::abs(height_m.data()[pixel]) < max_m)) continue;
+        ++close.data()[block];
+        level.data()[block] += is_level.data()[pixel];
+    }
+    has_evidence.assign(kBlocks * kBlocks + 1, 0);  // last: beyond the grid
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+        has_evidence[block] = hasEvidence(close, level, block % kBlocks, block / kBlocks);
+    }
+    for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
+        float& tolerated_m = tolerance_m.data()[pixel];
+        if (hasValue(tolerated_m) && has_evidence[cells.block.data()[pixel]] == 0) {
+            tolerated_m = -std::numeric_limits<float>::infinity();
+        }
+    }
+}
+
+}  // namespace plain
 
 void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
                   Image<Label>& candidates) {
@@ -223,30 +104,4 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
     }
 }
 
-void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
-                     const Image<float>& height_m, const Image<std::uint8_t>& is_level,
-                     Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence,
-                     GroundEvidenceWorkspace& work) {
-    const auto size = static_cast<std::size_t>(height_m.size());
-    work.close.resize(size);
-    HWY_DYNAMIC_DISPATCH(CloseIn)
-    (size, pixels.x_m.data(), pixels.y_m.data(), height_m.data(), is_level.data(),
-     work.close.data());
-
-    Blocks<Counts> blocks;
-    countClose(cells.block, work.close.data(), blocks);
-    sumAround<kReach>(blocks);
-
-    constexpr float kNothing = -std::numeric_limits<float>::infinity();
-    BlocksAndNone<float> least_m;
-    has_evidence.assign(least_m.size(), 0);
-    for (std::size_t k = 0; k < blocks.size(); ++k) has_evidence[k] = blocks[k].isGround();
-    for (std::size_t k = 0; k < least_m.size(); ++k) {
-        least_m[k] = has_evidence[k] != 0 ? 0.0f : kNothing;
-    }
-    HWY_DYNAMIC_DISPATCH(WithdrawIn)
-    (size, cells.block.data(), least_m.data(), tolerance_m.data());
-}
-
 }  // namespace hagen
-#endif

@@ -1,54 +1,38 @@
-#include <hagen/filter/PixelCells.h>
-
-// Compiled once per instruction set: Highway includes this file again for each.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "filter/ground/PixelCells.cpp"
-#include <hwy/foreach_target.h>
 #include "filter/ground/BlockSums.h"
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/ground/GroundGrid.h"
+#include "filter/ground/PlainStages.h"
 
-HWY_BEFORE_NAMESPACE();
-namespace hagen {
-namespace HWY_NAMESPACE {
+namespace hagen::plain {
+namespace {
 
-void FindPixelCellsIn(std::size_t pixels, const float* HWY_RESTRICT x_m,
-                      const float* HWY_RESTRICT y_m, std::uint16_t* HWY_RESTRICT cell,
-                      std::uint16_t* HWY_RESTRICT block) {
-    static_assert(kBlockCells == 1 << 2 && kBlocks == 1 << 5);
-    static_assert(PixelCells::kNoBlock == kBlocks * kBlocks);
-    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const hn::RebindToSigned<decltype(d)> di;
-        const hn::Rebind<std::uint16_t, decltype(d)> d16;
-        const auto at = gridCells(d, hn::LoadU(d, x_m + pixel), hn::LoadU(d, y_m + pixel));
-        hn::StoreU(hn::DemoteTo(d16, at.cell), d16, cell + pixel);
-        const auto blocksFrom = [&](auto cells) HAGEN_INLINE {
-            return hn::ShiftRight<2>(hn::Sub(cells, hn::Set(di, 1)));
-        };
-        const auto own = hn::Add(hn::ShiftLeft<5>(blocksFrom(at.j)), blocksFrom(at.i));
-        const auto is_on_grid = hn::RebindMask(di, at.is_on_grid);
-        hn::StoreU(
-            hn::DemoteTo(d16, hn::IfThenElse(is_on_grid, own, hn::Set(di, PixelCells::kNoBlock))),
-            d16, block + pixel);
-    });
+struct Place {
+    int index;  ///< 1 for the first cell, 0 and kCells + 1 for the border
+    bool is_on_grid;
+};
+
+/// Along one axis. Empty pixels are in cell 0.
+Place placeOf(float coordinate_m) {
+    constexpr float kLast = kGridStride - 1;
+    const float place =
+        coordinate_m * (1 / GroundSurface::kCell_m) + (GroundSurface::kCells / 2 + 1);
+    return {static_cast<int>(std::min(place > 0 ? place : 0.0f, kLast)),
+            place >= 1 && place < kLast};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace hagen
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace hagen {
-
-HWY_EXPORT(FindPixelCellsIn);
+}  // namespace
 
 void findPixelCells(const PixelPoints& pixels, PixelCells& cells) {
     for (auto* image : {&cells.cell, &cells.block}) {
         image->resize(pixels.x_m.rows(), pixels.x_m.cols());
     }
-    HWY_DYNAMIC_DISPATCH(FindPixelCellsIn)
-    (static_cast<std::size_t>(pixels.x_m.size()), pixels.x_m.data(), pixels.y_m.data(),
-     cells.cell.data(), cells.block.data());
+    for (Eigen::Index pixel = 0; pixel < pixels.x_m.size(); ++pixel) {
+        const Place i = placeOf(pixels.x_m.data()[pixel]), j = placeOf(pixels.y_m.data()[pixel]);
+        const int block = (j.index - 1) / kBlockCells * kBlocks + (i.index - 1) / kBlockCells;
+        const bool is_on_grid = i.is_on_grid && j.is_on_grid;
+        cells.cell.data()[pixel] = static_cast<std::uint16_t>(j.index * kGridStride + i.index);
+        cells.block.data()[pixel] =
+            is_on_grid ? static_cast<std::uint16_t>(block) : PixelCells::kNoBlock;
+    }
 }
 
-}  // namespace hagen
-#endif
+}  // namespace hagen::plain

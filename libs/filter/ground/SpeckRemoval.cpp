@@ -1,146 +1,39 @@
-#include <hagen/filter/SpeckRemoval.h>
+#include <algorithm>
 #include <cmath>
 
-// Compiled once per instruction set: Highway includes this file again for each.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "filter/ground/SpeckRemoval.cpp"
-#include <hwy/foreach_target.h>
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/ground/PlainStages.h"
+#include "filter/ground/StageRules.h"
 
-#ifndef HAGEN_SPECK_REMOVAL
-#define HAGEN_SPECK_REMOVAL
-namespace hagen {
-namespace {
-
-constexpr float kDoubt_m = 0.2f;        // heights this close to the tolerance are voted on
-constexpr float kVoteSteps_per_m = 64;  // 16-bit integers: twice as many per vector
-constexpr float kFarthest_m = 511.0f;   // maximum of these integers
-constexpr int kVoteReach = 64;          // 1 m, in distance from the sensor
-constexpr int kLeastVotes = 3;
-constexpr int kVote = 1, kVoteForRoi = 17;  // sums of 9 have both counts, RoI votes in units of 16
-
-}  // namespace
-}  // namespace hagen
-#endif
-
-HWY_BEFORE_NAMESPACE();
-namespace hagen {
-namespace HWY_NAMESPACE {
-
-/// Fills one column of the images in SpeckWorkspace.
-void EnterColumnIn(std::size_t rows, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
-                   const float* HWY_RESTRICT height_m, const float* HWY_RESTRICT tolerance_m,
-                   const std::uint8_t* HWY_RESTRICT label, std::int16_t* HWY_RESTRICT distance,
-                   std::int16_t* HWY_RESTRICT doubt, std::int16_t* HWY_RESTRICT vote) {
-    forEachVector(rows, [&](auto d, std::size_t row) HAGEN_INLINE {
-        const hn::RebindToSigned<decltype(d)> di;
-        const hn::Rebind<std::int16_t, decltype(d)> d16;
-        const hn::Rebind<std::uint8_t, decltype(d)> d8;
-        const auto x = hn::LoadU(d, x_m + row), y = hn::LoadU(d, y_m + row);
-        const auto h_m = hn::LoadU(d, height_m + row), farthest_m = hn::Set(d, kFarthest_m);
-        const auto has_value = hn::Eq(h_m, h_m);
-        const auto horizontal_m = hn::IfThenElse(
-            has_value, hn::Min(hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y))), farthest_m),
-            farthest_m);
-        const auto steps =
-            hn::Add(hn::Mul(horizontal_m, hn::Set(d, kVoteSteps_per_m)), hn::Set(d, 0.5f));
-        hn::StoreU(hn::DemoteTo(d16, hn::ConvertTo(di, steps)), d16, distance + row);
-
-        const auto beyond_m = hn::Sub(h_m, hn::LoadU(d, tolerance_m + row));
-        const auto is_doubtful = hn::Lt(hn::Abs(beyond_m), hn::Set(d, kDoubt_m));
-        hn::StoreU(hn::DemoteTo(d16, hn::VecFromMask(di, hn::RebindMask(di, is_doubtful))), d16,
-                   doubt + row);
-
-        const auto labels = hn::PromoteTo(di, hn::LoadU(d8, label + row));
-        const auto is_roi = hn::Eq(labels, hn::Set(di, static_cast<std::int32_t>(Label::Roi)));
-        const auto own = hn::IfThenElse(is_roi, hn::Set(di, kVoteForRoi), hn::Set(di, kVote));
-        hn::StoreU(hn::DemoteTo(d16, hn::IfThenElseZero(hn::RebindMask(di, has_value), own)), d16,
-                   vote + row);
-    });
-}
-
-/// The outcome per pixel: a label, or 0 to keep it. Writes whole vectors, possibly past `end`.
-void CountVotesIn(std::size_t first, std::size_t end, std::size_t stride,
-                  const std::int16_t* HWY_RESTRICT distance, const std::int16_t* HWY_RESTRICT doubt,
-                  const std::int16_t* HWY_RESTRICT vote, std::uint8_t* HWY_RESTRICT elected) {
-    const hn::ScalableTag<std::int16_t> d;
-    const hn::Rebind<std::uint8_t, decltype(d)> d8;
-    const auto is = [&](Label what)
-                        HAGEN_INLINE { return hn::Set(d, static_cast<std::int16_t>(what)); };
-    for (std::size_t pixel = first; pixel < end; pixel += hn::Lanes(d)) {
-        const auto own = hn::LoadU(d, distance + pixel);
-        auto sum = hn::Zero(d);
-        for (const std::size_t column : {pixel - stride, pixel, pixel + stride}) {
-            for (const std::size_t voter : {column - 1, column, column + 1}) {
-                const auto apart = hn::Abs(hn::Sub(hn::LoadU(d, distance + voter), own));
-                const auto has_vote = hn::Lt(apart, hn::Set(d, kVoteReach + 1));
-                sum = hn::Add(sum, hn::IfThenElseZero(has_vote, hn::LoadU(d, vote + voter)));
-            }
-        }
-        const auto votes = hn::And(sum, hn::Set(d, 15));
-        const auto for_roi = hn::ShiftRight<4>(sum), twice_for_roi = hn::Add(for_roi, for_roi);
-        const auto is_decided =
-            hn::And(hn::Gt(votes, hn::Set(d, kLeastVotes - 1)), hn::Ne(twice_for_roi, votes));
-        const auto winner =
-            hn::IfThenElse(hn::Gt(twice_for_roi, votes), is(Label::Roi), is(Label::Rou));
-        const auto change =
-            hn::And(hn::LoadU(d, doubt + pixel), hn::IfThenElseZero(is_decided, winner));
-        hn::StoreU(hn::DemoteTo(d8, change), d8, elected + pixel);
-    }
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace hagen
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace hagen {
-namespace {
-
-HWY_EXPORT(EnterColumnIn);
-HWY_EXPORT(CountVotesIn);
-
-void resize(std::size_t size, SpeckWorkspace& work) {
-    constexpr std::size_t kWidest = 64;
-    for (auto* image : {&work.distance, &work.doubt, &work.vote}) image->resize(size + kWidest);
-    work.elected.resize(size + kWidest);
-}
-
-std::uint8_t* bytesOf(Image<Label>& labels) {
-    static_assert(sizeof(Label) == 1);
-    return reinterpret_cast<std::uint8_t*>(labels.data());
-}
-
-}  // namespace
+namespace hagen::plain {
 
 void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
-                  const Image<float>& tolerance_m, Image<Label>& labels, SpeckWorkspace& work) {
+                  const Image<float>& tolerance_m, Image<Label>& labels) {
+    using namespace speck_rules;
     const int rows = static_cast<int>(labels.rows()), columns = static_cast<int>(labels.cols());
-    const int stride = rows + 2;
-    resize(static_cast<std::size_t>(stride) * (columns + 2), work);
-    const auto placeOf = [&](int column) { return (column + 1) * stride + 1; };
-    for (int column = -1; column <= columns; ++column) {
-        const Eigen::Index from = static_cast<Eigen::Index>(rows) * wrapColumn(column, columns);
-        const int to = placeOf(column);
-        HWY_DYNAMIC_DISPATCH(EnterColumnIn)
-        (rows, pixels.x_m.data() + from, pixels.y_m.data() + from, height_m.data() + from,
-         tolerance_m.data() + from, bytesOf(labels) + from, work.distance.data() + to,
-         work.doubt.data() + to, work.vote.data() + to);
-        for (const int border : {to - 1, to + rows}) {
-            work.distance[border] = work.doubt[border] = work.vote[border] = 0;
-        }
-    }
-    HWY_DYNAMIC_DISPATCH(CountVotesIn)
-    (placeOf(0), placeOf(columns - 1) + rows, stride, work.distance.data(), work.doubt.data(),
-     work.vote.data(), work.elected.data());
+    const Image<Label> before = labels;
+    const auto distance = [&](int row, int column) {  // in steps
+        const float x_m = pixels.x_m(row, column), y_m = pixels.y_m(row, column);
+        const float distance_m = std::min(std::sqrt(x_m * x_m + y_m * y_m), kFarthest_m);
+        return static_cast<int>(distance_m * kSteps_per_m + 0.5f);
+    };
     for (int column = 0; column < columns; ++column) {
-        std::uint8_t* const label = bytesOf(labels) + static_cast<Eigen::Index>(rows) * column;
-        const std::uint8_t* const elected = work.elected.data() + placeOf(column);
         for (int row = 0; row < rows; ++row) {
-            label[row] = elected[row] != 0 ? elected[row] : label[row];
+            const float beyond_m = height_m(row, column) - tolerance_m(row, column);
+            if (!(std::abs(beyond_m) < kDoubt_m)) continue;
+            int votes = 0, for_roi = 0;
+            for (int step = -1; step <= 1; ++step) {
+                const int c = wrapColumn(column + step, columns);
+                for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r) {
+                    if (!hasValue(height_m(r, c))) continue;
+                    if (std::abs(distance(r, c) - distance(row, column)) > kVoteReach) continue;
+                    ++votes;
+                    for_roi += before(r, c) == Label::Roi;
+                }
+            }
+            if (votes < kMinVotes || 2 * for_roi == votes) continue;
+            labels(row, column) = 2 * for_roi > votes ? Label::Roi : Label::Rou;
         }
     }
 }
 
-}  // namespace hagen
-#endif
+}  // namespace hagen::plain

@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "filter/MaskBits.h"
+#include "filter/simd/MaskBits.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {

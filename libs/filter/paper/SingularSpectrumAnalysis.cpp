@@ -13,8 +13,8 @@
 #include <hwy/foreach_target.h>  // once per instruction set
 #include <hwy/highway.h>
 
-#include "filter/MaskBits.h"
 #include "filter/paper/EigenBatch-inl.h"
+#include "filter/simd/MaskBits.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {

@@ -1,3 +1,4 @@
+#include <hagen/filter/Posture.h>
 #include <hagen/live/StreamingSegmenter.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/AppendReturn.h>

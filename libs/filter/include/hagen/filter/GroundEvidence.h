@@ -36,7 +36,7 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
 /// is ground: unless at least 55 % of the pixels close to the surface (0.2 m, plus 0.005 m per
 /// metre of distance) within 9 x 9 blocks of 3 m are level. A surface that passes through walls,
 /// trees or furniture meets them at pixels that are not level. `height_m` is that of
-/// heightsAbove(); tolerances of empty pixels are NaN. `has_evidence` tells it per block
+/// heightsAbove(); tolerances of empty pixels are NaN. `has_evidence` is the result per block
 /// (PixelCells.h), and last for places beyond the grid, which have none.
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,

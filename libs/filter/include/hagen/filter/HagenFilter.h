@@ -1,15 +1,11 @@
 #pragma once
-#include <hagen/filter/FilterWorkspace.h>
 #include <hagen/filter/Levelling.h>
 #include <hagen/filter/Options.h>
-#include <hagen/filter/Posture.h>
 #include <hagen/filter/SegmentationResult.h>
-#include <hagen/scan/PixelDirections.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
-#include <map>
+#include <memory>
 #include <optional>
-#include <utility>
 
 namespace hagen {
 
@@ -36,26 +32,19 @@ class HagenFilter {
 
     /// Takes the result out of the filter, which uses the memory of `result` for the next scan
     /// instead. Keeps results beyond the next call without copying them.
-    void exchangeResult(SegmentationResult& result) { std::swap(result_, result); }
+    void exchangeResult(SegmentationResult& result);
 
-    const SensorModel& sensor() const { return sensor_; }
-    const Options& options() const { return options_; }
+    const SensorModel& sensor() const;
+    const Options& options() const;
+
+    HagenFilter(const HagenFilter& other);
+    HagenFilter(HagenFilter&& other) noexcept;
+    HagenFilter& operator=(HagenFilter other) noexcept;
+    ~HagenFilter();
 
  private:
-    /// The rows and columns of the image in one posture of the sensor.
-    struct View {
-        SensorModel sensor;
-        PixelDirections directions;
-    };
-    View viewIn(Posture posture) const;
-    void runStages(const Scan& scan, const std::optional<Attitude>& horizon, const View& view);
-    void judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon, const View& view);
-
-    SensorModel sensor_;
-    Options options_;
-    std::map<Posture, View> views_;  ///< those that were needed so far
-    SegmentationResult result_;
-    FilterWorkspace work_;
+    struct State;  ///< the result and all buffers
+    std::unique_ptr<State> state_;
 };
 
 }  // namespace hagen

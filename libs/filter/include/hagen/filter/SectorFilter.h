@@ -1,15 +1,13 @@
 #pragma once
-#include <hagen/filter/FilterWorkspace.h>
 #include <hagen/filter/Levelling.h>
 #include <hagen/filter/Options.h>
 #include <hagen/filter/SegmentationResult.h>
 #include <hagen/scan/ColumnMap.h>
 #include <hagen/scan/Image.h>
 #include <hagen/scan/Label.h>
-#include <hagen/scan/PixelDirections.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
-#include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -35,12 +33,15 @@ struct SectorOfInterest {
 /// The stages of HagenFilter for a part of a turn. Stages 3 to 8, which compare a pixel with its
 /// neighbours, run on the columns of the sector and a few beside it; other returns keep the region
 /// that they got there. The ground is found under all of them, and only the sector is labelled by
-/// it: its labels are those of a whole scan but for a few. Whether a canopy is around is told by
+/// it: its labels are those of a whole scan but for a few. A canopy is recognised by
 /// how high the cells of the context were in their own sectors. Obstacles are not numbered.
 class SectorFilter {
  public:
     /// As HagenFilter.
     SectorFilter(const SensorModel& sensor, const Options& options);
+    SectorFilter(SectorFilter&& other) noexcept;
+    SectorFilter& operator=(SectorFilter&& other) noexcept;
+    ~SectorFilter();
 
     /// Labels the sector's returns. For a sensor that is upright (postureOf()). The images of the
     /// result have the columns of the map, and labels in those of the sector; what stages 3 to 7
@@ -50,30 +51,11 @@ class SectorFilter {
                                       const SectorOfInterest& sector);
 
     /// Per return of the sector, what `SectorOfInterest::context` needs once it is context.
-    const std::vector<ContextReturn>& found() const { return found_; }
+    const std::vector<ContextReturn>& found() const;
 
  private:
-    struct Columns {
-        Eigen::Index first, count;
-    };
-    Columns judgedColumns(const SectorOfInterest& sector) const;
-    void project(const Scan& scan, const SectorOfInterest& sector);
-    void findRegions(const SectorOfInterest& sector, const std::optional<Attitude>& horizon);
-    void keepHeights();
-    void labelSector(const SectorOfInterest& sector, const std::optional<Attitude>& horizon);
-
-    SensorModel sensor_;
-    Options options_;
-    PixelDirections turn_;             ///< of all columns of a turn
-    PixelDirections directions_;       ///< of the image's
-    PixelDirections near_directions_;  ///< of those that are judged
-    SegmentationResult result_;
-    Columns judged_{};         ///< of its images
-    SegmentationResult near_;  ///< images of the columns that are judged, and an empty one
-    std::vector<ContextReturn> found_;
-    Image<float> known_m_;  ///< how high the cell of each pixel is known to be
-    std::vector<std::int32_t> plane_columns_;
-    FilterWorkspace work_;
+    struct State;  ///< the result and all buffers
+    std::unique_ptr<State> state_;
 };
 
 }  // namespace hagen

@@ -21,9 +21,9 @@ struct LearnedAirframe {
     double share_of_seen = 0;    ///< the same, of that of all bins with a return
 };
 
-/// Learns from scans which directions the airframe occludes, and up to which range. Whatever moves
-/// against the vehicle is told from it by its range, whatever does not is not: a wall beside a
-/// standing vehicle is learned as well.
+/// Learns from scans which directions the airframe occludes, and up to which range. The range
+/// of anything that moves relative to the vehicle changes, so it is not learned. A wall beside a
+/// standing vehicle is.
 class AirframeLearner {
  public:
     explicit AirframeLearner(const AirframeRules& rules = {});

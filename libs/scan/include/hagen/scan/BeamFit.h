@@ -16,7 +16,7 @@ struct BeamFit {
     std::size_t beams = 0, beams_seen = 0;
     std::size_t beams_shown = 0;  ///< beams that the cloud shows, whether the sensor has them
     /// Share of the columns with a return, of the row that a quarter of the rows exceed: about 1
-    /// where the sensor sees ground or walls, little if the cloud is of a sensor with fewer beams.
+    /// where the sensor sees ground or walls, little if the sensor of the cloud has fewer beams.
     float filled = 0.0f;
 
     /// The share that fits, 0 to 1: the smaller one of the returns' and of the beams'. Beams that

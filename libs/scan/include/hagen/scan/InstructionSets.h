@@ -13,10 +13,15 @@ std::vector<std::string> instructionSets();
 /// From now on, loops use this instruction set or a simpler one, in all threads. Results are the
 /// same bits on all of them; run times are not. For reports of faults, and for sanitizers. Upper
 /// and lower case are the same; empty: no limit. A set that is known but better than what this
-/// machine has limits nothing. Throws std::invalid_argument, listing the names, for an unknown one.
+/// machine has limits nothing. "plain" is more: the ground stages run as they are defined
+/// (libs/filter/ground), all others with the simplest set. Throws std::invalid_argument, listing
+/// the names, for an unknown one.
 ///
 /// The environment variable HAGEN_SIMD does the same when a program starts. An unknown name there
-/// limits nothing, and is told on standard error.
+/// limits nothing and is reported on standard error.
 void limitInstructionSets(const std::string& best);
+
+/// Whether the last limit was "plain".
+bool usesPlainStages();
 
 }  // namespace hagen

@@ -59,7 +59,7 @@ struct Settings {
     SensorModel sensorModel(const RecoveredBeams* recovered = nullptr) const;
 
     /// Returns the options for the sensor that sensorModel() returns. For a recovered sensor, what
-    /// nobody gave is adapted to it: `columns` are at most those that its returns fill,
+    /// is not given is adapted to it: `columns` are at most those that its returns fill,
     /// `window_size` is at most half of its rows, `principal_components` are the same share of it.
     Options optionsFor(const RecoveredBeams* recovered) const;
 };
@@ -96,7 +96,8 @@ struct SettingsKey {
 /// Returns every key: those of optionKeys(), the sensor's, `airframe` and `include`.
 std::vector<SettingsKey> settingsKeys();
 
-/// Sets one option from text, as `--sweep KEY=VALUE` does. Throws SettingsError.
+/// Sets one option from text, as `--sweep KEY=VALUE` does, by its name with or without section.
+/// Throws SettingsError.
 void setOption(const std::string& key, const std::string& value, Settings& settings);
 
 }  // namespace hagen

@@ -2,11 +2,14 @@
 // set.
 #ifndef HAGEN_GROUND_GRID
 #define HAGEN_GROUND_GRID
+#include <hagen/scan/InstructionSets.h>
 #include <hagen/scan/SetBits.h>
 #include <cstddef>
 #include <cstdint>
 
 #include "filter/ground/GroundGrid.h"
+#include "filter/ground/PlainStages.h"
+#include "filter/ground/StageRules.h"
 #endif
 
 #if defined(HAGEN_GROUND_GRID_INL) == defined(HWY_TARGET_TOGGLE)

@@ -8,13 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/simd/GroundGrid-inl.h"
 
 namespace hagen {
 namespace {
 
-constexpr float kAboveLowest_m = 0.05f, kBelowLowest_m = 0.1f;  // candidates close to the lowest
-constexpr float kSureReturns = 5;  // a mean over this many has full weight
+using namespace surface_rules;
 
 /// Sums up the candidates of each cell that are close to its lowest one, `ground_m`.
 template <int kSide>
@@ -45,7 +44,7 @@ void sumUpClose(GroundFit<kSide>& fit, const float* ground_m) {
 #define HAGEN_CELL_MEANS_INL
 #endif
 
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/simd/GroundGrid-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {

@@ -9,6 +9,8 @@
 namespace hagen {
 namespace {
 
+using namespace surface_rules;
+
 /// Consecutive pixels.
 struct PixelSpan {
     const float *x_m, *y_m, *z_m;
@@ -30,7 +32,7 @@ struct PixelSpan {
 #define HAGEN_GROUND_CANDIDATES_INL
 #endif
 
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/simd/GroundGrid-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
@@ -87,8 +89,10 @@ HWY_NOINLINE void listClose(const PixelSpan& pixels, const float* HWY_RESTRICT c
             const auto z = hn::LoadU(d, pixels.z_m + pixel);
             const auto h_m = hn::Sub(z, hn::GatherIndex(d, coarse_m, cell));
             const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-            const auto least_m = hn::Sub(hn::Set(d, -0.2f), hn::Mul(hn::Set(d, 0.01f), distance_m));
-            const auto most_m = hn::Add(hn::Set(d, 0.2f), hn::Mul(hn::Set(d, 0.005f), distance_m));
+            const auto least_m =
+                hn::Sub(hn::Set(d, -kClose_m), hn::Mul(hn::Set(d, kCloseBelow_per_m), distance_m));
+            const auto most_m =
+                hn::Add(hn::Set(d, kClose_m), hn::Mul(hn::Set(d, kCloseAbove_per_m), distance_m));
             return hn::And(hn::Gt(h_m, least_m), hn::Lt(h_m, most_m));
         });
 }

@@ -4,9 +4,9 @@
 
 // Compiled once per instruction set: Highway includes this file again for each.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "filter/ground/HeightsAbove.cpp"
+#define HWY_TARGET_INCLUDE "filter/simd/HeightsAbove.cpp"
 #include <hwy/foreach_target.h>
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/simd/GroundGrid-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
@@ -82,36 +82,20 @@ HWY_AFTER_NAMESPACE();
 namespace hagen {
 namespace {
 
-constexpr int kCells = GroundSurface::kCells;
 HWY_EXPORT(HeightsAboveIn);
 
 }  // namespace
 
-float GroundSurface::at(float x_m, float y_m) const {
-    const auto cells = [](float coordinate_m) {
-        return std::clamp(coordinate_m * (1 / GroundSurface::kCell_m) + (0.5f * kCells - 0.5f),
-                          0.0f, static_cast<float>(kCells - 1));
-    };
-    const float u = cells(x_m), v = cells(y_m);
-    const int i = std::min(static_cast<int>(u), kCells - 2);
-    const int j = std::min(static_cast<int>(v), kCells - 2);
-    const float to_next_i = u - static_cast<float>(i), to_next_j = v - static_cast<float>(j);
-    const auto alongJ = [&](int k) {
-        return height_m(k, j) + to_next_j * (height_m(k, j + 1) - height_m(k, j));
-    };
-    return alongJ(i) + to_next_i * (alongJ(i + 1) - alongJ(i));
-}
-
 void heightsAbove(const GroundSurface& surface, std::size_t points, const float* x_m,
                   const float* y_m, const float* z_m, float* height_m) {
+    if (usesPlainStages()) {
+        for (std::size_t k = 0; k < points; ++k) {
+            height_m[k] = hasValue(x_m[k]) ? z_m[k] - surface.at(x_m[k], y_m[k]) : kNoValue;
+        }
+        return;
+    }
     HWY_DYNAMIC_DISPATCH(HeightsAboveIn)
     (points, x_m, y_m, z_m, surface.height_m.data(), height_m);
-}
-
-void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m) {
-    height_m.resize(pixels.z_m.rows(), pixels.z_m.cols());
-    heightsAbove(surface, pixels.x_m.size(), pixels.x_m.data(), pixels.y_m.data(),
-                 pixels.z_m.data(), height_m.data());
 }
 
 }  // namespace hagen

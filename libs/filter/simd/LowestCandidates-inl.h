@@ -9,13 +9,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/simd/GroundGrid-inl.h"
 
 namespace hagen {
 namespace {
 
-constexpr float kStray_m = 0.4f;  // ground is never this far below its neighbours
-constexpr float kStrayNeighbours = 3;
+using namespace surface_rules;
 
 /// The lowest candidate of each cell.
 template <int kSide>
@@ -41,7 +40,7 @@ void findLowest(GroundFit<kSide>& fit) {
 #define HAGEN_LOWEST_CANDIDATES_INL
 #endif
 
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/simd/GroundGrid-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {

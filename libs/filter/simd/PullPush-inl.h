@@ -32,7 +32,7 @@ inline void extendColumns(HeightGrid& grid) {
 #define HAGEN_PULL_PUSH_INL
 #endif
 
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/simd/GroundGrid-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {

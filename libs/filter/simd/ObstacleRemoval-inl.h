@@ -10,9 +10,7 @@
 namespace hagen {
 namespace {
 
-constexpr float kSteepest = 0.3f;         // maximum slope of visible ground against its plane
-constexpr float kSteepestUnseen = 0.15f;  // and of hidden ground: tall objects hide it, not hills
-constexpr float kEnvelope_m = 0.15f;      // maximum height of a cell above the steepest slopes
+using namespace surface_rules;
 
 /// The width of a cell on a grid of kSide x kSide cells.
 template <int kSide>
@@ -29,7 +27,7 @@ constexpr float kWidth_m = GroundSurface::kCell_m* GroundSurface::kCells / kSide
 #define HAGEN_OBSTACLE_REMOVAL_INL
 #endif
 
-#include "filter/ground/GroundGrid-inl.h"
+#include "filter/simd/GroundGrid-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
@@ -111,7 +109,7 @@ HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* 
                               const float* HWY_RESTRICT before_m, float* HWY_RESTRICT envelope_m) {
     const Along d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const VA none = hn::Set(d, kNoHeight), corner = hn::Set(d, 1.41421356f);
+    const VA none = hn::Set(d, kNoHeight), corner = hn::Set(d, kDiagonal);
     const VA seen_m = hn::Set(d, kWidth_m<kSide> * kSteepest);
     const VA unseen_m = hn::Set(d, kWidth_m<kSide> * kSteepestUnseen);
     const auto lower = [](VA a, VA b) HAGEN_INLINE { return hn::Min(a, b); };

@@ -1,0 +1,47 @@
+// The definitions of the ground stages, pixel by pixel and cell by cell. simd/ has the same
+// functions for many pixels at a time; HAGEN_SIMD=plain (InstructionSets.h) runs these instead. The
+// headers of the stages describe them. Floats are added in one order in both, so results are the
+// same bits, but for sums of doubles.
+#pragma once
+#include <hagen/filter/CellTops.h>
+#include <hagen/filter/GroundFrame.h>
+#include <hagen/filter/GroundSurface.h>
+#include <hagen/filter/HeightLabels.h>
+#include <hagen/filter/PixelCells.h>
+#include <hagen/filter/PixelPoints.h>
+#include <cstdint>
+#include <vector>
+
+namespace hagen {
+
+/// From the sensor frame to the ground frame (GroundFrame.h), for the plane z = a x + b y + c in
+/// the level frame.
+Eigen::Isometry3f groundFrame(const Eigen::Vector3d& plane, const Eigen::Matrix3f& level);
+
+namespace plain {
+
+Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
+                                 const std::vector<std::int32_t>& columns);
+void findPixelCells(const PixelPoints& pixels, PixelCells& cells);
+void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
+                     Image<std::uint8_t>& is_level);
+void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate,
+                      GroundSurface& surface);
+void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
+                      const std::vector<std::int32_t>& columns, GroundSurface& surface);
+void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTops& tops);
+void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
+                      const HeightTolerance& tolerance, float sensor_height_m,
+                      Image<float>& tolerance_m);
+void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m);
+void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
+                     const Image<float>& height_m, const Image<std::uint8_t>& is_level,
+                     Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence);
+void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
+                   Image<Label>& labels);
+void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels);
+void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
+                  const Image<float>& tolerance_m, Image<Label>& labels);
+
+}  // namespace plain
+}  // namespace hagen
