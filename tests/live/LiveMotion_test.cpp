@@ -41,7 +41,7 @@ class Turns : public PacketSource {
     std::deque<std::string> packets_;
 };
 
-TEST(LiveMotion, EachPacketIsMovedByWhatSomethingElseKnows) {
+TEST(LiveMotion, UsesExternalMotion) {
     const test::TemporaryFolder folder;
     LiveOptions options;
     options.model = "VLP-16";

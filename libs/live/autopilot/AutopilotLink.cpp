@@ -18,10 +18,9 @@ constexpr double kPeriod_s = 0.05;       // of OBSTACLE_DISTANCE
 constexpr std::size_t kOthersEvery = 2;  // periods: 3D and ground
 constexpr std::size_t kHeartbeatEvery = 20;
 constexpr double kLongestWait_s = 0.01;
-constexpr std::size_t kMostAtOnce =
-    1000;                                // datagrams; one who floods does not keep us from sending
-constexpr double kAttitudeWithin_s = 3;  // then its absence is told
-constexpr double kMostBehind_s = 0.5;    // messages that were missed are not made up for
+constexpr std::size_t kMaxAtOnce = 1000;  // datagrams; a flood must not delay sending
+constexpr double kAttitudeWithin_s = 3;  // then its absence is reported
+constexpr double kMaxBehind_s = 0.5;     // then periods are skipped
 
 double now_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -30,7 +29,7 @@ double now_s() {
 
 }  // namespace
 
-/// The thread that sends, and all that it shares with the others.
+/// The sending thread, and the state that it shares with the others.
 class AutopilotLink::Work {
  public:
     Work(Settings settings, Remark remark)
@@ -118,20 +117,19 @@ class AutopilotLink::Work {
         double next_s = start_s_;
         for (std::size_t period = 0; !is_at_end_; ++period) {
             attempt([&] { sendPeriod(period); });
-            next_s = std::max(next_s + kPeriod_s, now_s() - kMostBehind_s);
+            next_s = std::max(next_s + kPeriod_s, now_s() - kMaxBehind_s);
             double rest_s = 0;
-            do {  // also if it is behind: what waits unread gets old
+            do {  // also if late: unread messages get old
                 rest_s = std::max(next_s - now_s(), 0.0);
                 attempt([&] { receiveAll(rest_s); });
             } while (!is_at_end_ && rest_s > 0);
-            attempt([&] { tellPeer(); });
-            attempt([&] { tellAttitude(); });
+            attempt([&] { reportPeer(); });
+            attempt([&] { reportAttitude(); });
         }
         attempt([&] { send(obstacleDistance({}, limits_, now_s()), sent_distance_); });
     }
 
-    /// A step without memory is left out and counted: the next ones may have some, and until then
-    /// the autopilot notices that nothing arrives.
+    /// Skips and counts a step that is out of memory. The autopilot notices missing messages.
     template <class Step>
     void attempt(const Step& step) {
         try {
@@ -144,7 +142,7 @@ class AutopilotLink::Work {
     void sendPeriod(std::size_t period) {
         const double time_s = now_s();
         std::optional<float> below_m;
-        // Copies, so that those who label do not wait while directions are made of them.
+        // Copies, so that labelling does not wait for the directions.
         std::unique_lock lock(mutex_);
         const live::SectorDistances distances = *distances_;
         const VehicleMotion motion = motion_;
@@ -177,25 +175,24 @@ class AutopilotLink::Work {
         }
     }
 
-    /// Whether the one that labels still does.
+    /// Reports whether labelling has stalled.
     void watch(double latest_s, double time_s) {
         const bool is_stalled =
             std::isfinite(latest_s) && time_s - latest_s > settings_.directions.stale_s;
         if (is_stalled == is_stalled_) return;
         is_stalled_ = is_stalled;
         if (is_stalled) count(stalls_);
-        remark_(is_stalled ? "MAVLink: nothing was labelled for 0.3 s, all directions are sent as "
-                             "unknown"
-                           : "MAVLink: directions are known again");
+        remark_(is_stalled ? "MAVLink: no labels for 0.3 s, sending all directions as unknown"
+                           : "MAVLink: sending directions again");
     }
 
-    /// All that waits: what is read one by one gets old when a period takes too long.
+    /// Everything that waits, so that nothing gets old.
     void receiveAll(double longest_s) {
-        for (std::size_t n = 0; n < kMostAtOnce && receive(n == 0 ? longest_s : 0); ++n) {
+        for (std::size_t n = 0; n < kMaxAtOnce && receive(n == 0 ? longest_s : 0); ++n) {
         }
     }
 
-    /// Whether something came.
+    /// Whether something was received.
     bool receive(double longest_s) {
         std::array<std::uint8_t, 65536>& buffer = buffer_;
         const std::size_t size =
@@ -246,15 +243,15 @@ class AutopilotLink::Work {
         ++number;
     }
 
-    void tellPeer() {
+    void reportPeer() {
         const std::string trouble = peer_->trouble();
         if (trouble.empty() == trouble_.empty()) return;
-        remark_("MAVLink: " + (trouble.empty() ? trouble_ + ": no longer" : trouble));
+        remark_("MAVLink: " + (trouble.empty() ? peer_->name() + ": connection restored" : trouble));
         if (!trouble.empty()) count(troubles_);
         trouble_ = trouble;
     }
 
-    void tellAttitude() {
+    void reportAttitude() {
         const double time_s = now_s();
         bool is_known = false;
         {
@@ -266,9 +263,8 @@ class AutopilotLink::Work {
             return;
         }
         const std::string vehicle = "vehicle " + std::to_string(settings_.system);
-        remark_(is_known ? "MAVLink: the attitude of " + vehicle + " is known"
-                         : "MAVLink: the attitude of " + vehicle +
-                               " is not known, what is seen is not levelled");
+        remark_(is_known ? "MAVLink: receiving the attitude of " + vehicle
+                         : "MAVLink: no attitude from " + vehicle + ", scans are not levelled");
         knows_attitude_ = is_known;
     }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <hagen/sensors/Datagram.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -15,18 +17,6 @@ namespace hagen::sensors {
 struct BrokenCapture : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
-
-/// A UDP datagram of a capture, put together from its IP fragments.
-struct Datagram {
-    std::int64_t time_ns = 0;              ///< of the capture, since 1970; of its last fragment
-    std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4
-    std::uint16_t from_port = 0, to_port = 0;
-    const std::uint8_t* bytes = nullptr;  ///< valid until the next one is read
-    std::size_t size = 0;
-};
-
-/// "10.0.0.101".
-std::string ipText(std::uint32_t ip);
 
 /// What became of the frames of a capture. Each frame is counted once, but for those whose
 /// fragments made up a datagram.

@@ -63,6 +63,11 @@ class OusterFrames {
     /// How often the sensor was started again, by its packets.
     std::size_t restarts() const { return columns_.restarts(); }
 
+    /// From one frame id to another; ids wrap.
+    static int stepOf(std::uint16_t from, std::uint16_t to) {
+        return static_cast<std::int16_t>(static_cast<std::uint16_t>(to - from));
+    }
+
  private:
     void restart();
     OusterFrame* frameOf(std::uint16_t id, std::int64_t time_ns);

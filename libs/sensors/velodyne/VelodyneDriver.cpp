@@ -1,7 +1,6 @@
-#include <hagen/live/VelodyneStream.h>
-#include <hagen/scan/Airframe.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/AppendReturn.h>
+#include <hagen/sensors/VelodyneDriver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,42 +9,23 @@
 #include <string_view>
 #include <utility>
 
-#include "live/streaming/CheckTime.h"
-
-namespace hagen::live {
+namespace hagen::sensors {
 namespace {
 
-using sensors::VelodynePacket;
-
-constexpr std::size_t kMostLate = 16;
-constexpr double kHourUs = 3600e6, kInterruptionUs = 50e3;
+constexpr int kMaxLate = 16;
+constexpr std::size_t kPositionBytes = 512;
+constexpr double kInterruptionUs = 50e3;
+constexpr double kForgottenUs = 250e3;  // returns from before such a gap are no context
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kOverlap_rad = 0.2;  // of packets that are not full
 constexpr double kNearest_m = 0.5;
-constexpr int kBlocks = sensors::kVelodyneBlocks;
-constexpr int kReadings = sensors::kReadingsOfTurn;
+constexpr int kBlocks = kVelodyneBlocks;
+constexpr int kReadings = kReadingsOfTurn;
 // In 0.01 degrees: of azimuths of a motor that hardly turns, and of one within a packet.
-constexpr double kJitter = 10, kMostOff = 100;
-
-/// From one time of the sensor's clock to another: within half an hour, since it wraps every hour.
-double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
-
-/// Where the lasers look, by their corrections. A laser beside the axis sees what is near in
-/// another direction than it points.
-BeamOffsets offsetsOf(const sensors::VelodyneCalibration& calibration, double min_range_m) {
-    BeamOffsets offsets;
-    for (const sensors::VelodyneLaser& laser : calibration.lasers) {
-        const double behind_rad = radians(std::remainder(laser.azimuth_deg, 360.0));
-        const double sideways = laser.horizontal_offset_m / std::max(min_range_m, kNearest_m);
-        const double beside_rad = std::asin(std::min(std::abs(sideways), 1.0));
-        offsets.behind_rad = std::max(offsets.behind_rad, behind_rad + beside_rad);
-        offsets.ahead_rad = std::max(offsets.ahead_rad, beside_rad - behind_rad);
-    }
-    return offsets;
-}
+constexpr double kJitter = 10, kMaxOff = 100;
 
 int blocksPerFiring(const VelodynePacket& packet) {
-    return packet.isDual() || sensors::isOfHdl64(packet.bytes.data()) ? 2 : 1;
+    return packet.isDual() || isOfHdl64(packet.bytes.data()) ? 2 : 1;
 }
 
 /// -1: one of its blocks is unsound.
@@ -63,8 +43,8 @@ std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
     for (int b = 0; b < blocks; ++b) {
         if (packet.azimuthOf(b) < 0) continue;
         const std::uint8_t* const block =
-            packet.bytes.data() + b * sensors::kVelodyneBlockBytes + sensors::kVelodyneHeaderBytes;
-        for (std::size_t i = 0; i < sensors::kReturnsOfBlock; ++i) {
+            packet.bytes.data() + b * kVelodyneBlockBytes + kVelodyneHeaderBytes;
+        for (std::size_t i = 0; i < kReturnsOfBlock; ++i) {
             returns += (block[3 * i] | block[3 * i + 1]) != 0;
         }
     }
@@ -79,39 +59,44 @@ std::uint64_t keyOf(const VelodynePacket& packet) {
 
 }  // namespace
 
-VelodyneStream::VelodyneStream(const sensors::VelodyneModel& model, const Settings& settings,
-                               StreamingSegmenter::Take take, const StreamingOptions& streaming,
-                               const sensors::VelodyneCalibration* calibration)
+VelodyneDriver::VelodyneDriver(const VelodyneModel& model, const VelodyneCalibration* calibration)
     : model_(model),
-      settings_(settings),
-      calibration_(calibration != nullptr ? *calibration : sensors::defaultCalibration(model)) {
-    const bool is_hdl64 = &model == &sensors::hdl64Model();
-    if (is_hdl64 && calibration == nullptr) {
+      calibration_(calibration != nullptr ? *calibration : defaultCalibration(model)) {
+    if (&model == &hdl64Model() && calibration == nullptr) {
         throw std::invalid_argument("packets of an HDL-64E need its calibration");
     }
-    SensorModel sensor = sensors::sensorOf(calibration_, model.name);
-    const SensorModel limits = sensorModel(model.name);
-    sensor.min_range_m = settings.sensor.min_range_m.value_or(limits.min_range_m);
-    sensor.max_range_m = settings.sensor.max_range_m.value_or(limits.max_range_m);
-    filterFor(sensor, settings.options);  // throws SettingsError
-    const BeamOffsets offsets = offsetsOf(calibration_, static_cast<double>(sensor.min_range_m));
-    segmenter_ = std::make_unique<StreamingSegmenter>(std::move(sensor), settings.options,
-                                                      std::move(take), streaming);
-    segmenter_->setBeamOffsets(offsets);
-    segmenter_->setMount(settings_.tiltOnLevelVehicle());
 }
 
-void VelodyneStream::setAttitude(const std::optional<Attitude>& attitude) {
-    segmenter_->setAttitude(attitude);
+SensorModel VelodyneDriver::sensor() const {
+    SensorModel sensor = sensorOf(calibration_, model_.name);
+    const SensorModel limits = sensorModel(model_.name);
+    sensor.min_range_m = limits.min_range_m;
+    sensor.max_range_m = limits.max_range_m;
+    return sensor;
 }
 
-void VelodyneStream::setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor) {
-    segmenter_->setPose(map_from_sensor);
+/// By the corrections of the lasers. A laser beside the axis sees near objects in another direction
+/// than that of its beam.
+BeamOffsets VelodyneDriver::beamOffsets(double min_range_m) const {
+    BeamOffsets offsets;
+    for (const VelodyneLaser& laser : calibration_.lasers) {
+        const double behind_rad = radians(std::remainder(laser.azimuth_deg, 360.0));
+        const double sideways = laser.horizontal_offset_m / std::max(min_range_m, kNearest_m);
+        const double beside_rad = std::asin(std::min(std::abs(sideways), 1.0));
+        offsets.behind_rad = std::max(offsets.behind_rad, behind_rad + beside_rad);
+        offsets.ahead_rad = std::max(offsets.ahead_rad, beside_rad - behind_rad);
+    }
+    return offsets;
+}
+
+bool VelodyneDriver::isData(const Datagram& datagram) const {
+    return isVelodyneData(datagram.bytes, datagram.size) &&
+           velodyneModelOf(datagram.bytes) == &model_;
 }
 
 /// The firings whose blocks are all sound, in runs that turn on as a sensor does. What an unsound
 /// block would have seen is not known, so that no sweep goes over it.
-void VelodyneStream::findRuns(const VelodynePacket& packet) {
+void VelodyneDriver::findRuns(const VelodynePacket& packet) {
     runs_.clear();
     int before = -1;  // azimuth of the firing before, if that is sound
     for (int f = 0; f < kBlocks / blocksPerFiring(packet); ++f) {
@@ -131,7 +116,7 @@ void VelodyneStream::findRuns(const VelodynePacket& packet) {
 /// What a packet swept, as if all of its blocks were sound; the packets since the one before may be
 /// lost. Leaves those runs that are where the sensor is by the longest one: others are broken
 /// readings. Returns false if the packet has no sound block.
-bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us, Sweep& sweep) {
+bool VelodyneDriver::readSweep(const VelodynePacket& packet, double elapsed_us, Sweep& sweep) {
     findRuns(packet);
     const int step = blocksPerFiring(packet), all_firings = kBlocks / step;
     double from = -1, per_firing = 0;
@@ -155,7 +140,7 @@ bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us, 
         const auto isElsewhere = [&](const Run& run) {
             const double expected = from + per_firing * run.first;
             const double off = azimuthOfFiring(packet, run.first) - expected;
-            return std::abs(std::remainder(off, kReadings)) > kMostOff;
+            return std::abs(std::remainder(off, kReadings)) > kMaxOff;
         };
         runs_.erase(std::remove_if(runs_.begin(), runs_.end(), isElsewhere), runs_.end());
     }
@@ -174,14 +159,15 @@ bool VelodyneStream::readSweep(const VelodynePacket& packet, double elapsed_us, 
 }
 
 /// Each run is a sweep. Returns of other blocks have labels, too: they go with the run before.
-void VelodyneStream::addRuns(const VelodynePacket& packet, const Sweep& sweep, double arrival_s) {
+void VelodyneDriver::addRuns(const VelodynePacket& packet, const Sweep& sweep, double arrival_s,
+                             ReturnSink& sink) {
     const int step = blocksPerFiring(packet);
     if (runs_.empty()) {
-        segmenter_->add(returns_, {sweep.from_rad, sweep.from_rad}, arrival_s);
+        sink.add(returns_, {sweep.from_rad, sweep.from_rad}, arrival_s);
         return;
     }
     if (runs_.size() == 1 && runs_[0].first == 0 && runs_[0].end == kBlocks / step) {
-        segmenter_->add(returns_, sweep, arrival_s);
+        sink.add(returns_, sweep, arrival_s);
         return;
     }
     const double firing_rad = (sweep.to_rad - sweep.from_rad) * step / kBlocks;
@@ -193,63 +179,66 @@ void VelodyneStream::addRuns(const VelodynePacket& packet, const Sweep& sweep, d
         part_.clear();
         part_.beams = returns_.beams;
         for (; taken < end; ++taken) appendReturn(returns_, taken, part_);
-        segmenter_->add(part_,
+        sink.add(part_,
                         {sweep.from_rad + firing_rad * runs_[r].first,
                          sweep.from_rad + firing_rad * runs_[r].end},
                         arrival_s);
     }
 }
 
-VelodyneStream::Taken VelodyneStream::add(const std::uint8_t* bytes, std::size_t size,
-                                          double arrival_s) {
-    checkTime(arrival_s);
-    if (!sensors::isVelodyneData(bytes, size)) {
+Taken VelodyneDriver::add(const Datagram& datagram, double arrival_s, ReturnSink& sink) {
+    if (datagram.size == kPositionBytes) {
+        ++counts_.auxiliary;
+        return Taken::Auxiliary;
+    }
+    if (!isVelodyneData(datagram.bytes, datagram.size)) {
         ++counts_.wrong_size;
         return Taken::WrongSize;
     }
-    const bool is_hdl64 = &model_ == &sensors::hdl64Model();
-    if (sensors::isOfHdl64(bytes) != is_hdl64 ||
-        (!is_hdl64 && bytes[sensors::kVelodyneModelAt] != model_.id)) {
-        ++counts_.other_model;
-        return Taken::OtherModel;
+    if (velodyneModelOf(datagram.bytes) != &model_) {
+        ++counts_.other_sensor;
+        return Taken::OtherSensor;
     }
     VelodynePacket packet;
-    std::copy_n(bytes, size, packet.bytes.begin());
-    const double time_us = packet.sensorTimeUs();
+    std::copy_n(datagram.bytes, datagram.size, packet.bytes.begin());
+    return addPacket(packet, arrival_s, sink);
+}
+
+Taken VelodyneDriver::addPacket(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
     if (recent_.has(keyOf(packet), arrival_s)) {
-        held_.clear();  // what comes late, comes by another path
-        ++counts_.repeated;
-        return Taken::Repeated;
+        held_.clear();  // late packets arrive by another path
+        ++counts_.duplicate;
+        return Taken::Duplicate;
     }
     // From the packet before to this one: as long as the one before lasted.
     const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : packet.isDual());
     const bool is_too_late =
-        has_last_ && elapsedUs(last_us_, time_us) < -static_cast<double>(kMostLate) * period_us;
-    if (is_too_late) return hold(packet, arrival_s);
+        has_last_ && elapsedUs(last_us_, packet.sensorTimeUs()) < -kMaxLate * period_us;
+    if (is_too_late) return hold(packet, arrival_s, sink);
     held_.clear();
-    return take(packet, arrival_s);
+    return take(packet, arrival_s, sink);
 }
 
-/// One packet that was under way for a turn must not count as what is there now. So many in a row
-/// are no late ones: the sensor's clock was set.
-VelodyneStream::Taken VelodyneStream::hold(const VelodynePacket& packet, double arrival_s) {
+/// A packet that is a turn late does not show the present. So many in a row are not late: the
+/// sensor's clock was set.
+Taken VelodyneDriver::hold(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
     held_.push_back({packet, arrival_s});
     ++counts_.late;
     ++counts_.too_late;
-    if (held_.size() < kMostLate) return Taken::Late;
+    if (held_.size() < std::size_t{kMaxLate}) return Taken::TooLate;
     counts_.late -= held_.size();
     counts_.too_late -= held_.size();
     ++counts_.interruptions;
-    segmenter_->restart();
+    sink.restart();
     has_last_ = false;
-    Taken taken = Taken::Late;
+    Taken taken = Taken::TooLate;
     for (const auto& [held, held_s] : std::exchange(held_, {})) {
-        taken = add(held.bytes.data(), held.bytes.size(), held_s);
+        taken = addPacket(held, held_s, sink);
     }
     return taken;
 }
 
-VelodyneStream::Taken VelodyneStream::take(const VelodynePacket& packet, double arrival_s) {
+Taken VelodyneDriver::take(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
     const double time_us = packet.sensorTimeUs();
     const bool is_dual = packet.isDual();
     const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : is_dual);
@@ -259,9 +248,9 @@ VelodyneStream::Taken VelodyneStream::take(const VelodynePacket& packet, double 
         if (elapsed_us < 1e6) {
             counts_.lost += static_cast<std::size_t>(std::lround(elapsed_us / period_us)) - 1;
         }
-        segmenter_->flush();
-        if (elapsed_us > 1e6 * segmenter_->streaming().context_s) {
-            segmenter_->restart();
+        sink.flush();
+        if (elapsed_us > kForgottenUs) {
+            sink.restart();
             has_last_ = false;
         }
     }
@@ -282,7 +271,7 @@ VelodyneStream::Taken VelodyneStream::take(const VelodynePacket& packet, double 
             counts_.lost += static_cast<std::size_t>(std::lround(elapsed_us / period_us)) - 1;
         }
         if (has_last_) {
-            counts_.turns += static_cast<std::size_t>(
+            counts_.scans += static_cast<std::size_t>(
                 std::max(0.0, std::floor(sweep.from_rad / kTurn_rad) -
                                   std::floor(last_sweep_.from_rad / kTurn_rad)));
         }
@@ -292,10 +281,9 @@ VelodyneStream::Taken VelodyneStream::take(const VelodynePacket& packet, double 
     }
     counts_.unsound_blocks +=
         decodePackets({packet.bytes.data(), 1}, calibration_, returns_, decoder_);
-    counts_.returns_masked += maskAirframe(settings_.airframe.parts, returns_);
     ++counts_.packets;
-    addRuns(packet, sweep, arrival_s);
+    addRuns(packet, sweep, arrival_s, sink);
     return Taken::Yes;
 }
 
-}  // namespace hagen::live
+}  // namespace hagen::sensors
