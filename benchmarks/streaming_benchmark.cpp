@@ -4,11 +4,11 @@
 #include <hagen/base/ProcessCost.h>
 #include <hagen/base/Quantile.h>
 #include <hagen/live/LidarStream.h>
-#include <hagen/sensors/VelodyneModel.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/scan/Angle.h>
+#include <hagen/sensors/VelodyneModel.h>
 #include <mrpt/math/CQuaternion.h>
 
 #include <algorithm>

@@ -13,8 +13,8 @@ using base::UsageError;
 
 namespace {
 
-/// Of a serial line for all messages plus 10 %: directions at 20 Hz, each obstacle and the ground at
-/// 10 Hz. A byte takes ten bits.
+/// Of a serial line for all messages plus 10 %: directions at 20 Hz, each obstacle and the ground
+/// at 10 Hz. A byte takes ten bits.
 int neededBaud(int obstacles) {
     constexpr int kBytes_s = 3900, kBytesOfObstacle_s = 400;
     return 11 * (kBytes_s + kBytesOfObstacle_s * obstacles);
@@ -48,17 +48,18 @@ void declareAutopilot(base::Program& app, AutopilotFlags& flags) {
         .valueName("M")
         .needs(peer)
         .group("Autopilot");
-    app.option("--obstacles", flags.nearest, "max. number of single obstacles (OBSTACLE_DISTANCE_3D)")
+    app.option("--obstacles", flags.nearest,
+               "max. number of single obstacles (OBSTACLE_DISTANCE_3D)")
         .between(0, 20)
         .showDefault()
         .valueName("N")
         .needs(peer)
         .group("Autopilot");
-    app.flag("--no-ground", flags.has_no_ground, "do not send the distance to the ground (DISTANCE_SENSOR)")
+    app.flag("--no-ground", flags.has_no_ground,
+             "do not send the distance to the ground (DISTANCE_SENSOR)")
         .needs(peer)
         .group("Autopilot");
-    app.flag("--simulated-vehicle", flags.is_simulated,
-             "the vehicle's clock may pause or run slow")
+    app.flag("--simulated-vehicle", flags.is_simulated, "the vehicle's clock may pause or run slow")
         .needs(peer)
         .group("Autopilot");
 }

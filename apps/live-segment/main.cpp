@@ -56,10 +56,12 @@ void declare(Program& app, Flags& flags) {
                "calibration of an HDL-64E (Velodyne's db.xml)")
         .existingFile()
         .group("Input");
-    app.option("--sensor-json", flags.live.sensor_json, "Ouster metadata file (JSON), instead of --model")
+    app.option("--sensor-json", flags.live.sensor_json,
+               "Ouster metadata file (JSON), instead of --model")
         .existingFile()
         .group("Input");
-    app.option("--duration", flags.live.duration_s, "stop after this many seconds (default: run until Ctrl-C)")
+    app.option("--duration", flags.live.duration_s,
+               "stop after this many seconds (default: run until Ctrl-C)")
         .between(0.001, 1e9)
         .valueName("SECONDS")
         .group("Input");
@@ -118,8 +120,8 @@ class StatusLine {
                       "late %zu, foreign %zu, nearest %.1f m%s",
                       status.turns_per_s, 1e3 * status.p50_s, 1e3 * status.p99_s,
                       1e3 * status.max_s, report.lost, report.dropped, report.late,
-                      report.other_sensor + report.wrong_size, static_cast<double>(status.nearest_m),
-                      status.is_silent ? ", silent" : "");
+                      report.other_sensor + report.wrong_size,
+                      static_cast<double>(status.nearest_m), status.is_silent ? ", silent" : "");
         printer.printIfIdle(To::ErrorsInPlace, text);
     }
     /// Where to print what replaces the status.

@@ -102,10 +102,10 @@ class Session {
 
 Session::Session(const LiveOptions& options, const LiveListener& listener, bool is_live)
     : options_(options), listener_(listener), start_s_(steadyNow_s()), status_s_(start_s_) {
-    stream_.emplace(sensors::makeDriver(options.model, options.sensor_json, options.calibration),
-                    options.settings,
-                    [this](const LabelledSector& sector) { takeSector(sector); },
-                    options.streaming);
+    stream_.emplace(
+        sensors::makeDriver(options.model, options.sensor_json, options.calibration),
+        options.settings, [this](const LabelledSector& sector) { takeSector(sector); },
+        options.streaming);
     const StreamingSegmenter& segmenter = stream_->segmenter();
     figures_.emplace(segmenter.sensor(), options_.settings.mount, report_);
     listener_.begin(segmenter.sensor(), segmenter.options());
@@ -278,8 +278,8 @@ void Session::reportSilence(double now_s) {
     ++report_.silences;
     copyCounts();
     listener_.remark(report_.packets > 0
-                         ? "no valid packet from the sensor for " +
-                               base::fixedText(kSilence_s, 0) + " s"
+                         ? "no valid packet from the sensor for " + base::fixedText(kSilence_s, 0) +
+                               " s"
                          : "no packet from " + sensorName(options_) + " received yet");
 }
 

@@ -38,8 +38,7 @@ void checkDriver(const std::string& model, const std::filesystem::path& sensor_j
         if (known.name == model) return;
     }
     throw std::runtime_error("'" + model + "' cannot be labelled live; supported are " +
-                             driverModels() +
-                             ". An Ouster needs its metadata: --sensor-json FILE");
+                             driverModels() + ". An Ouster needs its metadata: --sensor-json FILE");
 }
 
 std::unique_ptr<LidarDriver> makeDriver(const std::string& model,

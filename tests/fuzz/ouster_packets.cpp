@@ -24,7 +24,7 @@ void decode(std::string_view input) {
     const auto takeOut = [&] {
         for (; !frames.complete().empty(); frames.complete().pop_front()) {
             ++complete;
-            const auto observation = 
+            const auto observation =
                 recordings::observationOf(sweepOf(frames.complete().front(), sensor));
             observations::ObservedScan observed;
             observations::readObservation(*observation, {}, observed);

@@ -64,7 +64,8 @@ TEST_F(LivoxStreamTest, FramesAreTwentyMilliseconds) {
 
 TEST_F(LivoxStreamTest, LimitsRangesBySettings) {
     const auto limitsOf = [&](const Settings& settings) {
-        const LidarStream stream(sensors::makeDriver("Mid-360"), settings, [](const LabelledSector&) {});
+        const LidarStream stream(sensors::makeDriver("Mid-360"), settings,
+                                 [](const LabelledSector&) {});
         const SensorModel& used = stream.segmenter().sensor();
         return std::pair(used.min_range_m, used.max_range_m);
     };
@@ -99,10 +100,11 @@ TEST_F(LivoxStreamTest, CountsLossesDuplicatesAndJumps) {
 TEST_F(LivoxStreamTest, ClockSetBackDelaysNothing) {
     for (const std::int64_t back_ns : {20000000, 200000000, 900000000, 2000000000}) {
         frames_.clear();
-        LidarStream stream(sensors::makeDriver("Mid-360"), {}, [this](const LabelledSector& sector) {
-            frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
-                               sector.has_turn});
-        });
+        LidarStream stream(sensors::makeDriver("Mid-360"), {},
+                           [this](const LabelledSector& sector) {
+                               frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s,
+                                                  sector.last_time_s, sector.has_turn});
+                           });
         for (int i = 0; i < 1000; ++i) {
             const std::int64_t time_ns = 5000000000 + kPacket_ns * i - (i < 500 ? 0 : back_ns);
             const std::string packet = packetOf(i, time_ns);

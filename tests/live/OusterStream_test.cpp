@@ -52,12 +52,12 @@ class OusterStreamTest : public testing::Test {
     double time_s_ = 0;
     std::size_t returns_ = 0, labels_ = 0;
     std::vector<Sweep> swept_;
-    LidarStream stream_{driverOf(sensor_), settingsOfFourBeams(), [this](const LabelledSector& sector) {
-                             returns_ += sector.returns.size();
-                             labels_ += sector.label.size();
-                             swept_.insert(swept_.end(), sector.packets->begin(),
-                                           sector.packets->end());
-                         }};
+    LidarStream stream_{
+        driverOf(sensor_), settingsOfFourBeams(), [this](const LabelledSector& sector) {
+            returns_ += sector.returns.size();
+            labels_ += sector.label.size();
+            swept_.insert(swept_.end(), sector.packets->begin(), sector.packets->end());
+        }};
 };
 
 TEST_F(OusterStreamTest, LabelsEachReturn) {
@@ -87,7 +87,7 @@ TEST_F(OusterStreamTest, SectorsHaveBeamOffsets) {
     OusterSensor sensor = sensor_;
     sensor.azimuth_rad = {radians(2.0), radians(-0.5), radians(-3.0), radians(0.1)};
     LidarStream stream(driverOf(sensor), settingsOfFourBeams(),
-                        [&](const LabelledSector& sector) { offsets = sector.offsets; });
+                       [&](const LabelledSector& sector) { offsets = sector.offsets; });
     for (const auto& packet : packetsOf(7)) stream.add(test::datagramOf(packet), 0.01);
     stream.flush();
     EXPECT_NEAR(degrees(offsets.behind_rad), 2, 1e-9);  // azimuths are counter-clockwise
@@ -227,10 +227,11 @@ TEST(OusterStreams, DropsOtherModeInFlight) {
         const OusterSensor sensor = sensors::ousterSensorOf(test::ousterJsonOf({1024, 10}), "test");
         SectorDistances distances(*sensor.model);
         std::size_t sectors = 0;
-        LidarStream stream(driverOf(sensor), settingsOfFourBeams(), [&](const LabelledSector& sector) {
-            distances.take(sector);
-            ++sectors;
-        });
+        LidarStream stream(driverOf(sensor), settingsOfFourBeams(),
+                           [&](const LabelledSector& sector) {
+                               distances.take(sector);
+                               ++sectors;
+                           });
         test::TurningOuster ouster;
         double time_s = 0;
         const auto turn = [&](const test::OusterMode& now, std::size_t& taken) {

@@ -26,9 +26,9 @@ namespace hagen::live {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
+using sensors::Taken;
 using sensors::velodyneModel;
 using test::ByteString;
-using sensors::Taken;
 
 constexpr double kTurn_s = 0.1;
 constexpr std::size_t kPackets = 76;  // of a turn; the last one is not full
@@ -103,8 +103,8 @@ double sameShare(const std::string& recording, const Settings& settings, std::si
         observations::readObservation(*packets, settings, observed);
         if (!stream) {
             filter = std::make_unique<HagenFilter>(observed.sensor, settings.options);
-            stream = std::make_unique<LidarStream>(sensors::makeDriver(observed.sensor.name), settings,
-                                                      into(all));
+            stream = std::make_unique<LidarStream>(sensors::makeDriver(observed.sensor.name),
+                                                   settings, into(all));
         }
         const auto& labels = filter->segment(observed.scan, scan->pose.attitude).returns.label;
         whole.insert(whole.end(), labels.begin(), labels.end());
@@ -239,7 +239,7 @@ TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
         });
     };
     LidarStream stream(sensors::makeDriver("VLP-16"), {},
-                          [&](const LabelledSector& sector) { distances.take(sector); });
+                       [&](const LabelledSector& sector) { distances.take(sector); });
     std::vector<ByteString> packets = turnsOf(4);
     const auto first_late = packets.begin() + 20, end_late = first_late + 15;
     const std::vector<ByteString> late(first_late, end_late);
@@ -478,7 +478,7 @@ TEST(VelodyneStreams, SurvivesUnsoundLowerBlocksOfHdl64) {
 TEST(VelodyneStreams, LimitsRangesBySettings) {
     const auto limitsOf = [&](const Settings& settings) {
         const LidarStream stream(sensors::makeDriver("VLP-16"), settings,
-                                    [](const LabelledSector&) {});
+                                 [](const LabelledSector&) {});
         const SensorModel& used = stream.segmenter().sensor();
         return std::pair(used.min_range_m, used.max_range_m);
     };

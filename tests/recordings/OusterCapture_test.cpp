@@ -267,7 +267,8 @@ TEST_F(OusterCaptureTest, CountsEverythingElse) {
     bad_number[32 + 9] = '\x7f';
     packets[1] = bad_number;
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 1u);
-    EXPECT_THAT(remarks_[0], HasSubstr("1 column missing, 1 column with an invalid number, dropped"));
+    EXPECT_THAT(remarks_[0],
+                HasSubstr("1 column missing, 1 column with an invalid number, dropped"));
     EXPECT_EQ(remarks_[1],
               "7 frames; ignored: 1 IMU packet, 1 packet of the sensor with serial number "
               "992137000143, 1 other UDP datagram (most: 1 of 5 bytes to port 7502)");
@@ -303,7 +304,8 @@ TEST_F(OusterCaptureTest, DropsTurnsOfOtherMode) {
     EXPECT_THAT(remarks_[0], Not(HasSubstr("dropped")));
     add({2048, 10}, 2);
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 3u);
-    EXPECT_THAT(remarks_[0], HasSubstr("2 turns dropped: their columns may not match the metadata"));
+    EXPECT_THAT(remarks_[0],
+                HasSubstr("2 turns dropped: their columns may not match the metadata"));
     json_ = folder_.write("other.json", test::ousterJsonOf({512, 10}));
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 0u);
     EXPECT_THAT(broken_, HasSubstr("a.pcap: its turns do not have the 512 columns of "));

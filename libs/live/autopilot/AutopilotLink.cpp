@@ -19,8 +19,8 @@ constexpr std::size_t kOthersEvery = 2;  // periods: 3D and ground
 constexpr std::size_t kHeartbeatEvery = 20;
 constexpr double kLongestWait_s = 0.01;
 constexpr std::size_t kMaxAtOnce = 1000;  // datagrams; a flood must not delay sending
-constexpr double kAttitudeWithin_s = 3;  // then its absence is reported
-constexpr double kMaxBehind_s = 0.5;     // then periods are skipped
+constexpr double kAttitudeWithin_s = 3;   // then its absence is reported
+constexpr double kMaxBehind_s = 0.5;      // then periods are skipped
 
 double now_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -246,7 +246,8 @@ class AutopilotLink::Work {
     void reportPeer() {
         const std::string trouble = peer_->trouble();
         if (trouble.empty() == trouble_.empty()) return;
-        remark_("MAVLink: " + (trouble.empty() ? peer_->name() + ": connection restored" : trouble));
+        remark_("MAVLink: " +
+                (trouble.empty() ? peer_->name() + ": connection restored" : trouble));
         if (!trouble.empty()) count(troubles_);
         trouble_ = trouble;
     }

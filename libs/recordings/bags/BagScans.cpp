@@ -356,11 +356,9 @@ void BagScans::Reader::finish() {
 std::string BagScans::Reader::textOf(const TopicState& state) {
     std::string text = counted(state.messages, "message");
     if (state.turns) {
-        text +=
-            ", " + state.sensor->velodyne->name + ", " + sensors::textOf(state.turns->counts());
+        text += ", " + state.sensor->velodyne->name + ", " + sensors::textOf(state.turns->counts());
     } else if (state.frames) {
-        text +=
-            ", " + state.sensor->ouster->name + ", " + sensors::textOf(state.frames->counts());
+        text += ", " + state.sensor->ouster->name + ", " + sensors::textOf(state.frames->counts());
     }
     addCount(state.hdl64_packets, "packet", "of an HDL-64E, which is not supported in bags", text);
     for (const auto& [id, packets] : state.unknown_ids) {

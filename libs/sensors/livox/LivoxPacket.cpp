@@ -10,9 +10,8 @@ constexpr int kMillimetres = 1, kCentimetres = 2;  // kinds of data
 
 /// A signed coordinate of 2 or 4 bytes.
 float coordinate(const std::uint8_t* at, bool is_fine, float unit_m) {
-    const std::int32_t number = is_fine
-                                    ? static_cast<std::int32_t>(little<std::uint32_t>(at))
-                                    : static_cast<std::int16_t>(little<std::uint16_t>(at));
+    const std::int32_t number = is_fine ? static_cast<std::int32_t>(little<std::uint32_t>(at))
+                                        : static_cast<std::int16_t>(little<std::uint16_t>(at));
     return static_cast<float>(number) * unit_m;
 }
 
@@ -20,7 +19,8 @@ float coordinate(const std::uint8_t* at, bool is_fine, float unit_m) {
 
 std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram) {
     const std::uint8_t* const bytes = datagram.bytes;
-    if (datagram.size <= kHeader || bytes[0] != 0 || little<std::uint16_t>(bytes + 1) != datagram.size) {
+    if (datagram.size <= kHeader || bytes[0] != 0 ||
+        little<std::uint16_t>(bytes + 1) != datagram.size) {
         return std::nullopt;
     }
     LivoxPacket packet;
@@ -31,8 +31,8 @@ std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram) {
                       kHeader + packet.count * packet.point_bytes == datagram.size;
     if (!fits) return std::nullopt;
     // The interval in the header is that of the whole packet, in 0.1 us.
-    packet.point_interval_s =
-        1e-7 * static_cast<double>(little<std::uint16_t>(bytes + 3)) / static_cast<double>(packet.count);
+    packet.point_interval_s = 1e-7 * static_cast<double>(little<std::uint16_t>(bytes + 3)) /
+                              static_cast<double>(packet.count);
     packet.number = little<std::uint16_t>(bytes + 7);
     packet.time_ns = little<std::uint64_t>(bytes + 28);
     packet.points = bytes + kHeader;

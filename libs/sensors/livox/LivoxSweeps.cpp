@@ -16,12 +16,11 @@ void LivoxSweeps::add(const Datagram& datagram) {
         ++imu_packets_;
     } else if (!packet) {
         others_.add(datagram);
-    } else if (Sensor* const sensor =
-                   sensors_.find(datagram.from_ip, [](const std::string& label) {
-                       Sensor made;
-                       made.sweep.label = label;
-                       return made;
-                   })) {
+    } else if (Sensor* const sensor = sensors_.find(datagram.from_ip, [](const std::string& label) {
+                   Sensor made;
+                   made.sweep.label = label;
+                   return made;
+               })) {
         add(*packet, datagram, *sensor);
     }
 }
@@ -69,8 +68,7 @@ std::vector<std::string> LivoxSweeps::remarks() const {
                            "): " + counted(counts.packets, "packet") + " in " +
                            counted(counts.scans, "scan");
         addCount(counts.lost, "packet", "lost", text);
-        addCount(counts.late, "packet",
-                 "out of order, kept in the scan in which it arrived", text);
+        addCount(counts.late, "packet", "out of order, kept in the scan in which it arrived", text);
         addCount(counts.duplicate, "duplicate packet", "dropped", text);
         addCount(counts.interruptions, "interruption", "(gap or clock jump)", text);
         remarks.push_back(text);

@@ -89,7 +89,8 @@ std::string OusterSweeps::whyEmpty(const std::string& losses) const {
 std::string textOf(const OusterFrames::Counts& counts) {
     std::string text = counted(counts.packets, "packet") + " in " + counted(counts.frames, "turn");
     addCount(counts.lost_frames, "turn", "lost", text);
-    addCount(counts.uncertain_frames, "turn", "dropped: their columns may not match the metadata", text);
+    addCount(counts.uncertain_frames, "turn", "dropped: their columns may not match the metadata",
+             text);
     addCount(counts.missing_columns, "column", "missing", text);
     addCount(counts.invalid_columns, "column", "marked invalid by the sensor, dropped", text);
     addCount(counts.wrong_columns, "column", "with an invalid number, dropped", text);

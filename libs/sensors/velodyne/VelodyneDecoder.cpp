@@ -18,7 +18,7 @@ namespace hagen::sensors {
 namespace {
 
 constexpr int kBlocks = kVelodyneBlocks;
-constexpr int kTurn = kReadingsOfTurn;  // 0.01 degrees
+constexpr int kTurn = kReadingsOfTurn;    // 0.01 degrees
 constexpr double kMostAzimuth_deg = 1e6;  // far beyond, what is left of a turn is not exact
 
 /// A packet, read byte by byte.
@@ -26,9 +26,7 @@ class Packet {
  public:
     explicit Packet(const std::uint8_t* bytes) : bytes_(bytes) {}
 
-    bool isValid(int block) const {
-        return header(block) == kUpperBlock && azimuth(block) < kTurn;
-    }
+    bool isValid(int block) const { return header(block) == kUpperBlock && azimuth(block) < kTurn; }
     bool isLower(int block) const { return header(block) == kLowerBlock && azimuth(block) < kTurn; }
     int azimuth(int block) const { return little<std::uint16_t>(at(block) + 2); }
     const std::uint8_t* returns(int block) const { return at(block) + kVelodyneHeaderBytes; }

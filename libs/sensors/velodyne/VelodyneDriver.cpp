@@ -180,9 +180,9 @@ void VelodyneDriver::addRuns(const VelodynePacket& packet, const Sweep& sweep, d
         part_.beams = returns_.beams;
         for (; taken < end; ++taken) appendReturn(returns_, taken, part_);
         sink.add(part_,
-                        {sweep.from_rad + firing_rad * runs_[r].first,
-                         sweep.from_rad + firing_rad * runs_[r].end},
-                        arrival_s);
+                 {sweep.from_rad + firing_rad * runs_[r].first,
+                  sweep.from_rad + firing_rad * runs_[r].end},
+                 arrival_s);
     }
 }
 

@@ -102,8 +102,8 @@ std::string VelodyneSweeps::whyEmpty(const std::string& losses) const {
     if (packets_ > 0) return "";
     std::string found = joined(unknown(), losses);
     addCount(position_packets_, "position packet", "", found);
-    return "has no data packets of a known Velodyne (" + knownVelodynes().substr(1) +
-           "); it has " + (found.empty() ? "no frames" : found) +
+    return "has no data packets of a known Velodyne (" + knownVelodynes().substr(1) + "); it has " +
+           (found.empty() ? "no frames" : found) +
            ". Packets of an Ouster need its metadata: --sensor-json FILE";
 }
 

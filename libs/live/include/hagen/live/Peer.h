@@ -32,7 +32,8 @@ class Peer {
 
     /// Sends a whole message, or returns false.
     virtual bool send(const std::vector<std::uint8_t>& bytes) = 0;
-    /// Waits at most this long for bytes (up to an hour; negative: not at all); returns their number.
+    /// Waits at most this long for bytes (up to an hour; negative: not at all); returns their
+    /// number.
     virtual std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) = 0;
     /// Whether receive() returns one datagram, with whole messages.
     virtual bool hasDatagrams() const = 0;

@@ -55,7 +55,7 @@ class VelodyneTurns {
     VelodyneCalibration calibration_;
     std::deque<VelodynePacket> waiting_;  ///< by the sensor's clock
     std::vector<VelodynePacket> held_;    ///< too late, in a row
-    LidarSweep turn_;                              ///< in progress, unless it has no packets
+    LidarSweep turn_;                     ///< in progress, unless it has no packets
     double turn_start_us_ = 0;
     bool has_last_ = false;
     double last_us_ = 0;     ///< of the last packet appended
