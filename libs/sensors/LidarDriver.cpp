@@ -1,8 +1,7 @@
 #include <hagen/sensors/LidarDriver.h>
-#include <hagen/sensors/LivoxDriver.h>
-#include <hagen/sensors/OusterDriver.h>
+#include <hagen/sensors/OusterSensor.h>
 #include <hagen/sensors/VelodyneCalibrationFile.h>
-#include <hagen/sensors/VelodyneDriver.h>
+#include <hagen/sensors/VelodyneModel.h>
 
 #include <stdexcept>
 
@@ -45,11 +44,11 @@ std::unique_ptr<LidarDriver> makeDriver(const std::string& model,
                                         const std::filesystem::path& sensor_json,
                                         const std::filesystem::path& calibration) {
     checkDriver(model, sensor_json, calibration);
-    if (!sensor_json.empty()) return std::make_unique<OusterDriver>(readOusterSensor(sensor_json));
-    if (model == kLivox) return std::make_unique<LivoxDriver>();
-    if (!isHdl64(model)) return std::make_unique<VelodyneDriver>(velodyneModel(model));
+    if (!sensor_json.empty()) return makeOusterDriver(readOusterSensor(sensor_json));
+    if (model == kLivox) return makeLivoxDriver();
+    if (!isHdl64(model)) return makeVelodyneDriver(velodyneModel(model));
     const VelodyneCalibration of_hdl64 = readVelodyneCalibration(calibration);
-    return std::make_unique<VelodyneDriver>(hdl64Model(), &of_hdl64);
+    return makeVelodyneDriver(hdl64Model(), &of_hdl64);
 }
 
 }  // namespace hagen::sensors

@@ -1,9 +1,6 @@
 // Captures of a network: libpcap's files, fragments, and what is in the datagrams. The first byte
 // names the sensor.
 #include <hagen/recordings/LidarCapture.h>
-#include <hagen/sensors/LivoxSweeps.h>
-#include <hagen/sensors/OusterSweeps.h>
-#include <hagen/sensors/VelodyneSweeps.h>
 
 #include <memory>
 
@@ -32,12 +29,12 @@ void readCapture(std::string_view input) {
     sensors::isCapture(file.path());
     mayRefuse([&] {
         if (kind == 0) {
-            readAll(file.path(), std::make_unique<sensors::VelodyneSweeps>());
+            readAll(file.path(), sensors::makeVelodyneSweeps());
         } else if (kind == 1) {
-            readAll(file.path(), std::make_unique<sensors::LivoxSweeps>());
+            readAll(file.path(), sensors::makeLivoxSweeps());
         } else {
             const InputFile json(test::ousterJson(), "sensor.json");
-            readAll(file.path(), std::make_unique<sensors::OusterSweeps>(json.path()));
+            readAll(file.path(), sensors::makeOusterSweeps(json.path()));
         }
     });
 }

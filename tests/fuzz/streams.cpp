@@ -2,7 +2,7 @@
 // late, lost or repeated. Nothing throws, and each is taken, or refused and counted. The first byte
 // of the input names the sensor.
 #include <hagen/live/LidarStream.h>
-#include <hagen/sensors/OusterDriver.h>
+#include <hagen/sensors/OusterSensor.h>
 
 #include <functional>
 #include <memory>
@@ -81,7 +81,7 @@ AnyLidar anyOuster() {
     Settings settings = fewColumns();  // four beams
     settings.options.window_size = 2;
     settings.options.principal_components = 1;
-    return {std::make_unique<sensors::OusterDriver>(sensor), settings, [sensor](std::size_t n) {
+    return {sensors::makeOusterDriver(sensor), settings, [sensor](std::size_t n) {
                 const auto frame = static_cast<std::uint16_t>(n / 4);
                 const auto packets = test::packetsOf(sensor, test::randomFrame(sensor, frame));
                 return packets[n % 4 % packets.size()];

@@ -100,8 +100,8 @@ class AutopilotLinkTest : public testing::Test {
         SegmentationResult result;
         const double time_s = now_s();
         link_->take({scan, std::vector<Label>(scan.size(), Label::Roi),
-                     live::Sweep{turned_rad_, turned_rad_ + 2 * kPi}, time_s - 0.001, time_s, true,
-                     false, false, result});
+                     Sweep{turned_rad_, turned_rad_ + 2 * kPi}, time_s - 0.001, time_s, true, false,
+                     false, result});
         turned_rad_ += 2 * kPi;
     }
     std::size_t count(const std::string& name) const {
@@ -200,7 +200,7 @@ TEST_F(AutopilotLinkTest, LateSectorIsNotFree) {
     Scan scan;
     SegmentationResult result;
     const double time_s = now_s() - 0.4;  // when its packets came
-    link_->take({scan, {}, live::Sweep{0, 2 * kPi}, time_s, time_s, true, false, false, result});
+    link_->take({scan, {}, Sweep{0, 2 * kPi}, time_s, time_s, true, false, false, result});
     for (int i = 0; i < 5; ++i) {
         const auto message =
             autopilot_.receiveUntil<mavlink::ObstacleDistance>([](const auto&) { return true; });

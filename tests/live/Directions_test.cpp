@@ -16,9 +16,6 @@ namespace hagen::live {
 namespace {
 
 using State = DirectionState;
-using live::LabelledSector;
-using live::SectorDistances;
-using live::Sweep;
 
 constexpr double kTurn_s = 0.1, kPacket_rad = kPi / 36;  // 5 degrees
 constexpr int kPacketsPerTurn = 72, kPacketsPerSector = 5;

@@ -59,7 +59,7 @@ TEST(LiveMotion, UsesExternalMotion) {
         EXPECT_GE(time_s, last_s);
         last_s = time_s;
         ++asked;
-        live::SensorMotion motion;
+        SensorMotion motion;
         motion.attitude = Attitude{0.01f, -0.02f};
         return motion;
     };

@@ -20,7 +20,6 @@
 namespace hagen::live {
 namespace {
 
-using live::SectorDistances;
 using sensors::velodyneModel;
 using testing::Contains;
 using testing::HasSubstr;
@@ -112,7 +111,7 @@ class LiveSessionTest : public testing::Test {
     LiveReport run(GivenPackets& packets) {
         LiveListener listener;
         listener.remark = [this](const std::string& remark) { remarks_.push_back(remark); };
-        listener.sector = [this](const live::LabelledSector& sector) {
+        listener.sector = [this](const LabelledSector& sector) {
             if (returns_ == 0) std::this_thread::sleep_for(first_sector_takes_);
             returns_ += sector.returns.size();
         };
@@ -280,9 +279,9 @@ TEST_F(LiveSessionTest, ForeignPacketsDoNotDelayLabels) {
     LiveListener listener;
     listener.motion = [&](double) {
         ++packets;
-        return live::SensorMotion();
+        return SensorMotion();
     };
-    listener.sector = [&](const live::LabelledSector& sector) {
+    listener.sector = [&](const LabelledSector& sector) {
         if (sector.is_cut && cut_after == 0) cut_after = packets;
     };
     runLive(source, options_, listener);
@@ -358,9 +357,7 @@ TEST_F(LiveSessionTest, CountsPacketsWaitingAtEnd) {
     GivenPackets source;
     source.addAll(packets).asSensor();
     LiveListener listener;
-    listener.sector = [&](const live::LabelledSector& sector) {
-        returns_ += sector.returns.size();
-    };
+    listener.sector = [&](const LabelledSector& sector) { returns_ += sector.returns.size(); };
     listener.keep_going = [this] { return returns_ < 3000; };
     const LiveReport report = runLive(source, options_, listener);
     EXPECT_EQ(report.datagrams + report.dropped + source.left(), packets.size());
@@ -431,7 +428,7 @@ TEST_F(LiveRecordingTest, KeepsExistingFiles) {
     options_.recording.file = folder_ / "b.pcap";
     folder_.write("b.tum", "mine");
     LiveListener listener;
-    listener.motion = [](double) { return live::SensorMotion(); };
+    listener.motion = [](double) { return SensorMotion(); };
     EXPECT_THAT(test::messageOf([&] { runLive(source, options_, listener); }),
                 HasSubstr("b.tum exists"));
     EXPECT_EQ(test::readFile(folder_ / "a.pcap") + test::readFile(folder_ / "b.tum"), "minemine");
@@ -444,7 +441,7 @@ TEST_F(LiveRecordingTest, WritesVehiclePosesOnThePacketClock) {
     const Eigen::Quaterniond rolled(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()));
     LiveListener listener;
     listener.motion = [&](double) {
-        live::SensorMotion motion;
+        SensorMotion motion;
         motion.map_from_sensor.emplace(Eigen::Translation3d(1, 2, 3) * rolled *
                                        Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()));
         return motion;

@@ -62,22 +62,6 @@ TEST_F(LivoxStreamTest, FramesAreTwentyMilliseconds) {
     EXPECT_EQ(found, wall);
 }
 
-TEST_F(LivoxStreamTest, LimitsRangesBySettings) {
-    const auto limitsOf = [&](const Settings& settings) {
-        const LidarStream stream(sensors::makeDriver("Mid-360"), settings,
-                                 [](const LabelledSector&) {});
-        const SensorModel& used = stream.segmenter().sensor();
-        return std::pair(used.min_range_m, used.max_range_m);
-    };
-    const SensorModel model = sensorModel("Mid-360");
-    Settings settings;
-    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
-    settings.sensor.min_range_m = 1.5f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
-    settings.sensor.max_range_m = 40.0f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
-}
-
 TEST_F(LivoxStreamTest, CountsLossesDuplicatesAndJumps) {
     const auto packet = [](int i, std::int64_t offset_ns = 0) {
         return packetOf(i, 5000000000 + offset_ns + kPacket_ns * i);

@@ -3,7 +3,6 @@
 #include <hagen/live/SectorDistances.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/CaptureFile.h>
-#include <hagen/sensors/OusterDriver.h>
 #include <hagen/sensors/OusterScan.h>
 
 #include <algorithm>
@@ -22,10 +21,6 @@ namespace {
 using sensors::OusterFrame;
 using sensors::OusterSensor;
 using sensors::Taken;
-
-std::unique_ptr<sensors::LidarDriver> driverOf(const OusterSensor& sensor) {
-    return std::make_unique<sensors::OusterDriver>(sensor);
-}
 
 Settings settingsOfFourBeams() {
     Settings settings;
@@ -53,7 +48,7 @@ class OusterStreamTest : public testing::Test {
     std::size_t returns_ = 0, labels_ = 0;
     std::vector<Sweep> swept_;
     LidarStream stream_{
-        driverOf(sensor_), settingsOfFourBeams(), [this](const LabelledSector& sector) {
+        makeOusterDriver(sensor_), settingsOfFourBeams(), [this](const LabelledSector& sector) {
             returns_ += sector.returns.size();
             labels_ += sector.label.size();
             swept_.insert(swept_.end(), sector.packets->begin(), sector.packets->end());
@@ -86,7 +81,7 @@ TEST_F(OusterStreamTest, SectorsHaveBeamOffsets) {
     BeamOffsets offsets;
     OusterSensor sensor = sensor_;
     sensor.azimuth_rad = {radians(2.0), radians(-0.5), radians(-3.0), radians(0.1)};
-    LidarStream stream(driverOf(sensor), settingsOfFourBeams(),
+    LidarStream stream(makeOusterDriver(sensor), settingsOfFourBeams(),
                        [&](const LabelledSector& sector) { offsets = sector.offsets; });
     for (const auto& packet : packetsOf(7)) stream.add(test::datagramOf(packet), 0.01);
     stream.flush();
@@ -94,35 +89,22 @@ TEST_F(OusterStreamTest, SectorsHaveBeamOffsets) {
     EXPECT_NEAR(degrees(offsets.ahead_rad), 3, 1e-9);
 }
 
-TEST_F(OusterStreamTest, LimitsRangesBySettings) {
-    const auto limitsOf = [&](const Settings& settings) {
-        const LidarStream stream(driverOf(sensor_), settings, [](const LabelledSector&) {});
-        const SensorModel& used = stream.segmenter().sensor();
-        return std::pair(used.min_range_m, used.max_range_m);
-    };
-    const SensorModel model = *sensor_.model;
-    Settings settings = settingsOfFourBeams();
-    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
-    settings.sensor.min_range_m = 1.5f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
-    settings.sensor.max_range_m = 40.0f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
-}
-
 /// The returns of a packet are where its sweep is.
 TEST_F(OusterStreamTest, SweepMatchesReturns) {
     bool is_checked = false;
-    LidarStream stream(driverOf(sensor_), settingsOfFourBeams(), [&](const LabelledSector& sector) {
-        const double middle_rad = (sector.sweep->from_rad + sector.sweep->to_rad) / 2;
-        const double half_rad = (sector.sweep->to_rad - sector.sweep->from_rad) / 2;
-        for (std::size_t i = 0; i < sector.returns.size(); ++i) {
-            if (sector.returns.range_m[i] < 1) continue;  // the beams do not start at the origin
-            const double off_rad = std::remainder(
-                -static_cast<double>(sector.returns.azimuth_rad[i]) - middle_rad, 2 * kPi);
-            EXPECT_LT(std::abs(off_rad), half_rad + radians(12));  // pixels are staggered
-            is_checked = true;
-        }
-    });
+    LidarStream stream(
+        makeOusterDriver(sensor_), settingsOfFourBeams(), [&](const LabelledSector& sector) {
+            const double middle_rad = (sector.sweep->from_rad + sector.sweep->to_rad) / 2;
+            const double half_rad = (sector.sweep->to_rad - sector.sweep->from_rad) / 2;
+            for (std::size_t i = 0; i < sector.returns.size(); ++i) {
+                if (sector.returns.range_m[i] < 1)
+                    continue;  // the beams do not start at the origin
+                const double off_rad = std::remainder(
+                    -static_cast<double>(sector.returns.azimuth_rad[i]) - middle_rad, 2 * kPi);
+                EXPECT_LT(std::abs(off_rad), half_rad + radians(12));  // pixels are staggered
+                is_checked = true;
+            }
+        });
     for (const auto& packet : packetsOf(7)) {
         stream.add(test::datagramOf(packet), 0.01);
         stream.flush();
@@ -227,7 +209,7 @@ TEST(OusterStreams, DropsOtherModeInFlight) {
         const OusterSensor sensor = sensors::ousterSensorOf(test::ousterJsonOf({1024, 10}), "test");
         SectorDistances distances(*sensor.model);
         std::size_t sectors = 0;
-        LidarStream stream(driverOf(sensor), settingsOfFourBeams(),
+        LidarStream stream(makeOusterDriver(sensor), settingsOfFourBeams(),
                            [&](const LabelledSector& sector) {
                                distances.take(sector);
                                ++sectors;
@@ -269,7 +251,7 @@ TEST(OusterStreams, RealCaptureLabelsMatchWholeTurns) {
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
     const OusterSensor sensor = sensors::readOusterSensor(folder / "OS-1-128_v2.3.0_1024x10.json");
     std::vector<Label> labels;
-    LidarStream stream(driverOf(sensor), {}, [&](const LabelledSector& sector) {
+    LidarStream stream(makeOusterDriver(sensor), {}, [&](const LabelledSector& sector) {
         labels.insert(labels.end(), sector.label.begin(), sector.label.end());
     });
     sensors::OusterFrames frames(sensor);

@@ -6,7 +6,7 @@
 #include <hagen/mrpt/VelodyneEncoder.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/sensors/VelodyneDriver.h>
+#include <hagen/sensors/VelodyneCalibration.h>
 
 #include <algorithm>
 #include <cmath>
@@ -449,7 +449,7 @@ TEST(VelodyneStreams, ObstacleOfLaggingBeamStays) {
 }
 
 TEST(VelodyneStreams, Hdl64NeedsCalibration) {
-    EXPECT_THROW(sensors::VelodyneDriver(sensors::hdl64Model()), std::invalid_argument);
+    EXPECT_THROW(sensors::makeVelodyneDriver(sensors::hdl64Model()), std::invalid_argument);
 }
 
 /// The lower blocks tell an HDL-64E also where their azimuths are unsound.
@@ -462,7 +462,7 @@ TEST(VelodyneStreams, SurvivesUnsoundLowerBlocksOfHdl64) {
         of_hdl64.elevation_cosine = std::cos(elevation_rad);
     }
     Labelled all;
-    auto driver = std::make_unique<sensors::VelodyneDriver>(sensors::hdl64Model(), &calibration);
+    auto driver = sensors::makeVelodyneDriver(sensors::hdl64Model(), &calibration);
     LidarStream stream(std::move(driver), {}, into(all));
     std::string packet(1206, '\0');
     for (int block = 0; block < 12; ++block) {
@@ -473,22 +473,6 @@ TEST(VelodyneStreams, SurvivesUnsoundLowerBlocksOfHdl64) {
         packet[100 * block + 3] = static_cast<char>(reading >> 8);
     }
     EXPECT_NO_THROW(add(packet, 1, stream));
-}
-
-TEST(VelodyneStreams, LimitsRangesBySettings) {
-    const auto limitsOf = [&](const Settings& settings) {
-        const LidarStream stream(sensors::makeDriver("VLP-16"), settings,
-                                 [](const LabelledSector&) {});
-        const SensorModel& used = stream.segmenter().sensor();
-        return std::pair(used.min_range_m, used.max_range_m);
-    };
-    const SensorModel model = sensorModel("VLP-16");
-    Settings settings;
-    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
-    settings.sensor.min_range_m = 1.5f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
-    settings.sensor.max_range_m = 40.0f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
 }
 
 TEST(VelodyneStreams, MasksAirframe) {

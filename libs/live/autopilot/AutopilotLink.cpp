@@ -52,7 +52,7 @@ class AutopilotLink::Work {
         if (thread_.joinable()) thread_.join();
     }
 
-    void take(const live::LabelledSector& sector) {
+    void take(const LabelledSector& sector) {
         const auto below = sector.is_doubtful || !settings_.has_ground
                                ? std::nullopt
                                : groundBelow(sector.result.ground, vehicleFromSensor());
@@ -64,13 +64,13 @@ class AutopilotLink::Work {
         }
     }
 
-    live::SensorMotion motionAt(double time_s) const {
+    SensorMotion motionAt(double time_s) const {
         const std::lock_guard lock(mutex_);
         const auto pose = motion_.at(time_s);
         if (!pose) return {};
         const Eigen::Matrix3d mount = settings_.directions.body_from_sensor.linear();
         const Eigen::Matrix3f level = (levelFromVehicle(*pose) * mount).cast<float>();
-        live::SensorMotion motion;
+        SensorMotion motion;
         motion.attitude = {std::atan2(level(2, 1), level(2, 2)),
                            std::asin(std::clamp(-level(2, 0), -1.0f, 1.0f))};
         if (pose->place_m) {
@@ -144,7 +144,7 @@ class AutopilotLink::Work {
         std::optional<float> below_m;
         // Copies, so that labelling does not wait for the directions.
         std::unique_lock lock(mutex_);
-        const live::SectorDistances distances = *distances_;
+        const SectorDistances distances = *distances_;
         const VehicleMotion motion = motion_;
         if (time_s - below_s_ <= settings_.directions.stale_s) below_m = below_m_;
         lock.unlock();
@@ -284,7 +284,7 @@ class AutopilotLink::Work {
     std::string trouble_;
 
     mutable std::mutex mutex_;  // of all that follows
-    std::optional<live::SectorDistances> distances_;
+    std::optional<SectorDistances> distances_;
     VehicleMotion motion_;
     mavlink::Parser parser_;
     float below_m_ = 0;
@@ -307,9 +307,9 @@ void AutopilotLink::begin(const SensorModel& sensor, Limits limits) {
     work_->begin(sensor, limits);
 }
 
-void AutopilotLink::take(const live::LabelledSector& sector) { work_->take(sector); }
+void AutopilotLink::take(const LabelledSector& sector) { work_->take(sector); }
 
-live::SensorMotion AutopilotLink::motionAt(double time_s) const { return work_->motionAt(time_s); }
+SensorMotion AutopilotLink::motionAt(double time_s) const { return work_->motionAt(time_s); }
 
 void AutopilotLink::stop() { work_->stop(); }
 

@@ -3,7 +3,7 @@
 #include <hagen/recordings/BagScans.h>
 #include <hagen/recordings/LidarCapture.h>
 #include <hagen/recordings/Remarks.h>
-#include <hagen/sensors/OusterSweeps.h>
+#include <hagen/sensors/OusterScan.h>
 #include <hagen/sensors/VelodyneTurns.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>

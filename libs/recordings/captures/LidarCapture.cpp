@@ -1,9 +1,6 @@
 #include <hagen/recordings/LidarCapture.h>
 #include <hagen/recordings/Remarks.h>
 #include <hagen/sensors/LivoxPacket.h>
-#include <hagen/sensors/LivoxSweeps.h>
-#include <hagen/sensors/OusterSweeps.h>
-#include <hagen/sensors/VelodyneSweeps.h>
 
 #include <stdexcept>
 #include <utility>
@@ -51,9 +48,9 @@ std::unique_ptr<sensors::SweepReader> readerFor(const std::filesystem::path& fil
                                  (sensor_json.empty() ? "a Livox" : "an Ouster") + ", which " +
                                  calibration.string() + " cannot describe: it is of an HDL-64E");
     }
-    if (!sensor_json.empty()) return std::make_unique<sensors::OusterSweeps>(sensor_json);
-    if (!is_velodyne) return std::make_unique<sensors::LivoxSweeps>();
-    return std::make_unique<sensors::VelodyneSweeps>(calibration);
+    if (!sensor_json.empty()) return sensors::makeOusterSweeps(sensor_json);
+    if (!is_velodyne) return sensors::makeLivoxSweeps();
+    return sensors::makeVelodyneSweeps(calibration);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-#include <hagen/sensors/LivoxSequence.h>
 
 #include <algorithm>
+
+#include "sensors/livox/LivoxSequence.h"
 
 namespace hagen::sensors {
 namespace {

@@ -26,7 +26,7 @@ struct LiveOptions {
     std::string model;
     std::filesystem::path calibration;  ///< of an HDL-64E
     Settings settings;
-    live::StreamingOptions streaming;
+    StreamingOptions streaming;
     RecordingOptions recording;
     std::filesystem::path stats;  ///< JSON; empty: none
     bool overwrite = false;       ///< replaces an existing file of `stats`
@@ -50,8 +50,8 @@ struct LiveReport : sensors::PacketCounts {
     LatencyHistogram latency;  ///< from a sector's last packet to its labels; not of those cut
     /// The nearest RoI return of the run in each direction, as SectorDistances, but for doubtful
     /// sectors; infinity: none.
-    std::array<float, live::SectorDistances::kSectors> nearest_m{};
-    std::array<live::SectorDistances::Sector, live::SectorDistances::kSectors> latest{};
+    std::array<float, SectorDistances::kSectors> nearest_m{};
+    std::array<SectorDistances::Sector, SectorDistances::kSectors> latest{};
     double seconds = 0;         ///< that it ran
     double filter_cpu_s = 0;    ///< CPU time of the thread that labels
     double process_cpu_s = 0;   ///< of all threads
@@ -72,7 +72,7 @@ struct LiveListener {
     /// Called first, with the sensor and the options of its filter.
     std::function<void(const SensorModel&, const Options&)> begin = [](const auto&, const auto&) {};
     /// The motion at a time of steadyNow_s(), called with each packet. Empty: it is not known.
-    std::function<live::SensorMotion(double time_s)> motion;
+    std::function<SensorMotion(double time_s)> motion;
     /// More counts for `stats`, called at the end: the name of a section, and its values.
     std::map<std::string, std::function<std::vector<std::pair<std::string, std::size_t>>()>> counts;
     /// What the user should know now: silence, another mode, another rate.
@@ -81,7 +81,7 @@ struct LiveListener {
     std::function<void(const LiveReport&, const LiveStatus&)> status = [](const auto&,
                                                                           const auto&) {};
     /// Called with each labelled sector; keep it short.
-    std::function<void(const live::LabelledSector&)> sector = [](const auto&) {};
+    std::function<void(const LabelledSector&)> sector = [](const auto&) {};
     /// False ends the session.
     std::function<bool()> keep_going = [] { return true; };
 };

@@ -11,6 +11,10 @@
 
 namespace hagen::sensors {
 
+struct OusterSensor;
+struct VelodyneCalibration;
+struct VelodyneModel;
+
 /// What a driver did with a datagram.
 enum class Taken {
     Yes,
@@ -87,6 +91,14 @@ class LidarDriver {
  protected:
     PacketCounts counts_;
 };
+
+/// `calibration`: of an HDL-64E; null: that of the model. Throws std::invalid_argument for an
+/// HDL-64E without calibration.
+std::unique_ptr<LidarDriver> makeVelodyneDriver(const VelodyneModel& model,
+                                                const VelodyneCalibration* calibration = nullptr);
+std::unique_ptr<LidarDriver> makeOusterDriver(const OusterSensor& sensor);
+/// Livox Mid-360 (Livox SDK 2, Cartesian data), in frames of 20 ms.
+std::unique_ptr<LidarDriver> makeLivoxDriver();
 
 /// The models that makeDriver() knows, without Ousters: "VLP-16, ...".
 std::string driverModels(const std::string& separator = ", ");

@@ -53,4 +53,17 @@ class SweepReader {
     OtherDatagrams others_;
 };
 
+/// Velodyne sensors, by address, port and model: VLP-16, Puck Hi-Res, HDL-32E and VLP-32C by the id
+/// in their packets, HDL-64E by their blocks. `calibration`: of the HDL-64E
+/// (readVelodyneCalibration()); empty: its packets are ignored. Throws std::runtime_error naming a
+/// wrong calibration.
+std::unique_ptr<SweepReader> makeVelodyneSweeps(const std::filesystem::path& calibration = {});
+
+/// One Ouster, by its metadata. Throws std::runtime_error naming metadata that cannot be used.
+std::unique_ptr<SweepReader> makeOusterSweeps(const std::filesystem::path& sensor_json);
+
+/// Livox Mid-360 sensors (Livox SDK 2, Cartesian data), by address. A sweep is a tenth of a second
+/// by the sensor's clock; late packets join the sweep in progress.
+std::unique_ptr<SweepReader> makeLivoxSweeps();
+
 }  // namespace hagen::sensors

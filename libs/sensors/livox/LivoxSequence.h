@@ -1,10 +1,11 @@
 #pragma once
 #include <hagen/sensors/LidarDriver.h>
 #include <hagen/sensors/LivoxPacket.h>
-#include <hagen/sensors/RecentPackets.h>
 
 #include <cstddef>
 #include <cstdint>
+
+#include "sensors/RecentPackets.h"
 
 namespace hagen::sensors {
 
