@@ -82,9 +82,7 @@ TEST_F(TurnCoverageTest, RequiresAllBeams) {
 TEST_F(TurnCoverageTest, NextTurnSweepsAgain) {
     add(350, 362.5);
     EXPECT_EQ(add(362.5, 364.5), (Degrees{0.5, 1.5, 2.5, 3.5, 359.5}));
-    EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700), radians(710), radians(730)},
-                       {0, radians(5)}),
-              radians(725));
+    EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700)}, {0, radians(5)}), radians(725));
 }
 
 /// What was swept before is not joined to what is swept now, where angles are by chance the next.

@@ -1,11 +1,11 @@
 #include <hagen/live/AutopilotLink.h>
 #include <hagen/live/GroundBelow.h>
+#include <hagen/live/PacketQueue.h>
 #include <hagen/live/Parser.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <new>
@@ -21,11 +21,6 @@ constexpr double kLongestWait_s = 0.01;
 constexpr std::size_t kMaxAtOnce = 1000;  // datagrams; a flood must not delay sending
 constexpr double kAttitudeWithin_s = 3;   // then its absence is reported
 constexpr double kMaxBehind_s = 0.5;      // then periods are skipped
-
-double now_s() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 }  // namespace
 
@@ -43,7 +38,7 @@ class AutopilotLink::Work {
         limits_ = limits;
         limits_.nearest_m = sensor.min_range_m;
         distances_.emplace(sensor, settings_.directions);
-        start_s_ = now_s();
+        start_s_ = steadyNow_s();
         thread_ = std::thread([this] { work(); });
     }
 
@@ -117,16 +112,16 @@ class AutopilotLink::Work {
         double next_s = start_s_;
         for (std::size_t period = 0; !is_at_end_; ++period) {
             attempt([&] { sendPeriod(period); });
-            next_s = std::max(next_s + kPeriod_s, now_s() - kMaxBehind_s);
+            next_s = std::max(next_s + kPeriod_s, steadyNow_s() - kMaxBehind_s);
             double rest_s = 0;
             do {  // also if late: unread messages get old
-                rest_s = std::max(next_s - now_s(), 0.0);
+                rest_s = std::max(next_s - steadyNow_s(), 0.0);
                 attempt([&] { receiveAll(rest_s); });
             } while (!is_at_end_ && rest_s > 0);
             attempt([&] { reportPeer(); });
             attempt([&] { reportAttitude(); });
         }
-        attempt([&] { send(obstacleDistance({}, limits_, now_s()), sent_distance_); });
+        attempt([&] { send(obstacleDistance({}, limits_, steadyNow_s()), sent_distance_); });
     }
 
     /// Skips and counts a step that is out of memory. The autopilot notices missing messages.
@@ -140,7 +135,7 @@ class AutopilotLink::Work {
     }
 
     void sendPeriod(std::size_t period) {
-        const double time_s = now_s();
+        const double time_s = steadyNow_s();
         std::optional<float> below_m;
         // Copies, so that labelling does not wait for the directions.
         std::unique_lock lock(mutex_);
@@ -198,7 +193,7 @@ class AutopilotLink::Work {
         const std::size_t size =
             peer_->receive(buffer.data(), buffer.size(), std::min(longest_s, kLongestWait_s));
         if (size == 0) return false;
-        const double arrival_s = now_s();
+        const double arrival_s = steadyNow_s();
         const std::lock_guard lock(mutex_);
         const auto take = [&](const mavlink::Frame& frame) { takeFrame(frame, arrival_s); };
         parser_.add(buffer.data(), size, take);
@@ -253,7 +248,7 @@ class AutopilotLink::Work {
     }
 
     void reportAttitude() {
-        const double time_s = now_s();
+        const double time_s = steadyNow_s();
         bool is_known = false;
         {
             const std::lock_guard lock(mutex_);

@@ -16,14 +16,13 @@ namespace hagen::sensors {
 
 /// Groups the packets of one sensor into turns: one ends where the azimuth wraps.
 ///
-/// Packets that come up to sixteen late are put back in order by the sensor's clock. Later ones are
-/// left out, unless sixteen come in a row, or are the last: then the clock was set. A turn also
-/// ends where more than 50 ms are missing (a whole turn at the highest speed), after 250 ms (a
-/// sensor that stands still never wraps) and after 2000 packets (whatever its clock says), so
-/// memory is bounded.
+/// Packets up to sixteen late are reordered by the sensor's clock. Later ones are dropped, unless
+/// sixteen come in a row or at the end: then the clock was set. A turn also ends at a gap of more
+/// than 50 ms (a turn at the highest speed), after 250 ms (a standing sensor never wraps) and after
+/// 2000 packets (whatever the clock), which bounds memory.
 class VelodyneTurns {
  public:
-    /// `late`: put back in their place.
+    /// `late`: reordered.
     struct Counts : PacketCounts {
         std::size_t dual = 0;  ///< packets with two returns per firing
     };
@@ -33,10 +32,10 @@ class VelodyneTurns {
                   const VelodyneCalibration* calibration = nullptr);
 
     void add(const VelodynePacket& packet);
-    /// Ends the last turn: no packets follow.
+    /// Completes the last turn.
     void finish();
 
-    /// The turns that are complete, oldest first. The caller takes them out.
+    /// The complete turns, oldest first. The caller takes them out.
     std::deque<LidarSweep>& complete() { return complete_; }
     const Counts& counts() const { return counts_; }
     const VelodyneModel& model() const { return model_; }
@@ -64,7 +63,7 @@ class VelodyneTurns {
     Counts counts_;
 };
 
-/// "293 packets in 5 turns, 2 packets lost": for remarks().
+/// "293 packets in 5 turns, 2 packets lost".
 std::string textOf(const VelodyneTurns::Counts& counts);
 
 }  // namespace hagen::sensors
