@@ -308,7 +308,7 @@ TEST_F(LiveSegmentMavlink, SilenceIsReportedAndNotFree) {
             GTEST_SKIP() << "this machine is too slow at the moment";
         }
         EXPECT_THAT(states, HasSubstr("kuk"));
-        EXPECT_THAT(outcome.err, HasSubstr("all directions are sent as unknown"));
+        EXPECT_THAT(outcome.err, HasSubstr("sending all directions as unknown"));
         EXPECT_THAT(outcome.err, HasSubstr("sending directions again"));
         EXPECT_GE(stats()["stalls"], 1);
         EXPECT_GT(stats()["all_unknown"], 5);

@@ -154,7 +154,7 @@ TEST_F(AutopilotLinkTest, ReportsStalledLabelling) {
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::Heartbeat>(
         [](const auto& m) { return m.system_status == mavlink::kStateCritical; }));
     EXPECT_GE(count("stalls"), 1u);
-    EXPECT_THAT(remarks(), Contains(HasSubstr("all directions are sent as unknown")));
+    EXPECT_THAT(remarks(), Contains(HasSubstr("sending all directions as unknown")));
     takeTurn();
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::ObstacleDistance>(
         [](const auto& m) { return m.distances[0] == 600 && m.distances[36] == 2001; }));
