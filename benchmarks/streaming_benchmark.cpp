@@ -3,11 +3,12 @@
 #include <hagen/base/NumberText.h>
 #include <hagen/base/ProcessCost.h>
 #include <hagen/base/Quantile.h>
-#include <hagen/live/VelodyneStream.h>
+#include <hagen/live/LidarStream.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/scan/Angle.h>
+#include <hagen/sensors/VelodyneModel.h>
 #include <mrpt/math/CQuaternion.h>
 
 #include <algorithm>
@@ -171,7 +172,7 @@ Attitude attitudeOf(const Eigen::Isometry3d& pose) {
 }
 
 void setMotion(const Recording& recording, std::size_t k, double part, Known known,
-               live::VelodyneStream& packets) {
+               live::LidarStream& packets) {
     const Turn& turn = recording.turns[k];
     const bool has_next = k + 1 < recording.turns.size() && recording.turns[k + 1].pose;
     if (known == Known::Nothing || !turn.pose || !has_next) return;
@@ -182,8 +183,9 @@ void setMotion(const Recording& recording, std::size_t k, double part, Known kno
     pose.linear() = Eigen::Quaterniond(a.linear())
                         .slerp(part, Eigen::Quaterniond(b.linear()))
                         .toRotationMatrix();
-    packets.setAttitude(attitudeOf(pose));
-    if (known == Known::Pose) packets.setPose(pose);
+    live::SensorMotion motion{attitudeOf(pose), {}};
+    if (known == Known::Pose) motion.map_from_sensor = pose;
+    packets.move(motion);
 }
 
 void stream(const Recording& recording, const live::StreamingOptions& options, Known known,
@@ -197,7 +199,7 @@ void stream(const Recording& recording, const live::StreamingOptions& options, K
     };
     const auto& model =
         sensors::velodyneModel(observations::sensorOf(*recording.turns.front().packets).name);
-    live::VelodyneStream packets(model, recording.settings, take, options);
+    live::LidarStream packets(sensors::makeDriver(model.name), recording.settings, take, options);
     double time_s = 0;
     std::size_t count = 0;
     for (std::size_t k = 0; k < recording.turns.size(); ++k) {
@@ -209,7 +211,10 @@ void stream(const Recording& recording, const live::StreamingOptions& options, K
             time_s += 1e-6 * model.packetPeriodUs(false);
             const std::size_t before = packets.segmenter().sectors();
             const auto start = base::threadCpuTime();
-            packets.add(reinterpret_cast<const std::uint8_t*>(&raw[p]), sizeof raw[p], time_s);
+            sensors::Datagram datagram;
+            datagram.bytes = reinterpret_cast<const std::uint8_t*>(&raw[p]);
+            datagram.size = sizeof raw[p];
+            packets.add(datagram, time_s);
             const double us =
                 std::chrono::duration<double, std::micro>(base::threadCpuTime() - start).count();
             label_us += us;

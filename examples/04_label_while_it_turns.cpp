@@ -1,7 +1,7 @@
 // Labels before the turn ends: packets of a VLP-16 in, the nearest obstacle in each direction out.
+#include <hagen/live/LidarStream.h>
 #include <hagen/live/PacketSource.h>
 #include <hagen/live/SectorDistances.h>
-#include <hagen/live/VelodyneStream.h>
 
 #include <cstdio>
 #include <exception>
@@ -11,16 +11,16 @@ int main(int argc, char** argv) {
     try {
         // What is done with each sector, a few milliseconds after its last packet.
         live::SectorDistances distances(sensorModel("VLP-16"));
-        live::VelodyneStream stream(
-            sensors::velodyneModel("VLP-16"), {},
+        live::LidarStream stream(
+            sensors::makeDriver("VLP-16"), {},
             [&](const live::LabelledSector& sector) { distances.take(sector); });
-        // With an IMU, if there is one: stream.setAttitude() before each packet.
+        // With an IMU, if there is one: stream.move() before each packet.
 
         live::UdpSource source(live::parseAddress(argc > 1 ? argv[1] : "0.0.0.0:2368"));
         live::Packet packet;
         for (double next_s = live::steadyNow_s();;) {
             if (source.next(packet) == live::PacketSource::Next::Packet) {
-                stream.add(packet.bytes.data(), packet.bytes.size(), packet.arrival_s);
+                stream.add(packet.datagram(), packet.arrival_s);
             }
             if (live::steadyNow_s() < next_s) continue;
             next_s += 0.1;

@@ -13,8 +13,8 @@ using base::UsageError;
 
 namespace {
 
-/// Of a serial line that carries all messages with a tenth to spare: 20 times per second the
-/// directions, 10 times each obstacle and the ground. A byte takes ten bits.
+/// Of a serial line for all messages plus 10 %: directions at 20 Hz, each obstacle and the ground
+/// at 10 Hz. A byte takes ten bits.
 int neededBaud(int obstacles) {
     constexpr int kBytes_s = 3900, kBytesOfObstacle_s = 400;
     return 11 * (kBytes_s + kBytesOfObstacle_s * obstacles);
@@ -25,41 +25,41 @@ int neededBaud(int obstacles) {
 void declareAutopilot(base::Program& app, AutopilotFlags& flags) {
     const Flag peer =
         app.option("--mavlink", flags.peer,
-                   "sends obstacles to an autopilot, and takes its attitude and position: "
+                   "autopilot that gets obstacles and sends attitude and position: "
                    "udp:HOST:PORT[:OUR_PORT] or serial:DEVICE:BAUD (docs/autopilot.md)")
             .valueName("PEER")
             .group("Autopilot");
-    app.option("--mavlink-system", flags.system, "number of the vehicle (its system id), and ours")
+    app.option("--mavlink-system", flags.system, "MAVLink system ID")
         .between(1, 255)
         .showDefault()
         .valueName("N")
         .needs(peer)
         .group("Autopilot");
     app.option("--sensor-yaw", flags.sensor_yaw_deg,
-               "the sensor's x axis is turned from the vehicle's front by this, clockwise from "
-               "above")
+               "yaw of the sensor's x axis from the vehicle's front, clockwise from above")
         .between(-360.0, 360.0)
         .showDefault()
         .valueName("DEG")
         .needs(peer)
         .group("Autopilot");
     app.option("--obstacle-height", flags.height_m,
-               "obstacles are RoI returns up to this far above or below the sensor (default: all)")
+               "max. height of obstacles above or below the sensor (default: unlimited)")
         .positive()
         .valueName("M")
         .needs(peer)
         .group("Autopilot");
-    app.option("--obstacles", flags.nearest, "nearest obstacles that are sent one by one")
+    app.option("--obstacles", flags.nearest,
+               "max. number of single obstacles (OBSTACLE_DISTANCE_3D)")
         .between(0, 20)
         .showDefault()
         .valueName("N")
         .needs(peer)
         .group("Autopilot");
-    app.flag("--no-ground", flags.has_no_ground, "does not send the distance of the ground below")
+    app.flag("--no-ground", flags.has_no_ground,
+             "do not send the distance to the ground (DISTANCE_SENSOR)")
         .needs(peer)
         .group("Autopilot");
-    app.flag("--simulated-vehicle", flags.is_simulated,
-             "the vehicle is simulated: its clock may pause, or be slower than ours")
+    app.flag("--simulated-vehicle", flags.is_simulated, "the vehicle's clock may pause or run slow")
         .needs(peer)
         .group("Autopilot");
 }
@@ -75,9 +75,9 @@ void checkAutopilot(const AutopilotFlags& flags) {
     const int needed = neededBaud(flags.nearest);
     if (peer.kind == mavlink::PeerAddress::Kind::Serial && peer.baud < needed) {
         throw UsageError("--obstacles", std::to_string(flags.nearest) + " obstacles need " +
-                                            std::to_string(needed) + " baud, and --mavlink has " +
+                                            std::to_string(needed) + " baud; --mavlink has " +
                                             std::to_string(peer.baud) +
-                                            ": messages would come later and later");
+                                            ": exceeds the bandwidth of the serial link");
     }
 }
 

@@ -1,4 +1,4 @@
-// Labels the packets of a LiDAR while they come: near obstacles (RoI) and everything else (ROU).
+// Labels the packets of a LiDAR as they arrive: near obstacles (RoI) and everything else (ROU).
 #include <hagen/live/LiveSession.h>
 #include <hagen/settings/Presets.h>
 
@@ -37,29 +37,31 @@ struct Flags {
 
 void declare(Program& app, Flags& flags) {
     app.option("--listen", flags.listen,
-               "IPv4 address of this machine and port that the sensor sends to, such as "
-               "0.0.0.0:2368; a multicast group is joined")
+               "local IPv4 address (0.0.0.0: all) and port, such as 0.0.0.0:2368; joins "
+               "multicast groups")
         .valueName("ADDRESS:PORT")
         .group("Input");
-    app.option("--replay", flags.replay, "a network capture (.pcap, .pcapng) instead of a sensor")
+    app.option("--replay", flags.replay, "network capture (.pcap, .pcapng) instead of a sensor")
         .existingFile()
         .group("Input");
-    app.option("--speed", flags.speed, "of --replay: 1 is as fast as it was recorded")
+    app.option("--speed", flags.speed, "replay speed; requires --replay")
         .between(0.001, 1e6)
         .showDefault()
         .valueName("X")
         .group("Input");
-    app.option("--model", flags.live.model, "the sensor")
-        .valueName(live::liveModels("|"))
+    app.option("--model", flags.live.model, "sensor model")
+        .valueName(sensors::driverModels("|"))
         .group("Input");
     app.option("--calibration", flags.live.calibration,
                "calibration of an HDL-64E (Velodyne's db.xml)")
         .existingFile()
         .group("Input");
-    app.option("--sensor-json", flags.live.sensor_json, "metadata of an Ouster, instead of --model")
+    app.option("--sensor-json", flags.live.sensor_json,
+               "Ouster metadata file (JSON), instead of --model")
         .existingFile()
         .group("Input");
-    app.option("--duration", flags.live.duration_s, "ends after this time (default: on Ctrl-C)")
+    app.option("--duration", flags.live.duration_s,
+               "stop after this many seconds (default: run until Ctrl-C)")
         .between(0.001, 1e9)
         .valueName("SECONDS")
         .group("Input");
@@ -74,8 +76,8 @@ void declare(Program& app, Flags& flags) {
     app.flag("-q,--quiet", flags.is_quiet, "print errors only").group("Output");
     declareAutopilot(app, flags.autopilot);
     app.option("-c,--config", flags.configs,
-               "settings file, or the name of a preset such as hdl32e; may be repeated, later ones "
-               "override earlier ones")
+               "settings file or preset such as hdl32e; may be repeated, later files override "
+               "earlier ones")
         .once()
         .group("Settings");
     app.version(HAGEN_VERSION);
@@ -86,17 +88,17 @@ void check(Flags& flags) {
         throw UsageError("one of --listen and --replay is required");
     }
     if (flags.replay.empty() && flags.speed != 1) {
-        throw UsageError("--speed", "is of --replay only");
+        throw UsageError("--speed", "requires --replay");
     }
     if (flags.live.model.empty() && flags.live.sensor_json.empty()) {
-        throw UsageError("--model or, of an Ouster, --sensor-json is required; models: " +
-                         live::liveModels());
+        throw UsageError("--model or, for an Ouster, --sensor-json is required; models: " +
+                         sensors::driverModels());
     }
     checkAutopilot(flags.autopilot);
     flags.live.replay = flags.replay;
     flags.live.overwrite = flags.live.recording.overwrite = flags.overwrite;
     try {
-        live::checkLive(flags.live);
+        sensors::checkDriver(flags.live.model, flags.live.sensor_json, flags.live.calibration);
     } catch (const std::runtime_error& e) {
         throw UsageError(e.what());
     }
@@ -118,8 +120,8 @@ class StatusLine {
                       "late %zu, foreign %zu, nearest %.1f m%s",
                       status.turns_per_s, 1e3 * status.p50_s, 1e3 * status.p99_s,
                       1e3 * status.max_s, report.lost, report.dropped, report.late,
-                      report.foreign + report.wrong_size, static_cast<double>(status.nearest_m),
-                      status.is_silent ? ", silent" : "");
+                      report.other_sensor + report.wrong_size,
+                      static_cast<double>(status.nearest_m), status.is_silent ? ", silent" : "");
         printer.printIfIdle(To::ErrorsInPlace, text);
     }
     /// Where to print what replaces the status.
@@ -132,15 +134,15 @@ class StatusLine {
 std::string summaryOf(const live::LiveReport& r) {
     base::TextStream text;
     text << r.packets << " packets in " << r.scans << " turns, " << r.lost << " lost, " << r.late
-         << " late, " << r.repeated << " repeated, " << r.dropped
-         << " dropped\nleft out: " << r.wrong_size << " datagrams of another size, " << r.foreign
-         << " of other sensors, " << r.position << " of position or IMU, " << r.unsound
+         << " late, " << r.duplicate << " duplicate, " << r.dropped
+         << " dropped\nignored: " << r.wrong_size << " datagrams of other size, " << r.other_sensor
+         << " of other sensors, " << r.auxiliary << " position or IMU, " << r.unsound
          << " without valid data, " << r.too_late << " too late, " << r.uncertain
-         << " of an uncertain mode\n"
+         << " of uncertain mode\n"
          << r.sectors << " sectors, " << r.returns << " returns, " << r.roi << " RoI\n";
     if (r.latency.count() > 0) {
         const auto ms = [](double time_s) { return base::fixedText(1e3 * time_s, 2); };
-        text << "from a sector's last packet to its labels: p50 " << ms(r.latency.quantile_s(0.5))
+        text << "latency from last packet to labels: p50 " << ms(r.latency.quantile_s(0.5))
              << ", p99 " << ms(r.latency.quantile_s(0.99)) << ", p99.9 "
              << ms(r.latency.quantile_s(0.999)) << ", max " << ms(r.latency.max_s()) << " ms\n";
     }
@@ -160,17 +162,14 @@ std::string failureOf(const live::LiveReport& report, const live::LiveOptions& o
         failure += (failure.empty() ? "" : "; ") + report.stats_failure;
     }
     if (!failure.empty() || report.packets > 0) return failure;
-    const std::string sensor = options.model.empty()
-                                   ? "the Ouster of " + options.sensor_json.string()
-                                   : "a " + options.model;
-    std::string problem = "no packet of " + sensor + " has come";
-    if (report.foreign > 0) {
-        problem += ", but " + std::to_string(report.foreign) + " of other sensors: see " +
+    std::string problem = "no packet from " + live::sensorName(options) + " received";
+    if (report.other_sensor > 0) {
+        problem += ", but " + std::to_string(report.other_sensor) + " from other sensors: check " +
                    (options.model.empty() ? "--sensor-json" : "--model");
     }
     if (report.uncertain > 0) {
         problem += ", but " + std::to_string(report.uncertain) +
-                   " of one that does not turn with the columns of the metadata: is it in "
+                   " of turns that do not have the columns of the metadata. Is the sensor in "
                    "another mode?";
     }
     return problem;
@@ -197,14 +196,14 @@ int run(const Program& program, Flags& flags) {
             if (!flags.is_quiet) std::cerr << "listening on " << flags.listen << "\n";
         }
         catchSignals();
-        BackgroundPrinter printer;  // a terminal that is stopped must not stop labels
+        BackgroundPrinter printer;  // a stopped terminal must not stop labelling
         const StatusLine line(flags.is_quiet);
         live::LiveListener listener;
         listener.keep_going = [] { return !isInterrupted(); };
         listener.status = [&](const auto& report, const auto& status) {
             line.show(report, status, printer);
         };
-        listener.remark = [&](const std::string& remark) {  // the autopilot's thread, too
+        listener.remark = [&](const std::string& remark) {  // also from the autopilot's thread
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
         std::unique_ptr<live::AutopilotLink> link;
@@ -212,7 +211,7 @@ int run(const Program& program, Flags& flags) {
         try {
             left = base::leftBehind(
                 {flags.live.recording.file, flags.live.recording.posesFile(), flags.live.stats});
-        } catch (const std::filesystem::filesystem_error&) {  // told by what opens it
+        } catch (const std::filesystem::filesystem_error&) {  // reported on opening
         }
         int failed = kFailed;
         try {
@@ -229,14 +228,14 @@ int run(const Program& program, Flags& flags) {
         } catch (const SettingsError& e) {
             failure = e.what();
             failed = kWrongUsage;
-        } catch (const std::exception& e) {  // told by the printer, which does not wait either
+        } catch (const std::exception& e) {  // printed in the background
             printer.print(line.instead(), "");
             failure = program.messageOf(e);
         }
         if (!flags.is_quiet && !left.empty()) printer.print(To::Errors, left + "\n");
         if (!failure.empty()) printer.print(To::Errors, "live-segment: " + failure + "\n");
         if (!printer.finish()) {
-            // Nobody reads. All files are complete; to end as usual would print what is left.
+            // The terminal is blocked. All files are complete; exit() would print the rest.
             link.reset();
             const bool is_done = failure.empty() && printer.isOutputPrinted();
             std::_Exit(is_done ? kDone : failure.empty() ? kFailed : failed);
@@ -250,8 +249,8 @@ int run(const Program& program, Flags& flags) {
 int command(int argc, char** argv) {
     Program program(
         "live-segment",
-        "Separates near obstacles (RoI) from ground and far returns (ROU) while a LiDAR "
-        "sends its packets, before its turn ends.");
+        "Segments the packets of a LiDAR into near obstacles (RoI) and ground or distant "
+        "returns (ROU) while it rotates.");
     program.footer(
         "Examples:\n"
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --record flight.pcap\n"

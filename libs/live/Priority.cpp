@@ -5,7 +5,7 @@
 
 namespace hagen::live {
 
-void letOthersGoFirst() {
+void lowerPriority() {
     int policy = SCHED_OTHER;
     sched_param priority{};
     if (pthread_getschedparam(pthread_self(), &policy, &priority) != 0) return;

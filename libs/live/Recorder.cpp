@@ -107,15 +107,7 @@ void Recorder::write() {
             writePoses();
             continue;
         }
-        sensors::Datagram datagram;
-        datagram.time_ns = packet.time_ns;
-        datagram.from_ip = packet.from_ip;
-        datagram.to_ip = packet.to_ip;
-        datagram.from_port = packet.from_port;
-        datagram.to_port = packet.to_port;
-        datagram.bytes = packet.bytes.data();
-        datagram.size = packet.bytes.size();
-        if (capture_.add(datagram)) writePoses();
+        if (capture_.add(packet.datagram())) writePoses();
         const std::lock_guard lock(mutex_);
         ++recorded_.packets;
     }

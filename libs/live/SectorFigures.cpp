@@ -9,8 +9,6 @@
 namespace hagen::live {
 namespace {
 
-using live::SectorDistances;
-
 constexpr double kDirections_s = 0.05;
 constexpr double kLeastTime_s = 0.125;  // of a rate
 constexpr double kOtherRate = 0.2;      // is told
@@ -30,7 +28,7 @@ SectorFigures::SectorFigures(const SensorModel& sensor, const Attitude& mount, L
     report_.nearest_m.fill(std::numeric_limits<float>::infinity());
 }
 
-void SectorFigures::take(const live::LabelledSector& sector, double now_s) {
+void SectorFigures::take(const LabelledSector& sector, double now_s) {
     const double latency_s = now_s - sector.last_time_s;
     if (sector.is_cut) {
         ++report_.sectors_cut;
@@ -52,14 +50,14 @@ void SectorFigures::take(const live::LabelledSector& sector, double now_s) {
     noteNearest(sector);
 }
 
-void SectorFigures::noteNearest(const live::LabelledSector& sector) {
+void SectorFigures::noteNearest(const LabelledSector& sector) {
     if (sector.is_doubtful) return;
     const Scan& scan = sector.returns;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (sector.label[i] != Label::Roi) continue;
         const Eigen::Vector3f at_m =
             vehicle_from_sensor_ * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
-        const int k = live::directionOf(at_m.head<2>(), SectorDistances::kSectors);
+        const int k = directionOf(at_m.head<2>(), SectorDistances::kSectors);
         report_.nearest_m[k] = std::min(report_.nearest_m[k], at_m.head<2>().norm());
     }
 }

@@ -17,7 +17,7 @@ class SectorFigures {
     SectorFigures(const SensorModel& sensor, const Attitude& mount, LiveReport& report);
 
     /// A sector that got its labels at `now_s`.
-    void take(const live::LabelledSector& sector, double now_s);
+    void take(const LabelledSector& sector, double now_s);
     /// Counts the states of the directions, each twentieth of a second.
     void countDirections(double now_s);
     /// The latest distances go into the report.
@@ -31,11 +31,11 @@ class SectorFigures {
     void next();
 
  private:
-    void noteNearest(const live::LabelledSector& sector);
+    void noteNearest(const LabelledSector& sector);
 
     LiveReport& report_;
     Eigen::Matrix3f vehicle_from_sensor_;
-    live::SectorDistances distances_;
+    SectorDistances distances_;
     double counted_s_ = 0;
     LatencyHistogram recent_;
     double recent_sweep_rad_ = 0, recent_first_s_ = 0, recent_last_s_ = 0, rate_told_ = 0;

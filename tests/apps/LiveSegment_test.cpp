@@ -146,7 +146,7 @@ TEST_F(LiveSegment, OusterRecordingConvertsToTheSameLabels) {
     }
 }
 
-TEST_F(LiveSegment, NoOutputReplacesAnInputOrAnother) {
+TEST_F(LiveSegment, OutputsReplaceNoInputOrOutput) {
     const std::string file = capture(), before = test::readFile(file);
     const std::vector<std::string> flags = with(sensor_, {"-q", "--replay", file, "--speed", "50"});
     const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
@@ -160,7 +160,7 @@ TEST_F(LiveSegment, NoOutputReplacesAnInputOrAnother) {
     EXPECT_TRUE(test::readFile(file) == before);
 }
 
-TEST_F(LiveSegment, ARecordingThatCannotBeWrittenCostsNoStatistics) {
+TEST_F(LiveSegment, FailedRecordingKeepsStatistics) {
     const auto outcome =
         test::run("/bin/bash", {"-c", "ulimit -f 8; exec \"" + std::string(HAGEN_LIVE_SEGMENT) +
                                           "\" --model VLP-16 --speed 50 --replay \"" + capture() +
@@ -172,7 +172,7 @@ TEST_F(LiveSegment, ARecordingThatCannotBeWrittenCostsNoStatistics) {
     EXPECT_GT(stats()["packets"]["taken"], 0);
 }
 
-TEST_F(LiveSegment, StatisticsThatCannotBeWrittenCostNothingElse) {
+TEST_F(LiveSegment, FailedStatisticsAffectNothingElse) {
     const auto outcome =
         test::run("/bin/bash", {"-c", "(ulimit -f 0; exec \"" + std::string(HAGEN_LIVE_SEGMENT) +
                                           "\" --model VLP-16 --speed 50 --replay \"" + capture() +
@@ -184,7 +184,7 @@ TEST_F(LiveSegment, StatisticsThatCannotBeWrittenCostNothingElse) {
     EXPECT_FALSE(fs::exists(path("stats.json")));
 }
 
-TEST_F(LiveSegment, ReceivesFromTheNetwork) {
+TEST_F(LiveSegment, ReceivesFromNetwork) {
     const std::uint16_t port = freePort();
     std::vector<std::string> packets;
     for (const auto& scan : scans()) {
@@ -241,7 +241,7 @@ TEST_F(LiveSegment, LoadsNothingOfMrpt) {
     }
 }
 
-TEST_F(LiveSegment, AFullDiskEndsTheRecordingOnly) {
+TEST_F(LiveSegment, FullDiskEndsRecordingOnly) {
     const auto outcome =
         test::run("bash", {"-c", "ulimit -f 200; exec \"$0\" \"$@\"", HAGEN_LIVE_SEGMENT, "--model",
                            "VLP-16", "--replay", capture(), "--speed", "20", "--record",
@@ -256,7 +256,7 @@ TEST_F(LiveSegment, AFullDiskEndsTheRecordingOnly) {
 }
 
 /// A terminal that is stopped, or a pipe that nobody reads.
-TEST_F(LiveSegment, ItEndsAlsoIfNobodyReadsItsErrors) {
+TEST_F(LiveSegment, EndsWithBlockedTerminal) {
     const std::string command =
         "mkfifo '" + path("fifo") + "'; exec 3<>'" + path("fifo") +
         "'; head -c 65536 /dev/zero >&3; exec timeout 20 '" + HAGEN_LIVE_SEGMENT + "' --replay '" +
@@ -360,13 +360,13 @@ TEST_F(LiveSegmentKilled, CompletesTheRecordingOnSigterm) {
     EXPECT_THAT(test::readFile(path("out")), HasSubstr("recorded: " + path("a.pcap")));
 }
 
-TEST_F(LiveSegment, SilenceIsAnError) {
+TEST_F(LiveSegment, SilenceIsError) {
     expectFailure(with(sensor_, {"-q", "--listen", "127.0.0.1:" + std::to_string(freePort()),
                                  "--duration", "0.1"}),
-                  1, "no packet of a VLP-16 has come");
+                  1, "no packet from a VLP-16 received");
 }
 
-TEST_F(LiveSegment, WrongFlagsAreExplained) {
+TEST_F(LiveSegment, RejectsWrongFlags) {
     const std::string file = capture();
     expectFailure({"--model", "VLP-16"}, 2, "one of --listen and --replay is required");
     expectFailure({"--replay", file, "--listen", "1.2.3.4:5", "--model", "VLP-16"}, 2,

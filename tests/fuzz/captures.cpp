@@ -1,8 +1,6 @@
 // Captures of a network: libpcap's files, fragments, and what is in the datagrams. The first byte
 // names the sensor.
-#include <hagen/recordings/LivoxCapture.h>
-#include <hagen/recordings/OusterCapture.h>
-#include <hagen/recordings/VelodyneCapture.h>
+#include <hagen/recordings/LidarCapture.h>
 
 #include <memory>
 
@@ -14,7 +12,8 @@
 namespace hagen::fuzz {
 namespace {
 
-void readAll(recordings::LidarCapture& capture) {
+void readAll(const std::filesystem::path& file, std::unique_ptr<sensors::SweepReader> reader) {
+    recordings::LidarCapture capture(file, std::move(reader));
     mayRefuse([&] {
         while (capture.nextScan()) {
         }
@@ -30,15 +29,12 @@ void readCapture(std::string_view input) {
     sensors::isCapture(file.path());
     mayRefuse([&] {
         if (kind == 0) {
-            recordings::VelodyneCapture capture(file.path());
-            readAll(capture);
+            readAll(file.path(), sensors::makeVelodyneSweeps());
         } else if (kind == 1) {
-            recordings::LivoxCapture capture(file.path());
-            readAll(capture);
+            readAll(file.path(), sensors::makeLivoxSweeps());
         } else {
             const InputFile json(test::ousterJson(), "sensor.json");
-            recordings::OusterCapture capture(file.path(), json.path());
-            readAll(capture);
+            readAll(file.path(), sensors::makeOusterSweeps(json.path()));
         }
     });
 }

@@ -1,7 +1,7 @@
 // Packets of an Ouster with any content. The first byte of the input names the profile.
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/OusterObservation.h>
-#include <hagen/sensors/OusterFrames.h>
+#include <hagen/recordings/LidarCapture.h>
+#include <hagen/sensors/OusterScan.h>
 
 #include "fuzz/Target.h"
 #include "support/OusterPackets.h"
@@ -24,7 +24,8 @@ void decode(std::string_view input) {
     const auto takeOut = [&] {
         for (; !frames.complete().empty(); frames.complete().pop_front()) {
             ++complete;
-            const auto observation = recordings::observationOf(frames.complete().front(), sensor);
+            const auto observation =
+                recordings::observationOf(sweepOf(frames.complete().front(), sensor));
             observations::ObservedScan observed;
             observations::readObservation(*observation, {}, observed);
             for (const std::uint8_t row : observed.scan.row) {
@@ -44,7 +45,7 @@ void decode(std::string_view input) {
     frames.finish();
     takeOut();
     require(complete == frames.counts().frames, "a frame is lost");
-    recordings::textOf(frames.counts());
+    sensors::textOf(frames.counts());
 }
 
 Seeds packetSeeds() {

@@ -1,10 +1,10 @@
 // Datagrams of a LiDAR, one after the other: sound ones, and those with any bytes changed, cut off,
 // late, lost or repeated. Nothing throws, and each is taken, or refused and counted. The first byte
 // of the input names the sensor.
-#include <hagen/live/LivoxStream.h>
-#include <hagen/live/OusterStream.h>
-#include <hagen/live/VelodyneStream.h>
+#include <hagen/live/LidarStream.h>
+#include <hagen/sensors/OusterSensor.h>
 
+#include <functional>
 #include <memory>
 
 #include "fuzz/AnyFilter.h"
@@ -64,139 +64,77 @@ Settings fewColumns() {
     return settings;
 }
 
-/// A stream of any sensor, as this file needs it.
-struct AnyStream {
-    virtual ~AnyStream() = default;
-    virtual std::string packet(std::size_t n) = 0;
-    virtual void add(const std::string& bytes, double time_s) = 0;
-    virtual void flush() = 0;
-    virtual void move(const std::optional<Attitude>& tilt,
-                      const std::optional<Eigen::Isometry3d>& pose) = 0;
-    /// Of datagrams, those that were counted.
-    virtual std::size_t counted() const = 0;
-};
-
-live::StreamingSegmenter::Take into(std::unique_ptr<SectorChecker>& checker) {
-    return [&checker](const LabelledSector& sector) { checker->take(sector); };
-}
-
-const std::uint8_t* bytesAt(const std::string& bytes) {
-    return reinterpret_cast<const std::uint8_t*>(bytes.data());
-}
-
-/// What all streams have. `made_of`: what its constructor takes before the function.
-template <class Stream>
-struct StreamOf : AnyStream {
-    template <class... Part>
-    explicit StreamOf(std::unique_ptr<SectorChecker>& checker, const Part&... made_of)
-        : stream(made_of..., into(checker)) {
-        checker = std::make_unique<SectorChecker>(stream.segmenter().sensor());
-    }
-    void flush() override { stream.flush(); }
-    void move(const std::optional<Attitude>& tilt,
-              const std::optional<Eigen::Isometry3d>& pose) override {
-        stream.setAttitude(tilt);
-        stream.setPose(pose);
-    }
-
-    Stream stream;
-};
-
-struct AnyVelodyne : StreamOf<live::VelodyneStream> {
-    AnyVelodyne(const char* name, std::uint8_t model_number,
-                std::unique_ptr<SectorChecker>& checker)
-        : StreamOf(checker, sensors::velodyneModel(name), fewColumns()), number(model_number) {}
-    std::string packet(std::size_t n) override { return velodynePacket(n, number); }
-    void add(const std::string& bytes, double time_s) override {
-        stream.add(bytesAt(bytes), bytes.size(), time_s);
-    }
-    std::size_t counted() const override {
-        const auto& c = stream.counts();
-        return c.packets + c.wrong_size + c.other_model + c.repeated + c.unsound + c.too_late;
-    }
-
-    std::uint8_t number;
-};
-
-Settings settingsOfFourBeams() {
+/// The packets of any sensor.
+struct AnyLidar {
+    std::unique_ptr<sensors::LidarDriver> driver;
     Settings settings = fewColumns();
+    std::function<std::string(std::size_t n)> packet;
+};
+
+AnyLidar anyVelodyne(const char* name, std::uint8_t number) {
+    return {sensors::makeDriver(name), fewColumns(),
+            [number](std::size_t n) { return velodynePacket(n, number); }};
+}
+
+AnyLidar anyOuster() {
+    const sensors::OusterSensor sensor = sensors::ousterSensorOf(test::ousterJson(), "made");
+    Settings settings = fewColumns();  // four beams
     settings.options.window_size = 2;
     settings.options.principal_components = 1;
-    return settings;
+    return {sensors::makeOusterDriver(sensor), settings, [sensor](std::size_t n) {
+                const auto frame = static_cast<std::uint16_t>(n / 4);
+                const auto packets = test::packetsOf(sensor, test::randomFrame(sensor, frame));
+                return packets[n % 4 % packets.size()];
+            }};
 }
 
-struct AnyOuster : StreamOf<live::OusterStream> {
-    AnyOuster(const sensors::OusterSensor& made, std::unique_ptr<SectorChecker>& checker)
-        : StreamOf(checker, made, settingsOfFourBeams()), sensor(made) {}
-    std::string packet(std::size_t n) override {
-        if (n / 4 != frame || packets.empty()) {
-            frame = n / 4;
-            packets = test::packetsOf(sensor,
-                                      test::randomFrame(sensor, static_cast<std::uint16_t>(frame)));
-        }
-        return packets[n % 4 % packets.size()];
-    }
-    void add(const std::string& bytes, double time_s) override {
-        stream.add(bytesAt(bytes), bytes.size(), time_s, static_cast<std::int64_t>(1e9 * time_s));
-        stream.complete().clear();
-    }
-    std::size_t counted() const override {
-        const auto& c = stream.counts();
-        return c.packets + c.wrong_size + c.other_sensor + c.imu + c.repeated + c.unsound +
-               c.too_late + c.uncertain;
-    }
+AnyLidar anyLidar(std::size_t kind) {
+    if (kind == 0) return anyVelodyne("VLP-16", 0x22);
+    if (kind == 1) return anyVelodyne("HDL-32E", 0x21);
+    if (kind == 2) return anyOuster();
+    return {sensors::makeDriver("Mid-360"), fewColumns(), livoxPacket};
+}
 
-    sensors::OusterSensor sensor;
-    std::size_t frame = 0;
-    std::vector<std::string> packets;
-};
-
-struct AnyLivox : StreamOf<live::LivoxStream> {
-    explicit AnyLivox(std::unique_ptr<SectorChecker>& checker) : StreamOf(checker, fewColumns()) {}
-    std::string packet(std::size_t n) override { return livoxPacket(n); }
-    void add(const std::string& bytes, double time_s) override {
-        stream.add(bytesAt(bytes), bytes.size(), time_s);
-    }
-    std::size_t counted() const override {
-        const auto& c = stream.counts();
-        return c.packets + c.imu + c.foreign + c.repeated + c.too_late;
-    }
-};
-
-std::unique_ptr<AnyStream> anyStream(std::size_t kind, std::unique_ptr<SectorChecker>& checker) {
-    if (kind == 0) return std::make_unique<AnyVelodyne>("VLP-16", 0x22, checker);
-    if (kind == 1) return std::make_unique<AnyVelodyne>("HDL-32E", 0x21, checker);
-    if (kind == 2) {
-        return std::make_unique<AnyOuster>(sensors::ousterSensorOf(test::ousterJson(), "made"),
-                                           checker);
-    }
-    return std::make_unique<AnyLivox>(checker);
+/// Of datagrams, those that were counted.
+std::size_t counted(const sensors::PacketCounts& c) {
+    return c.packets + c.wrong_size + c.other_sensor + c.auxiliary + c.duplicate + c.unsound +
+           c.too_late + c.uncertain;
 }
 
 /// Each datagram takes four bytes of the input, and three for each byte of it that is changed.
 void streamDatagrams(std::string_view input) {
     Parts parts(input);
     std::unique_ptr<SectorChecker> checker;
-    const auto stream = anyStream(parts.below(4), checker);
+    AnyLidar lidar = anyLidar(parts.below(4));
+    live::LidarStream stream(std::move(lidar.driver), lidar.settings,
+                             [&](const LabelledSector& sector) { checker->take(sector); });
+    checker = std::make_unique<SectorChecker>(stream.segmenter().sensor());
     std::size_t n = 0, given = 0;
     double now_s = 1;
     while (!parts.isAtEnd() && given < 120) {
         const auto skipped = static_cast<std::size_t>(parts.number<std::int8_t>());
-        std::string bytes = stream->packet(n + skipped);
+        std::string bytes = lidar.packet(n + skipped);
         for (std::size_t changes = parts.below(8); changes > 0; --changes) {
             const std::size_t at = parts.number<std::uint16_t>() % bytes.size();
             bytes[at] = static_cast<char>(parts.number<std::uint8_t>());
         }
         const std::uint8_t cut = parts.number<std::uint8_t>();
         if (cut > 250) bytes.resize(bytes.size() - cut % 8);
-        stream->add(bytes, now_s);
-        require(stream->counted() == ++given, "a datagram was not counted once");
+        sensors::Datagram datagram;
+        datagram.time_ns = static_cast<std::int64_t>(1e9 * now_s);
+        datagram.bytes = reinterpret_cast<const std::uint8_t*>(bytes.data());
+        datagram.size = bytes.size();
+        stream.add(datagram, now_s);
+        require(counted(stream.counts()) == ++given, "a datagram was not counted once");
         now_s += 1e-3 * parts.number<std::uint8_t>();
         ++n;
-        if (cut == 250) stream->flush();
-        if (cut == 249) stream->move(anyTilt(parts), anyPose(parts));
+        if (cut == 250) stream.flush();
+        if (cut == 249) {
+            const std::optional<Attitude> tilt = anyTilt(parts);
+            stream.move({tilt, anyPose(parts)});
+        }
     }
-    stream->flush();
+    stream.flush();
 }
 
 Seeds datagrams() {

@@ -100,8 +100,8 @@ class AutopilotLinkTest : public testing::Test {
         SegmentationResult result;
         const double time_s = now_s();
         link_->take({scan, std::vector<Label>(scan.size(), Label::Roi),
-                     live::Sweep{turned_rad_, turned_rad_ + 2 * kPi}, time_s - 0.001, time_s, true,
-                     false, false, result});
+                     Sweep{turned_rad_, turned_rad_ + 2 * kPi}, time_s - 0.001, time_s, true, false,
+                     false, result});
         turned_rad_ += 2 * kPi;
     }
     std::size_t count(const std::string& name) const {
@@ -125,7 +125,7 @@ class AutopilotLinkTest : public testing::Test {
     std::unique_ptr<AutopilotLink> link_;  // whose thread uses the others
 };
 
-TEST_F(AutopilotLinkTest, BeforeAnythingIsLabelledNothingIsKnown) {
+TEST_F(AutopilotLinkTest, SendsUnknownBeforeLabels) {
     link_->begin(sensor_, {20, 0});
     const auto distance =
         autopilot_.receiveUntil<mavlink::ObstacleDistance>([](const auto&) { return true; });
@@ -136,7 +136,7 @@ TEST_F(AutopilotLinkTest, BeforeAnythingIsLabelledNothingIsKnown) {
     EXPECT_EQ(heartbeat->system_status, mavlink::kStateBoot);
 }
 
-TEST_F(AutopilotLinkTest, AFilterThatStallsIsToldAndNothingIsFree) {
+TEST_F(AutopilotLinkTest, ReportsStalledLabelling) {
     link_->begin(sensor_, {20, 0});
     takeTurn();
     const auto seen = autopilot_.receiveUntil<mavlink::ObstacleDistance>(
@@ -154,15 +154,15 @@ TEST_F(AutopilotLinkTest, AFilterThatStallsIsToldAndNothingIsFree) {
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::Heartbeat>(
         [](const auto& m) { return m.system_status == mavlink::kStateCritical; }));
     EXPECT_GE(count("stalls"), 1u);
-    EXPECT_THAT(remarks(), Contains(HasSubstr("all directions are sent as unknown")));
+    EXPECT_THAT(remarks(), Contains(HasSubstr("sending all directions as unknown")));
     takeTurn();
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::ObstacleDistance>(
         [](const auto& m) { return m.distances[0] == 600 && m.distances[36] == 2001; }));
-    EXPECT_THAT(remarks(), Contains(HasSubstr("known again")));
+    EXPECT_THAT(remarks(), Contains(HasSubstr("sending directions again")));
 }
 
 /// A remark that finds no memory stands for any step that finds none.
-TEST_F(AutopilotLinkTest, WithoutMemoryAStepIsLeftOutAndTheNextOnesFollow) {
+TEST_F(AutopilotLinkTest, SurvivesOutOfMemory) {
     Autopilot autopilot;
     settings_.peer = autopilot.address();
     link_ = std::make_unique<AutopilotLink>(settings_,
@@ -177,7 +177,7 @@ TEST_F(AutopilotLinkTest, WithoutMemoryAStepIsLeftOutAndTheNextOnesFollow) {
     EXPECT_EQ(count("out_of_memory"), 1u);
 }
 
-TEST_F(AutopilotLinkTest, TheFiveNearestObstaclesAreSentOneByOne) {
+TEST_F(AutopilotLinkTest, SendsFiveNearestObstacles) {
     link_->begin(sensor_, {20, 0});
     takeTurn(8);
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::ObstacleDistance>(
@@ -195,12 +195,12 @@ TEST_F(AutopilotLinkTest, TheFiveNearestObstaclesAreSentOneByOne) {
     }
 }
 
-TEST_F(AutopilotLinkTest, ASectorThatIsLabelledLateIsNotFree) {
+TEST_F(AutopilotLinkTest, LateSectorIsNotFree) {
     link_->begin(sensor_, {20, 0});
     Scan scan;
     SegmentationResult result;
     const double time_s = now_s() - 0.4;  // when its packets came
-    link_->take({scan, {}, live::Sweep{0, 2 * kPi}, time_s, time_s, true, false, false, result});
+    link_->take({scan, {}, Sweep{0, 2 * kPi}, time_s, time_s, true, false, false, result});
     for (int i = 0; i < 5; ++i) {
         const auto message =
             autopilot_.receiveUntil<mavlink::ObstacleDistance>([](const auto&) { return true; });
@@ -208,7 +208,7 @@ TEST_F(AutopilotLinkTest, ASectorThatIsLabelledLateIsNotFree) {
     }
 }
 
-TEST_F(AutopilotLinkTest, HasItsRates) {
+TEST_F(AutopilotLinkTest, SendsAtItsRates) {
     link_->begin(sensor_, {20, 0});
     std::thread labels([&] {
         for (int i = 0; i < 30; ++i) {
@@ -232,7 +232,7 @@ TEST_F(AutopilotLinkTest, HasItsRates) {
     EXPECT_EQ(messages[mavlink::DistanceSensor::kId], 0);  // no ground
 }
 
-TEST_F(AutopilotLinkTest, TheVehiclesMotionIsThatOfTheSensor) {
+TEST_F(AutopilotLinkTest, SensorMovesWithVehicle) {
     link_->begin(sensor_, {20, 0});
     autopilot_.receive();
     Vehicle vehicle;
@@ -258,7 +258,7 @@ TEST_F(AutopilotLinkTest, TheVehiclesMotionIsThatOfTheSensor) {
     EXPECT_EQ(count("other_systems"), 2u);
     EXPECT_EQ(count("other_messages"), 1u);
     EXPECT_EQ(count("skipped_bytes"), 5u);
-    const auto is_told = Contains(HasSubstr("the attitude of vehicle 1 is known"));
+    const auto is_told = Contains(HasSubstr("receiving the attitude of vehicle 1"));
     for (int i = 0; i < 20 && !testing::Value(remarks(), is_told); ++i) autopilot_.receive();
     EXPECT_THAT(remarks(), is_told);
     // Nothing is known without messages.
@@ -268,7 +268,7 @@ TEST_F(AutopilotLinkTest, TheVehiclesMotionIsThatOfTheSensor) {
 }
 
 /// With so many obstacles, a period takes longer than it should.
-TEST_F(AutopilotLinkTest, MessagesDoNotWaitWhileItIsBehind) {
+TEST_F(AutopilotLinkTest, ReadsMessagesWhenLate) {
     link_->begin(sensor_, {20, 0});
     autopilot_.receive();
     mavlink::Attitude attitude{};
@@ -286,7 +286,7 @@ TEST_F(AutopilotLinkTest, MessagesDoNotWaitWhileItIsBehind) {
     EXPECT_GE(count("attitude"), 90u);
 }
 
-TEST_F(AutopilotLinkTest, TheLastMessageSaysThatNothingIsKnown) {
+TEST_F(AutopilotLinkTest, LastMessageIsUnknown) {
     link_->begin(sensor_, {20, 0});
     takeTurn();
     autopilot_.receiveUntil<mavlink::ObstacleDistance>(
@@ -297,7 +297,7 @@ TEST_F(AutopilotLinkTest, TheLastMessageSaysThatNothingIsKnown) {
     EXPECT_EQ(count("obstacle_distance"), sent);  // there is no further one
 }
 
-TEST_F(AutopilotLinkTest, ASensorOnItsMountHasItsOwnTilt) {
+TEST_F(AutopilotLinkTest, MountTiltsSensor) {
     settings_.directions.body_from_sensor.linear() =
         Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitY()).toRotationMatrix();
     link_ = std::make_unique<AutopilotLink>(settings_, [](const std::string&) {});

@@ -7,7 +7,7 @@
 namespace hagen::live {
 namespace {
 
-TEST(ClockOffset, TheFastestMessageTellsTheOffset) {
+TEST(ClockOffset, FastestMessageSetsOffset) {
     // The vehicle's clock is 70 s behind ours; messages take 5 to 45 ms.
     ClockOffset clock;
     std::mt19937 random(1);
@@ -23,7 +23,7 @@ TEST(ClockOffset, TheFastestMessageTellsTheOffset) {
     }
 }
 
-TEST(ClockOffset, FollowsAClockThatDrifts) {
+TEST(ClockOffset, FollowsDriftingClock) {
     ClockOffset clock;
     for (int i = 0; i < 5000; ++i) {
         const double stamp_s = 0.02 * i;
@@ -35,7 +35,7 @@ TEST(ClockOffset, FollowsAClockThatDrifts) {
     }
 }
 
-TEST(ClockOffset, AVehicleThatStartsAgainIsNoticedWithinASecond) {
+TEST(ClockOffset, DetectsRestartWithinOneSecond) {
     ClockOffset clock;
     EXPECT_FALSE(clock.ourTime(500, 600).has_restarted);
     EXPECT_FALSE(clock.ourTime(500.9, 600.9).has_restarted);
@@ -49,7 +49,7 @@ TEST(ClockOffset, AVehicleThatStartsAgainIsNoticedWithinASecond) {
     }
 }
 
-TEST(ClockOffset, AClockThatIsSetIsFollowedButNotByASingleStamp) {
+TEST(ClockOffset, FollowsSetClockAfterSeveralStamps) {
     for (const double ahead_s : {0.5, 1000.0}) {
         ClockOffset clock;
         int restarts = 0;
@@ -64,7 +64,7 @@ TEST(ClockOffset, AClockThatIsSetIsFollowedButNotByASingleStamp) {
 }
 
 /// Its first message may be later than the last one before, or earlier.
-TEST(ClockOffset, AVehicleThatStartsAgainOutOfReachIsFollowed) {
+TEST(ClockOffset, DetectsRestartOutOfReach) {
     for (const double uptime_s : {5.0, 11.5, 12.0, 15.0, 25.0}) {
         ClockOffset clock;
         for (double stamp_s = 3; stamp_s < 12; stamp_s += 0.02) clock.ourTime(stamp_s, stamp_s);
@@ -80,7 +80,7 @@ TEST(ClockOffset, AVehicleThatStartsAgainOutOfReachIsFollowed) {
 }
 
 /// Two ways to a vehicle; the fast one fails.
-TEST(ClockOffset, WhatGoesOnByALongerWayIsOld) {
+TEST(ClockOffset, MessagesOnSlowerPathAreOld) {
     for (const double longer_s : {0.8, 1.5, 2.0, 10.0}) {
         ClockOffset clock;
         for (double stamp_s = 0; stamp_s < 560; stamp_s += 0.02) {
@@ -94,7 +94,7 @@ TEST(ClockOffset, WhatGoesOnByALongerWayIsOld) {
     }
 }
 
-TEST(ClockOffset, SingleMessagesThatCameByALongerWayAreOld) {
+TEST(ClockOffset, SingleMessagesOnSlowerPathAreOld) {
     ClockOffset clock;
     for (int i = 0; i < 3000; ++i) {
         const double stamp_s = 0.02 * i, arrival_s = stamp_s + 70;
@@ -109,7 +109,7 @@ TEST(ClockOffset, SingleMessagesThatCameByALongerWayAreOld) {
     }
 }
 
-TEST(ClockOffset, ABacklogThatDrainsIsOld) {
+TEST(ClockOffset, DrainingBacklogIsOld) {
     // 50 per second, nothing for a while, then faster than they were sent, or late for ever.
     for (const double speed : {1.1, 1.5, 2.0, 4.0}) {
         ClockOffset clock;
@@ -126,7 +126,7 @@ TEST(ClockOffset, ABacklogThatDrainsIsOld) {
     }
 }
 
-TEST(ClockOffset, AQueueThatStaysFullIsOld) {
+TEST(ClockOffset, FullQueueIsOld) {
     for (const bool after_outage : {false, true}) {
         ClockOffset clock;
         for (int i = 0; i < 5000; ++i) {
@@ -143,7 +143,7 @@ TEST(ClockOffset, AQueueThatStaysFullIsOld) {
     }
 }
 
-TEST(ClockOffset, MessagesThatWaitedAreOld) {
+TEST(ClockOffset, DelayedMessagesAreOld) {
     // 50 per second, but whatever is stamped within some time arrives at its end, at once.
     for (const double wait_s : {1.2, 4.0, 30.0}) {
         ClockOffset clock;
@@ -161,7 +161,7 @@ TEST(ClockOffset, MessagesThatWaitedAreOld) {
 }
 
 /// Nobody can tell it from a link that stood still and stays late.
-TEST(ClockOffset, AClockThatStoodStillIsFollowedInASimulation) {
+TEST(ClockOffset, FollowsPausedSimulation) {
     for (const bool is_simulated : {false, true}) {
         ClockOffset clock(is_simulated);
         for (int i = 0; i < 6000; ++i) {
@@ -176,7 +176,7 @@ TEST(ClockOffset, AClockThatStoodStillIsFollowedInASimulation) {
     }
 }
 
-TEST(ClockOffset, ASlowSimulationIsFollowed) {
+TEST(ClockOffset, FollowsSlowSimulation) {
     for (const double rate : {0.6, 0.9, 0.995}) {
         ClockOffset clock(true);
         for (int i = 0; i < 20000; ++i) {

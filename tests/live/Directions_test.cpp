@@ -16,9 +16,6 @@ namespace hagen::live {
 namespace {
 
 using State = DirectionState;
-using live::LabelledSector;
-using live::SectorDistances;
-using live::Sweep;
 
 constexpr double kTurn_s = 0.1, kPacket_rad = kPi / 36;  // 5 degrees
 constexpr int kPacketsPerTurn = 72, kPacketsPerSector = 5;
@@ -180,7 +177,7 @@ TEST_F(DirectionsInFlight, DirectionsAreClockwiseFromAhead) {
     EXPECT_EQ(compare(flight, distances, 0.2), 4);
 }
 
-TEST_F(DirectionsInFlight, AVehicleThatYawsRollsAndMovesSeesPolesWhereTheyAre) {
+TEST_F(DirectionsInFlight, PolesStayInPlaceInFlight) {
     Flight flight;
     flight.poles = around();
     flight.vehicleAt = [](double t) {
@@ -204,7 +201,7 @@ TEST_F(DirectionsInFlight, AVehicleThatYawsRollsAndMovesSeesPolesWhereTheyAre) {
     EXPECT_GT(compared, 200);
 }
 
-TEST_F(DirectionsInFlight, AMountThatIsTurnedAndUpsideDownChangesNothing) {
+TEST_F(DirectionsInFlight, MountUpsideDownChangesNothing) {
     using Eigen::AngleAxisd;
     using Eigen::Vector3d;
     for (const double roll_deg : {0.0, 180.0}) {
@@ -220,7 +217,7 @@ TEST_F(DirectionsInFlight, AMountThatIsTurnedAndUpsideDownChangesNothing) {
     }
 }
 
-TEST_F(DirectionsInFlight, WhereATiltedSensorHasNoBeamAtTheHorizonNothingIsFree) {
+TEST_F(DirectionsInFlight, NothingFreeWithoutBeamAtHorizon) {
     Flight flight;
     flight.poles = around();
     flight.vehicleAt = [](double) {
@@ -239,7 +236,7 @@ TEST_F(DirectionsInFlight, WhereATiltedSensorHasNoBeamAtTheHorizonNothingIsFree)
 }
 
 /// A tilted sensor looks at a low obstacle and at the horizon above it at different times.
-TEST_F(DirectionsInFlight, WhatATiltedSensorSeesBelowTheHorizonStays) {
+TEST_F(DirectionsInFlight, ObstacleBelowHorizonStays) {
     int compared = 0;
     for (const auto& [roll_deg, pitch_deg, rate_deg_s] :
          {std::tuple{0.0, -20.0, 0.0}, {0.0, 20.0, 0.0}, {15.0, -10.0, 0.0}, {-5.0, 0.0, 20.0}}) {
@@ -274,7 +271,7 @@ TEST_F(DirectionsInFlight, WhatATiltedSensorSeesBelowTheHorizonStays) {
 }
 
 /// The horizon above it is swept each turn, the packet that would see it is lost each turn.
-TEST_F(DirectionsInFlight, WhatATiltedSensorSawIsNotFreeWhereItsPacketsAreLost) {
+TEST_F(DirectionsInFlight, LostPacketsOfTiltedSensorAreNotFree) {
     Vehicle vehicle;
     vehicle.pitch_rad = radians(-20);
     Flight flight;
@@ -305,7 +302,7 @@ TEST_F(DirectionsInFlight, WhatATiltedSensorSawIsNotFreeWhereItsPacketsAreLost) 
     EXPECT_EQ(distances.at(1.15, flight.poses())[53].state, State::SeenNothing);
 }
 
-TEST_F(DirectionsInFlight, ADirectionWhosePacketsAreLostIsUnknownAfterAWhile) {
+TEST_F(DirectionsInFlight, LostDirectionBecomesUnknown) {
     Flight flight;
     // One packet of each turn from the third on, in the middle of a sector.
     flight.isLost = [](int packet) {
@@ -323,7 +320,7 @@ TEST_F(DirectionsInFlight, ADirectionWhosePacketsAreLostIsUnknownAfterAWhile) {
 }
 
 /// A beam that is 4 degrees behind the head has not passed what the head has.
-TEST_F(DirectionsInFlight, AnObstacleStaysUntilAllBeamsHavePassedIt) {
+TEST_F(DirectionsInFlight, ObstacleStaysUntilAllBeamsPassed) {
     SectorDistances distances(sensorModel("VLP-32C"), aheadFirst());
     const SegmentationResult result;
     Scan none, wire;
@@ -347,7 +344,7 @@ TEST_F(DirectionsInFlight, AnObstacleStaysUntilAllBeamsHavePassedIt) {
 }
 
 /// However far the head is: a late packet is of the turn in which it was measured.
-TEST_F(DirectionsInFlight, WhatWasSeenIsPassedByTheNextTurnOnly) {
+TEST_F(DirectionsInFlight, OnlyNextTurnPassesObstacle) {
     const auto stateAfter = [&](double turned_rad) {
         SectorDistances distances(sensor_, aheadFirst());
         Scan scan;
@@ -374,7 +371,7 @@ TEST_F(DirectionsInFlight, WhatWasSeenIsPassedByTheNextTurnOnly) {
     EXPECT_EQ(stateAfter(radians(361)), State::SeenNothing);
 }
 
-TEST_F(DirectionsInFlight, WithoutAttitudeTheSensorIsTakenToBeAsItWas) {
+TEST_F(DirectionsInFlight, KeepsTiltWithoutAttitude) {
     Flight flight;
     flight.has_attitude = flight.has_place = false;
     flight.poles = around();

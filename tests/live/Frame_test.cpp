@@ -14,19 +14,19 @@ std::uint16_t checksumOf(const std::string& text) {
     return checksum(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
-TEST(Checksum, HasThePublishedCheckValues) {
+TEST(Checksum, HasPublishedCheckValues) {
     // CRC-16/MCRF4XX; CRC-16/IBM-SDLC (X.25) is the same, inverted: 0x906e.
     EXPECT_EQ(checksumOf("123456789"), 0x6f91);
     EXPECT_EQ(checksumOf("123456789") ^ 0xffff, 0x906e);
     EXPECT_EQ(checksumOf(""), 0xffff);
 }
 
-TEST(Checksum, GoesOnFromThatOfTheBytesBefore) {
+TEST(Checksum, ContinuesFromEarlierBytes) {
     const Bytes bytes{1, 2, 3, 200, 5};
     EXPECT_EQ(checksum(&bytes[2], 3, checksum(bytes.data(), 2)), checksum(bytes.data(), 5));
 }
 
-TEST(CrcExtra, IsThatOfTheDefinitions) {
+TEST(CrcExtra, MatchesDefinitions) {
     // As generated headers of MAVLink's own library have them.
     EXPECT_EQ(crcExtra(0), 50);
     EXPECT_EQ(crcExtra(30), 39);
@@ -37,7 +37,7 @@ TEST(CrcExtra, IsThatOfTheDefinitions) {
     EXPECT_EQ(crcExtra(0xffffff), std::nullopt);
 }
 
-TEST(Encode, AHeartbeatIsTheBytesOfAnotherLibrary) {
+TEST(Encode, HeartbeatMatchesOtherLibrary) {
     Heartbeat heartbeat;
     heartbeat.custom_mode = 0x01020304;
     heartbeat.type = kTypeOnboardController;
@@ -54,7 +54,7 @@ TEST(Encode, AHeartbeatIsTheBytesOfAnotherLibrary) {
                      0x03, 0x02, 0x01, 0x12, 0x08, 0x00, 0x04, 0x03, 0x96, 0xda}));
 }
 
-TEST(Encode, ZerosAtTheEndAreLeftOut) {
+TEST(Encode, TruncatesTrailingZeros) {
     Attitude attitude;
     attitude.time_boot_ms = 0x00020001;
     EXPECT_EQ(encode(frameOf(attitude), Attitude::kBytes)[1], 3);  // the fourth byte is 0, too
@@ -66,13 +66,13 @@ TEST(Encode, ZerosAtTheEndAreLeftOut) {
     EXPECT_EQ(bytes.size(), 10u + 1 + 2);
 }
 
-TEST(Encode, AnUnknownMessageIsRefused) {
+TEST(Encode, RejectsUnknownMessage) {
     Frame frame;
     frame.id = 3;
     EXPECT_THROW(encode(frame, 4), std::invalid_argument);
 }
 
-TEST(MessageOf, ReadsWhatFrameOfWrote) {
+TEST(MessageOf, ReadsOutputOfFrameOf) {
     ObstacleDistance message;
     message.time_usec = 1234567890123;
     for (std::size_t k = 0; k < 72; ++k) message.distances[k] = static_cast<std::uint16_t>(900 * k);

@@ -38,7 +38,7 @@ class GroundBelowTest : public testing::Test {
     HagenFilter filter_{sensorModel("VLP-16")};
 };
 
-TEST_F(GroundBelowTest, IsTheAltitudeOfALevelVehicle) {
+TEST_F(GroundBelowTest, LevelVehicleMeasuresAltitude) {
     for (const double altitude_m : {1.0, 2.0, 3.5}) {
         const auto distance_m = below({}, altitude_m);
         ASSERT_TRUE(distance_m) << altitude_m;
@@ -46,7 +46,7 @@ TEST_F(GroundBelowTest, IsTheAltitudeOfALevelVehicle) {
     }
 }
 
-TEST_F(GroundBelowTest, ATiltedVehicleMeasuresAlongItsOwnAxisAsARangefinderDoes) {
+TEST_F(GroundBelowTest, TiltedVehicleMeasuresAlongItsAxis) {
     const Eigen::Matrix3f roll =
         Eigen::AngleAxisf(0.2f, Eigen::Vector3f::UnitX()).toRotationMatrix();
     const auto distance_m = below({}, 2, roll);
@@ -56,7 +56,7 @@ TEST_F(GroundBelowTest, ATiltedVehicleMeasuresAlongItsOwnAxisAsARangefinderDoes)
     EXPECT_NEAR(*below({}, 2, roll, roll), 2, 0.06);
 }
 
-TEST_F(GroundBelowTest, WithoutGroundInSightNothingIsKnown) {
+TEST_F(GroundBelowTest, UnknownWithoutGround) {
     EXPECT_FALSE(groundBelow(Ground(), Eigen::Matrix3f::Identity()));
     test::SimpleScene walls;
     walls.has_ground = false;

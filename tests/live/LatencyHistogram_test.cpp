@@ -10,7 +10,7 @@
 namespace hagen::live {
 namespace {
 
-TEST(LatencyHistogram, QuantilesAreWithinTwoPercentOfThoseOfAllTimes) {
+TEST(LatencyHistogram, QuantilesWithinTwoPercent) {
     std::mt19937 random(1);
     std::lognormal_distribution<double> times_ms(0, 1.5);
     LatencyHistogram histogram;

@@ -41,7 +41,7 @@ class Turns : public PacketSource {
     std::deque<std::string> packets_;
 };
 
-TEST(LiveMotion, EachPacketIsMovedByWhatSomethingElseKnows) {
+TEST(LiveMotion, UsesExternalMotion) {
     const test::TemporaryFolder folder;
     LiveOptions options;
     options.model = "VLP-16";
@@ -59,7 +59,7 @@ TEST(LiveMotion, EachPacketIsMovedByWhatSomethingElseKnows) {
         EXPECT_GE(time_s, last_s);
         last_s = time_s;
         ++asked;
-        live::SensorMotion motion;
+        SensorMotion motion;
         motion.attitude = Attitude{0.01f, -0.02f};
         return motion;
     };

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <hagen/live/LivoxStream.h>
+#include <hagen/live/LidarStream.h>
 #include <hagen/live/SectorDistances.h>
 
 #include <algorithm>
@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "support/Datagrams.h"
 #include "support/LivoxPackets.h"
 
 namespace hagen::live {
 namespace {
 
-using Taken = LivoxStream::Taken;
+using sensors::Taken;
 
 constexpr int kPoints = test::kLivoxPoints;
 constexpr std::int64_t kPacket_ns = test::kLivoxPacket_ns;
@@ -22,8 +23,7 @@ const auto packetOf = test::livoxPacketOfWall;
 class LivoxStreamTest : public testing::Test {
  protected:
     Taken add(const std::string& packet, double time_s) {
-        return stream_.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
-                           time_s);
+        return stream_.add(test::datagramOf(packet), time_s);
     }
     struct Frame {
         std::size_t returns, roi_of_wall, wall;
@@ -31,8 +31,8 @@ class LivoxStreamTest : public testing::Test {
         bool has_turn;
     };
     std::vector<Frame> frames_;
-    LivoxStream stream_{
-        {}, [this](const LabelledSector& sector) {
+    LidarStream stream_{
+        sensors::makeDriver("Mid-360"), {}, [this](const LabelledSector& sector) {
             EXPECT_FALSE(sector.sweep);
             Frame frame{sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
                         sector.has_turn};
@@ -62,22 +62,7 @@ TEST_F(LivoxStreamTest, FramesAreTwentyMilliseconds) {
     EXPECT_EQ(found, wall);
 }
 
-TEST_F(LivoxStreamTest, TheSettingsLimitTheRanges) {
-    const auto limitsOf = [&](const Settings& settings) {
-        const LivoxStream stream(settings, [](const LabelledSector&) {});
-        const SensorModel& used = stream.segmenter().sensor();
-        return std::pair(used.min_range_m, used.max_range_m);
-    };
-    const SensorModel model = sensorModel("Mid-360");
-    Settings settings;
-    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
-    settings.sensor.min_range_m = 1.5f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
-    settings.sensor.max_range_m = 40.0f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
-}
-
-TEST_F(LivoxStreamTest, LossesRepetitionsAndJumpsAreCounted) {
+TEST_F(LivoxStreamTest, CountsLossesDuplicatesAndJumps) {
     const auto packet = [](int i, std::int64_t offset_ns = 0) {
         return packetOf(i, 5000000000 + offset_ns + kPacket_ns * i);
     };
@@ -87,30 +72,30 @@ TEST_F(LivoxStreamTest, LossesRepetitionsAndJumpsAreCounted) {
         add(packet(i, -4000000000), time_s += 5e-4);
     }
     const auto& counts = stream_.counts();
-    EXPECT_EQ(counts.repeated, 1u);
+    EXPECT_EQ(counts.duplicate, 1u);
     EXPECT_EQ(counts.lost, 2u);
-    EXPECT_EQ(counts.late, 1u);
+    EXPECT_EQ(counts.late, 4u);  // three before the set clock is known
     EXPECT_EQ(counts.interruptions, 1u);
     EXPECT_EQ(counts.packets, 9u);
 }
 
 /// As PTP does. The packets that follow are as new as before: neither are they late, nor do they
 /// wait for a clock that has stood here already.
-TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothing) {
+TEST_F(LivoxStreamTest, ClockSetBackDelaysNothing) {
     for (const std::int64_t back_ns : {20000000, 200000000, 900000000, 2000000000}) {
         frames_.clear();
-        LivoxStream stream({}, [this](const LabelledSector& sector) {
-            frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
-                               sector.has_turn});
-        });
+        LidarStream stream(sensors::makeDriver("Mid-360"), {},
+                           [this](const LabelledSector& sector) {
+                               frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s,
+                                                  sector.last_time_s, sector.has_turn});
+                           });
         for (int i = 0; i < 1000; ++i) {
             const std::int64_t time_ns = 5000000000 + kPacket_ns * i - (i < 500 ? 0 : back_ns);
             const std::string packet = packetOf(i, time_ns);
-            stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
-                       1 + 1e-9 * kPacket_ns * i);
+            stream.add(test::datagramOf(packet), 1 + 1e-9 * kPacket_ns * i);
         }
         EXPECT_EQ(stream.counts().interruptions, 1u);
-        EXPECT_EQ(stream.counts().late, 0u);
+        EXPECT_EQ(stream.counts().late, 3u);
         EXPECT_EQ(stream.counts().too_late, 3u);
         EXPECT_EQ(stream.counts().packets, 997u);
         EXPECT_NEAR(static_cast<double>(frames_.size()), 24, 2);
@@ -124,20 +109,19 @@ TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothing) {
 }
 
 /// Each packet comes twice, as by a second network: at once, or after the next ones.
-TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothingWhereAllComesTwice) {
+TEST_F(LivoxStreamTest, ClockSetBackWithDuplicatesDelaysNothing) {
     for (const std::int64_t back_ns : {20000000, 200000000, 2000000000}) {
         for (const int later : {0, 1, 3}) {
-            LivoxStream stream({}, [](const LabelledSector&) {});
+            LidarStream stream(sensors::makeDriver("Mid-360"), {}, [](const LabelledSector&) {});
             const auto addTo = [&](int i, int now) {
                 const std::int64_t time_ns = 5000000000 + kPacket_ns * i - (i < 500 ? 0 : back_ns);
                 const std::string packet = packetOf(i, time_ns);
-                return stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()),
-                                  packet.size(), 1 + 1e-9 * kPacket_ns * now);
+                return stream.add(test::datagramOf(packet), 1 + 1e-9 * kPacket_ns * now);
             };
             for (int i = 0; i < 1000; ++i) {
                 addTo(i, i);
                 if (i < later) continue;
-                EXPECT_EQ(addTo(i - later, i), Taken::Repeated);
+                EXPECT_EQ(addTo(i - later, i), Taken::Duplicate);
             }
             EXPECT_EQ(stream.counts().interruptions, 1u) << back_ns << " " << later;
             // Copies of before come between the first ones.
@@ -149,7 +133,7 @@ TEST_F(LivoxStreamTest, AClockThatIsSetBackDelaysNothingWhereAllComesTwice) {
 }
 
 /// What waited in a network for long is not as new as what comes with it.
-TEST_F(LivoxStreamTest, PacketsThatAreFarTooLateAreLeftOut) {
+TEST_F(LivoxStreamTest, DropsPacketsFarTooLate) {
     const auto packet = [](int i) { return packetOf(i, 5000000000 + kPacket_ns * i); };
     double time_s = 0;
     for (int i = 0; i < 400; ++i) add(packet(i), time_s += 4.8e-4);
@@ -163,23 +147,23 @@ TEST_F(LivoxStreamTest, PacketsThatAreFarTooLateAreLeftOut) {
     EXPECT_EQ(add(packetOf(502, 5000000000 - 1200000000), time_s += 4.8e-4), Taken::TooLate);
     EXPECT_EQ(add(packet(503), time_s += 4.8e-4), Taken::Yes);
     for (int i = 0; i < 300; ++i) {  // copies, as by a slower path
-        EXPECT_EQ(add(packet(i), time_s += 1e-6), Taken::Repeated);
+        EXPECT_EQ(add(packet(i), time_s += 1e-6), Taken::Duplicate);
     }
     EXPECT_EQ(stream_.counts().too_late, 5u);
-    EXPECT_EQ(stream_.counts().late, 1u);
+    EXPECT_EQ(stream_.counts().late, 6u);
     EXPECT_EQ(stream_.counts().interruptions, 0u);
 }
 
 /// A frame in progress does not wait for what comes after a silence.
-TEST_F(LivoxStreamTest, WhatCameBeforeASilenceIsAsOldAsItIs) {
+TEST_F(LivoxStreamTest, FrameBeforeSilenceStaysOld) {
     SectorDistances distances(sensorModel("Mid-360"));
-    LivoxStream stream({}, [&](const LabelledSector& sector) {
+    LidarStream stream(sensors::makeDriver("Mid-360"), {}, [&](const LabelledSector& sector) {
         frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
                            sector.has_turn});
         distances.take(sector);
     });
     const auto addTo = [&](const std::string& packet, double time_s) {
-        stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(), time_s);
+        stream.add(test::datagramOf(packet), time_s);
     };
     for (int i = 0; i < 500; ++i) {
         addTo(packetOf(i, 5000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i);
@@ -203,16 +187,15 @@ TEST_F(LivoxStreamTest, WhatCameBeforeASilenceIsAsOldAsItIs) {
 }
 
 /// Of each ten packets six are lost, and the others come again after the next one: four measured.
-TEST_F(LivoxStreamTest, CopiesDoNotMakeUpForLostPackets) {
+TEST_F(LivoxStreamTest, DuplicatesDoNotReplaceLostPackets) {
     double measured_s = 0;
     SectorDistances distances(sensorModel("Mid-360"));
-    LivoxStream stream({}, [&](const LabelledSector& sector) {
+    LidarStream stream(sensors::makeDriver("Mid-360"), {}, [&](const LabelledSector& sector) {
         measured_s += sector.measured_s;
         distances.take(sector);
     });
     const auto addTo = [&](const std::string& packet, double time_s) {
-        return stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
-                          time_s);
+        return stream.add(test::datagramOf(packet), time_s);
     };
     const std::vector<test::LivoxPoint> nothing(kPoints, {0, 0, 0, 0});
     std::string before;
@@ -222,12 +205,12 @@ TEST_F(LivoxStreamTest, CopiesDoNotMakeUpForLostPackets) {
         const std::string packet = test::livoxPacket(nothing, 1000000000 + kPacket_ns * i, i);
         EXPECT_EQ(addTo(packet, time_s), Taken::Yes);
         if (!before.empty()) {
-            EXPECT_EQ(addTo(before, time_s), Taken::Repeated);
+            EXPECT_EQ(addTo(before, time_s), Taken::Duplicate);
         }
         before = packet;
     }
     stream.flush();
-    EXPECT_EQ(stream.counts().repeated, 399u);
+    EXPECT_EQ(stream.counts().duplicate, 399u);
     EXPECT_EQ(stream.counts().late, 0u);
     EXPECT_NEAR(measured_s, 0.4 * 1e-9 * kPacket_ns * 1000, 1e-6);
     for (const auto& sector : distances.at(1 + 1e-9 * kPacket_ns * 1000)) {
@@ -236,21 +219,20 @@ TEST_F(LivoxStreamTest, CopiesDoNotMakeUpForLostPackets) {
 }
 
 /// What is near may be an obstacle, as long as little is known around.
-TEST_F(LivoxStreamTest, WhereMostPacketsAreLostNothingIsGround) {
+TEST_F(LivoxStreamTest, MostPacketsLostMeansNoGround) {
     double measured_s = 0;
     std::size_t sectors = 0, doubtful = 0;
     const auto fly = [&](int every) {
         measured_s = 0;
         sectors = doubtful = 0;
-        LivoxStream stream({}, [&](const LabelledSector& sector) {
+        LidarStream stream(sensors::makeDriver("Mid-360"), {}, [&](const LabelledSector& sector) {
             measured_s += sector.measured_s;
             ++sectors;
             doubtful += sector.is_doubtful;
         });
         for (int i = 0; i < 2000; i += every) {
             const std::string packet = packetOf(i, 1000000000 + kPacket_ns * i);
-            stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(),
-                       1e-9 * kPacket_ns * i);
+            stream.add(test::datagramOf(packet), 1e-9 * kPacket_ns * i);
         }
     };
     fly(1);
@@ -262,13 +244,13 @@ TEST_F(LivoxStreamTest, WhereMostPacketsAreLostNothingIsGround) {
     EXPECT_EQ(doubtful, sectors);
 }
 
-TEST_F(LivoxStreamTest, ForeignDatagramsAreRefused) {
-    EXPECT_EQ(add("", 0), Taken::Foreign);
-    EXPECT_EQ(add(std::string(1206, 'x'), 0), Taken::Foreign);
-    EXPECT_EQ(add(packetOf(0, 0).substr(2), 0), Taken::Foreign);
+TEST_F(LivoxStreamTest, RejectsForeignDatagrams) {
+    EXPECT_EQ(add("", 0), Taken::WrongSize);
+    EXPECT_EQ(add(std::string(1206, 'x'), 0), Taken::WrongSize);
+    EXPECT_EQ(add(packetOf(0, 0).substr(2), 0), Taken::WrongSize);
     stream_.flush();
     EXPECT_TRUE(frames_.empty());
-    EXPECT_EQ(stream_.counts().foreign, 3u);
+    EXPECT_EQ(stream_.counts().wrong_size, 3u);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using State = DirectionState;
 
-TEST(ObstacleDistance, HasCentimetresNothingAndUnknown) {
+TEST(ObstacleDistance, EncodesDistancesNothingAndUnknown) {
     Directions directions;
     directions[0] = {State::Obstacle, 7.999f, Eigen::Vector3f::Zero()};
     directions[1].state = State::SeenNothing;
@@ -31,12 +31,12 @@ TEST(ObstacleDistance, HasCentimetresNothingAndUnknown) {
     EXPECT_EQ(message.time_usec, 12500000u);
 }
 
-TEST(ObstacleDistance, AnyZoneLeavesRoomForNothingAndUnknown) {
+TEST(ObstacleDistance, LongZoneKeepsReservedValues) {
     const auto message = obstacleDistance({}, {1000, 0.5f}, 0);
     EXPECT_EQ(message.max_distance, 65533);
 }
 
-TEST(ObstacleDistance3d, IsInTheBodysFrameWhichTiltsWithIt) {
+TEST(ObstacleDistance3d, IsInTiltedBodyFrame) {
     Vehicle vehicle;
     vehicle.roll_rad = 0.3;
     vehicle.pitch_rad = -0.2;
@@ -59,7 +59,7 @@ TEST(ObstacleDistance3d, IsInTheBodysFrameWhichTiltsWithIt) {
     EXPECT_EQ(messages[0].max_distance, 20);
 }
 
-TEST(ObstacleDistance3d, WithoutAttitudeRightIsMinusLeftAndDownMinusUp) {
+TEST(ObstacleDistance3d, FlipsAxesWithoutAttitude) {
     const auto messages = obstacleDistances3d({{1, {4, 2, 1}}}, {}, {20, 0.5f}, 3);
     EXPECT_EQ(messages[0].x, 4);
     EXPECT_EQ(messages[0].y, -2);
@@ -77,7 +77,7 @@ TEST(DistanceBelow, LooksDown) {
     EXPECT_EQ(distanceBelow(80, {20, 0.5f}, 3).current_distance, 4001);
 }
 
-TEST(Heartbeat, IsOfAnOnboardComputer) {
+TEST(Heartbeat, IsFromOnboardComputer) {
     const auto message = heartbeat(mavlink::kStateCritical);
     EXPECT_EQ(message.type, 18);
     EXPECT_EQ(message.autopilot, 8);

@@ -26,7 +26,7 @@ Directions directionsOf(const std::vector<Seen>& all) {
     return directions;
 }
 
-TEST(ObstacleNumbers, NeighboursLessThanAMetreApartAreOneObstacle) {
+TEST(ObstacleNumbers, MergesNeighboursWithinOneMetre) {
     ObstacleNumbers numbers;
     // One across straight ahead, one at 90 degrees, two neighbours 3 m apart.
     const auto found = numbers.nearest(
@@ -39,7 +39,7 @@ TEST(ObstacleNumbers, NeighboursLessThanAMetreApartAreOneObstacle) {
     EXPECT_NEAR(found[3].at_m.norm(), std::hypot(9, 0.5), 1e-4);
 }
 
-TEST(ObstacleNumbers, ARoomIsOneObstacle) {
+TEST(ObstacleNumbers, RoomIsOneObstacle) {
     std::vector<Seen> all;
     for (std::size_t k = 0; k < 72; ++k) all.push_back({k, k == 50 ? 3.8 : 4.0});
     ObstacleNumbers numbers;
@@ -48,7 +48,7 @@ TEST(ObstacleNumbers, ARoomIsOneObstacle) {
     EXPECT_NEAR(found[0].at_m.head<2>().norm(), 3.8, 1e-5);
 }
 
-TEST(ObstacleNumbers, NumbersStayWithWhatMovesLittle) {
+TEST(ObstacleNumbers, NumberFollowsSlowObstacle) {
     ObstacleNumbers numbers;
     const auto first = numbers.nearest(directionsOf({{0, 5}, {18, 8}, {40, 6}}), 10, {});
     // They come nearer, and the order changes.
@@ -62,7 +62,7 @@ TEST(ObstacleNumbers, NumbersStayWithWhatMovesLittle) {
     for (const Obstacle& obstacle : second) EXPECT_NE(third[0].number, obstacle.number);
 }
 
-TEST(ObstacleNumbers, AVehicleThatTurnsKeepsThem) {
+TEST(ObstacleNumbers, TurningVehicleKeepsNumbers) {
     ObstacleNumbers numbers;
     VehiclePose pose;
     const auto first = numbers.nearest(directionsOf({{0, 8}, {6, 8}}), 10, pose);
@@ -75,7 +75,7 @@ TEST(ObstacleNumbers, AVehicleThatTurnsKeepsThem) {
     EXPECT_EQ(second[1].number, first[1].number);
 }
 
-TEST(ObstacleNumbers, OnlyTheNearestAreReturned) {
+TEST(ObstacleNumbers, ReturnsNearestOnly) {
     ObstacleNumbers numbers;
     const auto found = numbers.nearest(directionsOf({{0, 5}, {18, 8}, {40, 6}}), 2, {});
     ASSERT_EQ(found.size(), 2u);
@@ -83,7 +83,7 @@ TEST(ObstacleNumbers, OnlyTheNearestAreReturned) {
     EXPECT_TRUE(numbers.nearest(Directions(), 5, {}).empty());
 }
 
-TEST(ObstacleNumbers, NoneIs65535) {
+TEST(ObstacleNumbers, SkipsReservedNumber) {
     ObstacleNumbers numbers;
     for (int i = 0; i < 70000; ++i) {
         const auto found = numbers.nearest(directionsOf({{i % 2 == 0 ? 0u : 36u, 5}}), 1, {});

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
-#include <hagen/live/OusterStream.h>
+#include <hagen/live/LidarStream.h>
 #include <hagen/live/SectorDistances.h>
-#include <hagen/recordings/OusterObservation.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/CaptureFile.h>
 #include <hagen/sensors/OusterScan.h>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/Datagrams.h"
 #include "support/OusterModes.h"
 #include "support/OusterPackets.h"
 #include "support/Program.h"
@@ -20,11 +20,7 @@ namespace {
 
 using sensors::OusterFrame;
 using sensors::OusterSensor;
-using Taken = OusterStream::Taken;
-
-const std::uint8_t* bytesOf(const std::string& packet) {
-    return reinterpret_cast<const std::uint8_t*>(packet.data());
-}
+using sensors::Taken;
 
 Settings settingsOfFourBeams() {
     Settings settings;
@@ -43,7 +39,7 @@ class OusterStreamTest : public testing::Test {
     }
     Taken add(const std::string& packet) {
         time_s_ += 0.025;
-        return stream_.add(bytesOf(packet), packet.size(), time_s_, 0);
+        return stream_.add(test::datagramOf(packet), time_s_);
     }
 
     const OusterSensor sensor_ = sensors::ousterSensorOf(test::ousterJson(), "test");
@@ -51,15 +47,15 @@ class OusterStreamTest : public testing::Test {
     double time_s_ = 0;
     std::size_t returns_ = 0, labels_ = 0;
     std::vector<Sweep> swept_;
-    OusterStream stream_{sensor_, settingsOfFourBeams(), [this](const LabelledSector& sector) {
-                             returns_ += sector.returns.size();
-                             labels_ += sector.label.size();
-                             swept_.insert(swept_.end(), sector.packets->begin(),
-                                           sector.packets->end());
-                         }};
+    LidarStream stream_{
+        makeOusterDriver(sensor_), settingsOfFourBeams(), [this](const LabelledSector& sector) {
+            returns_ += sector.returns.size();
+            labels_ += sector.label.size();
+            swept_.insert(swept_.end(), sector.packets->begin(), sector.packets->end());
+        }};
 };
 
-TEST_F(OusterStreamTest, EachReturnOfAFrameIsLabelled) {
+TEST_F(OusterStreamTest, LabelsEachReturn) {
     std::size_t expected = 0;
     for (const int id : {65534, 65535, 0, 1}) {
         for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) {
@@ -81,69 +77,56 @@ TEST_F(OusterStreamTest, EachReturnOfAFrameIsLabelled) {
     }
 }
 
-TEST_F(OusterStreamTest, SectorsTellWhereItsPixelsLook) {
+TEST_F(OusterStreamTest, SectorsHaveBeamOffsets) {
     BeamOffsets offsets;
     OusterSensor sensor = sensor_;
     sensor.azimuth_rad = {radians(2.0), radians(-0.5), radians(-3.0), radians(0.1)};
-    OusterStream stream(sensor, settingsOfFourBeams(),
-                        [&](const LabelledSector& sector) { offsets = sector.offsets; });
-    for (const auto& packet : packetsOf(7)) stream.add(bytesOf(packet), packet.size(), 0.01, 0);
+    LidarStream stream(makeOusterDriver(sensor), settingsOfFourBeams(),
+                       [&](const LabelledSector& sector) { offsets = sector.offsets; });
+    for (const auto& packet : packetsOf(7)) stream.add(test::datagramOf(packet), 0.01);
     stream.flush();
     EXPECT_NEAR(degrees(offsets.behind_rad), 2, 1e-9);  // azimuths are counter-clockwise
     EXPECT_NEAR(degrees(offsets.ahead_rad), 3, 1e-9);
 }
 
-TEST_F(OusterStreamTest, TheSettingsLimitTheRanges) {
-    const auto limitsOf = [&](const Settings& settings) {
-        const OusterStream stream(sensor_, settings, [](const LabelledSector&) {});
-        const SensorModel& used = stream.segmenter().sensor();
-        return std::pair(used.min_range_m, used.max_range_m);
-    };
-    const SensorModel model = *sensor_.model;
-    Settings settings = settingsOfFourBeams();
-    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
-    settings.sensor.min_range_m = 1.5f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
-    settings.sensor.max_range_m = 40.0f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
-}
-
 /// The returns of a packet are where its sweep is.
-TEST_F(OusterStreamTest, ASweepIsWhereTheReturnsAre) {
+TEST_F(OusterStreamTest, SweepMatchesReturns) {
     bool is_checked = false;
-    OusterStream stream(sensor_, settingsOfFourBeams(), [&](const LabelledSector& sector) {
-        const double middle_rad = (sector.sweep->from_rad + sector.sweep->to_rad) / 2;
-        const double half_rad = (sector.sweep->to_rad - sector.sweep->from_rad) / 2;
-        for (std::size_t i = 0; i < sector.returns.size(); ++i) {
-            if (sector.returns.range_m[i] < 1) continue;  // the beams do not start at the origin
-            const double off_rad = std::remainder(
-                -static_cast<double>(sector.returns.azimuth_rad[i]) - middle_rad, 2 * kPi);
-            EXPECT_LT(std::abs(off_rad), half_rad + radians(12));  // pixels are staggered
-            is_checked = true;
-        }
-    });
+    LidarStream stream(
+        makeOusterDriver(sensor_), settingsOfFourBeams(), [&](const LabelledSector& sector) {
+            const double middle_rad = (sector.sweep->from_rad + sector.sweep->to_rad) / 2;
+            const double half_rad = (sector.sweep->to_rad - sector.sweep->from_rad) / 2;
+            for (std::size_t i = 0; i < sector.returns.size(); ++i) {
+                if (sector.returns.range_m[i] < 1)
+                    continue;  // the beams do not start at the origin
+                const double off_rad = std::remainder(
+                    -static_cast<double>(sector.returns.azimuth_rad[i]) - middle_rad, 2 * kPi);
+                EXPECT_LT(std::abs(off_rad), half_rad + radians(12));  // pixels are staggered
+                is_checked = true;
+            }
+        });
     for (const auto& packet : packetsOf(7)) {
-        stream.add(bytesOf(packet), packet.size(), 0.01, 0);
+        stream.add(test::datagramOf(packet), 0.01);
         stream.flush();
     }
     EXPECT_TRUE(is_checked);
 }
 
-TEST_F(OusterStreamTest, LossesRepetitionsAndLatePacketsAreCounted) {
+TEST_F(OusterStreamTest, CountsLossesDuplicatesAndLatePackets) {
     for (const auto& packet : packetsOf(1)) add(packet);
     const auto second = packetsOf(2);
     add(second[0]);
-    EXPECT_EQ(add(second[0]), Taken::Repeated);
+    EXPECT_EQ(add(second[0]), Taken::Duplicate);
     add(second[2]);  // number 1 comes later
     EXPECT_EQ(add(second[1]), Taken::Yes);
     // Number 3 is lost.
     for (int id = 3; id < 6; ++id) {
         for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) add(packet);
     }
-    EXPECT_EQ(stream_.counts().repeated, 1u);
+    EXPECT_EQ(stream_.counts().duplicate, 1u);
     EXPECT_EQ(stream_.counts().late, 1u);
     EXPECT_EQ(stream_.counts().lost, 1u);
-    EXPECT_EQ(add(second[3]), Taken::Late);  // its turn is complete
+    EXPECT_EQ(add(second[3]), Taken::TooLate);  // its turn is complete
     EXPECT_EQ(stream_.counts().too_late, 1u);
 }
 
@@ -170,7 +153,7 @@ TEST_F(OusterStreamTest, InvalidColumnsAreNotSwept) {
     EXPECT_EQ(stream_.counts().unsound, 1u);
 }
 
-TEST_F(OusterStreamTest, ASensorThatStartsAgainIsLabelledAgain) {
+TEST_F(OusterStreamTest, LabelsAgainAfterRestart) {
     for (int id = 300; id < 310; ++id) {
         for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) add(packet);
     }
@@ -178,7 +161,7 @@ TEST_F(OusterStreamTest, ASensorThatStartsAgainIsLabelledAgain) {
     for (int id = 0; id < 10; ++id) {
         for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) {
             const Taken one = add(packet);
-            late += one == Taken::Late;
+            late += one == Taken::TooLate;
             taken += one == Taken::Yes;
         }
     }
@@ -186,29 +169,29 @@ TEST_F(OusterStreamTest, ASensorThatStartsAgainIsLabelledAgain) {
     EXPECT_EQ(taken, 24);
 }
 
-TEST_F(OusterStreamTest, APacketThatComesTurnsLateIsLeftOut) {
+TEST_F(OusterStreamTest, DropsPacketsTurnsLate) {
     std::vector<std::string> late;
     for (int id = 0; id < 20; ++id) {
         const auto packets = packetsOf(static_cast<std::uint16_t>(id));
         if (id == 12) late = packets;
         for (const auto& packet : packets) EXPECT_EQ(add(packet), Taken::Yes);
     }
-    for (const auto& packet : late) EXPECT_EQ(add(packet), Taken::Late);
+    for (const auto& packet : late) EXPECT_EQ(add(packet), Taken::TooLate);
     for (const auto& packet : packetsOf(20)) EXPECT_EQ(add(packet), Taken::Yes);
     EXPECT_EQ(stream_.counts().too_late, 4u);
     EXPECT_EQ(stream_.counts().interruptions, 0u);
     EXPECT_EQ(stream_.counts().packets, 84u);
 }
 
-TEST_F(OusterStreamTest, AJumpOfTheTurnsEndsTheContext) {
+TEST_F(OusterStreamTest, FrameJumpEndsContext) {
     for (const auto& packet : packetsOf(1)) add(packet);
     for (const auto& packet : packetsOf(500)) EXPECT_EQ(add(packet), Taken::Yes);
     for (const auto& packet : packetsOf(30000)) EXPECT_EQ(add(packet), Taken::Yes);
     EXPECT_EQ(stream_.counts().interruptions, 2u);
 }
 
-TEST_F(OusterStreamTest, OtherDatagramsAreRefused) {
-    EXPECT_EQ(add(std::string(48, 'x')), Taken::Imu);
+TEST_F(OusterStreamTest, RejectsOtherDatagrams) {
+    EXPECT_EQ(add(std::string(48, 'x')), Taken::Auxiliary);
     EXPECT_EQ(add("noise"), Taken::WrongSize);
     EXPECT_EQ(add(std::string(sensor_.packetBytes(), '\0')), Taken::WrongSize);
     const OusterSensor other =
@@ -221,15 +204,16 @@ TEST_F(OusterStreamTest, OtherDatagramsAreRefused) {
 }
 
 /// Its columns would be placed in wrong directions: nothing is known of any.
-TEST(OusterStreams, AnotherModeInFlightIsLeftOut) {
+TEST(OusterStreams, DropsOtherModeInFlight) {
     for (const test::OusterMode& mode : {test::OusterMode{2048, 10}, test::OusterMode{512, 10}}) {
         const OusterSensor sensor = sensors::ousterSensorOf(test::ousterJsonOf({1024, 10}), "test");
         SectorDistances distances(*sensor.model);
         std::size_t sectors = 0;
-        OusterStream stream(sensor, settingsOfFourBeams(), [&](const LabelledSector& sector) {
-            distances.take(sector);
-            ++sectors;
-        });
+        LidarStream stream(makeOusterDriver(sensor), settingsOfFourBeams(),
+                           [&](const LabelledSector& sector) {
+                               distances.take(sector);
+                               ++sectors;
+                           });
         test::TurningOuster ouster;
         double time_s = 0;
         const auto turn = [&](const test::OusterMode& now, std::size_t& taken) {
@@ -237,9 +221,8 @@ TEST(OusterStreams, AnotherModeInFlightIsLeftOut) {
             taken = 0;
             for (const std::string& packet : packets) {
                 time_s += 0.1 / static_cast<double>(packets.size());
-                taken += stream.add(bytesOf(packet), packet.size(), time_s, 0) == Taken::Yes;
+                taken += stream.add(test::datagramOf(packet), time_s) == Taken::Yes;
             }
-            stream.complete().clear();
         };
         const auto known = [&] {
             const auto at = distances.at(time_s);
@@ -263,27 +246,28 @@ TEST(OusterStreams, AnotherModeInFlightIsLeftOut) {
     }
 }
 
-TEST(OusterStreams, LabelsOfARealCaptureAreThoseOfWholeTurns) {
+TEST(OusterStreams, RealCaptureLabelsMatchWholeTurns) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
     const OusterSensor sensor = sensors::readOusterSensor(folder / "OS-1-128_v2.3.0_1024x10.json");
     std::vector<Label> labels;
-    OusterStream stream(sensor, {}, [&](const LabelledSector& sector) {
+    LidarStream stream(makeOusterDriver(sensor), {}, [&](const LabelledSector& sector) {
         labels.insert(labels.end(), sector.label.begin(), sector.label.end());
     });
+    sensors::OusterFrames frames(sensor);
     sensors::CaptureFile capture(folder / "OS-1-128_v2.3.0_1024x10_lb_n3.pcap");
     sensors::Datagram datagram;
     while (capture.next(datagram)) {
-        stream.add(datagram.bytes, datagram.size, 1e-9 * static_cast<double>(datagram.time_ns),
-                   datagram.time_ns);
+        stream.add(datagram, 1e-9 * static_cast<double>(datagram.time_ns));
+        if (datagram.size == sensor.packetBytes()) frames.add(datagram.bytes, datagram.time_ns);
     }
     stream.flush();
-    stream.finish();
-    ASSERT_EQ(stream.complete().size(), 3u);
+    frames.finish();
+    ASSERT_EQ(frames.complete().size(), 3u);
     HagenFilter filter(*sensor.model);
     std::size_t at = 0, same = 0, compared = 0, missed = 0, near = 0;
     for (std::size_t turn = 0; turn < 3; ++turn) {
-        const Scan scan = sensors::scanOf(stream.complete()[turn], sensor);
+        const Scan scan = sensors::scanOf(frames.complete()[turn], sensor);
         const std::vector<Label> whole = filter.segment(scan).returns.label;
         ASSERT_LE(at + whole.size(), labels.size());
         for (std::size_t i = 0; i < whole.size(); ++i, ++at) {

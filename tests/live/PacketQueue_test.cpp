@@ -18,7 +18,7 @@ Packet packetOf(std::uint8_t number) {
     return packet;
 }
 
-TEST(PacketQueue, KeepsTheOrderAndRefusesWhatDoesNotFit) {
+TEST(PacketQueue, KeepsOrderAndRejectsOverflow) {
     PacketQueue queue(3);
     Packet packet;
     EXPECT_EQ(queue.pop(packet, kSoon), Popped::Nothing);
@@ -34,7 +34,7 @@ TEST(PacketQueue, KeepsTheOrderAndRefusesWhatDoesNotFit) {
     EXPECT_EQ(queue.pop(packet, kSoon), Popped::Nothing);
 }
 
-TEST(PacketQueue, HasMemoryForThePacketsThatWaitOnly) {
+TEST(PacketQueue, AllocatesForWaitingPacketsOnly) {
     PacketQueue queue(100);
     Packet sent, taken;
     std::set<const std::uint8_t*> memory;
@@ -49,7 +49,7 @@ TEST(PacketQueue, HasMemoryForThePacketsThatWaitOnly) {
     EXPECT_LE(memory.size(), 5u);  // three that wait, and one on either side
 }
 
-TEST(PacketQueue, WhatIsInItComesOutAfterItsEnd) {
+TEST(PacketQueue, DrainsAfterClose) {
     PacketQueue queue(3);
     Packet packet = packetOf(7);
     queue.push(packet);
@@ -62,7 +62,7 @@ TEST(PacketQueue, WhatIsInItComesOutAfterItsEnd) {
     EXPECT_EQ(queue.pop(packet, kSoon), Popped::Closed);
 }
 
-TEST(PacketQueue, BetweenThreadsNothingIsLost) {
+TEST(PacketQueue, LosesNothingBetweenThreads) {
     PacketQueue queue(4);
     std::thread sender([&] {
         for (int i = 0; i < 5000; ++i) {

@@ -51,7 +51,7 @@ std::uint16_t freePort() {
     return ntohs(at.sin_port);
 }
 
-TEST(Address, IsReadOrRefused) {
+TEST(Address, ReadsOrRejectsText) {
     const Address address = parseAddress("192.168.1.77:2368");
     EXPECT_EQ(address.ip, 0xc0a8014du);
     EXPECT_EQ(address.port, 2368);
@@ -66,7 +66,7 @@ TEST(Address, IsReadOrRefused) {
 }
 
 /// A second of an HDL-64E, or as much as the system gives; Linux adds as much for itself.
-TEST(UdpSource, HasABufferAsLargeAsItGets) {
+TEST(UdpSource, RequestsLargeBuffer) {
     int most = 0;
     std::ifstream("/proc/sys/net/core/rmem_max") >> most;
     if (most == 0) GTEST_SKIP() << "the system does not tell how large buffers may be";
@@ -74,7 +74,7 @@ TEST(UdpSource, HasABufferAsLargeAsItGets) {
     EXPECT_GE(source.bufferBytes(), 2 * std::min(most, 8 << 20));
 }
 
-TEST(UdpSource, ReceivesWhatIsSent) {
+TEST(UdpSource, ReceivesDatagrams) {
     const std::uint16_t port = freePort();
     UdpSource source({0x7f000001, port});
     EXPECT_TRUE(source.isLive());
@@ -101,7 +101,7 @@ TEST(UdpSource, ReceivesWhatIsSent) {
 }
 
 /// A process that was stopped: what is in the buffer is old.
-TEST(UdpSource, PacketsThatWaitedForSecondsAreAsOldAsTheyAre) {
+TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
     const std::uint16_t port = freePort();
     UdpSource source({0x7f000001, port});
     const Sender sender;
@@ -118,7 +118,7 @@ TEST(UdpSource, PacketsThatWaitedForSecondsAreAsOldAsTheyAre) {
     EXPECT_GE(second.arrival_s - first.arrival_s, 0.59);
 }
 
-TEST(UdpSource, AnAddressThatIsTakenOrForeignIsNamed) {
+TEST(UdpSource, NamesUnusableAddress) {
     const std::uint16_t port = freePort();
     const UdpSource source({0x7f000001, port});
     EXPECT_THAT(test::messageOf([&] {
@@ -128,7 +128,7 @@ TEST(UdpSource, AnAddressThatIsTakenOrForeignIsNamed) {
     EXPECT_THAT(test::messageOf([&] { UdpSource({0x08080808, port}); }), HasSubstr("8.8.8.8"));
 }
 
-TEST(ReplaySource, PacketsComeAsTheyWereRecorded) {
+TEST(ReplaySource, ReplaysAtRecordedPace) {
     const test::TemporaryFolder folder;
     test::CaptureWriter writer;
     for (int i = 0; i < 5; ++i) {
@@ -157,7 +157,7 @@ TEST(ReplaySource, PacketsComeAsTheyWereRecorded) {
 }
 
 /// Whoever reads must be able to stop in a file of nothing but frames that are no datagrams.
-TEST(ReplaySource, LongSearchesGoOnWithTheNextCall) {
+TEST(ReplaySource, LongSearchContinuesInNextCall) {
     const test::TemporaryFolder folder;
     const auto file = test::CaptureWriter().write(folder / "a.pcap");
     std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse: frames without bytes
@@ -171,7 +171,7 @@ TEST(ReplaySource, LongSearchesGoOnWithTheNextCall) {
 }
 
 /// A clock that is set is no pause, nor are hours without a sensor.
-TEST(ReplaySource, PausesOfHoursAreNotWaitedFor) {
+TEST(ReplaySource, SkipsLongPauses) {
     const test::TemporaryFolder folder;
     test::CaptureWriter writer;
     for (const double time_s : {1.7e9, 1.7e9 + 1e6, 1.7e9 + 1e6 + 0.2, 1.0, 4e9, 4e9 + 0.2}) {

@@ -37,7 +37,7 @@ class ParserTest : public testing::Test {
     const Parser::Take take_ = [this](const Frame& frame) { frames_.push_back(frame); };
 };
 
-TEST_F(ParserTest, AStreamMayBeCutAnywhere) {
+TEST_F(ParserTest, AcceptsStreamInAnyPieces) {
     const Bytes bytes = joined({attitude(0), attitude(1), attitude(2)});
     for (const std::uint8_t byte : bytes) add({byte});
     ASSERT_EQ(frames_.size(), 3u);
@@ -50,14 +50,14 @@ TEST_F(ParserTest, AStreamMayBeCutAnywhere) {
     EXPECT_EQ(parser_.counts().lost, 0u);
 }
 
-TEST_F(ParserTest, WhatASenderLeftOutIsZero) {
+TEST_F(ParserTest, TruncatedFieldsAreZero) {
     add(attitude(0, 0.5f));
     add(encode(frameOf(Attitude()), Attitude::kBytes));
     ASSERT_EQ(frames_.size(), 2u);
     EXPECT_EQ(messageOf<Attitude>(frames_[1])->roll, 0);
 }
 
-TEST_F(ParserTest, AnyByteThatIsWrongCostsItsMessageOnly) {
+TEST_F(ParserTest, WrongByteLosesOneMessage) {
     const Bytes sound = attitude(1);
     for (std::size_t i = 0; i < sound.size(); ++i) {
         for (const int flip : {0x01, 0x80, 0xff}) {
@@ -74,7 +74,7 @@ TEST_F(ParserTest, AnyByteThatIsWrongCostsItsMessageOnly) {
     }
 }
 
-TEST_F(ParserTest, GarbageBetweenMessagesIsSkipped) {
+TEST_F(ParserTest, SkipsGarbage) {
     std::mt19937 random(1);
     for (int trial = 0; trial < 300; ++trial) {
         Bytes bytes;
@@ -107,7 +107,7 @@ TEST_F(ParserTest, GarbageBetweenMessagesIsSkipped) {
     }
 }
 
-TEST_F(ParserTest, RandomBytesAreNoMessages) {
+TEST_F(ParserTest, RejectsRandomBytes) {
     std::mt19937 random(2);
     Bytes bytes(200000);
     for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
@@ -120,7 +120,7 @@ TEST_F(ParserTest, RandomBytesAreNoMessages) {
     EXPECT_EQ(messageOf<Attitude>(frames_.back())->roll, 0.5f);
 }
 
-TEST_F(ParserTest, ASignatureIsSkipped) {
+TEST_F(ParserTest, SkipsSignature) {
     Bytes bytes = attitude(0);
     bytes[2] = 1;  // signed: the checksum is another one
     bytes.resize(bytes.size() - 2);
@@ -137,7 +137,7 @@ TEST_F(ParserTest, ASignatureIsSkipped) {
     EXPECT_EQ(parser_.counts().skipped_bytes, 0u);
 }
 
-TEST_F(ParserTest, AFormatThatNobodyKnowsIsLeftOut) {
+TEST_F(ParserTest, SkipsUnknownFormat) {
     Bytes bytes = attitude(0);
     bytes[2] = 2;
     const std::uint8_t extra = Attitude::kCrcExtra;
@@ -149,12 +149,12 @@ TEST_F(ParserTest, AFormatThatNobodyKnowsIsLeftOut) {
     EXPECT_EQ(parser_.counts().incompatible, 1u);
 }
 
-TEST_F(ParserTest, LostMessagesAreCountedPerComponent) {
+TEST_F(ParserTest, CountsLossesPerComponent) {
     add(joined({attitude(250), attitude(3, 0, 2), attitude(254), attitude(4, 0, 2), attitude(1)}));
     EXPECT_EQ(parser_.counts().lost, 3u + 2u);
 }
 
-TEST_F(ParserTest, ADatagramEndsWhatBeganInIt) {
+TEST_F(ParserTest, DatagramEndsMessage) {
     Bytes cut = attitude(0);
     cut.pop_back();
     add(cut);

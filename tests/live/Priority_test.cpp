@@ -12,7 +12,7 @@ struct Scheduling {
     int policy, priority;
 };
 
-/// What a thread with a policy and a priority has after letOthersGoFirst(); policy -1 where the
+/// What a thread with a policy and a priority has after lowerPriority(); policy -1 where the
 /// system allows none that is real-time.
 Scheduling after(Scheduling before) {
     Scheduling result{-1, 0};
@@ -20,14 +20,14 @@ Scheduling after(Scheduling before) {
         sched_param priority{};
         priority.sched_priority = before.priority;
         if (pthread_setschedparam(pthread_self(), before.policy, &priority) != 0) return;
-        letOthersGoFirst();
+        lowerPriority();
         pthread_getschedparam(pthread_self(), &result.policy, &priority);
         result.priority = priority.sched_priority;
     }).join();
     return result;
 }
 
-TEST(Priority, ARealTimeThreadGoesBehindTheOthers) {
+TEST(Priority, LowersRealTimePriority) {
     const Scheduling fifo = after({SCHED_FIFO, 10});
     if (fifo.policy < 0) GTEST_SKIP() << "no real-time priority is allowed here";
     EXPECT_EQ(fifo.policy, SCHED_FIFO);
@@ -36,7 +36,7 @@ TEST(Priority, ARealTimeThreadGoesBehindTheOthers) {
     EXPECT_EQ(after({SCHED_RR, 1}).priority, 1);  // there is none below
 }
 
-TEST(Priority, OthersStayAsTheyAre) {
+TEST(Priority, KeepsOtherThreads) {
     const Scheduling other = after({SCHED_OTHER, 0});
     EXPECT_EQ(other.policy, SCHED_OTHER);
     EXPECT_EQ(other.priority, 0);

@@ -58,7 +58,7 @@ class SectorDistancesTest : public testing::Test {
     SegmentationResult result_;
 };
 
-TEST_F(SectorDistancesTest, WhatALostPacketWouldHaveSeenIsUnknown) {
+TEST_F(SectorDistancesTest, LostPacketIsUnknown) {
     const Scan scan;
     const std::vector<Label> labels;
     const std::vector<Sweep> packets{{radians(0), radians(5)}, {radians(10), radians(15)}};
@@ -71,7 +71,7 @@ TEST_F(SectorDistancesTest, WhatALostPacketWouldHaveSeenIsUnknown) {
 }
 
 /// A packet of a degree, as of an HDL-32E with two returns per firing.
-TEST_F(SectorDistancesTest, ALostPacketThatIsNarrowIsNotPassed) {
+TEST_F(SectorDistancesTest, NarrowLostPacketIsNotPassed) {
     for (const double lost_deg : {12.0, 12.2, 12.5, 12.9}) {
         SectorDistances distances(sensor_);
         turn(0, 0.1, {{lost_deg + 0.5, 5}}, distances);
@@ -85,7 +85,7 @@ TEST_F(SectorDistancesTest, ALostPacketThatIsNarrowIsNotPassed) {
     }
 }
 
-TEST_F(SectorDistancesTest, WhatALostPacketSawTwoTurnsBeforeIsNotForgotten) {
+TEST_F(SectorDistancesTest, KeepsObstacleOfPacketLostTwice) {
     SectorDistances distances(sensor_);
     turn(0, 0.05, {{12.9, 4}}, distances);
     for (const int k : {1, 2}) {
@@ -96,7 +96,7 @@ TEST_F(SectorDistancesTest, WhatALostPacketSawTwoTurnsBeforeIsNotForgotten) {
 }
 
 /// Packets of an Ouster with 512 columns, 11 degrees wide: 16 of them are half a turn.
-TEST_F(SectorDistancesTest, APacketThatIsHalfATurnLateDoesNotPassItsOwnTurn) {
+TEST_F(SectorDistancesTest, LatePacketDoesNotPassItsTurn) {
     const auto sweepOf = [](int k) { return Sweep{radians(11.25 * k), radians(11.25 * (k + 1))}; };
     for (const int late : {1, 14, 15, 16}) {
         SectorDistances distances(sensor_);
@@ -119,7 +119,7 @@ TEST_F(SectorDistancesTest, APacketThatIsHalfATurnLateDoesNotPassItsOwnTurn) {
     }
 }
 
-TEST_F(SectorDistancesTest, NothingIsKnownAtFirst) {
+TEST_F(SectorDistancesTest, StartsUnknown) {
     for (const auto& sector : SectorDistances(sensor_).at(0)) {
         EXPECT_EQ(sector.state, State::Unknown);
         EXPECT_TRUE(std::isnan(sector.distance_m));
@@ -158,7 +158,7 @@ TEST_F(SectorDistancesTest, StaleIsNeverFree) {
     EXPECT_EQ(distances.at(-1)[0].state, State::Unknown);
 }
 
-TEST_F(SectorDistancesTest, WhatWasSeenBeforeTheClockWentBackIsForgotten) {
+TEST_F(SectorDistancesTest, ForgetsTurnsBeforeClockJump) {
     SectorDistances distances(sensor_);
     turn(100, 0.1, {{32, 5}}, distances);  // at 10 s
     take(0, 20, 9.9, {}, distances);
@@ -170,7 +170,7 @@ TEST_F(SectorDistancesTest, WhatWasSeenBeforeTheClockWentBackIsForgotten) {
     }
 }
 
-TEST_F(SectorDistancesTest, APartOfASectorIsNotFree) {
+TEST_F(SectorDistancesTest, PartOfSectorIsNotFree) {
     SectorDistances distances(sensor_);
     take(0, 13, 1, {{11, 4}}, distances);
     const auto at = distances.at(1);
@@ -186,7 +186,7 @@ TEST_F(SectorDistancesTest, APartOfASectorIsNotFree) {
     EXPECT_EQ(others.at(1.01)[2].time_s, 1);  // of the older part
 }
 
-TEST_F(SectorDistancesTest, AnObstacleAtTheBorderOfTwoSweepsStays) {
+TEST_F(SectorDistancesTest, ObstacleAtSweepBorderStays) {
     // The degree from 10 to 11 is swept in two parts; the obstacle is in the first.
     SectorDistances distances(sensor_);
     take(0, 10.4, 1, {{10.2, 4}}, distances);
@@ -195,7 +195,7 @@ TEST_F(SectorDistancesTest, AnObstacleAtTheBorderOfTwoSweepsStays) {
     EXPECT_NEAR(distances.at(1.01)[2].distance_m, 4, 1e-4);
 }
 
-TEST_F(SectorDistancesTest, TheNextTurnReplacesWhatTheLastOneSaw) {
+TEST_F(SectorDistancesTest, NextTurnReplacesLast) {
     for (const double turn_s : {0.05, 0.1, 0.2}) {  // 20, 10 and 5 times per second
         SectorDistances distances(sensor_);
         turn(0, turn_s, {{47, 4}, {100, 3}}, distances);
@@ -206,7 +206,7 @@ TEST_F(SectorDistancesTest, TheNextTurnReplacesWhatTheLastOneSaw) {
     }
 }
 
-TEST_F(SectorDistancesTest, DistancesAreOfTheBody) {
+TEST_F(SectorDistancesTest, DistancesAreRelativeToBody) {
     SectorDistances::Settings settings;
     // The sensor looks to the right of the body, half a metre ahead of its origin.
     settings.body_from_sensor =
@@ -221,7 +221,7 @@ TEST_F(SectorDistancesTest, DistancesAreOfTheBody) {
     EXPECT_NEAR(at[0].distance_m, 4.5, 0.01);
 }
 
-TEST_F(SectorDistancesTest, HeightsAreLimited) {
+TEST_F(SectorDistancesTest, LimitsHeights) {
     SectorDistances::Settings settings;
     settings.low_m = -1;
     settings.high_m = 2;
@@ -234,7 +234,7 @@ TEST_F(SectorDistancesTest, HeightsAreLimited) {
     EXPECT_EQ(at[2].state, State::Obstacle);
 }
 
-TEST_F(SectorDistancesTest, WhereATiltedSensorDoesNotSeeTheHorizonNothingIsFree) {
+TEST_F(SectorDistancesTest, TiltedSensorLeavesHorizonUnknown) {
     SectorDistances::Settings settings;
     settings.body_from_sensor = Eigen::AngleAxisd(radians(30.0), Eigen::Vector3d::UnitY());
     SectorDistances distances(sensor_, settings);
@@ -246,7 +246,7 @@ TEST_F(SectorDistancesTest, WhereATiltedSensorDoesNotSeeTheHorizonNothingIsFree)
 }
 
 /// The packet ends within the degree of the obstacle, which it has not reached yet.
-TEST_F(SectorDistancesTest, AnObstacleStaysUntilALaterTurnHasPassedIt) {
+TEST_F(SectorDistancesTest, ObstacleStaysUntilPassed) {
     for (const double end_deg : {11.0, 11.25, 11.6, 11.9}) {
         SectorDistances distances(sensor_);
         turn(0, 0.1, {{11.95, 5}}, distances);
@@ -260,7 +260,7 @@ TEST_F(SectorDistancesTest, AnObstacleStaysUntilALaterTurnHasPassedIt) {
 
 /// The sensor is 1 m ahead of the body: what it sees behind itself can be ahead of the body, whose
 /// direction the head passes up to half a turn later.
-TEST_F(SectorDistancesTest, OfASensorBesideTheBodyWhatIsNearStays) {
+TEST_F(SectorDistancesTest, NearObstacleStaysForOffsetSensor) {
     for (const auto& [x_m, y_m] : {std::pair{0.3, 0.6}, {0.3, -0.6}, {0.6, 0.2}, {-0.5, 0.1}}) {
         SectorDistances::Settings settings;
         settings.body_from_sensor.translation().x() = 1;
@@ -279,7 +279,7 @@ TEST_F(SectorDistancesTest, OfASensorBesideTheBodyWhatIsNearStays) {
     }
 }
 
-TEST_F(SectorDistancesTest, OfASensorBesideTheBodyWhatIsNearStaysWhereItsPacketIsLost) {
+TEST_F(SectorDistancesTest, OffsetSensorKeepsObstacleOfLostPacket) {
     for (const auto& [x_m, y_m] : {std::pair{0.3, 0.6}, {0.3, -0.6}, {0.6, 0.2}, {-0.5, 0.1}}) {
         SectorDistances::Settings settings;
         settings.body_from_sensor.translation().x() = 1;
@@ -301,7 +301,7 @@ TEST_F(SectorDistancesTest, OfASensorBesideTheBodyWhatIsNearStaysWhereItsPacketI
 }
 
 /// Nose down by 20 degrees, it looks at the low obstacle at 268 degrees at 272.3 of its own.
-TEST_F(SectorDistancesTest, WhatATiltedSensorSeesBelowTheHorizonStays) {
+TEST_F(SectorDistancesTest, ObstacleBelowHorizonStays) {
     SectorDistances::Settings settings;
     settings.body_from_sensor = Eigen::AngleAxisd(radians(20.0), Eigen::Vector3d::UnitY());
     const Eigen::Vector3d left(std::cos(radians(268)), -std::sin(radians(268)),
@@ -327,7 +327,7 @@ TEST_F(SectorDistancesTest, WhatATiltedSensorSeesBelowTheHorizonStays) {
     EXPECT_EQ(distances.at(0.41)[53].state, State::SeenNothing);
 }
 
-TEST_F(SectorDistancesTest, WithoutTurnsLostPacketsLookedNobodyKnowsWhere) {
+TEST_F(SectorDistancesTest, FramesWithLossesAreUnknown) {
     const auto takeFrames = [&](double measured_s, int frames, SectorDistances& distances) {
         const Scan scan;
         const std::vector<Label> labels;
@@ -352,7 +352,7 @@ TEST_F(SectorDistancesTest, WithoutTurnsLostPacketsLookedNobodyKnowsWhere) {
 
 /// Of three tenths of a second, a quarter of the packets comes at once, after a network stood
 /// still.
-TEST_F(SectorDistancesTest, WithoutTurnsFewPacketsThatComeAtOnceDidNotLookAllAround) {
+TEST_F(SectorDistancesTest, BurstOfFramesIsNotFullView) {
     const Scan scan;
     const std::vector<Label> labels;
     const auto stateAfter = [&](double measured_s) {
@@ -369,7 +369,7 @@ TEST_F(SectorDistancesTest, WithoutTurnsFewPacketsThatComeAtOnceDidNotLookAllAro
 }
 
 /// Freedom rests on a look all around that began after the obstacle was seen, however packets stop.
-TEST_F(SectorDistancesTest, WithoutTurnsAnObstacleIsNotFreeBeforeAnotherLook) {
+TEST_F(SectorDistancesTest, FrameObstacleStaysUntilSecondLook) {
     Scan pole, nothing;
     pole.x_m = {5};
     pole.y_m = {-0.1f};
@@ -395,7 +395,7 @@ TEST_F(SectorDistancesTest, WithoutTurnsAnObstacleIsNotFreeBeforeAnotherLook) {
     }
 }
 
-TEST_F(SectorDistancesTest, WithoutTurnsWhatWasSeenHoldsForATenthOfASecond) {
+TEST_F(SectorDistancesTest, FrameObstacleHoldsTenthOfSecond) {
     SectorDistances distances(sensorModel("Mid-360"));
     take(std::nullopt, 1.00, {{2, 4}}, distances);
     for (int k = 1; k < 5; ++k) take(std::nullopt, 1 + 0.02 * k, {{2, 5}}, distances);

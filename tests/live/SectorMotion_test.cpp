@@ -38,7 +38,7 @@ Sweep sweepOf(int turn, int packet) {
     return {from_rad, from_rad + kTurn_rad / kPackets};
 }
 
-TEST(SectorPackets, TellWhatEachSweptSoThatALostOneIsAGap) {
+TEST(SectorPackets, LostPacketLeavesGap) {
     const SensorModel sensor = sensorModel("VLP-16");
     const auto packets = packetsOfATurn(sensor);
     double covered_rad = 0, swept_rad = 0;
@@ -59,7 +59,7 @@ TEST(SectorPackets, TellWhatEachSweptSoThatALostOneIsAGap) {
     EXPECT_NEAR(covered_rad, kTurn_rad * (kPackets - 1) / kPackets, 1e-6);
 }
 
-TEST(SectorPackets, WhatALostPacketWouldHaveSweptIsNotFree) {
+TEST(SectorPackets, LostSweepIsNotFree) {
     const SensorModel sensor = sensorModel("VLP-16");
     SectorDistances distances(sensor);
     Scan none;
@@ -99,7 +99,7 @@ std::vector<Label> labelsAfter(const std::optional<Eigen::Isometry3d>& first) {
     return labels;
 }
 
-TEST(SectorMotion, APlaceThatIsNoLongerKnownMovesNothing) {
+TEST(SectorMotion, LostPositionMovesNothing) {
     Eigen::Isometry3d far_away = Eigen::Isometry3d::Identity();
     far_away.translation() = Eigen::Vector3d(100, -20, 5);
     far_away.linear() = Eigen::AngleAxisd(2, Eigen::Vector3d::UnitZ()).toRotationMatrix();

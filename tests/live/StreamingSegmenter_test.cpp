@@ -91,7 +91,7 @@ class StreamingSegmenterTest : public testing::Test {
     std::vector<Taken> taken_;
 };
 
-TEST_F(StreamingSegmenterTest, AStillSensorGetsTheLabelsOfTheWholeScan) {
+TEST_F(StreamingSegmenterTest, StillSensorMatchesWholeScan) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     std::vector<Label> truth;
     const std::vector<Scan> packets = packetsOf(turn, &truth);
@@ -128,7 +128,7 @@ TEST_F(StreamingSegmenterTest, AStillSensorGetsTheLabelsOfTheWholeScan) {
     EXPECT_EQ(missed, 0u);
 }
 
-TEST_F(StreamingSegmenterTest, WithAllContextTheLabelsAreThoseOfTheWholeScan) {
+TEST_F(StreamingSegmenterTest, FullContextMatchesWholeScan) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingOptions options;
@@ -152,7 +152,7 @@ TEST_F(StreamingSegmenterTest, WithAllContextTheLabelsAreThoseOfTheWholeScan) {
     EXPECT_GT(roi, 100u);
 }
 
-TEST_F(StreamingSegmenterTest, WithAllContextEachReturnOfATurnIsInTheImageOnce) {
+TEST_F(StreamingSegmenterTest, FullContextHasEachReturnOnce) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingOptions options;
@@ -173,7 +173,7 @@ TEST_F(StreamingSegmenterTest, WithAllContextEachReturnOfATurnIsInTheImageOnce) 
     EXPECT_GT(sectors, 10u);
 }
 
-TEST_F(StreamingSegmenterTest, ASectorEndsWithTheLastPacketThatFits) {
+TEST_F(StreamingSegmenterTest, SectorEndsWithLastFittingPacket) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingOptions options;
@@ -193,7 +193,7 @@ TEST_F(StreamingSegmenterTest, ASectorEndsWithTheLastPacketThatFits) {
     EXPECT_EQ(taken_[0].label.size(), returns);
 }
 
-TEST_F(StreamingSegmenterTest, EachReturnIsLabelledOnce) {
+TEST_F(StreamingSegmenterTest, LabelsEachReturnOnce) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingSegmenter segmenter(sensor_, {}, take());
@@ -207,7 +207,7 @@ TEST_F(StreamingSegmenterTest, EachReturnIsLabelledOnce) {
     EXPECT_TRUE(taken_.back().is_cut);
 }
 
-TEST_F(StreamingSegmenterTest, UntilHalfATurnIsKnownNothingNearIsGround) {
+TEST_F(StreamingSegmenterTest, NoGroundBeforeHalfTurn) {
     const test::SimpleScene ground;
     const auto turn = test::scanScene(ground, sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
@@ -226,7 +226,7 @@ TEST_F(StreamingSegmenterTest, UntilHalfATurnIsKnownNothingNearIsGround) {
     }
 }
 
-TEST_F(StreamingSegmenterTest, WithoutATurnBeforeNoObstacleIsMissed) {
+TEST_F(StreamingSegmenterTest, FirstTurnMissesNoObstacle) {
     std::vector<Label> truth;
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn, &truth);
@@ -246,7 +246,7 @@ TEST_F(StreamingSegmenterTest, WithoutATurnBeforeNoObstacleIsMissed) {
     EXPECT_EQ(missed, 0u);
 }
 
-TEST_F(StreamingSegmenterTest, OldReturnsAreReplacedByThoseOfTheSameDirection) {
+TEST_F(StreamingSegmenterTest, ReplacesOldReturns) {
     test::SimpleScene before = sceneWithPole(), after;
     before.poles.push_back({3, 0, 0.5, 6});
     const auto first = test::scanScene(before, sensor_, kColumns, {0, 0, 2});
@@ -326,7 +326,7 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     EXPECT_LT(2 * errorsWith(false, radians(30.0)), errorsWith(false, 0));
 }
 
-TEST_F(StreamingSegmenterTest, AfterARestartItIsAsNew) {
+TEST_F(StreamingSegmenterTest, RestartForgetsEverything) {
     // The ground seems to fall by 0.2 m per turn, and then no longer.
     const test::SimpleScene scene = sceneWithPole();
     const auto packetsAt = [&](double height_m) {
@@ -348,7 +348,7 @@ TEST_F(StreamingSegmenterTest, AfterARestartItIsAsNew) {
     EXPECT_EQ(labelsOfLatest(restarted), expected);
 }
 
-TEST_F(StreamingSegmenterTest, ReturnsWithoutAzimuthAreRefused) {
+TEST_F(StreamingSegmenterTest, RejectsReturnsWithoutAzimuth) {
     StreamingSegmenter segmenter(sensor_, {}, take());
     Scan packet = packetsOf(test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2}))[0];
     for (const float azimuth_rad : {std::nanf(""), 8.0F}) {
@@ -357,7 +357,7 @@ TEST_F(StreamingSegmenterTest, ReturnsWithoutAzimuthAreRefused) {
     }
 }
 
-TEST_F(StreamingSegmenterTest, UnsoundSweepsAndTimesAreRefusedAndNothingElseIsLost) {
+TEST_F(StreamingSegmenterTest, RejectsUnsoundSweepsAndTimes) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
@@ -379,7 +379,7 @@ TEST_F(StreamingSegmenterTest, UnsoundSweepsAndTimesAreRefusedAndNothingElseIsLo
     EXPECT_EQ(labels().size(), turn.scan.size());
 }
 
-TEST_F(StreamingSegmenterTest, AMotionThatIsNoNumberIsUnknown) {
+TEST_F(StreamingSegmenterTest, NonFiniteMotionIsUnknown) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     const auto labelsAfter = [&](auto set) {
@@ -403,7 +403,7 @@ TEST_F(StreamingSegmenterTest, AMotionThatIsNoNumberIsUnknown) {
 }
 
 /// Context that no float can hold has no place, in any posture.
-TEST_F(StreamingSegmenterTest, AMotionBeyondAllNumbersCostsNoReturn) {
+TEST_F(StreamingSegmenterTest, HugeMotionLosesNoReturn) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     for (const float roll_rad : {0.0F, 0.7F, 3.1F}) {
@@ -423,7 +423,7 @@ TEST_F(StreamingSegmenterTest, AMotionBeyondAllNumbersCostsNoReturn) {
 }
 
 /// Late packets: of many turns before.
-TEST_F(StreamingSegmenterTest, ASectorOfManyTurnsIsLabelled) {
+TEST_F(StreamingSegmenterTest, LabelsSectorOfManyTurns) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingSegmenter segmenter(sensor_, {}, take());
@@ -434,7 +434,7 @@ TEST_F(StreamingSegmenterTest, ASectorOfManyTurnsIsLabelled) {
 }
 
 /// Thin plants, of which one column in five shows few tops: a sector knows how high they were.
-TEST_F(StreamingSegmenterTest, CropsAreACanopyForSectorsToo) {
+TEST_F(StreamingSegmenterTest, CropsAreCanopyInSectors) {
     test::SimpleScene crops;
     for (int i = -14; i <= 14; ++i) {
         for (int j = -14; j <= 14; ++j) {
@@ -470,7 +470,7 @@ TEST_F(StreamingSegmenterTest, SilenceEndsTheContext) {
     EXPECT_TRUE(taken_.back().is_cut);
 }
 
-TEST_F(StreamingSegmenterTest, ASensorThatStandsStillGetsLabels) {
+TEST_F(StreamingSegmenterTest, LabelsStandingSensor) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const Scan packet = packetsOf(turn)[3];
     StreamingSegmenter segmenter(sensor_, {}, take());
@@ -479,7 +479,7 @@ TEST_F(StreamingSegmenterTest, ASensorThatStandsStillGetsLabels) {
     for (const Taken& sector : taken_) EXPECT_LE(sector.last_s - sector.first_s, 0.06);
 }
 
-TEST_F(StreamingSegmenterTest, FramesAreJudgedWithThoseBefore) {
+TEST_F(StreamingSegmenterTest, FramesUseEarlierFrames) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingSegmenter segmenter(sensor_, {}, take());
@@ -503,7 +503,7 @@ TEST_F(StreamingSegmenterTest, FramesAreJudgedWithThoseBefore) {
     }
 }
 
-TEST_F(StreamingSegmenterTest, WrongOptionsAndScansAreRefused) {
+TEST_F(StreamingSegmenterTest, RejectsWrongOptionsAndScans) {
     const auto messageWith = [&](auto change) {
         StreamingOptions options;
         change(options);

@@ -54,7 +54,7 @@ std::set<std::size_t> thinnedByHand(const Scan& scan, int every) {
     return kept;
 }
 
-TEST(Thinning, KeepsWhatTheDefinitionSays) {
+TEST(Thinning, MatchesDefinition) {
     test::Random random(1);
     for (const int every : {1, 2, 5, 7}) {
         Thinning thinning(kRows, kColumns, every);
@@ -73,7 +73,7 @@ TEST(Thinning, KeepsWhatTheDefinitionSays) {
 }
 
 /// maskAirframe() leaves them without a range.
-TEST(Thinning, MaskedReturnsTakeNoPlace) {
+TEST(Thinning, IgnoresMaskedReturns) {
     Scan scan;
     add(10, 3, kNoValue, 0, scan);
     add(10, 3, 8, 2, scan);
@@ -84,7 +84,7 @@ TEST(Thinning, MaskedReturnsTakeNoPlace) {
     EXPECT_THAT(thinning.of(scan), ElementsAre(1, 3));
 }
 
-TEST(Thinning, LowGroundInAGapTakesThePlaceOfACrown) {
+TEST(Thinning, LowGroundReplacesCrown) {
     Thinning thinning(kRows, kColumns, 5);
     Scan scan;
     add(100, 3, 4, -1, scan);
@@ -95,7 +95,7 @@ TEST(Thinning, LowGroundInAGapTakesThePlaceOfACrown) {
     EXPECT_THAT(thinning.of(scan), ElementsAre(2, 3));
 }
 
-TEST(Thinning, OfASensorThatIsUpsideDownLowIsAlongItsZAxis) {
+TEST(Thinning, UpsideDownSensorSwapsLow) {
     Thinning thinning(kRows, kColumns, 5);
     Scan scan;
     add(100, 3, 4, 1, scan);
@@ -106,7 +106,7 @@ TEST(Thinning, OfASensorThatIsUpsideDownLowIsAlongItsZAxis) {
     EXPECT_THAT(thinning.of(scan), ElementsAre(2));
 }
 
-TEST(Thinning, ReturnsWithoutPlaceTakeNoOther) {
+TEST(Thinning, IgnoresReturnsWithoutCoordinates) {
     Thinning thinning(kRows, kColumns, 5);
     Scan scan;
     add(100, 3, 4, -1, scan);
@@ -114,7 +114,7 @@ TEST(Thinning, ReturnsWithoutPlaceTakeNoOther) {
     EXPECT_THAT(thinning.of(scan), ElementsAre(0));
 }
 
-TEST(Thinning, OfNoColumnsNothingIsKept) {
+TEST(Thinning, KeepsNothingOfNoColumns) {
     Thinning thinning(kRows, kColumns, 0);
     Scan scan;
     add(0, 3, 4, -1, scan);

@@ -45,26 +45,26 @@ class TurnCoverageTest : public testing::Test {
 
 using Degrees = std::vector<double>;
 
-TEST_F(TurnCoverageTest, ADegreeIsCompleteOnceAllOfItWasSwept) {
+TEST_F(TurnCoverageTest, DegreeCompleteWhenFullySwept) {
     EXPECT_EQ(add(10, 12.4), (Degrees{10.5, 11.5}));
     EXPECT_EQ(add(12.4, 13.7), (Degrees{10.5, 11.5, 12.5}));         // so are those just behind
     EXPECT_EQ(add(13.71, 14.5), (Degrees{10.5, 11.5, 12.5, 13.5}));  // azimuths are rounded
 }
 
-TEST_F(TurnCoverageTest, AGapOfATenthOfADegreeIsNoRounding) {
+TEST_F(TurnCoverageTest, DetectsGapOfTenthDegree) {
     add(10, 12.4);
     EXPECT_EQ(add(12.5, 15), (Degrees{13.5, 14.5}));
     EXPECT_EQ(add({{15, 16.2}, {16.3, 18}}, 18), (Degrees{13.5, 14.5, 15.5, 17.5}));
 }
 
-TEST_F(TurnCoverageTest, APacketThatComesLateClosesTheGap) {
+TEST_F(TurnCoverageTest, LatePacketClosesGap) {
     add(10, 12.4);
     add(14.4, 20);
     EXPECT_EQ(add({{20, 21}, {12.4, 14.4}}, 21),
               (Degrees{10.5, 11.5, 12.5, 13.5, 14.5, 15.5, 16.5, 17.5, 18.5, 19.5, 20.5}));
 }
 
-TEST_F(TurnCoverageTest, AllBeamsMustHaveLooked) {
+TEST_F(TurnCoverageTest, RequiresAllBeams) {
     offsets_ = {radians(4.2), radians(2.2)};
     EXPECT_EQ(add(100, 105), Degrees());  // from 102.2 to 100.8
     EXPECT_EQ(add(105, 110), (Degrees{103.5, 104.5}));
@@ -79,16 +79,14 @@ TEST_F(TurnCoverageTest, AllBeamsMustHaveLooked) {
     EXPECT_EQ(late.size(), 14u);
 }
 
-TEST_F(TurnCoverageTest, AfterATurnTheSameDegreesAreSweptAgain) {
+TEST_F(TurnCoverageTest, NextTurnSweepsAgain) {
     add(350, 362.5);
     EXPECT_EQ(add(362.5, 364.5), (Degrees{0.5, 1.5, 2.5, 3.5, 359.5}));
-    EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700), radians(710), radians(730)},
-                       {0, radians(5)}),
-              radians(725));
+    EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700)}, {0, radians(5)}), radians(725));
 }
 
 /// What was swept before is not joined to what is swept now, where angles are by chance the next.
-TEST_F(TurnCoverageTest, WhereASensorStartsAgainItsAnglesGoOn) {
+TEST_F(TurnCoverageTest, AnglesContinueAfterRestart) {
     add(350, 370.5);
     EXPECT_EQ(add(10.5, 13), (Degrees{11.5, 12.5}));
     EXPECT_NEAR(degrees(coverage_.head_rad()), 13 + 720, 1e-9);

@@ -103,7 +103,7 @@ class TurnMotionTest : public testing::Test {
     int swept_ = 0;
 };
 
-TEST_F(TurnMotionTest, NothingIsToldBeforeATurnCanBeCompared) {
+TEST_F(TurnMotionTest, UnknownBeforeSecondTurn) {
     EXPECT_FALSE(motion_.since(1));
     fly({}, kSectors);
     EXPECT_FALSE(motion_.since(1));
@@ -112,7 +112,7 @@ TEST_F(TurnMotionTest, NothingIsToldBeforeATurnCanBeCompared) {
     EXPECT_LT(worstHeight_m({}, 1), 1e-3);
 }
 
-TEST_F(TurnMotionTest, TiltAndRiseAreFoundFromAnyStart) {
+TEST_F(TurnMotionTest, FindsTiltAndRise) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         SCOPED_TRACE(seed);
         random_ = test::Random(seed);
@@ -130,7 +130,7 @@ TEST_F(TurnMotionTest, TiltAndRiseAreFoundFromAnyStart) {
     }
 }
 
-TEST_F(TurnMotionTest, WhatDoesNotFitHardlyCounts) {
+TEST_F(TurnMotionTest, DownweightsOutliers) {
     Flight flight;
     flight.then_from_now = stepOf(1, -2, 0.05);
     fly(flight, 2 * kSectors);
@@ -139,7 +139,7 @@ TEST_F(TurnMotionTest, WhatDoesNotFitHardlyCounts) {
     EXPECT_LT(worstHeight_m(flight, 1), 0.1);
 }
 
-TEST_F(TurnMotionTest, ASlopeIsNoTilt) {
+TEST_F(TurnMotionTest, SlopeIsNotTilt) {
     Flight flight;
     flight.plane_from_sensor.linear() =
         levelFromSensor({static_cast<float>(radians(10.0)), static_cast<float>(radians(-8.0))})
@@ -151,7 +151,7 @@ TEST_F(TurnMotionTest, ASlopeIsNoTilt) {
     EXPECT_LT(worstHeight_m(flight, 1), 0.1);
 }
 
-TEST_F(TurnMotionTest, ASensorThatLooksDownIsToldAsWell) {
+TEST_F(TurnMotionTest, WorksLookingDown) {
     Flight flight;
     flight.plane_from_sensor.linear() =
         levelFromSensor({0, static_cast<float>(radians(40.0))}).cast<double>();
@@ -160,25 +160,25 @@ TEST_F(TurnMotionTest, ASensorThatLooksDownIsToldAsWell) {
     EXPECT_LT(worstHeight_m(flight, 1), 0.1);
 }
 
-TEST_F(TurnMotionTest, WhatIsBeyondTheZoneIsNotCompared) {
+TEST_F(TurnMotionTest, IgnoresGroundBeyondZone) {
     motion_ = TurnMotion(sensor_.rows(), kColumns, 9);  // the first ring is 9.7 m away
     fly({}, 3 * kSectors);
     EXPECT_FALSE(motion_.since(1));
 }
 
-TEST_F(TurnMotionTest, WhatWasSeenInTheSameTurnIsNotCompared) {
+TEST_F(TurnMotionTest, IgnoresSameTurn) {
     fly({}, kSectors);
     --swept_;
     fly({}, 1);
     EXPECT_FALSE(motion_.since(1));
 }
 
-TEST_F(TurnMotionTest, OnlyGroundTells) {
+TEST_F(TurnMotionTest, UsesGroundOnly) {
     fly({}, 3 * kSectors, Label::Roi);
     EXPECT_FALSE(motion_.since(1));
 }
 
-TEST_F(TurnMotionTest, WithoutGroundItIsForgotten) {
+TEST_F(TurnMotionTest, ForgetsWithoutGround) {
     fly({}, 3 * kSectors);
     EXPECT_TRUE(motion_.since(1));
     fly({}, kSectors, Label::Roi);
@@ -188,7 +188,7 @@ TEST_F(TurnMotionTest, WithoutGroundItIsForgotten) {
     EXPECT_FALSE(motion_.since(1));
 }
 
-TEST_F(TurnMotionTest, PixelsThatWereNotSeenInTheTurnBeforeAreNotCompared) {
+TEST_F(TurnMotionTest, IgnoresPixelsUnseenBefore) {
     fly({}, kSectors);
     swept_ += kSectors;
     fly({}, kSectors);

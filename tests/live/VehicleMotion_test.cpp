@@ -20,7 +20,7 @@ Eigen::Matrix3d ours(const Eigen::Matrix3d& ned_from_frd) {
     return flip.asDiagonal() * ned_from_frd * flip.asDiagonal();
 }
 
-TEST(VehicleMotion, BothKindsOfAttitudeAreTheSameRotation) {
+TEST(VehicleMotion, AttitudeMessagesAgree) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> angle(-3, 3), tilt(-1.4, 1.4);
     for (int i = 0; i < 200; ++i) {
@@ -41,7 +41,7 @@ TEST(VehicleMotion, BothKindsOfAttitudeAreTheSameRotation) {
     }
 }
 
-TEST(VehicleMotion, ALevelVehicleThatHeadsEastHasItsHeadingClockwise) {
+TEST(VehicleMotion, HeadingIsClockwise) {
     Vehicle vehicle;
     vehicle.yaw_rad = kPi / 2;
     vehicle.pitch_rad = 0.2;  // nose up
@@ -56,7 +56,7 @@ TEST(VehicleMotion, ALevelVehicleThatHeadsEastHasItsHeadingClockwise) {
     EXPECT_GT((level * Eigen::Vector3d::UnitY()).z(), 0.09);  // left side up
 }
 
-TEST(VehicleMotion, BetweenMessagesItIsInterpolatedAndAfterThemTurnedOn) {
+TEST(VehicleMotion, InterpolatesAndExtrapolates) {
     VehicleMotion motion;
     Vehicle vehicle;
     vehicle.rates_rad_s = {0, 0, 1};
@@ -82,7 +82,7 @@ TEST(VehicleMotion, BetweenMessagesItIsInterpolatedAndAfterThemTurnedOn) {
     EXPECT_FALSE(motion.at(kBehind_s - 0.01));
 }
 
-TEST(VehicleMotion, AJumpOfTheEstimatedPlaceMovesNothing) {
+TEST(VehicleMotion, PositionJumpMovesNothing) {
     VehicleMotion motion;
     Vehicle vehicle;
     vehicle.speed_m_s = {5, 0, 0};
@@ -102,7 +102,7 @@ TEST(VehicleMotion, AJumpOfTheEstimatedPlaceMovesNothing) {
 }
 
 /// Nobody knows whether the estimate jumped within a gap: no place of before compares.
-TEST(VehicleMotion, AJumpWithinAGapMovesNothing) {
+TEST(VehicleMotion, JumpInGapMovesNothing) {
     VehicleMotion motion;
     Vehicle vehicle;
     for (int i = 0; i < 200; ++i) {
@@ -128,7 +128,7 @@ TEST(VehicleMotion, AJumpWithinAGapMovesNothing) {
     EXPECT_FALSE(between && between->place_m);
 }
 
-TEST(VehicleMotion, WhatIsNoMotionIsRefused) {
+TEST(VehicleMotion, RejectsImpossibleMotion) {
     VehicleMotion motion;
     Vehicle vehicle;
     vehicle.roll_rad = std::numeric_limits<double>::quiet_NaN();
@@ -155,7 +155,7 @@ TEST(VehicleMotion, WhatIsNoMotionIsRefused) {
     EXPECT_FALSE(motion.at(1));
 }
 
-TEST(VehicleMotion, AVehicleThatStartsAgainHasNoPast) {
+TEST(VehicleMotion, RestartClearsHistory) {
     VehicleMotion motion;
     Vehicle vehicle;
     motion.take(vehicle.attitude(100), 100);
@@ -169,7 +169,7 @@ TEST(VehicleMotion, AVehicleThatStartsAgainHasNoPast) {
     EXPECT_NEAR(motion.at(104.51).value().heading_rad(), -1, 1e-6);
 }
 
-TEST(LevelBetween, IsWhatAFixedPlaceDoesInTheVehiclesView) {
+TEST(LevelBetween, MovesFixedPoint) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> angle(-3, 3), tilt(-0.5, 0.5), way(-20, 20);
     for (int i = 0; i < 100; ++i) {

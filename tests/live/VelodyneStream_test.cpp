@@ -1,11 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hagen/live/LidarStream.h>
 #include <hagen/live/SectorDistances.h>
-#include <hagen/live/VelodyneStream.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/VelodyneEncoder.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/scan/Angle.h>
+#include <hagen/sensors/VelodyneCalibration.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@
 
 #include "support/CaptureWriter.h"
 #include "support/Captures.h"
+#include "support/Datagrams.h"
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
 
@@ -24,9 +26,9 @@ namespace hagen::live {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
+using sensors::Taken;
 using sensors::velodyneModel;
 using test::ByteString;
-using Taken = VelodyneStream::Taken;
 
 constexpr double kTurn_s = 0.1;
 constexpr std::size_t kPackets = 76;  // of a turn; the last one is not full
@@ -68,11 +70,11 @@ std::vector<ByteString> turnsOf(int turns, std::uint32_t first_us = 1000000, boo
     return packets;
 }
 
-Taken add(const ByteString& packet, double time_s, VelodyneStream& stream) {
-    return stream.add(reinterpret_cast<const std::uint8_t*>(packet.data()), packet.size(), time_s);
+Taken add(const ByteString& packet, double time_s, LidarStream& stream) {
+    return stream.add(test::datagramOf(packet), time_s);
 }
 
-void addAll(const std::vector<ByteString>& packets, VelodyneStream& stream, double start_s = 0) {
+void addAll(const std::vector<ByteString>& packets, LidarStream& stream, double start_s = 0) {
     for (std::size_t i = 0; i < packets.size(); ++i) {
         add(packets[i], start_s + 1.33e-3 * static_cast<double>(i), stream);
     }
@@ -81,7 +83,7 @@ void addAll(const std::vector<ByteString>& packets, VelodyneStream& stream, doub
 class VelodyneStreamTest : public testing::Test {
  protected:
     Labelled all_;
-    VelodyneStream stream_{velodyneModel("VLP-16"), {}, into(all_)};
+    LidarStream stream_{sensors::makeDriver("VLP-16"), {}, into(all_)};
 };
 
 /// The share of the labels that are those of whole scans, where enough of a turn was known.
@@ -89,7 +91,7 @@ double sameShare(const std::string& recording, const Settings& settings, std::si
     const auto source = recordings::openRecording(recording);
     source->usePoses({});
     Labelled all;
-    std::unique_ptr<VelodyneStream> stream;
+    std::unique_ptr<LidarStream> stream;
     std::unique_ptr<HagenFilter> filter;
     observations::ObservedScan observed;
     std::vector<Label> whole;
@@ -101,17 +103,18 @@ double sameShare(const std::string& recording, const Settings& settings, std::si
         observations::readObservation(*packets, settings, observed);
         if (!stream) {
             filter = std::make_unique<HagenFilter>(observed.sensor, settings.options);
-            stream = std::make_unique<VelodyneStream>(velodyneModel(observed.sensor.name), settings,
-                                                      into(all));
+            stream = std::make_unique<LidarStream>(sensors::makeDriver(observed.sensor.name),
+                                                   settings, into(all));
         }
         const auto& labels = filter->segment(observed.scan, scan->pose.attitude).returns.label;
         whole.insert(whole.end(), labels.begin(), labels.end());
-        stream->setAttitude(scan->pose.attitude);
+        SensorMotion motion{scan->pose.attitude, {}};
         if (scan->pose.sensor_pose) {
-            stream->setPose(Eigen::Isometry3d(
+            motion.map_from_sensor = Eigen::Isometry3d(
                 scan->pose.sensor_pose->getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>()
-                    .asEigen()));
+                    .asEigen());
         }
+        stream->move(motion);
         for (const auto& raw : packets->scan_packets) {
             time_s += kTurn_s / static_cast<double>(packets->scan_packets.size());
             ByteString packet = test::bytesOf(raw);
@@ -134,7 +137,7 @@ double sameShare(const std::string& recording, const Settings& settings, std::si
     return static_cast<double>(same) / static_cast<double>(compared);
 }
 
-TEST(StreamedRecordings, LabelsAreThoseOfWholeScans) {
+TEST(StreamedRecordings, LabelsMatchWholeScans) {
     const std::string folder = std::string(HAGEN_SOURCE_DIR) + "/rawlogs/";
     std::size_t near_missed = 0;
     // Every other turn is missing, and each pose is that of its turn's beginning: the figures of
@@ -146,7 +149,7 @@ TEST(StreamedRecordings, LabelsAreThoseOfWholeScans) {
     EXPECT_EQ(near_missed, 0u);
 }
 
-TEST(StreamedRecordings, LabelsOfRealCapturesAreThoseOfWholeScans) {
+TEST(StreamedRecordings, RealCaptureLabelsMatchWholeScans) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA is not set";
     for (const char* name : {"sample_velodyne_vlp16_gps", "sample_velodyne_hdl32"}) {
@@ -156,11 +159,11 @@ TEST(StreamedRecordings, LabelsOfRealCapturesAreThoseOfWholeScans) {
     }
 }
 
-TEST_F(VelodyneStreamTest, EachReturnGetsItsLabelSoon) {
+TEST_F(VelodyneStreamTest, LabelsEachReturnSoon) {
     const auto packets = turnsOf(3);
     addAll(packets, stream_);
     EXPECT_EQ(stream_.counts().packets, packets.size());
-    EXPECT_EQ(stream_.counts().turns, 2u);
+    EXPECT_EQ(stream_.counts().scans, 2u);
     EXPECT_EQ(stream_.counts().lost, 0u);
     EXPECT_EQ(stream_.counts().late, 0u);
     EXPECT_NEAR(static_cast<double>(all_.sectors), 3 * kPackets / 3, 1);
@@ -169,7 +172,7 @@ TEST_F(VelodyneStreamTest, EachReturnGetsItsLabelSoon) {
     EXPECT_GT(std::count(all_.label.begin(), all_.label.end(), Label::Roi), 300);
 }
 
-TEST_F(VelodyneStreamTest, LostPacketsAreCounted) {
+TEST_F(VelodyneStreamTest, CountsLostPackets) {
     auto packets = turnsOf(3);
     packets.erase(packets.begin() + 100, packets.begin() + 103);
     packets.erase(packets.begin() + 30);
@@ -178,17 +181,17 @@ TEST_F(VelodyneStreamTest, LostPacketsAreCounted) {
     EXPECT_EQ(stream_.counts().interruptions, 0u);
 }
 
-TEST_F(VelodyneStreamTest, RepeatedPacketsAreLeftOut) {
+TEST_F(VelodyneStreamTest, DropsDuplicates) {
     auto packets = turnsOf(2);
     packets.insert(packets.begin() + 40, packets[38]);
     packets.insert(packets.begin() + 60, packets[59]);
     addAll(packets, stream_);
-    EXPECT_EQ(stream_.counts().repeated, 2u);
+    EXPECT_EQ(stream_.counts().duplicate, 2u);
     EXPECT_EQ(stream_.counts().packets, 2 * kPackets);
     EXPECT_EQ(stream_.counts().late, 0u);
 }
 
-TEST_F(VelodyneStreamTest, LatePacketsAreLabelledAndNotLost) {
+TEST_F(VelodyneStreamTest, LabelsLatePackets) {
     auto packets = turnsOf(2);
     std::swap(packets[50], packets[51]);
     const ByteString late = packets[80];
@@ -200,7 +203,7 @@ TEST_F(VelodyneStreamTest, LatePacketsAreLabelledAndNotLost) {
     EXPECT_EQ(stream_.counts().lost, 0u);
     EXPECT_EQ(stream_.counts().packets, 2 * kPackets);
     Labelled in_order;
-    VelodyneStream other(velodyneModel("VLP-16"), {}, into(in_order));
+    LidarStream other(sensors::makeDriver("VLP-16"), {}, into(in_order));
     addAll(turnsOf(2), other);
     other.flush();
     EXPECT_EQ(all_.label.size(), in_order.label.size());
@@ -210,15 +213,15 @@ TEST_F(VelodyneStreamTest, LatePacketsAreLabelledAndNotLost) {
                 0.05 * static_cast<double>(expected));
 }
 
-TEST_F(VelodyneStreamTest, TheClockWrapsEveryHour) {
+TEST_F(VelodyneStreamTest, ClockWrapsEveryHour) {
     addAll(turnsOf(4, 3600000000u - 150000), stream_);
     EXPECT_EQ(stream_.counts().interruptions, 0u);
     EXPECT_EQ(stream_.counts().lost, 0u);
-    EXPECT_EQ(stream_.counts().turns, 3u);
+    EXPECT_EQ(stream_.counts().scans, 3u);
     EXPECT_GT(stream_.segmenter().sectors(), 55u);
 }
 
-TEST_F(VelodyneStreamTest, AClockThatIsSetStartsAgain) {
+TEST_F(VelodyneStreamTest, SetClockIsInterruption) {
     addAll(turnsOf(2, 500000000), stream_);
     addAll(turnsOf(2, 1000000), stream_, 0.2);
     EXPECT_EQ(stream_.counts().interruptions, 1u);
@@ -227,7 +230,7 @@ TEST_F(VelodyneStreamTest, AClockThatIsSetStartsAgain) {
 }
 
 /// What a packet saw that was under way for more than a turn does not replace what is there now.
-TEST_F(VelodyneStreamTest, APacketThatComesATurnLateIsLeftOut) {
+TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
     SectorDistances distances(sensorModel("VLP-16"));
     const auto countFree = [&](double now_s) {
         const auto at = distances.at(now_s);
@@ -235,8 +238,8 @@ TEST_F(VelodyneStreamTest, APacketThatComesATurnLateIsLeftOut) {
             return direction.state == SectorDistances::State::SeenNothing;
         });
     };
-    VelodyneStream stream(velodyneModel("VLP-16"), {},
-                          [&](const LabelledSector& sector) { distances.take(sector); });
+    LidarStream stream(sensors::makeDriver("VLP-16"), {},
+                       [&](const LabelledSector& sector) { distances.take(sector); });
     std::vector<ByteString> packets = turnsOf(4);
     const auto first_late = packets.begin() + 20, end_late = first_late + 15;
     const std::vector<ByteString> late(first_late, end_late);
@@ -247,7 +250,7 @@ TEST_F(VelodyneStreamTest, APacketThatComesATurnLateIsLeftOut) {
     ASSERT_GT(before, 0);
     const std::size_t sectors = stream.segmenter().sectors();
     for (const ByteString& packet : late) {
-        EXPECT_EQ(add(packet, now_s + 1e-5, stream), Taken::Late);
+        EXPECT_EQ(add(packet, now_s + 1e-5, stream), Taken::TooLate);
     }
     EXPECT_EQ(stream.segmenter().sectors(), sectors);
     addAll(turnsOf(1, 1400000), stream, now_s + 1e-4);
@@ -259,28 +262,28 @@ TEST_F(VelodyneStreamTest, APacketThatComesATurnLateIsLeftOut) {
 }
 
 /// As by a second path that is slower, in a burst: no clock was set, and nothing new was seen.
-TEST_F(VelodyneStreamTest, CopiesOfATurnAgoAreNoNewPackets) {
+TEST_F(VelodyneStreamTest, DropsDuplicatesOfEarlierTurn) {
     const std::vector<ByteString> packets = turnsOf(5);
     addAll(packets, stream_);
     const std::size_t sectors = stream_.segmenter().sectors();
     const double now_s = 5 * kPackets * 1.33e-3;
     for (std::size_t i = 0; i < kPackets; ++i) {
-        EXPECT_EQ(add(packets[3 * kPackets + i], now_s + 1e-5, stream_), Taken::Repeated);
+        EXPECT_EQ(add(packets[3 * kPackets + i], now_s + 1e-5, stream_), Taken::Duplicate);
     }
     EXPECT_EQ(stream_.segmenter().sectors(), sectors);
-    EXPECT_EQ(stream_.counts().repeated, kPackets);
+    EXPECT_EQ(stream_.counts().duplicate, kPackets);
     EXPECT_EQ(stream_.counts().interruptions, 0u);
     addAll(turnsOf(1, 1500000), stream_, now_s + 1e-4);
     EXPECT_EQ(stream_.counts().packets, 6 * kPackets);
 }
 
 /// Its packets are taken once it is certain that they are not late.
-TEST_F(VelodyneStreamTest, SixteenLatePacketsAreOfAClockThatWasSet) {
+TEST_F(VelodyneStreamTest, SixteenLatePacketsMeanSetClock) {
     addAll(turnsOf(2), stream_);
     const auto again = turnsOf(1, 500000);
     for (std::size_t i = 0; i < 20; ++i) {
         EXPECT_EQ(add(again[i], 0.3 + 1e-3 * static_cast<double>(i), stream_),
-                  i < 15 ? Taken::Late : Taken::Yes);
+                  i < 15 ? Taken::TooLate : Taken::Yes);
     }
     EXPECT_EQ(stream_.counts().packets, 2 * kPackets + 20);
     EXPECT_EQ(stream_.counts().late, 0u);
@@ -288,7 +291,7 @@ TEST_F(VelodyneStreamTest, SixteenLatePacketsAreOfAClockThatWasSet) {
     EXPECT_EQ(stream_.counts().interruptions, 1u);
 }
 
-TEST_F(VelodyneStreamTest, AGapIsCountedAndSurvived) {
+TEST_F(VelodyneStreamTest, CountsGap) {
     addAll(turnsOf(2), stream_);
     addAll(turnsOf(2, 1000000 + 360000), stream_, 0.36);  // 0.16 s are missing
     EXPECT_EQ(stream_.counts().interruptions, 1u);
@@ -296,26 +299,25 @@ TEST_F(VelodyneStreamTest, AGapIsCountedAndSurvived) {
     EXPECT_EQ(stream_.counts().packets, 4 * kPackets);
 }
 
-TEST_F(VelodyneStreamTest, ModesChange) {
+TEST_F(VelodyneStreamTest, CountsModeChanges) {
     addAll(turnsOf(2), stream_);
     const std::size_t single = all_.label.size();
     addAll(turnsOf(2, 1200000, true), stream_, 0.2);
-    EXPECT_TRUE(stream_.isDual());
+    EXPECT_TRUE(stream_.driver().isDual());
     addAll(turnsOf(1, 1400000), stream_, 0.4);
     stream_.flush();
     EXPECT_EQ(stream_.counts().mode_changes, 2u);
-    EXPECT_EQ(stream_.counts().lost, 0u);
     EXPECT_EQ(stream_.counts().lost, 0u);
     EXPECT_EQ(stream_.counts().interruptions, 0u);
     EXPECT_GT(all_.label.size(), 3 * single);  // 2 turns, 2 with both returns, 1: 3.5 times
 }
 
-TEST_F(VelodyneStreamTest, ForeignDatagramsAreRefused) {
+TEST_F(VelodyneStreamTest, RejectsForeignDatagrams) {
     const ByteString packet = turnsOf(1)[0];
     EXPECT_EQ(add("", 0, stream_), Taken::WrongSize);
     EXPECT_EQ(add(packet.substr(1), 0, stream_), Taken::WrongSize);
     EXPECT_EQ(add(ByteString(1206, 'x'), 0, stream_), Taken::WrongSize);
-    EXPECT_EQ(add(turnsOf(1, 0, false, "HDL-32E")[0], 0, stream_), Taken::OtherModel);
+    EXPECT_EQ(add(turnsOf(1, 0, false, "HDL-32E")[0], 0, stream_), Taken::OtherSensor);
     ByteString unsound = packet;
     for (int block = 0; block < 12; ++block) {
         unsound[100 * block + 2] = '\xff';  // an azimuth beyond the turn
@@ -323,18 +325,18 @@ TEST_F(VelodyneStreamTest, ForeignDatagramsAreRefused) {
     }
     EXPECT_EQ(add(unsound, 0, stream_), Taken::Unsound);
     EXPECT_EQ(add(packet, 0, stream_), Taken::Yes);
-    EXPECT_EQ(add(packet, 0, stream_), Taken::Repeated);
+    EXPECT_EQ(add(packet, 0, stream_), Taken::Duplicate);
     const auto& counts = stream_.counts();
     EXPECT_EQ(counts.wrong_size, 3u);
-    EXPECT_EQ(counts.other_model, 1u);
+    EXPECT_EQ(counts.other_sensor, 1u);
     EXPECT_EQ(counts.unsound, 1u);
     EXPECT_EQ(counts.packets, 1u);
-    EXPECT_EQ(counts.repeated, 1u);
+    EXPECT_EQ(counts.duplicate, 1u);
 }
 
 /// Two sound blocks that are far apart: as the rate of the whole packet, it would sweep more than
 /// a turn.
-TEST_F(VelodyneStreamTest, APacketThatSweepsMoreThanATurnIsABrokenReading) {
+TEST_F(VelodyneStreamTest, TakesPacketWithImplausibleSweep) {
     ByteString packet = turnsOf(1)[0];
     const auto setAzimuth = [&](int block, unsigned centidegrees) {
         packet[100 * block + 2] = static_cast<char>(centidegrees & 0xff);
@@ -359,7 +361,7 @@ TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
     packets[20][100 * 7 + 3] = static_cast<char>(packets[20][100 * 7 + 3] + 8);  // 20 degrees ahead
     std::vector<Sweep> swept;
     std::size_t returns = 0;
-    VelodyneStream stream(velodyneModel("VLP-16"), {}, [&](const LabelledSector& sector) {
+    LidarStream stream(sensors::makeDriver("VLP-16"), {}, [&](const LabelledSector& sector) {
         swept.insert(swept.end(), sector.packets->begin(), sector.packets->end());
         returns += sector.returns.size();
     });
@@ -379,11 +381,11 @@ TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
 }
 
 /// Of a firing with two returns, one block does not tell what the other would have seen.
-TEST_F(VelodyneStreamTest, HalfAFiringIsNotSwept) {
+TEST_F(VelodyneStreamTest, HalfFiringIsNotSwept) {
     auto packets = turnsOf(1, 1000000, true);
     packets[40][100 * 5] = '\0';
     std::vector<Sweep> swept;
-    VelodyneStream stream(velodyneModel("VLP-16"), {}, [&](const LabelledSector& sector) {
+    LidarStream stream(sensors::makeDriver("VLP-16"), {}, [&](const LabelledSector& sector) {
         swept.insert(swept.end(), sector.packets->begin(), sector.packets->end());
     });
     addAll(packets, stream);
@@ -408,14 +410,14 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     }
     stream_.flush();
     const auto& counts = stream_.counts();
-    EXPECT_EQ(counts.packets + counts.repeated + counts.unsound + counts.wrong_size +
-                  counts.other_model + counts.too_late,
+    EXPECT_EQ(counts.packets + counts.duplicate + counts.unsound + counts.wrong_size +
+                  counts.other_sensor + counts.too_late,
               given);
     EXPECT_GT(counts.packets, 500u);  // in any order: many are too late
 }
 
 /// What only one beam sees: laser 9 of a VLP-32C looks 4.2 degrees behind the head.
-TEST(VelodyneStreams, WhatOnlyALaggingBeamSeesStaysAnObstacle) {
+TEST(VelodyneStreams, ObstacleOfLaggingBeamStays) {
     const auto& model = velodyneModel("VLP-32C");
     observations::Firings firings = test::fireAt({}, model, {0, 0, 2});
     firings.range_m.setZero();
@@ -426,7 +428,7 @@ TEST(VelodyneStreams, WhatOnlyALaggingBeamSeesStaysAnObstacle) {
     }
     SectorDistances distances(sensorModel("VLP-32C"));
     BeamOffsets offsets;
-    VelodyneStream stream(model, {}, [&](const LabelledSector& sector) {
+    LidarStream stream(sensors::makeDriver("VLP-32C"), {}, [&](const LabelledSector& sector) {
         distances.take(sector);
         offsets = sector.offsets;
     });
@@ -446,13 +448,12 @@ TEST(VelodyneStreams, WhatOnlyALaggingBeamSeesStaysAnObstacle) {
     EXPECT_NEAR(degrees(offsets.ahead_rad), 4.2, 1e-9);
 }
 
-TEST(VelodyneStreams, AnHdl64NeedsItsCalibration) {
-    Labelled all;
-    EXPECT_THROW(VelodyneStream(sensors::hdl64Model(), {}, into(all)), std::invalid_argument);
+TEST(VelodyneStreams, Hdl64NeedsCalibration) {
+    EXPECT_THROW(sensors::makeVelodyneDriver(sensors::hdl64Model()), std::invalid_argument);
 }
 
 /// The lower blocks tell an HDL-64E also where their azimuths are unsound.
-TEST(VelodyneStreams, UnsoundLowerBlocksOfAnHdl64EndNothing) {
+TEST(VelodyneStreams, SurvivesUnsoundLowerBlocksOfHdl64) {
     sensors::VelodyneCalibration calibration;
     for (int laser = 0; laser < 64; ++laser) {
         const double elevation_rad = radians(-24 + 0.4 * laser);
@@ -461,7 +462,8 @@ TEST(VelodyneStreams, UnsoundLowerBlocksOfAnHdl64EndNothing) {
         of_hdl64.elevation_cosine = std::cos(elevation_rad);
     }
     Labelled all;
-    VelodyneStream stream(sensors::hdl64Model(), {}, into(all), {}, &calibration);
+    auto driver = sensors::makeVelodyneDriver(sensors::hdl64Model(), &calibration);
+    LidarStream stream(std::move(driver), {}, into(all));
     std::string packet(1206, '\0');
     for (int block = 0; block < 12; ++block) {
         const unsigned reading = block % 2 == 0 ? 100 + 18 * block : 40000;
@@ -473,32 +475,16 @@ TEST(VelodyneStreams, UnsoundLowerBlocksOfAnHdl64EndNothing) {
     EXPECT_NO_THROW(add(packet, 1, stream));
 }
 
-TEST(VelodyneStreams, TheSettingsLimitTheRanges) {
-    const auto limitsOf = [&](const Settings& settings) {
-        const VelodyneStream stream(velodyneModel("VLP-16"), settings,
-                                    [](const LabelledSector&) {});
-        const SensorModel& used = stream.segmenter().sensor();
-        return std::pair(used.min_range_m, used.max_range_m);
-    };
-    const SensorModel model = sensorModel("VLP-16");
-    Settings settings;
-    EXPECT_EQ(limitsOf(settings), std::pair(model.min_range_m, model.max_range_m));
-    settings.sensor.min_range_m = 1.5f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, model.max_range_m));
-    settings.sensor.max_range_m = 40.0f;
-    EXPECT_EQ(limitsOf(settings), std::pair(1.5f, 40.0f));
-}
-
-TEST(VelodyneStreams, TheAirframeIsMasked) {
+TEST(VelodyneStreams, MasksAirframe) {
     Settings settings;
     settings.airframe.parts.spheres.push_back({{8, 3, 0}, 3});
     Labelled all;
-    VelodyneStream stream(velodyneModel("VLP-16"), settings, into(all));
+    LidarStream stream(sensors::makeDriver("VLP-16"), settings, into(all));
     addAll(turnsOf(2), stream);
     stream.flush();
     const auto masked = std::count(all.label.begin(), all.label.end(), Label::Unclassified);
     EXPECT_GT(masked, 50);
-    EXPECT_EQ(stream.counts().returns_masked, static_cast<std::size_t>(masked));
+    EXPECT_EQ(stream.returnsMasked(), static_cast<std::size_t>(masked));
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ class CaptureSourceTest : public testing::Test {
     fs::path capture_;
 };
 
-TEST_F(CaptureSourceTest, EachTurnIsAnEntryWithTheScanThatWasSent) {
+TEST_F(CaptureSourceTest, TurnsAreEntries) {
     const auto source = open();
     for (std::size_t i = 0; i < 3; ++i) {
         const auto entry = source->nextEntry();
@@ -73,10 +73,10 @@ TEST_F(CaptureSourceTest, EachTurnIsAnEntryWithTheScanThatWasSent) {
     EXPECT_FALSE(source->nextEntry());
     EXPECT_EQ(source->entriesKnown(), 3u);
     EXPECT_THAT(source->remarks(),
-                ElementsAre(HasSubstr(" in 3 turns"), HasSubstr("left out: none")));
+                ElementsAre(HasSubstr(" in 3 turns"), HasSubstr("ignored: none")));
 }
 
-TEST_F(CaptureSourceTest, OnlyTheSelectedEntriesAndLabels) {
+TEST_F(CaptureSourceTest, SelectsEntriesAndLabels) {
     SourceOptions options;
     options.first_entry = options.last_entry = 1;
     auto source = open(options);
@@ -93,7 +93,7 @@ TEST_F(CaptureSourceTest, OnlyTheSelectedEntriesAndLabels) {
     EXPECT_THAT(source->otherLabels(), ElementsAre("velodyne"));
 }
 
-TEST_F(CaptureSourceTest, TimesAndPosesOfFiles) {
+TEST_F(CaptureSourceTest, ReadsTimesAndPoses) {
     const auto times = open()->scanTimes().at("velodyne");
     ASSERT_EQ(times.size(), 3u);
     for (int i = 0; i < 3; ++i) {
@@ -142,7 +142,7 @@ class OusterSourceTest : public testing::Test {
     fs::path capture_;
 };
 
-TEST_F(OusterSourceTest, ScansBringTheirSensorAndAreWrittenAsClouds) {
+TEST_F(OusterSourceTest, WritesCloudsWithSensor) {
     using observations::CloudClass;
     for (const auto cloud_class : {std::optional<CloudClass>(), std::optional(CloudClass::Simple),
                                    std::optional(CloudClass::WithIntensity)}) {
@@ -180,7 +180,7 @@ TEST_F(OusterSourceTest, ScansBringTheirSensorAndAreWrittenAsClouds) {
     }
 }
 
-TEST_F(OusterSourceTest, RangeLimitsOfTheSettingsHoldAndAnotherModelIsRemarkedOn) {
+TEST_F(OusterSourceTest, SettingsLimitRangesNotModel) {
     const auto scan = openRecording(capture_, options_)->nextScan();
     Settings settings;
     settings.sensor.model = "OS0-128";
@@ -192,7 +192,7 @@ TEST_F(OusterSourceTest, RangeLimitsOfTheSettingsHoldAndAnotherModelIsRemarkedOn
     EXPECT_THAT(observed.remark, HasSubstr("the packets are of the sensor OS-0-32-U1"));
 }
 
-TEST_F(OusterSourceTest, TimesAndPoses) {
+TEST_F(OusterSourceTest, ReadsTimesAndPoses) {
     EXPECT_EQ(openRecording(capture_, options_)->scanTimes().at("ouster").size(), 3u);
     writeKittiPoses(folder_ / "poses.txt", {CPose3D(), CPose3D(1, 0, 0, 0, 0, 0), CPose3D()});
     const auto source = openRecording(capture_, options_);
@@ -201,7 +201,7 @@ TEST_F(OusterSourceTest, TimesAndPoses) {
     EXPECT_NEAR(source->nextScan()->pose.sensor_pose->x(), 1.0, 1e-6);
 }
 
-TEST_F(OusterSourceTest, MetadataAreForCapturesOnly) {
+TEST_F(OusterSourceTest, RejectsMetadataWithoutCapture) {
     convert::RawlogWriter writer(folder_ / "a.rawlog", true);
     writer.write(mrpt::obs::CObservationPointCloud());
     writer.commit();
@@ -218,7 +218,7 @@ TEST_F(OusterSourceTest, MetadataAreForCapturesOnly) {
                 HasSubstr("none.json: cannot be read"));
 }
 
-TEST_F(CaptureSourceTest, ABreakIsReportedAfterTheScansBeforeIt) {
+TEST_F(CaptureSourceTest, ReportsTruncationAfterScans) {
     fs::resize_file(capture_, fs::file_size(capture_) - 1000);
     const auto source = open();
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(source->nextScan());
@@ -247,7 +247,7 @@ TEST_F(CaptureSourceTest, WhatOnlyReadingInAdvanceMissedIsTold) {
     }
 }
 
-TEST_F(CaptureSourceTest, StopsWhenToldTo) {
+TEST_F(CaptureSourceTest, StopsOnRequest) {
     int asked = 0;
     SourceOptions options;
     options.keep_going = [&] { return ++asked <= 1; };
@@ -257,7 +257,7 @@ TEST_F(CaptureSourceTest, StopsWhenToldTo) {
     EXPECT_THROW(source->scanTimes(), Interrupted);
 }
 
-TEST_F(CaptureSourceTest, ACaptureIsKnownByItsContent) {
+TEST_F(CaptureSourceTest, DetectsCaptureByContent) {
     fs::rename(capture_, folder_ / "flight.rawlog");
     EXPECT_TRUE(openRecording(folder_ / "flight.rawlog")->nextScan());
     convert::RawlogWriter writer(folder_ / "a.rawlog", true);

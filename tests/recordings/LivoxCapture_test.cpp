@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/LivoxCapture.h>
+#include <hagen/recordings/LidarCapture.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <chrono>
@@ -69,7 +69,7 @@ class LivoxCaptureTest : public testing::Test {
     std::vector<std::string> remarks_;
 };
 
-TEST_F(LivoxCaptureTest, TheKindOfACaptureIsNotSearchedForWithoutEnd) {
+TEST_F(LivoxCaptureTest, LimitsSearchForSensorKind) {
     const auto file = CaptureWriter().write(folder_ / "a.pcap");
     std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse: frames without bytes
     const auto start = std::chrono::steady_clock::now();
@@ -84,7 +84,7 @@ TEST_F(LivoxCaptureTest, TheKindOfACaptureIsNotSearchedForWithoutEnd) {
     EXPECT_EQ(calls, 3);
 }
 
-TEST_F(LivoxCaptureTest, PointsOfBothKindsOfData) {
+TEST_F(LivoxCaptureTest, ReadsBothDataTypes) {
     const std::vector<Point> points{{1500, -2500, 250, 51}, {0, 0, 0, 9}, {-3000, 4000, -20, 255}};
     for (const auto& [data_type, unit_m] : {std::pair{1, 0.001f}, {2, 0.01f}}) {
         const Scans scans = read(captureOf({test::livoxPacket(points, 77, 3, data_type)}).bytes());
@@ -105,7 +105,7 @@ TEST_F(LivoxCaptureTest, PointsOfBothKindsOfData) {
     }
 }
 
-TEST_F(LivoxCaptureTest, TheTagOfEachPointStaysWithIt) {
+TEST_F(LivoxCaptureTest, KeepsTags) {
     const std::vector<Point> first{{1000, 0, 0, 1, 16}, {0, 0, 0, 2, 99}, {2000, 0, 0, 3, 255}};
     const auto scans = read(captureOf({test::livoxPacket(first, 0, 0),
                                        test::livoxPacket({{3000, 0, 0, 4, 7}}, 480000, 1, 2),
@@ -123,7 +123,7 @@ TEST_F(LivoxCaptureTest, TheTagOfEachPointStaysWithIt) {
     EXPECT_THAT(tagsOf(1), ElementsAre(8));
 }
 
-TEST_F(LivoxCaptureTest, PacketsOfTheImuAreCounted) {
+TEST_F(LivoxCaptureTest, CountsImuPackets) {
     std::string imu = test::livoxPacket({}, 0, 0, 0).substr(0, 36) + std::string(24, '\x3f');
     imu[1] = 60;
     std::string other = imu;
@@ -132,11 +132,11 @@ TEST_F(LivoxCaptureTest, PacketsOfTheImuAreCounted) {
                   .size(),
               1u);
     EXPECT_THAT(remarks_.back(),
-                HasSubstr("left out: 2 IMU packets (rates and accelerations, no attitude), 1 other "
+                HasSubstr("ignored: 2 IMU packets (rates and accelerations, no attitude), 1 other "
                           "UDP datagram"));
 }
 
-TEST_F(LivoxCaptureTest, AScanIsATenthOfASecondByTheSensorsClock) {
+TEST_F(LivoxCaptureTest, ScansAreTenthOfSecond) {
     const Scans scans = read(captureOf(packets(500)).bytes());
     ASSERT_EQ(scans.size(), 3u);
     std::size_t points = 0;
@@ -153,19 +153,19 @@ TEST_F(LivoxCaptureTest, AScanIsATenthOfASecondByTheSensorsClock) {
     EXPECT_THAT(
         remarks_,
         ElementsAre("livox (Livox, read as a Mid-360, at 10.0.0.100): 500 packets in 3 scans",
-                    "500 frames; left out: none"));
+                    "500 frames; ignored: none"));
 }
 
-TEST_F(LivoxCaptureTest, RepeatedPacketsAreLeftOutAndCounted) {
+TEST_F(LivoxCaptureTest, DropsAndCountsDuplicates) {
     auto all = packets(100);
     all.insert(all.begin() + 40, all[39]);
     std::size_t points = 0;
     for (const auto& scan : read(captureOf(all).bytes())) points += observedOf(*scan).scan.size();
     EXPECT_EQ(points, 100u);
-    EXPECT_THAT(remarks_[0], HasSubstr("100 packets in 1 scan, 1 packet repeated, left out"));
+    EXPECT_THAT(remarks_[0], HasSubstr("100 packets in 1 scan, 1 duplicate packet dropped"));
 }
 
-TEST_F(LivoxCaptureTest, CopiesThatComeLaterAreLeftOutAndHideNoLoss) {
+TEST_F(LivoxCaptureTest, LateDuplicatesHideNoLoss) {
     const auto sent = packets(300);
     auto all = sent;
     all.erase(all.begin() + 50, all.begin() + 53);
@@ -175,10 +175,10 @@ TEST_F(LivoxCaptureTest, CopiesThatComeLaterAreLeftOutAndHideNoLoss) {
     EXPECT_EQ(points, 297u);
     EXPECT_THAT(remarks_[0], HasSubstr("297 packets"));
     EXPECT_THAT(remarks_[0], HasSubstr("3 packets lost"));
-    EXPECT_THAT(remarks_[0], HasSubstr("3 packets repeated, left out"));
+    EXPECT_THAT(remarks_[0], HasSubstr("3 duplicate packets dropped"));
 }
 
-TEST_F(LivoxCaptureTest, LostAndLatePacketsAndJumpsAreCountedAndNoPointGetsLost) {
+TEST_F(LivoxCaptureTest, CountsLossesAndJumpsKeepsPoints) {
     auto all = packets(300);
     std::swap(all[20], all[21]);
     all.erase(all.begin() + 50, all.begin() + 53);
@@ -189,11 +189,11 @@ TEST_F(LivoxCaptureTest, LostAndLatePacketsAndJumpsAreCountedAndNoPointGetsLost)
     std::size_t points = 0;
     for (const auto& scan : read(captureOf(all).bytes())) points += observedOf(*scan).scan.size();
     EXPECT_EQ(points, 317u);
-    EXPECT_THAT(remarks_[0], HasSubstr(", 3 packets lost, 1 packet out of order, with the scan in "
-                                       "which it came, 2 interruptions or jump"));
+    EXPECT_THAT(remarks_[0], HasSubstr(", 3 packets lost, 1 packet out of order, kept in the "
+                                       "scan in which it arrived, 2 interruptions"));
 }
 
-TEST_F(LivoxCaptureTest, OtherDatagramsAreCounted) {
+TEST_F(LivoxCaptureTest, CountsOtherDatagrams) {
     auto all = packets(3);
     all.push_back("imu");
     std::string wrong_length = all[0];
@@ -201,10 +201,10 @@ TEST_F(LivoxCaptureTest, OtherDatagramsAreCounted) {
     all.push_back(wrong_length);
     all.push_back(test::livoxPacket({{1, 2, 3, 4}}, 0, 0, 3));  // spherical
     EXPECT_EQ(read(captureOf(all).bytes()).size(), 1u);
-    EXPECT_THAT(remarks_[1], HasSubstr("6 frames; left out: 3 other UDP datagrams"));
+    EXPECT_THAT(remarks_[1], HasSubstr("6 frames; ignored: 3 other UDP datagrams"));
 }
 
-TEST_F(LivoxCaptureTest, ACutCaptureGivesWhatIsBeforeTheCut) {
+TEST_F(LivoxCaptureTest, ReadsTruncatedCapture) {
     const std::string whole = captureOf(packets(300)).bytes();
     const std::size_t frame = (whole.size() - 24) / 300;
     for (std::size_t cut = 1; cut <= 50; ++cut) {
@@ -217,7 +217,7 @@ TEST_F(LivoxCaptureTest, ACutCaptureGivesWhatIsBeforeTheCut) {
     }
 }
 
-TEST_F(LivoxCaptureTest, NoDamageCrashesIt) {
+TEST_F(LivoxCaptureTest, SurvivesCorruptData) {
     test::Random random(6);
     for (int round = 0; round < 50; ++round) {
         auto all = packets(20);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/OusterCapture.h>
+#include <hagen/recordings/LidarCapture.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/OusterFrames.h>
 
@@ -26,7 +26,7 @@ using test::CaptureWriter;
 using testing::HasSubstr;
 using testing::Not;
 
-using Scans = std::vector<mrpt::obs::CObservationPointCloud::Ptr>;
+using Scans = std::vector<mrpt::obs::CObservation::Ptr>;
 
 class OusterCaptureTest : public testing::Test {
  protected:
@@ -57,12 +57,12 @@ class OusterCaptureTest : public testing::Test {
         return packets;
     }
     Scans read(const std::string& bytes) {
-        OusterCapture capture(test::writeBytes(folder_ / "a.pcap", bytes), json_);
+        const auto capture = openCapture(test::writeBytes(folder_ / "a.pcap", bytes), json_);
         Scans scans;
         broken_ = test::messageOf([&] {
-            while (const auto scan = capture.next()) scans.push_back(scan);
+            while (const auto scan = capture->nextScan()) scans.push_back(scan);
         });
-        remarks_ = capture.remarks();
+        remarks_ = capture->remarks();
         return scans;
     }
     static Scan scanOf(const mrpt::obs::CObservation& observation) {
@@ -88,7 +88,7 @@ const char* const kProfiles[] = {"LEGACY",
                                  "FUSA_RNG15_RFL8_NIR8_DUAL",
                                  "FIVE_WORD_PIXEL"};
 
-TEST_F(OusterCaptureTest, FramesComeBackAsTheyWereSentInEveryProfile) {
+TEST_F(OusterCaptureTest, ReadsFramesOfAllProfiles) {
     for (const std::string profile : kProfiles) {
         SCOPED_TRACE(profile);
         const sensors::OusterSensor sensor = sensorOf(profile);
@@ -129,7 +129,7 @@ Eigen::Vector3d expectedPoint(const sensors::OusterSensor& sensor, std::size_t p
     return {-in_lidar.x(), -in_lidar.y(), in_lidar.z()};
 }
 
-TEST_F(OusterCaptureTest, ReturnsAreWhereTheSensorsGeometryPutsThem) {
+TEST_F(OusterCaptureTest, ReturnsMatchGeometry) {
     for (const std::string profile : kProfiles) {
         SCOPED_TRACE(profile);
         const sensors::OusterSensor sensor = sensorOf(profile);
@@ -166,12 +166,12 @@ TEST_F(OusterCaptureTest, ReturnsAreWhereTheSensorsGeometryPutsThem) {
             }
         }
         EXPECT_EQ(i, scan.size());
-        EXPECT_NEAR(scans[0]->sensorPose.z(), 0.03618, 1e-9);
+        EXPECT_NEAR(scans[0]->sensorPose().z, 0.03618, 1e-9);
         EXPECT_EQ(scans[0]->sensorLabel, "ouster");
     }
 }
 
-TEST_F(OusterCaptureTest, PacketsOfFunctionalSafetyOfAnotherSensorAreNamed) {
+TEST_F(OusterCaptureTest, NamesOtherFusaSensor) {
     const sensors::OusterSensor sensor = sensorOf("FUSA_RNG15_RFL8_NIR8_DUAL");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("FUSA_RNG15_RFL8_NIR8_DUAL", "123"));
@@ -179,7 +179,7 @@ TEST_F(OusterCaptureTest, PacketsOfFunctionalSafetyOfAnotherSensorAreNamed) {
     EXPECT_THAT(broken_, HasSubstr("8 packets of the sensor with serial number 992137000142"));
 }
 
-TEST_F(OusterCaptureTest, TheFirstColumnLooksForward) {
+TEST_F(OusterCaptureTest, FirstColumnLooksForward) {
     // Column 0 looks along the lidar's x axis, which is the sensor's back.
     const sensors::OusterSensor sensor = sensorOf("LEGACY");
     sensors::OusterFrame frame = test::randomFrame(sensor, 1);
@@ -192,7 +192,7 @@ TEST_F(OusterCaptureTest, TheFirstColumnLooksForward) {
     EXPECT_NEAR(scan.z_m[0], 10 * std::sin(radians(15.0)), 0.01);
 }
 
-TEST_F(OusterCaptureTest, FramesOverTheEndOfTheirNumbers) {
+TEST_F(OusterCaptureTest, FrameIdsWrap) {
     const sensors::OusterSensor sensor = sensorOf("RNG15_RFL8_NIR8");
     const auto packets = packetsOfFrames(sensor, 5, 65533);
     const Scans scans = read(captureOf(packets).bytes());
@@ -200,14 +200,14 @@ TEST_F(OusterCaptureTest, FramesOverTheEndOfTheirNumbers) {
     EXPECT_THAT(remarks_[0],
                 HasSubstr("ouster (OS-0-32-U1, RNG15_RFL8_NIR8): 20 packets in 5 turns"));
     EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
-    EXPECT_EQ(remarks_[1], "20 frames; left out: none");
+    EXPECT_EQ(remarks_[1], "20 frames; ignored: none");
     for (std::size_t i = 0; i < 5; ++i) {
         EXPECT_NEAR(mrpt::Clock::toDouble(scans[i]->timestamp),
                     1700000000.001 + 0.004 * static_cast<double>(i), 1e-4);
     }
 }
 
-TEST_F(OusterCaptureTest, LostRepeatedAndLatePacketsAreCounted) {
+TEST_F(OusterCaptureTest, CountsLostDuplicateAndLatePackets) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 6);
     const Scans whole = read(captureOf(packets).bytes());
@@ -220,7 +220,7 @@ TEST_F(OusterCaptureTest, LostRepeatedAndLatePacketsAreCounted) {
     for (std::size_t i = 0; i < whole.size(); ++i) {
         EXPECT_EQ(scanOf(*mixed[i]).x_m, scanOf(*whole[i]).x_m);
     }
-    EXPECT_THAT(remarks_[0], HasSubstr(", 16 columns repeated, left out"));
+    EXPECT_THAT(remarks_[0], HasSubstr(", 16 duplicate columns dropped"));
     EXPECT_THAT(remarks_[0], Not(HasSubstr("missing")));
 
     packets = packetsOfFrames(sensor, 6);
@@ -234,28 +234,28 @@ TEST_F(OusterCaptureTest, LostRepeatedAndLatePacketsAreCounted) {
                 HasSubstr("2 turns lost, 16 columns missing, 1 packet more than a turn"));
 }
 
-TEST_F(OusterCaptureTest, ASensorThatStartsAgainLosesNothing) {
+TEST_F(OusterCaptureTest, RestartLosesNothing) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 3, 5000);
     const auto again = packetsOfFrames(sensor, 3, 0);
     packets.insert(packets.end(), again.begin(), again.end());
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 6u);
-    EXPECT_THAT(remarks_[0], Not(HasSubstr("left out")));
+    EXPECT_THAT(remarks_[0], Not(HasSubstr("dropped")));
     EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
 }
 
 /// Its ids may be near to those of before: packets that are late in a row are not late.
-TEST_F(OusterCaptureTest, ASensorThatStartsAgainSoonLosesSixteenPackets) {
+TEST_F(OusterCaptureTest, EarlyRestartLosesSixteenPackets) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 20, 300);
     const auto again = packetsOfFrames(sensor, 30, 0);
     packets.insert(packets.end(), again.begin(), again.end());
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 46u);  // of four packets each
-    EXPECT_THAT(remarks_[0], HasSubstr("16 packets more than a turn late, left out"));
+    EXPECT_THAT(remarks_[0], HasSubstr("16 packets more than a turn late, dropped"));
     EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
 }
 
-TEST_F(OusterCaptureTest, EverythingElseIsCounted) {
+TEST_F(OusterCaptureTest, CountsEverythingElse) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 1);
     packets.push_back(std::string(48, '\0'));
@@ -267,13 +267,14 @@ TEST_F(OusterCaptureTest, EverythingElseIsCounted) {
     bad_number[32 + 9] = '\x7f';
     packets[1] = bad_number;
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 1u);
-    EXPECT_THAT(remarks_[0], HasSubstr("1 column missing, 1 column with a wrong number, left out"));
+    EXPECT_THAT(remarks_[0],
+                HasSubstr("1 column missing, 1 column with an invalid number, dropped"));
     EXPECT_EQ(remarks_[1],
-              "7 frames; left out: 1 IMU packet, 1 packet of the sensor with serial number "
+              "7 frames; ignored: 1 IMU packet, 1 packet of the sensor with serial number "
               "992137000143, 1 other UDP datagram (most: 1 of 5 bytes to port 7502)");
 }
 
-TEST_F(OusterCaptureTest, MetadataOfAnotherSensorAreNamed) {
+TEST_F(OusterCaptureTest, NamesMetadataOfOtherSensor) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("RNG19_RFL8_SIG16_NIR16", "123"));
@@ -288,7 +289,7 @@ TEST_F(OusterCaptureTest, MetadataOfAnotherSensorAreNamed) {
                           "(most: 8 of 1024 bytes to port 7502). Is it another"));
 }
 
-TEST_F(OusterCaptureTest, TurnsOfAnotherModeAreLeftOutAndTold) {
+TEST_F(OusterCaptureTest, DropsTurnsOfOtherMode) {
     test::TurningOuster ouster;
     std::vector<std::string> packets;
     const auto add = [&](const test::OusterMode& mode, int turns) {
@@ -300,17 +301,17 @@ TEST_F(OusterCaptureTest, TurnsOfAnotherModeAreLeftOutAndTold) {
     add({1024, 10}, 3);
     json_ = folder_.write("sensor.json", test::ousterJsonOf({1024, 10}));
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 3u);
-    EXPECT_THAT(remarks_[0], Not(HasSubstr("left out")));
+    EXPECT_THAT(remarks_[0], Not(HasSubstr("dropped")));
     add({2048, 10}, 2);
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 3u);
-    EXPECT_THAT(remarks_[0], HasSubstr("2 turns left out: it is not certain that they have the "
-                                       "columns of the metadata"));
+    EXPECT_THAT(remarks_[0],
+                HasSubstr("2 turns dropped: their columns may not match the metadata"));
     json_ = folder_.write("other.json", test::ousterJsonOf({512, 10}));
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 0u);
     EXPECT_THAT(broken_, HasSubstr("a.pcap: its turns do not have the 512 columns of "));
 }
 
-TEST_F(OusterCaptureTest, ACutCaptureGivesWhatIsBeforeTheCut) {
+TEST_F(OusterCaptureTest, ReadsTruncatedCapture) {
     const sensors::OusterSensor sensor = sensorOf("RNG15_RFL8_NIR8");
     const auto packets = packetsOfFrames(sensor, 4);
     const std::string whole = captureOf(packets).bytes();
@@ -325,7 +326,7 @@ TEST_F(OusterCaptureTest, ACutCaptureGivesWhatIsBeforeTheCut) {
     EXPECT_EQ(most, 4u);
 }
 
-TEST_F(OusterCaptureTest, NoDamageCrashesIt) {
+TEST_F(OusterCaptureTest, SurvivesCorruptData) {
     test::Random random(5);
     for (const std::string profile : kProfiles) {
         const sensors::OusterSensor sensor = sensorOf(profile);
@@ -352,7 +353,7 @@ std::string md5Of(const std::vector<Number>& numbers, const test::TemporaryFolde
     return outcome.out.substr(0, 32);
 }
 
-TEST_F(OusterCaptureTest, TheMakersDigestsOfARealCapture) {
+TEST_F(OusterCaptureTest, MatchesDigestsOfRealCapture) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
     const sensors::OusterSensor sensor =
@@ -378,13 +379,13 @@ TEST_F(OusterCaptureTest, TheMakersDigestsOfARealCapture) {
     EXPECT_EQ(frames.counts().missing_columns, 0u);
 }
 
-TEST_F(OusterCaptureTest, RealCapturesAreRead) {
+TEST_F(OusterCaptureTest, ReadsRealCapture) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
-    OusterCapture capture(folder / "OS-1-128_v2.3.0_1024x10_lb_n3.pcap",
-                          folder / "OS-1-128_v2.3.0_1024x10.json");
+    const auto capture = openCapture(folder / "OS-1-128_v2.3.0_1024x10_lb_n3.pcap",
+                                     folder / "OS-1-128_v2.3.0_1024x10.json");
     for (int i = 0; i < 3; ++i) {
-        const auto scan = capture.next();
+        const auto scan = capture->nextScan();
         ASSERT_TRUE(scan);
         observations::ObservedScan observed;
         observations::readObservation(*scan, {}, observed);
@@ -399,9 +400,9 @@ TEST_F(OusterCaptureTest, RealCapturesAreRead) {
                       0.02f / observed.scan.range_m[k] + 1e-4f);
         }
     }
-    EXPECT_FALSE(capture.next());
-    EXPECT_THAT(capture.remarks()[0], HasSubstr("192 packets in 3 turns"));
-    EXPECT_THAT(capture.remarks()[1], HasSubstr("222 frames; left out: 30 IMU packets"));
+    EXPECT_FALSE(capture->nextScan());
+    EXPECT_THAT(capture->remarks()[0], HasSubstr("192 packets in 3 turns"));
+    EXPECT_THAT(capture->remarks()[1], HasSubstr("222 frames; ignored: 30 IMU packets"));
 }
 
 }  // namespace

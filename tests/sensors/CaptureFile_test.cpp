@@ -57,7 +57,7 @@ SentDatagram sent(const ByteString& content) {
     return datagram;
 }
 
-TEST_F(CaptureFileTest, ACheckEndsTheReadingOfFramesThatAreNoDatagrams) {
+TEST_F(CaptureFileTest, CheckInterruptsSearch) {
     CaptureWriter writer;
     const ByteString arp = ethernet(ByteString(28, 'a'), 0, 0x0806);
     for (int i = 0; i < 5000; ++i) writer.frame(arp);
@@ -75,7 +75,7 @@ TEST_F(CaptureFileTest, ACheckEndsTheReadingOfFramesThatAreNoDatagrams) {
     EXPECT_EQ(capture.counts().other_traffic, 5000u);
 }
 
-TEST_F(CaptureFileTest, GivesTheDatagramsInTheOrderOfTheFile) {
+TEST_F(CaptureFileTest, ReadsDatagramsInOrder) {
     SentDatagram second = sent("two");
     second.time_s = 1700000001.25;
     second.from_ip = 0x01020304;
@@ -89,7 +89,7 @@ TEST_F(CaptureFileTest, GivesTheDatagramsInTheOrderOfTheFile) {
     expectBalance();
 }
 
-TEST_F(CaptureFileTest, ReadsEveryKindOfFileAndLink) {
+TEST_F(CaptureFileTest, ReadsAllFormatsAndLinks) {
     const ByteString ip = test::ipOf(sent("x"));
     EXPECT_THAT(read(test::pcapngOf({ethernet(ip), ethernet(ip)})), ElementsAre("x", "x"));
     EXPECT_THAT(read(CaptureWriter(101).frame(ip).bytes()), ElementsAre("x"));
@@ -106,7 +106,7 @@ TEST_F(CaptureFileTest, ReadsEveryKindOfFileAndLink) {
     EXPECT_EQ(last_.time_ns, 1700000000000000123);
 }
 
-TEST_F(CaptureFileTest, VlanTagsAreReadThroughAndCounted) {
+TEST_F(CaptureFileTest, ReadsVlanTags) {
     const ByteString ip = test::ipOf(sent("x"));
     EXPECT_THAT(read(CaptureWriter()
                          .frame(ethernet(ip, 1))
@@ -118,7 +118,7 @@ TEST_F(CaptureFileTest, VlanTagsAreReadThroughAndCounted) {
     expectBalance();
 }
 
-TEST_F(CaptureFileTest, FragmentsInAnyOrderMakeADatagram) {
+TEST_F(CaptureFileTest, ReassemblesFragmentsInAnyOrder) {
     test::Random random(1);
     ByteString content;
     for (int i = 0; i < 24896; ++i) content += static_cast<char>(random.whole(0, 255));
@@ -140,7 +140,7 @@ TEST_F(CaptureFileTest, FragmentsInAnyOrderMakeADatagram) {
     EXPECT_EQ(counts_.fragments_lost, 0u);
 }
 
-TEST_F(CaptureFileTest, AMissingFragmentIsCountedWithThoseThatWait) {
+TEST_F(CaptureFileTest, CountsIncompleteFragments) {
     SentDatagram first = sent(ByteString(4000, 'a')), second = sent(ByteString(100, 'b'));
     first.id = 1;
     auto fragments = test::fragmentsOf(first, 1480);
@@ -155,7 +155,7 @@ TEST_F(CaptureFileTest, AMissingFragmentIsCountedWithThoseThatWait) {
     EXPECT_EQ(counts_.fragments_lost, 2u);
 }
 
-TEST_F(CaptureFileTest, ManyOpenDatagramsGiveWayToNewOnes) {
+TEST_F(CaptureFileTest, LimitsOpenDatagrams) {
     CaptureWriter writer;
     for (std::uint16_t id = 0; id < 1000; ++id) {
         SentDatagram datagram = sent(ByteString(100, 'a'));
@@ -166,7 +166,7 @@ TEST_F(CaptureFileTest, ManyOpenDatagramsGiveWayToNewOnes) {
     EXPECT_EQ(counts_.fragments_lost, 1000u);
 }
 
-TEST_F(CaptureFileTest, OtherTrafficAndCutFramesAreCounted) {
+TEST_F(CaptureFileTest, CountsOtherTrafficAndCutFrames) {
     const ByteString ip = test::ipOf(sent(ByteString(500, 'x')));
     ByteString tcp = ip;
     tcp[9] = '\x06';
@@ -194,7 +194,7 @@ TEST_F(CaptureFileTest, OtherTrafficAndCutFramesAreCounted) {
     expectBalance();
 }
 
-TEST_F(CaptureFileTest, ACutFileGivesWhatIsBeforeTheCutAndNamesThePlace) {
+TEST_F(CaptureFileTest, TruncatedFileNamesPosition) {
     CaptureWriter writer;
     for (int i = 0; i < 5; ++i) writer.datagram(sent(ByteString(60, 'x')));
     std::vector<ByteString> frames(5, ethernet(test::ipOf(sent(ByteString(60, 'x')))));
@@ -219,7 +219,7 @@ TEST_F(CaptureFileTest, ACutFileGivesWhatIsBeforeTheCutAndNamesThePlace) {
     }
 }
 
-TEST_F(CaptureFileTest, NoDamageCrashesIt) {
+TEST_F(CaptureFileTest, SurvivesCorruptData) {
     test::Random random(2);
     SentDatagram datagram = sent(ByteString(3000, 'x'));
     CaptureWriter writer;
@@ -237,7 +237,7 @@ TEST_F(CaptureFileTest, NoDamageCrashesIt) {
     }
 }
 
-TEST_F(CaptureFileTest, ToldByContentNotByName) {
+TEST_F(CaptureFileTest, DetectsCaptureByContent) {
     const ByteString pcap = CaptureWriter().bytes();
     EXPECT_TRUE(isCapture(test::writeBytes(folder_ / "flight.rawlog", pcap)));
     EXPECT_TRUE(isCapture(test::writeBytes(folder_ / "b", test::pcapngOf({}))));
@@ -246,7 +246,7 @@ TEST_F(CaptureFileTest, ToldByContentNotByName) {
     EXPECT_FALSE(isCapture(folder_ / "none.pcap"));
 }
 
-TEST_F(CaptureFileTest, NamesWhatItCannotOpen) {
+TEST_F(CaptureFileTest, NamesUnreadableFile) {
     EXPECT_THAT(test::messageOf([&] { read(CaptureWriter(105).bytes()); }),
                 HasSubstr("a.pcap: was captured on a link of type IEEE802_11, which is not"));
     EXPECT_THAT(test::messageOf([&] { read(CaptureWriter().bytes().substr(0, 10)); }),

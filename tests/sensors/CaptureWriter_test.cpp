@@ -60,7 +60,7 @@ TEST(CaptureWriter, WritesValidIpChecksums) {
 }
 
 /// Whoever is killed leaves the blocks that are complete.
-TEST(CaptureWriter, EndsWithAWholeFrame) {
+TEST(CaptureWriter, EndsWithWholeFrame) {
     const test::TemporaryFolder folder;
     CaptureWriter writer(folder / "a.pcap");
     int blocks = 0;

@@ -32,7 +32,7 @@ class OusterColumnsTest : public testing::Test {
     OusterColumns columns_{sensor_};
 };
 
-TEST_F(OusterColumnsTest, ThoseOfTheMetadataAreCertain) {
+TEST_F(OusterColumnsTest, MetadataColumnsAreCertain) {
     EXPECT_EQ(certain(kMode, 5), 5 * 64u);
     ouster_.setClock(5000000000000);
     EXPECT_EQ(certain(kMode, 3), 3 * 64u);  // a clock that was set
@@ -41,7 +41,7 @@ TEST_F(OusterColumnsTest, ThoseOfTheMetadataAreCertain) {
     EXPECT_EQ(columns_.restarts(), 0u);
 }
 
-TEST_F(OusterColumnsTest, AnotherModeInFlightIsNoticedAtOnce) {
+TEST_F(OusterColumnsTest, DetectsOtherModeAtOnce) {
     for (const OusterMode& mode : {kOthers[0], kOthers[1]}) {
         TurningOuster ouster;
         OusterColumns columns(sensor_);
@@ -61,7 +61,7 @@ TEST_F(OusterColumnsTest, AnotherModeInFlightIsNoticedAtOnce) {
 }
 
 /// Where columns follow each other as fast as before, the number of the initialization tells.
-TEST_F(OusterColumnsTest, ASensorThatWasStartedAgainMustShowItsColumns) {
+TEST_F(OusterColumnsTest, RestartedSensorMustShowColumns) {
     for (const OusterMode& mode : kOthers) {
         certain(kMode, 3);
         ++ouster_.initialization;
@@ -73,12 +73,12 @@ TEST_F(OusterColumnsTest, ASensorThatWasStartedAgainMustShowItsColumns) {
 }
 
 /// It costs a turn: in the first one, no time from turn to turn is known.
-TEST_F(OusterColumnsTest, AnotherSpeedIsNoOtherMode) {
+TEST_F(OusterColumnsTest, OtherSpeedIsSameMode) {
     certain(kMode, 3);
     EXPECT_EQ(certain({1024, 20}, 3), 2 * 64u);
 }
 
-TEST_F(OusterColumnsTest, InTheFirstTurnTheModeOfTheMetadataTells) {
+TEST_F(OusterColumnsTest, FirstTurnUsesMetadataMode) {
     EXPECT_EQ(certain({2048, 10}, 4), 0u);
     TurningOuster other;
     OusterColumns columns(sensor_);
@@ -87,7 +87,7 @@ TEST_F(OusterColumnsTest, InTheFirstTurnTheModeOfTheMetadataTells) {
     }
 }
 
-TEST_F(OusterColumnsTest, LegacyPacketsHaveTheHeadsAngle) {
+TEST_F(OusterColumnsTest, LegacyPacketsUseEncoder) {
     const OusterSensor sensor = ousterSensorOf(test::ousterJsonOf(kMode, "LEGACY"), "test");
     TurningOuster ouster("LEGACY");
     OusterColumns columns(sensor);
@@ -103,7 +103,7 @@ TEST_F(OusterColumnsTest, LegacyPacketsHaveTheHeadsAngle) {
 }
 
 /// Metadata whose mode says nothing: numbers beyond the columns spoil the turn.
-TEST_F(OusterColumnsTest, NumbersBeyondTheColumnsAreOfAnotherMode) {
+TEST_F(OusterColumnsTest, LargeColumnNumbersMeanOtherMode) {
     OusterSensor sensor = sensor_;
     sensor.turn_s = 0;
     OusterColumns columns(sensor);

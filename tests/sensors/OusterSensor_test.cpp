@@ -30,7 +30,7 @@ class OusterSensorTest : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(OusterSensorTest, APacketsHeaderSaysWhoseItIs) {
+TEST_F(OusterSensorTest, ReadsPacketHeader) {
     const auto headerOf = [&](const std::string& profile) {
         const OusterSensor sensor = read(test::ousterJson(profile));
         const std::string packet = test::packetsOf(sensor, test::randomFrame(sensor, 4321)).back();
@@ -60,7 +60,7 @@ TEST_F(OusterSensorTest, ReadsBeamsAndFormat) {
     EXPECT_EQ(sensor.model->min_range_m, 0.3f);
 }
 
-TEST_F(OusterSensorTest, PacketsHaveTheSizesOfTheManual) {
+TEST_F(OusterSensorTest, PacketSizesMatchManual) {
     const auto bytesOf = [&](const std::string& profile, std::size_t pixels) {
         OusterSensor sensor = read(test::ousterJson(profile));
         sensor.pixels = pixels;
@@ -80,7 +80,7 @@ TEST_F(OusterSensorTest, PacketsHaveTheSizesOfTheManual) {
     EXPECT_EQ(bytesOf("FIVE_WORD_PIXEL", 128), 64u + 16 * (12 + 128 * 20));
 }
 
-TEST_F(OusterSensorTest, TheHeaderOfPacketsIsAsTheMetadataSayOrTheProfile) {
+TEST_F(OusterSensorTest, HeaderFollowsMetadataOrProfile) {
     const auto withHeader = [&](const std::string& profile, const std::string& header) {
         std::string json = test::ousterJson(profile);
         json.insert(1, "\"header_type\": \"" + header + "\", ");
@@ -94,7 +94,7 @@ TEST_F(OusterSensorTest, TheHeaderOfPacketsIsAsTheMetadataSayOrTheProfile) {
                 HasSubstr("'header_type' is 'NEW', not 'STANDARD' or 'FUSA'"));
 }
 
-TEST_F(OusterSensorTest, MetadataInSectionsAsSinceFirmware3) {
+TEST_F(OusterSensorTest, ReadsMetadataInSections) {
     const OusterSensor sensor = read(R"({
         "sensor_info": {"prod_line": "OS-1-64", "prod_sn": "7"},
         "beam_intrinsics": {"beam_altitude_angles": [10, 0, -10], "beam_azimuth_angles": [0, 0, 0],
@@ -111,7 +111,7 @@ TEST_F(OusterSensorTest, MetadataInSectionsAsSinceFirmware3) {
     EXPECT_EQ(sensor.windowColumns(), 512u);  // it wraps around
 }
 
-TEST_F(OusterSensorTest, OldMetadataHaveNoFormat) {
+TEST_F(OusterSensorTest, ReadsMetadataWithoutFormat) {
     const OusterSensor sensor = read(R"({"prod_line": "OS-1-16", "lidar_mode": "2048x10",
         "beam_altitude_angles": [1, 0, -1], "beam_azimuth_angles": [0, 0, 0]})");
     EXPECT_EQ(sensor.profile.name, "LEGACY");
@@ -120,7 +120,7 @@ TEST_F(OusterSensorTest, OldMetadataHaveNoFormat) {
     EXPECT_EQ(sensor.pixels, 3u);
 }
 
-TEST_F(OusterSensorTest, SaysWhatIsMissingOrWrong) {
+TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
     EXPECT_THAT(test::messageOf([&] { readOusterSensor(folder_ / "none.json"); }),
                 HasSubstr("none.json: cannot be read"));
     EXPECT_THAT(test::messageOf([&] { read(""); }), HasSubstr("sensor.json: not metadata"));
@@ -176,7 +176,7 @@ TEST_F(OusterSensorTest, SaysWhatIsMissingOrWrong) {
     EXPECT_THAT(messageWith("27.67", "1e300"), HasSubstr("not within a metre"));
 }
 
-TEST_F(OusterSensorTest, ACutFileIsRefusedWhereverItIsCut) {
+TEST_F(OusterSensorTest, RejectsTruncatedMetadata) {
     const std::string json = test::ousterJson();
     for (std::size_t size = 0; size < json.size(); size += 7) {
         EXPECT_NE(test::messageOf([&] { read(json.substr(0, size)); }), "") << size;

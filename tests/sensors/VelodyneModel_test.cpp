@@ -8,7 +8,7 @@
 namespace hagen::sensors {
 namespace {
 
-TEST(VelodyneModel, DefaultCalibrationsHaveTheBeamsOfTheDataSheets) {
+TEST(VelodyneModel, DefaultBeamsMatchDataSheets) {
     for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
         const auto& calibration = defaultCalibration(velodyneModel(name));
         const SensorModel expected = sensorModel(name), found = sensorOf(calibration, name);
@@ -19,14 +19,14 @@ TEST(VelodyneModel, DefaultCalibrationsHaveTheBeamsOfTheDataSheets) {
     }
 }
 
-TEST(VelodyneModel, RowsFollowElevationNotLaserNumber) {
+TEST(VelodyneModel, RowsFollowElevation) {
     const auto rows = rowsOfLasers(defaultCalibration(velodyneModel("VLP-16")));
     // The VLP-16 fires at -15, 1, -13, 3, ... degrees.
     EXPECT_EQ(rows,
               (std::vector<std::uint8_t>{0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15}));
 }
 
-TEST(VelodyneModel, ABlockHoldsThirtyTwoReturns) {
+TEST(VelodyneModel, BlockHasThirtyTwoReturns) {
     for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
         const VelodyneModel& model = velodyneModel(name);
         EXPECT_EQ(model.lasers * model.firings_per_block, 32);
@@ -36,7 +36,7 @@ TEST(VelodyneModel, ABlockHoldsThirtyTwoReturns) {
     }
 }
 
-TEST(VelodyneModel, FiresAsTheManualsSay) {
+TEST(VelodyneModel, FiringTimesMatchManuals) {
     EXPECT_EQ(velodyneModel("VLP-16").laser_period_us, 2.304);
     EXPECT_EQ(velodyneModel("VLP-16").firing_period_us, 55.296);
     EXPECT_EQ(velodyneModel("HDL-32E").laser_period_us, 1.152);
@@ -50,7 +50,7 @@ TEST(VelodyneModel, FiresAsTheManualsSay) {
     EXPECT_DOUBLE_EQ(velodyneModel("VLP-32C").packetPeriodUs(false), 663.552);
 }
 
-TEST(VelodyneModel, AVlp32cLooksAsideByTheOffsetsOfItsManual) {
+TEST(VelodyneModel, Vlp32cHasAzimuthOffsets) {
     const auto& lasers = defaultCalibration(velodyneModel("VLP-32C")).lasers;
     double sum = 0;
     for (const auto& laser : lasers) {
@@ -63,7 +63,7 @@ TEST(VelodyneModel, AVlp32cLooksAsideByTheOffsetsOfItsManual) {
     EXPECT_NEAR(lasers[3].elevation_sine, std::sin(-15.639 * M_PI / 180), 1e-12);
 }
 
-TEST(VelodyneModel, AzimuthReadingsGoClockwiseAroundTheTurn) {
+TEST(VelodyneModel, AzimuthReadingsAreClockwise) {
     for (const double reading :
          {0.0, 4500.0, 9000.0, 17999.0, 27000.0, 35999.0, -9000.0, 45000.0}) {
         const double turned = std::remainder(azimuthOfReadingDeg(reading) - 0.01 * reading, 360.0);
@@ -73,7 +73,7 @@ TEST(VelodyneModel, AzimuthReadingsGoClockwiseAroundTheTurn) {
     }
 }
 
-TEST(VelodyneModel, OtherModelsAreNotKnown) {
+TEST(VelodyneModel, RejectsOtherModels) {
     EXPECT_EQ(findVelodyneModel(0xa1), nullptr);  // VLS-128: different packets
     EXPECT_THROW(velodyneModel("HDL-64E"), std::invalid_argument);
 }

@@ -17,7 +17,7 @@ VelodynePacket packetOf(unsigned header) {
     return packet;
 }
 
-TEST(VelodynePacket, TheFooterIsReadAsTheManualSays) {
+TEST(VelodynePacket, ReadsFooter) {
     VelodynePacket packet = packetOf(0xeeff);
     packet.bytes[1200] = 0x04;
     packet.bytes[1201] = 0x03;
@@ -29,7 +29,7 @@ TEST(VelodynePacket, TheFooterIsReadAsTheManualSays) {
     EXPECT_TRUE(packet.isDual());
 }
 
-TEST(VelodynePacket, OnlySoundBlocksHaveAnAzimuth) {
+TEST(VelodynePacket, OnlySoundBlocksHaveAzimuth) {
     VelodynePacket packet = packetOf(0xeeff);
     EXPECT_EQ(packet.azimuth(), 0);
     EXPECT_EQ(packet.azimuthOf(11), 440);
@@ -44,7 +44,7 @@ TEST(VelodynePacket, OnlySoundBlocksHaveAnAzimuth) {
     EXPECT_EQ(packet.azimuth(), 35999);
 }
 
-TEST(VelodynePacket, LowerBlocksAreOfAnHdl64) {
+TEST(VelodynePacket, LowerBlocksIdentifyHdl64) {
     VelodynePacket packet = packetOf(0xddff);
     EXPECT_TRUE(isOfHdl64(packet.bytes.data()));
     packet.bytes[1204] = 0x39;
@@ -54,7 +54,7 @@ TEST(VelodynePacket, LowerBlocksAreOfAnHdl64) {
     EXPECT_FALSE(isOfHdl64(packetOf(0xeeff).bytes.data()));
 }
 
-TEST(VelodynePacket, DataAreToldBySizeAndHeaders) {
+TEST(VelodynePacket, DataHaveSizeAndHeaders) {
     const VelodynePacket packet = packetOf(0xeeff);
     EXPECT_TRUE(isVelodyneData(packet.bytes.data(), 1206));
     EXPECT_FALSE(isVelodyneData(packet.bytes.data(), 1205));

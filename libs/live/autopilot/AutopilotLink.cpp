@@ -1,11 +1,11 @@
 #include <hagen/live/AutopilotLink.h>
 #include <hagen/live/GroundBelow.h>
+#include <hagen/live/PacketQueue.h>
 #include <hagen/live/Parser.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <new>
@@ -18,19 +18,13 @@ constexpr double kPeriod_s = 0.05;       // of OBSTACLE_DISTANCE
 constexpr std::size_t kOthersEvery = 2;  // periods: 3D and ground
 constexpr std::size_t kHeartbeatEvery = 20;
 constexpr double kLongestWait_s = 0.01;
-constexpr std::size_t kMostAtOnce =
-    1000;                                // datagrams; one who floods does not keep us from sending
-constexpr double kAttitudeWithin_s = 3;  // then its absence is told
-constexpr double kMostBehind_s = 0.5;    // messages that were missed are not made up for
-
-double now_s() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
+constexpr std::size_t kMaxAtOnce = 1000;  // datagrams; a flood must not delay sending
+constexpr double kAttitudeWithin_s = 3;   // then its absence is reported
+constexpr double kMaxBehind_s = 0.5;      // then periods are skipped
 
 }  // namespace
 
-/// The thread that sends, and all that it shares with the others.
+/// The sending thread, and the state that it shares with the others.
 class AutopilotLink::Work {
  public:
     Work(Settings settings, Remark remark)
@@ -44,7 +38,7 @@ class AutopilotLink::Work {
         limits_ = limits;
         limits_.nearest_m = sensor.min_range_m;
         distances_.emplace(sensor, settings_.directions);
-        start_s_ = now_s();
+        start_s_ = steadyNow_s();
         thread_ = std::thread([this] { work(); });
     }
 
@@ -53,7 +47,7 @@ class AutopilotLink::Work {
         if (thread_.joinable()) thread_.join();
     }
 
-    void take(const live::LabelledSector& sector) {
+    void take(const LabelledSector& sector) {
         const auto below = sector.is_doubtful || !settings_.has_ground
                                ? std::nullopt
                                : groundBelow(sector.result.ground, vehicleFromSensor());
@@ -65,13 +59,13 @@ class AutopilotLink::Work {
         }
     }
 
-    live::SensorMotion motionAt(double time_s) const {
+    SensorMotion motionAt(double time_s) const {
         const std::lock_guard lock(mutex_);
         const auto pose = motion_.at(time_s);
         if (!pose) return {};
         const Eigen::Matrix3d mount = settings_.directions.body_from_sensor.linear();
         const Eigen::Matrix3f level = (levelFromVehicle(*pose) * mount).cast<float>();
-        live::SensorMotion motion;
+        SensorMotion motion;
         motion.attitude = {std::atan2(level(2, 1), level(2, 2)),
                            std::asin(std::clamp(-level(2, 0), -1.0f, 1.0f))};
         if (pose->place_m) {
@@ -118,20 +112,19 @@ class AutopilotLink::Work {
         double next_s = start_s_;
         for (std::size_t period = 0; !is_at_end_; ++period) {
             attempt([&] { sendPeriod(period); });
-            next_s = std::max(next_s + kPeriod_s, now_s() - kMostBehind_s);
+            next_s = std::max(next_s + kPeriod_s, steadyNow_s() - kMaxBehind_s);
             double rest_s = 0;
-            do {  // also if it is behind: what waits unread gets old
-                rest_s = std::max(next_s - now_s(), 0.0);
+            do {  // also if late: unread messages get old
+                rest_s = std::max(next_s - steadyNow_s(), 0.0);
                 attempt([&] { receiveAll(rest_s); });
             } while (!is_at_end_ && rest_s > 0);
-            attempt([&] { tellPeer(); });
-            attempt([&] { tellAttitude(); });
+            attempt([&] { reportPeer(); });
+            attempt([&] { reportAttitude(); });
         }
-        attempt([&] { send(obstacleDistance({}, limits_, now_s()), sent_distance_); });
+        attempt([&] { send(obstacleDistance({}, limits_, steadyNow_s()), sent_distance_); });
     }
 
-    /// A step without memory is left out and counted: the next ones may have some, and until then
-    /// the autopilot notices that nothing arrives.
+    /// Skips and counts a step that is out of memory. The autopilot notices missing messages.
     template <class Step>
     void attempt(const Step& step) {
         try {
@@ -142,11 +135,11 @@ class AutopilotLink::Work {
     }
 
     void sendPeriod(std::size_t period) {
-        const double time_s = now_s();
+        const double time_s = steadyNow_s();
         std::optional<float> below_m;
-        // Copies, so that those who label do not wait while directions are made of them.
+        // Copies, so that labelling does not wait for the directions.
         std::unique_lock lock(mutex_);
-        const live::SectorDistances distances = *distances_;
+        const SectorDistances distances = *distances_;
         const VehicleMotion motion = motion_;
         if (time_s - below_s_ <= settings_.directions.stale_s) below_m = below_m_;
         lock.unlock();
@@ -177,31 +170,30 @@ class AutopilotLink::Work {
         }
     }
 
-    /// Whether the one that labels still does.
+    /// Reports whether labelling has stalled.
     void watch(double latest_s, double time_s) {
         const bool is_stalled =
             std::isfinite(latest_s) && time_s - latest_s > settings_.directions.stale_s;
         if (is_stalled == is_stalled_) return;
         is_stalled_ = is_stalled;
         if (is_stalled) count(stalls_);
-        remark_(is_stalled ? "MAVLink: nothing was labelled for 0.3 s, all directions are sent as "
-                             "unknown"
-                           : "MAVLink: directions are known again");
+        remark_(is_stalled ? "MAVLink: no labels for 0.3 s, sending all directions as unknown"
+                           : "MAVLink: sending directions again");
     }
 
-    /// All that waits: what is read one by one gets old when a period takes too long.
+    /// Everything that waits, so that nothing gets old.
     void receiveAll(double longest_s) {
-        for (std::size_t n = 0; n < kMostAtOnce && receive(n == 0 ? longest_s : 0); ++n) {
+        for (std::size_t n = 0; n < kMaxAtOnce && receive(n == 0 ? longest_s : 0); ++n) {
         }
     }
 
-    /// Whether something came.
+    /// Whether something was received.
     bool receive(double longest_s) {
         std::array<std::uint8_t, 65536>& buffer = buffer_;
         const std::size_t size =
             peer_->receive(buffer.data(), buffer.size(), std::min(longest_s, kLongestWait_s));
         if (size == 0) return false;
-        const double arrival_s = now_s();
+        const double arrival_s = steadyNow_s();
         const std::lock_guard lock(mutex_);
         const auto take = [&](const mavlink::Frame& frame) { takeFrame(frame, arrival_s); };
         parser_.add(buffer.data(), size, take);
@@ -246,16 +238,17 @@ class AutopilotLink::Work {
         ++number;
     }
 
-    void tellPeer() {
+    void reportPeer() {
         const std::string trouble = peer_->trouble();
         if (trouble.empty() == trouble_.empty()) return;
-        remark_("MAVLink: " + (trouble.empty() ? trouble_ + ": no longer" : trouble));
+        remark_("MAVLink: " +
+                (trouble.empty() ? peer_->name() + ": connection restored" : trouble));
         if (!trouble.empty()) count(troubles_);
         trouble_ = trouble;
     }
 
-    void tellAttitude() {
-        const double time_s = now_s();
+    void reportAttitude() {
+        const double time_s = steadyNow_s();
         bool is_known = false;
         {
             const std::lock_guard lock(mutex_);
@@ -266,9 +259,8 @@ class AutopilotLink::Work {
             return;
         }
         const std::string vehicle = "vehicle " + std::to_string(settings_.system);
-        remark_(is_known ? "MAVLink: the attitude of " + vehicle + " is known"
-                         : "MAVLink: the attitude of " + vehicle +
-                               " is not known, what is seen is not levelled");
+        remark_(is_known ? "MAVLink: receiving the attitude of " + vehicle
+                         : "MAVLink: no attitude from " + vehicle + ", scans are not levelled");
         knows_attitude_ = is_known;
     }
 
@@ -287,7 +279,7 @@ class AutopilotLink::Work {
     std::string trouble_;
 
     mutable std::mutex mutex_;  // of all that follows
-    std::optional<live::SectorDistances> distances_;
+    std::optional<SectorDistances> distances_;
     VehicleMotion motion_;
     mavlink::Parser parser_;
     float below_m_ = 0;
@@ -310,9 +302,9 @@ void AutopilotLink::begin(const SensorModel& sensor, Limits limits) {
     work_->begin(sensor, limits);
 }
 
-void AutopilotLink::take(const live::LabelledSector& sector) { work_->take(sector); }
+void AutopilotLink::take(const LabelledSector& sector) { work_->take(sector); }
 
-live::SensorMotion AutopilotLink::motionAt(double time_s) const { return work_->motionAt(time_s); }
+SensorMotion AutopilotLink::motionAt(double time_s) const { return work_->motionAt(time_s); }
 
 void AutopilotLink::stop() { work_->stop(); }
 

@@ -7,8 +7,7 @@
 namespace hagen::mavlink {
 namespace {
 
-// All that is sent takes 6 kB per second.
-constexpr int kLeastBaud = 115200;
+constexpr int kMinBaud = 115200;
 
 [[noreturn]] void fail(const std::string& text, const std::string& what) {
     throw std::runtime_error("'" + text + "': " + what);
@@ -55,9 +54,9 @@ PeerAddress parsePeer(const std::string& text) {
         address.kind = PeerAddress::Kind::Serial;
         address.device = text.substr(7, colon - 7);
         address.baud = numberOf(parts.back(), 99999999);
-        if (!isBaud(address.baud)) fail(text, "a serial line has no such speed");
-        if (address.baud < kLeastBaud) {
-            fail(text, "the line must have 115200 baud or more: messages take 6 kB per second");
+        if (!isBaud(address.baud)) fail(text, "unsupported baud rate");
+        if (address.baud < kMinBaud) {
+            fail(text, "messages need 6 kB/s, that is at least 115200 baud");
         }
         return address;
     }

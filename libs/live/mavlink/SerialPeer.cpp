@@ -77,10 +77,11 @@ class SerialPeer : public Peer {
     }
 
     bool hasDatagrams() const override { return false; }
+    std::string name() const override { return device_; }
 
     std::string trouble() const override {
         if (line_ < 0) return device_ + ": cannot be used: " + errorText(error_);
-        return isStuck() ? device_ + ": takes nothing" : "";
+        return isStuck() ? device_ + ": does not accept data" : "";
     }
 
  private:

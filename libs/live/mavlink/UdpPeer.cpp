@@ -77,10 +77,11 @@ class UdpPeer : public Peer {
     }
 
     bool hasDatagrams() const override { return true; }
+    std::string name() const override { return name_; }
 
     std::string trouble() const override {
         if (error_ == 0 || Clock::now() - error_time_ > kRefusedFor) return "";
-        if (error_ == ECONNREFUSED) return name_ + ": nobody listens there";
+        if (error_ == ECONNREFUSED) return name_ + ": connection refused";
         return name_ + ": cannot be reached: " + errorText(error_);
     }
 

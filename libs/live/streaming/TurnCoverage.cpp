@@ -68,15 +68,7 @@ void TurnCoverage::add(const Sweep& sweep, const BeamOffsets& offsets) {
     const double looked_to_rad = added.to_rad + offsets.ahead_rad;
     swept_.push_back({std::max(since_rad, looked_from_rad - kBeside_rad),
                       std::min(stretch.to_rad - offsets.behind_rad, looked_to_rad + kBeside_rad),
-                      since_rad, looked_from_rad, looked_to_rad});
-}
-
-std::optional<double> beginOfArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc) {
-    const double most_rad = swept.looked_to_rad - kRounding_rad;
-    const double turns = std::floor((most_rad - arc.begin_rad) / kTurn_rad);
-    const double begin_rad = arc.begin_rad + kTurn_rad * turns;
-    const bool is_begun = begin_rad + arc.width_rad > swept.looked_from_rad + kRounding_rad;
-    return is_begun ? std::optional(begin_rad) : std::nullopt;
+                      since_rad});
 }
 
 std::optional<double> endOfArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc) {

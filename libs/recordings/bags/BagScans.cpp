@@ -1,12 +1,10 @@
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/TableCloud.h>
 #include <hagen/recordings/BagScans.h>
-#include <hagen/recordings/OusterObservation.h>
+#include <hagen/recordings/LidarCapture.h>
 #include <hagen/recordings/Remarks.h>
-#include <hagen/recordings/VelodyneTurns.h>
-#include <hagen/sensors/OusterFrames.h>
 #include <hagen/sensors/OusterScan.h>
-#include <hagen/sensors/VelodyneModel.h>
+#include <hagen/sensors/VelodyneTurns.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
@@ -31,9 +29,6 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
-using recordings::addCount;
-using recordings::counted;
-using recordings::timeOf;
 
 /// What was read of a topic.
 struct TopicState {
@@ -46,7 +41,7 @@ struct TopicState {
     std::size_t points_not_finite = 0;
     std::map<std::string, std::size_t> clouds_with;  ///< by remark
     // Of packets:
-    std::optional<recordings::VelodyneTurns> turns;
+    std::optional<sensors::VelodyneTurns> turns;
     std::unique_ptr<sensors::OusterFrames> frames;
     std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
     std::map<unsigned, std::size_t> unknown_ids;
@@ -254,10 +249,10 @@ void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns
     const VelodyneScanMessage message = readVelodyneScan(fields);
     for (const VelodyneScanMessage::Packet& sent : message.packets) {
         const std::uint8_t id = sent.bytes[sensors::kVelodyneModelAt];
-        const auto* const model = sensors::findVelodyneModel(id);
+        const auto* const model = sensors::velodyneModelOf(sent.bytes);
         if (!sensors::isVelodyneData(sent.bytes, sensors::kVelodynePacketBytes)) {
             ++state.other_packets;
-        } else if (sensors::isOfHdl64(sent.bytes)) {
+        } else if (model == &sensors::hdl64Model()) {
             ++state.hdl64_packets;
         } else if (model == nullptr || model != state.sensor->velodyne) {
             ++state.unknown_ids[id];
@@ -308,16 +303,18 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
 /// Takes the turns that are complete.
 void BagScans::Reader::addComplete(TopicState& state) {
     if (state.turns) {
-        for (const auto& turn : state.turns->complete()) {
-            turn->sensorPose = state.sensor->on_vehicle;
-            add(turn, state);
+        for (const sensors::LidarSweep& turn : state.turns->complete()) {
+            const CObservation::Ptr scan = observationOf(turn);
+            scan->setSensorPose(state.sensor->on_vehicle);
+            add(scan, state);
         }
         state.turns->complete().clear();
     }
     if (state.frames) {
         for (const sensors::OusterFrame& frame : state.frames->complete()) {
-            const auto scan = recordings::observationOf(frame, *state.sensor->ouster);
-            scan->sensorPose = state.sensor->on_vehicle + scan->sensorPose;
+            const CObservation::Ptr scan = observationOf(sweepOf(frame, *state.sensor->ouster));
+            const mrpt::poses::CPose3D on_sensor(scan->sensorPose());
+            scan->setSensorPose(state.sensor->on_vehicle + on_sensor);
             add(scan, state);
         }
         state.frames->complete().clear();
@@ -359,11 +356,9 @@ void BagScans::Reader::finish() {
 std::string BagScans::Reader::textOf(const TopicState& state) {
     std::string text = counted(state.messages, "message");
     if (state.turns) {
-        text +=
-            ", " + state.sensor->velodyne->name + ", " + recordings::textOf(state.turns->counts());
+        text += ", " + state.sensor->velodyne->name + ", " + sensors::textOf(state.turns->counts());
     } else if (state.frames) {
-        text +=
-            ", " + state.sensor->ouster->name + ", " + recordings::textOf(state.frames->counts());
+        text += ", " + state.sensor->ouster->name + ", " + sensors::textOf(state.frames->counts());
     }
     addCount(state.hdl64_packets, "packet", "of an HDL-64E, which is not supported in bags", text);
     for (const auto& [id, packets] : state.unknown_ids) {

@@ -1,6 +1,6 @@
 #include <hagen/recordings/BagSurvey.h>
 #include <hagen/recordings/Remarks.h>
-#include <hagen/recordings/VelodyneTurns.h>
+#include <hagen/sensors/VelodynePacket.h>
 
 #include <cmath>
 #include <optional>

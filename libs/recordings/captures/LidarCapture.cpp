@@ -1,25 +1,31 @@
 #include <hagen/recordings/LidarCapture.h>
-#include <hagen/recordings/LivoxCapture.h>
-#include <hagen/recordings/OusterCapture.h>
-#include <hagen/recordings/VelodyneCapture.h>
+#include <hagen/recordings/Remarks.h>
+#include <hagen/sensors/LivoxPacket.h>
 
 #include <stdexcept>
-
-#include <hagen/sensors/LivoxPacket.h>
+#include <utility>
 
 namespace hagen::recordings {
 namespace {
 
-/// Whether the first datagrams have points of a Livox. What cannot be read is reported later.
+/// The frames that did not become datagrams; "" if there are none.
+std::string textOfLosses(const sensors::FrameCounts& counts) {
+    std::string text;
+    addCount(counts.other_traffic, "frame", "of other traffic", text);
+    addCount(counts.cut_frames, "frame", "cut short by the capture", text);
+    addCount(counts.fragments_lost, "IP fragment", "of incomplete datagrams", text);
+    return text;
+}
+
+/// Whether the first datagrams have points of a Livox. Read errors are reported later.
 bool isOfLivox(const std::filesystem::path& file, const std::function<void()>& check) {
     constexpr int kDatagrams = 1000;
-    constexpr std::size_t kMostFrames = 1000000;
+    constexpr std::size_t kMaxFrames = 1000000;  // a file may have no datagram at all
     struct TooManyFrames {};
     sensors::CaptureFile capture(file);
-    // A search without end would be one for a datagram that is not there.
     capture.checkWhileReading([&] {
         if (check) check();
-        if (capture.counts().frames >= kMostFrames) throw TooManyFrames();
+        if (capture.counts().frames >= kMaxFrames) throw TooManyFrames();
     });
     sensors::Datagram datagram;
     try {
@@ -32,28 +38,70 @@ bool isOfLivox(const std::filesystem::path& file, const std::function<void()>& c
     return false;
 }
 
-std::unique_ptr<LidarCapture> openKind(const std::filesystem::path& file,
-                                       const std::filesystem::path& sensor_json,
-                                       const std::filesystem::path& calibration,
-                                       const std::function<void()>& check) {
+std::unique_ptr<sensors::SweepReader> readerFor(const std::filesystem::path& file,
+                                                const std::filesystem::path& sensor_json,
+                                                const std::filesystem::path& calibration,
+                                                const std::function<void()>& check) {
     const bool is_velodyne = sensor_json.empty() && !isOfLivox(file, check);
     if (!calibration.empty() && !is_velodyne) {
         throw std::runtime_error(file.string() + ": is read as a capture of " +
                                  (sensor_json.empty() ? "a Livox" : "an Ouster") + ", which " +
                                  calibration.string() + " cannot describe: it is of an HDL-64E");
     }
-    if (!sensor_json.empty()) return std::make_unique<OusterCapture>(file, sensor_json);
-    if (!is_velodyne) return std::make_unique<LivoxCapture>(file);
-    return std::make_unique<VelodyneCapture>(file, calibration);
+    if (!sensor_json.empty()) return sensors::makeOusterSweeps(sensor_json);
+    if (!is_velodyne) return sensors::makeLivoxSweeps();
+    return sensors::makeVelodyneSweeps(calibration);
 }
 
 }  // namespace
+
+LidarCapture::LidarCapture(const std::filesystem::path& file,
+                           std::unique_ptr<sensors::SweepReader> reader)
+    : file_(file), capture_(file), reader_(std::move(reader)) {}
+
+void LidarCapture::read() {
+    sensors::Datagram datagram;
+    try {
+        is_at_end_ = !capture_.next(datagram);
+        if (!is_at_end_) reader_->add(datagram);
+    } catch (const sensors::BrokenCapture& e) {
+        broken_because_ = e.what();
+        is_at_end_ = true;
+    }
+    if (is_at_end_) reader_->finish();
+}
+
+mrpt::obs::CObservation::Ptr LidarCapture::nextScan() {
+    auto& complete = reader_->complete();
+    while (complete.empty() && !is_at_end_) read();
+    if (!complete.empty()) {
+        auto observation = observationOf(complete.front());
+        complete.pop_front();
+        return observation;
+    }
+    if (!broken_because_.empty()) throw sensors::BrokenCapture(broken_because_);
+    const std::string why = reader_->whyEmpty(textOfLosses(capture_.counts()));
+    if (!why.empty()) throw sensors::BrokenCapture(file_.string() + ": " + why);
+    return nullptr;
+}
+
+std::vector<std::string> LidarCapture::remarks() const {
+    const sensors::FrameCounts& counts = capture_.counts();
+    std::string frames = counted(counts.frames, "frame");
+    addCount(counts.tagged, "frame", "with a VLAN tag", frames);
+    addCount(counts.fragments, "frame", "that are IP fragments", frames);
+    const std::string ignored = sensors::joined(reader_->ignored(), textOfLosses(counts));
+    std::vector<std::string> remarks = reader_->remarks();
+    remarks.push_back(frames + "; ignored: " + (ignored.empty() ? "none" : ignored));
+    return remarks;
+}
 
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
                                           const std::filesystem::path& sensor_json,
                                           const std::filesystem::path& calibration,
                                           const std::function<void()>& check) {
-    auto capture = openKind(file, sensor_json, calibration, check);
+    auto reader = readerFor(file, sensor_json, calibration, check);
+    auto capture = std::make_unique<LidarCapture>(file, std::move(reader));
     if (check) capture->checkWhileReading(check);
     return capture;
 }

@@ -11,11 +11,6 @@ constexpr std::size_t kMostOpen = 2;
 constexpr std::size_t kMostLateInARow = 16;  // packets
 constexpr int kLargestStep = 600;  // frames: a minute at ten per second; more: another recording
 
-/// From one frame id to another; ids wrap.
-int stepOf(std::uint16_t from, std::uint16_t to) {
-    return static_cast<std::int16_t>(static_cast<std::uint16_t>(to - from));
-}
-
 OusterFrame emptyFrame(const OusterSensor& sensor, std::uint16_t id, std::int64_t time_ns) {
     OusterFrame frame;
     frame.id = id;

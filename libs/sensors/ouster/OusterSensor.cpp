@@ -13,6 +13,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sensors/LittleEndian.h"
+
 namespace hagen::sensors {
 namespace {
 
@@ -302,6 +304,16 @@ bool OusterSensor::isValid(const std::uint8_t* column) const {
                        [](std::uint8_t byte) { return byte == 0xff; });
 }
 
+OusterPacketKind kindOf(const Datagram& datagram, const OusterSensor& sensor) {
+    constexpr std::size_t kImuBytes = 48;
+    const bool has_size = datagram.size == sensor.packetBytes();
+    if (!has_size && datagram.size == kImuBytes) return OusterPacketKind::Imu;
+    if (!has_size || !isOfLidar(datagram.bytes, sensor)) return OusterPacketKind::Other;
+    if (!sensor.hasSerial()) return OusterPacketKind::Lidar;
+    const bool is_same = std::to_string(serialOf(datagram.bytes, sensor)) == sensor.serial;
+    return is_same ? OusterPacketKind::Lidar : OusterPacketKind::OtherSensor;
+}
+
 bool isOfLidar(const std::uint8_t* packet, const OusterSensor& sensor) {
     if (sensor.profile.is_legacy) return true;
     return packet[0] == 1 && (sensor.has_fusa_header || packet[1] == 0);
@@ -310,21 +322,19 @@ bool isOfLidar(const std::uint8_t* packet, const OusterSensor& sensor) {
 std::uint64_t serialOf(const std::uint8_t* packet, const OusterSensor& sensor) {
     if (sensor.profile.is_legacy) return 0;
     const std::size_t at = sensor.has_fusa_header ? 11 : 7;
-    std::uint64_t serial = 0;
-    for (std::size_t i = 0; i < 5; ++i) serial |= std::uint64_t{packet[at + i]} << (8 * i);
-    return serial;
+    return little<std::uint64_t>(packet + at) & 0xffffffffff;
 }
 
 std::uint16_t frameIdOf(const std::uint8_t* packet, const OusterSensor& sensor) {
     const std::size_t at = sensor.profile.is_legacy ? 10 : sensor.has_fusa_header ? 4 : 2;
-    return static_cast<std::uint16_t>(packet[at] | packet[at + 1] << 8);
+    return little<std::uint16_t>(packet + at);
 }
 
 std::optional<std::uint32_t> initializationOf(const std::uint8_t* packet,
                                               const OusterSensor& sensor) {
     if (sensor.profile.is_legacy) return std::nullopt;
     const std::size_t at = sensor.has_fusa_header ? 1 : 4;
-    return packet[at] | std::uint32_t{packet[at + 1]} << 8 | std::uint32_t{packet[at + 2]} << 16;
+    return little<std::uint32_t>(packet + at) & 0xffffff;
 }
 
 OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) {

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "sensors/LittleEndian.h"
 #include "sensors/velodyne/VelodyneReturns.h"
 
 namespace hagen::sensors {
 namespace {
 
 constexpr int kBlocks = kVelodyneBlocks;
-constexpr int kTurn = kReadingsOfTurn;  // 0.01 degrees
-constexpr double kHourUs = 3600e6;
+constexpr int kTurn = kReadingsOfTurn;    // 0.01 degrees
 constexpr double kMostAzimuth_deg = 1e6;  // far beyond, what is left of a turn is not exact
 
 /// A packet, read byte by byte.
@@ -26,35 +26,20 @@ class Packet {
  public:
     explicit Packet(const std::uint8_t* bytes) : bytes_(bytes) {}
 
-    bool isValid(int block) const {
-        return number(block * kVelodyneBlockBytes, 2) == kUpperBlock && azimuth(block) < kTurn;
-    }
-    bool isLower(int block) const {
-        return number(block * kVelodyneBlockBytes, 2) == kLowerBlock && azimuth(block) < kTurn;
-    }
-    int azimuth(int block) const {
-        return static_cast<int>(number(block * kVelodyneBlockBytes + 2, 2));
-    }
-    const std::uint8_t* returns(int block) const {
-        return bytes_ + block * kVelodyneBlockBytes + 4;
-    }
-    unsigned time_us() const { return number(static_cast<int>(kVelodyneTimeAt), 4); }
+    bool isValid(int block) const { return header(block) == kUpperBlock && azimuth(block) < kTurn; }
+    bool isLower(int block) const { return header(block) == kLowerBlock && azimuth(block) < kTurn; }
+    int azimuth(int block) const { return little<std::uint16_t>(at(block) + 2); }
+    const std::uint8_t* returns(int block) const { return at(block) + kVelodyneHeaderBytes; }
+    std::uint32_t time_us() const { return little<std::uint32_t>(bytes_ + kVelodyneTimeAt); }
     int blocksPerFiring() const { return bytes_[kVelodyneModeAt] == kDualReturn ? 2 : 1; }
     std::uint8_t modelId() const { return bytes_[kVelodyneModelAt]; }
 
  private:
-    unsigned number(int at, int bytes) const {
-        unsigned value = 0;
-        for (int i = 0; i < bytes; ++i) value |= unsigned{bytes_[at + i]} << (8 * i);
-        return value;
-    }
+    const std::uint8_t* at(int block) const { return bytes_ + block * kVelodyneBlockBytes; }
+    unsigned header(int block) const { return little<std::uint16_t>(at(block)); }
 
     const std::uint8_t* bytes_;
 };
-
-/// From one time of a packet to another: within half an hour, since they wrap around every hour. A
-/// packet that was recorded out of order is before the first, not an hour after it.
-double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
 
 /// The sine and cosine of an angle.
 struct SineCosine {
@@ -168,34 +153,44 @@ int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
     return std::max(*middle, 0);
 }
 
+/// Sets what a laser's calibration says; `turn_reading`: of the sensor since the block's first
+/// firing, in 0.01 degrees.
+void setLaser(const VelodyneCalibration& calibration, std::size_t laser, double turn_reading,
+              std::size_t i, BlockOffsets& places) {
+    const VelodyneLaser& correction = calibration.lasers[laser];
+    turn_reading = std::remainder(turn_reading - 100.0 * correction.azimuth_deg, kTurn);
+    const SineCosine turn(turn_reading * kRadiansPerReading);
+    places.turn_sine[i] = static_cast<float>(turn.sine);
+    places.turn_cosine[i] = static_cast<float>(turn.cosine);
+    places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
+    places.turn_reading[i] = static_cast<float>(turn_reading);
+    places.elevation_sine[i] = static_cast<float>(correction.elevation_sine);
+    places.elevation_cosine[i] = static_cast<float>(correction.elevation_cosine);
+    places.distance_m[i] = static_cast<float>(correction.distance_m);
+    places.sideways_m[i] = static_cast<float>(correction.horizontal_offset_m);
+    places.row[i] = rowOfLaser(calibration, laser);
+}
+
+void setTurnLimits(BlockOffsets& places) {
+    const auto [least, most] =
+        std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
+    places.least_turn_reading = *least;
+    places.most_turn_reading = *most;
+}
+
 BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const VelodyneModel& model,
                             int turn_of_blocks) {
     BlockOffsets places;
     places.distance_unit_m = model.distance_unit_m;
     for (int i = 0; i < static_cast<int>(kReturnsOfBlock); ++i) {
         const int laser = i % model.lasers;
-        const auto& correction = calibration.lasers[laser];
         const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
-        const double turn_reading =
-            std::remainder(turn_of_blocks * turn_in_block - 100.0 * correction.azimuth_deg, kTurn);
-        const SineCosine turn(turn_reading * kRadiansPerReading);
-        places.turn_sine[i] = static_cast<float>(turn.sine);
-        places.turn_cosine[i] = static_cast<float>(turn.cosine);
-        places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
-        places.turn_reading[i] = static_cast<float>(turn_reading);
+        setLaser(calibration, laser, turn_of_blocks * turn_in_block, i, places);
         places.time_s[i] = static_cast<float>(1e-6 * turn_in_block * model.blockPeriodUs());
-        places.elevation_sine[i] = static_cast<float>(correction.elevation_sine);
-        places.elevation_cosine[i] = static_cast<float>(correction.elevation_cosine);
-        places.distance_m[i] = static_cast<float>(correction.distance_m);
-        places.up_m[i] = static_cast<float>(correction.vertical_offset_m);
+        places.up_m[i] = static_cast<float>(calibration.lasers[laser].vertical_offset_m);
         places.forward_m[i] = places.up_m[i] * places.elevation_sine[i];
-        places.sideways_m[i] = static_cast<float>(correction.horizontal_offset_m);
-        places.row[i] = rowOfLaser(calibration, laser);
     }
-    const auto [least, most] =
-        std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
-    places.least_turn_reading = *least;
-    places.most_turn_reading = *most;
+    setTurnLimits(places);
     return places;
 }
 
@@ -205,27 +200,13 @@ BlockOffsets hdl64Offsets(const VelodyneCalibration& calibration, bool is_lower)
     places.distance_unit_m = hdl64Model().distance_unit_m;
     for (std::size_t i = 0; i < kReturnsOfBlock; ++i) {
         const std::size_t laser = i + (is_lower ? kReturnsOfBlock : 0);
-        const auto& correction = calibration.lasers[laser];
-        const double turn_reading = std::remainder(-100.0 * correction.azimuth_deg, kTurn);
-        const SineCosine turn(turn_reading * kRadiansPerReading);
-        places.turn_sine[i] = static_cast<float>(turn.sine);
-        places.turn_cosine[i] = static_cast<float>(turn.cosine);
-        places.turn_rad[i] = static_cast<float>(turn_reading * kRadiansPerReading);
-        places.turn_reading[i] = static_cast<float>(turn_reading);
-        const double sine = correction.elevation_sine, cosine = correction.elevation_cosine;
+        setLaser(calibration, laser, 0, i, places);
+        const VelodyneLaser& correction = calibration.lasers[laser];
         const double offset_m = correction.vertical_offset_m;
-        places.elevation_sine[i] = static_cast<float>(sine);
-        places.elevation_cosine[i] = static_cast<float>(cosine);
-        places.distance_m[i] = static_cast<float>(correction.distance_m);
-        places.up_m[i] = static_cast<float>(offset_m * cosine);
-        places.forward_m[i] = static_cast<float>(-offset_m * sine);
-        places.sideways_m[i] = static_cast<float>(correction.horizontal_offset_m);
-        places.row[i] = rowOfLaser(calibration, laser);
+        places.up_m[i] = static_cast<float>(offset_m * correction.elevation_cosine);
+        places.forward_m[i] = static_cast<float>(-offset_m * correction.elevation_sine);
     }
-    const auto [least, most] =
-        std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
-    places.least_turn_reading = *least;
-    places.most_turn_reading = *most;
+    setTurnLimits(places);
     return places;
 }
 

@@ -1,19 +1,18 @@
 #include <hagen/sensors/VelodynePacket.h>
 
+#include "sensors/LittleEndian.h"
+
 namespace hagen::sensors {
 namespace {
 
 unsigned headerOf(const std::uint8_t* packet, int block) {
-    const std::uint8_t* const at = packet + block * kVelodyneBlockBytes;
-    return at[0] | unsigned{at[1]} << 8;
+    return little<std::uint16_t>(packet + block * kVelodyneBlockBytes);
 }
 
 }  // namespace
 
 double VelodynePacket::sensorTimeUs() const {
-    const std::uint8_t* const at = bytes.data() + kVelodyneTimeAt;
-    return static_cast<double>(at[0] | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 |
-                               std::uint32_t{at[3]} << 24);
+    return little<std::uint32_t>(bytes.data() + kVelodyneTimeAt);
 }
 
 bool VelodynePacket::isDual() const {
@@ -21,8 +20,7 @@ bool VelodynePacket::isDual() const {
 }
 
 int VelodynePacket::azimuthOf(int block) const {
-    const std::uint8_t* const at = bytes.data() + block * kVelodyneBlockBytes;
-    const int azimuth = at[2] | at[3] << 8;
+    const int azimuth = little<std::uint16_t>(bytes.data() + block * kVelodyneBlockBytes + 2);
     const unsigned header = headerOf(bytes.data(), block);
     const bool is_block = header == kUpperBlock || header == kLowerBlock;
     return is_block && azimuth < kReadingsOfTurn ? azimuth : -1;
@@ -50,6 +48,10 @@ bool isOfHdl64(const std::uint8_t* packet) {
         if (headerOf(packet, block) == kLowerBlock) return true;
     }
     return false;
+}
+
+const VelodyneModel* velodyneModelOf(const std::uint8_t* packet) {
+    return isOfHdl64(packet) ? &hdl64Model() : findVelodyneModel(packet[kVelodyneModelAt]);
 }
 
 }  // namespace hagen::sensors

@@ -33,7 +33,7 @@ class AutopilotLink {
         std::size_t nearest = 5;    ///< obstacles that are sent one by one
         bool has_ground = true;     ///< whether the ground below is sent
         bool is_simulated = false;  ///< the vehicle's clock may pause, or be slower than ours
-        live::SectorDistances::Settings directions = aheadFirst();
+        SectorDistances::Settings directions = aheadFirst();
     };
     /// What was sent and received so far, by name.
     using Counts = std::vector<std::pair<std::string, std::size_t>>;
@@ -50,9 +50,9 @@ class AutopilotLink {
     /// Begins to send. `limits.nearest_m` is taken from the sensor.
     void begin(const SensorModel& sensor, Limits limits);
     /// Takes the sectors of the sensor. Requires begin().
-    void take(const live::LabelledSector& sector);
+    void take(const LabelledSector& sector);
     /// How the sensor moves, as far as the autopilot tells.
-    live::SensorMotion motionAt(double time_s) const;
+    SensorMotion motionAt(double time_s) const;
     /// Sends for the last time.
     void stop();
     Counts counts() const;

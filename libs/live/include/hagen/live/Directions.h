@@ -5,13 +5,13 @@
 namespace hagen::live {
 
 /// What messages to an autopilot are made of: the middle of the first direction is straight ahead.
-using Direction = live::SectorDistances::Sector;
-using DirectionState = live::SectorDistances::State;
-using Directions = live::SectorDistances::Sectors;
+using Direction = SectorDistances::Sector;
+using DirectionState = SectorDistances::State;
+using Directions = SectorDistances::Sectors;
 
-inline live::SectorDistances::Settings aheadFirst() {
-    live::SectorDistances::Settings settings;
-    settings.begin_rad = -kPi / live::SectorDistances::kSectors;
+inline SectorDistances::Settings aheadFirst() {
+    SectorDistances::Settings settings;
+    settings.begin_rad = -kPi / SectorDistances::kSectors;
     return settings;
 }
 

@@ -5,6 +5,7 @@
 #include <hagen/live/SectorDistances.h>
 #include <hagen/live/SensorMotion.h>
 #include <hagen/live/StreamingSegmenter.h>
+#include <hagen/sensors/LidarDriver.h>
 #include <hagen/settings/Settings.h>
 
 #include <array>
@@ -19,17 +20,13 @@
 
 namespace hagen::live {
 
-/// Models that are not of sensors::velodyneModels().
-inline constexpr const char* kLivox = "Mid-360";
-inline constexpr const char* kHdl64 = "HDL-64E";
-
 /// A sensor to label while it runs.
 struct LiveOptions {
     /// "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
     std::string model;
     std::filesystem::path calibration;  ///< of an HDL-64E
     Settings settings;
-    live::StreamingOptions streaming;
+    StreamingOptions streaming;
     RecordingOptions recording;
     std::filesystem::path stats;  ///< JSON; empty: none
     bool overwrite = false;       ///< replaces an existing file of `stats`
@@ -38,34 +35,23 @@ struct LiveOptions {
     std::filesystem::path replay;       ///< the capture that its source reads; empty: none
 };
 
-/// What came so far.
-struct LiveReport {
-    std::size_t datagrams = 0;       ///< all but those dropped
-    std::size_t packets = 0;         ///< of the sensor, taken
-    std::size_t lost = 0;            ///< missing by the sensor's clock
-    std::size_t late = 0;            ///< came after a later one
-    std::size_t too_late = 0;        ///< of these: so late that they were left out
-    std::size_t repeated = 0;        ///< came again
-    std::size_t wrong_size = 0;      ///< datagrams that are no data packets
-    std::size_t position = 0;        ///< position packets and those of an IMU
-    std::size_t foreign = 0;         ///< of another model, or of another sensor
-    std::size_t unsound = 0;         ///< without a sound block
-    std::size_t unsound_blocks = 0;  ///< of packets that were taken
-    std::size_t uncertain = 0;  ///< of an Ouster that may be in another mode than its metadata say
-    std::size_t dropped = 0;    ///< the filter was too slow for, or that had waited for 0.15 s
-    std::size_t interruptions = 0, mode_changes = 0, silences = 0;
-    std::size_t rate_changes = 0;  ///< another speed of the motor
+/// Figures of a session; of the packets, those of the driver. Data from the wrong address count as
+/// of another sensor.
+struct LiveReport : sensors::PacketCounts {
+    std::size_t datagrams = 0;     ///< all but those dropped
+    std::size_t dropped = 0;       ///< waited too long, or the queue was full
+    std::size_t silences = 0;      ///< of 1 s
+    std::size_t rate_changes = 0;  ///< of the motor
     /// How often directions of SectorDistances were in each state, every twentieth of a second.
     std::size_t times_unknown = 0, times_seen_nothing = 0, times_obstacle = 0;
-    std::size_t scans = 0;  ///< turns; of a sensor without turns, tenths of a second
     std::size_t sectors = 0, sectors_cut = 0;
     std::size_t sectors_doubtful = 0;  ///< too little of a turn was known: all near is RoI
     std::size_t returns = 0, roi = 0;
     LatencyHistogram latency;  ///< from a sector's last packet to its labels; not of those cut
     /// The nearest RoI return of the run in each direction, as SectorDistances, but for doubtful
     /// sectors; infinity: none.
-    std::array<float, live::SectorDistances::kSectors> nearest_m{};
-    std::array<live::SectorDistances::Sector, live::SectorDistances::kSectors> latest{};
+    std::array<float, SectorDistances::kSectors> nearest_m{};
+    std::array<SectorDistances::Sector, SectorDistances::kSectors> latest{};
     double seconds = 0;         ///< that it ran
     double filter_cpu_s = 0;    ///< CPU time of the thread that labels
     double process_cpu_s = 0;   ///< of all threads
@@ -86,7 +72,7 @@ struct LiveListener {
     /// Called first, with the sensor and the options of its filter.
     std::function<void(const SensorModel&, const Options&)> begin = [](const auto&, const auto&) {};
     /// The motion at a time of steadyNow_s(), called with each packet. Empty: it is not known.
-    std::function<live::SensorMotion(double time_s)> motion;
+    std::function<SensorMotion(double time_s)> motion;
     /// More counts for `stats`, called at the end: the name of a section, and its values.
     std::map<std::string, std::function<std::vector<std::pair<std::string, std::size_t>>()>> counts;
     /// What the user should know now: silence, another mode, another rate.
@@ -95,17 +81,13 @@ struct LiveListener {
     std::function<void(const LiveReport&, const LiveStatus&)> status = [](const auto&,
                                                                           const auto&) {};
     /// Called with each labelled sector; keep it short.
-    std::function<void(const live::LabelledSector&)> sector = [](const auto&) {};
+    std::function<void(const LabelledSector&)> sector = [](const auto&) {};
     /// False ends the session.
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// The models that LiveOptions takes: "VLP-16, ...".
-std::string liveModels(const std::string& separator = ", ");
-
-/// Throws std::runtime_error saying what is wrong, and what is supported, unless such a sensor can
-/// be labelled and recorded as the options say.
-void checkLive(const LiveOptions& options);
+/// "a VLP-16" or "the Ouster of FILE".
+std::string sensorName(const LiveOptions& options);
 
 /// Labels the packets of a source until it ends, the time is over or the listener says so. One
 /// thread receives, one labels (that of the caller; its real-time priority, if it has one, is

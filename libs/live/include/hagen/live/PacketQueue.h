@@ -1,4 +1,6 @@
 #pragma once
+#include <hagen/sensors/Datagram.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -15,6 +17,11 @@ struct Packet {
     double arrival_s = 0;      ///< when it came, by steadyNow_s()
     std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4
     std::uint16_t from_port = 0, to_port = 0;
+
+    /// Valid as long as the packet.
+    sensors::Datagram datagram() const {
+        return {time_ns, from_ip, to_ip, from_port, to_port, bytes.data(), bytes.size()};
+    }
 };
 
 /// Seconds of a clock that does not jump.

@@ -22,22 +22,24 @@ struct PeerAddress {
 /// "serial:/dev/ttyAMA0:921600". Throws std::runtime_error saying what is wrong.
 PeerAddress parsePeer(const std::string& text);
 
-/// The other end of a UDP connection or a serial line. It may go away and come back. Sending never
-/// waits: what cannot be sent now is old later.
+/// The other end of a UDP connection or a serial line, which may disappear and return. Sending
+/// never waits: a delayed message would be stale.
 class Peer {
  public:
     /// Throws std::runtime_error naming the host or device if it is not known or cannot be opened.
     static std::unique_ptr<Peer> open(const PeerAddress& address);
     virtual ~Peer() = default;
 
-    /// Sends a message whole; false: it is not sent.
+    /// Sends a whole message, or returns false.
     virtual bool send(const std::vector<std::uint8_t>& bytes) = 0;
-    /// Waits for bytes, at most this long (up to an hour; negative: not at all); returns how many
-    /// came.
+    /// Waits at most this long for bytes (up to an hour; negative: not at all); returns their
+    /// number.
     virtual std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) = 0;
-    /// Whether receive() returns one datagram: a message does not go on in the next one.
+    /// Whether receive() returns one datagram, with whole messages.
     virtual bool hasDatagrams() const = 0;
-    /// Why messages do not arrive, naming host or device; empty: nothing is known to be wrong.
+    /// Host and port, or device.
+    virtual std::string name() const = 0;
+    /// The current error with the name; "" without one.
     virtual std::string trouble() const = 0;
 };
 

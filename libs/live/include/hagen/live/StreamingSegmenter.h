@@ -6,6 +6,7 @@
 #include <hagen/scan/ColumnMap.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
+#include <hagen/sensors/Sweep.h>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
@@ -45,18 +46,8 @@ struct StreamingOptions {
     double longest_sector_s = 0.05;
 };
 
-/// What a rotating sensor swept while it measured the returns of a packet: from one azimuth to
-/// another, clockwise from x, at most a turn. Angles go on from turn to turn: one turn later they
-/// are 2 pi larger.
-struct Sweep {
-    double from_rad, to_rad;
-};
-
-/// How far the beams of a sensor that turns look behind its head and ahead of it. What one beam
-/// alone sees (a wire) is seen when that one gets there.
-struct BeamOffsets {
-    double behind_rad = 0, ahead_rad = 0;  ///< not negative
-};
+using sensors::BeamOffsets;
+using sensors::Sweep;
 
 /// The returns of a sector with their labels. References are valid during the call only.
 struct LabelledSector {

@@ -15,8 +15,7 @@ class TurnCoverage {
     /// The directions that a packet's sweep has completed, in angles that go on from turn to turn.
     struct Swept {
         double from_rad, to_rad;
-        double since_rad;                       ///< without a gap from here to `to_rad`
-        double looked_from_rad, looked_to_rad;  ///< any of its beams
+        double since_rad;  ///< without a gap from here to `to_rad`
     };
 
     /// Directions of the sensor, in any turn. NaN: none.
@@ -47,10 +46,8 @@ class TurnCoverage {
     double added_rad_ = 0;  ///< to the angles of sectors
 };
 
-/// Where an arc begins in the latest turn in which a beam looks there; none: none does.
-std::optional<double> beginOfArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc);
-/// Where it ends in the latest turn in which the sweep has completed it; none: not all of the arc
-/// was swept without a gap.
+/// Where an arc ends in the latest turn in which the sweep has completed it; none: not all of the
+/// arc was swept without a gap.
 std::optional<double> endOfArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc);
 
 /// A later turn has passed what was seen when the head was at an angle if the end of its arc is

@@ -10,8 +10,6 @@
 
 namespace hagen::live {
 
-using live::VehiclePose;
-
 /// The poses of a vehicle over the last seconds, from its messages ATTITUDE, ATTITUDE_QUATERNION
 /// and LOCAL_POSITION_NED. Between messages they are interpolated; after the last one, turned on
 /// by its rates for 0.1 s and moved on by its speed for 0.2 s. Jumps of the estimated place (by

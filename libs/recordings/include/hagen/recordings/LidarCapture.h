@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/sensors/CaptureFile.h>
+#include <hagen/sensors/SweepReader.h>
 #include <mrpt/obs/CObservation.h>
 
 #include <filesystem>
@@ -10,31 +11,48 @@
 
 namespace hagen::recordings {
 
-/// The scans in a capture.
+/// A sweep as an observation: packets of a Velodyne as a CObservationVelodyneScan, other returns as
+/// a LocatedCloud in a CObservationPointCloud. Its pose is that of the beams' origin on the
+/// sensor's base.
+mrpt::obs::CObservation::Ptr observationOf(const sensors::LidarSweep& sweep);
+
+/// The scans of a capture, in the order in which they end. The first and the last one may be
+/// partial.
 class LidarCapture {
  public:
-    virtual ~LidarCapture() = default;
+    /// `reader`: of the vendor. Throws BrokenCapture naming the file if it cannot be opened.
+    LidarCapture(const std::filesystem::path& file, std::unique_ptr<sensors::SweepReader> reader);
 
     /// The next scan; null at the end. Where the capture breaks off, the scans in progress come
     /// first. Throws BrokenCapture there, and at the end if there was no packet.
-    virtual mrpt::obs::CObservation::Ptr nextScan() = 0;
+    mrpt::obs::CObservation::Ptr nextScan();
 
-    /// Like CaptureFile::checkWhileReading(): what `check` throws ends nextScan().
-    virtual void checkWhileReading(const std::function<void()>& check) = 0;
+    /// Like CaptureFile::checkWhileReading(): an exception of `check` ends nextScan().
+    void checkWhileReading(const std::function<void()>& check) {
+        capture_.checkWhileReading(check);
+    }
 
     /// Fraction of the file read so far, 0 ... 1.
-    virtual double fractionRead() const = 0;
+    double fractionRead() const { return capture_.fractionRead(); }
 
-    /// What was found, with figures: the frames, each sensor, and all that was lost or left out.
-    /// Complete at the end.
-    virtual std::vector<std::string> remarks() const = 0;
+    /// Counts of each sensor, of the frames, and of all that was lost or ignored. Complete at the
+    /// end.
+    std::vector<std::string> remarks() const;
+
+ private:
+    void read();
+
+    std::filesystem::path file_;
+    sensors::CaptureFile capture_;
+    std::unique_ptr<sensors::SweepReader> reader_;
+    bool is_at_end_ = false;
+    std::string broken_because_;
 };
 
-/// Opens a capture of Velodyne sensors, or of the Ouster whose metadata file is given.
-/// `calibration` is of an HDL-64E. Throws std::runtime_error naming the file that cannot be opened
-/// or is none, and if a calibration is given for another kind of sensor. The kind of sensor is
-/// known by the first packets: what `check` throws meanwhile ends it. The capture that is returned
-/// calls it, too, as by checkWhileReading().
+/// Opens a capture of Velodyne or Livox sensors, whose first packets tell which, or of the Ouster
+/// of a metadata file. `calibration`: of an HDL-64E. Throws std::runtime_error naming the file that
+/// cannot be opened, and if a calibration is given for another kind of sensor. The capture calls
+/// `check` as by checkWhileReading(), also while it is opened.
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
                                           const std::filesystem::path& sensor_json = {},
                                           const std::filesystem::path& calibration = {},

@@ -1,4 +1,6 @@
 #pragma once
+#include <hagen/sensors/Datagram.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -16,46 +18,34 @@ struct BrokenCapture : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A UDP datagram of a capture, put together from its IP fragments.
-struct Datagram {
-    std::int64_t time_ns = 0;              ///< of the capture, since 1970; of its last fragment
-    std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4
-    std::uint16_t from_port = 0, to_port = 0;
-    const std::uint8_t* bytes = nullptr;  ///< valid until the next one is read
-    std::size_t size = 0;
-};
-
-/// "10.0.0.101".
-std::string ipText(std::uint32_t ip);
-
-/// What became of the frames of a capture. Each frame is counted once, but for those whose
-/// fragments made up a datagram.
+/// Counts of the frames of a capture. Each frame is counted once, except fragments of complete
+/// datagrams.
 struct FrameCounts {
     std::size_t frames = 0;          ///< all
-    std::size_t datagrams = 0;       ///< UDP datagrams that came out whole
-    std::size_t fragments = 0;       ///< frames that are parts of datagrams
-    std::size_t fragments_lost = 0;  ///< of these: of datagrams of which a part is missing
+    std::size_t datagrams = 0;       ///< complete UDP datagrams
+    std::size_t fragments = 0;       ///< frames with a part of a datagram
+    std::size_t fragments_lost = 0;  ///< of these: of incomplete datagrams
     std::size_t other_traffic = 0;   ///< frames that are not UDP over IPv4
-    std::size_t cut_frames = 0;      ///< shorter than sent, by the capture's snap length
-    std::size_t tagged = 0;          ///< frames with a VLAN tag, which are read like others
+    std::size_t cut_frames = 0;      ///< truncated by the capture's snap length
+    std::size_t tagged = 0;          ///< frames with a VLAN tag
 };
 
-/// Whether a file begins like a capture of libpcap (.pcap or .pcapng), whatever its name.
+/// Whether a file begins like a capture (.pcap or .pcapng), whatever its name.
 bool isCapture(const std::filesystem::path& file);
 
 /// Reads the UDP datagrams of a capture one by one: Ethernet (with VLAN tags), Linux "any" device
 /// and raw IP. Memory does not grow with the file.
 class CaptureFile {
  public:
-    /// Throws BrokenCapture naming the file if it cannot be opened or is none.
+    /// Throws BrokenCapture naming the file if it is not a readable capture.
     explicit CaptureFile(const std::filesystem::path& file);
     ~CaptureFile();
 
     /// Reads the next datagram; false at the end. Throws BrokenCapture.
     bool next(Datagram& datagram);
 
-    /// Calls `check` after each kFramesPerCheck frames: what it throws ends next(), which may read
-    /// a whole file in search of a datagram, and can then be called again.
+    /// Calls `check` after every kFramesPerCheck frames. An exception from it ends next(), which
+    /// may search a whole file for a datagram and can be called again.
     void checkWhileReading(const std::function<void()>& check);
     static constexpr std::size_t kFramesPerCheck = 1024;
 

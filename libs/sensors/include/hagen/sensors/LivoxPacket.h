@@ -19,15 +19,14 @@ struct LivoxPacket {
     std::uint64_t time_ns = 0;    ///< of its first point, by the sensor's clock
 };
 
-/// The packet in a datagram; none if it is something else. Spherical data are not supported.
+/// The packet in a datagram, if it is one with Cartesian points.
 std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram);
 
-/// Whether a datagram is a packet of the IMU: rates and accelerations, which are no attitude.
+/// Whether a datagram is an IMU packet (rates and accelerations).
 bool isLivoxImu(const Datagram& datagram);
 
-/// Appends its points, with times since `start_ns`, and the tag of each, which tells how sure the
-/// sensor is of it. Points without a range, which are at the origin, are left out. Beams are not
-/// located.
+/// Appends its points with times since `start_ns`, and the tag (confidence) of each. Skips points
+/// without a range, which are at the origin. Does not locate beams.
 void appendPoints(const LivoxPacket& packet, std::uint64_t start_ns, Scan& scan,
                   std::vector<std::uint8_t>& tags);
 

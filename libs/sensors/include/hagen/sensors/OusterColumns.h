@@ -8,21 +8,21 @@
 
 namespace hagen::sensors {
 
-/// Whether a sensor's turns have as many columns as its metadata say. In another mode, the columns
-/// would be placed in wrong directions; packets do not name the mode.
+/// Checks that a sensor's turns have as many columns as its metadata. Packets do not contain the
+/// mode, and in another one, columns would be placed in wrong directions.
 ///
 /// The time from a column to the same one of the next turn is as many times that from column to
 /// column as the turn has columns. Those of LEGACY packets have the head's angle. Only what fits
 /// another mode (2, 4 or 8 times as many columns, or as few) counts against the metadata: clocks
-/// may be set. The first turn is believed, unless its time is not that of `lidar_mode`. After the
-/// sensor was started again, which a mode needs, a turn must show it.
+/// may be set. The first turn is trusted unless its time contradicts `lidar_mode`. After a restart
+/// of the sensor, which a change of the mode requires, a turn must confirm the columns.
 class OusterColumns {
  public:
     explicit OusterColumns(const OusterSensor& sensor) : sensor_(sensor) {}
 
     /// Takes a packet of OusterSensor::packetBytes(). Returns whether its columns are certain.
     bool take(const std::uint8_t* packet);
-    /// How often the sensor was started again: other numbers of its initialization.
+    /// Restarts of the sensor: changes of the initialization number.
     std::size_t restarts() const { return restarts_; }
 
  private:

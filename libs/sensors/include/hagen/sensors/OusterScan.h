@@ -1,6 +1,7 @@
 #pragma once
 #include <hagen/scan/Scan.h>
 #include <hagen/sensors/OusterFrames.h>
+#include <hagen/sensors/SweepReader.h>
 #include <cstddef>
 #include <vector>
 
@@ -16,5 +17,10 @@ Scan scanOf(const OusterFrame& frame, const OusterSensor& sensor);
 /// memory of `scan`.
 void scanColumns(const OusterFrame& frame, const OusterSensor& sensor,
                  const std::vector<std::size_t>& columns, Scan& scan);
+
+/// A frame as a sweep with the label "ouster".
+LidarSweep sweepOf(const OusterFrame& frame, const OusterSensor& sensor);
+/// "64 packets in 2 turns, 16 columns missing".
+std::string textOf(const OusterFrames::Counts& counts);
 
 }  // namespace hagen::sensors

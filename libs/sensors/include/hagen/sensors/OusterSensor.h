@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/scan/SensorModel.h>
+#include <hagen/sensors/Datagram.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -41,6 +42,8 @@ struct OusterSensor {
     Eigen::Isometry3d lidar_to_sensor = Eigen::Isometry3d::Identity();
     std::shared_ptr<const SensorModel> model;  ///< the beams, lowest first
 
+    /// Whether its packets and metadata have a serial number.
+    bool hasSerial() const { return !profile.is_legacy && !serial.empty(); }
     std::size_t packetBytes() const;
     std::size_t columnBytes() const;
     std::size_t windowColumns() const;
@@ -48,6 +51,10 @@ struct OusterSensor {
     const std::uint8_t* columnOf(const std::uint8_t* packet, std::size_t column) const;
     bool isValid(const std::uint8_t* column) const;
 };
+
+enum class OusterPacketKind { Lidar, Imu, OtherSensor, Other };
+/// Whether a datagram is of this sensor.
+OusterPacketKind kindOf(const Datagram& datagram, const OusterSensor& sensor);
 
 /// What the header of a packet of OusterSensor::packetBytes() says. LEGACY packets have no header:
 /// all are of the LiDAR, with the serial number 0, and the frame is that of the first column.

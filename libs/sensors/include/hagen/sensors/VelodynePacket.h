@@ -1,5 +1,8 @@
 #pragma once
+#include <hagen/sensors/VelodyneModel.h>
+
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,5 +38,13 @@ struct VelodynePacket {
 bool isVelodyneData(const std::uint8_t* bytes, std::size_t size);
 /// Whether such a packet is of an HDL-64E, the only one to send blocks of lower lasers.
 bool isOfHdl64(const std::uint8_t* packet);
+/// The model that sent such a packet; null: unknown.
+const VelodyneModel* velodyneModelOf(const std::uint8_t* packet);
+
+/// From one time of a sensor's clock to another: within half an hour, as it wraps every hour.
+inline double elapsedUs(double from_us, double to_us) {
+    constexpr double kHourUs = 3600e6;
+    return std::remainder(to_us - from_us, kHourUs);
+}
 
 }  // namespace hagen::sensors

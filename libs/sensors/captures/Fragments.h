@@ -5,7 +5,7 @@
 #include <list>
 #include <vector>
 
-#include "sensors/IpFrames.h"
+#include "sensors/captures/IpFrames.h"
 
 namespace hagen::sensors {
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <fstream>
 
-#include "sensors/Fragments.h"
-#include "sensors/IpFrames.h"
+#include "sensors/captures/Fragments.h"
+#include "sensors/captures/IpFrames.h"
 
 namespace hagen::sensors {
 namespace {

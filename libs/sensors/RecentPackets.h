@@ -5,14 +5,12 @@
 #include <limits>
 #include <vector>
 
-namespace hagen::live {
+namespace hagen::sensors {
 
-/// Which packets were taken within the last 0.3 s, by a 64-bit key of each: a copy that comes late,
-/// as by a second path, measured nothing. A recording that is played again is no copy.
+/// The packets of the last 0.3 s, by a 64-bit key each: a copy, as by a second network path, adds
+/// nothing. A recording that is played again is not a copy.
 class RecentPackets {
  public:
-    static constexpr double kRemembered_s = 0.3;
-
     RecentPackets() : places_(kPlaces) {}
 
     bool has(std::uint64_t key, double now_s) const {
@@ -22,7 +20,7 @@ class RecentPackets {
         return false;
     }
 
-    /// Forgets the oldest of the four that share a place.
+    /// Forgets the oldest of the four packets that share a place.
     void add(std::uint64_t key, double now_s) {
         Place& place = places_[key % kPlaces];
         for (std::size_t i = place.size() - 1; i > 0; --i) place[i] = place[i - 1];
@@ -30,6 +28,7 @@ class RecentPackets {
     }
 
  private:
+    static constexpr double kRemembered_s = 0.3;
     static constexpr std::size_t kPlaces = 1021;  // a prime: keys may have a pattern
     struct Packet {
         std::uint64_t key = 0;
@@ -40,4 +39,4 @@ class RecentPackets {
     std::vector<Place> places_;
 };
 
-}  // namespace hagen::live
+}  // namespace hagen::sensors

@@ -1,4 +1,4 @@
-#include "sensors/Fragments.h"
+#include "sensors/captures/Fragments.h"
 
 #include <algorithm>
 

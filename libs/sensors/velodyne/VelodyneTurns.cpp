@@ -1,39 +1,32 @@
-#include <hagen/mrpt/VelodyneCalibrations.h>
-#include <hagen/recordings/Remarks.h>
-#include <hagen/recordings/VelodyneTurns.h>
 #include <hagen/scan/SensorModel.h>
+#include <hagen/sensors/Remarks.h>
+#include <hagen/sensors/VelodyneTurns.h>
 
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <utility>
 
-namespace hagen::recordings {
+namespace hagen::sensors {
 namespace {
-
-using mrpt::obs::CObservationVelodyneScan;
 
 constexpr std::size_t kMostWaiting = 16, kOfSetClock = 16;
 constexpr double kFollows = 2.5;  // periods
-constexpr double kHourUs = 3600e6, kSecondUs = 1e6;
+constexpr double kSecondUs = 1e6;
 constexpr double kEndOfTurnUs = 50e3;       // without packets
 constexpr double kLongestTurnUs = 250e3;    // the slowest sensors turn five times per second
 constexpr std::size_t kMostPackets = 2000;  // more than any sensor sends in that time
 constexpr int kLeastWrap = 100;             // 0.01 degrees; less is jitter of a sensor that stands
 
-/// From one time of the sensor's clock to another: within half an hour, since it wraps every hour.
-double elapsedUs(double from_us, double to_us) { return std::remainder(to_us - from_us, kHourUs); }
-
 }  // namespace
 
-VelodyneTurns::VelodyneTurns(const sensors::VelodyneModel& model, std::string label,
-                             const sensors::VelodyneCalibration* calibration)
+VelodyneTurns::VelodyneTurns(const VelodyneModel& model, std::string label,
+                             const VelodyneCalibration* calibration)
     : model_(model),
       label_(std::move(label)),
-      calibration_(observations::mrptCalibration(
-          calibration != nullptr ? *calibration : sensors::defaultCalibration(model))) {}
+      sensor_(std::make_shared<const SensorModel>(sensorModel(model.name))),
+      calibration_(calibration != nullptr ? *calibration : defaultCalibration(model)) {}
 
-void VelodyneTurns::add(const sensors::VelodynePacket& packet) {
+void VelodyneTurns::add(const VelodynePacket& packet) {
     const double time_us = packet.sensorTimeUs();
     const double latest_us = waiting_.empty() ? time_us : waiting_.back().sensorTimeUs();
     const double ahead_us = elapsedUs(latest_us, time_us);
@@ -58,20 +51,20 @@ void VelodyneTurns::setClock() {
     endTurn();
     has_last_ = false;
     ++counts_.interruptions;
-    for (const sensors::VelodynePacket& packet : std::exchange(held_, {})) add(packet);
+    for (const VelodynePacket& packet : std::exchange(held_, {})) add(packet);
 }
 
-void VelodyneTurns::insert(const sensors::VelodynePacket& packet) {
+void VelodyneTurns::insert(const VelodynePacket& packet) {
     const double time_us = packet.sensorTimeUs();
     auto place = waiting_.end();
     while (place != waiting_.begin() && elapsedUs(std::prev(place)->sensorTimeUs(), time_us) < 0) {
         --place;
     }
     if (place != waiting_.begin() && std::prev(place)->bytes == packet.bytes) {
-        ++counts_.repeated;
+        ++counts_.duplicate;
         return;
     }
-    counts_.out_of_order += place != waiting_.end();
+    counts_.late += place != waiting_.end();
     ++counts_.packets;
     counts_.dual += packet.isDual();
     waiting_.insert(place, packet);
@@ -81,7 +74,7 @@ void VelodyneTurns::insert(const sensors::VelodynePacket& packet) {
 }
 
 void VelodyneTurns::flush() {
-    for (const sensors::VelodynePacket& packet : waiting_) append(packet);
+    for (const VelodynePacket& packet : waiting_) append(packet);
     waiting_.clear();
 }
 
@@ -92,7 +85,7 @@ void VelodyneTurns::finish() {
 }
 
 /// Counts what is missing before a packet, and ends the turn if that is much.
-void VelodyneTurns::checkGap(const sensors::VelodynePacket& packet) {
+void VelodyneTurns::checkGap(const VelodynePacket& packet) {
     if (!has_last_) return;
     const double gap_us = elapsedUs(last_us_, packet.sensorTimeUs());
     const double period_us = model_.packetPeriodUs(packet.isDual());
@@ -104,28 +97,20 @@ void VelodyneTurns::checkGap(const sensors::VelodynePacket& packet) {
     }
 }
 
-void VelodyneTurns::append(const sensors::VelodynePacket& packet) {
+void VelodyneTurns::append(const VelodynePacket& packet) {
     checkGap(packet);
     const double time_us = packet.sensorTimeUs();
     const int azimuth = packet.azimuth();
     const bool wraps = azimuth >= 0 && azimuth < last_azimuth_ - kLeastWrap;
-    const bool is_long = turn_ && (std::abs(elapsedUs(turn_start_us_, time_us)) > kLongestTurnUs ||
-                                   turn_->scan_packets.size() >= kMostPackets);
-    if (turn_ && (wraps || is_long)) endTurn();
-    if (!turn_) {
-        turn_ = CObservationVelodyneScan::Create();
-        turn_->timestamp = timeOf(packet.time_ns);
-        turn_->originalReceivedTimestamp = turn_->timestamp;
-        turn_->sensorLabel = label_;
-        turn_->calibration = calibration_;
-        const SensorModel sensor = sensorModel(model_.name);
-        turn_->minRange = static_cast<double>(sensor.min_range_m);
-        turn_->maxRange = static_cast<double>(sensor.max_range_m);
+    std::vector<std::uint8_t>& packets = turn_.packets;
+    const bool is_long = std::abs(elapsedUs(turn_start_us_, time_us)) > kLongestTurnUs ||
+                         packets.size() >= kMostPackets * kVelodynePacketBytes;
+    if (wraps || is_long) endTurn();
+    if (packets.empty()) {
+        turn_.time_ns = packet.time_ns;
         turn_start_us_ = time_us;
     }
-    auto& raw = turn_->scan_packets.emplace_back();
-    static_assert(sizeof raw == sizeof packet.bytes);
-    std::memcpy(static_cast<void*>(&raw), packet.bytes.data(), sizeof raw);
+    packets.insert(packets.end(), packet.bytes.begin(), packet.bytes.end());
     has_last_ = true;
     last_us_ = time_us;
     if (azimuth >= 0) last_azimuth_ = azimuth;
@@ -133,21 +118,23 @@ void VelodyneTurns::append(const sensors::VelodynePacket& packet) {
 
 void VelodyneTurns::endTurn() {
     last_azimuth_ = -1;
-    if (!turn_) return;
-    ++counts_.turns;
-    complete_.push_back(std::move(turn_));
-    turn_.reset();
+    if (turn_.packets.empty()) return;
+    ++counts_.scans;
+    turn_.label = label_;
+    turn_.sensor = sensor_;
+    turn_.calibration = calibration_;
+    complete_.push_back(std::exchange(turn_, {}));
 }
 
 std::string textOf(const VelodyneTurns::Counts& counts) {
-    std::string text = counted(counts.packets, "packet") + " in " + counted(counts.turns, "turn");
+    std::string text = counted(counts.packets, "packet") + " in " + counted(counts.scans, "turn");
     addCount(counts.dual, "packet", "with dual returns", text);
     addCount(counts.lost, "packet", "lost", text);
-    addCount(counts.out_of_order, "packet", "out of order, put back", text);
-    addCount(counts.too_late, "packet", "more than sixteen packets late, left out", text);
-    addCount(counts.repeated, "packet", "repeated, left out", text);
-    addCount(counts.interruptions, "interruption", "or jump of the sensor's clock", text);
+    addCount(counts.late, "packet", "reordered", text);
+    addCount(counts.too_late, "packet", "more than 16 packets late, dropped", text);
+    addCount(counts.duplicate, "duplicate packet", "dropped", text);
+    addCount(counts.interruptions, "interruption", "(gap or clock jump)", text);
     return text;
 }
 
-}  // namespace hagen::recordings
+}  // namespace hagen::sensors

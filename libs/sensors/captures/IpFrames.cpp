@@ -1,4 +1,4 @@
-#include "sensors/IpFrames.h"
+#include "sensors/captures/IpFrames.h"
 
 #include <pcap/dlt.h>
 

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstddef>
+#include <list>
+#include <string>
+#include <utility>
+
+namespace hagen::sensors {
+
+/// The sensors of a recording in the order in which they appear, at most sixteen: packets of more
+/// are other traffic. The first one has the label NAME, the others NAME_2 and so on.
+template <class Key, class Sensor>
+class SensorTable {
+ public:
+    struct Entry {
+        Key key;
+        std::string label;
+        Sensor sensor;
+    };
+
+    explicit SensorTable(std::string name) : name_(std::move(name)) {}
+
+    /// The sensor with this key, made on its first packet; null and counted if there are too many.
+    template <class Make>
+    Sensor* find(const Key& key, Make make) {
+        constexpr std::size_t kMaxSensors = 16;
+        for (Entry& entry : entries_) {
+            if (entry.key == key) return &entry.sensor;
+        }
+        if (entries_.size() == kMaxSensors) {
+            ++further_;
+            return nullptr;
+        }
+        const std::size_t number = entries_.size() + 1;
+        const std::string label = number == 1 ? name_ : name_ + "_" + std::to_string(number);
+        return &entries_.emplace_back(Entry{key, label, make(label)}).sensor;
+    }
+    std::list<Entry>& entries() { return entries_; }
+    const std::list<Entry>& entries() const { return entries_; }
+    /// Packets of further sensors.
+    std::size_t further() const { return further_; }
+
+ private:
+    std::string name_;
+    std::list<Entry> entries_;
+    std::size_t further_ = 0;
+};
+
+}  // namespace hagen::sensors

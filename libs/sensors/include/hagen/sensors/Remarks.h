@@ -1,0 +1,34 @@
+#pragma once
+#include <hagen/sensors/Datagram.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace hagen::sensors {
+
+/// "1 packet", "3 packets".
+std::string counted(std::size_t number, const std::string& one);
+
+/// Appends ", 3 packets MORE" unless the number is 0.
+void addCount(std::size_t number, const std::string& one, const std::string& more,
+              std::string& text);
+
+/// Two lists joined by ", "; either may be empty.
+std::string joined(const std::string& first, const std::string& second);
+
+/// Datagrams that no driver takes, by port and size.
+class OtherDatagrams {
+ public:
+    void add(const Datagram& datagram);
+    /// Appends ", 5 other UDP datagrams (most: 3 of 48 bytes to port 7503)" unless there are none.
+    void describe(std::string& text) const;
+
+ private:
+    std::size_t all_ = 0;
+    std::map<std::pair<std::uint16_t, std::size_t>, std::size_t> kinds_;
+};
+
+}  // namespace hagen::sensors

@@ -1,0 +1,74 @@
+
+#include <algorithm>
+
+#include "sensors/livox/LivoxSequence.h"
+
+namespace hagen::sensors {
+namespace {
+
+constexpr std::uint64_t kInterruption_ns = 1000000000;
+constexpr std::uint64_t kMaxLate_ns = 16 * 480000;  // sixteen packets
+constexpr std::size_t kOfSetClock = 4;              // packets in a row
+
+}  // namespace
+
+/// A single packet that is too late waited in the network. Several in a row, one shortly after the
+/// other, are of a clock that was set back.
+bool LivoxSequence::wentBack(std::uint64_t time_ns) {
+    const bool follows =
+        too_late_in_a_row_ > 0 && time_ns > too_late_ns_ && time_ns - too_late_ns_ <= kMaxLate_ns;
+    too_late_in_a_row_ = follows ? too_late_in_a_row_ + 1 : 1;
+    too_late_ns_ = time_ns;
+    return too_late_in_a_row_ >= kOfSetClock;
+}
+
+LivoxSequence::Step LivoxSequence::stepTo(const LivoxPacket& packet, PacketCounts& counts) {
+    if (!has_last_) return Step::Next;
+    const auto step =
+        static_cast<std::int16_t>(static_cast<std::uint16_t>(packet.number - last_number_));
+    const bool is_earlier = packet.time_ns < last_ns_;
+    const std::uint64_t gap_ns = is_earlier ? last_ns_ - packet.time_ns : packet.time_ns - last_ns_;
+    const bool is_too_late = drops_late_ && is_earlier && gap_ns > kMaxLate_ns;
+    if (is_too_late && !wentBack(packet.time_ns)) {
+        ++counts.late;
+        ++counts.too_late;
+        return Step::TooLate;
+    }
+    too_late_in_a_row_ = 0;
+    if (gap_ns > kInterruption_ns || is_too_late) {
+        ++counts.interruptions;
+        return Step::Interruption;
+    }
+    if (is_earlier) {
+        ++counts.late;
+        if (step < 0 && counts.lost > 0) --counts.lost;
+        return Step::Late;
+    }
+    // Some firmware restarts the numbers with each frame.
+    if (step > 1) counts.lost += static_cast<std::size_t>(step - 1);
+    return Step::Next;
+}
+
+LivoxSequence::Step LivoxSequence::add(const LivoxPacket& packet, double arrival_s,
+                                       PacketCounts& counts) {
+    const std::uint64_t key = packet.time_ns << 16 | packet.number;
+    if (recent_.has(key, arrival_s)) {
+        // If all packets are sent twice, so are those of a clock that was set back.
+        const std::uint64_t apart_ns =
+            std::max(packet.time_ns, too_late_ns_) - std::min(packet.time_ns, too_late_ns_);
+        if (apart_ns > kMaxLate_ns) too_late_in_a_row_ = 0;
+        ++counts.duplicate;
+        return Step::Duplicate;
+    }
+    recent_.add(key, arrival_s);
+    const Step step = stepTo(packet, counts);
+    if (step == Step::Next || step == Step::Interruption) {
+        has_last_ = true;
+        last_ns_ = packet.time_ns;
+        last_number_ = packet.number;
+    }
+    if (step != Step::TooLate) ++counts.packets;
+    return step;
+}
+
+}  // namespace hagen::sensors

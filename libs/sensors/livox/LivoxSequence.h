@@ -1,0 +1,38 @@
+#pragma once
+#include <hagen/sensors/LidarDriver.h>
+#include <hagen/sensors/LivoxPacket.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sensors/RecentPackets.h"
+
+namespace hagen::sensors {
+
+/// Order of the packets of a Livox: counts duplicates, losses and late packets.
+class LivoxSequence {
+ public:
+    enum class Step { Next, Late, Duplicate, TooLate, Interruption };
+
+    /// `drops_late`: packets more than sixteen late are TooLate, unless four in a row show that the
+    /// clock was set back. Otherwise these are Late, too.
+    explicit LivoxSequence(bool drops_late) : drops_late_(drops_late) {}
+
+    Step add(const LivoxPacket& packet, double arrival_s, PacketCounts& counts);
+    /// By the sensor's clock, of the latest packet.
+    std::uint64_t last_ns() const { return last_ns_; }
+
+ private:
+    bool wentBack(std::uint64_t time_ns);
+    Step stepTo(const LivoxPacket& packet, PacketCounts& counts);
+
+    bool drops_late_;
+    bool has_last_ = false;
+    std::uint64_t last_ns_ = 0;
+    std::uint16_t last_number_ = 0;
+    std::uint64_t too_late_ns_ = 0;      ///< of the latest packet that was too late
+    std::size_t too_late_in_a_row_ = 0;  ///< up to now
+    RecentPackets recent_;
+};
+
+}  // namespace hagen::sensors

@@ -1,0 +1,120 @@
+#include <hagen/sensors/SweepReader.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sensors/SensorTable.h"
+#include "sensors/livox/LivoxSequence.h"
+
+namespace hagen::sensors {
+namespace {
+
+constexpr std::uint64_t kSweep_ns = 100000000;
+constexpr std::size_t kMaxPackets = 10000;  // per sweep, whatever the clock; usual are 210
+
+/// The Livox Mid-360 sensors of a recording (Livox SDK 2, Cartesian data), by address. A sweep is
+/// the points of a tenth of a second by the sensor's clock, with the time of its first packet. Late
+/// packets join the sweep in progress.
+class LivoxSweeps : public SweepReader {
+ public:
+    void add(const Datagram& datagram) override {
+        const auto packet = livoxPacketOf(datagram);
+        if (isLivoxImu(datagram)) {
+            ++imu_packets_;
+        } else if (!packet) {
+            others_.add(datagram);
+        } else if (Sensor* const sensor =
+                       sensors_.find(datagram.from_ip, [](const std::string& label) {
+                           Sensor made;
+                           made.sweep.label = label;
+                           return made;
+                       })) {
+            add(*packet, datagram, *sensor);
+        }
+    }
+
+    void finish() override {
+        for (auto& entry : sensors_.entries()) endSweep(entry.sensor);
+    }
+
+    std::vector<std::string> remarks() const override {
+        std::vector<std::string> remarks;
+        for (const auto& [ip, label, sensor] : sensors_.entries()) {
+            const PacketCounts& counts = sensor.counts;
+            std::string text = label + " (Livox, read as a Mid-360, at " + ipText(ip) +
+                               "): " + counted(counts.packets, "packet") + " in " +
+                               counted(counts.scans, "scan");
+            addCount(counts.lost, "packet", "lost", text);
+            addCount(counts.late, "packet", "out of order, kept in the scan in which it arrived",
+                     text);
+            addCount(counts.duplicate, "duplicate packet", "dropped", text);
+            addCount(counts.interruptions, "interruption", "(gap or clock jump)", text);
+            remarks.push_back(text);
+        }
+        return remarks;
+    }
+
+    std::string ignored() const override {
+        std::string text;
+        addCount(sensors_.further(), "packet", "of further sensors", text);
+        addCount(imu_packets_, "IMU packet", "(rates and accelerations, no attitude)", text);
+        others_.describe(text);
+        return text;
+    }
+
+ private:
+    struct Sensor {
+        PacketCounts counts;
+        LivoxSequence sequence{false};
+        bool is_begun = false;
+        std::uint64_t start_ns = 0;  ///< of the sweep in progress, by the sensor's clock
+        std::size_t packets = 0;     ///< likewise
+        LidarSweep sweep;
+    };
+    void add(const LivoxPacket& packet, const Datagram& datagram, Sensor& sensor) {
+        using Step = LivoxSequence::Step;
+        const double time_s = 1e-9 * static_cast<double>(datagram.time_ns);
+        const Step step = sensor.sequence.add(packet, time_s, sensor.counts);
+        if (step == Step::Duplicate) return;
+        const bool is_complete =
+            step == Step::Next && packet.time_ns - sensor.start_ns >= kSweep_ns;
+        if (step == Step::Interruption || is_complete || sensor.packets == kMaxPackets) {
+            endSweep(sensor);
+        }
+        if (!sensor.is_begun) {
+            sensor.is_begun = true;
+            sensor.start_ns = packet.time_ns;
+            sensor.sweep.time_ns = datagram.time_ns;
+        }
+        ++sensor.packets;
+        appendPoints(packet, sensor.start_ns, sensor.sweep.returns, sensor.sweep.tags);
+    }
+
+    void endSweep(Sensor& sensor) {
+        if (!sensor.is_begun) return;
+        sensor.is_begun = false;
+        sensor.packets = 0;
+        ++sensor.counts.scans;
+        locateBeams(*model_, sensor.sweep.returns);
+        sensor.sweep.sensor = model_;
+        sensor.sweep.has_tags = true;
+        LidarSweep next;
+        next.label = sensor.sweep.label;
+        complete_.push_back(std::exchange(sensor.sweep, std::move(next)));
+    }
+
+    const std::shared_ptr<const SensorModel> model_ =
+        std::make_shared<const SensorModel>(sensorModel("Mid-360"));
+    SensorTable<std::uint32_t, Sensor> sensors_{"livox"};
+    std::size_t imu_packets_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<SweepReader> makeLivoxSweeps() { return std::make_unique<LivoxSweeps>(); }
+
+}  // namespace hagen::sensors

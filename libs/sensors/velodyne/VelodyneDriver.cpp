@@ -1,0 +1,332 @@
+#include <hagen/scan/Angle.h>
+#include <hagen/scan/AppendReturn.h>
+#include <hagen/sensors/LidarDriver.h>
+#include <hagen/sensors/VelodyneCalibration.h>
+#include <hagen/sensors/VelodyneDecoder.h>
+#include <hagen/sensors/VelodyneModel.h>
+#include <hagen/sensors/VelodynePacket.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sensors/RecentPackets.h"
+
+namespace hagen::sensors {
+namespace {
+
+constexpr int kMaxLate = 16;
+constexpr std::size_t kPositionBytes = 512;
+constexpr double kInterruptionUs = 50e3;
+constexpr double kForgottenUs = 250e3;  // returns from before such a gap are no context
+constexpr double kTurn_rad = 2 * kPi;
+constexpr double kOverlap_rad = 0.2;  // of packets that are not full
+constexpr double kNearest_m = 0.5;
+constexpr int kBlocks = kVelodyneBlocks;
+constexpr int kReadings = kReadingsOfTurn;
+// In 0.01 degrees: of azimuths of a motor that hardly turns, and of one within a packet.
+constexpr double kJitter = 10, kMaxOff = 100;
+
+int blocksPerFiring(const VelodynePacket& packet) {
+    return packet.isDual() || isOfHdl64(packet.bytes.data()) ? 2 : 1;
+}
+
+/// -1: one of its blocks is unsound.
+int azimuthOfFiring(const VelodynePacket& packet, int firing) {
+    const int step = blocksPerFiring(packet);
+    for (int b = firing * step; b < (firing + 1) * step; ++b) {
+        if (packet.azimuthOf(b) < 0) return -1;
+    }
+    return packet.azimuthOf(firing * step);
+}
+
+/// How many returns the decoder finds in the first blocks.
+std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
+    std::size_t returns = 0;
+    for (int b = 0; b < blocks; ++b) {
+        if (packet.azimuthOf(b) < 0) continue;
+        const std::uint8_t* const block =
+            packet.bytes.data() + b * kVelodyneBlockBytes + kVelodyneHeaderBytes;
+        for (std::size_t i = 0; i < kReturnsOfBlock; ++i) {
+            returns += (block[3 * i] | block[3 * i + 1]) != 0;
+        }
+    }
+    return returns;
+}
+
+/// Its bytes, with the time by the sensor's clock.
+std::uint64_t keyOf(const VelodynePacket& packet) {
+    const auto* const bytes = reinterpret_cast<const char*>(packet.bytes.data());
+    return std::hash<std::string_view>()({bytes, packet.bytes.size()});
+}
+
+/// Reads the packets of one Velodyne. Interruptions are gaps of more than 50 ms, and jumps of the
+/// clock.
+class VelodyneDriver : public LidarDriver {
+ public:
+    /// `calibration`: of an HDL-64E; null: that of the model. Throws std::invalid_argument for an
+    /// HDL-64E without calibration.
+    explicit VelodyneDriver(const VelodyneModel& model, const VelodyneCalibration* calibration)
+        : model_(model),
+          calibration_(calibration != nullptr ? *calibration : defaultCalibration(model)) {
+        if (&model == &hdl64Model() && calibration == nullptr) {
+            throw std::invalid_argument("packets of an HDL-64E need its calibration");
+        }
+    }
+
+    SensorModel sensor() const override {
+        SensorModel sensor = sensorOf(calibration_, model_.name);
+        const SensorModel limits = sensorModel(model_.name);
+        sensor.min_range_m = limits.min_range_m;
+        sensor.max_range_m = limits.max_range_m;
+        return sensor;
+    }
+
+    /// By the corrections of the lasers. A laser beside the axis sees near objects in another
+    /// direction than that of its beam.
+    BeamOffsets beamOffsets(double min_range_m) const override {
+        BeamOffsets offsets;
+        for (const VelodyneLaser& laser : calibration_.lasers) {
+            const double behind_rad = radians(std::remainder(laser.azimuth_deg, 360.0));
+            const double sideways = laser.horizontal_offset_m / std::max(min_range_m, kNearest_m);
+            const double beside_rad = std::asin(std::min(std::abs(sideways), 1.0));
+            offsets.behind_rad = std::max(offsets.behind_rad, behind_rad + beside_rad);
+            offsets.ahead_rad = std::max(offsets.ahead_rad, beside_rad - behind_rad);
+        }
+        return offsets;
+    }
+
+    bool isDual() const override { return is_dual_; }
+    bool isData(const Datagram& datagram) const override {
+        return isVelodyneData(datagram.bytes, datagram.size) &&
+               velodyneModelOf(datagram.bytes) == &model_;
+    }
+
+    Taken add(const Datagram& datagram, double arrival_s, ReturnSink& sink) override {
+        if (datagram.size == kPositionBytes) {
+            ++counts_.auxiliary;
+            return Taken::Auxiliary;
+        }
+        if (!isVelodyneData(datagram.bytes, datagram.size)) {
+            ++counts_.wrong_size;
+            return Taken::WrongSize;
+        }
+        if (velodyneModelOf(datagram.bytes) != &model_) {
+            ++counts_.other_sensor;
+            return Taken::OtherSensor;
+        }
+        VelodynePacket packet;
+        std::copy_n(datagram.bytes, datagram.size, packet.bytes.begin());
+        return addPacket(packet, arrival_s, sink);
+    }
+
+ private:
+    /// Consecutive sound firings of a packet.
+    struct Run {
+        int first, end;
+    };
+
+    struct Held {
+        VelodynePacket packet;
+        double arrival_s;
+    };
+
+    Taken addPacket(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
+        if (recent_.has(keyOf(packet), arrival_s)) {
+            held_.clear();  // late packets arrive by another path
+            ++counts_.duplicate;
+            return Taken::Duplicate;
+        }
+        // From the packet before to this one: as long as the one before lasted.
+        const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : packet.isDual());
+        const bool is_too_late =
+            has_last_ && elapsedUs(last_us_, packet.sensorTimeUs()) < -kMaxLate * period_us;
+        if (is_too_late) return hold(packet, arrival_s, sink);
+        held_.clear();
+        return take(packet, arrival_s, sink);
+    }
+
+    /// A packet that is a turn late does not show the present. So many in a row are not late: the
+    /// sensor's clock was set.
+    Taken hold(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
+        held_.push_back({packet, arrival_s});
+        ++counts_.late;
+        ++counts_.too_late;
+        if (held_.size() < std::size_t{kMaxLate}) return Taken::TooLate;
+        counts_.late -= held_.size();
+        counts_.too_late -= held_.size();
+        ++counts_.interruptions;
+        sink.restart();
+        has_last_ = false;
+        Taken taken = Taken::TooLate;
+        for (const auto& [held, held_s] : std::exchange(held_, {})) {
+            taken = addPacket(held, held_s, sink);
+        }
+        return taken;
+    }
+
+    Taken take(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
+        const double time_us = packet.sensorTimeUs();
+        const bool is_dual = packet.isDual();
+        const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : is_dual);
+        const double elapsed_us = has_last_ ? elapsedUs(last_us_, time_us) : 0;
+        if (elapsed_us > kInterruptionUs) {
+            ++counts_.interruptions;
+            if (elapsed_us < 1e6) {
+                counts_.lost += static_cast<std::size_t>(std::lround(elapsed_us / period_us)) - 1;
+            }
+            sink.flush();
+            if (elapsed_us > kForgottenUs) {
+                sink.restart();
+                has_last_ = false;
+            }
+        }
+        Sweep sweep{};
+        if (!readSweep(packet, elapsed_us, sweep)) {
+            ++counts_.unsound;
+            return Taken::Unsound;
+        }
+        recent_.add(keyOf(packet), arrival_s);
+        if (has_last_ && is_dual != is_dual_) ++counts_.mode_changes;
+        is_dual_ = is_dual;
+        const bool is_late = has_last_ && elapsed_us < 0;
+        if (is_late) {
+            ++counts_.late;
+            if (counts_.lost > 0) --counts_.lost;
+        } else {
+            if (has_last_ && elapsed_us > 1.5 * period_us && elapsed_us <= kInterruptionUs) {
+                counts_.lost += static_cast<std::size_t>(std::lround(elapsed_us / period_us)) - 1;
+            }
+            if (has_last_) {
+                counts_.scans += static_cast<std::size_t>(
+                    std::max(0.0, std::floor(sweep.from_rad / kTurn_rad) -
+                                      std::floor(last_sweep_.from_rad / kTurn_rad)));
+            }
+            last_us_ = time_us;
+            last_sweep_ = sweep;
+            has_last_ = true;
+        }
+        counts_.unsound_blocks +=
+            decodePackets({packet.bytes.data(), 1}, calibration_, returns_, decoder_);
+        ++counts_.packets;
+        addRuns(packet, sweep, arrival_s, sink);
+        return Taken::Yes;
+    }
+
+    /// The firings whose blocks are all sound, in runs that turn on as a sensor does. What an
+    /// unsound block would have seen is not known, so that no sweep goes over it.
+    void findRuns(const VelodynePacket& packet) {
+        runs_.clear();
+        int before = -1;  // azimuth of the firing before, if that is sound
+        for (int f = 0; f < kBlocks / blocksPerFiring(packet); ++f) {
+            const int azimuth = azimuthOfFiring(packet, f);
+            const double step = std::remainder(azimuth - before, kReadings);
+            const bool goes_on = before >= 0 && step > -kJitter &&
+                                 step * kBlocks < kReadings / 8.0 * blocksPerFiring(packet);
+            if (azimuth >= 0 && goes_on) {
+                ++runs_.back().end;
+            } else if (azimuth >= 0) {
+                runs_.push_back({f, f + 1});
+            }
+            before = azimuth;
+        }
+    }
+
+    /// What a packet swept, as if all of its blocks were sound; the packets since the one before
+    /// may be lost. Leaves those runs that are where the sensor is by the longest one: others are
+    /// broken readings. Returns false if the packet has no sound block.
+    bool readSweep(const VelodynePacket& packet, double elapsed_us, Sweep& sweep) {
+        findRuns(packet);
+        const int step = blocksPerFiring(packet), all_firings = kBlocks / step;
+        double from = -1, per_firing = 0;
+        if (runs_.empty()) {  // halves of firings at most
+            for (int b = kBlocks - 1; b >= 0; --b) {
+                if (packet.azimuthOf(b) >= 0) from = packet.azimuthOf(b);
+            }
+            if (from < 0) return false;
+        } else {
+            const auto isShorter = [](const Run& a, const Run& b) {
+                return a.end - a.first < b.end - b.first;
+            };
+            const Run longest = *std::max_element(runs_.begin(), runs_.end(), isShorter);
+            const int first_azimuth = packet.azimuthOf(longest.first * step);
+            const int turned = packet.azimuthOf(longest.end * step - 1) - first_azimuth;
+            const int firings = longest.end - longest.first - 1;
+            if (firings > 0) {
+                per_firing = std::max(0.0, std::remainder(turned, kReadings)) / firings;
+            }
+            from = first_azimuth - per_firing * longest.first;
+            const auto isElsewhere = [&](const Run& run) {
+                const double expected = from + per_firing * run.first;
+                const double off = azimuthOfFiring(packet, run.first) - expected;
+                return std::abs(std::remainder(off, kReadings)) > kMaxOff;
+            };
+            runs_.erase(std::remove_if(runs_.begin(), runs_.end(), isElsewhere), runs_.end());
+        }
+        const double swept_rad = radians(0.01 * per_firing * all_firings);
+        sweep.from_rad = radians(0.01 * from);
+        if (has_last_) {
+            // Whole turns that are missing do not count: what was seen before is not overwritten.
+            const double period_us = model_.packetPeriodUs(packet.isDual());
+            double turned_rad = std::remainder(elapsed_us / period_us * swept_rad, kTurn_rad);
+            if (elapsed_us > 0 && turned_rad < -kOverlap_rad) turned_rad += kTurn_rad;
+            const double expected_rad = last_sweep_.from_rad + turned_rad;
+            sweep.from_rad =
+                expected_rad + std::remainder(sweep.from_rad - expected_rad, kTurn_rad);
+        }
+        sweep.to_rad = sweep.from_rad + swept_rad;
+        return true;
+    }
+
+    /// Each run is a sweep. Returns of other blocks have labels, too: they go with the run before.
+    void addRuns(const VelodynePacket& packet, const Sweep& sweep, double arrival_s,
+                 ReturnSink& sink) {
+        const int step = blocksPerFiring(packet);
+        if (runs_.empty()) {
+            sink.add(returns_, {sweep.from_rad, sweep.from_rad}, arrival_s);
+            return;
+        }
+        if (runs_.size() == 1 && runs_[0].first == 0 && runs_[0].end == kBlocks / step) {
+            sink.add(returns_, sweep, arrival_s);
+            return;
+        }
+        const double firing_rad = (sweep.to_rad - sweep.from_rad) * step / kBlocks;
+        std::size_t taken = 0;
+        for (std::size_t r = 0; r < runs_.size(); ++r) {
+            const bool is_last = r + 1 == runs_.size();
+            const int end_block = is_last ? kBlocks : runs_[r + 1].first * step;
+            const std::size_t end = is_last ? returns_.size() : returnsBefore(packet, end_block);
+            part_.clear();
+            part_.beams = returns_.beams;
+            for (; taken < end; ++taken) appendReturn(returns_, taken, part_);
+            sink.add(part_,
+                     {sweep.from_rad + firing_rad * runs_[r].first,
+                      sweep.from_rad + firing_rad * runs_[r].end},
+                     arrival_s);
+        }
+    }
+
+    const VelodyneModel& model_;
+    VelodyneCalibration calibration_;
+    DecoderWorkspace decoder_;
+    Scan returns_, part_;
+    std::vector<Run> runs_;  ///< of the latest packet
+    RecentPackets recent_;
+    std::vector<Held> held_;  ///< too late, in a row
+    bool has_last_ = false, is_dual_ = false;
+    double last_us_ = 0;  ///< by the sensor's clock, of the latest packet
+    Sweep last_sweep_{};  ///< likewise
+};
+
+}  // namespace
+
+std::unique_ptr<LidarDriver> makeVelodyneDriver(const VelodyneModel& model,
+                                                const VelodyneCalibration* calibration) {
+    return std::make_unique<VelodyneDriver>(model, calibration);
+}
+
+}  // namespace hagen::sensors

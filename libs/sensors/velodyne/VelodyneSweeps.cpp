@@ -1,0 +1,141 @@
+#include <hagen/sensors/SweepReader.h>
+#include <hagen/sensors/VelodyneCalibrationFile.h>
+#include <hagen/sensors/VelodyneTurns.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "sensors/SensorTable.h"
+
+namespace hagen::sensors {
+namespace {
+
+constexpr std::size_t kPositionBytes = 512;
+constexpr std::uint16_t kPositionPort = 8308;
+
+/// The Velodyne sensors of a recording, by address, port and model: VLP-16, Puck Hi-Res, HDL-32E
+/// and VLP-32C by the id in their packets, HDL-64E by their blocks.
+class VelodyneSweeps : public SweepReader {
+ public:
+    /// `calibration`: of the HDL-64E (readVelodyneCalibration()); empty: its packets are ignored.
+    /// Throws std::runtime_error naming a wrong calibration.
+    explicit VelodyneSweeps(const std::filesystem::path& calibration)
+        : calibration_file_(calibration) {
+        if (!calibration.empty()) calibration_ = readVelodyneCalibration(calibration);
+    }
+
+    void add(const Datagram& datagram) override {
+        if (datagram.size == kPositionBytes && datagram.to_port == kPositionPort) {
+            ++position_packets_;
+            return;
+        }
+        if (!isVelodyneData(datagram.bytes, datagram.size)) return others_.add(datagram);
+        const VelodyneModel* const model = velodyneModelOf(datagram.bytes);
+        if (model == nullptr) {
+            ++unknown_ids_[datagram.bytes[kVelodyneModelAt]];
+            return;
+        }
+        const bool is_hdl64 = model == &hdl64Model();
+        hdl64_packets_ += is_hdl64;
+        if (!is_hdl64 || calibration_) add(datagram, *model);
+    }
+
+    void finish() override {
+        for (auto& entry : sensors_.entries()) {
+            entry.sensor.finish();
+            collect(entry.sensor);
+        }
+    }
+
+    std::vector<std::string> remarks() const override {
+        std::vector<std::string> remarks;
+        for (const auto& [key, label, turns] : sensors_.entries()) {
+            remarks.push_back(label + " (" + turns.model().name + " at " +
+                              ipText(std::get<0>(key)) + ", port " +
+                              std::to_string(std::get<1>(key)) + "): " + textOf(turns.counts()));
+        }
+        if (calibration_ && hdl64_packets_ == 0) {
+            remarks.push_back(calibration_file_.string() +
+                              " is not used: there are no packets of an HDL-64E");
+        }
+        return remarks;
+    }
+
+    std::string ignored() const override {
+        std::string text;
+        addCount(position_packets_, "position packet", "(GPS)", text);
+        return joined(text, unknown());
+    }
+
+    std::string whyEmpty(const std::string& losses) const override {
+        if (packets_ > 0) return "";
+        std::string found = joined(unknown(), losses);
+        addCount(position_packets_, "position packet", "", found);
+        return "has no data packets of a known Velodyne (" + knownVelodynes().substr(1) +
+               "); it has " + (found.empty() ? "no frames" : found) +
+               ". Packets of an Ouster need its metadata: --sensor-json FILE";
+    }
+
+ private:
+    using Key = std::tuple<std::uint32_t, std::uint16_t, std::uint8_t>;
+
+    void add(const Datagram& datagram, const VelodyneModel& model) {
+        const Key key{datagram.from_ip, datagram.to_port, model.id};
+        VelodyneTurns* const turns = sensors_.find(key, [&](const std::string& label) {
+            return VelodyneTurns(model, label, &model == &hdl64Model() ? &*calibration_ : nullptr);
+        });
+        if (turns == nullptr) return;
+        VelodynePacket packet;
+        std::copy_n(datagram.bytes, packet.bytes.size(), packet.bytes.begin());
+        packet.time_ns = datagram.time_ns;
+        ++packets_;
+        turns->add(packet);
+        collect(*turns);
+    }
+
+    void collect(VelodyneTurns& turns) {
+        std::move(turns.complete().begin(), turns.complete().end(), std::back_inserter(complete_));
+        turns.complete().clear();
+    }
+
+    /// Datagrams that are not of a known Velodyne.
+    std::string unknown() const {
+        std::string text;
+        if (!calibration_) {
+            addCount(hdl64_packets_, "packet",
+                     "of an HDL-64E, which need its calibration: --calibration FILE", text);
+        }
+        for (const auto& [id, count] : unknown_ids_) {
+            char hex[8];
+            std::snprintf(hex, sizeof hex, "0x%02x", id);
+            addCount(count, "packet", "of an unknown Velodyne (model id " + std::string(hex) + ")",
+                     text);
+        }
+        addCount(sensors_.further(), "packet", "of further sensors", text);
+        others_.describe(text);
+        return text;
+    }
+
+    std::filesystem::path calibration_file_;
+    std::optional<VelodyneCalibration> calibration_;
+    SensorTable<Key, VelodyneTurns> sensors_{"velodyne"};
+    std::size_t packets_ = 0, position_packets_ = 0, hdl64_packets_ = 0;
+    std::map<unsigned, std::size_t> unknown_ids_;
+};
+
+}  // namespace
+
+std::unique_ptr<SweepReader> makeVelodyneSweeps(const std::filesystem::path& calibration) {
+    return std::make_unique<VelodyneSweeps>(calibration);
+}
+
+}  // namespace hagen::sensors

@@ -1,0 +1,50 @@
+#include "live/SensorAddress.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace hagen::live {
+namespace {
+
+struct Sent {
+    std::uint32_t ip;
+    double time_s;
+    bool is_of_sensor;
+};
+
+void expectTaken(const std::vector<Sent>& all) {
+    SensorAddress address;
+    for (const auto& [ip, time_s, is_of_sensor] : all) {
+        EXPECT_EQ(address.take(ip, time_s), is_of_sensor) << ip << " at " << time_s << " s";
+    }
+}
+
+/// The same model, mounted elsewhere.
+TEST(SensorAddress, OtherSensorNeverReplacesOurs) {
+    expectTaken({{1, 10, true}, {2, 10.1, false}, {2, 11.6, false}, {1, 11.7, true}});
+}
+
+TEST(SensorAddress, ReturnsToEarlierAddress) {
+    expectTaken({{1, 10, true},
+                 {2, 11.5, true},
+                 {1, 11.6, true},  // so these are two sensors
+                 {2, 11.7, false},
+                 {2, 13.2, false},
+                 {1, 13.3, true}});
+}
+
+TEST(SensorAddress, FollowsSuccessiveAddresses) {
+    expectTaken({{1, 10, true}, {2, 11.5, true}, {3, 13, true}, {2, 14.5, true}, {3, 16, true}});
+}
+
+TEST(SensorAddress, LimitsNumberOfAddresses) {
+    SensorAddress address;
+    EXPECT_TRUE(address.take(1, 10));
+    for (std::uint32_t ip = 2; ip < 102; ++ip) EXPECT_FALSE(address.take(ip, 10.1));
+    EXPECT_FALSE(address.take(1000, 11.6));
+    EXPECT_TRUE(address.take(1, 11.7));
+}
+
+}  // namespace
+}  // namespace hagen::live

@@ -1,0 +1,18 @@
+#pragma once
+#include <hagen/sensors/Datagram.h>
+
+#include <cstdint>
+#include <string>
+
+namespace hagen::test {
+
+/// Valid as long as `bytes`.
+inline sensors::Datagram datagramOf(const std::string& bytes, std::int64_t time_ns = 0) {
+    sensors::Datagram datagram;
+    datagram.time_ns = time_ns;
+    datagram.bytes = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    datagram.size = bytes.size();
+    return datagram;
+}
+
+}  // namespace hagen::test
