@@ -40,7 +40,7 @@ PipelineSteps<Numbered> squares(int items, Seen& seen) {
     return steps;
 }
 
-TEST(OrderedPipeline, ItemsKeepTheirOrder) {
+TEST(OrderedPipeline, KeepsOrder) {
     std::vector<int> expected;
     for (int i = 0; i < 200; ++i) expected.push_back(i * i);
     for (const std::size_t threads : {1, 2, 3, 8, 300}) {
@@ -55,7 +55,7 @@ TEST(OrderedPipeline, ItemsKeepTheirOrder) {
 }
 
 /// The first exception ends it; what was written by then is a beginning, in order.
-TEST(OrderedPipeline, AnExceptionInAnyStepEndsIt) {
+TEST(OrderedPipeline, StopsAtException) {
     for (const std::size_t threads : {1, 2, 8}) {
         for (int step = 0; step < 5; ++step) {
             Seen seen;

@@ -31,9 +31,6 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
-using recordings::addCount;
-using recordings::counted;
-using recordings::timeOf;
 
 /// What was read of a topic.
 struct TopicState {
@@ -46,7 +43,7 @@ struct TopicState {
     std::size_t points_not_finite = 0;
     std::map<std::string, std::size_t> clouds_with;  ///< by remark
     // Of packets:
-    std::optional<recordings::VelodyneTurns> turns;
+    std::optional<VelodyneTurns> turns;
     std::unique_ptr<sensors::OusterFrames> frames;
     std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
     std::map<unsigned, std::size_t> unknown_ids;
@@ -60,7 +57,7 @@ void note(const CObservation& scan, TopicState& state) {
     for (const std::string& remark : cloud->remarks()) ++state.clouds_with[remark];
 }
 
-void addPoint(const LivoxPoint& point, Scan& scan) {
+void addLivoxPoint(const LivoxPoint& point, Scan& scan) {
     scan.x_m.push_back(point.x_m);
     scan.y_m.push_back(point.y_m);
     scan.z_m.push_back(point.z_m);
@@ -68,7 +65,7 @@ void addPoint(const LivoxPoint& point, Scan& scan) {
     scan.time_s.push_back(1e-9f * static_cast<float>(point.since_ns));
 }
 
-PointTable tableOf(const std::vector<LivoxPoint>& points) {
+PointTable livoxTableOf(const std::vector<LivoxPoint>& points) {
     PointTable table;
     table.fields = {
         {"x", NumberType::Float32, 0, 1},           {"y", NumberType::Float32, 4, 1},
@@ -139,7 +136,7 @@ struct BagScans::Reader {
     void add(const CObservation::Ptr& scan, TopicState& state);
     void addComplete(TopicState& state);
     void finish();
-    static std::string textOf(const TopicState& state);
+    static std::string describe(const TopicState& state);
     std::string whyEmpty() const;
 };
 
@@ -225,10 +222,10 @@ void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, T
     CObservationPointCloud::Ptr scan;
     if (state.sensor->kind == LidarKind::Livox1) {
         scan = observations::observationOf(
-            std::make_shared<const PointTable>(tableOf(message.points)), "", timeOf(time_ns));
+            std::make_shared<const PointTable>(livoxTableOf(message.points)), "", timeOf(time_ns));
     } else {
         Scan points;
-        for (const LivoxPoint& point : message.points) addPoint(point, points);
+        for (const LivoxPoint& point : message.points) addLivoxPoint(point, points);
         locateBeams(*mid360, points);
         PointTable others;
         others.points = message.points.size();
@@ -316,7 +313,7 @@ void BagScans::Reader::addComplete(TopicState& state) {
     }
     if (state.frames) {
         for (const sensors::OusterFrame& frame : state.frames->complete()) {
-            const auto scan = recordings::observationOf(frame, *state.sensor->ouster);
+            const auto scan = observationOf(frame, *state.sensor->ouster);
             scan->sensorPose = state.sensor->on_vehicle + scan->sensorPose;
             add(scan, state);
         }
@@ -356,14 +353,12 @@ void BagScans::Reader::finish() {
     }
 }
 
-std::string BagScans::Reader::textOf(const TopicState& state) {
+std::string BagScans::Reader::describe(const TopicState& state) {
     std::string text = counted(state.messages, "message");
     if (state.turns) {
-        text +=
-            ", " + state.sensor->velodyne->name + ", " + recordings::textOf(state.turns->counts());
+        text += ", " + state.sensor->velodyne->name + ", " + textOf(state.turns->counts());
     } else if (state.frames) {
-        text +=
-            ", " + state.sensor->ouster->name + ", " + recordings::textOf(state.frames->counts());
+        text += ", " + state.sensor->ouster->name + ", " + textOf(state.frames->counts());
     }
     addCount(state.hdl64_packets, "packet", "of an HDL-64E, which is not supported in bags", text);
     for (const auto& [id, packets] : state.unknown_ids) {
@@ -393,7 +388,7 @@ std::string BagScans::Reader::textOf(const TopicState& state) {
 
 std::string BagScans::Reader::whyEmpty() const {
     std::string text = file.string() + ": no scan could be read";
-    for (const auto& [topic, state] : states) text += "; " + topic + ": " + textOf(state);
+    for (const auto& [topic, state] : states) text += "; " + topic + ": " + describe(state);
     return text;
 }
 
@@ -414,7 +409,7 @@ CObservation::Ptr BagScans::next() {
             } else {
                 r.finish();
             }
-        } catch (const BrokenBag& e) {
+        } catch (const BrokenRecording& e) {
             r.broken_because = e.what();
             r.finish();
         }
@@ -424,8 +419,8 @@ CObservation::Ptr BagScans::next() {
         r.complete.pop_front();
         return observation;
     }
-    if (!r.broken_because.empty()) throw BrokenBag(r.broken_because);
-    if (r.scans == 0) throw BrokenBag(r.whyEmpty());
+    if (!r.broken_because.empty()) throw BrokenRecording(r.broken_because);
+    if (r.scans == 0) throw BrokenRecording(r.whyEmpty());
     return nullptr;
 }
 
@@ -446,21 +441,21 @@ std::vector<std::string> BagScans::remarks() const {
     std::vector<std::string> remarks = r.bag->remarks();
     remarks.insert(remarks.end(), r.plan.remarks.begin(), r.plan.remarks.end());
     for (const auto& [topic, state] : r.states) {
-        remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::textOf(state));
+        remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::describe(state));
     }
     for (const auto& [topic, left_out] : r.survey.left_out) {
-        const auto tell = [&, &name = topic](const LeftOut::Kind& kind, const std::string& one,
-                                             const std::string& why) {
+        const auto report = [&, &name = topic](const LeftOut::Kind& kind, const std::string& one,
+                                               const std::string& why) {
             if (kind.number == 0) return;
             remarks.push_back(name + ": " + counted(kind.number, one) + why +
                               ", left out; the first: " + kind.first);
         };
-        tell(left_out.messages, "message", " that could not be read");
-        tell(left_out.transforms, "transform", " that could not be read");
-        tell(left_out.other_parents, "transform", " of a frame that had another parent before");
-        tell(left_out.further, "transform",
-             " of frames beyond the first " + std::to_string(kMostMovingFrames) +
-                 " (of tf_static " + std::to_string(FrameTree::kMostFrames) + ")");
+        report(left_out.messages, "message", " that could not be read");
+        report(left_out.transforms, "transform", " that could not be read");
+        report(left_out.other_parents, "transform", " of a frame that had another parent before");
+        report(left_out.further, "transform",
+               " of frames beyond the first " + std::to_string(kMostMovingFrames) +
+                   " (of tf_static " + std::to_string(FrameTree::kMostFrames) + ")");
     }
     BagSurvey others;  // that nothing is read of
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",

@@ -60,7 +60,7 @@ std::string otherKindOf(const Bytes& start) {
     return base::kindOfBytes({reinterpret_cast<const char*>(start.data()), start.size()}).text();
 }
 
-CloudFile read(const std::filesystem::path& file) {
+CloudFile readUnchecked(const std::filesystem::path& file) {
     Bytes bytes = readBytes(file);
     const Bytes start(bytes.begin(),
                       bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
@@ -73,7 +73,7 @@ CloudFile read(const std::filesystem::path& file) {
         if (extensionOf(file) == ".bin" && is_bin) {
             return readBin(file, std::move(bytes));
         }
-        throw BrokenCloud(file.string() + ": " + whyNoCloud(start));
+        throw BrokenRecording(file.string() + ": " + whyNoCloud(start));
     }
     switch (*format) {
         case CloudFormat::Pcd:
@@ -143,11 +143,11 @@ BinStart startOfBin(const std::filesystem::path& file) {
 }
 
 CloudFile readCloud(const std::filesystem::path& file) {
-    CloudFile cloud = read(file);
+    CloudFile cloud = readUnchecked(file);
     try {
         check(cloud.table);
     } catch (const std::runtime_error& e) {
-        throw BrokenCloud(file.string() + ": " + e.what());
+        throw BrokenRecording(file.string() + ": " + e.what());
     }
     cloud.table = inNativeOrder(std::move(cloud.table));
     return cloud;

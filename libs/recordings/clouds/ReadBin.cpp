@@ -36,17 +36,17 @@ bool arePoints(const Bytes& bytes, std::size_t numbers_per_point) {
 }
 
 /// What the fifth numbers of points say, if each has five.
-struct Fifths {
+struct FifthNumbers {
     bool are_whole = true;  ///< and 0 to 255, as the numbers of beams
     bool are_coordinates_whole = true;
     std::size_t returns = 0;  ///< points that are not at zero
     std::set<float> of_returns;
 };
 
-Fifths fifthsOf(const Bytes& bytes) {
+FifthNumbers fifthsOf(const Bytes& bytes) {
     constexpr std::size_t kNumbers = 5;
     constexpr float kHighestRing = 255.0f;
-    Fifths fifths;
+    FifthNumbers fifths;
     const std::size_t points = bytes.size() / (sizeof(float) * kNumbers);
     for (std::size_t i = 0; i < points; ++i) {
         const auto number = [&](std::size_t k) {
@@ -71,7 +71,7 @@ Fifths fifthsOf(const Bytes& bytes) {
 
 /// Among four numbers per point, every fifth is an x, y, z or intensity by turns, or 0 where there
 /// is no return: with so many returns, not all are whole. Those of a grid are.
-bool areRings(const Fifths& fifths) {
+bool areRings(const FifthNumbers& fifths) {
     constexpr std::size_t kFewestReturns = 16;
     return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kFewestReturns;
 }
@@ -96,9 +96,9 @@ BinPoint binPointOf(const Bytes& start) {
     if (isPacked(start)) return BinPoint::None;
     const bool may_be_four = arePoints(start, 4);
     if (arePoints(start, 5)) {
-        const Fifths fifths = fifthsOf(start);
+        const FifthNumbers fifths = fifthsOf(start);
         if (areRings(fifths) && fifths.of_returns.size() > 1) return BinPoint::Five;
-        // One beam only, or few returns: the rest tells.
+        // One beam only, or few returns: the rest decides.
         if (fifths.are_whole && may_be_four) return BinPoint::FourOrFive;
         if (fifths.are_whole && start.size() >= kStart) return BinPoint::FiveOrNone;
     }
@@ -117,7 +117,7 @@ CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
     // One that is cut may have no whole point.
     const bool may_be_cut = of_start == BinPoint::None && bytes.size() % 16 != 0;
     if (point == BinPoint::None && !may_be_cut && !isAllZero(start)) {
-        throw BrokenCloud(file.string() + ": " + whyNoCloud(start));
+        throw BrokenRecording(file.string() + ": " + whyNoCloud(start));
     }
     CloudFile cloud;
     cloud.table.fields = {{"x", NumberType::Float32, 0, 1},
@@ -129,9 +129,9 @@ CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
     }
     const std::size_t bytes_per_point = sizeof(float) * cloud.table.fields.size();
     if (bytes.size() % bytes_per_point != 0) {
-        throw BrokenCloud(file.string() + ": " + std::to_string(bytes.size()) +
-                          " bytes are not a multiple of " + std::to_string(bytes_per_point) +
-                          "-byte points; is it truncated?");
+        throw BrokenRecording(file.string() + ": " + std::to_string(bytes.size()) +
+                              " bytes are not a multiple of " + std::to_string(bytes_per_point) +
+                              "-byte points; is it truncated?");
     }
     checkNumber(file, bytes.size() / bytes_per_point);
     cloud.table.bytes_per_point = bytes_per_point;

@@ -29,23 +29,23 @@ std::vector<Record> readRecords(const fs::path& file) {
     try {
         in = base::openToRead(file);
     } catch (const std::runtime_error& e) {
-        throw BrokenScan(e.what());
+        throw BrokenRecording(e.what());
     }
     in.seekg(0, std::ios::end);
     const auto bytes = static_cast<std::size_t>(in.tellg());
     if (bytes % sizeof(Record) != 0) {
-        throw BrokenScan(file.string() + ": " + std::to_string(bytes) +
-                         " bytes are not a multiple of " + std::to_string(sizeof(Record)) +
-                         "-byte points; is it truncated?");
+        throw BrokenRecording(file.string() + ": " + std::to_string(bytes) +
+                              " bytes are not a multiple of " + std::to_string(sizeof(Record)) +
+                              "-byte points; is it truncated?");
     }
     if (bytes / sizeof(Record) > kMostReturns) {
-        throw BrokenScan(file.string() + ": has more than the " + std::to_string(kMostReturns) +
-                         " points that a scan may have");
+        throw BrokenRecording(file.string() + ": has more than the " +
+                              std::to_string(kMostReturns) + " points that a scan may have");
     }
     std::vector<Record> records(bytes / sizeof(Record));
     in.seekg(0);
     in.read(reinterpret_cast<char*>(records.data()), static_cast<std::streamsize>(bytes));
-    if (!in) throw BrokenScan(file.string() + ": cannot be read completely");
+    if (!in) throw BrokenRecording(file.string() + ": cannot be read completely");
     return records;
 }
 
@@ -181,9 +181,9 @@ void readPoints(const fs::path& file, Scan& scan) {
 
 std::size_t readScan(const fs::path& file, Scan& scan) {
     try {
-        const recordings::BinStart start = recordings::startOfBin(file);
+        const BinStart start = startOfBin(file);
         if (!start.other_kind.empty()) {
-            throw BrokenScan(file.string() + ": has no points: " + start.other_kind);
+            throw BrokenRecording(file.string() + ": has no points: " + start.other_kind);
         }
         if (start.floats_per_point == 5) {
             readPoints<5>(file, scan);
@@ -192,11 +192,11 @@ std::size_t readScan(const fs::path& file, Scan& scan) {
         }
         return start.floats_per_point;
     } catch (const std::bad_alloc&) {
-        throw BrokenScan(file.string() + ": does not fit into memory");
-    } catch (const BrokenScan&) {
+        throw BrokenRecording(file.string() + ": does not fit into memory");
+    } catch (const BrokenRecording&) {
         throw;
     } catch (const std::runtime_error& e) {  // a file that cannot be opened
-        throw BrokenScan(e.what());
+        throw BrokenRecording(e.what());
     }
 }
 

@@ -25,7 +25,7 @@ struct Conversion {
     std::filesystem::path rawlog;  ///< segmented rawlog
     std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR
     std::filesystem::path clouds;  ///< labelled clouds with all fields, a file per scan
-    convert::OutputFormat cloud_format = convert::OutputFormat::Ply;
+    OutputFormat cloud_format = OutputFormat::Ply;
     std::filesystem::path mcap;      ///< labelled clouds, boxes and poses as messages of ROS 2
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
     std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot, .3Dscene: one map in each format

@@ -26,7 +26,7 @@ namespace hagen::convert {
 /// Latency is the time from the complete observation in memory to its labels; making the clouds is
 /// not included. Scans segmented concurrently (see Conversion::jobs) slow each other down a little.
 /// Everything but the latencies is reproducible. Throws std::runtime_error naming the file.
-void writeStatistics(const std::filesystem::path& file, const Conversion& conversion,
-                     const ConversionReport& report);
+void writeConversionStatistics(const std::filesystem::path& file, const Conversion& conversion,
+                               const ConversionReport& report);
 
 }  // namespace hagen::convert
