@@ -416,14 +416,5 @@ TEST_F(BagScansTest, CountsLivoxPointsWithoutRange) {
     EXPECT_THAT(columnOf(fields, *findField(fields, {"line"})), ElementsAre(3));
 }
 
-TEST_F(BagScansTest, ReportsIgnoredFolderMetadata) {
-    fs::create_directory(folder_ / "bag");
-    test::writeBytes(folder_ / "bag/bag_0.mcap", test::mcapOf({cloud("/points")}));
-    test::writeBytes(folder_ / "bag/metadata.yaml", "");
-    const ReadBag bag = readBag(folder_ / "bag");
-    EXPECT_EQ(bag.of("points").size(), 1u);
-    EXPECT_THAT(bag.scans->remarks(), Contains(HasSubstr("metadata.yaml is ignored")));
-}
-
 }  // namespace
 }  // namespace hagen::recordings

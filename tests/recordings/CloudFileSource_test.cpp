@@ -217,22 +217,6 @@ TEST_F(CloudFileSourceTest, ReportsDanglingLink) {
     EXPECT_THAT(test::messageOf([&] { source->nextScan(); }), HasSubstr("2.bin"));
 }
 
-TEST_F(CloudFileSourceTest, RejectsTooLargeFile) {
-    const fs::path folder = folderOf({"1.bin", "2.bin"});
-    fs::resize_file(folder / "2.bin", std::uintmax_t{8} << 30);  // holes take no room on the disk
-    // Of a folder of clouds, and of a scan folder.
-    fs::create_directories(folder_ / "scans");
-    fs::create_directory_symlink(folder, folder_ / "scans/velodyne");
-    for (const fs::path& input : {folder, folder_ / "scans"}) {
-        const auto source = openRecording(input);
-        source->useSettings({});  // looks at the first clouds, and leaves it to the reading
-        EXPECT_TRUE(source->nextScan());
-        const std::string error = test::messageOf([&] { source->nextScan(); });
-        EXPECT_THAT(error, HasSubstr("2.bin: "));
-        EXPECT_THAT(error, HasSubstr("16777216 points"));
-    }
-}
-
 TEST_F(CloudFileSourceTest, RejectsCloudWithoutCoordinates) {
     const fs::path file = write(
         "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float u\nend_header\n1\n");

@@ -286,12 +286,6 @@ TEST_F(ScanSourceTest, MakesObjectsOfFolderScans) {
     EXPECT_EQ(object->sensorLabel, "velodyne");
 }
 
-TEST_F(ScanSourceTest, HasNoPosesByDefault) {
-    const auto source = openRecording(rawlogOf({pose(0, 5, 0), cloud(1, "front")}));
-    EXPECT_FALSE(source->nextScan()->pose.sensor_pose);
-    EXPECT_EQ(source->poses().source, "");
-}
-
 TEST_F(ScanSourceTest, UsesLaterPosesOfRawlog) {
     const auto source =
         openRecording(rawlogOf({pose(0.9, 5, 0), cloud(1, "front"), pose(1.1, 7, 0)}));
@@ -395,37 +389,6 @@ TEST_F(ScanSourceTest, StopsLookAheadOnRequest) {
     const auto source = openRecording(rawlogOf(mixed()), options);
     EXPECT_THROW(source->scanTimes(), Interrupted);
     EXPECT_EQ(source->scanTimes().at("front").size(), 3u);  // nothing partial is kept
-}
-
-TEST_F(ScanSourceTest, CountsExistingEntries) {
-    SourceOptions options;
-    options.first_entry = 10;
-    const auto source = openRecording(rawlogOf(mixed()), options);
-    EXPECT_FALSE(source->nextEntry());
-    EXPECT_EQ(source->entriesSkipped(), 5u);
-    EXPECT_EQ(source->entriesKnown(), 5u);
-}
-
-TEST_F(ScanSourceTest, ReadsRawlogUpToBreak) {
-    const fs::path whole = rawlogOf(mixed());
-    // Uncompressed, so that it can be truncated at any byte.
-    PackedInput stream(whole);
-    std::string bytes(1 << 16, '\0');
-    bytes.resize(stream.Read(bytes.data(), bytes.size()));
-    const fs::path cut = folder_ / "cut.rawlog";
-    std::ofstream(cut, std::ios::binary)
-        .write(bytes.data(), static_cast<std::streamsize>(bytes.size() - 10));
-    const auto source = openRecording(cut);
-    for (int i = 0; i < 4; ++i) EXPECT_TRUE(source->nextEntry());
-    EXPECT_THROW(source->nextEntry(), BrokenRecording);
-}
-
-TEST_F(ScanSourceTest, ReportsBrokenScanFile) {
-    const fs::path folder = scanFolderOf(2);
-    fs::resize_file(folder / "velodyne" / "000001.bin", 10);
-    const auto source = openRecording(folder);
-    EXPECT_TRUE(source->nextScan());
-    EXPECT_THAT(test::messageOf([&] { source->nextScan(); }), HasSubstr("000001.bin: 10 bytes"));
 }
 
 TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfRawlog) {

@@ -76,10 +76,10 @@ bool areRings(const FifthNumbers& fifths) {
     return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kFewestReturns;
 }
 
-}  // namespace
-
-Bytes tellingBytes(const Bytes& bytes) {
-    constexpr std::size_t kBothPoints = 80;  // points of 16 and of 20 bytes
+/// The first bytes; if these are zero, as in a scan that begins with rows of sky, those from the
+/// first return on.
+Bytes startOfReturns(const Bytes& bytes) {
+    constexpr std::size_t kBothPoints = 80;  // a multiple of 16 and of 20 bytes
     const auto first =
         std::find_if(bytes.begin(), bytes.end(), [](auto byte) { return byte != 0; });
     auto from = static_cast<std::size_t>(first - bytes.begin());
@@ -88,35 +88,35 @@ Bytes tellingBytes(const Bytes& bytes) {
     return {start, start + static_cast<std::ptrdiff_t>(std::min(bytes.size() - from, kStart))};
 }
 
+}  // namespace
+
 bool isAllZero(const Bytes& bytes) {
     return std::all_of(bytes.begin(), bytes.end(), [](auto byte) { return byte == 0; });
 }
 
-BinPoint binPointOf(const Bytes& start) {
-    if (isPacked(start)) return BinPoint::None;
-    const bool may_be_four = arePoints(start, 4);
-    if (arePoints(start, 5)) {
-        const FifthNumbers fifths = fifthsOf(start);
-        if (areRings(fifths) && fifths.of_returns.size() > 1) return BinPoint::Five;
-        // One beam only, or few returns: the rest decides.
-        if (fifths.are_whole && may_be_four) return BinPoint::FourOrFive;
-        if (fifths.are_whole && start.size() >= kStart) return BinPoint::FiveOrNone;
-    }
-    return may_be_four ? BinPoint::Four : BinPoint::None;
+bool mayBeBin(const Bytes& start) {
+    return !isPacked(start) && (arePoints(start, 4) || arePoints(start, 5));
 }
 
-BinPoint binPointOf(BinPoint of_start, const Bytes& all) {
-    if (of_start != BinPoint::FourOrFive && of_start != BinPoint::FiveOrNone) return of_start;
-    if (areRings(fifthsOf(all))) return BinPoint::Five;
-    return of_start == BinPoint::FourOrFive ? BinPoint::Four : BinPoint::None;
+std::size_t binNumbersPerPoint(const Bytes& bytes) {
+    const Bytes start = startOfReturns(bytes);
+    if (isPacked(start)) return 0;
+    const std::size_t without_rings = arePoints(start, 4) ? 4 : 0;
+    if (!arePoints(start, 5)) return without_rings;
+    const FifthNumbers fifths = fifthsOf(start);
+    if (!fifths.are_whole) return without_rings;
+    if (areRings(fifths) && fifths.of_returns.size() > 1) return 5;
+    // One beam only, or few returns: all points decide.
+    const bool may_have_rings = without_rings > 0 || start.size() >= kStart;
+    return may_have_rings && areRings(fifthsOf(bytes)) ? 5 : without_rings;
 }
 
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
-    const Bytes start = tellingBytes(bytes);
-    const BinPoint of_start = binPointOf(start), point = binPointOf(of_start, bytes);
-    // One that is cut may have no whole point.
-    const bool may_be_cut = of_start == BinPoint::None && bytes.size() % 16 != 0;
-    if (point == BinPoint::None && !may_be_cut && !isAllZero(start)) {
+    const Bytes start = startOfReturns(bytes);
+    const std::size_t numbers = binNumbersPerPoint(bytes);
+    // A truncated one may have no complete point.
+    const bool may_be_cut = bytes.size() % 16 != 0;
+    if (numbers == 0 && !may_be_cut && !isAllZero(start)) {
         throw BrokenRecording(file.string() + ": " + whyNoCloud(start));
     }
     CloudFile cloud;
@@ -124,7 +124,7 @@ CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
                           {"y", NumberType::Float32, 4, 1},
                           {"z", NumberType::Float32, 8, 1},
                           {"intensity", NumberType::Float32, 12, 1}};
-    if (point == BinPoint::Five) {
+    if (numbers == 5) {
         cloud.table.fields.push_back({"ring", NumberType::Float32, 16, 1});
     }
     const std::size_t bytes_per_point = sizeof(float) * cloud.table.fields.size();

@@ -13,21 +13,17 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes);
 CloudFile readNpy(const std::filesystem::path& file, Bytes bytes);
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes);
 
-/// Number of float32 per point of a .bin: 4 (x, y, z, intensity; KITTI) or 5 (with the ring;
-/// nuScenes). None: not points of a LiDAR.
-enum class BinPoint { None, Four, Five, FourOrFive, FiveOrNone };
-
-/// Judges the first bytes of a file.
-BinPoint binPointOf(const Bytes& start);
-/// The first bytes; if these are zero, as in a scan that begins with rows of sky, those from the
-/// first return on.
-Bytes tellingBytes(const Bytes& bytes);
-/// Which of two it is, once all bytes are there.
-BinPoint binPointOf(BinPoint of_start, const Bytes& all);
+/// Whether the first bytes of a file may be points of a .bin.
+bool mayBeBin(const Bytes& start);
+/// Number of float32 per point of a .bin: 4 (x, y, z, intensity; KITTI), 5 (with the ring;
+/// nuScenes), or 0: not points of a LiDAR.
+std::size_t binNumbersPerPoint(const Bytes& bytes);
 
 bool isAllZero(const Bytes& bytes);
 
-/// What is said of a file in no format that is read.
+/// "it seems to be a JPEG picture", by the first bytes; empty: of no known kind.
+std::string otherKindOf(const Bytes& bytes);
+/// Why a file in no known format is rejected.
 std::string whyNoCloud(const Bytes& start);
 
 }  // namespace hagen::recordings

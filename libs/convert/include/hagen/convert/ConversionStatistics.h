@@ -8,10 +8,9 @@ namespace hagen::convert {
 ///
 ///     {"hagen": version, "input": ..., "outputs": {...}, "settings": {key: value, ...},
 ///      "sensors": {label: text},
-///      "recovered_sensors": {label: {"name": a model or "recovered", "beams": n (rows of the
-///      image),
-///                                    "beams_seen": n, "share": 0 ... 1 (of the returns, on a
-///                                    beam), "has_rings": false if the rows are virtual,
+///      "recovered_sensors": {label: {"name": a model or "recovered", "beams": n (image rows),
+///                                    "beams_seen": n, "share": 0 ... 1 (returns on a beam),
+///                                    "has_rings": false if the rows are virtual,
 ///                                    "columns": n (of the image)}},
 ///      "poses": {"source": ..., "scans_with_pose": n},
 ///      "scans_in_map": n (only with an OctoMap),

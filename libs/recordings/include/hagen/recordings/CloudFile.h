@@ -40,16 +40,6 @@ std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 /// Whether a name ends like those of cloud files: .pcd, .ply, .las, .laz, .npy, .bin.
 bool hasCloudName(const std::filesystem::path& file);
 
-/// What a .bin is, by its first 4096 bytes, or by all if these are not sufficient.
-struct BinStart {
-    std::size_t floats_per_point = 4;  ///< 5: with a ring (nuScenes)
-    /// "it seems to be a JPEG picture", if the first points are invalid; empty: not known to be
-    /// something else.
-    std::string other_kind;
-};
-/// A file that cannot be read, or is empty, gets the defaults.
-BinStart startOfBin(const std::filesystem::path& file);
-
 /// Reads a cloud file; its format is detected by its content. Nothing larger than the file, as
 /// unpacked by a factor of 256 at most, is ever allocated. Throws BrokenRecording, also for more
 /// points than a scan may have (kMostReturns).

@@ -77,7 +77,7 @@ class ScanFolder {
 void markAsPredictions(const std::filesystem::path& folder);
 
 /// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. Of
-/// points with a ring (nuScenes; BinStart), the ring is ignored and intensities
+/// points with a ring (nuScenes), the ring is ignored and intensities
 /// are scaled to 0..1. Returns how many numbers a point has, 4 or 5. Throws BrokenRecording, also
 /// if the file is known to be something else.
 std::size_t readScan(const std::filesystem::path& file, Scan& scan);
