@@ -49,7 +49,7 @@ Progress::Progress(std::string input, bool quiet)
 hagen::convert::ConversionListener Progress::listener() {
     hagen::convert::ConversionListener listener;
     listener.unreadable = [this](const std::string& entry, const std::string& why) {
-        tell(entry, "kept, but not segmented: " + why);
+        print(entry, "kept, but not segmented: " + why);
     };
     listener.remark = [this](const std::string& entry, const std::string& what) {
         remark(entry, what);
@@ -62,7 +62,7 @@ hagen::convert::ConversionListener Progress::listener() {
     return listener;
 }
 
-void Progress::tell(const std::string& entry, const std::string& what) {
+void Progress::print(const std::string& entry, const std::string& what) {
     if (is_on_terminal_) std::cerr << hagen::base::clearLine;
     std::cerr << hagen::base::oneLine(input_ + ": " + entry + ": " + what) << "\n";
 }
@@ -71,16 +71,16 @@ void Progress::remark(const std::string& entry, const std::string& remark) {
     if (is_quiet_) return;
     Remark& known = remarks_[remark];
     if (known.times++ > 0) {
-        if (!known.is_told) ++kinds_[kindOf(remark)].untold;
+        if (!known.is_printed) ++kinds_[kindOf(remark)].suppressed;
         return;
     }
     Kind& kind = kinds_[kindOf(remark)];
-    known.is_told = kind.told < kMostRemarks;
-    if (known.is_told) {
-        ++kind.told;
-        tell(entry, remark);
+    known.is_printed = kind.printed < kMostRemarks;
+    if (known.is_printed) {
+        ++kind.printed;
+        print(entry, remark);
     } else {
-        ++kind.untold;
+        ++kind.suppressed;
         kind.last = remark;
     }
 }
@@ -105,13 +105,13 @@ void Progress::show(const hagen::convert::ConversionReport& report) {
 void Progress::finish() {
     if (is_on_terminal_) std::cerr << hagen::base::clearLine;
     for (const auto& [text, remark] : remarks_) {
-        if (remark.times < 2 || !remark.is_told) continue;
+        if (remark.times < 2 || !remark.is_printed) continue;
         std::cerr << input_ << ": the same for " << remark.times - 1
                   << " more: " << hagen::base::oneLine(text) << "\n";
     }
     for (const auto& [text, kind] : kinds_) {
-        if (kind.untold == 0) continue;
-        std::cerr << input_ << ": and " << kind.untold
+        if (kind.suppressed == 0) continue;
+        std::cerr << input_ << ": and " << kind.suppressed
                   << " more like this: " << hagen::base::oneLine(kind.last) << "\n";
     }
 }

@@ -17,7 +17,7 @@ class Progress {
     void finish();
 
  private:
-    void tell(const std::string& entry, const std::string& what);
+    void print(const std::string& entry, const std::string& what);
     void remark(const std::string& entry, const std::string& remark);
     void show(const hagen::convert::ConversionReport& report);
 
@@ -25,11 +25,11 @@ class Progress {
     bool is_quiet_, is_on_terminal_;
     struct Remark {
         std::size_t times = 0;
-        bool is_told = false;
+        bool is_printed = false;
     };
     struct Kind {
-        std::size_t told = 0, untold = 0;
-        std::string last;  ///< that was not told
+        std::size_t printed = 0, suppressed = 0;
+        std::string last;  ///< that was not printed
     };
     std::map<std::string, Remark> remarks_;  ///< by their texts
     std::map<std::string, Kind> kinds_;      ///< of remarks that differ in numbers and names only

@@ -8,7 +8,7 @@ namespace hagen::convert {
 
 namespace fs = std::filesystem;
 
-// Clouds of the user have such names, too: only the marker tells.
+// The user's clouds have such names, too: only the marker distinguishes them.
 const base::OutputKind kClouds{"a folder of labelled clouds",
                                [](const fs::path& within) {
                                    return within.extension() == ".ply" ||
@@ -32,7 +32,7 @@ std::vector<std::string> CloudChanges::texts(std::size_t all_clouds) const {
     return texts;
 }
 
-CloudOutput::CloudOutput(const fs::path& folder, convert::OutputFormat format, bool overwrite)
+CloudOutput::CloudOutput(const fs::path& folder, OutputFormat format, bool overwrite)
     : format_(format), folders_(folder, kClouds, overwrite) {}
 
 void CloudOutput::write(const std::string& name,

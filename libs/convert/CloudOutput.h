@@ -30,7 +30,7 @@ class CloudChanges {
 class CloudOutput {
  public:
     /// Throws std::runtime_error naming the folder; see OutputPath.
-    CloudOutput(const std::filesystem::path& folder, convert::OutputFormat format, bool overwrite);
+    CloudOutput(const std::filesystem::path& folder, OutputFormat format, bool overwrite);
 
     /// Writes a scan as NAME.ply or NAME.pcd. Throws std::runtime_error naming the file.
     void write(const std::string& name, const observations::ObservationSegmenter::Output& segmented,
@@ -45,7 +45,7 @@ class CloudOutput {
     std::filesystem::path keepPartial() { return folders_.keepPartial(); }
 
  private:
-    convert::OutputFormat format_;
+    OutputFormat format_;
     SensorFolders folders_;
     std::size_t files_ = 0, points_ = 0;
     CloudChanges changes_;

@@ -1,15 +1,415 @@
+#include <hagen/base/MemoryLimit.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/convert/Conversion.h>
-
+#include <hagen/convert/MapOutput.h>
+#include <hagen/mrpt/MrptMessage.h>
+#include <hagen/mrpt/Results.h>
+#include <hagen/mrpt/TimeStamp.h>
+#include <hagen/recordings/BagFile.h>
+#include <hagen/recordings/PoseFile.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/lazy_load_path.h>
 
-#include "convert/Converter.h"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "convert/ConversionOutputs.h"
+#include "convert/OrderedPipeline.h"
+#include "convert/SegmentEntry.h"
+#include "recordings/SensorCheck.h"
 
 namespace hagen::convert {
 namespace {
 
 namespace fs = std::filesystem;
+using mrpt::obs::CObservation;
+
+/// The same listener for several threads: one call at a time.
+ConversionListener oneAtATime(const ConversionListener& listener, std::mutex& mutex) {
+    const auto locked = [&mutex](const auto& call) {
+        return [&mutex, &call](const auto&... arguments) {
+            const std::lock_guard lock(mutex);
+            return call(arguments...);
+        };
+    };
+    ConversionListener safe;
+    safe.progress = locked(listener.progress);
+    safe.remark = locked(listener.remark);
+    safe.unreadable = locked(listener.unreadable);
+    safe.keep_going = locked(listener.keep_going);
+    return safe;
+}
+
+/// Poses of a rawlog are read only if an output needs them, as that may take another pass. TUM
+/// poses are cheap to read; those of a bag are known already, and provide the attitude.
+bool needsPoses(const Conversion& conversion) {
+    const bool is_tum = !conversion.poses.empty() && recordings::kindOfPoseFile(conversion.poses) ==
+                                                         recordings::PoseFileKind::Tum;
+    return fs::is_directory(conversion.input) || !conversion.folder.empty() ||
+           !conversion.octomaps.empty() || !conversion.mcap.empty() || is_tum ||
+           recordings::isBag(conversion.input);
+}
+
+ScanReport reportOf(const ConvertedScan& scan) {
+    const observations::ObservationSegmenter::Output& out = scan.segmented;
+    ScanReport report{};
+    report.entry = scan.recorded.entry;
+    report.sensor_label = scan.recorded.observation->sensorLabel;
+    report.time_s = observations::secondsOf(out.roi->timestamp);
+    report.returns = out.scan->size();
+    report.roi = out.roi->pointcloud->size();
+    report.rou = out.non_roi->pointcloud->size();
+    report.unclassified = report.returns - report.roi - report.rou;
+    report.returns_masked = out.returns_masked;
+    float nearest_m = std::numeric_limits<float>::infinity();
+    std::int32_t obstacles = 0;
+    for (const std::uint32_t i : out.result->returns.roi) {
+        nearest_m = std::min(nearest_m, out.scan->range_m[i]);
+        obstacles = std::max(obstacles, out.result->returns.component[i]);
+    }
+    report.nearest_roi_m = std::isinf(nearest_m) ? kNoValue : nearest_m;
+    report.obstacles = static_cast<std::size_t>(obstacles);
+    report.latency_ms = std::chrono::duration<double, std::milli>(out.time_to_labels).count();
+    return report;
+}
+
+/// Adds a scan to the totals.
+void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan,
+           const std::string& title, ConversionReport& all) {
+    ++all.scans;
+    all.returns += scan.returns;
+    all.roi += scan.roi;
+    all.rou += scan.rou;
+    all.unclassified += scan.unclassified;
+    all.returns_masked += scan.returns_masked;
+    all.scans_with_pose += out.pose.sensor_pose.has_value();
+    all.scans_with_attitude += out.pose.attitude.has_value();
+    if (!out.pose.attitude && all.first_without_attitude.empty())
+        all.first_without_attitude = title;
+    const bool is_known = !out.recovered && !out.is_sensor_assumed;
+    all.sensors[scan.sensor_label] =
+        is_known ? out.sensor->name + ", " + std::to_string(out.sensor->rows()) + " beams"
+                 : observations::textOf(out.recovered);
+    if (out.recovered) all.recovered[scan.sensor_label] = {out.recovered, out.options->columns};
+    all.scan_reports.push_back(scan);
+}
+
+/// A conversion in progress: entries are segmented on several threads; all outputs and callbacks
+/// follow the order of the recording.
+class Converter {
+ public:
+    Converter(const Conversion& conversion, const ConversionListener& listener)
+        : conversion_(conversion),
+          listener_(oneAtATime(listener, listening_)),
+          source_(openRecording(conversion.input, sourceOptions())),
+          settings_(source_->useSettings(conversion.settings)),
+          outputs_(conversion),
+          sensor_check_(conversion.input.string()) {
+        makeSegmenter(conversion, settings_);  // reports inconsistent settings before reading
+        report_.settings = settings_;
+        if (needsPoses(conversion)) usePoses();
+    }
+
+    ConversionReport run() {
+        PipelineSteps<ConvertedEntry> steps;
+        steps.read = [this](ConvertedEntry& entry) { return read(entry); };
+        steps.work = [this](ConvertedEntry& entry) { segmentEntry(conversion_, settings_, entry); };
+        steps.account = [this](ConvertedEntry& entry) { writeResults(entry); };
+        steps.pack = [this](ConvertedEntry& entry) {
+            if (!entry.member.empty()) outputs_.pack(entry.member, entry.packed);
+        };
+        steps.write = [this](ConvertedEntry& entry) {
+            if (!entry.member.empty()) outputs_.writeMember(entry.packed);
+        };
+        const std::size_t threads = wantedThreads();
+        const PipelineEnd end = runPipeline(steps, threads);
+        if (end.threads < threads) {
+            listener_.remark("the machine", "could start only " + std::to_string(end.threads) +
+                                                " of " + std::to_string(threads) + " threads");
+        }
+        report_.left_out_before = source_->entriesSkipped();
+        if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: each failed
+        if (end.why) savePartialOutputs(end.why);
+        return finish();
+    }
+
+ private:
+    recordings::SourceOptions sourceOptions() const {
+        recordings::SourceOptions options;
+        options.sensor_labels = conversion_.sensor_labels;
+        options.sensor_json = conversion_.sensor_json;
+        options.calibration = conversion_.calibration;
+        options.topics = conversion_.topics;
+        options.first_entry = conversion_.from;
+        options.last_entry = conversion_.to;
+        if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;
+        options.keep_going = listener_.keep_going;
+        return options;
+    }
+
+    void usePoses() {
+        source_->usePoses(conversion_.poses);
+        report_.poses = source_->poses().source;
+        report_.is_attitude_of_poses = source_->poses().vehicle.has_horizon;
+        if (outputs_.wantsMap() && report_.poses.empty()) {
+            throw std::runtime_error(conversion_.input.string() +
+                                     ": has no poses, but a map needs them; add --poses "
+                                     "FILE.tum (lines 'time x y z qx qy qz qw')");
+        }
+    }
+
+    /// Pictures take a second each and are drawn one by one: more threads would only read ahead,
+    /// and delay an interruption.
+    std::size_t wantedThreads() const {
+        if (!conversion_.pictures.empty()) return 1;
+        if (conversion_.jobs > 0) return conversion_.jobs;
+        return std::max(1u, std::thread::hardware_concurrency());
+    }
+
+    bool read(ConvertedEntry& entry) {
+        if (!outputs_.hasAny()) return false;
+        auto recorded = source_->nextEntry();
+        if (!recorded) return false;
+        entry.fraction_read = recorded->fraction_read;
+        entry.object = recorded->object;
+        entry.results_replaced = 0;
+        for (recordings::RecordedScan& scan : recorded->scans) {
+            entry.scans.emplace_back().recorded = std::move(scan);
+        }
+        return true;
+    }
+
+    void writeResults(ConvertedEntry& entry) {
+        // Inserting into a map takes seconds: without this, entries that were read ahead would
+        // delay an interruption.
+        if (outputs_.wantsMap() && !listener_.keep_going()) {
+            throw recordings::Interrupted("interrupted");
+        }
+        for (const ConvertedScan& scan : entry.scans) {
+            const CObservation& observation = *scan.recorded.observation;
+            if (scan.is_segmented) last_segmented_[observation.sensorLabel] = observation.timestamp;
+            writeScan(scan);
+        }
+        if (isReplaced(entry.object)) {
+            entry.bytes.clear();
+            ++entry.results_replaced;
+        }
+        outputs_.gather(entry.bytes, entry.member);
+        entry.scans.clear();  // the MRPT objects are no longer needed
+        entry.object.reset();
+        ++report_.entries;
+        report_.results_replaced += entry.results_replaced;
+        report_.fraction = entry.fraction_read;
+        listener_.progress(report_);
+    }
+
+    /// Whether an entry is a result of an earlier run whose scan, before it, was segmented again.
+    bool isReplaced(const mrpt::serialization::CSerializable::Ptr& entry) const {
+        const auto observation = std::dynamic_pointer_cast<CObservation>(entry);
+        if (!observation || !observations::isResult(*observation)) return false;
+        const auto scan = last_segmented_.find(observations::scanLabelOf(*observation));
+        return scan != last_segmented_.end() && scan->second == observation->timestamp;
+    }
+
+    void writeScan(const ConvertedScan& scan) {
+        const std::string title = titleOf(scan.recorded);
+        if (!scan.is_segmented) {
+            if (scan.unreadable_because.empty()) return;
+            ++report_.unreadable_scans;
+            listener_.unreadable(title, scan.unreadable_because);
+            return;
+        }
+        remarkOn(scan, title);
+        const std::string misfit = sensor_check_.see(scan.recorded, scan.segmented);
+        if (!misfit.empty()) listener_.remark(title, misfit);
+        if (outputs_.wantsMap()) insertIntoMap(scan, title);
+        ScanReport report = reportOf(scan);
+        report.name = outputs_.writeScan(scan.segmented, scan.recorded, settings_);
+        count(scan.segmented, report, title, report_);
+    }
+
+    void remarkOn(const ConvertedScan& scan, const std::string& title) const {
+        if (!scan.segmented.remark.empty()) listener_.remark(title, scan.segmented.remark);
+        if (!observations::isTime(scan.recorded.observation->timestamp)) {
+            listener_.remark(title, "it has no valid time");
+        } else if (!conversion_.folder.empty() && !report_.poses.empty() &&
+                   !scan.recorded.pose.sensor_pose) {
+            listener_.remark(
+                title,
+                source_->poses().vehicle.has_horizon
+                    ? "no pose near its time: it is missing from poses.tum, and poses.txt is "
+                      "not written"
+                    : "no pose near its time: no file of poses is written, because poses "
+                      "without a horizon go into poses.txt, which needs one for each scan");
+        }
+    }
+
+    void insertIntoMap(const ConvertedScan& scan, const std::string& title) {
+        const auto placed =
+            placeInMap(scan.segmented, *scan.recorded.observation, source_->poses().vehicle);
+        if (!placed) {
+            listener_.remark(title, "no pose near its time: it is not in the map");
+            return;
+        }
+        const bool has_times = !scan.segmented.scan->time_s.empty();
+        if (placed->is_by_one_pose && has_times && scan.segmented.scan->size() > 0) {
+            listener_.remark(title,
+                             "the poses end before it does or have a gap in it, or the timestamps "
+                             "of its returns span more than one scan: in the map, all are placed "
+                             "with one pose");
+        }
+        try {
+            outputs_.insertIntoMap(placed->mapped);
+            ++report_.scans_in_map;
+        } catch (const std::runtime_error& e) {
+            listener_.remark(title, std::string(e.what()) + ": it is not in the map");
+        }
+    }
+
+    /// Commits the outputs of a recording that was read to its end.
+    ConversionReport finish() {
+        if (report_.entries == 0) {
+            throw std::runtime_error(
+                conversion_.input.string() + ": has " + std::to_string(source_->entriesKnown()) +
+                " entries, none at or after " + std::to_string(conversion_.from));
+        }
+        checkLabels();
+        finishSensorCheck();
+        checkMap();
+        remarkOnLabels();
+        remarkOnRecording();
+        outputs_.commit(report_);
+        // Partial outputs of earlier runs have names of their own, and are not replaced.
+        const std::string left = base::leftBehind(outputsOf(conversion_));
+        if (!left.empty()) listener_.remark("the outputs", left);
+        return std::move(report_);
+    }
+
+    /// A requested label without scans may be a typo. It is an error only if nothing was segmented.
+    void checkLabels() const {
+        for (const std::string& label : conversion_.sensor_labels) {
+            if (report_.sensors.count(label) > 0 || report_.unreadable_scans > 0) continue;
+            std::string others;
+            for (const auto& [other, sensor] : report_.sensors) others += " '" + other + "'";
+            for (const std::string& other : source_->otherLabels()) others += " '" + other + "'";
+            const std::string what =
+                "no converted entry has a LiDAR scan of '" + label + "'; " +
+                (others.empty() ? "there are no LiDAR scans" : "there are" + others);
+            if (report_.scans == 0) {
+                throw std::runtime_error(conversion_.input.string() + ": " + what);
+            }
+            listener_.remark("the log", what);
+        }
+    }
+
+    void finishSensorCheck() {
+        const Settings::Sensor &wanted = conversion_.settings.sensor, &used = settings_.sensor;
+        if (wanted.model &&
+            (wanted.model != used.model || wanted.elevations_deg != used.elevations_deg)) {
+            listener_.remark(
+                "the log",
+                "its sensor.yaml is used instead of the settings' sensor.model " + *wanted.model);
+        }
+        for (const auto& [label, remark] : sensor_check_.finish()) {
+            listener_.remark("sensor " + label, remark);
+        }
+        for (auto& [label, sensor] : report_.sensors) {
+            const std::string fit = sensor_check_.textOf(label);
+            if (!fit.empty()) sensor += ", " + fit;
+        }
+    }
+
+    void checkMap() {
+        if (!outputs_.wantsMap() || report_.scans == 0 || report_.scans_in_map > 0) return;
+        const std::string scans =
+            std::to_string(report_.scans) + " scans of " + conversion_.input.string();
+        outputs_.giveUpMap(report_.scans_with_pose == 0
+                               ? report_.poses + ": has no pose near any of the " + scans +
+                                     "; are its times from another clock? No map is written"
+                               : report_.poses + ": its poses place none of the " + scans +
+                                     " within an OctoMap; no map is written");
+    }
+
+    /// Labels that are all equal look as if nothing happened.
+    void remarkOnLabels() const {
+        if (!settings_.airframe.parts.isEmpty() && report_.scans > 0 &&
+            report_.returns_masked == 0) {
+            listener_.remark("the log",
+                             "the airframe of the settings masks none of its returns; is it that "
+                             "of this vehicle, in the frame of the sensor?");
+        }
+        if (report_.returns == 0 || report_.roi > 0) return;
+        listener_.remark("the log",
+                         report_.rou == 0
+                             ? "no return has a range: all are unclassified"
+                             : "no return is RoI. If there should be obstacles: are the "
+                               "coordinates metres, relative to the sensor (x forward, z up), not "
+                               "to a map?");
+    }
+
+    void remarkOnRecording() {
+        const auto remark = [this](const char* on, const std::vector<std::string>& remarks) {
+            for (const std::string& text : remarks) listener_.remark(on, text);
+        };
+        remark("the recording", source_->remarks());
+        if (const CloudOutput* const clouds = outputs_.clouds()) {
+            report_.clouds = clouds->files();
+            report_.cloud_points = clouds->points();
+            remark("the labelled clouds", clouds->remarks());
+        }
+        if (const McapOutput* const mcap = outputs_.mcap()) {
+            report_.mcap = {mcap->scans(), mcap->points(), mcap->boxes(), mcap->messages()};
+            remark("the MCAP", mcap->remarks());
+        }
+    }
+
+    /// Keeps what was converted before the recording or the conversion ended early, and adds its
+    /// location to the error. Errors of usage, and those before the first entry, keep nothing.
+    [[noreturn]] void savePartialOutputs(const std::exception_ptr& end) {
+        std::string why;
+        bool is_interruption = false;
+        try {
+            std::rethrow_exception(end);
+        } catch (const SettingsError&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            if (report_.entries == 0) throw;
+            why = conversion_.input.string() + ": " + base::outOfMemory();
+        } catch (const std::exception& e) {
+            if (report_.entries == 0) throw;
+            is_interruption = dynamic_cast<const recordings::Interrupted*>(&e) != nullptr;
+            why = observations::messageOf(e);
+            if (why.empty()) why = e.what();
+        }
+        try {
+            remarkOnRecording();
+        } catch (const std::exception& e) {
+            listener_.remark("the recording", e.what());
+        }
+        why += "; the " + std::to_string(report_.entries) +
+               (fs::is_directory(conversion_.input) ? " scans" : " entries") + " before it are in" +
+               outputs_.keepPartial(report_);
+        if (is_interruption) throw recordings::Interrupted(why);
+        throw recordings::BrokenRecording(why);
+    }
+
+    const Conversion& conversion_;
+    std::mutex listening_;  ///< the listener is also called while reading, on another thread
+    const ConversionListener listener_;
+    std::unique_ptr<recordings::ScanSource> source_;
+    const Settings settings_;  ///< with those of the recording's own sensor
+    ConversionOutputs outputs_;
+    /// Time of the last scan that was segmented, by sensor label.
+    std::map<std::string, mrpt::Clock::time_point> last_segmented_;
+    recordings::SensorCheck sensor_check_;
+    ConversionReport report_;
+};
 
 /// MRPT's folder for data in external files: "flight_Images" next to "flight.rawlog".
 fs::path externalsOf(const fs::path& rawlog) {
@@ -19,11 +419,10 @@ fs::path externalsOf(const fs::path& rawlog) {
     return folder;
 }
 
-/// Tells MRPT where the input's external files are, and the user where the output expects them.
-void useExternals(const Conversion& conversion, const ConversionListener& listener) {
-    const fs::path folder = externalsOf(conversion.input);
-    std::error_code no_such;  // a name with the ending may be too long
-    if (fs::is_directory(conversion.input) || !fs::is_directory(folder, no_such)) return;
+/// Passes MRPT the folder of the input's external files, and the user the one where the output
+/// expects them.
+void useExternals(const fs::path& folder, const Conversion& conversion,
+                  const ConversionListener& listener) {
     mrpt::io::setLazyLoadPathBase(folder.string() + "/");
     mrpt::img::CImage::setImagesPathBase(folder.string() + "/");
     if (conversion.rawlog.empty() || externalsOf(conversion.rawlog) == folder) return;
@@ -38,17 +437,17 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     if (!fs::exists(conversion.input)) {
         throw std::runtime_error(conversion.input.string() + ": no such file or folder");
     }
-    std::vector<fs::path> outputs = conversion.octomaps;
-    outputs.insert(outputs.end(), {conversion.rawlog, conversion.folder, conversion.clouds,
-                                   conversion.mcap, conversion.pictures, conversion.stats});
     std::vector<fs::path> inputs = conversion.settings.files;
     inputs.insert(inputs.end(), {conversion.input, conversion.poses, conversion.sensor_json,
                                  conversion.calibration});
     const fs::path externals = externalsOf(conversion.input);
-    std::error_code no_such;
-    if (fs::is_directory(externals, no_such)) inputs.push_back(externals);
-    base::checkApart(outputs, inputs);
-    useExternals(conversion, listener);
+    std::error_code no_such;  // a name with the ending may be too long
+    const bool has_externals = fs::is_directory(externals, no_such);
+    if (has_externals) inputs.push_back(externals);
+    base::checkApart(outputsOf(conversion), inputs);
+    if (has_externals && !fs::is_directory(conversion.input)) {
+        useExternals(externals, conversion, listener);
+    }
     return Converter(conversion, listener).run();
 }
 

@@ -1,8 +1,8 @@
 #include "convert/ConversionOutputs.h"
 
 #include <hagen/base/MemoryLimit.h>
+#include <hagen/convert/ConversionStatistics.h>
 #include <hagen/convert/StagePictures.h>
-#include <hagen/convert/Statistics.h>
 #include <hagen/filter/Posture.h>
 #include <hagen/mrpt/Mount.h>
 #include <hagen/mrpt/TimeStamp.h>
@@ -27,12 +27,12 @@ Attitude mountOf(const mrpt::obs::CObservation& scan, const Settings& settings) 
 }
 
 /// Also of "folder/".
-std::string nameOf(const fs::path& input) {
+std::string lastNameOf(const fs::path& input) {
     return (input.has_filename() ? input : input.parent_path()).filename().string();
 }
 
-std::string textOf(const fs::path& name) { return name.string(); }
-std::string textOf(const std::string& names) { return names; }
+std::string textOfNames(const fs::path& name) { return name.string(); }
+std::string textOfNames(const std::string& names) { return names; }
 
 }  // namespace
 
@@ -44,7 +44,15 @@ std::vector<fs::path> outputsOf(const Conversion& conversion) {
     return outputs;
 }
 
-ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_(conversion) {
+ConversionOutputs::ConversionOutputs(const Conversion& conversion)
+    : conversion_(conversion),
+      paths_{conversion.rawlog,
+             conversion.folder,
+             conversion.clouds,
+             conversion.mcap,
+             conversion.pictures,
+             conversion.octomaps.empty() ? fs::path() : conversion.octomaps.front(),
+             conversion.stats} {
     const bool overwrite = conversion.overwrite;
     if (!conversion.rawlog.empty()) rawlog_.emplace(conversion.rawlog, overwrite);
     if (!conversion.folder.empty()) {
@@ -55,7 +63,7 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion) : conversion_
     }
     if (!conversion.mcap.empty()) mcap_.emplace(conversion.mcap, overwrite);
     if (!conversion.pictures.empty()) {
-        pictures_.emplace(conversion.pictures, convert::kStagePictures, overwrite);
+        pictures_.emplace(conversion.pictures, kStagePictures, overwrite);
     }
     if (!conversion.octomaps.empty()) {
         map_.emplace(conversion.octomaps, conversion.octomap, overwrite);
@@ -76,25 +84,6 @@ void ConversionOutputs::attempt(Part part, Step step) {
         giveUp(part, nullptr);
     } catch (const std::exception& e) {
         giveUp(part, e.what());
-    }
-}
-
-const fs::path& ConversionOutputs::pathOf(Part part) const {
-    switch (part) {
-        case kFolders:
-            return conversion_.folder;
-        case kClouds:
-            return conversion_.clouds;
-        case kMcap:
-            return conversion_.mcap;
-        case kPictures:
-            return conversion_.pictures;
-        case kMap:
-            return conversion_.octomaps.front();
-        case kStats:
-            return conversion_.stats;
-        default:
-            return conversion_.rawlog;
     }
 }
 
@@ -124,15 +113,13 @@ void ConversionOutputs::forEach(Do act) {
 }
 
 bool ConversionOutputs::hasAny() const {
-    const std::array<bool, kParts> has{
-        rawlog_.has_value(),   folders_.has_value(), clouds_.has_value(), mcap_.has_value(),
-        pictures_.has_value(), map_.has_value(),     stats_.has_value()};
-    bool has_any = false;
+    bool is_asked_for = false;
     for (std::size_t part = 0; part < kParts; ++part) {
-        if (has[part] && !is_given_up_[part]) return true;
-        has_any = has_any || has[part];
+        if (paths_[part].empty()) continue;
+        if (!is_given_up_[part]) return true;
+        is_asked_for = true;
     }
-    return !has_any;  // none was asked for
+    return !is_asked_for;
 }
 
 void ConversionOutputs::pack(const Bytes& member, Bytes& packed) {
@@ -148,7 +135,7 @@ void ConversionOutputs::insertIntoMap(const observations::MappedScan& scan) {
     try {
         map_->insert(scan);
     } catch (const observations::MapFull& e) {
-        giveUp(kMap, (pathOf(kMap).string() + ": " + e.what()).c_str());
+        giveUp(kMap, (paths_[kMap].string() + ": " + e.what()).c_str());
     } catch (const std::bad_alloc&) {
         giveUp(kMap, nullptr);
     }
@@ -199,7 +186,7 @@ void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::O
     fs::path folder = pictures_->folderOf(label) / name;
     while (!fs::create_directory(folder)) folder += "_";  // a second scan in a sensory frame
     const std::string title =
-        nameOf(conversion_.input) + ", " + label + (is_named ? ", scan " : ", entry ") + name;
+        lastNameOf(conversion_.input) + ", " + label + (is_named ? ", scan " : ", entry ") + name;
     // As the filter sees a sensor that is not upright: its images have other rows than the sensor.
     const std::optional<Attitude>& attitude = segmented.pose.attitude;
     const Posture posture = postureOf(attitude);
@@ -207,9 +194,9 @@ void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::O
     Scan turned;
     if (posture != Posture::Upright) turnScan(*segmented.scan, posture, attitude, sensor, turned);
     const Scan& shown = posture == Posture::Upright ? *segmented.scan : turned;
-    convert::drawStages({shown, sensor, *segmented.options, *segmented.result, title,
-                         conversion_.picture_azimuth_deg},
-                        folder);
+    drawStages({shown, sensor, *segmented.options, *segmented.result, title,
+                conversion_.picture_azimuth_deg},
+               folder);
 }
 
 void ConversionOutputs::finishFolders() {
@@ -231,11 +218,12 @@ void ConversionOutputs::finish(const ConversionReport& report) {
     }
     if (map_) attempt(kMap, [&] { map_->write(); });
     if (stats_) {
-        attempt(kStats, [&] { writeStatistics(stats_->temporary(), conversion_, report); });
+        attempt(kStats,
+                [&] { writeConversionStatistics(stats_->temporary(), conversion_, report); });
     }
 }
 
-/// Whether an output that was given up has something whole: members of a rawlog, scans, clouds.
+/// Whether an output that was given up has complete parts: members of a rawlog, scans, clouds.
 bool ConversionOutputs::hasWholeParts(Part part) const {
     if (part == kFolders) {
         return std::any_of(folder_writers_.begin(), folder_writers_.end(),
@@ -252,12 +240,12 @@ std::string ConversionOutputs::whatFailed() {
         if (!is_given_up_[part]) return;
         text += text.empty() ? "" : "; ";
         text += !why_[part].empty() ? why_[part]
-                                    : pathOf(part).string() + ": " + base::outOfMemory() +
+                                    : paths_[part].string() + ": " + base::outOfMemory() +
                                           (part == kMap ? "; or use larger voxels" : "");
         if (!hasWholeParts(part)) return;
         try {
             if (part == kFolders) finishFolders();
-            text += "; what was written before is in " + textOf(output.keepPartial());
+            text += "; what was written before is in " + textOfNames(output.keepPartial());
         } catch (const std::exception&) {
             text += "; nothing of it is kept";
         }
@@ -277,7 +265,7 @@ std::string ConversionOutputs::keepPartial(const ConversionReport& report) {
     std::string names;
     forEach([&](Part part, auto& output) {
         if (!is_given_up_[part])
-            attempt(part, [&] { names += " " + textOf(output.keepPartial()); });
+            attempt(part, [&] { names += " " + textOfNames(output.keepPartial()); });
     });
     const std::string failed = whatFailed();
     return names + (failed.empty() ? "" : "; " + failed);

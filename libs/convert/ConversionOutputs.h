@@ -21,14 +21,12 @@ namespace hagen::convert {
 /// The paths of the requested outputs.
 std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
 
-/// The requested outputs of a conversion. What goes wrong in one of them (a full disk, a map that
-/// is full, a program that draws) costs that output alone: it is given up, and commit() names it.
+/// The requested outputs of a conversion. If one of them fails (a full disk, a full map, a missing
+/// gnuplot), it is given up and commit() names it; the others are not affected.
 class ConversionOutputs {
  public:
     /// Throws std::runtime_error naming an output that cannot be written.
     explicit ConversionOutputs(const Conversion& conversion);
-
-    bool wantsRawlog() const { return rawlog_.has_value(); }
 
     /// Adds an entry and its clouds to the rawlog; see RawlogWriter.
     void gather(Bytes& entries, Bytes& member) {
@@ -43,26 +41,22 @@ class ConversionOutputs {
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const recordings::RecordedScan& recorded, const Settings& settings);
 
-    /// The labelled clouds written so far; null if there are none to write.
+    /// Null if they are not requested.
     const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }
-
-    /// The MCAP written so far; null if there is none to write.
     const McapOutput* mcap() const { return mcap_ ? &*mcap_ : nullptr; }
 
-    /// Adds a scan to the map, if there is one. Throws std::runtime_error if the scan has no place
-    /// in it.
     bool wantsMap() const { return map_.has_value(); }
+    /// Throws std::runtime_error if the scan does not fit into the map.
     void insertIntoMap(const observations::MappedScan& scan);
     void giveUpMap(const std::string& why) { giveUp(kMap, why.c_str()); }
 
-    /// False once all outputs that were asked for are given up: there is nothing to convert for.
+    /// False once all requested outputs are given up. On any thread.
     bool hasAny() const;
 
     /// Gives the outputs their names. Throws std::runtime_error that names each that was given up,
-    /// why, and what is left of it; the others are in place then.
+    /// why, and what is left of it, once the others are in place.
     void commit(const ConversionReport& report);
-    /// Keeps the incomplete outputs under partial names, and returns these names, with what was
-    /// given up.
+    /// Keeps the incomplete outputs under partial names; returns these names, and what failed.
     std::string keepPartial(const ConversionReport& report);
 
  private:
@@ -81,12 +75,11 @@ class ConversionOutputs {
                       const recordings::RecordedScan& recorded);
     void finishFolders();
     void finish(const ConversionReport& report);
-    const std::filesystem::path& pathOf(Part part) const;
     bool hasWholeParts(Part part) const;
-    bool are_folders_finished_ = false, is_mcap_finished_ = false;
     std::string whatFailed();
 
     const Conversion& conversion_;
+    const std::array<std::filesystem::path, kParts> paths_;  ///< empty: not asked for
     std::optional<RawlogWriter> rawlog_;
     std::optional<SensorFolders> folders_, pictures_;
     std::optional<CloudOutput> clouds_;
@@ -98,6 +91,7 @@ class ConversionOutputs {
     std::array<std::string, kParts> why_;
     std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label
     std::map<std::string, std::size_t> scans_;                ///< written so far
+    bool are_folders_finished_ = false, is_mcap_finished_ = false;
 };
 
 }  // namespace hagen::convert

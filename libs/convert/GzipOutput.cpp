@@ -11,7 +11,7 @@
 namespace hagen::convert {
 namespace {
 
-constexpr int kLevel = 1;
+constexpr int kGzipLevel = 1;
 
 struct FreeCompressor {
     void operator()(libdeflate_compressor* compressor) const {
@@ -19,7 +19,7 @@ struct FreeCompressor {
     }
 };
 
-[[noreturn]] void fail(const std::filesystem::path& file) {
+[[noreturn]] void failWrite(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": cannot be written" +
                              (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
 }
@@ -30,7 +30,7 @@ void packGzipMember(const Bytes& plain, Bytes& packed) {
     // None is kept per thread: a thread that ends needs memory for that, without which glibc
     // aborts.
     const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
-        libdeflate_alloc_compressor(kLevel));
+        libdeflate_alloc_compressor(kGzipLevel));
     if (!compressor) throw std::bad_alloc();
     const std::size_t bound = libdeflate_gzip_compress_bound(compressor.get(), plain.size());
     if (packed.size() < bound) packed.resize(bound);
@@ -43,7 +43,7 @@ void packGzipMember(const Bytes& plain, Bytes& packed) {
 GzipOutput::GzipOutput(const std::filesystem::path& file) : path_(file) {
     errno = 0;
     file_.reset(std::fopen(file.c_str(), "wb"));
-    if (!file_) fail(path_);
+    if (!file_) failWrite(path_);
     std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a member is already a buffer
 }
 
@@ -57,12 +57,12 @@ void GzipOutput::write(const Bytes& member) {
     // Readers take a member that is cut off for damage.
     const bool is_cut = ftruncate(fileno(file_.get()), whole_) == 0;
     errno = is_cut ? error : errno;
-    fail(path_);
+    failWrite(path_);
 }
 
 void GzipOutput::close() {
     errno = 0;
-    if (std::fclose(file_.release()) != 0) fail(path_);
+    if (std::fclose(file_.release()) != 0) failWrite(path_);
 }
 
 }  // namespace hagen::convert

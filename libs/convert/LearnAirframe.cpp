@@ -102,8 +102,8 @@ AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeLis
     });
     outputs.write(picture, [&] {
         const fs::path folder = fs::absolute(picture.temporary()).parent_path();
-        convert::drawAirframe(learned.bin_range_m, "airframe in " + origin, folder,
-                              picture.temporary().filename().string());
+        drawAirframe(learned.bin_range_m, "airframe in " + origin, folder,
+                     picture.temporary().filename().string());
     });
     outputs.commit();
     return report;

@@ -45,10 +45,8 @@ McapOutput::Lidar& McapOutput::lidarOf(const std::string& sensor_label) {
     const std::string plain = rosNameOf(sensor_label);
     std::string name = plain;
     for (int n = 2; !names_.insert(name).second; ++n) name = plain + "_" + std::to_string(n);
-    const std::uint16_t points =
-        writer_.addTopic("/" + name + "/points", convert::pointCloud2Type());
-    const std::uint16_t obstacles =
-        writer_.addTopic("/" + name + "/obstacles", convert::markerArrayType());
+    const std::uint16_t points = writer_.addTopic("/" + name + "/points", pointCloud2Type());
+    const std::uint16_t obstacles = writer_.addTopic("/" + name + "/obstacles", markerArrayType());
     return lidars_.emplace(sensor_label, Lidar{name, points, obstacles, std::nullopt})
         .first->second;
 }
@@ -70,31 +68,30 @@ std::int64_t McapOutput::stampOf(mrpt::Clock::time_point time) {
 
 void McapOutput::writePose(const mrpt::poses::CPose3D& pose, std::int64_t time_ns, Lidar& lidar) {
     if (!lidar.pose) {
-        lidar.pose = writer_.addTopic("/" + lidar.name + "/pose", convert::poseStampedType());
+        lidar.pose = writer_.addTopic("/" + lidar.name + "/pose", poseStampedType());
     }
-    if (!tf_) tf_ = writer_.addTopic("/tf", convert::transformsType());
-    const convert::RosHeader in_map{time_ns, kMap};
+    if (!tf_) tf_ = writer_.addTopic("/tf", transformsType());
+    const RosHeader in_map{time_ns, kMap};
     const auto at = static_cast<std::uint64_t>(time_ns);
-    writer_.write(*lidar.pose, at, convert::poseMessage(in_map, pose));
-    writer_.write(*tf_, at, convert::transformMessage(in_map, lidar.name, pose));
+    writer_.write(*lidar.pose, at, poseMessage(in_map, pose));
+    writer_.write(*tf_, at, transformMessage(in_map, lidar.name, pose));
 }
 
 void McapOutput::write(const observations::ObservationSegmenter::Output& segmented,
                        const mrpt::obs::CObservation& observation) {
     Lidar& lidar = lidarOf(observation.sensorLabel);
     const std::int64_t time_ns = stampOf(observation.timestamp);
-    const convert::RosHeader header{time_ns, lidar.name};
+    const RosHeader header{time_ns, lidar.name};
     const auto at = static_cast<std::uint64_t>(time_ns);
 
     if (segmented.pose.sensor_pose) writePose(*segmented.pose.sensor_pose, time_ns, lidar);
     const LabelledTable labelled = labelledTable(segmented, observation);
     const observations::PointTable& table = labelled.table;
     changes_.add(labelled.remarks());
-    changes_.add(convert::changesInPointCloud2(table));
-    writer_.write(lidar.points, at,
-                  convert::pointCloud2Message(header, convert::tableForPointCloud2(table)));
+    changes_.add(changesInPointCloud2(table));
+    writer_.write(lidar.points, at, pointCloud2Message(header, tableForPointCloud2(table)));
     const auto boxes = boxesToDraw(boxRoiComponents(*segmented.scan, segmented.result->returns));
-    writer_.write(lidar.obstacles, at, convert::boxesMessage(header, boxes));
+    writer_.write(lidar.obstacles, at, boxesMessage(header, boxes));
     ++scans_;
     points_ += table.points;
     boxes_ += boxes.size();

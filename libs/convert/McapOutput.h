@@ -17,7 +17,8 @@
 namespace hagen::convert {
 
 /// The name of a sensor in topics and frames of ROS: its label, with '_' for characters that are
-/// not allowed there. It begins with a letter, and is none of the frames "map", "odom", "world".
+/// not allowed there. It begins with a letter and differs from the frames "map", "odom" and
+/// "world".
 std::string rosNameOf(const std::string& sensor_label);
 
 /// Writes segmented scans as an MCAP of ROS 2. Of each LiDAR, whose name is that of rosNameOf():
@@ -61,7 +62,7 @@ class McapOutput {
     void writePose(const mrpt::poses::CPose3D& pose, std::int64_t time_ns, Lidar& lidar);
 
     base::OutputPath path_;
-    convert::McapWriter writer_;
+    McapWriter writer_;
     std::map<std::string, Lidar> lidars_;  ///< by sensor label
     std::set<std::string> names_;
     std::optional<std::uint16_t> tf_;

@@ -30,7 +30,7 @@ enum Op : std::uint8_t {
 };
 
 constexpr std::size_t kChunkBytes = 1 << 20;  // one scan of 16 beams fills about one
-constexpr int kLevel = 1;                     // of zstd: writing keeps up with segmenting
+constexpr int kZstdLevel = 1;                 // of zstd: writing keeps up with segmenting
 constexpr const char* kCompression = "zstd";
 
 Bytes magic() { return {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'}; }
@@ -62,7 +62,7 @@ std::uint32_t crcOf(const Bytes& bytes, std::uint32_t before = 0) {
 void packZstd(const Bytes& plain, Bytes& packed) {
     packed.resize(ZSTD_compressBound(plain.size()));
     const std::size_t size =
-        ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), kLevel);
+        ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), kZstdLevel);
     if (ZSTD_isError(size)) {
         throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
     }

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -7,19 +8,14 @@
 #include <new>
 #include <system_error>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace hagen::convert {
 
-/// Cores that this process may use.
-inline std::size_t coreCount() {
-    const unsigned cores = std::thread::hardware_concurrency();
-    return cores == 0 ? 1 : cores;
-}
-
 /// The steps applied to each item of a stream. Steps marked "in order" see one item at a time, in
-/// the order of reading, and need no locks; the others may process several items concurrently.
+/// the order of reading; the others may process several items concurrently. An exception in a step
+/// ends the stream before its item: the items before it are completed, unless packing or writing
+/// failed, and no later one is accounted for.
 template <class Item>
 struct PipelineSteps {
     std::function<bool(Item&)> read;  ///< in order; false: no more items
@@ -29,23 +25,21 @@ struct PipelineSteps {
     std::function<void(Item&)> write;  ///< in order
 };
 
-/// A step that items take one by one, in the order of their numbers.
+/// How a pipeline ended.
+struct PipelineEnd {
+    std::size_t threads;     ///< that could be started
+    std::exception_ptr why;  ///< of the first item that failed; null: there were no more items
+};
+
+/// Lets items pass one by one, in the order of their numbers.
 class Turnstile {
  public:
-    /// Waits for the turn of an item and does its step. False, without doing it, once closed.
     template <class Step>
-    bool pass(std::size_t number, const Step& step) {
+    void pass(std::size_t number, const Step& step) {
         std::unique_lock lock(mutex_);
-        turn_.wait(lock, [&] { return next_ == number || is_closed_; });
-        if (is_closed_) return false;
+        turn_.wait(lock, [&] { return next_ == number; });
         step();
         ++next_;
-        turn_.notify_all();
-        return true;
-    }
-    void close() {
-        const std::lock_guard lock(mutex_);
-        is_closed_ = true;
         turn_.notify_all();
     }
 
@@ -53,7 +47,6 @@ class Turnstile {
     std::mutex mutex_;
     std::condition_variable turn_;
     std::size_t next_ = 0;
-    bool is_closed_ = false;
 };
 
 /// A pipeline in progress. Each thread takes one item after the other through all steps.
@@ -63,59 +56,78 @@ class OrderedPipeline {
     explicit OrderedPipeline(const PipelineSteps<Item>& steps) : steps_(steps) {}
 
     void run() {
-        try {
+        attempt([&] {
             for (Item item; takeOne(item);) {
             }
-        } catch (...) {
-            endWith(std::current_exception());
-        }
+        });
     }
-
-    /// Ends the pipeline with an exception of one of its steps; the first is kept.
-    void endWith(std::exception_ptr why) {
-        {
-            const std::lock_guard lock(reading_);
-            is_at_end_ = true;
-            if (!why_) why_ = std::move(why);
-        }
-        accounts_.close();
-        writes_.close();
-    }
-    void rethrow() const {
-        if (why_) std::rethrow_exception(why_);
-    }
+    std::exception_ptr why() const { return why_; }
 
  private:
     bool takeOne(Item& item) {
         std::size_t number = 0;
+        std::exception_ptr failure;
         {
             const std::lock_guard lock(reading_);
-            if (is_at_end_) return false;
-            is_at_end_ = true;  // also if reading throws
-            if (!steps_.read(item)) return false;
-            is_at_end_ = false;
+            if (has_ended_) return false;
+            try {
+                if (!steps_.read(item)) has_ended_ = true;
+            } catch (...) {
+                failure = std::current_exception();
+            }
+            if (has_ended_) return false;
+            has_ended_ = failure != nullptr;
             number = read_++;
         }
-        steps_.work(item);
-        if (!accounts_.pass(number, [&] { steps_.account(item); })) return false;
-        steps_.pack(item);
-        return writes_.pass(number, [&] { steps_.write(item); });
+        try {
+            if (!failure) steps_.work(item);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        bool is_accounted = false;
+        accounts_.pass(number, [&] {
+            if (has_failed_) return;
+            is_accounted = attempt([&] {
+                if (failure) std::rethrow_exception(failure);
+                steps_.account(item);
+            });
+        });
+        const bool is_packed = is_accounted && attempt([&] { steps_.pack(item); });
+        writes_.pass(number, [&] {
+            if (!is_cut_) is_cut_ = !is_packed || !attempt([&] { steps_.write(item); });
+        });
+        return true;
+    }
+
+    /// False, and the pipeline ends, if a step throws. The first exception is kept.
+    template <class Step>
+    bool attempt(const Step& step) {
+        try {
+            step();
+            return true;
+        } catch (...) {
+            const std::lock_guard lock(failing_);
+            if (!why_) why_ = std::current_exception();
+        }
+        has_failed_ = has_ended_ = true;
+        return false;
     }
 
     const PipelineSteps<Item>& steps_;
-    std::mutex reading_;
+    std::mutex reading_, failing_;
     std::size_t read_ = 0;
-    bool is_at_end_ = false;
+    std::atomic<bool> has_ended_{false};   ///< nothing more is read
+    std::atomic<bool> has_failed_{false};  ///< nothing more is accounted for
+    bool is_cut_ = false;                  ///< nothing more is written
     std::exception_ptr why_;
     Turnstile accounts_, writes_;
 };
 
-/// Runs all items through the steps on up to `threads` threads, the caller's among them: fewer if
-/// the system refuses some (oneTBB, which would do the same, ends the process then). Returns their
-/// number. An exception in a step ends the pipeline and is rethrown; items before it may or may not
-/// be written then. Holds an item per thread in memory.
+/// Runs all items through the steps on up to `threads` threads, including the caller's; on fewer if
+/// the system refuses to start some. (oneTBB ends the process then.) Holds an item per thread in
+/// memory.
 template <class Item>
-std::size_t runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
+PipelineEnd runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
     OrderedPipeline<Item> pipeline(steps);
     std::vector<std::thread> others;
     try {
@@ -126,8 +138,7 @@ std::size_t runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
     }
     pipeline.run();
     for (std::thread& other : others) other.join();
-    pipeline.rethrow();
-    return 1 + others.size();
+    return {1 + others.size(), pipeline.why()};
 }
 
 }  // namespace hagen::convert

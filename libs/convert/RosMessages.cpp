@@ -22,7 +22,7 @@ using observations::PointTable;
 using Part = std::pair<const char*, const char*>;  // name and fields
 const Part kTime{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec"};
 const Part kDuration{"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec"};
-const Part kHeader{"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id"};
+const Part kStdHeader{"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id"};
 const Part kPoint{"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z"};
 const Part kVector3{"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z"};
 const Part kQuaternion{"geometry_msgs/Quaternion",
@@ -56,7 +56,7 @@ const Part kMarker{
     "visualization_msgs/UVCoordinate[] uv_coordinates\nstring text\nstring mesh_resource\n"
     "visualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials"};
 
-RosType typeOf(const char* name, const char* fields, std::initializer_list<Part> parts) {
+RosType rosTypeOf(const char* name, const char* fields, std::initializer_list<Part> parts) {
     RosType type{name, fields};
     for (const Part& part : parts) {
         type.definition +=
@@ -147,33 +147,33 @@ void putMarker(const RosHeader& header, std::int32_t id, std::int32_t action,
 }  // namespace
 
 const RosType& pointCloud2Type() {
-    static const RosType kType = typeOf(
+    static const RosType kType = rosTypeOf(
         "sensor_msgs/msg/PointCloud2",
         "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\n"
         "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense",
-        {kHeader, kTime, kPointField});
+        {kStdHeader, kTime, kPointField});
     return kType;
 }
 
 const RosType& markerArrayType() {
     static const RosType kType =
-        typeOf("visualization_msgs/msg/MarkerArray", "visualization_msgs/Marker[] markers",
-               {kMarker, kHeader, kTime, kDuration, kPose, kPoint, kQuaternion, kVector3, kColor,
-                kCompressedImage, kUvCoordinate, kMeshFile});
+        rosTypeOf("visualization_msgs/msg/MarkerArray", "visualization_msgs/Marker[] markers",
+                  {kMarker, kStdHeader, kTime, kDuration, kPose, kPoint, kQuaternion, kVector3,
+                   kColor, kCompressedImage, kUvCoordinate, kMeshFile});
     return kType;
 }
 
 const RosType& poseStampedType() {
-    static const RosType kType =
-        typeOf("geometry_msgs/msg/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose",
-               {kHeader, kTime, kPose, kPoint, kQuaternion});
+    static const RosType kType = rosTypeOf("geometry_msgs/msg/PoseStamped",
+                                           "std_msgs/Header header\ngeometry_msgs/Pose pose",
+                                           {kStdHeader, kTime, kPose, kPoint, kQuaternion});
     return kType;
 }
 
 const RosType& transformsType() {
     static const RosType kType =
-        typeOf("tf2_msgs/msg/TFMessage", "geometry_msgs/TransformStamped[] transforms",
-               {kTransformStamped, kHeader, kTime, kTransform, kVector3, kQuaternion});
+        rosTypeOf("tf2_msgs/msg/TFMessage", "geometry_msgs/TransformStamped[] transforms",
+                  {kTransformStamped, kStdHeader, kTime, kTransform, kVector3, kQuaternion});
     return kType;
 }
 

@@ -32,7 +32,7 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
     } else {  // a custom sensor would have rings
         out << "# Sensor of this recording\nsensor:\n  model: " << sensor.name << "\n";
     }
-    // A recording may tell of more than settings allow.
+    // A recording may exceed the limits of settings.
     const auto limit_m = [](float range_m) { return std::clamp<double>(range_m, 0, kMostRange_m); };
     const double least_m = limit_m(sensor.min_range_m), most_m = limit_m(sensor.max_range_m);
     if (least_m < most_m) {

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// With room for what tells equal names apart, in the 255 bytes that file systems allow.
+/// Leaves room for suffixes of equal names, within the 255 bytes that file systems allow.
 std::string fileName(const std::string& sensor_label) {
     constexpr std::size_t kMostLetters = 100;
     std::string name = sensor_label.substr(0, kMostLetters);

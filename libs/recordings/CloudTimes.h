@@ -5,7 +5,7 @@
 
 namespace hagen::recordings {
 
-/// When clouds were taken, as told by the names of their files.
+/// The times of clouds, derived from the names of their files.
 struct CloudTimes {
     std::vector<double> times_s;  ///< one per name
     std::string how;              ///< "from the names of the files", for the user

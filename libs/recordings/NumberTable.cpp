@@ -14,8 +14,8 @@ namespace {
 constexpr std::string_view kSpaces = " \t\r\v\f";
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets begin a file with it
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::size_t line,
-                       const std::string& why) {
+[[noreturn]] void failNumber(const std::filesystem::path& file, std::size_t line,
+                             const std::string& why) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + why);
 }
 
@@ -41,12 +41,12 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file, std::
         for (auto word = takeWord(words); !word.empty(); word = takeWord(words)) {
             if (entry.numbers.empty() && word[0] == '#') break;
             if (word.find('\0') != std::string::npos) {
-                fail(file, line, "there is a NUL byte, so this is no text file");
+                failNumber(file, line, "there is a NUL byte, so this is no text file");
             }
             const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
             const auto number = base::numberFrom<double>(word.substr(has_plus ? 1 : 0));
             if (!number || !std::isfinite(*number)) {
-                fail(file, line, "'" + std::string(word) + "' is not a finite number");
+                failNumber(file, line, "'" + std::string(word) + "' is not a finite number");
             }
             entry.numbers.push_back(*number);
         }
@@ -59,9 +59,9 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file, std::
 void checkColumns(const std::filesystem::path& file, const NumberLine& line, std::size_t columns,
                   const std::string& what) {
     if (line.numbers.size() == columns) return;
-    fail(file, line.line,
-         "expected " + std::to_string(columns) + " numbers (" + what + "), found " +
-             std::to_string(line.numbers.size()));
+    failNumber(file, line.line,
+               "expected " + std::to_string(columns) + " numbers (" + what + "), found " +
+                   std::to_string(line.numbers.size()));
 }
 
 }  // namespace hagen::recordings

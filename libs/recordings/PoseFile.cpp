@@ -22,7 +22,7 @@ const std::string kTumColumns = "time x y z qx qy qz qw";
 const std::string kKittiColumns = "a 3x4 matrix, row by row";
 constexpr double kRotationTolerance = 1e-3;  // files have six digits or more
 
-[[noreturn]] void fail(const fs::path& file, const NumberLine& line, const std::string& why) {
+[[noreturn]] void failPose(const fs::path& file, const NumberLine& line, const std::string& why) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line.line) + ": " + why);
 }
 
@@ -33,7 +33,7 @@ CPose3D poseOfMatrix(const fs::path& file, const NumberLine& line) {
     const auto rotation = matrix.asEigen().topLeftCorner<3, 3>();
     const double skew = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
     if (!(skew <= kRotationTolerance) || !(rotation.determinant() > 0)) {  // NaN, too
-        fail(file, line, "the matrix is not a rigid transformation");
+        failPose(file, line, "the matrix is not a rigid transformation");
     }
     return CPose3D(matrix);
 }
@@ -60,10 +60,11 @@ std::vector<TimedPose> readTumPoses(const fs::path& file) {
     for (const NumberLine& line : readNumberTable(file)) {
         checkColumns(file, line, 8, kTumColumns);
         const auto& n = line.numbers;
-        if (!observations::isTime(n[0])) fail(file, line, "the first number is no time in seconds");
+        if (!observations::isTime(n[0]))
+            failPose(file, line, "the first number is no time in seconds");
         const double norm = std::sqrt(n[4] * n[4] + n[5] * n[5] + n[6] * n[6] + n[7] * n[7]);
         if (std::abs(norm - 1.0) > kRotationTolerance) {
-            fail(file, line, "the quaternion is not normalized");
+            failPose(file, line, "the quaternion is not normalized");
         }
         const mrpt::math::CQuaternionDouble rotation(n[7] / norm, n[4] / norm, n[5] / norm,
                                                      n[6] / norm);

@@ -18,7 +18,7 @@ using observations::NumberType;
 using observations::PointTable;
 
 /// All that is known of the returns of a cloud.
-PointTable tableOf(const mrpt::maps::CPointsMap& cloud) {
+PointTable tableOfReturns(const mrpt::maps::CPointsMap& cloud) {
     if (const auto* const table = dynamic_cast<const observations::TableCloud*>(&cloud)) {
         return pointsOf(inNativeOrder(table->table()), table->pointOfReturn());
     }
@@ -93,7 +93,7 @@ mrpt::serialization::CSerializable::Ptr objectOf(
         copy->pointcloud = points;
     }
     if (*cloud_class == observations::CloudClass::Generic) {
-        copy->pointcloud = observations::genericCloudOf(tableOf(*cloud->pointcloud));
+        copy->pointcloud = observations::genericCloudOf(tableOfReturns(*cloud->pointcloud));
     }
     return copy;
 }

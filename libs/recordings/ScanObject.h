@@ -9,7 +9,7 @@
 namespace hagen::recordings {
 
 /// The observations of a rawlog's entry, which is an observation or a sensory frame; none for any
-/// other entry. Null objects of a frame are none.
+/// other entry. Null objects of a frame are skipped.
 std::vector<mrpt::obs::CObservation::Ptr> observationsOf(
     const mrpt::serialization::CSerializable::Ptr& entry);
 

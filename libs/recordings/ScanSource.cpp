@@ -1,16 +1,14 @@
 #include <hagen/recordings/ScanSource.h>
 
-#include <hagen/base/Folder.h>
-#include <hagen/recordings/BagFile.h>
-#include <hagen/recordings/CloudFile.h>
+#include <hagen/recordings/BrokenRecording.h>
 #include <hagen/sensors/CaptureFile.h>
-#include <algorithm>
 
-#include "recordings/BagSource.h"
+#include <algorithm>
+#include <iterator>
+
 #include "recordings/CaptureSource.h"
-#include "recordings/CloudFileSource.h"
-#include "recordings/folders/ScanFolderSource.h"
-#include "recordings/rawlogs/RawlogSource.h"
+#include "recordings/RecordingKind.h"
+#include "recordings/Sources.h"
 
 namespace hagen::recordings {
 
@@ -60,6 +58,12 @@ std::string ScanSource::missedAhead(std::size_t entries) const {
     return break_ahead_at_ < entries ? break_ahead_ : "";
 }
 
+std::optional<RecordedEntry> ScanSource::endAfter(std::size_t entries) const {
+    const std::string missed = missedAhead(entries);
+    if (!missed.empty()) throw BrokenRecording(missed);
+    return std::nullopt;
+}
+
 void ScanSource::checkInterruption() const {
     if (!options_.keep_going()) throw Interrupted("interrupted");
 }
@@ -88,9 +92,9 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
     }
     labels_.insert(observation->sensorLabel);
     if (labels_.size() > kMostLabels) {
-        throw TooManySensors("entry " + std::to_string(entry.number) +
-                             ": the recording has more than " + std::to_string(kMostLabels) +
-                             " LiDARs by their labels; convert some of them (--sensor-label)");
+        throw BrokenRecording(recording_.string() + ": entry " + std::to_string(entry.number) +
+                              ": the recording has more than " + std::to_string(kMostLabels) +
+                              " LiDARs by their labels; convert some of them (--sensor-label)");
     }
     const bool are_of_sensor =
         poses_.are_of_sensor || poses_.of_sensors.count(observation->sensorLabel) > 0;
@@ -105,113 +109,58 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
 
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Recordings in a folder, which are read one by one, in the order of their names.
-std::vector<fs::path> recordingsIn(const fs::path& folder) {
-    std::vector<fs::path> found;
-    for (const fs::path& path : base::entriesOf(folder)) {
-        const bool is_file = fs::is_regular_file(path);
-        const bool is_recording = is_file ? recordings::isBag(path) || sensors::isCapture(path) ||
-                                                path.extension() == ".rawlog"
-                                          : fs::is_directory(path) && recordings::isBag(path);
-        if (is_recording) found.push_back(path);
+/// Throws unless all options apply to this kind of recording.
+void checkOptions(const std::string& recording, RecordingKind kind, const SourceOptions& options) {
+    const bool is_capture = kind == RecordingKind::Capture, is_bag = kind == RecordingKind::Bag;
+    if (!options.calibration.empty() && !is_capture) {
+        throw std::runtime_error(recording + ": is no capture (.pcap, .pcapng), so " +
+                                 options.calibration.string() +
+                                 " is not used; rawlogs have their calibration, and packets of an "
+                                 "HDL-64E in bags are not supported");
     }
-    return found;
+    if (!options.topics.empty() && !is_bag) {
+        throw std::runtime_error(recording +
+                                 ": is no ROS recording (.bag, .mcap, .db3 or its "
+                                 "folder), so it has no topic '" +
+                                 options.topics.front() + "'");
+    }
+    if (!options.sensor_json.empty() && !is_capture && !is_bag) {
+        const bool are_exchanged = sensors::isCapture(options.sensor_json);
+        throw std::runtime_error(
+            recording +
+            ": is no capture (.pcap, .pcapng) and no ROS recording, so there is no "
+            "sensor that " +
+            options.sensor_json.string() + " could describe" +
+            (are_exchanged ? ", which is a capture itself: are the two files exchanged?" : ""));
+    }
 }
 
-bool isScanFolder(const fs::path& folder) {
-    std::error_code unreadable;
-    const std::vector<fs::path> scans = base::entriesOf(folder / "velodyne", unreadable);
-    return std::any_of(scans.begin(), scans.end(),
-                       [](const fs::path& file) { return file.extension() == ".bin"; });
-}
-
-/// The first folder with scans in a folder, up to two levels deep; empty if there is none. Folders
-/// that may not be read are none.
-fs::path scansWithin(const fs::path& folder, int depth = 2) {
-    std::error_code unreadable;
-    for (const fs::path& within : base::entriesOf(folder, unreadable)) {
-        if (!fs::is_directory(within, unreadable)) continue;
-        if (base::entriesOf(within, unreadable).empty() || unreadable) continue;
-        if (isScanFolder(within) || CloudFileSource::hasClouds(within)) {
-            return within;
-        }
-        const fs::path deeper = depth > 1 ? scansWithin(within, depth - 1) : fs::path();
-        if (!deeper.empty()) return deeper;
+std::unique_ptr<ScanSource> openKind(const std::filesystem::path& recording, RecordingKind kind,
+                                     const SourceOptions& options) {
+    switch (kind) {
+        case RecordingKind::Capture:
+            return std::make_unique<CaptureSource>(recording, options);
+        case RecordingKind::Bag:
+            return openBagScans(recording, options);
+        case RecordingKind::ScanFolder:
+            return openScanFolder(recording, options);
+        case RecordingKind::Clouds:
+            return openClouds(recording, options);
+        case RecordingKind::Rawlog:
+            break;
     }
-    return {};
-}
-
-/// Why a folder is none that is read, and what to read instead.
-std::string whyNoFolder(const fs::path& folder) {
-    const std::vector<fs::path> recordings = recordingsIn(folder);
-    if (recordings.size() == 1) {
-        return "is a folder with one recording, which is read by its own name: " +
-               recordings[0].string();
-    }
-    if (!recordings.empty()) {
-        return "is a folder with " + std::to_string(recordings.size()) +
-               " recordings, which are not read in one go: name one of them, such as " +
-               recordings[0].string();
-    }
-    const fs::path scans = scansWithin(folder);
-    return "not a scan folder (no subfolder 'velodyne' with .bin files), and no folder of point "
-           "clouds (no .pcd, .ply, .las, .npy or .bin) or with a recording (.rawlog, .pcap, "
-           ".bag, .mcap, .db3)" +
-           (scans.empty() ? "" : "; there are scans in " + scans.string());
+    return openRawlog(recording, options);
 }
 
 }  // namespace
 
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options) {
-    if (!std::filesystem::exists(recording)) {
-        throw std::runtime_error(recording.string() + ": no such file or folder");
-    }
-    const bool is_folder = std::filesystem::is_directory(recording);
-    if (!is_folder && !std::filesystem::is_regular_file(recording)) {
-        throw std::runtime_error(recording.string() +
-                                 ": is a pipe or a device; a recording is read more than once, so "
-                                 "store it in a file first");
-    }
-    const bool is_scan_folder = is_folder && isScanFolder(recording);
-    const bool has_clouds = is_folder && CloudFileSource::hasClouds(recording);
-    // A recording among clouds is one of their other files, which are counted.
-    const bool is_bag =
-        recordings::isBag(recording) && (!has_clouds || fs::exists(recording / "metadata.yaml"));
-    if (is_folder && !is_bag && !is_scan_folder && !has_clouds) {
-        throw std::runtime_error(recording.string() + ": " + whyNoFolder(recording));
-    }
-    const bool is_capture = !is_bag && !is_folder && sensors::isCapture(recording);
-    if (!options.calibration.empty() && !is_capture) {
-        throw std::runtime_error(recording.string() + ": is no capture (.pcap, .pcapng), so " +
-                                 options.calibration.string() +
-                                 " is not used; rawlogs have their calibration, and packets of an "
-                                 "HDL-64E in bags are not supported");
-    }
-    if (is_bag) return std::make_unique<BagSource>(recording, options);
-    if (!options.topics.empty()) {
-        throw std::runtime_error(recording.string() + ": is no ROS recording (.bag, .mcap, " +
-                                 ".db3 or its folder), so it has no topic '" +
-                                 options.topics.front() + "'");
-    }
-    if (is_capture) {
-        return std::make_unique<CaptureSource>(recording, options);
-    }
-    if (!options.sensor_json.empty()) {
-        const bool are_exchanged = sensors::isCapture(options.sensor_json);
-        throw std::runtime_error(
-            recording.string() +
-            ": is no capture (.pcap, .pcapng) and no ROS recording, so there " +
-            "is no sensor that " + options.sensor_json.string() + " could describe" +
-            (are_exchanged ? ", which is a capture itself: are the two files exchanged?" : ""));
-    }
-    if (is_scan_folder) return std::make_unique<ScanFolderSource>(recording, options);
-    if (is_folder || recordings::cloudFormatOf(recording) || recordings::hasCloudName(recording)) {
-        return std::make_unique<CloudFileSource>(recording, options);
-    }
-    return std::make_unique<RawlogSource>(recording, options);
+    const RecordingKind kind = detectKind(recording);
+    checkOptions(recording.string(), kind, options);
+    auto source = openKind(recording, kind, options);
+    source->recording_ = recording;
+    return source;
 }
 
 std::string titleOf(const RecordedScan& scan) {

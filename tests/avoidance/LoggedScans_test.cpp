@@ -171,7 +171,7 @@ TEST_F(LoggedScansTest, ReadsTruncatedLogUpToBreak) {
             while (scans.next(scan)) {
             }
         },
-        recordings::BrokenRawlog);
+        recordings::BrokenRecording);
     EXPECT_LT(scan.entry, 8u);
 }
 

@@ -51,7 +51,7 @@ class CloudOutputTest : public test::PoleConversion,
     }
 };
 
-TEST_P(CloudOutputTest, PointsOfALivoxHaveTheirTagsAndLines) {
+TEST_P(CloudOutputTest, KeepsLivoxTagsAndLines) {
     const auto write = [](test::MessageBytes& bytes) {
         bytes.header(1700000000, "livox").number(std::uint64_t{0}).number(std::uint32_t{500});
         bytes.raw(std::string(4, '\0')).number(std::uint32_t{500});
@@ -75,7 +75,7 @@ TEST_P(CloudOutputTest, PointsOfALivoxHaveTheirTagsAndLines) {
     EXPECT_EQ(lines[6], 2);
 }
 
-TEST_P(CloudOutputTest, AllFieldsOfTheInputAreThereWithTheLabelsOfTheScanFolder) {
+TEST_P(CloudOutputTest, KeepsFieldsAndAddsLabels) {
     const PointTable input = tableOfScan();
     conversion_.input = folder_ / "17.pcd";
     writeCloud(conversion_.input, convert::OutputFormat::Pcd, input);
@@ -105,7 +105,7 @@ TEST_P(CloudOutputTest, AllFieldsOfTheInputAreThereWithTheLabelsOfTheScanFolder)
     EXPECT_THAT(remarks_, Contains(HasSubstr("'input_label'")));
 }
 
-TEST_P(CloudOutputTest, PointsWithoutReturnsStayInTheirPlaceWithTheLabelZero) {
+TEST_P(CloudOutputTest, KeepsPointsWithoutReturns) {
     const PointTable input = tableOfScan();
     PointTable with_others;
     with_others.points = input.points + 2;
@@ -130,7 +130,7 @@ TEST_P(CloudOutputTest, PointsWithoutReturnsStayInTheirPlaceWithTheLabelZero) {
     EXPECT_THAT(column(labelled("18"), "y"), AllOf(Contains(7), Contains(8)));
 }
 
-TEST_P(CloudOutputTest, PacketsGiveRingsAndTimes) {
+TEST_P(CloudOutputTest, WritesRingsAndTimesOfPackets) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "lidar")});
     convertCounting();
     const PointTable output = labelled("000000");
@@ -140,14 +140,14 @@ TEST_P(CloudOutputTest, PacketsGiveRingsAndTimes) {
     EXPECT_EQ(column(output, "time"), std::vector<double>(scan.time_s.begin(), scan.time_s.end()));
 }
 
-TEST_P(CloudOutputTest, ACloudsRowsAreNotItsRings) {
+TEST_P(CloudOutputTest, WritesNoRingsOfClouds) {
     conversion_.input = writeRawlog(
         {observations::observationOf(observed_.scan, "lidar", mrpt::Clock::fromDouble(1))});
     convertCounting();
     EXPECT_EQ(namesOf(labelled("000000")), "x, y, z, intensity, label, obstacle");
 }
 
-TEST_P(CloudOutputTest, SeveralLidarsHaveAFolderEach) {
+TEST_P(CloudOutputTest, WritesFolderPerLidar) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "front"), test::poleScanFrom(1, "rear"),
                                      test::poleScanFrom(2, "front")});
     EXPECT_EQ(convertCounting().clouds, 3u);
@@ -162,7 +162,7 @@ TEST_P(CloudOutputTest, SeveralLidarsHaveAFolderEach) {
                                             "rear/000000" + ending, "made_by.txt"));
 }
 
-TEST_P(CloudOutputTest, AnOlderOutputIsReplacedOnlyIfAskedAndNothingElseIs) {
+TEST_P(CloudOutputTest, ReplacesOnlyOwnOutput) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "lidar")});
     convertCounting();
     EXPECT_THAT(test::messageOf([&] { convertCounting(); }), HasSubstr("labelled exists"));
@@ -175,7 +175,7 @@ TEST_P(CloudOutputTest, AnOlderOutputIsReplacedOnlyIfAskedAndNothingElseIs) {
     EXPECT_TRUE(fs::is_regular_file(folder_ / "in.rawlog"));
 }
 
-TEST_P(CloudOutputTest, WhatCameBeforeABreakIsKeptUnderAnotherName) {
+TEST_P(CloudOutputTest, KeepsPartialOutput) {
     fs::create_directories(folder_ / "clouds");
     writeCloud(folder_ / "clouds/1.ply", convert::OutputFormat::Ply, tableOfScan());
     folder_.write("clouds/2.ply", "ply\n");

@@ -111,7 +111,7 @@ class ConversionTest : public testing::TestWithParam<std::size_t> {
     test::TemporaryFolder folder_;
 };
 
-TEST_P(ConversionTest, KeepsEveryEntryInOrderWithTheCloudsAfterTheirScan) {
+TEST_P(ConversionTest, AddsCloudsAfterTheirScan) {
     writeLog({pose(), scanFrom(0), pose(), scanFrom(1, ""), pose()});
     const ConversionReport report = convert(conversion());
     EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
@@ -123,7 +123,7 @@ TEST_P(ConversionTest, KeepsEveryEntryInOrderWithTheCloudsAfterTheirScan) {
     EXPECT_GT(report.roi, 80u);
 }
 
-TEST_P(ConversionTest, InSensoryFramesTheCloudsJoinTheFrame) {
+TEST_P(ConversionTest, AddsCloudsToSensoryFrame) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(scanFrom(0, "front"));
     frame->insert(pose());
@@ -136,7 +136,7 @@ TEST_P(ConversionTest, InSensoryFramesTheCloudsJoinTheFrame) {
                   "[ front pose rear front_roi front_non_roi rear_roi rear_non_roi ]"}));
 }
 
-TEST_P(ConversionTest, AgainGivesTheSameBytes) {
+TEST_P(ConversionTest, WritesReproducibleBytes) {
     writeLog({scanFrom(0), scanFrom(1)});
     Conversion first = conversion(), second = conversion();
     first.folder = folder_ / "scans";
@@ -152,7 +152,7 @@ TEST_P(ConversionTest, AgainGivesTheSameBytes) {
     }
 }
 
-TEST_P(ConversionTest, ItsOwnOutputGivesTheSameFile) {
+TEST_P(ConversionTest, ReproducesItsOwnOutput) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(scanFrom(2, "rear"));
     frame->insert(pose());
@@ -171,7 +171,7 @@ TEST_P(ConversionTest, ItsOwnOutputGivesTheSameFile) {
     EXPECT_EQ(test::readFile(again.rawlog), test::readFile(first.rawlog));
 }
 
-TEST_P(ConversionTest, ResultsOfAnotherLidarAndResultsWithoutTheirScanStay) {
+TEST_P(ConversionTest, KeepsResultsOfOtherScans) {
     writeLog({scanFrom(0, "front"), scanFrom(0, "rear")});  // at the same time
     Conversion first = conversion();
     first.preview = true;
@@ -194,7 +194,7 @@ TEST_P(ConversionTest, ResultsOfAnotherLidarAndResultsWithoutTheirScanStay) {
                                         "rear_non_roi"}));
 }
 
-TEST_P(ConversionTest, AScanLabelledLikeAResultIsAScan) {
+TEST_P(ConversionTest, SegmentsScanLabelledAsResult) {
     auto observed = std::make_unique<observations::ObservedScan>();
     observations::readObservation(*scanFrom(0), {}, *observed);
     writeLog({observations::observationOf(observed->scan, "front_roi", {})});
@@ -203,7 +203,7 @@ TEST_P(ConversionTest, AScanLabelledLikeAResultIsAScan) {
               (std::vector<std::string>{"front_roi", "front_roi_roi", "front_roi_non_roi"}));
 }
 
-TEST_P(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
+TEST_P(ConversionTest, WritesEqualLabelsToFolder) {
     writeLog({scanFrom(0), scanFrom(1)});
     Conversion both = conversion();
     both.folder = folder_ / "scans";
@@ -221,7 +221,7 @@ TEST_P(ConversionTest, TheScanFolderHasTheLabelsOfTheClouds) {
     EXPECT_EQ(returns, report.returns);
 }
 
-TEST_P(ConversionTest, AScanFolderBecomesObservationsAndKeepsItsNames) {
+TEST_P(ConversionTest, ConvertsScanFolder) {
     writeLog({scanFrom(0)});
     convertToFolder("scans");
     fs::rename(folder_ / "scans/velodyne/000000.bin", folder_ / "scans/velodyne/000042.bin");
@@ -240,7 +240,7 @@ TEST_P(ConversionTest, AScanFolderBecomesObservationsAndKeepsItsNames) {
               test::readFile(folder_ / "scans/velodyne/000042.bin"));
 }
 
-TEST_P(ConversionTest, ARecordingsOwnBeamsWin) {
+TEST_P(ConversionTest, PrefersBeamsOfRecording) {
     fs::create_directories(folder_ / "scans/velodyne");
     recordings::writeScan(folder_ / "scans/velodyne/000000.bin",
                           test::scanScene({}, sensorModel("HDL-32E"), 100, {0, 0, 2}).scan);
@@ -268,7 +268,7 @@ std::vector<mrpt::serialization::CSerializable::Ptr> cloudsOf(
     return clouds;
 }
 
-TEST_P(ConversionTest, CloudsGetTheLabelsOfTheirPackets) {
+TEST_P(ConversionTest, LabelsCloudsLikeTheirPackets) {
     const std::vector<CObservation::Ptr> scans{scanFrom(0), scanFrom(1), scanFrom(2), scanFrom(3)};
     writeLog({scans.begin(), scans.end()});
     Conversion of_packets = conversion();
@@ -295,7 +295,7 @@ TEST_P(ConversionTest, CloudsGetTheLabelsOfTheirPackets) {
     }
 }
 
-TEST(Conversion, CloudsGetTheSameBytesWithAnyNumberOfThreads) {
+TEST(Conversion, LabelsCloudsEquallyOnAnyThreads) {
     const test::TemporaryFolder folder;
     std::vector<CObservation::Ptr> scans;
     for (int i = 0; i < 12; ++i) scans.push_back(scanFrom(0.3 * i, i % 3 == 0 ? "rear" : "front"));
@@ -335,7 +335,7 @@ TEST(Conversion, CloudsGetTheSameBytesWithAnyNumberOfThreads) {
     EXPECT_EQ(converted(2, 6, 11).second.back().roi, alone.second.back().roi);
 }
 
-TEST_P(ConversionTest, PosesOfAScanFolderTravelWithItsScans) {
+TEST_P(ConversionTest, KeepsPosesOfScanFolder) {
     fs::create_directories(folder_ / "scans/velodyne");
     const Scan scan = test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan;
     recordings::writeScan(folder_ / "scans/velodyne/000000.bin", scan);
@@ -351,7 +351,7 @@ TEST_P(ConversionTest, PosesOfAScanFolderTravelWithItsScans) {
     EXPECT_NEAR((poses[1] - mrpt::poses::CPose3D(0, -5, 0, 0, 0, 0)).norm(), 0.0, 1e-9);
 }
 
-TEST_P(ConversionTest, PosesOfALogTravelWithItsScans) {
+TEST_P(ConversionTest, KeepsPosesOfLog) {
     const auto poseAt = [](double x_m) {
         auto observation = mrpt::obs::CObservationRobotPose::Create();
         observation->sensorLabel = "pose";
@@ -376,7 +376,7 @@ TEST_P(ConversionTest, PosesOfALogTravelWithItsScans) {
     EXPECT_EQ(remarks[1].rfind("entry 7 (lidar): no pose", 0), 0u) << remarks[1];
 }
 
-TEST_P(ConversionTest, AScanWithoutATimeIsToldAndItsFolderCanBeRead) {
+TEST_P(ConversionTest, ReportsScanWithoutTime) {
     const auto timeless = scanFrom(0);
     timeless->timestamp = INVALID_TIMESTAMP;
     writeLog({timeless, scanFrom(1)});
@@ -396,7 +396,7 @@ TEST_P(ConversionTest, AScanWithoutATimeIsToldAndItsFolderCanBeRead) {
     EXPECT_EQ(first->timestamp, INVALID_TIMESTAMP);
 }
 
-TEST_P(ConversionTest, PosesWithoutAHorizonThatLackAScanAreToldToBeLost) {
+TEST_P(ConversionTest, ReportsLostPosesWithoutHorizon) {
     const auto odometryAt = [](double x_m) {
         auto observation = mrpt::obs::CObservationOdometry::Create();
         observation->sensorLabel = "odometry";
@@ -417,7 +417,7 @@ TEST_P(ConversionTest, PosesWithoutAHorizonThatLackAScanAreToldToBeLost) {
 
 /// The mount is in the log, or in the settings: the poses of scans, and what they lead to, are the
 /// same.
-TEST_P(ConversionTest, AMountOfTheSettingsIsInThePosesOfTheSensor) {
+TEST_P(ConversionTest, AppliesMountOfSettings) {
     const mrpt::poses::CPose3D mount(0, 0, 0, 0, radians(-20), radians(180));
     const auto converted = [&](bool is_recorded, const std::string& name) {
         std::vector<mrpt::serialization::CSerializable::Ptr> entries;
@@ -456,7 +456,7 @@ TEST_P(ConversionTest, AMountOfTheSettingsIsInThePosesOfTheSensor) {
               test::readFile(folder_ / "set/labels/000000.label"));
 }
 
-TEST_P(ConversionTest, RangeImagesOfLidarsAndCamerasAreScans) {
+TEST_P(ConversionTest, SegmentsRangeImages) {
     const auto packets = test::poleScanFrom(0, "lidar");
     Scan scan;
     observations::decodePackets(*packets, scan);
@@ -494,7 +494,7 @@ TEST_P(ConversionTest, RangeImagesOfLidarsAndCamerasAreScans) {
                                         "camera_non_roi"}));
 }
 
-TEST_P(ConversionTest, ARotatingScanThatIsStoredElsewhereEndsTheConversionAndIsNamed) {
+TEST_P(ConversionTest, RejectsExternalRotatingScan) {
     mrpt::obs::CObservationRotatingScan scan;
     scan.rowCount = 3;
     scan.columnCount = 4;
@@ -509,7 +509,7 @@ TEST_P(ConversionTest, ARotatingScanThatIsStoredElsewhereEndsTheConversionAndIsN
     EXPECT_THAT(why, HasSubstr("'scan.bin'; put it in with 'rawlog-edit --de-externalize'"));
 }
 
-TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
+TEST_P(ConversionTest, ReportsUnreadableScan) {
     auto broken = scanFrom(0);
     std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(broken)
         ->scan_packets[0]
@@ -530,7 +530,7 @@ TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
 }
 
 /// They are the recording's, and no fault of the settings, which would end the conversion.
-TEST_P(ConversionTest, AScanWithUnsoundLimitsIsKeptAndNamed) {
+TEST_P(ConversionTest, ReportsScanWithInvalidLimits) {
     const double nan = std::nan("");
     for (const auto& [min_m, max_m] : {std::pair{2.0, 1.0}, {nan, 100.0}, {0.0, nan}}) {
         auto broken = scanFrom(0);
@@ -552,14 +552,14 @@ TEST_P(ConversionTest, AScanWithUnsoundLimitsIsKeptAndNamed) {
     }
 }
 
-TEST_P(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
+TEST_P(ConversionTest, KeepsPartialOutputOfBrokenLog) {
     writeLog({scanFrom(0), scanFrom(1), scanFrom(2)});
     const std::string bytes = test::readFile(folder_ / "in.rawlog");
     folder_.write("in.rawlog", bytes.substr(0, bytes.size() / 2));
     try {
         convert(conversion());
         FAIL();
-    } catch (const recordings::BrokenRawlog& e) {
+    } catch (const recordings::BrokenRecording& e) {
         EXPECT_THAT(e.what(), HasSubstr("entry 1"));
         EXPECT_THAT(e.what(), HasSubstr("out.partial.rawlog"));
     }
@@ -568,7 +568,7 @@ TEST_P(ConversionTest, ALogThatBreaksOffLeavesWhatWasBeforeUnderAnotherName) {
               (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi"}));
 }
 
-TEST_P(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
+TEST_P(ConversionTest, KeepsPartialOutputOfBrokenFolder) {
     writeLog({scanFrom(0), scanFrom(1)});
     convertToFolder("scans.v1");
     folder_.write("scans.v1/velodyne/000001.bin", "cut");
@@ -585,7 +585,7 @@ TEST_P(ConversionTest, AScanFolderThatBreaksOffLeavesWhatWasBefore) {
     EXPECT_EQ(recordings::ScanFolder(folder_ / "labels.v1.partial").size(), 1u);
 }
 
-TEST_P(ConversionTest, LongLabelsBecomeNamesThatAFileSystemAllows) {
+TEST_P(ConversionTest, ShortensLongLabels) {
     const std::string label(300, 'a');
     writeLog({scanFrom(0, label + "b"), scanFrom(0, label + "c"), scanFrom(0, label + "d")});
     Conversion all = conversion();
@@ -599,7 +599,7 @@ TEST_P(ConversionTest, LongLabelsBecomeNamesThatAFileSystemAllows) {
     EXPECT_EQ(folders, 3u);
 }
 
-TEST_P(ConversionTest, SeveralLidarsBecomeAScanFolderEach) {
+TEST_P(ConversionTest, WritesScanFolderPerLidar) {
     writeLog({scanFrom(0, "front"), scanFrom(0, "rear"), scanFrom(1, "front"), scanFrom(1, "a/b")});
     Conversion all = conversion();
     all.folder = folder_ / "scans";
@@ -618,7 +618,7 @@ TEST_P(ConversionTest, SeveralLidarsBecomeAScanFolderEach) {
         (std::vector<std::string>{"front", "rear", "rear_roi", "rear_non_roi", "front", "a/b"}));
 }
 
-TEST_P(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
+TEST_P(ConversionTest, RejectsUnknownLabel) {
     writeLog({scanFrom(0, "front"), pose()});
     Conversion other = conversion();
     other.sensor_labels = {"rear"};
@@ -632,7 +632,7 @@ TEST_P(ConversionTest, ALabelThatTheLogDoesNotHaveIsRefusedWithThoseItHas) {
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
 }
 
-TEST_P(ConversionTest, ALogWithoutScansSaysWhatItHas) {
+TEST_P(ConversionTest, ReportsLogWithoutScans) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(pose());
     frame->insert(mrpt::obs::CObservationIMU::Create());
@@ -653,7 +653,7 @@ TEST_P(ConversionTest, ALogWithoutScansSaysWhatItHas) {
     EXPECT_THAT(remarks, testing::Each(testing::Not(HasSubstr("no converted entry"))));
 }
 
-TEST_P(ConversionTest, AScanBeforeTheFirstAttitudeIsNamed) {
+TEST_P(ConversionTest, ReportsScanBeforeFirstAttitude) {
     const auto first = scanFrom(0), second = scanFrom(1);
     auto attitude = mrpt::obs::CObservationRobotPose::Create();
     attitude->timestamp = second->timestamp;
@@ -668,7 +668,7 @@ TEST_P(ConversionTest, AScanBeforeTheFirstAttitudeIsNamed) {
     EXPECT_EQ(convert(again).first_without_attitude, "");
 }
 
-TEST_P(ConversionTest, WhatRunsThatBrokeOffHaveLeftIsNamedByTheOneThatDoesNot) {
+TEST_P(ConversionTest, ReportsEarlierPartialOutputs) {
     writeLog({scanFrom(0), scanFrom(1)});
     ConversionListener stops;
     for (int run = 0; run < 2; ++run) {
@@ -684,7 +684,7 @@ TEST_P(ConversionTest, WhatRunsThatBrokeOffHaveLeftIsNamedByTheOneThatDoesNot) {
     EXPECT_TRUE(fs::exists(folder_ / "out.partial.rawlog"));
 }
 
-TEST_P(ConversionTest, EntriesFromAndToAreIncluded) {
+TEST_P(ConversionTest, IncludesFirstAndLastEntry) {
     writeLog({pose(), scanFrom(0), pose(), scanFrom(1), pose()});
     Conversion part = conversion();
     part.from = 1;
@@ -701,7 +701,7 @@ TEST_P(ConversionTest, EntriesFromAndToAreIncluded) {
     EXPECT_THROW(convert(part), std::runtime_error);
 }
 
-TEST_P(ConversionTest, APreviewFollowsTheClouds) {
+TEST_P(ConversionTest, AddsPreviewAfterClouds) {
     writeLog({scanFrom(0)});
     Conversion with_preview = conversion();
     with_preview.preview = true;
@@ -714,7 +714,7 @@ TEST_P(ConversionTest, APreviewFollowsTheClouds) {
     EXPECT_EQ(reader.next(), nullptr);
 }
 
-TEST_P(ConversionTest, AListenerThatStopsItLeavesWhatWasDone) {
+TEST_P(ConversionTest, KeepsPartialOutputOnInterrupt) {
     writeLog({pose(), scanFrom(0), pose()});
     int asked = 0;
     ConversionListener listener;
@@ -729,7 +729,7 @@ TEST_P(ConversionTest, AListenerThatStopsItLeavesWhatWasDone) {
     EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog").size(), 4u);
 }
 
-TEST_P(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {
+TEST_P(ConversionTest, KeepsTimesOfScanFolder) {
     writeLog({scanFrom(0)});
     convertToFolder("scans");
     folder_.write("scans/times.txt", "7.25\n");
@@ -744,7 +744,7 @@ TEST_P(ConversionTest, TimesOfAScanFolderAreThoseOfTheClouds) {
     }
 }
 
-TEST_P(ConversionTest, CloudsInFilesBesideTheLogAreFound) {
+TEST_P(ConversionTest, FindsExternalClouds) {
     Scan scan;
     scan.x_m = {5, 6};
     scan.y_m = scan.z_m = {0, 1};
@@ -764,7 +764,7 @@ TEST_P(ConversionTest, CloudsInFilesBesideTheLogAreFound) {
     EXPECT_THAT(remarks[0], HasSubstr((folder_ / "out_Images").string()));
 }
 
-TEST_P(ConversionTest, TheInputIsNeverReplaced) {
+TEST_P(ConversionTest, NeverReplacesInput) {
     writeLog({scanFrom(0)});
     Conversion onto_itself = conversion();
     onto_itself.rawlog = onto_itself.input;
@@ -773,14 +773,14 @@ TEST_P(ConversionTest, TheInputIsNeverReplaced) {
     EXPECT_EQ(entriesOf(folder_ / "in.rawlog").size(), 1u);
 }
 
-TEST_P(ConversionTest, OutputsThatExistAreRefused) {
+TEST_P(ConversionTest, RejectsExistingOutput) {
     writeLog({scanFrom(0)});
     folder_.write("out.rawlog", "old");
     EXPECT_THROW(convert(conversion()), std::runtime_error);
     EXPECT_EQ(test::readFile(folder_ / "out.rawlog"), "old");
 }
 
-TEST_P(ConversionTest, SettingsThatDoNotFitALaterScanEndItThereAndLeaveNothing) {
+TEST_P(ConversionTest, StopsAtUnsuitableSettings) {
     // A cloud uses the settings' sensor; packets have 16 beams, too few for this window.
     Scan scan;
     scan.x_m = {5, 6};
@@ -809,7 +809,7 @@ TEST_P(ConversionTest, SettingsThatDoNotFitALaterScanEndItThereAndLeaveNothing) 
     EXPECT_FALSE(fs::exists(folder_ / "out.partial.rawlog"));
 }
 
-TEST_P(ConversionTest, ABreakAfterAFailureIsNotWhatIsTold) {
+TEST_P(ConversionTest, ReportsFirstError) {
     writeLog({pose(), scanFrom(0), scanFrom(1), scanFrom(2)});
     const std::string bytes = test::readFile(folder_ / "in.rawlog");
     folder_.write("in.rawlog", bytes.substr(0, bytes.size() - 10));
@@ -818,7 +818,7 @@ TEST_P(ConversionTest, ABreakAfterAFailureIsNotWhatIsTold) {
     EXPECT_THROW(convert(unfit), SettingsError);
 }
 
-TEST_P(ConversionTest, ALogOfSmallEntriesTakesLittleMoreThanTheyDo) {
+TEST_P(ConversionTest, CompressesSmallEntries) {
     writeLog(std::vector<mrpt::serialization::CSerializable::Ptr>(2000, pose()));
     convert(conversion());
     EXPECT_EQ(entriesOf(folder_ / "out.rawlog").size(), 2000u);
@@ -826,7 +826,7 @@ TEST_P(ConversionTest, ALogOfSmallEntriesTakesLittleMoreThanTheyDo) {
     EXPECT_LT(fs::file_size(folder_ / "out.rawlog"), 50000u);
 }
 
-TEST_P(ConversionTest, ProgressCountsEntries) {
+TEST_P(ConversionTest, ReportsProgressPerEntry) {
     writeLog({pose(), scanFrom(0), pose()});
     std::vector<std::size_t> counts;
     ConversionListener listener;
@@ -863,7 +863,7 @@ std::string storyOf(Conversion conversion, const test::TemporaryFolder& folder, 
     return story;
 }
 
-TEST(ConversionThreads, NothingThatIsSeenDependsOnTheirNumber) {
+TEST(ConversionThreads, DoNotAffectResults) {
     const test::TemporaryFolder folder;
     {
         RawlogWriter writer(folder / "in.rawlog", true);

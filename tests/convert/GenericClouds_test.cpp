@@ -83,7 +83,7 @@ class GenericClouds : public testing::Test {
     Conversion conversion_;
 };
 
-TEST_F(GenericClouds, ResultsHaveTheFieldsOfTheLabelledClouds) {
+TEST_F(GenericClouds, KeepFieldsInResults) {
     write({test::poleScanFrom(0, "lidar")});
     conversion_.clouds = folder_ / "labelled";
     convert(conversion_);
@@ -116,7 +116,7 @@ TEST_F(GenericClouds, ResultsHaveTheFieldsOfTheLabelledClouds) {
     }
 }
 
-TEST_F(GenericClouds, ItsOwnOutputGivesTheSameFileAlsoWithoutRoi) {
+TEST_F(GenericClouds, ReproduceTheirOwnOutput) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(test::poleScanFrom(1, "rear"));
     write({test::poleScanFrom(0, "lidar"), frame});
@@ -132,7 +132,7 @@ TEST_F(GenericClouds, ItsOwnOutputGivesTheSameFileAlsoWithoutRoi) {
     expectSameAgain();
 }
 
-TEST_F(GenericClouds, FieldsOfAFileReachTheScanAndItsResults) {
+TEST_F(GenericClouds, KeepFieldsOfFiles) {
     observations::ObservedScan observed;
     observations::readObservation(*test::poleScanFrom(0, "lidar"), {}, observed);
     PointTable input = observations::tableOf(observed.scan);
@@ -158,7 +158,7 @@ TEST_F(GenericClouds, FieldsOfAFileReachTheScanAndItsResults) {
     EXPECT_GT(of_results.size(), numbers.size() / 2);
 }
 
-TEST_F(GenericClouds, EachFieldHasItsOwnName) {
+TEST_F(GenericClouds, HaveUniqueFieldNames) {
     observations::ObservedScan observed;
     observations::readObservation(*test::poleScanFrom(0, "lidar"), {}, observed);
     PointTable input = observations::tableOf(observed.scan);
@@ -196,7 +196,7 @@ TEST_F(GenericClouds, EachFieldHasItsOwnName) {
     EXPECT_THAT(remarks, testing::Not(HasSubstr("it is 'input_label'")));
 }
 
-TEST_F(GenericClouds, WithoutThemTheFieldsAreOnlyInTheOtherOutputs) {
+TEST_F(GenericClouds, AreOptional) {
     write({test::poleScanFrom(0, "lidar")});
     convert(conversion_);
     conversion_.input = conversion_.rawlog;
@@ -211,7 +211,7 @@ TEST_F(GenericClouds, WithoutThemTheFieldsAreOnlyInTheOtherOutputs) {
 }
 
 // MRPT 3 wrote the sample; what it wrote is what we write, up to the fields of the newest version.
-TEST_F(GenericClouds, ACloudOfMrpt3IsWrittenAsItWas) {
+TEST_F(GenericClouds, KeepCloudOfMrpt3) {
     const char* const folder = std::getenv("HAGEN_MRPT3_DATA");
     if (folder == nullptr) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not set (see CONTRIBUTING.md)";
     conversion_.input = fs::path(folder) / "sample_mrpt3.rawlog";

@@ -20,19 +20,19 @@ std::string drawn(const std::string& text) {
     return test::readFile(folder / "text.svg");
 }
 
-TEST(Gnuplot, TakesAnyTextLiterally) {
+TEST(Gnuplot, QuotesAnyText) {
     EXPECT_THAT(drawn("beta_deg=5, Peter's \\n `date` @x {a}"),
                 HasSubstr("beta_deg=5, Peter's \\n `date` @x {a}"));
     EXPECT_THAT(drawn("one\nset output 'other.svg'"), HasSubstr("one set output 'other.svg'"));
 }
 
-TEST(Gnuplot, TheUsersTerminalIsNotAsked) {
+TEST(Gnuplot, IgnoresUsersTerminal) {
     setenv("GNUTERM", "none such", 1);
     EXPECT_THAT(drawn("text"), HasSubstr("text"));
     unsetenv("GNUTERM");
 }
 
-TEST(Gnuplot, AnSvgThatBreaksOffIsNamed) {
+TEST(Gnuplot, RejectsTruncatedSvg) {
     const test::TemporaryFolder folder;
     const std::string error = test::messageOf([&] {
         runGnuplot("set print 'half.svg'\nprint '<?xml version=\"1.0\"?><svg>'\n", folder.path(),

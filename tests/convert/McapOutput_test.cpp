@@ -73,7 +73,7 @@ class McapOutputTest : public test::PoleConversion, public testing::Test {
     }
 };
 
-TEST_F(McapOutputTest, OurReaderGivesBackAllPointsAndFields) {
+TEST_F(McapOutputTest, WritesReadablePointsAndFields) {
     const PointTable input = tableOfScan();
     conversion_.input = folder_ / "1700000000.25.pcd";
     writeCloud(conversion_.input, convert::OutputFormat::Pcd, input);
@@ -117,7 +117,7 @@ TEST_F(McapOutputTest, OurReaderGivesBackAllPointsAndFields) {
     EXPECT_THAT(remarks_, Contains(HasSubstr("'of_int64' is int64, which PointCloud2 does not")));
 }
 
-TEST_F(McapOutputTest, PacketsGiveRingsAndTimes) {
+TEST_F(McapOutputTest, WritesRingsAndTimesOfPackets) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "lidar")});
     convertCounting();
     const auto clouds = cloudsOf(conversion_.mcap, "/lidar/points");
@@ -129,7 +129,7 @@ TEST_F(McapOutputTest, PacketsGiveRingsAndTimes) {
     EXPECT_EQ(column(output, "time"), std::vector<double>(scan.time_s.begin(), scan.time_s.end()));
 }
 
-TEST_F(McapOutputTest, PosesOfTheSensorComeBack) {
+TEST_F(McapOutputTest, WritesSensorPoses) {
     std::vector<mrpt::obs::CObservation::Ptr> entries;
     for (const double x_m : {0.0, 0.25, 0.5}) {
         const auto scan = test::poleScanFrom(x_m, "lidar");
@@ -157,7 +157,7 @@ TEST_F(McapOutputTest, PosesOfTheSensorComeBack) {
     }
 }
 
-TEST_F(McapOutputTest, EachLidarHasItsTopicsWithNamesThatRosAllows) {
+TEST_F(McapOutputTest, WritesTopicsPerLidar) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "front"), test::poleScanFrom(1, "a b"),
                                      test::poleScanFrom(2, "a/b"), test::poleScanFrom(3, "3 d"),
                                      test::poleScanFrom(4, "map"), test::poleScanFrom(5, "")});
@@ -172,7 +172,7 @@ TEST_F(McapOutputTest, EachLidarHasItsTopicsWithNamesThatRosAllows) {
                                    "allows"));
 }
 
-TEST_F(McapOutputTest, TimesThatRosCannotHoldAreTold) {
+TEST_F(McapOutputTest, ReportsTimesBeyondRos) {
     const auto early = test::poleScanFrom(0, "lidar"), late = test::poleScanFrom(1, "lidar");
     early->timestamp = mrpt::Clock::fromDouble(-5);
     late->timestamp = mrpt::Clock::fromDouble(2147483648.0);
@@ -181,7 +181,7 @@ TEST_F(McapOutputTest, TimesThatRosCannotHoldAreTold) {
     EXPECT_THAT(remarks_, Contains(HasSubstr("the MCAP: 2 of 3 scans have no time")));
 }
 
-TEST_F(McapOutputTest, ALogWithoutScansLeavesNoFile) {
+TEST_F(McapOutputTest, WritesNoFileWithoutScans) {
     auto pose = mrpt::obs::CObservationRobotPose::Create();
     pose->timestamp = mrpt::Clock::fromDouble(1);
     conversion_.input = writeRawlog({pose});
@@ -189,7 +189,7 @@ TEST_F(McapOutputTest, ALogWithoutScansLeavesNoFile) {
     EXPECT_FALSE(fs::exists(conversion_.mcap));
 }
 
-TEST_F(McapOutputTest, AnInterruptionKeepsWhatWasBefore) {
+TEST_F(McapOutputTest, KeepsPartialFileOnInterrupt) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "lidar"), test::poleScanFrom(1, "lidar"),
                                      test::poleScanFrom(2, "lidar")});
     conversion_.jobs = 1;

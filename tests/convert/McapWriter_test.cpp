@@ -78,19 +78,19 @@ class McapWriterTest : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(McapWriterTest, WhatWasWrittenIsRead) {
+TEST_F(McapWriterTest, WritesReadableMessages) {
     const auto written = write("a.mcap");
     EXPECT_EQ(readAll(folder_ / "a.mcap"), written);
 }
 
-TEST_F(McapWriterTest, TheSameMessagesGiveTheSameBytes) {
+TEST_F(McapWriterTest, WritesReproducibleBytes) {
     write("a.mcap");
     write("b.mcap");
     EXPECT_TRUE(bytesOf("a.mcap") == bytesOf("b.mcap"));
 }
 
 /// Their numbers have 16 bits, and none is 0.
-TEST_F(McapWriterTest, TopicsHave16BitsOfNumbers) {
+TEST_F(McapWriterTest, LimitsTopicsTo16Bits) {
     McapWriter writer(folder_ / "a.mcap", "a.mcap");
     for (int topic = 1; topic <= 65535; ++topic) {
         ASSERT_EQ(writer.addTopic("/t", poseStampedType()), topic);
@@ -98,14 +98,14 @@ TEST_F(McapWriterTest, TopicsHave16BitsOfNumbers) {
     EXPECT_THROW(writer.addTopic("/t", poseStampedType()), std::runtime_error);
 }
 
-TEST_F(McapWriterTest, AFileWithoutMessagesIsWhole) {
+TEST_F(McapWriterTest, WritesFileWithoutMessages) {
     write("a.mcap", 0);
     EXPECT_TRUE(readAll(folder_ / "a.mcap").empty());
 }
 
 /// Follows the footer to the summary, its chunk indices to the message indices, and these to the
 /// times of the messages, byte by byte as the specification lays them out.
-TEST_F(McapWriterTest, TheIndexLeadsToEveryMessage) {
+TEST_F(McapWriterTest, IndexesEveryMessage) {
     const auto written = write("a.mcap");
     const std::string bytes = bytesOf("a.mcap");
     const std::size_t footer = bytes.size() - 8 - 29;
@@ -151,7 +151,7 @@ TEST_F(McapWriterTest, TheIndexLeadsToEveryMessage) {
     EXPECT_THAT(first, ElementsAre(3, 3, 4, 4, 0x0b, 8));
 }
 
-TEST_F(McapWriterTest, ChangedBytesAreFoundByTheCrcs) {
+TEST_F(McapWriterTest, DetectsChangedBytes) {
     write("a.mcap");
     const std::string whole = bytesOf("a.mcap");
     const auto why = [&](std::size_t at) {
@@ -165,18 +165,18 @@ TEST_F(McapWriterTest, ChangedBytesAreFoundByTheCrcs) {
     EXPECT_THAT(why(whole.rfind("/a/pose")), HasSubstr("the CRC of the summary is wrong"));
 }
 
-TEST_F(McapWriterTest, WhatFollowsTheEndIsTold) {
+TEST_F(McapWriterTest, ReportsTrailingBytes) {
     write("a.mcap");
     const std::string whole = bytesOf("a.mcap");
     for (const std::string& more : {whole, std::string("x"), std::string(1000, '\0')}) {
         const fs::path file = test::writeBytes(folder_ / "b.mcap", whole + more);
-        EXPECT_THAT(test::messageOf([&] { readAll(file); }),
-                    HasSubstr("the file goes on for " + std::to_string(more.size()) +
-                              " bytes after its end"));
+        EXPECT_THAT(
+            test::messageOf([&] { readAll(file); }),
+            HasSubstr("the file has " + std::to_string(more.size()) + " more bytes after its end"));
     }
 }
 
-TEST_F(McapWriterTest, AFileThatCannotBeWrittenIsNamed) {
+TEST_F(McapWriterTest, ReportsWriteError) {
     EXPECT_THAT(test::messageOf([&] { McapWriter(folder_ / "none/a.mcap", "out.mcap"); }),
                 StartsWith("out.mcap: cannot be written"));
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
@@ -198,7 +198,7 @@ TEST_F(McapWriterTest, AFileThatCannotBeWrittenIsNamed) {
 const RosHeader kAt{1700000000250000000, "lidar"};
 constexpr double kAt_s = 1700000000.25;
 
-TEST(RosMessages, ACloudIsThatOfAnotherWriter) {
+TEST(RosMessages, CloudsEqualOtherWriter) {
     const std::vector<float> xyzi{1, 2, 3, 0.5f, -4, 5, -6, 0.25f};
     observations::PointTable table;
     table.points = 2;
@@ -210,7 +210,7 @@ TEST(RosMessages, ACloudIsThatOfAnotherWriter) {
               test::cloudMessage("", kAt_s, "lidar", xyzi).cdr);
 }
 
-TEST(RosMessages, PointsThatAreNotFiniteAreTold) {
+TEST(RosMessages, MarkNonFinitePoints) {
     observations::PointTable table;
     table.points = 1;
     for (const char* const name : {"x", "y", "z"})
@@ -221,7 +221,7 @@ TEST(RosMessages, PointsThatAreNotFiniteAreTold) {
     EXPECT_EQ(pointCloud2Message(kAt, table).back(), 0);
 }
 
-TEST(RosMessages, WhatRosCannotHoldIsRefused) {
+TEST(RosMessages, RejectUnsupportedValues) {
     observations::PointTable table;
     table.points = 1;
     addColumn("t", observations::NumberType::Int64, {0}, table);
@@ -232,7 +232,7 @@ TEST(RosMessages, WhatRosCannotHoldIsRefused) {
     }
 }
 
-TEST(RosMessages, PosesAreThoseOfAnotherWriter) {
+TEST(RosMessages, PosesEqualOtherWriter) {
     const mrpt::poses::CPose3D turned(1, -2, 3, 0.5, 0, 0), level(4, 5, 6, 0, 0, 0);
     test::MessageBytes pose(true);
     pose.header(kAt_s, "lidar").pose(1, -2, 3, 0.5);
@@ -241,7 +241,7 @@ TEST(RosMessages, PosesAreThoseOfAnotherWriter) {
               test::transformMessage("/tf", kAt_s, "map", "lidar", 4, 5, 6).cdr);
 }
 
-TEST(RosMessages, BoxesComeAfterAMarkerThatDeletesTheOldOnes) {
+TEST(RosMessages, BoxesReplaceOldMarkers) {
     const RoiBox box{7, 40, 2.0f, {Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(3, 2, 7)}};
     test::MessageBytes expected(true);
     expected.number(std::uint32_t{2});

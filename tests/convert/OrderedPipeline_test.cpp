@@ -40,12 +40,12 @@ PipelineSteps<Numbered> squares(int items, Seen& seen) {
     return steps;
 }
 
-TEST(OrderedPipeline, ItemsKeepTheirOrder) {
+TEST(OrderedPipeline, KeepsOrder) {
     std::vector<int> expected;
     for (int i = 0; i < 200; ++i) expected.push_back(i * i);
     for (const std::size_t threads : {1, 2, 3, 8, 300}) {
         Seen seen;
-        EXPECT_EQ(runPipeline(squares(200, seen), threads), threads);
+        EXPECT_EQ(runPipeline(squares(200, seen), threads).threads, threads);
         EXPECT_EQ(seen.accounted, expected) << threads;
         EXPECT_EQ(seen.written, expected) << threads;
     }
@@ -55,7 +55,7 @@ TEST(OrderedPipeline, ItemsKeepTheirOrder) {
 }
 
 /// The first exception ends it; what was written by then is a beginning, in order.
-TEST(OrderedPipeline, AnExceptionInAnyStepEndsIt) {
+TEST(OrderedPipeline, StopsAtException) {
     for (const std::size_t threads : {1, 2, 8}) {
         for (int step = 0; step < 5; ++step) {
             Seen seen;
@@ -77,7 +77,7 @@ TEST(OrderedPipeline, AnExceptionInAnyStepEndsIt) {
             if (step == 2) steps.account = failing(steps.account);
             if (step == 3) steps.pack = failing(steps.pack);
             if (step == 4) steps.write = failing(steps.write);
-            EXPECT_THROW(runPipeline(steps, threads), std::runtime_error) << step;
+            EXPECT_TRUE(runPipeline(steps, threads).why) << step;
             EXPECT_LE(seen.written.size(), 40u) << threads << " " << step;
             for (std::size_t i = 0; i < seen.written.size(); ++i) {
                 EXPECT_EQ(seen.written[i], static_cast<int>(i * i));

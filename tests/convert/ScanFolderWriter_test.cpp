@@ -32,7 +32,7 @@ LabelledReturns labels() {
     return returns;
 }
 
-TEST(ScanFolderWriter, WritesAFolderThatReadsBack) {
+TEST(ScanFolderWriter, WritesReadableFolder) {
     const test::TemporaryFolder folder;
     const SensorModel sensor = sensorModel("HDL-32E");
     ScanFolderWriter writer(folder.path());
@@ -60,7 +60,7 @@ TEST(ScanFolderWriter, WritesAFolderThatReadsBack) {
 }
 
 /// Such as of clouds beside one whose name has no number, which was left out.
-TEST(ScanFolderWriter, TimesAndPosesAreInTheOrderInWhichNamesAreRead) {
+TEST(ScanFolderWriter, OrdersTimesAndPosesByName) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path());
     for (const auto& [name, time_s] : {std::pair{"10", 50.0}, {"9", 60.0}}) {
@@ -75,7 +75,7 @@ TEST(ScanFolderWriter, TimesAndPosesAreInTheOrderInWhichNamesAreRead) {
     EXPECT_NEAR(recordings::readKittiPoses(read.kittiPosesFile()).at(1).x(), -10, 1e-9);
 }
 
-TEST(ScanFolderWriter, KeepsTheMountOfTheSensor) {
+TEST(ScanFolderWriter, KeepsMountOfSensor) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path(), {2.5f, -0.4f});
     writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);
@@ -87,7 +87,7 @@ TEST(ScanFolderWriter, KeepsTheMountOfTheSensor) {
     EXPECT_EQ(settings.sensorModel().rows(), 32);
 }
 
-TEST(ScanFolderWriter, ASensorWithoutRingsStaysOne) {
+TEST(ScanFolderWriter, KeepsSensorWithoutRings) {
     const test::TemporaryFolder folder;
     const SensorModel sensor = sensorModel("Mid-360");
     ScanFolderWriter writer(folder.path());
@@ -102,7 +102,7 @@ TEST(ScanFolderWriter, ASensorWithoutRingsStaysOne) {
     EXPECT_EQ(test::readFile(file).find("mount"), std::string::npos);
 }
 
-TEST(ScanFolderWriter, ASensorAtTheEndsOfWhatSettingsAllowReadsBack) {
+TEST(ScanFolderWriter, ClampsSensorToSettingsLimits) {
     SensorModel sensor = customSensorModel({-90.0, 0.0, 90.0});
     const float usual_m = sensor.max_range_m;
     for (const float least_m : {0.5f, 2000.0f}) {
@@ -119,7 +119,7 @@ TEST(ScanFolderWriter, ASensorAtTheEndsOfWhatSettingsAllowReadsBack) {
     }
 }
 
-TEST(ScanFolderWriter, ASensorThatIsNotKnownIsLeftOut) {
+TEST(ScanFolderWriter, OmitsUnknownSensor) {
     for (const Attitude mount : {Attitude{}, Attitude{2.5f, -0.4f}}) {
         const test::TemporaryFolder folder;
         ScanFolderWriter writer(folder.path(), mount, GivenLimits{});
@@ -135,7 +135,7 @@ TEST(ScanFolderWriter, ASensorThatIsNotKnownIsLeftOut) {
     }
 }
 
-TEST(ScanFolderWriter, GivenLimitsOfASensorThatIsNotKnownAreKept) {
+TEST(ScanFolderWriter, KeepsGivenRangeLimits) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path(), {}, GivenLimits{0.7f, std::nullopt});
     writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);
@@ -147,7 +147,7 @@ TEST(ScanFolderWriter, GivenLimitsOfASensorThatIsNotKnownAreKept) {
     EXPECT_FALSE(settings.sensor.max_range_m);
 }
 
-TEST(ScanFolderWriter, PosesAreInTheMapAndWhereAllAreKnownFromTheFirst) {
+TEST(ScanFolderWriter, WritesTumAndKittiPoses) {
     const test::TemporaryFolder folder;
     const mrpt::poses::CPose3D first(5, 6, 7, 1.5, 0.1, -0.2), second(6, 8, 7, 1.0, 0, 0);
     for (const bool is_known : {false, true}) {
@@ -170,7 +170,7 @@ TEST(ScanFolderWriter, PosesAreInTheMapAndWhereAllAreKnownFromTheFirst) {
     EXPECT_NEAR(((first + kitti[1]) - second).norm(), 0.0, 1e-7);
 }
 
-TEST(ScanFolderWriter, NamesAFileThatCannotBeWritten) {
+TEST(ScanFolderWriter, ReportsWriteError) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path());
     fs::remove(folder / "labels");

@@ -56,7 +56,7 @@ class WriteCloudTest : public testing::TestWithParam<OutputFormat> {
     fs::path file_;
 };
 
-TEST_P(WriteCloudTest, WhatIsWrittenIsReadBack) {
+TEST_P(WriteCloudTest, WritesReadableClouds) {
     const recordings::CloudFile cloud = writeAndRead(twoPoints());
     EXPECT_EQ(namesOf(cloud.table), "x, y, z, my_ring, t, label");
     EXPECT_THAT(column(cloud, "x"), ElementsAre(1.5, 2.5));
@@ -71,7 +71,7 @@ TEST_P(WriteCloudTest, WhatIsWrittenIsReadBack) {
     EXPECT_THAT(changesWhenWritten(GetParam(), twoPoints()), IsEmpty());
 }
 
-TEST_P(WriteCloudTest, CoordinatesFarAwayStayFloat64) {
+TEST_P(WriteCloudTest, KeepsFloat64ForFarCoordinates) {
     PointTable table;
     table.points = 1;
     for (const char* const name : {"x", "y", "z"}) {
@@ -83,7 +83,7 @@ TEST_P(WriteCloudTest, CoordinatesFarAwayStayFloat64) {
     EXPECT_THAT(column(cloud, "y"), ElementsAre(5e6 + 0.125));
 }
 
-TEST_P(WriteCloudTest, ArraysAreKept) {
+TEST_P(WriteCloudTest, KeepsArrays) {
     PointTable table = twoPoints();
     table.fields[5] = {"pair", NumberType::UInt8, table.fields[0].offset, 2};
     const recordings::CloudFile cloud = writeAndRead(table);
@@ -95,14 +95,14 @@ TEST_P(WriteCloudTest, ArraysAreKept) {
     }
 }
 
-TEST_P(WriteCloudTest, NamesThatBecomeTheSameAreToldApart) {
+TEST_P(WriteCloudTest, DistinguishesEqualNames) {
     PointTable table = twoPoints();
     addColumn("my_ring", NumberType::UInt8, {3, 4}, table);
     const recordings::CloudFile cloud = writeAndRead(table);
     EXPECT_THAT(column(cloud, "my_ring_"), ElementsAre(3, 4));
 }
 
-TEST(WriteCloudNames, ManyThatBecomeTheSameAreToldApartInTime) {
+TEST(WriteCloudNames, DistinguishManyEqualNamesInTime) {
     PointTable table;
     table.points = 1;
     for (const char* const name : {"x", "y", "z", "a_4"}) {
@@ -127,7 +127,7 @@ TEST(WriteCloudNames, ManyThatBecomeTheSameAreToldApartInTime) {
     EXPECT_THAT(names, ElementsAre("x", "y", "z", "a_4", "a", "a_", "a__", "a_3", "a_5"));
 }
 
-TEST_P(WriteCloudTest, NoPointsAreAFile) {
+TEST_P(WriteCloudTest, WritesEmptyCloud) {
     PointTable table;
     for (const char* const name : {"x", "y", "z"}) addColumn(name, NumberType::Float32, {}, table);
     const recordings::CloudFile cloud = writeAndRead(table);
@@ -135,7 +135,7 @@ TEST_P(WriteCloudTest, NoPointsAreAFile) {
     EXPECT_EQ(namesOf(cloud.table), "x, y, z");
 }
 
-TEST_P(WriteCloudTest, WhatCannotBeWrittenIsNamed) {
+TEST_P(WriteCloudTest, ReportsWriteErrors) {
     EXPECT_THROW(writeCloud(file_ / "inside", GetParam(), twoPoints()), std::runtime_error);
     PointTable table = twoPoints();
     table.fields[3].name = "w";
@@ -149,14 +149,14 @@ INSTANTIATE_TEST_SUITE_P(Formats, WriteCloudTest,
                              return std::string(extensionOf(format.param)).substr(1);
                          });
 
-TEST(WriteCloud, PlyRoundsLargeIntegersAndSaysSo) {
+TEST(WriteCloud, PlyReportsRoundedIntegers) {
     PointTable table = twoPoints();
     addColumn("stamp", NumberType::UInt64, {1.7e18, 3}, table);
     EXPECT_THAT(changesWhenWritten(OutputFormat::Ply, table), ElementsAre(HasSubstr("'stamp'")));
     EXPECT_THAT(changesWhenWritten(OutputFormat::Pcd, table), IsEmpty());
 }
 
-TEST(WriteCloud, APlyIsWhatTheFormatSays) {
+TEST(WriteCloud, PlyMatchesFormat) {
     const test::TemporaryFolder folder;
     const fs::path file = folder / "write_cloud_bytes.ply";
     PointTable table;

@@ -15,7 +15,6 @@ namespace {
 void readAnyCloud(std::string_view input) {
     const InputFile file(input, "input.bin");
     recordings::cloudFormatOf(file.path());
-    recordings::startOfBin(file.path());
     recordings::CloudFile cloud;
     if (!mayRefuse([&] { cloud = recordings::readCloud(file.path()); })) return;
     // A packed file may unpack to 256 times its size.

@@ -59,7 +59,7 @@ void expectClimb(const PoseSeries& series) {
     }
 }
 
-TEST_F(BagPosesTest, PosesComeFromOdometryThenFromTransforms) {
+TEST_F(BagPosesTest, PrefersOdometryToTransforms) {
     const ReadBag odometry_only =
         read({cloud("/points", 0, "base_link"), odometry(0, 1), odometry(0.1, 2),
               odometry(0.102, 2.1), transform("/tf", "odom", "base_link", 7)});
@@ -86,7 +86,7 @@ TEST_F(BagPosesTest, PosesComeFromOdometryThenFromTransforms) {
     EXPECT_EQ(goals.scans->plan().poses->source, "transforms from odom to lidar");
 }
 
-TEST_F(BagPosesTest, TheMountMayBeThroughSeveralFramesAndSidewaysInTheTree) {
+TEST_F(BagPosesTest, FollowsMountThroughFrames) {
     // The odometry is of the IMU, which is beside the LiDAR on the vehicle.
     const ReadBag bag = read({transform("/tf_static", "base_link", "lidar", 5),
                               transform("/tf_static", "base_link", "imu", 2), odometry(0, 0, "imu"),
@@ -104,7 +104,7 @@ TEST_F(BagPosesTest, TheMountMayBeThroughSeveralFramesAndSidewaysInTheTree) {
     EXPECT_EQ(circle.failed_because, "");
 }
 
-TEST_F(BagPosesTest, TransformsThatNeverChangeAreNotThePoses) {
+TEST_F(BagPosesTest, TreatsConstantTransformsAsStatic) {
     std::vector<SentMessage> messages{cloud("/points"),
                                       transform("/tf_static", "base_link", "lidar", 5)};
     for (const double since_s : {0.0, 0.1, 0.2}) {
@@ -129,7 +129,7 @@ TEST_F(BagPosesTest, TransformsThatNeverChangeAreNotThePoses) {
     EXPECT_EQ(parked.scans->plan().poses->source, "transforms from odom to lidar");
 }
 
-TEST_F(BagPosesTest, TransformsThatMoveOneAfterTheOtherAreComposed) {
+TEST_F(BagPosesTest, ComposesMovingTransforms) {
     const ReadBag bag = read(
         climbingVehicle({cloud("/points"), transform("/tf_static", "base_link", "lidar", 5),
                          moved(0, "map", "odom", 100, 0, 0), moved(0.1, "map", "odom", 200, 0, 0),
@@ -150,7 +150,7 @@ TEST_F(BagPosesTest, TransformsThatMoveOneAfterTheOtherAreComposed) {
     EXPECT_NEAR(still.scans->plan().poses->poses.at(1).z_m, 2, 1e-9);
 }
 
-TEST_F(BagPosesTest, OdometryOfAFrameInWhichTheSensorMovesIsComposedWithTransforms) {
+TEST_F(BagPosesTest, ComposesOdometryWithTransforms) {
     const auto flown = [](double since_s) {
         return test::sentMessage("/odom", "nav_msgs/Odometry", kStart_s + since_s,
                                  [&](test::MessageBytes& bytes) {
@@ -180,7 +180,7 @@ TEST_F(BagPosesTest, OdometryOfAFrameInWhichTheSensorMovesIsComposedWithTransfor
                                       "/odom are taken for those of the sensor")));
 }
 
-TEST_F(BagPosesTest, TransformsThatDoNotLeadToTheWorldAreNotThePoses) {
+TEST_F(BagPosesTest, IgnoresTransformsWithinVehicle) {
     const ReadBag within = read({cloud("/points"), transform("/tf_static", "base_link", "lidar", 5),
                                  transform("/tf", "base_footprint", "base_link", 1),
                                  transform("/tf", "base_footprint", "base_link", 2, 0.1)});
@@ -204,7 +204,7 @@ TEST_F(BagPosesTest, TransformsThatDoNotLeadToTheWorldAreNotThePoses) {
     EXPECT_THAT(circle.scans->plan().remarks, ElementsAre(HasSubstr("go round in a circle")));
 }
 
-TEST_F(BagPosesTest, TransformsThatMoveAMapAreNotThePoses) {
+TEST_F(BagPosesTest, IgnoresTransformsOfMap) {
     const ReadBag bag =
         read({cloud("/map_cloud", 0, "map"), cloud("/points", 0, "base"),
               transform("/tf", "earth", "map", 1), transform("/tf", "earth", "map", 2, 0.1),
@@ -213,7 +213,7 @@ TEST_F(BagPosesTest, TransformsThatMoveAMapAreNotThePoses) {
     EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base");
 }
 
-TEST_F(BagPosesTest, ASensorThatHangsOnAnotherFrameThanTheVehicleHasNoMount) {
+TEST_F(BagPosesTest, ReportsSensorOnOtherFrame) {
     const SentMessage imu =
         test::sentMessage("/imu", "sensor_msgs/Imu", kStart_s, [](test::MessageBytes& bytes) {
             bytes.header(kStart_s, "imu");
@@ -238,7 +238,7 @@ TEST_F(BagPosesTest, ASensorThatHangsOnAnotherFrameThanTheVehicleHasNoMount) {
                                       "/points to 'base_link'")));
 }
 
-TEST_F(BagPosesTest, AMountInAnotherFrameThanThatOfThePosesIsNone) {
+TEST_F(BagPosesTest, IgnoresMountInOtherFrame) {
     const ReadBag bag = read({cloud("/points"), transform("/tf_static", "base_link", "lidar", 5),
                               odometry(0, 0, "body"), odometry(0.1, 1, "body")});
     EXPECT_EQ(CPose3D(bag.of("points")[0]->sensorPose()).x(), 0);
@@ -247,7 +247,7 @@ TEST_F(BagPosesTest, AMountInAnotherFrameThanThatOfThePosesIsNone) {
                                       "to 'body'")));
 }
 
-TEST_F(BagPosesTest, ATransformThatCannotBeReadCostsNoOther) {
+TEST_F(BagPosesTest, SkipsUnreadableTransform) {
     const auto transforms = [](const std::string& topic) {
         return test::sentMessage(
             topic, "tf2_msgs/TFMessage", kStart_s, [](test::MessageBytes& bytes) {
@@ -273,7 +273,7 @@ TEST_F(BagPosesTest, ATransformThatCannotBeReadCostsNoOther) {
     }
 }
 
-TEST_F(BagPosesTest, TransformsOfMoreFramesThanAreKeptAreCounted) {
+TEST_F(BagPosesTest, CountsExcessFrames) {
     const auto transforms = [](const std::string& topic, std::size_t frames) {
         const auto write = [&](test::MessageBytes& bytes) {
             bytes.number(static_cast<std::uint32_t>(frames));
@@ -297,7 +297,7 @@ TEST_F(BagPosesTest, TransformsOfMoreFramesThanAreKeptAreCounted) {
                 Contains(HasSubstr("/tf_static: 2 transforms of frames beyond the first 1000")));
 }
 
-TEST_F(BagPosesTest, AFrameOnItselfIsNamed) {
+TEST_F(BagPosesTest, ReportsFrameOnItself) {
     const ReadBag bag = read({cloud("/points"), transform("/tf_static", "lidar", "lidar", 1)});
     EXPECT_THAT(bag.scans->remarks(),
                 Contains(HasSubstr("/tf_static: 1 transform that could not be read, left out; the "
@@ -305,7 +305,7 @@ TEST_F(BagPosesTest, AFrameOnItselfIsNamed) {
                                    "to 'lidar': a frame cannot hang on itself")));
 }
 
-TEST_F(BagPosesTest, PosesThatCannotBeReadAreNamedWithTheReason) {
+TEST_F(BagPosesTest, ReportsUnreadablePoses) {
     SentMessage cut = odometry(0.1, 1);
     cut.ros1.resize(60);
     const ReadBag bag = read({cloud("/points"), odometry(0, 0), cut, odometry(0.2, 2), cut});
@@ -315,7 +315,7 @@ TEST_F(BagPosesTest, PosesThatCannotBeReadAreNamedWithTheReason) {
                                    "message 1 (recorded at 1700000000.100 s): it ends ")));
 }
 
-TEST_F(BagPosesTest, TransformsOfOneFrameFromTwoParentsAreNotMixed) {
+TEST_F(BagPosesTest, SeparatesParentsOfAFrame) {
     const ReadBag bag = read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
                               transform("/tf", "map", "lidar", 100, 0.05),
                               transform("/tf", "odom", "lidar", 2, 0.1),

@@ -45,7 +45,7 @@ class BagSourceTest : public testing::Test {
     fs::path bag_;
 };
 
-TEST_F(BagSourceTest, EachScanIsAnEntry) {
+TEST_F(BagSourceTest, ReturnsEntryPerScan) {
     SourceOptions options;
     options.folder_objects = observations::CloudClass::Simple;
     const auto source = open(options);
@@ -62,7 +62,7 @@ TEST_F(BagSourceTest, EachScanIsAnEntry) {
     EXPECT_EQ(source->entriesKnown(), 6u);
 }
 
-TEST_F(BagSourceTest, PosesAreThoseOfTheVehicleAndTheMountIsThatOfTheBag) {
+TEST_F(BagSourceTest, UsesPosesAndMountOfBag) {
     const auto source = open();
     source->usePoses("");
     EXPECT_EQ(source->poses().source, "nav_msgs/Odometry on /odom");
@@ -76,7 +76,7 @@ TEST_F(BagSourceTest, PosesAreThoseOfTheVehicleAndTheMountIsThatOfTheBag) {
     }
 }
 
-TEST_F(BagSourceTest, PosesOfTheLidarsOwnFrameContainItsMount) {
+TEST_F(BagSourceTest, KeepsMountInLidarPoses) {
     const auto poseOf = [&](const std::string& moved) {
         std::vector<test::SentMessage> messages;
         for (int i = 0; i < 5; ++i) {
@@ -98,7 +98,7 @@ TEST_F(BagSourceTest, PosesOfTheLidarsOwnFrameContainItsMount) {
     EXPECT_TRUE(poseOf("base_link").attitude_is_of_sensor);
 }
 
-TEST_F(BagSourceTest, PosesOfAFileReplaceThem) {
+TEST_F(BagSourceTest, PrefersPosesOfFile) {
     SourceOptions options;
     options.topics = {"/rear"};
     writeKittiPoses(folder_ / "poses.txt", {CPose3D(), CPose3D(5, 0, 0, 0, 0, 0), CPose3D()});
@@ -114,7 +114,7 @@ TEST_F(BagSourceTest, PosesOfAFileReplaceThem) {
                 HasSubstr("the log has 2 LiDARs"));
 }
 
-TEST_F(BagSourceTest, OnlyTheSelectedEntriesLabelsAndTopics) {
+TEST_F(BagSourceTest, ReadsSelectedEntriesLabelsAndTopics) {
     SourceOptions options;
     options.first_entry = 2;
     options.last_entry = 3;
@@ -134,15 +134,15 @@ TEST_F(BagSourceTest, OnlyTheSelectedEntriesLabelsAndTopics) {
     EXPECT_THAT(test::messageOf([&] { open(options); }), HasSubstr("has no topic '/none'"));
 }
 
-TEST_F(BagSourceTest, ABreakIsReportedAfterTheScansBeforeIt) {
+TEST_F(BagSourceTest, ReportsBreakAfterScans) {
     fs::resize_file(bag_, fs::file_size(bag_) - 10);
     const auto source = open();
     for (int i = 0; i < 6; ++i) EXPECT_TRUE(source->nextScan());
-    EXPECT_THROW(source->nextScan(), recordings::BrokenBag);
+    EXPECT_THROW(source->nextScan(), recordings::BrokenRecording);
     EXPECT_EQ(open()->scanTimes().at("front").size(), 3u);
 }
 
-TEST_F(BagSourceTest, WhatOnlyReadingInAdvanceMissedIsTold) {
+TEST_F(BagSourceTest, ReportsLookAheadErrors) {
     const auto whole = test::mcapOf(messages_, {"none", 1});
     const fs::path cut = folder_ / "cut.mcap", bag = folder_ / "flight.mcap";
     for (const std::size_t last : {0u, 5u, 100u}) {
@@ -165,7 +165,7 @@ TEST_F(BagSourceTest, WhatOnlyReadingInAdvanceMissedIsTold) {
     }
 }
 
-TEST_F(BagSourceTest, StopsWhenToldTo) {
+TEST_F(BagSourceTest, StopsOnRequest) {
     SourceOptions options;
     options.keep_going = [] { return false; };
     EXPECT_THROW(open(options), Interrupted);
@@ -177,7 +177,7 @@ TEST_F(BagSourceTest, StopsWhenToldTo) {
     EXPECT_THROW(source->nextEntry(), Interrupted);
 }
 
-TEST_F(BagSourceTest, StopsWithinMessagesThatAreNoScans) {
+TEST_F(BagSourceTest, StopsBetweenScans) {
     std::vector<test::SentMessage> messages = messages_;
     for (int i = 0; i < 100; ++i) messages.push_back(test::stringMessage("/text", 2e9, "a"));
     const auto file = test::writeBytes(folder_ / "flight.mcap", test::mcapOf(messages));

@@ -46,7 +46,7 @@ class CloudFileTest : public testing::Test {
         try {
             read(name, text);
             return "";
-        } catch (const BrokenCloud& e) {
+        } catch (const BrokenRecording& e) {
             EXPECT_THAT(e.what(), HasSubstr((folder_ / name).string() + ": "));
             return e.what();
         }
@@ -67,7 +67,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text.replace(at, what.size(), with);
 }
 
-TEST_F(CloudFileTest, EveryFormatHasThePointsThatWereWritten) {
+TEST_F(CloudFileTest, ReadsEveryFormat) {
     const std::vector<FilePoint> points = filePoints();
     for (const auto& [name, text] : test::cloudFiles(points)) {
         SCOPED_TRACE(name);
@@ -94,19 +94,19 @@ TEST_F(CloudFileTest, EveryFormatHasThePointsThatWereWritten) {
 }
 
 /// A sparse file may be larger than all memory.
-TEST_F(CloudFileTest, AFileOfMoreThanAScanMayHaveIsNotRead) {
+TEST_F(CloudFileTest, RejectsTooLargeFile) {
     const fs::path file = write("huge.bin", "");
     fs::resize_file(file, (std::uintmax_t{2} << 30) + 1);
     try {
         readCloud(file);
         FAIL();
-    } catch (const BrokenCloud& e) {
+    } catch (const BrokenRecording& e) {
         EXPECT_THAT(e.what(), HasSubstr("huge.bin: is larger than 2 GiB"));
     }
 }
 
 /// A map is refused before it takes memory beside its file.
-TEST_F(CloudFileTest, MorePointsThanAScanMayHaveAreNotRead) {
+TEST_F(CloudFileTest, RejectsTooManyPoints) {
     const std::string count = "16777217";
     const std::string npy =
         test::npy("{'descr': '|u1', 'fortran_order': False, 'shape': (" + count + ", 3), }", "");
@@ -124,7 +124,7 @@ TEST_F(CloudFileTest, MorePointsThanAScanMayHaveAreNotRead) {
     }
 }
 
-TEST_F(CloudFileTest, FormatsAreToldByTheirContent) {
+TEST_F(CloudFileTest, DetectsFormatByContent) {
     const auto format = [&](const std::string& text) { return cloudFormatOf(write("file", text)); };
     EXPECT_EQ(format(test::asciiPcd(filePoints())), CloudFormat::Pcd);
     EXPECT_EQ(format("VERSION 0.7\nFIELDS x\n"), CloudFormat::Pcd);
@@ -141,7 +141,7 @@ TEST_F(CloudFileTest, FormatsAreToldByTheirContent) {
     EXPECT_EQ(cloudFormatOf(folder_ / "missing"), std::nullopt);
 }
 
-TEST_F(CloudFileTest, ANameDoesNotMatter) {
+TEST_F(CloudFileTest, IgnoresFileName) {
     EXPECT_EQ(read("las.bin", test::las(filePoints())).table.points, 12u);
     EXPECT_EQ(read("points", test::bin(filePoints())).table.points, 12u);
     EXPECT_TRUE(hasCloudName("a/B.PCD"));
@@ -149,7 +149,7 @@ TEST_F(CloudFileTest, ANameDoesNotMatter) {
 }
 
 /// Cut anywhere, a file is refused, except after its last number.
-TEST_F(CloudFileTest, ATruncatedFileIsNeverRead) {
+TEST_F(CloudFileTest, RejectsTruncatedFile) {
     for (const auto& [name, text] : test::cloudFiles()) {
         for (std::size_t k = 0; k < 50; ++k) {
             const std::size_t size = k * (text.size() - 1) / 49;
@@ -167,7 +167,7 @@ TEST_F(CloudFileTest, ATruncatedFileIsNeverRead) {
 }
 
 /// Any byte of the header or data may be wrong: a file is read or refused, nothing else.
-TEST_F(CloudFileTest, AWrongByteIsReadOrRefused) {
+TEST_F(CloudFileTest, SurvivesWrongBytes) {
     for (const auto& [name, text] : test::cloudFiles(filePoints(3))) {
         for (std::size_t at = 0; at < text.size(); at += 4) {
             std::string changed = text;
@@ -175,13 +175,13 @@ TEST_F(CloudFileTest, AWrongByteIsReadOrRefused) {
             try {
                 const PointTable table = read(name, changed).table;
                 EXPECT_LE(table.points * table.bytes_per_point, 8 * text.size());
-            } catch (const BrokenCloud&) {
+            } catch (const BrokenRecording&) {
             }
         }
     }
 }
 
-TEST_F(CloudFileTest, AbsurdNumbersOfPointsAreRefusedBeforeMemoryIsTaken) {
+TEST_F(CloudFileTest, RejectsAbsurdPointCounts) {
     const std::string most = "18446744073709551615";
     for (const auto& [name, text] : test::cloudFiles()) {
         SCOPED_TRACE(name);
@@ -206,7 +206,7 @@ TEST_F(CloudFileTest, AbsurdNumbersOfPointsAreRefusedBeforeMemoryIsTaken) {
 }
 
 /// Without points, no byte has to be there: the fields themselves are limited.
-TEST_F(CloudFileTest, AbsurdFieldsAreRefusedWithoutPoints) {
+TEST_F(CloudFileTest, RejectsAbsurdFields) {
     EXPECT_THAT(complaint("a.pcd",
                           "FIELDS x y z a\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 4000000000\n"
                           "WIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA binary\n"),
@@ -219,14 +219,14 @@ TEST_F(CloudFileTest, AbsurdFieldsAreRefusedWithoutPoints) {
 
 // PCD
 
-TEST_F(CloudFileTest, PcdPaddingIsNoField) {
+TEST_F(CloudFileTest, PcdIgnoresPadding) {
     const CloudFile cloud = read("a.pcd", test::binaryPcd(filePoints()));
     EXPECT_EQ(namesOf(cloud.table), "x, y, z, ring, t");
     EXPECT_THAT(cloud.remarks, IsEmpty());
     EXPECT_EQ(cloud.viewpoint, "");
 }
 
-TEST_F(CloudFileTest, PcdHeadersMayLackWhatIsUsual) {
+TEST_F(CloudFileTest, PcdAcceptsShortHeader) {
     const CloudFile cloud = read("a.pcd",
                                  "VERSION 0.6\r\nCOLUMNS x y z\r\nSIZE 4 4 8\r\nTYPE F F F\r\n"
                                  "WIDTH 2\r\nDATA ascii\r\n1 2 3\r\n\r\n nan\t-inf +7\r\n");
@@ -236,13 +236,13 @@ TEST_F(CloudFileTest, PcdHeadersMayLackWhatIsUsual) {
     EXPECT_THAT(column(cloud.table, "z"), ElementsAre(3, 7));
 }
 
-TEST_F(CloudFileTest, PcdTextMayBeAsShortAsItCan) {
+TEST_F(CloudFileTest, PcdAcceptsShortestText) {
     const std::string header = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nDATA ascii\n";
     EXPECT_THAT(column(read("a.pcd", header + "1 2 3").table, "z"), ElementsAre(3));
     EXPECT_THAT(complaint("a.pcd", header + "1 2"), HasSubstr("is it truncated?"));
 }
 
-TEST_F(CloudFileTest, PcdViewpointAndRestAreTold) {
+TEST_F(CloudFileTest, PcdReportsViewpointAndRest) {
     const std::string moved =
         replaced(test::binaryPcd(filePoints()), "VIEWPOINT 0 0 0", "VIEWPOINT 0 0 2");
     const CloudFile cloud = read("a.pcd", moved + "more");
@@ -250,7 +250,7 @@ TEST_F(CloudFileTest, PcdViewpointAndRestAreTold) {
     EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("4 bytes after")));
 }
 
-TEST_F(CloudFileTest, PcdComplaintsNameTheLine) {
+TEST_F(CloudFileTest, PcdErrorsNameTheLine) {
     const std::string text = test::asciiPcd(filePoints());
     const auto complaintOn = [&](const std::string& what, const std::string& with) {
         return complaint("a.pcd", replaced(text, what, with));
@@ -270,7 +270,7 @@ TEST_F(CloudFileTest, PcdComplaintsNameTheLine) {
     EXPECT_THAT(complaintOn("COUNT 1", "COUNT 4294967295"), HasSubstr("bytes are there"));
 }
 
-TEST_F(CloudFileTest, PcdCompressedSizesAreChecked) {
+TEST_F(CloudFileTest, PcdChecksCompressedSizes) {
     std::string text = test::compressedPcd(filePoints());
     const std::size_t sizes = text.find("binary_compressed\n") + 18;
     const auto with = [&](std::size_t at, const std::string& bytes) {
@@ -286,7 +286,7 @@ TEST_F(CloudFileTest, PcdCompressedSizesAreChecked) {
 
 // PLY
 
-TEST_F(CloudFileTest, PlyListsAndOtherElementsAreLeftOutAndTold) {
+TEST_F(CloudFileTest, PlyReportsIgnoredElements) {
     const std::string text = replaced(test::asciiPly({{1, 2, 3, 4, 5}}), "property uint t\n",
                                       "property list int float more\nproperty uint t\n");
     const CloudFile cloud = read("a.ply", replaced(text, " 4 5\n", " 4 2 7.5 8.5 5\n"));
@@ -296,7 +296,7 @@ TEST_F(CloudFileTest, PlyListsAndOtherElementsAreLeftOutAndTold) {
                 ElementsAre(HasSubstr("'camera'"), HasSubstr("more"), HasSubstr("'face'")));
 }
 
-TEST_F(CloudFileTest, PlyListsOfBinaryVerticesAreSkipped) {
+TEST_F(CloudFileTest, PlySkipsBinaryLists) {
     test::Packed packed;
     packed.addBig(1.0f).addBig(std::uint16_t{2}).addBig(7.0).addBig(8.0).addBig(2.0f).addBig(3.0f);
     const std::string header =
@@ -309,7 +309,7 @@ TEST_F(CloudFileTest, PlyListsOfBinaryVerticesAreSkipped) {
     EXPECT_THAT(complaint("a.ply", header + packed.text), HasSubstr("but 0 are there"));
 }
 
-TEST_F(CloudFileTest, PlyComplaintsNameTheLine) {
+TEST_F(CloudFileTest, PlyErrorsNameTheLine) {
     const std::string text = test::asciiPly(filePoints());
     const auto complaintOn = [&](const std::string& what, const std::string& with) {
         return complaint("a.ply", replaced(text, what, with));
@@ -331,7 +331,7 @@ TEST_F(CloudFileTest, PlyComplaintsNameTheLine) {
 
 // LAS
 
-TEST_F(CloudFileTest, LasFieldsAreThoseOfThePointFormat) {
+TEST_F(CloudFileTest, LasReadsFieldsOfPointFormat) {
     const PointTable old = read("a.las", test::las(filePoints(1))).table;
     EXPECT_THAT(column(old, "return_number"), ElementsAre(2));
     EXPECT_THAT(column(old, "number_of_returns"), ElementsAre(3));
@@ -350,7 +350,7 @@ TEST_F(CloudFileTest, LasFieldsAreThoseOfThePointFormat) {
     EXPECT_THAT(modern.remarks, ElementsAre(HasSubstr("4 extra bytes")));
 }
 
-TEST_F(CloudFileTest, LasFlagsOfAPointAreFields) {
+TEST_F(CloudFileTest, LasReadsFlags) {
     const std::size_t old_point = 227 + 3, new_point = 375 + 3;
     std::string text = test::las(filePoints(2));  // the class byte is 0xe2: all three flags
     text[old_point + 14] = '\x5a';                // with the scan direction
@@ -373,7 +373,7 @@ TEST_F(CloudFileTest, LasFlagsOfAPointAreFields) {
     EXPECT_THAT(column(modern, "scanner_channel"), ElementsAre(1, 1));
 }
 
-TEST_F(CloudFileTest, LasRecordsBesideThePointsAreTold) {
+TEST_F(CloudFileTest, LasReportsIgnoredRecords) {
     std::string text = test::las(filePoints(), true);
     text[100] = 2;
     text[243] = 3;
@@ -385,13 +385,13 @@ TEST_F(CloudFileTest, LasRecordsBesideThePointsAreTold) {
                 ElementsAre(HasSubstr("4 bytes after its last point")));
 }
 
-TEST_F(CloudFileTest, LasWithoutPointsHasItsFields) {
+TEST_F(CloudFileTest, LasWithoutPointsHasFields) {
     const PointTable table = read("a.las", test::las({})).table;
     EXPECT_EQ(table.points, 0u);
     EXPECT_THAT(namesOf(table), HasSubstr("gps_time"));
 }
 
-TEST_F(CloudFileTest, LasColoursFollowTheTime) {
+TEST_F(CloudFileTest, LasReadsColours) {
     std::string text = test::las(filePoints(1));
     text[104] = 3;
     text[105] = 34;
@@ -400,7 +400,7 @@ TEST_F(CloudFileTest, LasColoursFollowTheTime) {
     EXPECT_THAT(column(table, "blue"), ElementsAre(3));
 }
 
-TEST_F(CloudFileTest, LasHeadersAreChecked) {
+TEST_F(CloudFileTest, LasChecksHeader) {
     const auto with = [&](std::size_t at, const std::string& bytes) {
         std::string text = test::las(filePoints());
         return complaint("a.las", text.replace(at, bytes.size(), bytes));
@@ -417,7 +417,7 @@ TEST_F(CloudFileTest, LasHeadersAreChecked) {
 
 // NPY
 
-TEST_F(CloudFileTest, NpyColumnsAreNamedByTheirPlace) {
+TEST_F(CloudFileTest, NpyNamesColumnsByIndex) {
     const std::string numbers = test::Packed().add(1.0).add(2.0).add(3.0).add(4.0).add(5.0).text +
                                 test::Packed().add(6.0).add(7.0).add(8.0).add(9.0).add(10.0).text;
     const auto header = [](const char* order, const char* shape) {
@@ -435,7 +435,7 @@ TEST_F(CloudFileTest, NpyColumnsAreNamedByTheirPlace) {
     EXPECT_THAT(column(image, "z"), ElementsAre(3, 8));
 }
 
-TEST_F(CloudFileTest, NpyHeadersAreChecked) {
+TEST_F(CloudFileTest, NpyChecksHeader) {
     const auto complaintOn = [&](const std::string& header) {
         return complaint("a.npy", test::npy(header, std::string(240, '\0')));
     };
@@ -454,12 +454,13 @@ TEST_F(CloudFileTest, NpyHeadersAreChecked) {
     EXPECT_THAT(complaintOn("{'descr': [('x', '<f4', (9999999999, 9999999999))]" + rest),
                 HasSubstr("absurd"));
     EXPECT_THAT(complaintOn("{'shape': (5, 3)}"), HasSubstr("'descr'"));
-    EXPECT_THAT(complaintOn("{'descr': '<f4"), HasSubstr("not understood at character"));
-    EXPECT_THAT(complaintOn("{'descr': " + std::string(60, '(')), HasSubstr("not understood"));
-    EXPECT_THAT(complaintOn("{'descr': __import__('os')" + rest), HasSubstr("not understood"));
+    EXPECT_THAT(complaintOn("{'descr': '<f4"), HasSubstr("not a valid dictionary"));
+    EXPECT_THAT(complaintOn("{'descr': " + std::string(60, '(')),
+                HasSubstr("not a valid dictionary"));
+    EXPECT_THAT(complaintOn("{'descr': __import__('os')" + rest), HasSubstr("header "));
 }
 
-TEST_F(CloudFileTest, NpyFieldsThatAreNoNumbersAreToldAndSkipped) {
+TEST_F(CloudFileTest, NpyReportsSkippedFields) {
     test::Packed packed;
     packed.add(1.0f).add(std::uint64_t{7}).add(2.0f).add(5.0f).add(6.0f).add(3.0f);
     const CloudFile cloud =
@@ -475,7 +476,7 @@ TEST_F(CloudFileTest, NpyFieldsThatAreNoNumbersAreToldAndSkipped) {
 
 // BIN
 
-TEST_F(CloudFileTest, BinFilesMayBeEmptyButNotCut) {
+TEST_F(CloudFileTest, BinAcceptsEmptyRejectsTruncated) {
     EXPECT_EQ(read("a.bin", "").table.points, 0u);
     EXPECT_THAT(complaint("a", ""), HasSubstr("is empty"));
     EXPECT_THAT(complaint("a.bin", std::string(15, '\0')), HasSubstr("15 bytes"));
@@ -488,7 +489,7 @@ TEST_F(CloudFileTest, BinFilesMayBeEmptyButNotCut) {
 }
 
 /// Rows of sky before the first return, or no return at all.
-TEST_F(CloudFileTest, BinFilesMayBeginWithZeros) {
+TEST_F(CloudFileTest, BinAcceptsLeadingZeros) {
     const std::vector<FilePoint> points = filePoints(400);
     for (const int zeros : {300, 1000}) {
         SCOPED_TRACE(zeros);
@@ -512,7 +513,7 @@ TEST_F(CloudFileTest, BinFilesMayBeginWithZeros) {
     EXPECT_THAT(complaint("a", std::string(8000, '\0')), HasSubstr("no point cloud"));
 }
 
-TEST_F(CloudFileTest, BinPointsMayHaveRings) {
+TEST_F(CloudFileTest, BinReadsRings) {
     for (const int count : {20, 21, 400}) {  // of 20 points, the size is a multiple of 16, too
         SCOPED_TRACE(count);
         const std::vector<FilePoint> points = filePoints(count);
@@ -529,7 +530,7 @@ TEST_F(CloudFileTest, BinPointsMayHaveRings) {
 }
 
 /// The fifth numbers are 0 at first, as rings may be, and then times; intensities are up to 65535.
-TEST_F(CloudFileTest, BinPointsWithAnotherFifthNumberAreRefused) {
+TEST_F(CloudFileTest, BinRejectsOtherFifthNumbers) {
     std::string text;
     const auto add = [&](float number) {
         text.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -542,7 +543,7 @@ TEST_F(CloudFileTest, BinPointsWithAnotherFifthNumberAreRefused) {
     EXPECT_THAT(complaint("a.bin", text), HasSubstr("no point cloud: its first numbers are no "));
 }
 
-TEST_F(CloudFileTest, BinPointsWithoutRingsAreNotTakenForSome) {
+TEST_F(CloudFileTest, BinDetectsPointsWithoutRings) {
     std::vector<FilePoint> grid;  // whole metres, up to 255
     for (int i = 0; i < 200; ++i) {
         const auto number = static_cast<float>(i);

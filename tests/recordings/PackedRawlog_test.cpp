@@ -55,13 +55,13 @@ std::pair<std::size_t, std::string> readAll(const fs::path& file) {
         while (reader.next()) {
         }
         EXPECT_EQ(reader.fractionRead(), 1.0);
-    } catch (const BrokenRawlog& e) {
+    } catch (const BrokenRecording& e) {
         return {reader.entries(), e.what()};
     }
     return {reader.entries(), ""};
 }
 
-TEST(PackedRawlog, TheSameEntriesHoweverItIsPacked) {
+TEST(PackedRawlog, ReadsEveryCompression) {
     const test::TemporaryFolder folder;
     const std::string plain = plainLog(20), packed = zstdOf(plain);
     EXPECT_LT(packed.size(), plain.size());
@@ -76,7 +76,7 @@ TEST(PackedRawlog, TheSameEntriesHoweverItIsPacked) {
     EXPECT_EQ(readAll(folder.write("twice", packed + packed)).first, 40u);
 }
 
-TEST(PackedRawlog, AZstdLogCutOffAnywhereGivesItsWholeEntriesAndThenSaysWhere) {
+TEST(PackedRawlog, ReadsTruncatedZstdLog) {
     const test::TemporaryFolder folder;
     const std::string packed = zstdOf(plainLog(20));
     std::size_t most = 0;
@@ -91,7 +91,7 @@ TEST(PackedRawlog, AZstdLogCutOffAnywhereGivesItsWholeEntriesAndThenSaysWhere) {
     EXPECT_GE(most, 15u);
 }
 
-TEST(PackedRawlog, DamageOfAZstdLogIsTold) {
+TEST(PackedRawlog, ReportsDamagedZstdLog) {
     const test::TemporaryFolder folder;
     std::string packed = zstdOf(plainLog(20), true);
     packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 0x10);
@@ -105,7 +105,7 @@ TEST(PackedRawlog, DamageOfAZstdLogIsTold) {
                 HasSubstr("a window of more than 128 MiB; decompress it first"));
 }
 
-TEST(PackedRawlog, LogsOfMrpt3GiveTheirScansAndClouds) {
+TEST(PackedRawlog, ReadsLogsOfMrpt3) {
     const auto folder = test::dataFolder("HAGEN_MRPT3_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA names no folder of logs of MRPT 3";
     for (const char* name :

@@ -30,7 +30,7 @@ class PoseFile : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(PoseFile, TumPosesAreReadAsTheyArePublished) {
+TEST_F(PoseFile, ReadsTumPoses) {
     // A quarter turn to the left is (0, 0, sin 45, cos 45).
     const auto file = folder_.write(
         "a.tum", "# time x y z qx qy qz qw\n\n12.5 1 2 3 0 0 0.70710678 0.70710678\n");
@@ -42,7 +42,7 @@ TEST_F(PoseFile, TumPosesAreReadAsTheyArePublished) {
     EXPECT_NEAR(poses[0].pose.yaw(), M_PI / 2, 1e-6);
 }
 
-TEST_F(PoseFile, FilesOfSpreadsheetsAndOtherSystemsAreRead) {
+TEST_F(PoseFile, ReadsFilesOfSpreadsheets) {
     const auto file =
         folder_.write("a.tum", "\xef\xbb\xbf# time x y z\r\n1 +2 -3e+0 .5 0 0 0 1\r\n");
     const auto poses = readTumPoses(file);
@@ -51,7 +51,7 @@ TEST_F(PoseFile, FilesOfSpreadsheetsAndOtherSystemsAreRead) {
     expectRefused("+-1 0 0 0 0 0 0 1\n", "'+-1' is not a finite number");
 }
 
-TEST_F(PoseFile, KittiPosesAreMatricesRowByRow) {
+TEST_F(PoseFile, ReadsKittiMatrices) {
     const auto file = folder_.write("a.txt", "0 -1 0 5 1 0 0 6 0 0 1 7\n");
     EXPECT_EQ(kindOfPoseFile(file), PoseFileKind::Kitti);
     const CPose3D pose = readKittiPoses(file).at(0);
@@ -59,7 +59,7 @@ TEST_F(PoseFile, KittiPosesAreMatricesRowByRow) {
     EXPECT_NEAR(pose.yaw(), M_PI / 2, 1e-9);
 }
 
-TEST_F(PoseFile, PosesComeBack) {
+TEST_F(PoseFile, ReadsWrittenPoses) {
     test::Random random(31);
     std::vector<TimedPose> poses;
     std::vector<CPose3D> sensor_poses;
@@ -87,7 +87,7 @@ TEST_F(PoseFile, PosesComeBack) {
     }
 }
 
-TEST_F(PoseFile, WhatIsNoPoseIsNamedByLine) {
+TEST_F(PoseFile, RejectsMalformedLines) {
     expectRefused("", "contains no poses");
     expectRefused("1 2 3\n", ":1: expected 8 numbers");
     expectRefused("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0\n", ":2: expected 8 numbers");
@@ -112,7 +112,7 @@ RawlogSurvey surveyOfTwoScans() {
     return survey;
 }
 
-TEST_F(PoseFile, AKittiFileIsOfTheSensorScanByScan) {
+TEST_F(PoseFile, AssignsKittiPosesToScans) {
     const auto file =
         folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
     const LogPoses poses = posesOfRawlog(surveyOfTwoScans(), file);
@@ -123,7 +123,7 @@ TEST_F(PoseFile, AKittiFileIsOfTheSensorScanByScan) {
     EXPECT_EQ(poses.source, file.string());
 }
 
-TEST_F(PoseFile, ScansOfAKittiFileThatTheirTimesDoNotTellApartAreRefused) {
+TEST_F(PoseFile, RejectsKittiPosesAtEqualTimes) {
     const auto file =
         folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
     RawlogSurvey survey = surveyOfTwoScans();
@@ -138,7 +138,7 @@ TEST_F(PoseFile, ScansOfAKittiFileThatTheirTimesDoNotTellApartAreRefused) {
     EXPECT_EQ(test::messageOf([&] { posesOfRawlog(survey, file); }), "");
 }
 
-TEST_F(PoseFile, AKittiFileThatDoesNotFitTheScansIsRefused) {
+TEST_F(PoseFile, RejectsKittiFileOfOtherLength) {
     const auto file = folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     RawlogSurvey survey = surveyOfTwoScans();
     EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
@@ -148,7 +148,7 @@ TEST_F(PoseFile, AKittiFileThatDoesNotFitTheScansIsRefused) {
                 HasSubstr("scan of a single LiDAR"));
 }
 
-TEST_F(PoseFile, OfAScanFolderTheMapWinsOverTheFirstScan) {
+TEST_F(PoseFile, PrefersTumPosesOfFolder) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     const ScanFolder folder(folder_.path());
@@ -159,7 +159,7 @@ TEST_F(PoseFile, OfAScanFolderTheMapWinsOverTheFirstScan) {
     EXPECT_NEAR(poses.vehicle.at(mrpt::Clock::fromDouble(0.0)).value().z(), 3.0, 1e-9);
 }
 
-TEST_F(PoseFile, BesideACalibrationPosesAreTheCamerasAsKittiHasThem) {
+TEST_F(PoseFile, AppliesKittiCalibration) {
     // The camera looks along x: its z axis is the LiDAR's x axis, its x axis the LiDAR's -y axis.
     folder_.write("velodyne/000000.bin", "");
     folder_.write("calib.txt", "P0: 1 2 3\nTr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n");

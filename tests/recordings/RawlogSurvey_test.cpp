@@ -80,7 +80,7 @@ class RawlogSurveyTest : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(RawlogSurveyTest, RobotPosesAloneAndInFramesWithThePlaceOfWhatTellsThem) {
+TEST_F(RawlogSurveyTest, ReadsRobotPosesWithMount) {
     const auto aside = pose(0.1, 3.0);
     aside->sensorPose = CPose3D(0.5, 0, 0, 0, 0, 0);
     const auto found = survey({pose(0.0, 1.0), frameOf(aside)});
@@ -90,14 +90,14 @@ TEST_F(RawlogSurveyTest, RobotPosesAloneAndInFramesWithThePlaceOfWhatTellsThem) 
     EXPECT_NEAR(found.trajectory.at(at(0.1)).value().z(), 1.0, 1e-6);
 }
 
-TEST_F(RawlogSurveyTest, OfTwoWhoTellPosesTheOneWithMoreIsTakenAlone) {
+TEST_F(RawlogSurveyTest, PrefersLabelWithMorePoses) {
     const auto found = survey({pose(0.0, 1, "gps"), pose(0.0, 7, "slam"), pose(0.1, 8, "slam")});
     EXPECT_EQ(found.source, "CObservationRobotPose 'slam'");
     EXPECT_EQ(found.trajectory.size(), 2u);
     EXPECT_NEAR(found.trajectory.at(at(0.0)).value().x(), 7.0, 1e-6);
 }
 
-TEST_F(RawlogSurveyTest, MovementsAreSummedEachInTheFrameOfTheOneBefore) {
+TEST_F(RawlogSurveyTest, SumsMovements) {
     const auto found = survey({stepAndTurn(at(0.1)), stepAndTurn(at(0.2)), stepAndTurn(at(0.3))});
     EXPECT_EQ(found.source, "CActionRobotMovement3D");
     ASSERT_EQ(found.trajectory.size(), 3u);
@@ -107,7 +107,7 @@ TEST_F(RawlogSurveyTest, MovementsAreSummedEachInTheFrameOfTheOneBefore) {
     EXPECT_NEAR(last.z(), 1.5, 1e-6);
 }
 
-TEST_F(RawlogSurveyTest, AMovementWithoutATimeEndsAtTheFrameAfterIt) {
+TEST_F(RawlogSurveyTest, TimesMovementsByNextFrame) {
     const auto found = survey({frameOf(cloud(0.0, "lidar")), stepAndTurn(INVALID_TIMESTAMP),
                                frameOf(cloud(0.1, "lidar")), stepAndTurn(INVALID_TIMESTAMP)});
     ASSERT_EQ(found.trajectory.size(), 2u);
@@ -115,7 +115,7 @@ TEST_F(RawlogSurveyTest, AMovementWithoutATimeEndsAtTheFrameAfterIt) {
     EXPECT_NEAR(found.trajectory.at(at(0.1)).value().x(), 1.0, 1e-6);
 }
 
-TEST_F(RawlogSurveyTest, MovementsIn2dAreTheLastResort) {
+TEST_F(RawlogSurveyTest, PrefersOtherSourcesTo2dMovements) {
     auto actions = mrpt::obs::CActionCollection::Create();
     mrpt::obs::CActionRobotMovement2D movement;
     movement.timestamp = at(0.1);
@@ -127,7 +127,7 @@ TEST_F(RawlogSurveyTest, MovementsIn2dAreTheLastResort) {
     EXPECT_EQ(survey({actions, odometry(0.1, 5)}).source, "CObservationOdometry 'wheels'");
 }
 
-TEST_F(RawlogSurveyTest, TheBestSourceWinsHoweverFewItsPoses) {
+TEST_F(RawlogSurveyTest, PrefersSourceOverCount) {
     EXPECT_EQ(survey({odometry(0.0, 5), odometry(0.1, 6), odometry(0.2, 6), stepAndTurn(at(0.1)),
                       stepAndTurn(at(0.2)), pose(0.0, 1)})
                   .source,
@@ -138,13 +138,13 @@ TEST_F(RawlogSurveyTest, TheBestSourceWinsHoweverFewItsPoses) {
     EXPECT_NEAR(odometry_alone.trajectory.at(at(0.1)).value().x(), 6.0, 1e-6);
 }
 
-TEST_F(RawlogSurveyTest, ALogWithoutPosesHasNone) {
+TEST_F(RawlogSurveyTest, FindsNoPoses) {
     const auto found = survey({cloud(0.0, "lidar"), frameOf(cloud(0.1, "lidar"))});
     EXPECT_EQ(found.source, "");
     EXPECT_EQ(found.trajectory.size(), 0u);
 }
 
-TEST_F(RawlogSurveyTest, ScansAreListedBySensorLabelWithoutOurOwnClouds) {
+TEST_F(RawlogSurveyTest, ListsScansBySensorLabel) {
     const auto found =
         survey({cloud(0.0, "front"), result(0.0, "front", true), result(0.0, "front", false),
                 frameOf(cloud(0.05, "rear")), cloud(0.1, "front")});
@@ -154,7 +154,7 @@ TEST_F(RawlogSurveyTest, ScansAreListedBySensorLabelWithoutOurOwnClouds) {
     EXPECT_NEAR(found.scans.at("rear")[0].sensor_on_vehicle.z(), 0.25, 1e-6);
 }
 
-TEST_F(RawlogSurveyTest, OfALogThatBreaksOffHoldsWhatWasBefore) {
+TEST_F(RawlogSurveyTest, KeepsPosesBeforeBreak) {
     std::vector<mrpt::serialization::CSerializable::Ptr> poses;
     for (int i = 0; i < 20; ++i) poses.push_back(pose(0.1 * i, i));
     survey(poses);
@@ -165,7 +165,7 @@ TEST_F(RawlogSurveyTest, OfALogThatBreaksOffHoldsWhatWasBefore) {
     EXPECT_THROW(surveyRawlog(folder_ / "none.rawlog"), std::runtime_error);
 }
 
-TEST_F(RawlogSurveyTest, EndsWhenItIsToldTo) {
+TEST_F(RawlogSurveyTest, StopsOnRequest) {
     survey({pose(0.0, 1), pose(0.1, 2), pose(0.2, 3)});
     int entries = 0;
     const auto found = surveyRawlog(folder_ / "a.rawlog", [&] { return ++entries <= 2; });

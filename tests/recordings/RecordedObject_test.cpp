@@ -27,7 +27,7 @@ CObservationPointCloud::Ptr cloudOf(std::size_t points) {
     return cloud;
 }
 
-TEST(RecordedObject, ACloudOfTheSimpleClassHasThePoints) {
+TEST(RecordedObject, CopiesPointsToSimpleCloud) {
     const auto cloud = cloudOf(3);
     const auto object = objectOf(cloud, CloudClass::Simple);
     const auto simple = std::dynamic_pointer_cast<CObservationPointCloud>(object);
@@ -45,7 +45,7 @@ TEST(RecordedObject, ACloudOfTheSimpleClassHasThePoints) {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve all memory
 /// MRPT's clouds would crash.
-TEST(RecordedObjectDeathTest, WithoutMemoryForACopyItThrows) {
+TEST(RecordedObjectDeathTest, ThrowsWithoutMemory) {
     const auto cloud = cloudOf(1 << 20);
     const auto copyWithLittleMemory = [&] {
         std::size_t pages = 0;

@@ -34,7 +34,7 @@ TEST_F(ScanFolderTest, ListsScansByName) {
     EXPECT_TRUE(scans.altitudes().empty());
 }
 
-TEST_F(ScanFolderTest, NumbersAreInTheirOrderIfNothingElseDiffers) {
+TEST_F(ScanFolderTest, OrdersNamesByNumber) {
     const auto orderOf = [&](const std::vector<std::string>& names) {
         const test::TemporaryFolder place;
         for (const std::string& name : names) place.write("velodyne/" + name + ".bin", "");
@@ -51,13 +51,13 @@ TEST_F(ScanFolderTest, NumbersAreInTheirOrderIfNothingElseDiffers) {
     EXPECT_EQ(orderOf({"000002", "left", "000010"}), (Names{"000002", "000010", "left"}));
 }
 
-TEST_F(ScanFolderTest, AFolderWithoutScansIsRefused) {
+TEST_F(ScanFolderTest, RejectsFolderWithoutScans) {
     EXPECT_THAT(test::messageOf([&] { ScanFolder scans(folder_.path()); }), HasSubstr("velodyne"));
     fs::create_directory(folder_ / "velodyne");
     EXPECT_THAT(test::messageOf([&] { ScanFolder scans(folder_.path()); }), HasSubstr("no .bin"));
 }
 
-TEST_F(ScanFolderTest, ScansComeBackBitByBit) {
+TEST_F(ScanFolderTest, ReadsWrittenScans) {
     test::Random random(70);
     Scan scan, again;
     for (int i = 0; i < 500; ++i) {
@@ -74,7 +74,7 @@ TEST_F(ScanFolderTest, ScansComeBackBitByBit) {
     EXPECT_EQ(again.y_m, scan.y_m);
 }
 
-TEST_F(ScanFolderTest, PointsOfNuScenesAreReadWithoutTheirRings) {
+TEST_F(ScanFolderTest, ReadsNuScenesWithoutRings) {
     const auto points = test::filePoints(40);
     Scan scan;
     readScan(folder_.write("a.pcd.bin", test::binWithRings(points)), scan);
@@ -91,7 +91,7 @@ TEST_F(ScanFolderTest, PointsOfNuScenesAreReadWithoutTheirRings) {
 
 /// Among zeros, a return at any place looks like a point of five numbers to who only looks at every
 /// fifth.
-TEST_F(ScanFolderTest, PointsWithoutReturnsAreNoPointsOfNuScenes) {
+TEST_F(ScanFolderTest, TakesZerosAsFourNumbers) {
     Scan scan;
     for (std::vector<float>* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity}) {
         values->resize(4000);
@@ -113,7 +113,7 @@ TEST_F(ScanFolderTest, PointsWithoutReturnsAreNoPointsOfNuScenes) {
 }
 
 /// The first 4096 bytes are of one beam, or of fewer than 16 returns.
-TEST_F(ScanFolderTest, PointsWithAFifthNumberAreToldByTheWholeFile) {
+TEST_F(ScanFolderTest, DetectsFifthNumberByWholeFile) {
     const auto numbersOf = [&](auto isReturn, auto fifth) {
         test::Random random(7);
         std::vector<float> numbers;
@@ -138,7 +138,7 @@ TEST_F(ScanFolderTest, PointsWithAFifthNumberAreToldByTheWholeFile) {
     EXPECT_EQ(numbersOf(all, [](int i) { return i < 3000 ? 3.0f : 0.5f; }), 4u);
 }
 
-TEST_F(ScanFolderTest, CountersThatGetADigitMoreStayInOrder) {
+TEST_F(ScanFolderTest, OrdersGrowingCounters) {
     for (const char* name : {"999700000000", "999900000000", "1000100000000", "1000300000000"}) {
         fs::create_directories(folder_ / "s/velodyne");
         folder_.write(std::string("s/velodyne/") + name + ".bin", std::string(16, '\0'));
@@ -150,7 +150,7 @@ TEST_F(ScanFolderTest, CountersThatGetADigitMoreStayInOrder) {
     EXPECT_EQ(folder.name(3), "1000300000000");
 }
 
-TEST_F(ScanFolderTest, FilesThatAreSomethingElseAreNamed) {
+TEST_F(ScanFolderTest, RejectsOtherFiles) {
     Scan scan;
     const auto picture = folder_.write("a.bin", "\xff\xd8\xff\xe0" + std::string(28, '\xee'));
     EXPECT_THAT(test::messageOf([&] { readScan(picture, scan); }),
@@ -163,7 +163,7 @@ TEST_F(ScanFolderTest, FilesThatAreSomethingElseAreNamed) {
     EXPECT_EQ(scan.x_m, far.x_m);
 }
 
-TEST_F(ScanFolderTest, LabelFilesHaveTheLabelLowAndTheComponentHigh) {
+TEST_F(ScanFolderTest, WritesLabelAndComponent) {
     writeLabels(folder_ / "a.label", {Label::Unclassified, Label::Rou, Label::Roi, Label::Roi},
                 {0, 0, 3, 1234567});
     const std::string bytes = test::readFile(folder_ / "a.label");
@@ -171,7 +171,7 @@ TEST_F(ScanFolderTest, LabelFilesHaveTheLabelLowAndTheComponentHigh) {
     EXPECT_EQ(readLabels(folder_ / "a.label"), (std::vector<std::uint16_t>{0, 1, 2, 2}));
 }
 
-TEST_F(ScanFolderTest, FilesThatAreMissingOrCutOffAreNamed) {
+TEST_F(ScanFolderTest, RejectsMissingAndTruncatedFiles) {
     Scan scan;
     EXPECT_THAT(test::messageOf([&] { readScan(folder_ / "none.bin", scan); }),
                 HasSubstr("none.bin"));
@@ -184,12 +184,12 @@ TEST_F(ScanFolderTest, FilesThatAreMissingOrCutOffAreNamed) {
                 HasSubstr("cut.label"));
 }
 
-TEST_F(ScanFolderTest, WritingIntoNothingIsNamed) {
+TEST_F(ScanFolderTest, ReportsWriteError) {
     EXPECT_THAT(test::messageOf([&] { writeScan(folder_ / "no/such/a.bin", Scan()); }),
                 HasSubstr("a.bin"));
 }
 
-TEST_F(ScanFolderTest, TimesHaveALineAScan) {
+TEST_F(ScanFolderTest, ReadsTimePerScan) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("velodyne/000001.bin", "");
     folder_.write("times.txt", "0.0\n0.1\n\n");
@@ -199,7 +199,7 @@ TEST_F(ScanFolderTest, TimesHaveALineAScan) {
     EXPECT_EQ(scans.altitudes(), (std::vector<double>{1.5, 12}));
 }
 
-TEST_F(ScanFolderTest, TimesThatDoNotFitAreNamedByLine) {
+TEST_F(ScanFolderTest, RejectsWrongTimes) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("times.txt", "0.0\n0.1\n");
     const ScanFolder scans(folder_.path());

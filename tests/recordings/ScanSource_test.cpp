@@ -99,7 +99,7 @@ class ScanSourceTest : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(ScanSourceTest, ScansOfARawlogInOrder) {
+TEST_F(ScanSourceTest, ReadsScansInOrder) {
     const auto source = openRecording(rawlogOf(mixed()));
     EXPECT_THAT(pulledFrom(*source),
                 ElementsAre("0:front:1", "2:front:3", "2:rear:4", "3:rear:5", "4:front:6"));
@@ -125,7 +125,7 @@ std::vector<std::string> beamsPulledFrom(ScanSource& source) {
     return pulled;
 }
 
-TEST_F(ScanSourceTest, CloudsComeWithTheBeamsOfTheirLabel) {
+TEST_F(ScanSourceTest, RecoversBeamsByLabel) {
     const auto source = openRecording(rawlogOf(
         {cloud(1, "front"), frameOf({spin(2, "front", "VLP-16"), spin(2, "rear", "HDL-32E")}),
          spin(3, "front", "VLP-16"), cloud(4, "top"), test::poleScanFrom(5, "packets"),
@@ -136,7 +136,7 @@ TEST_F(ScanSourceTest, CloudsComeWithTheBeamsOfTheirLabel) {
                             "3:top:-", "4:packets:-", "5:late:HDL-64E"));
 }
 
-TEST_F(ScanSourceTest, BeamsAreTheSameForEveryPartOfARecording) {
+TEST_F(ScanSourceTest, RecoversSameBeamsForEveryPart) {
     const fs::path rawlog =
         rawlogOf({spin(1, "a", "VLP-16", 900), spin(2, "a", "HDL-32E"), spin(3, "a", "HDL-32E"),
                   spin(4, "a", "VLP-16"), spin(5, "a", "VLP-16"), spin(6, "a", "HDL-64E", 900)});
@@ -156,7 +156,7 @@ TEST_F(ScanSourceTest, BeamsAreTheSameForEveryPartOfARecording) {
     }
 }
 
-TEST_F(ScanSourceTest, NothingIsRecoveredIfTheSettingsNameTheSensor) {
+TEST_F(ScanSourceTest, RecoversNothingForNamedSensor) {
     const fs::path rawlog = rawlogOf({spin(1, "a", "VLP-16")});
     Settings settings;
     settings.sensor.model = "VLP-16";
@@ -166,7 +166,7 @@ TEST_F(ScanSourceTest, NothingIsRecoveredIfTheSettingsNameTheSensor) {
     EXPECT_THAT(beamsPulledFrom(*unused), ElementsAre("0:a:-"));
 }
 
-TEST_F(ScanSourceTest, AScanFolderHasTheBeamsOfItsFirstScans) {
+TEST_F(ScanSourceTest, RecoversBeamsOfScanFolder) {
     const fs::path folder = scanFolderOf(3);
     SourceOptions options;
     options.first_entry = options.last_entry = 0;
@@ -186,7 +186,7 @@ TEST_F(ScanSourceTest, AScanFolderHasTheBeamsOfItsFirstScans) {
                 ElementsAre("0:velodyne:-", "1:velodyne:-", "2:velodyne:-"));
 }
 
-TEST_F(ScanSourceTest, ABreakEndsTheRecoveryAndIsReportedWhereItIs) {
+TEST_F(ScanSourceTest, ReportsBreakAfterRecovery) {
     const fs::path rawlog = rawlogOf({spin(1, "a", "VLP-16"), spin(2, "a", "VLP-16")});
     const std::string bytes = test::readFile(rawlog);
     std::ofstream(rawlog, std::ios::binary) << bytes.substr(0, bytes.size() - 100);
@@ -195,17 +195,17 @@ TEST_F(ScanSourceTest, ABreakEndsTheRecoveryAndIsReportedWhereItIs) {
     const auto scan = source->nextScan();
     ASSERT_TRUE(scan && scan->beams);
     EXPECT_EQ(scan->beams->sensor.name, "VLP-16");
-    EXPECT_THROW(source->nextScan(), BrokenRawlog);
+    EXPECT_THROW(source->nextScan(), BrokenRecording);
 
     const fs::path folder = scanFolderOf(2);
     std::ofstream(folder / "velodyne/000001.bin") << "cut";
     const auto scans = openRecording(folder);
     scans->useSettings({});
     EXPECT_TRUE(scans->nextScan());
-    EXPECT_THROW(scans->nextScan(), BrokenScan);
+    EXPECT_THROW(scans->nextScan(), BrokenRecording);
 }
 
-TEST_F(ScanSourceTest, TheRecoveryCanBeInterrupted) {
+TEST_F(ScanSourceTest, InterruptsRecovery) {
     int asked = 0;
     SourceOptions options;
     options.keep_going = [&] { return ++asked <= 3; };
@@ -215,7 +215,7 @@ TEST_F(ScanSourceTest, TheRecoveryCanBeInterrupted) {
     EXPECT_EQ(asked, 4);
 }
 
-TEST_F(ScanSourceTest, EveryEntryOfARawlogComesOut) {
+TEST_F(ScanSourceTest, ReturnsEveryEntry) {
     const fs::path rawlog = rawlogOf(mixed());
     const auto source = openRecording(rawlog);
     RawlogReader reader(rawlog);
@@ -232,7 +232,7 @@ TEST_F(ScanSourceTest, EveryEntryOfARawlogComesOut) {
     EXPECT_EQ(scans, 5u);
 }
 
-TEST_F(ScanSourceTest, OnlyTheSelectedLidarsAndEntries) {
+TEST_F(ScanSourceTest, ReadsSelectedLidarsAndEntries) {
     SourceOptions options;
     options.sensor_labels = {"front"};
     options.first_entry = 1;
@@ -244,7 +244,7 @@ TEST_F(ScanSourceTest, OnlyTheSelectedLidarsAndEntries) {
     EXPECT_EQ(source->entriesKnown(), 4u);
 }
 
-TEST_F(ScanSourceTest, ScansOfAFolder) {
+TEST_F(ScanSourceTest, ReadsScanFolder) {
     const auto source = openRecording(scanFolderOf(3, "1001\n1002\n1004\n"));
     EXPECT_EQ(source->entriesKnown(), 3u);
     for (int i = 0; i < 3; ++i) {
@@ -265,7 +265,7 @@ TEST_F(ScanSourceTest, ScansOfAFolder) {
     EXPECT_FALSE(source->nextEntry());
 }
 
-TEST_F(ScanSourceTest, AFolderWithoutTimesHasTenScansPerSecond) {
+TEST_F(ScanSourceTest, AssumesTenScansPerSecond) {
     const auto times = openRecording(scanFolderOf(3))->scanTimes();
     ASSERT_EQ(times.size(), 1u);
     const auto& of_folder = times.at("velodyne");
@@ -275,7 +275,7 @@ TEST_F(ScanSourceTest, AFolderWithoutTimesHasTenScansPerSecond) {
     }
 }
 
-TEST_F(ScanSourceTest, FolderScansAsObjectsOfARawlog) {
+TEST_F(ScanSourceTest, MakesObjectsOfFolderScans) {
     SourceOptions options;
     options.folder_objects = observations::CloudClass::Simple;
     const auto entry = openRecording(scanFolderOf(1), options)->nextEntry();
@@ -286,13 +286,7 @@ TEST_F(ScanSourceTest, FolderScansAsObjectsOfARawlog) {
     EXPECT_EQ(object->sensorLabel, "velodyne");
 }
 
-TEST_F(ScanSourceTest, WithoutUsePosesNoneAreKnown) {
-    const auto source = openRecording(rawlogOf({pose(0, 5, 0), cloud(1, "front")}));
-    EXPECT_FALSE(source->nextScan()->pose.sensor_pose);
-    EXPECT_EQ(source->poses().source, "");
-}
-
-TEST_F(ScanSourceTest, PosesOfTheRawlogItselfMayComeAfterTheScan) {
+TEST_F(ScanSourceTest, UsesLaterPosesOfRawlog) {
     const auto source =
         openRecording(rawlogOf({pose(0.9, 5, 0), cloud(1, "front"), pose(1.1, 7, 0)}));
     source->usePoses({});
@@ -304,7 +298,7 @@ TEST_F(ScanSourceTest, PosesOfTheRawlogItselfMayComeAfterTheScan) {
     EXPECT_TRUE(scan->pose.pose_has_horizon);
 }
 
-TEST_F(ScanSourceTest, TheAttitudeIsTheLastOneBeforeTheScanInSkippedEntriesToo) {
+TEST_F(ScanSourceTest, UsesAttitudeOfSkippedEntries) {
     SourceOptions options;
     options.first_entry = 2;
     const auto source = openRecording(
@@ -315,7 +309,7 @@ TEST_F(ScanSourceTest, TheAttitudeIsTheLastOneBeforeTheScanInSkippedEntriesToo) 
     EXPECT_NEAR(scan->pose.attitude->pitch_rad, 0.2, 1e-6);
 }
 
-TEST_F(ScanSourceTest, PosesOfAFileWinOverTheAttitudeInTheRecording) {
+TEST_F(ScanSourceTest, PrefersAttitudeOfPoseFile) {
     writeTumPoses(folder_ / "flight.tum", {{1001.0, CPose3D(3, 0, 0, 0, 0.4, 0)}});
     const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), cloud(1, "front")}));
     source->usePoses(folder_ / "flight.tum");
@@ -325,7 +319,7 @@ TEST_F(ScanSourceTest, PosesOfAFileWinOverTheAttitudeInTheRecording) {
     EXPECT_EQ(source->poses().source, (folder_ / "flight.tum").string());
 }
 
-TEST_F(ScanSourceTest, AKittiFileIsForTheSelectedLidar) {
+TEST_F(ScanSourceTest, AppliesKittiFileToSelectedLidar) {
     writeKittiPoses(folder_ / "poses.txt", {CPose3D(0, 0, 0, 0, 0, 0), CPose3D(1, 0, 0, 0, 0, 0),
                                             CPose3D(2, 0, 0, 0, 0, 0)});
     SourceOptions options;
@@ -344,7 +338,7 @@ TEST_F(ScanSourceTest, AKittiFileIsForTheSelectedLidar) {
         HasSubstr("the log has 2 LiDARs"));
 }
 
-TEST_F(ScanSourceTest, WithAKittiFileTheAttitudeIsThatOfTheRecording) {
+TEST_F(ScanSourceTest, KeepsAttitudeWithKittiFile) {
     writeKittiPoses(folder_ / "poses.txt", {CPose3D(0, 0, 0, 0, 0.4, 0)});
     const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), cloud(1, "front")}));
     source->usePoses(folder_ / "poses.txt");
@@ -354,7 +348,7 @@ TEST_F(ScanSourceTest, WithAKittiFileTheAttitudeIsThatOfTheRecording) {
     EXPECT_FALSE(scan->pose.pose_has_horizon);
 }
 
-TEST_F(ScanSourceTest, ScanTimesOfAllLidars) {
+TEST_F(ScanSourceTest, ListsScanTimesOfAllLidars) {
     SourceOptions options;
     options.sensor_labels = {"rear"};
     const auto times = openRecording(rawlogOf(mixed()), options)->scanTimes();
@@ -363,7 +357,7 @@ TEST_F(ScanSourceTest, ScanTimesOfAllLidars) {
     EXPECT_THAT(times.at("rear"), ElementsAre(at(4), at(5)));
 }
 
-TEST_F(ScanSourceTest, ScanTimesAreTheSameBeforeAndAfterUsePoses) {
+TEST_F(ScanSourceTest, ScanTimesDoNotDependOnPoses) {
     const auto source = openRecording(rawlogOf({pose(0.9, 5, 0), cloud(1, "front")}));
     const auto before = source->scanTimes();
     source->usePoses({});
@@ -371,14 +365,14 @@ TEST_F(ScanSourceTest, ScanTimesAreTheSameBeforeAndAfterUsePoses) {
     EXPECT_EQ(source->poses().source, "CObservationRobotPose");
 }
 
-TEST_F(ScanSourceTest, AFolderBringsItsSensor) {
+TEST_F(ScanSourceTest, MergesSensorOfFolder) {
     const fs::path folder = scanFolderOf(1);
     std::ofstream(folder / "sensor.yaml") << "sensor:\n  model: HDL-32E\n";
     EXPECT_EQ(openRecording(folder)->settingsFor({}).sensor.model, "HDL-32E");
     EXPECT_EQ(openRecording(rawlogOf(mixed()))->settingsFor({}).sensor.model, std::nullopt);
 }
 
-TEST_F(ScanSourceTest, StopsWhenToldTo) {
+TEST_F(ScanSourceTest, StopsOnRequest) {
     int asked = 0;
     SourceOptions options;
     options.keep_going = [&] { return ++asked <= 2; };
@@ -388,7 +382,7 @@ TEST_F(ScanSourceTest, StopsWhenToldTo) {
     EXPECT_THROW(source->nextEntry(), Interrupted);
 }
 
-TEST_F(ScanSourceTest, StopsWhenToldToWhileItReadsInAdvance) {
+TEST_F(ScanSourceTest, StopsLookAheadOnRequest) {
     int asked = 0;
     SourceOptions options;
     options.keep_going = [&] { return ++asked != 3; };
@@ -397,38 +391,7 @@ TEST_F(ScanSourceTest, StopsWhenToldToWhileItReadsInAdvance) {
     EXPECT_EQ(source->scanTimes().at("front").size(), 3u);  // nothing partial is kept
 }
 
-TEST_F(ScanSourceTest, CountsOnlyEntriesThatExist) {
-    SourceOptions options;
-    options.first_entry = 10;
-    const auto source = openRecording(rawlogOf(mixed()), options);
-    EXPECT_FALSE(source->nextEntry());
-    EXPECT_EQ(source->entriesSkipped(), 5u);
-    EXPECT_EQ(source->entriesKnown(), 5u);
-}
-
-TEST_F(ScanSourceTest, ABrokenRawlogGivesWhatIsBeforeTheBreak) {
-    const fs::path whole = rawlogOf(mixed());
-    // Uncompressed, so that it can be truncated at any byte.
-    PackedInput stream(whole);
-    std::string bytes(1 << 16, '\0');
-    bytes.resize(stream.Read(bytes.data(), bytes.size()));
-    const fs::path cut = folder_ / "cut.rawlog";
-    std::ofstream(cut, std::ios::binary)
-        .write(bytes.data(), static_cast<std::streamsize>(bytes.size() - 10));
-    const auto source = openRecording(cut);
-    for (int i = 0; i < 4; ++i) EXPECT_TRUE(source->nextEntry());
-    EXPECT_THROW(source->nextEntry(), BrokenRawlog);
-}
-
-TEST_F(ScanSourceTest, ABrokenScanFileIsNamed) {
-    const fs::path folder = scanFolderOf(2);
-    fs::resize_file(folder / "velodyne" / "000001.bin", 10);
-    const auto source = openRecording(folder);
-    EXPECT_TRUE(source->nextScan());
-    EXPECT_THAT(test::messageOf([&] { source->nextScan(); }), HasSubstr("000001.bin: 10 bytes"));
-}
-
-TEST_F(ScanSourceTest, WhatOnlyReadingInAdvanceMissedOfARawlogIsTold) {
+TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfRawlog) {
     PackedInput stream(rawlogOf(mixed()));
     std::string bytes(1 << 16, '\0');
     bytes.resize(stream.Read(bytes.data(), bytes.size()));
@@ -452,7 +415,7 @@ TEST_F(ScanSourceTest, WhatOnlyReadingInAdvanceMissedOfARawlogIsTold) {
     }
 }
 
-TEST_F(ScanSourceTest, WhatOnlyReadingInAdvanceMissedOfAFolderIsTold) {
+TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfFolder) {
     const fs::path folder = scanFolderOf(3), file = folder / "velodyne/000001.bin";
     for (const std::size_t first : {0u, 2u}) {
         int asked = 0;
@@ -475,27 +438,26 @@ TEST_F(ScanSourceTest, WhatOnlyReadingInAdvanceMissedOfAFolderIsTold) {
     }
 }
 
-TEST_F(ScanSourceTest, OfAFolderOfRecordingsOneIsToBeNamed) {
+TEST_F(ScanSourceTest, AsksForOneRecordingOfFolder) {
     const std::string capture("\xd4\xc3\xb2\xa1", 4);
     folder_.write("flights/notes.txt", "two flights");
     folder_.write("flights/b.pcap", capture);
     const auto messageOf = [&] {
         return test::messageOf([&] { openRecording(folder_ / "flights"); });
     };
-    EXPECT_THAT(messageOf(), HasSubstr("flights: is a folder with one recording, which is read by "
-                                       "its own name: " +
+    EXPECT_THAT(messageOf(), HasSubstr("flights: is a folder with 1 recording; pass it: " +
                                        (folder_ / "flights/b.pcap").string()));
     folder_.write("flights/a.bag", "#ROSBAG V2.0\n");
     folder_.write("flights/c.rawlog", "");
-    EXPECT_THAT(messageOf(), HasSubstr("flights: is a folder with 3 recordings, which are not read "
-                                       "in one go: name one of them, such as " +
-                                       (folder_ / "flights/a.bag").string()));
+    EXPECT_THAT(messageOf(),
+                HasSubstr("flights: is a folder with 3 recordings; pass one of them: " +
+                          (folder_ / "flights/a.bag").string()));
     // Clouds beside them are read.
     folder_.write("flights/1.bin", "");
     EXPECT_TRUE(openRecording(folder_ / "flights"));
 }
 
-TEST_F(ScanSourceTest, ARecordingAmongCloudsDoesNotHideThem) {
+TEST_F(ScanSourceTest, ReadsCloudsBesideRecording) {
     folder_.write("clouds/000000.npy", "");
     folder_.write("clouds/segmented.mcap", "\x89MCAP0\r\n");
     std::filesystem::create_directory(folder_ / "clouds/more");
@@ -503,10 +465,10 @@ TEST_F(ScanSourceTest, ARecordingAmongCloudsDoesNotHideThem) {
     EXPECT_EQ(source->entriesKnown(), 1u);
     EXPECT_THAT(source->remarks(),
                 testing::Contains(HasSubstr("1 file of the folder with another ending")));
-    EXPECT_THAT(source->remarks(), testing::Contains("1 folder in the folder: not read"));
+    EXPECT_THAT(source->remarks(), testing::Contains("1 folder in the folder: ignored"));
 }
 
-TEST_F(ScanSourceTest, OtherFilesAmongTheScansOfAFolderAreTold) {
+TEST_F(ScanSourceTest, ReportsOtherFilesOfScanFolder) {
     const fs::path folder = scanFolderOf(2);
     folder_.write("scans/velodyne/000002.bin.gz", "");
     folder_.write("scans/velodyne/000003.BIN", "");
@@ -516,7 +478,7 @@ TEST_F(ScanSourceTest, OtherFilesAmongTheScansOfAFolderAreTold) {
     EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("such as 000002.bin.gz")));
 }
 
-TEST_F(ScanSourceTest, AFolderOfSeveralLidarsNamesAFolderOfOne) {
+TEST_F(ScanSourceTest, SuggestsFolderOfOneLidar) {
     scanFolderOf(2);
     fs::create_directories(folder_ / "both");
     fs::rename(folder_ / "scans", folder_ / "both/velodyne");
@@ -524,7 +486,7 @@ TEST_F(ScanSourceTest, AFolderOfSeveralLidarsNamesAFolderOfOne) {
                 HasSubstr("; there are scans in " + (folder_ / "both/velodyne").string()));
 }
 
-TEST_F(ScanSourceTest, PosesOfAFolderAreOfItsSensorAndThoseOfARawlogOfTheVehicle) {
+TEST_F(ScanSourceTest, DistinguishesSensorAndVehiclePoses) {
     const fs::path folder = scanFolderOf(1, "1001\n");
     writeTumPoses(folder / "poses.tum", {{1000.9, CPose3D()}, {1001.1, CPose3D()}});
     const auto scans = openRecording(folder);
@@ -547,7 +509,7 @@ TEST_F(ScanSourceTest, PosesOfAFolderAreOfItsSensorAndThoseOfARawlogOfTheVehicle
     EXPECT_FALSE(scan->pose.attitude_is_of_sensor);
 }
 
-TEST_F(ScanSourceTest, ScansDeeperInAFolderAreNamed) {
+TEST_F(ScanSourceTest, SuggestsDeeperFolder) {
     folder_.write("data/samples/LIDAR_TOP/1.pcd.bin", "");
     const std::string message = test::messageOf([&] { openRecording(folder_ / "data"); });
     EXPECT_THAT(message, HasSubstr("data: not a scan folder"));
@@ -555,7 +517,7 @@ TEST_F(ScanSourceTest, ScansDeeperInAFolderAreNamed) {
                 HasSubstr("; there are scans in " + (folder_ / "data/samples/LIDAR_TOP").string()));
 }
 
-TEST_F(ScanSourceTest, NamesWhatCannotBeOpened) {
+TEST_F(ScanSourceTest, ReportsWhatCannotBeOpened) {
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "none.rawlog"); }),
                 HasSubstr("none.rawlog: no such file or folder"));
     fs::create_directories(folder_ / "empty");

@@ -72,7 +72,7 @@ int waitFor(pid_t process, std::string& complaint) {
     int status = 0;
     while (true) {
         const pid_t ended = waitpid(process, &status, WNOHANG);
-        // Where SIGCHLD is ignored, nothing is left of it (ECHILD); the pictures tell.
+        // Where SIGCHLD is ignored, its status is lost (ECHILD); the pictures are checked anyway.
         if (ended == process || (ended < 0 && errno != EINTR)) break;
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
         if (passed.count() > kPatience_s && cpuTimeOf_s(process) < kLeastLoad * passed.count()) {

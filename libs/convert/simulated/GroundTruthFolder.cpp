@@ -53,7 +53,7 @@ void GroundTruthFolder::write(const Scan& scan, const GroundTruthLabels& truth,
                                                              : Label::Unclassified);
     }
     returns.component.assign(truth.object.begin(), truth.object.end());
-    const std::string name = convert::scanName(altitudes_m_.size());
+    const std::string name = scanName(altitudes_m_.size());
     writer_.write(name, scan, returns, sensor, time_s, sensor_pose, true);
     recordings::writeLabels(path_.temporary() / "semantic" / (name + ".label"),
                             asLabels(truth.kind), returns.component);

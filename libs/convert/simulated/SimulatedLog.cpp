@@ -47,10 +47,10 @@ class PoseOutput {
     std::vector<recordings::TimedPose> poses_;
 };
 
-/// The requested outputs. One that cannot be written costs no other one.
-class Outputs {
+/// The requested outputs. A failed one does not affect the others.
+class SimulatedOutputs {
  public:
-    Outputs(const SimulatedLog& log, const Attitude& mount) {
+    SimulatedOutputs(const SimulatedLog& log, const Attitude& mount) {
         if (!log.rawlog.empty()) rawlog_.emplace(log.rawlog, log.overwrite);
         if (!log.folder.empty()) folder_.emplace(log.folder, log.overwrite, mount);
         if (!log.poses.empty()) poses_.emplace(log.poses, log.overwrite);
@@ -89,7 +89,7 @@ class Outputs {
     }
 
  private:
-    std::optional<convert::RawlogWriter> rawlog_;
+    std::optional<RawlogWriter> rawlog_;
     std::optional<GroundTruthFolder> folder_;
     std::optional<PoseOutput> poses_;
     base::OutputSet all_;
@@ -97,7 +97,7 @@ class Outputs {
 
 mrpt::Clock::time_point timePoint(double time_s) { return mrpt::Clock::fromDouble(time_s); }
 
-void writePose(double time_s, const simulation::SensorPose& pose, Outputs& outputs) {
+void writePose(double time_s, const simulation::SensorPose& pose, SimulatedOutputs& outputs) {
     outputs.writePose(kStart_s + time_s, mrptPose(pose));
     if (!outputs.hasRawlog()) return;
     mrpt::obs::CObservationRobotPose entry;
@@ -115,13 +115,14 @@ bool hasPackets(const SensorModel& sensor) {
 bool hasClouds(const SensorModel& sensor) { return !sensor.has_rings; }
 
 /// Returns the scan as a folder stores it: as measured, or as decoded from its packets.
-struct Measured {
+struct MeasuredScan {
     Scan scan;
     SensorModel sensor;
 };
 
-Measured writeScanEntry(const simulation::SimulatedScan& made, const SensorModel& sensor,
-                        const mrpt::poses::CPose3D& mount, double time_s, Outputs& outputs) {
+MeasuredScan writeScanEntry(const simulation::SimulatedScan& made, const SensorModel& sensor,
+                            const mrpt::poses::CPose3D& mount, double time_s,
+                            SimulatedOutputs& outputs) {
     if (hasClouds(sensor) && outputs.hasRawlog()) {
         const auto observation =
             observations::observationOf(made.scan, kLidarLabel, timePoint(kStart_s + time_s));
@@ -133,7 +134,7 @@ Measured writeScanEntry(const simulation::SimulatedScan& made, const SensorModel
     observation->sensorLabel = kLidarLabel;
     observation->timestamp = timePoint(kStart_s + time_s);
     observation->sensorPose = mount;
-    Measured measured;
+    MeasuredScan measured;
     observations::decodePackets(*observation, measured.scan);
     measured.sensor = observations::sensorOf(*observation);
     if (measured.scan.size() != made.size()) {
@@ -171,7 +172,7 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
     if (roll_rad != 0 || pitch_rad != 0) {  // otherwise it would have a zero with a minus sign
         sensor_on_vehicle = mrpt::poses::CPose3D(0, 0, 0, 0, pitch_rad, roll_rad);
     }
-    Outputs outputs(log, {static_cast<float>(roll_rad), static_cast<float>(pitch_rad)});
+    SimulatedOutputs outputs(log, {static_cast<float>(roll_rad), static_cast<float>(pitch_rad)});
     const simulation::Scene scene = simulation::makeScene(log.scenario, log.seed);
     simulation::FlightSettings settings;
     settings.altitude_m = log.altitude_m;
@@ -197,7 +198,8 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
         const simulation::SimulatedScan made =
             simulation::simulateScan(scene, sensor, flight, time_s, random, faults, mount);
         writePose(time_s, flight.at(time_s), outputs);
-        const Measured measured = writeScanEntry(made, sensor, sensor_on_vehicle, time_s, outputs);
+        const MeasuredScan measured =
+            writeScanEntry(made, sensor, sensor_on_vehicle, time_s, outputs);
         // Poses until after the last firing, or until the next scan provides one.
         const bool is_last = scan + 1 == log.scans;
         for (int step = 1; (step - 1) * kPoseStep_s < measuring_s; ++step) {

@@ -3,10 +3,7 @@
 
 #include <fstream>
 
-#include "recordings/bags/BagFolder.h"
-#include "recordings/bags/McapFile.h"
-#include "recordings/bags/Ros1Bag.h"
-#include "recordings/bags/SqliteBag.h"
+#include "recordings/bags/BagFormats.h"
 
 namespace hagen::recordings {
 namespace {
@@ -28,21 +25,19 @@ std::string typeAsInRos1(std::string type) {
 }
 
 bool isBag(const std::filesystem::path& file_or_folder) {
-    if (std::filesystem::is_directory(file_or_folder)) return BagFolder::isOne(file_or_folder);
+    if (std::filesystem::is_directory(file_or_folder)) return isBagFolder(file_or_folder);
     const std::string start = startOf(file_or_folder);
-    return Ros1Bag::isOne(start) || McapFile::isOne(start) || SqliteBag::isOne(start);
+    return isRos1Bag(start) || isMcap(start) || isSqliteBag(start);
 }
 
 std::unique_ptr<BagFile> openBag(const std::filesystem::path& file_or_folder) {
-    if (std::filesystem::is_directory(file_or_folder)) {
-        return std::make_unique<BagFolder>(file_or_folder);
-    }
+    if (std::filesystem::is_directory(file_or_folder)) return openBagFolder(file_or_folder);
     const std::string start = startOf(file_or_folder);
-    if (Ros1Bag::isOne(start)) return std::make_unique<Ros1Bag>(file_or_folder);
-    if (McapFile::isOne(start)) return std::make_unique<McapFile>(file_or_folder);
-    if (SqliteBag::isOne(start)) return std::make_unique<SqliteBag>(file_or_folder);
-    throw BrokenBag(file_or_folder.string() +
-                    ": is no ROS 1 bag, no MCAP and no database of a ROS 2 bag");
+    if (isRos1Bag(start)) return openRos1Bag(file_or_folder);
+    if (isMcap(start)) return openMcap(file_or_folder);
+    if (isSqliteBag(start)) return openSqliteBag(file_or_folder);
+    throw BrokenRecording(file_or_folder.string() +
+                          ": is neither a ROS 1 bag, nor an MCAP, nor a database of a ROS 2 bag");
 }
 
 }  // namespace hagen::recordings

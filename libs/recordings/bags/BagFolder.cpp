@@ -1,5 +1,3 @@
-#include "recordings/bags/BagFolder.h"
-
 #include <hagen/base/Folder.h>
 #include <hagen/base/ReadFile.h>
 #include <yaml-cpp/yaml.h>
@@ -8,6 +6,9 @@
 #include <cctype>
 #include <optional>
 #include <set>
+
+#include "recordings/bags/BagFormats.h"
+#include "recordings/bags/TopicList.h"
 
 namespace hagen::recordings {
 namespace {
@@ -37,7 +38,7 @@ Metadata metadataOf(const fs::path& folder) {
 }
 
 std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag) {
-    const fs::path file = folder / kMetadata;
+    const std::string metadata = (folder / kMetadata).string();
     std::vector<fs::path> files;
     try {
         if (bag["compression_mode"] && bag["compression_format"] &&
@@ -48,17 +49,17 @@ std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag)
                                      "compression_mode to NONE and the file names to theirs");
         }
         for (const YAML::Node& name : bag["relative_file_paths"]) {
-            // Old versions wrote the folder's own name, too; none points elsewhere.
+            // Old versions prepend the folder's own name. No name leads out of the folder.
             files.push_back(folder / fs::path(name.as<std::string>()).filename());
         }
     } catch (const std::exception& e) {
-        throw BrokenBag(file.string() + ": cannot be read: " + e.what());
+        throw BrokenRecording(metadata + ": cannot be read: " + e.what());
     }
-    if (files.empty()) throw BrokenBag(file.string() + ": lists no files");
+    if (files.empty()) throw BrokenRecording(metadata + ": lists no files");
     for (const fs::path& listed : files) {
         if (fs::is_regular_file(listed)) continue;
-        throw BrokenBag(file.string() + ": lists '" + listed.filename().string() +
-                        "', which is not in the folder");
+        throw BrokenRecording(metadata + ": lists '" + listed.filename().string() +
+                              "', which is not in the folder");
     }
     return files;
 }
@@ -69,21 +70,13 @@ bool isOfBag(const fs::path& file) {
     return ending == ".mcap" || ending == ".db3";
 }
 
-/// Files of a folder that may be recordings, too. Texts beside them are none.
-std::vector<fs::path> otherFiles(const fs::path& folder) {
-    static const std::set<std::string> texts{".yaml", ".yml", ".json", ".txt",    ".md", ".csv",
-                                             ".tum",  ".log", ".xml",  ".launch", ".sh", ".rviz"};
-    std::vector<fs::path> files;
-    for (const fs::path& file : base::entriesOf(folder)) {
-        const std::string name = file.filename().string();
-        const bool is_of_sqlite = name.find(".db3-") != std::string::npos;
-        if (fs::is_regular_file(file) && !isOfBag(file) && !is_of_sqlite && name[0] != '.' &&
-            texts.count(file.extension().string()) == 0) {
-            files.push_back(file);
-        }
-    }
-    std::sort(files.begin(), files.end());
-    return files;
+/// Whether a file of a bag's folder may be a recording, too, and is not text.
+bool mayBeRecording(const fs::path& file) {
+    static const std::set<std::string> kTexts{".yaml", ".yml", ".json", ".txt",    ".md", ".csv",
+                                              ".tum",  ".log", ".xml",  ".launch", ".sh", ".rviz"};
+    const std::string name = file.filename().string();
+    return fs::is_regular_file(file) && !isOfBag(file) && name[0] != '.' &&
+           name.find(".db3-") == std::string::npos && kTexts.count(file.extension().string()) == 0;
 }
 
 std::vector<fs::path> foundFiles(const fs::path& folder) {
@@ -92,15 +85,14 @@ std::vector<fs::path> foundFiles(const fs::path& folder) {
         if (!fs::is_directory(file) && isOfBag(file)) files.push_back(file);
     }
     // flight_2 comes before flight_10.
-    std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-        const std::string x = a.filename().string(), y = b.filename().string();
-        return x.size() != y.size() ? x.size() < y.size() : x < y;
+    std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+        return a.filename().string().size() < b.filename().string().size();
     });
     return files;
 }
 
 /// "'a_1.mcap', 'a_2.mcap' and 3 more".
-std::string textOf(const std::vector<fs::path>& files) {
+std::string textOfNames(const std::vector<fs::path>& files) {
     constexpr std::size_t kMost = 5;
     std::string text;
     for (std::size_t i = 0; i < std::min(kMost, files.size()); ++i) {
@@ -110,96 +102,114 @@ std::string textOf(const std::vector<fs::path>& files) {
     return text;
 }
 
-/// Takes out what a list has again, and returns it.
-std::vector<fs::path> takeRepeated(std::vector<fs::path>& files) {
-    std::set<fs::path> seen;
-    std::vector<fs::path> once, repeated;
-    for (const fs::path& file : files) (seen.insert(file).second ? once : repeated).push_back(file);
-    files = std::move(once);
-    return repeated;
-}
-
-/// The files of a folder that a list lacks.
-std::vector<fs::path> unlistedFiles(const fs::path& folder, const std::vector<fs::path>& listed) {
-    const std::set<fs::path> known(listed.begin(), listed.end());
-    std::vector<fs::path> unlisted;
-    for (const fs::path& file : foundFiles(folder)) {
-        if (known.count(file) == 0) unlisted.push_back(file);
+class BagFolder : public BagFile {
+ public:
+    explicit BagFolder(const fs::path& folder) {
+        const Metadata metadata = metadataOf(folder);
+        if (metadata.bag) {
+            useList(folder, listedFiles(folder, *metadata.bag));
+        } else {
+            files_ = foundFiles(folder);
+        }
+        if (files_.empty()) {
+            throw BrokenRecording(folder.string() + ": has no .mcap and no .db3 files");
+        }
+        if (!metadata.why_none.empty()) {
+            remarks_.push_back(std::string(kMetadata) + " is ignored (" + metadata.why_none +
+                               "): the .mcap and .db3 files of the folder are read in the order "
+                               "of their numbers");
+        }
+        std::vector<fs::path> others = base::entriesOf(folder);
+        others.erase(std::remove_if(others.begin(), others.end(),
+                                    [](const fs::path& file) { return !mayBeRecording(file); }),
+                     others.end());
+        if (!others.empty()) {
+            remarks_.push_back("the folder has other files, which are ignored: " +
+                               textOfNames(others));
+        }
+        for (const fs::path& file : files_) {
+            bytes_before_.push_back(bytes_);
+            bytes_ += static_cast<double>(fs::file_size(file));
+        }
+        openFile();
     }
-    return unlisted;
-}
+
+    bool next(BagMessage& message) override {
+        while (open_) {
+            if (open_->next(message)) {
+                const std::vector<BagTopic>& topics = open_->topics();
+                while (topic_of_.size() < topics.size()) {
+                    topic_of_.push_back(topics_.indexOf(topics[topic_of_.size()]));
+                }
+                message.topic = topic_of_[message.topic];
+                return true;
+            }
+            open_.reset();
+            if (++file_ < files_.size()) openFile();
+        }
+        return false;
+    }
+
+    const std::vector<BagTopic>& topics() const override { return topics_.all(); }
+
+    double fractionRead() const override {
+        if (!open_ || bytes_ <= 0) return 1.0;
+        const double after = file_ + 1 < files_.size() ? bytes_before_[file_ + 1] : bytes_;
+        const double size = after - bytes_before_[file_];
+        return (bytes_before_[file_] + open_->fractionRead() * size) / bytes_;
+    }
+
+    std::vector<std::string> remarks() const override { return remarks_; }
+
+ private:
+    /// Takes each listed file once, and reports duplicates and files that are not listed.
+    void useList(const fs::path& folder, const std::vector<fs::path>& listed) {
+        std::set<fs::path> known;
+        std::vector<fs::path> repeated, unlisted;
+        for (const fs::path& file : listed) {
+            (known.insert(file).second ? files_ : repeated).push_back(file);
+        }
+        for (const fs::path& file : foundFiles(folder)) {
+            if (known.count(file) == 0) unlisted.push_back(file);
+        }
+        if (!repeated.empty()) {
+            remarks_.push_back(std::string(kMetadata) + " lists files repeatedly: " +
+                               textOfNames(repeated) + "; each is read once");
+        }
+        if (!unlisted.empty()) {
+            remarks_.push_back(std::string(kMetadata) +
+                               " does not list files of the folder: " + textOfNames(unlisted) +
+                               "; they are ignored ('ros2 bag reindex' makes a new list)");
+        }
+    }
+
+    void openFile() {
+        open_ = openBag(files_[file_]);
+        open_->checkWhileReading([this] { check(); });
+        topic_of_.clear();
+    }
+
+    std::vector<fs::path> files_;
+    std::vector<std::string> remarks_;
+    std::vector<double> bytes_before_;  ///< by file
+    double bytes_ = 0;
+    std::size_t file_ = 0;
+    std::unique_ptr<BagFile> open_;      ///< null: none left
+    std::vector<std::size_t> topic_of_;  ///< by the index in the open file
+    TopicList topics_;
+};
 
 }  // namespace
 
-bool BagFolder::isOne(const fs::path& folder) {
+bool isBagFolder(const fs::path& folder) {
     std::error_code none;
     if (metadataOf(folder).bag) return true;
     // Otherwise the files decide.
     return !fs::exists(folder / "velodyne", none) && !foundFiles(folder).empty();
 }
 
-BagFolder::BagFolder(const fs::path& folder) {
-    const Metadata metadata = metadataOf(folder);
-    files_ = metadata.bag ? listedFiles(folder, *metadata.bag) : foundFiles(folder);
-    if (files_.empty()) {
-        throw BrokenBag(folder.string() + ": has no .mcap and no .db3 files");
-    }
-    if (metadata.bag) checkList(folder);
-    if (!metadata.why_none.empty()) {
-        std::string& remark = remarks_.emplace_back(kMetadata);
-        remark += " is not used (" + metadata.why_none +
-                  "): the .mcap and .db3 files of the folder are read in the order of their "
-                  "numbers";
-    }
-    if (const auto others = otherFiles(folder); !others.empty()) {
-        remarks_.push_back("the folder has other files, which are not read: " + textOf(others));
-    }
-    for (const fs::path& file : files_) {
-        share_before_.push_back(bytes_);
-        bytes_ += static_cast<double>(fs::file_size(file));
-    }
-    openFile();
-}
-
-void BagFolder::checkList(const fs::path& folder) {
-    if (const auto repeated = takeRepeated(files_); !repeated.empty()) {
-        remarks_.push_back(std::string(kMetadata) + " lists files repeatedly: " + textOf(repeated) +
-                           "; each is read once");
-    }
-    if (const auto unlisted = unlistedFiles(folder, files_); !unlisted.empty()) {
-        remarks_.push_back(std::string(kMetadata) +
-                           " does not list files of the folder: " + textOf(unlisted) +
-                           "; they are not read ('ros2 bag reindex' makes a new list)");
-    }
-}
-
-void BagFolder::openFile() {
-    open_ = openBag(files_[file_]);
-    open_->checkWhileReading([this] { check(); });
-    topic_of_.clear();
-}
-
-bool BagFolder::next(BagMessage& message) {
-    while (open_) {
-        if (open_->next(message)) {
-            const std::vector<BagTopic>& topics = open_->topics();
-            while (topic_of_.size() < topics.size()) {
-                topic_of_.push_back(topics_.indexOf(topics[topic_of_.size()]));
-            }
-            message.topic = topic_of_[message.topic];
-            return true;
-        }
-        open_.reset();
-        if (++file_ < files_.size()) openFile();
-    }
-    return false;
-}
-
-double BagFolder::fractionRead() const {
-    if (!open_ || bytes_ <= 0) return 1.0;
-    const double after = file_ + 1 < files_.size() ? share_before_[file_ + 1] : bytes_;
-    const double size = after - share_before_[file_];
-    return (share_before_[file_] + open_->fractionRead() * size) / bytes_;
+std::unique_ptr<BagFile> openBagFolder(const fs::path& folder) {
+    return std::make_unique<BagFolder>(folder);
 }
 
 }  // namespace hagen::recordings

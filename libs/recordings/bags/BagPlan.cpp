@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "recordings/bags/PoseSeries.h"
+#include "recordings/bags/TopicList.h"
 
 namespace hagen::recordings {
 namespace {
@@ -15,7 +16,7 @@ using Topic = BagSurvey::Topic;
 using mrpt::poses::CPose3D;
 
 constexpr double kLeastCovered = 0.5;              // of the time of the poses
-constexpr int kDeepest = 64;                       // frames on frames
+constexpr int kMostFrameDepth = 64;                // frames on frames
 constexpr const char* kOusterFrame = "os_sensor";  // of the maker's driver, whose packets name none
 
 std::string withSlash(const std::string& topic) {
@@ -28,11 +29,6 @@ std::string namespaceOf(const std::string& topic) {
 }
 
 bool isPackets(LidarKind kind) { return kind != LidarKind::None && kind != LidarKind::Cloud; }
-
-bool endsWith(const std::string& text, const std::string& ending) {
-    return text.size() >= ending.size() &&
-           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
 
 /// A label that no other topic has, and that no result of segmentation has.
 std::string labelOf(const std::string& topic, std::set<std::string>& taken) {
@@ -315,7 +311,7 @@ class Planner {
     Climb climb(const std::string& frame, const std::string& goal = "") const {
         Climb climb;
         climb.top = frame;
-        for (int depth = 0; depth < kDeepest; ++depth) {
+        for (int depth = 0; depth < kMostFrameDepth; ++depth) {
             const std::string at = climb.top;
             if (const auto pose = goal.empty() ? std::nullopt : frames_.poseIn(at, goal)) {
                 climb.top = goal;
@@ -469,7 +465,7 @@ class Planner {
             if (topic.kind == LidarKind::None) continue;
             Way way;
             std::string at = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
-            for (int depth = 0; depth < kDeepest && vehicles.count(at) == 0; ++depth) {
+            for (int depth = 0; depth < kMostFrameDepth && vehicles.count(at) == 0; ++depth) {
                 at = frames_.rootOf(at);
                 const auto next = survey_.transforms.find(at);
                 if (vehicles.count(at) > 0 || next == survey_.transforms.end() ||
@@ -519,7 +515,7 @@ class Planner {
     void chooseImu() {
         std::size_t most = 0;
         for (const bool is_mounted : {true, false}) {
-            // A vehicle's pose is better than an IMU that is mounted nobody knows how.
+            // A vehicle's pose is better than an IMU with an unknown mount.
             if (!is_mounted && (!plan_.imu_topic.empty() || plan_.poses != nullptr)) return;
             for (const auto& [topic, imu] : survey_.imus) {
                 const auto pose = onVehicle(imu.frame);

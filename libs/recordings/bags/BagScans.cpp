@@ -55,7 +55,7 @@ void note(const CObservation& scan, TopicState& state) {
     for (const std::string& remark : cloud->remarks()) ++state.clouds_with[remark];
 }
 
-void addPoint(const LivoxPoint& point, Scan& scan) {
+void addLivoxPoint(const LivoxPoint& point, Scan& scan) {
     scan.x_m.push_back(point.x_m);
     scan.y_m.push_back(point.y_m);
     scan.z_m.push_back(point.z_m);
@@ -63,7 +63,7 @@ void addPoint(const LivoxPoint& point, Scan& scan) {
     scan.time_s.push_back(1e-9f * static_cast<float>(point.since_ns));
 }
 
-PointTable tableOf(const std::vector<LivoxPoint>& points) {
+PointTable livoxTableOf(const std::vector<LivoxPoint>& points) {
     PointTable table;
     table.fields = {
         {"x", NumberType::Float32, 0, 1},           {"y", NumberType::Float32, 4, 1},
@@ -134,7 +134,7 @@ struct BagScans::Reader {
     void add(const CObservation::Ptr& scan, TopicState& state);
     void addComplete(TopicState& state);
     void finish();
-    static std::string textOf(const TopicState& state);
+    static std::string describe(const TopicState& state);
     std::string whyEmpty() const;
 };
 
@@ -220,10 +220,10 @@ void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, T
     CObservationPointCloud::Ptr scan;
     if (state.sensor->kind == LidarKind::Livox1) {
         scan = observations::observationOf(
-            std::make_shared<const PointTable>(tableOf(message.points)), "", timeOf(time_ns));
+            std::make_shared<const PointTable>(livoxTableOf(message.points)), "", timeOf(time_ns));
     } else {
         Scan points;
-        for (const LivoxPoint& point : message.points) addPoint(point, points);
+        for (const LivoxPoint& point : message.points) addLivoxPoint(point, points);
         locateBeams(*mid360, points);
         PointTable others;
         others.points = message.points.size();
@@ -312,9 +312,8 @@ void BagScans::Reader::addComplete(TopicState& state) {
     }
     if (state.frames) {
         for (const sensors::OusterFrame& frame : state.frames->complete()) {
-            const CObservation::Ptr scan = observationOf(sweepOf(frame, *state.sensor->ouster));
-            const mrpt::poses::CPose3D on_sensor(scan->sensorPose());
-            scan->setSensorPose(state.sensor->on_vehicle + on_sensor);
+            const auto scan = observationOf(sweepOf(frame, *state.sensor->ouster));
+            scan->sensorPose = state.sensor->on_vehicle + scan->sensorPose;
             add(scan, state);
         }
         state.frames->complete().clear();
@@ -353,7 +352,7 @@ void BagScans::Reader::finish() {
     }
 }
 
-std::string BagScans::Reader::textOf(const TopicState& state) {
+std::string BagScans::Reader::describe(const TopicState& state) {
     std::string text = counted(state.messages, "message");
     if (state.turns) {
         text += ", " + state.sensor->velodyne->name + ", " + sensors::textOf(state.turns->counts());
@@ -388,7 +387,7 @@ std::string BagScans::Reader::textOf(const TopicState& state) {
 
 std::string BagScans::Reader::whyEmpty() const {
     std::string text = file.string() + ": no scan could be read";
-    for (const auto& [topic, state] : states) text += "; " + topic + ": " + textOf(state);
+    for (const auto& [topic, state] : states) text += "; " + topic + ": " + describe(state);
     return text;
 }
 
@@ -409,7 +408,7 @@ CObservation::Ptr BagScans::next() {
             } else {
                 r.finish();
             }
-        } catch (const BrokenBag& e) {
+        } catch (const BrokenRecording& e) {
             r.broken_because = e.what();
             r.finish();
         }
@@ -419,8 +418,8 @@ CObservation::Ptr BagScans::next() {
         r.complete.pop_front();
         return observation;
     }
-    if (!r.broken_because.empty()) throw BrokenBag(r.broken_because);
-    if (r.scans == 0) throw BrokenBag(r.whyEmpty());
+    if (!r.broken_because.empty()) throw BrokenRecording(r.broken_because);
+    if (r.scans == 0) throw BrokenRecording(r.whyEmpty());
     return nullptr;
 }
 
@@ -441,21 +440,21 @@ std::vector<std::string> BagScans::remarks() const {
     std::vector<std::string> remarks = r.bag->remarks();
     remarks.insert(remarks.end(), r.plan.remarks.begin(), r.plan.remarks.end());
     for (const auto& [topic, state] : r.states) {
-        remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::textOf(state));
+        remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::describe(state));
     }
     for (const auto& [topic, left_out] : r.survey.left_out) {
-        const auto tell = [&, &name = topic](const LeftOut::Kind& kind, const std::string& one,
-                                             const std::string& why) {
+        const auto report = [&, &name = topic](const LeftOut::Kind& kind, const std::string& one,
+                                               const std::string& why) {
             if (kind.number == 0) return;
             remarks.push_back(name + ": " + counted(kind.number, one) + why +
                               ", left out; the first: " + kind.first);
         };
-        tell(left_out.messages, "message", " that could not be read");
-        tell(left_out.transforms, "transform", " that could not be read");
-        tell(left_out.other_parents, "transform", " of a frame that had another parent before");
-        tell(left_out.further, "transform",
-             " of frames beyond the first " + std::to_string(kMostMovingFrames) +
-                 " (of tf_static " + std::to_string(FrameTree::kMostFrames) + ")");
+        report(left_out.messages, "message", " that could not be read");
+        report(left_out.transforms, "transform", " that could not be read");
+        report(left_out.other_parents, "transform", " of a frame that had another parent before");
+        report(left_out.further, "transform",
+               " of frames beyond the first " + std::to_string(kMostMovingFrames) +
+                   " (of tf_static " + std::to_string(FrameTree::kMostFrames) + ")");
     }
     BagSurvey others;  // that nothing is read of
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",

@@ -6,18 +6,14 @@
 #include <optional>
 
 #include "recordings/bags/Messages.h"
+#include "recordings/bags/PoseSeries.h"
+#include "recordings/bags/TopicList.h"
 
 namespace hagen::recordings {
 namespace {
 
-constexpr double kLeastApart_ns = 1e7;
 constexpr std::size_t kMostLookedAt = 20;  // messages of a Velodyne: turns
-constexpr std::size_t kMostMetadata = 1 << 20;
-
-bool endsWith(const std::string& text, const std::string& ending) {
-    return text.size() >= ending.size() &&
-           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
+constexpr std::size_t kMostOusterMetadata = 1 << 20;
 
 void addPose(const PoseMessage& message, std::int64_t recorded_ns, PoseSeries& series) {
     const auto pose = message.pose();
@@ -34,7 +30,7 @@ void addPose(const PoseMessage& message, std::int64_t recorded_ns, PoseSeries& s
     series.poses.push_back({time_ns, pose->x(), pose->y(), pose->z(), q.r(), q.x(), q.y(), q.z()});
 }
 
-class Surveyor {
+class BagSurveyor {
  public:
     void see(const BagMessage& message, const std::vector<BagTopic>& topics) {
         while (survey_.topics.size() < topics.size()) addTopic(topics[survey_.topics.size()]);
@@ -46,7 +42,7 @@ class Surveyor {
         } catch (const std::bad_alloc&) {
             throw;
         } catch (const std::exception& e) {
-            // Those of LiDARs are counted by who reads the scans.
+            // Those of LiDARs are counted by BagScans.
             if (topic.kind != LidarKind::None) return;
             count(survey_.left_out[topic.topic.name].messages, message, topic, e.what());
         }
@@ -87,7 +83,7 @@ class Surveyor {
         } else if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") {
             readFrames(message, topic);
         } else if (type == "std_msgs/String" && endsWith(topic.topic.name, "metadata") &&
-                   message.size <= kMostMetadata) {
+                   message.size <= kMostOusterMetadata) {
             FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
             survey_.ouster_metadata[topic.topic.name] = readString(fields);
         }
@@ -197,7 +193,7 @@ BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool(
     bag->checkWhileReading([&] {
         if (!keep_going()) throw Ended();
     });
-    Surveyor surveyor;
+    BagSurveyor surveyor;
     bool is_whole = true;
     std::string broken_because;
     try {
@@ -205,8 +201,8 @@ BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool(
         while (bag->next(message)) surveyor.see(message, bag->topics());
     } catch (const Ended&) {
         is_whole = false;
-    } catch (const BrokenBag& e) {
-        is_whole = false;  // who reads the scans reports the break
+    } catch (const BrokenRecording& e) {
+        is_whole = false;  // BagScans reports the break
         broken_because = e.what();
     }
     BagSurvey survey = std::move(surveyor).survey();
@@ -222,12 +218,12 @@ BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool(
 
 std::string textOfTopics(const BagSurvey& survey, std::size_t most) {
     std::string text;
-    std::size_t told = 0;
+    std::size_t listed = 0;
     for (const BagSurvey::Topic& topic : survey.topics) {
-        if (told++ == most) break;
+        if (listed++ == most) break;
         text += (text.empty() ? "" : ", ") + topic.topic.name + " (" +
                 (topic.topic.type.empty() ? "unknown type" : topic.topic.type) + ", " +
-                recordings::counted(topic.messages, "message") + ")";
+                counted(topic.messages, "message") + ")";
     }
     if (survey.topics.size() > most) {
         text += " and " + std::to_string(survey.topics.size() - most) + " more";

@@ -8,7 +8,7 @@
 
 namespace hagen::recordings {
 
-/// Bytes in memory that somebody else owns.
+/// Bytes in memory, not owned.
 struct ByteView {
     const std::uint8_t* data = nullptr;
     std::size_t size = 0;

@@ -12,7 +12,7 @@ namespace hagen::recordings {
 FileBytes::FileBytes(const std::filesystem::path& file, bool has_crc)
     : path_(file), file_(std::fopen(file.c_str(), "rb")), has_crc_(has_crc) {
     if (!file_) {
-        throw BrokenBag(file.string() + ": cannot be opened: " + std::strerror(errno));
+        throw BrokenRecording(file.string() + ": cannot be opened: " + std::strerror(errno));
     }
     size_ = std::filesystem::file_size(file);
     std::setvbuf(file_.get(), nullptr, _IOFBF, 1 << 18);
@@ -23,7 +23,8 @@ double FileBytes::fractionRead() const {
 }
 
 void FileBytes::fail(const std::string& what, std::uint64_t byte, const std::string& why) const {
-    throw BrokenBag(path_.string() + ": " + what + " at byte " + std::to_string(byte) + ": " + why);
+    throw BrokenRecording(path_.string() + ": " + what + " at byte " + std::to_string(byte) + ": " +
+                          why);
 }
 
 void FileBytes::checkLeft(std::uint64_t count, const std::string& what) const {

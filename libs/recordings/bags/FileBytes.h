@@ -12,7 +12,7 @@ namespace hagen::recordings {
 /// Reads a file from its start to its end, with a running CRC on request.
 class FileBytes {
  public:
-    /// Throws BrokenBag naming the file if it cannot be opened.
+    /// Throws BrokenRecording naming the file if it cannot be opened.
     explicit FileBytes(const std::filesystem::path& file, bool has_crc = false);
 
     std::uint64_t position() const { return position_; }
@@ -20,10 +20,10 @@ class FileBytes {
     double fractionRead() const;
 
     /// Reads exactly so many bytes; nothing is allocated if the file has fewer. `what` is being
-    /// read, for BrokenBag: "a chunk".
+    /// read, for BrokenRecording: "a chunk".
     void read(std::uint64_t count, const std::string& what, std::vector<std::uint8_t>& bytes);
-    /// Skips bytes by parts, so that who reads can be interrupted: skipSome() until there are none.
-    /// They are read nevertheless, for the CRC.
+    /// Skips bytes in parts, so that reading can be interrupted: call skipSome() while
+    /// isSkipping(). They are read nevertheless, for the CRC.
     void beginSkip(std::uint64_t count, const std::string& what);
     bool isSkipping() const { return to_skip_ > 0; }
     void skipSome();
@@ -32,7 +32,7 @@ class FileBytes {
     std::uint32_t crc() const { return crc_; }
     void restartCrc() { crc_ = 0; }
 
-    /// Throws BrokenBag "FILE: WHAT at byte N: WHY".
+    /// Throws BrokenRecording "FILE: WHAT at byte N: WHY".
     [[noreturn]] void fail(const std::string& what, std::uint64_t byte,
                            const std::string& why) const;
 

@@ -3,7 +3,7 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr int kDeepest = 64;
+constexpr int kMostTreeDepth = 64;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ bool FrameTree::has(const std::string& frame) const {
 
 std::string FrameTree::rootOf(const std::string& frame) const {
     std::string root = frame;
-    for (int depth = 0; depth < kDeepest; ++depth) {
+    for (int depth = 0; depth < kMostTreeDepth; ++depth) {
         const auto edge = edges_.find(root);
         if (edge == edges_.end()) break;
         root = edge->second.parent;
@@ -37,7 +37,7 @@ std::string FrameTree::rootOf(const std::string& frame) const {
 mrpt::poses::CPose3D FrameTree::poseInRoot(const std::string& frame) const {
     mrpt::poses::CPose3D pose;
     std::string at = frame;
-    for (int depth = 0; depth < kDeepest; ++depth) {
+    for (int depth = 0; depth < kMostTreeDepth; ++depth) {
         const auto edge = edges_.find(at);
         if (edge == edges_.end()) break;
         pose = edge->second.pose + pose;

@@ -16,7 +16,7 @@ namespace {
 using observations::NumberType;
 using observations::PointTable;
 
-constexpr std::size_t kVelodyneBytes = 1206;
+constexpr std::size_t kVelodyneMessageBytes = 1206;
 
 bool isZstd(const BagMessage& message) {
     const std::uint8_t* const at = message.bytes;
@@ -37,7 +37,7 @@ std::string withoutSlash(std::string frame) {
     return frame;
 }
 
-NumberType typeOf(std::uint8_t datatype) {
+NumberType pointFieldType(std::uint8_t datatype) {
     switch (datatype) {  // the constants of sensor_msgs/PointField
         case 1:
             return NumberType::Int8;
@@ -87,8 +87,8 @@ std::vector<std::uint8_t> joinRows(ByteView data, std::size_t rows, std::size_t 
 }
 
 /// Takes the points of an image of width x height points.
-void takePoints(ByteView data, std::uint64_t width, std::uint64_t height, std::uint64_t row_step,
-                PointTable& table) {
+void takeImage(ByteView data, std::uint64_t width, std::uint64_t height, std::uint64_t row_step,
+               PointTable& table) {
     table.points = 0;
     if (width == 0 || height == 0) return;
     const std::uint64_t row_bytes = width * table.bytes_per_point;  // of 32-bit numbers
@@ -158,7 +158,7 @@ PointCloud2 readPointCloud2(FieldReader& fields) {
         observations::PointField field;
         field.name = fields.text();
         field.offset = fields.number<std::uint32_t>();
-        field.type = typeOf(fields.number<std::uint8_t>());
+        field.type = pointFieldType(fields.number<std::uint8_t>());
         // Some drivers leave it 0.
         field.count = std::max<std::uint32_t>(1, fields.number<std::uint32_t>());
         // Padding has no name, or one that repeats.
@@ -168,17 +168,17 @@ PointCloud2 readPointCloud2(FieldReader& fields) {
     table.bytes_per_point = fields.number<std::uint32_t>();
     const auto row_step = fields.number<std::uint32_t>();
     const ByteView data = fields.take(fields.count(1));
-    takePoints(data, width, height, row_step, table);
+    takeImage(data, width, height, row_step, table);
     return cloud;
 }
 
 VelodyneScanMessage readVelodyneScan(FieldReader& fields) {
     VelodyneScanMessage scan;
     scan.header = readHeader(fields);
-    scan.packets.resize(fields.count(8 + kVelodyneBytes));
+    scan.packets.resize(fields.count(8 + kVelodyneMessageBytes));
     for (VelodyneScanMessage::Packet& packet : scan.packets) {
         packet.time_ns = readTime(fields);
-        packet.bytes = fields.take(kVelodyneBytes).data;
+        packet.bytes = fields.take(kVelodyneMessageBytes).data;
     }
     return scan;
 }

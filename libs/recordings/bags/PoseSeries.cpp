@@ -13,7 +13,7 @@ namespace {
 
 using mrpt::poses::CPose3D;
 
-constexpr double kFarApart_s = 0.5, kLeastApart_ns = 1e7;
+constexpr double kFarApart_s = 0.5;
 constexpr double kLongestGap_s = 0.2;  // of Trajectory
 
 }  // namespace
@@ -59,7 +59,7 @@ PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top
     std::vector<std::int64_t> times_ns;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         for (const RecordedPose& pose : steps[i].series->poses) {
-            trajectories[i].add(recordings::timeOf(pose.time_ns), poseOf(pose));
+            trajectories[i].add(timeOf(pose.time_ns), poseOf(pose));
             times_ns.push_back(pose.time_ns);
         }
     }
@@ -77,10 +77,10 @@ PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top
                 kLeastApart_ns) {
             continue;
         }
-        if (!sparsest.at(recordings::timeOf(time_ns))) continue;
+        if (!sparsest.at(timeOf(time_ns))) continue;
         std::optional<CPose3D> pose = CPose3D();
         for (std::size_t i = 0; i < steps.size() && pose; ++i) {
-            const auto of_step = trajectories[i].at(recordings::timeOf(time_ns));
+            const auto of_step = trajectories[i].at(timeOf(time_ns));
             pose = of_step ? std::optional(*of_step + (steps[i].in_child + *pose)) : std::nullopt;
         }
         if (!pose) continue;

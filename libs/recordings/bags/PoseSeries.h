@@ -8,13 +8,15 @@ namespace hagen::recordings {
 
 mrpt::poses::CPose3D poseOf(const RecordedPose& pose);
 
+constexpr double kLeastApart_ns = 1e7;  ///< of poses that are kept
+
 /// Whether poses are close enough to place scans with them.
 bool isDense(const PoseSeries& series);
 
 /// Whether all poses are the same. Not of an empty series.
 bool isStill(const PoseSeries& series);
 
-/// For how long there are poses, without gaps that nobody bridges.
+/// The total time with poses, without gaps that are too long to interpolate.
 double covered_s(const PoseSeries& series);
 
 /// One of several series that move a frame one after the other, and where in its child frame the

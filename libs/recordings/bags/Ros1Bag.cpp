@@ -1,209 +1,177 @@
-#include "recordings/bags/Ros1Bag.h"
-
 #include <string_view>
 
+#include "recordings/bags/BagFormats.h"
+#include "recordings/bags/RecordFile.h"
 #include "recordings/bags/Unpack.h"
 
 namespace hagen::recordings {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::uint64_t kMostHeader = 1 << 20;
-enum Op : std::uint8_t {
-    kMessage = 0x02,
-    kBagHeader = 0x03,
-    kIndex = 0x04,
-    kChunk = 0x05,
-    kChunkInfo = 0x06,
-    kConnection = 0x07
+constexpr std::string_view kRos1Magic = "#ROSBAG V2.0\n";
+constexpr std::uint64_t kMostRecordHeader = 1 << 20;
+enum Ros1Op : std::uint8_t {
+    kRos1Message = 0x02,
+    kRos1BagHeader = 0x03,
+    kRos1Index = 0x04,
+    kRos1Chunk = 0x05,
+    kRos1ChunkInfo = 0x06,
+    kRos1Connection = 0x07
 };
 
-/// "name=value" fields, each after its size.
-std::map<std::string, std::string> fieldsOf(ByteView header) {
-    std::map<std::string, std::string> fields;
-    FieldReader reader(header);
-    while (reader.left() > 0) {
-        const std::string field = reader.text();
-        const std::size_t equals = field.find('=');
-        if (equals == std::string::npos)
-            throw std::runtime_error("a field of its header has no '='");
-        fields[field.substr(0, equals)] = field.substr(equals + 1);
+std::string ros1RecordName(std::uint8_t op) {
+    static const std::map<std::uint8_t, const char*> kNames{
+        {kRos1Message, "a message"},       {kRos1BagHeader, "the bag's header"},
+        {kRos1Index, "an index"},          {kRos1Chunk, "a chunk"},
+        {kRos1Connection, "a connection"}, {kRos1ChunkInfo, "the description of a chunk"}};
+    const auto name = kNames.find(op);
+    return name == kNames.end() ? "a record" : name->second;
+}
+
+/// The "name=value" fields of a record's header, each after its size.
+class RecordHeader {
+ public:
+    explicit RecordHeader(ByteView header) {
+        for (FieldReader reader(header); reader.left() > 0;) {
+            const std::string field = reader.text();
+            const std::size_t equals = field.find('=');
+            if (equals == std::string::npos) {
+                throw std::runtime_error("a field of its header has no '='");
+            }
+            fields_[field.substr(0, equals)] = field.substr(equals + 1);
+        }
     }
-    return fields;
-}
 
-const std::string& at(const std::map<std::string, std::string>& fields, const std::string& name) {
-    const auto found = fields.find(name);
-    if (found == fields.end()) throw std::runtime_error("its header has no '" + name + "'");
-    return found->second;
-}
-
-template <class Number>
-Number numberAt(const std::map<std::string, std::string>& fields, const std::string& name) {
-    const std::string& value = at(fields, name);
-    if (value.size() != sizeof(Number)) {
-        throw std::runtime_error("'" + name + "' in its header has " +
-                                 std::to_string(value.size()) + " bytes, not " +
-                                 std::to_string(sizeof(Number)));
+    bool has(const std::string& name) const { return fields_.count(name) > 0; }
+    const std::string& at(const std::string& name) const {
+        const auto found = fields_.find(name);
+        if (found == fields_.end()) throw std::runtime_error("its header has no '" + name + "'");
+        return found->second;
     }
-    return FieldReader({reinterpret_cast<const std::uint8_t*>(value.data()), value.size()})
-        .number<Number>();
-}
-
-std::string nameOf(std::uint8_t op) {
-    switch (op) {
-        case kMessage:
-            return "a message";
-        case kBagHeader:
-            return "the bag's header";
-        case kIndex:
-            return "an index";
-        case kChunk:
-            return "a chunk";
-        case kChunkInfo:
-            return "the description of a chunk";
-        case kConnection:
-            return "a connection";
-        default:
-            return "a record";
+    template <class Number>
+    Number number(const std::string& name) const {
+        const std::string& value = at(name);
+        if (value.size() != sizeof(Number)) {
+            throw std::runtime_error("'" + name + "' in its header has " +
+                                     std::to_string(value.size()) + " bytes, not " +
+                                     std::to_string(sizeof(Number)));
+        }
+        return FieldReader({reinterpret_cast<const std::uint8_t*>(value.data()), value.size()})
+            .number<Number>();
     }
-}
+    std::uint8_t op() const { return number<std::uint8_t>("op"); }
 
-std::uint64_t little32(const std::vector<std::uint8_t>& bytes) {
-    return FieldReader({bytes.data(), bytes.size()}).number<std::uint32_t>();
-}
+ private:
+    std::map<std::string, std::string> fields_;
+};
 
-}  // namespace
-
-bool Ros1Bag::isOne(const std::string& start) { return start.rfind("#ROSBAG V", 0) == 0; }
-
-Ros1Bag::Ros1Bag(const std::filesystem::path& file) : file_(file) {
-    file_.read(kMagic.size(), "the format's name", header_);
-    const std::string magic(header_.begin(), header_.end());
-    if (magic != kMagic) {
+class Ros1Bag : public RecordFile {
+ public:
+    explicit Ros1Bag(const std::filesystem::path& file) : RecordFile(file, false) {
+        file_.read(kRos1Magic.size(), "the format's name", head_);
+        const std::string magic(head_.begin(), head_.end());
+        if (magic == kRos1Magic) return;
         file_.fail("the format's name", 0,
                    "is '" + magic.substr(0, magic.find('\n')) +
                        "'; only format 2.0 can be read: migrate it by 'rosbag fix'");
     }
-}
 
-bool Ros1Bag::next(BagMessage& message) {
-    std::string what = "a record";
-    while (true) {
-        check();
-        try {
-            if (file_.isSkipping()) {
-                file_.skipSome();
-                continue;
-            }
-            if (in_chunk_.left() > 0) {
-                if (readInChunk(message)) return true;
-                continue;
-            }
-            record_at_ = file_.position();
-            if (file_.left() == 0) {
-                checkEnd();
-                return false;
-            }
-            if (readRecord(message)) return true;
-        } catch (const BrokenBag&) {
-            throw;
-        } catch (const std::runtime_error& e) {
-            const bool is_in_chunk = in_chunk_.left() > 0;
-            in_chunk_ = FieldReader(ByteView());
-            file_.fail(is_in_chunk ? "the chunk" : what, record_at_, e.what());
+ private:
+    bool readRecord(BagMessage& message) override {
+        if (file_.left() == 0) {
+            checkEnd();
+            is_at_end_ = true;
+            return false;
         }
-    }
-}
-
-/// Reads a record of the file; true if it is a message.
-bool Ros1Bag::readRecord(BagMessage& message) {
-    file_.read(4, "the size of a record", header_);
-    const std::uint64_t header_size = little32(header_);
-    if (header_size > kMostHeader) {
-        throw std::runtime_error("its header claims " + std::to_string(header_size) + " bytes");
-    }
-    file_.read(header_size, "the header of a record", header_);
-    const Fields fields = fieldsOf({header_.data(), header_.size()});
-    const auto op = numberAt<std::uint8_t>(fields, "op");
-    file_.read(4, "the size of " + nameOf(op), data_);
-    const std::uint64_t size = little32(data_);
-    const bool is_read = op == kChunk || op == kConnection || op == kMessage;
-    if (is_read) {
+        const std::uint64_t header_size = readSize("the size of a record", head_);
+        if (header_size > kMostRecordHeader) {
+            throw std::runtime_error("its header claims " + std::to_string(header_size) + " bytes");
+        }
+        file_.read(header_size, "the header of a record", head_);
+        const RecordHeader header({head_.data(), head_.size()});
+        const std::uint8_t op = header.op();
+        const std::uint64_t size = readSize("the size of " + ros1RecordName(op), content_);
+        if (op != kRos1Chunk && op != kRos1Connection && op != kRos1Message) {
+            file_.beginSkip(size, ros1RecordName(op));
+            if (op == kRos1BagHeader) takeBagHeader(header);
+            chunk_infos_ += op == kRos1ChunkInfo;
+            return false;
+        }
         if (size > kMostUnpacked) {
             throw std::runtime_error("it claims " + std::to_string(size) + " bytes");
         }
-        file_.read(size, nameOf(op), data_);
-    } else {
-        file_.beginSkip(size, nameOf(op));
+        file_.read(size, ros1RecordName(op), content_);
+        const ByteView data{content_.data(), content_.size()};
+        if (op != kRos1Chunk) return takeRecord(header, data, message);
+        ++chunks_;
+        in_chunk_ = FieldReader(
+            unpack(header.at("compression"), data, header.number<std::uint32_t>("size"), chunk_));
+        return false;
     }
-    const ByteView data{data_.data(), is_read ? data_.size() : 0};
-    if (op == kBagHeader) readBagHeader(fields);
-    if (op == kChunk) readChunk(fields);
-    if (op == kConnection) takeConnection(fields, data);
-    chunk_infos_ += op == kChunkInfo;
-    return op == kMessage && takeMessage(fields, data, message);
-}
 
-void Ros1Bag::readBagHeader(const Fields& fields) {
-    const auto encryptor = fields.find("encryptor");
-    if (encryptor != fields.end() && !encryptor->second.empty()) {
-        throw std::runtime_error("the bag is encrypted (" + encryptor->second.substr(0, 64) +
-                                 "); decrypt it by 'rosbag decrypt'");
+    bool readInChunk(BagMessage& message) override {
+        const RecordHeader header(in_chunk_.take(in_chunk_.count(1)));
+        return takeRecord(header, in_chunk_.take(in_chunk_.count(1)), message);
     }
-    has_header_ = true;
-    index_at_ = numberAt<std::uint64_t>(fields, "index_pos");
-    chunks_due_ = numberAt<std::uint32_t>(fields, "chunk_count");
-}
 
-void Ros1Bag::readChunk(const Fields& fields) {
-    ++chunks_;
-    in_chunk_ = FieldReader(unpack(at(fields, "compression"), {data_.data(), data_.size()},
-                                   numberAt<std::uint32_t>(fields, "size"), chunk_));
-}
-
-/// Reads a record of the chunk; true if it is a message.
-bool Ros1Bag::readInChunk(BagMessage& message) {
-    const Fields fields = fieldsOf(in_chunk_.take(in_chunk_.count(1)));
-    const ByteView data = in_chunk_.take(in_chunk_.count(1));
-    const auto op = numberAt<std::uint8_t>(fields, "op");
-    if (op == kConnection) takeConnection(fields, data);
-    return op == kMessage && takeMessage(fields, data, message);
-}
-
-void Ros1Bag::takeConnection(const Fields& fields, ByteView data) {
-    const Fields more = fieldsOf(data);
-    topic_of_[numberAt<std::uint32_t>(fields, "conn")] =
-        topics_.indexOf({at(fields, "topic"), typeAsInRos1(at(more, "type")), "ros1"});
-}
-
-bool Ros1Bag::takeMessage(const Fields& fields, ByteView data, BagMessage& message) const {
-    const auto connection = numberAt<std::uint32_t>(fields, "conn");
-    const auto topic = topic_of_.find(connection);
-    if (topic == topic_of_.end()) {
-        throw std::runtime_error("a message is of connection " + std::to_string(connection) +
-                                 ", which is not described before it");
+    std::uint64_t readSize(const std::string& what, std::vector<std::uint8_t>& buffer) {
+        file_.read(4, what, buffer);
+        return FieldReader({buffer.data(), buffer.size()}).number<std::uint32_t>();
     }
-    const auto time = numberAt<std::uint64_t>(fields, "time");  // seconds, then nanoseconds
-    message.topic = topic->second;
-    message.time_ns = static_cast<std::int64_t>(time & 0xffffffff) * 1000000000 +
-                      static_cast<std::int64_t>(time >> 32);
-    message.bytes = data.data;
-    message.size = data.size;
-    return true;
-}
 
-/// Throws unless the bag was closed.
-void Ros1Bag::checkEnd() const {
-    if (!has_header_) throw std::runtime_error("there is no bag header: the bag is cut off");
-    if (index_at_ == 0) {
-        throw std::runtime_error("the bag ends here without an index: it was not closed");
+    void takeBagHeader(const RecordHeader& header) {
+        if (header.has("encryptor") && !header.at("encryptor").empty()) {
+            throw std::runtime_error("the bag is encrypted (" +
+                                     header.at("encryptor").substr(0, 64) +
+                                     "); decrypt it by 'rosbag decrypt'");
+        }
+        has_header_ = true;
+        index_at_ = header.number<std::uint64_t>("index_pos");
+        chunks_due_ = header.number<std::uint32_t>("chunk_count");
     }
-    if (chunks_ != chunks_due_ || chunk_infos_ != chunks_due_) {
-        throw std::runtime_error("the bag ends here with " + std::to_string(chunks_) + " chunks, " +
-                                 std::to_string(chunk_infos_) + " of them described; its header " +
-                                 "says " + std::to_string(chunks_due_));
+
+    /// A connection or a message; true if it is a message.
+    bool takeRecord(const RecordHeader& header, ByteView data, BagMessage& message) {
+        const std::uint8_t op = header.op();
+        if (op == kRos1Connection) {
+            const RecordHeader more(data);
+            topic_of_[header.number<std::uint32_t>("conn")] =
+                topics_.indexOf({header.at("topic"), typeAsInRos1(more.at("type")), "ros1"});
+        }
+        if (op != kRos1Message) return false;
+        const auto connection = header.number<std::uint32_t>("conn");
+        const auto time = header.number<std::uint64_t>("time");  // seconds, then nanoseconds
+        const std::int64_t time_ns = static_cast<std::int64_t>(time & 0xffffffff) * 1000000000 +
+                                     static_cast<std::int64_t>(time >> 32);
+        return take("connection", connection, time_ns, data, message);
     }
+
+    /// Throws unless the bag was closed.
+    void checkEnd() const {
+        if (!has_header_) {
+            throw std::runtime_error("there is no bag header: the bag is truncated");
+        }
+        if (index_at_ == 0) {
+            throw std::runtime_error("the bag ends here without an index: it was not closed");
+        }
+        if (chunks_ != chunks_due_ || chunk_infos_ != chunks_due_) {
+            throw std::runtime_error("the bag ends here with " + std::to_string(chunks_) +
+                                     " chunks, " + std::to_string(chunk_infos_) +
+                                     " of them described; its header says " +
+                                     std::to_string(chunks_due_));
+        }
+    }
+
+    bool has_header_ = false;
+    std::uint64_t index_at_ = 0;
+    std::uint32_t chunks_due_ = 0, chunks_ = 0, chunk_infos_ = 0;
+};
+
+}  // namespace
+
+bool isRos1Bag(const std::string& start) { return start.rfind("#ROSBAG V", 0) == 0; }
+
+std::unique_ptr<BagFile> openRos1Bag(const std::filesystem::path& file) {
+    return std::make_unique<Ros1Bag>(file);
 }
 
 }  // namespace hagen::recordings

@@ -1,21 +1,23 @@
-#include "recordings/bags/SqliteBag.h"
-
 #include <hagen/base/ReadFile.h>
 #include <sqlite3.h>
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <fstream>
+#include <map>
 #include <string_view>
 #include <utility>
 
+#include "recordings/bags/BagFormats.h"
+#include "recordings/bags/TopicList.h"
 #include "recordings/bags/Unpack.h"
 
 namespace hagen::recordings {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::string_view kMagic{"SQLite format 3\0", 16};
+constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
 /// "file:///a%20b.db3": characters with a meaning in such names are written as codes. Without an
 /// empty authority, that of a path from "//" on would be its first folder.
@@ -65,171 +67,194 @@ std::string textAt(sqlite3_stmt* row, int column) {
     return text == nullptr ? "" : text;
 }
 
-}  // namespace
-
-void SqliteBag::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
-void SqliteBag::Close::operator()(sqlite3_stmt* query) const { sqlite3_finalize(query); }
-
-bool SqliteBag::isOne(const std::string& start) {
-    return start.compare(0, kMagic.size(), kMagic) == 0;
-}
-
-SqliteBag::SqliteBag(const fs::path& file) : file_(file), cut_because_(whyCut(file)) {
-    open();
-    checkTables();
-    checkColumns();
-    readTopics();
-    // Each by itself: both in one query read all messages.
-    const Query range =
-        prepare("SELECT (SELECT min(id) FROM messages), (SELECT max(id) FROM messages)");
-    if (sqlite3_step(range.get()) == SQLITE_ROW) {  // not if the end is cut off
-        first_row_ = sqlite3_column_int64(range.get(), 0);
-        last_row_ = sqlite3_column_int64(range.get(), 1);
+class SqliteBag : public BagFile {
+ public:
+    explicit SqliteBag(const fs::path& file) : file_(file), cut_because_(whyCut(file)) {
+        open();
+        checkTables();
+        checkColumns();
+        readTopics();
+        // Each by itself: both in one query read all messages.
+        const Query range =
+            prepare("SELECT (SELECT min(id) FROM messages), (SELECT max(id) FROM messages)");
+        if (sqlite3_step(range.get()) == SQLITE_ROW) {  // not if the end is cut off
+            first_row_ = sqlite3_column_int64(range.get(), 0);
+            last_row_ = sqlite3_column_int64(range.get(), 1);
+        }
+        // By id, as they were recorded: this needs no index and no sorting.
+        messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
+        // A step may sort all messages, or look through damaged ones.
+        constexpr int kInstructionsPerCheck = 100000;
+        sqlite3_progress_handler(database_.get(), kInstructionsPerCheck, checkDuringQuery, this);
     }
-    // By id, as they were recorded: this needs no index and no sorting.
-    messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
-    // A step may sort all messages, or look through damaged ones.
-    constexpr int kInstructionsPerCheck = 100000;
-    sqlite3_progress_handler(database_.get(), kInstructionsPerCheck, checkDuringQuery, this);
-}
 
-SqliteBag::~SqliteBag() = default;
-
-void SqliteBag::fail(const std::string& why) const {
-    const std::string where =
-        messages_ ? "after " + std::to_string(rows_) + " messages (id " + std::to_string(row_) + ")"
-                  : "at its start";
-    throw BrokenBag(file_.string() + ": the database cannot be read " + where + ": " + why +
-                    (cut_because_.empty() || why == cut_because_ ? "" : "; " + cut_because_));
-}
-
-void SqliteBag::open() {
-    // Only who may write can undo the changes, and without that pages of before and after are
-    // mixed.
-    const std::string journal = file_.string() + "-journal";
-    if (hasHotJournal(journal)) {
-        fail("it is being written, or whoever wrote it was interrupted: " + journal +
-             " undoes what is not complete. Wait, or copy both into a folder that may be written, "
-             "and there run: sqlite3 " +
-             file_.filename().string() + " 'SELECT count(*) FROM messages'");
+    bool next(BagMessage& message) override {
+        if (!messages_) return false;
+        check();
+        if (!step(messages_)) {
+            if (!cut_because_.empty()) fail(cut_because_);
+            messages_.reset();
+            return false;
+        }
+        sqlite3_stmt* const row = messages_.get();
+        row_ = sqlite3_column_int64(row, 0);
+        const std::int64_t topic_id = sqlite3_column_int64(row, 1);
+        const auto topic = topic_of_.find(topic_id);
+        if (topic == topic_of_.end()) {
+            fail("this message is of topic " + std::to_string(topic_id) + ", which there is not");
+        }
+        message.topic = topic->second;
+        message.time_ns = sqlite3_column_int64(row, 2);
+        message.bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row, 3));
+        const int size = sqlite3_column_bytes(row, 3);
+        message.size = message.bytes == nullptr ? 0 : static_cast<std::size_t>(size);
+        if (sqlite3_errcode(database_.get()) == SQLITE_NOMEM) fail("no memory for this message");
+        ++rows_;
+        return true;
     }
-    // Without changes that wait beside it, nothing needs to be written to read it.
-    std::error_code none;
-    const fs::path log = file_.string() + "-wal";
-    const bool has_log = fs::exists(log, none) && fs::file_size(log, none) > 0;
-    const std::string uri = uriOf(file_) + (has_log ? "?mode=ro" : "?mode=ro&immutable=1");
-    sqlite3* raw = nullptr;
-    const int state =
-        sqlite3_open_v2(uri.c_str(), &raw, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
-    database_.reset(raw);
-    if (state != SQLITE_OK) fail(raw == nullptr ? "no memory" : sqlite3_errmsg(raw));
-    // The schema comes with the file: it must not run anything.
-    sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-    sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
-    sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
-    // A few bytes of a schema can stand for a blob of any size.
-    sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostUnpacked));
-    // Otherwise SQLite refuses a file that is shorter than it says.
-    if (!cut_because_.empty()) {
-        sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+
+    const std::vector<BagTopic>& topics() const override { return topics_.all(); }
+
+    double fractionRead() const override {
+        const auto all = static_cast<double>(last_row_) - static_cast<double>(first_row_) + 1;
+        if (!messages_) return 1.0;
+        return rows_ == 0
+                   ? 0.0
+                   : std::clamp(
+                         (static_cast<double>(row_) - static_cast<double>(first_row_) + 1) / all,
+                         0.0, 1.0);
     }
-}
 
-SqliteBag::Query SqliteBag::prepare(const std::string& sql) const {
-    sqlite3_stmt* raw = nullptr;
-    const int state = sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &raw, nullptr);
-    Query query(raw);
-    if ((state & 0xff) == SQLITE_CANTOPEN) {
-        // With a log of changes, SQLite writes an index of these beside it.
-        fail(std::string(sqlite3_errmsg(database_.get())) + "; copy it and " + file_.string() +
-             "-wal into a folder that may be written");
+ private:
+    struct Close {
+        void operator()(sqlite3* database) const { sqlite3_close(database); }
+        void operator()(sqlite3_stmt* query) const { sqlite3_finalize(query); }
+    };
+    using Query = std::unique_ptr<sqlite3_stmt, Close>;
+
+    void open() {
+        // Undoing the changes takes write permission; otherwise old and new pages are mixed.
+        const std::string journal = file_.string() + "-journal";
+        if (hasHotJournal(journal)) {
+            fail("it is being written, or its writer was interrupted: " + journal +
+                 " undoes what is not complete. Wait, or copy both into a folder that may be "
+                 "written, "
+                 "and there run: sqlite3 " +
+                 file_.filename().string() + " 'SELECT count(*) FROM messages'");
+        }
+        // Without changes that wait beside it, nothing needs to be written to read it.
+        std::error_code none;
+        const fs::path log = file_.string() + "-wal";
+        const bool has_log = fs::exists(log, none) && fs::file_size(log, none) > 0;
+        const std::string uri = uriOf(file_) + (has_log ? "?mode=ro" : "?mode=ro&immutable=1");
+        sqlite3* raw = nullptr;
+        const int state =
+            sqlite3_open_v2(uri.c_str(), &raw, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+        database_.reset(raw);
+        if (state != SQLITE_OK) fail(raw == nullptr ? "no memory" : sqlite3_errmsg(raw));
+        // The schema comes with the file: it must not run anything.
+        sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+        sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+        sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+        // A few bytes of a schema can stand for a blob of any size.
+        sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostUnpacked));
+        // Otherwise SQLite refuses a file that is shorter than it says.
+        if (!cut_because_.empty()) {
+            sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+        }
     }
-    if (state != SQLITE_OK) fail(sqlite3_errmsg(database_.get()));
-    return query;
-}
 
-bool SqliteBag::step(const Query& query) const {
-    const int state = sqlite3_step(query.get());
-    if (state == SQLITE_ROW) return true;
-    if (interruption_) std::rethrow_exception(std::exchange(interruption_, nullptr));
-    if (state == SQLITE_TOOBIG) {
-        fail("a message has more than " + std::to_string(kMostUnpacked >> 20) + " MB");
+    Query prepare(const std::string& sql) const {
+        sqlite3_stmt* raw = nullptr;
+        const int state = sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &raw, nullptr);
+        Query query(raw);
+        if ((state & 0xff) == SQLITE_CANTOPEN) {
+            // With a log of changes, SQLite writes an index of these beside it.
+            fail(std::string(sqlite3_errmsg(database_.get())) + "; copy it and " + file_.string() +
+                 "-wal into a folder that may be written");
+        }
+        if (state != SQLITE_OK) fail(sqlite3_errmsg(database_.get()));
+        return query;
     }
-    if (state != SQLITE_DONE) fail(sqlite3_errmsg(database_.get()));
-    return false;
-}
 
-void SqliteBag::checkTables() const {
-    const Query tables = prepare(
-        "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('topics', "
-        "'messages') AND sql NOT LIKE 'CREATE VIRTUAL%'");
-    if (step(tables) && sqlite3_column_int(tables.get(), 0) == 2) return;
-    fail("it has no tables 'topics' and 'messages': is it a database of something else?");
-}
-
-/// Columns that are computed run what the file says, for each message, as long as it likes.
-void SqliteBag::checkColumns() const {
-    const Query computed = prepare(
-        "SELECT m.name, c.name FROM sqlite_schema m, pragma_table_xinfo(m.name) c "
-        "WHERE m.type = 'table' AND m.name IN ('topics', 'messages') AND c.hidden > 0");
-    if (!step(computed)) return;
-    fail("the column '" + textAt(computed.get(), 1) + "' of the table '" +
-         textAt(computed.get(), 0) + "' is computed, which bags have not");
-}
-
-/// Exceptions must not pass through SQLite.
-int SqliteBag::checkDuringQuery(void* bag) {
-    auto* const self = static_cast<SqliteBag*>(bag);
-    try {
-        self->check();
-        return 0;
-    } catch (...) {
-        self->interruption_ = std::current_exception();
-        return 1;
-    }
-}
-
-void SqliteBag::readTopics() {
-    const Query topics = prepare("SELECT id, name, type, serialization_format FROM topics");
-    while (step(topics)) {
-        const BagTopic topic{textAt(topics.get(), 1), typeAsInRos1(textAt(topics.get(), 2)),
-                             textAt(topics.get(), 3)};
-        topic_of_[sqlite3_column_int64(topics.get(), 0)] = topics_.indexOf(topic);
-    }
-}
-
-bool SqliteBag::next(BagMessage& message) {
-    if (!messages_) return false;
-    check();
-    if (!step(messages_)) {
-        if (!cut_because_.empty()) fail(cut_because_);
-        messages_.reset();
+    bool step(const Query& query) const {
+        const int state = sqlite3_step(query.get());
+        if (state == SQLITE_ROW) return true;
+        if (interruption_) std::rethrow_exception(std::exchange(interruption_, nullptr));
+        if (state == SQLITE_TOOBIG) {
+            fail("a message has more than " + std::to_string(kMostUnpacked >> 20) + " MB");
+        }
+        if (state != SQLITE_DONE) fail(sqlite3_errmsg(database_.get()));
         return false;
     }
-    sqlite3_stmt* const row = messages_.get();
-    row_ = sqlite3_column_int64(row, 0);
-    const std::int64_t topic_id = sqlite3_column_int64(row, 1);
-    const auto topic = topic_of_.find(topic_id);
-    if (topic == topic_of_.end()) {
-        fail("this message is of topic " + std::to_string(topic_id) + ", which there is not");
+
+    void checkTables() const {
+        const Query tables = prepare(
+            "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('topics', "
+            "'messages') AND sql NOT LIKE 'CREATE VIRTUAL%'");
+        if (step(tables) && sqlite3_column_int(tables.get(), 0) == 2) return;
+        fail("it has no tables 'topics' and 'messages': is it a database of something else?");
     }
-    message.topic = topic->second;
-    message.time_ns = sqlite3_column_int64(row, 2);
-    message.bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row, 3));
-    const int size = sqlite3_column_bytes(row, 3);
-    message.size = message.bytes == nullptr ? 0 : static_cast<std::size_t>(size);
-    if (sqlite3_errcode(database_.get()) == SQLITE_NOMEM) fail("no memory for this message");
-    ++rows_;
-    return true;
+
+    /// Columns that are computed run what the file says, for each message, as long as it likes.
+    void checkColumns() const {
+        const Query computed = prepare(
+            "SELECT m.name, c.name FROM sqlite_schema m, pragma_table_xinfo(m.name) c "
+            "WHERE m.type = 'table' AND m.name IN ('topics', 'messages') AND c.hidden > 0");
+        if (!step(computed)) return;
+        fail("the column '" + textAt(computed.get(), 1) + "' of the table '" +
+             textAt(computed.get(), 0) + "' is computed, which bags have not");
+    }
+
+    /// Exceptions must not pass through SQLite.
+    static int checkDuringQuery(void* bag) {
+        auto* const self = static_cast<SqliteBag*>(bag);
+        try {
+            self->check();
+            return 0;
+        } catch (...) {
+            self->interruption_ = std::current_exception();
+            return 1;
+        }
+    }
+
+    void readTopics() {
+        const Query topics = prepare("SELECT id, name, type, serialization_format FROM topics");
+        while (step(topics)) {
+            const BagTopic topic{textAt(topics.get(), 1), typeAsInRos1(textAt(topics.get(), 2)),
+                                 textAt(topics.get(), 3)};
+            topic_of_[sqlite3_column_int64(topics.get(), 0)] = topics_.indexOf(topic);
+        }
+    }
+
+    [[noreturn]] void fail(const std::string& why) const {
+        const std::string where = messages_ ? "after " + std::to_string(rows_) + " messages (id " +
+                                                  std::to_string(row_) + ")"
+                                            : "at its start";
+        throw BrokenRecording(
+            file_.string() + ": the database cannot be read " + where + ": " + why +
+            (cut_because_.empty() || why == cut_because_ ? "" : "; " + cut_because_));
+    }
+
+    std::filesystem::path file_;
+    std::unique_ptr<sqlite3, Close> database_;
+    Query messages_;
+    mutable std::exception_ptr interruption_;  ///< thrown by the check during a query
+    TopicList topics_;
+    std::map<std::int64_t, std::size_t> topic_of_;  ///< by the topic's id
+    std::size_t rows_ = 0;
+    std::int64_t row_ = 0, first_row_ = 0, last_row_ = 0;
+    std::string cut_because_;  ///< empty: the file is as long as it says
+};
+
+}  // namespace
+
+bool isSqliteBag(const std::string& start) {
+    return start.compare(0, kSqliteMagic.size(), kSqliteMagic) == 0;
 }
 
-double SqliteBag::fractionRead() const {
-    const auto all = static_cast<double>(last_row_) - static_cast<double>(first_row_) + 1;
-    if (!messages_) return 1.0;
-    return rows_ == 0
-               ? 0.0
-               : std::clamp((static_cast<double>(row_) - static_cast<double>(first_row_) + 1) / all,
-                            0.0, 1.0);
+std::unique_ptr<BagFile> openSqliteBag(const std::filesystem::path& file) {
+    return std::make_unique<SqliteBag>(file);
 }
 
 }  // namespace hagen::recordings

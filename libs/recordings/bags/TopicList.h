@@ -9,8 +9,11 @@
 
 namespace hagen::recordings {
 
-/// "sensor_msgs/msg/PointCloud2" and "sensor_msgs/PointCloud2" are the same type.
-std::string typeAsInRos1(std::string type);
+/// Whether a topic or label ends like this.
+inline bool endsWith(const std::string& name, const std::string& ending) {
+    return name.size() >= ending.size() &&
+           name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+}
 
 /// The topics of a recording, each once however many publishers it has.
 class TopicList {

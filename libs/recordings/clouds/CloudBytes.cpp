@@ -48,25 +48,25 @@ Bytes readBytes(const std::filesystem::path& file) {
     try {
         in = base::openToRead(file);
     } catch (const std::runtime_error& e) {
-        throw BrokenCloud(e.what());
+        throw BrokenRecording(e.what());
     }
     in.seekg(0, std::ios::end);
     const auto size = static_cast<std::size_t>(in.tellg());
     if (size > kMostFileBytes) {
-        throw BrokenCloud(file.string() + ": is larger than 2 GiB; a cloud has at most " +
-                          std::to_string(kMostReturns) + " points");
+        throw BrokenRecording(file.string() + ": is larger than 2 GiB; a cloud has at most " +
+                              std::to_string(kMostReturns) + " points");
     }
     Bytes bytes(size);
     in.seekg(0);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!in) throw BrokenCloud(file.string() + ": cannot be read completely");
+    if (!in) throw BrokenRecording(file.string() + ": cannot be read completely");
     return bytes;
 }
 
 void failAt(const std::filesystem::path& file, const std::string& place, const std::string& what) {
     std::string text = file.string() + ": " + place + ": " + what;
     std::replace(text.begin(), text.end(), '\0', '?');  // what() would end there
-    throw BrokenCloud(text);
+    throw BrokenRecording(text);
 }
 
 std::optional<std::string_view> TextLines::next() {
@@ -125,18 +125,18 @@ bool putNumber(std::string_view word, NumberType type, std::uint8_t* to) {
 
 void checkNumber(const std::filesystem::path& file, std::size_t points) {
     if (points <= kMostReturns) return;
-    throw BrokenCloud(file.string() + ": has " + std::to_string(points) +
-                      " points, more than the " + std::to_string(kMostReturns) +
-                      " that a scan may have; is it a map of many scans?");
+    throw BrokenRecording(file.string() + ": has " + std::to_string(points) +
+                          " points, more than the " + std::to_string(kMostReturns) +
+                          " that a scan may have; is it a map of many scans?");
 }
 
 void checkRoom(const std::filesystem::path& file, std::size_t points, std::size_t bytes_per_point,
                std::size_t there) {
     if (points == 0) return;
     if (bytes_per_point > 0 && points <= there / bytes_per_point) return checkNumber(file, points);
-    throw BrokenCloud(file.string() + ": the header says " + std::to_string(points) +
-                      " points of " + std::to_string(bytes_per_point) + " bytes, but " +
-                      std::to_string(there) + " bytes are there; is it truncated?");
+    throw BrokenRecording(file.string() + ": the header says " + std::to_string(points) +
+                          " points of " + std::to_string(bytes_per_point) + " bytes, but " +
+                          std::to_string(there) + " bytes are there; is it truncated?");
 }
 
 std::vector<std::string> remarkOnRest(std::size_t bytes) {

@@ -16,10 +16,10 @@ namespace hagen::recordings {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// The whole file. Throws BrokenCloud.
+/// The whole file. Throws BrokenRecording.
 Bytes readBytes(const std::filesystem::path& file);
 
-/// Throws BrokenCloud: "scan.pcd: line 3: what".
+/// Throws BrokenRecording: "scan.pcd: line 3: what".
 [[noreturn]] void failAt(const std::filesystem::path& file, const std::string& place,
                          const std::string& what);
 
@@ -54,12 +54,12 @@ std::vector<std::string_view> wordsOf(std::string_view line);
 /// Writes the number that `word` spells in this type; false if it is no such number.
 bool putNumber(std::string_view word, observations::NumberType type, std::uint8_t* to);
 
-/// Throws BrokenCloud if these are more points than a scan may have (kMostReturns). Call it before
-/// a table is made of them, which takes memory.
+/// Throws BrokenRecording if these are more points than a scan may have (kMostReturns). Call it
+/// before a table is made of them, which takes memory.
 void checkNumber(const std::filesystem::path& file, std::size_t points);
 
-/// Throws BrokenCloud unless `points` records of `bytes_per_point` fit into the `there` bytes that
-/// remain of a file, and for more than checkNumber() allows.
+/// Throws BrokenRecording unless `points` records of `bytes_per_point` fit into the `there` bytes
+/// that remain of a file, and for more than checkNumber() allows.
 void checkRoom(const std::filesystem::path& file, std::size_t points, std::size_t bytes_per_point,
                std::size_t there);
 

@@ -1,7 +1,5 @@
-#include <hagen/base/ReadFile.h>
-#include <hagen/recordings/CloudFile.h>
-
 #include <hagen/base/FileKind.h>
+#include <hagen/recordings/CloudFile.h>
 
 #include <algorithm>
 #include <fstream>
@@ -33,17 +31,17 @@ bool isPcd(const Bytes& bytes) {
     return false;
 }
 
-std::optional<CloudFormat> formatOf(const Bytes& start, std::size_t size) {
+/// The format by the first bytes of a file; a .bin needs all, which `read_all` returns.
+template <class ReadAll>
+std::optional<CloudFormat> formatOf(const Bytes& start, const ReadAll& read_all) {
     if (startsWith(start, "ply\n") || startsWith(start, "ply\r")) return CloudFormat::Ply;
     if (startsWith(start, "LASF")) return CloudFormat::Las;
     if (startsWith(start, "\x93NUMPY")) return CloudFormat::Npy;
     if (isPcd(start)) return CloudFormat::Pcd;
-    const BinPoint point = binPointOf(start);
-    const bool may_be_four = point == BinPoint::Four || point == BinPoint::FourOrFive;
-    const bool may_be_five =
-        point == BinPoint::Five || point == BinPoint::FourOrFive || point == BinPoint::FiveOrNone;
-    const bool is_bin = (may_be_four && size % (4 * sizeof(float)) == 0) ||
-                        (may_be_five && size % (5 * sizeof(float)) == 0);
+    if (!mayBeBin(start)) return std::nullopt;
+    const Bytes& bytes = read_all();
+    const std::size_t numbers = binNumbersPerPoint(bytes);
+    const bool is_bin = numbers > 0 && bytes.size() % (sizeof(float) * numbers) == 0;
     return is_bin ? std::optional(CloudFormat::Bin) : std::nullopt;
 }
 
@@ -55,25 +53,20 @@ std::string extensionOf(const std::filesystem::path& file) {
     return extension;
 }
 
-/// "it seems to be a JPEG picture"; empty if it is of no kind that is known.
-std::string otherKindOf(const Bytes& start) {
-    return base::kindOfBytes({reinterpret_cast<const char*>(start.data()), start.size()}).text();
-}
-
-CloudFile read(const std::filesystem::path& file) {
+CloudFile readUnchecked(const std::filesystem::path& file) {
     Bytes bytes = readBytes(file);
     const Bytes start(bytes.begin(),
                       bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
-    const auto format = formatOf(start, bytes.size());
+    const auto format = formatOf(start, [&]() -> const Bytes& { return bytes; });
     if (!format) {
         // An empty .bin, or of zeros, is a scan without returns, and one that was cut still a .bin.
         const bool may_be_bin = bytes.size() % 16 != 0 || isAllZero(start);
-        const bool is_bin = bytes.empty() || binPointOf(start) != BinPoint::None ||
-                            (may_be_bin && otherKindOf(start).empty());
+        const bool is_bin =
+            bytes.empty() || mayBeBin(start) || (may_be_bin && otherKindOf(start).empty());
         if (extensionOf(file) == ".bin" && is_bin) {
             return readBin(file, std::move(bytes));
         }
-        throw BrokenCloud(file.string() + ": " + whyNoCloud(start));
+        throw BrokenRecording(file.string() + ": " + whyNoCloud(start));
     }
     switch (*format) {
         case CloudFormat::Pcd:
@@ -92,6 +85,11 @@ CloudFile read(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::string otherKindOf(const Bytes& bytes) {
+    const std::size_t size = std::min(bytes.size(), kStart);
+    return base::kindOfBytes({reinterpret_cast<const char*>(bytes.data()), size}).text();
+}
+
 std::string whyNoCloud(const Bytes& start) {
     if (start.empty()) return "is empty";
     const std::string known = otherKindOf(start);
@@ -104,12 +102,16 @@ std::string whyNoCloud(const Bytes& start) {
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
-    const auto size = static_cast<std::size_t>(std::filesystem::file_size(file, error));
     std::ifstream in(file, std::ios::binary);
-    Bytes start(std::min(size, kStart));
+    Bytes start(kStart);
     in.read(reinterpret_cast<char*>(start.data()), static_cast<std::streamsize>(start.size()));
-    if (error || !in) return std::nullopt;
-    return formatOf(start, size);
+    start.resize(static_cast<std::size_t>(in.gcount()));
+    try {
+        Bytes all;
+        return formatOf(start, [&]() -> const Bytes& { return all = readBytes(file); });
+    } catch (const BrokenRecording&) {
+        return std::nullopt;
+    }
 }
 
 bool hasCloudName(const std::filesystem::path& file) {
@@ -120,34 +122,12 @@ bool hasCloudName(const std::filesystem::path& file) {
     return false;
 }
 
-BinStart startOfBin(const std::filesystem::path& file) {
-    std::ifstream in = base::openToRead(file);
-    Bytes bytes(kStart);
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
-    BinPoint point = binPointOf(bytes);
-    BinStart start;
-    if (point == BinPoint::None) start.other_kind = otherKindOf(bytes);
-    const bool begins_with_zeros = bytes.size() == kStart && isAllZero(bytes);
-    if (point == BinPoint::FourOrFive || point == BinPoint::FiveOrNone || begins_with_zeros) {
-        const Bytes all = readBytes(file);
-        if (begins_with_zeros) point = binPointOf(tellingBytes(all));
-        const bool may_be_none = point == BinPoint::FiveOrNone;
-        point = binPointOf(point, all);
-        if (may_be_none && point == BinPoint::None) {
-            start.other_kind = "its points have a fifth number that is no ring";
-        }
-    }
-    start.floats_per_point = point == BinPoint::Five ? 5 : 4;
-    return start;
-}
-
 CloudFile readCloud(const std::filesystem::path& file) {
-    CloudFile cloud = read(file);
+    CloudFile cloud = readUnchecked(file);
     try {
         check(cloud.table);
     } catch (const std::runtime_error& e) {
-        throw BrokenCloud(file.string() + ": " + e.what());
+        throw BrokenRecording(file.string() + ": " + e.what());
     }
     cloud.table = inNativeOrder(std::move(cloud.table));
     return cloud;

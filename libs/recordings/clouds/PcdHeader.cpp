@@ -13,14 +13,14 @@ using observations::PointField;
 using Words = std::vector<std::string_view>;
 
 /// A line of the header: its words after the key, and where it is.
-struct Entry {
+struct PcdLine {
     Words values;
     std::string place;
 };
-using Entries = std::map<std::string, Entry, std::less<>>;
+using PcdLines = std::map<std::string, PcdLine, std::less<>>;
 
-NumberType typeOf(const std::filesystem::path& file, const Entry& at, std::string_view type,
-                  std::string_view size) {
+NumberType pcdTypeOf(const std::filesystem::path& file, const PcdLine& at, std::string_view type,
+                     std::string_view size) {
     static const std::map<std::string, NumberType> kTypes{
         {"I1", NumberType::Int8},    {"I2", NumberType::Int16},  {"I4", NumberType::Int32},
         {"I8", NumberType::Int64},   {"U1", NumberType::UInt8},  {"U2", NumberType::UInt16},
@@ -33,29 +33,31 @@ NumberType typeOf(const std::filesystem::path& file, const Entry& at, std::strin
                " is no number known here (I, U of 1, 2, 4, 8 bytes, F of 4, 8)");
 }
 
-const Entry& need(const std::filesystem::path& file, const Entries& entries, const char* key) {
+const PcdLine& neededLine(const std::filesystem::path& file, const PcdLines& entries,
+                          const char* key) {
     const auto found = entries.find(key);
     if (found == entries.end()) {
-        throw BrokenCloud(file.string() + ": its PCD header has no " + key);
+        throw BrokenRecording(file.string() + ": its PCD header has no " + key);
     }
     return found->second;
 }
 
-std::size_t countOf(const std::filesystem::path& file, const Entry& entry, const char* key) {
+std::size_t pcdCountOf(const std::filesystem::path& file, const PcdLine& entry, const char* key) {
     const auto count =
         entry.values.size() == 1 ? base::numberFrom<std::uint64_t>(entry.values[0]) : std::nullopt;
     if (!count) failAt(file, entry.place, std::string(key) + " is not one number");
     return static_cast<std::size_t>(*count);
 }
 
-void takeFields(const std::filesystem::path& file, const Entries& entries, PcdHeader& header) {
+void takePcdFields(const std::filesystem::path& file, const PcdLines& entries, PcdHeader& header) {
     const bool is_old = entries.count("FIELDS") == 0;
-    const Entry& names = need(file, entries, is_old ? "COLUMNS" : "FIELDS");
-    const Entry& sizes = need(file, entries, "SIZE");
-    const Entry& types = need(file, entries, "TYPE");
+    const PcdLine& names = neededLine(file, entries, is_old ? "COLUMNS" : "FIELDS");
+    const PcdLine& sizes = neededLine(file, entries, "SIZE");
+    const PcdLine& types = neededLine(file, entries, "TYPE");
     const auto counts = entries.find("COUNT");
     const std::size_t fields = names.values.size();
-    for (const Entry* each : {&sizes, &types, counts == entries.end() ? &sizes : &counts->second}) {
+    for (const PcdLine* each :
+         {&sizes, &types, counts == entries.end() ? &sizes : &counts->second}) {
         if (each->values.size() == fields) continue;
         failAt(file, each->place,
                std::to_string(each->values.size()) + " values for " + std::to_string(fields) +
@@ -64,7 +66,7 @@ void takeFields(const std::filesystem::path& file, const Entries& entries, PcdHe
     for (std::size_t i = 0; i < fields; ++i) {
         PointField field;
         field.name = std::string(names.values[i]);
-        field.type = typeOf(file, types, types.values[i], sizes.values[i]);
+        field.type = pcdTypeOf(file, types, types.values[i], sizes.values[i]);
         field.offset = header.bytes_per_point;
         if (counts != entries.end()) {
             const auto count = base::numberFrom<std::uint32_t>(counts->second.values[i]);
@@ -79,18 +81,18 @@ void takeFields(const std::filesystem::path& file, const Entries& entries, PcdHe
     }
 }
 
-void takePoints(const std::filesystem::path& file, const Entries& entries, PcdHeader& header) {
+void takePcdPoints(const std::filesystem::path& file, const PcdLines& entries, PcdHeader& header) {
     std::optional<std::size_t> product;
     if (entries.count("WIDTH") > 0) {
-        const std::size_t width = countOf(file, entries.at("WIDTH"), "WIDTH");
+        const std::size_t width = pcdCountOf(file, entries.at("WIDTH"), "WIDTH");
         const std::size_t height =
-            entries.count("HEIGHT") > 0 ? countOf(file, entries.at("HEIGHT"), "HEIGHT") : 1;
+            entries.count("HEIGHT") > 0 ? pcdCountOf(file, entries.at("HEIGHT"), "HEIGHT") : 1;
         if (__builtin_mul_overflow(width, height, &product.emplace())) {
             failAt(file, entries.at("WIDTH").place, "WIDTH times HEIGHT is absurd");
         }
     }
     if (entries.count("POINTS") > 0) {
-        header.points = countOf(file, entries.at("POINTS"), "POINTS");
+        header.points = pcdCountOf(file, entries.at("POINTS"), "POINTS");
         if (product && *product != header.points) {
             failAt(file, entries.at("POINTS").place,
                    std::to_string(header.points) + " POINTS, but WIDTH times HEIGHT is " +
@@ -99,11 +101,11 @@ void takePoints(const std::filesystem::path& file, const Entries& entries, PcdHe
     } else if (product) {
         header.points = *product;
     } else {
-        throw BrokenCloud(file.string() + ": its PCD header has neither POINTS nor WIDTH");
+        throw BrokenRecording(file.string() + ": its PCD header has neither POINTS nor WIDTH");
     }
 }
 
-void takeViewpoint(const Entries& entries, PcdHeader& header) {
+void takeViewpoint(const PcdLines& entries, PcdHeader& header) {
     const auto entry = entries.find("VIEWPOINT");
     if (entry == entries.end()) return;
     const Words& values = entry->second.values;
@@ -124,11 +126,11 @@ PcdHeader readPcdHeader(const std::filesystem::path& file, const Bytes& bytes) {
                                                      "TYPE",    "COUNT",     "WIDTH",   "HEIGHT",
                                                      "POINTS",  "VIEWPOINT", "DATA"};
     PcdHeader header;
-    Entries entries;
+    PcdLines entries;
     TextLines lines(bytes);
     while (entries.count("DATA") == 0) {
         const auto line = lines.next();
-        if (!line) throw BrokenCloud(file.string() + ": ends within its PCD header (no DATA)");
+        if (!line) throw BrokenRecording(file.string() + ": ends within its PCD header (no DATA)");
         Words words = wordsOf(*line);
         if (words.empty() || words[0][0] == '#') continue;
         const std::string_view key = words[0];
@@ -139,14 +141,14 @@ PcdHeader readPcdHeader(const std::filesystem::path& file, const Bytes& bytes) {
                    "'" + std::string(key.substr(0, 40)) + "' is no line of a PCD header");
         }
         words.erase(words.begin());
-        if (!entries.emplace(std::string(key), Entry{std::move(words), lines.place()}).second) {
+        if (!entries.emplace(std::string(key), PcdLine{std::move(words), lines.place()}).second) {
             failAt(file, lines.place(), std::string(key) + " is there twice");
         }
     }
-    takeFields(file, entries, header);
-    takePoints(file, entries, header);
+    takePcdFields(file, entries, header);
+    takePcdPoints(file, entries, header);
     takeViewpoint(entries, header);
-    const Entry& data = entries.at("DATA");
+    const PcdLine& data = entries.at("DATA");
     const std::string_view kind = data.values.size() == 1 ? data.values[0] : "";
     if (kind == "ascii") {
         header.data = PcdHeader::Data::Ascii;

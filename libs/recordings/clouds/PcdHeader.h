@@ -16,7 +16,7 @@ struct PcdHeader {
     std::size_t lines = 0;  ///< of the header
 };
 
-/// Throws BrokenCloud naming file and line.
+/// Throws BrokenRecording naming file and line.
 PcdHeader readPcdHeader(const std::filesystem::path& file, const Bytes& bytes);
 
 }  // namespace hagen::recordings

@@ -36,17 +36,17 @@ bool arePoints(const Bytes& bytes, std::size_t numbers_per_point) {
 }
 
 /// What the fifth numbers of points say, if each has five.
-struct Fifths {
+struct FifthNumbers {
     bool are_whole = true;  ///< and 0 to 255, as the numbers of beams
     bool are_coordinates_whole = true;
     std::size_t returns = 0;  ///< points that are not at zero
     std::set<float> of_returns;
 };
 
-Fifths fifthsOf(const Bytes& bytes) {
+FifthNumbers fifthsOf(const Bytes& bytes) {
     constexpr std::size_t kNumbers = 5;
     constexpr float kHighestRing = 255.0f;
-    Fifths fifths;
+    FifthNumbers fifths;
     const std::size_t points = bytes.size() / (sizeof(float) * kNumbers);
     for (std::size_t i = 0; i < points; ++i) {
         const auto number = [&](std::size_t k) {
@@ -71,15 +71,15 @@ Fifths fifthsOf(const Bytes& bytes) {
 
 /// Among four numbers per point, every fifth is an x, y, z or intensity by turns, or 0 where there
 /// is no return: with so many returns, not all are whole. Those of a grid are.
-bool areRings(const Fifths& fifths) {
+bool areRings(const FifthNumbers& fifths) {
     constexpr std::size_t kFewestReturns = 16;
     return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kFewestReturns;
 }
 
-}  // namespace
-
-Bytes tellingBytes(const Bytes& bytes) {
-    constexpr std::size_t kBothPoints = 80;  // points of 16 and of 20 bytes
+/// The first bytes; if these are zero, as in a scan that begins with rows of sky, those from the
+/// first return on.
+Bytes startOfReturns(const Bytes& bytes) {
+    constexpr std::size_t kBothPoints = 80;  // a multiple of 16 and of 20 bytes
     const auto first =
         std::find_if(bytes.begin(), bytes.end(), [](auto byte) { return byte != 0; });
     auto from = static_cast<std::size_t>(first - bytes.begin());
@@ -88,50 +88,50 @@ Bytes tellingBytes(const Bytes& bytes) {
     return {start, start + static_cast<std::ptrdiff_t>(std::min(bytes.size() - from, kStart))};
 }
 
+}  // namespace
+
 bool isAllZero(const Bytes& bytes) {
     return std::all_of(bytes.begin(), bytes.end(), [](auto byte) { return byte == 0; });
 }
 
-BinPoint binPointOf(const Bytes& start) {
-    if (isPacked(start)) return BinPoint::None;
-    const bool may_be_four = arePoints(start, 4);
-    if (arePoints(start, 5)) {
-        const Fifths fifths = fifthsOf(start);
-        if (areRings(fifths) && fifths.of_returns.size() > 1) return BinPoint::Five;
-        // One beam only, or few returns: the rest tells.
-        if (fifths.are_whole && may_be_four) return BinPoint::FourOrFive;
-        if (fifths.are_whole && start.size() >= kStart) return BinPoint::FiveOrNone;
-    }
-    return may_be_four ? BinPoint::Four : BinPoint::None;
+bool mayBeBin(const Bytes& start) {
+    return !isPacked(start) && (arePoints(start, 4) || arePoints(start, 5));
 }
 
-BinPoint binPointOf(BinPoint of_start, const Bytes& all) {
-    if (of_start != BinPoint::FourOrFive && of_start != BinPoint::FiveOrNone) return of_start;
-    if (areRings(fifthsOf(all))) return BinPoint::Five;
-    return of_start == BinPoint::FourOrFive ? BinPoint::Four : BinPoint::None;
+std::size_t binNumbersPerPoint(const Bytes& bytes) {
+    const Bytes start = startOfReturns(bytes);
+    if (isPacked(start)) return 0;
+    const std::size_t without_rings = arePoints(start, 4) ? 4 : 0;
+    if (!arePoints(start, 5)) return without_rings;
+    const FifthNumbers fifths = fifthsOf(start);
+    if (!fifths.are_whole) return without_rings;
+    if (areRings(fifths) && fifths.of_returns.size() > 1) return 5;
+    // One beam only, or few returns: all points decide.
+    const bool may_have_rings = without_rings > 0 || start.size() >= kStart;
+    return may_have_rings && areRings(fifthsOf(bytes)) ? 5 : without_rings;
 }
 
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
-    const Bytes start = tellingBytes(bytes);
-    const BinPoint of_start = binPointOf(start), point = binPointOf(of_start, bytes);
-    // One that is cut may have no whole point.
-    const bool may_be_cut = of_start == BinPoint::None && bytes.size() % 16 != 0;
-    if (point == BinPoint::None && !may_be_cut && !isAllZero(start)) {
-        throw BrokenCloud(file.string() + ": " + whyNoCloud(start));
+    const Bytes start = startOfReturns(bytes);
+    const std::size_t numbers = binNumbersPerPoint(bytes);
+    // A truncated one may have no complete point.
+    const bool may_be_cut = bytes.size() % 16 != 0;
+    if (numbers == 0 && !may_be_cut && !isAllZero(start)) {
+        throw BrokenRecording(file.string() + ": " + whyNoCloud(start));
     }
     CloudFile cloud;
     cloud.table.fields = {{"x", NumberType::Float32, 0, 1},
                           {"y", NumberType::Float32, 4, 1},
                           {"z", NumberType::Float32, 8, 1},
                           {"intensity", NumberType::Float32, 12, 1}};
-    if (point == BinPoint::Five) {
+    if (numbers == 5) {
         cloud.table.fields.push_back({"ring", NumberType::Float32, 16, 1});
     }
     const std::size_t bytes_per_point = sizeof(float) * cloud.table.fields.size();
     if (bytes.size() % bytes_per_point != 0) {
-        throw BrokenCloud(file.string() + ": " + std::to_string(bytes.size()) +
-                          " bytes are not a multiple of " + std::to_string(bytes_per_point) +
-                          "-byte points; is it truncated?");
+        throw BrokenRecording(file.string() + ": " + std::to_string(bytes.size()) +
+                              " bytes are not a multiple of " + std::to_string(bytes_per_point) +
+                              "-byte points; is it truncated?");
     }
     checkNumber(file, bytes.size() / bytes_per_point);
     cloud.table.bytes_per_point = bytes_per_point;

@@ -15,22 +15,22 @@ constexpr std::size_t kMinorVersion = 25, kHeaderSize = 94, kPointsStart = 96, k
 constexpr std::size_t kSmallestHeader = 227, kHeaderOf14 = 375;
 
 /// A point data record format (tables 7 to 17): where its optional numbers are; 0: nowhere.
-struct Format {
+struct LasFormat {
     std::size_t size;
     bool is_new;  ///< 6 and above
     std::size_t gps_time, colour, near_infrared;
     bool has_waves;
 };
-constexpr Format kFormats[] = {
+constexpr LasFormat kLasFormats[] = {
     {20, false, 0, 0, 0, false},   {28, false, 20, 0, 0, false}, {26, false, 0, 20, 0, false},
     {34, false, 20, 28, 0, false}, {57, false, 20, 0, 0, true},  {63, false, 20, 28, 0, true},
     {30, true, 22, 0, 0, false},   {36, true, 22, 30, 0, false}, {38, true, 22, 30, 36, false},
     {59, true, 22, 0, 0, true},    {67, true, 22, 30, 36, true}};
 
 /// Numbers of a table that are appended point by point.
-class Columns {
+class LasColumns {
  public:
-    Columns(std::size_t points, std::size_t most_bytes) {
+    LasColumns(std::size_t points, std::size_t most_bytes) {
         table.points = points;
         table.bytes.reserve(points * most_bytes);
     }
@@ -52,12 +52,12 @@ class Columns {
     bool is_first_ = true;
 };
 
-struct Scaling {
+struct LasScaling {
     double scale[3], offset[3];
 };
 
-void addPoint(const Bytes& bytes, std::size_t at, const Format& format, const Scaling& scaling,
-              Columns& columns) {
+void addLasPoint(const Bytes& bytes, std::size_t at, const LasFormat& format,
+                 const LasScaling& scaling, LasColumns& columns) {
     const char* const kNames[] = {"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto number = numberAt<std::int32_t>(bytes, at + 4 * axis);
@@ -137,7 +137,7 @@ std::vector<std::string> remarksOnRecords(const Bytes& bytes, bool is_of_14, std
 
 CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
     if (bytes.size() < kSmallestHeader) {
-        throw BrokenCloud(file.string() + ": ends within its LAS header");
+        throw BrokenRecording(file.string() + ": ends within its LAS header");
     }
     const int minor = bytes[kMinorVersion];
     if (bytes[kMinorVersion - 1] != 1 || minor > 4) {
@@ -150,15 +150,16 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
     const std::size_t record = numberAt<std::uint16_t>(bytes, kRecordLength);
     const unsigned number = bytes[kFormat];
     if ((number & 0xc0) != 0) {
-        throw BrokenCloud(file.string() +
-                          ": is compressed (LAZ), which is not read: unpack it first, for example "
-                          "with 'las2las' or 'pdal translate'");
+        throw BrokenRecording(
+            file.string() +
+            ": is compressed (LAZ), which is not read: unpack it first, for example "
+            "with 'las2las' or 'pdal translate'");
     }
-    if (number >= std::size(kFormats)) {
+    if (number >= std::size(kLasFormats)) {
         failAt(file, "byte 104",
                "point format " + std::to_string(number) + " is not known: 0 to 10 are read");
     }
-    const Format& format = kFormats[number];
+    const LasFormat& format = kLasFormats[number];
     if (record < format.size) {
         failAt(file, "byte 105",
                "points of " + std::to_string(record) + " bytes are too short for point format " +
@@ -177,7 +178,7 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
         if (all > 0) points = all;
     }
     checkRoom(file, points, record, bytes.size() - start);
-    Scaling scaling{};
+    LasScaling scaling{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         scaling.scale[axis] = numberAt<double>(bytes, kScales + 8 * axis);
         scaling.offset[axis] = numberAt<double>(bytes, kOffsets + 8 * axis);
@@ -188,16 +189,16 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
         failAt(file, "byte 131", "a scale or offset of its coordinates is 0 or not finite");
     }
     constexpr std::size_t kMostBytes = 3 * 8 + 2 + 8 + 4 + 2 + 8 + 8;
-    Columns columns(points, kMostBytes);
+    LasColumns columns(points, kMostBytes);
     for (std::size_t i = 0; i < points; ++i) {
-        addPoint(bytes, start + i * record, format, scaling, columns);
+        addLasPoint(bytes, start + i * record, format, scaling, columns);
     }
     CloudFile cloud;
     cloud.table = std::move(columns.table);
     if (points == 0) {
         // Without a point, no field was seen.
-        Columns one(1, kMostBytes);
-        addPoint(Bytes(record, 0), 0, format, scaling, one);
+        LasColumns one(1, kMostBytes);
+        addLasPoint(Bytes(record, 0), 0, format, scaling, one);
         cloud.table = std::move(one.table);
         cloud.table.points = 0;
         cloud.table.bytes.clear();

@@ -11,8 +11,8 @@ namespace {
 using observations::PointField;
 using observations::PointTable;
 
-void readAscii(const std::filesystem::path& file, const PcdHeader& header, const Bytes& bytes,
-               CloudFile& cloud) {
+void readAsciiPcd(const std::filesystem::path& file, const PcdHeader& header, const Bytes& bytes,
+                  CloudFile& cloud) {
     PointTable& table = cloud.table;
     std::size_t words_per_point = 0;
     for (const PointField& field : header.fields) words_per_point += field.count;
@@ -27,9 +27,9 @@ void readAscii(const std::filesystem::path& file, const PcdHeader& header, const
         while (words.empty()) {
             const auto line = lines.next();
             if (!line) {
-                throw BrokenCloud(file.string() + ": the header says " +
-                                  std::to_string(header.points) + " points, but " +
-                                  std::to_string(i) + " are there; is it truncated?");
+                throw BrokenRecording(file.string() + ": the header says " +
+                                      std::to_string(header.points) + " points, but " +
+                                      std::to_string(i) + " are there; is it truncated?");
             }
             words = wordsOf(*line);
         }
@@ -52,8 +52,8 @@ void readAscii(const std::filesystem::path& file, const PcdHeader& header, const
     cloud.remarks = remarkOnRest(bytes.size() - lines.position());
 }
 
-void readBinary(const std::filesystem::path& file, const PcdHeader& header, Bytes bytes,
-                CloudFile& cloud) {
+void readBinaryPcd(const std::filesystem::path& file, const PcdHeader& header, Bytes bytes,
+                   CloudFile& cloud) {
     const std::size_t there = bytes.size() - header.size;
     checkRoom(file, header.points, header.bytes_per_point, there);
     cloud.remarks = remarkOnRest(there - header.points * header.bytes_per_point);
@@ -63,38 +63,38 @@ void readBinary(const std::filesystem::path& file, const PcdHeader& header, Byte
 }
 
 /// All numbers of a field, then those of the next, packed by LZF.
-void readCompressed(const std::filesystem::path& file, const PcdHeader& header, const Bytes& bytes,
-                    CloudFile& cloud) {
+void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& header,
+                       const Bytes& bytes, CloudFile& cloud) {
     constexpr std::size_t kMostPerByte = 256;  // a reference of 3 bytes stands for 264 at most
     const std::size_t sizes = 2 * sizeof(std::uint32_t);
     if (bytes.size() - header.size < sizes) {
         if (header.points == 0) return;
-        throw BrokenCloud(file.string() + ": ends before the sizes of its compressed points");
+        throw BrokenRecording(file.string() + ": ends before the sizes of its compressed points");
     }
     const auto packed = numberAt<std::uint32_t>(bytes, header.size);
     const auto unpacked = numberAt<std::uint32_t>(bytes, header.size + sizeof(std::uint32_t));
     const std::size_t start = header.size + sizes, there = bytes.size() - start;
     if (packed > there) {
-        throw BrokenCloud(file.string() + ": the header says " + std::to_string(packed) +
-                          " compressed bytes, but " + std::to_string(there) +
-                          " are there; is it truncated?");
+        throw BrokenRecording(file.string() + ": the header says " + std::to_string(packed) +
+                              " compressed bytes, but " + std::to_string(there) +
+                              " are there; is it truncated?");
     }
     if (unpacked / kMostPerByte > packed) {
-        throw BrokenCloud(file.string() + ": " + std::to_string(packed) +
-                          " compressed bytes cannot become " + std::to_string(unpacked));
+        throw BrokenRecording(file.string() + ": " + std::to_string(packed) +
+                              " compressed bytes cannot become " + std::to_string(unpacked));
     }
     checkRoom(file, header.points, header.bytes_per_point, unpacked);
     if (header.points * header.bytes_per_point != unpacked) {
-        throw BrokenCloud(file.string() + ": its points have " + std::to_string(unpacked) +
-                          " bytes, but the header says " + std::to_string(header.points) + " of " +
-                          std::to_string(header.bytes_per_point));
+        throw BrokenRecording(file.string() + ": its points have " + std::to_string(unpacked) +
+                              " bytes, but the header says " + std::to_string(header.points) +
+                              " of " + std::to_string(header.bytes_per_point));
     }
     cloud.remarks = remarkOnRest(there - packed);
     if (header.points == 0) return;
     Bytes by_field(unpacked);
     if (lzf_decompress(bytes.data() + start, packed, by_field.data(), unpacked) != unpacked) {
-        throw BrokenCloud(file.string() + ": byte " + std::to_string(start) +
-                          ": its points cannot be decompressed (LZF)");
+        throw BrokenRecording(file.string() + ": byte " + std::to_string(start) +
+                              ": its points cannot be decompressed (LZF)");
     }
     cloud.table.bytes.resize(unpacked);
     const std::uint8_t* from = by_field.data();
@@ -120,13 +120,13 @@ CloudFile readPcd(const std::filesystem::path& file, Bytes bytes) {
     }
     switch (header.data) {
         case PcdHeader::Data::Ascii:
-            readAscii(file, header, bytes, cloud);
+            readAsciiPcd(file, header, bytes, cloud);
             break;
         case PcdHeader::Data::Binary:
-            readBinary(file, header, std::move(bytes), cloud);
+            readBinaryPcd(file, header, std::move(bytes), cloud);
             break;
         case PcdHeader::Data::Compressed:
-            readCompressed(file, header, bytes, cloud);
+            readCompressedPcd(file, header, bytes, cloud);
             break;
     }
     return cloud;

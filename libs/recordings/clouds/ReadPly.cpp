@@ -13,39 +13,39 @@ using observations::NumberType;
 using observations::PointField;
 using observations::PointTable;
 
-struct Property {
+struct PlyProperty {
     std::string name;
     NumberType type = NumberType::Float32;
     std::optional<NumberType> length;  ///< of a list: the type of its length
 };
 
-struct Element {
+struct PlyElement {
     std::string name;
     std::size_t count = 0;
-    std::vector<Property> properties;
+    std::vector<PlyProperty> properties;
 
     bool hasLists() const {
         return std::any_of(properties.begin(), properties.end(),
-                           [](const Property& property) { return property.length.has_value(); });
+                           [](const PlyProperty& property) { return property.length.has_value(); });
     }
     /// Bytes per row without its lists.
     std::size_t size() const {
         std::size_t bytes = 0;
-        for (const Property& property : properties) {
+        for (const PlyProperty& property : properties) {
             if (!property.length) bytes += bytesOf(property.type);
         }
         return bytes;
     }
 };
 
-struct Header {
+struct PlyHeader {
     enum class Data { Ascii, Little, Big } data = Data::Ascii;
-    std::vector<Element> elements;
+    std::vector<PlyElement> elements;
     std::size_t size = 0, lines = 0;
 };
 
-NumberType typeOf(const std::filesystem::path& file, const TextLines& lines,
-                  std::string_view name) {
+NumberType plyTypeOf(const std::filesystem::path& file, const TextLines& lines,
+                     std::string_view name) {
     static const std::map<std::string, NumberType, std::less<>> kTypes{
         {"char", NumberType::Int8},      {"int8", NumberType::Int8},
         {"uchar", NumberType::UInt8},    {"uint8", NumberType::UInt8},
@@ -64,15 +64,15 @@ NumberType typeOf(const std::filesystem::path& file, const TextLines& lines,
 }
 
 void takeProperty(const std::filesystem::path& file, const TextLines& lines,
-                  const std::vector<std::string_view>& words, Header& header) {
+                  const std::vector<std::string_view>& words, PlyHeader& header) {
     if (header.elements.empty()) failAt(file, lines.place(), "a property before any element");
     const bool is_list = words.size() == 5 && words[1] == "list";
     if (!is_list && words.size() != 3) failAt(file, lines.place(), "is no property of PLY");
-    Property property;
+    PlyProperty property;
     property.name = std::string(words.back());
-    property.type = typeOf(file, lines, words[words.size() - 2]);
+    property.type = plyTypeOf(file, lines, words[words.size() - 2]);
     if (is_list) {
-        property.length = typeOf(file, lines, words[2]);
+        property.length = plyTypeOf(file, lines, words[2]);
         if (*property.length == NumberType::Float32 || *property.length == NumberType::Float64) {
             failAt(file, lines.place(), "the length of a list is no integer");
         }
@@ -80,25 +80,25 @@ void takeProperty(const std::filesystem::path& file, const TextLines& lines,
     header.elements.back().properties.push_back(property);
 }
 
-Header readHeader(const std::filesystem::path& file, const Bytes& bytes) {
-    Header header;
+PlyHeader readPlyHeader(const std::filesystem::path& file, const Bytes& bytes) {
+    PlyHeader header;
     TextLines lines(bytes);
     bool has_format = false;
     lines.next();  // "ply"
     while (true) {
         const auto line = lines.next();
-        if (!line) throw BrokenCloud(file.string() + ": ends within its PLY header");
+        if (!line) throw BrokenRecording(file.string() + ": ends within its PLY header");
         const std::vector<std::string_view> words = wordsOf(*line);
         if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
         if (words[0] == "end_header") break;
         if (words[0] == "format" && words.size() == 3) {
             has_format = true;
             if (words[1] == "ascii") {
-                header.data = Header::Data::Ascii;
+                header.data = PlyHeader::Data::Ascii;
             } else if (words[1] == "binary_little_endian") {
-                header.data = Header::Data::Little;
+                header.data = PlyHeader::Data::Little;
             } else if (words[1] == "binary_big_endian") {
-                header.data = Header::Data::Big;
+                header.data = PlyHeader::Data::Big;
             } else {
                 failAt(file, lines.place(),
                        "format '" + std::string(words[1].substr(0, 40)) + "' is not known");
@@ -114,17 +114,17 @@ Header readHeader(const std::filesystem::path& file, const Bytes& bytes) {
                    "'" + std::string(words[0].substr(0, 40)) + "' is no line of a PLY header");
         }
     }
-    if (!has_format) throw BrokenCloud(file.string() + ": its PLY header has no format");
+    if (!has_format) throw BrokenRecording(file.string() + ": its PLY header has no format");
     header.size = lines.position();
     header.lines = lines.number();
     return header;
 }
 
 /// The vertices' fields that are no lists, one after the other.
-PointTable tableOf(const Element& vertices) {
+PointTable vertexTableOf(const PlyElement& vertices) {
     PointTable table;
     table.points = vertices.count;
-    for (const Property& property : vertices.properties) {
+    for (const PlyProperty& property : vertices.properties) {
         if (property.length) continue;
         table.fields.push_back({property.name, property.type, table.bytes_per_point, 1});
         table.bytes_per_point += bytesOf(property.type);
@@ -132,26 +132,26 @@ PointTable tableOf(const Element& vertices) {
     return table;
 }
 
-[[noreturn]] void failCut(const std::filesystem::path& file, const Element& element,
+[[noreturn]] void failCut(const std::filesystem::path& file, const PlyElement& element,
                           std::size_t row) {
-    throw BrokenCloud(file.string() + ": the header says " + std::to_string(element.count) + " '" +
-                      element.name + "', but " + std::to_string(row) +
-                      " are there; is it truncated?");
+    throw BrokenRecording(file.string() + ": the header says " + std::to_string(element.count) +
+                          " '" + element.name + "', but " + std::to_string(row) +
+                          " are there; is it truncated?");
 }
 
 /// The rows of a binary file.
 class BinaryRows {
  public:
-    BinaryRows(const std::filesystem::path& file, const Bytes& bytes, const Header& header)
+    BinaryRows(const std::filesystem::path& file, const Bytes& bytes, const PlyHeader& header)
         : file_(file),
           bytes_(bytes),
           at_(header.size),
-          is_big_endian_(header.data == Header::Data::Big) {}
+          is_big_endian_(header.data == PlyHeader::Data::Big) {}
 
     std::size_t left() const { return bytes_.size() - at_; }
 
     /// Reads the rows of an element. Those of the table are copied.
-    void read(const Element& element, PointTable* table) {
+    void read(const PlyElement& element, PointTable* table) {
         if (element.properties.empty()) return;
         if (!element.hasLists()) {
             const std::size_t size = element.size();
@@ -167,14 +167,14 @@ class BinaryRows {
         // With more rows than bytes it is cut.
         if (table != nullptr && element.count <= left()) checkNumber(file_, element.count);
         for (std::size_t row = 0; row < element.count; ++row) {
-            for (const Property& property : element.properties) {
+            for (const PlyProperty& property : element.properties) {
                 if (!readProperty(property, table)) failCut(file_, element, row);
             }
         }
     }
 
  private:
-    bool readProperty(const Property& property, PointTable* table) {
+    bool readProperty(const PlyProperty& property, PointTable* table) {
         const std::size_t size = bytesOf(property.type);
         if (!property.length) {
             if (left() < size) return false;
@@ -208,13 +208,13 @@ class BinaryRows {
 /// The rows of an ascii file: a line each.
 class AsciiRows {
  public:
-    AsciiRows(const std::filesystem::path& file, const Bytes& bytes, const Header& header)
+    AsciiRows(const std::filesystem::path& file, const Bytes& bytes, const PlyHeader& header)
         : file_(file), size_(bytes.size()), lines_(bytes) {
         while (lines_.number() < header.lines) lines_.next();
     }
     std::size_t left() const { return size_ - lines_.position(); }
 
-    void read(const Element& element, PointTable* table) {
+    void read(const PlyElement& element, PointTable* table) {
         if (element.properties.empty()) return;
         if (table != nullptr) {
             if (element.count > left()) failCut(file_, element, 0);
@@ -230,7 +230,7 @@ class AsciiRows {
                 words = wordsOf(*line);
             }
             std::size_t word = 0;
-            for (const Property& property : element.properties) {
+            for (const PlyProperty& property : element.properties) {
                 readProperty(property, words, word, table);
             }
             if (word != words.size()) failLine(words.size());
@@ -243,7 +243,7 @@ class AsciiRows {
                std::to_string(words) + " numbers, which do not fit the properties in the header");
     }
 
-    void readProperty(const Property& property, const std::vector<std::string_view>& words,
+    void readProperty(const PlyProperty& property, const std::vector<std::string_view>& words,
                       std::size_t& word, PointTable* table) {
         if (word >= words.size()) failLine(words.size());
         if (property.length) {
@@ -270,10 +270,10 @@ class AsciiRows {
 };
 
 template <class Rows>
-void readRows(const std::filesystem::path& file, const Header& header, Rows rows,
+void readRows(const std::filesystem::path& file, const PlyHeader& header, Rows rows,
               CloudFile& cloud) {
     bool has_vertices = false;
-    for (const Element& element : header.elements) {
+    for (const PlyElement& element : header.elements) {
         if (element.name != "vertex") {
             if (element.count > 0) {
                 cloud.remarks.push_back("its '" + element.name + "' elements are not read");
@@ -281,16 +281,16 @@ void readRows(const std::filesystem::path& file, const Header& header, Rows rows
             if (!has_vertices) rows.read(element, nullptr);
             continue;
         }
-        if (has_vertices) throw BrokenCloud(file.string() + ": has 'vertex' elements twice");
+        if (has_vertices) throw BrokenRecording(file.string() + ": has 'vertex' elements twice");
         has_vertices = true;
-        cloud.table = tableOf(element);
-        for (const Property& property : element.properties) {
+        cloud.table = vertexTableOf(element);
+        for (const PlyProperty& property : element.properties) {
             if (!property.length) continue;
             cloud.remarks.push_back("lists of its vertices are not read: " + property.name);
         }
         rows.read(element, &cloud.table);
     }
-    if (!has_vertices) throw BrokenCloud(file.string() + ": has no 'vertex' elements");
+    if (!has_vertices) throw BrokenRecording(file.string() + ": has no 'vertex' elements");
     if (header.elements.back().name == "vertex") {
         for (std::string& remark : remarkOnRest(rows.left())) cloud.remarks.push_back(remark);
     }
@@ -299,13 +299,13 @@ void readRows(const std::filesystem::path& file, const Header& header, Rows rows
 }  // namespace
 
 CloudFile readPly(const std::filesystem::path& file, const Bytes& bytes) {
-    const Header header = readHeader(file, bytes);
+    const PlyHeader header = readPlyHeader(file, bytes);
     CloudFile cloud;
-    if (header.data == Header::Data::Ascii) {
+    if (header.data == PlyHeader::Data::Ascii) {
         readRows(file, header, AsciiRows(file, bytes, header), cloud);
     } else {
         readRows(file, header, BinaryRows(file, bytes, header), cloud);
-        cloud.table.is_big_endian = header.data == Header::Data::Big;
+        cloud.table.is_big_endian = header.data == PlyHeader::Data::Big;
     }
     return cloud;
 }

@@ -3,30 +3,27 @@
 
 namespace hagen::recordings {
 
-constexpr std::size_t kStart = 4096;  ///< bytes of a file that tell its format
+constexpr std::size_t kStart = 4096;  ///< bytes of a file that show its format
 
-// One reader per format, of a file's bytes. They throw BrokenCloud; the table is not checked yet.
+// One reader per format, of a file's bytes. They throw BrokenRecording; the table is not checked
+// yet.
 CloudFile readPcd(const std::filesystem::path& file, Bytes bytes);
 CloudFile readPly(const std::filesystem::path& file, const Bytes& bytes);
 CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes);
 CloudFile readNpy(const std::filesystem::path& file, Bytes bytes);
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes);
 
-/// How many float32 a point of a .bin has: 4 (x, y, z, intensity, as of KITTI) or 5 (with the ring,
-/// as of nuScenes). None: these are no points of a LiDAR.
-enum class BinPoint { None, Four, Five, FourOrFive, FiveOrNone };
-
-/// What the first bytes of a file tell.
-BinPoint binPointOf(const Bytes& start);
-/// The bytes that tell what the points are: the first ones, or if these are zero, as in a scan that
-/// begins with rows of sky, those from the first return on.
-Bytes tellingBytes(const Bytes& bytes);
-/// Which of two it is, once all bytes are there.
-BinPoint binPointOf(BinPoint of_start, const Bytes& all);
+/// Whether the first bytes of a file may be points of a .bin.
+bool mayBeBin(const Bytes& start);
+/// Number of float32 per point of a .bin: 4 (x, y, z, intensity; KITTI), 5 (with the ring;
+/// nuScenes), or 0: not points of a LiDAR.
+std::size_t binNumbersPerPoint(const Bytes& bytes);
 
 bool isAllZero(const Bytes& bytes);
 
-/// What is said of a file in no format that is read.
+/// "it seems to be a JPEG picture", by the first bytes; empty: of no known kind.
+std::string otherKindOf(const Bytes& bytes);
+/// Why a file in no known format is rejected.
 std::string whyNoCloud(const Bytes& start);
 
 }  // namespace hagen::recordings

@@ -1,11 +1,10 @@
-#include <hagen/base/ReadFile.h>
 #include <hagen/mrpt/TimeStamp.h>
-#include <hagen/recordings/CloudFile.h>
 #include <hagen/recordings/NumberTable.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/scan/MostReturns.h>
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <fstream>
 #include <new>
 #include <set>
@@ -14,6 +13,7 @@
 #include <hagen/base/Folder.h>
 #include <hagen/base/WriteFile.h>
 #include "recordings/CloudTimes.h"
+#include "recordings/clouds/Readers.h"
 
 namespace hagen::recordings {
 namespace {
@@ -23,30 +23,18 @@ namespace fs = std::filesystem;
 // The formats are little-endian, like every machine MRPT is packaged for except s390x.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "label and scan files need byte swapping");
 
-template <class Record>
-std::vector<Record> readRecords(const fs::path& file) {
-    std::ifstream in;
-    try {
-        in = base::openToRead(file);
-    } catch (const std::runtime_error& e) {
-        throw BrokenScan(e.what());
+/// The number of points in a file of so many bytes. Throws BrokenRecording.
+std::size_t checkedCount(const fs::path& file, std::size_t bytes, std::size_t bytes_per_point) {
+    if (bytes % bytes_per_point != 0) {
+        throw BrokenRecording(file.string() + ": " + std::to_string(bytes) +
+                              " bytes are not a multiple of " + std::to_string(bytes_per_point) +
+                              "-byte points; is it truncated?");
     }
-    in.seekg(0, std::ios::end);
-    const auto bytes = static_cast<std::size_t>(in.tellg());
-    if (bytes % sizeof(Record) != 0) {
-        throw BrokenScan(file.string() + ": " + std::to_string(bytes) +
-                         " bytes are not a multiple of " + std::to_string(sizeof(Record)) +
-                         "-byte points; is it truncated?");
+    if (bytes / bytes_per_point > kMostReturns) {
+        throw BrokenRecording(file.string() + ": has more than the " +
+                              std::to_string(kMostReturns) + " points that a scan may have");
     }
-    if (bytes / sizeof(Record) > kMostReturns) {
-        throw BrokenScan(file.string() + ": has more than the " + std::to_string(kMostReturns) +
-                         " points that a scan may have");
-    }
-    std::vector<Record> records(bytes / sizeof(Record));
-    in.seekg(0);
-    in.read(reinterpret_cast<char*>(records.data()), static_cast<std::streamsize>(bytes));
-    if (!in) throw BrokenScan(file.string() + ": cannot be read completely");
-    return records;
+    return bytes / bytes_per_point;
 }
 
 template <class Record>
@@ -157,46 +145,35 @@ void markAsPredictions(const fs::path& folder) {
     base::closeWritten(out, file);
 }
 
-namespace {
-
-/// Points of so many float32, of which the first four are x, y, z and intensity. Those with a ring
-/// have intensities up to 255.
-template <std::size_t floats>
-void readPoints(const fs::path& file, Scan& scan) {
-    const auto points = readRecords<std::array<float, floats>>(file);
-    float most = 0;
-    for (const auto& point : points) most = std::max(most, point[3]);
-    const float scale = floats > 4 && most > 1 ? 255.0f : 1.0f;
-    scan.clear();
-    scan.reserve(points.size());
-    for (const auto& point : points) {
-        scan.x_m.push_back(point[0]);
-        scan.y_m.push_back(point[1]);
-        scan.z_m.push_back(point[2]);
-        scan.intensity.push_back(point[3] / scale);
-    }
-}
-
-}  // namespace
-
 std::size_t readScan(const fs::path& file, Scan& scan) {
     try {
-        const recordings::BinStart start = recordings::startOfBin(file);
-        if (!start.other_kind.empty()) {
-            throw BrokenScan(file.string() + ": has no points: " + start.other_kind);
+        const Bytes bytes = readBytes(file);
+        std::size_t numbers = binNumbersPerPoint(bytes);
+        if (numbers == 0) {
+            std::string other_kind = otherKindOf(bytes);
+            if (mayBeBin(bytes)) other_kind = "its points have a fifth number that is no ring";
+            if (!other_kind.empty()) {
+                throw BrokenRecording(file.string() + ": has no points: " + other_kind);
+            }
+            numbers = 4;
         }
-        if (start.floats_per_point == 5) {
-            readPoints<5>(file, scan);
-        } else {
-            readPoints<4>(file, scan);
+        const std::size_t points = checkedCount(file, bytes.size(), sizeof(float) * numbers);
+        std::vector<float> values(points * numbers);
+        if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+        float most = 0;
+        for (std::size_t i = 3; i < values.size(); i += numbers) most = std::max(most, values[i]);
+        const float scale = numbers > 4 && most > 1 ? 255.0f : 1.0f;  // those with rings
+        scan.clear();
+        scan.reserve(points);
+        for (std::size_t i = 0; i < values.size(); i += numbers) {
+            scan.x_m.push_back(values[i]);
+            scan.y_m.push_back(values[i + 1]);
+            scan.z_m.push_back(values[i + 2]);
+            scan.intensity.push_back(values[i + 3] / scale);
         }
-        return start.floats_per_point;
+        return numbers;
     } catch (const std::bad_alloc&) {
-        throw BrokenScan(file.string() + ": does not fit into memory");
-    } catch (const BrokenScan&) {
-        throw;
-    } catch (const std::runtime_error& e) {  // a file that cannot be opened
-        throw BrokenScan(e.what());
+        throw BrokenRecording(file.string() + ": does not fit into memory");
     }
 }
 
@@ -209,7 +186,10 @@ void writeScan(const fs::path& file, const Scan& scan) {
 }
 
 std::vector<std::uint32_t> readLabelEntries(const fs::path& file) {
-    return readRecords<std::uint32_t>(file);
+    const Bytes bytes = readBytes(file);
+    std::vector<std::uint32_t> entries(checkedCount(file, bytes.size(), sizeof(std::uint32_t)));
+    if (!bytes.empty()) std::memcpy(entries.data(), bytes.data(), bytes.size());
+    return entries;
 }
 
 std::vector<std::uint16_t> readLabels(const fs::path& file) {

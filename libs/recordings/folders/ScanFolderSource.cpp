@@ -1,88 +1,75 @@
-#include "recordings/folders/ScanFolderSource.h"
-
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/CloudFile.h>
+#include <hagen/recordings/ScanFolder.h>
+
+#include "recordings/FileListSource.h"
+#include "recordings/Sources.h"
 
 namespace hagen::recordings {
+namespace {
 
 constexpr double kDefaultScanPeriod_s = 0.1;  // for folders without times.txt
 
-ScanFolderSource::ScanFolderSource(const std::filesystem::path& folder,
-                                   const SourceOptions& options)
-    : ScanSource(options), folder_(folder), times_s_(folder_.times()) {
-    for (std::size_t i = times_s_.size(); i < folder_.size(); ++i) {
-        times_s_.push_back(kDefaultScanPeriod_s * static_cast<double>(i));
-    }
-}
-
-std::optional<RecordedEntry> ScanFolderSource::nextEntry() {
-    while (next_ < folder_.size() && next_ <= options_.last_entry) {
-        const std::size_t i = next_++;
-        checkInterruption();
-        if (skips(i)) continue;
-        has_rings_ |= readScan(folder_.scanFile(i), scan_) == 5;
-        const auto time = mrpt::Clock::fromDouble(times_s_[i]);
-        RecordedEntry entry;
-        entry.number = i;
-        entry.fraction_read = static_cast<double>(i + 1) / static_cast<double>(folder_.size());
-        if (options_.folder_objects) {
-            entry.object =
-                observations::observationOf(scan_, kFolderLabel, time, *options_.folder_objects);
+class ScanFolderSource : public FileListSource {
+ public:
+    ScanFolderSource(const std::filesystem::path& folder, const SourceOptions& options)
+        : FileListSource(options, kFolderLabel), folder_(folder) {
+        times_s_ = folder_.times();
+        for (std::size_t i = 0; i < folder_.size(); ++i) names_.push_back(folder_.name(i));
+        for (std::size_t i = times_s_.size(); i < folder_.size(); ++i) {
+            times_s_.push_back(kDefaultScanPeriod_s * static_cast<double>(i));
         }
-        addIfScan(observations::observationOf(scan_, kFolderLabel, time), folder_.name(i), entry);
-        return entry;
     }
-    const std::string missed = missedAhead(next_);
-    if (!missed.empty()) throw BrokenScan(missed);
-    return std::nullopt;
-}
 
-LogPoses ScanFolderSource::readPoses(const std::filesystem::path& file) {
-    return posesOfScanFolder(folder_, times_s_, file);
-}
-
-bool ScanFolderSource::showClouds(observations::CloudSensors& sensors) {
-    if (next_shown_ >= folder_.size()) return false;
-    const std::size_t i = next_shown_++;
-    Scan cloud;
-    try {
-        readScan(folder_.scanFile(i), cloud);
-    } catch (const BrokenScan& e) {
-        if (i >= options_.first_entry) brokeOffAhead(i, e.what());
-        return true;
+    std::vector<std::string> remarks() const override {
+        std::vector<std::string> remarks;
+        const std::string scans = (folder_.path() / "velodyne").string();
+        if (has_rings_) {
+            remarks.push_back("the rings of its points (nuScenes) are ignored; they are used if " +
+                              scans + " is read as a folder of point clouds");
+        }
+        const std::vector<std::string>& others = folder_.otherFiles();
+        if (!others.empty()) {
+            remarks.push_back(std::to_string(others.size()) + " of the entries in " + scans +
+                              " do not end in .bin, such as " + others.front() +
+                              ": they are ignored");
+        }
+        return remarks;
     }
-    sensors.see(kFolderLabel, cloud);
-    return true;
-}
 
-std::map<std::string, std::vector<mrpt::Clock::time_point>> ScanFolderSource::scanTimes() {
-    std::vector<mrpt::Clock::time_point> times;
-    for (const double time_s : times_s_) times.push_back(mrpt::Clock::fromDouble(time_s));
-    return {{kFolderLabel, times}};
-}
+    Settings settingsFor(const Settings& settings) const override {
+        Settings merged = settings;
+        if (std::filesystem::exists(folder_.sensorFile())) {
+            mergeSettings(folder_.sensorFile(), merged, SettingsOrigin::Recording);
+        }
+        return merged;
+    }
 
-std::vector<std::string> ScanFolderSource::remarks() const {
-    std::vector<std::string> remarks;
-    const std::string scans = (folder_.path() / "velodyne").string();
-    if (has_rings_) {
-        remarks.push_back(
-            "the rings of its points (nuScenes) are not used; as a folder of point clouds, " +
-            scans + ", they are");
+ private:
+    Cloud read(std::size_t file) override {
+        floats_per_point_ = readScan(folder_.scanFile(file), scan_);
+        return observations::observationOf(scan_, kFolderLabel, timeOf(file));
     }
-    const std::vector<std::string>& others = folder_.otherFiles();
-    if (!others.empty()) {
-        remarks.push_back(std::to_string(others.size()) + " of the entries in " + scans +
-                          " do not end in .bin, such as " + others.front() + ": they are not read");
+    mrpt::serialization::CSerializable::Ptr take(const Cloud& cloud) override {
+        has_rings_ |= floats_per_point_ == 5;
+        if (!options_.folder_objects) return nullptr;
+        return observations::observationOf(scan_, kFolderLabel, cloud->timestamp,
+                                           *options_.folder_objects);
     }
-    return remarks;
-}
+    LogPoses readPoses(const std::filesystem::path& file) override {
+        return posesOfScanFolder(folder_, times_s_, file);
+    }
 
-Settings ScanFolderSource::settingsFor(const Settings& settings) const {
-    Settings merged = settings;
-    if (std::filesystem::exists(folder_.sensorFile())) {
-        mergeSettings(folder_.sensorFile(), merged, SettingsOrigin::Recording);
-    }
-    return merged;
+    ScanFolder folder_;
+    Scan scan_;  ///< read last
+    std::size_t floats_per_point_ = 4;
+    bool has_rings_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<ScanSource> openScanFolder(const std::filesystem::path& folder,
+                                           const SourceOptions& options) {
+    return std::make_unique<ScanFolderSource>(folder, options);
 }
 
 }  // namespace hagen::recordings

@@ -32,7 +32,7 @@ std::string whyNone(const std::filesystem::path& file) {
     // PackedInput has unpacked these.
     const bool is_packed = kind.what == "packed by gzip" || kind.what == "packed by zstd";
     if (is_packed) return "it is " + kind.what + ", and inside is no rawlog; " + kind.advice;
-    return (known.empty() ? "its first bytes are none of a kind that is known" : known) +
+    return (known.empty() ? "its first bytes are of no known kind" : known) +
            ". Known are rawlogs, captures (.pcap, .pcapng), ROS recordings (.bag, .mcap, .db3) and "
            "point clouds (.pcd, .ply, .las, .npy, .bin)";
 }
@@ -47,9 +47,10 @@ EntryReader::EntryReader(const std::filesystem::path& file, const std::filesyste
 mrpt::serialization::CSerializable::Ptr EntryReader::next() {
     const std::uint64_t byte = stream_.getPosition();
     const auto broken = [&](const std::string& why) {
-        return BrokenRawlog(file_.string() + ": entry " + std::to_string(entries_) + " at byte " +
-                            std::to_string(byte) + " (uncompressed) cannot be read: " +
-                            (stream_.fault().empty() ? why : stream_.fault()));
+        return BrokenRecording(
+            file_.string() + ": entry " + std::to_string(entries_) + " at byte " +
+            std::to_string(byte) +
+            " (uncompressed) cannot be read: " + (stream_.fault().empty() ? why : stream_.fault()));
     };
     mrpt::serialization::CSerializable::Ptr object;
     try {
@@ -57,7 +58,7 @@ mrpt::serialization::CSerializable::Ptr EntryReader::next() {
     } catch (const mrpt::serialization::CExceptionEOF&) {
         if (!stream_.fault().empty()) throw broken("");
         if (stream_.getPosition() != byte) throw broken("the file ends within it");
-        if (entries_ == 0) throw BrokenRawlog(file_.string() + ": contains no rawlog entries");
+        if (entries_ == 0) throw BrokenRecording(file_.string() + ": contains no rawlog entries");
         return nullptr;
     } catch (const std::bad_alloc&) {
         if (!stream_.fault().empty()) throw broken("");
@@ -69,7 +70,7 @@ mrpt::serialization::CSerializable::Ptr EntryReader::next() {
     } catch (const std::exception& e) {
         const std::string reason = reasonOf(e);
         if (entries_ == 0 && reason == kNoObject && stream_.fault().empty()) {
-            throw BrokenRawlog(file_.string() + ": is no recording: " + whyNone(file_));
+            throw BrokenRecording(file_.string() + ": is no recording: " + whyNone(file_));
         }
         throw broken(reason);
     } catch (...) {

@@ -9,8 +9,8 @@ namespace hagen::recordings {
 constexpr std::uint64_t kMostEntryBytes = std::uint64_t{1} << 30;
 
 /// More memory than there is: a count is wrong, or the limit is too low.
-struct AsksTooMuch : BrokenRawlog {
-    using BrokenRawlog::BrokenRawlog;
+struct AsksTooMuch : BrokenRecording {
+    using BrokenRecording::BrokenRecording;
 };
 
 /// Reads a rawlog by MRPT's reader, which trusts what it reads: a wrong count may take all memory,
@@ -21,8 +21,8 @@ class EntryReader {
     /// @param opened what is opened: the file, by this or another name.
     EntryReader(const std::filesystem::path& file, const std::filesystem::path& opened);
 
-    /// The next entry, or nullptr at the end. Throws BrokenRawlog; AsksTooMuch, if that is all that
-    /// is wrong.
+    /// The next entry, or nullptr at the end. Throws BrokenRecording; AsksTooMuch, if that is all
+    /// that is wrong.
     mrpt::serialization::CSerializable::Ptr next();
 
     std::size_t entries() const { return entries_; }

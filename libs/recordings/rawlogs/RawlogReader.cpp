@@ -46,7 +46,7 @@ double RawlogReader::fractionRead() const {
 mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     const EntryVerdict verdict = parts_->trial.next();
     if (verdict.kind == EntryVerdict::Kind::End) return nullptr;
-    if (verdict.kind == EntryVerdict::Kind::Broken) throw BrokenRawlog(verdict.why);
+    if (verdict.kind == EntryVerdict::Kind::Broken) throw BrokenRecording(verdict.why);
     mrpt::serialization::CSerializable::Ptr object;
     try {
         object = parts_->reader.next();
@@ -54,8 +54,8 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
         throw std::bad_alloc();
     }
     if (!object || parts_->reader.stream().getPosition() != verdict.end) {
-        throw BrokenRawlog(parts_->file.string() + ": changed while it was read, at entry " +
-                           std::to_string(entries()));
+        throw BrokenRecording(parts_->file.string() + ": changed while it was read, at entry " +
+                              std::to_string(entries()));
     }
     return object;
 }

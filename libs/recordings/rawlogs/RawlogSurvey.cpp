@@ -56,7 +56,7 @@ class SummedMovement {
 };
 
 /// Collects poses from all sources.
-class Surveyor {
+class RawlogSurveyor {
  public:
     void see(const CActionCollection& actions) {
         if (const auto movement = actions.getActionByClass<CActionRobotMovement3D>()) {
@@ -128,7 +128,7 @@ class Surveyor {
 
 RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
                           const std::function<bool()>& keep_going) {
-    Surveyor surveyor;
+    RawlogSurveyor surveyor;
     RawlogReader reader(rawlog);
     bool is_whole = true;
     std::string why;
@@ -143,7 +143,7 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
                 surveyor.see(*actions);
             }
         }
-    } catch (const BrokenRawlog& e) {
+    } catch (const BrokenRecording& e) {
         // The conversion reports the break; the entries before it are valid.
         is_whole = false;
         why = e.what();

@@ -5,7 +5,6 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,7 +12,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 #include "recordings/rawlogs/EntryReader.h"
@@ -22,36 +20,37 @@ namespace hagen::recordings {
 namespace {
 
 /// What is sent through the pipe, followed by `text` bytes of the reason.
-struct Header {
+struct VerdictHeader {
     EntryVerdict::Kind kind;
     std::uint64_t end;
     std::uint32_t text;
 };
 constexpr std::size_t kLongestText = 4096;
 
-/// How often it has to stand still where it is not told for what it waits: perhaps for a disk.
-constexpr int kPatienceWithAnything = 10;
-
 /// MRPT's objects take more memory than their bytes in a rawlog: an empty pointer or text has 4
 /// bytes there and up to 32 in memory, and vectors double while they grow.
 constexpr std::uint64_t kMemoryPerByte = 32, kMemoryBesides = 64 << 20;
 
-bool sendAll(int pipe, const void* data, std::size_t size) {
-    const char* at = static_cast<const char*>(data);
+/// Calls read() or write() until all bytes are transferred; false at the end of the pipe.
+template <class Call, class Byte>
+bool transfer(Call call, int pipe, Byte* at, std::size_t size) {
     while (size > 0) {
-        const ssize_t sent = write(pipe, at, size);
-        if (sent < 0 && errno == EINTR) continue;
-        if (sent <= 0) return false;
-        at += sent;
-        size -= static_cast<std::size_t>(sent);
+        const ssize_t done = call(pipe, at, size);
+        if (done < 0 && errno == EINTR) continue;
+        if (done <= 0) return false;
+        at += done;
+        size -= static_cast<std::size_t>(done);
     }
     return true;
 }
 
 void send(int pipe, EntryVerdict::Kind kind, std::uint64_t end, const std::string& why = "") {
     const std::size_t text = std::min(why.size(), kLongestText);
-    const Header header{kind, end, static_cast<std::uint32_t>(text)};
-    if (!sendAll(pipe, &header, sizeof header) || !sendAll(pipe, why.data(), text)) _exit(0);
+    const VerdictHeader header{kind, end, static_cast<std::uint32_t>(text)};
+    const bool is_sent =
+        transfer(write, pipe, reinterpret_cast<const char*>(&header), sizeof header) &&
+        transfer(write, pipe, why.data(), text);
+    if (!is_sent) _exit(0);
 }
 
 /// Private memory of this process [bytes]; 0 if unknown.
@@ -64,23 +63,8 @@ std::uint64_t dataBytes() {
     return is_read ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
-/// What a process does now, by two files of /proc. For what it waits, only those are told who may
-/// trace it.
-enum class Doing { Work, WaitForLock, WaitForAnything };
-Doing doingOf(pid_t process) {
-    const std::string folder = "/proc/" + std::to_string(process);
-    std::string call, text;  // the call's number, or "running"
-    if (std::ifstream(folder + "/syscall") >> call) {
-        return call == std::to_string(SYS_futex) ? Doing::WaitForLock : Doing::Work;
-    }
-    std::getline(std::ifstream(folder + "/stat"), text);  // number (name) state ...
-    const std::size_t name_end = text.rfind(") ");
-    const bool sleeps = name_end != std::string::npos && text.compare(name_end, 3, ") S") == 0;
-    return sleeps ? Doing::WaitForAnything : Doing::Work;
-}
-
 /// Whether a pipe has something to read, or an end, within this time. Signals do not prolong it.
-bool hasSomething(int pipe, std::chrono::milliseconds patience) {
+bool isReadable(int pipe, std::chrono::milliseconds patience) {
     using Clock = std::chrono::steady_clock;
     for (const auto end = Clock::now() + patience;;) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
@@ -91,8 +75,8 @@ bool hasSomething(int pipe, std::chrono::milliseconds patience) {
     }
 }
 
-/// Limits what the next entry may take: no more than its bytes in the rest of the file can need.
-/// Returns whether the program's own limit is lower.
+/// Limits the memory for the next entry to what the rest of the file can need. Returns whether the
+/// program's own limit is lower.
 bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     constexpr std::uint64_t kShadow = std::uint64_t{1} << 40;  // of a sanitizer
     const std::uint64_t now = dataBytes();
@@ -104,7 +88,7 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     return of_program.rlim_cur < now + more;
 }
 
-/// The process: reads all entries and sends what comes of each.
+/// Reads all entries and sends a verdict on each.
 [[noreturn]] void tryAll(const std::filesystem::path& file, const std::filesystem::path& opened,
                          int pipe) {
     bool is_limit_of_program = false;
@@ -132,10 +116,10 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     _exit(0);
 }
 
-/// Leaves the process nothing of the program's but the rawlog and the pipe.
+/// The child process; of the program's descriptors it keeps the rawlog and the pipe.
 [[noreturn]] void runTrial(const std::filesystem::path& file, int descriptor, int pipe) {
     setpgid(0, 0);
-    // The program ends the process when it wants; it needs no core file.
+    // The program ends the process; it needs no core file.
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
     for (const int number : {SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) signal(number, SIG_DFL);
     const rlimit none{0, 0};
@@ -148,8 +132,8 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     dup2(high_rawlog, kRawlog);
     dup2(high_pipe, kPipe);
     close_range(kPipe + 1, ~0U, 0);
-    // Opened again, for the program's own reading moves the position. The name may be another
-    // file's by now.
+    // Opened again, because the program's own reading moves the position, and by descriptor,
+    // because the name may be another file's by now.
     tryAll(file, "/proc/self/fd/" + std::to_string(kRawlog), kPipe);
 }
 
@@ -195,28 +179,13 @@ void RawlogTrial::stop() {
     process_ = -1;
 }
 
-/// Waits until the process sends something or ends (false), or stands still.
-bool RawlogTrial::standsStill() const {
-    for (int still = 0;;) {
+/// Waits until the process sends something or ends (false), or is idle for too long (true).
+bool RawlogTrial::isStuck() const {
+    for (;;) {
         const auto before = base::cpuTimeOf(process_);
-        if (hasSomething(verdicts_, patience_)) return false;
-        const bool is_still = before && base::cpuTimeOf(process_) == before;
-        const Doing doing = is_still ? doingOf(process_) : Doing::Work;
-        still = doing == Doing::WaitForAnything ? still + 1 : 0;
-        if (doing == Doing::WaitForLock || still == kPatienceWithAnything) return true;
+        if (isReadable(verdicts_, patience_)) return false;
+        if (before && base::cpuTimeOf(process_) == before) return true;
     }
-}
-
-bool RawlogTrial::receive(void* data, std::size_t size) const {
-    char* at = static_cast<char*>(data);
-    while (size > 0) {
-        const ssize_t got = read(verdicts_, at, size);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        at += got;
-        size -= static_cast<std::size_t>(got);
-    }
-    return true;
 }
 
 std::string RawlogTrial::cannotBeRead(const std::string& why) const {
@@ -230,7 +199,7 @@ std::string RawlogTrial::whyItEnded() {
     while ((ended = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
     }
     process_ = -1;
-    // Somebody else took its status, such as a program that ignores SIGCHLD.
+    // Its status is lost, for example if the program ignores SIGCHLD.
     if (ended < 0) return cannotBeRead("MRPT's reader crashes on it, or ends at it");
     return cannotBeRead("MRPT's reader " +
                         (WIFSIGNALED(status)
@@ -239,12 +208,14 @@ std::string RawlogTrial::whyItEnded() {
 }
 
 EntryVerdict RawlogTrial::receiveVerdict() {
-    Header header;
-    if (!receive(&header, sizeof header)) {
+    VerdictHeader header;
+    if (!transfer(read, verdicts_, reinterpret_cast<char*>(&header), sizeof header)) {
         return {EntryVerdict::Kind::Broken, last_.end, whyItEnded()};
     }
     EntryVerdict verdict{header.kind, header.end, std::string(header.text, '\0')};
-    if (!receive(verdict.why.data(), header.text)) verdict.why = "the reason was lost";
+    if (!transfer(read, verdicts_, verdict.why.data(), header.text)) {
+        verdict.why = "the reason was lost";
+    }
     ++received_;
     return verdict;
 }
@@ -255,10 +226,10 @@ EntryVerdict RawlogTrial::next() {
         return last_ = {EntryVerdict::Kind::Broken, last_.end, why};
     };
     for (;;) {
-        if (standsStill()) {
+        if (isStuck()) {
             stop();
             if (starts_ == kMostStarts) {
-                return broken(cannotBeRead("MRPT's reader stands still at it"));
+                return broken(cannotBeRead("MRPT's reader hangs at it"));
             }
             try {
                 start();

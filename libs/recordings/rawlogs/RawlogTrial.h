@@ -8,7 +8,7 @@
 
 namespace hagen::recordings {
 
-/// What came of the trial of an entry.
+/// Whether an entry could be read.
 struct EntryVerdict {
     enum class Kind : std::uint8_t { Sound, End, Broken };
     Kind kind;
@@ -16,17 +16,16 @@ struct EntryVerdict {
     std::string why;    ///< of Broken, with file, entry and byte
 };
 
-/// Reads a rawlog in a process of its own, ahead of the program. What MRPT's reader does with an
-/// entry that is corrupt (crash, throw anything, ask for any amount of memory) ends that process,
-/// never the program, which reads only entries that were read there.
+/// Reads a rawlog in a child process, ahead of the program. Whatever MRPT's reader does with a
+/// corrupt entry (crash, throw anything, request any amount of memory) ends that process only; the
+/// program reads only entries that the child could read.
 ///
-/// The process starts as a copy of the program without its other threads: a lock that one of these
-/// holds at that moment is never released there. If the process waits for a lock and does nothing
-/// else for kPatience, another one takes its place, up to kMostStarts in all. Where the system does
-/// not tell for what it waits, it has ten times as long.
+/// The child starts as a copy of the program without its other threads: a lock that one of these
+/// holds at that moment is never released there. If the child uses no CPU time for kPatience,
+/// another one replaces it, up to kMostStarts in all.
 class RawlogTrial {
  public:
-    static constexpr std::chrono::milliseconds kPatience{3000};
+    static constexpr std::chrono::milliseconds kPatience{10000};
     static constexpr int kMostStarts = 3;
 
     /// Starts the process. Throws std::runtime_error if that is not possible.
@@ -44,8 +43,7 @@ class RawlogTrial {
  private:
     void start();
     void stop();
-    bool standsStill() const;
-    bool receive(void* data, std::size_t size) const;
+    bool isStuck() const;
     EntryVerdict receiveVerdict();
     std::string cannotBeRead(const std::string& why) const;
     std::string whyItEnded();
@@ -57,7 +55,7 @@ class RawlogTrial {
     int verdicts_ = -1;
     int starts_ = 0;
     std::size_t received_ = 0;  ///< verdicts from the process that runs
-    std::size_t entries_ = 0;   ///< verdicts that were told
+    std::size_t entries_ = 0;   ///< verdicts returned
     EntryVerdict last_{EntryVerdict::Kind::Sound, 0, ""};
 };
 

@@ -18,14 +18,14 @@ namespace hagen::convert {
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
     std::filesystem::path input;        ///< as for openRecording()
-    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag; empty: none
     std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
 
     std::filesystem::path rawlog;  ///< segmented rawlog
     std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR
     std::filesystem::path clouds;  ///< labelled clouds with all fields, a file per scan
-    convert::OutputFormat cloud_format = convert::OutputFormat::Ply;
+    OutputFormat cloud_format = OutputFormat::Ply;
     std::filesystem::path mcap;      ///< labelled clouds, boxes and poses as messages of ROS 2
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
     std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot, .3Dscene: one map in each format
@@ -70,7 +70,7 @@ struct ConversionReport {
     /// Description of the sensor by sensor label: "VLP-16, 16 beams", or how it was recovered
     /// (CloudSensors.h).
     std::map<std::string, std::string> sensors;
-    /// The sensors that neither the log nor the settings name, and the columns of their images.
+    /// The sensors that neither log nor settings name, and the columns of their images.
     struct Recovered {
         observations::SharedBeams beams;
         int columns = 0;
@@ -108,23 +108,22 @@ struct ConversionListener {
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// Segments a whole log. Holds two entries per thread in memory. Pictures are drawn on one thread.
+/// Segments a whole log. Holds an entry per thread in memory. Pictures are drawn on one thread.
 ///
-/// A segmented rawlog keeps every entry of the input, in order (of a capture or a bag: the
-/// scans). After
-/// each LiDAR observation it has the `_roi` and `_non_roi` clouds and, if requested, the preview.
-/// In a sensory frame these join the frame. They replace those that an earlier run made of the same
-/// scan. Each scan of a scan folder becomes one observation. A
-/// written scan folder keeps the names and the point order of an input folder; scans of a rawlog
-/// are numbered. So are labelled clouds.
+/// A segmented rawlog keeps every entry of the input, in order (of a capture or bag: the scans).
+/// Each LiDAR observation is followed, in the same sensory frame if it is in one, by its `_roi` and
+/// `_non_roi` clouds and the preview, if requested. They replace those of an earlier run. Scan
+/// folders and labelled clouds keep the names of an input folder; scans of other recordings are
+/// numbered.
 ///
 /// An OctoMap needs poses. Each return is placed with the pose at its own time, if known. Scans
 /// without a pose are skipped, with a remark.
 ///
-/// Outputs get their names when they are complete. Throws std::runtime_error naming file and entry.
-/// If the log is truncated or the listener stops the conversion, the entries converted so far are
-/// kept in OUT.partial.rawlog (DIR.partial), which the message names. Throws SettingsError if
-/// options do not fit a sensor.
+/// Outputs get their names when they are complete. Throws recordings::BrokenRecording if the
+/// recording or a later step fails, and recordings::Interrupted if the listener stops the
+/// conversion: the entries before are then kept in OUT.partial.rawlog (DIR.partial), which the
+/// message names. Throws SettingsError if options do not fit a sensor, and std::runtime_error if an
+/// output failed or nothing was converted.
 ConversionReport convert(const Conversion& conversion, const ConversionListener& listener = {});
 
 }  // namespace hagen::convert

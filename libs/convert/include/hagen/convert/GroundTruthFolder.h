@@ -40,7 +40,7 @@ class GroundTruthFolder {
     void finish();
 
     base::OutputPath path_;
-    convert::ScanFolderWriter writer_;
+    ScanFolderWriter writer_;
     std::vector<double> altitudes_m_;
 };
 

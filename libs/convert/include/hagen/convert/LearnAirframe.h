@@ -12,7 +12,7 @@ namespace hagen::convert {
 /// A recording to learn the airframe from, and the file to write.
 struct AirframeLearning {
     std::filesystem::path input;        ///< a rawlog, a capture, a bag, or a scan folder
-    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag; empty: none
     std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
     std::filesystem::path file;         ///< ends in .yaml; the picture beside it ends in .png
@@ -37,10 +37,10 @@ struct AirframeReport {
 };
 
 struct AirframeListener {
-    /// Called with the title of a scan that could not be read, and the reason. It is left out.
+    /// Called with the title of a scan that could not be read and is skipped, and the reason.
     std::function<void(const std::string& entry, const std::string& why)> unreadable =
         [](const auto&, const auto&) {};
-    /// Called with what is to know of the recording, as what of it is not used.
+    /// Called with remarks on the recording, such as ignored content.
     std::function<void(const std::string& what)> remark = [](const auto&) {};
     /// Called before each entry is read. False ends with Interrupted; nothing is written.
     std::function<bool()> keep_going = [] { return true; };

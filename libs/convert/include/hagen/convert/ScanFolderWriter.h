@@ -26,7 +26,7 @@ struct GivenLimits {
 class ScanFolderWriter {
  public:
     /// Creates velodyne/ and labels/ in an existing folder. `mount`: the sensor's tilt on the level
-    /// vehicle, for sensor.yaml. `unnamed`: nobody named the sensor, and sensor.yaml has these
+    /// vehicle, for sensor.yaml. `unnamed`: the sensor is unnamed, and sensor.yaml has these
     /// limits only, no beams, so that a guess is not taken for a fact.
     explicit ScanFolderWriter(std::filesystem::path folder, const Attitude& mount = {},
                               const std::optional<GivenLimits>& unnamed = std::nullopt);

@@ -30,12 +30,12 @@ struct SimulationReport {
 /// Simulates the flight and writes
 ///
 /// - a rawlog of CObservationVelodyneScan `lidar`, each at the time of its first firing, with
-/// CObservationRobotPose `pose` at least every 50 ms during scans. The sensor is at the vehicle's
-/// origin, rotated by the mount: the scans' sensorPose has the mount, poses are the vehicle's.
-/// Scans of a Mid-360 are CObservationPointCloud (CPointsMapXYZI, which has no times of points),
-/// - a scan folder with ground truth (see GroundTruthFolder.h), with the returns as decoded from
-/// the packets if the sensor has a packet format; its poses are the sensor's, the mount is in
-/// sensor.yaml,
+///   CObservationRobotPose `pose` of the vehicle at least every 50 ms during scans. The sensor is
+///   at the vehicle's origin; its mount is in sensorPose. Scans of a Mid-360 are
+///   CObservationPointCloud (CPointsMapXYZI, which has no times of points),
+/// - a scan folder with ground truth (GroundTruthFolder.h), with the returns as decoded from the
+///   packets if the sensor has a packet format. Poses are the sensor's; its mount is in
+///   sensor.yaml,
 /// - the vehicle's poses as a TUM file.
 ///
 /// The same seed gives the same bytes. Throws std::invalid_argument for an unknown scenario or

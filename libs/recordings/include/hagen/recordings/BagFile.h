@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/recordings/BrokenRecording.h>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -9,12 +10,6 @@
 #include <vector>
 
 namespace hagen::recordings {
-
-/// A bag that is cut off, or has a record that cannot be read. The message names the file and the
-/// byte, or of a database the row.
-struct BrokenBag : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 /// A topic of a bag.
 struct BagTopic {
@@ -41,7 +36,7 @@ class BagFile {
  public:
     virtual ~BagFile() = default;
 
-    /// Reads the next message; false at the end. Throws BrokenBag.
+    /// Reads the next message; false at the end. Throws BrokenRecording.
     virtual bool next(BagMessage& message) = 0;
     /// Those seen so far; indices do not change.
     virtual const std::vector<BagTopic>& topics() const = 0;
@@ -67,7 +62,7 @@ class BagFile {
 bool isBag(const std::filesystem::path& file_or_folder);
 
 /// Opens a ROS 1 bag (format 2.0), an MCAP, a ROS 2 database (.db3), or a folder of the latter two.
-/// Throws BrokenBag naming the file that cannot be opened or is none of them.
+/// Throws BrokenRecording naming a file that cannot be opened or has another format.
 std::unique_ptr<BagFile> openBag(const std::filesystem::path& file_or_folder);
 
 }  // namespace hagen::recordings

@@ -18,13 +18,13 @@ namespace hagen::recordings {
 /// two messages. A Livox message is a scan; those of livox_ros_driver2 are read as of a Mid-360.
 class BagScans {
  public:
-    /// Throws BrokenBag naming the file that cannot be opened. `survey` must outlive it.
+    /// Throws BrokenRecording naming the file that cannot be opened. `survey` must outlive it.
     BagScans(const std::filesystem::path& file, const BagSurvey& survey, const BagOptions& options);
     ~BagScans();
 
     /// The next scan, or a CObservationIMU with an orientation; null at the end. Where the bag
-    /// breaks off, the turns in progress come first. Throws BrokenBag there, and at the end if not
-    /// one scan could be read.
+    /// breaks off, the turns in progress come first. Throws BrokenRecording there, and at the end
+    /// if not one scan could be read.
     mrpt::obs::CObservation::Ptr next();
 
     /// Like BagFile::checkWhileReading(): what `check` throws ends next().

@@ -81,7 +81,7 @@ struct BagSurvey {
 };
 
 /// Reads a bag to its end, to where it breaks off, or until `keep_going` returns false, which is
-/// asked while it reads, too (is_whole is then false). Throws BrokenBag naming the file if it
+/// asked while it reads, too (is_whole is then false). Throws BrokenRecording naming the file if it
 /// cannot be opened.
 BagSurvey surveyBag(
     const std::filesystem::path& file,

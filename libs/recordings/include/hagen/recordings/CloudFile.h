@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/mrpt/PointTable.h>
+#include <hagen/recordings/BrokenRecording.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -16,12 +17,7 @@ enum class CloudFormat {
     Ply,  ///< Stanford polygon file: ascii, binary little and big endian; its vertices
     Las,  ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10, not compressed
     Npy,  ///< NumPy array: N x 3 or more floats, or a structured one with fields
-    Bin   ///< float32 x, y, z, intensity, as of KITTI, or also ring, as of nuScenes; no header
-};
-
-/// A cloud file cannot be read; the message names file and place.
-struct BrokenCloud : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    Bin   ///< float32 x, y, z, intensity (KITTI), or also ring (nuScenes); no header
 };
 
 /// A cloud as a file holds it.
@@ -34,33 +30,22 @@ struct CloudFile {
     std::vector<std::string> remarks;
 };
 
-/// The format of a file by its content; none if it is none of these. A .bin has no magic: its size
-/// is a multiple of 16 or 20, no other format begins like it, and the first 4096 bytes are points
-/// that a LiDAR can see: not farther than 1 km, or not finite, and not all zero. Its points have a
-/// ring if every fifth number is a whole one up to 255, not all coordinates are, and there are 16
-/// or more returns: in the first 4096 bytes, of two rings or more, or else in the whole file.
-/// None if it cannot be read.
+/// The format of a file by its content; none if it is of another format or cannot be read. A .bin
+/// has no magic: its size is a multiple of 16 or 20, and the first 4096 bytes are points that a
+/// LiDAR can see: within 1 km or not finite, and not all zero. Its points have a ring if every
+/// fifth number is an integer up to 255, not all coordinates are integers, and there are at least
+/// 16 returns: in the first 4096 bytes, of two rings or more, or else in the whole file.
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 
 /// Whether a name ends like those of cloud files: .pcd, .ply, .las, .laz, .npy, .bin.
 bool hasCloudName(const std::filesystem::path& file);
 
-/// What a .bin is, by its first 4096 bytes, or by all of them if these do not tell.
-struct BinStart {
-    std::size_t floats_per_point = 4;  ///< 5: with a ring, as of nuScenes
-    /// "it seems to be a JPEG picture", if the first points are none that a LiDAR sees; empty: not
-    /// known to be something else.
-    std::string other_kind;
-};
-/// A file that cannot be read, or is empty, gets the defaults.
-BinStart startOfBin(const std::filesystem::path& file);
-
-/// Reads a cloud file, told by its content. Nothing larger than the file, as unpacked by a factor
-/// of 256 at most, is ever allocated. Throws BrokenCloud, also for more points than a scan may have
-/// (kMostReturns).
+/// Reads a cloud file; its format is detected by its content. Nothing larger than the file, as
+/// unpacked by a factor of 256 at most, is ever allocated. Throws BrokenRecording, also for more
+/// points than a scan may have (kMostReturns).
 ///
 /// - BIN: by its name also one without points, or whose first 4096 bytes are zero: rows without
-///   returns. The bytes from the first return on then tell what its points are.
+///   returns. The bytes from the first return on then show the layout of its points.
 /// - PCD: fields named "_" are padding and left out.
 /// - PLY: elements other than `vertex`, and lists, are left out and named in the remarks.
 /// - LAS: x, y, z are float64, as scaled and moved by the header; with the fields intensity

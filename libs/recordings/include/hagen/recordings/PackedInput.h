@@ -6,8 +6,8 @@
 
 namespace hagen::recordings {
 
-/// Reads a file that is uncompressed or consists of one or more gzip members or zstd frames, told
-/// apart by its content, and detects truncation. MRPT's own stream takes a truncated gzip file for
+/// Reads a file that is uncompressed or consists of one or more gzip members or zstd frames, by
+/// its content, and detects truncation. MRPT's own stream takes a truncated gzip file for
 /// a complete one, and before MRPT 3 knows no zstd.
 class PackedInput : public mrpt::io::CStream {
  public:

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/recordings/BrokenRecording.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 #include <cstddef>
@@ -8,12 +9,6 @@
 #include <stdexcept>
 
 namespace hagen::recordings {
-
-/// A rawlog that is truncated or has an entry that cannot be read. The message names the file, the
-/// entry and its byte offset.
-struct BrokenRawlog : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 /// Reads a rawlog entry by entry and holds one in memory: uncompressed, gzip or zstd, as MRPT
 /// before and since version 3 writes it. An entry is an object of the file: an observation, an
@@ -29,7 +24,7 @@ class RawlogReader {
     RawlogReader(const RawlogReader&) = delete;
     RawlogReader& operator=(const RawlogReader&) = delete;
 
-    /// The next entry, or nullptr at the end. Throws BrokenRawlog.
+    /// The next entry, or nullptr at the end. Throws BrokenRecording.
     mrpt::serialization::CSerializable::Ptr next();
 
     /// Entries read so far.

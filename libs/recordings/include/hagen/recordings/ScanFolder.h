@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/base/OutputPath.h>
+#include <hagen/recordings/BrokenRecording.h>
 #include <hagen/scan/Label.h>
 #include <hagen/scan/Scan.h>
 #include <cstdint>
@@ -72,18 +73,13 @@ class ScanFolder {
     std::vector<std::string> names_, others_;
 };
 
-/// A scan cannot be read; the message names its file.
-struct BrokenScan : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 /// Marks the labels of a scan folder as predictions of rawlog-segment.
 void markAsPredictions(const std::filesystem::path& folder);
 
 /// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. Of
-/// points with a ring, as of nuScenes (recordings::BinStart), the ring is left out and intensities
-/// are scaled to 0..1. Returns how many numbers a point has, 4 or 5. Throws BrokenScan, also if the
-/// file is known to be something else.
+/// points with a ring (nuScenes), the ring is ignored and intensities
+/// are scaled to 0..1. Returns how many numbers a point has, 4 or 5. Throws BrokenRecording, also
+/// if the file is known to be something else.
 std::size_t readScan(const std::filesystem::path& file, Scan& scan);
 void writeScan(const std::filesystem::path& file, const Scan& scan);
 

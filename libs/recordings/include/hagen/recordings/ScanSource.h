@@ -28,16 +28,15 @@ struct RecordedScan {
     observations::ScanPose pose;
     std::size_t entry = 0;  ///< index of its entry in the recording
     std::string name;       ///< of its file, without extension; empty for rawlogs and captures
-    /// The recovered beams of a cloud whose sensor nobody named; null otherwise (useSettings()).
+    /// The recovered beams of a cloud from an unnamed sensor; null otherwise (useSettings()).
     observations::SharedBeams beams;
 };
 
-/// An entry of a recording: an object of a rawlog, a scan of a scan folder or a bag, or a turn of a
-/// sensor in a capture.
+/// An entry of a recording: an object of a rawlog, a turn of a sensor in a capture, or a scan of
+/// any other recording.
 struct RecordedEntry {
     std::size_t number = 0;  ///< index in the recording
-    /// The rawlog's object, or the scan of a capture or bag. For a scan folder, an equivalent
-    /// observation, if requested.
+    /// The rawlog's object, the packets of a capture or bag, or a cloud of the requested class.
     mrpt::serialization::CSerializable::Ptr object;
     std::vector<RecordedScan> scans;  ///< scans of the selected LiDARs
     double fraction_read = 0;         ///< of the recording, this entry included: 0 ... 1
@@ -48,11 +47,10 @@ struct SourceOptions {
     std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
     std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
     std::size_t last_entry = std::numeric_limits<std::size_t>::max();
-    /// Class of the clouds in RecordedEntry::object for scans of a scan folder, for clouds of
-    /// files, and for those of a capture or bag that have no packets of a Velodyne; none: no
-    /// objects.
+    /// Class of the clouds in RecordedEntry::object; none: no objects for clouds. Rawlogs and
+    /// packets of a Velodyne are kept as they are.
     std::optional<observations::CloudClass> folder_objects;
-    std::filesystem::path sensor_json;  ///< metadata of the Ouster of a capture or bag; empty: none
+    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag; empty: none
     std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics to read of a bag; empty: all
     /// Called before each entry is read, also in advance; false ends reading with Interrupted.
@@ -64,13 +62,8 @@ struct Interrupted : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The LiDARs whose scans are read from a recording, by their labels; each takes memory.
+/// Maximum number of LiDARs, by label, of a recording; each takes memory.
 constexpr std::size_t kMostLabels = 100;
-
-/// A recording has more; the message names the entry.
-struct TooManySensors : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 /// The sensor label of all scans in a scan folder.
 constexpr const char* kFolderLabel = "velodyne";
@@ -87,16 +80,16 @@ class ScanSource {
  public:
     virtual ~ScanSource() = default;
 
-    /// The next selected entry, with or without scans; none at the end. Throws BrokenRawlog,
-    /// BrokenScan, BrokenCapture or BrokenBag naming file and entry, and Interrupted.
+    /// The next selected entry, with or without scans; none at the end. Throws BrokenRecording or
+    /// sensors::BrokenCapture naming file and entry, and Interrupted.
     virtual std::optional<RecordedEntry> nextEntry() = 0;
 
     /// The next scan of any entry; none at the end. Throws like nextEntry(). Use one of the two:
     /// scans of an entry that nextScan() has begun come only from nextScan().
     std::optional<RecordedScan> nextScan();
 
-    /// Takes poses from this file (TUM, KITTI), or from the recording itself if the name is empty.
-    /// Call it before the first entry is read; otherwise no poses are known. Throws
+    /// Takes poses from this file (TUM, KITTI), or from the recording itself if the name is empty;
+    /// without this call, no poses are known. Call it before the first entry is read. Throws
     /// std::runtime_error naming the file if it cannot be read, and Interrupted.
     void usePoses(const std::filesystem::path& file);
     const LogPoses& poses() const { return poses_; }
@@ -109,10 +102,9 @@ class ScanSource {
     /// beamsOf() recovers. Call it before the first entry is read.
     Settings useSettings(const Settings& settings);
 
-    /// The beams of a LiDAR's clouds, recovered from the first ones in the recording, also if these
-    /// are not selected (CloudSensors): the same for all parts of a recording. Null if none of its
-    /// clouds has enough returns. The recording is read in advance as far as this takes. Throws
-    /// Interrupted; where the recording breaks off, nextEntry() does.
+    /// The beams of a LiDAR's clouds, recovered from the first ones in the recording, selected or
+    /// not (CloudSensors). Null if none of its clouds has enough returns. Reads ahead as far as
+    /// necessary. Throws Interrupted; where the recording breaks off, nextEntry() throws.
     const observations::SharedBeams& beamsOf(const std::string& sensor_label);
 
     /// The settings, with those of the recording's own sensor merged in.
@@ -120,8 +112,8 @@ class ScanSource {
 
     /// Entries read so far, including skipped ones. For a scan folder: all entries.
     virtual std::size_t entriesKnown() const = 0;
-    /// What the user should know of the recording as a whole, such as packets that are missing;
-    /// complete once the last entry was read.
+    /// Remarks for the user on the recording as a whole, such as lost packets; complete after the
+    /// last entry.
     virtual std::vector<std::string> remarks() const { return {}; }
 
     std::size_t entriesSkipped() const { return entries_skipped_; }  ///< before the first selected
@@ -133,16 +125,18 @@ class ScanSource {
 
     virtual LogPoses readPoses(const std::filesystem::path& file) = 0;
 
-    /// Shows `sensors` the next clouds of the recording from its start, in order: each call goes on
-    /// after those before. Returns false at the end, and where the recording breaks off.
+    /// Shows `sensors` the next clouds, from the start of the recording on. Returns false at the
+    /// end and where the recording breaks off.
     virtual bool showClouds(observations::CloudSensors& sensors) = 0;
 
-    /// Notes that reading in advance, for poses, times or beams, broke off after `entries` entries
-    /// (or other parts of the recording), and why.
+    /// Notes that reading ahead, for poses, times or beams, broke off after `entries` entries (or
+    /// other parts of the recording), and why.
     void brokeOffAhead(std::size_t entries, const std::string& why);
-    /// Call it at the end, after `entries` of them: why reading in advance did not get that far,
-    /// although this reading did, so that poses or beams are missing. Empty: it did.
+    /// Why reading ahead broke off before `entries` entries, which this reading reached: poses or
+    /// beams are missing. Empty: it did not.
     std::string missedAhead(std::size_t entries) const;
+    /// The end of the recording after `entries` entries. Throws BrokenRecording if missedAhead().
+    std::optional<RecordedEntry> endAfter(std::size_t entries) const;
 
     /// Call it before reading an entry. Throws Interrupted.
     void checkInterruption() const;
@@ -158,10 +152,14 @@ class ScanSource {
     const SourceOptions options_;
 
  private:
+    friend std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
+                                                     const SourceOptions& options);
+
+    std::filesystem::path recording_;
     LogPoses poses_;
     bool is_levelled_by_file_ = false;  ///< a pose file overrides the recording's attitude
     observations::Horizon horizon_;
-    std::string break_ahead_;  ///< the first that reading in advance met; empty: none
+    std::string break_ahead_;  ///< the first one met by reading ahead; empty: none
     std::size_t break_ahead_at_ = 0;
     std::size_t entries_skipped_ = 0;
     std::set<std::string> labels_, other_labels_;
@@ -173,9 +171,9 @@ class ScanSource {
 
 /// Opens a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
 /// scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
-/// are told apart by their content. Throws std::runtime_error naming it if it does not exist or
-/// cannot be opened, if there is a sensor_json but no capture or bag, a calibration but no capture,
-/// or if there are topics but no bag.
+/// are detected by their content. Throws std::runtime_error naming it if it does not exist or
+/// cannot be opened, or if an option does not apply to its kind: sensor_json (captures, bags),
+/// calibration (captures), topics (bags).
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});
 

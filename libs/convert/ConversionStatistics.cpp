@@ -1,6 +1,6 @@
 #include <hagen/base/Json.h>
 #include <hagen/base/Quantile.h>
-#include <hagen/convert/Statistics.h>
+#include <hagen/convert/ConversionStatistics.h>
 #include <hagen/settings/SettingsJson.h>
 
 #include <algorithm>
@@ -63,8 +63,8 @@ Json lineOf(const ScanReport& scan) {
 
 }  // namespace
 
-void writeStatistics(const std::filesystem::path& file, const Conversion& conversion,
-                     const ConversionReport& report) {
+void writeConversionStatistics(const std::filesystem::path& file, const Conversion& conversion,
+                               const ConversionReport& report) {
     Json json{{"hagen", HAGEN_VERSION}, {"input", conversion.input.string()}};
     for (const auto& [what, path] : {std::pair{"rawlog", conversion.rawlog},
                                      {"folder", conversion.folder},

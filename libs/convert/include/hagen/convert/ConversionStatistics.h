@@ -8,10 +8,9 @@ namespace hagen::convert {
 ///
 ///     {"hagen": version, "input": ..., "outputs": {...}, "settings": {key: value, ...},
 ///      "sensors": {label: text},
-///      "recovered_sensors": {label: {"name": a model or "recovered", "beams": n (rows of the
-///      image),
-///                                    "beams_seen": n, "share": 0 ... 1 (of the returns, on a
-///                                    beam), "has_rings": false if the rows are virtual,
+///      "recovered_sensors": {label: {"name": a model or "recovered", "beams": n (image rows),
+///                                    "beams_seen": n, "share": 0 ... 1 (returns on a beam),
+///                                    "has_rings": false if the rows are virtual,
 ///                                    "columns": n (of the image)}},
 ///      "poses": {"source": ..., "scans_with_pose": n},
 ///      "scans_in_map": n (only with an OctoMap),
@@ -26,7 +25,7 @@ namespace hagen::convert {
 /// Latency is the time from the complete observation in memory to its labels; making the clouds is
 /// not included. Scans segmented concurrently (see Conversion::jobs) slow each other down a little.
 /// Everything but the latencies is reproducible. Throws std::runtime_error naming the file.
-void writeStatistics(const std::filesystem::path& file, const Conversion& conversion,
-                     const ConversionReport& report);
+void writeConversionStatistics(const std::filesystem::path& file, const Conversion& conversion,
+                               const ConversionReport& report);
 
 }  // namespace hagen::convert

@@ -1,0 +1,109 @@
+#include "convert/SegmentEntry.h"
+
+#include <hagen/convert/RawlogWriter.h>
+#include <hagen/mrpt/MrptMessage.h>
+#include <hagen/mrpt/Results.h>
+#include <hagen/mrpt/ScenePreview.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <new>
+
+#include "convert/LabelledTable.h"
+#include "recordings/ScanObject.h"
+
+namespace hagen::convert {
+namespace {
+
+using mrpt::obs::CObservation;
+using observations::CloudClass;
+using observations::ObservationSegmenter;
+
+void segmentScan(const Conversion& conversion, const Settings& settings,
+                 ObservationSegmenter& segmenter, ConvertedScan& scan) {
+    const CObservation& observation = *scan.recorded.observation;
+    try {
+        scan.is_segmented =
+            segmenter.process(observation, scan.segmented, scan.recorded.pose, scan.recorded.beams);
+    } catch (const SettingsError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& e) {
+        scan.unreadable_because = observations::messageOf(e);
+        if (scan.unreadable_because.empty()) scan.unreadable_because = "MRPT gives no reason";
+    }
+    if (!scan.is_segmented || conversion.rawlog.empty()) return;
+    if (conversion.cloud_class == CloudClass::Generic) {
+        useCloudsWithFields(observation, scan.segmented);
+    }
+    if (conversion.preview) {
+        scan.preview =
+            observations::previewOf(observation, scan.segmented, settings.options.zone_m);
+    }
+}
+
+/// Removes from a sensory frame what an earlier run made of its scans. Results of other LiDARs
+/// stay, and those of scans that could not be segmented this time.
+void removeOldResults(ConvertedEntry& entry) {
+    const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry.object);
+    if (!frame) return;
+    const auto isReplaced = [&](const CObservation& part) {
+        return observations::isResult(part) &&
+               std::any_of(entry.scans.begin(), entry.scans.end(), [&](const ConvertedScan& scan) {
+                   const CObservation& of = *scan.recorded.observation;
+                   return scan.is_segmented && of.timestamp == part.timestamp &&
+                          of.sensorLabel == observations::scanLabelOf(part);
+               });
+    };
+    for (auto part = frame->begin(); part != frame->end();) {
+        const bool is_replaced = isReplaced(**part);
+        entry.results_replaced += is_replaced;
+        part = is_replaced ? frame->erase(part) : std::next(part);
+    }
+}
+
+/// The object, followed by the results; those of a sensory frame are within it.
+void serialiseEntry(CloudClass cloud_class, ConvertedEntry& entry) {
+    if (entry.object && cloud_class == CloudClass::Generic) recordings::keepFields(entry.object);
+    std::vector<CObservation::Ptr> added;
+    for (const ConvertedScan& scan : entry.scans) {
+        if (!scan.is_segmented) continue;
+        added.push_back(scan.segmented.roi);
+        added.push_back(scan.segmented.non_roi);
+        if (scan.preview) added.push_back(scan.preview);
+    }
+    if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry.object)) {
+        for (const CObservation::Ptr& observation : added) frame->insert(observation);
+        added.clear();
+    }
+    if (entry.object) serialise(*entry.object, entry.bytes);
+    for (const CObservation::Ptr& observation : added) serialise(*observation, entry.bytes);
+}
+
+}  // namespace
+
+std::unique_ptr<ObservationSegmenter> makeSegmenter(const Conversion& conversion,
+                                                    const Settings& settings) {
+    auto segmenter = std::make_unique<ObservationSegmenter>();
+    segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // remarks go to the listener
+    // Clouds with all fields need those of the observation, and are made afterwards.
+    const bool is_generic = conversion.cloud_class == CloudClass::Generic;
+    segmenter->cloud_class = is_generic ? CloudClass::Simple : conversion.cloud_class;
+    segmenter->initialize(settings);
+    return segmenter;
+}
+
+void segmentEntry(const Conversion& conversion, const Settings& settings, ConvertedEntry& entry) {
+    for (std::size_t i = 0; i < entry.scans.size(); ++i) {
+        if (i == entry.segmenters.size()) {
+            entry.segmenters.push_back(makeSegmenter(conversion, settings));
+        }
+        segmentScan(conversion, settings, *entry.segmenters[i], entry.scans[i]);
+    }
+    removeOldResults(entry);
+    entry.bytes.clear();
+    if (!conversion.rawlog.empty()) serialiseEntry(conversion.cloud_class, entry);
+}
+
+}  // namespace hagen::convert

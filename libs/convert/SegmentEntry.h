@@ -1,0 +1,41 @@
+#pragma once
+#include <hagen/convert/Conversion.h>
+#include <hagen/convert/GzipOutput.h>
+#include <hagen/mrpt/ObservationSegmenter.h>
+#include <hagen/recordings/ScanSource.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen::convert {
+
+/// A scan during its conversion.
+struct ConvertedScan {
+    recordings::RecordedScan recorded;
+    bool is_segmented = false;                             ///< `segmented` is valid
+    std::string unreadable_because;                        ///< why the scan could not be read
+    observations::ObservationSegmenter::Output segmented;  ///< points into the segmenter
+    mrpt::obs::CObservation::Ptr preview;
+};
+
+/// An entry during its conversion. It is reused for later entries.
+struct ConvertedEntry {
+    double fraction_read = 0;
+    mrpt::serialization::CSerializable::Ptr object;  ///< null: only scans are written
+    std::vector<ConvertedScan> scans;
+    std::size_t results_replaced = 0;  ///< of an earlier run, taken out of the object
+    Bytes bytes, member, packed;       ///< buffers of the output rawlog
+    std::vector<std::unique_ptr<observations::ObservationSegmenter>> segmenters;  ///< one per scan
+};
+
+/// Throws SettingsError if settings and sensor are inconsistent.
+std::unique_ptr<observations::ObservationSegmenter> makeSegmenter(const Conversion& conversion,
+                                                                  const Settings& settings);
+
+/// Segments the scans of an entry and, for an output rawlog, removes the results of an earlier run
+/// from it and serialises it with the new ones. Throws SettingsError and std::bad_alloc; other
+/// errors of a scan are in `unreadable_because`.
+void segmentEntry(const Conversion& conversion, const Settings& settings, ConvertedEntry& entry);
+
+}  // namespace hagen::convert

@@ -1,0 +1,41 @@
+#pragma once
+#include <hagen/recordings/ScanSource.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <string>
+#include <vector>
+
+namespace hagen::recordings {
+
+/// Files with a cloud each as a source of scans: each file is an entry.
+class FileListSource : public ScanSource {
+ public:
+    std::optional<RecordedEntry> nextEntry() override;
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
+    std::size_t entriesKnown() const override { return names_.size(); }
+
+ protected:
+    using Cloud = mrpt::obs::CObservationPointCloud::Ptr;
+
+    FileListSource(const SourceOptions& options, const char* sensor_label)
+        : ScanSource(options), label_(sensor_label) {}
+
+    /// The cloud of a file, also in advance. Throws BrokenRecording naming the file.
+    virtual Cloud read(std::size_t file) = 0;
+    /// Called for each entry with the cloud that was read last. Returns the entry's object.
+    virtual mrpt::serialization::CSerializable::Ptr take(const Cloud& cloud) = 0;
+    bool showClouds(observations::CloudSensors& sensors) override;
+
+    mrpt::Clock::time_point timeOf(std::size_t file) const {
+        return mrpt::Clock::fromDouble(times_s_[file]);
+    }
+
+    const char* const label_;
+    std::vector<std::string> names_;  ///< of the scans, one per file
+    std::vector<double> times_s_;
+
+ private:
+    std::size_t next_ = 0, next_shown_ = 0;
+};
+
+}  // namespace hagen::recordings

@@ -1,0 +1,37 @@
+#include "recordings/bags/RecordFile.h"
+
+namespace hagen::recordings {
+
+bool RecordFile::next(BagMessage& message) {
+    while (!is_at_end_) {
+        check();
+        const bool is_in_chunk = in_chunk_.left() > 0;
+        if (!is_in_chunk) record_at_ = file_.position();
+        try {
+            if (file_.isSkipping()) {
+                file_.skipSome();
+            } else if (is_in_chunk ? readInChunk(message) : readRecord(message)) {
+                return true;
+            }
+        } catch (const BrokenRecording&) {
+            throw;
+        } catch (const std::runtime_error& e) {
+            in_chunk_ = FieldReader(ByteView());
+            file_.fail(is_in_chunk ? "the chunk" : "a record", record_at_, e.what());
+        }
+    }
+    return false;
+}
+
+bool RecordFile::take(const char* channel_name, std::uint32_t channel, std::int64_t time_ns,
+                      ByteView data, BagMessage& message) const {
+    const auto topic = topic_of_.find(channel);
+    if (topic == topic_of_.end()) {
+        throw std::runtime_error(std::string("a message is of ") + channel_name + " " +
+                                 std::to_string(channel) + ", which is not described before it");
+    }
+    message = {topic->second, time_ns, data.data, data.size};
+    return true;
+}
+
+}  // namespace hagen::recordings

@@ -1,0 +1,40 @@
+#pragma once
+#include <hagen/recordings/BagFile.h>
+
+#include <map>
+
+#include "recordings/bags/FieldReader.h"
+#include "recordings/bags/FileBytes.h"
+#include "recordings/bags/TopicList.h"
+
+namespace hagen::recordings {
+
+/// A bag of records, some of which are chunks of records, read one by one.
+class RecordFile : public BagFile {
+ public:
+    bool next(BagMessage& message) final;
+    const std::vector<BagTopic>& topics() const final { return topics_.all(); }
+    double fractionRead() const final { return file_.fractionRead(); }
+
+ protected:
+    RecordFile(const std::filesystem::path& file, bool has_crc) : file_(file, has_crc) {}
+
+    /// Reads the next record of the file, or of in_chunk_; true if it is a message. Throws
+    /// std::runtime_error saying what is wrong.
+    virtual bool readRecord(BagMessage& message) = 0;
+    virtual bool readInChunk(BagMessage& message) = 0;
+
+    /// Fills a message; true. Throws if its channel is not in topic_of_.
+    bool take(const char* channel_name, std::uint32_t channel, std::int64_t time_ns, ByteView data,
+              BagMessage& message) const;
+
+    FileBytes file_;
+    TopicList topics_;
+    std::map<std::uint32_t, std::size_t> topic_of_;  ///< by channel or connection
+    std::uint64_t record_at_ = 0;                    ///< byte of the record, or of its chunk
+    std::vector<std::uint8_t> head_, content_, chunk_;
+    FieldReader in_chunk_{ByteView()};  ///< what is left of the chunk, in the buffers above
+    bool is_at_end_ = false;
+};
+
+}  // namespace hagen::recordings

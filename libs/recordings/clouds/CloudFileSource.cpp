@@ -1,0 +1,176 @@
+#include <hagen/base/Folder.h>
+#include <hagen/mrpt/TableCloud.h>
+#include <hagen/recordings/BrokenRecording.h>
+#include <hagen/recordings/CloudFile.h>
+#include <hagen/recordings/Remarks.h>
+
+#include <algorithm>
+#include <new>
+#include <set>
+#include <stdexcept>
+
+#include "recordings/CloudTimes.h"
+#include "recordings/FileListSource.h"
+#include "recordings/ScanObject.h"
+#include "recordings/Sources.h"
+
+namespace hagen::recordings {
+namespace {
+
+namespace fs = std::filesystem;
+using observations::PointTable;
+
+constexpr const char* kCloudLabel = "lidar";  // of all clouds in files
+
+/// The fields that a class of clouds in a rawlog does not hold; empty if there are none.
+std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass cloud_class) {
+    if (cloud_class == observations::CloudClass::Generic) return "";
+    std::vector<const observations::PointField*> kept;
+    for (const char* const name : {"x", "y", "z"}) kept.push_back(findField(table, {name}));
+    if (cloud_class == observations::CloudClass::WithIntensity) {
+        kept.push_back(findField(table, {"intensity", "i", "reflectivity", "remission"}));
+    }
+    std::string names;
+    for (const observations::PointField& field : table.fields) {
+        if (std::find(kept.begin(), kept.end(), &field) != kept.end()) continue;
+        names += (names.empty() ? "" : ", ") + field.name;
+    }
+    return names;
+}
+
+/// A name without its ending: "a" for a.ply, and for a.pcd.bin, as nuScenes names its clouds.
+std::string stemOf(const fs::path& file) {
+    const fs::path stem = file.stem();
+    return (stem.extension() == ".pcd" ? stem.stem() : stem).string();
+}
+
+class CloudFileSource : public FileListSource {
+ public:
+    CloudFileSource(const fs::path& file_or_folder, const SourceOptions& options)
+        : FileListSource(options, kCloudLabel), files_{file_or_folder} {
+        if (fs::is_directory(file_or_folder)) listFiles(file_or_folder);
+        std::vector<std::string> stems;
+        for (const fs::path& file : files_) stems.push_back(stemOf(file));
+        CloudTimes times = timesOfNames(stems);
+        times_s_ = std::move(times.times_s);
+        time_remark_ = std::move(times.how);
+        names_ = stems;
+        if (std::set<std::string>(stems.begin(), stems.end()).size() == stems.size()) return;
+        for (std::size_t i = 0; i < files_.size(); ++i) names_[i] = files_[i].filename().string();
+    }
+
+    std::vector<std::string> remarks() const override {
+        std::vector<std::string> remarks{time_remark_};
+        for (const std::string& remark : remarks_) {
+            const std::size_t with_it = with_remark_.at(remark);
+            remarks.push_back(remark + (with_it == clouds_
+                                            ? ""
+                                            : " (" + std::to_string(with_it) + " of " +
+                                                  counted(clouds_, "cloud") + ")"));
+        }
+        if (points_not_finite_ > 0) {
+            remarks.push_back(counted(points_not_finite_, "point") +
+                              " with a coordinate that is not finite, in " +
+                              counted(clouds_not_finite_, "cloud") +
+                              ": left out of the scans (--clouds writes them, with the label 0)");
+        }
+        if (other_files_ > 0) {
+            remarks.push_back(counted(other_files_, "file") +
+                              " of the folder with another ending than .pcd, .ply, .las, .npy and "
+                              ".bin: ignored");
+        }
+        if (folders_ > 0)
+            remarks.push_back(counted(folders_, "folder") + " in the folder: ignored");
+        return remarks;
+    }
+
+ private:
+    void listFiles(const fs::path& folder) {
+        std::vector<fs::path> found;
+        std::vector<std::string> stems;
+        for (const fs::path& entry : base::entriesOf(folder)) {
+            if (fs::is_directory(entry)) {
+                ++folders_;
+            } else if (hasCloudName(entry)) {
+                found.push_back(entry);
+                stems.push_back(stemOf(entry));
+            } else {
+                other_files_ += entry.filename() != kCloudsMarker;
+            }
+        }
+        files_.clear();
+        for (const std::size_t i : orderOfNames(stems)) files_.push_back(found[i]);
+    }
+
+    Cloud read(std::size_t file) override {
+        const auto fail = [&](const std::string& why) {
+            throw BrokenRecording(files_[file].string() + ": " + why);
+        };
+        try {
+            file_ = readCloud(files_[file]);
+            return observations::observationOf(
+                std::make_shared<const PointTable>(std::move(file_.table)), kCloudLabel,
+                timeOf(file));
+        } catch (const BrokenRecording&) {
+            throw;
+        } catch (const std::runtime_error& e) {
+            fail(e.what());
+        } catch (const std::bad_alloc&) {
+            fail("does not fit into memory");
+        }
+        return nullptr;
+    }
+
+    mrpt::serialization::CSerializable::Ptr take(const Cloud& observation) override {
+        const observations::TableCloud& cloud = *observations::tableCloudOf(*observation);
+        std::vector<std::string> remarks = file_.remarks;
+        remarks.insert(remarks.end(), cloud.remarks().begin(), cloud.remarks().end());
+        if (!file_.viewpoint.empty()) {
+            remarks.push_back(
+                "its VIEWPOINT is ignored: points are taken to be in the sensor's frame");
+        }
+        const std::string lost = options_.folder_objects
+                                     ? fieldsNotInRawlog(cloud.table(), *options_.folder_objects)
+                                     : "";
+        if (!lost.empty()) {
+            remarks.push_back(
+                "fields that the output rawlog does not hold (--cloud generic and --clouds do): " +
+                lost);
+        }
+        for (const std::string& remark : remarks) {
+            if (with_remark_[remark]++ == 0) remarks_.push_back(remark);
+        }
+        ++clouds_;
+        points_not_finite_ += cloud.pointsNotFinite();
+        clouds_not_finite_ += cloud.pointsNotFinite() > 0;
+        return objectOf(observation, options_.folder_objects);
+    }
+
+    /// Cloud files have no poses of their own.
+    LogPoses readPoses(const fs::path& file) override {
+        RawlogSurvey survey;
+        for (std::size_t i = 0; i < files_.size(); ++i) {
+            survey.scans[kCloudLabel].push_back({timeOf(i), {}});
+        }
+        LogPoses poses = posesOfRawlog(survey, file);
+        poses.are_of_sensor = true;
+        return poses;
+    }
+
+    std::vector<fs::path> files_;
+    std::string time_remark_;
+    std::size_t other_files_ = 0, folders_ = 0;  ///< beside them
+    CloudFile file_;                             ///< read last
+    std::size_t clouds_ = 0, points_not_finite_ = 0, clouds_not_finite_ = 0;
+    std::vector<std::string> remarks_;                ///< in the order of appearance
+    std::map<std::string, std::size_t> with_remark_;  ///< number of clouds
+};
+
+}  // namespace
+
+std::unique_ptr<ScanSource> openClouds(const fs::path& file_or_folder,
+                                       const SourceOptions& options) {
+    return std::make_unique<CloudFileSource>(file_or_folder, options);
+}
+
+}  // namespace hagen::recordings
