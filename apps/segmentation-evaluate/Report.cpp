@@ -154,8 +154,8 @@ std::string hardSetTable(const evaluation::Summary& summary, std::size_t method)
     const evaluation::Scores& scores = recorded.returns.all.scores;
     text += hardSetLine(names[0], width, scores, nullptr, recorded.drone.all.tall);
     for (const evaluation::HardSetTotals& set : summary.hard_sets) {
-        const evaluation::HardSetScores& own = set.methods[method];
-        text += hardSetLine(set.name, width, own.returns.scores, &scores, own.drone.all.tall);
+        const evaluation::MethodTotals& own = set.methods[method];
+        text += hardSetLine(set.name, width, own.returns.all.scores, &scores, own.drone.all.tall);
     }
     return text;
 }

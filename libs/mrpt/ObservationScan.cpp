@@ -6,7 +6,7 @@
 #include <hagen/mrpt/Results.h>
 #include <hagen/mrpt/RotatingScan.h>
 #include <hagen/mrpt/TableCloud.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/MostReturns.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -139,14 +139,14 @@ void takeRings(const std::vector<std::int32_t>& rings, const std::vector<int>& r
     }
 }
 
-/// The recording's own sensor is used, but for its range limits: those are of its driver, and all
-/// returns are there.
+/// Applies the settings to the recording's own sensor: their range limits count, their beams do
+/// not.
 void takeOwnSensor(const Settings& settings, ObservedScan& observed) {
     SensorModel& sensor = observed.sensor;
     sensor.min_range_m = settings.sensor.min_range_m.value_or(sensor.min_range_m);
     sensor.max_range_m = settings.sensor.max_range_m.value_or(sensor.max_range_m);
     if (settings.sensor.model && settings.sensor.model != sensor.name) {
-        observed.remark = "the packets are of the sensor " + sensor.name +
+        observed.remark = "the recording is of the sensor " + sensor.name +
                           ": its beams are used instead of the settings' sensor.model " +
                           *settings.sensor.model;
     }
@@ -183,16 +183,24 @@ void readRotating(const mrpt::obs::CObservationRotatingScan& observation, const 
     RotatingReturns& returns = observed.work.rotating;
     if (organizedPointsOf(observation) == nullptr) {
         readRangeImage(observation, settings, observed.scan, observed.sensor, returns);
+        takeOwnSensor(settings, observed);
     } else {
         readOrganizedPoints(observation, observed.scan, returns);
         takeCloudSensor(settings, beams, observed);
-        if (!settings.sensor.model) takeLimits(observation, settings, observed.sensor);
+        if (!settings.sensor.model) {
+            takeLimits(observation, observed.sensor);
+            takeOwnSensor(settings, observed);
+        }
         locateBeams(observed.sensor, observed.scan);
         if (observed.recovered) {
             takeRings(returns.image_row, observed.recovered->row_of_ring, observed.scan);
         }
     }
-    observed.remark = returns.remark;
+    if (observed.remark.empty()) {
+        observed.remark = returns.remark;
+    } else if (!returns.remark.empty()) {
+        observed.remark += "; " + returns.remark;
+    }
 }
 
 void readPackets(const CObservationVelodyneScan& observation, const Settings& settings,

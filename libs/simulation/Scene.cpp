@@ -97,7 +97,7 @@ class Packet {
         }
     }
 
-    /// May be called for several worlds in turn: the nearest hit is kept.
+    /// May be called for several scenes in turn: the nearest hit is kept.
     void cast(RTCScene scene, const std::vector<Instance>& instances, const Ray* rays,
               RayHit* hits) {
         RTCIntersectContext context;
@@ -121,10 +121,6 @@ class Packet {
     alignas(32) std::array<int, kPacket> valid_;
     int count_;
 };
-
-}  // namespace
-
-namespace {
 
 double angleOf(const MovingObstacle& mover, double time_s) {
     return mover.phase_rad + time_s * mover.speed_m_s / mover.radius_m;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/Trajectory.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>

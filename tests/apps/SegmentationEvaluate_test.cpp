@@ -143,7 +143,7 @@ TEST_F(SegmentationEvaluate, TellsWhatOfAFolderIsNotUsed) {
     EXPECT_EQ(report["folders"][0]["remarks"].size(), 3u);
     folder_.write("pole/times.txt", "9\n");
     EXPECT_THAT(run({"-i", pole}).err,
-                HasSubstr("poses.tum has poses of 0 of the 1 scans; the others are not levelled"));
+                HasSubstr("poses.tum covers 0 of 1 scans; the others are not levelled"));
 }
 
 /// With a label map, such a folder can be scored; numbers of obstacles are those of the truth.

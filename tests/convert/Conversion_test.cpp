@@ -4,7 +4,7 @@
 #include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>

@@ -29,9 +29,9 @@ CObservationRobotPose poseOf(const CPose3D& pose) {
     return observation;
 }
 
-TEST(Horizon, KnowsNothingAtFirst) { EXPECT_FALSE(Horizon().at(kTime)); }
+TEST(Horizon, StartsUnknown) { EXPECT_FALSE(Horizon().at(kTime)); }
 
-TEST(Horizon, TakesTheRobotsPoseForFifthOfASecond) {
+TEST(Horizon, KeepsAttitudeFor200ms) {
     Horizon horizon;
     horizon.see(poseOf({1, 2, 3, 0.5, 0.1, -0.2}));
     for (const int by_ms : {-199, 0, 199}) {
@@ -46,7 +46,7 @@ TEST(Horizon, TakesTheRobotsPoseForFifthOfASecond) {
     EXPECT_FALSE(horizon.at(later(0)));
 }
 
-TEST(Horizon, WhatHasNoTimeTellsNothing) {
+TEST(Horizon, IgnoresInvalidTimes) {
     Horizon horizon;
     auto untimed = poseOf({0, 0, 0, 0, 0.1, 0});
     untimed.timestamp = INVALID_TIMESTAMP;
@@ -58,7 +58,7 @@ TEST(Horizon, WhatHasNoTimeTellsNothing) {
     EXPECT_TRUE(horizon.at(kTime));
 }
 
-TEST(Horizon, WhatIsNotFiniteTellsNothing) {
+TEST(Horizon, IgnoresNonFinitePoses) {
     const double nan = std::nan("");
     Horizon horizon;
     horizon.see(poseOf({0, 0, 0, 0, nan, 0}));
@@ -72,7 +72,7 @@ TEST(Horizon, WhatIsNotFiniteTellsNothing) {
     EXPECT_NEAR(horizon.at(kTime)->pitch(), 0.1, 1e-9);
 }
 
-TEST(Horizon, TheLastOneSeenCounts) {
+TEST(Horizon, KeepsLatestAttitude) {
     Horizon horizon;
     horizon.see(poseOf({0, 0, 0, 0, 0.1, 0}));
     horizon.see(poseOf({0, 0, 0, 0, 0.3, 0}));
@@ -80,7 +80,7 @@ TEST(Horizon, TheLastOneSeenCounts) {
     EXPECT_NEAR(horizon.at(kTime)->pitch(), 0.3, 1e-9);
 }
 
-TEST(Horizon, AnImuTurnedOnTheVehicleIsTurnedBack) {
+TEST(Horizon, AppliesImuMount) {
     const CPose3D vehicle(0, 0, 0, 0, 0.1, 0.05), imu_on_vehicle(1, 0, 0, M_PI / 2, 0, 0.3);
     const CPose3D turned = vehicle + imu_on_vehicle;
     CObservationIMU imu;
@@ -95,7 +95,7 @@ TEST(Horizon, AnImuTurnedOnTheVehicleIsTurnedBack) {
     EXPECT_NEAR(horizon.at(kTime)->roll(), 0.05, 1e-6);
 }
 
-TEST(Horizon, AnImusQuaternionComesBeforeItsAngles) {
+TEST(Horizon, PrefersImuQuaternion) {
     CObservationIMU imu;
     imu.timestamp = kTime;
     imu.set(mrpt::obs::IMU_PITCH, 0.7);
@@ -115,7 +115,7 @@ TEST(Horizon, AnImusQuaternionComesBeforeItsAngles) {
     EXPECT_NEAR(horizon.at(kTime)->roll(), 0.7, 1e-9);
 }
 
-TEST(Horizon, AnImuWithoutOrientationSaysNothing) {
+TEST(Horizon, IgnoresImuWithoutOrientation) {
     Horizon horizon;
     CObservationIMU imu;
     imu.timestamp = kTime;
@@ -137,7 +137,7 @@ mrpt::obs::CObservationPointCloud::Ptr cloudAt(const CPose3D& sensor_on_vehicle)
     return cloud;
 }
 
-TEST(Horizon, CorruptFlagsOfAnImuSayThatItMeasuredNothing) {
+TEST(Horizon, IgnoresCorruptImuFlags) {
     CObservationIMU imu;
     imu.timestamp = kTime;
     imu.set(mrpt::obs::IMU_PITCH, 0.1);
@@ -152,7 +152,7 @@ TEST(Horizon, CorruptFlagsOfAnImuSayThatItMeasuredNothing) {
     EXPECT_TRUE(horizon.at(kTime));
 }
 
-TEST(Horizon, AQuaternionBeyondAllNumbersSaysNothing) {
+TEST(Horizon, IgnoresOverflowingQuaternion) {
     CObservationIMU imu;
     imu.timestamp = kTime;
     for (const auto each : {mrpt::obs::IMU_ORI_QUAT_W, mrpt::obs::IMU_ORI_QUAT_X,
@@ -164,7 +164,7 @@ TEST(Horizon, AQuaternionBeyondAllNumbersSaysNothing) {
     EXPECT_FALSE(horizon.at(kTime));
 }
 
-TEST(Horizon, TheSegmenterPassesTheSensorsAttitudeOn) {
+TEST(Horizon, ReachesSegmenterOutput) {
     const auto cloud = cloudAt({0, 0, 0, 0, 0.2, 0});
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
@@ -186,7 +186,7 @@ TEST(Horizon, TheSegmenterPassesTheSensorsAttitudeOn) {
     EXPECT_NEAR(out.pose.attitude->roll_rad, 0, 1e-5);
 }
 
-TEST(Horizon, ATrajectoryCountsOnlyWhereItHasOne) {
+TEST(Horizon, ComesFromLevelTrajectoriesOnly) {
     const auto cloud = cloudAt({});
     Trajectory vehicle;
     vehicle.add(kTime, {0, 0, 0, 0, 0.15, 0});

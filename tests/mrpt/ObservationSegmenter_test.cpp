@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
@@ -34,7 +34,7 @@ Trajectory standingAt(const mrpt::poses::CPose3D& pose, double from_s, double to
     return vehicle;
 }
 
-TEST(ObservationSegmenter, IsMadeByItsName) {
+TEST(ObservationSegmenter, IsCreatedByName) {
     registerHagenClasses();
     for (const char* name :
          {"hagen::observations::ObservationSegmenter", "hagen::ObservationSegmenter"}) {
@@ -49,7 +49,7 @@ TEST(ObservationSegmenter, IsMadeByItsName) {
     }
 }
 
-TEST(ObservationSegmenter, LeavesAloneWhatIsNoLidarScan) {
+TEST(ObservationSegmenter, IgnoresOtherObservations) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     EXPECT_FALSE(segmenter.process(mrpt::obs::CObservationComment(), out));
@@ -59,7 +59,7 @@ TEST(ObservationSegmenter, LeavesAloneWhatIsNoLidarScan) {
     EXPECT_FALSE(segmenter.process(*non_roi, out));
 }
 
-TEST(ObservationSegmenter, CloudsHaveTheScansTimePoseAndLabel) {
+TEST(ObservationSegmenter, CloudsKeepTimePoseAndLabel) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     const auto scan = scanFrom(0);
@@ -73,7 +73,7 @@ TEST(ObservationSegmenter, CloudsHaveTheScansTimePoseAndLabel) {
     }
 }
 
-TEST(ObservationSegmenter, EveryReturnOfTheRealScanIsInOneCloudInItsOrder) {
+TEST(ObservationSegmenter, SplitsReturnsInOrder) {
     const auto scan = test::realVlp16Scan();
     if (!scan) GTEST_SKIP() << "mrpt-common is not installed";
     ObservationSegmenter segmenter;
@@ -92,7 +92,7 @@ TEST(ObservationSegmenter, EveryReturnOfTheRealScanIsInOneCloudInItsOrder) {
     }
 }
 
-TEST(ObservationSegmenter, TheSameScanTwiceGivesTheSameLabels) {
+TEST(ObservationSegmenter, IsReproducible) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     segmenter.process(*scanFrom(0), out);
@@ -102,7 +102,7 @@ TEST(ObservationSegmenter, TheSameScanTwiceGivesTheSameLabels) {
     EXPECT_EQ(out.result->returns.label, labels);
 }
 
-TEST(ObservationSegmenter, EachSensorLabelHasItsOwnFilter) {
+TEST(ObservationSegmenter, UsesOneFilterPerLabel) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output front, rear, again;
     segmenter.process(*scanFrom(0, "front"), front);
@@ -112,7 +112,7 @@ TEST(ObservationSegmenter, EachSensorLabelHasItsOwnFilter) {
     EXPECT_EQ(again.result, front.result);
 }
 
-TEST(ObservationSegmenter, AScanHasThePoseOfItsSensorWhereTheVehiclesIsKnown) {
+TEST(ObservationSegmenter, ReportsSensorPose) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     const mrpt::poses::CPose3D vehicle(1, 2, 3, 0.5, 0.1, 0);
@@ -124,7 +124,7 @@ TEST(ObservationSegmenter, AScanHasThePoseOfItsSensorWhereTheVehiclesIsKnown) {
     EXPECT_EQ(out.remark, "");
 }
 
-TEST(ObservationSegmenter, WarnsOfWhatIsRemarkedAndOfNothingElse) {
+TEST(ObservationSegmenter, LogsRemarksOnly) {
     ObservationSegmenter segmenter;
     segmenter.logging_enable_console_output = false;
     std::vector<std::string> warnings;
@@ -149,7 +149,7 @@ Settings withMaskedPole() {
     return settings;
 }
 
-TEST(ObservationSegmenter, TheAirframeIsInNoCloudAndUnclassified) {
+TEST(ObservationSegmenter, MasksTheAirframe) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     segmenter.process(*scanFrom(0), out);
@@ -171,7 +171,7 @@ TEST(ObservationSegmenter, TheAirframeIsInNoCloudAndUnclassified) {
     for (const float x_m : out.roi->pointcloud->getPointsBufferRef_x()) EXPECT_LT(x_m, 11);
 }
 
-TEST(ObservationSegmenter, CloudsKeepIntensitiesWhereWanted) {
+TEST(ObservationSegmenter, KeepsIntensitiesOnRequest) {
     ObservationSegmenter segmenter;
     segmenter.cloud_class = CloudClass::WithIntensity;
     ObservationSegmenter::Output out;
@@ -184,7 +184,7 @@ TEST(ObservationSegmenter, CloudsKeepIntensitiesWhereWanted) {
     }
 }
 
-TEST(ObservationSegmenter, AnotherSensorUnderTheSameLabelGetsAnotherFilter) {
+TEST(ObservationSegmenter, AdaptsToChangedSensor) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     segmenter.process(*scanFrom(0), out);
@@ -223,7 +223,7 @@ TEST(ObservationSegmenter, RecoversTheSensorOfClouds) {
     EXPECT_GT(out.roi->pointcloud->size(), 50u);
 }
 
-TEST(ObservationSegmenter, AFullerCloudOfTheFirstOnesGetsMoreColumns) {
+TEST(ObservationSegmenter, AdaptsColumnsToFullerClouds) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     const auto columnsOf = [&](int columns) {
@@ -235,7 +235,7 @@ TEST(ObservationSegmenter, AFullerCloudOfTheFirstOnesGetsMoreColumns) {
     EXPECT_EQ(columnsOf(300), 600);
 }
 
-TEST(ObservationSegmenter, ANamedSensorIsNotRecovered) {
+TEST(ObservationSegmenter, PrefersNamedSensor) {
     Settings settings;
     settings.sensor.model = "HDL-32E";
     ObservationSegmenter segmenter;
@@ -250,7 +250,7 @@ TEST(ObservationSegmenter, ANamedSensorIsNotRecovered) {
     EXPECT_EQ(out.result->labels.rows(), 64);
 }
 
-TEST(ObservationSegmenter, ATinyCloudIsTakenForThatOfAVlp16UntilAnotherShowsBeams) {
+TEST(ObservationSegmenter, AssumesVlp16ForTinyClouds) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     segmenter.process(*cloudFrom(sensorModel("HDL-32E"), 10), out);
@@ -262,7 +262,7 @@ TEST(ObservationSegmenter, ATinyCloudIsTakenForThatOfAVlp16UntilAnotherShowsBeam
     EXPECT_EQ(out.sensor->name, "HDL-32E");
 }
 
-TEST(ObservationSegmenter, GivenBeamsMakeACloudIndependentOfThoseBefore) {
+TEST(ObservationSegmenter, UsesGivenBeams) {
     CloudSensors sensors;
     const auto cloud = cloudFrom(sensorModel("HDL-32E"), 500);
     sensors.see(*cloud);
@@ -278,7 +278,7 @@ TEST(ObservationSegmenter, GivenBeamsMakeACloudIndependentOfThoseBefore) {
     EXPECT_EQ(out.result->returns.label, expected.result->returns.label);
 }
 
-TEST(ObservationSegmenter, RefusesAWindowOfTheSettingsThatARecoveredSensorHasNoRowsFor) {
+TEST(ObservationSegmenter, RejectsWindowBeyondRecoveredRows) {
     Settings settings;
     settings.options.window_size = 12;
     ObservationSegmenter segmenter;
@@ -291,7 +291,7 @@ TEST(ObservationSegmenter, RefusesAWindowOfTheSettingsThatARecoveredSensorHasNoR
     EXPECT_LE(out.options->window_size, 4);
 }
 
-TEST(ObservationSegmenter, RefusesOptionsThatDoNotFitTheSensorAsSoonAsItIsKnown) {
+TEST(ObservationSegmenter, RejectsOptionsBeyondTheSensor) {
     Settings settings;
     settings.options.window_size = 20;
     ObservationSegmenter segmenter;
@@ -302,7 +302,7 @@ TEST(ObservationSegmenter, RefusesOptionsThatDoNotFitTheSensorAsSoonAsItIsKnown)
     EXPECT_THROW(segmenter.initialize(settings), SettingsError);
 }
 
-TEST(ObservationSegmenter, AScanOfAnUnknownModelThrows) {
+TEST(ObservationSegmenter, RejectsUnknownModels) {
     auto scan = scanFrom(0);
     scan->scan_packets[0].velodyne_model_ID = 0x77;
     ObservationSegmenter segmenter;
@@ -310,7 +310,7 @@ TEST(ObservationSegmenter, AScanOfAnUnknownModelThrows) {
     EXPECT_THROW(segmenter.process(*scan, out), std::runtime_error);
 }
 
-TEST(ObservationSegmenter, AScanWithAKnownPoseCanBeSegmentedLaterAndElsewhere) {
+TEST(ObservationSegmenter, AcceptsKnownPoses) {
     const auto poseWithPitch = [](double pitch_rad) {
         mrpt::obs::CObservationRobotPose pose;
         pose.timestamp = scanFrom(0)->timestamp;
@@ -335,7 +335,7 @@ TEST(ObservationSegmenter, AScanWithAKnownPoseCanBeSegmentedLaterAndElsewhere) {
     EXPECT_EQ(out.result->returns.label, expected.result->returns.label);
 }
 
-TEST(ObservationSegmenter, TellsHowLongTheLabelsTook) {
+TEST(ObservationSegmenter, MeasuresTimeToLabels) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     const auto start = std::chrono::steady_clock::now();
@@ -344,7 +344,7 @@ TEST(ObservationSegmenter, TellsHowLongTheLabelsTook) {
     EXPECT_LT(out.time_to_labels, std::chrono::steady_clock::now() - start);
 }
 
-TEST(ObservationSegmenter, TakesTimesWhenAskedTo) {
+TEST(ObservationSegmenter, ProfilesOnRequest) {
     ObservationSegmenter segmenter;
     segmenter.profiler.enable();
     ObservationSegmenter::Output out;

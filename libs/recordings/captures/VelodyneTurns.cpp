@@ -1,4 +1,4 @@
-#include <hagen/mrpt/VelodyneCalibrations.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/recordings/Remarks.h>
 #include <hagen/recordings/VelodyneTurns.h>
 #include <hagen/scan/SensorModel.h>
