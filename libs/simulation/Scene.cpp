@@ -169,12 +169,6 @@ Scene::Scene(SceneContent content) : world_(std::make_shared<World>(std::move(co
 
 const SceneContent& Scene::content() const { return world_->content; }
 
-std::size_t Scene::triangles() const {
-    std::size_t triangles = 0;
-    for (const Shape& shape : content().shapes) triangles += shape.triangles.size();
-    return triangles;
-}
-
 Scene::Snapshot Scene::snapshotOver(double start_s, double duration_s) const {
     Snapshot snapshot;
     snapshot.world_ = world_;

@@ -182,9 +182,9 @@ void expectTilted(const std::string& text, const Attitude& attitude) {
     EXPECT_LT(kept.size(), scan.kinds.size());
     EXPECT_FALSE(tilted.input.map_from_sensor.has_value());
     EXPECT_TRUE(tilted.levelFromSensor().isApprox(level, 1e-6f));
-    const auto told = degraded(scan, text + ",attitude");
-    EXPECT_EQ(told.kinds, tilted.kinds);
-    EXPECT_TRUE(told.input.map_from_sensor->isApprox(level, 1e-6f));
+    const auto with_attitude = degraded(scan, text + ",attitude");
+    EXPECT_EQ(with_attitude.kinds, tilted.kinds);
+    EXPECT_TRUE(with_attitude.input.map_from_sensor->isApprox(level, 1e-6f));
 }
 
 TEST(Degradation, TiltRotatesSensorOnly) {

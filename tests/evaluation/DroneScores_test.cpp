@@ -73,7 +73,7 @@ TEST(DroneScores, FindObstaclesByOneReturn) {
     std::vector<Vector3f> points_m{{4, 0, kGround_m}};
     std::vector<Label> truth{G}, found{O};
     GroundTruthScan scan;
-    std::vector<std::uint32_t> objects{1};  // a number of ground is none of an obstacle
+    std::vector<std::uint32_t> objects{1};  // of ground: ignored
     const auto add = [&](std::uint32_t object, float x_m, int returns, int roi) {
         for (int i = 0; i < returns; ++i) {
             points_m.push_back({x_m, 0, 0});

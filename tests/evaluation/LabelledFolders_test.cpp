@@ -45,7 +45,7 @@ TEST_F(LabelledFolders, HaveShortestUniqueNames) {
     EXPECT_THAT(test::messageOf([&] { namesOf({a, d, a + "/."}); }), HasSubstr("is given twice"));
 }
 
-/// Heights of the ground truth are as the filter is told that the sensor is held.
+/// Ground truth uses the same mount as the filter.
 TEST_F(LabelledFolders, UseMountWithoutPoses) {
     const std::string folder = folderAt("hanging");
     MethodSet methods;

@@ -139,43 +139,44 @@ TEST(Hdl64, MatchesMrptCalibrationReader) {
 
 TEST(Hdl64, ReportsInvalidCalibration) {
     EXPECT_EQ(errorOf(test::hdl64Xml()), "");
-    const auto saysOf = [](const std::string& why) {
+    const auto reports = [](const std::string& why) {
         return AllOf(HasSubstr("calibration.xml"), HasSubstr(why));
     };
-    EXPECT_THAT(errorOf(""), saysOf("has no lasers"));
-    EXPECT_THAT(errorOf("{\"json\": 1}"), saysOf("has no lasers"));
-    EXPECT_THAT(errorOf("<a>"), saysOf("ends within a"));
-    EXPECT_THAT(errorOf("<a></b>"), saysOf("</b> closes nothing"));
-    EXPECT_THAT(errorOf("<>"), saysOf("empty tag"));
+    EXPECT_THAT(errorOf(""), reports("has no lasers"));
+    EXPECT_THAT(errorOf("{\"json\": 1}"), reports("has no lasers"));
+    EXPECT_THAT(errorOf("<a>"), reports("ends within a"));
+    EXPECT_THAT(errorOf("<a></b>"), reports("</b> closes nothing"));
+    EXPECT_THAT(errorOf("<>"), reports("empty tag"));
     std::string deep;
     for (int i = 0; i < 100000; ++i) deep += "<a>";
-    EXPECT_THAT(errorOf(deep), saysOf("nested too deeply"));
+    EXPECT_THAT(errorOf(deep), reports("nested too deeply"));
     const std::string longest(64, 'a'), name(2000000, 'a');
-    EXPECT_THAT(errorOf("<" + longest + ">"), saysOf("ends within " + longest));
+    EXPECT_THAT(errorOf("<" + longest + ">"), reports("ends within " + longest));
     std::string within;
     for (int i = 0; i < 250000; ++i) within += "<b/>";
     const std::string error = errorOf("<" + name + ">" + within);
-    EXPECT_THAT(error, saysOf("aaa...' of an element has more than 64 letters"));
+    EXPECT_THAT(error, reports("aaa...' of an element has more than 64 letters"));
     EXPECT_LT(error.size(), 400u);
     EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>8</id_>")),
-                saysOf("laser 8 is there twice"));
-    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_/>")), saysOf("no id_"));
-    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>-1e300</id_>")), saysOf("the id_"));
-    EXPECT_THAT(errorOf(replaced("<id_>63</id_>", "<id_>64</id_>")), saysOf("laser 63 is missing"));
-    EXPECT_THAT(errorOf(replaced("<item>1</item>", "<item>0</item>")), saysOf("63 lasers"));
-    EXPECT_THAT(errorOf(replaced("<item>1</item>", "<item/>")), saysOf("no number"));
+                reports("laser 8 is there twice"));
+    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_/>")), reports("no id_"));
+    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>-1e300</id_>")), reports("the id_"));
+    EXPECT_THAT(errorOf(replaced("<id_>63</id_>", "<id_>64</id_>")),
+                reports("laser 63 is missing"));
+    EXPECT_THAT(errorOf(replaced("<item>1</item>", "<item>0</item>")), reports("63 lasers"));
+    EXPECT_THAT(errorOf(replaced("<item>1</item>", "<item/>")), reports("no number"));
     EXPECT_THAT(errorOf(replaced("distCorrection_>90.000000", "distCorrection_>9e9")),
-                saysOf("laser 0: distCorrection_"));
+                reports("laser 0: distCorrection_"));
     EXPECT_THAT(errorOf(replaced("distCorrection_>90.000000", "distCorrection_>nan")),
-                saysOf("no number"));
+                reports("no number"));
     EXPECT_THAT(errorOf(replaced("<vertOffsetCorrection_>20.000000</vertOffsetCorrection_>", "")),
-                saysOf("vertOffsetCorrection_ is missing"));
+                reports("vertOffsetCorrection_ is missing"));
     auto lasers = test::hdl64Lasers();
     lasers[5].vert_deg = lasers[9].vert_deg;
-    EXPECT_THAT(errorOf(test::hdl64Xml(lasers)), saysOf("lasers 5 and 9 have the same elevation"));
+    EXPECT_THAT(errorOf(test::hdl64Xml(lasers)), reports("lasers 5 and 9 have the same elevation"));
     lasers[5].vert_deg = 90.5;
-    EXPECT_THAT(errorOf(test::hdl64Xml(lasers)), saysOf("laser 5: vertCorrection_ is 90.5"));
-    EXPECT_THAT(errorOf(std::string(5 << 20, ' ')), saysOf("is larger than 4 MiB"));
+    EXPECT_THAT(errorOf(test::hdl64Xml(lasers)), reports("laser 5: vertCorrection_ is 90.5"));
+    EXPECT_THAT(errorOf(std::string(5 << 20, ' ')), reports("is larger than 4 MiB"));
     EXPECT_THROW(sensors::readVelodyneCalibration("/no/such/file.xml"), std::runtime_error);
     EXPECT_THROW(sensors::readVelodyneCalibration(std::filesystem::temp_directory_path()),
                  std::runtime_error);

@@ -29,10 +29,9 @@ CObservationRobotPose poseOf(const CPose3D& pose) {
     return observation;
 }
 
-TEST(Horizon, StartsUnknown) { EXPECT_FALSE(Horizon().at(kTime)); }
-
 TEST(Horizon, KeepsAttitudeFor200ms) {
     Horizon horizon;
+    EXPECT_FALSE(horizon.at(kTime));
     horizon.see(poseOf({1, 2, 3, 0.5, 0.1, -0.2}));
     for (const int by_ms : {-199, 0, 199}) {
         const auto vehicle = horizon.at(later(by_ms));
@@ -115,17 +114,35 @@ TEST(Horizon, PrefersImuQuaternion) {
     EXPECT_NEAR(horizon.at(kTime)->roll(), 0.7, 1e-9);
 }
 
-TEST(Horizon, IgnoresImuWithoutOrientation) {
+TEST(Horizon, IgnoresInvalidImu) {
     Horizon horizon;
     CObservationIMU imu;
     imu.timestamp = kTime;
+    const auto isIgnored = [&] {
+        horizon.see(imu);
+        return !horizon.at(kTime);
+    };
     imu.set(mrpt::obs::IMU_X_ACC, 9.81);
     imu.set(mrpt::obs::IMU_PITCH, 0.1);  // no attitude without roll
-    horizon.see(imu);
-    EXPECT_FALSE(horizon.at(kTime));
+    EXPECT_TRUE(isIgnored());
     imu.set(mrpt::obs::IMU_ROLL, NAN);
-    horizon.see(imu);
+    EXPECT_TRUE(isIgnored());
+    imu.set(mrpt::obs::IMU_ROLL, 0.2);
+    const unsigned char corrupt = 89;  // as a fuzzer's rawlog had it
+    std::memcpy(&imu.dataIsPresent.at(mrpt::obs::IMU_ROLL), &corrupt, sizeof(corrupt));
+    EXPECT_TRUE(isIgnored());
+
+    CObservationIMU overflowing;
+    overflowing.timestamp = kTime;
+    for (const auto each : {mrpt::obs::IMU_ORI_QUAT_W, mrpt::obs::IMU_ORI_QUAT_X,
+                            mrpt::obs::IMU_ORI_QUAT_Y, mrpt::obs::IMU_ORI_QUAT_Z}) {
+        overflowing.set(each, 1e200);  // its square is infinite
+    }
+    horizon.see(overflowing);
     EXPECT_FALSE(horizon.at(kTime));
+
+    imu.dataIsPresent.at(mrpt::obs::IMU_ROLL) = true;
+    EXPECT_FALSE(isIgnored());
 }
 
 /// A cloud of level ground, seen by a sensor that is mounted with a pitch.
@@ -135,33 +152,6 @@ mrpt::obs::CObservationPointCloud::Ptr cloudAt(const CPose3D& sensor_on_vehicle)
     auto cloud = observationOf(scan, "lidar", kTime);
     cloud->sensorPose = sensor_on_vehicle;
     return cloud;
-}
-
-TEST(Horizon, IgnoresCorruptImuFlags) {
-    CObservationIMU imu;
-    imu.timestamp = kTime;
-    imu.set(mrpt::obs::IMU_PITCH, 0.1);
-    imu.set(mrpt::obs::IMU_ROLL, 0.2);
-    Horizon horizon;
-    const unsigned char neither = 89;  // as a fuzzer's rawlog had it
-    std::memcpy(&imu.dataIsPresent.at(mrpt::obs::IMU_ROLL), &neither, sizeof(neither));
-    horizon.see(imu);
-    EXPECT_FALSE(horizon.at(kTime));
-    imu.dataIsPresent.at(mrpt::obs::IMU_ROLL) = true;
-    horizon.see(imu);
-    EXPECT_TRUE(horizon.at(kTime));
-}
-
-TEST(Horizon, IgnoresOverflowingQuaternion) {
-    CObservationIMU imu;
-    imu.timestamp = kTime;
-    for (const auto each : {mrpt::obs::IMU_ORI_QUAT_W, mrpt::obs::IMU_ORI_QUAT_X,
-                            mrpt::obs::IMU_ORI_QUAT_Y, mrpt::obs::IMU_ORI_QUAT_Z}) {
-        imu.set(each, 1e200);  // its square is infinite
-    }
-    Horizon horizon;
-    horizon.see(imu);
-    EXPECT_FALSE(horizon.at(kTime));
 }
 
 TEST(Horizon, ReachesSegmenterOutput) {

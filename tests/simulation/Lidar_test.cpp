@@ -90,12 +90,12 @@ TEST(LidarTest, PoseFunctionMatchesFlight) {
         return setup.flight.at(time_s);
     };
     Random random(1);
-    const SimulatedScan told = simulateScan(setup.scene, setup.sensor, pose_at, 7.3, random);
+    const SimulatedScan by_function = simulateScan(setup.scene, setup.sensor, pose_at, 7.3, random);
     const SimulatedScan flown = setup.scan(7.3, {});
-    EXPECT_EQ(told.scan.range_m, flown.scan.range_m);
-    EXPECT_EQ(told.scan.x_m, flown.scan.x_m);
-    EXPECT_EQ(told.firing, flown.firing);
-    EXPECT_EQ(told.altitude_m, flown.altitude_m);
+    EXPECT_EQ(by_function.scan.range_m, flown.scan.range_m);
+    EXPECT_EQ(by_function.scan.x_m, flown.scan.x_m);
+    EXPECT_EQ(by_function.firing, flown.firing);
+    EXPECT_EQ(by_function.altitude_m, flown.altitude_m);
     EXPECT_LE(last_s, 7.3 + firingPattern(setup.sensor).revolutionPeriod_s() + kPosesBeyondTurn_s);
 }
 

@@ -27,8 +27,8 @@ std::vector<std::uint16_t> readLabelsOf(const Scan& scan, const fs::path& file) 
 }
 
 /// Returns the entries of the first of these files that numbers objects in the high 16 bits, 0 for
-/// returns without number. Entire entries tell objects apart, because SemanticKITTI numbers those
-/// of each class anew. Empty: no file has numbers.
+/// returns without number. Entire entries identify objects, because SemanticKITTI numbers those of
+/// each class anew. Empty: no file has numbers.
 std::vector<std::uint32_t> readObjectsOf(const Scan& scan, const std::vector<fs::path>& files) {
     for (const fs::path& file : files) {
         if (!fs::exists(file)) continue;

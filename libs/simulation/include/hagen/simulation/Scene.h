@@ -67,9 +67,6 @@ class Scene {
     const SceneContent& content() const;
     const Terrain& terrain() const { return content().terrain; }
     const Path& path() const { return content().path; }
-    /// Returns the number of triangles of all shapes; a shape placed several times counts once.
-    std::size_t triangles() const;
-
     /// Returns the scene over a short time interval, in which moving obstacles move straight.
     class Snapshot;
     Snapshot snapshotOver(double start_s, double duration_s) const;
