@@ -506,7 +506,7 @@ TEST_P(ConversionTest, ARotatingScanThatIsStoredElsewhereEndsTheConversionAndIsN
     test::writeBytes(folder_ / "in.rawlog", test::bytesOf(*pose()) + bytes);
     const std::string why = test::messageOf([&] { convert(conversion()); });
     EXPECT_THAT(why, HasSubstr("in.rawlog: entry 1 at byte"));
-    EXPECT_THAT(why, HasSubstr("'scan.bin'; put it in with 'rawlog-edit --de-externalize'"));
+    EXPECT_THAT(why, HasSubstr("'scan.bin'; include it with 'rawlog-edit --de-externalize'"));
 }
 
 TEST_P(ConversionTest, AScanThatCannotBeReadIsKeptAndNamed) {
@@ -548,7 +548,7 @@ TEST_P(ConversionTest, AScanWithUnsoundLimitsIsKeptAndNamed) {
         const ConversionReport report = convert(again, listener);
         EXPECT_EQ(report.unreadable_scans, 1u);
         EXPECT_EQ(report.scans, 2u);
-        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): its limits of the range contradict"));
+        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): its range limits are invalid"));
     }
 }
 
