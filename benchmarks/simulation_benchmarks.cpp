@@ -36,7 +36,6 @@ void simulate(benchmark::State& state, const hagen::simulation::Scene& scene,
             hagen::simulation::simulateScan(scene, model, flight, time_s, random));
         time_s += 0.1;
     }
-    state.counters["triangles"] = static_cast<double>(scene.triangles());
 }
 
 void makeCourses(benchmark::State& state, const std::string& name) {

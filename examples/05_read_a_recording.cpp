@@ -14,7 +14,7 @@ int main(int argc, char** argv) try {
     }
     const auto source = hagen::recordings::openRecording(argv[1]);
     hagen::observations::ObservationSegmenter segmenter;
-    segmenter.initialize(source->useSettings({}));  // the recording knows its sensors
+    segmenter.initialize(source->useSettings({}));  // the recording may name its sensors
 
     while (const auto scan = source->nextScan()) {
         hagen::observations::ObservationSegmenter::Output out;

@@ -93,9 +93,7 @@ void check(const convert::SimulatedLog& log) {
         throw UsageError("an output (-o, --kitti or --poses) is required");
     }
     if (log.sensor == "HDL-64E" && !log.rawlog.empty()) {
-        throw UsageError("-o",
-                         "needs packets, which HDL-64E does not have; use "
-                         "only --kitti");
+        throw UsageError("-o", "does not support HDL-64E; use only --kitti");
     }
 }
 

@@ -11,6 +11,8 @@
 namespace hagen {
 namespace {
 
+using namespace evaluation;
+
 constexpr std::size_t kMostColumns = 5;  // adjacent methods within 100 columns
 
 std::string format(const char* pattern, ...) {
@@ -40,14 +42,14 @@ std::string trimmed(std::string line) {
 std::string figure(double value, int digits = 4) {
     return std::isnan(value) ? "-" : format("%.*f", digits, value);
 }
-std::string interval(const evaluation::Interval& interval) {
+std::string interval(const Interval& interval) {
     return std::isnan(interval.low) ? "-" : format("%.3f-%.3f", interval.low, interval.high);
 }
 std::string count(std::int64_t number) { return std::to_string(number); }
 
-std::string figuresOf(const evaluation::Scores& scores) {
+std::string figuresOf(const Scores& scores) {
     std::string text;
-    for (const evaluation::ClassScore& score : {scores.roi, scores.rou}) {
+    for (const ClassScore& score : {scores.roi, scores.rou}) {
         text += right(figure(score.precision()), 11) + right(figure(score.recall()), 8) +
                 right(figure(score.f1()), 8);
     }
@@ -60,22 +62,21 @@ std::size_t widthOf(const std::string& heading, const std::vector<std::string>& 
     return width;
 }
 
-std::vector<std::string> namesOf(const std::vector<evaluation::MethodTotals>& methods) {
+std::vector<std::string> namesOf(const std::vector<MethodTotals>& methods) {
     std::vector<std::string> names;
-    for (const evaluation::MethodTotals& method : methods) names.push_back(method.name);
+    for (const MethodTotals& method : methods) names.push_back(method.name);
     return names;
 }
 
 /// Scores of each method, over returns or pixels.
-std::string scoreTable(const evaluation::Summary& summary,
-                       evaluation::ScoreTotals evaluation::MethodTotals::*which) {
+std::string scoreTable(const Summary& summary, ScoreTotals MethodTotals::*which) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text = left("", width) +
                        "  RoI                        ROU                        " +
                        "95 % interval of F1\n" + left("method", width) +
                        "  precision  recall      F1  precision  recall      F1  RoI          ROU\n";
-    for (const evaluation::MethodTotals& method : summary.methods) {
-        const evaluation::GroupTotals& all = (method.*which).all;
+    for (const MethodTotals& method : summary.methods) {
+        const GroupTotals& all = (method.*which).all;
         text += left(method.name, width) + figuresOf(all.scores) + "  " +
                 left(interval(all.intervals.roi.f1), 11) + "  " + interval(all.intervals.rou.f1) +
                 "\n";
@@ -83,12 +84,12 @@ std::string scoreTable(const evaluation::Summary& summary,
     return text;
 }
 
-std::string latencyTable(const evaluation::Summary& summary) {
+std::string latencyTable(const Summary& summary) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text =
         left("method", width) + "     mean +- sd           p50       p95       p99       max\n";
-    for (const evaluation::MethodTotals& method : summary.methods) {
-        const evaluation::Latency& latency = method.latency;
+    for (const MethodTotals& method : summary.methods) {
+        const Latency& latency = method.latency;
         text += left(method.name, width) + right(figure(latency.mean_ms, 3), 9) + " +- " +
                 left(figure(latency.sd_ms, 3), 7);
         for (const double ms : {latency.p50_ms, latency.p95_ms, latency.p99_ms, latency.max_ms}) {
@@ -102,15 +103,15 @@ std::string latencyTable(const evaluation::Summary& summary) {
 /// A percentage; a dash if it is undefined.
 std::string percentage(double share) { return figure(100 * share, 2); }
 
-std::string droneTable(const evaluation::Summary& summary) {
+std::string droneTable(const Summary& summary) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text =
         "\nWhat matters to a drone\n" + left("", width) +
         "  obstacle returns above 0.5 m  obstacles of which     RoI on bare ground,\n" +
         left("method", width) +
         "    missed        of         %  nothing is found  of   returns per scan\n";
-    for (const evaluation::MethodTotals& method : summary.methods) {
-        const evaluation::DroneScores& all = method.drone.all;
+    for (const MethodTotals& method : summary.methods) {
+        const DroneScores& all = method.drone.all;
         const bool are_numbered = all.obstacles.all > 0;
         text += left(method.name, width) + right(count(all.tall.missed), 10) +
                 right(count(all.tall.all), 10) + right(percentage(all.tall.share()), 10) +
@@ -123,44 +124,43 @@ std::string droneTable(const evaluation::Summary& summary) {
 
 /// "+0.12", or a dash.
 std::string change(double degraded, double recorded) {
-    const double points = evaluation::changeInPoints(degraded, recorded);
+    const double points = changeInPoints(degraded, recorded);
     return std::isnan(points) ? "-" : format("%+.2f", points);
 }
 
 /// `recorded`: null for the scans as recorded, which have no change.
-std::string hardSetLine(const std::string& name, std::size_t width,
-                        const evaluation::Scores& scores, const evaluation::Scores* recorded,
-                        const evaluation::Missed& tall) {
-    const auto changeOf = [&](evaluation::ClassScore evaluation::Scores::*c) {
+std::string hardSetLine(const std::string& name, std::size_t width, const Scores& scores,
+                        const Scores* recorded, const Missed& tall) {
+    const auto changeOf = [&](ClassScore Scores::*c) {
         return recorded == nullptr ? "" : change((scores.*c).f1(), (recorded->*c).f1());
     };
     return left(name, width) + right(figure(scores.roi.f1()), 9) +
-           right(changeOf(&evaluation::Scores::roi), 9) + right(figure(scores.rou.f1()), 10) +
-           right(changeOf(&evaluation::Scores::rou), 9) + right(count(tall.missed), 10) +
+           right(changeOf(&Scores::roi), 9) + right(figure(scores.rou.f1()), 10) +
+           right(changeOf(&Scores::rou), 9) + right(count(tall.missed), 10) +
            right(count(tall.all), 10) + right(percentage(tall.share()), 8) + "\n";
 }
 
 /// A method on all degradations.
-std::string hardSetTable(const evaluation::Summary& summary, std::size_t method) {
+std::string hardSetTable(const Summary& summary, std::size_t method) {
     std::vector<std::string> names{"as recorded"};
-    for (const evaluation::HardSetTotals& set : summary.hard_sets) names.push_back(set.name);
-    const evaluation::MethodTotals& recorded = summary.methods[method];
+    for (const HardSetTotals& set : summary.hard_sets) names.push_back(set.name);
+    const MethodTotals& recorded = summary.methods[method];
     const std::size_t width = widthOf("degradation", names);
     std::string text = "\nOn degraded scans: " + recorded.name +
                        " (change of F1 in points of 0.01)\n" + left("", width) +
                        left("   RoI", 22) + left("ROU", 16) + "obstacle returns above 0.5 m\n" +
                        left("degradation", width) +
                        "       F1   change        F1   change    missed        of       %\n";
-    const evaluation::Scores& scores = recorded.returns.all.scores;
+    const Scores& scores = recorded.returns.all.scores;
     text += hardSetLine(names[0], width, scores, nullptr, recorded.drone.all.tall);
-    for (const evaluation::HardSetTotals& set : summary.hard_sets) {
-        const evaluation::HardSetScores& own = set.methods[method];
-        text += hardSetLine(set.name, width, own.returns.scores, &scores, own.drone.all.tall);
+    for (const HardSetTotals& set : summary.hard_sets) {
+        const MethodTotals& own = set.methods[method];
+        text += hardSetLine(set.name, width, own.returns.all.scores, &scores, own.drone.all.tall);
     }
     return text;
 }
 
-std::string hardSetTables(const evaluation::Summary& summary) {
+std::string hardSetTables(const Summary& summary) {
     if (summary.hard_sets.empty()) return "";
     const std::size_t methods = summary.hard_sets.front().methods.size();
     if (methods > kMostColumns) return "\nScores on degraded scans are in --json.\n";
@@ -169,31 +169,30 @@ std::string hardSetTables(const evaluation::Summary& summary) {
     return text;
 }
 
-using Part = std::vector<evaluation::GroupTotals> evaluation::ScoreTotals::*;
+using Part = std::vector<GroupTotals> ScoreTotals::*;
 struct PartName {
     const char* title;
     const char* heading;
     Part part;
 };
-constexpr PartName kParts[] = {
-    {"By range", "range", &evaluation::ScoreTotals::by_range},
-    {"By altitude of the sensor", "altitude", &evaluation::ScoreTotals::by_altitude},
-    {"By folder", "folder", &evaluation::ScoreTotals::by_folder}};
+constexpr PartName kParts[] = {{"By range", "range", &ScoreTotals::by_range},
+                               {"By altitude of the sensor", "altitude", &ScoreTotals::by_altitude},
+                               {"By folder", "folder", &ScoreTotals::by_folder}};
 
-std::vector<std::string> namesOf(const std::vector<evaluation::GroupTotals>& groups) {
+std::vector<std::string> namesOf(const std::vector<GroupTotals>& groups) {
     std::vector<std::string> names;
-    for (const evaluation::GroupTotals& group : groups) names.push_back(group.name);
+    for (const GroupTotals& group : groups) names.push_back(group.name);
     return names;
 }
 
-std::string partTable(const PartName& part, const std::vector<evaluation::GroupTotals>& groups) {
+std::string partTable(const PartName& part, const std::vector<GroupTotals>& groups) {
     const std::size_t width = widthOf(part.heading, namesOf(groups));
     std::string text =
         "\n" + std::string(part.title) + "\n" + left("", width) + "         returns of   " +
         "          RoI                        ROU\n" + left(part.heading, width) + "  scans" +
         "       RoI       ROU  precision  recall      F1  precision  recall      F1\n";
-    for (const evaluation::GroupTotals& group : groups) {
-        const evaluation::Scores& scores = group.scores;
+    for (const GroupTotals& group : groups) {
+        const Scores& scores = group.scores;
         text += left(group.name, width) + right(count(static_cast<std::int64_t>(group.scans)), 7) +
                 right(count(scores.roi.hits + scores.roi.misses), 10) +
                 right(count(scores.rou.hits + scores.rou.misses), 10) + figuresOf(scores) + "\n";
@@ -203,17 +202,17 @@ std::string partTable(const PartName& part, const std::vector<evaluation::GroupT
 
 /// Returns the label of a class: RoI or ROU, or both if ground-truth labels do not follow the
 /// classes.
-std::string labelOf(const evaluation::Scores& scores) {
+std::string labelOf(const Scores& scores) {
     const bool is_roi = scores.roi.hits + scores.roi.misses > 0;
     const bool is_rou = scores.rou.hits + scores.rou.misses > 0;
     return is_roi && is_rou ? "both" : is_roi ? "RoI" : "ROU";
 }
 
-std::string kindTable(const std::vector<evaluation::GroupTotals>& kinds) {
+std::string kindTable(const std::vector<GroupTotals>& kinds) {
     const std::size_t width = widthOf("class", namesOf(kinds));
     std::string text = "\nBy object class\n" + left("class", width) +
                        "  is    scans   returns     found  recall  95 % interval\n";
-    for (const evaluation::GroupTotals& kind : kinds) {
+    for (const GroupTotals& kind : kinds) {
         const std::int64_t found = kind.scores.roi.hits + kind.scores.rou.hits;
         text += left(kind.name, width) + "  " + left(labelOf(kind.scores), 4) +
                 right(count(static_cast<std::int64_t>(kind.scans)), 7) +
@@ -225,9 +224,9 @@ std::string kindTable(const std::vector<evaluation::GroupTotals>& kinds) {
 }
 
 /// Names of the methods that fit into a column; if their beginnings are the same, their ends.
-std::vector<std::string> headsOf(const evaluation::Summary& summary, std::size_t width) {
+std::vector<std::string> headsOf(const Summary& summary, std::size_t width) {
     std::vector<std::string> begins, ends;
-    for (const evaluation::MethodTotals& method : summary.methods) {
+    for (const MethodTotals& method : summary.methods) {
         const std::string& name = method.name;
         begins.push_back(name.substr(0, width));
         ends.push_back(name.size() <= width ? name : ".." + name.substr(name.size() - (width - 2)));
@@ -239,8 +238,8 @@ std::vector<std::string> headsOf(const evaluation::Summary& summary, std::size_t
 
 /// One row per group, one column per method. `groupsOf` returns the groups of a method.
 template <class Groups, class Cell>
-std::string matrix(const std::string& title, const std::string& heading,
-                   const evaluation::Summary& summary, Groups groupsOf, Cell cell) {
+std::string matrix(const std::string& title, const std::string& heading, const Summary& summary,
+                   Groups groupsOf, Cell cell) {
     std::vector<std::string> groups;
     for (const auto& group : groupsOf(summary.methods.front())) groups.push_back(group.name);
     if (groups.empty()) return "";
@@ -250,7 +249,7 @@ std::string matrix(const std::string& title, const std::string& heading,
     text += trimmed(heads);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         std::string line = left(groups[g], width);
-        for (const evaluation::MethodTotals& method : summary.methods) {
+        for (const MethodTotals& method : summary.methods) {
             line += "  " + left(cell(groupsOf(method)[g]), 15);
         }
         text += trimmed(line);
@@ -258,44 +257,39 @@ std::string matrix(const std::string& title, const std::string& heading,
     return text;
 }
 
-std::string comparison(const evaluation::Summary& summary) {
+std::string comparison(const Summary& summary) {
     std::string text;
-    const auto f1 = [](const evaluation::GroupTotals& group) {
+    const auto f1 = [](const GroupTotals& group) {
         return figure(group.scores.roi.f1(), 3) + " / " + figure(group.scores.rou.f1(), 3);
     };
     const auto returns = [](Part part) {
-        return [part](const evaluation::MethodTotals& method) -> const auto& {
-            return method.returns.*part;
-        };
+        return [part](const MethodTotals& method) -> const auto& { return method.returns.*part; };
     };
     for (const PartName& part : kParts) {
         text += matrix(std::string(part.title) + ": F1 of RoI / ROU", part.heading, summary,
                        returns(part.part), f1);
     }
-    text += matrix(
-        "By object class: recall", "class", summary, returns(&evaluation::ScoreTotals::by_kind),
-        [](const evaluation::GroupTotals& group) { return figure(group.scores.correct()); });
+    text += matrix("By object class: recall", "class", summary, returns(&ScoreTotals::by_kind),
+                   [](const GroupTotals& group) { return figure(group.scores.correct()); });
     return text;
 }
 
 /// Missed obstacle returns above 0.5 m, by part: "12 of 3456".
-std::string missedParts(const evaluation::Summary& summary) {
-    using Groups = std::vector<evaluation::MissedGroup> evaluation::DroneTotals::*;
+std::string missedParts(const Summary& summary) {
+    using Groups = std::vector<MissedGroup> DroneTotals::*;
     const auto table = [&](const std::string& by, const std::string& heading, Groups part) {
         return matrix(
             "Missed obstacle returns above 0.5 m, by " + by, heading, summary,
-            [part](const evaluation::MethodTotals& method) -> const auto& {
-                return method.drone.*part;
-            },
-            [](const evaluation::MissedGroup& group) {
+            [part](const MethodTotals& method) -> const auto& { return method.drone.*part; },
+            [](const MissedGroup& group) {
                 return count(group.missed.missed) + " of " + count(group.missed.all);
             });
     };
-    return table("range", "range", &evaluation::DroneTotals::by_range) +
-           table("object class", "class", &evaluation::DroneTotals::by_kind);
+    return table("range", "range", &DroneTotals::by_range) +
+           table("object class", "class", &DroneTotals::by_kind);
 }
 
-std::string partsOf(const evaluation::ScoreTotals& scores) {
+std::string partsOf(const ScoreTotals& scores) {
     std::string text;
     for (const PartName& part : kParts) {
         if (!(scores.*part.part).empty()) text += partTable(part, scores.*part.part);
@@ -304,8 +298,8 @@ std::string partsOf(const evaluation::ScoreTotals& scores) {
     return text;
 }
 
-/// The sensors that nobody named, and options that a recording changes, a line per folder.
-std::string sensorsOf(const evaluation::Summary& summary) {
+/// Recovered sensors, and options changed by recordings, a line per folder.
+std::string sensorsOf(const Summary& summary) {
     std::string text;
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {
         const std::string of = " of " + summary.folder_names[f] + ": ";
@@ -325,7 +319,7 @@ std::string sensorsOf(const evaluation::Summary& summary) {
 
 }  // namespace
 
-std::string reportOf(const evaluation::Summary& summary) {
+std::string reportOf(const Summary& summary) {
     const bool has_pixels = summary.methods.front().pixels.all.scans > 0;
     std::string text =
         format("%zu scans of %zu folder%s, returns up to %g m: %lld\n\n", summary.scans,
@@ -333,11 +327,11 @@ std::string reportOf(const evaluation::Summary& summary) {
                static_cast<double>(summary.range.max_range_m),
                static_cast<long long>(summary.methods.front().returns.all.scores.returns()));
     text += sensorsOf(summary);
-    text += scoreTable(summary, &evaluation::MethodTotals::returns);
+    text += scoreTable(summary, &MethodTotals::returns);
     if (has_pixels) {
         text += format("\nIn the camera image, one return per pixel: %lld pixels\n",
                        static_cast<long long>(summary.methods.front().pixels.all.scores.returns()));
-        text += scoreTable(summary, &evaluation::MethodTotals::pixels);
+        text += scoreTable(summary, &MethodTotals::pixels);
     }
     text += "\nRun time of the segmentation alone, ms per scan\n" + latencyTable(summary);
     text += droneTable(summary) + hardSetTables(summary);

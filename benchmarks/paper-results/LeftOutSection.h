@@ -10,9 +10,9 @@
 
 namespace hagen {
 
-/// `record` is that of scripts/select-settings; without one, the section says so. It also says if
-/// the filter or its presets have changed since: if the record's scores of the presets are not the
-/// measured ones.
+/// `record` is that of scripts/select-settings; without one, the section reports that. It also
+/// reports if the filter or its presets have changed since: if the record's scores of the presets
+/// are not the measured ones.
 std::string leftOutSection(const std::vector<Measured>& all,
                            const std::optional<selection::Record>& record);
 /// The chosen values and the progress of each search.

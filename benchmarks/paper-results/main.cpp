@@ -37,8 +37,7 @@ void addFlags(Command& app, Flags& flags) {
         .existingFolder();
     app.option("--labelled", flags.labelled,
                "folder with beams16/ and beams64/: labelled real scans (default: none)");
-    app.option("--selection", flags.selection,
-               "record of scripts/select-settings (default: none, the document says so)")
+    app.option("--selection", flags.selection, "record of scripts/select-settings (default: none)")
         .existingFile();
     app.option("--readme", flags.readme, "README.md: replaces the results in it").existingFile();
     app.option("--revision", flags.revision, "revision of the project, for the document");

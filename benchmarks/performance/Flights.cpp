@@ -1,6 +1,6 @@
 #include "Flights.h"
 
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 
@@ -83,7 +83,7 @@ std::vector<double> packetsToLabels_ms(const Options& options, int runs) {
             convert::encodeSimulatedScan(lidar.next(), lidar.sensor(), kScanPeriod_s * scan));
     }
     HagenFilter filter(observations::sensorOf(*packets.front()), options);
-    observations::DecoderWorkspace decoder;
+    observations::ObservationWorkspace decoder;
     Scan scan;
     std::vector<double> runs_ms;
     for (int run = -kDistinctScans; run < runs; ++run) {  // the first round is a warm-up

@@ -1,6 +1,6 @@
 #include "Inputs.h"
 
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/Image.h>

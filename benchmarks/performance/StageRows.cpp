@@ -6,7 +6,7 @@
 #include <hagen/filter/RangeAngle.h>
 #include <hagen/filter/RoiBoxes.h>
 #include <hagen/filter/Sharpening.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/settings/Settings.h>
 
@@ -190,7 +190,7 @@ Case::Case(const Input& input, std::size_t which, const Options& with)
 
 void readReturns(Case& one) {
     if (one.packets) {
-        static observations::DecoderWorkspace decoder;
+        static observations::ObservationWorkspace decoder;
         observations::decodePackets(*one.packets, one.scan, decoder);
     } else {
         locateBeams(one.sensor, one.scan);

@@ -71,7 +71,7 @@ using MissedByGroup = std::array<std::int64_t, kGroups>;
 MissedByGroup missedOf(const std::vector<ScanSet>& sets, const std::vector<Counts>& counts,
                        const std::string& left_out);
 
-/// An improvement of the objective by less than this is none: the present value stays.
+/// Smaller improvements of the objective do not change a value.
 constexpr double kLeastGain = 1e-4;
 
 /// A choice, and what led to it.

@@ -19,15 +19,13 @@ double numberOf(const YAML::Node& node, const std::string& key) {
     return value;
 }
 
-constexpr int kMostPixels = 20000;  // per side; more is a typo
+constexpr int kMaxPixelsPerSide = 20000;  // more is a typo
 constexpr double kMostPixelsInAll = 50e6;
 
-int checkImageSize(double value, const std::string& key) {
-    if (!(value >= 1 && value <= kMostPixels) || value != std::floor(value)) {
-        throw std::invalid_argument(key + " must be a whole number of pixels from 1 to " +
-                                    std::to_string(kMostPixels));
-    }
-    return static_cast<int>(value);
+void checkImageSize(double value, const std::string& key) {
+    if (value >= 1 && value <= kMaxPixelsPerSide && value == std::floor(value)) return;
+    throw std::invalid_argument(key + " must be a whole number of pixels from 1 to " +
+                                std::to_string(kMaxPixelsPerSide));
 }
 
 }  // namespace
@@ -60,8 +58,8 @@ PinholeCamera readCamera(const std::filesystem::path& file) {
     if (position_m.hasNaN()) throw std::runtime_error(file.string() + ": has no key 'position_m'");
 
     PinholeCamera camera;
-    camera.width_px = checkImageSize(values["width"], "width");
-    camera.height_px = checkImageSize(values["height"], "height");
+    camera.width_px = static_cast<int>(values["width"]);
+    camera.height_px = static_cast<int>(values["height"]);
     if (static_cast<double>(camera.width_px) * camera.height_px > kMostPixelsInAll) {
         throw std::runtime_error(file.string() + ": has more than 50 million pixels");
     }

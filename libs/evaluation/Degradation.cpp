@@ -4,7 +4,9 @@
 #include <hagen/scan/Angle.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -19,38 +21,22 @@ constexpr const char* kKnown =
     "pitch_deg=A[,attitude], upside_down, fov_deg=A, above_deg=E, below_deg=E, dual_return, "
     "rate_hz=R";
 constexpr float kNearestDrop_m = 0.5f, kFarthestDrop_m = 12.0f;
-constexpr float kNearestReturn_m = 0.05f;  // noise does not push returns through the sensor
+constexpr float kNearestReturn_m = 0.05f;  // noise cannot move returns behind the sensor
 constexpr float kDualStep_m = 1.0f;
 constexpr double kDualChance = 0.3;
 constexpr float kSteps = 2.5f;        // neighbours are at most so many azimuth steps apart
 constexpr float kSameRay = 0.25f;     // returns closer than this part of a step are of one ray
 constexpr double kRecordedHz = 10.0;  // of recordings, for rate_hz
 
-/// The distributions of the standard library differ between implementations.
-double uniform(Random& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }  // [0, 1)
-bool chance(Random& random, double probability) { return uniform(random) < probability; }
-double normal(Random& random) {  // Box and Muller
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform(random)));
-    return radius * std::cos(2.0 * kPi * uniform(random));
-}
-
-template <class Value>
-void keepPart(std::vector<Value>& values, const std::vector<bool>& is_kept) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (is_kept[i]) values[kept++] = values[i];
-    }
-    values.resize(kept);
+std::array<std::vector<float>*, 7> floatsOf(Scan& s) {
+    return {&s.x_m, &s.y_m, &s.z_m, &s.intensity, &s.range_m, &s.azimuth_rad, &s.time_s};
 }
 
 /// Applies a function to each array with one element per return.
 template <class Work>
 void forEachArray(GroundTruthScan& scan, Work work) {
-    Scan& s = scan.input.scan;
-    for (std::vector<float>* values :
-         {&s.x_m, &s.y_m, &s.z_m, &s.intensity, &s.range_m, &s.azimuth_rad, &s.time_s})
-        work(*values);
-    work(s.row);
+    for (std::vector<float>* values : floatsOf(scan.input.scan)) work(*values);
+    work(scan.input.scan.row);
     work(scan.truth);
     work(scan.kinds);
     work(scan.objects);
@@ -74,18 +60,40 @@ void setRange(Scan& scan, std::size_t i, float range_m) {
     scan.range_m[i] = range_m;
 }
 
-Function withoutRows(const std::vector<int>& rows) {
-    return [rows](const GroundTruthScan& scan, const SensorModel&, Random&) {
-        return filtered(scan, [&](std::size_t i) {
-            return std::find(rows.begin(), rows.end(), scan.input.scan.row[i]) == rows.end();
-        });
+/// Keeps the returns that `isKept(scan, sensor, index, random)` selects.
+using IsKept = std::function<bool(const Scan&, const SensorModel&, std::size_t, Random&)>;
+Function keeping(const IsKept& isKept) {
+    return [isKept](const GroundTruthScan& scan, const SensorModel& sensor, Random& random) {
+        return filtered(scan,
+                        [&](std::size_t i) { return isKept(scan.input.scan, sensor, i, random); });
     };
 }
 
+Function withoutRows(const std::vector<int>& rows) {
+    return keeping([rows](const Scan& scan, const SensorModel&, std::size_t i, Random&) {
+        return std::find(rows.begin(), rows.end(), scan.row[i]) == rows.end();
+    });
+}
+
 Function withDropout(double probability) {
-    return [probability](const GroundTruthScan& scan, const SensorModel&, Random& random) {
-        return filtered(scan, [&](std::size_t) { return !chance(random, probability); });
-    };
+    return keeping([probability](const Scan&, const SensorModel&, std::size_t, Random& random) {
+        return !random.chance(probability);
+    });
+}
+
+Function withinFov(double angle_deg) {
+    const auto half_rad = static_cast<float>(radians(0.5 * angle_deg));
+    return keeping([half_rad](const Scan& scan, const SensorModel&, std::size_t i, Random&) {
+        return std::abs(scan.azimuth_rad[i]) <= half_rad;
+    });
+}
+
+/// `side`: 1 for beams above the elevation, -1 for those below.
+Function withBeams(double elevation_deg, float side) {
+    const auto elevation_rad = static_cast<float>(radians(elevation_deg));
+    return keeping([=](const Scan& scan, const SensorModel& sensor, std::size_t i, Random&) {
+        return side * (sensor.elevations_rad[scan.row[i]] - elevation_rad) > 0;
+    });
 }
 
 Function withNoise(double sd_m) {
@@ -93,7 +101,7 @@ Function withNoise(double sd_m) {
         GroundTruthScan noisy = scan;
         Scan& returns = noisy.input.scan;
         for (std::size_t i = 0; i < returns.size(); ++i) {
-            const auto error_m = static_cast<float>(sd_m * normal(random));
+            const auto error_m = static_cast<float>(sd_m * random.normal());
             if (std::isnan(returns.range_m[i])) continue;
             setRange(returns, i, std::max(kNearestReturn_m, returns.range_m[i] + error_m));
         }
@@ -106,8 +114,8 @@ Function withRain(double probability) {
         GroundTruthScan rainy = scan;
         Scan& returns = rainy.input.scan;
         for (std::size_t i = 0; i < returns.size(); ++i) {
-            const bool is_drop = chance(random, probability);
-            const auto place = static_cast<float>(uniform(random));
+            const bool is_drop = random.chance(probability);
+            const auto place = static_cast<float>(random.uniform());
             const float range_m = std::min(returns.range_m[i], kFarthestDrop_m);
             if (!is_drop || !(range_m > kNearestDrop_m)) continue;
             setRange(returns, i, kNearestDrop_m + place * (range_m - kNearestDrop_m));
@@ -134,37 +142,30 @@ GroundTruthScan turned(const GroundTruthScan& scan, const Eigen::Matrix3f& turn)
     return result;
 }
 
-/// Whether the sensor has a beam within half a step of this return's elevation.
-class FieldOfView {
- public:
-    explicit FieldOfView(const SensorModel& sensor) {
-        const std::vector<float>& beams = sensor.elevations_rad;
-        const std::size_t top = beams.size() - 1;
-        // Beyond straight down or up, the sine would come back.
-        constexpr auto kStraight_rad = static_cast<float>(M_PI / 2);
-        const float lowest_rad = beams[0] - 0.5f * (beams[1] - beams[0]);
-        const float highest_rad = beams[top] + 0.5f * (beams[top] - beams[top - 1]);
-        lowest_sine_ = lowest_rad > -kStraight_rad ? std::sin(lowest_rad) : -2;
-        highest_sine_ = highest_rad < kStraight_rad ? std::sin(highest_rad) : 2;
-    }
-    bool sees(const Scan& scan, std::size_t i) const {
-        const float sine = scan.z_m[i] / scan.range_m[i];
-        return sine >= lowest_sine_ && sine <= highest_sine_;
-    }
+/// Sines of the elevations half a beam step below the lowest beam and above the highest; -2 and 2
+/// beyond straight down and up, where the sine would decrease again.
+std::pair<float, float> fieldOfView(const SensorModel& sensor) {
+    const std::vector<float>& beams = sensor.elevations_rad;
+    const std::size_t top = beams.size() - 1;
+    constexpr auto kStraight_rad = static_cast<float>(M_PI / 2);
+    const float lowest_rad = beams[0] - 0.5f * (beams[1] - beams[0]);
+    const float highest_rad = beams[top] + 0.5f * (beams[top] - beams[top - 1]);
+    return {lowest_rad > -kStraight_rad ? std::sin(lowest_rad) : -2,
+            highest_rad < kStraight_rad ? std::sin(highest_rad) : 2};
+}
 
- private:
-    float lowest_sine_, highest_sine_;
-};
-
-Function withTilt(const Eigen::Vector3f& axis, double angle_deg, bool is_told) {
+Function withTilt(const Eigen::Vector3f& axis, double angle_deg, bool is_known) {
     const Eigen::Matrix3f tilt =
         Eigen::AngleAxisf(static_cast<float>(radians(angle_deg)), axis).toRotationMatrix();
-    return [tilt, is_told](const GroundTruthScan& scan, const SensorModel& sensor, Random&) {
+    return [tilt, is_known](const GroundTruthScan& scan, const SensorModel& sensor, Random&) {
         GroundTruthScan tilted = turned(scan, tilt);
-        tilted.input.map_from_sensor = is_told ? tilted.true_level_from_sensor : std::nullopt;
-        const FieldOfView view(sensor);
+        tilted.input.map_from_sensor = is_known ? tilted.true_level_from_sensor : std::nullopt;
+        const auto [lowest, highest] = fieldOfView(sensor);
         const Scan& returns = tilted.input.scan;
-        tilted = filtered(tilted, [&](std::size_t i) { return view.sees(returns, i); });
+        tilted = filtered(tilted, [&, low = lowest, high = highest](std::size_t i) {
+            const float sine = returns.z_m[i] / returns.range_m[i];
+            return sine >= low && sine <= high;
+        });
         locateBeams(sensor, tilted.input.scan);
         return tilted;
     };
@@ -180,25 +181,6 @@ GroundTruthScan upsideDown(const GroundTruthScan& scan, const SensorModel& senso
     for (std::uint8_t& row : returns.row) row = static_cast<std::uint8_t>(sensor.rows() - 1 - row);
     returns.beams = beamSpan(mirrored(sensor));
     return result;
-}
-
-Function withinFov(double angle_deg) {
-    const auto half_rad = static_cast<float>(radians(0.5 * angle_deg));
-    return [half_rad](const GroundTruthScan& scan, const SensorModel&, Random&) {
-        return filtered(scan, [&](std::size_t i) {
-            return std::abs(scan.input.scan.azimuth_rad[i]) <= half_rad;
-        });
-    };
-}
-
-/// `side`: 1 for beams above the elevation, -1 for those below.
-Function withBeams(double elevation_deg, float side) {
-    const auto elevation_rad = static_cast<float>(radians(elevation_deg));
-    return [=](const GroundTruthScan& scan, const SensorModel& sensor, Random&) {
-        return filtered(scan, [&](std::size_t i) {
-            return side * (sensor.elevations_rad[scan.input.scan.row[i]] - elevation_rad) > 0;
-        });
-    };
 }
 
 /// The returns of each row that have a range, by azimuth.
@@ -231,16 +213,11 @@ float azimuthStep(const Scan& scan, const std::vector<std::vector<std::size_t>>&
     return *middle;
 }
 
-/// A second return behind an edge.
-struct SecondReturn {
-    std::size_t ray, neighbour;
-};
-
 GroundTruthScan dualReturn(const GroundTruthScan& scan, const SensorModel& sensor, Random& random) {
     const Scan& returns = scan.input.scan;
     const auto rows = rowsByAzimuth(returns, sensor.rows());
     const float most_rad = kSteps * azimuthStep(returns, rows);
-    std::vector<SecondReturn> seconds;
+    std::vector<std::pair<std::size_t, std::size_t>> seconds;  // ray, and neighbour behind it
     for (const std::vector<std::size_t>& row : rows) {
         for (std::size_t k = 0; row.size() > 1 && k < row.size(); ++k) {
             const std::size_t ray = row[k];
@@ -256,20 +233,21 @@ GroundTruthScan dualReturn(const GroundTruthScan& scan, const SensorModel& senso
                 if (nearest == ray || returns.range_m[other] < returns.range_m[nearest])
                     nearest = other;
             }
-            if (nearest != ray && chance(random, kDualChance)) seconds.push_back({ray, nearest});
+            if (nearest != ray && random.chance(kDualChance)) seconds.emplace_back(ray, nearest);
         }
     }
     GroundTruthScan result = scan;
-    for (const SecondReturn& second : seconds) {
-        forEachArray(result, [&](auto& values) {
-            if (!values.empty()) values.push_back(values[second.ray]);
-        });
-        const std::size_t added = result.input.scan.size() - 1;
-        setRange(result.input.scan, added, returns.range_m[second.neighbour]);
-        result.truth[added] = scan.truth[second.neighbour];
-        if (!scan.kinds.empty()) result.kinds[added] = scan.kinds[second.neighbour];
-        if (!scan.objects.empty()) result.objects[added] = scan.objects[second.neighbour];
-        if (!scan.heights_m.empty()) result.heights_m[added] = scan.heights_m[second.neighbour];
+    for (const auto& [ray, behind] : seconds) {
+        const auto append = [](auto& values, std::size_t i) {
+            if (!values.empty()) values.push_back(values[i]);
+        };
+        for (std::vector<float>* values : floatsOf(result.input.scan)) append(*values, ray);
+        append(result.input.scan.row, ray);
+        append(result.truth, behind);
+        append(result.kinds, behind);
+        append(result.objects, behind);
+        append(result.heights_m, behind);
+        setRange(result.input.scan, result.input.scan.size() - 1, returns.range_m[behind]);
     }
     return result;
 }
@@ -315,12 +293,11 @@ double numberOf(const std::string& text, const std::string& value, double least,
 
 std::vector<int> rowsOf(const std::string& text, const std::string& values) {
     std::vector<int> rows;
-    for (std::size_t begin = 0; begin <= values.size();) {
-        const std::size_t end = std::min(values.find(',', begin), values.size());
-        const auto row = base::numberFrom<std::uint8_t>(values.substr(begin, end - begin));
+    std::istringstream stream(values + ",");  // an empty value at the end counts
+    for (std::string value; std::getline(stream, value, ',');) {
+        const auto row = base::numberFrom<std::uint8_t>(value);
         if (!row) fail(text, "expected rows (0 is the lowest beam), as in dead_beams=7,8");
         rows.push_back(*row);
-        begin = end + 1;
     }
     return rows;
 }
@@ -338,7 +315,13 @@ bool takeEnding(const std::string& ending, std::string& text) {
 
 GroundTruthScan partOf(const GroundTruthScan& scan, const std::vector<bool>& is_kept) {
     GroundTruthScan part = scan;
-    forEachArray(part, [&](auto& values) { keepPart(values, is_kept); });
+    forEachArray(part, [&](auto& values) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (is_kept[i]) values[kept++] = values[i];
+        }
+        values.resize(kept);
+    });
     return part;
 }
 
@@ -369,10 +352,10 @@ Degradation::Degradation(const std::string& text) : name_(text) {
     } else if (key == "rain") {
         function_ = withRain(number(0, 100) / 100);
     } else if (key == "roll_deg" || key == "pitch_deg") {
-        const bool is_told = takeEnding(",attitude", value);
+        const bool is_known = takeEnding(",attitude", value);
         const bool is_roll = key == "roll_deg";
         function_ = withTilt(is_roll ? Eigen::Vector3f::UnitX() : Eigen::Vector3f::UnitY(),
-                             number(-90, 90), is_told);
+                             number(-90, 90), is_known);
     } else if (key == "fov_deg") {
         function_ = withinFov(number(1, 360));
     } else if (key == "above_deg") {

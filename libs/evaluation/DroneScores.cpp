@@ -34,14 +34,12 @@ std::vector<Eigen::Vector2f> plansOfObstacles(const GroundTruthScan& scan,
     return plans_m;
 }
 
-void checkSizes(const GroundTruthScan& scan) {
+void checkTruth(const GroundTruthScan& scan) {
     const std::size_t returns = scan.input.scan.size();
-    if (scan.truth.size() != returns || (!scan.kinds.empty() && scan.kinds.size() != returns) ||
-        (!scan.objects.empty() && scan.objects.size() != returns) ||
-        (!scan.heights_m.empty() && scan.heights_m.size() != returns)) {
-        throw std::invalid_argument("ground truth does not fit " + std::to_string(returns) +
-                                    " returns");
-    }
+    checkSizes(returns, scan.truth.size(), "ground-truth labels");
+    if (!scan.kinds.empty()) checkSizes(returns, scan.kinds.size(), "kinds");
+    if (!scan.objects.empty()) checkSizes(returns, scan.objects.size(), "objects");
+    if (!scan.heights_m.empty()) checkSizes(returns, scan.heights_m.size(), "heights");
 }
 
 }  // namespace
@@ -80,7 +78,7 @@ DroneScores& DroneScores::operator+=(const DroneScores& other) {
 
 DroneTruth::DroneTruth(const GroundTruthScan& scan, const RangeBands& bands)
     : scan_(scan), bands_(bands) {
-    checkSizes(scan);
+    checkTruth(scan);
     plan_ = std::make_unique<Plan>(scan, levelPoints(scan));
     const std::vector<float> heights_m =
         scan.heights_m.empty() ? heightsAboveTrueGround(scan, plan_->points_m, bands.max_range_m)
@@ -103,10 +101,7 @@ bool DroneTruth::isBareGround(std::size_t i) const {
 }
 
 DroneScores DroneTruth::score(const std::vector<Label>& found, const LabelMap& kinds) const {
-    if (found.size() != scan_.truth.size()) {
-        throw std::invalid_argument("has " + std::to_string(found.size()) + " found labels for " +
-                                    std::to_string(scan_.truth.size()) + " returns");
-    }
+    checkSizes(scan_.truth.size(), found.size(), "found labels");
     DroneScores scores;
     scores.scans = 1;
     scores.tall_by_range.resize(bands_.count());

@@ -18,22 +18,14 @@ class PlanTree {
     PlanTree(const PlanTree&) = delete;
     PlanTree& operator=(const PlanTree&) = delete;
 
-    std::size_t size() const { return points_.at_m.size(); }
-
     /// Indices of all positions whose squared distance is below a limit, in no particular order.
     std::vector<std::uint32_t> within(const Eigen::Vector2f& at_m, float limit_m2) const {
         All all{limit_m2, {}};
-        search(at_m, all);
+        if (!points_.at_m.empty()) tree_.findNeighbors(all, at_m.data(), {});
         return all.found;
     }
-    /// Whether the squared distance of any position is below a limit.
-    bool isAnyWithin(const Eigen::Vector2f& at_m, float limit_m2) const {
-        Any any{limit_m2};
-        search(at_m, any);
-        return any.is_found;
-    }
-    /// Squared distance of the position that is `count`-th in order of distance, or of the farthest
-    /// one if there are fewer. There must be one.
+    /// Squared distance of the `count`-th nearest position, or of the farthest one if there are
+    /// fewer. There must be one.
     float squaredDistanceOf(std::size_t count, const Eigen::Vector2f& at_m) const {
         std::vector<std::uint32_t> index(count);
         std::vector<float> distance_m2(count);
@@ -41,11 +33,15 @@ class PlanTree {
             tree_.knnSearch(at_m.data(), count, index.data(), distance_m2.data());
         return distance_m2[found - 1];
     }
+    /// Whether the squared distance of any position is below a limit.
+    bool isAnyWithin(const Eigen::Vector2f& at_m, float limit_m2) const {
+        return !points_.at_m.empty() && squaredDistanceOf(1, at_m) < limit_m2;
+    }
 
  private:
     static constexpr std::size_t kLeafSize = 16;
 
-    /// Points and result sets in the interfaces that nanoflann expects.
+    /// The interfaces that nanoflann expects.
     struct Points {
         std::vector<Eigen::Vector2f> at_m;
 
@@ -70,24 +66,6 @@ class PlanTree {
         static std::size_t size() { return 1; }
         static bool full() { return true; }
     };
-    struct Any {
-        float limit_m2;
-        bool is_found = false;
-
-        bool addPoint(float, std::uint32_t) {
-            is_found = true;
-            return false;  // ends the search
-        }
-        float worstDist() const { return limit_m2; }
-        static std::size_t size() { return 1; }
-        static bool full() { return true; }
-    };
-
-    template <class Results>
-    void search(const Eigen::Vector2f& at_m, Results& results) const {
-        if (!points_.at_m.empty()) tree_.findNeighbors(results, at_m.data(), {});
-    }
-
     Points points_;
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 2>
         tree_;

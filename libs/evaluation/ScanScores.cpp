@@ -8,13 +8,13 @@ namespace {
 
 constexpr float kMostBands = 1e6f;  // each has scores in memory
 
+}  // namespace
+
 void checkSizes(std::size_t returns, std::size_t labels, const std::string& what) {
     if (labels == returns) return;
     throw std::invalid_argument("has " + std::to_string(labels) + " " + what + " for " +
                                 std::to_string(returns) + " returns");
 }
-
-}  // namespace
 
 Eigen::Matrix3f GroundTruthScan::levelFromSensor() const {
     if (true_level_from_sensor) return *true_level_from_sensor;

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 
 #include "evaluation/PlanTree.h"
@@ -11,50 +11,41 @@
 namespace hagen::evaluation {
 namespace {
 
-constexpr float kFarthest_m = 10000;  // no LiDAR sees as far; keeps cell numbers small
+constexpr float kMaxRange_m = 10000;  // of any LiDAR; keeps cell numbers small
 
-/// The median; of an even number of values the upper one of both in the middle.
+/// The median; the upper one of an even number of values.
 float medianOf(std::vector<float>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
 
-struct Cell {
-    std::int32_t x, y;
+using Cell = std::pair<std::int32_t, std::int32_t>;
 
-    explicit Cell(const Eigen::Vector3f& point_m)
-        : x(static_cast<std::int32_t>(std::floor(point_m.x() / kGroundCell_m))),
-          y(static_cast<std::int32_t>(std::floor(point_m.y() / kGroundCell_m))) {}
+Cell cellOf(const Eigen::Vector3f& point_m) {
+    return {static_cast<std::int32_t>(std::floor(point_m.x() / kGroundCell_m)),
+            static_cast<std::int32_t>(std::floor(point_m.y() / kGroundCell_m))};
+}
 
-    std::uint64_t key() const {
-        return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 |
-               static_cast<std::uint32_t>(y);
-    }
-    Eigen::Vector2f centre_m() const {
-        return kGroundCell_m *
-               Eigen::Vector2f(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-    }
-};
+Eigen::Vector2f centreOf(const Cell& cell) {
+    return kGroundCell_m * Eigen::Vector2f(static_cast<float>(cell.first) + 0.5f,
+                                           static_cast<float>(cell.second) + 0.5f);
+}
 
 /// Median heights of the cells with ground.
 class GroundCells {
  public:
     GroundCells(const std::vector<Label>& truth, const std::vector<Eigen::Vector3f>& points_m) {
-        std::unordered_map<std::uint64_t, std::size_t> index;
-        std::vector<std::vector<float>> heights_m;
-        std::vector<Eigen::Vector2f> centres_m;
+        std::map<Cell, std::vector<float>> heights_of_cell;
         for (std::size_t i = 0; i < truth.size(); ++i) {
             if (truth[i] != Label::Rou || !points_m[i].allFinite()) continue;
-            const Cell cell(points_m[i]);
-            const auto [at, is_new] = index.try_emplace(cell.key(), heights_m.size());
-            if (is_new) {
-                heights_m.emplace_back();
-                centres_m.push_back(cell.centre_m());
-            }
-            heights_m[at->second].push_back(points_m[i].z());
+            heights_of_cell[cellOf(points_m[i])].push_back(points_m[i].z());
         }
-        for (std::vector<float>& cell : heights_m) heights_m_.push_back(medianOf(cell));
+        std::vector<Eigen::Vector2f> centres_m;
+        for (auto& [cell, heights_m] : heights_of_cell) {
+            heights_m_.push_back(medianOf(heights_m));
+            centres_m.push_back(centreOf(cell));
+        }
         tree_ = std::make_unique<PlanTree>(std::move(centres_m));
     }
 
@@ -63,7 +54,7 @@ class GroundCells {
         if (heights_m_.empty()) return -std::numeric_limits<float>::infinity();
         // "As near" rather than "nearer"; squared distances between centres differ by 0.25 m2.
         constexpr float kOrEqual_m2 = 0.1f;
-        const Eigen::Vector2f at_m = cell.centre_m();
+        const Eigen::Vector2f at_m = centreOf(cell);
         std::vector<std::uint32_t> near =
             tree_->within(at_m, kGroundNear_m * kGroundNear_m + kOrEqual_m2);
         if (near.empty()) {
@@ -89,7 +80,7 @@ std::vector<Eigen::Vector3f> levelPoints(const GroundTruthScan& scan) {
     std::vector<Eigen::Vector3f> points_m(returns.size());
     for (std::size_t i = 0; i < returns.size(); ++i) {
         const Eigen::Vector3f point_m(returns.x_m[i], returns.y_m[i], returns.z_m[i]);
-        const bool is_somewhere = returns.range_m[i] < kFarthest_m;  // false for NaN
+        const bool is_somewhere = returns.range_m[i] < kMaxRange_m;  // false for NaN
         points_m[i] = is_somewhere ? Eigen::Vector3f(level * point_m)
                                    : Eigen::Vector3f::Constant(std::nanf(""));
     }
@@ -100,13 +91,13 @@ std::vector<float> heightsAboveTrueGround(const GroundTruthScan& scan,
                                           const std::vector<Eigen::Vector3f>& points_m,
                                           float max_range_m) {
     const GroundCells ground(scan.truth, points_m);
-    std::unordered_map<std::uint64_t, float> ground_of_cell;
+    std::map<Cell, float> ground_of_cell;
     std::vector<float> heights_m(points_m.size(), std::nanf(""));
     for (std::size_t i = 0; i < points_m.size(); ++i) {
         if (scan.truth[i] != Label::Roi || !(scan.input.scan.range_m[i] <= max_range_m)) continue;
         if (!points_m[i].allFinite()) continue;  // in no cell
-        const Cell cell(points_m[i]);
-        const auto [at, is_new] = ground_of_cell.try_emplace(cell.key(), 0.0f);
+        const Cell cell = cellOf(points_m[i]);
+        const auto [at, is_new] = ground_of_cell.try_emplace(cell, 0.0f);
         if (is_new) at->second = ground.groundOf(cell);
         heights_m[i] = points_m[i].z() - at->second;
     }

@@ -8,13 +8,11 @@
 #include <iostream>
 #include <memory>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 namespace hagen::observations {
 
-/// Reads this many numbers, in blocks, so that a wrong number ends at the end of the file and does
-/// not take all memory.
+/// Reads this many numbers in blocks, so that a corrupt count cannot exhaust memory.
 template <class Vector>
 void readNumbers(mrpt::serialization::CArchive& in, std::size_t count, Vector& values) {
     constexpr std::size_t kBlock = 1 << 16;
@@ -27,30 +25,26 @@ void readNumbers(mrpt::serialization::CArchive& in, std::size_t count, Vector& v
     }
 }
 
-/// The name of a field.
-inline std::string readName(mrpt::serialization::CArchive& in) {
-    constexpr std::uint32_t kMostLetters = 256;
-    const auto letters = in.ReadAs<std::uint32_t>();
-    if (letters > kMostLetters) throw std::runtime_error("the name of a field is too long");
-    std::string name;
-    readNumbers(in, letters, name);
-    return name;
+inline std::string readText(mrpt::serialization::CArchive& in) {
+    std::string text;
+    readNumbers(in, in.ReadAs<std::uint32_t>(), text);
+    return text;
 }
 
-/// As long as it lives, what is printed on standard error goes nowhere.
-class StandardErrorAside {
+/// Discards std::cerr during its lifetime.
+class SilentErrorStream {
  public:
-    StandardErrorAside() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
-    ~StandardErrorAside() { std::cerr.rdbuf(before_); }
-    StandardErrorAside(const StandardErrorAside&) = delete;
-    StandardErrorAside& operator=(const StandardErrorAside&) = delete;
+    SilentErrorStream() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
+    ~SilentErrorStream() { std::cerr.rdbuf(before_); }
+    SilentErrorStream(const SilentErrorStream&) = delete;
+    SilentErrorStream& operator=(const SilentErrorStream&) = delete;
 
  private:
     std::ostringstream text_;
     std::streambuf* before_;
 };
 
-/// Registers a class under the name of another. The entries live as long as the program.
+/// Registers a class under the name of another.
 template <class Derived, class Base>
 void registerAs(const char* name) {
     static const mrpt::rtti::TRuntimeClassId id{
@@ -58,7 +52,7 @@ void registerAs(const char* name) {
         [] { return std::static_pointer_cast<mrpt::rtti::CObject>(std::make_shared<Derived>()); },
         [] { return CLASS_ID(Base); }};
     // MRPT warns on standard error if the name is taken.
-    const StandardErrorAside aside;
+    const SilentErrorStream silence;
     mrpt::rtti::registerClassCustomName(name, &id);
 }
 

@@ -12,7 +12,7 @@
 namespace hagen::observations {
 namespace {
 
-constexpr int kFewestRows = 3;  // of the filter's image
+constexpr int kMinRows = 3;  // of the filter's image
 
 std::size_t returnsWithRange(const Scan& scan) {
     std::size_t returns = 0;
@@ -33,7 +33,7 @@ void CloudSensors::see(const mrpt::obs::CObservation& observation) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {
-        return;  // readObservation() says why
+        return;  // readObservation() reports it
     }
     see(observation.sensorLabel, scan_, rings_);
 }
@@ -52,7 +52,7 @@ void CloudSensors::see(const std::string& label, const Scan& scan,
         recovered = recoverBeams(scan);
         if (recovered) recovered->has_unfit_rings = !rings.empty();
     }
-    if (!recovered || recovered->sensor.rows() < kFewestRows) return;
+    if (!recovered || recovered->sensor.rows() < kMinRows) return;
     seen.returns = returns;
     seen.beams = std::make_shared<const RecoveredBeams>(std::move(*recovered));
 }

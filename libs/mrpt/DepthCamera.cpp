@@ -15,12 +15,12 @@ using mrpt::img::DistortionModel;
 using mrpt::img::TCamera;
 using mrpt::obs::CObservation3DRangeScan;
 
-/// A place in the image plane at a depth of 1: to the right and down.
+/// A point in the image plane at a depth of 1.
 struct ImagePoint {
     double right, down;
 };
 
-/// Where an undistorted point appears, by the model of OpenCV that MRPT calls "plumb bob".
+/// The distorted point, by the OpenCV model that MRPT calls "plumb bob".
 ImagePoint distorted(const TCamera& camera, const ImagePoint& at) {
     const auto& k = camera.dist;  // k1 k2 p1 p2 k3 k4 k5 k6
     const double x = at.right, y = at.down, r2 = x * x + y * y;
@@ -30,34 +30,34 @@ ImagePoint distorted(const TCamera& camera, const ImagePoint& at) {
             y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
 }
 
-/// The point that appears at `seen`: a fixed-point iteration, as OpenCV's.
+/// The inverse: a fixed-point iteration as in OpenCV.
 ImagePoint undistorted(const TCamera& camera, const ImagePoint& seen) {
     if (camera.distortion == DistortionModel::none) return seen;
-    constexpr int kMostSteps = 20;
-    constexpr double kCloseEnough = 1e-7;
+    constexpr int kMaxSteps = 20;
+    constexpr double kTolerance = 1e-7;
     ImagePoint at = seen;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
         const ImagePoint there = distorted(camera, at);
         const double right = seen.right - there.right, down = seen.down - there.down;
         at = {at.right + right, at.down + down};
-        if (std::abs(right) + std::abs(down) < kCloseEnough) break;
+        if (std::abs(right) + std::abs(down) < kTolerance) break;
     }
     return at;
 }
 
 void checkCamera(const TCamera& camera) {
-    const auto isSound = [](double pixels) { return pixels > 0 && std::isfinite(pixels); };
-    if (!isSound(camera.fx()) || !isSound(camera.fy()) || !std::isfinite(camera.cx()) ||
+    const auto isValid = [](double pixels) { return pixels > 0 && std::isfinite(pixels); };
+    if (!isValid(camera.fx()) || !isValid(camera.fy()) || !std::isfinite(camera.cx()) ||
         !std::isfinite(camera.cy())) {
-        throw std::runtime_error("its camera has no focal length, or one that is not finite");
+        throw std::runtime_error("the focal length or centre of its camera is invalid");
     }
     const bool is_finite = std::all_of(camera.dist.begin(), camera.dist.end(),
                                        [](double term) { return std::isfinite(term); });
     if (camera.distortion == DistortionModel::none) return;
     if (camera.distortion != DistortionModel::plumb_bob || !is_finite) {
         throw std::runtime_error(
-            "the lens distortion of its camera is not supported (none and plumb_bob are); store "
-            "its points in the log");
+            "the lens distortion of its camera is not supported (none or plumb_bob); store its "
+            "points in the log");
     }
 }
 

@@ -9,7 +9,7 @@ namespace hagen::observations {
 namespace {
 
 constexpr double kKnotSpacing_s = 1e-3;
-constexpr double kLongestScan_s = 10;  // times of more are no times of one scan
+constexpr double kLongestScan_s = 10;  // longer: corrupt times
 
 /// Returns the sensor's pose at `start` + time_s, relative to its pose at `start`.
 std::optional<Eigen::Isometry3f> motionUntil(const Trajectory& vehicle,
@@ -39,10 +39,8 @@ bool deskew(const Trajectory& vehicle, mrpt::Clock::time_point start,
     const double first_s = static_cast<double>(*first), last_s = static_cast<double>(*last);
     if (!(first_s > -kLongestScan_s && last_s < kLongestScan_s)) return false;
 
-    // Poses are sampled every millisecond, the last one after the last return, and returns are
-    // moved by linear interpolation between two samples. Interpolating the trajectory for each
-    // return would take a hundred times as long, and the poses do not contain a rotor's vibration
-    // anyway.
+    // Returns are moved by linear interpolation between poses sampled every millisecond. To
+    // interpolate the trajectory for each return would take a hundred times as long.
     const int knots = std::max(1, static_cast<int>(std::ceil((last_s - first_s) / kKnotSpacing_s)));
     const double spacing_s = (last_s - first_s) / knots;
     std::vector<Eigen::Isometry3f> motion;

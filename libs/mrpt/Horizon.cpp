@@ -16,10 +16,10 @@ namespace {
 using mrpt::obs::CObservationIMU;
 using mrpt::poses::CPose3D;
 
-constexpr double kLongest_s = 0.2;
+constexpr double kMaxAge_s = 0.2;
 
-/// The measurement, if the IMU has a finite one. A corrupt recording can have flags that are
-/// neither true nor false, which must not be read as bool; what they stand for counts as missing.
+/// The measurement, if the IMU has a finite one. Flags of corrupt recordings may be neither true
+/// nor false, must not be read as bool, and count as missing.
 std::optional<double> measured(const CObservationIMU& imu, mrpt::obs::TIMUDataIndex what) {
     unsigned char is_present = 0;
     static_assert(sizeof(imu.dataIsPresent.at(what)) == sizeof(is_present));
@@ -65,7 +65,7 @@ void Horizon::see(const mrpt::obs::CObservation& observation) {
 
 std::optional<CPose3D> Horizon::at(mrpt::Clock::time_point time) const {
     if (!vehicle_ || !isTime(time) ||
-        std::abs(mrpt::system::timeDifference(time_, time)) > kLongest_s) {
+        std::abs(mrpt::system::timeDifference(time_, time)) > kMaxAge_s) {
         return std::nullopt;
     }
     return vehicle_;

@@ -28,17 +28,25 @@ using mrpt::maps::CPointsMapXYZI;
 using mrpt::maps::CSimplePointsMap;
 using mrpt::serialization::CArchive;
 
-/// Reads what MRPT writes of a vector of numbers other than float: two names, then the numbers.
-/// MRPT's own reader makes room for as many as the file claims.
+/// Reads a vector of numbers other than float: two names, then the numbers. MRPT's own reader
+/// allocates as many as the file claims.
 template <class Vector>
 void readVector(CArchive& in, Vector& values) {
-    const std::string container = readName(in), type = readName(in);
+    const std::string container = readText(in), type = readText(in);
     const std::string wanted =
         mrpt::typemeta::TTypeName<typename Vector::value_type>::get().c_str();
     if (container != "std::vector" || type != wanted) {
-        throw std::runtime_error("the values of a field are no std::vector of " + wanted);
+        throw std::runtime_error("the values of a field are not a std::vector of " + wanted);
     }
     readNumbers(in, in.ReadAs<std::uint32_t>(), values);
+}
+
+template <class Number>
+constexpr NumberType typeOf() {
+    if (std::is_same_v<Number, float>) return NumberType::Float32;
+    if (std::is_same_v<Number, double>) return NumberType::Float64;
+    if (std::is_same_v<Number, std::uint16_t>) return NumberType::UInt16;
+    return std::is_same_v<Number, std::uint8_t> ? NumberType::UInt8 : NumberType::UInt32;
 }
 
 /// The coordinates, with their number.
@@ -71,8 +79,7 @@ void readInsertionOptions(CArchive& in, CPointsMap::TInsertionOptions& options) 
         options.maxDistForInterpolatePoints >> options.insertInvalidPoints;
 }
 
-/// A CSimplePointsMap whose insertion options may be newer. It is written as the older one, since
-/// its class and writing are inherited.
+/// A CSimplePointsMap whose insertion options may be newer. It is written with the older ones.
 class SimpleCloud : public CSimplePointsMap {
     static constexpr std::uint8_t kVersionWithOptions = 10;
 
@@ -92,8 +99,8 @@ class SimpleCloud : public CSimplePointsMap {
 constexpr const char* kGenericName = "mrpt::maps::CGenericPointsMap";
 const mrpt::rtti::TRuntimeClassId& genericClass();
 
-/// A CGenericPointsMap: coordinates, then named fields by type. Unless it is told otherwise, it is
-/// written as CPointsMapXYZI, which older versions of MRPT read.
+/// A CGenericPointsMap: coordinates, then named fields by type. By default it is written as
+/// CPointsMapXYZI, which older versions of MRPT read.
 class GenericCloud : public CPointsMapXYZI {
  public:
     std::vector<std::string> fields_not_kept;
@@ -105,7 +112,7 @@ class GenericCloud : public CPointsMapXYZI {
         return is_written_as_generic ? &genericClass() : CPointsMapXYZI::GetRuntimeClass();
     }
 
-    /// Takes the colour of its points, if it has fields of colours. It is not written otherwise.
+    /// Takes the colour of its first point: fields of colours are not written otherwise.
     void takeColor() {
         std::array<float, 3> color{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -144,20 +151,11 @@ class GenericCloud : public CPointsMapXYZI {
         likelihoodOptions.writeToStream(out);
     }
 
-    /// Whether a field is written as one of these numbers: as what it is, where there is such a
-    /// type, otherwise as float64.
-    template <class Number>
-    static bool isWrittenAs(NumberType type) {
-        switch (type) {
-            case NumberType::Float32:
-                return std::is_same_v<Number, float>;
-            case NumberType::UInt16:
-                return std::is_same_v<Number, std::uint16_t>;
-            case NumberType::UInt8:
-                return std::is_same_v<Number, std::uint8_t>;
-            default:
-                return std::is_same_v<Number, double>;
-        }
+    /// The class has no other types: the rest is written as float64.
+    static NumberType writtenType(NumberType type) {
+        const bool is_kept =
+            type == NumberType::Float32 || type == NumberType::UInt16 || type == NumberType::UInt8;
+        return is_kept ? type : NumberType::Float64;
     }
 
     template <class Number>
@@ -174,18 +172,19 @@ class GenericCloud : public CPointsMapXYZI {
     /// All fields of one type. Each number of a field with several is a field of its own.
     template <class Number>
     void writeFields(CArchive& out) const {
-        const bool has_more = std::is_same_v<Number, float> && has_intensity;
-        std::uint32_t count = has_more ? 1 : 0;
+        const bool with_intensity = std::is_same_v<Number, float> && has_intensity;
+        std::uint32_t count = with_intensity ? 1 : 0;
         for (const PointField& field : other_fields.fields) {
-            if (isWrittenAs<Number>(field.type)) count += static_cast<std::uint32_t>(field.count);
+            if (writtenType(field.type) == typeOf<Number>())
+                count += static_cast<std::uint32_t>(field.count);
         }
         out << count;
-        if (has_more) {
+        if (with_intensity) {
             const auto& intensities = getPointsBufferRef_intensity();
             writeField<Number>("intensity", {intensities.begin(), intensities.end()}, out);
         }
         for (const PointField& field : other_fields.fields) {
-            if (!isWrittenAs<Number>(field.type)) continue;
+            if (writtenType(field.type) != typeOf<Number>()) continue;
             for (std::size_t element = 0; element < field.count; ++element) {
                 const std::string number = field.count == 1 ? "" : "_" + std::to_string(element);
                 writeField<Number>(field.name + number, columnOf(other_fields, field, element),
@@ -211,21 +210,16 @@ class GenericCloud : public CPointsMapXYZI {
         takeColor();
     }
 
-    /// Returns why the field cannot be kept; empty: it is.
+    /// Returns why the field cannot be kept; empty: kept.
     template <class Number>
     std::string keep(const std::string& name, const std::vector<double>& values) {
         if (name.empty()) return "it has no name";
-        if (findExactly(other_fields, name) != nullptr) return "there is another of this name";
+        if (findExactly(other_fields, name) != nullptr) return "its name is a duplicate";
         if (values.size() != size()) {
             return "it has " + std::to_string(values.size()) + " values for " +
                    std::to_string(size()) + " points";
         }
-        const NumberType type = std::is_same_v<Number, float>           ? NumberType::Float32
-                                : std::is_same_v<Number, double>        ? NumberType::Float64
-                                : std::is_same_v<Number, std::uint16_t> ? NumberType::UInt16
-                                : std::is_same_v<Number, std::uint8_t>  ? NumberType::UInt8
-                                                                        : NumberType::UInt32;
-        addColumn(name, type, values, other_fields);
+        addColumn(name, typeOf<Number>(), values, other_fields);
         return "";
     }
 
@@ -233,7 +227,7 @@ class GenericCloud : public CPointsMapXYZI {
     template <class Number>
     void readFields(CArchive& in, std::uint8_t version) {
         for (auto fields = in.ReadAs<std::uint32_t>(); fields > 0; --fields) {
-            const std::string name = readName(in);
+            const std::string name = readText(in);
             mrpt::aligned_std_vector<Number> values;
             if (version >= 3 || std::is_same_v<Number, float>) {
                 readNumbers(in, in.ReadAs<std::uint32_t>(), values);
@@ -299,12 +293,9 @@ CPointsMap::Ptr genericCloudOf(const PointTable& table) {
     cloud->has_intensity = intensity != nullptr;
     cloud->other_fields = table;
     auto& others = cloud->other_fields.fields;
-    others.erase(std::remove_if(others.begin(), others.end(),
-                                [](const PointField& field) {
-                                    const std::set<std::string> kept{"x", "y", "z", "intensity"};
-                                    return kept.count(field.name) > 0;
-                                }),
-                 others.end());
+    const std::set<std::string> standard{"x", "y", "z", "intensity"};
+    const auto isStandard = [&](const PointField& field) { return standard.count(field.name) > 0; };
+    others.erase(std::remove_if(others.begin(), others.end(), isStandard), others.end());
     cloud->setSize(table.points);
     for (std::size_t i = 0; i < table.points; ++i) {
         cloud->setPointFast(i, static_cast<float>(x_m[i]), static_cast<float>(y_m[i]),

@@ -6,7 +6,7 @@
 #include <hagen/mrpt/Results.h>
 #include <hagen/mrpt/RotatingScan.h>
 #include <hagen/mrpt/TableCloud.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/MostReturns.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -47,7 +47,7 @@ bool isSame(const Settings::Sensor& a, const Settings::Sensor& b) {
            a.min_range_m == b.min_range_m && a.max_range_m == b.max_range_m;
 }
 
-/// Takes the sensor of a cloud; rebuilds it, which allocates, only if it changed.
+/// Sets the sensor of a cloud; rebuilds it, which allocates, only if it changed.
 void takeCloudSensor(const Settings& settings, const SharedBeams& beams, ObservedScan& observed) {
     ObservedScan::Workspace& work = observed.work;
     if (!work.settings || !isSame(*work.settings, settings.sensor) || work.beams != beams) {
@@ -82,7 +82,7 @@ void readPoints(const CObservationPointCloud& observation, Scan& scan) {
     if (const auto* intensities = intensitiesOf(cloud)) assignIntensities(*intensities, scan);
 }
 
-/// What the fields of a cloud say of its returns.
+/// Rings and times from the fields of a cloud.
 struct FieldsOfReturns {
     PointFieldValues<std::int32_t> rings;
     PointFieldValues<float> times_s;
@@ -102,7 +102,7 @@ FieldsOfReturns fieldsOfReturns(const CObservationPointCloud& observation) {
     return found;
 }
 
-/// Names the fields of a newer MRPT's cloud that get lost, and says what is wrong with others.
+/// Lists the unused fields of a newer MRPT's cloud, and warnings about others.
 std::string remarkOnFields(const CObservationPointCloud& observation, const FieldsOfReturns& used,
                            bool are_rings_used) {
     std::string names;
@@ -129,7 +129,7 @@ const LocatedCloud* locatedCloudOf(const mrpt::obs::CObservation& observation) {
     return cloud == nullptr ? nullptr : dynamic_cast<const LocatedCloud*>(cloud->pointcloud.get());
 }
 
-/// The rows of the rings that a cloud's returns are numbered with, where these are known.
+/// Sets rows by ring numbers where known.
 void takeRings(const std::vector<std::int32_t>& rings, const std::vector<int>& row_of_ring,
                Scan& scan) {
     for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -139,20 +139,20 @@ void takeRings(const std::vector<std::int32_t>& rings, const std::vector<int>& r
     }
 }
 
-/// The recording's own sensor is used, but for its range limits: those are of its driver, and all
-/// returns are there.
+/// Applies the settings to the recording's own sensor: their range limits count, their beams do
+/// not.
 void takeOwnSensor(const Settings& settings, ObservedScan& observed) {
     SensorModel& sensor = observed.sensor;
     sensor.min_range_m = settings.sensor.min_range_m.value_or(sensor.min_range_m);
     sensor.max_range_m = settings.sensor.max_range_m.value_or(sensor.max_range_m);
     if (settings.sensor.model && settings.sensor.model != sensor.name) {
-        observed.remark = "the packets are of the sensor " + sensor.name +
+        observed.remark = "the recording is of the sensor " + sensor.name +
                           ": its beams are used instead of the settings' sensor.model " +
                           *settings.sensor.model;
     }
 }
 
-/// Reads a cloud that knows its beams.
+/// Reads a cloud with known beams.
 void readLocated(const CObservationPointCloud& observation, const LocatedCloud& cloud,
                  const Settings& settings, ObservedScan& observed) {
     observed.sensor = cloud.sensor();
@@ -163,7 +163,7 @@ void readLocated(const CObservationPointCloud& observation, const LocatedCloud& 
     observed.scan.time_s = cloud.times_s();
 }
 
-/// Reads a cloud whose beams are named, recovered, or told by a field.
+/// Reads a cloud whose beams are named, recovered, or given by a field.
 void readCloud(const CObservationPointCloud& observation, const Settings& settings,
                const SharedBeams& beams, ObservedScan& observed) {
     readPoints(observation, observed.scan);
@@ -183,16 +183,24 @@ void readRotating(const mrpt::obs::CObservationRotatingScan& observation, const 
     RotatingReturns& returns = observed.work.rotating;
     if (organizedPointsOf(observation) == nullptr) {
         readRangeImage(observation, settings, observed.scan, observed.sensor, returns);
+        takeOwnSensor(settings, observed);
     } else {
         readOrganizedPoints(observation, observed.scan, returns);
         takeCloudSensor(settings, beams, observed);
-        if (!settings.sensor.model) takeLimits(observation, settings, observed.sensor);
+        if (!settings.sensor.model) {
+            takeLimits(observation, observed.sensor);
+            takeOwnSensor(settings, observed);
+        }
         locateBeams(observed.sensor, observed.scan);
         if (observed.recovered) {
             takeRings(returns.image_row, observed.recovered->row_of_ring, observed.scan);
         }
     }
-    observed.remark = returns.remark;
+    if (observed.remark.empty()) {
+        observed.remark = returns.remark;
+    } else if (!returns.remark.empty()) {
+        observed.remark += "; " + returns.remark;
+    }
 }
 
 void readPackets(const CObservationVelodyneScan& observation, const Settings& settings,

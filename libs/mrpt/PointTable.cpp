@@ -75,9 +75,9 @@ void check(const PointTable& table) {
     for (const PointField& field : table.fields) {
         if (field.name.empty()) throw std::runtime_error("a field has no name");
         const std::string title = "the field '" + field.name + "'";
-        if (!names.insert(field.name).second) throw std::runtime_error(title + " is there twice");
+        if (!names.insert(field.name).second) throw std::runtime_error(title + " occurs twice");
         if (field.count == 0) throw std::runtime_error(title + " has no numbers");
-        // Without points, no byte backs what a header says of its fields.
+        // Without points, no bytes limit the counts of a header.
         if (field.count > kMostNumbersPerPoint - numbers) {
             throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
                                      nameOf(field.type) + ") makes more than " +
@@ -87,7 +87,7 @@ void check(const PointTable& table) {
         numbers += field.count;
         const std::size_t size = bytesOf(field.type);
         const std::size_t room = table.bytes_per_point;
-        // Without products of numbers from a file, which may overflow.
+        // Products of numbers from a file could overflow.
         if (field.offset > room || field.count > (room - field.offset) / size) {
             throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
                                      nameOf(field.type) + " from byte " +
@@ -98,9 +98,9 @@ void check(const PointTable& table) {
     if (table.points == 0) return;
     if (table.bytes_per_point == 0) throw std::runtime_error("its points have no bytes");
     if (table.points > table.bytes.size() / table.bytes_per_point) {
-        throw std::runtime_error(std::to_string(table.points) + " points of " +
-                                 std::to_string(table.bytes_per_point) + " bytes are said, but " +
-                                 std::to_string(table.bytes.size()) + " bytes are there");
+        throw std::runtime_error(
+            std::to_string(table.points) + " points of " + std::to_string(table.bytes_per_point) +
+            " bytes do not fit: only " + std::to_string(table.bytes.size()) + " bytes are there");
     }
 }
 
@@ -124,7 +124,7 @@ const PointField* findField(const PointTable& table, const std::vector<std::stri
 std::vector<double> columnOf(const PointTable& table, const PointField& field,
                              std::size_t element) {
     std::vector<double> numbers(table.points);
-    if (numbers.empty()) return numbers;  // there may be no bytes to begin at
+    if (numbers.empty()) return numbers;
     withType(field.type, [&](auto type) {
         using Number = decltype(type);
         const std::uint8_t* at = table.bytes.data() + field.offset + element * sizeof(Number);
@@ -133,6 +133,15 @@ std::vector<double> columnOf(const PointTable& table, const PointField& field,
             at += table.bytes_per_point;
         }
     });
+    return numbers;
+}
+
+std::vector<double> columnOf(const PointTable& table, const PointField& field,
+                             const std::vector<std::uint32_t>& points) {
+    const std::vector<double> all = columnOf(table, field);
+    std::vector<double> numbers;
+    numbers.reserve(points.size());
+    for (const std::uint32_t i : points) numbers.push_back(all[i]);
     return numbers;
 }
 

@@ -26,8 +26,8 @@ bool isAbout(const mrpt::img::TColorf& a, const mrpt::img::TColorf& b) {
            std::abs(a.B - b.B) < half_step;
 }
 
-/// Whether a cloud has the mark of a result. The class that keeps all fields does not keep
-/// renderOptions: it has the colour in its fields, which also show an empty result.
+/// Whether a cloud has the mark of a result. CGenericPointsMap does not keep renderOptions: it has
+/// the colour in its fields, also if it is empty.
 bool isMarked(const mrpt::maps::CPointsMap& cloud, bool is_roi) {
     if (isAbout(cloud.renderOptions.color, mrpt::img::TColorf(colorOf(is_roi)))) return true;
     const PointTable* const others = otherFieldsOf(cloud);
@@ -36,10 +36,10 @@ bool isMarked(const mrpt::maps::CPointsMap& cloud, bool is_roi) {
                        [&](const char* name) { return findField(*others, {name}) != nullptr; });
 }
 
-/// The suffix of a result's label; empty: the observation is no cloud of the filter.
+/// The suffix of a result's label; empty for other observations.
 std::string suffixOf(const mrpt::obs::CObservation& observation) {
     const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
-    // A cloud in a file beside the rawlog has not been read, and is none of ours.
+    // A cloud in an external file has not been read and is not a result.
     if (cloud == nullptr || cloud->pointcloud == nullptr) return "";
     for (const bool is_roi : {false, true}) {  // "_non_roi" ends in "_roi", too
         if (endsWith(cloud->sensorLabel, suffixOf(is_roi)) &&
@@ -50,7 +50,7 @@ std::string suffixOf(const mrpt::obs::CObservation& observation) {
     return "";
 }
 
-/// The object of a preview; null: the observation is none.
+/// The object of a preview; null for other observations.
 observations::viz::CSetOfObjects::Ptr previewIn(const mrpt::obs::CObservation& observation) {
     const auto* scene = dynamic_cast<const mrpt::obs::CObservation3DScene*>(&observation);
     if (scene == nullptr || !scene->scene) return nullptr;

@@ -24,8 +24,7 @@ namespace {
 using mrpt::obs::CObservationRotatingScan;
 using mrpt::serialization::CArchive;
 
-/// A scan with the points that newer MRPTs store. It is written as the older class, whose writing
-/// is inherited.
+/// A scan with the points that newer MRPTs store. It is written as the older class.
 class NewerRotatingScan : public CObservationRotatingScan {
  public:
     OrganizedPoints points;
@@ -53,13 +52,6 @@ void readMatrix(CArchive& in, Matrix& matrix) {
     readMatrix(in, rows, columns, matrix);
 }
 
-/// A text, without the memory that a wrong length asks for.
-std::string readText(CArchive& in) {
-    std::string text;
-    readNumbers(in, in.ReadAs<std::uint32_t>(), text);
-    return text;
-}
-
 std::uint16_t number(std::uint8_t low, std::uint8_t high) {
     return static_cast<std::uint16_t>(low | high << 8);
 }
@@ -75,8 +67,8 @@ void NewerRotatingScan::serializeFrom(CArchive& in, std::uint8_t version) {
     in >> minRange >> maxRange >> sensorPose >> originalReceivedTimestamp >>
         has_satellite_timestamp;
 
-    // The older layout goes on with columns and rows, the newer one with how the scan is stored: 0
-    // in the log, and then columns and rows; 1 or 2 in a file, and then the length of its name.
+    // The older layout continues with columns and rows, the newer one with where the scan is
+    // stored: 0 (in the log), columns, rows; or 1 or 2 (in a file), length of the file's name.
     std::array<std::uint8_t, 4> next{};
     in.ReadBuffer(next.data(), next.size());
     const std::uint16_t older_columns = number(next[0], next[1]);
@@ -90,19 +82,18 @@ void NewerRotatingScan::serializeFrom(CArchive& in, std::uint8_t version) {
         const auto rows = number(next[3], in.ReadAs<std::uint8_t>());
         readMatrix(in, rows, number(next[1], next[2]), rangeImage);
     } else {
-        constexpr std::size_t kMostLetters = 4096;
         const std::size_t letters = number(next[1], next[2]) + (std::size_t{next[3]} << 16) +
                                     (std::size_t{in.ReadAs<std::uint8_t>()} << 24);
         std::string file;
-        if (letters <= kMostLetters) readNumbers(in, letters, file);
+        readNumbers(in, letters, file);
         throw std::runtime_error(
             "the scan is not in the log, but in the file '" + file +
-            "'; put it in with 'rawlog-edit --de-externalize' of the MRPT that wrote it");
+            "'; include it with 'rawlog-edit --de-externalize' of the MRPT that wrote it");
     }
     readMatrix(in, intensityImage);
     rangeOtherLayers.clear();
     for (auto layers = in.ReadAs<std::uint16_t>(); layers > 0; --layers) {
-        const std::string name = readName(in);
+        const std::string name = readText(in);
         readMatrix(in, static_cast<std::uint16_t>(rangeImage.rows()),
                    static_cast<std::uint16_t>(rangeImage.cols()), rangeOtherLayers[name]);
     }
@@ -131,7 +122,7 @@ std::string sizeText(std::ptrdiff_t rows, std::ptrdiff_t columns) {
     return std::to_string(rows) + " x " + std::to_string(columns);
 }
 
-/// Throws unless all images of a scan have as many pixels; those that are empty do not count.
+/// Throws unless all images of a scan that are not empty have the same size.
 void checkSizes(const CObservationRotatingScan& scan, const OrganizedPoints* points) {
     const int rows = rowsOf(scan), columns = columnsOf(scan);
     if (rows == 0 || columns == 0) throw std::runtime_error("it has no range image");
@@ -180,11 +171,7 @@ void add(const Point& point, float intensity, int row, Scan& scan, RotatingRetur
     returns.image_row.push_back(row);
 }
 
-void addRemark(const std::string& remark, std::string& remarks) {
-    remarks += (remarks.empty() ? "" : "; ") + remark;
-}
-
-/// The letters and digits of a sensor's name, in upper case and without the E at its end.
+/// The letters and digits of a sensor's name, in upper case and without a final E.
 std::string plainName(const std::string& name) {
     std::string plain;
     for (const char c : name) {
@@ -195,7 +182,7 @@ std::string plainName(const std::string& name) {
     return plain;
 }
 
-/// The sensor with rings that a scan names, if it is known.
+/// The named sensor if it is known and has rings.
 std::optional<SensorModel> namedSensor(const std::string& lidar_model) {
     for (const std::string& name : knownSensorModels()) {
         if (plainName(name) != plainName(lidar_model)) continue;
@@ -206,19 +193,11 @@ std::optional<SensorModel> namedSensor(const std::string& lidar_model) {
 }
 
 /// The sensor of a scan without points.
-SensorModel sensorOfRows(const CObservationRotatingScan& observation, const Settings& settings,
-                         std::string& remark) {
+SensorModel sensorOfRows(const CObservationRotatingScan& observation, const Settings& settings) {
     const int rows = rowsOf(observation);
     const auto own = namedSensor(observation.lidarModel);
     const std::optional<std::string>& wanted = settings.sensor.model;
-    if (own && own->rows() == rows && wanted != "custom") {
-        if (wanted && *wanted != own->name) {
-            addRemark("the scan is of the sensor " + own->name +
-                          ": its beams are used instead of the settings' sensor.model " + *wanted,
-                      remark);
-        }
-        return *own;
-    }
+    if (own && own->rows() == rows && wanted != "custom") return *own;
     const std::string what = "its " + std::to_string(rows) +
                              " rows have no elevations (lidarModel '" + observation.lidarModel +
                              "', and no points)";
@@ -235,7 +214,7 @@ SensorModel sensorOfRows(const CObservationRotatingScan& observation, const Sett
     return sensor;
 }
 
-/// Where a row of the image looks, and the beam that it is of.
+/// The direction of an image row, and its beam.
 struct Row {
     double sine, cosine;  ///< of its elevation
     std::uint8_t beam;
@@ -243,10 +222,10 @@ struct Row {
     double azimuth_rad = 0;  ///< of its laser, added to the column's
 };
 
-/// Where the pixels of an image without points look.
+/// The directions of the pixels of an image without points.
 struct Geometry {
     std::vector<Row> rows;
-    int columns = 0;             ///< that are used
+    int columns = 0;             ///< used ones
     double first_rad = 0;        ///< azimuth of the first column, counter-clockwise
     double step_rad = 0;         ///< to the next one
     double columns_of_turn = 0;  ///< of its duration
@@ -254,13 +233,8 @@ struct Geometry {
     bool is_dual_by_blocks = false;  ///< two columns have the same azimuth
 };
 
-Row rowOf(const SensorModel& sensor, int beam) {
-    const auto elevation_rad = static_cast<double>(sensor.elevations_rad[beam]);
-    return {std::sin(elevation_rad), std::cos(elevation_rad), static_cast<std::uint8_t>(beam)};
-}
-
-/// The columns of an image that fromVelodyne() makes are as many as packets have returns in a
-/// block; used are those of the firings, fewer by the number of lasers. None: it did not make it.
+/// The used columns of an image made by fromVelodyne(), one per firing; nullopt for other images.
+/// It has one column per packet block and return, of which those after the firings are empty.
 std::optional<int> columnsFromVelodyne(const CObservationRotatingScan& scan) {
     const int rows = rowsOf(scan), columns = columnsOf(scan);
     if (columns % (12 * 32) != 0 || (rows != 16 && rows != 32 && rows != 64)) return std::nullopt;
@@ -273,7 +247,7 @@ std::optional<int> columnsFromVelodyne(const CObservationRotatingScan& scan) {
     return used;
 }
 
-/// The model whose packets fromVelodyne() read: it names two of them.
+/// The Velodyne model named by the scan or else by the settings; null: unknown.
 const sensors::VelodyneModel* velodyneOf(const CObservationRotatingScan& scan,
                                          const Settings& settings) {
     for (const std::string& name : {scan.lidarModel, settings.sensor.model.value_or("")}) {
@@ -317,7 +291,10 @@ Geometry geometryOf(const CObservationRotatingScan& scan, const SensorModel& sen
     geometry.resolution_m = resolutionOf(scan);
     const bool is_highest_first = sensor.name.rfind("OS", 0) == 0;
     for (int r = 0; r < sensor.rows(); ++r) {
-        geometry.rows.push_back(rowOf(sensor, is_highest_first ? sensor.rows() - 1 - r : r));
+        const int beam = is_highest_first ? sensor.rows() - 1 - r : r;
+        const auto elevation_rad = static_cast<double>(sensor.elevations_rad[beam]);
+        geometry.rows.push_back(
+            {std::sin(elevation_rad), std::cos(elevation_rad), static_cast<std::uint8_t>(beam)});
     }
     return geometry;
 }
@@ -405,8 +382,8 @@ void readOrganizedPoints(const CObservationRotatingScan& observation, Scan& scan
     }
     returns.remark = "its points are not in an output rawlog, which has the ranges only";
     if (without_point > 0) {
-        addRemark(std::to_string(without_point) + " of its ranges have no point and are left out",
-                  returns.remark);
+        returns.remark +=
+            "; " + std::to_string(without_point) + " of its ranges have no point and are left out";
     }
 }
 
@@ -425,38 +402,28 @@ void readRangeImage(const CObservationRotatingScan& observation, const Settings&
     if (model != nullptr) {
         geometry = geometryOfVelodyne(observation, *model, *used);
         sensor = sensorOf(sensors::defaultCalibration(*model), model->name);
-        if (settings.sensor.model && *settings.sensor.model != model->name) {
-            addRemark("the scan is of the sensor " + model->name +
-                          ": its beams are used instead of the settings' sensor.model " +
-                          *settings.sensor.model,
-                      returns.remark);
-        }
-        addRemark(
-            "MRPT made it of Velodyne packets, and kept half of the returns only; use the "
-            "log with the packets, if you have it",
-            returns.remark);
+        returns.remark =
+            "MRPT converted it from Velodyne packets and kept only half of the returns; use the "
+            "log "
+            "with the packets if you have it";
     } else {
-        sensor = sensorOfRows(observation, settings, returns.remark);
+        sensor = sensorOfRows(observation, settings);
         geometry = geometryOf(observation, sensor);
     }
-    takeLimits(observation, settings, sensor);
+    takeLimits(observation, sensor);
     std::vector<std::uint8_t> beams;
     readPixels(observation, geometry, scan, beams, returns);
     locateBeams(sensor, scan);
     scan.row = beams;  // exact
 }
 
-void takeLimits(const CObservationRotatingScan& observation, const Settings& settings,
-                SensorModel& sensor) {
-    const bool are_sound = observation.minRange >= 0 &&
+void takeLimits(const CObservationRotatingScan& observation, SensorModel& sensor) {
+    const bool are_valid = observation.minRange >= 0 &&
                            observation.maxRange > observation.minRange &&
                            std::isfinite(observation.maxRange);
-    if (are_sound) {
-        sensor.min_range_m = static_cast<float>(observation.minRange);
-        sensor.max_range_m = static_cast<float>(observation.maxRange);
-    }
-    sensor.min_range_m = settings.sensor.min_range_m.value_or(sensor.min_range_m);
-    sensor.max_range_m = settings.sensor.max_range_m.value_or(sensor.max_range_m);
+    if (!are_valid) return;
+    sensor.min_range_m = static_cast<float>(observation.minRange);
+    sensor.max_range_m = static_cast<float>(observation.maxRange);
 }
 
 }  // namespace hagen::observations

@@ -26,7 +26,7 @@ observations::viz::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMa
 /// The twelve edges of a box.
 void addEdges(const Eigen::AlignedBox3f& box, observations::viz::CSetOfLines& lines) {
     using Box = Eigen::AlignedBox3f;
-    // Bit k of a corner's number tells whether it is at the upper end of axis k.
+    // Bit k of a corner's number: at the upper end of axis k.
     for (int corner = 0; corner < 8; ++corner) {
         const Eigen::Vector3f a = box.corner(static_cast<Box::CornerType>(corner));
         for (const int bit : {1, 2, 4}) {

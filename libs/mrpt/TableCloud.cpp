@@ -8,20 +8,16 @@
 #include <utility>
 
 namespace hagen::observations {
-namespace {
 
-constexpr double kFarthest_m = 1000.0;  // of any sensor
-
-}  // namespace
+constexpr double kMaxRange_m = 1000.0;  // of any sensor
 
 TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::move(table)) {
     check(*table_);
     if (table_->points > std::numeric_limits<std::uint32_t>::max()) {
-        throw std::runtime_error("it has more points than 32 bits can number");
+        throw std::runtime_error("it has more than 4294967295 points");
     }
-    const PointField* const x = findField(*table_, {"x"});
-    const PointField* const y = findField(*table_, {"y"});
-    const PointField* const z = findField(*table_, {"z"});
+    const PointField *const x = findField(*table_, {"x"}), *const y = findField(*table_, {"y"}),
+                            *const z = findField(*table_, {"z"});
     if (x == nullptr || y == nullptr || z == nullptr) {
         throw std::runtime_error("its points have no fields x, y and z; they have: " +
                                  namesOf(*table_));
@@ -33,7 +29,7 @@ TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::mo
     for (std::uint32_t i = 0; i < table_->points; ++i) {
         if (!isFinite(x_m[i]) || !isFinite(y_m[i]) || !isFinite(z_m[i])) continue;
         point_of_return_.push_back(i);
-        far += std::hypot(x_m[i], y_m[i], z_m[i]) > kFarthest_m;
+        far += std::hypot(x_m[i], y_m[i], z_m[i]) > kMaxRange_m;
     }
     setSize(point_of_return_.size());
     for (std::size_t k = 0; k < point_of_return_.size(); ++k) {
@@ -47,15 +43,13 @@ TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::mo
             "Coordinates must be in metres from the sensor");
     }
     takeIntensities();
-    const auto note = [&](const std::string& remark) {
-        if (!remark.empty()) remarks_.push_back(remark);
-    };
     PointFieldValues<std::int32_t> rings = ringsOf(*table_, point_of_return_);
-    rings_ = std::move(rings.values);
-    note(rings.remark);
     PointFieldValues<float> times = timesOf(*table_, point_of_return_);
+    rings_ = std::move(rings.values);
     times_s_ = std::move(times.values);
-    note(times.remark);
+    for (const std::string& remark : {rings.remark, times.remark}) {
+        if (!remark.empty()) remarks_.push_back(remark);
+    }
     mark_as_modified();
 }
 
@@ -63,10 +57,7 @@ void TableCloud::takeIntensities() {
     const PointField* const field =
         findField(*table_, {"intensity", "i", "reflectivity", "remission"});
     if (field == nullptr) return;
-    const std::vector<double> of_points = columnOf(*table_, *field);
-    std::vector<double> intensities;
-    intensities.reserve(point_of_return_.size());
-    for (const std::uint32_t i : point_of_return_) intensities.push_back(of_points[i]);
+    const std::vector<double> intensities = columnOf(*table_, *field, point_of_return_);
     double full = 0.0;
     for (const double intensity : intensities) {
         if (std::isfinite(intensity)) full = std::max(full, intensity);

@@ -1,5 +1,5 @@
-#include <hagen/mrpt/VelodyneCalibrations.h>
 #include <hagen/mrpt/VelodyneEncoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <algorithm>
 #include <cmath>

@@ -18,8 +18,8 @@ RTCDevice newDevice() {
         const RTCError error = rtcGetDeviceError(nullptr);
         if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
         throw std::runtime_error(error == RTC_ERROR_UNSUPPORTED_CPU
-                                     ? "Embree does not start: this processor has no AVX2"
-                                     : "Embree does not start: error " + std::to_string(error));
+                                     ? "Embree requires a processor with AVX2"
+                                     : "Embree failed to start: error " + std::to_string(error));
     }
     rtcSetDeviceErrorFunction(device, throwError, nullptr);
     return device;

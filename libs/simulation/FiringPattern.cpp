@@ -15,8 +15,8 @@ FiringPattern firingPattern(const SensorModel& sensor) {
     } else if (sensor.name == "Mid-360") {
         return {{}, 5.0, 20.0, 5000, 4};  // 200 000 points per second
     } else {
-        throw std::invalid_argument("no sensor '" + sensor.name +
-                                    "' can be simulated; VLP-16, HDL-32E, HDL-64E and Mid-360 can");
+        throw std::invalid_argument("the sensor '" + sensor.name + "' cannot be simulated; " +
+                                    "use VLP-16, HDL-32E, HDL-64E or Mid-360");
     }
     // Lasers of the lower and of the upper half fire alternately.
     for (std::uint8_t row = 0; row < rows / 2; ++row) {
@@ -29,10 +29,10 @@ FiringPattern firingPattern(const SensorModel& sensor) {
 SensorErrorModel sensorErrors(const SensorModel& sensor) {
     SensorErrorModel errors;
     if (sensor.name == "Mid-360") {
-        // Lidar.cpp loses a tenth of the returns at 0.69 of the half range, which is 0.58 times as
-        // long at 10 % reflectivity as for a grey wall (30 %).
+        // A tenth of the returns is lost at 0.69 of the half range, which at 10 % reflectivity is
+        // 0.58 times that of a grey wall (30 %).
         errors.half_range_m = 100;
-        errors.least_noise_m = 0.018;  // 2 cm at 10 m, where it has grown by a tenth
+        errors.least_noise_m = 0.018;  // 2 cm at 10 m, where it is a tenth larger
     }
     return errors;
 }

@@ -17,7 +17,7 @@ using Eigen::Vector3f;
 constexpr int kBlock = 8;  // firings whose rays are cast together
 constexpr double kPoseStep_s = 0.005;
 
-/// Reflectivity of a surface; it varies by a fifth from object to object.
+/// Reflectivity of a surface, varying by a fifth between objects.
 float reflectivityOf(ObjectClass kind, std::uint16_t number) {
     static const std::array<float, 12> shares{0.0f,  0.25f, 0.4f, 0.35f, 0.35f, 0.25f,
                                               0.35f, 0.3f,  0.3f, 0.3f,  0.1f,  0.1f};
@@ -36,7 +36,7 @@ struct AirframeSpot {
     float azimuth_rad, half_width_rad, lowest_rad, highest_rad, range_m;
 };
 
-/// Four legs and other parts of the vehicle, near the lowest or the highest beams.
+/// Four legs and other parts of the vehicle.
 const std::vector<AirframeSpot>& airframeOccluders() {
     static const std::vector<AirframeSpot> spots{
         {0.80f, 0.045f, -1.0f, -0.15f, 0.42f},  {2.35f, 0.045f, -1.0f, -0.15f, 0.44f},
@@ -85,9 +85,8 @@ struct Beam : BeamDirection {
     Vector3f axis;  ///< in the map
 };
 
-/// All beams of a revolution or a part of it, and a ray at a random place in the footprint of each.
-/// Blocks of firings follow each other; within a block, lasers follow each other, so that eight
-/// neighbours are adjacent.
+/// All beams of a revolution or a part of it, and a ray at a random place in the footprint of each,
+/// ordered by block of firings, laser and firing, so that eight neighbours are adjacent.
 struct Revolution {
     std::vector<Beam> beams;
     std::vector<Ray> rays;
@@ -105,8 +104,8 @@ struct Revolution {
 /// Random places in the footprints of beams.
 struct Footprint {
     double width_rad;
-    /// Whether beams may be steep. Others are never near the zenith, and have a footprint that is
-    /// narrower by the cosine of their elevation.
+    /// Others are never near the zenith, and their footprint narrows by the cosine of the
+    /// elevation.
     bool may_be_steep;
 
     Vector3f random(const Vector3f& axis, Random& random) const {
@@ -148,8 +147,8 @@ Revolution makeRevolution(const FiringPattern& pattern, const FiringRange& firin
     return turn;
 }
 
-/// Range at which the beam's axis meets the plane that its ray hit; the ray's own range if the two
-/// are far apart.
+/// Range at which the beam's axis meets the plane hit by its ray; the ray's range if they differ
+/// much.
 float rangeAlongAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axis) {
     const float along = hit.normal.dot(axis);
     if (along > -0.01f) return hit.range_m;
@@ -157,12 +156,12 @@ float rangeAlongAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axi
     return std::abs(range_m - hit.range_m) < 0.1f * hit.range_m ? range_m : hit.range_m;
 }
 
-/// Casts a second ray for some of the beams. If it hits another surface nearly as far away, the
-/// range is set to a value between both, and the return is that of the nearer surface.
+/// Casts a second ray for some beams. If it hits another surface at a similar range, the return is
+/// that of the nearer surface, at a range between both.
 void mixEdges(const Scene::Snapshot& snapshot, const Revolution& turn, float max_range_m,
               const SensorErrorModel& faults, const Footprint& footprint, Random& random,
               std::vector<RayHit>& hits) {
-    constexpr float kLeast_m = 0.2f, kPulse_m = 1.2f;  // farther apart: two separate pulses
+    constexpr float kMinApart_m = 0.2f, kPulse_m = 1.2f;  // farther apart: separate pulses
     std::vector<std::size_t> chosen;
     std::vector<Ray> rays;
     const double gap = std::max(1e-9, faults.mixed);
@@ -180,12 +179,11 @@ void mixEdges(const Scene::Snapshot& snapshot, const Revolution& turn, float max
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         RayHit& hit = hits[chosen[k]];
         const float apart_m = std::abs(others[k].range_m - hit.range_m);
-        if (!(apart_m > kLeast_m && apart_m < kPulse_m)) continue;
+        if (!(apart_m > kMinApart_m && apart_m < kPulse_m)) continue;
         if (isLargeSurface(hit.kind) && others[k].kind == hit.kind) continue;
         RayHit& nearer = others[k].range_m < hit.range_m ? others[k] : hit;
-        const RayHit mixed{nearer.range_m + static_cast<float>(random.uniform()) * apart_m,
-                           nearer.kind, nearer.number, nearer.normal};
-        hit = mixed;
+        hit = RayHit{nearer.range_m + static_cast<float>(random.uniform()) * apart_m, nearer.kind,
+                     nearer.number, nearer.normal};
     }
 }
 
@@ -244,8 +242,7 @@ class Receiver {
  private:
     static constexpr double kDust_m = 15.0;  // dust farther away is too faint
 
-    /// The part of the vehicle in front of a beam; it stays where it is, however the sensor is
-    /// mounted.
+    /// The part of the vehicle in front of a beam, for any mount of the sensor.
     const AirframeSpot* spotBefore(const Beam& beam) const {
         if (!is_tilted_) return airframeAt(beam.azimuth_rad, beam.elevation_rad);
         const Vector3f way = vehicle_from_sensor_ * beam.direction;
@@ -258,7 +255,7 @@ class Receiver {
                static_cast<float>(faults_.least_noise_m * random_.approximateNormal()) * times;
     }
 
-    /// How far above the soil, along the beam, the grass returns it.
+    /// Distance along the beam from a return of the grass to the soil.
     float grass_m(const Ray& ray, float range_m, float incidence) {
         const Vector3f at = ray.origin_m + range_m * ray.direction;
         const double tallest_m = scene_.terrain().grassHeight_m(static_cast<double>(at.x()),
@@ -318,10 +315,10 @@ SimulatedScan simulateFirings(const Scene& scene, const SensorModel& sensor, con
     const FiringPattern pattern = firingPattern(sensor);
     if (firings.first < 0 || firings.end <= firings.first ||
         firings.end > pattern.firings_per_revolution) {
-        throw std::invalid_argument("a revolution of a " + sensor.name + " has firings 0 to " +
-                                    std::to_string(pattern.firings_per_revolution - 1) + ", not " +
-                                    std::to_string(firings.first) + " to " +
-                                    std::to_string(firings.end - 1));
+        throw std::invalid_argument("firings " + std::to_string(firings.first) + " to " +
+                                    std::to_string(firings.end - 1) + " are not in 0 to " +
+                                    std::to_string(pattern.firings_per_revolution - 1) + " of a " +
+                                    sensor.name);
     }
     const Scene::Snapshot snapshot = scene.snapshotOver(time_s, pattern.revolutionPeriod_s());
     const PoseAt sensor_at = [&](double at_s) {

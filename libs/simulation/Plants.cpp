@@ -55,8 +55,7 @@ class Trunk {
     double phase_;
 };
 
-/// Adds a branch that rises outwards; its outer points, which carry the leaves, are appended to
-/// `leafy`.
+/// Adds a branch that rises outwards, and its leaf-bearing points to `leafy`.
 void addBranch(const Trunk& trunk, double z_m, double length_m, double radius_m, Random& random,
                Shape& shape, std::vector<Vector3d>& leafy) {
     const double angle = random.uniform(0, 2 * kPi), rise = random.uniform(0.0, 0.7);

@@ -14,7 +14,7 @@ using Shapes = std::vector<std::size_t>;
 
 double anyYaw(Random& random) { return random.uniform(0, 2 * kPi); }
 
-/// Scatters tufts of grass and weeds, 0.1 m to `tallest_m` high, also at the base of objects.
+/// Scatters tufts of grass and weeds, 0.1 m to `tallest_m` high.
 void scatterTufts(SceneBuilder& builder, double per_m2, double tallest_m) {
     const Shapes tufts = builder.addShapes(3, makeTuft);
     builder.scatter(per_m2, [&](double x, double y) {
@@ -70,7 +70,7 @@ void scatterShrubs(SceneBuilder& builder, double per_m2, double tallest_m) {
     });
 }
 
-/// Adds the background of a scene: trees and houses around it, 55 to 110 m away.
+/// Adds trees and houses 55 to 110 m away.
 void addBackground(SceneBuilder& builder, const Shapes& trees) {
     Random& random = builder.random();
     for (int i = 0; i < 110; ++i) {
@@ -92,6 +92,15 @@ void addBackground(SceneBuilder& builder, const Shapes& trees) {
 Shapes addForestTrees(SceneBuilder& builder, int count) {
     return builder.addShapes(count,
                              [](Random& random) { return makeTree(forestTree(random), random); });
+}
+
+/// Scatters trees, shrubs and grass among other objects, and adds the background.
+void addSurroundings(SceneBuilder& builder, double trees_per_m2, double tallest_shrub_m) {
+    const Shapes trees = addForestTrees(builder, 3);
+    scatterTrees(builder, trees, trees_per_m2, 2.2);
+    scatterShrubs(builder, 0.004, tallest_shrub_m);
+    scatterTufts(builder, 0.1, 0.3);
+    addBackground(builder, trees);
 }
 
 TerrainParameters ground(double slope_deg, double bump_m, double roughness_m, double grass_m) {
@@ -224,11 +233,7 @@ Scene makeWires(std::uint64_t seed) {
     run({-60, 20}, {60, 19}, 20, {1.6, 2.8, 4.0}, 0.05);
     run({-50, -30}, {-50, 30}, 20, {1.8, 3.0, 4.4, 6.2}, 0.3);
     run({50, -30}, {50, 30}, 20, {1.8, 3.0, 4.4, 6.2}, 0.3);
-    const Shapes trees = addForestTrees(builder, 3);
-    scatterTrees(builder, trees, 0.002, 2.2);
-    scatterShrubs(builder, 0.004, 1.2);
-    scatterTufts(builder, 0.1, 0.3);
-    addBackground(builder, trees);
+    addSurroundings(builder, 0.002, 1.2);
     return builder.build();
 }
 
@@ -257,11 +262,7 @@ Scene makeGap(std::uint64_t seed) {
         if (std::abs(to.y()) < 17) continue;
         addWall(builder, from, to, random.uniform(0.5, 1.6), 0.3);
     }
-    const Shapes trees = addForestTrees(builder, 3);
-    scatterTrees(builder, trees, 0.002, 2.2);
-    scatterShrubs(builder, 0.004, 1.0);
-    scatterTufts(builder, 0.1, 0.3);
-    addBackground(builder, trees);
+    addSurroundings(builder, 0.002, 1.0);
     return builder.build();
 }
 
@@ -373,11 +374,7 @@ Scene makeTrap(std::uint64_t seed) {
         const double x = side * random.uniform(5, 15);
         addTrap(builder, {x, side * 3}, side * -kPi / 2, 6 * size, 4 * size, 3 * height);
     }
-    const Shapes trees = addForestTrees(builder, 3);
-    scatterTrees(builder, trees, 0.003, 2.2);
-    scatterShrubs(builder, 0.004, 1.0);
-    scatterTufts(builder, 0.1, 0.3);
-    addBackground(builder, trees);
+    addSurroundings(builder, 0.003, 1.0);
     return builder.build();
 }
 

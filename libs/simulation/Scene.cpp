@@ -97,7 +97,7 @@ class Packet {
         }
     }
 
-    /// May be called for several worlds in turn: the nearest hit is kept.
+    /// May be called for several scenes in turn: the nearest hit is kept.
     void cast(RTCScene scene, const std::vector<Instance>& instances, const Ray* rays,
               RayHit* hits) {
         RTCIntersectContext context;
@@ -121,10 +121,6 @@ class Packet {
     alignas(32) std::array<int, kPacket> valid_;
     int count_;
 };
-
-}  // namespace
-
-namespace {
 
 double angleOf(const MovingObstacle& mover, double time_s) {
     return mover.phase_rad + time_s * mover.speed_m_s / mover.radius_m;
@@ -172,12 +168,6 @@ struct Scene::Snapshot::Movers {
 Scene::Scene(SceneContent content) : world_(std::make_shared<World>(std::move(content))) {}
 
 const SceneContent& Scene::content() const { return world_->content; }
-
-std::size_t Scene::triangles() const {
-    std::size_t triangles = 0;
-    for (const Shape& shape : content().shapes) triangles += shape.triangles.size();
-    return triangles;
-}
 
 Scene::Snapshot Scene::snapshotOver(double start_s, double duration_s) const {
     Snapshot snapshot;

@@ -83,8 +83,7 @@ Eigen::AlignedBox3f boxOf(const Rod& rod) {
         .merged(Eigen::AlignedBox3f(rod.to - to, rod.to + to));
 }
 
-/// Adds the parts of a transformed shape that reach into a box. A rod that is scaled unequally
-/// stays round.
+/// Adds the parts of a transformed shape that intersect a box. Rods stay round.
 void addWithin(const Eigen::AlignedBox3f& box, const Shape& shape, const Eigen::Affine3f& pose,
                Surfaces& surfaces) {
     std::vector<Vector3f> vertices;

@@ -74,7 +74,7 @@ def open(
 
     file: a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
         scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
-        are told apart by their content.
+        are distinguished by content.
     sensor_labels: the LiDARs to read, a label or several; default: all. One that no scan has is in
         Recording.remarks, after the last scan.
     poses: a file of poses (TUM, KITTI); default: those of the recording.

@@ -27,7 +27,7 @@ Array converted(const py::object& values, const std::string& text) {
     }
 }
 
-/// Any object as an array; throws ValueError if it is none of real numbers.
+/// Any object as an array; throws ValueError unless it contains real numbers.
 py::array numbersFrom(const py::object& values, const std::string& expected) {
     // As an array, it would have what is under the mask.
     if (py::hasattr(values, "mask") &&

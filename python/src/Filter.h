@@ -26,7 +26,7 @@ struct Segmented {
 /// without a range.
 std::vector<float> heightsOf(const Segmented& segmented);
 
-/// The filter for Python. Several threads may use one at a time: each call has a filter of its own.
+/// The filter for Python. Thread-safe: each call has its own filter.
 /// Memory of results that Python has dropped is used for the next ones, so that a loop over scans
 /// soon allocates none.
 class Filter {

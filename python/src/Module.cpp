@@ -352,7 +352,7 @@ void defineSources(py::module_& m) {
              })
         .def_property_readonly(
             "poses", [](const Recording& recording) { return shownText(recording.poseSource()); },
-            "Where its poses are from; empty: there are none.")
+            "Source of its poses; empty without poses.")
         .def_property_readonly(
             "remarks", [](const Recording& recording) { return shownTexts(recording.remarks()); },
             R"(What the user should know of the recording as a whole, such as

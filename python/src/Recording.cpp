@@ -48,7 +48,7 @@ Recording::Recording(const std::filesystem::path& file, recordings::SourceOption
     options.keep_going = hasNoSignal;
     source_ = withoutGil([&] {
         std::shared_ptr<recordings::ScanSource> source = recordings::openRecording(file, options);
-        source->useSettings(Settings());  // beams of clouds whose sensor nobody names
+        source->useSettings(Settings());  // beams of unnamed sensors
         source->usePoses(poses);
         return source;
     });

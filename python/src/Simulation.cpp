@@ -39,7 +39,7 @@ simulation::FlightSettings flightOf(const SimulationRequest& request) {
     return settings;
 }
 
-/// Packets where there are some, as a recording has; otherwise a cloud that knows its beams.
+/// Packets if the sensor has them, otherwise a cloud with known beams.
 mrpt::obs::CObservation::Ptr observationOf(const simulation::SimulatedScan& made,
                                            const SensorModel& sensor, double time_s) {
     mrpt::obs::CObservation::Ptr observation;

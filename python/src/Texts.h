@@ -11,7 +11,7 @@ namespace hagen::python {
 pybind11::str shownText(const std::string& text);
 pybind11::list shownTexts(const std::vector<std::string>& texts);
 
-/// The name of a file as Python knows it: os.fsencode() gives its bytes again.
+/// The name of a file for Python: os.fsencode() returns its bytes.
 pybind11::str fileText(const std::string& name);
 
 /// What str() makes of an object. Surrogates, for which UTF-8 has no bytes, are escaped.

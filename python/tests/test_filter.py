@@ -57,7 +57,7 @@ def test_heights_are_above_the_ground():
     np.testing.assert_allclose(result.ground[2, 3], 1.5, atol=0.02)
 
 
-def test_labels_are_those_of_the_program(program, poles_labels, tmp_path):
+def test_labels_match_program(program, poles_labels, tmp_path):
     """Points of a scan folder, which come without packets, poses or tilt."""
     folder = tmp_path / "scans"
     (folder / "velodyne").mkdir(parents=True)
@@ -89,14 +89,14 @@ def test_labels_are_those_of_the_program(program, poles_labels, tmp_path):
     ],
     ids=["double", "fortran", "columns", "rows", "big-endian", "lists"],
 )
-def test_layouts_and_types_give_the_same(convert):
+def test_layouts_and_types_are_equivalent(convert):
     points, _ = ground_and_pillar()
     segmenter = hagen.Filter("vlp16")
     expected = segmenter.segment(points).labels.copy()
     np.testing.assert_array_equal(segmenter.segment(convert(points)).labels, expected)
 
 
-def test_stages_are_images_of_the_sensor():
+def test_stages_have_image_shape():
     points, is_pillar = ground_and_pillar()
     result = hagen.Filter("vlp16").segment(points)
     stages = result.stages
@@ -137,7 +137,7 @@ def test_the_paper_has_no_ground():
     assert np.all(np.isnan(result.heights))
 
 
-def test_results_outlive_later_scans_and_their_filter():
+def test_results_outlive_filter():
     points, _ = ground_and_pillar()
     segmenter = hagen.Filter("vlp16")
     first = segmenter.segment(points)
@@ -151,14 +151,14 @@ def test_results_outlive_later_scans_and_their_filter():
     np.testing.assert_array_equal(depth, kept_depth)
 
 
-def test_arrays_share_the_memory_of_the_result():
+def test_arrays_share_memory():
     points, _ = ground_and_pillar()
     result = hagen.Filter("vlp16").segment(points)
     assert np.shares_memory(result.labels, result.labels)
     assert np.shares_memory(result.stages["depth_m"], result.stages["depth_m"])
 
 
-def test_attitude_tells_how_a_sensor_is_mounted():
+def test_attitude_levels_scan():
     """A sensor on its side sees ground where an upright one has walls."""
     points, is_pillar = ground_and_pillar()
     upside_down = points * np.array([1, -1, -1], np.float32)
@@ -180,7 +180,7 @@ def test_options_and_settings_files(tmp_path):
     assert "height_m" not in hagen.Filter("vlp16", ground_surface=False).segment(points).stages
 
 
-def test_beams_are_recovered_if_nobody_names_the_sensor():
+def test_unnamed_sensor_is_recovered():
     scan = next(iter(hagen.simulate("orchard", seed=3, sensor="HDL-32E")))
     segmenter = hagen.Filter()
     found = segmenter.segment(scan.xyz).labels
@@ -190,7 +190,7 @@ def test_beams_are_recovered_if_nobody_names_the_sensor():
     assert np.mean(found == expected) > 0.99
 
 
-def test_other_threads_run_while_it_filters():
+def test_filter_releases_gil():
     points = np.random.default_rng(1).uniform(-30, 30, (2_000_000, 3)).astype(np.float32)
     segmenter = hagen.Filter("vlp16")
     ticks, is_done = [], threading.Event()
@@ -214,7 +214,7 @@ def test_other_threads_run_while_it_filters():
     assert meanwhile >= 3
 
 
-def test_several_threads_may_use_one_filter():
+def test_filter_is_thread_safe():
     scans = [ground_and_pillar(height)[0] for height in (1.0, 1.5, 2.0, 2.5)]
     segmenter = hagen.Filter("vlp16")
     expected = [segmenter.segment(points).labels.copy() for points in scans]
@@ -262,12 +262,12 @@ def test_empty_scans_and_points_without_a_range():
         ([[1, 2], [3]], r"\(N, 3\)"),
     ],
 )
-def test_wrong_points_are_refused(points, text):
+def test_rejects_wrong_points(points, text):
     with pytest.raises(ValueError, match=text):
         hagen.Filter("vlp16").segment(points)
 
 
-def test_masked_points_are_refused():
+def test_rejects_masked_points():
     points = np.ma.array(np.ones((4, 3)), mask=False)
     assert len(hagen.Filter("vlp16").segment(points).labels) == 4
     points[2, 0] = np.ma.masked
@@ -277,7 +277,7 @@ def test_masked_points_are_refused():
         hagen.evaluate(np.ma.array([1, 2], mask=[0, 1]), [1, 2])
 
 
-def test_numbers_that_float32_cannot_hold_are_refused_where_numpy_raises():
+def test_rejects_float32_overflow():
     far = np.full((3, 3), 1e300)
     segmenter = hagen.Filter("vlp16")
     with np.errstate(all="raise"), pytest.raises(ValueError, match="float32 cannot hold") as raised:
@@ -292,7 +292,7 @@ def test_numbers_that_float32_cannot_hold_are_refused_where_numpy_raises():
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, SystemExit, MemoryError])
-def test_interruptions_while_an_array_is_made_are_passed_on(error):
+def test_propagates_interrupts_in_conversion(error):
     class Interrupted:
         def __array__(self, *_, **__):
             raise error
@@ -303,7 +303,7 @@ def test_interruptions_while_an_array_is_made_are_passed_on(error):
         hagen.evaluate(Interrupted(), [1])
 
 
-def test_an_error_while_an_array_is_made_is_the_cause():
+def test_conversion_error_is_cause():
     class Wrong:
         def __array__(self, *_, **__):
             raise ZeroDivisionError
@@ -317,12 +317,12 @@ def test_an_error_while_an_array_is_made_is_the_cause():
     "attitude",
     [1.0, (1, 2, 3), "level", (np.nan, 0), (0, np.inf), (1e300, 0), (0, -1e39), (6.3, 0), (0, 90)],
 )
-def test_wrong_attitudes_are_refused(attitude):
+def test_rejects_wrong_attitudes(attitude):
     with pytest.raises(ValueError, match=r"attitude: expected \(roll, pitch\) \[rad\].*\+-2 pi"):
         hagen.Filter("vlp16").segment(np.zeros((5, 3)), attitude=attitude)
 
 
-def test_a_whole_turn_is_an_attitude():
+def test_accepts_full_turn():
     points, _ = ground_and_pillar()
     segmenter = hagen.Filter("vlp16")
     expected = segmenter.segment(points, attitude=(0, 0)).labels
@@ -331,7 +331,7 @@ def test_a_whole_turn_is_an_attitude():
         assert np.mean(found == expected) > 0.99
 
 
-def test_wrong_settings_are_refused(tmp_path):
+def test_rejects_wrong_settings(tmp_path):
     with pytest.raises(hagen.SettingsError, match="vlp17.*did you mean 'vlp16'"):
         hagen.Filter("vlp17")
     with pytest.raises(hagen.SettingsError, match="beta"):
@@ -351,6 +351,6 @@ def test_wrong_settings_are_refused(tmp_path):
     assert issubclass(hagen.SettingsError, ValueError)
 
 
-def test_too_many_returns_are_refused_before_they_are_copied():
+def test_rejects_too_many_returns():
     with pytest.raises(ValueError, match="more than the 16777216"):
         hagen.Filter().segment(np.broadcast_to(np.float32(1), (10**9, 3)))

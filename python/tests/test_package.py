@@ -50,8 +50,8 @@ ARGUMENTS = {"segment": ([],), "__add__": (hagen.Scores(),), "__iadd__": (hagen.
 @pytest.mark.parametrize(
     "name", ["ClassScore", "Filter", "Recording", "Result", "Scan", "Scores", "Simulation"]
 )
-def test_objects_without_content_are_refused(name):
-    """__new__() alone makes them; their use would read memory that nobody has written."""
+def test_rejects_uninitialized_objects(name):
+    """__new__() alone makes them; using them would read uninitialized memory."""
     of = getattr(hagen, name)
     own = members(of) | {"__len__", "__length_hint__", "__next__", "__repr__", "__add__", "__iadd__"}
     for member in own & set(vars(of)):
@@ -60,12 +60,12 @@ def test_objects_without_content_are_refused(name):
             getattr(empty, member)(*ARGUMENTS.get(member, ()))
 
 
-def test_a_scan_without_content_is_not_segmented():
+def test_rejects_uninitialized_scan():
     with pytest.raises(TypeError, match="Scan: the object is empty"):
         hagen.Filter().segment(hagen.Scan.__new__(hagen.Scan))
 
 
-def test_an_object_is_empty_before_its_constructor_runs():
+def test_object_is_empty_before_init():
     class Early(hagen.Filter):
         def __init__(self):
             with pytest.raises(TypeError, match="Early: the object is empty"):
@@ -75,13 +75,13 @@ def test_an_object_is_empty_before_its_constructor_runs():
     assert "zone_m: 9 " in Early().settings
 
 
-def test_presets_are_those_of_the_project():
+def test_lists_project_presets():
     assert {"vlp16", "hdl32e", "hdl64e", "mid360", "paper"} <= set(hagen.presets())
     for preset in ("vlp16", "hdl32e", "hdl64e", "mid360", "paper", "ouster_os1_64"):
         hagen.Filter(preset)
 
 
-def test_own_presets_go_first(tmp_path):
+def test_prefers_own_presets(tmp_path):
     (tmp_path / "mine.yaml").write_text("include: vlp16\nzone_m: 7\n")
     code = "import hagen; print(hagen.Filter('mine').settings)"
     environment = {**os.environ, "HAGEN_CONFIG_PATH": str(tmp_path)}
@@ -91,7 +91,7 @@ def test_own_presets_go_first(tmp_path):
     assert "zone_m: 7 " in printed and "VLP-16" in printed
 
 
-def test_presets_may_have_names_that_are_no_utf_8(tmp_path):
+def test_preset_names_may_be_non_utf8(tmp_path):
     (tmp_path / os.fsdecode(b"m\xffne.yaml")).write_text("zone_m: 7\n")
     code = """
 import os, hagen
@@ -106,15 +106,15 @@ print(hagen.Filter(name).settings)
     assert "zone_m: 7 " in printed
 
 
-def test_mrpt_without_memory_is_an_error_and_no_crash():
-    """The linker tells whose allocation MRPT's clouds use: ours throws, MRPT's returns nullptr."""
+def test_mrpt_out_of_memory_raises():
+    """The linker shows which allocation MRPT's clouds use: ours throws, MRPT's returns nullptr."""
     environment = {**os.environ, "LD_DEBUG": "bindings", "LD_BIND_NOW": "1"}
-    told = subprocess.run(
+    output = subprocess.run(
         [sys.executable, "-c", "import hagen"], env=environment, check=True, capture_output=True
     ).stderr.decode(errors="replace")
     used = [
         line
-        for line in told.splitlines()
+        for line in output.splitlines()
         if "binding file" in line and "libmrpt-maps" in line.split(" to ")[0]
         and "aligned_mallocEmm" in line
     ]
@@ -137,7 +137,7 @@ def test_examples_draw(example, tmp_path):
 
 
 @pytest.mark.parametrize("example", ["plot_obstacles.py", "walk_through.py"])
-def test_examples_without_a_display_ask_for_a_folder(example):
+def test_examples_need_display_or_folder(example):
     pytest.importorskip("matplotlib")
     recording = SOURCES / "rawlogs" / "poles_and_wall.rawlog"
     run = subprocess.run(
@@ -151,7 +151,7 @@ def test_examples_without_a_display_ask_for_a_folder(example):
 
 
 @pytest.mark.parametrize("example", ["plot_obstacles.py", "walk_through.py"])
-def test_examples_name_what_they_cannot_read(example, tmp_path):
+def test_examples_report_unreadable_files(example, tmp_path):
     pytest.importorskip("matplotlib")
     run = subprocess.run(
         [sys.executable, SOURCES / "examples" / "python" / example, "no_such.pcap", tmp_path],
@@ -163,7 +163,7 @@ def test_examples_name_what_they_cannot_read(example, tmp_path):
     assert "no_such.pcap" in run.stderr and "Traceback" not in run.stderr
 
 
-def test_what_cannot_be_pickled_says_so():
+def test_pickling_raises():
     for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
         with pytest.raises(TypeError):
             pickle.dumps(hagen.Filter(), protocol)

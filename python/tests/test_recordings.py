@@ -15,7 +15,7 @@ from conftest import ORCHARD, POLES
 import hagen
 
 
-def test_labels_are_those_of_the_program(poles_labels):
+def test_labels_match_program(poles_labels):
     segmenter = hagen.Filter("vlp16")
     files = sorted((poles_labels / "labels").glob("*.label"))
     scans = 0
@@ -31,8 +31,8 @@ def test_labels_are_those_of_the_program(poles_labels):
     assert scans == len(files) == 10
 
 
-def test_settings_of_a_recording_hold_for_its_scans_alone(poles_labels, tmp_path):
-    """Also once it is gone, and scans that nobody recorded come."""
+def test_recording_settings_are_local(poles_labels, tmp_path):
+    """Also after it is deleted."""
     folder = tmp_path / "near"
     (folder / "velodyne").mkdir(parents=True)
     scan = sorted((poles_labels / "velodyne").glob("*.bin"))[0]
@@ -48,7 +48,7 @@ def test_settings_of_a_recording_hold_for_its_scans_alone(poles_labels, tmp_path
     np.testing.assert_array_equal(segmenter.segment(simulated).labels, expected)
 
 
-def test_points_alone_give_nearly_the_same():
+def test_points_alone_give_similar_labels():
     """Without the packets' own rows and azimuths, single returns change their pixel."""
     segmenter = hagen.Filter("vlp16")
     for scan in hagen.open(POLES):
@@ -56,7 +56,7 @@ def test_points_alone_give_nearly_the_same():
         assert np.mean(segmenter.segment(scan.xyz).labels == with_packets) > 0.999
 
 
-def test_a_scan_has_what_the_recording_tells():
+def test_scan_attributes():
     recording = hagen.open(POLES)
     scans = list(recording)
     assert len(scans) == 10
@@ -89,16 +89,16 @@ def test_parts_of_a_recording():
     assert list(hagen.open(str(ORCHARD), sensor_labels=["other"])) == []
 
 
-def test_a_sensor_label_may_be_a_text_and_one_without_scans_is_told():
+def test_selects_sensor_labels():
     assert len(list(hagen.open(POLES, sensor_labels="lidar"))) == 10
     recording = hagen.open(POLES, sensor_labels="liadr")
     assert recording.remarks == []
     assert list(recording) == []
-    told = "no entry that was read has a LiDAR scan of '{}'; there are 'lidar'"
-    assert recording.remarks == [told.format("liadr")]
+    remark = "no entry that was read has a LiDAR scan of '{}'; there are 'lidar'"
+    assert recording.remarks == [remark.format("liadr")]
     recording = hagen.open(POLES, sensor_labels=("lidar", "rear"))
     assert len(list(recording)) == 10
-    assert recording.remarks == [told.format("rear")]
+    assert recording.remarks == [remark.format("rear")]
 
 
 def test_a_scan_outlives_its_recording():
@@ -119,7 +119,7 @@ def test_point_clouds(tmp_path):
     np.testing.assert_array_equal(named.labels, hagen.Filter("vlp16").segment(scan.xyz).labels)
 
 
-def test_the_given_attitude_goes_before_that_of_the_recording():
+def test_given_attitude_overrides_recording():
     scan = next(hagen.open(ORCHARD))
     segmenter = hagen.Filter("vlp16")
     own = segmenter.segment(scan).labels
@@ -128,7 +128,7 @@ def test_the_given_attitude_goes_before_that_of_the_recording():
     assert not np.array_equal(wrong, own)
 
 
-def test_what_cannot_be_read_is_named(tmp_path):
+def test_reports_unreadable_files(tmp_path):
     with pytest.raises(FileNotFoundError, match="no_such.rawlog"):
         hagen.open(tmp_path / "no_such.rawlog")
     with pytest.raises(FileNotFoundError, match="no_such.tum"):
@@ -143,7 +143,7 @@ def test_what_cannot_be_read_is_named(tmp_path):
         hagen.open(7)
 
 
-def test_texts_that_are_no_utf_8_are_shown(tmp_path):
+def test_shows_non_utf8_texts(tmp_path):
     """A sensor label, and a file name, from whoever made them."""
     recording = tmp_path / os.fsdecode(b"fl\xffght.rawlog")
     recording.write_bytes(gzip.decompress(POLES.read_bytes()).replace(b"lidar", b"lid\xffr"))
@@ -155,14 +155,14 @@ def test_texts_that_are_no_utf_8_are_shown(tmp_path):
     assert scan.remark == "" and hagen.Filter().segment(scan).remark == ""
 
 
-def test_names_of_files_that_are_no_utf_8_can_be_used_again(tmp_path):
+def test_non_utf8_names_round_trip(tmp_path):
     name = os.fsdecode(b"cl\xffud")
     np.save(tmp_path / f"{name}.npy", next(hagen.open(ORCHARD)).xyz)
     for file in (tmp_path / f"{name}.npy", os.fsencode(tmp_path / f"{name}.npy")):
         assert next(hagen.open(file)).name == name
 
 
-def test_errors_name_files_whose_names_are_no_utf_8(tmp_path):
+def test_errors_show_non_utf8_names(tmp_path):
     folder = os.fsencode(tmp_path)
     with pytest.raises(FileNotFoundError, match="none\ufffd.pcd: no such file"):
         hagen.open(folder + b"/none\xff.pcd")
@@ -176,7 +176,7 @@ def test_errors_name_files_whose_names_are_no_utf_8(tmp_path):
         hagen.Filter(os.fsdecode(folder + b"/none\xff.yaml"))
 
 
-def test_a_broken_recording_ends_with_an_error_after_its_scans(tmp_path):
+def test_broken_recording_raises_after_scans(tmp_path):
     broken = tmp_path / "broken.rawlog"
     data = POLES.read_bytes()
     broken.write_bytes(data[: len(data) * 6 // 10])
@@ -194,7 +194,7 @@ def test_large_programs_can_read():
     assert ballast[-1] == 1
 
 
-def test_one_long_read_can_be_interrupted(tmp_path):
+def test_long_read_is_interruptible(tmp_path):
     """A capture without a packet of a LiDAR is read to its end by the first call."""
     frame = b"\0" * 12 + b"\x08\x06" + b"\0" * 28  # ARP
     record = struct.pack("<IIII", 1700000000, 0, len(frame), len(frame)) + frame
@@ -215,7 +215,7 @@ def test_one_long_read_can_be_interrupted(tmp_path):
         signal.signal(signal.SIGALRM, before)
 
 
-def test_an_interrupted_recording_raises():
+def test_interrupted_recording_raises():
     def interrupt(*_):
         raise KeyboardInterrupt
 
@@ -231,7 +231,7 @@ def test_an_interrupted_recording_raises():
 
 
 @pytest.mark.parametrize("scans", [lambda: hagen.open(POLES), lambda: hagen.simulate("gap", scans=10)])
-def test_threads_share_the_scans_of_one_iterator(scans):
+def test_threads_share_iterator(scans):
     alone = [scan.xyz.tobytes() for scan in scans()]
     together, errors, iterator = [], [], scans()
 
@@ -250,7 +250,7 @@ def test_threads_share_the_scans_of_one_iterator(scans):
     assert sorted(together) == sorted(alone)
 
 
-def test_python_can_end_while_a_daemon_thread_reads():
+def test_exit_while_daemon_reads():
     code = f"""
 import sys, threading, time, hagen
 def read():

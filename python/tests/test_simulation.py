@@ -23,7 +23,7 @@ def simulated():
     return list(hagen.simulate("orchard", 3, 5, altitude_m=3))
 
 
-def test_scans_are_those_of_the_program(flight):
+def test_scans_match_program(flight):
     scans = simulated()
     assert len(scans) == 3
     for number, scan in enumerate(scans):
@@ -43,7 +43,7 @@ def test_scans_are_those_of_the_program(flight):
     np.testing.assert_allclose([scan.pose[:3, 3] for scan in scans], poses[:, 1:4], atol=1e-6)
 
 
-def test_scores_are_those_of_the_program(program, flight, tmp_path):
+def test_scores_match_program(program, flight, tmp_path):
     program("segmentation-evaluate", "-i", flight, "-c", "vlp16", "--json", tmp_path / "scores.json")
     expected = json.loads((tmp_path / "scores.json").read_text())
 
@@ -91,7 +91,7 @@ def test_scores_end_at_a_range():
 
 
 @pytest.mark.parametrize("max_range_m", [math.inf, -math.inf, math.nan, 1e300, 1e30, 1001, 0.05, -1])
-def test_ranges_beyond_the_limits_are_refused(max_range_m):
+def test_rejects_ranges_beyond_limits(max_range_m):
     with pytest.raises(ValueError, match="max_range_m: .* is not between 0.1 and 1000.0"):
         hagen.evaluate([1, 2], [1, 2], np.ones((2, 3)), max_range_m=max_range_m)
     for limit_m in (0.1, 1000):
@@ -99,7 +99,7 @@ def test_ranges_beyond_the_limits_are_refused(max_range_m):
 
 
 @pytest.mark.parametrize("sensor, rows", [("HDL-64E", 64), ("Mid-360", 24)])
-def test_other_sensors_know_their_beams(sensor, rows):
+def test_other_sensors_have_beams(sensor, rows):
     scan = next(hagen.simulate("forest-0.05", seed=2, sensor=sensor))
     assert scan.sensor == sensor
     assert (scan.ring is None) == (sensor == "Mid-360")
@@ -115,7 +115,7 @@ def test_clear_air_has_no_dust():
     assert {dust, airframe} & kinds[False]
 
 
-def test_wrong_flights_are_refused():
+def test_rejects_wrong_flights():
     with pytest.raises(ValueError, match="jungle.*orchard"):
         hagen.simulate("jungle")
     with pytest.raises(ValueError, match="sensor|VLP-16"):
@@ -141,6 +141,6 @@ def test_wrong_flights_are_refused():
         ([1, 2], [1, 2], np.zeros((3, 3)), "2 labels, but 3 points"),
     ],
 )
-def test_wrong_labels_are_refused(labels, truth, xyz, text):
+def test_rejects_wrong_labels(labels, truth, xyz, text):
     with pytest.raises(ValueError, match=text):
         hagen.evaluate(labels, truth, xyz)

@@ -2,7 +2,7 @@
 // program of its own, for it replaces malloc().
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/sensors/VelodyneModel.h>
 
 #include <Eigen/Core>
@@ -38,7 +38,7 @@ void expectNoAllocations(const std::string& model, const Options& options,
                          const std::optional<Attitude>& attitude) {
     const auto scans = drive(model);
     HagenFilter filter(observations::sensorOf(*scans.front()), options);
-    observations::DecoderWorkspace decoder;
+    observations::ObservationWorkspace decoder;
     Scan scan;
     std::size_t before = 0, roi = 0;
     for (int round = 0; round < 3; ++round) {

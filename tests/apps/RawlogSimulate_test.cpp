@@ -1,7 +1,7 @@
 // rawlog-simulate; its packets are compared with the simulation.
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/Trajectory.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>

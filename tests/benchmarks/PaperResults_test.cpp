@@ -40,7 +40,7 @@ TEST(Tables, CsvHasNoMarkdown) {
     EXPECT_EQ(table.csv(), "what,n\n\"a, b\",12\n");
 }
 
-TEST(Tables, BoldIsWhatIsPrintedAsTheBest) {
+TEST(Tables, MarkBestValuesBold) {
     EXPECT_EQ(pairCell(0.95801, 0.5, 0.95849, 0.6), "**0.958** / 0.500");
     EXPECT_EQ(pairCell(NAN, 0.5), "- / 0.500");
     EXPECT_EQ(boldAbove(0.9581, 0.9579), "0.958");  // the same as it is printed
@@ -50,7 +50,7 @@ TEST(Tables, BoldIsWhatIsPrintedAsTheBest) {
     EXPECT_EQ(cell(evaluation::Interval{}), "-");
 }
 
-TEST(Rows, HaveNamesOfTheirOwnAndTheSettingsThatTheySay) {
+TEST(Rows, HaveUniqueNamesAndSettings) {
     DataSet set;
     set.preset = "vlp16.yaml";
     set.zone_m = 40;
@@ -85,7 +85,7 @@ TEST(Rows, HaveNamesOfTheirOwnAndTheSettingsThatTheySay) {
               options(kWithoutSurface + ", seed_gate_deg=90").ground_surface);
 }
 
-TEST(Rows, ThePapersHaveNoneOfOurStages) {
+TEST(Rows, PaperRowUsesPaperStagesOnly) {
     test::TemporaryFolder config;
     for (const char* file : {"vlp16.yaml", "common.yaml", "paper.yaml"}) {
         fs::copy_file(fs::path(kConfig) / file, config / file);
@@ -103,7 +103,7 @@ TEST(Rows, ThePapersHaveNoneOfOurStages) {
 }
 
 // The tuning's seeds are never scored.
-TEST(DataSets, AreFlightsOfTheSeedsAsked) {
+TEST(DataSets, UseGivenSeeds) {
     for (const DataSet& set : dataSets("", "data", {{101, 102}, 3})) {
         ASSERT_FALSE(set.flights.empty()) << set.name;
         for (const convert::SimulatedLog& flight : set.flights) {
@@ -128,7 +128,7 @@ class Flights : public testing::Test {
     DataSet field_;
 };
 
-TEST_F(Flights, AreUsedAgainWhereTheSameMadeThem) {
+TEST_F(Flights, AreReusedIfUnchanged) {
     makeFlights(field_, "one");
     EXPECT_EQ(scanFolders(field_).size(), 1u);
     const auto made = timeOfScan();
@@ -142,7 +142,7 @@ TEST_F(Flights, AreUsedAgainWhereTheSameMadeThem) {
     EXPECT_GT(timeOfScan(), made_again);
 }
 
-TEST_F(Flights, ThatWereNotFinishedAreMadeAnew) {
+TEST_F(Flights, AreRemadeIfIncomplete) {
     makeFlights(field_, "one");
     fs::remove(field_.flights.front().folder.string() + ".stamp");
     const auto made = timeOfScan();
@@ -177,14 +177,14 @@ Measured twoDrives() {
     return measured;
 }
 
-TEST(FolderSums, AreTheDrives) {
+TEST(FolderSums, GroupByDrive) {
     const std::vector<evaluation::Scores> sums = folderSums(twoDrives(), kDefault);
     ASSERT_EQ(sums.size(), 2u);
     EXPECT_EQ(sums[0].roi.hits, 185);
     EXPECT_EQ(sums[1].roi.hits, 99);
 }
 
-TEST(HardSection, PutsTheCostliestFirstAndMarksIt) {
+TEST(HardSection, SortsByCost) {
     const std::string text = hardSection({twoDrives()});
     EXPECT_LT(text.find("| as recorded"), text.find("**`dead_beams=3`**"));
     EXPECT_LT(text.rfind("dead_beams=3"), text.rfind("rain=1"));
@@ -205,7 +205,7 @@ selection::Record recordOf(const Measured& measured) {
     return record;
 }
 
-TEST(LeftOutSection, SaysWhetherItIsMissingOrOutdated) {
+TEST(LeftOutSection, ReportsMissingOrOutdatedRecord) {
     EXPECT_THAT(leftOutSection({twoDrives()}, std::nullopt),
                 HasSubstr("`scripts/select-settings` was not run"));
     selection::Record record = recordOf(twoDrives());
@@ -216,7 +216,7 @@ TEST(LeftOutSection, SaysWhetherItIsMissingOrOutdated) {
     EXPECT_THAT(leftOutSection({twoDrives()}, record), HasSubstr("v1-selected. Run"));
 }
 
-TEST(ReadmeBlock, ReplacesWhatIsBetweenTheMarks) {
+TEST(ReadmeBlock, ReplacesTextBetweenMarks) {
     const std::string first = "<!-- results: written -->\n", last = "<!-- end of results -->";
     EXPECT_EQ(withBlock("a\n" + first + "old\n" + last + "\nb\n", "new\n"),
               "a\n" + first + "\nnew\n" + last + "\nb\n");
@@ -258,14 +258,14 @@ class PaperResults : public test::ProgramTest {
     }
 };
 
-TEST_F(PaperResults, RefusesWrongUsage) {
+TEST_F(PaperResults, RejectsWrongUsage) {
     expectFailure({}, 2, "--output");
     expectFailure({"-o", (folder_ / "none").string()}, 2, "none");
     expectFailure({"-o", folder_.path(), "--beta", "5"}, 2, "--beta");
     expectFailure({"-o", folder_.path(), "--selection", path("none.json")}, 2, "none.json");
 }
 
-TEST_F(PaperResults, NamesTheRecordingThatIsMissing) {
+TEST_F(PaperResults, ReportsMissingRecording) {
     expectFailure({"-o", folder_.path(), "--labelled", (folder_ / "labelled").string()}, 1,
                   "beams16: no such folder; set HAGEN_LABELLED_DATA");
     fs::create_directories(folder_ / "labelled/beams16");
@@ -275,7 +275,7 @@ TEST_F(PaperResults, NamesTheRecordingThatIsMissing) {
     EXPECT_FALSE(fs::exists(folder_ / "results.md"));
 }
 
-TEST_F(PaperResults, NamesTheSettingsThatAreMissing) {
+TEST_F(PaperResults, ReportsMissingSettings) {
     const auto outcome = test::run(
         HAGEN_PAPER_RESULTS,
         {"-o", folder_.path(), "--data", folder_.path(), "--quick", "--config", folder_.path()});
@@ -283,7 +283,7 @@ TEST_F(PaperResults, NamesTheSettingsThatAreMissing) {
     EXPECT_THAT(outcome.err, HasSubstr("vlp16.yaml"));
 }
 
-TEST_F(PaperResults, NamesBrokenInputs) {
+TEST_F(PaperResults, ReportsBrokenInputs) {
     folder_.write("selection.json", "{}");
     expectFailure({"-o", folder_.path(), "--selection", path("selection.json")}, 1,
                   "selection.json: is no record of scripts/select-settings");
@@ -292,7 +292,7 @@ TEST_F(PaperResults, NamesBrokenInputs) {
                   "readme.md: needs one line");
 }
 
-TEST_F(PaperResults, ReplacesNothingUnasked) {
+TEST_F(PaperResults, KeepsExistingOutputs) {
     folder_.write("results.md", "mine");
     expectFailure({"-o", folder_.path()}, 1, "--overwrite");
     EXPECT_EQ(test::readFile(folder_ / "results.md"), "mine");
@@ -301,7 +301,7 @@ TEST_F(PaperResults, ReplacesNothingUnasked) {
     expectFailure({"-o", folder_.path(), "--overwrite"}, 1, "holiday.svg");
 }
 
-TEST(ReproducePaper, RefusesWrongUsage) {
+TEST(ReproducePaper, RejectsWrongUsage) {
     const std::string script = HAGEN_SOURCE_DIR "/scripts/reproduce-paper";
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"--fast"}, {"--data"}, {"--quick", "results.md"}}) {
@@ -314,7 +314,7 @@ TEST(ReproducePaper, RefusesWrongUsage) {
 
 using PaperResultsRun = PaperResults;
 
-TEST_F(PaperResultsRun, HasEveryTableAndFigure) {
+TEST_F(PaperResultsRun, WritesAllTablesAndFigures) {
     const auto outcome = run({"-o", folder_.path(), "--labelled", labelledPoles(), "--revision",
                               "v1-test", "--overwrite"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -26,7 +26,7 @@ TimedRow rowOf(const std::string& sensor, const std::string& what, double median
     return row;
 }
 
-TEST(TimedRows, GoThroughJson) {
+TEST(TimedRows, RoundTripThroughJson) {
     test::TemporaryFolder folder;
     const fs::path file =
         folder.write("rows.json", jsonOf({rowOf("VLP-16", "floor", 0.002), rowOf("B", "c", 3)}));
@@ -40,7 +40,7 @@ TEST(TimedRows, GoThroughJson) {
     EXPECT_EQ(find(rows, "VLP-16", "c"), nullptr);
 }
 
-TEST(TimedRows, ABrokenFileIsNamed) {
+TEST(TimedRows, ReportBrokenFiles) {
     test::TemporaryFolder folder;
     for (const char* text : {"", "[{", "[{\"sensor\": \"VLP-16\"}]", "[3]"}) {
         const fs::path file = folder.write("rows.json", text);
@@ -49,7 +49,7 @@ TEST(TimedRows, ABrokenFileIsNamed) {
     }
 }
 
-TEST(TimedRows, TheExponentIsTheSlopeOfTheLogarithms) {
+TEST(TimedRows, ExponentIsLogLogSlope) {
     const std::vector<double> x{16, 32, 64, 128};
     for (const double exponent : {0.0, 1.0, 1.5}) {
         std::vector<double> y;
@@ -58,7 +58,7 @@ TEST(TimedRows, TheExponentIsTheSlopeOfTheLogarithms) {
     }
 }
 
-TEST(StageRows, HaveTheNamesThatOthersReadAndRun) {
+TEST(StageRows, HaveExpectedNames) {
     std::set<std::string> names;
     for (const StageRow& row : stageRows()) EXPECT_TRUE(names.insert(row.what).second) << row.what;
     for (const char* name :
@@ -94,7 +94,7 @@ Performance small() {
     return p;
 }
 
-TEST(PerformanceDocument, SaysWhatWasMeasured) {
+TEST(PerformanceDocument, ListsMeasurements) {
     const std::string text = documentOf(small());
     EXPECT_THAT(text, HasSubstr("| VLP-16 | `paper pipeline`   | 250    | 250 | 0.50          | "
                                 "0.5         |"));
@@ -107,7 +107,7 @@ TEST(PerformanceDocument, SaysWhatWasMeasured) {
     EXPECT_THAT(text, Not(ContainsRegex("[^a-z]nan[^a-z]")));
 }
 
-TEST(StageBenchmarksRun, WritesTheTableAndTheJson) {
+TEST(StageBenchmarksRun, WritesTableAndJson) {
     test::TemporaryFolder folder;
     const fs::path json = folder / "stages.json";
     const test::Outcome outcome = test::run(

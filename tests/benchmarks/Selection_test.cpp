@@ -72,7 +72,7 @@ Choice bruteForce(const std::string& left_out) {
     return best;
 }
 
-TEST(Objective, IsTheMeanOverVotesOfBothClasses) {
+TEST(Objective, AveragesBothClasses) {
     // Two sets of one vote are summed first: a vote counts once, however large its sets are.
     const std::vector<ScanSet> sets{{"rain", "x", Group::Hard, true},
                                     {"rain", "y", Group::Hard, true},
@@ -87,11 +87,11 @@ TEST(Objective, IsTheMeanOverVotesOfBothClasses) {
     const double rain = (0.5 + 2.0 / 3) / 2;
     EXPECT_DOUBLE_EQ(objectiveOf(sets, {rain_x, rain_y, flights}, ""), (rain + 0.9) / 2);
     EXPECT_DOUBLE_EQ(objectiveOf(sets, {rain_x, rain_y, flights}, "y"), (1 + 0.9) / 2);
-    // A vote of which nothing is scored is none.
+    // A vote without scored returns does not count.
     EXPECT_DOUBLE_EQ(objectiveOf(sets, {{}, {}, flights}, ""), 0.9);
 }
 
-TEST(MissedOf, CountsEachScanOnceAndNotWhatIsLeftOut) {
+TEST(MissedOf, CountsUsedScansOnce) {
     const std::vector<ScanSet> sets{{"a", "x", Group::Real, true},
                                     {"a, no vegetation", "x", Group::Real, false},
                                     {"b", "y", Group::Real, true},
@@ -104,7 +104,7 @@ TEST(MissedOf, CountsEachScanOnceAndNotWhatIsLeftOut) {
     EXPECT_THAT(missedOf(sets, counts, "x"), ElementsAre(100, 1000, 0));
 }
 
-TEST(Folds, AreTheDrivesEachOnce) {
+TEST(Folds, LeaveOutEachDriveOnce) {
     EXPECT_THAT(drivesOf({{"16", "07", Group::Real, true},
                           {"64", "07", Group::Real, true},
                           {"flights", "", Group::Simulated, true},
@@ -112,7 +112,7 @@ TEST(Folds, AreTheDrivesEachOnce) {
                 ElementsAre("00", "07"));
 }
 
-TEST(Descend, FindsTheOptimumOfWhatIsNotLeftOut) {
+TEST(Descend, FindsOptimumOfTrainingScans) {
     CachedMeasure measure(bowls);
     for (const std::string left_out : {"", "x", "y", "z"}) {
         const Descended d = descend(kSettings, {2, 2}, kAny, kDrives, measure, left_out, 10);
@@ -126,7 +126,7 @@ TEST(Descend, FindsTheOptimumOfWhatIsNotLeftOut) {
     EXPECT_NE(descend(kSettings, {2, 2}, kAny, kDrives, measure, "x", 10).choice, (Choice{0, 3}));
 }
 
-TEST(Descend, TakesARoundPerStepWhereSettingsDependOnEachOther) {
+TEST(Descend, RepeatsForDependentSettings) {
     // A diagonal valley, by hand: (0, 0), (1, 2), (3, 4), (4, 4).
     const auto valley = [](const Choice& c) {
         const double a = static_cast<double>(c[0]), b = static_cast<double>(c[1]);
@@ -144,7 +144,7 @@ TEST(Descend, TakesARoundPerStepWhereSettingsDependOnEachOther) {
     EXPECT_EQ(within(20).rounds, 4);  // the last one changes nothing
 }
 
-TEST(Descend, KeepsWhatIsNotWorthChanging) {
+TEST(Descend, KeepsValuesWithoutGain) {
     const auto flat = [](const Choice& choice) {
         return std::vector<Counts>{
             countsOf(0.9 + 0.4 * kLeastGain * static_cast<double>(choice[0]) / 4)};
@@ -165,7 +165,7 @@ std::vector<Counts> trade(const Choice& choice) {
     return {countsOf(f1, 100 - 2 * more), countsOf(f1, 10), countsOf(f1, 50 + more)};
 }
 
-TEST(Descend, MissesNoMoreThanTheLimitInAnyGroup) {
+TEST(Descend, RespectsLimitInEachGroup) {
     CachedMeasure measure(trade);
     const MissedByGroup limit = missedOf(kGroupsOfSets, trade({0, 0}), "");
     const Descended d = descend(kSettings, {0, 0}, limit, kGroupsOfSets, measure, "", 5);
@@ -176,7 +176,7 @@ TEST(Descend, MissesNoMoreThanTheLimitInAnyGroup) {
               (Choice{4, 4}));
 }
 
-TEST(Descend, FromAboveTheLimitGoesBelowItFirst) {
+TEST(Descend, FirstGoesBelowLimit) {
     CachedMeasure measure(trade);
     const MissedByGroup limit = missedOf(kGroupsOfSets, trade({0, 0}), "");
     const Descended d = descend(kSettings, {4, 0}, limit, kGroupsOfSets, measure, "", 5);
@@ -185,7 +185,7 @@ TEST(Descend, FromAboveTheLimitGoesBelowItFirst) {
     EXPECT_EQ(d.missed[1], 50);
 }
 
-TEST(CachedMeasure, MeasuresEachChoiceOnce) {
+TEST(CachedMeasure, MeasuresChoicesOnce) {
     int calls = 0;
     CachedMeasure measure([&](const Choice& choice) {
         ++calls;
@@ -198,7 +198,7 @@ TEST(CachedMeasure, MeasuresEachChoiceOnce) {
 }
 
 // Student's t of four values: the mean +- 3.182 standard errors.
-TEST(MeanOverDrives, HasStudentsInterval) {
+TEST(MeanOverDrives, HasStudentInterval) {
     const MeanInterval interval = meanOverDrives({0.9, 0.92, 0.94, 0.96});
     EXPECT_DOUBLE_EQ(interval.mean, 0.93);
     const double error = std::sqrt((0.0009 + 0.0001 + 0.0001 + 0.0009) / 3 / 4);
@@ -210,7 +210,7 @@ TEST(MeanOverDrives, HasStudentsInterval) {
 
 // ---- the plan
 
-TEST(Plan, OfTheProjectHasValuesThatTheFilterKnows) {
+TEST(Plan, ProjectPlanHasValidValues) {
     Plan plan = readPlan(kConfig / "selection.yaml");
     EXPECT_GE(plan.settings.size(), 10u);
     const std::size_t tolerances = plan.settings.front().values.size();
@@ -224,7 +224,7 @@ TEST(Plan, OfTheProjectHasValuesThatTheFilterKnows) {
     EXPECT_EQ(chosen.options.ground_tolerance_m, preset.options.ground_tolerance_m);
 }
 
-TEST(Plan, ValuesAtPresentAreAmongThoseTried) {
+TEST(Plan, IncludesCurrentValues) {
     test::TemporaryFolder folder;
     Plan plan = readPlan(folder.write("plan.yaml", "settings: {beta_deg: [5, 7.50]}\n"));
     EXPECT_THAT(plan.settings[0].values, ElementsAre("5", "7.5"));
@@ -238,7 +238,7 @@ TEST(Plan, ValuesAtPresentAreAmongThoseTried) {
                 HasSubstr("beta_deg is 11 in"));
 }
 
-TEST(Plan, ThePlainStartHasItsOwnValues) {
+TEST(Plan, PlainStartHasOwnValues) {
     test::TemporaryFolder folder;
     Plan plan = readPlan(folder.write(
         "plan.yaml",
@@ -249,7 +249,7 @@ TEST(Plan, ThePlainStartHasItsOwnValues) {
     EXPECT_THAT(plainChoice(plan, present), ElementsAre(2, 0));
 }
 
-TEST(Plan, ErrorsNameFileLineAndEntry) {
+TEST(Plan, ReportsFileLineAndEntry) {
     test::TemporaryFolder folder;
     const auto errorOf = [&](const std::string& text) {
         const fs::path file = folder.write("plan.yaml", text);
@@ -303,7 +303,7 @@ Record twoDrives() {
     return record;
 }
 
-TEST(Record, GoesThroughJson) {
+TEST(Record, RoundTripsThroughJson) {
     test::TemporaryFolder folder;
     const std::string text = jsonOf(twoDrives());
     const Record record = readRecord(folder.write("selection.json", text));
@@ -313,7 +313,7 @@ TEST(Record, GoesThroughJson) {
     EXPECT_EQ(record.find("real", "04"), nullptr);
 }
 
-TEST(Record, ABrokenFileIsNamed) {
+TEST(Record, ReportsBrokenFiles) {
     test::TemporaryFolder folder;
     for (const char* text : {"", "{", "[]", "{\"revision\": 3}"}) {
         const fs::path file = folder.write("selection.json", text);
@@ -325,7 +325,7 @@ TEST(Record, ABrokenFileIsNamed) {
                 HasSubstr("none.json: cannot be read"));
 }
 
-TEST(SelectionTables, PutLeftOutScoresBeforeThoseInSample) {
+TEST(SelectionTables, ListHeldOutScoresFirst) {
     const std::string text = scoreTable(twoDrives());
     EXPECT_THAT(text, HasSubstr("0.900 / 0.900"));
     EXPECT_THAT(text, HasSubstr("**0.910 / 0.910**"));  // the mean, held out
@@ -343,7 +343,7 @@ TEST(SelectionTables, PutLeftOutScoresBeforeThoseInSample) {
 
 // ---- the programs
 
-TEST(SelectSettings, RefusesWrongUsage) {
+TEST(SelectSettings, RejectsWrongUsage) {
     test::TemporaryFolder folder;
     const std::string output = (folder / "selection.json").string();
     const std::vector<std::string> common{"-o",          output,     "--data",

@@ -4,7 +4,7 @@
 #include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>
@@ -506,7 +506,7 @@ TEST_P(ConversionTest, RejectsExternalRotatingScan) {
     test::writeBytes(folder_ / "in.rawlog", test::bytesOf(*pose()) + bytes);
     const std::string why = test::messageOf([&] { convert(conversion()); });
     EXPECT_THAT(why, HasSubstr("in.rawlog: entry 1 at byte"));
-    EXPECT_THAT(why, HasSubstr("'scan.bin'; put it in with 'rawlog-edit --de-externalize'"));
+    EXPECT_THAT(why, HasSubstr("'scan.bin'; include it with 'rawlog-edit --de-externalize'"));
 }
 
 TEST_P(ConversionTest, ReportsUnreadableScan) {
@@ -548,7 +548,7 @@ TEST_P(ConversionTest, ReportsScanWithInvalidLimits) {
         const ConversionReport report = convert(again, listener);
         EXPECT_EQ(report.unreadable_scans, 1u);
         EXPECT_EQ(report.scans, 2u);
-        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): its limits of the range contradict"));
+        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): its range limits are invalid"));
     }
 }
 

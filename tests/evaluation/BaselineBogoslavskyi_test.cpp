@@ -25,11 +25,7 @@ Eigen::Vector3f at(int row, double azimuth_deg, double range_m) {
     return test::onBeam(kSensor, row, azimuth_deg, range_m);
 }
 
-std::vector<std::int32_t> clustersOf(const Scan& scan) {
-    return bogoslavskyiClusters(scan, kSensor, std::vector<Label>(scan.size(), Label::Roi));
-}
-
-TEST(SavitzkyGolay, HasTheWeightsOfTheTable) {
+TEST(SavitzkyGolay, UsesPublishedWeights) {
     Image<float> impulse = Image<float>::Zero(9, 1);
     impulse(4, 0) = 35.0f;  // Savitzky and Golay 1964: -3 12 17 12 -3, over 35
     const Image<float> smooth = savitzkyGolay(impulse, 5);
@@ -48,7 +44,7 @@ TEST(SavitzkyGolay, KeepsParabolas) {
     }
 }
 
-TEST(SavitzkyGolay, LeavesPixelsBesideGapsAndEdgesAlone) {
+TEST(SavitzkyGolay, KeepsPixelsNearGapsAndEdges) {
     test::Random random(3);
     Image<float> image = random.image(12, 1, 0.0f, 1.0f, 0.0);
     image(6, 0) = kNoValue;
@@ -59,7 +55,7 @@ TEST(SavitzkyGolay, LeavesPixelsBesideGapsAndEdgesAlone) {
     EXPECT_TRUE(test::same(savitzkyGolay(image, 1), image));
 }
 
-TEST(SavitzkyGolay, RefusesEvenWindows) {
+TEST(SavitzkyGolay, RejectsEvenWindows) {
     for (const int window : {-1, 0, 4}) {
         EXPECT_THROW(savitzkyGolay(Image<float>::Zero(5, 5), window), std::invalid_argument);
     }
@@ -76,7 +72,7 @@ double recall(const LabelledScan& scene, const std::vector<Label>& labels, Label
     return static_cast<double>(hits) / all;
 }
 
-TEST(BogoslavskyiLabels, TellsAPoleAndAWallFromFlatGround) {
+TEST(BogoslavskyiLabels, SeparatesObstaclesFromFlatGround) {
     SimpleScene scene;
     scene.poles.push_back({6.0, 3.0, 0.3, 4.0});
     scene.boxes.push_back({{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}});
@@ -100,7 +96,7 @@ TEST(BogoslavskyiLabels, SmoothsTheAngles) {
     EXPECT_THROW(bogoslavskyiLabels(labelled.scan, kSensor, rough), std::invalid_argument);
 }
 
-TEST(BogoslavskyiLabels, NeedsGroundUnderTheLowestBeam) {
+TEST(BogoslavskyiLabels, StartsFromFlatLowestPixels) {
     // A step up all around: steeper than 45 degrees at the lowest beam, so nothing starts there.
     const Eigen::Vector3f low = at(0, 10.0, 5.0), high = at(1, 10.0, 5.0);
     std::vector<Eigen::Vector3f> column{low, high};
@@ -111,7 +107,7 @@ TEST(BogoslavskyiLabels, NeedsGroundUnderTheLowestBeam) {
     EXPECT_EQ(bogoslavskyiLabels(scanOf(column), kSensor), std::vector<Label>(2, Label::Rou));
 }
 
-TEST(BogoslavskyiLabels, GrowsUpToTheDifferenceOfAngles) {
+TEST(BogoslavskyiLabels, GrowsUpToAngleDifference) {
     // Level from beam 0 to 1, then a slope from 1 to 2: ground if it is flatter than 5 degrees.
     const auto labelsOf = [&](double slope_deg) {
         const double z_m = -1.5;
@@ -128,47 +124,11 @@ TEST(BogoslavskyiLabels, GrowsUpToTheDifferenceOfAngles) {
     EXPECT_EQ(labelsOf(5.5), (std::vector<Label>{Label::Rou, Label::Roi, Label::Roi}));
 }
 
-TEST(BogoslavskyiLabels, LeavesFarAndUnseenReturnsOut) {
+TEST(BogoslavskyiLabels, IgnoresFarAndUnseenReturns) {
     const Scan scan = scanOf({at(9, 0.0, 25.0), at(9, 90.0, 0.1), {0.0f, 0.0f, 0.0f}});
     EXPECT_EQ(bogoslavskyiLabels(scan, kSensor),
               (std::vector<Label>{Label::Rou, Label::Unclassified, Label::Unclassified}));
     EXPECT_TRUE(bogoslavskyiLabels({}, kSensor).empty());
-}
-
-TEST(BogoslavskyiClusters, SeparatesByTheAngleBeta) {
-    // beta = theta at d1 = d2 (sin a / tan theta + cos a), for a = 2 degrees between beams.
-    const double a = radians(2.0), theta = radians(10.0);
-    const double border_m = 8.0 * (std::sin(a) / std::tan(theta) + std::cos(a));
-    EXPECT_EQ(clustersOf(scanOf({at(8, 0.0, 8.0), at(9, 0.0, border_m - 0.02)})),
-              (std::vector<std::int32_t>{1, 1}));
-    EXPECT_EQ(clustersOf(scanOf({at(8, 0.0, 8.0), at(9, 0.0, border_m + 0.02)})),
-              (std::vector<std::int32_t>{1, 2}));
-}
-
-TEST(BogoslavskyiClusters, ClosesTheImageBehindTheSensor) {
-    EXPECT_EQ(clustersOf(scanOf({at(8, 179.9, 8.0), at(8, -179.9, 8.0)})),
-              (std::vector<std::int32_t>{1, 1}));
-}
-
-TEST(BogoslavskyiClusters, NumbersTwoPolesInTheOrderOfTheScan) {
-    SimpleScene scene;
-    scene.has_ground = false;
-    scene.poles.push_back({6.0, 0.0, 0.3, 4.0});
-    scene.poles.push_back({5.0, 3.0, 0.3, 4.0});
-    const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
-    const std::vector<std::int32_t> clusters = clustersOf(labelled.scan);
-    for (std::size_t i = 0; i < clusters.size(); ++i) {
-        // Columns go clockwise, so that the pole on the left comes first.
-        EXPECT_EQ(clusters[i], labelled.scan.y_m[i] > 1.5f ? 1 : 2);
-    }
-}
-
-TEST(BogoslavskyiClusters, NumbersRoiReturnsAlone) {
-    const Scan scan = scanOf({at(7, 0.0, 5.0), at(7, 90.0, 5.0), at(7, 180.0, 5.0)});
-    EXPECT_EQ(bogoslavskyiClusters(scan, kSensor, {Label::Rou, Label::Roi, Label::Roi}),
-              (std::vector<std::int32_t>{0, 1, 2}));
-    EXPECT_THROW(bogoslavskyiClusters(scan, kSensor, {Label::Roi}), std::invalid_argument);
-    EXPECT_TRUE(clustersOf({}).empty());
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace hagen::evaluation {
 namespace {
 
-TEST(Baselines, KeepToTheRules) {
+TEST(Baselines, FollowCommonRules) {
     for (const float zone_m : {8.0f, 20.0f}) {
         for (const Baseline& baseline : baselines(zone_m)) {
             test::expectBaselineRules(baseline, zone_m);
@@ -16,7 +16,7 @@ TEST(Baselines, KeepToTheRules) {
     }
 }
 
-TEST(Baselines, HaveNamesOfTheirOwn) {
+TEST(Baselines, HaveUniqueNames) {
     std::set<std::string> names, parameters;
     for (const Baseline& baseline : baselines(20.0f)) {
         EXPECT_TRUE(names.insert(baseline.name).second) << baseline.name;

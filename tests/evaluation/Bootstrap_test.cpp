@@ -18,7 +18,7 @@ std::vector<Scores> everySecondFound(int scans) {
     return all;
 }
 
-TEST(Bootstrap, IntervalOfAShareIsThatOfTheBinomialDistribution) {
+TEST(Bootstrap, MatchesBinomialInterval) {
     // Recall 0.5 of n = 400 scans: standard deviation sqrt(0.25 / 400) = 0.025, 95 % within 1.96 of
     // them. Counts are whole, so bounds lie on multiples of 1 / 400.
     BootstrapOptions options;
@@ -31,7 +31,7 @@ TEST(Bootstrap, IntervalOfAShareIsThatOfTheBinomialDistribution) {
     EXPECT_NEAR(narrow.high - narrow.low, 2 * 0.025, 0.0055);
 }
 
-TEST(Bootstrap, DrawsScansAndNotReturns) {
+TEST(Bootstrap, ResamplesScansNotReturns) {
     // Two scans, one found whole and one missed whole, are 0, 0.5 or 1 however many their returns.
     std::vector<Scores> scans(2);
     scans[0].roi.hits = 1000;
@@ -41,7 +41,7 @@ TEST(Bootstrap, DrawsScansAndNotReturns) {
     EXPECT_EQ(recall.high, 1.0);
 }
 
-TEST(Bootstrap, SaysTheSameForTheSameSeedAndMoreForAnother) {
+TEST(Bootstrap, DependsOnSeedOnly) {
     BootstrapOptions options;
     options.resamples = 100;
     const auto first = bootstrapIntervals(everySecondFound(1001), options);
@@ -53,7 +53,7 @@ TEST(Bootstrap, SaysTheSameForTheSameSeedAndMoreForAnother) {
     EXPECT_NE(first.roi.f1.low, other.roi.f1.low);
 }
 
-TEST(Bootstrap, CanBeEndedBeforeEachResample) {
+TEST(Bootstrap, StopsWhenCallbackThrows) {
     BootstrapOptions options;
     options.resamples = 1000000;
     int asked = 0;
@@ -64,7 +64,7 @@ TEST(Bootstrap, CanBeEndedBeforeEachResample) {
     EXPECT_EQ(asked, 10);
 }
 
-TEST(Bootstrap, NoIntervalOfNothing) {
+TEST(Bootstrap, HasNoIntervalWithoutData) {
     EXPECT_TRUE(std::isnan(bootstrapIntervals({}).roi.f1.low));
     EXPECT_TRUE(std::isnan(bootstrapIntervals(everySecondFound(1)).roi.f1.low));
     EXPECT_TRUE(std::isnan(bootstrapIntervals(everySecondFound(4)).rou.recall.low));  // no ROU

@@ -19,7 +19,7 @@ ScanScores scanAt(double altitude_m, std::size_t folder, const Scores& scores) {
     return scan;
 }
 
-TEST(Breakdown, AltitudeBandsHoldTheirLowerBound) {
+TEST(Breakdown, AltitudeBandsIncludeLowerBound) {
     const std::vector<Group> groups =
         byAltitude({scanAt(1.99, 0, roi(1, 0)), scanAt(2, 0, roi(2, 0)), scanAt(2.5, 0, roi(3, 0)),
                     scanAt(10, 0, roi(4, 0)), scanAt(NAN, 0, roi(5, 0))});
@@ -33,7 +33,7 @@ TEST(Breakdown, AltitudeBandsHoldTheirLowerBound) {
     EXPECT_EQ(groups[2].sum().roi.hits, 4);
 }
 
-TEST(Breakdown, AltitudesBelowTheGroundAreABand) {
+TEST(Breakdown, NegativeAltitudesHaveOwnBand) {
     const std::vector<Group> groups = byAltitude(
         {scanAt(-0.01, 0, roi(1, 0)), scanAt(-30, 0, roi(2, 0)), scanAt(0, 0, roi(3, 0))});
     ASSERT_EQ(groups.size(), 2u);
@@ -43,7 +43,7 @@ TEST(Breakdown, AltitudesBelowTheGroundAreABand) {
     EXPECT_EQ(groups[1].sum().roi.hits, 3);
 }
 
-TEST(Breakdown, FoldersKeepTheirOrderAndAddUpToTheWhole) {
+TEST(Breakdown, FoldersKeepOrderAndSum) {
     const std::vector<ScanScores> scans{scanAt(1, 1, roi(1, 2)), scanAt(1, 0, roi(3, 0)),
                                         scanAt(1, 1, roi(0, 4))};
     const std::vector<Group> groups = byFolder(scans, {"b", "a"});
@@ -55,7 +55,7 @@ TEST(Breakdown, FoldersKeepTheirOrderAndAddUpToTheWhole) {
     EXPECT_EQ(overallScores(scans).sum().roi.misses, 6);
 }
 
-TEST(Breakdown, RangeBandsTakeTheScansThatReachThem) {
+TEST(Breakdown, RangeBandsSkipEmptyScans) {
     ScanScores near = scanAt(1, 0, roi(1, 0)), far = near;
     near.by_range = {roi(1, 0), {}, {}};
     far.by_range = {roi(2, 0), {}, roi(0, 3)};
@@ -67,7 +67,7 @@ TEST(Breakdown, RangeBandsTakeTheScansThatReachThem) {
     EXPECT_EQ(groups[1].sum().roi.misses, 3);
 }
 
-TEST(Breakdown, KindsAreThoseOfAnyScan) {
+TEST(Breakdown, ClassesAreMergedOverScans) {
     ScanScores first, second;
     first.by_kind = {{"wire", roi(1, 1)}};
     second.by_kind = {{"tree", roi(5, 0)}, {"wire", roi(0, 2)}};

@@ -42,7 +42,7 @@ void expectAt(const PinholeCamera& camera, const Eigen::Vector3f& point_m, int u
     EXPECT_EQ(pixels[0].v, v) << point_m.transpose();
 }
 
-TEST(Camera, SeesAheadInTheMiddleLeftOnTheLeftAndUpAbove) {
+TEST(Camera, ProjectsDirectionsToPixels) {
     expectAt(smallCamera(), {5, 0, 0}, 4, 3);
     expectAt(smallCamera(), {5, 5, 0}, 0, 3);   // 45 degrees: 4 px from the middle
     expectAt(smallCamera(), {8, -4, 0}, 6, 3);  // slope 1/2: 2 px
@@ -50,12 +50,12 @@ TEST(Camera, SeesAheadInTheMiddleLeftOnTheLeftAndUpAbove) {
     expectAt(smallCamera(), {8, 0, -2}, 4, 4);
 }
 
-TEST(Camera, APixelReachesHalfAPixelAroundItsMiddle) {
+TEST(Camera, RoundsToNearestPixel) {
     expectAt(smallCamera(), {100, 12.4f, 0}, 4, 3);  // 0.496 px from the middle
     expectAt(smallCamera(), {100, 12.6f, 0}, 3, 3);
 }
 
-TEST(Camera, DoesNotSeeWhatIsBehindOrBesideItOrNowhere) {
+TEST(Camera, IgnoresReturnsOutsideTheView) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(
         visibleReturns(
@@ -66,13 +66,13 @@ TEST(Camera, DoesNotSeeWhatIsBehindOrBesideItOrNowhere) {
     EXPECT_TRUE(visibleReturns(smallCamera(), Scan()).empty());
 }
 
-TEST(Camera, TheNearestReturnOfAPixelIsSeen) {
+TEST(Camera, KeepsNearestReturnPerPixel) {
     const auto pixels = visibleReturns(smallCamera(), scanOf({{9, 0, 0}, {3, 0, 0}, {6, 0, 0}}));
     ASSERT_EQ(pixels.size(), 1u);
     EXPECT_EQ(pixels[0].index, 1u);
 }
 
-TEST(Camera, StandsWhereItsPoseSays) {
+TEST(Camera, AppliesItsPose) {
     PinholeCamera camera = smallCamera();
     camera.pose.translation() = Eigen::Vector3d(0, 1, 0);  // 1 m to the left of the sensor
     expectAt(camera, {5, 1, 0}, 4, 3);
@@ -86,7 +86,7 @@ const char* const kFile =
     "width: 9\nheight: 7\nfx: 4\nfy: 4\ncx: 4\ncy: 3\nposition_m: [0.1, 0, -0.2]\n"
     "yaw_deg: 0\npitch_deg: 45\nroll_deg: 0\n";
 
-TEST(CameraFile, PitchLooksDown) {
+TEST(CameraFile, PositivePitchLooksDown) {
     const test::TemporaryFolder folder;
     PinholeCamera camera = readCamera(folder.write("camera.yaml", kFile));
     EXPECT_EQ(camera.width_px, 9);
@@ -96,7 +96,7 @@ TEST(CameraFile, PitchLooksDown) {
     expectAt(camera, {5, 0, -5}, 4, 3);
 }
 
-TEST(CameraFile, TheShippedOneLooksAhead) {
+TEST(CameraFile, ShippedFileLooksForward) {
     const PinholeCamera camera = readCamera(HAGEN_SOURCE_DIR "/config/camera_forward.yaml");
     const auto pixels = visibleReturns(camera, scanOf({{10, 0, 0}}));
     ASSERT_EQ(pixels.size(), 1u);
@@ -104,7 +104,7 @@ TEST(CameraFile, TheShippedOneLooksAhead) {
     EXPECT_NEAR(pixels[0].v, camera.height_px / 2, 1);
 }
 
-TEST(CameraFile, NamesWhatIsWrong) {
+TEST(CameraFile, ReportsWrongEntries) {
     const test::TemporaryFolder folder;
     const auto message = [&](const std::string& from, const std::string& to) {
         std::string text = kFile;

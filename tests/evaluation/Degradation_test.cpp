@@ -87,14 +87,14 @@ void expectPart(const GroundTruthScan& scan, const GroundTruthScan& part, IsKept
     EXPECT_LT(k, scan.input.scan.size());
 }
 
-TEST(Degradation, DeadBeamsHaveNoReturns) {
+TEST(Degradation, DeadBeamsRemoveRows) {
     const auto scan = randomScan();
     expectPart(scan, degraded(scan, "dead_beams=3,7"), [&](std::size_t i) {
         return scan.input.scan.row[i] != 3 && scan.input.scan.row[i] != 7;
     });
 }
 
-TEST(Degradation, DropoutLosesItsPartOfTheReturns) {
+TEST(Degradation, DropoutRemovesItsShare) {
     const auto scan = randomScan();
     const double returns = static_cast<double>(scan.input.scan.size());
     const auto first = degraded(scan, "dropout=20");
@@ -108,7 +108,7 @@ TEST(Degradation, DropoutLosesItsPartOfTheReturns) {
     EXPECT_EQ(degraded(scan, "dropout=0").kinds, scan.kinds);
 }
 
-TEST(Degradation, NoiseIsAlongTheRay) {
+TEST(Degradation, NoiseMovesReturnsAlongRays) {
     const auto scan = randomScan();
     const auto noisy = degraded(scan, "noise_m=0.05");
     expectSound(noisy);
@@ -127,7 +127,7 @@ TEST(Degradation, NoiseIsAlongTheRay) {
     EXPECT_NEAR(std::sqrt(squares / count), 0.05, 5 * 0.05 / std::sqrt(2 * count));
 }
 
-TEST(Degradation, RainOnlyShortensAndIsNotScored) {
+TEST(Degradation, RainShortensRangesUnscored) {
     const auto scan = randomScan();
     const auto rainy = degraded(scan, "rain=10");
     expectSound(rainy);
@@ -151,7 +151,7 @@ TEST(Degradation, RainOnlyShortensAndIsNotScored) {
     EXPECT_NEAR(drops, 0.1 * returns, 5 * std::sqrt(returns * 0.1 * 0.9));
 }
 
-TEST(Degradation, AReturnNearerThanAnyDropStays) {
+TEST(Degradation, KeepsReturnsNearerThanDrops) {
     GroundTruthScan scan;
     scan.input.scan = test::scanOf(kSensor, {test::onBeam(kSensor, 5, 0, 0.4)});
     scan.truth = {O};
@@ -182,17 +182,17 @@ void expectTilted(const std::string& text, const Attitude& attitude) {
     EXPECT_LT(kept.size(), scan.kinds.size());
     EXPECT_FALSE(tilted.input.map_from_sensor.has_value());
     EXPECT_TRUE(tilted.levelFromSensor().isApprox(level, 1e-6f));
-    const auto told = degraded(scan, text + ",attitude");
-    EXPECT_EQ(told.kinds, tilted.kinds);
-    EXPECT_TRUE(told.input.map_from_sensor->isApprox(level, 1e-6f));
+    const auto with_attitude = degraded(scan, text + ",attitude");
+    EXPECT_EQ(with_attitude.kinds, tilted.kinds);
+    EXPECT_TRUE(with_attitude.input.map_from_sensor->isApprox(level, 1e-6f));
 }
 
-TEST(Degradation, TiltTurnsTheSensorNotTheWorld) {
+TEST(Degradation, TiltRotatesSensorOnly) {
     expectTilted("roll_deg=20", {static_cast<float>(radians(20)), 0});
     expectTilted("pitch_deg=-10", {0, static_cast<float>(radians(-10))});
 }
 
-TEST(Degradation, TiltAddsToTheAttitudeOfTheSource) {
+TEST(Degradation, TiltAddsToRecordedAttitude) {
     auto scan = randomScan();
     const Eigen::Matrix3f before = levelFromSensor({0.1f, 0.2f});
     scan.input.map_from_sensor = before;
@@ -202,7 +202,7 @@ TEST(Degradation, TiltAddsToTheAttitudeOfTheSource) {
     EXPECT_LT((tilted.levelFromSensor() * point(tilted, 7) - up).norm(), 1e-4f);
 }
 
-TEST(Degradation, UpsideDownIsTheSameForAMirroredSensor) {
+TEST(Degradation, UpsideDownMatchesMirroredSensor) {
     const auto scan = randomScan();
     const auto turned = degraded(scan, "upside_down");
     expectSound(turned);
@@ -221,7 +221,7 @@ TEST(Degradation, UpsideDownIsTheSameForAMirroredSensor) {
     EXPECT_FALSE(Degradation("roll_deg=20").mirrorsSensor());
 }
 
-TEST(Degradation, ASensorThatLooksStraightDownSeesWhatIsThere) {
+TEST(Degradation, KeepsReturnsOfDownwardSensor) {
     SensorModel down = kSensor;
     down.elevations_rad = {-1.5708f, -1.0472f, -0.5236f, 0};
     auto scan = randomScan();
@@ -236,7 +236,7 @@ TEST(Degradation, ASensorThatLooksStraightDownSeesWhatIsThere) {
     EXPECT_EQ(same.truth.size(), scan.truth.size());
 }
 
-TEST(Degradation, FieldsOfViewAreCut) {
+TEST(Degradation, LimitsFieldOfView) {
     const auto scan = randomScan();
     expectPart(scan, degraded(scan, "fov_deg=180"),
                [&](std::size_t i) { return scan.input.scan.x_m[i] > 0; });
@@ -249,7 +249,7 @@ TEST(Degradation, FieldsOfViewAreCut) {
                [&](std::size_t i) { return elevation_deg(i) < 0; });
 }
 
-TEST(Degradation, SecondReturnsComeFromBehindTheNearestEdge) {
+TEST(Degradation, SecondReturnsLieBehindEdges) {
     const auto scan = randomScan();
     const auto dual = degraded(scan, "dual_return");
     expectSound(dual);
@@ -285,7 +285,7 @@ TEST(Degradation, SecondReturnsComeFromBehindTheNearestEdge) {
 }
 
 // Across a gap, the next return of the row is no neighbour.
-TEST(Degradation, SecondReturnsNeedANeighbour) {
+TEST(Degradation, SecondReturnsNeedNeighbours) {
     GroundTruthScan scan;
     std::vector<Vector3f> points_m;
     for (int column = 0; column < 20; ++column) {
@@ -299,7 +299,7 @@ TEST(Degradation, SecondReturnsNeedANeighbour) {
     }
 }
 
-TEST(Degradation, TwiceTheRateHalvesTheColumns) {
+TEST(Degradation, DoubleRateHalvesColumns) {
     const auto scan = randomScan();
     const auto fast = degraded(scan, "rate_hz=20");
     expectPart(scan, fast, [&](std::size_t i) { return i / kSensor.rows() % 2 == 0; });
@@ -307,7 +307,7 @@ TEST(Degradation, TwiceTheRateHalvesTheColumns) {
     EXPECT_EQ(faster.kinds.size(), scan.kinds.size() / 4);
 }
 
-TEST(Degradation, ARateKeepsBothReturnsOfARay) {
+TEST(Degradation, RateKeepsDualReturns) {
     const auto scan = randomScan();
     auto dual = degraded(scan, "dual_return");
     const auto fast = degraded(dual, "rate_hz=20");
@@ -320,7 +320,7 @@ TEST(Degradation, ARateKeepsBothReturnsOfARay) {
     EXPECT_EQ(fast.input.scan.size(), expected);
 }
 
-TEST(Degradation, OfAnEmptyScanIsEmpty) {
+TEST(Degradation, KeepsEmptyScansEmpty) {
     GroundTruthScan scan;
     scan.input.scan = test::scanOf(kSensor, {});
     for (const Degradation& degradation : standardDegradations(kSensor)) {
@@ -329,7 +329,7 @@ TEST(Degradation, OfAnEmptyScanIsEmpty) {
     }
 }
 
-TEST(Degradation, KeepsReturnsThatAreNowhere) {
+TEST(Degradation, KeepsReturnsWithoutRange) {
     auto scan = randomScan();
     scan.input.scan.x_m[3] = std::nanf("");
     locateBeams(kSensor, scan.input.scan);
@@ -340,7 +340,7 @@ TEST(Degradation, KeepsReturnsThatAreNowhere) {
     }
 }
 
-TEST(Degradation, StandardOnesSuitTheSensor) {
+TEST(Degradation, StandardSetsFitTheSensor) {
     const auto namesFor = [](const std::string& model) {
         std::vector<std::string> names;
         for (const Degradation& degradation : standardDegradations(sensorModel(model))) {
@@ -366,13 +366,13 @@ std::string problemOf(const std::string& text) {
     return "";
 }
 
-TEST(Degradation, RefusesWhatItDoesNotKnow) {
+TEST(Degradation, RejectsUnknownNames) {
     for (const char* text : {"", "snow=3", "dropout", "upside_down=1", "rain_percent=3"}) {
         EXPECT_THAT(problemOf(text), HasSubstr("known are dead_beams=R[,R...], dropout=")) << text;
     }
 }
 
-TEST(Degradation, RefusesValuesOutOfRange) {
+TEST(Degradation, RejectsValuesOutOfRange) {
     for (const char* text :
          {"dropout=101", "dropout=-1", "dropout=", "dropout=x", "rain=nan", "noise_m=11",
           "roll_deg=91", "roll_deg=20,attitudes", "fov_deg=0", "above_deg=-91", "rate_hz=5"}) {
@@ -407,7 +407,7 @@ class OneScan : public LabelledScanSource {
     int pulled_ = 0;
 };
 
-TEST(DegradedScans, DegradesEachScanOfASourceWithItsOwnSeed) {
+TEST(DegradedScans, UseOneSeedPerScan) {
     DegradedScans scans(std::make_unique<OneScan>(), Degradation("dropout=50"));
     EXPECT_EQ(scans.name(), "one");
     EXPECT_EQ(scans.size(), 3u);
@@ -421,7 +421,7 @@ TEST(DegradedScans, DegradesEachScanOfASourceWithItsOwnSeed) {
 }
 
 // Beams that look up see no ground.
-TEST(DegradedScans, KeepsHeightsAboveTheGroundAsRecorded) {
+TEST(DegradedScans, KeepRecordedHeights) {
     DegradedScans scans(std::make_unique<OneScan>(), Degradation("above_deg=0"));
     const auto recorded = randomScan();
     const std::vector<float> heights_m =
@@ -435,7 +435,7 @@ TEST(DegradedScans, KeepsHeightsAboveTheGroundAsRecorded) {
     }
 }
 
-TEST(DegradedScans, RefusesRowsThatTheSensorDoesNotHave) {
+TEST(DegradedScans, RejectMissingRows) {
     EXPECT_THROW(DegradedScans(std::make_unique<OneScan>(), Degradation("dead_beams=16")),
                  std::invalid_argument);
 }

@@ -26,7 +26,7 @@ DroneScores scoresOf(const GroundTruthScan& scan, const std::vector<Label>& foun
     return DroneTruth(scan, {}).score(found, kinds);
 }
 
-TEST(DroneScores, MissedReturnsAreThoseAboveHalfAMetre) {
+TEST(DroneScores, CountMissedReturnsAboveHalfMetre) {
     const auto scan = scanOf({{4, 0, kGround_m},
                               {4, 0.2f, -1.55f},
                               {4, 0.2f, -1.45f},
@@ -44,12 +44,12 @@ TEST(DroneScores, MissedReturnsAreThoseAboveHalfAMetre) {
     EXPECT_EQ(scores.tall_by_range[2].missed, 1);
 }
 
-TEST(DroneScores, ReturnsOfUnknownHeightCountAsHigh) {
+TEST(DroneScores, CountUnknownHeightsAsTall) {
     const DroneScores scores = scoresOf(scanOf({{4, 0, -1}}, {O}), {G});
     EXPECT_EQ(scores.tall.missed, 1);
 }
 
-TEST(DroneScores, KnownHeightsComeFirst) {
+TEST(DroneScores, PreferGivenHeights) {
     auto scan = scanOf({{4, 0, kGround_m}, {4, 0, 0}, {4, 0, -1.9f}, {30, 0, 0}, {4, 1, 0}},
                        {G, O, O, O, U});
     scan.heights_m = {9, 0.4f, 0.6f, 9, 9};  // of obstacles in range only
@@ -58,7 +58,7 @@ TEST(DroneScores, KnownHeightsComeFirst) {
     EXPECT_THROW(scoresOf(scan, {G, G, G, G, G}), std::invalid_argument);
 }
 
-TEST(DroneScores, MissedReturnsAreSummedByClassName) {
+TEST(DroneScores, SumMissedReturnsByClass) {
     auto scan = scanOf({{4, 0, kGround_m}, {4, 0, 0}, {5, 0, 0}, {6, 0, 0}}, {G, O, O, O});
     scan.kinds = {1, 4, 4, 9};
     const LabelMap kinds{{1, {"soil", G}}, {4, {"pole", O}}, {9, {"wire", O}}};
@@ -69,11 +69,11 @@ TEST(DroneScores, MissedReturnsAreSummedByClassName) {
     EXPECT_EQ(scores.tall_by_kind.at("wire").missed, 1);
 }
 
-TEST(DroneScores, AnObstacleIsFoundByOneOfItsReturns) {
+TEST(DroneScores, FindObstaclesByOneReturn) {
     std::vector<Vector3f> points_m{{4, 0, kGround_m}};
     std::vector<Label> truth{G}, found{O};
     GroundTruthScan scan;
-    std::vector<std::uint32_t> objects{1};  // a number of ground is none of an obstacle
+    std::vector<std::uint32_t> objects{1};  // of ground: ignored
     const auto add = [&](std::uint32_t object, float x_m, int returns, int roi) {
         for (int i = 0; i < returns; ++i) {
             points_m.push_back({x_m, 0, 0});
@@ -95,7 +95,7 @@ TEST(DroneScores, AnObstacleIsFoundByOneOfItsReturns) {
     EXPECT_EQ(scores.obstacles.missed, 1);
 }
 
-TEST(DroneScores, FalseRoiOnBareGroundIsFarFromAllObstacles) {
+TEST(DroneScores, CountFalseRoiOnBareGround) {
     test::Random random(3);
     std::vector<Vector3f> points_m;
     std::vector<Label> truth, found;
@@ -120,7 +120,7 @@ TEST(DroneScores, FalseRoiOnBareGroundIsFarFromAllObstacles) {
     EXPECT_EQ(scoresOf(scan, found).false_on_bare_ground, expected);
 }
 
-TEST(DroneScores, AddUpOverScans) {
+TEST(DroneScores, SumOverScans) {
     auto scan = scanOf({{4, 0, kGround_m}, {4, 0, 0}, {15, 0, kGround_m}}, {G, O, G});
     scan.kinds = {1, 4, 1};
     const LabelMap kinds{{1, {"soil", G}}, {4, {"pole", O}}};
@@ -137,11 +137,9 @@ TEST(DroneScores, AddUpOverScans) {
     EXPECT_EQ(sum.falseOnBareGroundPerScan(), 0.5);
 }
 
-TEST(DroneScores, AnEmptyScanHasNothingToMiss) {
-    EXPECT_EQ(scoresOf(scanOf({}, {}), {}).tall.all, 0);
-}
+TEST(DroneScores, AcceptEmptyScans) { EXPECT_EQ(scoresOf(scanOf({}, {}), {}).tall.all, 0); }
 
-TEST(DroneScores, RefuseLabelsOfAnotherScan) {
+TEST(DroneScores, RejectWrongSizes) {
     auto scan = scanOf({{4, 0, 0}}, {O});
     EXPECT_THROW(scoresOf(scan, {O, O}), std::invalid_argument);
     scan.objects = {1, 2};

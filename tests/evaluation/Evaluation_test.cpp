@@ -69,7 +69,7 @@ Obstacles obstacles(const std::string& name, const std::vector<int>& returns,
     return Obstacles(name, returns, methods);
 }
 
-TEST(Evaluation, ScoresEachMethodOnEachScan) {
+TEST(Evaluation, ScoresEachMethodPerScan) {
     const auto methods = evaluate(sourcesOf(obstacles("a", {3, 2}), obstacles("b", {4})));
     ASSERT_EQ(methods.size(), 2u);
     EXPECT_EQ(methods[0].name, "all RoI");
@@ -82,7 +82,7 @@ TEST(Evaluation, ScoresEachMethodOnEachScan) {
     EXPECT_TRUE(methods[0].pixels.empty());
 }
 
-TEST(Evaluation, OverPixelsTheNearestReturnCounts) {
+TEST(Evaluation, ScoresNearestReturnPerPixel) {
     EvaluationOptions options;
     options.camera = PinholeCamera{8, 8, 4, 4, 4, 4, Eigen::Isometry3d::Identity()};
     const auto methods = evaluate(sourcesOf(obstacles("a", {3})), options);  // one behind the other
@@ -91,7 +91,7 @@ TEST(Evaluation, OverPixelsTheNearestReturnCounts) {
     EXPECT_EQ(methods[0].returns[0].all.returns(), 3);
 }
 
-TEST(Evaluation, ShowsEachScanOfEachMethod) {
+TEST(Evaluation, CallsListenerPerScanAndMethod) {
     std::vector<std::string> seen;
     evaluate(sourcesOf(obstacles("a", {1, 2})), {}, [&](const MethodOutput& view) {
         seen.push_back(view.method_name + std::to_string(view.scan) + ":" +
@@ -101,7 +101,7 @@ TEST(Evaluation, ShowsEachScanOfEachMethod) {
               (std::vector<std::string>{"all RoI0:1", "all ROU0:1", "all RoI1:2", "all ROU1:2"}));
 }
 
-TEST(Evaluation, NamesTheScanWhoseLabelsDoNotFit) {
+TEST(Evaluation, ReportsScanWithWrongLabels) {
     int calls = 0;  // the first scan twice, then the second
     const Method one_too_few{"short", [&calls](const ScanInput& input) {
                                  return std::vector<Label>(++calls == 3 ? 1 : input.scan.size(), O);
@@ -113,7 +113,7 @@ TEST(Evaluation, NamesTheScanWhoseLabelsDoNotFit) {
     EXPECT_THAT(message, HasSubstr("1 found labels for 2 returns"));
 }
 
-TEST(Evaluation, RecordedLabelsAreReadOnceAndNotTimed) {
+TEST(Evaluation, ReadsRecordedLabelsOnceUntimed) {
     int calls = 0;
     const Method recorded{"theirs",
                           [&calls](const ScanInput& input) {
@@ -127,13 +127,13 @@ TEST(Evaluation, RecordedLabelsAreReadOnceAndNotTimed) {
     EXPECT_TRUE(methods[0].latency_ms.empty());
 }
 
-TEST(Evaluation, ASourceCanBeEvaluatedOnce) {
+TEST(Evaluation, RejectsConsumedSources) {
     const LabelledScanSources sources = sourcesOf(obstacles("a", {2, 2}));
     evaluate(sources);
     EXPECT_THROW(evaluate(sources), std::invalid_argument);
 }
 
-TEST(Evaluation, RefusesNoSourceAndSourcesThatDiffer) {
+TEST(Evaluation, RejectsMissingOrDifferingSources) {
     EXPECT_THROW(evaluate(LabelledScanSources()), std::invalid_argument);
     const Method another{"another", [](const ScanInput&) { return std::vector{O}; }};
     EXPECT_THROW(evaluate(sourcesOf(obstacles("a", {1}), obstacles("b", {1}, {another}))),

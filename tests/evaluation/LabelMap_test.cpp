@@ -22,7 +22,7 @@ class LabelMapFile : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(LabelMapFile, HasANameAndALabelForEachKind) {
+TEST_F(LabelMapFile, ReadsNamesAndLabels) {
     const LabelMap map = readLabelMap(folder_.write(
         "map.yaml",
         "# kinds\n70: {name: vegetation, label: 2}\n72:\n  name: terrain\n  label: 1\n"));
@@ -32,14 +32,14 @@ TEST_F(LabelMapFile, HasANameAndALabelForEachKind) {
     EXPECT_EQ(map.at(72).label, Label::Rou);
 }
 
-TEST_F(LabelMapFile, GivesKindsTheirLabels) {
+TEST_F(LabelMapFile, MapsClassesToLabels) {
     const LabelMap map{{0, {"nothing", Label::Unclassified}}, {70, {"vegetation", Label::Roi}}};
     EXPECT_EQ(labelsOfClasses({70, 0}, map), (std::vector<Label>{Label::Roi, Label::Unclassified}));
     EXPECT_EQ(labelsOfNumbers({2, 1, 0}),
               (std::vector<Label>{Label::Roi, Label::Rou, Label::Unclassified}));
 }
 
-TEST_F(LabelMapFile, ShippedOnesDifferInVegetationAlone) {
+TEST_F(LabelMapFile, ShippedMapsDifferInVegetation) {
     const fs::path config = fs::path(HAGEN_SOURCE_DIR) / "config";
     LabelMap with = readLabelMap(config / "semantic_kitti.yaml");
     const LabelMap without = readLabelMap(config / "semantic_kitti_without_vegetation.yaml");
@@ -52,7 +52,7 @@ TEST_F(LabelMapFile, ShippedOnesDifferInVegetationAlone) {
     }
 }
 
-TEST_F(LabelMapFile, RefusesWhatItCannotRead) {
+TEST_F(LabelMapFile, RejectsInvalidFiles) {
     expectRefused("70: vegetation", "map.yaml:1: name and label are expected");
     expectRefused("70: {name: vegetation}", "name and label are expected");
     expectRefused("70: {name: vegetation, label: 2, colour: green}", "name and label");
@@ -69,17 +69,12 @@ TEST_F(LabelMapFile, RefusesWhatItCannotRead) {
                 HasSubstr("none.yaml: no such file"));
 }
 
-TEST_F(LabelMapFile, NamesClassesThatAreMissing) {
-    const auto words = [](auto call) {
-        try {
-            call();
-        } catch (const std::invalid_argument& e) {
-            return std::string(e.what());
-        }
-        return std::string();
+TEST_F(LabelMapFile, ReportsMissingClasses) {
+    const auto expectError = [](auto call, const std::string& words) {
+        EXPECT_THAT(call, testing::ThrowsMessage<std::invalid_argument>(HasSubstr(words)));
     };
-    EXPECT_THAT(words([] { labelsOfClasses({71}, {}); }), HasSubstr("class 71 is not in"));
-    EXPECT_THAT(words([] { labelsOfNumbers({40}); }), HasSubstr("label 40 is not 0"));
+    expectError([] { labelsOfClasses({71}, {}); }, "class 71 is not in");
+    expectError([] { labelsOfNumbers({40}); }, "label 40 is not 0");
 }
 
 }  // namespace

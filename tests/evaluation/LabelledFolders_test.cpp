@@ -34,7 +34,7 @@ class LabelledFolders : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
-TEST_F(LabelledFolders, HaveTheShortestNamesThatDiffer) {
+TEST_F(LabelledFolders, HaveShortestUniqueNames) {
     const std::string a = folderAt("x/beams16/00"), b = folderAt("x/beams64/00"),
                       c = folderAt("y/beams64/00"), d = folderAt("z/01");
     EXPECT_THAT(namesOf({a}), ElementsAre("00"));
@@ -45,8 +45,8 @@ TEST_F(LabelledFolders, HaveTheShortestNamesThatDiffer) {
     EXPECT_THAT(test::messageOf([&] { namesOf({a, d, a + "/."}); }), HasSubstr("is given twice"));
 }
 
-/// Heights of the ground truth are as the filter is told that the sensor is held.
-TEST_F(LabelledFolders, WithoutPosesTheMountTellsWhereUpIs) {
+/// Ground truth uses the same mount as the filter.
+TEST_F(LabelledFolders, UseMountWithoutPoses) {
     const std::string folder = folderAt("hanging");
     MethodSet methods;
     methods.filter.emplace_back();

@@ -7,7 +7,7 @@
 namespace hagen::evaluation {
 namespace {
 
-TEST(Latency, ByHand) {
+TEST(Latency, MatchesHandComputation) {
     // 1 + 2 + 3 + 6 = 12; squares of -2, -1, 0, 3 sum to 14, over 3.
     const Latency latency = latencyOf({6, 1, 3, 2});
     EXPECT_EQ(latency.runs, 4u);
@@ -18,7 +18,7 @@ TEST(Latency, ByHand) {
     EXPECT_EQ(latency.max_ms, 6);
 }
 
-TEST(Latency, PercentilesAreTheSmallestThatTheShareDoesNotExceed) {
+TEST(Latency, UsesNearestRankPercentiles) {
     std::vector<double> runs_ms(200);
     std::iota(runs_ms.begin(), runs_ms.end(), 1);
     const Latency latency = latencyOf(runs_ms);
@@ -27,7 +27,7 @@ TEST(Latency, PercentilesAreTheSmallestThatTheShareDoesNotExceed) {
     EXPECT_EQ(latency.p99_ms, 198);
 }
 
-TEST(Latency, OfNoRunAndOfOne) {
+TEST(Latency, HandlesZeroAndOneRun) {
     EXPECT_EQ(latencyOf({}).runs, 0u);
     EXPECT_TRUE(std::isnan(latencyOf({}).mean_ms));
     EXPECT_EQ(latencyOf({5}).p99_ms, 5);

@@ -11,15 +11,15 @@
 namespace hagen::evaluation {
 namespace {
 
-TEST(Overlay, OfSeveralMethodsEachHasAFolder) {
+TEST(Overlay, WritesOneFolderPerMethod) {
     const test::TemporaryFolder folder;
-    evaluation::GroundTruthScan truth;
+    GroundTruthScan truth;
     truth.name = "scans/velodyne/000007.bin";
     truth.input.scan.range_m = {5, 6};
     truth.truth = {Label::Roi, Label::Rou};
-    std::vector<evaluation::CameraPixel> pixels(2);
+    std::vector<CameraPixel> pixels(2);
     pixels[1].index = 1;
-    evaluation::EvaluationOptions options;
+    EvaluationOptions options;
     options.camera.emplace();
     options.camera->width_px = options.camera->height_px = 32;
     const std::string name = "beta/5";

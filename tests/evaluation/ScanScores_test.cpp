@@ -20,13 +20,13 @@ GroundTruthScan scanAt(const std::vector<float>& ranges_m, const std::vector<Lab
     return scan;
 }
 
-TEST(ScanScores, LeavesOutReturnsBeyondTheRangeAndWithoutOne) {
+TEST(ScanScores, IgnoreFarAndMissingRanges) {
     const ScanScores scores = scoreScan(scanAt({20, 20.5f, NAN}, {O, O, O}), {O, O, O}, {}, {});
     EXPECT_EQ(scores.all.roi.hits, 1);
     EXPECT_EQ(scores.all.roi.misses, 0);
 }
 
-TEST(ScanScores, EachRangeBandHasItsLowerBoundAndTheLastBothBounds) {
+TEST(ScanScores, RangeBandsIncludeLowerBound) {
     // 4.9 | 5 9.9 | 10 12 with bands of 5 m up to 12 m: 1, 2 and 2 returns.
     const RangeBands bands{12, 5};
     const ScanScores scores =
@@ -42,7 +42,7 @@ TEST(ScanScores, EachRangeBandHasItsLowerBoundAndTheLastBothBounds) {
     EXPECT_EQ((RangeBands{20, 5}.bandOf(20)), 3u);
 }
 
-TEST(ScanScores, RefusesRangesWithoutACountOfBands) {
+TEST(ScanScores, RejectExcessiveBandCounts) {
     for (const RangeBands bands :
          {RangeBands{INFINITY, 5}, RangeBands{NAN, 5}, RangeBands{1e30f, 5}, RangeBands{20, 0}}) {
         EXPECT_THROW(bands.count(), std::invalid_argument);
@@ -52,7 +52,7 @@ TEST(ScanScores, RefusesRangesWithoutACountOfBands) {
     EXPECT_EQ((RangeBands{-1, 5}.count()), 1u);
 }
 
-TEST(ScanScores, KindsAreScoredByName) {
+TEST(ScanScores, ScoreClassesByName) {
     // Two wires, one missed; a tree found; terrain called RoI; dust is left out with its kind.
     GroundTruthScan scan = scanAt({1, 2, 3, 4, 5}, {O, O, O, G, U});
     scan.kinds = {5, 5, 3, 1, 10};
@@ -63,30 +63,26 @@ TEST(ScanScores, KindsAreScoredByName) {
     EXPECT_DOUBLE_EQ(scores.by_kind.at("terrain").correct(), 0);
 }
 
-TEST(ScanScores, OnlyChosenReturnsCount) {
+TEST(ScanScores, ScoreChosenReturnsOnly) {
     const std::vector<std::size_t> chosen{2};
     const ScanScores scores = scoreScan(scanAt({1, 2, 3}, {O, O, O}), {G, G, O}, {}, {}, &chosen);
     EXPECT_EQ(scores.all.returns(), 1);
     EXPECT_EQ(scores.all.roi.hits, 1);
 }
 
-TEST(ScanScores, AnEmptyScanScoresNothing) {
+TEST(ScanScores, AcceptEmptyScans) {
     EXPECT_EQ(scoreScan(scanAt({}, {}), {}, {}, {}).all.returns(), 0);
 }
 
-TEST(ScanScores, RefusesWhatDoesNotFitTheScan) {
+TEST(ScanScores, RejectWrongSizesAndClasses) {
     EXPECT_THROW(scoreScan(scanAt({1, 2}, {O}), {O, O}, {}, {}), std::invalid_argument);
     EXPECT_THROW(scoreScan(scanAt({1, 2}, {O, O}), {O}, {}, {}), std::invalid_argument);
     GroundTruthScan scan = scanAt({1}, {O});
     scan.kinds = {5, 5};
     EXPECT_THROW(scoreScan(scan, {O}, kKinds, {}), std::invalid_argument);
     scan.kinds = {77};
-    try {
-        scoreScan(scan, {O}, kKinds, {});
-        FAIL() << "class 77 has no name";
-    } catch (const std::invalid_argument& e) {
-        EXPECT_THAT(e.what(), HasSubstr("class 77"));
-    }
+    EXPECT_THAT([&] { scoreScan(scan, {O}, kKinds, {}); },
+                testing::ThrowsMessage<std::invalid_argument>(HasSubstr("class 77")));
 }
 
 }  // namespace

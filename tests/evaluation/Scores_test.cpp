@@ -15,7 +15,7 @@ Scores scoresOf(const std::vector<Label>& truth, const std::vector<Label>& found
     return scores;
 }
 
-TEST(Scores, CountsByHand) {
+TEST(Scores, MatchHandCounts) {
     // Of four RoI returns two are found, one is called ROU, one unclassified; of two ROU returns
     // one is found, one is called RoI; the return without a true label counts nowhere.
     const Scores scores = scoresOf({O, O, O, G, G, U, O}, {O, O, G, O, G, O, U});
@@ -32,7 +32,7 @@ TEST(Scores, CountsByHand) {
     EXPECT_DOUBLE_EQ(scores.correct(), 3.0 / 6);
 }
 
-TEST(Scores, SumsCountsBeforeTakingRatios) {
+TEST(Scores, SumCountsBeforeRatios) {
     Scores sum = scoresOf({O}, {O});
     sum += scoresOf({O, O, O, G}, {G, G, G, O});
     EXPECT_DOUBLE_EQ(sum.roi.recall(), 0.25);  // the mean of both recalls would be 0.5
@@ -40,7 +40,7 @@ TEST(Scores, SumsCountsBeforeTakingRatios) {
     EXPECT_EQ(sum.rou.false_alarms, 3);
 }
 
-TEST(Scores, NothingToScoreIsNotANumber) {
+TEST(Scores, AreNanWithoutData) {
     EXPECT_TRUE(std::isnan(Scores().roi.f1()));
     EXPECT_TRUE(std::isnan(Scores().rou.precision()));
     EXPECT_TRUE(std::isnan(Scores().correct()));

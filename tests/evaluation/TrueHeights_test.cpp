@@ -72,7 +72,7 @@ float plainHeight(const GroundTruthScan& scan, std::size_t obstacle) {
     return scan.input.scan.z_m[obstacle] - plainMedian(near_m);
 }
 
-TEST(TrueHeights, AreThoseAboveTheTrueGroundNearby) {
+TEST(TrueHeights, UseNearbyTrueGround) {
     const auto scan = scanOf({{4, 0, -2.0f}, {5, 1, -2.1f}, {5, 0, -1.0f}, {60, 0, 7}, {5, 1, -1}},
                              {G, G, O, G, U});
     const std::vector<float> heights_m = heightsOf(scan);
@@ -80,7 +80,7 @@ TEST(TrueHeights, AreThoseAboveTheTrueGroundNearby) {
     for (const std::size_t i : {0, 1, 3, 4}) EXPECT_TRUE(std::isnan(heights_m[i])) << i;
 }
 
-TEST(TrueHeights, FollowTheDefinitionOnRandomScans) {
+TEST(TrueHeights, MatchBruteForce) {
     test::Random random(7);
     std::size_t by_nearest = 0;
     for (int repetition = 0; repetition < 20; ++repetition) {
@@ -101,20 +101,20 @@ TEST(TrueHeights, FollowTheDefinitionOnRandomScans) {
     EXPECT_GT(by_nearest, 100u);
 }
 
-TEST(TrueHeights, WithoutGroundAreInfinite) {
+TEST(TrueHeights, AreInfiniteWithoutGround) {
     EXPECT_EQ(heightsOf(scanOf({{5, 0, -1}}, {O}))[0], std::numeric_limits<float>::infinity());
     EXPECT_TRUE(heightsOf(scanOf({}, {})).empty());
 }
 
 /// As floats, such squared distances are whole numbers.
-TEST(TrueHeights, GroundMayBeFarAway) {
+TEST(TrueHeights, UseDistantGround) {
     for (const float far_m : {1000.0f, 1500.0f, 2000.0f, 5000.0f, 9999.0f}) {
         const auto heights = heightsOf(scanOf({{far_m, 0, -1}, {10, 0, 0}}, {G, O}));
         EXPECT_NEAR(heights[1], 1, 1e-5) << far_m;
     }
 }
 
-TEST(TrueHeights, AreOfObstaclesInRangeOnly) {
+TEST(TrueHeights, SkipReturnsBeyondRange) {
     const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {7, 0, 0}}, {G, O, O});
     const std::vector<float> heights_m = heightsOf(scan, 6);
     EXPECT_FLOAT_EQ(heights_m[1], 2.0f);
@@ -122,7 +122,7 @@ TEST(TrueHeights, AreOfObstaclesInRangeOnly) {
 }
 
 // They have no level point, so no cell: to number it is undefined, which the sanitizers see.
-TEST(TrueHeights, AreNoneWhereNoLidarSees) {
+TEST(TrueHeights, SkipImplausiblyFarReturns) {
     const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {20000, 0, 0}, {20000, 0, -2}}, {G, O, O, G});
     const std::vector<float> heights_m = heightsOf(scan, 1e6f);
     EXPECT_FLOAT_EQ(heights_m[1], 2.0f);
@@ -131,7 +131,7 @@ TEST(TrueHeights, AreNoneWhereNoLidarSees) {
 
 // The same scene for a level and for a tilted sensor that knows its attitude, or whose is known to
 // the scorer only.
-TEST(TrueHeights, AreAboutTheHorizonOfATiltedSensor) {
+TEST(TrueHeights, UseTiltedSensorsHorizon) {
     const std::vector<Vector3f> points_m{{4, 1, -2}, {4.2f, 1.1f, -2}, {4, 1, -1.2f}};
     const Eigen::Matrix3f turn =
         Eigen::AngleAxisf(static_cast<float>(radians(30)), Vector3f::UnitX()).toRotationMatrix();
@@ -146,7 +146,7 @@ TEST(TrueHeights, AreAboutTheHorizonOfATiltedSensor) {
     EXPECT_NEAR(heightsOf(scan)[2], 0.8f, 1e-5f);
 }
 
-TEST(TrueHeights, IgnoreReturnsThatAreNowhere) {
+TEST(TrueHeights, IgnoreNonFiniteReturns) {
     auto scan = scanOf({{4, 0, -2}, {std::nanf(""), 0, -1}, {3e8f, 0, 0}, {5, 0, 0}}, {G, G, G, O});
     EXPECT_FLOAT_EQ(heightsOf(scan)[3], 2.0f);
 }

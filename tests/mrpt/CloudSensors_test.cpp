@@ -64,7 +64,7 @@ SharedBeams beamsOf(const Scan& scan) {
     return sensors.beamsOf("a");
 }
 
-TEST(CloudSensors, RecoversAModelFromTheFirstCloud) {
+TEST(CloudSensors, RecoversModelFromFirstCloud) {
     for (const std::string model : {"VLP-16", "HDL-64E"}) {
         const SharedBeams beams = beamsOf(scanOfModel(model));
         ASSERT_TRUE(beams);
@@ -73,14 +73,14 @@ TEST(CloudSensors, RecoversAModelFromTheFirstCloud) {
     }
 }
 
-TEST(CloudSensors, WithoutRingsThereAreVirtualRows) {
+TEST(CloudSensors, UsesVirtualRowsWithoutRings) {
     const SharedBeams beams = beamsOf(withoutRings(20000));
     ASSERT_TRUE(beams);
     EXPECT_FALSE(beams->sensor.has_rings);
     EXPECT_GE(beams->sensor.rows(), 16);
 }
 
-TEST(CloudSensors, FewReturnsShowNothingAndDoNotCount) {
+TEST(CloudSensors, IgnoresSparseClouds) {
     Scan padded = scanOfModel("VLP-16", 24);  // 384 returns
     for (int i = 0; i < 1000; ++i) {
         const float missing = i % 2 == 0 ? 0.0f : kNoValue;
@@ -100,12 +100,12 @@ TEST(CloudSensors, FewReturnsShowNothingAndDoNotCount) {
     EXPECT_TRUE(sensors.beamsOf("a"));
 }
 
-TEST(CloudSensors, TwoBeamsAreNoImage) {
+TEST(CloudSensors, NeedsThreeBeams) {
     EXPECT_FALSE(beamsOf(scanOf({-3, 4})));
     EXPECT_EQ(beamsOf(scanOf({-3, 1, 4}))->sensor.rows(), 3);
 }
 
-TEST(CloudSensors, OfTheFirstFiveCloudsTheFullestDecides) {
+TEST(CloudSensors, UsesFullestOfFiveClouds) {
     const std::vector<double> below{-20, -15, -11}, all{-20, -15, -11, -4, 2, 11};
     CloudSensors sensors;
     const auto rowsAfter = [&](const Scan& scan) {
@@ -125,7 +125,7 @@ TEST(CloudSensors, OfTheFirstFiveCloudsTheFullestDecides) {
     EXPECT_EQ(sensors.beamsOf("a"), settled);
 }
 
-TEST(CloudSensors, EachLabelHasItsOwn) {
+TEST(CloudSensors, SeparatesSensorLabels) {
     CloudSensors sensors;
     sensors.see(*cloudOf(scanOfModel("VLP-16"), "front"));
     sensors.see(*cloudOf(scanOfModel("HDL-32E"), "rear"));
@@ -134,7 +134,7 @@ TEST(CloudSensors, EachLabelHasItsOwn) {
     EXPECT_FALSE(sensors.beamsOf("top"));
 }
 
-TEST(CloudSensors, ACloudOfAVelodyneScanWithoutPacketsCounts) {
+TEST(CloudSensors, UsesVelodyneCloudWithoutPackets) {
     mrpt::obs::CObservationVelodyneScan observation;
     const Scan scan = scanOfModel("VLP-16");
     auto& cloud = observation.point_cloud;
@@ -147,7 +147,7 @@ TEST(CloudSensors, ACloudOfAVelodyneScanWithoutPacketsCounts) {
     EXPECT_EQ(sensors.beamsOf("")->sensor.name, "VLP-16");
 }
 
-TEST(CloudSensors, WhatIsNoCloudIsLeftAlone) {
+TEST(CloudSensors, IgnoresOtherObservations) {
     CloudSensors sensors;
     auto packets = test::poleScanFrom(0, "a");
     const Scan scan = scanOfModel("VLP-16");
@@ -164,7 +164,7 @@ TEST(CloudSensors, WhatIsNoCloudIsLeftAlone) {
     for (const char* label : {"a", "a_roi"}) EXPECT_FALSE(sensors.beamsOf(label)) << label;
 }
 
-TEST(CloudSensors, SaysWhatIsKnown) {
+TEST(CloudSensors, DescribesRecoveredBeams) {
     EXPECT_EQ(textOf(beamsOf(scanOfModel("VLP-16"))),
               "16 beams recovered (VLP-16), 100.0 % of the returns lie on them");
     EXPECT_EQ(textOf(beamsOf(scanOf({-15, -13, -11, -9, -7, -5}))),

@@ -74,15 +74,10 @@ void expectSame(const std::vector<float>& coordinates, const Scan& scan, float t
 
 std::string errorOf(const CObservation3DRangeScan& observation) {
     Scan scan;
-    try {
-        readDepthScan(observation, scan);
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "";
+    return test::messageOf([&] { readDepthScan(observation, scan); });
 }
 
-TEST(DepthCamera, RangesBecomeThePointsThatMrptMakesOfThem) {
+TEST(DepthCamera, MatchesMrptUnprojection) {
     const auto observation = rangeImage();
     Scan scan;
     for (const bool is_depth : {true, false}) {
@@ -93,7 +88,7 @@ TEST(DepthCamera, RangesBecomeThePointsThatMrptMakesOfThem) {
     }
 }
 
-TEST(DepthCamera, LensDistortionIsRemoved) {
+TEST(DepthCamera, RemovesLensDistortion) {
     const auto observation = rangeImage();
     observation->cameraParams.setDistortionPlumbBob(-0.12, 0.05, 0.002, -0.001, 0.01);
     Scan scan;
@@ -119,7 +114,7 @@ TEST(DepthCamera, LensDistortionIsRemoved) {
     }
 }
 
-TEST(DepthCamera, StoredPointsComeFirstAndThoseAtTheOriginAreNone) {
+TEST(DepthCamera, PrefersStoredPoints) {
     const auto observation = rangeImage();
     observation->hasPoints3D = true;
     observation->points3D_x = {1, 0, 2, NAN};
@@ -135,7 +130,7 @@ TEST(DepthCamera, StoredPointsComeFirstAndThoseAtTheOriginAreNone) {
     EXPECT_FALSE(isLidarScan(*observation));  // a picture
 }
 
-TEST(DepthCamera, EveryLayerHasReturns) {
+TEST(DepthCamera, ReadsAllLayers) {
     const auto observation = rangeImage();
     observation->rangeImageOtherLayers["LAST"] = observation->rangeImage;
     Scan scan;
@@ -145,7 +140,7 @@ TEST(DepthCamera, EveryLayerHasReturns) {
     EXPECT_THAT(errorOf(*observation), HasSubstr("'LAST'"));
 }
 
-TEST(DepthCamera, DataInFilesAreReadOrNamed) {
+TEST(DepthCamera, ReadsExternalFiles) {
     const test::TemporaryFolder folder;
     const std::string path = folder.path().string() + "/";
     const std::string before = mrpt::io::getLazyLoadPathBase();
@@ -164,7 +159,7 @@ TEST(DepthCamera, DataInFilesAreReadOrNamed) {
     mrpt::io::setLazyLoadPathBase(before);
 }
 
-TEST(DepthCamera, WhatIsUnsoundIsNotRead) {
+TEST(DepthCamera, RejectsInvalidScans) {
     const auto errorWith = [](const auto& change) {
         const auto observation = rangeImage();
         change(*observation);
@@ -221,7 +216,7 @@ Seen groundAndPole(double down_deg) {
 }
 
 // docs/without-rings.md has figures of other sizes, too.
-TEST(DepthCamera, APoleIsFoundAndTheGroundIsClear) {
+TEST(DepthCamera, SeparatesPoleFromGround) {
     for (const double down_deg : {0.0, 15.0, 30.0}) {
         const Seen seen = groundAndPole(down_deg);
         ObservationSegmenter segmenter;

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/Deskew.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 
 #include <cmath>
 
@@ -45,14 +45,14 @@ double worstDistance_m(const Scan& scan) {
     return worst;
 }
 
-TEST(Deskew, PutsReturnsOfAMovingSensorWhereTheThingsAre) {
+TEST(Deskew, CorrectsTranslation) {
     Scan scan = scanOnTheWay(15, 3);
     EXPECT_GT(worstDistance_m(scan), 0.25);
     ASSERT_TRUE(deskew(flight(15, 3), kStart, {}, sensorModel("VLP-16"), scan));
     EXPECT_LT(worstDistance_m(scan), 0.01);  // packets resolve 2 mm
 }
 
-TEST(Deskew, KnowsWhereOnTheVehicleTheSensorSits) {
+TEST(Deskew, UsesSensorPoseOnVehicle) {
     // The same flight of the sensor, which is mounted off-centre and rotated on its vehicle.
     const CPose3D sensor_on_vehicle(0.5, -0.2, 0.3, 1.2, 0.1, -0.2);
     Trajectory vehicle;
@@ -66,7 +66,7 @@ TEST(Deskew, KnowsWhereOnTheVehicleTheSensorSits) {
     EXPECT_LT(worstDistance_m(scan), 0.01);
 }
 
-TEST(Deskew, FollowsTurnsToo) {
+TEST(Deskew, CorrectsRotation) {
     // The point (10, 0, 0) of the map, always seen from a sensor that turns on the spot.
     Trajectory vehicle;
     for (int i = 0; i <= 10; ++i) {
@@ -89,7 +89,7 @@ TEST(Deskew, FollowsTurnsToo) {
     }
 }
 
-TEST(Deskew, WithoutMotionChangesNothing) {
+TEST(Deskew, KeepsScanWithoutMotion) {
     Scan scan = scanOnTheWay(0, 0);
     const Scan before = scan;
     ASSERT_TRUE(deskew(flight(0, 0), kStart, {}, sensorModel("VLP-16"), scan));
@@ -99,7 +99,7 @@ TEST(Deskew, WithoutMotionChangesNothing) {
     }
 }
 
-TEST(Deskew, LeavesAScanAloneWherePosesDoNotReachToItsEnd) {
+TEST(Deskew, KeepsScanWithoutFullCoverage) {
     Trajectory vehicle;
     vehicle.add(mrpt::Clock::fromDouble(1000.0), {});
     vehicle.add(mrpt::Clock::fromDouble(1000.05), CPose3D(1, 0, 0, 0, 0, 0));

@@ -29,10 +29,9 @@ CObservationRobotPose poseOf(const CPose3D& pose) {
     return observation;
 }
 
-TEST(Horizon, KnowsNothingAtFirst) { EXPECT_FALSE(Horizon().at(kTime)); }
-
-TEST(Horizon, TakesTheRobotsPoseForFifthOfASecond) {
+TEST(Horizon, KeepsAttitudeFor200ms) {
     Horizon horizon;
+    EXPECT_FALSE(horizon.at(kTime));
     horizon.see(poseOf({1, 2, 3, 0.5, 0.1, -0.2}));
     for (const int by_ms : {-199, 0, 199}) {
         const auto vehicle = horizon.at(later(by_ms));
@@ -46,7 +45,7 @@ TEST(Horizon, TakesTheRobotsPoseForFifthOfASecond) {
     EXPECT_FALSE(horizon.at(later(0)));
 }
 
-TEST(Horizon, WhatHasNoTimeTellsNothing) {
+TEST(Horizon, IgnoresInvalidTimes) {
     Horizon horizon;
     auto untimed = poseOf({0, 0, 0, 0, 0.1, 0});
     untimed.timestamp = INVALID_TIMESTAMP;
@@ -58,7 +57,7 @@ TEST(Horizon, WhatHasNoTimeTellsNothing) {
     EXPECT_TRUE(horizon.at(kTime));
 }
 
-TEST(Horizon, WhatIsNotFiniteTellsNothing) {
+TEST(Horizon, IgnoresNonFinitePoses) {
     const double nan = std::nan("");
     Horizon horizon;
     horizon.see(poseOf({0, 0, 0, 0, nan, 0}));
@@ -72,7 +71,7 @@ TEST(Horizon, WhatIsNotFiniteTellsNothing) {
     EXPECT_NEAR(horizon.at(kTime)->pitch(), 0.1, 1e-9);
 }
 
-TEST(Horizon, TheLastOneSeenCounts) {
+TEST(Horizon, KeepsLatestAttitude) {
     Horizon horizon;
     horizon.see(poseOf({0, 0, 0, 0, 0.1, 0}));
     horizon.see(poseOf({0, 0, 0, 0, 0.3, 0}));
@@ -80,7 +79,7 @@ TEST(Horizon, TheLastOneSeenCounts) {
     EXPECT_NEAR(horizon.at(kTime)->pitch(), 0.3, 1e-9);
 }
 
-TEST(Horizon, AnImuTurnedOnTheVehicleIsTurnedBack) {
+TEST(Horizon, AppliesImuMount) {
     const CPose3D vehicle(0, 0, 0, 0, 0.1, 0.05), imu_on_vehicle(1, 0, 0, M_PI / 2, 0, 0.3);
     const CPose3D turned = vehicle + imu_on_vehicle;
     CObservationIMU imu;
@@ -95,7 +94,7 @@ TEST(Horizon, AnImuTurnedOnTheVehicleIsTurnedBack) {
     EXPECT_NEAR(horizon.at(kTime)->roll(), 0.05, 1e-6);
 }
 
-TEST(Horizon, AnImusQuaternionComesBeforeItsAngles) {
+TEST(Horizon, PrefersImuQuaternion) {
     CObservationIMU imu;
     imu.timestamp = kTime;
     imu.set(mrpt::obs::IMU_PITCH, 0.7);
@@ -115,17 +114,35 @@ TEST(Horizon, AnImusQuaternionComesBeforeItsAngles) {
     EXPECT_NEAR(horizon.at(kTime)->roll(), 0.7, 1e-9);
 }
 
-TEST(Horizon, AnImuWithoutOrientationSaysNothing) {
+TEST(Horizon, IgnoresInvalidImu) {
     Horizon horizon;
     CObservationIMU imu;
     imu.timestamp = kTime;
+    const auto isIgnored = [&] {
+        horizon.see(imu);
+        return !horizon.at(kTime);
+    };
     imu.set(mrpt::obs::IMU_X_ACC, 9.81);
     imu.set(mrpt::obs::IMU_PITCH, 0.1);  // no attitude without roll
-    horizon.see(imu);
-    EXPECT_FALSE(horizon.at(kTime));
+    EXPECT_TRUE(isIgnored());
     imu.set(mrpt::obs::IMU_ROLL, NAN);
-    horizon.see(imu);
+    EXPECT_TRUE(isIgnored());
+    imu.set(mrpt::obs::IMU_ROLL, 0.2);
+    const unsigned char corrupt = 89;  // as a fuzzer's rawlog had it
+    std::memcpy(&imu.dataIsPresent.at(mrpt::obs::IMU_ROLL), &corrupt, sizeof(corrupt));
+    EXPECT_TRUE(isIgnored());
+
+    CObservationIMU overflowing;
+    overflowing.timestamp = kTime;
+    for (const auto each : {mrpt::obs::IMU_ORI_QUAT_W, mrpt::obs::IMU_ORI_QUAT_X,
+                            mrpt::obs::IMU_ORI_QUAT_Y, mrpt::obs::IMU_ORI_QUAT_Z}) {
+        overflowing.set(each, 1e200);  // its square is infinite
+    }
+    horizon.see(overflowing);
     EXPECT_FALSE(horizon.at(kTime));
+
+    imu.dataIsPresent.at(mrpt::obs::IMU_ROLL) = true;
+    EXPECT_FALSE(isIgnored());
 }
 
 /// A cloud of level ground, seen by a sensor that is mounted with a pitch.
@@ -137,34 +154,7 @@ mrpt::obs::CObservationPointCloud::Ptr cloudAt(const CPose3D& sensor_on_vehicle)
     return cloud;
 }
 
-TEST(Horizon, CorruptFlagsOfAnImuSayThatItMeasuredNothing) {
-    CObservationIMU imu;
-    imu.timestamp = kTime;
-    imu.set(mrpt::obs::IMU_PITCH, 0.1);
-    imu.set(mrpt::obs::IMU_ROLL, 0.2);
-    Horizon horizon;
-    const unsigned char neither = 89;  // as a fuzzer's rawlog had it
-    std::memcpy(&imu.dataIsPresent.at(mrpt::obs::IMU_ROLL), &neither, sizeof(neither));
-    horizon.see(imu);
-    EXPECT_FALSE(horizon.at(kTime));
-    imu.dataIsPresent.at(mrpt::obs::IMU_ROLL) = true;
-    horizon.see(imu);
-    EXPECT_TRUE(horizon.at(kTime));
-}
-
-TEST(Horizon, AQuaternionBeyondAllNumbersSaysNothing) {
-    CObservationIMU imu;
-    imu.timestamp = kTime;
-    for (const auto each : {mrpt::obs::IMU_ORI_QUAT_W, mrpt::obs::IMU_ORI_QUAT_X,
-                            mrpt::obs::IMU_ORI_QUAT_Y, mrpt::obs::IMU_ORI_QUAT_Z}) {
-        imu.set(each, 1e200);  // its square is infinite
-    }
-    Horizon horizon;
-    horizon.see(imu);
-    EXPECT_FALSE(horizon.at(kTime));
-}
-
-TEST(Horizon, TheSegmenterPassesTheSensorsAttitudeOn) {
+TEST(Horizon, ReachesSegmenterOutput) {
     const auto cloud = cloudAt({0, 0, 0, 0, 0.2, 0});
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
@@ -186,7 +176,7 @@ TEST(Horizon, TheSegmenterPassesTheSensorsAttitudeOn) {
     EXPECT_NEAR(out.pose.attitude->roll_rad, 0, 1e-5);
 }
 
-TEST(Horizon, ATrajectoryCountsOnlyWhereItHasOne) {
+TEST(Horizon, ComesFromLevelTrajectoriesOnly) {
     const auto cloud = cloudAt({});
     Trajectory vehicle;
     vehicle.add(kTime, {0, 0, 0, 0, 0.15, 0});

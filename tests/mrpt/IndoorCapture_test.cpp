@@ -44,7 +44,7 @@ std::vector<CObservationVelodyneScan::Ptr> scansOf(const std::filesystem::path& 
 
 // Marked by geometry: the floor is 1.02 to 1.15 m below the sensor, which stands on a desk, and
 // nothing is lower. All else is walls, ceiling, furniture and people.
-TEST(IndoorCapture, WallsCeilingFurnitureAndPeopleAreRoi) {
+TEST(IndoorCapture, LabelsAllButFloorRoi) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
     const auto scans = scansOf(folder / "vlp16_packets_1206.bin");

@@ -12,18 +12,18 @@
 
 #include "support/Program.h"
 
+namespace hagen::observations {
 namespace {
 
 using testing::HasSubstr;
 
-using namespace hagen;
 namespace fs = std::filesystem;
 
 class MapFile : public testing::Test {
  protected:
     MapFile() {
         simulation::Random random(4);
-        observations::MappedScan scan;
+        MappedScan scan;
         for (int i = 0; i < 400; ++i) {
             const double x = random.uniform(-4, 4);
             const double y = random.uniform(-4, 4);
@@ -65,19 +65,19 @@ class MapFile : public testing::Test {
     }
 
     test::TemporaryFolder folder_;  // of its own: tests run side by side
-    observations::ScanMap map_{{observations::MapContent::Full, 0.2, 20}};
+    ScanMap map_{{MapContent::Full, 0.2, 20}};
 };
 
-TEST_F(MapFile, OctomapReadsWhatIsOccupiedAndFree) {
-    observations::saveMap(map_.tree(), folder_ / "map.bt");
+TEST_F(MapFile, WritesBinaryOctomap) {
+    saveMap(map_.tree(), folder_ / "map.bt");
     octomap::OcTree read(0.1);
     ASSERT_TRUE(read.readBinary((folder_ / "map.bt").string()));
     expectSameVoxels(read);
     EXPECT_LT(read.size(), map_.tree().size()) << "not pruned";
 }
 
-TEST_F(MapFile, OctomapReadsProbabilities) {
-    observations::saveMap(map_.tree(), folder_ / "map.ot");
+TEST_F(MapFile, WritesOctomapProbabilities) {
+    saveMap(map_.tree(), folder_ / "map.ot");
     const std::unique_ptr<octomap::AbstractOcTree> read(
         octomap::AbstractOcTree::read((folder_ / "map.ot").string()));
     const auto* tree = dynamic_cast<octomap::OcTree*>(read.get());
@@ -86,63 +86,58 @@ TEST_F(MapFile, OctomapReadsProbabilities) {
     EXPECT_EQ(map_.tree().search(0, 0, 0)->getLogOdds(), tree->search(0, 0, 0)->getLogOdds());
 }
 
-TEST_F(MapFile, MrptReadsTheScene) {
-    observations::saveMap(map_.tree(), folder_ / "map.3Dscene");
-    observations::Scene scene;
+TEST_F(MapFile, WritesMrptScene) {
+    saveMap(map_.tree(), folder_ / "map.3Dscene");
+    Scene scene;
     ASSERT_TRUE(scene.loadFromFile((folder_ / "map.3Dscene").string()));
-    const auto voxels = scene.getByClass<observations::viz::COctoMapVoxels>();
+    const auto voxels = scene.getByClass<viz::COctoMapVoxels>();
     ASSERT_TRUE(voxels);
     EXPECT_EQ(occupied(), voxels->getVoxelCount(0));
 }
 
-TEST_F(MapFile, TheSameMapMakesTheSameBytes) {
+TEST_F(MapFile, IsReproducible) {
     for (const std::string ending : {".bt", ".ot", ".3Dscene"}) {
-        observations::saveMap(map_.tree(), folder_ / ("first" + ending));
-        observations::saveMap(map_.tree(), folder_ / ("second" + ending));
+        saveMap(map_.tree(), folder_ / ("first" + ending));
+        saveMap(map_.tree(), folder_ / ("second" + ending));
         EXPECT_EQ(bytesOf(folder_ / ("first" + ending)), bytesOf(folder_ / ("second" + ending)));
     }
 }
 
 /// In the order in which converters write them.
-TEST_F(MapFile, WithoutACopyOfTheTreeTheyAreTheSame) {
+TEST_F(MapFile, InPlaceMatchesCopy) {
     for (const std::string ending : {".bt", ".ot", ".3Dscene"}) {
-        observations::saveMap(map_.tree(), folder_ / ("copied" + ending));
+        saveMap(map_.tree(), folder_ / ("copied" + ending));
     }
     for (const std::string ending : {".3Dscene", ".3Dscene", ".ot", ".ot", ".bt", ".bt"}) {
         const fs::path file = folder_ / ("in_place" + ending);
-        observations::saveMapInPlace(map_.tree(), file, file);
+        saveMapInPlace(map_.tree(), file, file);
         EXPECT_EQ(bytesOf(file), bytesOf(folder_ / ("copied" + ending))) << ending;
     }
 }
 
-TEST_F(MapFile, Empty) {
-    const observations::ScanMap empty({});
+TEST_F(MapFile, AcceptsEmptyMaps) {
+    const ScanMap empty({});
     for (const std::string name : {"map.bt", "map.ot", "map.3Dscene"}) {
-        observations::saveMap(empty.tree(), folder_ / name);
+        saveMap(empty.tree(), folder_ / name);
         EXPECT_TRUE(fs::exists(folder_ / name));
     }
 }
 
-TEST_F(MapFile, RefusesOtherEndings) {
+TEST_F(MapFile, RejectsOtherExtensions) {
     for (const std::string name : {"map", "map.pcd", "map.BT", "map.bt.gz"}) {
-        try {
-            observations::saveMap(map_.tree(), folder_ / name);
-            ADD_FAILURE() << name;
-        } catch (const std::runtime_error& error) {
-            EXPECT_THAT(error.what(), HasSubstr(name + ": "));
-            EXPECT_THAT(error.what(), HasSubstr(".3Dscene"));
-        }
+        const std::string error = test::messageOf([&] { saveMap(map_.tree(), folder_ / name); });
+        EXPECT_THAT(error, testing::AllOf(HasSubstr(name + ": "), HasSubstr(".3Dscene")));
         EXPECT_FALSE(fs::exists(folder_ / name));
     }
 }
 
-TEST_F(MapFile, SaysWhatCannotBeWritten) {
+TEST_F(MapFile, ReportsWriteErrors) {
     for (const std::string name : {"none/map.bt", "none/map.ot", "none/map.3Dscene"}) {
-        EXPECT_THROW(observations::saveMap(map_.tree(), folder_ / name), std::runtime_error)
-            << name;
+        EXPECT_THROW(saveMap(map_.tree(), folder_ / name), std::runtime_error) << name;
     }
-    EXPECT_THROW(observations::saveMap(map_.tree(), "/dev/full", "map.bt"), std::runtime_error);
-    EXPECT_THROW(observations::saveMap(map_.tree(), "/dev/full", "map.ot"), std::runtime_error);
+    EXPECT_THROW(saveMapInPlace(map_.tree(), "/dev/full", "map.bt"), std::runtime_error);
+    EXPECT_THROW(saveMapInPlace(map_.tree(), "/dev/full", "map.ot"), std::runtime_error);
 }
 
 }  // namespace
+}  // namespace hagen::observations

@@ -21,26 +21,26 @@ void expectTilt(const std::optional<Attitude>& is, const Attitude& expected) {
     EXPECT_LT((levelFromSensor(*is) - levelFromSensor(expected)).norm(), 1e-5f);
 }
 
-TEST(Mount, OfALevelSensorChangesNothing) {
+TEST(Mount, KeepsAttitudeOfLevelSensor) {
     EXPECT_FALSE(tiltOf({}, CPose3D(), {}).has_value());
     ScanPose pose;
     pose.attitude = tilt(3, -5);
     expectTilt(tiltOf(pose, CPose3D(1, 2, 3, 0.5, 0, 0), {}), tilt(3, -5));
 }
 
-TEST(Mount, IsThatOfTheRecordingOnALevelVehicleWithoutAPose) {
+TEST(Mount, UsesRecordedTiltWithoutPose) {
     expectTilt(tiltOf({}, CPose3D(0, 0, 0, 0.7, 0, radians(180)), {}), tilt(180, 0));
     expectTilt(tiltOf({}, CPose3D(0, 0, 0, 0, radians(20), 0), tilt(90, 0)), tilt(0, 20));
 }
 
 // ScanPose::attitude is already that of the sensor on the vehicle.
-TEST(Mount, OfTheRecordingIsNotAppliedTwice) {
+TEST(Mount, AppliesRecordedMountOnce) {
     ScanPose pose;
     pose.attitude = tilt(175, 4);
     expectTilt(tiltOf(pose, CPose3D(0, 0, 0, 0, 0, radians(180)), tilt(180, 0)), tilt(175, 4));
 }
 
-TEST(Mount, OfTheSettingsCountsWhereTheRecordingSaysNothing) {
+TEST(Mount, UsesSettingsForLevelRecording) {
     expectTilt(tiltOf({}, CPose3D(), tilt(90, -10)), tilt(90, -10));
     ScanPose vehicle;
     vehicle.attitude = tilt(5, 0);
@@ -55,7 +55,7 @@ TEST(Mount, OfTheSettingsCountsWhereTheRecordingSaysNothing) {
 }
 
 /// As after a chain of transforms.
-TEST(Mount, OfTheSettingsCountsWhereTheRecordedOneIsLevelButForRounding) {
+TEST(Mount, ToleratesRoundingOfRecordedMount) {
     const CPose3D rounded(0, 0, 0, 0.3, 1e-7, -1e-9);
     expectTilt(tiltOf({}, rounded, tilt(180, 0)), tilt(180, 0));
     EXPECT_TRUE(tiltOf({}, rounded, {}).has_value());
@@ -64,7 +64,7 @@ TEST(Mount, OfTheSettingsCountsWhereTheRecordedOneIsLevelButForRounding) {
     expectTilt(tiltOf({}, CPose3D(0, 0, 0, 0, 0, radians(1)), tilt(180, 0)), tilt(1, 0));
 }
 
-TEST(Mount, OfTheSettingsTurnsThePoseAsOneOfTheRecordingWould) {
+TEST(Mount, SettingsAndRecordingAreEquivalent) {
     const Attitude mount = tilt(180, -20);
     const CPose3D vehicle(1, 2, 3, 0.3, 0.1, -0.05), place(0.1, 0, 0.2, 0.5, 0, 0);
     const CPose3D turned = place + CPose3D(0, 0, 0, 0, radians(-20), radians(180));

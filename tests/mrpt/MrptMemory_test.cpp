@@ -9,13 +9,13 @@
 namespace hagen::observations {
 namespace {
 
-TEST(MrptMemory, ACloudWithoutMemoryIsAnErrorAndNoCrash) {
+TEST(MrptMemory, ThrowsWhenExhausted) {
     constexpr std::size_t kPoints = std::size_t{1} << 45;
     EXPECT_THROW(PortableCloud().setSize(kPoints), std::bad_alloc);
     EXPECT_THROW(IntensityCloud().setSize(kPoints), std::bad_alloc);
 }
 
-TEST(MrptMemory, BlocksAreAlignedAndCleared) {
+TEST(MrptMemory, AlignsAndClearsBlocks) {
     for (const std::size_t alignment : {1, 16, 32, 64}) {
         for (const std::size_t size : {0, 1, 33, 4096}) {
             auto* const bytes = static_cast<unsigned char*>(mrpt::aligned_calloc(size, alignment));

@@ -32,19 +32,17 @@ CObservationPointCloud::Ptr cloud(std::initializer_list<std::array<float, 4>> po
     return observationOf(scan, "lidar", mrpt::Clock::fromDouble(12.5));
 }
 
-TEST(ObservationScan, VelodyneScansAndPointCloudsAreLidarScans) {
+TEST(ObservationScan, AcceptsLidarObservations) {
     EXPECT_TRUE(isLidarScan(*velodyneScan()));
     EXPECT_TRUE(isLidarScan(*cloud({})));
     EXPECT_FALSE(isLidarScan(mrpt::obs::CObservationComment()));
-}
-
-TEST(ObservationScan, ResultsAreNoScans) {
     const auto observation = cloud({});
-    EXPECT_FALSE(isLidarScan(*resultOf(*observation, true, observation->pointcloud)));
-    EXPECT_FALSE(isLidarScan(*resultOf(*observation, false, observation->pointcloud)));
+    for (const bool is_roi : {true, false}) {
+        EXPECT_FALSE(isLidarScan(*resultOf(*observation, is_roi, observation->pointcloud)));
+    }
 }
 
-TEST(ObservationScan, AScanMayBeLabelledLikeAResult) {
+TEST(ObservationScan, AcceptsResultLikeLabels) {
     const auto observation = cloud({});
     for (const char* label : {"lidar_roi", "lidar_non_roi", "_roi", "", "roi", "droi"}) {
         observation->sensorLabel = label;
@@ -52,7 +50,7 @@ TEST(ObservationScan, AScanMayBeLabelledLikeAResult) {
     }
 }
 
-TEST(ObservationScan, PacketsBringTheirOwnSensor) {
+TEST(ObservationScan, PacketsOverrideSettings) {
     ObservedScan observed;
     Settings settings;
     readObservation(*velodyneScan(), settings, observed);
@@ -64,7 +62,7 @@ TEST(ObservationScan, PacketsBringTheirOwnSensor) {
     EXPECT_THAT(observed.remark, HasSubstr("VLP-16"));
 }
 
-TEST(ObservationScan, CloudsTakeTheSettingsSensorAndKeepOrderAndIntensity) {
+TEST(ObservationScan, ReadsCloudsInOrder) {
     ObservedScan observed;
     Settings settings;
     settings.sensor.model = "HDL-64E";
@@ -78,7 +76,7 @@ TEST(ObservationScan, CloudsTakeTheSettingsSensorAndKeepOrderAndIntensity) {
     EXPECT_EQ(observed.scan.intensity, (std::vector<float>{0.25f, 0.5f, 1.0f}));
 }
 
-TEST(ObservationScan, CloudsTakeTheSensorOfTheSettingsThatTheyAreReadWith) {
+TEST(ObservationScan, FollowsChangedSettings) {
     ObservedScan observed;
     Settings settings;
     const auto rowsWith = [&](const Settings& with) {
@@ -102,7 +100,7 @@ TEST(ObservationScan, CloudsTakeTheSensorOfTheSettingsThatTheyAreReadWith) {
     EXPECT_EQ(rowsWith(Settings()), 16);
 }
 
-TEST(ObservationScan, RecoveredBeamsAreThoseOfACloudThatNobodyNamed) {
+TEST(ObservationScan, UsesRecoveredBeamsForUnnamedSensors) {
     RecoveredBeams recovered{customSensorModel({-5, 0, 5}), 1.0f, {}, 300, {}, false};
     const auto beams = std::make_shared<const RecoveredBeams>(recovered);
     ObservedScan observed;
@@ -131,14 +129,14 @@ TEST(ObservationScan, RecoveredBeamsAreThoseOfACloudThatNobodyNamed) {
     EXPECT_EQ(observed.recovered, nullptr);
 }
 
-TEST(ObservationScan, IntensitiesThatCountTo255AreScaled) {
+TEST(ObservationScan, ScalesIntensitiesTo255) {
     ObservedScan observed;
     readObservation(*cloud({{3, 0, 0, 51.0f}, {0, 4, 0, 255.0f}}), Settings(), observed);
     EXPECT_EQ(observed.scan.intensity, (std::vector<float>{0.2f, 1.0f}));
     EXPECT_TRUE(observed.is_sensor_assumed);
 }
 
-TEST(ObservationScan, SettingsSayWhatTheSensorSees) {
+TEST(ObservationScan, SettingsOverrideRangeLimits) {
     ObservedScan observed;
     Settings settings;
     settings.sensor.max_range_m = 10.0f;
@@ -151,7 +149,7 @@ TEST(ObservationScan, SettingsSayWhatTheSensorSees) {
     EXPECT_FALSE(observed.is_sensor_assumed);
 }
 
-TEST(ObservationScan, AVelodyneScanWithAStoredCloudAndNoPacketsGivesTheCloud) {
+TEST(ObservationScan, ReadsStoredVelodyneCloud) {
     mrpt::obs::CObservationVelodyneScan observation;
     observation.point_cloud.x = {1, 2};
     observation.point_cloud.y = {0, 0};
@@ -162,16 +160,18 @@ TEST(ObservationScan, AVelodyneScanWithAStoredCloudAndNoPacketsGivesTheCloud) {
     EXPECT_EQ(observed.scan.range_m, (std::vector<float>{1, 2}));
     EXPECT_EQ(observed.scan.intensity, (std::vector<float>{1, 0}));
     EXPECT_EQ(observed.remark, "");
+    observation.point_cloud.intensity.push_back(7);
+    EXPECT_THROW(readObservation(observation, Settings(), observed), std::runtime_error);
 }
 
-TEST(ObservationScan, AScanWithoutAnythingSaysSo) {
+TEST(ObservationScan, ReportsEmptyScans) {
     ObservedScan observed;
     readObservation(mrpt::obs::CObservationVelodyneScan(), Settings(), observed);
     EXPECT_EQ(observed.scan.size(), 0u);
     EXPECT_THAT(observed.remark, HasSubstr("no packets"));
 }
 
-TEST(ObservationScan, WhatCannotBeReadThrows) {
+TEST(ObservationScan, RejectsUnreadableObservations) {
     ObservedScan observed;
     EXPECT_THROW(readObservation(CObservationPointCloud(), Settings(), observed),
                  std::runtime_error);
@@ -179,7 +179,7 @@ TEST(ObservationScan, WhatCannotBeReadThrows) {
                  std::runtime_error);
 }
 
-TEST(ObservationScan, CloudsHaveTheReturnsAskedForWithOrWithoutIntensities) {
+TEST(ObservationScan, ConvertsChosenReturnsToClouds) {
     Scan scan;
     scan.x_m = {1, 2, 3};
     scan.y_m = {4, 5, 6};
@@ -194,17 +194,6 @@ TEST(ObservationScan, CloudsHaveTheReturnsAskedForWithOrWithoutIntensities) {
     EXPECT_EQ(full->getPointsBufferRef_x(), (mrpt::aligned_std_vector<float>{1, 3}));
     EXPECT_EQ(full->getPointIntensity(1), 0.75f);
     EXPECT_EQ(cloudOf(scan, CloudClass::Simple)->size(), 3u);
-}
-
-TEST(ObservationScan, RefusesAVelodyneCloudWhoseArraysDifferInSize) {
-    mrpt::obs::CObservationVelodyneScan observation;
-    observation.point_cloud.x = observation.point_cloud.y = observation.point_cloud.z = {1, 2, 3};
-    observation.point_cloud.intensity.assign(5, 7);
-    ObservedScan observed;
-    EXPECT_THROW(readObservation(observation, Settings(), observed), std::runtime_error);
-    observation.point_cloud.intensity.assign(3, 7);
-    readObservation(observation, Settings(), observed);
-    EXPECT_EQ(observed.scan.size(), 3u);
 }
 
 }  // namespace

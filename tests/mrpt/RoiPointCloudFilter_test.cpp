@@ -30,7 +30,7 @@ struct Example {
     }
 };
 
-TEST(RoiPointCloudFilter, KeepsTheRoiPoints) {
+TEST(RoiPointCloudFilter, KeepsRoiPoints) {
     Example example;
     RoiPointCloudFilter filter{Settings()};
     filter.filter(&example.cloud, mrpt::Clock::now(), CPose3D());
@@ -39,7 +39,7 @@ TEST(RoiPointCloudFilter, KeepsTheRoiPoints) {
     for (const float x_m : example.cloud.getPointsBufferRef_x()) EXPECT_NEAR(x_m, 12.0f, 0.2f);
 }
 
-TEST(RoiPointCloudFilter, RecoversASensorThatTheSettingsDoNotName) {
+TEST(RoiPointCloudFilter, RecoversUnnamedSensor) {
     test::SimpleScene scene;
     scene.poles.push_back({12, 2, 0.15, 8});
     const SensorModel sensor = sensorModel("HDL-64E");
@@ -57,7 +57,7 @@ TEST(RoiPointCloudFilter, RecoversASensorThatTheSettingsDoNotName) {
     EXPECT_GT(cloud.size(), 50u);
 }
 
-TEST(RoiPointCloudFilter, MarksWithoutDeletingWhereAskedTo) {
+TEST(RoiPointCloudFilter, MarksWithoutDeleting) {
     Example example;
     RoiPointCloudFilter filter{Settings()};
     std::vector<bool> deleted;
@@ -72,7 +72,7 @@ TEST(RoiPointCloudFilter, MarksWithoutDeletingWhereAskedTo) {
     }
 }
 
-TEST(RoiPointCloudFilter, TakesCloudsInTheVehiclesFrame) {
+TEST(RoiPointCloudFilter, AcceptsVehicleFrameClouds) {
     const CPose3D sensor_pose(0.3, -0.1, 0.8, 0.5, 0.0, 0.0);
     Example example(sensor_pose);
     RoiPointCloudFilter filter(Settings(), sensor_pose);
@@ -80,14 +80,14 @@ TEST(RoiPointCloudFilter, TakesCloudsInTheVehiclesFrame) {
     EXPECT_EQ(example.cloud.size(), example.expected.roi.size());
 }
 
-TEST(RoiPointCloudFilter, AnEmptyCloudStaysEmpty) {
+TEST(RoiPointCloudFilter, AcceptsEmptyClouds) {
     mrpt::maps::CSimplePointsMap cloud;
     RoiPointCloudFilter filter{Settings()};
     filter.filter(&cloud, mrpt::Clock::now(), CPose3D());
     EXPECT_EQ(cloud.size(), 0u);
 }
 
-TEST(RoiPointCloudFilter, RefusesSettingsThatDoNotFit) {
+TEST(RoiPointCloudFilter, RejectsInvalidSettings) {
     Settings settings;
     settings.options.window_size = 40;
     EXPECT_THROW(RoiPointCloudFilter{settings}, SettingsError);

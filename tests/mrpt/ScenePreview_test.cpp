@@ -42,7 +42,7 @@ class ScenePreview : public testing::Test {
     mrpt::obs::CObservation3DScene::Ptr preview_;
 };
 
-TEST_F(ScenePreview, IsToldFromOtherScenesAfterARawlogToo) {
+TEST_F(ScenePreview, IsIdentifiedAfterSerialization) {
     std::string bytes;
     const auto read = afterARawlog(*preview_, bytes);
     EXPECT_TRUE(isResult(*preview_));
@@ -54,7 +54,7 @@ TEST_F(ScenePreview, IsToldFromOtherScenesAfterARawlogToo) {
     EXPECT_FALSE(isResult(other));
 }
 
-TEST_F(ScenePreview, HasNoClassesThatMrpt3CannotReadFromMrpt2) {
+TEST_F(ScenePreview, UsesClassesOfBothMrptVersions) {
     std::string bytes;
     afterARawlog(*preview_, bytes);
     EXPECT_THAT(bytes, HasSubstr("CSetOfLines"));
@@ -62,7 +62,7 @@ TEST_F(ScenePreview, HasNoClassesThatMrpt3CannotReadFromMrpt2) {
     EXPECT_THAT(bytes, Not(HasSubstr("CAxis")));
 }
 
-TEST_F(ScenePreview, FramesTheLargeObstaclesThatAreNotInsideOthers) {
+TEST_F(ScenePreview, FramesLargeOuterObstacles) {
     const auto boxes = boxRoiComponents(*segmented_.scan, segmented_.result->returns);
     std::size_t expected = 0;
     for (const RoiBox& box : boxes) {
@@ -84,7 +84,7 @@ TEST_F(ScenePreview, FramesTheLargeObstaclesThatAreNotInsideOthers) {
     }
 }
 
-TEST(Results, KeepTheirMarkInARawlog) {
+TEST(Results, KeepMarkAfterSerialization) {
     for (const bool is_roi : {true, false}) {
         const auto scan = test::poleScanFrom(0, "a_roi");
         const auto result = resultOf(*scan, is_roi, mrpt::maps::CSimplePointsMap::Create());
@@ -98,7 +98,7 @@ TEST(Results, KeepTheirMarkInARawlog) {
     }
 }
 
-TEST(Results, ALabelOrAColourAloneIsNoMark) {
+TEST(Results, NeedLabelAndColour) {
     const auto scan = test::poleScanFrom(0, "a");
     const auto cloud = resultOf(*scan, true, mrpt::maps::CSimplePointsMap::Create());
     cloud->sensorLabel = "a";

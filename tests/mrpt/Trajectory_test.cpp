@@ -11,7 +11,7 @@ using mrpt::poses::CPose3D;
 
 mrpt::Clock::time_point at(double seconds) { return mrpt::Clock::fromDouble(1000.0 + seconds); }
 
-TEST(Trajectory, LiesBetweenTheTwoPosesAroundATime) {
+TEST(Trajectory, InterpolatesLinearly) {
     Trajectory trajectory;
     trajectory.add(at(0.0), CPose3D(1, 0, 2, 0, 0, 0));
     trajectory.add(at(0.1), CPose3D(2, 4, 2, 0.2, 0, 0));
@@ -23,7 +23,7 @@ TEST(Trajectory, LiesBetweenTheTwoPosesAroundATime) {
     EXPECT_NEAR(pose->yaw(), 0.05, 1e-4);
 }
 
-TEST(Trajectory, TakesAPoseOfTheVeryTimeAlsoAtBothEnds) {
+TEST(Trajectory, ReturnsExactPoses) {
     Trajectory trajectory;
     trajectory.add(at(0.0), CPose3D(1, 0, 0, 0, 0, 0));
     trajectory.add(at(5.0), CPose3D(2, 0, 0, 0, 0, 0));
@@ -31,7 +31,7 @@ TEST(Trajectory, TakesAPoseOfTheVeryTimeAlsoAtBothEnds) {
     EXPECT_NEAR(trajectory.at(at(5.0)).value().x(), 2.0, 1e-9);
 }
 
-TEST(Trajectory, IsNotKnownBeyondItsEndsNorInItsGaps) {
+TEST(Trajectory, EndsAtItsEndsAndGaps) {
     EXPECT_FALSE(Trajectory().at(at(0)));
     Trajectory trajectory;
     trajectory.add(at(0.0), CPose3D());
@@ -43,7 +43,7 @@ TEST(Trajectory, IsNotKnownBeyondItsEndsNorInItsGaps) {
     EXPECT_TRUE(trajectory.at(at(0.05)));
 }
 
-TEST(Trajectory, APoseThatIsNotFiniteIsLeftOutAndCounted) {
+TEST(Trajectory, CountsNonFinitePoses) {
     const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
     Trajectory trajectory;
     trajectory.add(at(0.0), CPose3D(1, 0, 0, 0, 0, 0));
@@ -56,7 +56,7 @@ TEST(Trajectory, APoseThatIsNotFiniteIsLeftOutAndCounted) {
     EXPECT_EQ(trajectory.not_finite, 3u);
 }
 
-TEST(Trajectory, AGapOfMoreThanAFifthOfASecondIsNotBridged) {
+TEST(Trajectory, BridgesGapsUpTo200ms) {
     for (const auto& [gap_s, is_known] : {std::pair{0.19, true}, {0.21, false}}) {
         Trajectory trajectory;
         trajectory.add(at(0.0), CPose3D());

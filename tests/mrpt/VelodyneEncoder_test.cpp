@@ -16,7 +16,7 @@ Firings firingsAt(float range_m, int lasers, int count) {
 }
 
 // VelodyneDecoder_test.cpp tests that decoding reverses encoding; this tests the raw bytes.
-TEST(VelodyneEncoder, WritesWhatTheManualSays) {
+TEST(VelodyneEncoder, MatchesTheManual) {
     Firings firings = firingsAt(10.0f, 16, 24);
     firings.first_azimuth_deg = 359.9;
     firings.first_time_us = 1234567;
@@ -44,7 +44,7 @@ TEST(VelodyneEncoder, DualModeRepeatsBlocks) {
     EXPECT_EQ(packets[0].blocks[1].laser_returns[0].distance(), 5000);
 }
 
-TEST(VelodyneEncoder, RangesThatAPacketCannotHoldAreNoReturns) {
+TEST(VelodyneEncoder, DropsUnrepresentableRanges) {
     for (const float range_m : {0.0f, -1.0f, 131.1f, 1e9f, kNoValue}) {
         const auto packets =
             encodePackets(sensors::velodyneModel("VLP-16"), firingsAt(range_m, 16, 24));
@@ -55,7 +55,7 @@ TEST(VelodyneEncoder, RangesThatAPacketCannotHoldAreNoReturns) {
     EXPECT_EQ(packets[0].blocks[0].laser_returns[0].distance(), 65535);
 }
 
-TEST(VelodyneEncoder, AzimuthsWrapAndIntensitiesAreLimited) {
+TEST(VelodyneEncoder, WrapsAzimuthsAndClampsIntensities) {
     Firings firings = firingsAt(10.0f, 16, 24);
     firings.first_azimuth_deg = -10.0;
     firings.intensity.setConstant(7.0f);
@@ -66,7 +66,7 @@ TEST(VelodyneEncoder, AzimuthsWrapAndIntensitiesAreLimited) {
     EXPECT_EQ(packets[0].blocks[0].laser_returns[3].intensity(), 0);
 }
 
-TEST(VelodyneEncoder, TheLastPacketIsFilledUpWithNothing) {
+TEST(VelodyneEncoder, PadsLastPacket) {
     const auto packets = encodePackets(sensors::velodyneModel("VLP-16"), firingsAt(10.0f, 16, 25));
     ASSERT_EQ(packets.size(), 2u);
     EXPECT_EQ(packets[1].blocks[0].laser_returns[15].distance(), 5000);
@@ -74,7 +74,7 @@ TEST(VelodyneEncoder, TheLastPacketIsFilledUpWithNothing) {
     EXPECT_EQ(packets[1].blocks[11].laser_returns[31].distance(), 0);
 }
 
-TEST(VelodyneEncoder, FiringsOfAnotherSensorAreRefused) {
+TEST(VelodyneEncoder, RejectsOtherSensors) {
     EXPECT_THROW(encodePackets(sensors::velodyneModel("VLP-16"), firingsAt(1.0f, 32, 24)),
                  std::invalid_argument);
     Firings firings = firingsAt(1.0f, 16, 24);

@@ -35,7 +35,7 @@ int roiCount(const std::vector<Eigen::Vector3f>& points_m, const PclEuclideanOpt
     return static_cast<int>(std::count(labels.begin(), labels.end(), Label::Roi));
 }
 
-TEST(PclEuclidean, TellsAPoleAndAWallFromFlatGround) {
+TEST(PclEuclidean, SeparatesObstaclesFromFlatGround) {
     test::SimpleScene scene;
     scene.poles.push_back({6.0, 3.0, 0.3, 4.0});
     scene.boxes.push_back({{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}});
@@ -49,7 +49,7 @@ TEST(PclEuclidean, TellsAPoleAndAWallFromFlatGround) {
     }
 }
 
-TEST(PclEuclidean, FollowsAPlaneThatTilts) {
+TEST(PclEuclidean, FitsTiltedPlane) {
     std::vector<Eigen::Vector3f> points_m = ground();
     const std::size_t of_ground = points_m.size();
     addPost({8.0f, 0.0f, -0.9f}, 12, points_m);
@@ -62,7 +62,7 @@ TEST(PclEuclidean, FollowsAPlaneThatTilts) {
     }
 }
 
-TEST(PclEuclidean, JoinsClustersUpToTheTolerance) {
+TEST(PclEuclidean, JoinsClustersWithinTolerance) {
     PclEuclideanOptions options;
     options.min_cluster_points = 10;  // each post has six
     const auto twoPosts = [&](float gap_m) {
@@ -77,7 +77,7 @@ TEST(PclEuclidean, JoinsClustersUpToTheTolerance) {
     EXPECT_EQ(twoPosts(0.8f), 12);
 }
 
-TEST(PclEuclidean, GivesReturnsTheLabelOfTheirVoxel) {
+TEST(PclEuclidean, LabelsReturnsByVoxel) {
     std::vector<Eigen::Vector3f> points_m = ground();
     addPost({6.5f, 2.05f, -0.9f}, 12, points_m);
     for (int i = 0; i < 12; ++i) {  // a second return in each voxel
@@ -86,14 +86,14 @@ TEST(PclEuclidean, GivesReturnsTheLabelOfTheirVoxel) {
     EXPECT_EQ(roiCount(points_m, {}), 24);
 }
 
-TEST(PclEuclidean, TakesAWallForNoGround) {
+TEST(PclEuclidean, RejectsWallsAsGround) {
     std::vector<Eigen::Vector3f> points_m;  // nothing but a wall
     for (int y = -20; y <= 20; ++y)
         addPost({6.0f, 0.3f * static_cast<float>(y), -1.0f}, 8, points_m);
     EXPECT_EQ(roiCount(points_m, {}), static_cast<int>(points_m.size()));
 }
 
-TEST(PclEuclidean, RefusesOptionsThatMeanNothing) {
+TEST(PclEuclidean, RejectsInvalidOptions) {
     PclEuclideanOptions options;
     options.leaf_m = 0.0f;
     EXPECT_THROW(pclEuclideanLabels({}, kSensor, options), std::invalid_argument);
@@ -104,7 +104,7 @@ TEST(PclEuclidean, RefusesOptionsThatMeanNothing) {
     EXPECT_THROW(pclEuclideanLabels({}, kSensor, options), std::invalid_argument);
 }
 
-TEST(PclEuclidean, KeepsToTheRulesOfBaselines) {
+TEST(PclEuclidean, FollowsCommonRules) {
     for (const float zone_m : {8.0f, 20.0f}) {
         for (const Baseline& baseline : pclBaselines(zone_m)) {
             test::expectBaselineRules(baseline, zone_m);

@@ -63,7 +63,7 @@ class PclFilesTest : public testing::Test {
     pcl::PointCloud<pcl::PointXYZI> cloud_;
 };
 
-TEST_F(PclFilesTest, EveryPcdOfPclIsRead) {
+TEST_F(PclFilesTest, ReadsAllPcdOfPcl) {
     ASSERT_EQ(pcl::io::savePCDFileASCII(file_, cloud_), 0);
     expectPoints();
     ASSERT_EQ(pcl::io::savePCDFileBinary(file_, cloud_), 0);
@@ -76,14 +76,14 @@ TEST_F(PclFilesTest, EveryPcdOfPclIsRead) {
     expectPoints();
 }
 
-TEST_F(PclFilesTest, EveryPlyOfPclIsRead) {
+TEST_F(PclFilesTest, ReadsAllPlyOfPcl) {
     ASSERT_EQ(pcl::io::savePLYFileASCII(file_, cloud_), 0);
     expectPoints();
     ASSERT_EQ(pcl::io::savePLYFileBinary(file_, cloud_), 0);
     expectPoints();
 }
 
-TEST_F(PclFilesTest, PclReadsWhatIsWrittenHere) {
+TEST_F(PclFilesTest, WritesFilesReadableByPcl) {
     PointTable table;
     table.points = 3;
     addColumn("x", NumberType::Float64, {1.5, -2, 3}, table);

@@ -266,7 +266,7 @@ TEST_F(CloudFileTest, PcdErrorsNameTheLine) {
     EXPECT_THAT(complaintOn("1.500000 ", "1.5x "), HasSubstr("line 12: '1.5x' is no float32"));
     EXPECT_THAT(complaintOn(" 70000\n", " 7e10\n"), HasSubstr("line 13: '7e10' is no uint32"));
     EXPECT_THAT(complaintOn(" 70000\n", "\n"), HasSubstr("line 13: 8 numbers instead of 9"));
-    EXPECT_THAT(complaintOn("x y z", "x x z"), HasSubstr("'x' is there twice"));
+    EXPECT_THAT(complaintOn("x y z", "x x z"), HasSubstr("'x' occurs twice"));
     EXPECT_THAT(complaintOn("COUNT 1", "COUNT 4294967295"), HasSubstr("bytes are there"));
 }
 

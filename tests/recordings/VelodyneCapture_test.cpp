@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
 #include <hagen/mrpt/VelodyneEncoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/recordings/LidarCapture.h>
 
 #include <algorithm>

@@ -44,7 +44,7 @@ TEST(FlightTest, KeepsItsAltitude) {
 
 /// The same flight over level ground is lower by the mean height of the ground from 3 m behind to 3
 /// m ahead.
-TEST(FlightTest, FollowsTheMeanOfTheGround) {
+TEST(FlightTest, FollowsMeanGroundHeight) {
     TerrainParameters form;
     form.max_slope_rad = form.bump_m = 0;
     Random random(5);
@@ -68,7 +68,7 @@ TEST(FlightTest, FollowsTheMeanOfTheGround) {
     EXPECT_GT(highest_m, 0.5);
 }
 
-TEST(FlightTest, RollAndPitchHaveTheirStandardDeviation) {
+TEST(FlightTest, TiltHasGivenDeviation) {
     for (const double sd_deg : {1.0, 4.0, 15.0}) {
         FlightSettings settings;
         settings.tilt_sd_rad = radians(sd_deg);
@@ -86,7 +86,7 @@ TEST(FlightTest, RollAndPitchHaveTheirStandardDeviation) {
     }
 }
 
-TEST(FlightTest, WithoutTiltItIsLevelAndLooksAhead) {
+TEST(FlightTest, IsLevelWithoutTilt) {
     FlightSettings settings;
     settings.tilt_sd_rad = 0;
     const Path path{30, 12};
@@ -101,7 +101,7 @@ TEST(FlightTest, WithoutTiltItIsLevelAndLooksAhead) {
     }
 }
 
-TEST(FlightTest, IsAsFastAsAskedOnStraightsAndSlowerInTurns) {
+TEST(FlightTest, SlowsDownInTurns) {
     FlightSettings settings;
     settings.speed_m_s = 8;
     const Path path{60, 12};
@@ -119,7 +119,7 @@ TEST(FlightTest, IsAsFastAsAskedOnStraightsAndSlowerInTurns) {
     EXPECT_NEAR(slowest * slowest / path.radius_m, 0.68, 0.05);  // a bank of 4 degrees
 }
 
-TEST(FlightTest, HasNoJumps) {
+TEST(FlightTest, IsContinuous) {
     const Flight flight(rolling(), {10, 8}, {}, 3);
     for (double time_s = 0; time_s < 60; time_s += 0.01) {
         const SensorPose a = flight.at(time_s), b = flight.at(time_s + 0.01);
@@ -128,7 +128,7 @@ TEST(FlightTest, HasNoJumps) {
     }
 }
 
-TEST(FlightTest, TheSeedTellsHowItSways) {
+TEST(FlightTest, DependsOnSeed) {
     const Terrain terrain = rolling();
     const auto rollAt = [&](std::uint64_t seed) {
         return tiltOf(Flight(terrain, {30, 12}, {}, seed).at(3)).roll;

@@ -6,7 +6,7 @@
 namespace hagen::simulation {
 namespace {
 
-TEST(KindTest, EveryKindHasANumberAndANameOfItsOwn) {
+TEST(ObjectClassTest, NamesAreUnique) {
     std::set<std::string> names;
     std::set<int> numbers;
     for (const ObjectClass kind : allKinds()) {
@@ -19,7 +19,7 @@ TEST(KindTest, EveryKindHasANumberAndANameOfItsOwn) {
     EXPECT_EQ(nameOf(ObjectClass::Wire), "wire");
 }
 
-TEST(KindTest, GroundIsRouAndObstaclesAreRoiAndTheVehicleItselfIsNeither) {
+TEST(ObjectClassTest, ClassesHaveLabels) {
     EXPECT_EQ(labelOf(ObjectClass::Terrain), Label::Rou);
     EXPECT_EQ(labelOf(ObjectClass::Canopy), Label::Rou);
     EXPECT_EQ(labelOf(ObjectClass::Wire), Label::Roi);

@@ -7,7 +7,7 @@
 namespace hagen::simulation {
 namespace {
 
-TEST(PathTest, StartsInTheMiddleOfTheSouthernStraightAndComesBack) {
+TEST(PathTest, IsClosed) {
     const Path path{30, 10};
     EXPECT_NEAR((path.at(0) - Eigen::Vector2d(0, -10)).norm(), 0, 1e-12);
     EXPECT_NEAR((path.at(path.length_m()) - path.at(0)).norm(), 0, 1e-9);
@@ -15,7 +15,7 @@ TEST(PathTest, StartsInTheMiddleOfTheSouthernStraightAndComesBack) {
     EXPECT_NEAR((path.at(-5) - Eigen::Vector2d(-5, -10)).norm(), 0, 1e-9);
 }
 
-TEST(PathTest, GoesAMetreAMetreAlongItsHeading) {
+TEST(PathTest, FollowsItsHeading) {
     const Path path{12, 7};
     constexpr double kStep_m = 1e-4;
     for (double way_m = 0.05; way_m < 2 * path.length_m(); way_m += 0.37) {
@@ -26,7 +26,7 @@ TEST(PathTest, GoesAMetreAMetreAlongItsHeading) {
     }
 }
 
-TEST(PathTest, DistanceIsThatToTheNearestPlaceOnIt) {
+TEST(PathTest, DistanceMatchesBruteForce) {
     const Path path{12, 7};
     for (const Eigen::Vector2d& place :
          {Eigen::Vector2d(0, 0), Eigen::Vector2d(3, 20), Eigen::Vector2d(25, 4),

@@ -10,9 +10,7 @@ namespace {
 
 /// Share of level rays across a shape, at some height and within a half width, that pass it.
 double shareThatPasses(Shape shape, float z_m, float half_width_m) {
-    SceneContent content = test::emptyContent();
-    test::put(content, ObjectClass::Tree, 1, std::move(shape));
-    const Scene scene(std::move(content));
+    const Scene scene = test::sceneOf(ObjectClass::Tree, 1, std::move(shape));
     std::vector<Ray> rays;
     for (float y = -half_width_m; y <= half_width_m; y += 0.02f * half_width_m) {
         for (float up = -0.1f; up <= 0.1f; up += 0.02f)
@@ -25,7 +23,7 @@ double shareThatPasses(Shape shape, float z_m, float half_width_m) {
     return static_cast<double>(passed) / static_cast<double>(rays.size());
 }
 
-TEST(PlantsTest, ACrownIsPorousAndTheTrunkIsNot) {
+TEST(PlantsTest, CrownsArePorous) {
     Random random(11);
     TreeParameters form;
     const Shape tree = makeTree(form, random);
@@ -36,7 +34,7 @@ TEST(PlantsTest, ACrownIsPorousAndTheTrunkIsNot) {
     EXPECT_LT(shareThatPasses(makeTree(form, random), 0.4f, 0.04f), 0.01);
 }
 
-TEST(PlantsTest, ATreeKeepsToItsForm) {
+TEST(PlantsTest, TreesMatchParameters) {
     Random random(11);
     TreeParameters form;
     form.height_m = 6;
@@ -55,7 +53,7 @@ TEST(PlantsTest, ATreeKeepsToItsForm) {
     EXPECT_GT(area, form.leaf_area_m2);  // and its wood
 }
 
-TEST(PlantsTest, GroundIsSeenThroughCrop) {
+TEST(PlantsTest, CropShowsGround) {
     Random random(11);
     SceneContent content = test::emptyContent();
     test::put(content, ObjectClass::Terrain, 0, test::plane());
@@ -76,19 +74,13 @@ TEST(PlantsTest, GroundIsSeenThroughCrop) {
     EXPECT_GT(crop, 0.4 * static_cast<double>(hits.size()));
 }
 
-TEST(PlantsTest, CropAndTuftsAreAMetreHigh) {
+TEST(PlantsTest, SmallPlantsHaveSizeAndVisibleLeaves) {
     Random random(11);
     for (const Shape& shape : {makeCanopyPatch(5, random), makeTuft(random), makeShrub(random)}) {
         float top = 0;
         for (const Eigen::Vector3f& vertex : shape.vertices_m) top = std::max(top, vertex.z());
         EXPECT_GT(top, 0.8f);
         EXPECT_LT(top, 1.3f);
-    }
-}
-
-TEST(PlantsTest, LeavesAreSeen) {
-    Random random(12);
-    for (const Shape& shape : {makeCanopyPatch(5, random), makeTuft(random), makeShrub(random)}) {
         for (const auto& [a, b, c] : shape.triangles) {
             const Eigen::Vector3f &at = shape.vertices_m[a], u = shape.vertices_m[b] - at,
                                   v = shape.vertices_m[c] - at;

@@ -43,7 +43,7 @@ const std::map<std::string, std::set<ObjectClass>>& expectedKinds() {
 
 class EachScenario : public testing::TestWithParam<std::string> {};
 
-TEST_P(EachScenario, HoldsItsKindsAndNumbersItsObjects) {
+TEST_P(EachScenario, HasClassesAndObjectNumbers) {
     const Scene scene = makeScene(GetParam(), 1);
     std::set<ObjectClass> kinds = kindsOf(scene);
     EXPECT_EQ(kinds.count(ObjectClass::Terrain), 1u);
@@ -62,7 +62,7 @@ TEST_P(EachScenario, HoldsItsKindsAndNumbersItsObjects) {
 }
 
 /// Balls of half a metre, all along the way, at all altitudes that one can fly at.
-TEST_P(EachScenario, TheWayIsClear) {
+TEST_P(EachScenario, PathIsFree) {
     const Scene scene = makeScene(GetParam(), 2);
     std::vector<Ray> rays;
     for (double way_m = 0; way_m < scene.path().length_m(); way_m += 0.25) {
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(All, EachScenario, testing::ValuesIn(scenarioNames()),
                              return words;
                          });
 
-TEST(ScenariosTest, ASeedMakesTheSameSceneAndAnotherSeedAnother) {
+TEST(ScenariosTest, DependOnSeed) {
     const auto placesOf = [](std::uint64_t seed) {
         std::vector<float> places;
         const Scene scene = makeScene("wires", seed);
@@ -113,7 +113,7 @@ TEST(ScenariosTest, ASeedMakesTheSameSceneAndAnotherSeedAnother) {
     EXPECT_NE(one, placesOf(2));
 }
 
-TEST(ScenariosTest, ADenserForestHasMoreTrees) {
+TEST(ScenariosTest, DenseForestsHaveMoreTrees) {
     const auto trees = [](const std::string& name) {
         int count = 0;
         const Scene scene = makeScene(name, 4);
@@ -148,7 +148,7 @@ TEST(ScenariosTest, TrapsAreOpenOnOneSide) {
     }
 }
 
-TEST(ScenariosTest, AnUnknownOneIsRefusedAndTheKnownOnesNamed) {
+TEST(ScenariosTest, RejectsUnknownNames) {
     try {
         makeScene("jungle", 1);
         FAIL() << "it was made";

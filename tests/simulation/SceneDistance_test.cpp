@@ -12,6 +12,7 @@ using Eigen::Vector3f;
 using test::emptyContent;
 using test::plane;
 using test::put;
+using test::sceneOf;
 
 const Eigen::AlignedBox3d kBounds(Eigen::Vector3d(-10, -10, -10), Eigen::Vector3d(10, 10, 10));
 
@@ -73,11 +74,11 @@ Vector3f somewhere(Random& random, double half_m) {
     return Eigen::Vector3d(x, y, z).cast<float>();
 }
 
-TEST(SceneDistanceTest, AnEmptySceneIsFartherThanTheReach) {
+TEST(SceneDistanceTest, EmptySceneReturnsReach) {
     EXPECT_EQ(SceneDistance(Scene(emptyContent()), kBounds, 3.0).at({0, 0, 0}, 0), 3.0f);
 }
 
-TEST(SceneDistanceTest, AWallAPoleAndABallAreAsFarAsGeometrySays) {
+TEST(SceneDistanceTest, MatchesGeometry) {
     SceneContent content = emptyContent();
     Shape wall, pole, ball;
     wall.addBox({5, -4, 0}, {5.3f, 4, 6});
@@ -96,21 +97,19 @@ TEST(SceneDistanceTest, AWallAPoleAndABallAreAsFarAsGeometrySays) {
     EXPECT_EQ(distance.at({-2, -7, 2}, 0), 3.0f);
 }
 
-TEST(SceneDistanceTest, BladesOfGrassDoNotCount) {
-    SceneContent content = emptyContent();
-    put(content, ObjectClass::Canopy, 0, plane());
-    EXPECT_EQ(SceneDistance(Scene(std::move(content)), kBounds, 3.0).at({0, 0, 1}, 0), 3.0f);
+TEST(SceneDistanceTest, IgnoresCanopy) {
+    const Scene scene = sceneOf(ObjectClass::Canopy, 0, plane());
+    EXPECT_EQ(SceneDistance(scene, kBounds, 3.0).at({0, 0, 1}, 0), 3.0f);
 }
 
-TEST(SceneDistanceTest, WhatLiesOutsideTheBoundsWithinTheReachCountsToo) {
-    SceneContent content = emptyContent();
+TEST(SceneDistanceTest, IncludesSurfacesBeyondBounds) {
     Shape wall;
     wall.addBox({12, -1, -1}, {13, 1, 1});
-    put(content, ObjectClass::Wall, 1, wall);
-    EXPECT_NEAR(SceneDistance(Scene(std::move(content)), kBounds, 3.0).at({10, 0, 0}, 0), 2, 1e-5);
+    const Scene scene = sceneOf(ObjectClass::Wall, 1, wall);
+    EXPECT_NEAR(SceneDistance(scene, kBounds, 3.0).at({10, 0, 0}, 0), 2, 1e-5);
 }
 
-TEST(SceneDistanceTest, RandomSurfacesAreAsFarAsTheNearestOfAll) {
+TEST(SceneDistanceTest, MatchesBruteForce) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         Random random(seed);
         SceneContent content = emptyContent();
@@ -136,7 +135,7 @@ TEST(SceneDistanceTest, RandomSurfacesAreAsFarAsTheNearestOfAll) {
     }
 }
 
-TEST(SceneDistanceTest, AMoverIsWhereItIsAtTheTime) {
+TEST(SceneDistanceTest, FollowsMovers) {
     SceneContent content = emptyContent();
     Shape ball;
     ball.addRod({{0, 0, 0, 0.5f}, {0, 0, 0.1f, 0.5f}});
@@ -159,12 +158,11 @@ TEST(SceneDistanceTest, AMoverIsWhereItIsAtTheTime) {
     }
 }
 
-TEST(SceneDistanceTest, ShapesThatStandScaledAreMeasuredScaled) {
-    SceneContent content = emptyContent();
+TEST(SceneDistanceTest, MeasuresScaledShapes) {
     Shape rod;
     rod.addRod({{0, 0, -1, 0.1f}, {0, 0, 1, 0.1f}});
-    put(content, ObjectClass::Pole, 1, rod, Eigen::Affine3f(Eigen::Scaling(3.0f)));
-    EXPECT_NEAR(SceneDistance(Scene(std::move(content)), kBounds, 3.0).at({2, 0, 0}, 0), 1.7, 1e-5);
+    const Scene scene = sceneOf(ObjectClass::Pole, 1, rod, Eigen::Affine3f(Eigen::Scaling(3.0f)));
+    EXPECT_NEAR(SceneDistance(scene, kBounds, 3.0).at({2, 0, 0}, 0), 1.7, 1e-5);
 }
 
 }  // namespace

@@ -14,11 +14,10 @@ using test::castOne;
 using test::emptyContent;
 using test::plane;
 using test::put;
+using test::sceneOf;
 
-TEST(SceneTest, ARayMeetsAPlaneWhereGeometrySays) {
-    SceneContent content = emptyContent();
-    put(content, ObjectClass::Terrain, 0, plane());
-    const Scene scene(std::move(content));
+TEST(SceneTest, RayHitsPlane) {
+    const Scene scene = sceneOf(ObjectClass::Terrain, 0, plane());
     for (const double down_deg : {1.5, 5.0, 15.0, 60.0, 90.0}) {
         const double down = radians(down_deg);
         const RayHit hit = castOne(
@@ -30,30 +29,22 @@ TEST(SceneTest, ARayMeetsAPlaneWhereGeometrySays) {
     }
 }
 
-TEST(SceneTest, NothingIsMetInTheSkyNorBeyondTheRange) {
-    SceneContent content = emptyContent();
-    put(content, ObjectClass::Terrain, 0, plane());
-    const Scene scene(std::move(content));
+TEST(SceneTest, RayMissesSkyAndDistance) {
+    const Scene scene = sceneOf(ObjectClass::Terrain, 0, plane());
     EXPECT_TRUE(std::isnan(castOne(scene, {0, 0, 2}, {1, 0, 0.1f}).range_m));
     std::vector<RayHit> hits;
     scene.snapshotOver(0, 1).cast({{{0, 0, 2}, {0, 0, -1}}}, 1.5f, hits);
     EXPECT_EQ(hits.at(0).kind, ObjectClass::None);
     EXPECT_TRUE(std::isnan(hits[0].range_m));
-}
-
-TEST(SceneTest, NoRaysNoHits) {
-    std::vector<RayHit> hits(3);
-    Scene(emptyContent()).snapshotOver(0, 1).cast({}, 100, hits);
+    scene.snapshotOver(0, 1).cast({}, 100, hits);
     EXPECT_TRUE(hits.empty());
 }
 
-TEST(SceneTest, ARayMeetsARoundRodWhereGeometrySays) {
+TEST(SceneTest, RayHitsRoundRod) {
     constexpr float kRadius_m = 0.2f;
-    SceneContent content = emptyContent();
     Shape rod;
     rod.addRod({{10, 0, -1, kRadius_m}, {10, 0, 5, kRadius_m}});
-    put(content, ObjectClass::Pole, 7, std::move(rod));
-    const Scene scene(std::move(content));
+    const Scene scene = sceneOf(ObjectClass::Pole, 7, std::move(rod));
     for (const float aside_m : {-0.19f, -0.1f, 0.0f, 0.15f}) {
         const RayHit hit = castOne(scene, {0, aside_m, 1}, {1, 0, 0});
         EXPECT_NEAR(hit.range_m, 10 - std::sqrt(kRadius_m * kRadius_m - aside_m * aside_m), 1e-3);
@@ -64,26 +55,23 @@ TEST(SceneTest, ARayMeetsARoundRodWhereGeometrySays) {
     EXPECT_EQ(castOne(scene, {0, 0.21f, 1}, {1, 0, 0}).kind, ObjectClass::None);
 }
 
-TEST(SceneTest, TheEndOfARodIsABall) {
-    SceneContent content = emptyContent();
+TEST(SceneTest, RodEndsAreBalls) {
     Shape rod;
     rod.addRod({{10, 0, 1, 0.5f}, {10, 0, 0, 0.5f}});
-    put(content, ObjectClass::Pole, 1, std::move(rod));
-    const Scene scene(std::move(content));
+    const Scene scene = sceneOf(ObjectClass::Pole, 1, std::move(rod));
     const float up_m = 0.3f;  // above the last knot
     EXPECT_NEAR(castOne(scene, {0, 0, 1 + up_m}, {1, 0, 0}).range_m,
                 10 - std::sqrt(0.25f - up_m * up_m), 1e-3);
 }
 
-TEST(SceneTest, ATubeIsNearlyItsRod) {
+TEST(SceneTest, TubeApproximatesRod) {
     Shape tube;
     tube.addTube({{10, 0, -1, 0.2f}, {10, 0, 5, 0.2f}}, 16);
-    SceneContent content = emptyContent();
-    put(content, ObjectClass::Tree, 1, std::move(tube));
-    EXPECT_NEAR(castOne(Scene(std::move(content)), {0, 0, 1}, {1, 0, 0}).range_m, 9.8, 0.005);
+    const Scene scene = sceneOf(ObjectClass::Tree, 1, std::move(tube));
+    EXPECT_NEAR(castOne(scene, {0, 0, 1}, {1, 0, 0}).range_m, 9.8, 0.005);
 }
 
-TEST(SceneTest, WhatIsNearerHidesWhatIsBehind) {
+TEST(SceneTest, NearerObjectsOcclude) {
     SceneContent content = emptyContent();
     Shape box;
     box.addBox({5, -1, 0}, {6, 1, 3});
@@ -97,19 +85,18 @@ TEST(SceneTest, WhatIsNearerHidesWhatIsBehind) {
     EXPECT_NEAR(from_behind.normal.x(), 1, 1e-5);  // towards where the ray comes from
 }
 
-TEST(SceneTest, APlacedShapeIsTurnedAndScaledAndItsNormalsWithIt) {
-    SceneContent content = emptyContent();
+TEST(SceneTest, TransformsShapesAndNormals) {
     Shape slope;  // up by 1 on 1, along x
     slope.addQuad({0, -1, 0}, {1, -1, 1}, {1, 1, 1}, {0, 1, 0});
     const Eigen::Affine3f pose = Eigen::Translation3f(10, 0, 0) * Eigen::Scaling(4.0f, 4.0f, 2.0f);
-    put(content, ObjectClass::Wall, 1, slope, pose);  // now up by 1 on 2
-    const RayHit hit = castOne(Scene(std::move(content)), {0, 0, 1}, {1, 0, 0});
+    const Scene scene = sceneOf(ObjectClass::Wall, 1, slope, pose);  // now up by 1 on 2
+    const RayHit hit = castOne(scene, {0, 0, 1}, {1, 0, 0});
     EXPECT_NEAR(hit.range_m, 12, 1e-4);
     EXPECT_NEAR(hit.normal.x(), -1 / std::sqrt(5.0f), 1e-5);
     EXPECT_NEAR(hit.normal.z(), 2 / std::sqrt(5.0f), 1e-5);
 }
 
-TEST(SceneTest, AMoverMovesWithinASnapshotAndFromOneToTheNext) {
+TEST(SceneTest, MoversMoveWithTime) {
     SceneContent content = emptyContent();
     Shape box;
     box.addBox({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 2});
@@ -131,12 +118,8 @@ TEST(SceneTest, AMoverMovesWithinASnapshotAndFromOneToTheNext) {
     EXPECT_EQ(hits.at(0).number, 9);
 }
 
-TEST(SceneTest, CopiesAndSnapshotsOutliveTheSceneTheyComeFrom) {
-    auto snapshot = [] {
-        SceneContent content = emptyContent();
-        put(content, ObjectClass::Terrain, 0, plane());
-        return Scene(std::move(content)).snapshotOver(0, 1);
-    }();
+TEST(SceneTest, SnapshotsOutliveScene) {
+    const auto snapshot = sceneOf(ObjectClass::Terrain, 0, plane()).snapshotOver(0, 1);
     std::vector<RayHit> hits;
     snapshot.cast({{{0, 0, 3}, {0, 0, -1}}}, 100, hits);
     EXPECT_NEAR(hits.at(0).range_m, 3, 1e-5);

@@ -20,7 +20,7 @@ double steepest(const Terrain& terrain) {
     return steepest;
 }
 
-TEST(TerrainTest, IsAsSteepAsAskedForAtItsSteepest) {
+TEST(TerrainTest, HasGivenMaxSlope) {
     for (const double slope_deg : {2.0, 15.0}) {
         TerrainParameters form;
         form.max_slope_rad = radians(slope_deg);
@@ -31,14 +31,14 @@ TEST(TerrainTest, IsAsSteepAsAskedForAtItsSteepest) {
     }
 }
 
-TEST(TerrainTest, WithoutSlopeAndBumpsItIsLevel) {
+TEST(TerrainTest, IsLevelWithoutSlopeAndBumps) {
     TerrainParameters form;
     form.max_slope_rad = form.bump_m = 0;
     Random random(5);
     EXPECT_EQ(steepest(Terrain(form, random)), 0);
 }
 
-TEST(TerrainTest, APavedBandHasNeitherBumpsNorGrass) {
+TEST(TerrainTest, PavedBandIsSmooth) {
     TerrainParameters form;
     form.max_slope_rad = 0;
     form.bump_m = 0.1;
@@ -51,7 +51,7 @@ TEST(TerrainTest, APavedBandHasNeitherBumpsNorGrass) {
     EXPECT_GT(terrain.grassHeight_m(3, -5.1), 0);
 }
 
-TEST(TerrainTest, GrassIsPatchyAndNoTallerThanAskedFor) {
+TEST(TerrainTest, GrassIsPatchyAndLimited) {
     TerrainParameters form;
     form.grass_m = 0.2;
     Random random(5);
@@ -68,7 +68,7 @@ TEST(TerrainTest, GrassIsPatchyAndNoTallerThanAskedFor) {
     EXPECT_EQ(terrain.grassHeight_m(NAN, 0), 0);
 }
 
-TEST(TerrainTest, TheMeshIsTheGroundWithItsRoughness) {
+TEST(TerrainTest, MeshMatchesGround) {
     TerrainParameters form;
     form.roughness_m = 0.03;
     Random random(5);

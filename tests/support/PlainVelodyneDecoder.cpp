@@ -1,6 +1,6 @@
 #include "support/PlainVelodyneDecoder.h"
 
-#include <hagen/mrpt/VelodyneCalibrations.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/VelodyneModel.h>
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <hagen/base/OutputSet.h>
 #include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/simulation/LogClock.h>
 #include <hagen/simulation/Scenarios.h>

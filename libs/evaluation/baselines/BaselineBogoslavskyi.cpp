@@ -62,38 +62,6 @@ Image<bool> growGround(const Image<float>& depth_m, const Image<float>& angle_ra
     return ground;
 }
 
-/// True if two neighbours, seen `apart_rad` from each other, belong to one object.
-bool isOneObject(float a_m, float b_m, float apart_rad, float theta_rad) {
-    const float far_m = std::max(a_m, b_m), near_m = std::min(a_m, b_m);
-    return std::atan2(near_m * std::sin(apart_rad), far_m - near_m * std::cos(apart_rad)) >
-           theta_rad;
-}
-
-/// Assigns `number` to the pixel and to all pixels of the same object.
-void growCluster(const Image<float>& depth_m, const SensorModel& sensor, float theta_rad, int pixel,
-                 std::int32_t number, Image<std::int32_t>& clusters) {
-    const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
-    const float column_rad = static_cast<float>(2.0 * kPi / columns);
-    std::vector<int> queue{pixel};
-    clusters.data()[pixel] = number;
-    for (std::size_t next = 0; next < queue.size(); ++next) {
-        const int row = queue[next] % rows, column = queue[next] / rows;
-        forEachOf4Neighbours(row, column, rows, columns, [&](int to_row, int to_column) {
-            if (clusters(to_row, to_column) != 0 || !hasValue(depth_m(to_row, to_column))) return;
-            const float apart_rad =
-                to_row == row
-                    ? column_rad
-                    : std::abs(sensor.elevations_rad[to_row] - sensor.elevations_rad[row]);
-            if (!isOneObject(depth_m(row, column), depth_m(to_row, to_column), apart_rad,
-                             theta_rad)) {
-                return;
-            }
-            clusters(to_row, to_column) = number;
-            queue.push_back(to_column * rows + to_row);
-        });
-    }
-}
-
 }  // namespace
 
 Image<float> savitzkyGolay(const Image<float>& image, int window) {
@@ -132,36 +100,6 @@ std::vector<Label> bogoslavskyiLabels(const Scan& scan, const SensorModel& senso
         labels[i] = is_roi ? Label::Roi : Label::Rou;
     }
     return labels;
-}
-
-std::vector<std::int32_t> bogoslavskyiClusters(const Scan& scan, const SensorModel& sensor,
-                                               const std::vector<Label>& labels,
-                                               const BogoslavskyiOptions& options) {
-    if (labels.size() != scan.size()) {
-        throw std::invalid_argument("clusters: " + std::to_string(scan.size()) + " returns, but " +
-                                    std::to_string(labels.size()) + " labels");
-    }
-    Scan roi = scan;  // ground is removed from the image
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (labels[i] != Label::Roi) roi.range_m[i] = kNoValue;
-    }
-    RangeImage image;
-    ProjectionWorkspace work;
-    projectScan(roi, sensor, options.columns, sensor.max_range_m, image, work);
-    Image<std::int32_t> clusters =
-        Image<std::int32_t>::Zero(image.depth_m.rows(), image.depth_m.cols());
-    std::vector<std::int32_t> numbers(scan.size(), 0);
-    std::int32_t count = 0;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const std::int32_t pixel = image.depth_mapper[i];
-        if (pixel == RangeImage::kNoPixel) continue;
-        if (clusters.data()[pixel] == 0) {
-            growCluster(image.depth_m, sensor, radiansOf(options.cluster_angle_deg), pixel, ++count,
-                        clusters);
-        }
-        numbers[i] = clusters.data()[pixel];
-    }
-    return numbers;
 }
 
 }  // namespace hagen::evaluation

@@ -1,5 +1,4 @@
 #include <hagen/evaluation/BaselineZermas.h>
-#include <hagen/scan/Angle.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -95,85 +94,6 @@ Indices initialSeeds(const Scan& scan, const Indices& points, const ZermasOption
     return seeds;
 }
 
-/// Merged clusters. Each is linked to the smaller number, as in algorithm 2.
-class UnionFind {
- public:
-    explicit UnionFind(std::size_t size) : parent_(size) {
-        std::iota(parent_.begin(), parent_.end(), 0);
-    }
-    std::int32_t find(std::int32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::int32_t a, std::int32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
- private:
-    Indices parent_;
-};
-
-float distance(const Scan& scan, std::int32_t a, std::int32_t b) {
-    return (point(scan, a) - point(scan, b)).norm();
-}
-
-/// FindRuns: neighbours in azimuth that are closer than Th_run, including the last and the first.
-void joinRuns(const Scan& scan, const Indices& line, float run_distance_m, UnionFind& clusters) {
-    for (std::size_t k = 0; k < line.size(); ++k) {
-        const std::int32_t next = line[(k + 1) % line.size()];
-        if (distance(scan, line[k], next) < run_distance_m) clusters.join(line[k], next);
-    }
-}
-
-/// Returns the return of `line` (ascending azimuths, not empty) nearest to return i, if nearer than
-/// `limit_m`; otherwise -1. Searches outwards from i's azimuth to both sides, no farther than its
-/// sphere reaches.
-std::int32_t nearestInLine(const Scan& scan, const Indices& line, std::int32_t i, float limit_m) {
-    const float from_axis_m = std::hypot(scan.x_m[i], scan.y_m[i]);
-    const float reach_rad =
-        from_axis_m > limit_m ? std::asin(limit_m / from_axis_m) : static_cast<float>(kPi);
-    const float azimuth_rad = scan.azimuth_rad[i];
-    const auto from = std::lower_bound(
-        line.begin(), line.end(), azimuth_rad,
-        [&](std::int32_t a, float azimuth) { return scan.azimuth_rad[a] < azimuth; });
-    const auto start = static_cast<std::size_t>(from - line.begin());
-
-    std::int32_t nearest = -1;
-    float nearest_m = limit_m;
-    const auto isBeyond = [&](std::int32_t candidate) {
-        const float apart_m = distance(scan, i, candidate);
-        if (apart_m < nearest_m) {
-            nearest_m = apart_m;
-            nearest = candidate;
-        }
-        const float turn_rad = std::abs(scan.azimuth_rad[candidate] - azimuth_rad);
-        return std::min(turn_rad, static_cast<float>(2.0 * kPi) - turn_rad) > reach_rad;
-    };
-    for (std::size_t k = 0; k < line.size(); ++k) {
-        if (isBeyond(line[(start + k) % line.size()])) break;
-    }
-    for (std::size_t k = 1; k <= line.size(); ++k) {
-        if (isBeyond(line[(start + line.size() - k) % line.size()])) break;
-    }
-    return nearest;
-}
-
-/// The Roi returns of each row, sorted by azimuth.
-std::vector<Indices> scanLines(const Scan& scan, int rows, const std::vector<Label>& labels) {
-    std::vector<Indices> lines(rows);
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (labels[i] == Label::Roi) lines[scan.row[i]].push_back(static_cast<std::int32_t>(i));
-    }
-    for (Indices& line : lines) {
-        std::stable_sort(line.begin(), line.end(), [&](std::int32_t a, std::int32_t b) {
-            return scan.azimuth_rad[a] < scan.azimuth_rad[b];
-        });
-    }
-    return lines;
-}
-
 }  // namespace
 
 std::vector<Label> zermasGroundFit(const Scan& scan, const SensorModel& sensor,
@@ -199,35 +119,6 @@ std::vector<Label> zermasGroundFit(const Scan& scan, const SensorModel& sensor,
         for (const std::int32_t i : ground) labels[i] = Label::Rou;
     }
     return labels;
-}
-
-std::vector<std::int32_t> scanLineRuns(const Scan& scan, const SensorModel& sensor,
-                                       const std::vector<Label>& labels,
-                                       const ZermasOptions& options) {
-    if (labels.size() != scan.size()) {
-        throw std::invalid_argument("zermas: " + std::to_string(scan.size()) + " returns, but " +
-                                    std::to_string(labels.size()) + " labels");
-    }
-    const std::vector<Indices> lines = scanLines(scan, sensor.rows(), labels);
-    UnionFind clusters(scan.size());
-    for (int row = sensor.rows() - 1; row >= 0; --row) {
-        joinRuns(scan, lines[row], options.run_distance_m, clusters);
-        if (row + 1 == sensor.rows() || lines[row + 1].empty()) continue;
-        for (const std::int32_t i : lines[row]) {
-            const std::int32_t above =
-                nearestInLine(scan, lines[row + 1], i, options.merge_distance_m);
-            if (above >= 0) clusters.join(i, above);
-        }
-    }
-    std::vector<std::int32_t> numbers(scan.size(), 0);
-    std::int32_t count = 0;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (labels[i] != Label::Roi) continue;
-        const auto index = static_cast<std::int32_t>(i);
-        const std::int32_t first = clusters.find(index);  // the smallest index of its cluster
-        numbers[i] = first == index ? ++count : numbers[first];
-    }
-    return numbers;
 }
 
 std::vector<Label> zermasLabels(const Scan& scan, const SensorModel& sensor,

@@ -21,7 +21,7 @@ constexpr std::array<const char*, kMostLines> kColours{"#0072B2", "#D55E00", "#0
 struct Value {
     std::string label;  ///< of the value on the x axis
     double x, y;
-    evaluation::Interval interval;
+    Interval interval;
 };
 struct Line {
     std::string name;

@@ -78,11 +78,11 @@ fs::path labelFilesOf(const LabelRow& row, const recordings::ScanFolder& scans,
     return folder;
 }
 
-evaluation::Method labelFileMethod(const std::string& name, const fs::path& folder) {
-    evaluation::Method method;
+Method labelFileMethod(const std::string& name, const fs::path& folder) {
+    Method method;
     method.name = name;
     method.is_recorded = true;
-    method.segment = [folder](const evaluation::ScanInput& input) {
+    method.segment = [folder](const ScanInput& input) {
         return readFoundLabels(folder / (input.name + ".label"), input.scan.size());
     };
     return method;

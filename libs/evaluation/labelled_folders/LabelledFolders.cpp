@@ -27,8 +27,8 @@ std::vector<std::uint16_t> readLabelsOf(const Scan& scan, const fs::path& file) 
 }
 
 /// Returns the entries of the first of these files that numbers objects in the high 16 bits, 0 for
-/// returns without number. Entire entries tell objects apart, because SemanticKITTI numbers those
-/// of each class anew. Empty: no file has numbers.
+/// returns without number. Entire entries identify objects, because SemanticKITTI numbers those of
+/// each class anew. Empty: no file has numbers.
 std::vector<std::uint32_t> readObjectsOf(const Scan& scan, const std::vector<fs::path>& files) {
     for (const fs::path& file : files) {
         if (!fs::exists(file)) continue;
@@ -45,23 +45,23 @@ std::vector<std::uint32_t> readObjectsOf(const Scan& scan, const std::vector<fs:
 }
 
 /// A scan folder: the recording and its ground-truth labels.
-class LabelledFolder : public evaluation::LabelledScanSource {
+class LabelledFolder : public LabelledScanSource {
  public:
     LabelledFolder(const std::string& path, const std::string& name, const MethodSet& methods,
-                   const std::optional<evaluation::LabelMap>& label_map, bool is_only);
+                   const std::optional<LabelMap>& label_map, bool is_only);
 
-    std::optional<evaluation::GroundTruthScan> next() override;
+    std::optional<GroundTruthScan> next() override;
     const std::string& name() const override { return name_; }
     std::size_t size() const override { return folder_.size(); }
-    const evaluation::LabelMap& kinds() const override { return kinds_; }
+    const LabelMap& kinds() const override { return kinds_; }
     SensorModel sensor() const override { return settings_.sensorModel(beams_.get()); }
     std::string sensorText() const override;
     std::vector<std::string> remarks() const override;
     Settings settingsFor(const Settings& asked) const;
-    std::vector<evaluation::Method> makeMethods() const override;
+    std::vector<Method> makeMethods() const override;
 
  private:
-    void readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const;
+    void readTruth(std::size_t i, GroundTruthScan& scan) const;
     std::vector<std::string> labelsWithoutScans() const;
 
     std::string name_;
@@ -71,7 +71,7 @@ class LabelledFolder : public evaluation::LabelledScanSource {
     std::vector<fs::path> label_folders_;  ///< of methods_.labels
     Settings settings_;
     observations::SharedBeams beams_;  ///< recovered; null if the settings name the sensor
-    evaluation::LabelMap kinds_;       ///< from --label-map or the folder; empty: unknown
+    LabelMap kinds_;                   ///< from --label-map or the folder; empty: unknown
     bool has_label_map_;               ///< ground-truth labels are derived with `kinds_`
     bool has_kind_files_;              ///< folder semantic/ exists
     std::vector<double> altitudes_m_;
@@ -80,8 +80,8 @@ class LabelledFolder : public evaluation::LabelledScanSource {
 };
 
 LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
-                               const MethodSet& methods,
-                               const std::optional<evaluation::LabelMap>& label_map, bool is_only)
+                               const MethodSet& methods, const std::optional<LabelMap>& label_map,
+                               bool is_only)
     : name_(name),
       folder_(path),
       scans_(recordings::openRecording(path)),
@@ -100,7 +100,7 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
     if (label_map) {
         kinds_ = *label_map;
     } else if (has_kind_files_ && fs::exists(folder_.kindNamesFile())) {
-        kinds_ = evaluation::readLabelMap(folder_.kindNamesFile());
+        kinds_ = readLabelMap(folder_.kindNamesFile());
     }
     for (const LabelRow& row : methods_.labels) {
         label_folders_.push_back(labelFilesOf(row, folder_, name_, is_only));
@@ -112,8 +112,8 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
     if (has_poses) scans_->usePoses({});
 }
 
-std::vector<evaluation::Method> LabelledFolder::makeMethods() const {
-    std::vector<evaluation::Method> methods = methodsFor(methods_, folder_.sensorFile(), beams_);
+std::vector<Method> LabelledFolder::makeMethods() const {
+    std::vector<Method> methods = methodsFor(methods_, folder_.sensorFile(), beams_);
     for (std::size_t row = 0; row < label_folders_.size(); ++row) {
         methods.push_back(labelFileMethod(methods_.labels[row].name, label_folders_[row]));
     }
@@ -156,23 +156,22 @@ std::vector<std::string> LabelledFolder::remarks() const {
     if (!fs::exists(folder_.tumFile())) return remarks;
     const std::string poses = folder_.tumFile().string();
     if (folder_.times().empty()) {
-        remarks.push_back("has no times.txt, so that " + poses + " is not used");
+        remarks.push_back("has no times.txt: " + poses + " is not used");
     } else if (with_pose_ < read_) {
-        remarks.push_back(poses + " has poses of " + std::to_string(with_pose_) + " of the " +
-                          std::to_string(read_) + " scans; the others are " +
-                          (settings_.tiltOnLevelVehicle() ? "levelled by the mount only"
-                                                          : "not levelled by an attitude"));
+        remarks.push_back(
+            poses + " covers " + std::to_string(with_pose_) + " of " + std::to_string(read_) +
+            " scans; the others are " +
+            (settings_.tiltOnLevelVehicle() ? "levelled by the mount only" : "not levelled"));
     }
     return remarks;
 }
 
-void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan) const {
+void LabelledFolder::readTruth(std::size_t i, GroundTruthScan& scan) const {
     const bool is_by_kind = has_label_map_ && has_kind_files_;
     const fs::path file = is_by_kind ? folder_.kindFile(i) : folder_.labelFile(i);
     const std::vector<std::uint16_t> numbers = readLabelsOf(scan.input.scan, file);
     try {
-        scan.truth = has_label_map_ ? evaluation::labelsOfClasses(numbers, kinds_)
-                                    : evaluation::labelsOfNumbers(numbers);
+        scan.truth = has_label_map_ ? labelsOfClasses(numbers, kinds_) : labelsOfNumbers(numbers);
     } catch (const std::invalid_argument& e) {
         throw std::runtime_error(file.string() + ": " + e.what());
     }
@@ -187,11 +186,11 @@ void LabelledFolder::readTruth(std::size_t i, evaluation::GroundTruthScan& scan)
     scan.objects = readObjectsOf(scan.input.scan, numbered);
 }
 
-std::optional<evaluation::GroundTruthScan> LabelledFolder::next() {
+std::optional<GroundTruthScan> LabelledFolder::next() {
     const auto recorded = scans_->nextScan();
     if (!recorded) return std::nullopt;
     observations::readObservation(*recorded->observation, settings_, observed_, beams_);
-    evaluation::GroundTruthScan scan;
+    GroundTruthScan scan;
     scan.name = folder_.scanFile(recorded->entry).string();
     scan.input.name = folder_.name(recorded->entry);
     scan.input.scan = observed_.scan;
@@ -241,11 +240,10 @@ std::vector<std::string> namesOf(const std::vector<std::string>& folders) {
 
 }  // namespace
 
-evaluation::LabelledScanSources sourcesOf(const std::vector<std::string>& folders,
-                                          const MethodSet& rows,
-                                          const std::optional<evaluation::LabelMap>& label_map) {
+LabelledScanSources sourcesOf(const std::vector<std::string>& folders, const MethodSet& rows,
+                              const std::optional<LabelMap>& label_map) {
     const std::vector<std::string> names = namesOf(folders);
-    evaluation::LabelledScanSources sources;
+    LabelledScanSources sources;
     for (std::size_t f = 0; f < folders.size(); ++f) {
         sources.push_back(std::make_unique<LabelledFolder>(folders[f], names[f], rows, label_map,
                                                            folders.size() == 1));
@@ -253,7 +251,7 @@ evaluation::LabelledScanSources sourcesOf(const std::vector<std::string>& folder
     return sources;
 }
 
-Settings settingsOf(const evaluation::LabelledScanSource& source, const Settings& asked) {
+Settings settingsOf(const LabelledScanSource& source, const Settings& asked) {
     return dynamic_cast<const LabelledFolder&>(source).settingsFor(asked);
 }
 

@@ -16,15 +16,14 @@ namespace {
 
 /// Returns the attitude of the sensor if its pose in the map is known: yaw, pitch, roll about z, y,
 /// x.
-std::optional<Attitude> attitudeOf(const evaluation::ScanInput& input) {
+std::optional<Attitude> attitudeOf(const ScanInput& input) {
     if (!input.map_from_sensor) return std::nullopt;
     const Eigen::Matrix3f& turn = *input.map_from_sensor;
     return Attitude{std::atan2(turn(2, 1), turn(2, 2)),
                     std::asin(std::clamp(-turn(2, 0), -1.0f, 1.0f))};
 }
 
-evaluation::Method filterMethod(const std::string& name, const SensorModel& sensor,
-                                const Settings& settings) {
+Method filterMethod(const std::string& name, const SensorModel& sensor, const Settings& settings) {
     const auto filter = std::make_shared<HagenFilter>(filterFor(sensor, settings.options));
     // Poses of scan folders are those of the sensor, with its mount.
     const Attitude mount = settings.mount;
@@ -32,7 +31,7 @@ evaluation::Method filterMethod(const std::string& name, const SensorModel& sens
     const std::optional<Attitude> otherwise =
         is_mounted_level ? std::nullopt : std::optional(mount);
     return {name, [filter, otherwise, airframe = settings.airframe.parts,
-                   masked = Scan()](const evaluation::ScanInput& input) mutable {
+                   masked = Scan()](const ScanInput& input) mutable {
                 const std::optional<Attitude> attitude = attitudeOf(input);
                 const Scan* scan = &input.scan;
                 if (!airframe.isEmpty()) {
@@ -44,11 +43,10 @@ evaluation::Method filterMethod(const std::string& name, const SensorModel& sens
             }};
 }
 
-std::vector<evaluation::Baseline> allBaselines(float zone_m) {
-    std::vector<evaluation::Baseline> all = evaluation::baselines(zone_m);
+std::vector<Baseline> allBaselines(float zone_m) {
+    std::vector<Baseline> all = baselines(zone_m);
 #ifdef HAGEN_HAS_PCL_BASELINE
-    for (const evaluation::Baseline& baseline : evaluation::pclBaselines(zone_m))
-        all.push_back(baseline);
+    for (const Baseline& baseline : pclBaselines(zone_m)) all.push_back(baseline);
 #endif
     return all;
 }
@@ -98,7 +96,7 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows) {
     std::vector<std::string> taken;
     for (const SweepPoint& row : rows.filter) taken.push_back(row.name);
     if (rows.baselines) {
-        for (const evaluation::Baseline& row : allBaselines(rows.baselines->options.zone_m))
+        for (const Baseline& row : allBaselines(rows.baselines->options.zone_m))
             taken.push_back(row.name);
     }
     for (const LabelRow& row : rows.labels) taken.push_back(row.name);
@@ -108,14 +106,13 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows) {
     }
 }
 
-std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
-                                           const std::filesystem::path& sensor_file,
-                                           const observations::SharedBeams& beams) {
+std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::path& sensor_file,
+                               const observations::SharedBeams& beams) {
     const auto sensorOf = [&](const Settings& settings) {
         const SensorModel sensor = settings.sensorModel(beams.get());
-        return rows.is_upside_down ? evaluation::mirrored(sensor) : sensor;
+        return rows.is_upside_down ? mirrored(sensor) : sensor;
     };
-    std::vector<evaluation::Method> methods;
+    std::vector<Method> methods;
     for (const SweepPoint& row : rows.filter) {
         Settings settings = settingsFor(row.settings, sensor_file);
         if (!row.sweep_key.empty())
@@ -126,8 +123,8 @@ std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
     if (!rows.baselines) return methods;
     const Settings settings = settingsFor(*rows.baselines, sensor_file);
     const SensorModel sensor = sensorOf(settings);
-    for (const evaluation::Baseline& baseline : allBaselines(settings.options.zone_m)) {
-        methods.push_back({baseline.name, [baseline, sensor](const evaluation::ScanInput& input) {
+    for (const Baseline& baseline : allBaselines(settings.options.zone_m)) {
+        methods.push_back({baseline.name, [baseline, sensor](const ScanInput& input) {
                                return baseline.segment(input.scan, sensor);
                            }});
     }

@@ -38,11 +38,11 @@ std::string fileName(std::string name) {
     return name == "." || name == ".." ? "_" : name;
 }
 
-void draw(const fs::path& picture, const std::string& title, const evaluation::MethodOutput& view,
-          const evaluation::PinholeCamera& camera, float max_range_m) {
+void draw(const fs::path& picture, const std::string& title, const MethodOutput& view,
+          const PinholeCamera& camera, float max_range_m) {
     std::array<std::size_t, kOutcomes> counts{};
     std::array<base::TextStream, kOutcomes> points;
-    for (const evaluation::CameraPixel& pixel : view.pixels) {
+    for (const CameraPixel& pixel : view.pixels) {
         const bool is_scored = view.truth.input.scan.range_m[pixel.index] <= max_range_m;
         const Outcome outcome =
             is_scored ? outcomeOf(view.truth.truth[pixel.index], view.found[pixel.index]) : LeftOut;
@@ -88,9 +88,8 @@ const base::OutputKind kOverlays{
                name.compare(name.size() - end.size(), end.size(), end) == 0;
     }};
 
-void drawOverlay(const fs::path& folder, const std::string& source,
-                 const evaluation::MethodOutput& view,
-                 const evaluation::EvaluationOptions& options) {
+void drawOverlay(const fs::path& folder, const std::string& source, const MethodOutput& view,
+                 const EvaluationOptions& options) {
     const fs::path own = view.methods == 1 ? folder : folder / fileName(view.method_name);
     fs::create_directories(own);
     const std::string scan = fs::path(view.truth.name).stem().string();

@@ -3,35 +3,30 @@
 namespace hagen::evaluation {
 namespace {
 
-GroupTotals summed(const evaluation::Group& group, const evaluation::BootstrapOptions& options) {
-    return {group.name, group.scans.size(), group.sum(),
-            evaluation::bootstrapIntervals(group.scans, options)};
+GroupTotals summed(const Group& group, const BootstrapOptions& options) {
+    return {group.name, group.scans.size(), group.sum(), bootstrapIntervals(group.scans, options)};
 }
 
-std::vector<GroupTotals> summed(const std::vector<evaluation::Group>& groups,
-                                const evaluation::BootstrapOptions& options) {
+std::vector<GroupTotals> summed(const std::vector<Group>& groups, const BootstrapOptions& options) {
     std::vector<GroupTotals> all;
-    for (const evaluation::Group& group : groups) all.push_back(summed(group, options));
+    for (const Group& group : groups) all.push_back(summed(group, options));
     return all;
 }
 
-ScoreTotals summed(const std::vector<evaluation::ScanScores>& scans, const Summary& summary) {
-    const evaluation::BootstrapOptions& options = summary.bootstrap;
-    return {summed(evaluation::overallScores(scans), options),
-            summed(evaluation::byRange(scans, summary.range), options),
-            summed(evaluation::byAltitude(scans), options),
-            summed(evaluation::byKind(scans), options),
-            summed(evaluation::byFolder(scans, summary.folder_names), options)};
+ScoreTotals summed(const std::vector<ScanScores>& scans, const Summary& summary) {
+    const BootstrapOptions& options = summary.bootstrap;
+    return {summed(overallScores(scans), options), summed(byRange(scans, summary.range), options),
+            summed(byAltitude(scans), options), summed(byKind(scans), options),
+            summed(byFolder(scans, summary.folder_names), options)};
 }
 
 }  // namespace
 
-DroneTotals totalsOf(const std::vector<evaluation::DroneScores>& scans,
-                     const evaluation::RangeBands& bands) {
+DroneTotals totalsOf(const std::vector<DroneScores>& scans, const RangeBands& bands) {
     DroneTotals totals;
-    for (const evaluation::DroneScores& scan : scans) totals.all += scan;
+    for (const DroneScores& scan : scans) totals.all += scan;
     for (std::size_t band = 0; band < totals.all.tall_by_range.size(); ++band) {
-        const evaluation::Missed& missed = totals.all.tall_by_range[band];
+        const Missed& missed = totals.all.tall_by_range[band];
         if (missed.all > 0) totals.by_range.push_back({bands.nameOf(band), missed});
     }
     for (const auto& [name, missed] : totals.all.tall_by_kind)
@@ -39,17 +34,17 @@ DroneTotals totalsOf(const std::vector<evaluation::DroneScores>& scans,
     return totals;
 }
 
-void addScores(const std::vector<evaluation::MethodScores>& methods,
-               const std::vector<SweepPoint>& rows, Summary& summary) {
+void addScores(const std::vector<MethodScores>& methods, const std::vector<SweepPoint>& rows,
+               Summary& summary) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
-        const evaluation::MethodScores& method = methods[m];
+        const MethodScores& method = methods[m];
         MethodTotals sum;
         sum.name = method.name;
         if (m < rows.size()) {  // the filter's rows come first
             sum.sweep_key = rows[m].sweep_key;
             sum.sweep_value = rows[m].sweep_value;
         }
-        sum.latency = evaluation::latencyOf(method.latency_ms);
+        sum.latency = latencyOf(method.latency_ms);
         sum.returns = summed(method.returns, summary);
         if (!method.pixels.empty()) sum.pixels = summed(method.pixels, summary);
         sum.drone = totalsOf(method.drone, summary.range);
@@ -59,14 +54,15 @@ void addScores(const std::vector<evaluation::MethodScores>& methods,
 }
 
 void addHardSets(const std::vector<HardSet>& sets, Summary& summary) {
-    evaluation::BootstrapOptions without_intervals = summary.bootstrap;
+    BootstrapOptions without_intervals = summary.bootstrap;
     without_intervals.resamples = 0;
     for (const HardSet& set : sets) {
         HardSetTotals totals{set.name, {}};
-        for (const evaluation::MethodScores& method : set.methods) {
-            totals.methods.push_back(
-                {method.name, summed(evaluation::overallScores(method.returns), without_intervals),
-                 totalsOf(method.drone, summary.range)});
+        for (const MethodScores& method : set.methods) {
+            MethodTotals& sum = totals.methods.emplace_back();
+            sum.name = method.name;
+            sum.returns.all = summed(overallScores(method.returns), without_intervals);
+            sum.drone = totalsOf(method.drone, summary.range);
         }
         summary.hard_sets.push_back(totals);
     }

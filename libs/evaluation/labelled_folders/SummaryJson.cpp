@@ -13,12 +13,11 @@ using base::Json;
 Json number(double value) { return std::isnan(value) ? Json() : Json(value); }
 Json text(const std::string& value) { return value.empty() ? Json() : Json(value); }
 
-Json json(const evaluation::Interval& interval) {
+Json json(const Interval& interval) {
     return std::isnan(interval.low) ? Json() : Json{interval.low, interval.high};
 }
 
-Json json(const evaluation::ClassScore& score,
-          const evaluation::ScoreIntervals::OfClass& intervals) {
+Json json(const ClassScore& score, const ScoreIntervals::OfClass& intervals) {
     return {{"hits", score.hits},
             {"misses", score.misses},
             {"false_alarms", score.false_alarms},
@@ -54,7 +53,7 @@ Json json(const ScoreTotals& scores) {
             {"by_folder", json(scores.by_folder)}};
 }
 
-Json json(const evaluation::Latency& latency) {
+Json json(const Latency& latency) {
     if (latency.runs == 0) return {};
     return {{"runs", latency.runs},          {"mean", number(latency.mean_ms)},
             {"sd", number(latency.sd_ms)},   {"p50", number(latency.p50_ms)},
@@ -62,7 +61,7 @@ Json json(const evaluation::Latency& latency) {
             {"max", number(latency.max_ms)}};
 }
 
-Json json(const evaluation::Missed& missed) {
+Json json(const Missed& missed) {
     return {
         {"missed", missed.missed}, {"of", missed.all}, {"missed_share", number(missed.share())}};
 }
@@ -78,7 +77,7 @@ Json json(const std::vector<MissedGroup>& groups) {
 }
 
 Json json(const DroneTotals& drone) {
-    const evaluation::DroneScores& all = drone.all;
+    const DroneScores& all = drone.all;
     return {{"returns_above_half_metre", json(all.tall)},
             {"returns_above_half_metre_by_range", json(drone.by_range)},
             {"returns_above_half_metre_by_kind", json(drone.by_kind)},
@@ -98,10 +97,10 @@ Json json(const MethodTotals& method) {
 }
 
 /// `recorded`: the same method on the scans as recorded.
-Json json(const HardSetScores& method, const MethodTotals& recorded) {
-    const evaluation::Scores &scores = method.returns.scores, &before = recorded.returns.all.scores;
-    return {{"name", method.method},
-            {"returns", json(method.returns)},
+Json json(const MethodTotals& method, const MethodTotals& recorded) {
+    const Scores &scores = method.returns.all.scores, &before = recorded.returns.all.scores;
+    return {{"name", method.name},
+            {"returns", json(method.returns.all)},
             {"roi_f1_change_points", number(changeInPoints(scores.roi.f1(), before.roi.f1()))},
             {"rou_f1_change_points", number(changeInPoints(scores.rou.f1(), before.rou.f1()))},
             {"drone", json(method.drone)}};

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws with the reason in errno; set errno to 0 before the operation.
+/// Throws with the reason in errno, which must be 0 before the operation.
 [[noreturn]] void throwWriteError(const fs::path& file) {
     throw std::runtime_error(
         file.string() + ": the map cannot be written" +
@@ -99,13 +99,9 @@ void checkMapFile(const fs::path& file) {
                              ".3Dscene (for SceneViewer3D); use one of these endings");
 }
 
-void saveMap(const octomap::OcTree& tree, const fs::path& file) { saveMap(tree, file, file); }
-
-void saveMap(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
-    checkMapFile(named);
-    if (named.extension() == ".3Dscene") return saveScene(tree, file, named);
-    octomap::OcTree whole(tree);
-    saveMapInPlace(whole, file, named);
+void saveMap(const octomap::OcTree& tree, const fs::path& file) {
+    octomap::OcTree copy(tree);
+    saveMapInPlace(copy, file, file);
 }
 
 void saveMapInPlace(octomap::OcTree& whole, const fs::path& file, const fs::path& named) {

@@ -16,7 +16,7 @@ struct BootstrapOptions {
     int resamples = 1000;  ///< 0: no intervals
     std::uint64_t seed = 1;
     double level = 0.95;  ///< confidence level
-    /// Called before each resample. What it throws ends the bootstrap.
+    /// Called before each resample; may throw to stop.
     std::function<void()> continuing = [] {};
 };
 
@@ -30,12 +30,10 @@ struct ScoreIntervals {
 };
 
 /// Returns confidence intervals of the summed scores of scans, by the percentile bootstrap (Efron
-/// and Tibshirani, An Introduction to the Bootstrap, 1993, section 13.3). Each resample draws as
-/// many scans as there are, with replacement, and sums their counts; the interval is the central
-/// `level` of the resampled ratios. Scans are drawn instead of returns because the returns of one
-/// scan are not independent. Scans of one drive are not independent either: the intervals are then
-/// too narrow. A ratio that is NaN in a resample is excluded. There are no intervals for fewer than
-/// two scans.
+/// and Tibshirani, An Introduction to the Bootstrap, 1993, section 13.3) over scans, because the
+/// returns of one scan are not independent. Scans of one drive are not independent either: the
+/// intervals are then too narrow. Ratios that are NaN in a resample are excluded. There are no
+/// intervals for fewer than two scans.
 ScoreIntervals bootstrapIntervals(const std::vector<Scores>& scans,
                                   const BootstrapOptions& options = {});
 

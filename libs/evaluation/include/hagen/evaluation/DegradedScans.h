@@ -5,11 +5,10 @@
 
 namespace hagen::evaluation {
 
-/// The scans of a source, each degraded as it is pulled; scan i with seed i. Heights
-/// above the true ground are those before, because a degraded scan may not show it. Everything
-/// else, methods included, is the source's: for a degradation that mirrors the sensor, its methods
-/// must be those for mirrored(sensor()). Throws std::invalid_argument if the degradation cannot be
-/// applied to its sensor.
+/// The scans of a source, each degraded when pulled; scan i with seed i. Heights above the true
+/// ground are computed before, because a degraded scan may not show it. If the degradation mirrors
+/// the sensor, the source's methods must be those for mirrored(sensor()). Throws
+/// std::invalid_argument if the degradation cannot be applied to its sensor.
 class DegradedScans : public LabelledScanSource {
  public:
     DegradedScans(std::unique_ptr<LabelledScanSource> source, Degradation degradation);

@@ -8,7 +8,7 @@
 
 namespace hagen::evaluation {
 
-/// A part that was missed.
+/// The number of missed items, and of all.
 struct Missed {
     std::int64_t missed = 0, all = 0;
 
@@ -16,7 +16,7 @@ struct Missed {
     Missed& operator+=(const Missed& other);
 };
 
-/// What F1 hides and a drone notices, for one scan or summed over several.
+/// Scores that matter to a drone, for one scan or summed over several.
 struct DroneScores {
     std::size_t scans = 0;
     /// Returns of obstacles more than kTall_m above the true ground (TrueHeights.h) that are not
@@ -24,11 +24,10 @@ struct DroneScores {
     Missed tall;
     std::vector<Missed> tall_by_range;
     std::map<std::string, Missed> tall_by_kind;
-    /// Obstacles with at least kObstacleReturns returns in range of which no return is RoI, scan by
-    /// scan. Nothing if the ground truth does not number obstacles.
+    /// Obstacles of a scan with at least kObstacleReturns returns in range, none of them RoI. Zero
+    /// if the ground truth does not number obstacles.
     Missed obstacles;
-    /// Returns of the ground that are labelled RoI although no true obstacle is within
-    /// kBareGround_m, horizontally.
+    /// Ground returns labelled RoI, without a true obstacle within kBareGround_m horizontally.
     std::int64_t false_on_bare_ground = 0;
 
     double falseOnBareGroundPerScan() const;  ///< NaN without scans

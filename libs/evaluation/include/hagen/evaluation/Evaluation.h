@@ -23,12 +23,11 @@ class LabelledScanSource {
     virtual std::size_t size() const = 0;         ///< number of scans
     virtual const LabelMap& kinds() const = 0;    ///< the object classes of its scans
     virtual SensorModel sensor() const = 0;       ///< that its scans are located for
-    /// How certain its sensor is, for the user; empty if the recording or the settings name it.
+    /// Describes a recovered sensor; empty if the recording or the settings name the sensor.
     virtual std::string sensorText() const { return ""; }
-    /// What of it was not used; complete after the last scan.
+    /// Unused parts; complete after the last scan.
     virtual std::vector<std::string> remarks() const { return {}; }
-    /// Creates the methods for its sensor; every source must return the same names in the same
-    /// order.
+    /// Creates the methods for its sensor. All sources must return the same names in this order.
     virtual std::vector<Method> makeMethods() const = 0;
 };
 using LabelledScanSources = std::vector<std::unique_ptr<LabelledScanSource>>;
@@ -59,11 +58,10 @@ struct MethodOutput {
 };
 using EvaluationListener = std::function<void(const MethodOutput&)>;
 
-/// Segments every scan with every method and scores the labels. Pulls all scans, so that a
-/// source can be evaluated once; only one scan is in memory at a time. Every method processes the
-/// first scan of each source twice; the first time is a warm-up, neither scored nor timed. Throws
-/// std::runtime_error if labels do not fit a scan (the message names it), and std::invalid_argument
-/// if there is no source or the sources have different methods.
+/// Segments every scan with every method and scores the labels. Pulls all scans one by one, so a
+/// source can be evaluated once. Every method first processes the first scan of each source as a
+/// warm-up, neither scored nor timed. Throws std::runtime_error naming a scan whose labels do not
+/// fit, and std::invalid_argument without sources and if their methods differ.
 std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
                                    const EvaluationOptions& options = {},
                                    const EvaluationListener& listener = {});

@@ -13,32 +13,30 @@ namespace hagen::evaluation {
 struct LabelledInputs {
     std::vector<std::string> folders;
     MethodSet rows;
-    std::optional<evaluation::LabelMap> label_map;
+    std::optional<LabelMap> label_map;
 };
 
 /// The scores of one degradation: one element per method, without those of --labels, whose labels
 /// are of the scans as recorded.
 struct HardSet {
     std::string name;
-    std::vector<evaluation::MethodScores> methods;
+    std::vector<MethodScores> methods;
 };
 
 /// Returns the degradations that texts describe, after the standard ones if requested; each once.
 /// The standard ones are for the sensor with the fewest beams among the folders. Throws
 /// SettingsError if a text cannot be parsed, or does not fit the sensor of a folder.
-std::vector<evaluation::Degradation> degradationsOf(const std::vector<std::string>& texts,
-                                                    bool with_standard,
-                                                    const LabelledInputs& inputs);
+std::vector<Degradation> degradationsOf(const std::vector<std::string>& texts, bool with_standard,
+                                        const LabelledInputs& inputs);
 
 /// Called for each scan of each method on each degradation.
 using HardSetListener =
-    std::function<void(const std::string& degradation, const evaluation::MethodOutput& output)>;
+    std::function<void(const std::string& degradation, const MethodOutput& output)>;
 
 /// Scores all methods on each degradation, one after the other; over returns, not over pixels.
 /// Throws like evaluate().
 std::vector<HardSet> scoreHardSets(const LabelledInputs& inputs,
-                                   const std::vector<evaluation::Degradation>& degradations,
-                                   const evaluation::RangeBands& range,
-                                   const HardSetListener& listener = {});
+                                   const std::vector<Degradation>& degradations,
+                                   const RangeBands& range, const HardSetListener& listener = {});
 
 }  // namespace hagen::evaluation

@@ -1,4 +1,4 @@
-// Labels that other programs gave to the same scans: rows of the tables, like the filter's.
+// Labels of the same scans by other programs, scored like the filter's.
 #pragma once
 #include <hagen/evaluation/Method.h>
 #include <hagen/recordings/ScanFolder.h>
@@ -8,7 +8,7 @@
 
 namespace hagen::evaluation {
 
-/// One such row: its name, and where its label files are.
+/// The name of such a row, and the folder of its label files.
 struct LabelRow {
     std::string name;
     std::filesystem::path folder;
@@ -29,6 +29,6 @@ std::filesystem::path labelFilesOf(const LabelRow& row, const recordings::ScanFo
 /// 16 bits are the label: 0 unclassified, 1 ROU, 2 RoI), where NAME is ScanInput::name. It throws
 /// std::runtime_error naming the file if that cannot be read, has another number of labels than the
 /// scan has returns, or another label.
-evaluation::Method labelFileMethod(const std::string& name, const std::filesystem::path& folder);
+Method labelFileMethod(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace hagen::evaluation

@@ -13,12 +13,11 @@ namespace hagen::evaluation {
 /// derived from the classes in semantic/, or in labels/ if there is no semantic/. Class names come
 /// from the map, otherwise from the folder's kinds.yaml. Throws std::runtime_error naming a folder
 /// without scans, and SettingsError if a folder is given twice.
-evaluation::LabelledScanSources sourcesOf(const std::vector<std::string>& folders,
-                                          const MethodSet& rows,
-                                          const std::optional<evaluation::LabelMap>& label_map);
+LabelledScanSources sourcesOf(const std::vector<std::string>& folders, const MethodSet& rows,
+                              const std::optional<LabelMap>& label_map);
 
 /// The settings with those of the recording merged in, and those that fit its recovered sensor.
 /// `source` is one of sourcesOf().
-Settings settingsOf(const evaluation::LabelledScanSource& source, const Settings& asked);
+Settings settingsOf(const LabelledScanSource& source, const Settings& asked);
 
 }  // namespace hagen::evaluation

@@ -29,7 +29,7 @@ struct MethodSet {
     std::vector<SweepPoint> filter;
     std::optional<Settings> baselines;  ///< provides zone and sensor of the baselines
     std::vector<LabelRow> labels = {};
-    bool is_upside_down = false;  ///< the sensor; see evaluation::mirrored()
+    bool is_upside_down = false;  ///< the sensor; see mirrored()
 };
 
 /// Adds a row per "NAME=DIR" of labels of other programs. Throws SettingsError like labelRowFrom().
@@ -41,8 +41,7 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows);
 /// with PCL. The filter masks the airframe of its settings first, where it is in the sensor frame
 /// of the scan: in a scan that was turned (tilted, upside down), it is elsewhere. Throws
 /// SettingsError if settings and sensor are inconsistent.
-std::vector<evaluation::Method> methodsFor(const MethodSet& rows,
-                                           const std::filesystem::path& sensor_file,
-                                           const observations::SharedBeams& beams = nullptr);
+std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::path& sensor_file,
+                               const observations::SharedBeams& beams = nullptr);
 
 }  // namespace hagen::evaluation

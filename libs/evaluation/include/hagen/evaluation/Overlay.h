@@ -14,7 +14,6 @@ extern const base::OutputKind kOverlays;
 /// FOLDER/SOURCE_SCAN_overlay.png; with several methods, FOLDER/METHOD/... Throws
 /// std::runtime_error like runGnuplot().
 void drawOverlay(const std::filesystem::path& folder, const std::string& source,
-                 const evaluation::MethodOutput& view,
-                 const evaluation::EvaluationOptions& options);
+                 const MethodOutput& view, const EvaluationOptions& options);
 
 }  // namespace hagen::evaluation

@@ -20,14 +20,13 @@ struct GroundTruthScan {
     std::vector<std::uint16_t> kinds;    ///< class of each return; empty: unknown
     std::vector<std::uint32_t> objects;  ///< obstacle of each return; 0: none; empty: unknown
     double altitude_m = NAN;             ///< of the sensor above the ground; NaN: unknown
-    /// The true attitude, like ScanInput::map_from_sensor, if methods are not told it.
+    /// The true attitude, like ScanInput::map_from_sensor, if methods do not get it.
     std::optional<Eigen::Matrix3f> true_level_from_sensor;
-    /// Heights of obstacle returns above the true ground, if the scan does not show that ground as
-    /// it is. Empty: heightsAboveTrueGround().
+    /// Heights of obstacle returns above the true ground. Empty: heightsAboveTrueGround().
     std::vector<float> heights_m = {};
 
-    /// Rotates to a frame whose z points up: by the true attitude, otherwise the input's; a sensor
-    /// without either is level.
+    /// Rotates to a frame whose z points up: by the true attitude, otherwise the input's, otherwise
+    /// the identity.
     Eigen::Matrix3f levelFromSensor() const;
 };
 
@@ -45,18 +44,19 @@ struct RangeBands {
     float max_range_m = 20;
     float width_m = 5;
 
-    /// Throws std::invalid_argument for more than a million, as of an infinite range.
+    /// Throws std::invalid_argument for more than a million.
     std::size_t count() const;
-    /// Returns the band of a range up to max_range_m; a range on the border belongs to the farther
-    /// band.
+    /// Returns the band of a range up to max_range_m. Lower bounds are inclusive.
     std::size_t bandOf(float range_m) const;
     std::string nameOf(std::size_t band) const;  ///< "5-10 m"
 };
 
-/// Scores the labels `found` for a scan: of the returns `chosen` (all if omitted), those within the
-/// maximum range whose ground-truth label is not Unclassified. Throws std::invalid_argument unless
-/// there is one ground-truth label, one found label and (if classes are known) one class per
-/// return, and if a scored class has no name in `kinds`, or as RangeBands::count().
+/// Throws std::invalid_argument unless there are as many labels (`what`: their name) as returns.
+void checkSizes(std::size_t returns, std::size_t labels, const std::string& what);
+
+/// Scores the labels `found`: of the returns `chosen` (all if omitted), those within the maximum
+/// range whose ground truth is not Unclassified. Throws std::invalid_argument if the sizes differ
+/// (checkSizes()), if a scored class has no name in `kinds`, or like RangeBands::count().
 ScanScores scoreScan(const GroundTruthScan& scan, const std::vector<Label>& found,
                      const LabelMap& kinds, const RangeBands& bands,
                      const std::vector<std::size_t>* chosen = nullptr);

@@ -16,8 +16,8 @@ namespace hagen::evaluation {
 struct GroupTotals {
     std::string name;
     std::size_t scans = 0;
-    evaluation::Scores scores;
-    evaluation::ScoreIntervals intervals;
+    Scores scores;
+    ScoreIntervals intervals;
 };
 
 /// Scores over returns or over pixels, in total and by part.
@@ -29,34 +29,29 @@ struct ScoreTotals {
 /// A named part of the obstacle returns above 0.5 m: a range band or an object class.
 struct MissedGroup {
     std::string name;
-    evaluation::Missed missed;
+    Missed missed;
 };
 
 /// What matters to a drone, summed over scans.
 struct DroneTotals {
-    evaluation::DroneScores all;
+    DroneScores all;
     std::vector<MissedGroup> by_range, by_kind;  ///< without empty parts
 };
-DroneTotals totalsOf(const std::vector<evaluation::DroneScores>& scans,
-                     const evaluation::RangeBands& bands);
+DroneTotals totalsOf(const std::vector<DroneScores>& scans, const RangeBands& bands);
 
 struct MethodTotals {
     std::string name;
     std::string sweep_key, sweep_value;  ///< key of the sweep; empty: no sweep
-    evaluation::Latency latency;
+    Latency latency;
     ScoreTotals returns, pixels;  ///< pixels: zero scans without a camera
     DroneTotals drone;
 };
 
-/// The scores of a method on a degradation.
-struct HardSetScores {
-    std::string method;
-    GroupTotals returns;
-    DroneTotals drone;
-};
+/// The scores on a degradation.
 struct HardSetTotals {
-    std::string name;                    ///< the degradation
-    std::vector<HardSetScores> methods;  ///< as in Summary::methods, without those of --labels
+    std::string name;
+    /// As in Summary::methods, without those of --labels; `returns` in total only.
+    std::vector<MethodTotals> methods;
 };
 
 /// A run of the program: its parameters and results.
@@ -69,17 +64,17 @@ struct Summary {
     std::vector<Settings> folder_settings;
     std::vector<std::vector<std::string>> folder_remarks;
     Settings settings;  ///< as asked for
-    evaluation::RangeBands range;
+    RangeBands range;
     std::string label_map, camera;  ///< files, or empty
-    evaluation::BootstrapOptions bootstrap;
+    BootstrapOptions bootstrap;
     std::size_t scans = 0;
     std::vector<MethodTotals> methods;
     std::vector<HardSetTotals> hard_sets;
 };
 
 /// Sums the scores and computes intervals with the options in `summary`, and fills its methods.
-void addScores(const std::vector<evaluation::MethodScores>& methods,
-               const std::vector<SweepPoint>& rows, Summary& summary);
+void addScores(const std::vector<MethodScores>& methods, const std::vector<SweepPoint>& rows,
+               Summary& summary);
 
 /// The same for degraded scans, without intervals.
 void addHardSets(const std::vector<HardSet>& sets, Summary& summary);

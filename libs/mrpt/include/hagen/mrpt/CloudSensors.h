@@ -12,32 +12,28 @@
 
 namespace hagen::observations {
 
-/// Null: not known.
+/// Null: unknown.
 using SharedBeams = std::shared_ptr<const RecoveredBeams>;
 
-/// The sensors of clouds that nobody named, recovered from the first clouds of each sensor label.
+/// Recovers the unnamed sensors of clouds, one per sensor label.
 ///
-/// The first five clouds of a label with enough returns (kFewestReturnsForBeams) are looked at; the
-/// one with the most returns, of equal ones the first, shows the beams. A cloud that is mostly sky
-/// may lack some of them. After these five, a label's beams do not change.
+/// The beams of a label are those of the fullest of its first five clouds with enough returns
+/// (kFewestReturnsForBeams); of equal ones, the first. After these five, they do not change.
 class CloudSensors {
  public:
     static constexpr int kClouds = 5;
 
-    /// Looks at an observation, if it is a cloud: not at packets, which know their sensor, and not
-    /// at a cloud that cannot be read. Does nothing once the label is settled.
+    /// Uses an observation if it is a readable cloud (not packets) and the label is not settled.
     void see(const mrpt::obs::CObservation& observation);
-    /// The same for the coordinates of a cloud; other members of `scan` are not used. If its
-    /// returns are numbered by ring, these show the beams, provided that they agree with the
-    /// elevations (ringBeams()).
+    /// The same for the coordinates of a cloud. Rings of its returns, if given, define the beams if
+    /// they agree with the elevations (ringBeams()).
     void see(const std::string& label, const Scan& scan,
              const std::vector<std::int32_t>& rings = {});
 
-    /// Whether more clouds of this label would not change its beams.
+    /// Whether further clouds of this label are ignored.
     bool isSettled(const std::string& label) const;
 
-    /// The beams of this label's sensor, so far; null before a cloud with enough returns. A sensor
-    /// with two beams counts as none: the filter needs three rows.
+    /// The beams of this label so far; null before a cloud with enough returns and three beams.
     SharedBeams beamsOf(const std::string& label) const;
 
  private:
@@ -51,8 +47,7 @@ class CloudSensors {
     std::vector<std::int32_t> rings_;
 };
 
-/// What is known about the sensor of such clouds, for the user: "16 beams recovered (VLP-16),
-/// 99.8 % of the returns lie on them".
+/// Describes recovered beams: "16 beams recovered (VLP-16), 99.8 % of the returns lie on them".
 std::string textOf(const SharedBeams& beams);
 
 }  // namespace hagen::observations

@@ -7,13 +7,12 @@
 
 namespace hagen::observations {
 
-/// Deskews a scan taken in motion. Each return is moved to where the sensor would have measured it
-/// at `start`, the scan's time, using the vehicle's pose at the return's own time (start + time_s).
-/// Range, azimuth and row are recomputed. Without motion, returns do not change except for
-/// rounding.
+/// Deskews a scan taken in motion: moves each return to where the sensor would have measured it at
+/// `start`, the scan's time, using the vehicle's pose at the return's own time (start + time_s).
+/// Range, azimuth and row are recomputed.
 ///
 /// Requires scan.time_s. Returns false, with the scan unchanged, if the trajectory does not cover
-/// all returns from the first to the last.
+/// all returns.
 bool deskew(const Trajectory& vehicle, mrpt::Clock::time_point start,
             const mrpt::poses::CPose3D& sensor_on_vehicle, const SensorModel& sensor, Scan& scan);
 

@@ -11,15 +11,13 @@ namespace hagen::observations {
 /// CObservationIMU with an orientation (quaternion, otherwise roll and pitch).
 class Horizon {
  public:
-    /// Stores the attitude of an observation. Ignores other classes and observations without a
-    /// time.
+    /// Stores the attitude of an observation. Ignores other classes and invalid times.
     void see(const mrpt::obs::CObservation& observation);
 
-    /// Forgets the attitude, as if none had been seen.
     void forget() { vehicle_.reset(); }
 
-    /// The vehicle's rotation against the horizon from the latest attitude, if it is within 0.2 s
-    /// of `time`. Position and heading are undefined.
+    /// The latest rotation against the horizon if it is within 0.2 s of `time`. Position and
+    /// heading are undefined.
     std::optional<mrpt::poses::CPose3D> at(mrpt::Clock::time_point time) const;
 
  private:

@@ -5,15 +5,13 @@
 
 namespace hagen::observations {
 
-/// The pose of a sensor that is mounted as its scan says (`recorded`, which `pose` contains) or, if
-/// that is level, tilted there as the settings say (`mount`). Poses of the sensor itself contain
-/// the tilt. If no attitude is known, the vehicle is taken to be level; if the sensor is level on
-/// it, too, there is none.
+/// Applies the mount of a sensor to its pose: the `recorded` one, which `pose` already contains, or
+/// the `mount` of the settings if that is level. Poses of the sensor itself contain the mount.
+/// Without a known attitude, the vehicle is assumed level; a level sensor then has no attitude.
 ScanPose mountedPose(const ScanPose& pose, const mrpt::poses::CPose3D& recorded,
                      const Attitude& mount);
 
-/// How a sensor is tilted on its vehicle: as recorded or, if that is level but for rounding, as the
-/// settings say.
+/// The mount of a sensor: as recorded or, if that is level (up to rounding), that of the settings.
 Attitude mountOf(const Attitude& recorded, const Attitude& mount);
 
 }  // namespace hagen::observations

@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/RotatingScan.h>
-#include <hagen/mrpt/VelodyneDecoder.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
 #include <hagen/settings/Settings.h>
@@ -18,29 +18,27 @@
 namespace hagen::observations {
 
 /// True if the observation is read as a LiDAR scan: a CObservationVelodyneScan, a rotating scan
-/// (rotatingScanOf()), one of a depth camera (depthScanOf()), or a CObservationPointCloud that is
-/// no result of the filter (isResult()).
+/// (rotatingScanOf()), a depth camera's scan (depthScanOf()), or a CObservationPointCloud that is
+/// not a result of the filter (isResult()).
 bool isLidarScan(const mrpt::obs::CObservation& observation);
 
-/// True if it is such a scan without packets, and no LocatedCloud: one that does not identify its
-/// sensor. A rotating scan is one if it has points; otherwise somebody has to name its sensor.
+/// True if it is such a scan that does not identify its sensor: without packets, not a
+/// LocatedCloud, and not a rotating scan without points.
 bool isCloud(const mrpt::obs::CObservation& observation);
 
 /// A LiDAR scan read from an observation.
 struct ObservedScan {
     Scan scan;
     SensorModel sensor;
-    /// Beams of a cloud whose sensor neither the recording nor the settings name; `sensor` is made
-    /// of them. Null otherwise.
+    /// The beams of `sensor`, if neither the recording nor the settings name it. Null otherwise.
     SharedBeams recovered;
-    bool is_sensor_assumed = false;  ///< nobody names the sensor, and no beams are known: VLP-16
-    /// Warnings for the user: skipped packet blocks, or settings that the recording overrides.
-    /// Empty: none.
+    bool is_sensor_assumed = false;  ///< unnamed sensor without known beams: VLP-16
+    /// Warnings: skipped packet blocks, settings overridden by the recording. Empty: none.
     std::string remark;
 
     /// Buffers of readObservation(), reused across scans.
     struct Workspace {
-        DecoderWorkspace decoder;
+        ObservationWorkspace decoder;
         RotatingReturns rotating;
         /// The sensor of these settings and beams; rebuilt only if they change.
         std::optional<Settings::Sensor> settings;
@@ -50,18 +48,15 @@ struct ObservedScan {
     Workspace work;
 };
 
-/// Reads a scan in its sensor's frame. The sensor is the recording's own if the recording names one
-/// (packets), otherwise that of the settings (clouds), otherwise the one with the beams that were
-/// recovered from such clouds (`beams`), otherwise a VLP-16. A Velodyne scan without packets but
-/// with a stored cloud returns that cloud. Throws std::runtime_error if packets cannot be decoded
-/// or the cloud is missing; the message says why. Reuses the memory of `observed`, so that reading
-/// many scans allocates little.
+/// Reads a scan in its sensor's frame. The sensor is that of the recording (packets), otherwise of
+/// the settings, otherwise the one with the recovered `beams`, otherwise a VLP-16. A Velodyne scan
+/// without packets returns its stored cloud. Throws std::runtime_error with the reason if packets
+/// cannot be decoded or the cloud is missing. Reuses the memory of `observed`.
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
                      ObservedScan& observed, const SharedBeams& beams = nullptr);
 
-/// Reads the coordinates of a cloud, and its intensities, and the numbers of the rings of its
-/// returns if it has some; otherwise `rings` becomes empty (null: not wanted). Returns false if it
-/// is none (isCloud()). Throws like readObservation().
+/// Reads the coordinates and intensities of a cloud, and the ring numbers of its returns, empty if
+/// it has none. Returns false unless isCloud(). Throws like readObservation().
 bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan,
                      std::vector<std::int32_t>* rings = nullptr);
 

@@ -26,35 +26,33 @@ namespace hagen::observations {
 ///     hagen::observations::ObservationSegmenter::Output out;
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
-/// Accepts every LiDAR scan of a log, also from several sensors: each sensor label has its own
-/// filter. No result depends on the scans before, except for clouds whose sensor neither the
-/// recording nor the settings name: its beams are those of the first clouds of their label
-/// (CloudSensors.h).
+/// Accepts the LiDAR scans of a log, also of several sensors: each sensor label has its own filter.
+/// No result depends on previous scans, except that the beams of a sensor that neither the
+/// recording nor the settings name are recovered from its first clouds (CloudSensors.h).
 class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
     DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen::observations)
 
  public:
     struct Output {
-        /// RoI and ROU of the scan, with its time stamp, its sensor pose, and its label plus `_roi`
-        /// and `_non_roi`. Points in the sensor frame, as measured. Every return with a range
-        /// is in one of the clouds, except those of the airframe of the settings.
+        /// RoI and ROU of the scan, with its time stamp and sensor pose, and its label plus `_roi`
+        /// and `_non_roi`. Points as measured, in the sensor frame. Every return with a range is in
+        /// one of the clouds, except those of the settings' airframe.
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
-        /// The scan's returns, and the result of each stage; valid until the next call of
-        /// process().
+        /// The scan's returns, and the result of each stage; valid until the next process().
         const Scan* scan = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
         std::size_t returns_masked = 0;    ///< of the airframe: without a range in `scan`
         const Options* options = nullptr;  ///< of the filter: those of the settings, fitted to it
-        /// The beams of `sensor`, if neither the recording nor the settings name it; or not even
-        /// these are known, so that it is taken to be a VLP-16.
+        /// The beams of `sensor` if neither the recording nor the settings name it; if they are
+        /// unknown, it is assumed to be a VLP-16.
         SharedBeams recovered;
         bool is_sensor_assumed = false;
         /// Pose of the sensor. If its attitude is known, angles are relative to the horizon.
         ScanPose pose;
 
-        /// Remark about this scan for the user; may be empty. Also logged.
+        /// Warning about this scan, also logged; may be empty.
         std::string remark;
 
         /// Time from the call of process() to the labels, before the clouds are made.
@@ -70,27 +68,20 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     void initialize(const Settings& settings);
 
     /// Segments one observation. Returns false and leaves `out` unchanged if it is not a LiDAR
-    /// scan.
-    ///
-    /// The pose of the scan is that of `vehicle`, if that covers its time (scanPoseOf()).
-    /// The vehicle's attitude is that of the last observation with an attitude (see()), otherwise
-    /// that of `vehicle` if it has a horizon. The sensor is mounted on it as the observation's
-    /// sensor pose says or, if that is level, as the settings say (Mount.h).
-    ///
+    /// scan. Its pose and attitude are those of scanPoseOf(), with the mount of mountedPose().
     /// Throws std::runtime_error with the reason if a scan cannot be read, and SettingsError if the
     /// options do not fit its sensor.
     bool process(const mrpt::obs::CObservation& observation, Output& out,
                  const Trajectory& vehicle = Trajectory());
 
-    /// The same for a scan with known pose. If poses are determined in the log's order, scans can
-    /// be segmented in any order and by several segmenters concurrently; so can clouds whose sensor
-    /// nobody names if their beams are given. Null: none
-    /// were found. Not given: recovers them from the clouds it has seen.
+    /// The same for a scan with a known pose and, for a cloud of an unnamed sensor, known `beams`
+    /// (null: none were found; not given: recovers them). Such scans can be segmented in any order
+    /// and by several segmenters concurrently.
     bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose,
                  const std::optional<SharedBeams>& beams = std::nullopt);
 
     /// Stores the vehicle's attitude if an observation provides it (Horizon.h). process() does this
-    /// for observations that are not scans; call it for those in the same sensory frame as a scan.
+    /// for observations that are not scans; call it for others of the scan's sensory frame.
     void see(const mrpt::obs::CObservation& observation) { horizon_.see(observation); }
 
     /// Class of the output clouds.
@@ -112,7 +103,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 };
 
 /// Registers this project's classes with mrpt::rtti::classFactory(). Automatic in programs that use
-/// any of them; otherwise call it before creating one by name.
+/// any of them.
 void registerHagenClasses();
 
 }  // namespace hagen::observations

@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-/// What fields of a cloud mean by their names, without regard to case.
+/// Standard fields of a cloud, by their case-insensitive names.
 namespace hagen::observations {
 
-/// Numbers of the beams of points, or their times, with what is wrong with the field.
+/// Beam numbers or times of points.
 template <class Number>
 struct PointFieldValues {
-    std::vector<Number> values;  ///< one per point that was asked for; empty: not known
-    std::string field;           ///< that they are from; empty: there is none, or it is not used
-    std::string remark;          ///< why the field is not used; empty: it is, or there is none
+    std::vector<Number> values;  ///< one per requested point; empty: unknown
+    std::string field;           ///< name of the field; empty: missing or not used
+    std::string remark;          ///< why the field is not used; empty: used or missing
 };
 
-/// Numbers of the beams of these points, from the first of the fields ring, channel, line: whole
-/// numbers from 0 to 65535, otherwise the field is not used. The table is checked.
+/// Beam numbers of these points of a checked table, from the first of the fields ring, channel,
+/// line. The field is not used unless they are whole numbers from 0 to 65535.
 PointFieldValues<std::int32_t> ringsOf(const PointTable& table,
                                        const std::vector<std::uint32_t>& points);
 
@@ -25,12 +25,12 @@ PointFieldValues<std::int32_t> ringsOf(const PointTable& table,
 /// gpstime; null if there is none.
 const PointField* timeFieldOf(const PointTable& table);
 
-/// When these points were measured [s], from timeFieldOf(). The unit is not in the files. Integers
-/// are nanoseconds, as of Ouster and Livox, or microseconds if the points otherwise take less than
-/// a millisecond. Other numbers are seconds, or the greatest of ms, us, ns in which they take at
-/// most 2 s; those of a gps_time are seconds always. Times within 2 s of 0 are relative to the
-/// scan's time; others are absolute and count from the earliest. If one is not finite, or if they
-/// span more than 2 s, the field is not used. The table is checked.
+/// Times of these points of a checked table [s], from timeFieldOf(). The unit is guessed: integers
+/// are nanoseconds, or microseconds if the points would otherwise span less than 1 ms. Other
+/// numbers are seconds, or the largest of ms, us, ns in which they span at most 2 s; gps_time is
+/// always in seconds. Times within 2 s of 0 are relative to the scan's time; others are absolute
+/// and count from the earliest. The field is not used if a time is not finite or if they span more
+/// than 2 s.
 PointFieldValues<float> timesOf(const PointTable& table, const std::vector<std::uint32_t>& points);
 
 }  // namespace hagen::observations

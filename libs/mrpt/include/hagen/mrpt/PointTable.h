@@ -31,8 +31,8 @@ struct PointField {
     std::size_t count = 1;   ///< numbers per point, one after the other
 };
 
-/// Points as records of named numbers, as in sensor_msgs/PointCloud2 or a point cloud file: point i
-/// begins at byte i * bytes_per_point. There may be bytes between fields.
+/// Points as records of named numbers, as in sensor_msgs/PointCloud2: point i begins at byte
+/// i * bytes_per_point. There may be gaps between fields.
 struct PointTable {
     std::vector<PointField> fields;
     std::size_t points = 0;
@@ -41,27 +41,30 @@ struct PointTable {
     std::vector<std::uint8_t> bytes;
 };
 
-/// The most numbers that the fields of a point may have together.
+/// The most numbers of a point, over all fields.
 constexpr std::size_t kMostNumbersPerPoint = 65536;
 
-/// Throws std::runtime_error naming the field if a field has no name or no numbers or does not fit
-/// into a point, if two have the same name, if there are more than kMostNumbersPerPoint, or if the
-/// points do not fit into the bytes. A table from a file should be checked before anything else
-/// reads it.
+/// Checks a table from a file, before anything else reads it. Throws std::runtime_error, naming the
+/// field, for fields without name or numbers, duplicate names, fields that do not fit into a point,
+/// more than kMostNumbersPerPoint, and points that do not fit into the bytes.
 void check(const PointTable& table);
 
-/// The field of this name, letter by letter; null if there is none.
+/// The field of exactly this name; null if there is none.
 const PointField* findExactly(const PointTable& table, const std::string& name);
-/// The first of these names that is a field: letter by letter or, if there is none such, without
-/// regard to case. Null if there is none.
+/// The field of the first of these names that matches, exactly or else case-insensitively. Null if
+/// there is none.
 const PointField* findField(const PointTable& table, const std::vector<std::string>& names);
 
 /// The numbers of a field of a checked table, one per point: those at `element` of its count.
 std::vector<double> columnOf(const PointTable& table, const PointField& field,
                              std::size_t element = 0);
 
-/// Appends a field with these numbers, one per point: those of a checked table in little-endian
-/// order. Numbers are converted as by a cast, so they must be in the type's range.
+/// The numbers of these points, in this order.
+std::vector<double> columnOf(const PointTable& table, const PointField& field,
+                             const std::vector<std::uint32_t>& points);
+
+/// Appends a field with these numbers, one per point, to a checked table in little-endian order.
+/// Numbers must be in the type's range.
 void addColumn(const std::string& name, NumberType type, const std::vector<double>& numbers,
                PointTable& table);
 

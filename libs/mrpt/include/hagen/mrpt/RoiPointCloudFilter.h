@@ -9,20 +9,19 @@
 
 namespace hagen::observations {
 
-/// The filter behind MRPT's interface for point-cloud filters, as used by its reactive navigation:
-/// keeps only the RoI points of one LiDAR scan, without those of the settings' airframe. A sensor
-/// that the settings do not name is recovered from the first clouds (CloudSensors.h).
+/// The filter with MRPT's interface for point-cloud filters, as in its reactive navigation: keeps
+/// only the RoI points of a LiDAR scan, without the settings' airframe. A sensor that the settings
+/// do not name is recovered from the first clouds (CloudSensors.h).
 class RoiPointCloudFilter : public mrpt::maps::CPointCloudFilterBase {
  public:
-    /// `sensor_pose`: the sensor in the cloud's frame; identity if the points are in the sensor's
-    /// own frame. The cloud's frame is taken to be level. Throws SettingsError if the options do
-    /// not fit the sensor of the settings.
+    /// `sensor_pose`: the sensor in the cloud's frame, which is assumed level. Throws SettingsError
+    /// if the options do not fit the sensor of the settings.
     explicit RoiPointCloudFilter(const Settings& settings,
                                  const mrpt::poses::CPose3D& sensor_pose = {});
 
     /// Deletes all points except RoI. `params` as in MRPT: an output mask of deleted points, and an
-    /// option not to delete. Time stamp and reference pose are ignored: the filter uses no map.
-    /// Throws SettingsError if the options do not fit a recovered sensor.
+    /// option not to delete. Time stamp and reference pose are ignored. Throws SettingsError if the
+    /// options do not fit a recovered sensor.
     void filter(mrpt::maps::CPointsMap* inout_pointcloud, mrpt::system::TTimeStamp pc_timestamp,
                 const mrpt::poses::CPose3D& pc_reference_pose,
                 TExtraFilterParams* params = nullptr) override;

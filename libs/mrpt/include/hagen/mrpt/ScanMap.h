@@ -7,7 +7,7 @@
 
 namespace hagen::observations {
 
-/// The returns of a segmented scan that are inserted into an OctoMap.
+/// The returns that are inserted into an OctoMap.
 enum class MapContent {
     Full,       ///< all returns are hits, all rays clear (O-Full)
     Roi,        ///< only RoI returns, hits and rays (O-RoI)
@@ -16,9 +16,9 @@ enum class MapContent {
 
 /// How rays are inserted. All mark a voxel once per scan and never clear one with a hit.
 enum class RayInsertion {
-    OneRayPerVoxel,   ///< own traversal with bit sets; rays that end in the same voxel are one
-    OctoMap,          ///< OctoMap's insertPointCloud() of every ray
-    OctoMapDiscrete,  ///< the same with its discretization: one ray per voxel
+    OneRayPerVoxel,   ///< own traversal with bit sets; one ray per end voxel
+    OctoMap,          ///< OctoMap's insertPointCloud()
+    OctoMapDiscrete,  ///< the same with its discretization: one ray per end voxel
 };
 
 struct ScanMapOptions {
@@ -28,11 +28,10 @@ struct ScanMapOptions {
     // OctoMap's own values.
     double hit_probability = 0.7, miss_probability = 0.4;
     double least_probability = 0.1192, greatest_probability = 0.971;  ///< clamped to these
-    RayInsertion insertion =
-        RayInsertion::OneRayPerVoxel;  ///< the others only for MapContent::Full
+    RayInsertion insertion = RayInsertion::OneRayPerVoxel;  ///< others require MapContent::Full
 };
 
-/// The map has reached its greatest size, 50 million nodes (about 3 GiB).
+/// The map has reached its maximum size, 50 million nodes (about 3 GiB).
 struct MapFull : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -51,10 +50,10 @@ class ScanMap {
 
     /// Inserts a scan. Each voxel is updated once per scan: occupied if it contains a hit,
     /// otherwise free if a ray passes through; a ray does not clear the voxel in which it ends.
-    /// Updates leaves only; inner nodes are updated when the map is saved. If the tree has a
-    /// bounding box (OctoMap's setBBXMin() etc.), voxels outside it are not updated. Throws
-    /// std::runtime_error for a scan that is farther from the map's origin than an OctoMap extends
-    /// (32768 voxels); the message says where it is. Throws MapFull.
+    /// Updates leaves only; inner nodes are updated when the map is saved. Voxels outside the
+    /// tree's bounding box (OctoMap's setBBXMin() etc.), if any, are not updated. Throws
+    /// std::runtime_error, naming the place, for a scan beyond the extent of an OctoMap (32768
+    /// voxels from the origin). Throws MapFull.
     void insert(const MappedScan& scan);
 
     /// Memory of the tree, from the sizes of its parts, and of the buffers.

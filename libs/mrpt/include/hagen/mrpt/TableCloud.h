@@ -13,24 +13,21 @@
 
 namespace hagen::observations {
 
-/// A cloud with everything that its input holds for each point. It lives in memory only: MRPT
-/// writes it as the CPointsMapXYZI that it is, and the other fields are lost.
-///
-/// Fields are known by their names, without regard to case:
+/// A cloud with all fields of its input. MRPT writes it as a CPointsMapXYZI, without the others.
+/// Field names are case-insensitive:
 ///
 /// - x, y, z: coordinates in the sensor's frame [m].
-/// - intensity, i, reflectivity, remission, the first of these: scaled to 0..1 by its greatest
-///   value, which is at most 1, 255, 65535, or else is the scale itself. Not finite: 0.
-/// - ring, channel, line: the number of the beam. It becomes the row only if it agrees with the
-///   elevation (ringBeams() of RecoverBeams.h) and no sensor is named in the settings.
-/// - time, t, timestamp and others: when the point was measured (timesOf() of PointFields.h).
+/// - the first of intensity, i, reflectivity, remission: scaled to 0..1 by the least of 1, 255,
+///   65535 that is not below its maximum, otherwise by the maximum. Not finite: 0.
+/// - ring, channel, line: the beam number (ringsOf()). It becomes the row only if it agrees with
+///   the elevation (ringBeams()) and the settings name no sensor.
+/// - time, t, timestamp and others: times (timesOf()).
 ///
-/// Points with a coordinate that is not finite are no returns: they stay in the table, but are not
-/// in the cloud.
+/// Points with a coordinate that is not finite stay in the table, but are not in the cloud.
 class TableCloud : public IntensityCloud {
  public:
-    /// Throws std::runtime_error that says why if the table is unsound (check()), has no x, y or z,
-    /// or more points than 32 bits can number.
+    /// Throws std::runtime_error with the reason if the table is invalid (check()), has no x, y or
+    /// z, or more than 2^32 - 1 points.
     explicit TableCloud(std::shared_ptr<const PointTable> table);
 
     const PointTable& table() const { return *table_; }
@@ -40,8 +37,8 @@ class TableCloud : public IntensityCloud {
     const std::vector<float>& times_s() const { return times_s_; }     ///< empty: none
     std::size_t pointsNotFinite() const { return table_->points - point_of_return_.size(); }
 
-    /// What the user should know of the fields of this cloud: those that are not what their name
-    /// says, or coordinates that cannot be a scan's. Clouds of one recording usually have the same.
+    /// Warnings about unusable fields and implausible coordinates, usually the same for all clouds
+    /// of a recording.
     const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
@@ -54,12 +51,12 @@ class TableCloud : public IntensityCloud {
     std::vector<std::string> remarks_;
 };
 
-/// An observation of a table's points. Throws like TableCloud.
+/// An observation with a TableCloud. Throws like it.
 mrpt::obs::CObservationPointCloud::Ptr observationOf(std::shared_ptr<const PointTable> table,
                                                      const std::string& label,
                                                      mrpt::Clock::time_point time);
 
-/// The cloud of an observation, if it is such a cloud; otherwise null.
+/// The cloud of an observation if it is a TableCloud, otherwise null.
 const TableCloud* tableCloudOf(const mrpt::obs::CObservation& observation);
 
 /// A table of a scan: x, y, z, intensity (0..1), and if they are known `time` [s]; all float32.

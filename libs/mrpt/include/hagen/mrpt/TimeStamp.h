@@ -5,11 +5,11 @@
 
 namespace hagen::observations {
 
-/// Times that a recording can have: from 1601, where MRPT's clock begins, to the year 5138. MRPT
-/// computes others wrongly: its differences of times overflow.
+/// Plausible times: from 1601, where MRPT's clock begins, to the year 5138. Differences of others
+/// overflow in MRPT.
 constexpr double kEarliest_s = -11644473600.0, kLatest_s = 1e11;
 
-/// secondsOf(INVALID_TIMESTAMP): what stands for no time in files.
+/// secondsOf(INVALID_TIMESTAMP): stands for no time in files.
 constexpr double kNoTime_s = kEarliest_s;
 
 /// Whether a number of seconds since 1970 is such a time; false for NaN.

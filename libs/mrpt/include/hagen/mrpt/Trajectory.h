@@ -8,7 +8,7 @@
 
 namespace hagen::observations {
 
-/// Whether its place and its rotation are numbers.
+/// Whether position and rotation are finite.
 bool isFinite(const mrpt::poses::CPose3D& pose);
 
 /// The vehicle's trajectory: its poses in the map over time.
@@ -16,20 +16,18 @@ class Trajectory {
  public:
     Trajectory();
 
-    /// A pose that is not finite, or has no time (isTime()), is left out; the former are counted.
+    /// Ignores poses without a valid time (isTime()); ignores and counts poses that are not finite.
     void add(mrpt::Clock::time_point time, const mrpt::poses::CPose3D& vehicle_pose);
 
-    /// Returns the pose at a time, interpolated between the two poses around it; nullopt unless
-    /// these are within 0.2 s of each other or one of them has exactly this time.
+    /// Returns the pose at a time, interpolated between its neighbours; nullopt unless these are
+    /// within 0.2 s of each other or one has exactly this time.
     std::optional<mrpt::poses::CPose3D> at(mrpt::Clock::time_point time) const;
 
-    /// True if the map's z axis is vertical (gravity-aligned), so that a pose provides the
-    /// vehicle's attitude. False if poses are integrated from odometry increments or relative to
-    /// the first one.
+    /// True if the map is gravity-aligned, so that a pose provides the vehicle's attitude. False if
+    /// poses are integrated from odometry or relative to the first one.
     bool has_horizon = true;
-    std::size_t not_finite = 0;  ///< poses left out
+    std::size_t not_finite = 0;  ///< ignored poses
 
-    /// The recorded poses, one per time.
     std::size_t size() const { return poses_.size(); }
 
  private:

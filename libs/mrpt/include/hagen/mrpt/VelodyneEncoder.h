@@ -7,8 +7,7 @@
 
 namespace hagen::observations {
 
-/// Measurements of a Velodyne over several firings: array entries (laser, firing), lasers in firing
-/// order (not by elevation).
+/// Measurements of a Velodyne over several firings: arrays (laser, firing), lasers in firing order.
 struct Firings {
     Image<float> range_m;             ///< NaN or 0: no return
     Image<float> intensity;           ///< 0..1
@@ -18,15 +17,14 @@ struct Firings {
     std::uint32_t first_time_us = 0;  ///< since the full hour
 };
 
-/// Returns the azimuth at which a laser of a firing points, degrees clockwise from x, as the
-/// decoder computes it (up to rounding). Use it to compute the range to encode.
+/// Returns the azimuth of a laser of a firing, degrees clockwise from x, as decoded (up to
+/// rounding). Use it to compute the range to encode.
 double firingAzimuthDeg(const sensors::VelodyneModel& model, const Firings& firings, int laser,
                         int firing);
 
 /// Encodes raw packets, the inverse of decodePackets(). Ranges are rounded to the model's unit (2
-/// or 4 mm); those that a packet cannot represent (131.07 or 262.14 m and more) become missing
-/// returns, as with the sensor. The last packet is padded with firings without returns. Throws
-/// std::invalid_argument if array sizes differ or do not fit the model.
+/// or 4 mm); larger ones than a packet can represent (131.07 or 262.14 m) become missing returns.
+/// The last packet is padded. Throws std::invalid_argument if array sizes do not fit the model.
 std::vector<mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket> encodePackets(
     const sensors::VelodyneModel& model, const Firings& firings);
 

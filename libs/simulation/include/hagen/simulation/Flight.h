@@ -7,23 +7,20 @@
 
 namespace hagen::simulation {
 
-/// Position and attitude in the map (x east, z up) of the sensor, or of the vehicle, which are the
-/// same unless the sensor's mount is tilted.
+/// Position and attitude in the map (x east, z up) of the vehicle or the sensor.
 struct SensorPose {
     Eigen::Vector3d position_m;
     Eigen::Quaterniond attitude;  ///< from its frame (x forward, z up) to the map
 };
 
 struct FlightSettings {
-    double altitude_m = 2;  ///< above the ground
-    double speed_m_s =
-        4;  ///< on the straights; turns are flown no faster than the bank limit allows
+    double altitude_m = 2;      ///< above the ground
+    double speed_m_s = 4;       ///< on straights; the bank limit reduces it in turns
     double tilt_sd_rad = 0.07;  ///< standard deviation of roll and of pitch; 0: level flight
 };
 
-/// A multirotor's flight along a path, at an altitude above rolling ground. Roll, pitch and yaw
-/// oscillate as sums of slow waves; the vehicle banks into turns (up to 4 degrees) and tilts with
-/// its airspeed.
+/// A multirotor's flight along a path above rolling ground. Roll, pitch and yaw are sums of slow
+/// waves; the vehicle banks into turns (up to 4 degrees) and pitches with its airspeed.
 class Flight {
  public:
     Flight(const Terrain& terrain, const Path& path, const FlightSettings& settings,

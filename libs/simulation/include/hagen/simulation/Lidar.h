@@ -30,25 +30,22 @@ FiringPattern firingPattern(const SensorModel& sensor);
 /// Error sources of a real sensor.
 struct SensorErrorModel {
     double footprint_rad = 0.003;  ///< width of the beam's (square) footprint
-    double least_noise_m =
-        0.015;  ///< standard deviation at near range; that of a weak return is twice as large
-    double half_range_m =
-        150;  ///< range at which half of the returns of a grey wall at normal incidence are lost
-    double lost = 0.005;  ///< fraction of returns that are lost at random
-    /// One beam in 1 + 1 / mixed is cast twice; at an edge, its range lies between both surfaces.
+    double least_noise_m = 0.015;  ///< standard deviation at near range; doubled if weak
+    double half_range_m = 150;     ///< at which half of the returns of a grey wall are lost
+    double lost = 0.005;           ///< fraction of returns that are lost at random
+    /// One beam in 1 + 1 / mixed has a range between both surfaces at an edge.
     double mixed = 0.15;
     double dust_per_m = 1.5e-5;  ///< dust particles hit per metre of a beam
     bool airframe = true;        ///< whether legs and rotors of the vehicle occlude beams
 };
 
-/// Returns the error sources of a sensor: the defaults, and for a Mid-360 those of its manual
-/// (Livox Mid-360 User Manual, 2023): a standard deviation of 2 cm at 10 m and 80 % reflectivity,
-/// and 9 of 10 returns of a surface of 10 % reflectivity 40 m away. Its angular error (below 0.15
-/// degrees) is not simulated.
+/// Returns the default error sources, or those of the manual for a Mid-360 (Livox Mid-360 User
+/// Manual, 2023): a standard deviation of 2 cm at 10 m and 80 % reflectivity, and a tenth of the
+/// returns lost at 40 m and 10 %. Its angular error (below 0.15 degrees) is not simulated.
 SensorErrorModel sensorErrors(const SensorModel& sensor);
 
 /// One revolution of the sensor, or one frame of a sensor without rings. Returns are in firing
-/// order and in the sensor's frame at each return's own time, as a real sensor reports them.
+/// order and, as of a real sensor, in its frame at each return's own time.
 struct SimulatedScan {
     Scan scan;
     std::vector<ObjectClass> kind;      ///< one entry per return
@@ -61,27 +58,25 @@ struct SimulatedScan {
     std::size_t size() const { return scan.size(); }
 };
 
-/// The azimuth of a scan's first firing, degrees clockwise from x: scans begin behind the sensor.
+/// The azimuth of a scan's first firing, clockwise from x: scans begin behind the sensor.
 constexpr double kFirstAzimuth_deg = 180.0;
 
 /// The vehicle's pose as a function of time.
 using PoseAt = std::function<SensorPose(double time_s)>;
 
-/// How far beyond the end of a revolution a PoseAt is evaluated: poses are sampled and interpolated
-/// linearly.
+/// How far beyond the end of a revolution a PoseAt is evaluated, for interpolation.
 constexpr double kPosesBeyondTurn_s = 0.015;
 
 /// Simulates the revolution that begins at `time_s`, by a sensor at the vehicle's origin.
 ///
-/// Each beam is one ray at a random place in its footprint. An object thinner than the footprint is
-/// therefore hit with a probability equal to the part of the footprint that it covers; otherwise
-/// the beam continues to what is behind it. On a large surface the range is measured where the
-/// beam's axis meets it. The weaker a return is (range, incidence, reflectivity), the more often it
-/// is lost. On grass, ranges end up to the grass height above the soil.
+/// Each beam is one ray at a random place in its footprint, so that a thin object is hit with the
+/// probability of the covered part of the footprint. On a large surface the range is measured where
+/// the beam's axis meets it. Weak returns (range, incidence, reflectivity) are lost more often. On
+/// grass, ranges end up to the grass height above the soil.
 ///
-/// `mount` rotates from the sensor's frame to the vehicle's, where x is forward and z up. Legs and
-/// rotors stay with the vehicle: a tilted sensor sees others of them. A sensor without rings
-/// (Mid-360) scans in other directions at another `time_s`.
+/// `mount` rotates from the sensor's frame to the vehicle's (x forward, z up). Legs and rotors stay
+/// with the vehicle. A sensor without rings (Mid-360) scans in other directions at another
+/// `time_s`.
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
                            double time_s, Random& random, const SensorErrorModel& faults = {},
                            const Eigen::Quaterniond& mount = Eigen::Quaterniond::Identity());
@@ -94,11 +89,10 @@ struct FiringRange {
     int first, end;
 };
 
-/// Simulates a part of the revolution that begins at `time_s`, as simulateScan() does the whole.
-/// Poses count until kPosesBeyondTurn_s after the part, so that a vehicle may choose its way while
-/// the sensor turns. Parts draw random numbers of their own: only without random errors are all
-/// parts of a revolution the same as the whole. Throws std::invalid_argument if the pattern does
-/// not have these firings.
+/// Like simulateScan() for a part of the revolution that begins at `time_s`. Needs poses until
+/// kPosesBeyondTurn_s after the part. Parts draw their own random numbers: they equal the whole
+/// only without random errors. Throws std::invalid_argument if the pattern does not have these
+/// firings.
 SimulatedScan simulateFirings(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
                               double time_s, const FiringRange& firings, Random& random,
                               const SensorErrorModel& faults = {},

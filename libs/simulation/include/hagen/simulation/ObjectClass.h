@@ -28,7 +28,7 @@ const std::vector<ObjectClass>& allKinds();
 std::string nameOf(ObjectClass kind);
 
 /// Returns the ground-truth label: terrain and canopy are ROU, dust and airframe are unclassified,
-/// everything else is RoI at any range (scores exclude returns beyond the zone).
+/// everything else is RoI at any range.
 Label labelOf(ObjectClass kind);
 
 }  // namespace hagen::simulation

@@ -4,8 +4,7 @@
 
 namespace hagen::simulation {
 
-/// Parameters of a tree. The base of the trunk is the origin; the trunk extends slightly into the
-/// ground.
+/// Parameters of a tree. The origin is the base of the trunk, which extends slightly below.
 struct TreeParameters {
     double height_m = 4;
     double crown_base_m = 0.8;  ///< height at which the crown begins
@@ -17,8 +16,7 @@ struct TreeParameters {
     int low_branches = 2;  ///< below the crown, with few leaves
 };
 
-/// Makes a tree: trunk and branches are rods, leaves are single triangles in clumps, so that beams
-/// can pass between them.
+/// Makes a tree whose leaves are triangles in clumps, so that beams can pass between them.
 Shape makeTree(const TreeParameters& form, Random& random);
 
 /// Makes a bush of leaves, 1 m high and wide; scale it.

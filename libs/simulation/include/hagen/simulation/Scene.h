@@ -28,7 +28,7 @@ struct MovingObstacle {
     double above_ground_m = 0;
 };
 
-/// Returns a moving obstacle's position at a time, in top view.
+/// Returns a moving obstacle's horizontal position at a time.
 Eigen::Vector2d placeOf(const MovingObstacle& mover, double time_s);
 /// Returns the transform from a moving obstacle's own frame at a time to the map.
 Eigen::Affine3f poseOf(const MovingObstacle& mover, const Terrain& terrain, double time_s);
@@ -67,11 +67,7 @@ class Scene {
     const SceneContent& content() const;
     const Terrain& terrain() const { return content().terrain; }
     const Path& path() const { return content().path; }
-    /// Returns the number of triangles of all shapes; a shape placed several times counts once.
-    std::size_t triangles() const;
-
-    /// Returns the scene over a short time interval: moving obstacles move on straight lines from
-    /// their position at its start to that at its end.
+    /// Returns the scene over a short time interval, in which moving obstacles move straight.
     class Snapshot;
     Snapshot snapshotOver(double start_s, double duration_s) const;
 
@@ -82,8 +78,7 @@ class Scene {
 
 class Scene::Snapshot {
  public:
-    /// Finds the first hit of each ray within `max_range_m`. Fastest if adjacent rays are
-    /// neighbours in space.
+    /// Finds the first hit of each ray within `max_range_m`. Fastest if adjacent rays are close.
     void cast(const std::vector<Ray>& rays, float max_range_m, std::vector<RayHit>& hits) const;
 
  private:

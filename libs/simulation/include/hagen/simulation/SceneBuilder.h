@@ -4,25 +4,22 @@
 
 namespace hagen::simulation {
 
-/// Extent of the ground around the origin of the map: finely meshed up to these distances, then
-/// increasingly coarse.
+/// Extent of the ground: finely meshed up to the half sizes, then coarser out to `reach_m`.
 struct GroundExtent {
     double half_length_m = 55, half_width_m = 38, reach_m = 140;
 };
 
-/// Builds a scene: shapes and their places on the ground. Whatever isFree() accepts is at least
-/// kClearance_m off the path.
+/// Builds a scene from shapes placed on the ground. isFree() keeps kClearance_m off the path.
 ///
 /// Never draw two random numbers in the arguments of one call: the order of evaluation differs
 /// between compilers.
 class SceneBuilder {
  public:
     static constexpr double kClearance_m = 0.8;
-    static constexpr double kHalfLength_m = 75,
-                            kHalfWidth_m = 55;  ///< area in which objects are scattered
+    static constexpr double kHalfLength_m = 75, kHalfWidth_m = 55;  ///< of scatter()
 
     SceneBuilder(const TerrainParameters& form, const Path& path, std::uint64_t seed);
-    /// Starts a scene without a path to keep clear; its path is meaningless.
+    /// Starts a scene without a path.
     SceneBuilder(const TerrainParameters& form, const GroundExtent& extent, const Random& random);
 
     Random& random() { return random_; }
@@ -30,14 +27,14 @@ class SceneBuilder {
     const Path& path() const { return content_.path; }
 
     std::size_t addShape(Shape shape);
-    /// Several variants of one shape, placed at random.
+    /// Adds several variants of one shape.
     std::vector<std::size_t> addShapes(int count, const std::function<Shape(Random&)>& make);
     std::size_t randomOf(const std::vector<std::size_t>& shapes);
 
     /// True if an object of this radius may be placed there.
     bool isFree(double x_m, double y_m, double radius_m) const;
 
-    /// Puts a shape on the ground, rotated by a yaw and scaled. Returns its object number.
+    /// Puts a rotated and scaled shape on the ground. Returns its object number.
     std::uint16_t place(ObjectClass kind, std::size_t shape, double x_m, double y_m, double yaw_rad,
                         const Eigen::Vector3d& scale = {1, 1, 1});
     /// Puts one of these shapes there, with a random yaw.
@@ -52,8 +49,7 @@ class SceneBuilder {
     bool addMover(MovingObstacle mover, double own_radius_m);
     void addRandomMover(MovingObstacle mover);
 
-    /// Calls put(x, y) at random places of the given density (objects per square metre) over the
-    /// whole scene.
+    /// Calls put(x, y) at random places with the given density.
     void scatter(double per_m2, const std::function<void(double x_m, double y_m)>& put);
 
     Scene build() { return Scene(std::move(content_)); }

@@ -7,19 +7,18 @@
 
 namespace hagen::simulation {
 
-/// Exact distances from points to the nearest surface of a scene, static or moving (Embree point
-/// queries).
+/// Exact distances from points to the nearest surface of a scene (Embree point queries).
 class SceneDistance {
  public:
-    /// Prepares the part of the scene within `bounds_m`, extended by the maximum distance.
+    /// Prepares the part of the scene within `bounds_m`, extended by the maximum distance
+    /// `reach_m`.
     SceneDistance(const Scene& scene, const Eigen::AlignedBox3d& bounds_m, double reach_m);
 
-    /// Returns the distance to the nearest surface, with moving obstacles where they are at
-    /// `time_s`; the maximum distance if nothing is nearer. Single blades of grass and crop
-    /// (ObjectClass::Canopy) are ignored because they bend. 0 inside a rod; inside an object made
-    /// of triangles, the distance to its surface. Thread-safe.
+    /// Returns the distance to the nearest surface at `time_s`, at most the maximum distance. 0
+    /// inside a rod; inside an object made of triangles, the distance to its surface. Ignores grass
+    /// and crop (ObjectClass::Canopy), which bend. Thread-safe.
     float at(const Eigen::Vector3f& point_m, double time_s) const;
-    /// Like at(), of static objects only.
+    /// The same for static objects only.
     float toStatic(const Eigen::Vector3f& point_m) const;
 
  private:

@@ -6,13 +6,12 @@
 
 namespace hagen::simulation {
 
-/// The surface of an object: triangles, and round cylinders for thin parts. Metres, z up.
+/// The surface of an object [m], z up: triangles, and round cylinders for thin parts.
 struct Shape {
     std::vector<Eigen::Vector3f> vertices_m;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<Eigen::Vector4f> polyline_m;  ///< of chains of cylinders: x, y, z, radius
-    /// Index of each cylinder's first point; the cylinder leads to the next point and ends in a
-    /// ball.
+    /// First point of each cylinder, which leads to the next point and ends in a ball.
     std::vector<std::uint32_t> segments;
 
     void addTriangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c);
@@ -20,13 +19,11 @@ struct Shape {
     void addQuad(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c,
                  const Eigen::Vector3f& d);
     void addBox(const Eigen::Vector3f& least_m, const Eigen::Vector3f& most_m);
-    /// Adds a prism: a polygon in the xz plane, star-shaped about the mean of its corners, extruded
-    /// along y.
+    /// Adds a polygon in the xz plane, star-shaped about the mean of its corners, extruded along y.
     void addPrism(const std::vector<Eigen::Vector2f>& outline_m, float least_y_m, float most_y_m);
     /// Adds cylinders along a polyline. `knots`: x, y, z and radius [m].
     void addRod(const std::vector<Eigen::Vector4f>& knots);
-    /// Adds the same as triangles, with this many sides and open ends: faster to cast in large
-    /// numbers.
+    /// Adds the same as triangles with open ends: faster to cast in large numbers.
     void addTube(const std::vector<Eigen::Vector4f>& knots, int sides);
     /// Adds another shape, transformed. Radii of cylinders do not change.
     void append(const Shape& other, const Eigen::Affine3f& pose);

@@ -20,10 +20,9 @@ class Terrain {
     Terrain(const TerrainParameters& form, Random& random);
 
     double height_m(double x_m, double y_m) const;
-    /// Returns the height of the tallest grass at this place.
+    /// Returns the maximum height of the grass at this place.
     double grassHeight_m(double x_m, double y_m) const;
-    /// Returns the ground as a mesh with roughness: fine in the centre (`half_length_m` by
-    /// `half_width_m` around the origin), coarse out to `reach_m`.
+    /// Returns the ground as a rough mesh, finer in the centre (GroundExtent).
     Shape mesh(double half_length_m, double half_width_m, double reach_m, Random& random) const;
 
  private:

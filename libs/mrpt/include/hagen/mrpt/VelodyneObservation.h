@@ -1,15 +1,24 @@
 #pragma once
+// Conversions between CObservationVelodyneScan and the decoder of libs/sensors.
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
+#include <hagen/sensors/VelodyneCalibration.h>
 #include <hagen/sensors/VelodyneDecoder.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
+#include <mrpt/obs/VelodyneCalibration.h>
 #include <cstddef>
 
 namespace hagen::observations {
 
+/// Converts an observation's calibration without checks into `calibration`, whose memory is reused.
+void readCalibration(const mrpt::obs::VelodyneCalibration& of_observation,
+                     sensors::VelodyneCalibration& calibration);
+/// The inverse.
+mrpt::obs::VelodyneCalibration mrptCalibration(const sensors::VelodyneCalibration& calibration);
+
 /// Buffers of decodePackets() and sensorOf(). Reuse them across scans to avoid allocation; no state
 /// carries over.
-struct DecoderWorkspace {
+struct ObservationWorkspace {
     sensors::DecoderWorkspace packets;
     sensors::VelodyneCalibration calibration;  ///< that of the observation
 };
@@ -20,13 +29,13 @@ struct DecoderWorkspace {
 SensorModel sensorOf(const mrpt::obs::CObservationVelodyneScan& observation);
 /// The same, into `sensor`, whose memory is reused.
 void sensorOf(const mrpt::obs::CObservationVelodyneScan& observation, SensorModel& sensor,
-              DecoderWorkspace& work);
+              ObservationWorkspace& work);
 
-/// Decodes all raw packets of an observation (sensors::decodePackets()), regardless of its range
-/// limits, with its calibration. (MRPT's own generatePointCloud() decodes half of each block.)
+/// Decodes all raw packets of an observation with its calibration (sensors::decodePackets()),
+/// regardless of its range limits. (MRPT's own generatePointCloud() decodes half of each block.)
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan,
-                          DecoderWorkspace& work);
-/// The same for single scans: allocates its own buffers.
+                          ObservationWorkspace& work);
+/// The same with temporary buffers.
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan);
 
 }  // namespace hagen::observations

@@ -1,9 +1,22 @@
-#include <hagen/mrpt/VelodyneCalibrations.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace hagen::observations {
+namespace {
+
+using mrpt::obs::CObservationVelodyneScan;
+
+sensors::VelodynePackets packetsOf(const CObservationVelodyneScan& observation) {
+    const auto& raw = observation.scan_packets;
+    static_assert(sizeof(CObservationVelodyneScan::TVelodyneRawPacket) ==
+                  sensors::kVelodynePacketBytes);
+    return {reinterpret_cast<const std::uint8_t*>(raw.data()), raw.size()};
+}
+
+}  // namespace
 
 void readCalibration(const mrpt::obs::VelodyneCalibration& of_observation,
                      sensors::VelodyneCalibration& calibration) {
@@ -17,7 +30,7 @@ void readCalibration(const mrpt::obs::VelodyneCalibration& of_observation,
         laser.distance_m = from.distanceCorrection;
         laser.horizontal_offset_m = from.horizontalOffsetCorrection;
         laser.vertical_offset_m = from.verticalOffsetCorrection;
-        // Products that are not used here; where they are no numbers, the calibration is corrupt.
+        // These products are not used; if they are not finite, the calibration is corrupt.
         if (!std::isfinite(from.sinVertOffsetCorrection + from.cosVertOffsetCorrection)) {
             laser.vertical_offset_m = std::numeric_limits<double>::quiet_NaN();
         }
@@ -36,12 +49,42 @@ mrpt::obs::VelodyneCalibration mrptCalibration(const sensors::VelodyneCalibratio
         laser.verticalOffsetCorrection = from.vertical_offset_m;
         laser.horizontalOffsetCorrection = from.horizontal_offset_m;
         laser.sinVertOffsetCorrection = from.vertical_offset_m * from.elevation_sine;
-        // Of no offset, MRPT makes a zero with the sign of the sine: recordings have its bytes.
+        // Without an offset, MRPT writes a zero with the sign of the sine.
         laser.cosVertOffsetCorrection = from.vertical_offset_m == 0
                                             ? laser.sinVertOffsetCorrection
                                             : from.vertical_offset_m * from.elevation_cosine;
     }
     return converted;
+}
+
+void sensorOf(const CObservationVelodyneScan& observation, SensorModel& sensor,
+              ObservationWorkspace& work) {
+    readCalibration(observation.calibration, work.calibration);
+    beamsOf(packetsOf(observation), work.calibration, sensor);
+    const bool are_sound = observation.minRange >= 0 &&
+                           observation.minRange < observation.maxRange &&
+                           std::isfinite(static_cast<float>(observation.maxRange));
+    if (!are_sound) throw std::runtime_error("its range limits are invalid");
+    sensor.min_range_m = static_cast<float>(observation.minRange);
+    sensor.max_range_m = static_cast<float>(observation.maxRange);
+}
+
+SensorModel sensorOf(const CObservationVelodyneScan& observation) {
+    SensorModel sensor;
+    ObservationWorkspace work;
+    sensorOf(observation, sensor, work);
+    return sensor;
+}
+
+std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan,
+                          ObservationWorkspace& work) {
+    readCalibration(observation.calibration, work.calibration);
+    return decodePackets(packetsOf(observation), work.calibration, scan, work.packets);
+}
+
+std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan) {
+    ObservationWorkspace work;
+    return decodePackets(observation, scan, work);
 }
 
 }  // namespace hagen::observations
