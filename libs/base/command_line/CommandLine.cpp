@@ -212,6 +212,22 @@ Flag Command::printer(const std::string& names, std::function<void()> print,
     return Flag(*app_->add_flag_callback(names, stop, help));
 }
 
+Flag Command::choice(const std::string& names, const std::vector<std::string>& words,
+                     const std::string& help, std::function<void(std::size_t)> choose) {
+    const auto place = [words](const std::string& word) {
+        return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) -
+                                        words.begin());
+    };
+    const std::function<void(const std::string&)> set =
+        [place, choose = std::move(choose)](const std::string& word) { choose(place(word)); };
+    const auto errorOf = [place, words](const std::string& word) {
+        return place(word) < words.size()
+                   ? ""
+                   : "'" + word + "' is not one of " + CLI::detail::join(words, ", ");
+    };
+    return Flag(*app_->add_option_function(names, set, help)->check(CLI::Validator(errorOf, "")));
+}
+
 void Command::does(std::function<int()> work) {
     app_->callback([work = std::move(work), chosen = chosen_] {
         *chosen = [work] {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -74,6 +75,16 @@ class Command {
     template <class Value>
     Flag option(const std::string& names, Value& value, const std::string& help);
     Flag flag(const std::string& names, bool& value, const std::string& help);
+    /// A choice of words, each for a value.
+    template <class Value>
+    Flag choice(const std::string& names, Value& value,
+                const std::vector<std::pair<std::string, Value>>& meanings,
+                const std::string& help) {
+        std::vector<std::string> words;
+        for (const auto& meaning : meanings) words.push_back(meaning.first);
+        return choice(names, words, help,
+                      [&value, meanings](std::size_t i) { value = meanings[i].second; });
+    }
     /// A flag that prints something and exits.
     Flag printer(const std::string& names, std::function<void()> print, const std::string& help);
 
@@ -87,6 +98,8 @@ class Command {
 
  private:
     friend class Program;
+    Flag choice(const std::string& names, const std::vector<std::string>& words,
+                const std::string& help, std::function<void(std::size_t)> choose);
     std::function<int()>* chosen_;  ///< work of the selected subcommand
 };
 
