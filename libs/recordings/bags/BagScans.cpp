@@ -312,8 +312,9 @@ void BagScans::Reader::addComplete(TopicState& state) {
     }
     if (state.frames) {
         for (const sensors::OusterFrame& frame : state.frames->complete()) {
-            const auto scan = observationOf(sweepOf(frame, *state.sensor->ouster));
-            scan->sensorPose = state.sensor->on_vehicle + scan->sensorPose;
+            const CObservation::Ptr scan = observationOf(sweepOf(frame, *state.sensor->ouster));
+            const mrpt::poses::CPose3D on_sensor(scan->sensorPose());
+            scan->setSensorPose(state.sensor->on_vehicle + on_sensor);
             add(scan, state);
         }
         state.frames->complete().clear();
