@@ -142,10 +142,7 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     temporary_ = secretName(path_, kTemporaryMark);
 }
 
-OutputPath::~OutputPath() {
-    std::error_code ignored;  // destructors must not throw
-    fs::remove_all(temporary_, ignored);
-}
+OutputPath::~OutputPath() { removeAll(temporary_); }
 
 void OutputPath::checkFree() const {
     if (!fs::exists(fs::symlink_status(path_))) return;
@@ -182,9 +179,8 @@ void OutputPath::commit() {
     const fs::path old = overwrites_ ? replace() : fs::path();
     kept_ = path_;
     flushToDisk(parentOf(path_), path_);
-    std::error_code error;
-    if (!old.empty()) fs::remove_all(old, error);
-    if (error) {
+    if (old.empty()) return;
+    if (const std::error_code error = removeAll(old)) {
         fail(path_,
              "is complete, but the older one beside it cannot be removed: " + error.message());
     }

@@ -12,4 +12,7 @@ std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder,
                                              std::error_code& error);
 
+/// Removes a file, or a folder and all in it; does not follow links. A missing path is no error.
+std::error_code removeAll(const std::filesystem::path& path) noexcept;
+
 }  // namespace hagen::base
