@@ -1,5 +1,5 @@
 #include <hagen/mrpt/LocatedCloud.h>
-#include <hagen/mrpt/VelodyneCalibrations.h>
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/recordings/LidarCapture.h>
 #include <hagen/recordings/Remarks.h>
 #include <hagen/sensors/VelodynePacket.h>
