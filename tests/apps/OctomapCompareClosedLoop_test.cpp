@@ -284,7 +284,7 @@ TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
     failsInstead("--speed", "4,4.0", "--speed: 4 is given twice");
     fails({"--pose-error", "wild"}, "wild");
     fails({"--updates", "turns"}, "turns");
-    fails({"--updates", "scans,sectors", "--models", "W-RoI+motion"}, "follows the obstacles");
+    fails({"--updates", "scans,sectors", "--models", "W-RoI+motion"}, "tracks the obstacles");
     expectFailure(octomapCompare({"closedloop"}), 2, "required");
     expectFailure(octomapCompare({"hover"}), 2, "");
     expectFailure(octomapCompare({}), 2, "");

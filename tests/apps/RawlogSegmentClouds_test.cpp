@@ -249,8 +249,8 @@ TEST_F(RawlogSegmentClouds, RejectsWrongOutputs) {
                     {{"--clouds", path("mine"), "--overwrite"}, "has no 'made_by.txt'"},
                     {{"--clouds", path("in"), "--overwrite"}, "is or contains the input"}});
     expectFailure({"-i", path("notes"), "--clouds", path("out")}, 1,
-                  "notes: not a scan folder (no subfolder 'velodyne' with .bin files), and no "
-                  "folder of point clouds");
+                  "notes: not a scan folder (no subfolder 'velodyne' with .bin files), no folder "
+                  "of point clouds");
 }
 
 }  // namespace

@@ -403,11 +403,10 @@ TEST_F(RawlogSegment, RejectsUnreadableInputs) {
     };
     fails(folder_.write("a.rawlog", ""), "is empty");
     fails(folder_.write("text.rawlog", "this is no rawlog, whatever its name says\n"),
-          "text.rawlog: is no recording: it seems to be text. Known are rawlogs, captures");
+          "text.rawlog: is not a recording: it seems to be text. Known are rawlogs, captures");
     fails(folder_.write("a.rawlog", "\x89PNG\r\n\x1a\n" + std::string(99, '\x81')),
           "it seems to be a PNG picture");
-    fails(folder_.write("b.rawlog", std::string(99, '\x81')),
-          "bytes are none of a kind that is known");
+    fails(folder_.write("b.rawlog", std::string(99, '\x81')), "first bytes are of no known kind");
     folder_.write("scans/velodyne/000000.bin", "123");
     fails(path("scans"), "000000.bin");
     const auto poses = folder_.write("poses.tum", "1 2 3\n");

@@ -135,7 +135,7 @@ TEST_F(SegmentationEvaluate, ReportsUnusedFiles) {
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("do not end in .bin, such as 000001.BIN"));
     EXPECT_THAT(outcome.err, HasSubstr("pole/labels have no scan, such as 000007.label"));
-    EXPECT_THAT(outcome.err, HasSubstr("has no times.txt, so that " + pole + "/poses.tum"));
+    EXPECT_THAT(outcome.err, HasSubstr("has no times.txt: " + pole + "/poses.tum is not used"));
     const auto report = readJson("told.json");
     EXPECT_EQ(report["folders"][0]["remarks"].size(), 3u);
     folder_.write("pole/times.txt", "9\n");

@@ -249,10 +249,10 @@ TEST(Rawlog, RejectsOtherFiles) {
     }
     const std::string garbage = "just some text, and more of it than a header";
     EXPECT_THAT(readAll(folder.write("text.rawlog", garbage)).second,
-                AllOf(HasSubstr("text.rawlog: is no recording: "), HasSubstr("Known are rawlogs")));
+                AllOf(HasSubstr("text.rawlog: is not a recording: "), HasSubstr("Known are rawlogs")));
     const auto packed = folder.write("log.bz2", "BZh91AY&SY");
     EXPECT_THAT(readAll(packed).second,
-                HasSubstr("is no recording: it seems to be packed by bzip2: unpack it first"));
+                HasSubstr("is not a recording: it seems to be packed by bzip2: unpack it first"));
     // Behind an entry, it is a recording.
     convert::Bytes entry;
     convert::serialise(comment("first"), entry);

@@ -70,7 +70,7 @@ mrpt::serialization::CSerializable::Ptr EntryReader::next() {
     } catch (const std::exception& e) {
         const std::string reason = reasonOf(e);
         if (entries_ == 0 && reason == kNoObject && stream_.fault().empty()) {
-            throw BrokenRecording(file_.string() + ": is no recording: " + whyNone(file_));
+            throw BrokenRecording(file_.string() + ": is not a recording: " + whyNone(file_));
         }
         throw broken(reason);
     } catch (...) {
