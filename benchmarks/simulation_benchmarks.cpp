@@ -1,8 +1,8 @@
 // Times a simulated scan: in every scene, in scenes of at least 150 000 triangles, and along
 // courses; also the generation of courses, and exact distances in them.
 #include <benchmark/benchmark.h>
-#include <hagen/avoidance/TrialSensor.h>
 #include <hagen/avoidance/Course.h>
+#include <hagen/avoidance/TrialSensor.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 #include <algorithm>

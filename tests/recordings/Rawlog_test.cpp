@@ -248,8 +248,9 @@ TEST(Rawlog, RejectsOtherFiles) {
         EXPECT_THROW(reader.next(), BrokenRecording);
     }
     const std::string garbage = "just some text, and more of it than a header";
-    EXPECT_THAT(readAll(folder.write("text.rawlog", garbage)).second,
-                AllOf(HasSubstr("text.rawlog: is not a recording: "), HasSubstr("Known are rawlogs")));
+    EXPECT_THAT(
+        readAll(folder.write("text.rawlog", garbage)).second,
+        AllOf(HasSubstr("text.rawlog: is not a recording: "), HasSubstr("Known are rawlogs")));
     const auto packed = folder.write("log.bz2", "BZh91AY&SY");
     EXPECT_THAT(readAll(packed).second,
                 HasSubstr("is not a recording: it seems to be packed by bzip2: unpack it first"));
