@@ -32,7 +32,7 @@ Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& toleran
     return tolerance_m;
 }
 
-TEST(HeightTolerance, GrowsWithDistance) {
+TEST(HeightTolerance, OfLevelGroundGrowsWithTheDistance) {
     const Image<float> tolerance_m =
         tolerated(pixelsAt({{0, 0, 0}, {3, 4, 0}, {-40, 0, 0}, kEmptyPixel}));
     EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.17f);
@@ -41,7 +41,7 @@ TEST(HeightTolerance, GrowsWithDistance) {
     EXPECT_FALSE(hasValue(tolerance_m(0, 3)));
 }
 
-TEST(HeightTolerance, ShrinksBesideTallCells) {
+TEST(HeightTolerance, BesideWhatIsTallIsLess) {
     // Cells are 0.75 m wide: x = 3 is in cell 4, 3.8 in cell 5, 4.6 in cell 6.
     const PixelPoints pixels = pixelsAt({{3, 4, 0}, {3.8f, 4, 1}, {4.6f, 4, 0}, {5.3f, 4, 0}});
     const Image<float> tolerance_m = tolerated(pixels);
@@ -51,14 +51,14 @@ TEST(HeightTolerance, ShrinksBesideTallCells) {
     EXPECT_FLOAT_EQ(tolerance_m(0, 3), 0.17f + 0.005f * std::hypot(5.3f, 4.0f));
 }
 
-TEST(HeightTolerance, IgnoresDiagonalCells) {
+TEST(HeightTolerance, WhatStandsAtACornerOfTheCellIsNotBesideIt) {
     // The cells of (3, 4): 4 and 5.
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3.8f, 4.6f, 1}}))(0, 0), 0.195f);
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4.6f, 1}}))(0, 0), 0.195f - 0.12f);
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 3.7f, 1}}))(0, 0), 0.195f - 0.12f);
 }
 
-TEST(HeightTolerance, IgnoresTallCellsBelowSensor) {
+TEST(HeightTolerance, BelowTheSensorTheNeighboursDoNotMatter) {
     const PixelPoints pixels = pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 1}});
     const auto fromHeight = [&](float sensor_height_m) {
         return tolerated(pixels, {}, sensor_height_m)(0, 0);
@@ -70,28 +70,67 @@ TEST(HeightTolerance, IgnoresTallCellsBelowSensor) {
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}))(0, 0), 0.17f);
 }
 
-TEST(HeightTolerance, IgnoresHeightAboveLimit) {
+TEST(HeightTolerance, MoreThanElevenTenthsOfAMetreIsNoReasonToTolerateLess) {
     const Image<float> tolerance_m = tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.4f}, {3, 4, 1.4f}}));
     EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.195f - 0.12f * 1.1f);
 }
 
-TEST(HeightTolerance, HasMinimum) {
+TEST(HeightTolerance, IsNeverLessThanFourCentimetres) {
     const Image<float> tolerance_m =
         tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.4f}, {3, 4, 1.4f}}), {0.1f, 0.0f, 0.12f});
     EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.04f);
 }
 
-TEST(HeightTolerance, IgnoresHoles) {
+TEST(HeightTolerance, AHoleInTheGroundChangesNothing) {
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, -2}}))(0, 0), 0.195f);
 }
 
-TEST(HeightTolerance, IgnoresSingleHighReturn) {
+TEST(HeightTolerance, OneReturnOverTheGroundMayBeADropOfRain) {
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}}))(0, 0), 0.195f);
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 0.5f}}))(0, 0),
                     0.195f - 0.12f * 0.5f);
 }
 
-TEST(LabelByHeight, HighOrFarBelowIsRoi) {
+TEST(HeightTolerance, TheCrownOfATreeDoesNotStandBelowIt) {
+    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.51f}, {3, 4, 6}}))(0, 0), 0.195f);
+}
+
+TEST(HeightTolerance, AgreesWithASearchThroughAllPixels) {
+    test::Random random(90);
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 600; ++i) {
+        points.emplace_back(random.real(-12, 12), random.real(-12, 12), random.real(-0.5f, 2));
+        if (random.chance(0.1)) points.back() = kEmptyPixel;
+    }
+    const HeightTolerance t{0.3f, 0.01f, 0.2f};
+    const Image<float> tolerance_m = tolerated(pixelsAt(points, 4), t, 2);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& p = points[i];
+        if (!hasValue(p.x())) continue;
+        std::map<std::pair<int, int>, std::vector<float>> around_m;  // by cell, the highest first
+        for (const auto& q : points) {
+            if (!hasValue(q.x()) || q.z() >= 1.5f) continue;
+            const int u = static_cast<int>(cellFromSensor(q.x()));
+            const int v = static_cast<int>(cellFromSensor(q.y()));
+            if (std::abs(static_cast<int>(cellFromSensor(p.x())) - u) +
+                    std::abs(static_cast<int>(cellFromSensor(p.y())) - v) >
+                1)
+                continue;
+            around_m[{u, v}].push_back(q.z());
+        }
+        float tallest_m = 0;
+        for (auto& [cell, heights_m] : around_m) {
+            std::sort(heights_m.rbegin(), heights_m.rend());
+            const float top_m = heights_m[heights_m.size() > 1 ? 1 : 0];
+            tallest_m = std::max(tallest_m, std::min(top_m, 1.1f));
+        }
+        const float distance_m = p.head<2>().norm(), shallow = std::min(distance_m / 6, 1.0f);
+        const float expected_m = 0.3f + 0.01f * distance_m - 0.2f * shallow * tallest_m;
+        EXPECT_NEAR(tolerance_m.data()[i], std::max(0.04f, expected_m), 1e-5f);
+    }
+}
+
+TEST(LabelByHeight, HigherThanTheToleranceOrFarBelowTheSurfaceIsRoi) {
     Image<float> height_m(1, 6), tolerance_m(1, 6);
     height_m << -1.51f, -1.5f, 0.2f, 0.21f, 5, kNoValue;
     tolerance_m << 0.2f, 0.2f, 0.2f, 0.2f, 0.2f, kNoValue;
@@ -114,37 +153,37 @@ std::vector<Label> grown(const std::vector<Eigen::Vector3f>& column) {
 
 constexpr Label kRoi = Label::Roi, kRou = Label::Rou, kNone = Label::Unclassified;
 
-TEST(GrowFeet, FollowsWallToItsFoot) {
+TEST(GrowFeet, AWallIsFollowedToItsFoot) {
     EXPECT_EQ(grown({{3, 0, 0}, {8, 0, 0.05f}, {8, 0, 0.15f}, {8, 0, 0.5f}}),
               (std::vector<Label>{kRou, kRoi, kRoi, kRoi}));
 }
 
-TEST(GrowFeet, KeepsGrassBeforeWall) {
+TEST(GrowFeet, GrassInFrontOfAWallIsNotItsFoot) {
     EXPECT_EQ(grown({{5, 0, 0.15f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
 }
 
-TEST(GrowFeet, NeedsFortyFiveDegrees) {
+TEST(GrowFeet, FortyFiveDegreesIsTheBorder) {
     EXPECT_EQ(grown({{7.61f, 0, 0.1f}, {8, 0, 0.5f}}), (std::vector<Label>{kRoi, kRoi}));
     EXPECT_EQ(grown({{7.59f, 0, 0.1f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
     // in any direction
     EXPECT_EQ(grown({{0, 7.59f, 0.1f}, {0, 8, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
 }
 
-TEST(GrowFeet, NeedsHeightAboveGround) {
+TEST(GrowFeet, WhatIsLevelWithTheGroundIsNoFoot) {
     EXPECT_EQ(grown({{8, 0, 0.015f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
     EXPECT_EQ(grown({{8, 0, 0.016f}, {8, 0, 0.5f}}), (std::vector<Label>{kRoi, kRoi}));
 }
 
-TEST(GrowFeet, NeedsRoiAbove) {
+TEST(GrowFeet, UnderWhatIsNoObstacleThereIsNoFoot) {
     EXPECT_EQ(grown({{8, 0, 0.05f}, {8, 0, 0.15f}}), (std::vector<Label>{kRou, kRou}));
 }
 
-TEST(GrowFeet, StopsAtGroundPixel) {
+TEST(GrowFeet, WhatIsBelowAPixelOfTheGroundIsNoFoot) {
     EXPECT_EQ(grown({{8, 0, 0.1f}, {5, 0, 0.1f}, {8, 0, 1}}),
               (std::vector<Label>{kRou, kRou, kRoi}));
 }
 
-TEST(GrowFeet, CrossesUpToThreeEmptyPixels) {
+TEST(GrowFeet, EmptyPixelsAreCrossedUpToThree) {
     EXPECT_EQ(grown({{8, 0, 0.1f}, kEmptyPixel, kEmptyPixel, kEmptyPixel, {8, 0, 1}}),
               (std::vector<Label>{kRoi, kNone, kNone, kNone, kRoi}));
     EXPECT_EQ(grown({{8, 0, 0.1f}, kEmptyPixel, kEmptyPixel, kEmptyPixel, kEmptyPixel, {8, 0, 1}}),
@@ -167,7 +206,7 @@ Image<Label> voted(const Image<float>& height_m, float distance_step_m = 0) {
     return labels;
 }
 
-TEST(RemoveSpecks, LoneDoubtfulPixelFollowsNeighbours) {
+TEST(RemoveSpecks, ALoneDoubtfulPixelFollowsItsNeighbours) {
     Image<float> height_m = Image<float>::Zero(3, 5);
     height_m(1, 2) = 0.39f;
     EXPECT_TRUE((voted(height_m) == kRou).all());
@@ -176,7 +215,7 @@ TEST(RemoveSpecks, LoneDoubtfulPixelFollowsNeighbours) {
     EXPECT_TRUE((voted(height_m) == kRoi).all());
 }
 
-TEST(RemoveSpecks, KeepsClearlyHigherPixels) {
+TEST(RemoveSpecks, WhatIsClearlyHigherStays) {
     Image<float> height_m = Image<float>::Zero(3, 5);
     height_m(1, 2) = 0.41f;
     EXPECT_EQ(voted(height_m)(1, 2), kRoi);
@@ -185,7 +224,7 @@ TEST(RemoveSpecks, KeepsClearlyHigherPixels) {
     EXPECT_EQ((voted(height_m) == kRoi).count(), 1);
 }
 
-TEST(RemoveSpecks, TieChangesNothing) {
+TEST(RemoveSpecks, ADrawChangesNothing) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m(1, 2) = 0.3f;  // doubtful, RoI
     height_m(0, 1) = 2;     // votes for RoI
@@ -195,7 +234,7 @@ TEST(RemoveSpecks, TieChangesNothing) {
     EXPECT_EQ(voted(height_m)(1, 2), kRou);
 }
 
-TEST(RemoveSpecks, NeedsThreeVotes) {
+TEST(RemoveSpecks, FewerThanThreeVotesChangeNothing) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m(1, 2) = 0.1f;  // doubtful, ROU
     height_m(0, 2) = 2;
@@ -204,14 +243,20 @@ TEST(RemoveSpecks, NeedsThreeVotes) {
     EXPECT_EQ(voted(height_m)(1, 2), kRoi);
 }
 
-TEST(RemoveSpecks, IgnoresVotersFartherThanOneMetre) {
+TEST(RemoveSpecks, PixelsFartherApartThanAMetreHaveNoVote) {
     Image<float> height_m = Image<float>::Zero(3, 5);
     height_m.col(2) = 0.3f;
     EXPECT_TRUE((voted(height_m, 0.9f).col(2) == kRou).all());
     EXPECT_TRUE((voted(height_m, 1.1f).col(2) == kRoi).all());
 }
 
-TEST(RemoveSpecks, VotesUseOldLabels) {
+TEST(RemoveSpecks, WhatIsClearlyLowerStays) {
+    Image<float> height_m = Image<float>::Constant(3, 5, 0.6f);
+    height_m(1, 2) = -0.01f;
+    EXPECT_EQ(voted(height_m)(1, 2), kRou);
+}
+
+TEST(RemoveSpecks, VotesAreThoseBeforeAnyWasCounted) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m.col(0) = 0.0f;
     height_m(1, 1) = 0.3f;  // 2 to 4: becomes ROU
@@ -222,7 +267,7 @@ TEST(RemoveSpecks, VotesUseOldLabels) {
     EXPECT_EQ(labels(1, 2), kRoi);
 }
 
-TEST(RemoveSpecks, ColumnsWrapRowsDoNot) {
+TEST(RemoveSpecks, AroundTheBackOfTheTurnPixelsAreNeighboursUpAndDownTheyAreNot) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m(1, 0) = 0.3f;
     height_m(0, 4) = height_m(1, 4) = height_m(2, 4) = 0;
