@@ -1,9 +1,9 @@
 // Flies OctoMaps with other settings in closed loop, each with the latency of its own update:
 // first measured on the courses of seed 300 at a constant latency, then flown on all seeds.
-#include <hagen/avoidance/Calibration.h>
 #include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/Trial.h>
 #include <hagen/avoidance/WorldModel.h>
+#include "avoidance/flights/Calibration.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,11 +2,11 @@
 // courses; also the generation of courses, and exact distances in them.
 #include <benchmark/benchmark.h>
 #include <hagen/avoidance/Course.h>
-#include <hagen/avoidance/TrialSensor.h>
 #include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 #include <algorithm>
 #include <cmath>
+#include "avoidance/flights/TrialSensor.h"
 
 namespace {
 

@@ -1,8 +1,5 @@
 // What labels of sectors cost, and how they differ from those of whole scans: the table of
 // docs/live.md.
-#include <hagen/base/NumberText.h>
-#include <hagen/base/ProcessCost.h>
-#include <hagen/base/Quantile.h>
 #include <hagen/live/LidarStream.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
@@ -10,6 +7,9 @@
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/VelodyneModel.h>
 #include <mrpt/math/CQuaternion.h>
+#include "base/NumberText.h"
+#include "base/ProcessCost.h"
+#include "base/Quantile.h"
 
 #include <algorithm>
 #include <chrono>

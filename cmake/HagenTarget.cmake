@@ -1,6 +1,7 @@
 # hagen_target(TARGET): settings shared by all targets of this project.
 function(hagen_target target)
   target_compile_features(${target} PUBLIC cxx_std_17)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/libs)  # private headers
   target_compile_options(
     ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                       $<$<BOOL:${HAGEN_WARNINGS_AS_ERRORS}>:-Werror>
@@ -43,8 +44,7 @@ function(hagen_library name)
   hagen_target(hagen_${name})
   target_include_directories(
     hagen_${name}
-    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-    PRIVATE ${PROJECT_SOURCE_DIR}/libs)
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   # Before 1.0, a minor version may change the ABI (CONTRIBUTING.md).
   set(abi ${PROJECT_VERSION_MAJOR})
   if(abi EQUAL 0)

@@ -1,13 +1,13 @@
 #pragma once
-#include <hagen/live/AutopilotLink.h>
 #include <hagen/live/LiveSession.h>
 #include <hagen/settings/Settings.h>
+#include "live/autopilot/AutopilotLink.h"
 
 #include <memory>
 #include <optional>
 #include <string>
 
-#include <hagen/base/CommandLine.h>
+#include "base/command_line/CommandLine.h"
 
 namespace hagen {
 

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include <hagen/base/BackgroundPrinter.h>
-#include <hagen/base/CommandLine.h>
-#include <hagen/base/Interrupt.h>
-#include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/base/TextStream.h>
+#include "base/NumberText.h"
+#include "base/TextStream.h"
+#include "base/command_line/BackgroundPrinter.h"
+#include "base/command_line/CommandLine.h"
+#include "base/command_line/Interrupt.h"
 
 #include "Autopilot.h"
 

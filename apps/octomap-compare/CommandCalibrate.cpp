@@ -1,9 +1,9 @@
 // octomap-compare calibrate: measures the latency of each stage on this machine.
-#include <hagen/avoidance/Calibration.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/base/OutputSet.h>
-#include <hagen/base/WriteFile.h>
+#include "avoidance/flights/Calibration.h"
+#include "base/OutputSet.h"
+#include "base/WriteFile.h"
 
 #include <cstdlib>
 #include <iomanip>
@@ -11,8 +11,8 @@
 #include <memory>
 #include <optional>
 
-#include <hagen/base/Interrupt.h>
 #include "Commands.h"
+#include "base/command_line/Interrupt.h"
 
 namespace hagen {
 namespace {

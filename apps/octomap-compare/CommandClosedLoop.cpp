@@ -1,21 +1,21 @@
 // octomap-compare closedloop: flies a campaign in simulation.
-#include <hagen/avoidance/Campaign.h>
 #include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/Guidance.h>
 #include <hagen/avoidance/Planner.h>
 #include <hagen/avoidance/WorldModel.h>
-#include <hagen/base/NumberText.h>
-#include <hagen/base/TextStream.h>
 #include <cstdio>
 #include <iomanip>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <thread>
+#include "avoidance/flights/Campaign.h"
+#include "base/NumberText.h"
+#include "base/TextStream.h"
 
-#include <hagen/base/Interrupt.h>
-#include <hagen/base/ProgressLine.h>
 #include "Commands.h"
+#include "base/command_line/Interrupt.h"
+#include "base/command_line/ProgressLine.h"
 
 namespace hagen {
 namespace {

@@ -8,11 +8,11 @@
 #include <memory>
 #include <stdexcept>
 
-#include <hagen/avoidance/OpenLoopFiles.h>
-#include <hagen/base/Interrupt.h>
-#include <hagen/base/ProgressLine.h>
-#include <hagen/base/Terminal.h>
 #include "Commands.h"
+#include "avoidance/openloop/OpenLoopFiles.h"
+#include "base/command_line/Interrupt.h"
+#include "base/command_line/ProgressLine.h"
+#include "base/command_line/Terminal.h"
 
 namespace hagen {
 namespace {

@@ -1,17 +1,17 @@
 // octomap-compare replay: flies a run again and shows it in 3D.
 #include <hagen/avoidance/WorldModel.h>
-#include <hagen/base/Interrupt.h>
-#include <hagen/base/OutputSet.h>
-#include <hagen/base/WriteFile.h>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include "base/OutputSet.h"
+#include "base/WriteFile.h"
+#include "base/command_line/Interrupt.h"
 
-#include <hagen/avoidance/ChooseRun.h>
 #include <hagen/avoidance/LatencyProfile.h>
-#include <hagen/avoidance/Replay.h>
-#include <hagen/avoidance/RunTable.h>
 #include "Commands.h"
+#include "avoidance/flights/RunTable.h"
+#include "avoidance/replays/ChooseRun.h"
+#include "avoidance/replays/Replay.h"
 
 namespace hagen {
 namespace {

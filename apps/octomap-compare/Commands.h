@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/base/CommandLine.h>
+#include "base/command_line/CommandLine.h"
 
 #include <algorithm>
 #include <sstream>

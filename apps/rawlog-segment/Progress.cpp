@@ -1,5 +1,5 @@
 #include "Progress.h"
-#include <hagen/base/Terminal.h>
+#include "base/command_line/Terminal.h"
 
 #include <unistd.h>
 

@@ -1,8 +1,8 @@
 #include "Reports.h"
 
-#include <hagen/base/Folder.h>
-#include <hagen/base/NumberText.h>
-#include <hagen/base/Terminal.h>
+#include "base/Folder.h"
+#include "base/NumberText.h"
+#include "base/command_line/Terminal.h"
 
 #include <algorithm>
 #include <array>

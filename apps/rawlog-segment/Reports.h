@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/convert/Conversion.h>
-#include <hagen/convert/LearnAirframe.h>
+#include "convert/LearnAirframe.h"
 
 /// Prints the results and outputs of a conversion to standard output.
 void printSummary(const hagen::convert::Conversion& conversion,

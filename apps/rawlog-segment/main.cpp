@@ -1,19 +1,19 @@
 // Segments a log: near obstacles (RoI) and everything else (ROU) in each LiDAR scan.
 #include <hagen/convert/Conversion.h>
-#include <hagen/convert/LearnAirframe.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/settings/Presets.h>
+#include "convert/LearnAirframe.h"
 
 #include <cstdio>
 #include <iostream>
 #include <string>
 #include <vector>
 
-#include <hagen/base/CommandLine.h>
-#include <hagen/base/Interrupt.h>
-#include <hagen/base/Terminal.h>
 #include "Progress.h"
 #include "Reports.h"
+#include "base/command_line/CommandLine.h"
+#include "base/command_line/Interrupt.h"
+#include "base/command_line/Terminal.h"
 
 namespace {
 

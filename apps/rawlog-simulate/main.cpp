@@ -8,10 +8,10 @@
 #include <iostream>
 #include <string>
 
-#include <hagen/base/CommandLine.h>
-#include <hagen/base/Interrupt.h>
-#include <hagen/base/ProgressLine.h>
-#include <hagen/convert/SimulatedLog.h>
+#include "base/command_line/CommandLine.h"
+#include "base/command_line/Interrupt.h"
+#include "base/command_line/ProgressLine.h"
+#include "convert/simulated/SimulatedLog.h"
 
 namespace {
 

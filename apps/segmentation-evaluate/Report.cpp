@@ -1,6 +1,6 @@
 #include "Report.h"
 
-#include <hagen/filter/OptionKeys.h>
+#include "filter/OptionKeys.h"
 
 #include <algorithm>
 #include <cmath>

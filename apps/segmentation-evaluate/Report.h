@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include <hagen/evaluation/Summary.h>
+#include "evaluation/labelled_folders/Summary.h"
 
 namespace hagen {
 

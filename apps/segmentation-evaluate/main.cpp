@@ -1,5 +1,4 @@
 // Scores the filter on labelled scan folders, with one set of settings or a sweep.
-#include <hagen/base/OutputSet.h>
 #include <hagen/evaluation/Evaluation.h>
 #include <hagen/settings/Presets.h>
 #include <filesystem>
@@ -10,19 +9,20 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include "base/OutputSet.h"
 
-#include <hagen/base/CommandLine.h>
-#include <hagen/base/Interrupt.h>
-#include <hagen/base/Terminal.h>
-#include <hagen/evaluation/Charts.h>
-#include <hagen/evaluation/HardSets.h>
-#include <hagen/evaluation/LabelledFolders.h>
-#include <hagen/evaluation/Methods.h>
-#include <hagen/evaluation/Overlay.h>
-#include <hagen/evaluation/Summary.h>
-#include <hagen/evaluation/SummaryJson.h>
 #include "Progress.h"
 #include "Report.h"
+#include "base/command_line/CommandLine.h"
+#include "base/command_line/Interrupt.h"
+#include "base/command_line/Terminal.h"
+#include "evaluation/labelled_folders/Charts.h"
+#include "evaluation/labelled_folders/HardSets.h"
+#include "evaluation/labelled_folders/LabelledFolders.h"
+#include "evaluation/labelled_folders/Methods.h"
+#include "evaluation/labelled_folders/Overlay.h"
+#include "evaluation/labelled_folders/Summary.h"
+#include "evaluation/labelled_folders/SummaryJson.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <hagen/convert/SimulatedLog.h>
+#include "convert/simulated/SimulatedLog.h"
 
 namespace hagen {
 

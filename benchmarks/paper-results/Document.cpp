@@ -1,12 +1,12 @@
 #include "Document.h"
 
 #include <embree3/rtcore.h>
-#include <hagen/evaluation/Breakdown.h>
-#include <hagen/evaluation/Latency.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include "evaluation/Breakdown.h"
+#include "evaluation/Latency.h"
 
 #include "DroneSection.h"
 #include "HardSection.h"

@@ -1,11 +1,11 @@
 #include "Figures.h"
 
-#include <hagen/convert/Gnuplot.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <locale>
 #include <sstream>
+#include "convert/pictures/Gnuplot.h"
 
 #include "Rows.h"
 

@@ -1,10 +1,10 @@
 #include "HardSection.h"
 
-#include <hagen/evaluation/Summary.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include "evaluation/labelled_folders/Summary.h"
 
 #include "Rows.h"
 #include "Sums.h"

@@ -1,15 +1,15 @@
 #include "Measurement.h"
 
-#include <hagen/evaluation/Breakdown.h>
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <iostream>
 #include <mutex>
 #include <thread>
+#include "evaluation/Breakdown.h"
 
-#include <hagen/evaluation/LabelledFolders.h>
 #include "Rows.h"
+#include "evaluation/labelled_folders/LabelledFolders.h"
 
 namespace hagen {
 namespace {

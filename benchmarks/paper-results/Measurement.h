@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <hagen/evaluation/HardSets.h>
 #include "DataSets.h"
+#include "evaluation/labelled_folders/HardSets.h"
 
 namespace hagen {
 

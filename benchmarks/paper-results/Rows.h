@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include <hagen/evaluation/Methods.h>
 #include "DataSets.h"
+#include "evaluation/labelled_folders/Methods.h"
 
 namespace hagen {
 

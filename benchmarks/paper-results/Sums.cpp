@@ -1,7 +1,7 @@
 #include "Sums.h"
 
-#include <hagen/evaluation/Breakdown.h>
 #include <cmath>
+#include "evaluation/Breakdown.h"
 
 namespace hagen {
 

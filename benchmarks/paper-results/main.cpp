@@ -1,17 +1,17 @@
 // Measures the results in docs/results.md and writes that page. Run by scripts/reproduce-paper.
 #include <hagen/base/OutputPath.h>
-#include <hagen/base/WriteFile.h>
-#include <hagen/evaluation/Charts.h>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <optional>
 #include <thread>
+#include "base/WriteFile.h"
+#include "evaluation/labelled_folders/Charts.h"
 
-#include <hagen/base/CommandLine.h>
 #include "Document.h"
 #include "Figures.h"
 #include "ReadmeBlock.h"
+#include "base/command_line/CommandLine.h"
 
 namespace {
 

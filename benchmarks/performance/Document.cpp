@@ -1,12 +1,12 @@
 #include "Document.h"
 
-#include <hagen/convert/Gnuplot.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <locale>
 #include <numeric>
 #include <sstream>
+#include "convert/pictures/Gnuplot.h"
 
 #include "support/Processor.h"
 #include "support/Tables.h"

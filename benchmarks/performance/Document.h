@@ -1,9 +1,9 @@
 // docs/performance.md and its figure.
 #pragma once
-#include <hagen/evaluation/Latency.h>
 #include <filesystem>
 #include <string>
 #include <vector>
+#include "evaluation/Latency.h"
 
 #include "ConversionTimes.h"
 #include "Flights.h"

@@ -7,8 +7,8 @@
 #include <chrono>
 
 #include <hagen/convert/SimulatedObservation.h>
-#include <hagen/evaluation/Methods.h>
 #include "StageRows.h"
+#include "evaluation/labelled_folders/Methods.h"
 
 namespace hagen {
 namespace {

@@ -1,14 +1,14 @@
 #include "StageRows.h"
 
-#include <hagen/evaluation/BaselineZermas.h>
-#include <hagen/filter/CanopyLayer.h>
-#include <hagen/filter/GapRepair.h>
-#include <hagen/filter/RangeAngle.h>
-#include <hagen/filter/RoiBoxes.h>
-#include <hagen/filter/Sharpening.h>
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/settings/Settings.h>
+#include "evaluation/baselines/BaselineZermas.h"
+#include "filter/RoiBoxes.h"
+#include "filter/image/GapRepair.h"
+#include "filter/paper/RangeAngle.h"
+#include "filter/paper/Sharpening.h"
+#include "filter/simd/CanopyLayer.h"
 
 #include <algorithm>
 #include <cstring>

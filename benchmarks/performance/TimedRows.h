@@ -1,9 +1,9 @@
 // Measured times, as a table for people and as JSON for programs.
 #pragma once
-#include <hagen/evaluation/Latency.h>
 #include <filesystem>
 #include <string>
 #include <vector>
+#include "evaluation/Latency.h"
 
 namespace hagen {
 

@@ -1,11 +1,11 @@
 // Measures the run time of a conversion, compared with reading the log and writing the same bytes
 // without segmentation.
 #include <hagen/convert/Conversion.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/obs/CObservation.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include "convert/RawlogWriter.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-#include <hagen/base/CommandLine.h>
 #include "ConversionTimes.h"
+#include "base/command_line/CommandLine.h"
 
 namespace {
 

@@ -1,13 +1,13 @@
 // Times entire flights, and writes docs/performance.md from these times and the output of
 // stage-benchmarks and conversion-benchmark. Run by scripts/measure-performance.
 #include <hagen/base/OutputPath.h>
-#include <hagen/evaluation/Charts.h>
 #include <fstream>
 #include <iostream>
+#include "evaluation/labelled_folders/Charts.h"
 
-#include <hagen/base/CommandLine.h>
 #include "Document.h"
 #include "StageRows.h"
+#include "base/command_line/CommandLine.h"
 
 namespace {
 

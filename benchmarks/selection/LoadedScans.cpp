@@ -1,9 +1,9 @@
 #include "LoadedScans.h"
 
-#include <hagen/evaluation/DegradedScans.h>
-#include <hagen/evaluation/LabelledFolders.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include "evaluation/DegradedScans.h"
+#include "evaluation/labelled_folders/LabelledFolders.h"
 
 #include <algorithm>
 #include <fstream>

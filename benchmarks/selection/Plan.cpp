@@ -1,9 +1,9 @@
 #include "Plan.h"
 
-#include <hagen/base/NumberText.h>
-#include <hagen/evaluation/Degradation.h>
-#include <hagen/filter/OptionKeys.h>
 #include <yaml-cpp/yaml.h>
+#include "base/NumberText.h"
+#include "evaluation/Degradation.h"
+#include "filter/OptionKeys.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,10 +1,10 @@
 #include "Record.h"
 
-#include <hagen/base/Json.h>
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include "base/Json.h"
 
 namespace hagen::selection {
 namespace {

@@ -1,18 +1,18 @@
 // Chooses the filter's settings by leaving one drive out, and writes docs/selection.json. Run by
 // scripts/select-settings.
 #include <hagen/base/OutputPath.h>
-#include <hagen/base/WriteFile.h>
 #include <hagen/evaluation/LabelMap.h>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include "base/WriteFile.h"
 
-#include <hagen/base/CommandLine.h>
 #include "LoadedScans.h"
 #include "Plan.h"
 #include "Record.h"
 #include "SelectionTables.h"
+#include "base/command_line/CommandLine.h"
 #include "paper-results/DataSets.h"
 
 namespace {

@@ -1,10 +1,10 @@
 // Tables as Markdown or CSV, and numbers as their cells.
 #pragma once
-#include <hagen/evaluation/Bootstrap.h>
 #include <hagen/evaluation/DroneScores.h>
 #include <map>
 #include <string>
 #include <vector>
+#include "evaluation/Bootstrap.h"
 
 namespace hagen {
 

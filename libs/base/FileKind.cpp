@@ -1,4 +1,4 @@
-#include <hagen/base/FileKind.h>
+#include "base/FileKind.h"
 
 #include <algorithm>
 #include <fstream>

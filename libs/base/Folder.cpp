@@ -2,12 +2,12 @@
 #include <dirent.h>
 #include <ftw.h>
 
-#include <hagen/base/Folder.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <string_view>
+#include "base/Folder.h"
 
 namespace hagen::base {
 

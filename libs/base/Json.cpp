@@ -1,4 +1,4 @@
-#include <hagen/base/Json.h>
+#include "base/Json.h"
 
 #include <stdexcept>
 

@@ -1,5 +1,5 @@
-#include <hagen/base/MemoryLimit.h>
-#include <hagen/base/NumberText.h>
+#include "base/MemoryLimit.h"
+#include "base/NumberText.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include <hagen/base/NumberText.h>
+#include "base/NumberText.h"
 #include <array>
 #include <cmath>
 

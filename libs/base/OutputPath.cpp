@@ -3,9 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <hagen/base/Folder.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/base/WriteFile.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -13,6 +11,8 @@
 #include <regex>
 #include <stdexcept>
 #include <string>
+#include "base/Folder.h"
+#include "base/WriteFile.h"
 
 namespace hagen::base {
 namespace {

@@ -1,9 +1,9 @@
-#include <hagen/base/MemoryLimit.h>
-#include <hagen/base/OutputSet.h>
+#include "base/OutputSet.h"
 #include <algorithm>
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include "base/MemoryLimit.h"
 
 namespace hagen::base {
 

@@ -1,4 +1,4 @@
-#include <hagen/base/ProcessCost.h>
+#include "base/ProcessCost.h"
 #include <malloc.h>
 #include <time.h>
 

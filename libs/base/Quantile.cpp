@@ -1,4 +1,4 @@
-#include <hagen/base/Quantile.h>
+#include "base/Quantile.h"
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

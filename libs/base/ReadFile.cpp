@@ -1,4 +1,4 @@
-#include <hagen/base/ReadFile.h>
+#include "base/ReadFile.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "convert/CloudOutput.h"
 
-#include <hagen/recordings/CloudFile.h>
+#include "recordings/clouds/CloudFile.h"
 
 #include "convert/LabelledTable.h"
 

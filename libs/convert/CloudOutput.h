@@ -1,8 +1,8 @@
 #pragma once
-#include <hagen/convert/SensorFolders.h>
 #include <hagen/convert/WriteCloud.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <mrpt/obs/CObservation.h>
+#include "convert/SensorFolders.h"
 
 #include <filesystem>
 #include <map>

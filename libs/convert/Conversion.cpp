@@ -1,14 +1,14 @@
-#include <hagen/base/MemoryLimit.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/convert/Conversion.h>
 #include <hagen/convert/MapOutput.h>
 #include <hagen/mrpt/MrptMessage.h>
-#include <hagen/mrpt/Results.h>
 #include <hagen/mrpt/TimeStamp.h>
-#include <hagen/recordings/BagFile.h>
-#include <hagen/recordings/PoseFile.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/lazy_load_path.h>
+#include "base/MemoryLimit.h"
+#include "mrpt/Results.h"
+#include "recordings/PoseFile.h"
+#include "recordings/bags/BagFile.h"
 
 #include <algorithm>
 #include <chrono>

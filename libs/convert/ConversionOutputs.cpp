@@ -1,12 +1,12 @@
 #include "convert/ConversionOutputs.h"
 
-#include <hagen/base/MemoryLimit.h>
-#include <hagen/convert/ConversionStatistics.h>
-#include <hagen/convert/StagePictures.h>
-#include <hagen/filter/Posture.h>
-#include <hagen/mrpt/Mount.h>
 #include <hagen/mrpt/TimeStamp.h>
 #include <hagen/recordings/ScanFolder.h>
+#include "base/MemoryLimit.h"
+#include "convert/ConversionStatistics.h"
+#include "convert/pictures/StagePictures.h"
+#include "filter/image/Posture.h"
+#include "mrpt/Mount.h"
 
 #include <algorithm>
 #include <new>

@@ -1,9 +1,6 @@
 #pragma once
 #include <hagen/convert/Conversion.h>
 #include <hagen/convert/MapOutput.h>
-#include <hagen/convert/RawlogWriter.h>
-#include <hagen/convert/ScanFolderWriter.h>
-#include <hagen/convert/SensorFolders.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <array>
 #include <atomic>
@@ -12,6 +9,9 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include "convert/RawlogWriter.h"
+#include "convert/ScanFolderWriter.h"
+#include "convert/SensorFolders.h"
 
 #include "convert/CloudOutput.h"
 #include "convert/McapOutput.h"

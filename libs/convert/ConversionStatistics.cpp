@@ -1,14 +1,14 @@
-#include <hagen/base/Json.h>
-#include <hagen/base/Quantile.h>
-#include <hagen/convert/ConversionStatistics.h>
-#include <hagen/settings/SettingsJson.h>
+#include "convert/ConversionStatistics.h"
+#include "base/Json.h"
+#include "base/Quantile.h"
+#include "settings/SettingsJson.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
 
-#include <hagen/base/WriteFile.h>
+#include "base/WriteFile.h"
 
 namespace hagen::convert {
 namespace {

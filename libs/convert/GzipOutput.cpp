@@ -1,7 +1,7 @@
 #include <libdeflate.h>
 #include <unistd.h>
 
-#include <hagen/convert/GzipOutput.h>
+#include "convert/GzipOutput.h"
 
 #include <cerrno>
 #include <cstring>

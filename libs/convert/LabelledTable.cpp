@@ -3,12 +3,12 @@
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/NewerClouds.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/PointFields.h>
-#include <hagen/mrpt/Results.h>
-#include <hagen/mrpt/TableCloud.h>
 #include <hagen/recordings/ScanFolder.h>
-#include <hagen/recordings/UniqueNames.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include "mrpt/PointFields.h"
+#include "mrpt/Results.h"
+#include "mrpt/TableCloud.h"
+#include "recordings/UniqueNames.h"
 
 #include <algorithm>
 #include <array>

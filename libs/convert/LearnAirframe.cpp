@@ -1,15 +1,15 @@
-#include <hagen/convert/LearnAirframe.h>
+#include "convert/LearnAirframe.h"
 #include <hagen/mrpt/TimeStamp.h>
 
-#include <hagen/base/NumberText.h>
-#include <hagen/base/OutputSet.h>
-#include <hagen/base/WriteFile.h>
-#include <hagen/convert/AirframePicture.h>
 #include <hagen/mrpt/MrptMessage.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanSource.h>
-#include <hagen/scan/AirframeLearner.h>
-#include <hagen/settings/AirframeFile.h>
+#include "base/NumberText.h"
+#include "base/OutputSet.h"
+#include "base/WriteFile.h"
+#include "convert/pictures/AirframePicture.h"
+#include "scan/AirframeLearner.h"
+#include "settings/AirframeFile.h"
 
 #include <new>
 #include <optional>

@@ -1,8 +1,8 @@
-#include <hagen/base/MemoryLimit.h>
 #include <hagen/convert/MapOutput.h>
-#include <hagen/mrpt/Deskew.h>
 #include <hagen/mrpt/MapFile.h>
 #include <hagen/mrpt/TimeStamp.h>
+#include "base/MemoryLimit.h"
+#include "mrpt/Deskew.h"
 
 #include <algorithm>
 #include <chrono>

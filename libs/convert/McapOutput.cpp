@@ -1,9 +1,9 @@
 #include "convert/McapOutput.h"
 
-#include <hagen/convert/RosMessages.h>
 #include <hagen/convert/WriteCloud.h>
-#include <hagen/filter/RoiBoxes.h>
 #include <hagen/mrpt/TimeStamp.h>
+#include "convert/RosMessages.h"
+#include "filter/RoiBoxes.h"
 
 #include <chrono>
 #include <limits>

@@ -1,8 +1,8 @@
 #pragma once
 #include <hagen/base/OutputPath.h>
-#include <hagen/convert/McapWriter.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <mrpt/obs/CObservation.h>
+#include "convert/McapWriter.h"
 
 #include <cstdint>
 #include <filesystem>

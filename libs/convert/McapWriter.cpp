@@ -1,7 +1,7 @@
-#include <hagen/base/WriteFile.h>
-#include <hagen/convert/McapWriter.h>
+#include "convert/McapWriter.h"
 #include <zlib.h>
 #include <zstd.h>
+#include "base/WriteFile.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include <hagen/convert/RawlogWriter.h>
+#include "convert/RawlogWriter.h"
 #include <mrpt/io/CStream.h>
 #include <mrpt/serialization/CArchive.h>
 

@@ -1,4 +1,4 @@
-#include <hagen/convert/RosMessages.h>
+#include "convert/RosMessages.h"
 #include <mrpt/math/CQuaternion.h>
 
 #include <algorithm>

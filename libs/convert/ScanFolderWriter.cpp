@@ -1,16 +1,16 @@
-#include <hagen/convert/ScanFolderWriter.h>
+#include "convert/ScanFolderWriter.h"
 #include <hagen/mrpt/TimeStamp.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/settings/MostRange.h>
 #include <hagen/settings/Settings.h>
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
 #include <stdexcept>
+#include "settings/MostRange.h"
 
-#include <hagen/base/WriteFile.h>
+#include "base/WriteFile.h"
 #include "recordings/CloudTimes.h"
 
 namespace hagen::convert {

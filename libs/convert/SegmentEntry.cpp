@@ -1,10 +1,10 @@
 #include "convert/SegmentEntry.h"
 
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/MrptMessage.h>
-#include <hagen/mrpt/Results.h>
-#include <hagen/mrpt/ScenePreview.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include "convert/RawlogWriter.h"
+#include "mrpt/Results.h"
+#include "mrpt/ScenePreview.h"
 
 #include <algorithm>
 #include <new>

@@ -1,8 +1,8 @@
 #pragma once
 #include <hagen/convert/Conversion.h>
-#include <hagen/convert/GzipOutput.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <hagen/recordings/ScanSource.h>
+#include "convert/GzipOutput.h"
 
 #include <memory>
 #include <string>

@@ -1,6 +1,6 @@
-#include <hagen/base/Folder.h>
-#include <hagen/base/WriteFile.h>
-#include <hagen/convert/SensorFolders.h>
+#include "convert/SensorFolders.h"
+#include "base/Folder.h"
+#include "base/WriteFile.h"
 
 #include <cctype>
 

@@ -1,7 +1,7 @@
-#include <hagen/base/NumberText.h>
-#include <hagen/base/WriteFile.h>
 #include <hagen/convert/WriteCloud.h>
-#include <hagen/recordings/UniqueNames.h>
+#include "base/NumberText.h"
+#include "base/WriteFile.h"
+#include "recordings/UniqueNames.h"
 
 #include <algorithm>
 #include <cmath>

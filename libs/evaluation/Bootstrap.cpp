@@ -1,7 +1,7 @@
-#include <hagen/base/Quantile.h>
-#include <hagen/evaluation/Bootstrap.h>
+#include "evaluation/Bootstrap.h"
 #include <algorithm>
 #include <random>
+#include "base/Quantile.h"
 
 namespace hagen::evaluation {
 namespace {

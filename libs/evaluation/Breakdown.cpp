@@ -1,4 +1,4 @@
-#include <hagen/evaluation/Breakdown.h>
+#include "evaluation/Breakdown.h"
 #include <algorithm>
 #include <array>
 #include <limits>

@@ -1,6 +1,4 @@
-#include <hagen/base/NumberText.h>
-#include <hagen/evaluation/Degradation.h>
-#include <hagen/filter/Posture.h>
+#include "evaluation/Degradation.h"
 #include <hagen/scan/Angle.h>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+#include "base/NumberText.h"
+#include "filter/image/Posture.h"
 
 namespace hagen::evaluation {
 namespace {

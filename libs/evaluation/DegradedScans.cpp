@@ -1,7 +1,7 @@
-#include <hagen/evaluation/DegradedScans.h>
-#include <hagen/evaluation/TrueHeights.h>
+#include "evaluation/DegradedScans.h"
 #include <limits>
 #include <utility>
+#include "evaluation/TrueHeights.h"
 
 namespace hagen::evaluation {
 

@@ -1,7 +1,7 @@
 #include <hagen/evaluation/DroneScores.h>
-#include <hagen/evaluation/TrueHeights.h>
 #include <algorithm>
 #include <stdexcept>
+#include "evaluation/TrueHeights.h"
 
 #include "evaluation/PlanTree.h"
 

@@ -1,7 +1,7 @@
-#include <hagen/base/NumberText.h>
 #include <hagen/evaluation/LabelMap.h>
 #include <set>
 #include <stdexcept>
+#include "base/NumberText.h"
 
 #include "evaluation/YamlFile.h"
 

@@ -1,7 +1,7 @@
-#include <hagen/base/Quantile.h>
-#include <hagen/evaluation/Latency.h>
+#include "evaluation/Latency.h"
 #include <algorithm>
 #include <numeric>
+#include "base/Quantile.h"
 
 namespace hagen::evaluation {
 Latency latencyOf(std::vector<double> runs_ms) {

@@ -1,7 +1,7 @@
-#include <hagen/base/NumberText.h>
 #include <hagen/evaluation/ScanScores.h>
 #include <algorithm>
 #include <stdexcept>
+#include "base/NumberText.h"
 
 namespace hagen::evaluation {
 namespace {

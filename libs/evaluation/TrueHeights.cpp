@@ -1,4 +1,4 @@
-#include <hagen/evaluation/TrueHeights.h>
+#include "evaluation/TrueHeights.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>

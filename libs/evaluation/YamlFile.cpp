@@ -1,8 +1,8 @@
 #include "evaluation/YamlFile.h"
 
-#include <hagen/base/ReadFile.h>
 #include <set>
 #include <stdexcept>
+#include "base/ReadFile.h"
 
 namespace hagen::evaluation {
 

@@ -1,7 +1,7 @@
 #include <hagen/filter/Extraction.h>
-#include <hagen/scan/SetBits.h>
 #include <algorithm>
 #include <limits>
+#include "scan/SetBits.h"
 
 // Compiled once per instruction set: Highway includes this file again for each.
 #undef HWY_TARGET_INCLUDE

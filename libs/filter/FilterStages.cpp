@@ -1,10 +1,10 @@
 #include "filter/FilterStages.h"
 
-#include <hagen/filter/CanopyLayer.h>
-#include <hagen/filter/Clearance.h>
-#include <hagen/filter/RangeAngle.h>
-#include <hagen/filter/Sharpening.h>
 #include <hagen/scan/Angle.h>
+#include "filter/ground/Clearance.h"
+#include "filter/paper/RangeAngle.h"
+#include "filter/paper/Sharpening.h"
+#include "filter/simd/CanopyLayer.h"
 
 namespace hagen {
 namespace {

@@ -1,19 +1,19 @@
 #pragma once
-#include <hagen/filter/DeadBeams.h>
 #include <hagen/filter/Extraction.h>
-#include <hagen/filter/FartherReturns.h>
-#include <hagen/filter/GroundEvidence.h>
-#include <hagen/filter/GroundFrame.h>
 #include <hagen/filter/GroundSurface.h>
-#include <hagen/filter/HeightLabels.h>
-#include <hagen/filter/Labelling.h>
-#include <hagen/filter/ObstacleFeet.h>
 #include <hagen/filter/PersistentMaxima.h>
-#include <hagen/filter/RoiComponents.h>
-#include <hagen/filter/SingularSpectrumAnalysis.h>
-#include <hagen/filter/SpeckRemoval.h>
 #include <hagen/scan/PixelDirections.h>
 #include <hagen/scan/RangeImage.h>
+#include "filter/RoiComponents.h"
+#include "filter/ground/FartherReturns.h"
+#include "filter/image/DeadBeams.h"
+#include "filter/paper/Labelling.h"
+#include "filter/paper/SingularSpectrumAnalysis.h"
+#include "filter/simd/GroundEvidence.h"
+#include "filter/simd/GroundFrame.h"
+#include "filter/simd/HeightLabels.h"
+#include "filter/simd/ObstacleFeet.h"
+#include "filter/simd/SpeckRemoval.h"
 
 namespace hagen {
 

@@ -1,11 +1,11 @@
 #pragma once
-#include <hagen/filter/ColumnBits.h>
 #include <hagen/scan/Image.h>
 #include <hagen/scan/Label.h>
 #include <hwy/base.h>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
+#include "filter/ColumnBits.h"
 
 namespace hagen {
 

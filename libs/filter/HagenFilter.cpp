@@ -1,10 +1,10 @@
-#include <hagen/filter/DeadBeams.h>
-#include <hagen/filter/GapRepair.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/filter/Posture.h>
 #include <algorithm>
 #include <map>
 #include <utility>
+#include "filter/image/DeadBeams.h"
+#include "filter/image/GapRepair.h"
+#include "filter/image/Posture.h"
 
 #include "filter/FilterStages.h"
 

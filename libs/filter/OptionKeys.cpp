@@ -1,4 +1,4 @@
-#include <hagen/filter/OptionKeys.h>
+#include "filter/OptionKeys.h"
 #include <charconv>
 #include <cmath>
 #include <limits>

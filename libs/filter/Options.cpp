@@ -1,9 +1,9 @@
-#include <hagen/filter/OptionKeys.h>
 #include <hagen/filter/Options.h>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include "filter/OptionKeys.h"
 
 namespace hagen {
 namespace {

@@ -1,4 +1,4 @@
-#include <hagen/filter/RoiBoxes.h>
+#include "filter/RoiBoxes.h"
 #include <algorithm>
 #include <limits>
 

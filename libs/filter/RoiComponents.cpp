@@ -1,4 +1,4 @@
-#include <hagen/filter/RoiComponents.h>
+#include "filter/RoiComponents.h"
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
-#include <hagen/filter/CanopyLayer.h>
-#include <hagen/filter/DeadBeams.h>
-#include <hagen/filter/GapRepair.h>
 #include <hagen/filter/SectorFilter.h>
 #include <algorithm>
 #include <utility>
+#include "filter/image/DeadBeams.h"
+#include "filter/image/GapRepair.h"
+#include "filter/simd/CanopyLayer.h"
 
 #include "filter/FilterStages.h"
 

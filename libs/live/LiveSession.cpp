@@ -1,9 +1,9 @@
-#include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/base/ProcessCost.h>
 #include <hagen/live/LidarStream.h>
 #include <hagen/live/LiveSession.h>
-#include <hagen/live/Priority.h>
+#include "base/NumberText.h"
+#include "base/ProcessCost.h"
+#include "live/Priority.h"
 
 #include <algorithm>
 #include <atomic>

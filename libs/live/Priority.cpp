@@ -1,4 +1,4 @@
-#include <hagen/live/Priority.h>
+#include "live/Priority.h"
 
 #include <pthread.h>
 #include <sched.h>

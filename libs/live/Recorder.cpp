@@ -1,7 +1,7 @@
 #include "live/Recorder.h"
 
-#include <hagen/base/WriteFile.h>
-#include <hagen/live/Priority.h>
+#include "base/WriteFile.h"
+#include "live/Priority.h"
 
 #include <cerrno>
 #include <chrono>

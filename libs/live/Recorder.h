@@ -2,8 +2,8 @@
 #include <hagen/base/OutputPath.h>
 #include <hagen/live/PacketQueue.h>
 #include <hagen/live/Recording.h>
-#include <hagen/sensors/CaptureWriter.h>
 #include <Eigen/Geometry>
+#include "sensors/captures/CaptureWriter.h"
 
 #include <atomic>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "live/StatsFile.h"
 
-#include <hagen/base/Json.h>
+#include "base/Json.h"
 
 #include <cmath>
 #include <fstream>

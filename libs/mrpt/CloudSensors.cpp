@@ -1,6 +1,6 @@
-#include <hagen/base/NumberText.h>
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationScan.h>
+#include "base/NumberText.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <hagen/mrpt/DepthCamera.h>
+#include "mrpt/DepthCamera.h"
 #include <hagen/mrpt/MrptMessage.h>
 #include <hagen/scan/MostReturns.h>
 

@@ -1,4 +1,4 @@
-#include <hagen/mrpt/Deskew.h>
+#include "mrpt/Deskew.h"
 #include <Eigen/Geometry>
 
 #include <algorithm>

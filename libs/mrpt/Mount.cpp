@@ -1,4 +1,4 @@
-#include <hagen/mrpt/Mount.h>
+#include "mrpt/Mount.h"
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
-#include <hagen/base/FileKind.h>
 #include <hagen/mrpt/MrptMessage.h>
+#include "base/FileKind.h"
 
 namespace hagen::observations {
 

@@ -1,15 +1,15 @@
-#include <hagen/mrpt/DepthCamera.h>
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/PointFields.h>
-#include <hagen/mrpt/Results.h>
 #include <hagen/mrpt/RotatingScan.h>
-#include <hagen/mrpt/TableCloud.h>
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/MostReturns.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
+#include "mrpt/DepthCamera.h"
+#include "mrpt/PointFields.h"
+#include "mrpt/Results.h"
+#include "mrpt/TableCloud.h"
 
 #include <algorithm>
 #include <numeric>

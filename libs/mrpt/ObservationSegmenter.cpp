@@ -1,9 +1,9 @@
-#include <hagen/base/ProcessCost.h>
-#include <hagen/mrpt/Mount.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
-#include <hagen/mrpt/Results.h>
 #include <mrpt/core/initializer.h>
 #include <mrpt/rtti/CObject.h>
+#include "base/ProcessCost.h"
+#include "mrpt/Mount.h"
+#include "mrpt/Results.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include <hagen/mrpt/PointFields.h>
+#include "mrpt/PointFields.h"
 
 #include <algorithm>
 #include <cmath>

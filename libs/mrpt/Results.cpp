@@ -1,6 +1,6 @@
-#include <hagen/mrpt/MrptScene.h>
+#include "mrpt/Results.h"
 #include <hagen/mrpt/NewerClouds.h>
-#include <hagen/mrpt/Results.h>
+#include "mrpt/MrptScene.h"
 
 #include <mrpt/obs/CObservation3DScene.h>
 

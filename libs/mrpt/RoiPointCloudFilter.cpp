@@ -1,6 +1,6 @@
-#include <hagen/mrpt/Mount.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/RoiPointCloudFilter.h>
+#include "mrpt/Mount.h"
 
 namespace hagen::observations {
 

@@ -1,8 +1,8 @@
-#include <hagen/filter/RoiBoxes.h>
-#include <hagen/mrpt/MrptScene.h>
-#include <hagen/mrpt/Results.h>
-#include <hagen/mrpt/ScenePreview.h>
+#include "mrpt/ScenePreview.h"
 #include <mrpt/img/TColor.h>
+#include "filter/RoiBoxes.h"
+#include "mrpt/MrptScene.h"
+#include "mrpt/Results.h"
 
 namespace hagen::observations {
 namespace {

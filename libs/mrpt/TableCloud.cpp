@@ -1,5 +1,5 @@
-#include <hagen/mrpt/PointFields.h>
-#include <hagen/mrpt/TableCloud.h>
+#include "mrpt/TableCloud.h"
+#include "mrpt/PointFields.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <hagen/mrpt/VelodyneEncoder.h>
+#include "mrpt/VelodyneEncoder.h"
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "recordings/CaptureSource.h"
 
-#include <hagen/recordings/PoseFile.h>
+#include "recordings/PoseFile.h"
 
 #include "recordings/ScanObject.h"
 

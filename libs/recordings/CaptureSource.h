@@ -1,7 +1,7 @@
 #pragma once
-#include <hagen/recordings/LidarCapture.h>
 #include <hagen/recordings/RawlogSurvey.h>
 #include <hagen/recordings/ScanSource.h>
+#include "recordings/captures/LidarCapture.h"
 
 namespace hagen::recordings {
 

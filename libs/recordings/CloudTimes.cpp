@@ -1,7 +1,7 @@
 #include "recordings/CloudTimes.h"
 
-#include <hagen/base/NumberText.h>
 #include <hagen/mrpt/TimeStamp.h>
+#include "base/NumberText.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
-#include <hagen/base/NumberText.h>
-#include <hagen/base/ReadFile.h>
-#include <hagen/recordings/NumberTable.h>
+#include "recordings/NumberTable.h"
+#include "base/NumberText.h"
+#include "base/ReadFile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,16 +1,16 @@
-#include <hagen/base/ReadFile.h>
+#include "recordings/PoseFile.h"
 #include <hagen/mrpt/TimeStamp.h>
-#include <hagen/recordings/NumberTable.h>
-#include <hagen/recordings/PoseFile.h>
 #include <mrpt/poses/CPose3DQuat.h>
 #include <Eigen/Dense>
+#include "base/ReadFile.h"
+#include "recordings/NumberTable.h"
 
 #include <cmath>
 #include <fstream>
 #include <iomanip>
 #include <stdexcept>
 
-#include <hagen/base/WriteFile.h>
+#include "base/WriteFile.h"
 
 namespace hagen::recordings {
 namespace {

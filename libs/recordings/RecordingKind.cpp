@@ -1,9 +1,9 @@
 #include "recordings/RecordingKind.h"
 
-#include <hagen/base/Folder.h>
-#include <hagen/recordings/BagFile.h>
-#include <hagen/recordings/CloudFile.h>
 #include <hagen/sensors/CaptureFile.h>
+#include "base/Folder.h"
+#include "recordings/bags/BagFile.h"
+#include "recordings/clouds/CloudFile.h"
 
 #include <algorithm>
 #include <optional>

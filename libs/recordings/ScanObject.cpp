@@ -2,9 +2,9 @@
 
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/MrptCompat.h>
-#include <hagen/mrpt/TableCloud.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include "mrpt/TableCloud.h"
 
 #include <algorithm>
 #include <iterator>

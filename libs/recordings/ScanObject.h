@@ -1,8 +1,8 @@
 #pragma once
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/RecordedObject.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/serialization/CSerializable.h>
+#include "recordings/RecordedObject.h"
 
 #include <vector>
 

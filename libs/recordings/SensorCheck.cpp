@@ -1,7 +1,7 @@
 #include "recordings/SensorCheck.h"
 
-#include <hagen/base/NumberText.h>
 #include <hagen/mrpt/ObservationScan.h>
+#include "base/NumberText.h"
 
 #include <stdexcept>
 

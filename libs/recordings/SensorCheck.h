@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <hagen/recordings/ScanSource.h>
-#include <hagen/scan/BeamFit.h>
+#include "scan/BeamFit.h"
 
 #include <map>
 #include <string>

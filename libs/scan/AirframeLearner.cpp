@@ -1,4 +1,4 @@
-#include <hagen/scan/AirframeLearner.h>
+#include "scan/AirframeLearner.h"
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>

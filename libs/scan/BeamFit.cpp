@@ -1,5 +1,5 @@
+#include "scan/BeamFit.h"
 #include <hagen/scan/Angle.h>
-#include <hagen/scan/BeamFit.h>
 #include <hagen/scan/RangeImage.h>
 #include <hagen/scan/RecoverBeams.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <hagen/scan/InstructionSets.h>
+#include "scan/InstructionSets.h"
 #include <hwy/highway.h>
 
 #include <algorithm>

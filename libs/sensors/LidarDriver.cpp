@@ -1,7 +1,7 @@
 #include <hagen/sensors/LidarDriver.h>
-#include <hagen/sensors/OusterSensor.h>
-#include <hagen/sensors/VelodyneCalibrationFile.h>
 #include <hagen/sensors/VelodyneModel.h>
+#include "sensors/ouster/OusterSensor.h"
+#include "sensors/velodyne/VelodyneCalibrationFile.h"
 
 #include <stdexcept>
 

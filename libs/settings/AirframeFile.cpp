@@ -1,8 +1,8 @@
-#include <hagen/settings/AirframeFile.h>
+#include "settings/AirframeFile.h"
 
-#include <hagen/base/NumberText.h>
 #include <hagen/settings/Settings.h>
 #include <cmath>
+#include "base/NumberText.h"
 
 #include "settings/YamlParts.h"
 

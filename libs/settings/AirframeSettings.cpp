@@ -1,9 +1,9 @@
 #include "settings/AirframeSettings.h"
 
-#include <hagen/base/NumberText.h>
-#include <hagen/base/TextStream.h>
-#include <hagen/settings/AirframeFile.h>
 #include <set>
+#include "base/NumberText.h"
+#include "base/TextStream.h"
+#include "settings/AirframeFile.h"
 
 #include "settings/YamlParts.h"
 

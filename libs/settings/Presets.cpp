@@ -7,8 +7,8 @@
 #include <sstream>
 #include <system_error>
 
-#include <hagen/base/Folder.h>
 #include <hagen/settings/Settings.h>
+#include "base/Folder.h"
 #include "settings/YamlParts.h"
 
 namespace hagen {

@@ -1,10 +1,6 @@
 #include <yaml-cpp/yaml.h>
 
-#include <hagen/base/NumberText.h>
-#include <hagen/base/TextStream.h>
-#include <hagen/filter/OptionKeys.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/settings/MostRange.h>
 #include <hagen/settings/Presets.h>
 #include <hagen/settings/Settings.h>
 #include <algorithm>
@@ -12,6 +8,10 @@
 #include <iomanip>
 #include <map>
 #include <set>
+#include "base/NumberText.h"
+#include "base/TextStream.h"
+#include "filter/OptionKeys.h"
+#include "settings/MostRange.h"
 
 #include "settings/AirframeSettings.h"
 #include "settings/YamlParts.h"

@@ -1,8 +1,8 @@
-#include <hagen/settings/SettingsJson.h>
+#include "settings/SettingsJson.h"
 
-#include <hagen/base/Json.h>
-#include <hagen/base/NumberText.h>
-#include <hagen/filter/OptionKeys.h>
+#include "base/Json.h"
+#include "base/NumberText.h"
+#include "filter/OptionKeys.h"
 
 #include <cmath>
 

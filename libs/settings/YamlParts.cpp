@@ -1,7 +1,7 @@
 #include "settings/YamlParts.h"
 
-#include <hagen/base/ReadFile.h>
 #include <yaml-cpp/eventhandler.h>
+#include "base/ReadFile.h"
 
 #include <algorithm>
 #include <numeric>

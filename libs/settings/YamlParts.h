@@ -2,8 +2,6 @@
 #pragma once
 #include <yaml-cpp/yaml.h>
 
-#include <hagen/base/NumberText.h>
-#include <hagen/base/ReadFile.h>
 #include <hagen/settings/Settings.h>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +9,8 @@
 #include <string>
 #include <type_traits>
 #include <vector>
+#include "base/NumberText.h"
+#include "base/ReadFile.h"
 
 namespace hagen {
 

@@ -1,5 +1,5 @@
+#include "simulation/Plants.h"
 #include <hagen/scan/Angle.h>
-#include <hagen/simulation/Plants.h>
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
+#include "simulation/Props.h"
 #include <hagen/scan/Angle.h>
-#include <hagen/simulation/Props.h>
 #include <algorithm>
 #include <cmath>
 

@@ -1,10 +1,10 @@
 #include <hagen/scan/Angle.h>
-#include <hagen/simulation/Plants.h>
-#include <hagen/simulation/Props.h>
 #include <hagen/simulation/Scenarios.h>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include "simulation/Plants.h"
+#include "simulation/Props.h"
 
 namespace hagen::simulation {
 namespace {

@@ -1,5 +1,5 @@
+#include "simulation/SceneBuilder.h"
 #include <hagen/scan/Angle.h>
-#include <hagen/simulation/SceneBuilder.h>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

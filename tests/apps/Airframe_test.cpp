@@ -1,9 +1,9 @@
 // Airframe masks in simulated flights whose LiDAR sees the vehicle.
-#include <hagen/convert/RawlogWriter.h>
-#include <hagen/convert/ScanFolderWriter.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/simulation/ObjectClass.h>
+#include "convert/RawlogWriter.h"
+#include "convert/ScanFolderWriter.h"
 
 #include <cmath>
 #include <fstream>

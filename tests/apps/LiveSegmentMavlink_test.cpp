@@ -2,12 +2,12 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/live/Messages.h>
-#include <hagen/live/Parser.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <stdlib.h>
 #include <unistd.h>
+#include "live/autopilot/Messages.h"
+#include "live/mavlink/Parser.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 // rawlog-segment on ROS recordings.
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanSource.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
+#include "convert/RawlogWriter.h"
 
 #include "support/BagWriter.h"
 #include "support/SegmentTest.h"

@@ -1,7 +1,7 @@
 // rawlog-segment on network captures.
 #include <hagen/recordings/RawlogReader.h>
-#include <hagen/sensors/OusterSensor.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
+#include "sensors/ouster/OusterSensor.h"
 
 #include "support/CaptureWriter.h"
 #include "support/OusterPackets.h"

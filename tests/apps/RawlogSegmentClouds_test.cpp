@@ -1,8 +1,8 @@
 // rawlog-segment on point cloud files.
-#include <hagen/recordings/CloudFile.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/Scan.h>
+#include "recordings/clouds/CloudFile.h"
 
 #include <algorithm>
 #include <cmath>

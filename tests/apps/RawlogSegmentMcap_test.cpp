@@ -1,5 +1,5 @@
 // rawlog-segment --mcap.
-#include <hagen/recordings/CloudFile.h>
+#include "recordings/clouds/CloudFile.h"
 
 #include <map>
 #include <sstream>

@@ -1,5 +1,4 @@
 // rawlog-segment with corrupt recordings, full disks, few resources and interruptions.
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -8,6 +7,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 #include <sys/stat.h>
+#include "convert/RawlogWriter.h"
 
 #include <chrono>
 #include <cmath>

@@ -1,12 +1,12 @@
 // rawlog-segment on rawlogs and scan folders, as a user would run it.
-#include <hagen/convert/RawlogWriter.h>
-#include <hagen/filter/OptionKeys.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CRawlog.h>
 #include <unistd.h>
+#include "convert/RawlogWriter.h"
+#include "filter/OptionKeys.h"
 
 #include <cmath>
 #include <functional>

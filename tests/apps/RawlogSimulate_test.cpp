@@ -2,7 +2,6 @@
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/Trajectory.h>
 #include <hagen/mrpt/VelodyneObservation.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/scan/Angle.h>
@@ -10,6 +9,7 @@
 #include <hagen/simulation/Scenarios.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include "recordings/PoseFile.h"
 
 #include <cmath>
 #include <fstream>

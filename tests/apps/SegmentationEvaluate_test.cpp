@@ -1,6 +1,6 @@
 // segmentation-evaluate, as a user would run it.
-#include <hagen/convert/ScanFolderWriter.h>
 #include <hagen/recordings/ScanFolder.h>
+#include "convert/ScanFolderWriter.h"
 
 #include <cmath>
 #include <fstream>

@@ -1,7 +1,7 @@
+#include "avoidance/flights/Campaign.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/avoidance/Calibration.h>
-#include <hagen/avoidance/Campaign.h>
+#include "avoidance/flights/Calibration.h"
 
 #include <fstream>
 

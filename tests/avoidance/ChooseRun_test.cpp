@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
-#include <hagen/avoidance/ChooseRun.h>
 #include "SampleRuns.h"
+#include "avoidance/replays/ChooseRun.h"
 
 namespace hagen {
 namespace {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/avoidance/Course.h>
-#include <hagen/avoidance/TrialSensor.h>
 #include <hagen/scan/Angle.h>
+#include "avoidance/flights/TrialSensor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
+#include "avoidance/flights/FlightTrace.h"
 #include <gtest/gtest.h>
-#include <hagen/avoidance/FlightTrace.h>
-#include <hagen/avoidance/PoseBelief.h>
 #include <hagen/scan/Angle.h>
+#include "avoidance/flights/PoseBelief.h"
 
 namespace hagen::avoidance {
 namespace {

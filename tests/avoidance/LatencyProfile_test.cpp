@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/avoidance/Calibration.h>
 #include <hagen/avoidance/LatencyProfile.h>
+#include "avoidance/flights/Calibration.h"
 
 #include "support/Program.h"
 

@@ -1,5 +1,5 @@
+#include "avoidance/openloop/LaterScansTruth.h"
 #include <gtest/gtest.h>
-#include <hagen/avoidance/LaterScansTruth.h>
 #include <hagen/simulation/Random.h>
 
 #include <algorithm>

@@ -1,14 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/avoidance/LoggedScans.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/simulation/LogClock.h>
 #include <hagen/simulation/Scenarios.h>
 #include <hagen/simulation/SceneDistance.h>
 #include <mrpt/obs/CObservationComment.h>
+#include "convert/RawlogWriter.h"
+#include "recordings/PoseFile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
+#include "avoidance/world_models/ObstacleTracks.h"
 #include <gtest/gtest.h>
-#include <hagen/avoidance/ObstacleTracks.h>
 #include <hagen/avoidance/Planner.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/simulation/Random.h>

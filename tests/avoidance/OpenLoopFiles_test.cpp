@@ -1,5 +1,5 @@
+#include "avoidance/openloop/OpenLoopFiles.h"
 #include <gtest/gtest.h>
-#include <hagen/avoidance/OpenLoopFiles.h>
 
 #include "support/Program.h"
 

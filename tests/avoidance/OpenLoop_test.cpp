@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/avoidance/OpenLoop.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/ScanFolder.h>
+#include "recordings/PoseFile.h"
 
 #include <algorithm>
 #include <fstream>

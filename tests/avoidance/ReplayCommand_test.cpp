@@ -4,8 +4,8 @@
 
 #include <sstream>
 
-#include <hagen/avoidance/ChooseRun.h>
 #include "SampleRuns.h"
+#include "avoidance/replays/ChooseRun.h"
 #include "support/ProgramTest.h"
 
 namespace hagen {

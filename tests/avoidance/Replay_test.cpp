@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <hagen/avoidance/Calibration.h>
-#include <hagen/avoidance/FlightRecording.h>
-#include <hagen/avoidance/Replay.h>
-#include <hagen/mrpt/MrptScene.h>
 #include "SampleRuns.h"
+#include "avoidance/flights/Calibration.h"
+#include "avoidance/replays/FlightRecording.h"
+#include "avoidance/replays/Replay.h"
+#include "mrpt/MrptScene.h"
 #include "support/Program.h"
 
 namespace hagen {

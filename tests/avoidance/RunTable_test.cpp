@@ -1,8 +1,8 @@
+#include "avoidance/flights/RunTable.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/avoidance/RunTable.h>
-#include <hagen/base/NumberText.h>
 #include <hagen/simulation/Random.h>
+#include "base/NumberText.h"
 
 #include <algorithm>
 #include <clocale>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <hagen/avoidance/RunTable.h>
+#include "avoidance/flights/RunTable.h"
 
 namespace hagen::test {
 

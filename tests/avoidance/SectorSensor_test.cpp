@@ -1,7 +1,7 @@
 // The LiDAR that is labelled while it turns. The oracles are TrialSensor, the direction in which a
 // beam points at a time, and the scene.
+#include "avoidance/flights/SectorSensor.h"
 #include <gtest/gtest.h>
-#include <hagen/avoidance/SectorSensor.h>
 #include <hagen/scan/Angle.h>
 
 #include <algorithm>

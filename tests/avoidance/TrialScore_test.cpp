@@ -1,5 +1,5 @@
+#include "avoidance/flights/TrialScore.h"
 #include <gtest/gtest.h>
-#include <hagen/avoidance/TrialScore.h>
 #include <hagen/scan/Angle.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
+#include "avoidance/flights/TrialSensor.h"
 #include <gtest/gtest.h>
-#include <hagen/avoidance/TrialSensor.h>
 #include <hagen/settings/Settings.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
+#include "avoidance/world_models/UnbiasedModel.h"
 #include <gtest/gtest.h>
-#include <hagen/avoidance/UnbiasedModel.h>
 #include <hagen/simulation/Random.h>
 
 #include <algorithm>

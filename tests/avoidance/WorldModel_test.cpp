@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/avoidance/SeenDirections.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/simulation/Random.h>
 #include <malloc.h>
+#include "avoidance/world_models/SeenDirections.h"
 
 #include <algorithm>
 #include <array>

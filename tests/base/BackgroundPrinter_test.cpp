@@ -1,5 +1,5 @@
+#include "base/command_line/BackgroundPrinter.h"
 #include <gtest/gtest.h>
-#include <hagen/base/BackgroundPrinter.h>
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
+#include "base/command_line/CommandLine.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/base/CommandLine.h>
 
 #include <new>
 #include <stdexcept>

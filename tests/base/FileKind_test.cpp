@@ -1,6 +1,6 @@
+#include "base/FileKind.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/base/FileKind.h>
 
 #include <string>
 

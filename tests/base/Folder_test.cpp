@@ -1,6 +1,6 @@
+#include "base/Folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/base/Folder.h>
 
 #include "support/Program.h"
 

@@ -1,5 +1,5 @@
+#include "base/command_line/Interrupt.h"
 #include <gtest/gtest.h>
-#include <hagen/base/Interrupt.h>
 
 #include <csignal>
 #include <cstdlib>

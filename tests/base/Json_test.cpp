@@ -1,6 +1,6 @@
+#include "base/Json.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/base/Json.h>
 
 #include <string>
 

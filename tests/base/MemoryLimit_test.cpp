@@ -1,5 +1,5 @@
+#include "base/MemoryLimit.h"
 #include <gtest/gtest.h>
-#include <hagen/base/MemoryLimit.h>
 #include <sys/resource.h>
 
 #include <cstdlib>

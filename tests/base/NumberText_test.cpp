@@ -1,5 +1,5 @@
+#include "base/NumberText.h"
 #include <gtest/gtest.h>
-#include <hagen/base/NumberText.h>
 #include <clocale>
 #include <cstdint>
 #include <limits>

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/base/WriteFile.h>
 #include <unistd.h>
+#include "base/WriteFile.h"
 
 #include <fstream>
 #include <string>

@@ -1,7 +1,7 @@
+#include "base/OutputSet.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/base/OutputSet.h>
-#include <hagen/base/WriteFile.h>
+#include "base/WriteFile.h"
 
 #include <stdexcept>
 

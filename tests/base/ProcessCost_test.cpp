@@ -1,5 +1,5 @@
+#include "base/ProcessCost.h"
 #include <gtest/gtest.h>
-#include <hagen/base/ProcessCost.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
+#include "base/command_line/ProgressLine.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/base/ProgressLine.h>
 
 #include <fcntl.h>
 #include <unistd.h>

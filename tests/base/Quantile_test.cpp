@@ -1,5 +1,5 @@
+#include "base/Quantile.h"
 #include <gtest/gtest.h>
-#include <hagen/base/Quantile.h>
 #include <algorithm>
 #include <cmath>
 #include <random>

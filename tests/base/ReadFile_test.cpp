@@ -1,6 +1,6 @@
+#include "base/ReadFile.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/base/ReadFile.h>
 #include <sys/stat.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
+#include "base/TextStream.h"
 #include <gtest/gtest.h>
-#include <hagen/base/TextStream.h>
 
 #include <sys/resource.h>
 #include <cstdlib>

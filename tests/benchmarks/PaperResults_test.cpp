@@ -1,8 +1,8 @@
 // The tool behind scripts/reproduce-paper.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/ScanFolderWriter.h>
 #include <hagen/recordings/ScanFolder.h>
+#include "convert/ScanFolderWriter.h"
 
 #include <map>
 #include <set>

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/TableCloud.h>
-#include <hagen/recordings/CloudFile.h>
 #include <hagen/recordings/ScanFolder.h>
+#include "mrpt/TableCloud.h"
+#include "recordings/clouds/CloudFile.h"
 
 #include <cmath>
 #include <limits>

@@ -1,11 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/convert/Conversion.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/VelodyneObservation.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/scan/Angle.h>
@@ -17,6 +15,8 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include "convert/RawlogWriter.h"
+#include "recordings/PoseFile.h"
 
 #include <mrpt/obs/CObservationOdometry.h>
 

@@ -2,15 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/convert/Conversion.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/convert/WriteCloud.h>
 #include <hagen/mrpt/NewerClouds.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/Results.h>
-#include <hagen/mrpt/TableCloud.h>
-#include <hagen/recordings/CloudFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include "convert/RawlogWriter.h"
+#include "mrpt/Results.h"
+#include "mrpt/TableCloud.h"
+#include "recordings/clouds/CloudFile.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
+#include "convert/pictures/Gnuplot.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/Gnuplot.h>
 
 #include <cstdlib>
 

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/TableCloud.h>
-#include <hagen/recordings/BagFile.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include "mrpt/TableCloud.h"
+#include "recordings/bags/BagFile.h"
 
 #include <limits>
 #include <map>

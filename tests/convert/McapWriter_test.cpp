@@ -1,7 +1,7 @@
+#include "convert/McapWriter.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/McapWriter.h>
-#include <hagen/recordings/BagFile.h>
+#include "recordings/bags/BagFile.h"
 
 #include <tuple>
 

@@ -1,9 +1,9 @@
+#include "convert/ScanFolderWriter.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/ScanFolderWriter.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/settings/Settings.h>
+#include "recordings/PoseFile.h"
 
 #include <stdexcept>
 

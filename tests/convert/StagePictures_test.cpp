@@ -1,9 +1,9 @@
+#include "convert/pictures/StagePictures.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/AirframePicture.h>
-#include <hagen/convert/StagePictures.h>
-#include <hagen/filter/Posture.h>
 #include <png.h>
+#include "convert/pictures/AirframePicture.h"
+#include "filter/image/Posture.h"
 
 #include <array>
 #include <cstdlib>

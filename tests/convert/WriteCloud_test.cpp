@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
-#include <hagen/recordings/CloudFile.h>
+#include "recordings/clouds/CloudFile.h"
 
 #include <ctime>
 #include <fstream>

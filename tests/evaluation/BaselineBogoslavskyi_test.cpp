@@ -1,5 +1,5 @@
+#include "evaluation/baselines/BaselineBogoslavskyi.h"
 #include <gtest/gtest.h>
-#include <hagen/evaluation/BaselineBogoslavskyi.h>
 #include <hagen/scan/Angle.h>
 
 #include <cmath>

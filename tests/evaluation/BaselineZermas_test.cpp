@@ -1,5 +1,5 @@
+#include "evaluation/baselines/BaselineZermas.h"
 #include <gtest/gtest.h>
-#include <hagen/evaluation/BaselineZermas.h>
 #include <hagen/scan/Angle.h>
 
 #include <algorithm>

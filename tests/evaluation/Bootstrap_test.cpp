@@ -1,5 +1,5 @@
+#include "evaluation/Bootstrap.h"
 #include <gtest/gtest.h>
-#include <hagen/evaluation/Bootstrap.h>
 
 #include <cmath>
 #include <stdexcept>

@@ -1,5 +1,5 @@
+#include "evaluation/Breakdown.h"
 #include <gtest/gtest.h>
-#include <hagen/evaluation/Breakdown.h>
 
 namespace hagen::evaluation {
 namespace {

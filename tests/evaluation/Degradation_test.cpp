@@ -1,13 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/evaluation/DegradedScans.h>
-#include <hagen/evaluation/TrueHeights.h>
 #include <hagen/filter/Levelling.h>
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include "evaluation/DegradedScans.h"
+#include "evaluation/TrueHeights.h"
 
 #include "support/PointScan.h"
 #include "support/Random.h"

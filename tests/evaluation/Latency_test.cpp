@@ -1,5 +1,5 @@
+#include "evaluation/Latency.h"
 #include <gtest/gtest.h>
-#include <hagen/evaluation/Latency.h>
 
 #include <cmath>
 #include <numeric>

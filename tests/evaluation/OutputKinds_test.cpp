@@ -2,12 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/convert/StagePictures.h>
-#include <hagen/evaluation/Charts.h>
-#include <hagen/evaluation/Overlay.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <fstream>
 #include <stdexcept>
+#include "convert/pictures/StagePictures.h"
+#include "evaluation/labelled_folders/Charts.h"
+#include "evaluation/labelled_folders/Overlay.h"
 
 #include "support/Program.h"
 

@@ -1,6 +1,6 @@
+#include "evaluation/labelled_folders/Overlay.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/evaluation/Overlay.h>
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
+#include "evaluation/TrueHeights.h"
 #include <gtest/gtest.h>
-#include <hagen/evaluation/TrueHeights.h>
 #include <hagen/scan/Angle.h>
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,6 +1,6 @@
+#include "filter/simd/CanopyLayer.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/CanopyLayer.h>
-#include <hagen/filter/HeightLabels.h>
+#include "filter/simd/HeightLabels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // A stage that gets an area of the ground grid finds in it what it finds with the whole grid.
 #include <gtest/gtest.h>
-#include <hagen/filter/CanopyLayer.h>
 #include <hagen/filter/CellTops.h>
-#include <hagen/filter/HeightLabels.h>
+#include "filter/simd/CanopyLayer.h"
+#include "filter/simd/HeightLabels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
+#include "filter/ground/Clearance.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/Clearance.h>
-#include <hagen/filter/GroundFrame.h>
 #include <hagen/scan/Angle.h>
+#include "filter/simd/GroundFrame.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
+#include "filter/image/DeadBeams.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/DeadBeams.h>
 #include <hagen/scan/SensorModel.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
+#include "filter/ground/FartherReturns.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/FartherReturns.h>
 #include "filter/FilterWorkspace.h"
 
 #include <cmath>

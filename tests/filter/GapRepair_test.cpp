@@ -1,5 +1,5 @@
+#include "filter/image/GapRepair.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/GapRepair.h>
 
 #include <cmath>
 #include <utility>

@@ -1,5 +1,5 @@
+#include "filter/simd/GroundEvidence.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/GroundEvidence.h>
 
 #include <algorithm>
 #include <limits>

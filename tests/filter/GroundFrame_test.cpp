@@ -1,5 +1,5 @@
+#include "filter/simd/GroundFrame.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/GroundFrame.h>
 #include <hagen/scan/Angle.h>
 
 #include <cmath>

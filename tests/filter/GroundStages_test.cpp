@@ -1,8 +1,8 @@
 // The vectorised ground stages against their definitions, and on every instruction set.
 #include <gtest/gtest.h>
-#include <hagen/filter/CanopyLayer.h>
-#include <hagen/scan/InstructionSets.h>
 #include "filter/FilterWorkspace.h"
+#include "filter/simd/CanopyLayer.h"
+#include "scan/InstructionSets.h"
 
 #include <algorithm>
 #include <cmath>

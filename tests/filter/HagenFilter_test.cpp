@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/filter/OptionKeys.h>
 #include <hagen/scan/Angle.h>
+#include "filter/OptionKeys.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
+#include "filter/simd/HeightLabels.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/HeightLabels.h>
-#include <hagen/filter/ObstacleFeet.h>
-#include <hagen/filter/SpeckRemoval.h>
+#include "filter/simd/ObstacleFeet.h"
+#include "filter/simd/SpeckRemoval.h"
 
 #include <algorithm>
 #include <cmath>

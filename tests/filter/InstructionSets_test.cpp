@@ -1,7 +1,7 @@
 // Same result on every machine: the whole filter on each available instruction set, bit for bit.
+#include "scan/InstructionSets.h"
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/scan/InstructionSets.h>
 
 #include <cstring>
 #include <random>

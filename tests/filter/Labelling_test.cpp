@@ -1,5 +1,5 @@
+#include "filter/paper/Labelling.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/Labelling.h>
 #include <hagen/scan/Angle.h>
 
 #include <cmath>

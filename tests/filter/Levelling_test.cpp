@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <hagen/filter/Levelling.h>
-#include <hagen/filter/RangeAngle.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/RangeImage.h>
+#include "filter/paper/RangeAngle.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <hagen/filter/OptionKeys.h>
 #include <hagen/filter/Options.h>
+#include "filter/OptionKeys.h"
 
 #include <stdexcept>
 #include <string>

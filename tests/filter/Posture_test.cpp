@@ -1,6 +1,6 @@
+#include "filter/image/Posture.h"
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/filter/Posture.h>
 #include <hagen/scan/Angle.h>
 
 #include <cmath>

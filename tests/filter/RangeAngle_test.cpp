@@ -1,5 +1,5 @@
+#include "filter/paper/RangeAngle.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/RangeAngle.h>
 #include <hagen/scan/Angle.h>
 
 #include <cmath>

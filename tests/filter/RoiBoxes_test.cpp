@@ -1,5 +1,5 @@
+#include "filter/RoiBoxes.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/RoiBoxes.h>
 
 #include "support/PointScan.h"
 

@@ -1,5 +1,5 @@
+#include "filter/RoiComponents.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/RoiComponents.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/filter/SectorFilter.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/scan/AppendReturn.h>
+#include "scan/AppendReturn.h"
 
 #include <algorithm>
 #include <cmath>

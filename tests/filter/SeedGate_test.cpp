@@ -1,5 +1,5 @@
+#include "filter/paper/SeedGate.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/SeedGate.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
+#include "filter/paper/Sharpening.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/Sharpening.h>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
+#include "filter/paper/SingularSpectrumAnalysis.h"
 #include <gtest/gtest.h>
-#include <hagen/filter/SingularSpectrumAnalysis.h>
 #include <hagen/scan/Angle.h>
 
 #include <Eigen/Eigenvalues>

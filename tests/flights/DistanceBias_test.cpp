@@ -3,10 +3,10 @@
 // To measure the biases in WorldModel.cpp again, run this test with kSeeds of 0 to 29 and
 // ModelDistance::AsStored: its failures print them.
 #include <gtest/gtest.h>
-#include <hagen/avoidance/TrialSensor.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/simulation/SceneBuilder.h>
+#include "avoidance/flights/TrialSensor.h"
+#include "simulation/SceneBuilder.h"
 
 #include <cmath>
 #include <limits>

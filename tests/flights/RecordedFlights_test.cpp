@@ -1,10 +1,10 @@
 // Some short flights must repeat the recorded ones exactly, unless kRevision was counted up.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/avoidance/Calibration.h>
-#include <hagen/avoidance/RunTable.h>
-#include <hagen/avoidance/SettingsHash.h>
 #include <hagen/avoidance/Trial.h>
+#include "avoidance/flights/Calibration.h"
+#include "avoidance/flights/RunTable.h"
+#include "avoidance/flights/SettingsHash.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 const char kFile[] = HAGEN_SOURCE_DIR "/tests/flights/recorded_flights.csv";
 const std::string kHowToRecord =
-    "count up kRevision in libs/avoidance/include/hagen/avoidance/SettingsHash.h, and record "
+    "count up kRevision in libs/avoidance/flights/SettingsHash.h, and record "
     "again: "
     "HAGEN_RECORD_FLIGHTS=1 scripts/test -R RecordedFlights";
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <hagen/avoidance/Calibration.h>
-#include <hagen/avoidance/RunTable.h>
 #include <hagen/avoidance/Trial.h>
+#include "avoidance/flights/Calibration.h"
+#include "avoidance/flights/RunTable.h"
 
 #include <cmath>
 #include <memory>

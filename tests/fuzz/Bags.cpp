@@ -1,9 +1,9 @@
 #include "fuzz/Bags.h"
 
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/BagFile.h>
-#include <hagen/recordings/BagScans.h>
-#include <hagen/recordings/BagSurvey.h>
+#include "recordings/bags/BagFile.h"
+#include "recordings/bags/BagScans.h"
+#include "recordings/bags/BagSurvey.h"
 
 #include <string>
 

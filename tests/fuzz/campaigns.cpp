@@ -1,6 +1,6 @@
 // The files of a campaign: its table and latency profile, with any content.
 #include <hagen/avoidance/LatencyProfile.h>
-#include <hagen/avoidance/RunTable.h>
+#include "avoidance/flights/RunTable.h"
 
 #include "fuzz/Target.h"
 

@@ -1,6 +1,6 @@
 // Captures of a network: libpcap's files, fragments, and what is in the datagrams. The first byte
 // names the sensor.
-#include <hagen/recordings/LidarCapture.h>
+#include "recordings/captures/LidarCapture.h"
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 // Point cloud files of all formats, and what is made of their points.
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/TableCloud.h>
-#include <hagen/recordings/CloudFile.h>
+#include "mrpt/TableCloud.h"
+#include "recordings/clouds/CloudFile.h"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 // The filter: any scan, sensor, attitude and options. All instruction sets must make the same
 // labels of it.
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/scan/InstructionSets.h>
+#include "scan/InstructionSets.h"
 
 #include <cmath>
 #include <optional>

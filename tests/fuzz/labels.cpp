@@ -1,7 +1,7 @@
 // Label files, maps of labels, and calibrations of an HDL-64E.
 #include <hagen/evaluation/LabelMap.h>
 #include <hagen/recordings/ScanFolder.h>
-#include <hagen/sensors/VelodyneCalibrationFile.h>
+#include "sensors/velodyne/VelodyneCalibrationFile.h"
 
 #include "fuzz/Target.h"
 #include "support/Hdl64.h"

@@ -1,8 +1,8 @@
 // Datagrams of a Livox with any content.
 #include <hagen/scan/SensorModel.h>
 
-#include <hagen/sensors/LivoxPacket.h>
 #include "fuzz/Target.h"
+#include "sensors/livox/LivoxPacket.h"
 
 namespace hagen::fuzz {
 namespace {

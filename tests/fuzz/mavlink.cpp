@@ -1,7 +1,7 @@
 // Bytes of a MAVLink peer with any content, in parts of any size, and the motion that they tell.
-#include <hagen/live/Messages.h>
-#include <hagen/live/Parser.h>
-#include <hagen/live/VehicleMotion.h>
+#include "live/autopilot/Messages.h"
+#include "live/autopilot/VehicleMotion.h"
+#include "live/mavlink/Parser.h"
 
 #include <cmath>
 

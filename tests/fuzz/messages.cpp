@@ -1,6 +1,6 @@
 // Messages of ROS, without a bag around them. The first byte names the type, its highest bit the
 // serialisation.
-#include <hagen/mrpt/TableCloud.h>
+#include "mrpt/TableCloud.h"
 
 #include <memory>
 

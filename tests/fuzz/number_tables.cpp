@@ -1,6 +1,6 @@
 // Text files of numbers: poses of all kinds, and times in the names of files.
-#include <hagen/recordings/NumberTable.h>
-#include <hagen/recordings/PoseFile.h>
+#include "recordings/NumberTable.h"
+#include "recordings/PoseFile.h"
 
 #include <algorithm>
 #include <cmath>

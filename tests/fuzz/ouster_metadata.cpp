@@ -1,6 +1,6 @@
 // Metadata of an Ouster: JSON.
-#include <hagen/sensors/OusterFrames.h>
-#include <hagen/sensors/OusterSensor.h>
+#include "sensors/ouster/OusterFrames.h"
+#include "sensors/ouster/OusterSensor.h"
 
 #include "fuzz/Target.h"
 #include "support/OusterPackets.h"

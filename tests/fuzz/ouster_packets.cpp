@@ -1,7 +1,7 @@
 // Packets of an Ouster with any content. The first byte of the input names the profile.
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/LidarCapture.h>
-#include <hagen/sensors/OusterScan.h>
+#include "recordings/captures/LidarCapture.h"
+#include "sensors/ouster/OusterScan.h"
 
 #include "fuzz/Target.h"
 #include "support/OusterPackets.h"

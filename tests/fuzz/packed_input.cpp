@@ -1,6 +1,6 @@
 // Files packed by gzip or zstd, read in steps of any size. The first byte chooses them.
-#include <hagen/convert/GzipOutput.h>
-#include <hagen/recordings/PackedInput.h>
+#include "convert/GzipOutput.h"
+#include "recordings/rawlogs/PackedInput.h"
 
 #include <random>
 

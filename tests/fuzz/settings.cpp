@@ -1,6 +1,6 @@
 // Settings files (YAML), and files of learned airframe bins.
-#include <hagen/settings/AirframeFile.h>
 #include <hagen/settings/Settings.h>
+#include "settings/AirframeFile.h"
 
 #include "fuzz/Target.h"
 

@@ -2,7 +2,7 @@
 // late, lost or repeated. Nothing throws, and each is taken, or refused and counted. The first byte
 // of the input names the sensor.
 #include <hagen/live/LidarStream.h>
-#include <hagen/sensors/OusterSensor.h>
+#include "sensors/ouster/OusterSensor.h"
 
 #include <functional>
 #include <memory>

@@ -1,9 +1,9 @@
+#include "live/autopilot/AutopilotLink.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/live/AutopilotLink.h>
-#include <hagen/live/Parser.h>
 #include <hagen/scan/Angle.h>
+#include "live/mavlink/Parser.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
+#include "live/autopilot/ClockOffset.h"
 #include <gtest/gtest.h>
-#include <hagen/live/ClockOffset.h>
 
 #include <algorithm>
 #include <random>

@@ -1,8 +1,8 @@
+#include "live/Directions.h"
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/live/Directions.h>
-#include <hagen/live/VehicleMotion.h>
 #include <hagen/scan/Angle.h>
+#include "live/autopilot/VehicleMotion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
+#include "live/mavlink/Frame.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/live/Frame.h>
-#include <hagen/live/Messages.h>
+#include "live/autopilot/Messages.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
+#include "live/autopilot/GroundBelow.h"
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/live/GroundBelow.h>
 #include <hagen/scan/Angle.h>
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <hagen/base/Quantile.h>
 #include <hagen/live/LatencyHistogram.h>
+#include "base/Quantile.h"
 
 #include <algorithm>
 #include <cmath>

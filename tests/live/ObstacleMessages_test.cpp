@@ -1,5 +1,5 @@
+#include "live/autopilot/ObstacleMessages.h"
 #include <gtest/gtest.h>
-#include <hagen/live/ObstacleMessages.h>
 #include <hagen/scan/Angle.h>
 
 #include "live/Vehicle.h"

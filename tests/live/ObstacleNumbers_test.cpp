@@ -1,5 +1,5 @@
+#include "live/autopilot/ObstacleNumbers.h"
 #include <gtest/gtest.h>
-#include <hagen/live/ObstacleNumbers.h>
 #include <hagen/scan/Angle.h>
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <hagen/live/SectorDistances.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/CaptureFile.h>
-#include <hagen/sensors/OusterScan.h>
+#include "sensors/ouster/OusterScan.h"
 
 #include <algorithm>
 #include <string>

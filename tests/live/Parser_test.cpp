@@ -1,7 +1,7 @@
+#include "live/mavlink/Parser.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/live/Messages.h>
-#include <hagen/live/Parser.h>
+#include "live/autopilot/Messages.h"
 
 #include <random>
 

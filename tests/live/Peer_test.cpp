@@ -1,8 +1,8 @@
+#include "live/mavlink/Peer.h"
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/live/Peer.h>
 #include <stdlib.h>
 #include <sys/socket.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
+#include "live/Priority.h"
 #include <gtest/gtest.h>
-#include <hagen/live/Priority.h>
 #include <pthread.h>
 #include <sched.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 // A simulated vehicle, and its messages: by the formulas of the aeronautical convention (rotations
 // about down, right and forward), not by the code that is tested.
-#include <hagen/live/Frame.h>
-#include <hagen/live/Messages.h>
 #include <Eigen/Geometry>
+#include "live/autopilot/Messages.h"
+#include "live/mavlink/Frame.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
+#include "live/autopilot/VehicleMotion.h"
 #include <gtest/gtest.h>
-#include <hagen/live/VehicleMotion.h>
 #include <hagen/scan/Angle.h>
 
 #include <limits>

@@ -3,10 +3,10 @@
 #include <hagen/live/LidarStream.h>
 #include <hagen/live/SectorDistances.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/VelodyneEncoder.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/VelodyneCalibration.h>
+#include "mrpt/VelodyneEncoder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/Results.h>
 #include <hagen/scan/Angle.h>
+#include "mrpt/Results.h"
 
 #include <limits>
 

@@ -1,6 +1,6 @@
+#include "mrpt/DepthCamera.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/mrpt/DepthCamera.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/ObservationSegmenter.h>

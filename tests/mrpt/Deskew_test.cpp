@@ -1,5 +1,5 @@
+#include "mrpt/Deskew.h"
 #include <gtest/gtest.h>
-#include <hagen/mrpt/Deskew.h>
 #include <hagen/mrpt/VelodyneObservation.h>
 
 #include <cmath>

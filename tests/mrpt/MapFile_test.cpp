@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mrpt/MapFile.h>
-#include <hagen/mrpt/MrptScene.h>
 #include <hagen/mrpt/ScanMap.h>
 #include <hagen/simulation/Random.h>
+#include "mrpt/MrptScene.h"
 
 #include <fstream>
 #include <iterator>

@@ -1,5 +1,5 @@
+#include "mrpt/Mount.h"
 #include <gtest/gtest.h>
-#include <hagen/mrpt/Mount.h>
 #include <hagen/scan/Angle.h>
 
 namespace hagen::observations {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/Results.h>
 #include <mrpt/obs/CObservationComment.h>
+#include "mrpt/Results.h"
 
 #include <stdexcept>
 

@@ -1,12 +1,12 @@
+#include "mrpt/ScenePreview.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/filter/RoiBoxes.h>
-#include <hagen/mrpt/MrptScene.h>
-#include <hagen/mrpt/Results.h>
-#include <hagen/mrpt/ScenePreview.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/serialization/CArchive.h>
+#include "filter/RoiBoxes.h"
+#include "mrpt/MrptScene.h"
+#include "mrpt/Results.h"
 
 #include <algorithm>
 #include <string>

@@ -1,10 +1,10 @@
+#include "mrpt/TableCloud.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/NewerClouds.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/TableCloud.h>
 #include <hagen/scan/Angle.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationPointCloud.h>

@@ -1,5 +1,5 @@
+#include "mrpt/VelodyneEncoder.h"
 #include <gtest/gtest.h>
-#include <hagen/mrpt/VelodyneEncoder.h>
 
 #include <stdexcept>
 

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/mrpt/VelodyneEncoder.h>
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/Angle.h>
+#include "mrpt/VelodyneEncoder.h"
 
 #include <cmath>
 #include <cstring>

@@ -2,12 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
-#include <hagen/recordings/CloudFile.h>
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
+#include "recordings/clouds/CloudFile.h"
 
 #include <cstring>
 #include <limits>

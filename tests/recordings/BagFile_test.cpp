@@ -1,6 +1,6 @@
+#include "recordings/bags/BagFile.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/recordings/BagFile.h>
 
 #include <sqlite3.h>
 

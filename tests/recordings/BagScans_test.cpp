@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mrpt/LocatedCloud.h>
-#include <hagen/mrpt/TableCloud.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include "mrpt/TableCloud.h"
 
 #include <limits>
 #include <map>

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/recordings/BagFile.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/ScanSource.h>
+#include "recordings/PoseFile.h"
+#include "recordings/bags/BagFile.h"
 
 #include <algorithm>
 #include <fstream>

@@ -1,12 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/sensors/CaptureFile.h>
-#include <hagen/sensors/OusterSensor.h>
+#include "convert/RawlogWriter.h"
+#include "recordings/PoseFile.h"
+#include "sensors/ouster/OusterSensor.h"
 
 #include <algorithm>
 #include <fstream>

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/mrpt/TableCloud.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
+#include "mrpt/TableCloud.h"
+#include "recordings/PoseFile.h"
 
 #include <fstream>
 #include <limits>

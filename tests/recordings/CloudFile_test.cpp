@@ -1,6 +1,6 @@
+#include "recordings/clouds/CloudFile.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/recordings/CloudFile.h>
 
 #include <cmath>
 #include <limits>

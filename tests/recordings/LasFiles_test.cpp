@@ -1,7 +1,7 @@
 // The package copc of npm as a second reader of LAS files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/recordings/CloudFile.h>
+#include "recordings/clouds/CloudFile.h"
 
 #include <cmath>
 #include <cstring>

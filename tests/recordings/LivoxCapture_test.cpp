@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/LidarCapture.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include "recordings/captures/LidarCapture.h"
 
 #include <chrono>
 #include <cmath>

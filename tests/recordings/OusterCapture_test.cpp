@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/LidarCapture.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/sensors/OusterFrames.h>
+#include "recordings/captures/LidarCapture.h"
+#include "sensors/ouster/OusterFrames.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

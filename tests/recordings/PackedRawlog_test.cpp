@@ -1,7 +1,6 @@
 // Rawlogs as different MRPT versions pack them: not at all, with gzip, with zstd.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/NewerClouds.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/RawlogReader.h>
@@ -10,6 +9,7 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <zstd.h>
+#include "convert/RawlogWriter.h"
 
 #include "support/Program.h"
 #include "support/Random.h"

@@ -1,7 +1,7 @@
+#include "recordings/PoseFile.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/recordings/LogPoses.h>
-#include <hagen/recordings/PoseFile.h>
 
 #include <stdexcept>
 

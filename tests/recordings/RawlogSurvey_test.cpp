@@ -1,6 +1,4 @@
 #include <gtest/gtest.h>
-#include <hagen/convert/RawlogWriter.h>
-#include <hagen/mrpt/Results.h>
 #include <hagen/recordings/RawlogSurvey.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CActionCollection.h>
@@ -10,6 +8,8 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include "convert/RawlogWriter.h"
+#include "mrpt/Results.h"
 
 #include <stdexcept>
 

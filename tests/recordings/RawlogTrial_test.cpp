@@ -2,11 +2,11 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <signal.h>
 #include <sys/time.h>
 #include <unistd.h>
+#include "convert/RawlogWriter.h"
 
 #include <chrono>
 #include <fstream>

@@ -1,12 +1,12 @@
 // Tests RawlogReader and RawlogWriter against each other and against MRPT's CRawlog.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CRawlog.h>
+#include "convert/RawlogWriter.h"
 
 #include <cstdlib>
 #include <fstream>

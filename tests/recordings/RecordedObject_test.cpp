@@ -1,5 +1,5 @@
+#include "recordings/RecordedObject.h"
 #include <gtest/gtest.h>
-#include <hagen/recordings/RecordedObject.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <sys/resource.h>

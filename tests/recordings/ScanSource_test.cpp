@@ -1,8 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/convert/RawlogWriter.h>
-#include <hagen/recordings/PackedInput.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
@@ -10,6 +7,9 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include "convert/RawlogWriter.h"
+#include "recordings/PoseFile.h"
+#include "recordings/rawlogs/PackedInput.h"
 
 #include <fstream>
 #include <stdexcept>

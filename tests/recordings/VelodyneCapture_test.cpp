@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/mrpt/VelodyneEncoder.h>
 #include <hagen/mrpt/VelodyneObservation.h>
-#include <hagen/recordings/LidarCapture.h>
+#include "mrpt/VelodyneEncoder.h"
+#include "recordings/captures/LidarCapture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
+#include "scan/AirframeLearner.h"
 #include <gtest/gtest.h>
-#include <hagen/scan/AirframeLearner.h>
 #include <hagen/scan/Angle.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
+#include "scan/BeamFit.h"
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/scan/BeamFit.h>
 #include <hagen/scan/RecoverBeams.h>
 #include <limits>
 #include <vector>

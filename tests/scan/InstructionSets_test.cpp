@@ -1,6 +1,6 @@
+#include "scan/InstructionSets.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/scan/InstructionSets.h>
 
 #include <cctype>
 #include <cstdlib>

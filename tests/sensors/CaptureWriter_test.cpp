@@ -1,5 +1,5 @@
+#include "sensors/captures/CaptureWriter.h"
 #include <gtest/gtest.h>
-#include <hagen/sensors/CaptureWriter.h>
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
+#include "sensors/ouster/OusterColumns.h"
 #include <gtest/gtest.h>
-#include <hagen/sensors/OusterColumns.h>
 
 #include <string>
 

@@ -1,7 +1,7 @@
+#include "sensors/ouster/OusterSensor.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/sensors/OusterSensor.h>
 
 #include <string>
 #include <tuple>

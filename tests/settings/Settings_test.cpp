@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/base/Json.h>
-#include <hagen/filter/OptionKeys.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/settings/AirframeFile.h>
 #include <hagen/settings/Settings.h>
-#include <hagen/settings/SettingsJson.h>
+#include "base/Json.h"
+#include "filter/OptionKeys.h"
+#include "settings/AirframeFile.h"
+#include "settings/SettingsJson.h"
 
 #include <cmath>
 #include <filesystem>

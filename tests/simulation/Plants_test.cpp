@@ -1,5 +1,5 @@
+#include "simulation/Plants.h"
 #include <gtest/gtest.h>
-#include <hagen/simulation/Plants.h>
 
 #include <algorithm>
 

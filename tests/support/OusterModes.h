@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/sensors/OusterSensor.h>
+#include "sensors/ouster/OusterSensor.h"
 
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/sensors/OusterFrames.h>
+#include "sensors/ouster/OusterFrames.h"
 
 #include <cstdint>
 #include <string>

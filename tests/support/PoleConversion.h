@@ -2,9 +2,9 @@
 // What the tests of outputs of a conversion share.
 #include <gtest/gtest.h>
 #include <hagen/convert/Conversion.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/PointTable.h>
+#include "convert/RawlogWriter.h"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 // What the tests of reading bags share.
 #include <gtest/gtest.h>
-#include <hagen/recordings/BagScans.h>
+#include "recordings/bags/BagScans.h"
 
 #include <memory>
 #include <stdexcept>

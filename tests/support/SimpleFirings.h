@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/mrpt/VelodyneEncoder.h>
+#include "mrpt/VelodyneEncoder.h"
 
 #include "support/SimpleScene.h"
 

@@ -1,7 +1,7 @@
 // Creates rawlogs/poles_and_wall.rawlog: a low flight of a level VLP-16 between two rows of poles
 // towards a wall, over flat ground. Usage: make-poles-and-wall OUT.rawlog
-#include <hagen/convert/RawlogWriter.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include "convert/RawlogWriter.h"
 
 #include <cstdio>
 #include <exception>

@@ -1,13 +1,13 @@
-#include <hagen/avoidance/Calibration.h>
+#include "avoidance/flights/Calibration.h"
 #include <hagen/avoidance/Trial.h>
-#include <hagen/base/ProcessCost.h>
-#include <hagen/base/WriteFile.h>
 #include <array>
 #include <cmath>
 #include <ctime>
 #include <fstream>
 #include <memory>
 #include "avoidance/flights/Stopwatch.h"
+#include "base/ProcessCost.h"
+#include "base/WriteFile.h"
 
 namespace hagen::avoidance {
 namespace {

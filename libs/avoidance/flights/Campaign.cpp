@@ -1,11 +1,11 @@
-#include <hagen/avoidance/Campaign.h>
-#include <hagen/avoidance/SettingsHash.h>
+#include "avoidance/flights/Campaign.h"
 #include <hagen/avoidance/Trial.h>
-#include <hagen/base/Folder.h>
-#include <hagen/base/Json.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/base/ReadFile.h>
-#include <hagen/base/WriteFile.h>
+#include "avoidance/flights/SettingsHash.h"
+#include "base/Folder.h"
+#include "base/Json.h"
+#include "base/ReadFile.h"
+#include "base/WriteFile.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include <hagen/avoidance/CampaignPlan.h>
+#include "avoidance/flights/CampaignPlan.h"
 #include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/Guidance.h>
 #include <hagen/avoidance/Planner.h>

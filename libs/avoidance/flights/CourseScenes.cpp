@@ -1,10 +1,10 @@
 #include "avoidance/flights/CourseScenes.h"
 
 #include <hagen/scan/Angle.h>
-#include <hagen/simulation/Plants.h>
-#include <hagen/simulation/Props.h>
 #include <algorithm>
 #include <cmath>
+#include "simulation/Plants.h"
+#include "simulation/Props.h"
 
 namespace hagen::avoidance {
 namespace {

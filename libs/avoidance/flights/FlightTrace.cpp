@@ -1,4 +1,4 @@
-#include <hagen/avoidance/FlightTrace.h>
+#include "avoidance/flights/FlightTrace.h"
 #include <algorithm>
 #include <cmath>
 

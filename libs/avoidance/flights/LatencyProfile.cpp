@@ -1,14 +1,14 @@
 #include <hagen/avoidance/LatencyProfile.h>
-#include <hagen/base/Json.h>
-#include <hagen/base/Quantile.h>
-#include <hagen/base/ReadFile.h>
-#include <hagen/base/TextStream.h>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <locale>
 #include <stdexcept>
 #include <utility>
+#include "base/Json.h"
+#include "base/Quantile.h"
+#include "base/ReadFile.h"
+#include "base/TextStream.h"
 
 namespace hagen::avoidance {
 namespace {

@@ -1,4 +1,4 @@
-#include <hagen/avoidance/PoseBelief.h>
+#include "avoidance/flights/PoseBelief.h"
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>

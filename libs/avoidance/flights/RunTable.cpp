@@ -1,12 +1,12 @@
-#include <hagen/avoidance/RunTable.h>
-#include <hagen/base/NumberText.h>
-#include <hagen/base/ReadFile.h>
+#include "avoidance/flights/RunTable.h"
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <functional>
 #include <stdexcept>
 #include <tuple>
+#include "base/NumberText.h"
+#include "base/ReadFile.h"
 
 namespace hagen::avoidance {
 namespace {

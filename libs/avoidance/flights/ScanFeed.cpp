@@ -1,7 +1,7 @@
 #include "avoidance/flights/ScanFeed.h"
 
-#include <hagen/avoidance/SectorSensor.h>
-#include <hagen/avoidance/TrialSensor.h>
+#include "avoidance/flights/SectorSensor.h"
+#include "avoidance/flights/TrialSensor.h"
 
 #include <cmath>
 #include <optional>

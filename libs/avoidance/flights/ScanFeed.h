@@ -1,11 +1,11 @@
 #pragma once
 #include <hagen/avoidance/Course.h>
-#include <hagen/avoidance/FlightTrace.h>
-#include <hagen/avoidance/PoseBelief.h>
 #include <hagen/avoidance/Trial.h>
 #include <hagen/mrpt/MappedScan.h>
 #include <cstdint>
 #include <memory>
+#include "avoidance/flights/FlightTrace.h"
+#include "avoidance/flights/PoseBelief.h"
 
 #include "avoidance/flights/Stopwatch.h"
 

@@ -1,6 +1,6 @@
-#include <hagen/avoidance/SectorSensor.h>
+#include "avoidance/flights/SectorSensor.h"
 #include <hagen/scan/Angle.h>
-#include <hagen/scan/AppendReturn.h>
+#include "scan/AppendReturn.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include <hagen/avoidance/SettingsHash.h>
-#include <hagen/avoidance/TrialSensor.h>
+#include "avoidance/flights/SettingsHash.h"
 #include <hagen/avoidance/Vehicle.h>
 #include <hagen/avoidance/WindowSize.h>
-#include <hagen/base/Json.h>
-#include <hagen/filter/OptionKeys.h>
 #include <hagen/filter/Options.h>
+#include "avoidance/flights/TrialSensor.h"
+#include "base/Json.h"
+#include "filter/OptionKeys.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/avoidance/Trial.h>
-#include <hagen/base/ProcessCost.h>
+#include "base/ProcessCost.h"
 
 #include <string>
 

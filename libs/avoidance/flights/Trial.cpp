@@ -1,15 +1,15 @@
-#include <hagen/avoidance/FlightTrace.h>
-#include <hagen/avoidance/PoseBelief.h>
 #include <hagen/avoidance/Trial.h>
-#include <hagen/avoidance/TrialScore.h>
-#include <hagen/avoidance/TrialSensor.h>
 #include <hagen/avoidance/Vehicle.h>
-#include <hagen/base/Quantile.h>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
+#include "avoidance/flights/FlightTrace.h"
+#include "avoidance/flights/PoseBelief.h"
+#include "avoidance/flights/TrialScore.h"
+#include "avoidance/flights/TrialSensor.h"
+#include "base/Quantile.h"
 
 #include "avoidance/flights/ScanFeed.h"
 #include "avoidance/flights/Stopwatch.h"

@@ -1,4 +1,4 @@
-#include <hagen/avoidance/TrialScore.h>
+#include "avoidance/flights/TrialScore.h"
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <hagen/avoidance/TrialSensor.h>
+#include "avoidance/flights/TrialSensor.h"
 #include <hagen/settings/Settings.h>
 
 #include "avoidance/flights/Streams.h"

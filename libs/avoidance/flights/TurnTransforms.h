@@ -1,9 +1,9 @@
 #pragma once
-#include <hagen/avoidance/FlightTrace.h>
-#include <hagen/avoidance/PoseBelief.h>
 #include <hagen/filter/Levelling.h>
 #include <Eigen/Core>
 #include <array>
+#include "avoidance/flights/FlightTrace.h"
+#include "avoidance/flights/PoseBelief.h"
 
 namespace hagen::avoidance {
 

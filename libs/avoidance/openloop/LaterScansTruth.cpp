@@ -1,4 +1,4 @@
-#include <hagen/avoidance/LaterScansTruth.h>
+#include "avoidance/openloop/LaterScansTruth.h"
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -1,12 +1,12 @@
-#include <hagen/avoidance/LaterScansTruth.h>
 #include <hagen/avoidance/OpenLoop.h>
-#include <hagen/base/MemoryLimit.h>
-#include <hagen/base/ProcessCost.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/simulation/LogClock.h>
 #include <hagen/simulation/Scenarios.h>
 #include <hagen/simulation/SceneDistance.h>
+#include "avoidance/openloop/LaterScansTruth.h"
+#include "base/MemoryLimit.h"
+#include "base/ProcessCost.h"
 
 #include <algorithm>
 #include <deque>

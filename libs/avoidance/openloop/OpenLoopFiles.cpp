@@ -1,12 +1,12 @@
-#include <hagen/avoidance/OpenLoopFiles.h>
+#include "avoidance/openloop/OpenLoopFiles.h"
 
-#include <hagen/base/Json.h>
-#include <hagen/base/WriteFile.h>
-#include <hagen/evaluation/Latency.h>
 #include <cmath>
 #include <iomanip>
 #include <locale>
 #include <stdexcept>
+#include "base/Json.h"
+#include "base/WriteFile.h"
+#include "evaluation/Latency.h"
 
 namespace hagen::avoidance {
 namespace {

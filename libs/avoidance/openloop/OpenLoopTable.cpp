@@ -1,10 +1,10 @@
-#include <hagen/avoidance/OpenLoopFiles.h>
-#include <hagen/base/TextStream.h>
+#include "avoidance/openloop/OpenLoopFiles.h"
+#include "base/TextStream.h"
 
-#include <hagen/evaluation/Latency.h>
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include "evaluation/Latency.h"
 
 namespace hagen::avoidance {
 namespace {

@@ -1,6 +1,6 @@
-#include <hagen/avoidance/ChooseRun.h>
-#include <hagen/base/NumberText.h>
-#include <hagen/base/TextStream.h>
+#include "avoidance/replays/ChooseRun.h"
+#include "base/NumberText.h"
+#include "base/TextStream.h"
 
 #include <algorithm>
 #include <array>

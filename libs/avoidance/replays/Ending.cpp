@@ -1,11 +1,11 @@
-#include <hagen/avoidance/FlightRecording.h>
+#include "avoidance/replays/FlightRecording.h"
 
-#include <hagen/avoidance/TrialScore.h>
 #include <hagen/scan/Angle.h>
 #include <cmath>
 #include <vector>
+#include "avoidance/flights/TrialScore.h"
 
-#include <hagen/base/NumberText.h>
+#include "base/NumberText.h"
 
 namespace hagen::avoidance {
 namespace {

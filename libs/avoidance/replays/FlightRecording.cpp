@@ -1,4 +1,4 @@
-#include <hagen/avoidance/FlightRecording.h>
+#include "avoidance/replays/FlightRecording.h"
 
 #include <algorithm>
 #include <array>

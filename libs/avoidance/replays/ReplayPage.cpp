@@ -1,7 +1,4 @@
-#include <hagen/avoidance/Replay.h>
 #include <hagen/avoidance/WorldModel.h>
-#include <hagen/base/Json.h>
-#include <hagen/base/NumberText.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,7 +7,10 @@
 #include <string>
 #include <string_view>
 #include <vector>
+#include "avoidance/replays/Replay.h"
 #include "avoidance/replays/ReplayTexts.h"
+#include "base/Json.h"
+#include "base/NumberText.h"
 
 namespace hagen::avoidance {
 namespace {

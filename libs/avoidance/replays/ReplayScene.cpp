@@ -1,10 +1,10 @@
-#include <hagen/base/WriteFile.h>
-#include <hagen/mrpt/MrptScene.h>
+#include "base/WriteFile.h"
+#include "mrpt/MrptScene.h"
 
 #include <algorithm>
 #include <array>
 
-#include <hagen/avoidance/Replay.h>
+#include "avoidance/replays/Replay.h"
 
 namespace hagen::avoidance {
 namespace {

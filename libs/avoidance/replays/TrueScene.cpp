@@ -1,4 +1,4 @@
-#include <hagen/avoidance/TrueScene.h>
+#include "avoidance/replays/TrueScene.h"
 
 #include <algorithm>
 #include <cmath>

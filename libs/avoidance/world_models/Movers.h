@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/avoidance/ObstacleTracks.h>
 #include <hagen/avoidance/WorldModel.h>
+#include "avoidance/world_models/ObstacleTracks.h"
 
 namespace hagen::avoidance {
 

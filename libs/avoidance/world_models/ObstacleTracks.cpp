@@ -1,11 +1,11 @@
-#include <hagen/avoidance/ObstacleTracks.h>
+#include "avoidance/world_models/ObstacleTracks.h"
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include <Eigen/Geometry>
 
-#include <hagen/avoidance/SeenDirections.h>
+#include "avoidance/world_models/SeenDirections.h"
 #include "avoidance/world_models/Thinning.h"
 
 namespace hagen::avoidance {

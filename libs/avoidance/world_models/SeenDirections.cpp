@@ -1,4 +1,4 @@
-#include <hagen/avoidance/SeenDirections.h>
+#include "avoidance/world_models/SeenDirections.h"
 
 #include <algorithm>
 #include <cmath>

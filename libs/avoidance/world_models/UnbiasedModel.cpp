@@ -1,4 +1,4 @@
-#include <hagen/avoidance/UnbiasedModel.h>
+#include "avoidance/world_models/UnbiasedModel.h"
 
 namespace hagen::avoidance {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include <hagen/avoidance/SeenDirections.h>
+#include "avoidance/world_models/SeenDirections.h"
 
 namespace hagen::avoidance {
 

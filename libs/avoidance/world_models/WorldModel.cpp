@@ -1,5 +1,5 @@
-#include <hagen/avoidance/UnbiasedModel.h>
 #include <hagen/avoidance/WorldModel.h>
+#include "avoidance/world_models/UnbiasedModel.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
-#include <hagen/base/BackgroundPrinter.h>
-#include <hagen/base/Terminal.h>
+#include "base/command_line/BackgroundPrinter.h"
+#include "base/command_line/Terminal.h"
 
 #include <condition_variable>
 #include <deque>

@@ -1,4 +1,4 @@
-#include <hagen/base/CommandLine.h>
+#include "base/command_line/CommandLine.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -16,11 +16,11 @@
 #include <string_view>
 #include <type_traits>
 
-#include <hagen/base/Interrupt.h>
-#include <hagen/base/MemoryLimit.h>
-#include <hagen/base/NumberText.h>
 #include <hagen/base/OutputPath.h>
-#include <hagen/base/Terminal.h>
+#include "base/MemoryLimit.h"
+#include "base/NumberText.h"
+#include "base/command_line/Interrupt.h"
+#include "base/command_line/Terminal.h"
 
 namespace hagen::base {
 

@@ -1,4 +1,4 @@
-#include <hagen/base/Interrupt.h>
+#include "base/command_line/Interrupt.h"
 
 #include <atomic>
 #include <csignal>

@@ -1,5 +1,5 @@
-#include <hagen/base/ProgressLine.h>
-#include <hagen/base/Terminal.h>
+#include "base/command_line/ProgressLine.h"
+#include "base/command_line/Terminal.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include <hagen/base/Terminal.h>
+#include "base/command_line/Terminal.h"
 
 #include <algorithm>
 #include <cstdint>

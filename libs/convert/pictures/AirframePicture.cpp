@@ -1,5 +1,5 @@
-#include <hagen/convert/AirframePicture.h>
-#include <hagen/convert/Gnuplot.h>
+#include "convert/pictures/AirframePicture.h"
+#include "convert/pictures/Gnuplot.h"
 
 #include "convert/pictures/GnuplotText.h"
 

@@ -1,6 +1,5 @@
+#include "convert/pictures/Gnuplot.h"
 #include <fcntl.h>
-#include <hagen/base/ProcessCost.h>
-#include <hagen/convert/Gnuplot.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
@@ -16,6 +15,7 @@
 #include <stdexcept>
 #include <thread>
 #include <vector>
+#include "base/ProcessCost.h"
 
 namespace hagen::convert {
 namespace {

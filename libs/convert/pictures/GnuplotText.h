@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/base/TextStream.h>
+#include "base/TextStream.h"
 
 #include <array>
 

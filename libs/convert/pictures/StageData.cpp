@@ -1,11 +1,11 @@
 #include "convert/pictures/StageData.h"
 
-#include <hagen/filter/SingularSpectrumAnalysis.h>
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include "filter/paper/SingularSpectrumAnalysis.h"
 
 #include "convert/pictures/GnuplotText.h"
 

@@ -1,7 +1,7 @@
 #pragma once
-#include <hagen/convert/StagePictures.h>
 #include <string>
 #include <vector>
+#include "convert/pictures/StagePictures.h"
 
 namespace hagen::convert {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/convert/StagePictures.h>
 #include <string>
+#include "convert/pictures/StagePictures.h"
 
 #include "convert/pictures/GnuplotText.h"
 #include "convert/pictures/StageData.h"

@@ -1,5 +1,5 @@
-#include <hagen/convert/Gnuplot.h>
-#include <hagen/convert/StagePictures.h>
+#include "convert/pictures/StagePictures.h"
+#include "convert/pictures/Gnuplot.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,7 +1,7 @@
-#include <hagen/convert/GroundTruthFolder.h>
+#include "convert/simulated/GroundTruthFolder.h"
 
-#include <hagen/base/WriteFile.h>
 #include <hagen/recordings/ScanFolder.h>
+#include "base/WriteFile.h"
 
 #include <fstream>
 #include <iomanip>

@@ -1,21 +1,21 @@
-#include <hagen/convert/SimulatedLog.h>
+#include "convert/simulated/SimulatedLog.h"
 
-#include <hagen/base/OutputSet.h>
-#include <hagen/convert/RawlogWriter.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/simulation/LogClock.h>
 #include <hagen/simulation/Scenarios.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include "base/OutputSet.h"
+#include "convert/RawlogWriter.h"
 
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
-#include <hagen/convert/GroundTruthFolder.h>
 #include <hagen/convert/SimulatedObservation.h>
+#include "convert/simulated/GroundTruthFolder.h"
 
 namespace hagen::convert {
 namespace {

@@ -1,6 +1,6 @@
 #include <hagen/convert/SimulatedObservation.h>
 
-#include <hagen/mrpt/VelodyneEncoder.h>
+#include "mrpt/VelodyneEncoder.h"
 
 namespace hagen::convert {
 

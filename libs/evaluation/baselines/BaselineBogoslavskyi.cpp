@@ -1,6 +1,4 @@
-#include <hagen/evaluation/BaselineBogoslavskyi.h>
-#include <hagen/filter/GapRepair.h>
-#include <hagen/filter/RangeAngle.h>
+#include "evaluation/baselines/BaselineBogoslavskyi.h"
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/RangeImage.h>
 #include <Eigen/Core>
@@ -8,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include "filter/image/GapRepair.h"
+#include "filter/paper/RangeAngle.h"
 
 namespace hagen::evaluation {
 namespace {

@@ -1,4 +1,4 @@
-#include <hagen/evaluation/BaselineZermas.h>
+#include "evaluation/baselines/BaselineZermas.h"
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <hagen/base/TextStream.h>
-#include <hagen/evaluation/BaselineBogoslavskyi.h>
-#include <hagen/evaluation/BaselineZermas.h>
 #include <hagen/evaluation/Baselines.h>
+#include "base/TextStream.h"
+#include "evaluation/baselines/BaselineBogoslavskyi.h"
+#include "evaluation/baselines/BaselineZermas.h"
 
 namespace hagen::evaluation {
 namespace {

@@ -1,13 +1,13 @@
-#include <hagen/base/NumberText.h>
-#include <hagen/base/TextStream.h>
-#include <hagen/evaluation/Charts.h>
+#include "evaluation/labelled_folders/Charts.h"
+#include "base/NumberText.h"
+#include "base/TextStream.h"
 
-#include <hagen/convert/Gnuplot.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <locale>
+#include "convert/pictures/Gnuplot.h"
 
 namespace hagen::evaluation {
 namespace {

@@ -1,4 +1,4 @@
-#include <hagen/evaluation/HardSets.h>
+#include "evaluation/labelled_folders/HardSets.h"
 
 #include <algorithm>
 #include <stdexcept>

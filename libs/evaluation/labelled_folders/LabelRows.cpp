@@ -1,9 +1,9 @@
-#include <hagen/evaluation/LabelRows.h>
+#include "evaluation/labelled_folders/LabelRows.h"
 
-#include <hagen/base/Folder.h>
 #include <hagen/settings/Settings.h>
 #include <algorithm>
 #include <stdexcept>
+#include "base/Folder.h"
 
 namespace hagen::evaluation {
 namespace {

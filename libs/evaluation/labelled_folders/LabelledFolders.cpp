@@ -1,6 +1,5 @@
-#include <hagen/evaluation/LabelledFolders.h>
+#include "evaluation/labelled_folders/LabelledFolders.h"
 
-#include <hagen/base/Folder.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
@@ -8,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include "base/Folder.h"
 
 namespace hagen::evaluation {
 namespace {

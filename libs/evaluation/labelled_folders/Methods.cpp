@@ -1,8 +1,8 @@
-#include <hagen/evaluation/Methods.h>
+#include "evaluation/labelled_folders/Methods.h"
 
 #include <hagen/evaluation/Baselines.h>
-#include <hagen/evaluation/Degradation.h>
 #include <hagen/filter/HagenFilter.h>
+#include "evaluation/Degradation.h"
 #ifdef HAGEN_HAS_PCL_BASELINE
 #include <hagen/pcl_baseline/BaselinePclEuclidean.h>
 #endif

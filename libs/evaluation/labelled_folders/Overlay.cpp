@@ -1,12 +1,12 @@
-#include <hagen/base/TextStream.h>
-#include <hagen/evaluation/Overlay.h>
+#include "evaluation/labelled_folders/Overlay.h"
+#include "base/TextStream.h"
 
-#include <hagen/convert/Gnuplot.h>
 #include <algorithm>
 #include <array>
 #include <locale>
 #include <stdexcept>
 #include <string>
+#include "convert/pictures/Gnuplot.h"
 
 namespace hagen::evaluation {
 namespace {

@@ -1,4 +1,4 @@
-#include <hagen/evaluation/Summary.h>
+#include "evaluation/labelled_folders/Summary.h"
 
 namespace hagen::evaluation {
 namespace {

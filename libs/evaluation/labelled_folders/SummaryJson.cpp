@@ -1,9 +1,9 @@
-#include <hagen/evaluation/SummaryJson.h>
+#include "evaluation/labelled_folders/SummaryJson.h"
 
-#include <hagen/base/Json.h>
-#include <hagen/base/WriteFile.h>
-#include <hagen/settings/SettingsJson.h>
 #include <cmath>
+#include "base/Json.h"
+#include "base/WriteFile.h"
+#include "settings/SettingsJson.h"
 
 namespace hagen::evaluation {
 namespace {

@@ -1,5 +1,5 @@
-#include <hagen/filter/Clearance.h>
-#include <hagen/filter/GroundFrame.h>
+#include "filter/ground/Clearance.h"
+#include "filter/simd/GroundFrame.h"
 
 namespace hagen {
 Eigen::Vector3f upwards(const Ground& ground, const std::optional<Attitude>& attitude) {

@@ -1,7 +1,7 @@
-#include <hagen/filter/FartherReturns.h>
-#include <hagen/filter/HeightLabels.h>
+#include "filter/ground/FartherReturns.h"
 #include <cmath>
 #include "filter/ground/BlockSums.h"
+#include "filter/simd/HeightLabels.h"
 
 namespace hagen {
 namespace {

@@ -1,4 +1,4 @@
-#include <hagen/filter/GroundFrame.h>
+#include "filter/simd/GroundFrame.h"
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>

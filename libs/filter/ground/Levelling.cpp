@@ -1,6 +1,6 @@
 #include <hagen/filter/Levelling.h>
-#include <hagen/filter/RangeAngle.h>
 #include <Eigen/Geometry>
+#include "filter/paper/RangeAngle.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/ground/Levelling.cpp"

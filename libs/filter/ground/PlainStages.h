@@ -4,13 +4,13 @@
 // same bits, but for sums of doubles.
 #pragma once
 #include <hagen/filter/CellTops.h>
-#include <hagen/filter/GroundFrame.h>
 #include <hagen/filter/GroundSurface.h>
-#include <hagen/filter/HeightLabels.h>
 #include <hagen/filter/PixelCells.h>
 #include <hagen/filter/PixelPoints.h>
 #include <cstdint>
 #include <vector>
+#include "filter/simd/GroundFrame.h"
+#include "filter/simd/HeightLabels.h"
 
 namespace hagen {
 

@@ -1,4 +1,4 @@
-#include <hagen/filter/DeadBeams.h>
+#include "filter/image/DeadBeams.h"
 #include <algorithm>
 #include <cstddef>
 

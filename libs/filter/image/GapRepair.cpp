@@ -1,4 +1,4 @@
-#include <hagen/filter/GapRepair.h>
+#include "filter/image/GapRepair.h"
 #include <cmath>
 
 namespace hagen {

@@ -1,4 +1,4 @@
-#include <hagen/filter/Posture.h>
+#include "filter/image/Posture.h"
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #ifndef HAGEN_EIGEN_BATCH_H
 #define HAGEN_EIGEN_BATCH_H
-#include <hagen/filter/RunBatch.h>
+#include "filter/paper/RunBatch.h"
 
 namespace hagen {
 

@@ -1,11 +1,11 @@
-#include <hagen/filter/Labelling.h>
-#include <hagen/filter/SeedGate.h>
+#include "filter/paper/Labelling.h"
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <vector>
+#include "filter/paper/SeedGate.h"
 
 #include "filter/FindColumnBits.h"
 

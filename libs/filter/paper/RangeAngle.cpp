@@ -1,6 +1,6 @@
 // Vectors run along columns, including empty pixels: a branch per pixel would cost more than the
 // arithmetic.
-#include <hagen/filter/RangeAngle.h>
+#include "filter/paper/RangeAngle.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/paper/RangeAngle.cpp"

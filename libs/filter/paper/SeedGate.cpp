@@ -1,4 +1,4 @@
-#include <hagen/filter/SeedGate.h>
+#include "filter/paper/SeedGate.h"
 #include <algorithm>
 
 namespace hagen {

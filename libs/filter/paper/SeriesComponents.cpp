@@ -1,5 +1,5 @@
-#include <hagen/filter/SingularSpectrumAnalysis.h>
 #include <Eigen/Dense>
+#include "filter/paper/SingularSpectrumAnalysis.h"
 
 namespace hagen {
 namespace {

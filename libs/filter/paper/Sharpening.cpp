@@ -1,4 +1,4 @@
-#include <hagen/filter/Sharpening.h>
+#include "filter/paper/Sharpening.h"
 #include <algorithm>
 #include <cmath>
 

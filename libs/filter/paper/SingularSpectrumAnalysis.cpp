@@ -2,7 +2,7 @@
 // components, so the shorter side is the window. Only the smaller set of components is computed,
 // those to keep or those to remove. Projection and hankelization are one linear filter. All of this
 // is done with floats, and again with doubles for the few runs that need them.
-#include <hagen/filter/SingularSpectrumAnalysis.h>
+#include "filter/paper/SingularSpectrumAnalysis.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

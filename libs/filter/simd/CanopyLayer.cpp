@@ -1,10 +1,10 @@
-#include <hagen/filter/CanopyLayer.h>
+#include "filter/simd/CanopyLayer.h"
 #include <hagen/filter/GroundSurface.h>
-#include <hagen/scan/InstructionSets.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include "scan/InstructionSets.h"
 
 #include "filter/ground/BlockSums.h"
 #include "filter/ground/PlainStages.h"

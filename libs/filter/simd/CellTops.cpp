@@ -1,7 +1,7 @@
 #include <hagen/filter/CellTops.h>
-#include <hagen/scan/InstructionSets.h>
 #include <hwy/highway.h>
 #include <algorithm>
+#include "scan/InstructionSets.h"
 
 #include "filter/ground/GroundGrid.h"
 #include "filter/ground/PlainStages.h"

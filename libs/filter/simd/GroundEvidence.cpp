@@ -1,4 +1,4 @@
-#include <hagen/filter/GroundEvidence.h>
+#include "filter/simd/GroundEvidence.h"
 #include <algorithm>
 #include <limits>
 

@@ -2,10 +2,10 @@
 // set.
 #ifndef HAGEN_GROUND_GRID
 #define HAGEN_GROUND_GRID
-#include <hagen/scan/InstructionSets.h>
-#include <hagen/scan/SetBits.h>
 #include <cstddef>
 #include <cstdint>
+#include "scan/InstructionSets.h"
+#include "scan/SetBits.h"
 
 #include "filter/ground/GroundGrid.h"
 #include "filter/ground/PlainStages.h"

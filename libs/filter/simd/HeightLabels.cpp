@@ -1,4 +1,4 @@
-#include <hagen/filter/HeightLabels.h>
+#include "filter/simd/HeightLabels.h"
 #include <algorithm>
 
 // Compiled once per instruction set: Highway includes this file again for each.

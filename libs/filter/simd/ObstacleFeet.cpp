@@ -1,4 +1,4 @@
-#include <hagen/filter/ObstacleFeet.h>
+#include "filter/simd/ObstacleFeet.h"
 #include <algorithm>
 
 // Compiled once per instruction set: Highway includes this file again for each.

@@ -1,4 +1,4 @@
-#include <hagen/filter/SpeckRemoval.h>
+#include "filter/simd/SpeckRemoval.h"
 #include <cmath>
 
 // Compiled once per instruction set: Highway includes this file again for each.

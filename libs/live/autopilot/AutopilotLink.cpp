@@ -1,7 +1,7 @@
-#include <hagen/live/AutopilotLink.h>
-#include <hagen/live/GroundBelow.h>
+#include "live/autopilot/AutopilotLink.h"
 #include <hagen/live/PacketQueue.h>
-#include <hagen/live/Parser.h>
+#include "live/autopilot/GroundBelow.h"
+#include "live/mavlink/Parser.h"
 
 #include <algorithm>
 #include <array>

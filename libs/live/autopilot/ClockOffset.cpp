@@ -1,4 +1,4 @@
-#include <hagen/live/ClockOffset.h>
+#include "live/autopilot/ClockOffset.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <hagen/live/GroundBelow.h>
+#include "live/autopilot/GroundBelow.h"
 
 #include <cmath>
 

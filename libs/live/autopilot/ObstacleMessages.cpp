@@ -1,4 +1,4 @@
-#include <hagen/live/ObstacleMessages.h>
+#include "live/autopilot/ObstacleMessages.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <hagen/live/ObstacleNumbers.h>
+#include "live/autopilot/ObstacleNumbers.h"
 
 #include <algorithm>
 #include <limits>

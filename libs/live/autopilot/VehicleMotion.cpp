@@ -1,5 +1,5 @@
-#include <hagen/live/Messages.h>
-#include <hagen/live/VehicleMotion.h>
+#include "live/autopilot/VehicleMotion.h"
+#include "live/autopilot/Messages.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <hagen/live/Frame.h>
+#include "live/mavlink/Frame.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,4 +1,4 @@
-#include <hagen/live/Parser.h>
+#include "live/mavlink/Parser.h"
 
 #include <algorithm>
 #include <utility>

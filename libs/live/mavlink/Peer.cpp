@@ -1,4 +1,4 @@
-#include <hagen/live/Peer.h>
+#include "live/mavlink/Peer.h"
 
 #include <stdexcept>
 

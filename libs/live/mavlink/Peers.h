@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/live/Peer.h>
+#include "live/mavlink/Peer.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,8 @@
-#include <hagen/filter/Posture.h>
 #include <hagen/live/StreamingSegmenter.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/scan/AppendReturn.h>
 #include <hagen/scan/RangeImage.h>
+#include "filter/image/Posture.h"
+#include "scan/AppendReturn.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include <hagen/mrpt/MapFile.h>
-#include <hagen/mrpt/MrptScene.h>
 #include <mrpt/img/color_maps.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
+#include "mrpt/MrptScene.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,5 +1,5 @@
-#include <hagen/base/ReadFile.h>
-#include <hagen/recordings/BagFile.h>
+#include "recordings/bags/BagFile.h"
+#include "base/ReadFile.h"
 
 #include <fstream>
 

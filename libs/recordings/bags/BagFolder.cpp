@@ -1,6 +1,6 @@
-#include <hagen/base/Folder.h>
-#include <hagen/base/ReadFile.h>
 #include <yaml-cpp/yaml.h>
+#include "base/Folder.h"
+#include "base/ReadFile.h"
 
 #include <algorithm>
 #include <cctype>

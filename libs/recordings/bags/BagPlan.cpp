@@ -1,5 +1,5 @@
-#include <hagen/recordings/BagPlan.h>
-#include <hagen/recordings/Remarks.h>
+#include "recordings/bags/BagPlan.h"
+#include "recordings/bags/Remarks.h"
 
 #include <algorithm>
 #include <initializer_list>

@@ -1,12 +1,12 @@
+#include "recordings/bags/BagScans.h"
 #include <hagen/mrpt/LocatedCloud.h>
-#include <hagen/mrpt/TableCloud.h>
-#include <hagen/recordings/BagScans.h>
-#include <hagen/recordings/LidarCapture.h>
-#include <hagen/recordings/Remarks.h>
-#include <hagen/sensors/OusterScan.h>
-#include <hagen/sensors/VelodyneTurns.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include "mrpt/TableCloud.h"
+#include "recordings/bags/Remarks.h"
+#include "recordings/captures/LidarCapture.h"
+#include "sensors/ouster/OusterScan.h"
+#include "sensors/velodyne/VelodyneTurns.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>

@@ -1,6 +1,6 @@
-#include <hagen/recordings/BagScans.h>
-#include <hagen/recordings/PoseFile.h>
-#include <hagen/recordings/Remarks.h>
+#include "recordings/PoseFile.h"
+#include "recordings/bags/BagScans.h"
+#include "recordings/bags/Remarks.h"
 
 #include "recordings/ScanObject.h"
 #include "recordings/Sources.h"

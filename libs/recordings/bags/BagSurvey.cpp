@@ -1,6 +1,6 @@
-#include <hagen/recordings/BagSurvey.h>
-#include <hagen/recordings/Remarks.h>
+#include "recordings/bags/BagSurvey.h"
 #include <hagen/sensors/VelodynePacket.h>
+#include "recordings/bags/Remarks.h"
 
 #include <cmath>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "recordings/bags/FileBytes.h"
 
-#include <hagen/recordings/BagFile.h>
 #include <zlib.h>
+#include "recordings/bags/BagFile.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include <hagen/recordings/FrameTree.h>
+#include "recordings/bags/FrameTree.h"
 
 namespace hagen::recordings {
 namespace {

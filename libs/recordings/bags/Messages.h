@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/mrpt/PointTable.h>
-#include <hagen/recordings/BagFile.h>
 #include <mrpt/poses/CPose3D.h>
+#include "recordings/bags/BagFile.h"
 
 #include <array>
 #include <cstdint>

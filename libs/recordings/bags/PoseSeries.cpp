@@ -1,8 +1,8 @@
 #include "recordings/bags/PoseSeries.h"
 
 #include <hagen/mrpt/Trajectory.h>
-#include <hagen/recordings/Remarks.h>
 #include <mrpt/math/CQuaternion.h>
+#include "recordings/bags/Remarks.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #pragma once
-#include <hagen/recordings/BagSurvey.h>
 #include <mrpt/poses/CPose3D.h>
 #include <string>
 #include <vector>
+#include "recordings/bags/BagSurvey.h"
 
 namespace hagen::recordings {
 

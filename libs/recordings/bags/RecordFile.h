@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/recordings/BagFile.h>
+#include "recordings/bags/BagFile.h"
 
 #include <map>
 

@@ -1,5 +1,5 @@
-#include <hagen/base/ReadFile.h>
 #include <sqlite3.h>
+#include "base/ReadFile.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include <hagen/recordings/LidarCapture.h>
-#include <hagen/recordings/Remarks.h>
-#include <hagen/sensors/LivoxPacket.h>
+#include "recordings/captures/LidarCapture.h"
+#include "recordings/bags/Remarks.h"
+#include "sensors/livox/LivoxPacket.h"
 
 #include <stdexcept>
 #include <utility>

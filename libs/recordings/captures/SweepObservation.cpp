@@ -1,11 +1,11 @@
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/VelodyneObservation.h>
-#include <hagen/recordings/LidarCapture.h>
-#include <hagen/recordings/Remarks.h>
 #include <hagen/sensors/VelodynePacket.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/poses/CPose3D.h>
+#include "recordings/bags/Remarks.h"
+#include "recordings/captures/LidarCapture.h"
 
 #include <cstring>
 #include <utility>

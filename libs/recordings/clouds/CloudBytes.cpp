@@ -1,8 +1,8 @@
 #include "recordings/clouds/CloudBytes.h"
 
-#include <hagen/base/NumberText.h>
-#include <hagen/base/ReadFile.h>
 #include <hagen/scan/MostReturns.h>
+#include "base/NumberText.h"
+#include "base/ReadFile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/mrpt/PointTable.h>
-#include <hagen/recordings/CloudFile.h>
+#include "recordings/clouds/CloudFile.h"
 
 #include <array>
 #include <cstddef>

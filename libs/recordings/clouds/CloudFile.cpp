@@ -1,5 +1,5 @@
-#include <hagen/base/FileKind.h>
-#include <hagen/recordings/CloudFile.h>
+#include "recordings/clouds/CloudFile.h"
+#include "base/FileKind.h"
 
 #include <algorithm>
 #include <fstream>

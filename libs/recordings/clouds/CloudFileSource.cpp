@@ -1,8 +1,8 @@
-#include <hagen/base/Folder.h>
-#include <hagen/mrpt/TableCloud.h>
 #include <hagen/recordings/BrokenRecording.h>
-#include <hagen/recordings/CloudFile.h>
-#include <hagen/recordings/Remarks.h>
+#include "base/Folder.h"
+#include "mrpt/TableCloud.h"
+#include "recordings/bags/Remarks.h"
+#include "recordings/clouds/CloudFile.h"
 
 #include <algorithm>
 #include <new>

@@ -1,6 +1,6 @@
 #include "recordings/clouds/PcdHeader.h"
 
-#include <hagen/base/NumberText.h>
+#include "base/NumberText.h"
 
 #include <map>
 

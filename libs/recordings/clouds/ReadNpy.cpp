@@ -1,5 +1,5 @@
-#include <hagen/base/NumberText.h>
 #include <yaml-cpp/yaml.h>
+#include "base/NumberText.h"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,4 @@
 #include <hagen/mrpt/TimeStamp.h>
-#include <hagen/recordings/NumberTable.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/scan/MostReturns.h>
 #include <algorithm>
@@ -9,9 +8,10 @@
 #include <new>
 #include <set>
 #include <stdexcept>
+#include "recordings/NumberTable.h"
 
-#include <hagen/base/Folder.h>
-#include <hagen/base/WriteFile.h>
+#include "base/Folder.h"
+#include "base/WriteFile.h"
 #include "recordings/CloudTimes.h"
 #include "recordings/clouds/Readers.h"
 

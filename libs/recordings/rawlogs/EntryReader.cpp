@@ -1,8 +1,8 @@
 #include "recordings/rawlogs/EntryReader.h"
 
-#include <hagen/base/FileKind.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/MrptMessage.h>
+#include "base/FileKind.h"
 
 #include <new>
 #include <string>

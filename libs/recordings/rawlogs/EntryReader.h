@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/recordings/PackedInput.h>
 #include <hagen/recordings/RawlogReader.h>
+#include "recordings/rawlogs/PackedInput.h"
 
 namespace hagen::recordings {
 

@@ -1,6 +1,6 @@
 #include <hagen/mrpt/TimeStamp.h>
 #include <hagen/recordings/LogPoses.h>
-#include <hagen/recordings/PoseFile.h>
+#include "recordings/PoseFile.h"
 
 #include <map>
 #include <stdexcept>

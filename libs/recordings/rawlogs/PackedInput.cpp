@@ -1,4 +1,4 @@
-#include <hagen/recordings/PackedInput.h>
+#include "recordings/rawlogs/PackedInput.h"
 #include <sys/stat.h>
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,7 @@
-#include <hagen/mrpt/Results.h>
 #include <hagen/recordings/BrokenRecording.h>
-#include <hagen/recordings/PoseFile.h>
 #include <hagen/recordings/RawlogReader.h>
+#include "mrpt/Results.h"
+#include "recordings/PoseFile.h"
 
 #include <utility>
 

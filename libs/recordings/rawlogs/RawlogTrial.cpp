@@ -1,12 +1,12 @@
 #include "recordings/rawlogs/RawlogTrial.h"
 
 #include <fcntl.h>
-#include <hagen/base/ProcessCost.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include "base/ProcessCost.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,6 @@
-#include <hagen/base/ReadFile.h>
 #include <hagen/sensors/CaptureFile.h>
 #include <pcap/pcap.h>
+#include "base/ReadFile.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-#include <hagen/base/WriteFile.h>
-#include <hagen/sensors/CaptureWriter.h>
+#include "sensors/captures/CaptureWriter.h"
+#include "base/WriteFile.h"
 
 #include <cerrno>
 #include <system_error>

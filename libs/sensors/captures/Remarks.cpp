@@ -1,4 +1,4 @@
-#include <hagen/sensors/Remarks.h>
+#include "sensors/captures/Remarks.h"
 
 #include <algorithm>
 

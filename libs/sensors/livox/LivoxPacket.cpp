@@ -1,4 +1,4 @@
-#include <hagen/sensors/LivoxPacket.h>
+#include "sensors/livox/LivoxPacket.h"
 
 #include "sensors/LittleEndian.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/sensors/LidarDriver.h>
-#include <hagen/sensors/LivoxPacket.h>
+#include "sensors/livox/LivoxPacket.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include <hagen/sensors/SweepReader.h>
+#include "sensors/livox/SweepReader.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include <hagen/sensors/OusterColumns.h>
+#include "sensors/ouster/OusterColumns.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/LidarDriver.h>
-#include <hagen/sensors/OusterFrames.h>
-#include <hagen/sensors/OusterScan.h>
-#include <hagen/sensors/OusterSensor.h>
+#include "sensors/ouster/OusterFrames.h"
+#include "sensors/ouster/OusterScan.h"
+#include "sensors/ouster/OusterSensor.h"
 
 #include <algorithm>
 #include <cmath>

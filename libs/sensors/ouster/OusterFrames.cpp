@@ -1,4 +1,4 @@
-#include <hagen/sensors/OusterFrames.h>
+#include "sensors/ouster/OusterFrames.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <hagen/sensors/OusterScan.h>
+#include "sensors/ouster/OusterScan.h"
 
 #include <hagen/scan/Angle.h>
 

@@ -1,10 +1,10 @@
-#include <hagen/base/ReadFile.h>
-#include <hagen/sensors/OusterSensor.h>
+#include "sensors/ouster/OusterSensor.h"
+#include "base/ReadFile.h"
 
-#include <hagen/base/FileKind.h>
-#include <hagen/base/Json.h>
-#include <hagen/base/NumberText.h>
 #include <hagen/scan/Angle.h>
+#include "base/FileKind.h"
+#include "base/Json.h"
+#include "base/NumberText.h"
 
 #include <algorithm>
 #include <cmath>

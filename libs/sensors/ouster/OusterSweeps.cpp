@@ -1,6 +1,6 @@
-#include <hagen/sensors/OusterFrames.h>
-#include <hagen/sensors/OusterScan.h>
-#include <hagen/sensors/SweepReader.h>
+#include "sensors/livox/SweepReader.h"
+#include "sensors/ouster/OusterFrames.h"
+#include "sensors/ouster/OusterScan.h"
 
 #include <cstddef>
 #include <cstdint>

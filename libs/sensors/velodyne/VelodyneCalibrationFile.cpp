@@ -1,7 +1,7 @@
-#include <hagen/base/ReadFile.h>
+#include "sensors/velodyne/VelodyneCalibrationFile.h"
 #include <hagen/scan/Angle.h>
-#include <hagen/sensors/VelodyneCalibrationFile.h>
 #include <hagen/sensors/VelodyneModel.h>
+#include "base/ReadFile.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,10 +1,10 @@
 #include <hagen/scan/Angle.h>
-#include <hagen/scan/AppendReturn.h>
 #include <hagen/sensors/LidarDriver.h>
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <hagen/sensors/VelodyneDecoder.h>
 #include <hagen/sensors/VelodyneModel.h>
 #include <hagen/sensors/VelodynePacket.h>
+#include "scan/AppendReturn.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "sensors/velodyne/VelodyneReturns.h"
 
-#include <hagen/scan/SetBits.h>
+#include "scan/SetBits.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sensors/velodyne/VelodyneReturns.cpp"

@@ -1,6 +1,6 @@
-#include <hagen/sensors/SweepReader.h>
-#include <hagen/sensors/VelodyneCalibrationFile.h>
-#include <hagen/sensors/VelodyneTurns.h>
+#include "sensors/livox/SweepReader.h"
+#include "sensors/velodyne/VelodyneCalibrationFile.h"
+#include "sensors/velodyne/VelodyneTurns.h"
 
 #include <algorithm>
 #include <cstddef>

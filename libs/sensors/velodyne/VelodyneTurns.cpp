@@ -1,6 +1,6 @@
+#include "sensors/velodyne/VelodyneTurns.h"
 #include <hagen/scan/SensorModel.h>
-#include <hagen/sensors/Remarks.h>
-#include <hagen/sensors/VelodyneTurns.h>
+#include "sensors/captures/Remarks.h"
 
 #include <cmath>
 #include <iterator>

@@ -1,0 +1,63 @@
+#pragma once
+#include <hagen/avoidance/OpenLoop.h>
+#include <hagen/base/OutputPath.h>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+#include "base/OutputSet.h"
+
+namespace hagen::avoidance {
+
+/// The folder that `octomap-compare openloop` writes:
+///
+///     openloop.csv           one row per model
+///     scans.csv              one row per scan and model
+///     agreement.csv          one row per pair of models
+///     summary.json           openloop.csv, agreement.csv and a description of the log
+///     openloop_measured.csv  one row per model: cost on this machine
+///     scans_measured.csv     one row per scan and model: cost on this machine
+///
+/// Except for the measured values, the same log gives the same bytes. Files appear when they are
+/// complete.
+class OpenLoopFiles {
+ public:
+    /// Throws std::runtime_error, naming it, if a file exists and `overwrite` is not set or it is
+    /// one of the inputs, or if the folder cannot be made.
+    OpenLoopFiles(const std::filesystem::path& folder, bool overwrite,
+                  const std::vector<std::filesystem::path>& inputs = {});
+    ~OpenLoopFiles();
+
+    std::vector<std::filesystem::path> paths() const;
+
+    void add(const OpenLoopRow& row, const OpenLoopCost& cost);
+    /// Completes the files and removes partial files of earlier runs. Throws std::runtime_error,
+    /// naming them, if some could not be written; the others are complete.
+    void commit(const OpenLoop& open_loop, const OpenLoopResult& result);
+    /// Keeps the results of a log that ended early as scans.partial.csv and so on. Returns why some
+    /// could not be written; "" if all were.
+    std::string keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result);
+
+ private:
+    struct File {
+        File(const std::filesystem::path& file, bool overwrite)
+            : path(file, base::kFile, overwrite) {}
+        base::OutputPath path;
+        std::ofstream out;
+    };
+    void finish(const OpenLoop& open_loop, const OpenLoopResult& result);
+
+    std::filesystem::path folder_;
+    bool is_own_folder_;
+    std::vector<std::unique_ptr<File>> files_;
+    base::OutputSet all_;
+};
+
+/// A description of the ground truth.
+std::string truthOf(const OpenLoop& open_loop);
+
+/// The result for a terminal: the log, one line per model, and the agreement of the models.
+std::string tableOf(const OpenLoop& open_loop, const OpenLoopResult& result);
+
+}  // namespace hagen::avoidance

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+#include "avoidance/flights/RunTable.h"
+
+namespace hagen::avoidance {
+
+/// Criteria for selecting a run. Empty names and 0: any.
+struct RunWanted {
+    std::uint64_t seed = 0;
+    std::string scenario, model, guidance, planner, pose_error;
+    std::string unknown;  ///< "optimistic", or "brake-known"
+    std::string air, distance, updates;
+    double speed_m_s = 0, latency_scale = 0;
+};
+
+/// The run that matches. Throws std::invalid_argument and lists the candidates if none or several
+/// match.
+Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted);
+
+/// The flags that select a run `among` others of its seed, for a shell:
+/// "--scenario gap --model W-RoI --guidance astar --speed 4 --latency-scale 4   # success".
+std::string choiceOf(const Run& run, const std::vector<Run>& among);
+
+/// A unique name of a run for files: "gap-7-W-RoI-astar-4mps", followed by conditions that differ
+/// from the defaults: "-3dvfh-noise-latency4-brake-known-clear-as-stored".
+std::string fileNameOf(const Run& run);
+
+}  // namespace hagen::avoidance

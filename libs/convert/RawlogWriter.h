@@ -1,0 +1,54 @@
+#pragma once
+#include <hagen/base/OutputPath.h>
+#include <mrpt/serialization/CSerializable.h>
+#include <filesystem>
+#include "convert/GzipOutput.h"
+
+namespace hagen::convert {
+
+/// Appends an entry, serialised as in a rawlog.
+void serialise(const mrpt::serialization::CSerializable& entry, Bytes& bytes);
+
+/// Writes a rawlog, which gets its name when it is complete.
+///
+/// Entries are compressed in gzip members of at least 256 KiB uncompressed. Members end between
+/// entries. Boundaries depend on the entries only, so the same entries give the same bytes.
+class RawlogWriter {
+ public:
+    /// Throws std::runtime_error naming the file; see OutputPath.
+    RawlogWriter(const std::filesystem::path& file, bool overwrite);
+
+    const base::OutputPath& place() const { return path_; }
+    /// Throws std::runtime_error naming the file if the entry cannot be written. A full disk may be
+    /// reported some entries late, or only by commit().
+    void write(const mrpt::serialization::CSerializable& entry);
+
+    /// The steps of write(), for several threads. serialise() and packGzipMember() may run on any
+    /// thread. gather() and writeMember() must be called in the log's order; they may run
+    /// concurrently with each other.
+    ///
+    /// Adds entries that must stay in one member. If they complete a member, it is moved to
+    /// `member`, which is empty otherwise. `entries` is left in an unspecified state.
+    void gather(Bytes& entries, Bytes& member);
+    /// Writes a member compressed by packGzipMember().
+    void writeMember(const Bytes& packed);
+
+    /// Completes the file and gives it its name.
+    void commit();
+    /// Completes the file as OUT.partial.rawlog and returns that name. After a failed write it ends
+    /// with the last whole member. Throws std::runtime_error if there is none.
+    std::filesystem::path keepPartial();
+    /// Whether all entries are in the file, under whatever name.
+    bool isWhole() const { return is_finished_ && !has_failed_; }
+
+ private:
+    void finish();
+
+    base::OutputPath path_;
+    GzipOutput file_;
+    Bytes gathered_;  ///< entries of an incomplete member
+    bool is_empty_ = true, has_failed_ = false, is_finished_ = false;
+    Bytes entry_, member_, packed_;  // buffers of write(), reused
+};
+
+}  // namespace hagen::convert

@@ -1,0 +1,47 @@
+#pragma once
+#include <hagen/mrpt/PointTable.h>
+#include <mrpt/poses/CPose3D.h>
+#include "filter/RoiBoxes.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hagen::convert {
+
+/// A message type of ROS 2.
+struct RosType {
+    std::string name;        ///< "sensor_msgs/msg/PointCloud2"
+    std::string definition;  ///< ros2msg: its fields, then those of each type in it
+};
+
+const RosType& pointCloud2Type();
+const RosType& markerArrayType();
+const RosType& poseStampedType();
+const RosType& transformsType();
+
+/// When, and in which frame. Times are from 1970 to 2038, as those of ROS 2 have 32-bit seconds.
+struct RosHeader {
+    std::int64_t time_ns = 0;
+    std::string frame;
+};
+
+/// The messages below are CDR (little-endian). Definitions are those of ROS 2 from Humble on.
+
+/// sensor_msgs/msg/PointCloud2: a checked table in little-endian order without 64-bit integers, as
+/// one row. Throws std::runtime_error if it has those, or more than 4 GB.
+std::vector<std::uint8_t> pointCloud2Message(const RosHeader& header,
+                                             const observations::PointTable& table);
+
+/// visualization_msgs/msg/MarkerArray: a marker that deletes all earlier ones, then a cube per box
+/// with the component's number as its id.
+std::vector<std::uint8_t> boxesMessage(const RosHeader& header, const std::vector<RoiBox>& boxes);
+
+/// geometry_msgs/msg/PoseStamped: a pose in the frame of the header.
+std::vector<std::uint8_t> poseMessage(const RosHeader& header, const mrpt::poses::CPose3D& pose);
+
+/// tf2_msgs/msg/TFMessage with one transform: the pose of `child` in the frame of the header.
+std::vector<std::uint8_t> transformMessage(const RosHeader& header, const std::string& child,
+                                           const mrpt::poses::CPose3D& pose);
+
+}  // namespace hagen::convert

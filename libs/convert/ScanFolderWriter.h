@@ -1,0 +1,59 @@
+#pragma once
+#include <hagen/filter/Extraction.h>
+#include <hagen/filter/Levelling.h>
+#include <hagen/scan/Scan.h>
+#include <hagen/scan/SensorModel.h>
+#include <mrpt/poses/CPose3D.h>
+#include "recordings/PoseFile.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hagen::convert {
+
+/// File name of scan n in a scan folder, without extension: "000042".
+std::string scanName(std::size_t scan);
+
+/// Range limits that the settings give; none: the sensor's own.
+struct GivenLimits {
+    std::optional<float> min_range_m, max_range_m;
+};
+
+/// Writes segmented scans as a scan folder; see ScanFolder.h. Functions throw std::runtime_error
+/// naming the file that cannot be written.
+class ScanFolderWriter {
+ public:
+    /// Creates velodyne/ and labels/ in an existing folder. `mount`: the sensor's tilt on the level
+    /// vehicle, for sensor.yaml. `unnamed`: the sensor is unnamed, and sensor.yaml has these
+    /// limits only, no beams, so that a guess is not taken for a fact.
+    explicit ScanFolderWriter(std::filesystem::path folder, const Attitude& mount = {},
+                              const std::optional<GivenLimits>& unnamed = std::nullopt);
+
+    /// Adds a scan with the labels of its returns. `sensor_pose`: sensor pose in the map at the
+    /// scan's time, if known. `pose_has_horizon`: the z axis of that map points against gravity.
+    void write(const std::string& name, const Scan& scan, const LabelledReturns& returns,
+               const SensorModel& sensor, double time_s,
+               const std::optional<mrpt::poses::CPose3D>& sensor_pose = std::nullopt,
+               bool pose_has_horizon = true);
+
+    /// Scans written so far.
+    std::size_t scans() const { return times_s_.size(); }
+
+    /// Writes times.txt (seconds, by the recording's clock); poses.tum with the known poses, if all
+    /// of them have a horizon, because readers level with them; and poses.txt if all poses are
+    /// known.
+    void finish() const;
+
+ private:
+    std::filesystem::path folder_;
+    Attitude mount_;
+    std::optional<GivenLimits> unnamed_;
+    std::vector<std::string> names_;  ///< of the scans, and of each:
+    std::vector<double> times_s_;
+    std::vector<std::optional<mrpt::poses::CPose3D>> poses_;
+    bool have_horizon_ = true;
+};
+
+}  // namespace hagen::convert

@@ -1,0 +1,42 @@
+// Scores on degraded copies of the scans.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+#include "evaluation/DegradedScans.h"
+
+#include "evaluation/labelled_folders/LabelledFolders.h"
+
+namespace hagen::evaluation {
+
+/// Labelled scan folders, as sourcesOf() opens them. Degradations read them once each.
+struct LabelledInputs {
+    std::vector<std::string> folders;
+    MethodSet rows;
+    std::optional<LabelMap> label_map;
+};
+
+/// The scores of one degradation: one element per method, without those of --labels, whose labels
+/// are of the scans as recorded.
+struct HardSet {
+    std::string name;
+    std::vector<MethodScores> methods;
+};
+
+/// Returns the degradations that texts describe, after the standard ones if requested; each once.
+/// The standard ones are for the sensor with the fewest beams among the folders. Throws
+/// SettingsError if a text cannot be parsed, or does not fit the sensor of a folder.
+std::vector<Degradation> degradationsOf(const std::vector<std::string>& texts, bool with_standard,
+                                        const LabelledInputs& inputs);
+
+/// Called for each scan of each method on each degradation.
+using HardSetListener =
+    std::function<void(const std::string& degradation, const MethodOutput& output)>;
+
+/// Scores all methods on each degradation, one after the other; over returns, not over pixels.
+/// Throws like evaluate().
+std::vector<HardSet> scoreHardSets(const LabelledInputs& inputs,
+                                   const std::vector<Degradation>& degradations,
+                                   const RangeBands& range, const HardSetListener& listener = {});
+
+}  // namespace hagen::evaluation

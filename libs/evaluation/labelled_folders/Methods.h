@@ -1,0 +1,47 @@
+// The scored methods: the filter with each of its settings, and the baselines.
+#pragma once
+#include <hagen/evaluation/Method.h>
+#include <hagen/mrpt/CloudSensors.h>
+#include <hagen/settings/Settings.h>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluation/labelled_folders/LabelRows.h"
+
+namespace hagen::evaluation {
+
+/// The filter with one set of settings: one row of the table.
+struct SweepPoint {
+    std::string name;
+    Settings settings;
+    std::string sweep_key;  ///< key of the sweep; empty: no sweep
+    std::string sweep_value;
+};
+
+/// Returns one row "hagen" without sweeps, otherwise one row per value of each "KEY=VALUE,VALUE".
+/// Throws SettingsError if a sweep cannot be parsed or settings are inconsistent.
+std::vector<SweepPoint> rowsOf(const Settings& settings, const std::vector<std::string>& sweeps);
+
+/// All scored methods: the filter's rows, then the baselines if requested, then labels of others.
+struct MethodSet {
+    std::vector<SweepPoint> filter;
+    std::optional<Settings> baselines;  ///< provides zone and sensor of the baselines
+    std::vector<LabelRow> labels = {};
+    bool is_upside_down = false;  ///< the sensor; see mirrored()
+};
+
+/// Adds a row per "NAME=DIR" of labels of other programs. Throws SettingsError like labelRowFrom().
+void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows);
+
+/// Returns the filter's and baselines' methods for a recording. Settings in `sensor_file`, if that
+/// exists, are merged into those of each row. If these name no sensor, it has the recovered `beams`
+/// (ScanSource::beamsOf()). Includes PCL's baselines if the program was built
+/// with PCL. The filter masks the airframe of its settings first, where it is in the sensor frame
+/// of the scan: in a scan that was turned (tilted, upside down), it is elsewhere. Throws
+/// SettingsError if settings and sensor are inconsistent.
+std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::path& sensor_file,
+                               const observations::SharedBeams& beams = nullptr);
+
+}  // namespace hagen::evaluation

@@ -1,0 +1,46 @@
+#pragma once
+#include <mrpt/obs/CObservation.h>
+#include "recordings/bags/BagPlan.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hagen::recordings {
+
+/// The scans of a bag, and the attitudes of its IMU.
+///
+/// A cloud becomes a CObservationPointCloud with its header's time. Packets of a Velodyne are
+/// grouped into turns, those of an Ouster into frames, as in captures: a turn may have packets of
+/// two messages. A Livox message is a scan; those of livox_ros_driver2 are read as of a Mid-360.
+class BagScans {
+ public:
+    /// Throws BrokenRecording naming the file that cannot be opened. `survey` must outlive it.
+    BagScans(const std::filesystem::path& file, const BagSurvey& survey, const BagOptions& options);
+    ~BagScans();
+
+    /// The next scan, or a CObservationIMU with an orientation; null at the end. Where the bag
+    /// breaks off, the turns in progress come first. Throws BrokenRecording there, and at the end
+    /// if not one scan could be read.
+    mrpt::obs::CObservation::Ptr next();
+
+    /// Like BagFile::checkWhileReading(): what `check` throws ends next().
+    void checkWhileReading(const std::function<void()>& check);
+
+    const BagPlan& plan() const;
+    /// Messages of the bag read so far, of all topics.
+    std::size_t messagesRead() const;
+    /// Fraction of the bag read so far, 0 ... 1.
+    double fractionRead() const;
+    /// What was found on each topic, and what was left out. Complete at the end.
+    std::vector<std::string> remarks() const;
+
+ private:
+    struct Reader;
+    std::unique_ptr<Reader> reader_;
+};
+
+}  // namespace hagen::recordings
