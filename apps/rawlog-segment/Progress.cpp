@@ -10,7 +10,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::size_t kMostRemarks = 10;  // of a kind; one per scan would hide everything else
+constexpr std::size_t kMaxRemarks = 10;  // of a kind; one per scan would hide everything else
 constexpr Seconds kBetweenLines{0.1}, kBeforeRate{1.0};
 
 std::string clockOf(double seconds) {
@@ -75,7 +75,7 @@ void Progress::remark(const std::string& entry, const std::string& remark) {
         return;
     }
     Kind& kind = kinds_[kindOf(remark)];
-    known.is_printed = kind.printed < kMostRemarks;
+    known.is_printed = kind.printed < kMaxRemarks;
     if (known.is_printed) {
         ++kind.printed;
         print(entry, remark);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace evaluation;
 
-constexpr std::size_t kMostColumns = 5;  // adjacent methods within 100 columns
+constexpr std::size_t kMaxColumns = 5;  // adjacent methods within 100 columns
 
 std::string format(const char* pattern, ...) {
     char text[512];
@@ -163,7 +163,7 @@ std::string hardSetTable(const Summary& summary, std::size_t method) {
 std::string hardSetTables(const Summary& summary) {
     if (summary.hard_sets.empty()) return "";
     const std::size_t methods = summary.hard_sets.front().methods.size();
-    if (methods > kMostColumns) return "\nScores on degraded scans are in --json.\n";
+    if (methods > kMaxColumns) return "\nScores on degraded scans are in --json.\n";
     std::string text;
     for (std::size_t method = 0; method < methods; ++method) text += hardSetTable(summary, method);
     return text;
@@ -337,7 +337,7 @@ std::string reportOf(const Summary& summary) {
     text += droneTable(summary) + hardSetTables(summary);
     const std::size_t methods = summary.methods.size();
     if (methods == 1) return text + missedParts(summary) + partsOf(summary.methods.front().returns);
-    if (methods <= kMostColumns) return text + missedParts(summary) + comparison(summary);
+    if (methods <= kMaxColumns) return text + missedParts(summary) + comparison(summary);
     return text + "\nScores by range, altitude, folder and class are in --json.\n";
 }
 

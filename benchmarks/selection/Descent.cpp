@@ -108,7 +108,7 @@ Descended descend(const std::vector<Setting>& settings, const Choice& start,
                 Choice tried = before;
                 tried[s] = value;
                 const Seen seen = see(tried);
-                if (!seen.isBetterThan(seen_before, kLeastGain) || !seen.isBetterThan(best, 0))
+                if (!seen.isBetterThan(seen_before, kMinGain) || !seen.isBetterThan(best, 0))
                     continue;
                 d.choice = tried;
                 best = seen;

@@ -72,7 +72,7 @@ MissedByGroup missedOf(const std::vector<ScanSet>& sets, const std::vector<Count
                        const std::string& left_out);
 
 /// Smaller improvements of the objective do not change a value.
-constexpr double kLeastGain = 1e-4;
+constexpr double kMinGain = 1e-4;
 
 /// A choice, and what led to it.
 struct Descended {

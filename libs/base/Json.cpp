@@ -5,10 +5,10 @@
 namespace hagen::base {
 
 nlohmann::json parseJson(const std::string& text) {
-    constexpr int kDeepest = 64;  // dump() calls itself once per level
+    constexpr int kMaxNesting = 64;  // dump() calls itself once per level
     const auto checkDepth = [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-        if (depth < kDeepest) return true;
-        throw std::runtime_error("is nested too deeply: more than " + std::to_string(kDeepest) +
+        if (depth < kMaxNesting) return true;
+        throw std::runtime_error("is nested too deeply: more than " + std::to_string(kMaxNesting) +
                                  " levels of arrays and objects");
     };
     try {

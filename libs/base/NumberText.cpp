@@ -5,11 +5,11 @@
 namespace hagen::base {
 namespace {
 
-constexpr std::size_t kLongest = 400;  // 1e308 has 309 digits before the decimal point
+constexpr std::size_t kMaxLength = 400;  // 1e308 has 309 digits before the decimal point
 
 template <class... Format>
 std::string textOf(double value, Format... format) {
-    std::array<char, kLongest> text;
+    std::array<char, kMaxLength> text;
     return {text.data(),
             std::to_chars(text.data(), text.data() + text.size(), value, format...).ptr};
 }
@@ -19,7 +19,7 @@ std::string textOf(double value, Format... format) {
 std::string shortestText(double value) { return textOf(value); }
 
 std::string shortestText(float value) {
-    std::array<char, kLongest> text;
+    std::array<char, kMaxLength> text;
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 

@@ -7,7 +7,7 @@
 namespace hagen::base {
 namespace {
 
-constexpr std::size_t kLongestLine = 1 << 20;
+constexpr std::size_t kMaxLineLength = 1 << 20;
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
     throw std::runtime_error(file.string() + ": " + what);
@@ -54,7 +54,8 @@ bool nextLine(std::ifstream& in, std::string& line, const std::filesystem::path&
     line.clear();
     for (int c = in.get(); c != std::ifstream::traits_type::eof(); c = in.get()) {
         if (c == '\n') return true;
-        if (line.size() == kLongestLine) fail(file, "has a line longer than 1 MiB and is not text");
+        if (line.size() == kMaxLineLength)
+            fail(file, "has a line longer than 1 MiB and is not text");
         line += static_cast<char>(c);
     }
     return !line.empty();

@@ -14,11 +14,11 @@ void checkIsFile(const std::filesystem::path& file);
 std::ifstream openToRead(const std::filesystem::path& file);
 
 /// Limit for whole texts: parsers need several times their memory.
-constexpr std::size_t kMostTextBytes = 256 << 20;
+constexpr std::size_t kMaxTextBytes = 256 << 20;
 
 /// Reads a whole file. Throws std::runtime_error naming it if it cannot be read to its end, or is
 /// larger than `most_bytes`.
-std::string readText(const std::filesystem::path& file, std::size_t most_bytes = kMostTextBytes);
+std::string readText(const std::filesystem::path& file, std::size_t most_bytes = kMaxTextBytes);
 
 /// Reads the next line, like std::getline(); false at the end. Throws std::runtime_error naming the
 /// file if the line is longer than 1 MiB, as in binary files.

@@ -33,7 +33,7 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
         out << "# Sensor of this recording\nsensor:\n  model: " << sensor.name << "\n";
     }
     // A recording may exceed the limits of settings.
-    const auto limit_m = [](float range_m) { return std::clamp<double>(range_m, 0, kMostRange_m); };
+    const auto limit_m = [](float range_m) { return std::clamp<double>(range_m, 0, kMaxRange_m); };
     const double least_m = limit_m(sensor.min_range_m), most_m = limit_m(sensor.max_range_m);
     if (least_m < most_m) {
         out << "  min_range_m: " << least_m << "\n  max_range_m: " << most_m << "\n";

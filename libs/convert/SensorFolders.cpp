@@ -11,8 +11,8 @@ namespace fs = std::filesystem;
 
 /// Leaves room for suffixes of equal names, within the 255 bytes that file systems allow.
 std::string fileName(const std::string& sensor_label) {
-    constexpr std::size_t kMostLetters = 100;
-    std::string name = sensor_label.substr(0, kMostLetters);
+    constexpr std::size_t kMaxLetters = 100;
+    std::string name = sensor_label.substr(0, kMaxLetters);
     for (char& c : name) {
         const bool is_plain =
             std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';

@@ -20,7 +20,7 @@ double numberOf(const YAML::Node& node, const std::string& key) {
 }
 
 constexpr int kMaxPixelsPerSide = 20000;  // more is a typo
-constexpr double kMostPixelsInAll = 50e6;
+constexpr double kMaxTotalPixels = 50e6;
 
 void checkImageSize(double value, const std::string& key) {
     if (value >= 1 && value <= kMaxPixelsPerSide && value == std::floor(value)) return;
@@ -60,7 +60,7 @@ PinholeCamera readCamera(const std::filesystem::path& file) {
     PinholeCamera camera;
     camera.width_px = static_cast<int>(values["width"]);
     camera.height_px = static_cast<int>(values["height"]);
-    if (static_cast<double>(camera.width_px) * camera.height_px > kMostPixelsInAll) {
+    if (static_cast<double>(camera.width_px) * camera.height_px > kMaxTotalPixels) {
         throw std::runtime_error(file.string() + ": has more than 50 million pixels");
     }
     camera.fx_px = values["fx"];

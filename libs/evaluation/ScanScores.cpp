@@ -6,7 +6,7 @@
 namespace hagen::evaluation {
 namespace {
 
-constexpr float kMostBands = 1e6f;  // each has scores in memory
+constexpr float kMaxBands = 1e6f;  // each has scores in memory
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Eigen::Matrix3f GroundTruthScan::levelFromSensor() const {
 
 std::size_t RangeBands::count() const {
     const float bands = std::ceil(max_range_m / width_m);
-    if (!(bands <= kMostBands)) {  // true for NaN
+    if (!(bands <= kMaxBands)) {  // true for NaN
         throw std::invalid_argument("a range of " + base::shortestText(max_range_m) +
                                     " m has too many bands of " + base::shortestText(width_m) +
                                     " m");

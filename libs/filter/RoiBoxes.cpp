@@ -5,7 +5,7 @@
 namespace hagen {
 namespace {
 
-constexpr std::uint32_t kLeastDrawn = 30;  // returns
+constexpr std::uint32_t kMinDrawn = 30;  // returns
 
 }  // namespace
 
@@ -31,7 +31,7 @@ std::vector<RoiBox> boxRoiComponents(const Scan& scan, const LabelledReturns& re
 std::vector<RoiBox> boxesToDraw(const std::vector<RoiBox>& boxes) {
     std::vector<RoiBox> drawn;
     for (const RoiBox& box : boxes) {
-        if (box.returns < kLeastDrawn) continue;
+        if (box.returns < kMinDrawn) continue;
         const auto holds = [&](const RoiBox& other) {
             return other.extents_m.contains(box.extents_m);
         };

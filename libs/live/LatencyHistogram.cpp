@@ -6,13 +6,13 @@
 namespace hagen::live {
 namespace {
 
-constexpr double kLeast_s = 1e-6, kStep = 1.02;
+constexpr double kMin_s = 1e-6, kStep = 1.02;
 
 }  // namespace
 
 void LatencyHistogram::add(double seconds) {
     const double steps =
-        seconds > kLeast_s ? std::ceil(std::log(seconds / kLeast_s) / std::log(kStep)) : 0.0;
+        seconds > kMin_s ? std::ceil(std::log(seconds / kMin_s) / std::log(kStep)) : 0.0;
     ++bins_[static_cast<std::size_t>(std::min(steps, static_cast<double>(kBins - 1)))];
     ++count_;
     max_s_ = std::max(max_s_, seconds);
@@ -25,7 +25,7 @@ double LatencyHistogram::quantile_s(double share) const {
     for (std::size_t bin = 0; bin < kBins; ++bin) {
         so_far += bins_[bin];
         if (so_far > 0 && static_cast<double>(so_far) >= wanted) {
-            return std::min(max_s_, kLeast_s * std::pow(kStep, static_cast<double>(bin)));
+            return std::min(max_s_, kMin_s * std::pow(kStep, static_cast<double>(bin)));
         }
     }
     return max_s_;

@@ -19,11 +19,11 @@
 namespace hagen::live {
 namespace {
 
-constexpr int kBufferBytes = 8 << 20;      // a second of an HDL-64E
-constexpr std::size_t kMostBytes = 65536;  // of a datagram
-constexpr double kLongestWait_s = 0.1;
+constexpr int kBufferBytes = 8 << 20;     // a second of an HDL-64E
+constexpr std::size_t kMaxBytes = 65536;  // of a datagram
+constexpr double kMaxWait_s = 0.1;
 /// Of a capture. A longer one is a clock that was set, or hours without a sensor.
-constexpr double kLongestPause_s = 2;
+constexpr double kMaxPause_s = 2;
 
 [[noreturn]] void fail(const std::string& what) {
     throw std::runtime_error(what + ": " + std::system_category().message(errno));
@@ -56,7 +56,7 @@ Address parseAddress(const std::string& text) {
 UdpSource::UdpSource(const Address& address)
     : port_(address.port),
       name_(sensors::ipText(address.ip) + ":" + std::to_string(address.port)),
-      buffer_(kMostBytes) {
+      buffer_(kMaxBytes) {
     socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (socket_ < 0) fail(name_);
     try {
@@ -98,7 +98,7 @@ UdpSource::~UdpSource() { close(socket_); }
 
 PacketSource::Next UdpSource::next(Packet& packet) {
     pollfd waits{socket_, POLLIN, 0};
-    const int ready = poll(&waits, 1, static_cast<int>(1000 * kLongestWait_s));
+    const int ready = poll(&waits, 1, static_cast<int>(1000 * kMaxWait_s));
     if (ready < 0 && errno != EINTR) fail(name_);
     if (ready <= 0) return Next::Nothing;
     sockaddr_in from{};
@@ -148,7 +148,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
 ReplaySource::ReplaySource(const std::filesystem::path& file, double speed)
     : capture_(file), speed_(speed) {
     capture_.checkWhileReading([this] {
-        if (steadyNow_s() - search_start_s_ > kLongestWait_s) throw NoneYet();
+        if (steadyNow_s() - search_start_s_ > kMaxWait_s) throw NoneYet();
     });
 }
 
@@ -171,14 +171,13 @@ PacketSource::Next ReplaySource::next(Packet& packet) {
             latest_ns_
                 ? 1e-9 * (static_cast<double>(waiting_.time_ns) - static_cast<double>(*latest_ns_))
                 : 0;
-        if (std::abs(pause_s) <= kLongestPause_s) played_s_ += pause_s;
+        if (std::abs(pause_s) <= kMaxPause_s) played_s_ += pause_s;
         latest_ns_ = waiting_.time_ns;
     }
     const double wait_s = start_s_ + played_s_ / speed_ - steadyNow_s();
     if (wait_s > 0) {
-        std::this_thread::sleep_for(
-            std::chrono::duration<double>(std::min(wait_s, kLongestWait_s)));
-        if (wait_s > kLongestWait_s) return Next::Nothing;
+        std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait_s, kMaxWait_s)));
+        if (wait_s > kMaxWait_s) return Next::Nothing;
     }
     has_waiting_ = false;
     packet.bytes.assign(waiting_.bytes, waiting_.bytes + waiting_.size);

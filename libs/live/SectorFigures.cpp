@@ -10,8 +10,8 @@ namespace hagen::live {
 namespace {
 
 constexpr double kDirections_s = 0.05;
-constexpr double kLeastTime_s = 0.125;  // of a rate
-constexpr double kOtherRate = 0.2;      // is told
+constexpr double kMinTime_s = 0.125;  // of a rate
+constexpr double kOtherRate = 0.2;    // is told
 
 SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor) {
     SectorDistances::Settings settings;
@@ -96,7 +96,7 @@ LiveStatus SectorFigures::status(double passed_s, bool turns) const {
 
 std::optional<RateChange> SectorFigures::rateChange() {
     const double arrived_s = recent_last_s_ - recent_first_s_;  // not all of the time, at first
-    if (arrived_s <= kLeastTime_s || recent_sweep_rad_ <= 0) return std::nullopt;
+    if (arrived_s <= kMinTime_s || recent_sweep_rad_ <= 0) return std::nullopt;
     const double rate = recent_sweep_rad_ / (2 * kPi) / arrived_s;
     const bool is_odd = rate_told_ > 0 && std::abs(rate / rate_told_ - 1) > kOtherRate;
     odd_rates_ = is_odd ? odd_rates_ + 1 : 0;

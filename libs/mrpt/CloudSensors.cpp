@@ -42,7 +42,7 @@ void CloudSensors::see(const std::string& label, const Scan& scan,
                        const std::vector<std::int32_t>& rings) {
     if (isSettled(label)) return;
     const std::size_t returns = returnsWithRange(scan);
-    if (returns < kFewestReturnsForBeams) return;
+    if (returns < kMinReturnsForBeams) return;
     Seen& seen = seen_[label];
     ++seen.clouds;
     if (returns <= seen.returns) return;

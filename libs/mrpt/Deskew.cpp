@@ -9,7 +9,7 @@ namespace hagen::observations {
 namespace {
 
 constexpr double kKnotSpacing_s = 1e-3;
-constexpr double kLongestScan_s = 10;  // longer: corrupt times
+constexpr double kMaxScan_s = 10;  // longer: corrupt times
 
 /// Returns the sensor's pose at `start` + time_s, relative to its pose at `start`.
 std::optional<Eigen::Isometry3f> motionUntil(const Trajectory& vehicle,
@@ -37,7 +37,7 @@ bool deskew(const Trajectory& vehicle, mrpt::Clock::time_point start,
     if (!start_pose) return false;
     const auto [first, last] = std::minmax_element(scan.time_s.begin(), scan.time_s.end());
     const double first_s = static_cast<double>(*first), last_s = static_cast<double>(*last);
-    if (!(first_s > -kLongestScan_s && last_s < kLongestScan_s)) return false;
+    if (!(first_s > -kMaxScan_s && last_s < kMaxScan_s)) return false;
 
     // Returns are moved by linear interpolation between poses sampled every millisecond. To
     // interpolate the trajectory for each return would take a hundred times as long.

@@ -127,7 +127,7 @@ class GenericCloud : public CPointsMapXYZI {
     static constexpr std::uint8_t kNewestVersion = 4;
     /// The oldest one with fields of colours.
     static constexpr std::uint8_t kWrittenVersion = 3;
-    static constexpr std::size_t kMostFields = 256;
+    static constexpr std::size_t kMaxFields = 256;
 
     std::uint8_t serializeGetVersion() const override {
         return is_written_as_generic ? kWrittenVersion : CPointsMapXYZI::serializeGetVersion();
@@ -235,7 +235,7 @@ class GenericCloud : public CPointsMapXYZI {
                 readVector(in, values);
             }
             if (name != "intensity") {
-                if (fields_not_kept.size() >= kMostFields) {
+                if (fields_not_kept.size() >= kMaxFields) {
                     throw std::runtime_error("a cloud has too many fields");
                 }
                 const std::string why = keep<Number>(name, {values.begin(), values.end()});

@@ -6,8 +6,8 @@
 namespace hagen::observations {
 namespace {
 
-constexpr double kLongestScan_s = 2.0;
-constexpr std::int32_t kHighestRing = 65535;
+constexpr double kMaxScan_s = 2.0;
+constexpr std::int32_t kMaxRing = 65535;
 
 /// The unit of times that are `span` apart [s].
 double timeUnit(const PointTable& table, const PointField& field, double span) {
@@ -15,7 +15,7 @@ double timeUnit(const PointTable& table, const PointField& field, double span) {
     const bool is_integer = field.type < NumberType::Float32;
     if (is_integer) return span > 0 && span < 1e6 ? 1e-6 : 1e-9;
     for (const double unit : {1.0, 1e-3, 1e-6}) {
-        if (span * unit <= kLongestScan_s) return unit;
+        if (span * unit <= kMaxScan_s) return unit;
     }
     return 1e-9;
 }
@@ -28,7 +28,7 @@ PointFieldValues<std::int32_t> ringsOf(const PointTable& table,
     const PointField* const field = findField(table, {"ring", "channel", "line"});
     if (field == nullptr) return rings;
     for (const double ring : columnOf(table, *field, points)) {
-        if (!(ring >= 0 && ring <= kHighestRing) || ring != std::floor(ring)) {
+        if (!(ring >= 0 && ring <= kMaxRing) || ring != std::floor(ring)) {
             rings.remark = "the field '" + field->name +
                            "' is not used: it has values that are not beam numbers";
             rings.values.clear();
@@ -59,11 +59,11 @@ PointFieldValues<float> timesOf(const PointTable& table, const std::vector<std::
         return found;
     }
     const double unit_s = timeUnit(table, *field, *last - *first);
-    if ((*last - *first) * unit_s > kLongestScan_s) {
+    if ((*last - *first) * unit_s > kMaxScan_s) {
         found.remark = "the field '" + field->name + "' is not used: its times span more than 2 s";
         return found;
     }
-    const bool is_relative = std::max(std::abs(*first), std::abs(*last)) * unit_s <= kLongestScan_s;
+    const bool is_relative = std::max(std::abs(*first), std::abs(*last)) * unit_s <= kMaxScan_s;
     const double start = is_relative ? 0.0 : *first;
     found.values.reserve(times.size());
     for (const double time : times) {

@@ -78,10 +78,10 @@ void check(const PointTable& table) {
         if (!names.insert(field.name).second) throw std::runtime_error(title + " occurs twice");
         if (field.count == 0) throw std::runtime_error(title + " has no numbers");
         // Without points, no bytes limit the counts of a header.
-        if (field.count > kMostNumbersPerPoint - numbers) {
+        if (field.count > kMaxNumbersPerPoint - numbers) {
             throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
                                      nameOf(field.type) + ") makes more than " +
-                                     std::to_string(kMostNumbersPerPoint) +
+                                     std::to_string(kMaxNumbersPerPoint) +
                                      " numbers per point; is the header damaged?");
         }
         numbers += field.count;

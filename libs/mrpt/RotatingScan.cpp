@@ -155,8 +155,8 @@ float intensityAt(const CObservationRotatingScan& scan, int row, int column) {
 }
 
 bool hasDuration(const CObservationRotatingScan& scan) {
-    constexpr double kLongestTurn_s = 2.0;
-    return scan.sweepDuration > 0 && scan.sweepDuration <= kLongestTurn_s;
+    constexpr double kMaxTurn_s = 2.0;
+    return scan.sweepDuration > 0 && scan.sweepDuration <= kMaxTurn_s;
 }
 
 struct Point {

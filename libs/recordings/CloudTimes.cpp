@@ -138,13 +138,13 @@ CloudTimes timesOfNames(const std::vector<std::string>& names) {
         times.how = "the times of its clouds are those in the names of the files";
         return times;
     }
-    constexpr double kMostNumber = 1e9;
+    constexpr double kMaxNumber = 1e9;
     times.times_s.clear();
     bool are_numbers = true;
     for (const std::string& name : names) {
         const NameNumber number = numberIn(name);
         const double value = valueOf(number);
-        are_numbers = are_numbers && number.mark == '\0' && value >= 0 && value < kMostNumber;
+        are_numbers = are_numbers && number.mark == '\0' && value >= 0 && value < kMaxNumber;
         times.times_s.push_back(kPeriod_s * value);
     }
     if (are_numbers && ascend(times.times_s)) {

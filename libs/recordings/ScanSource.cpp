@@ -91,9 +91,9 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
         return;
     }
     labels_.insert(observation->sensorLabel);
-    if (labels_.size() > kMostLabels) {
+    if (labels_.size() > kMaxLabels) {
         throw BrokenRecording(recording_.string() + ": entry " + std::to_string(entry.number) +
-                              ": the recording has more than " + std::to_string(kMostLabels) +
+                              ": the recording has more than " + std::to_string(kMaxLabels) +
                               " LiDARs by their labels; convert some of them (--sensor-label)");
     }
     const bool are_of_sensor =

@@ -8,7 +8,7 @@ namespace hagen {
 namespace {
 
 /// The beams of some models do not start at the origin: ranges differ from the coordinates' norm.
-constexpr float kMostOffset_m = 0.25f;
+constexpr float kMaxOffset_m = 0.25f;
 
 /// No return of a longer range is the airframe's.
 float reachOf(const Airframe& airframe) {
@@ -22,7 +22,7 @@ float reachOf(const Airframe& airframe) {
     if (airframe.bin_range_m.size() > 0) {
         reach_m = std::max(reach_m, airframe.bin_range_m.maxCoeff());
     }
-    return reach_m + kMostOffset_m;
+    return reach_m + kMaxOffset_m;
 }
 
 constexpr std::size_t kBlock = 32;  // most blocks of a scan have no near return

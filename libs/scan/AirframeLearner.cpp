@@ -9,8 +9,8 @@
 namespace hagen {
 namespace {
 
-constexpr int kLeastEdgeScans = 2;
-constexpr double kLeastEdgeShare = 0.02;
+constexpr int kMinEdgeScans = 2;
+constexpr double kMinEdgeShare = 0.02;
 
 /// The value of this rank among ascending ones.
 float ranked(const std::vector<float>& ascending, double share) {
@@ -88,7 +88,7 @@ LearnedAirframe AirframeLearner::learn() const {
                 const int column = wrapColumn(from.column + step, columns);
                 if (learned.bin_range_m(row, column) > 0) continue;
                 const int scans = scansWithin(nearOf(row, column), range_m);
-                if (scans < kLeastEdgeScans || scans < kLeastEdgeShare * scans_) continue;
+                if (scans < kMinEdgeScans || scans < kMinEdgeShare * scans_) continue;
                 learned.bin_range_m(row, column) = range_m;
                 edges.push_back({row, column});
             }

@@ -30,7 +30,7 @@ constexpr double kBeamFitTolerance_deg = 0.4;
 
 /// Compares the elevations of a scan with the beams of a sensor. The coordinates are those of the
 /// sensor's frame; range, azimuth and row are not used. `columns`: of the image. None if fewer than
-/// kFewestReturnsForBeams returns have a range, or if the sensor has no rings.
+/// kMinReturnsForBeams returns have a range, or if the sensor has no rings.
 std::optional<BeamFit> fitBeams(const Scan& scan, const SensorModel& sensor, int columns);
 
 }  // namespace hagen

@@ -60,9 +60,9 @@ BeamSpan beamSpan(const SensorModel& sensor) {
 }
 
 void checkRows(const Scan& scan, const SensorModel& sensor) {
-    if (scan.size() > kMostReturns) {
+    if (scan.size() > kMaxReturns) {
         throw std::invalid_argument("the scan has " + std::to_string(scan.size()) +
-                                    " returns; the maximum is " + std::to_string(kMostReturns));
+                                    " returns; the maximum is " + std::to_string(kMaxReturns));
     }
     if (scan.y_m.size() != scan.size() || scan.z_m.size() != scan.size()) {
         throw std::invalid_argument("the scan's x, y and z coordinates differ in number");

@@ -11,8 +11,8 @@ namespace hagen {
 namespace {
 
 constexpr float kFarthest_m = 1000.0f;  // of any sensor, and of the settings
-constexpr int kMostBeams = 256;
-constexpr double kLeastShare = 0.85;
+constexpr int kMaxBeams = 256;
+constexpr double kMinShare = 0.85;
 
 // Densities of elevations are histograms with this bin, smoothed.
 constexpr double kBin_deg = 0.01;
@@ -146,7 +146,7 @@ Beams bestBeams(const std::vector<double>& ascending_deg) {
             beams.elevations_deg.push_back((peak + 0.5) * kBin_deg - 90.0);
         }
         const std::size_t count = beams.elevations_deg.size();
-        if (count < 2 || count > kMostBeams) continue;
+        if (count < 2 || count > kMaxBeams) continue;
         // The peak of a narrow beam is as wide as the bandwidth; the beam may be anywhere in it.
         centre(std::vector<double>(count, (half + 0.5) * kBin_deg), ascending_deg,
                beams.elevations_deg);
@@ -252,7 +252,7 @@ struct Span {
 /// The share of the pixels between the lowest and the highest of their column that have returns.
 /// Long gaps do not count: there is sky between two objects.
 double filledShare(const Directions& directions, const Span& span, int rows, int columns) {
-    constexpr int kLongestGap = 4;
+    constexpr int kMaxGap = 4;
     std::vector<bool> has_return(static_cast<std::size_t>(rows) * columns);
     for (std::size_t i = 0; i < directions.size(); ++i) {
         const double height = (directions.elevation_deg[i] - span.lowest_deg) / span.size_deg;
@@ -269,7 +269,7 @@ double filledShare(const Directions& directions, const Span& span, int rows, int
             if (!has_return[static_cast<std::size_t>(column) * rows + row]) continue;
             ++filled;
             const int gap = row - last_row - 1;
-            if (gap > 0 && gap <= kLongestGap) gaps += gap;
+            if (gap > 0 && gap <= kMaxGap) gaps += gap;
             last_row = row;
         }
     }
@@ -277,28 +277,27 @@ double filledShare(const Directions& directions, const Span& span, int rows, int
 }
 
 RecoveredBeams virtualRows(const Directions& directions, const std::vector<double>& ascending_deg) {
-    constexpr double kPixelsPerReturn = 0.43, kHeightPerWidth = 2.5, kLeastSpan_deg = 1.0;
-    constexpr double kLeastFilled = 0.75;
-    constexpr int kFewestRows = 16, kFewestColumns = 8;
+    constexpr double kPixelsPerReturn = 0.43, kHeightPerWidth = 2.5, kMinSpan_deg = 1.0;
+    constexpr double kMinFilled = 0.75;
+    constexpr int kMinRows = 16, kMinColumns = 8;
     const std::size_t outside = ascending_deg.size() / 1000;
     Span span{ascending_deg[outside], 0};
     span.size_deg = ascending_deg[ascending_deg.size() - 1 - outside] - span.lowest_deg;
-    if (span.size_deg < kLeastSpan_deg) {
+    if (span.size_deg < kMinSpan_deg) {
         const double middle_deg = span.lowest_deg + 0.5 * span.size_deg;
-        span.lowest_deg =
-            std::clamp(middle_deg - 0.5 * kLeastSpan_deg, -90.0, 90.0 - kLeastSpan_deg);
-        span.size_deg = kLeastSpan_deg;
+        span.lowest_deg = std::clamp(middle_deg - 0.5 * kMinSpan_deg, -90.0, 90.0 - kMinSpan_deg);
+        span.size_deg = kMinSpan_deg;
     }
     const double pixels = kPixelsPerReturn * static_cast<double>(directions.size());
     const double seen_deg = seenAzimuth(directions);
     const double row_deg = std::sqrt(kHeightPerWidth * span.size_deg * seen_deg / pixels);
     int rows =
-        std::clamp(static_cast<int>(std::lround(span.size_deg / row_deg)), kFewestRows, kMostBeams);
+        std::clamp(static_cast<int>(std::lround(span.size_deg / row_deg)), kMinRows, kMaxBeams);
     RecoveredBeams recovered;
     recovered.most_columns =
-        std::max(kFewestColumns, static_cast<int>(std::lround(pixels / rows * 360.0 / seen_deg)));
-    while (rows > kFewestRows &&
-           filledShare(directions, span, rows, recovered.most_columns) < kLeastFilled) {
+        std::max(kMinColumns, static_cast<int>(std::lround(pixels / rows * 360.0 / seen_deg)));
+    while (rows > kMinRows &&
+           filledShare(directions, span, rows, recovered.most_columns) < kMinFilled) {
         rows -= std::max(1, rows / 20);
     }
     std::vector<double> elevations_deg(rows);
@@ -312,7 +311,7 @@ RecoveredBeams virtualRows(const Directions& directions, const std::vector<doubl
 
 // Rings.
 
-constexpr std::size_t kFewestOnRing = 5;
+constexpr std::size_t kMinOnRing = 5;
 
 /// The elevations of the returns on each ring, ascending.
 using OnRings = std::map<std::int32_t, std::vector<double>>;
@@ -348,10 +347,10 @@ std::size_t closestToOwn(const std::vector<double>& beams_deg,
 }  // namespace
 
 std::optional<RecoveredBeams> ringBeams(const Scan& scan, const std::vector<std::int32_t>& rings) {
-    constexpr double kMostOnOthers = 0.05;
-    constexpr std::size_t kFewestRings = 3;
+    constexpr double kMaxOnOthers = 0.05;
+    constexpr std::size_t kMinRings = 3;
     const Directions directions = directionsOf(scan);
-    if (directions.size() < kFewestReturnsForBeams) return std::nullopt;
+    if (directions.size() < kMinReturnsForBeams) return std::nullopt;
     const auto returns = static_cast<double>(directions.size());
     const OnRings of_rings = elevationsOnRings(directions, rings);
     std::vector<std::int32_t> numbers;
@@ -359,14 +358,14 @@ std::optional<RecoveredBeams> ringBeams(const Scan& scan, const std::vector<std:
     std::vector<const std::vector<double>*> elevations_deg;
     std::size_t on_rings = 0;
     for (const auto& [ring, of_ring_deg] : of_rings) {
-        if (ring < 0 || of_ring_deg.size() < kFewestOnRing) continue;
+        if (ring < 0 || of_ring_deg.size() < kMinOnRing) continue;
         numbers.push_back(ring);
         beams_deg.push_back(of_ring_deg[of_ring_deg.size() / 2]);
         elevations_deg.push_back(&of_ring_deg);
         on_rings += of_ring_deg.size();
     }
-    if (numbers.size() < kFewestRings || numbers.size() > kMostBeams) return std::nullopt;
-    if (static_cast<double>(on_rings) < (1 - kMostOnOthers) * returns) return std::nullopt;
+    if (numbers.size() < kMinRings || numbers.size() > kMaxBeams) return std::nullopt;
+    if (static_cast<double>(on_rings) < (1 - kMaxOnOthers) * returns) return std::nullopt;
     if (beams_deg.front() > beams_deg.back()) {
         std::reverse(numbers.begin(), numbers.end());
         std::reverse(beams_deg.begin(), beams_deg.end());
@@ -377,7 +376,7 @@ std::optional<RecoveredBeams> ringBeams(const Scan& scan, const std::vector<std:
     }
     const double share = static_cast<double>(closestToOwn(beams_deg, elevations_deg)) /
                          static_cast<double>(on_rings);
-    if (share < kLeastShare) return std::nullopt;
+    if (share < kMinShare) return std::nullopt;
 
     RecoveredBeams recovered = withBeams(beams_deg, directions);
     recovered.share = static_cast<float>(share);
@@ -392,12 +391,12 @@ std::optional<RecoveredBeams> ringBeams(const Scan& scan, const std::vector<std:
 
 std::optional<RecoveredBeams> recoverBeams(const Scan& scan) {
     const Directions directions = directionsOf(scan);
-    if (directions.size() < kFewestReturnsForBeams) return std::nullopt;
+    if (directions.size() < kMinReturnsForBeams) return std::nullopt;
     std::vector<double> ascending_deg = directions.elevation_deg;
     std::sort(ascending_deg.begin(), ascending_deg.end());
 
     const Beams beams = bestBeams(ascending_deg);
-    RecoveredBeams recovered = beams.share >= kLeastShare
+    RecoveredBeams recovered = beams.share >= kMinShare
                                    ? withBeams(beams.elevations_deg, directions)
                                    : virtualRows(directions, ascending_deg);
     recovered.share = static_cast<float>(beams.share);

@@ -146,7 +146,7 @@ HWY_INLINE void locateVector(D d, const RowTable& table, const Beams& at) {
 
 void locateAll(const RowTable& table, Beams beams, std::size_t count) {
     const hn::ScalableTag<float> d;
-    constexpr std::size_t kMost = hn::MaxLanes(d);
+    constexpr std::size_t kMax = hn::MaxLanes(d);
     const std::size_t lanes = hn::Lanes(d);
     std::size_t i = 0;
     for (; i + lanes <= count; i += lanes) {
@@ -155,9 +155,9 @@ void locateAll(const RowTable& table, Beams beams, std::size_t count) {
                       beams.azimuth_rad + i, beams.row + i});
     }
     if (i == count) return;
-    float x_m[kMost] = {}, y_m[kMost] = {}, z_m[kMost] = {};  // the last few, padded
-    float range_m[kMost], azimuth_rad[kMost];
-    std::uint8_t row[kMost];
+    float x_m[kMax] = {}, y_m[kMax] = {}, z_m[kMax] = {};  // the last few, padded
+    float range_m[kMax], azimuth_rad[kMax];
+    std::uint8_t row[kMax];
     std::copy(beams.x_m + i, beams.x_m + count, x_m);
     std::copy(beams.y_m + i, beams.y_m + count, y_m);
     std::copy(beams.z_m + i, beams.z_m + count, z_m);

@@ -11,7 +11,7 @@ namespace hagen {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kMostReach_m = 20;  // a larger mask would hide the avoidance zone
+constexpr double kMaxReach_m = 20;  // a larger mask would hide the avoidance zone
 
 const std::string kForms =
     "{box: {low_m: [x, y, z], high_m: [x, y, z]}}, {sphere: {centre_m: [x, y, z], radius_m: r}} or "
@@ -42,8 +42,7 @@ Eigen::Vector3f parsePoint(const YAML::Node& node, const std::string& key) {
     }
     Eigen::Vector3f point_m;
     for (int axis = 0; axis < 3; ++axis) {
-        point_m[axis] =
-            parseNumber<float>(node[axis], "each of " + key, -kMostReach_m, kMostReach_m);
+        point_m[axis] = parseNumber<float>(node[axis], "each of " + key, -kMaxReach_m, kMaxReach_m);
     }
     return point_m;
 }
@@ -62,7 +61,7 @@ AirframeSphere parseSphere(const YAML::Node& node) {
     const auto [centre, radius] = valuesOf(node, "airframe.sphere", {"centre_m", "radius_m"});
     const AirframeSphere sphere{
         parsePoint(centre, "airframe.sphere.centre_m"),
-        parseNumber<float>(radius, "airframe.sphere.radius_m", 0, kMostReach_m)};
+        parseNumber<float>(radius, "airframe.sphere.radius_m", 0, kMaxReach_m)};
     if (sphere.radius_m == 0) throw SettingsError("airframe.sphere.radius_m must be positive");
     return sphere;
 }

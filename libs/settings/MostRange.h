@@ -3,6 +3,6 @@
 namespace hagen {
 
 /// The longest range of a sensor that settings can name.
-inline constexpr double kMostRange_m = 1000;
+inline constexpr double kMaxRange_m = 1000;
 
 }  // namespace hagen

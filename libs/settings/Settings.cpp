@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 // Limits of settings files, which may come with a recording of somebody else.
-constexpr int kDeepestInclude = 8, kMostIncludes = 32;
-constexpr std::size_t kMostFileBytes = 1 << 20;
+constexpr int kMaxIncludeDepth = 8, kMaxIncludes = 32;
+constexpr std::size_t kMaxFileBytes = 1 << 20;
 
 Seeds parseSeeds(const YAML::Node& node, const std::string& key) {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
@@ -59,7 +59,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 }
 
 // The least that optionKeys() allows.
-constexpr int kFewestColumns = 8, kSmallestWindow = 2;
+constexpr int kMinColumns = 8, kMinWindow = 2;
 
 /// The keys of the section `sensor:`.
 const std::vector<SettingsKey>& sensorKeys() {
@@ -69,9 +69,9 @@ const std::vector<SettingsKey>& sensorKeys() {
          "the sensor of point clouds; packets identify their own", ""},
         {"elevations_deg", "deg", "", "-90 ... 90, ascending, 2 to 256 of them",
          "the beams of a custom sensor, lowest first", ""},
-        {"min_range_m", "m", "the model's", "0 ... " + base::shortestText(kMostRange_m),
+        {"min_range_m", "m", "the model's", "0 ... " + base::shortestText(kMaxRange_m),
          "nearer returns are RoI, unjudged", ""},
-        {"max_range_m", "m", "the model's", "0 ... " + base::shortestText(kMostRange_m),
+        {"max_range_m", "m", "the model's", "0 ... " + base::shortestText(kMaxRange_m),
          "farther returns are RoI in the zone, unjudged; beyond it ROU", ""},
         {"mount_roll_deg", "deg", "0", "-180 ... 180",
          "the sensor's roll on the level vehicle, if its log does not say", ""},
@@ -177,10 +177,10 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings& sett
                     customSensorModel(sensor.elevations_deg);
                 } else if (key == "min_range_m") {
                     sensor.min_range_m =
-                        parseNumber<float>(value, "sensor.min_range_m", 0, kMostRange_m);
+                        parseNumber<float>(value, "sensor.min_range_m", 0, kMaxRange_m);
                 } else if (key == "max_range_m") {
                     sensor.max_range_m =
-                        parseNumber<float>(value, "sensor.max_range_m", 0, kMostRange_m);
+                        parseNumber<float>(value, "sensor.max_range_m", 0, kMaxRange_m);
                 } else if (key == "mount_roll_deg") {
                     settings.mount.roll_rad = parseAngle(value, "sensor.mount_roll_deg", 180);
                 } else if (key == "mount_pitch_deg") {
@@ -215,11 +215,11 @@ struct Includes {
 
 void mergeFile(const fs::path& file, Includes& includes, Settings& settings);
 
-constexpr std::size_t kLongestName = 4000;
+constexpr std::size_t kMaxNameLength = 4000;
 
 void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& includes,
                    Settings& settings) {
-    if (includes.depth >= kDeepestInclude) {
+    if (includes.depth >= kMaxIncludeDepth) {
         throw SettingsError(at(file, node) + "include is circular or nested too deeply");
     }
     const YAML::Node names = node.IsSequence() ? node : YAML::Load("[]");
@@ -232,7 +232,7 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
                 at(file, node) + "includes '" + name +
                 "'; settings of a recording may include only files of their own folder");
         }
-        if (name.empty() || name.size() > kLongestName || name.find('\0') != std::string::npos) {
+        if (name.empty() || name.size() > kMaxNameLength || name.find('\0') != std::string::npos) {
             throw SettingsError(at(file, node) + "an entry of 'include' is not a file name");
         }
         fs::path included = file.parent_path() / name;
@@ -249,9 +249,9 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
             throw SettingsError(at(file, node) + "includes " + included.string() +
                                 ", which is not a file");
         }
-        if (++includes.files > kMostIncludes) {
+        if (++includes.files > kMaxIncludes) {
             throw SettingsError(at(file, node) + "settings include more than " +
-                                std::to_string(kMostIncludes) + " files");
+                                std::to_string(kMaxIncludes) + " files");
         }
         ++includes.depth;
         mergeFile(included, includes, settings);
@@ -262,7 +262,7 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
 }
 
 void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
-    const YAML::Node document = parseFile(file, kMostFileBytes);
+    const YAML::Node document = parseFile(file, kMaxFileBytes);
     settings.files.push_back(file);
     if (document.IsNull()) return;  // empty or comments only: all defaults
     if (!document.IsMap()) {
@@ -324,11 +324,11 @@ Options Settings::optionsFor(const RecoveredBeams* recovered) const {
     const Options standard;
     Options fitting = options;
     if (isAdapted("columns", *this)) {
-        fitting.columns = std::clamp(recovered->most_columns, kFewestColumns, options.columns);
+        fitting.columns = std::clamp(recovered->most_columns, kMinColumns, options.columns);
     }
     if (isAdapted("window_size", *this)) {
         const int half = recovered->sensor.rows() / 2;
-        fitting.window_size = std::clamp(half, kSmallestWindow, options.window_size);
+        fitting.window_size = std::clamp(half, kMinWindow, options.window_size);
     }
     if (isAdapted("principal_components", *this)) {
         const double share = static_cast<double>(standard.principal_components) /

@@ -45,7 +45,7 @@ void forEachKey(const std::filesystem::path& file, const YAML::Node& map,
 
 /// Reads a file of one YAML document. Throws SettingsError naming file and line.
 YAML::Node parseFile(const std::filesystem::path& file,
-                     std::size_t most_bytes = base::kMostTextBytes);
+                     std::size_t most_bytes = base::kMaxTextBytes);
 
 /// Reads a number within [least, most]; otherwise throws SettingsError with the allowed range.
 template <class Number>

@@ -57,7 +57,7 @@ DirectionsOfFiring directionsOfRings(const SensorModel& sensor, const FiringPatt
 }
 
 // The pattern of a Mid-360; see the header.
-constexpr double kLowest_rad = radians(-7), kSpan_rad = radians(59);
+constexpr double kMinElevation_rad = radians(-7), kSpan_rad = radians(59);
 const double kTurns_hz = 25 * (1 + std::sqrt(5.0)), kSweeps_hz = 10 * std::sqrt(2.0);
 
 double fraction(double value) { return value - std::floor(value); }
@@ -71,7 +71,8 @@ DirectionsOfFiring directionsOfSweeps(const SensorModel& sensor, const FiringPat
             const double azimuth_rad = std::remainder(
                 radians(kFirstAzimuth_deg) - 2 * kPi * fraction(kTurns_hz * at_s), 2 * kPi);
             const double sweep = 1 - std::abs(2 * fraction(kSweeps_hz * at_s) - 1);
-            const double elevation_rad = kLowest_rad + kSpan_rad / pattern.lasers * (line + sweep);
+            const double elevation_rad =
+                kMinElevation_rad + kSpan_rad / pattern.lasers * (line + sweep);
             const double level = std::cos(elevation_rad);
             const auto elevation = static_cast<float>(elevation_rad);
             directions[static_cast<std::size_t>(line)] = {

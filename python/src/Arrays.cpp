@@ -54,9 +54,9 @@ py::array_t<float> pointsFrom(const py::object& points) {
         throw py::value_error("expected " + expected + ", not of shape " + shapeText(array) +
                               (has_more ? "; pass points[:, :3]" : ""));
     }
-    if (static_cast<std::size_t>(array.shape(0)) > kMostReturns) {  // before all are converted
+    if (static_cast<std::size_t>(array.shape(0)) > kMaxReturns) {  // before all are converted
         throw py::value_error("the scan has " + std::to_string(array.shape(0)) +
-                              " returns, more than the " + std::to_string(kMostReturns) +
+                              " returns, more than the " + std::to_string(kMaxReturns) +
                               " that it may have");
     }
     return converted<py::array_t<float, py::array::forcecast>>(

@@ -9,7 +9,7 @@
 namespace hagen::python {
 namespace {
 
-constexpr std::size_t kMostIdle = 4;
+constexpr std::size_t kMaxIdle = 4;
 constexpr const char* kLabel = "points";
 
 bool isLevel(const Attitude& attitude) { return attitude.roll_rad == 0 && attitude.pitch_rad == 0; }
@@ -69,7 +69,7 @@ std::shared_ptr<Segmented> Filter::newResult() {
     return {made.release(), [pool = pool_](Segmented* dropped) {
                 std::unique_ptr<Segmented> owned(dropped);
                 const std::lock_guard lock(pool->mutex);
-                if (pool->idle.size() < kMostIdle) pool->idle.push_back(std::move(owned));
+                if (pool->idle.size() < kMaxIdle) pool->idle.push_back(std::move(owned));
             }};
 }
 
@@ -95,7 +95,7 @@ HagenFilter Filter::leaseFilter(const Scan& scan, int& generation) {
 
 void Filter::giveBack(HagenFilter&& filter, int generation) {
     const std::lock_guard lock(mutex_);
-    if (generation == generation_ && idle_.size() < kMostIdle) idle_.push_back(std::move(filter));
+    if (generation == generation_ && idle_.size() < kMaxIdle) idle_.push_back(std::move(filter));
 }
 
 std::shared_ptr<Segmented> Filter::segment(const PointsView& points,

@@ -51,8 +51,8 @@ std::optional<Attitude> attitudeFrom(const py::object& attitude) {
         return py::value_error("attitude: expected (roll, pitch) [rad], each within +-2 pi, not " +
                                textOf(attitude));
     };
-    constexpr double kMost_rad = 6.2832;  // 2 pi, and what float32 makes of it
-    const auto isAngle = [](double angle_rad) { return std::abs(angle_rad) <= kMost_rad; };
+    constexpr double kMax_rad = 6.2832;  // 2 pi, and what float32 makes of it
+    const auto isAngle = [](double angle_rad) { return std::abs(angle_rad) <= kMax_rad; };
     try {
         const auto [roll_rad, pitch_rad] = attitude.cast<std::pair<double, double>>();
         if (!isAngle(roll_rad) || !isAngle(pitch_rad)) throw wrong();

@@ -17,7 +17,7 @@ using test::putWall;
 using test::simpleCourse;
 
 constexpr double kStep_s = kControlStep_s;
-constexpr double kLongestSector_s = 0.1 * 15 / 360;
+constexpr double kMaxSector_s = 0.1 * 15 / 360;
 
 /// A flight along x at a speed, which turns aside from 0.25 s on.
 FlightTrace traceUntil(int steps, double speed_m_s = 8) {
@@ -65,11 +65,11 @@ TEST(SectorSensor, SectorsEndWithTheirLastPacket) {
         EXPECT_NEAR(sector.time_s, 0.1 * turns, 1e-4);
         for (const float age_s : sector.age_s) {
             ASSERT_GE(age_s, -4e-5f);  // a turn lasts a little longer than 0.1 s
-            ASSERT_LE(age_s, kLongestSector_s + 1e-4);
+            ASSERT_LE(age_s, kMaxSector_s + 1e-4);
         }
         last_s = sector.time_s;
     }
-    EXPECT_NEAR(last_s, 0.3, kLongestSector_s);
+    EXPECT_NEAR(last_s, 0.3, kMaxSector_s);
 }
 
 /// Simulating parts of a turn is tested with the simulation: AllPartsOfATurnAreTheTurn.
@@ -166,7 +166,7 @@ TEST(SectorSensor, WallReachesModelWithinSector) {
             const double known_s = knownAt_s(model, true, on_wall);
             EXPECT_GT(known_s, seen_s - 0.001) << model << " " << y_m;
             // A sector, the packet before it, and the millisecond that this test takes.
-            EXPECT_LT(known_s, seen_s + kLongestSector_s + 0.0014 + 0.001) << model << " " << y_m;
+            EXPECT_LT(known_s, seen_s + kMaxSector_s + 0.0014 + 0.001) << model << " " << y_m;
         }
         EXPECT_NEAR(knownAt_s(model, false, {10, 0, 2}), 0.1, 1e-9) << model;
     }

@@ -73,7 +73,7 @@ TEST(BackgroundPrinter, ReportsDroppedMessages) {
     FullErrors errors;
     {
         BackgroundPrinter printer;
-        const std::size_t texts = BackgroundPrinter::kMostWaiting + 50;
+        const std::size_t texts = BackgroundPrinter::kMaxWaiting + 50;
         for (std::size_t i = 0; i < texts; ++i) printer.print(To::Errors, "x\n");
         printer.printIfIdle(To::Errors, "status\n");
         EXPECT_EQ(errors.read(FullErrors::kPipe + 2 * 900).find("status"), std::string::npos);
@@ -89,7 +89,7 @@ TEST(BackgroundPrinter, ReportsDroppedMessages) {
 
 TEST(BackgroundPrinter, ReportsUnprintedOutput) {
     FullErrors errors;
-    for (const std::size_t texts : {std::size_t{1}, BackgroundPrinter::kMostWaiting + 50}) {
+    for (const std::size_t texts : {std::size_t{1}, BackgroundPrinter::kMaxWaiting + 50}) {
         BackgroundPrinter printer;
         for (std::size_t i = 0; i < texts; ++i) printer.print(To::Errors, "x\n");
         printer.print(To::Output, "summary\n");

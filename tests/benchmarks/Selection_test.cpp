@@ -147,7 +147,7 @@ TEST(Descend, RepeatsForDependentSettings) {
 TEST(Descend, KeepsValuesWithoutGain) {
     const auto flat = [](const Choice& choice) {
         return std::vector<Counts>{
-            countsOf(0.9 + 0.4 * kLeastGain * static_cast<double>(choice[0]) / 4)};
+            countsOf(0.9 + 0.4 * kMinGain * static_cast<double>(choice[0]) / 4)};
     };
     const std::vector<ScanSet> one{{"x", "x", Group::Real, true}};
     CachedMeasure measure(flat);

@@ -8,12 +8,12 @@
 
 namespace {
 
-constexpr std::size_t kMost = std::size_t{1} << 28;  // all that is allocated at a time
+constexpr std::size_t kMax = std::size_t{1} << 28;  // all that is allocated at a time
 
 std::atomic<std::size_t> allocated{0};
 
 void* take(std::size_t bytes) noexcept {
-    if (bytes > kMost || allocated > kMost) return nullptr;
+    if (bytes > kMax || allocated > kMax) return nullptr;
     void* const memory = std::malloc(bytes > 0 ? bytes : 1);
     if (memory != nullptr) allocated += malloc_usable_size(memory);
     return memory;

@@ -10,7 +10,8 @@
 namespace hagen::fuzz {
 namespace {
 
-constexpr std::size_t kMostRead = 4 << 20;  // a zstd block may repeat a byte as often as it likes
+constexpr std::size_t kMaxBytesRead = 4
+                                      << 20;  // a zstd block may repeat a byte as often as it likes
 
 std::string readInSteps(const std::filesystem::path& file, unsigned seed) {
     std::minstd_rand random(seed);
@@ -24,7 +25,7 @@ std::string readInSteps(const std::filesystem::path& file, unsigned seed) {
         all.append(step, 0, got);
         require(input.getPosition() == all.size(), "the position is wrong");
         require(input.packedPosition() <= input.packedBytes(), "more is read than there is");
-        if (got < step.size() || all.size() > kMostRead) break;
+        if (got < step.size() || all.size() > kMaxBytesRead) break;
     }
     return all + input.fault();
 }
@@ -35,7 +36,7 @@ void unpack(std::string_view input) {
     const InputFile file(parts.rest(), "input.gz");
     const std::string one = readInSteps(file.path(), 1),
                       other = readInSteps(file.path(), 2U + seed);
-    if (one.size() < kMostRead) require(one == other, "it depends on how it is read");
+    if (one.size() < kMaxBytesRead) require(one == other, "it depends on how it is read");
 }
 
 Seeds packedSeeds() {

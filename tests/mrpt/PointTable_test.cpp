@@ -118,8 +118,8 @@ TEST(PointTable, RejectsInvalidTables) {
 TEST(PointTable, LimitsNumbersPerPoint) {
     PointTable table;
     table.fields = {{"x", NumberType::Float32, 0, 1},
-                    {"a", NumberType::UInt8, 4, kMostNumbersPerPoint - 2},
-                    {"b", NumberType::UInt8, 4 + kMostNumbersPerPoint, 1}};
+                    {"a", NumberType::UInt8, 4, kMaxNumbersPerPoint - 2},
+                    {"b", NumberType::UInt8, 4 + kMaxNumbersPerPoint, 1}};
     table.bytes_per_point = std::numeric_limits<std::size_t>::max();
     EXPECT_NO_THROW(check(table));
     for (const std::size_t count : {std::size_t{2}, table.bytes_per_point / 2}) {

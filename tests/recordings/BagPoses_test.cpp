@@ -283,11 +283,11 @@ TEST_F(BagPosesTest, CountsExcessFrames) {
         };
         return test::sentMessage(topic, "tf2_msgs/TFMessage", kStart_s, write);
     };
-    const ReadBag bag = read({cloud("/points"), transforms("/tf", kMostMovingFrames + 2),
+    const ReadBag bag = read({cloud("/points"), transforms("/tf", kMaxMovingFrames + 2),
                               // A frame that is known already is no further one.
                               transform("/tf", "base_link", "f0", 2, 0.1),
-                              transforms("/tf_static", FrameTree::kMostFrames + 2)});
-    EXPECT_EQ(bag.survey.transforms.size(), kMostMovingFrames);
+                              transforms("/tf_static", FrameTree::kMaxFrames + 2)});
+    EXPECT_EQ(bag.survey.transforms.size(), kMaxMovingFrames);
     EXPECT_EQ(bag.survey.transforms.at("f0").poses.size(), 2u);
     EXPECT_THAT(bag.scans->remarks(),
                 Contains("/tf: 2 transforms of frames beyond the first 1000 (of tf_static 10000), "

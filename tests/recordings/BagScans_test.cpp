@@ -70,12 +70,12 @@ TEST(BagScans, RejectsMoreThan100Lidars) {
     const test::TemporaryFolder folder;
     const fs::path file = folder / "many.mcap";
     std::vector<SentMessage> messages;
-    for (std::size_t i = 0; i < kMostLidarTopics; ++i) {
+    for (std::size_t i = 0; i < kMaxLidarTopics; ++i) {
         const std::string name = "/points_" + std::to_string(i);
         messages.push_back(test::cloudMessage(name, kStart_s, "lidar", {1, 2, 3, 4}));
     }
     test::writeBytes(file, test::mcapOf(messages));
-    EXPECT_EQ(readBag(file).labels().size(), kMostLidarTopics);
+    EXPECT_EQ(readBag(file).labels().size(), kMaxLidarTopics);
     messages.push_back(test::cloudMessage("/another", kStart_s, "lidar", {1, 2, 3, 4}));
     test::writeBytes(file, test::mcapOf(messages));
     EXPECT_THAT(

@@ -126,9 +126,9 @@ TEST(BeamFit, WithoutBeamsCountsReturns) {
 
 TEST(BeamFit, NeedsEnoughReturns) {
     Scan scan = scanOf({-15, 0, 15});
-    scan.x_m.resize(kFewestReturnsForBeams);
-    scan.y_m.resize(kFewestReturnsForBeams);
-    scan.z_m.resize(kFewestReturnsForBeams);
+    scan.x_m.resize(kMinReturnsForBeams);
+    scan.y_m.resize(kMinReturnsForBeams);
+    scan.z_m.resize(kMinReturnsForBeams);
     EXPECT_TRUE(fitBeams(scan, sensorModel("VLP-16"), 600));
     scan.x_m.back() = std::numeric_limits<float>::quiet_NaN();
     EXPECT_FALSE(fitBeams(scan, sensorModel("VLP-16"), 600));

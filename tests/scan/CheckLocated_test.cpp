@@ -42,10 +42,10 @@ std::string objection(const Scan& scan, const SensorModel& sensor) {
 
 TEST(CheckLocated, RejectsTooManyReturns) {
     Scan scan;
-    scan.x_m.resize(kMostReturns + 1);
+    scan.x_m.resize(kMaxReturns + 1);
     EXPECT_EQ(objection(scan, sensorModel("VLP-16")),
               "the scan has 16777217 returns; the maximum is 16777216");
-    scan.x_m.resize(kMostReturns);
+    scan.x_m.resize(kMaxReturns);
     EXPECT_THAT(objection(scan, sensorModel("VLP-16")), HasSubstr("differ in number"));
 }
 

@@ -60,8 +60,8 @@ void checkNumberOfFlights(const CampaignPlan& plan) {
           plan.airs.size(), plan.distances.size(), plan.updates.size()}) {
         flights *= static_cast<double>(values);
     }
-    if (flights <= kMostFlights) return;
-    throw std::invalid_argument("at most " + std::to_string(kMostFlights) +
+    if (flights <= kMaxFlights) return;
+    throw std::invalid_argument("at most " + std::to_string(kMaxFlights) +
                                 " flights in a plan; split them over several folders");
 }
 

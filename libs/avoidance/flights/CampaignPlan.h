@@ -8,7 +8,7 @@
 namespace hagen::avoidance {
 
 /// Of a plan, and of all plans of a folder: they are listed in memory.
-constexpr int kMostFlights = 1'000'000;
+constexpr int kMaxFlights = 1'000'000;
 
 /// What to fly: every combination of the lists' entries.
 struct CampaignPlan {
@@ -39,7 +39,7 @@ struct CourseFlights {
 /// The flights of a plan, courses seed by seed, so that a campaign that is stopped early has some
 /// of every scenario. Throws std::invalid_argument for unknown names (and lists the known ones), an
 /// empty list, a last seed before the first, a speed or latency scale outside (0, 100], an invalid
-/// shard, more than kMostFlights, and a model with motion that is to fly with sectors: it follows
+/// shard, more than kMaxFlights, and a model with motion that is to fly with sectors: it follows
 /// obstacles of whole scans.
 std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shard = {});
 

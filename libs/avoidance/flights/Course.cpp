@@ -64,7 +64,7 @@ std::optional<double> oraclePath_m(const Course& course) {
         const double height_m = static_cast<double>(at.z()) -
                                 course.scene.terrain().height_m(static_cast<double>(at.x()),
                                                                 static_cast<double>(at.y()));
-        if (height_m < kLowest_m || height_m > kHighest_m) return 0.0f;
+        if (height_m < kMinHeight_m || height_m > kMaxHeight_m) return 0.0f;
         return course.distance.toStatic(at);
     };
     PathSearchOptions options;

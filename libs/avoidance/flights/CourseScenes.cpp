@@ -63,7 +63,7 @@ simulation::TreeParameters lightTree(simulation::Random& random) {
     return form;
 }
 
-constexpr double kWidestTree_m = 1.9;  // crown and clumps of leaves, at the largest scale
+constexpr double kMaxTreeWidth_m = 1.9;  // crown and clumps of leaves, at the largest scale
 
 Shapes addTrees(simulation::SceneBuilder& builder, int count) {
     return builder.addShapes(
@@ -76,7 +76,7 @@ void scatterTrees(simulation::SceneBuilder& builder, double per_m2, const MaySta
     const Shapes trees = addTrees(builder, 6);
     scatter(builder, per_m2, [&](const Vector2d& at) {
         const double size = builder.random().uniform(0.8, 1.15);
-        if (!leavesEndsFree(at, kWidestTree_m) || !mayStand(at)) return;
+        if (!leavesEndsFree(at, kMaxTreeWidth_m) || !mayStand(at)) return;
         builder.placeRandomOf(simulation::ObjectClass::Tree, trees, at.x(), at.y(),
                               {size, size, size});
     });
@@ -216,7 +216,7 @@ simulation::Scene makeWires(double radius_m, const simulation::Random& random) {
     return builder.build();
 }
 
-constexpr double kLongestMover_m = 2.3;  // half of it: a car's
+constexpr double kMaxMoverLength_m = 2.3;  // half of it: a car's
 
 /// Adds movers whose circles cross the path, but not near its ends.
 template <class ShapeOf>
@@ -235,7 +235,7 @@ void addMovers(simulation::SceneBuilder& builder, int count,
         mover.shape = shapeOf();
         const auto comesNear = [&](const Vector2d& end_m) {
             return std::abs((end_m - mover.middle_m).norm() - mover.radius_m) <
-                   kFreeAtEnds_m + kLongestMover_m;
+                   kFreeAtEnds_m + kMaxMoverLength_m;
         };
         if (std::abs(y_m) > mover.radius_m - 0.5 || comesNear(kCourseStart_m) ||
             comesNear(kCourseGoal_m)) {
@@ -304,7 +304,7 @@ simulation::Scene makeStreet(const simulation::Random& random) {
         for (const double y_m : {-4.8, 4.8}) {
             const Vector2d at(x_m + r.uniform(-3, 3), y_m + 0.2 * r.normal());
             const bool is_tree = r.chance(0.5);
-            if (!leavesEndsFree(at, is_tree ? kWidestTree_m : 0.1)) continue;
+            if (!leavesEndsFree(at, is_tree ? kMaxTreeWidth_m : 0.1)) continue;
             if (is_tree)
                 builder.placeRandomOf(simulation::ObjectClass::Tree, trees, at.x(), at.y());
             if (!is_tree) builder.place(simulation::ObjectClass::Pole, lamp, at.x(), at.y(), 0);

@@ -43,7 +43,7 @@ double share(std::size_t part, std::size_t whole) {
 double elevationOfDirection(std::size_t number) {
     const std::size_t row = number / kDirectionAzimuths;
     const auto step = static_cast<double>(row);
-    return kHighestDirection_rad * (2 * step / (kDirectionElevations - 1) - 1);
+    return kMaxElevation_rad * (2 * step / (kDirectionElevations - 1) - 1);
 }
 
 Eigen::Vector3f directionOf(std::size_t number) {

@@ -117,9 +117,8 @@ void LaterScansTruth::addPoint(const Eigen::Vector3f& from_here_m) {
 void LaterScansTruth::see(const std::vector<Eigen::Vector3f>& persistent_m,
                           const SeenRanges& ranges) {
     const float reach_m = options_.length_m + options_.clearance_radius_m;
-    const float reach_up_m =
-        options_.length_m * std::sin(static_cast<float>(kHighestDirection_rad)) +
-        options_.clearance_radius_m;
+    const float reach_up_m = options_.length_m * std::sin(static_cast<float>(kMaxElevation_rad)) +
+                             options_.clearance_radius_m;
     for (const Eigen::Vector3f& point_m : persistent_m) {
         const Eigen::Vector3f from_here_m = point_m - position_m_;
         if (std::abs(from_here_m.z()) > reach_up_m) continue;

@@ -16,7 +16,7 @@ namespace hagen::avoidance {
 namespace {
 
 constexpr float kMapMargin_m = 20, kMapMarginUp_m = 10;  // around the whole flight
-constexpr float kLargestMap_m3 = 100000;
+constexpr float kMaxMap_m3 = 100000;
 constexpr float kHalfBox_m = 30, kHalfBoxUp_m = 10;  // around the vehicle
 constexpr float kBorder_m = 12, kBorderUp_m = 5;     // more than queries and clearances reach
 constexpr double kReplayed_s = 3;                    // of scans, processed again after a reset
@@ -110,7 +110,7 @@ class Run {
         heap_bytes_.resize(models);
         if (open_loop.scene) truth_.emplace(*open_loop.scene, scans_.flight_m());
         const Eigen::AlignedBox3f whole = widened(scans_.flight_m(), kMapMargin_m, kMapMarginUp_m);
-        maps_whole_flight_ = whole.volume() <= kLargestMap_m3;
+        maps_whole_flight_ = whole.volume() <= kMaxMap_m3;
         if (maps_whole_flight_) box_m_ = whole;
     }
 

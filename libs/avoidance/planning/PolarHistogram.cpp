@@ -8,7 +8,7 @@ namespace hagen::avoidance {
 namespace {
 
 constexpr double kCell_rad = 6 * M_PI / 180;
-constexpr int kAzimuths = 60, kHighestRow = 3;  ///< elevations of -18 to 18 degrees
+constexpr int kAzimuths = 60, kMaxRow = 3;  ///< elevations of -18 to 18 degrees
 constexpr float kTraceStep_m = 0.1f;
 constexpr double kReaction_s = 0.3;  ///< reaction time in addition to the stopping distance
 constexpr double kHold_s = 0.4;      ///< in the check, before braking
@@ -90,7 +90,7 @@ std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
     const double level_m =
         std::min(offset_m.head<2>().norm(), kLookAhead_s * speedTowardsGoal(task));
     const double climb_rad = std::clamp(std::atan2(offset_m.z(), std::max(level_m, 1e-3)),
-                                        -kHighestRow * kCell_rad, kHighestRow * kCell_rad);
+                                        -kMaxRow * kCell_rad, kMaxRow * kCell_rad);
     const auto towards = [](double azimuth_rad, double elevation_rad) {
         return Eigen::Vector3d(std::cos(elevation_rad) * std::cos(azimuth_rad),
                                std::cos(elevation_rad) * std::sin(azimuth_rad),
@@ -99,7 +99,7 @@ std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
     const Eigen::Vector3d target = towards(heading_rad, climb_rad);
     std::vector<HistogramCell> cells;
     for (int column = 0; column < kAzimuths; ++column) {
-        for (int row = -kHighestRow; row <= kHighestRow; ++row) {
+        for (int row = -kMaxRow; row <= kMaxRow; ++row) {
             const double elevation_rad = row == 0 ? climb_rad : row * kCell_rad;
             const Eigen::Vector3d direction =
                 towards(heading_rad + column * kCell_rad, elevation_rad);

@@ -12,8 +12,8 @@ namespace hagen::avoidance {
 namespace {
 
 // What is followed.
-constexpr float kWidest_m = 6;
-constexpr std::size_t kFewestPoints = 3;
+constexpr float kMaxWidth_m = 6;
+constexpr std::size_t kMinPoints = 3;
 constexpr float kThinning_m = 0.1f;
 
 // The Kalman filter.
@@ -29,13 +29,13 @@ constexpr int kMaxMissed = 10;
 
 // What counts as moving.
 constexpr int kMinSeen = 3;
-constexpr double kLeastSpeed_m_s = 0.5, kSigmas = 3, kRemembered_s = 0.6;
+constexpr double kMinSpeed_m_s = 0.5, kSigmas = 3, kRemembered_s = 0.6;
 constexpr std::size_t kCompared = 50;  // points of each sight
 constexpr float kFarFit_m = 0.5f;      // distances count as this at most
 constexpr double kBetterFit = 0.8;
 constexpr float kMinHeight_m = 0.15f;
 constexpr double kCrossedShare = 0.1;
-constexpr int kFewestCrossed = 2;
+constexpr int kMinCrossed = 2;
 
 /// An obstacle in one scan.
 struct Seen {
@@ -79,9 +79,9 @@ std::vector<Seen> seenIn(const observations::MappedScan& scan, float farthest_m)
     std::vector<Seen> all;
     for (std::size_t obstacle = 1; obstacle < by_obstacle.size(); ++obstacle) {
         const Points& points = by_obstacle[obstacle];
-        if (points.at_m.size() < kFewestPoints || points.is_far) continue;
+        if (points.at_m.size() < kMinPoints || points.is_far) continue;
         const float width_m = widthOf(points.at_m);
-        if (width_m > kWidest_m) continue;
+        if (width_m > kMaxWidth_m) continue;
         const double age_s = points.age_s / static_cast<double>(points.at_m.size());
         Seen seen{static_cast<std::int32_t>(obstacle),
                   {scan.time_s - age_s, thinned(points.at_m, scan.origin_m, kThinning_m)},
@@ -217,7 +217,7 @@ bool sawFreeSpaceAt(const View& view, const std::vector<Eigen::Vector3f>& points
         known += place != SeenDirections::Place::Unknown;
         free += place == SeenDirections::Place::Free;
     }
-    return free >= kFewestCrossed && free >= kCrossedShare * known;
+    return free >= kMinCrossed && free >= kCrossedShare * known;
 }
 
 using Views = std::deque<std::shared_ptr<const View>>;
@@ -238,7 +238,7 @@ bool crossesFreeSpace(const ObstacleTrack& track, const Views& views) {
 
 bool isFastEnough(const ObstacleTrack& track) {
     const double speed_m_s = track.velocity_m_s.norm();
-    return track.seen_scans >= kMinSeen && speed_m_s > kLeastSpeed_m_s &&
+    return track.seen_scans >= kMinSeen && speed_m_s > kMinSpeed_m_s &&
            speed_m_s > kSigmas * track.velocitySigma_m_s();
 }
 

@@ -32,7 +32,7 @@ bool SeenDirections::isSeen(const Eigen::Vector3f& from_origin_m) const {
 
 /// Neighbours across an edge of the cube are left out.
 SeenDirections::Place SeenDirections::placeAt(const Eigen::Vector3f& from_origin_m) const {
-    constexpr int kFewestCells = 4;
+    constexpr int kMinCells = 4;
     constexpr float kBehind_cm = 50;
     const Cell middle = cellOf(from_origin_m);
     int cells = 0;
@@ -47,7 +47,7 @@ SeenDirections::Place SeenDirections::placeAt(const Eigen::Vector3f& from_origin
             nearest_cm = std::min(nearest_cm, returns.nearest_cm);
         }
     }
-    if (cells < kFewestCells) return Place::Unknown;
+    if (cells < kMinCells) return Place::Unknown;
     const bool is_free = static_cast<float>(nearest_cm) >= 100 * from_origin_m.norm() + kBehind_cm;
     return is_free ? Place::Free : Place::NotFree;
 }

@@ -21,7 +21,7 @@ struct BackgroundPrinter::Waiting {
     bool isIdle() const { return texts.empty() && !is_printing; }
 
     void add(To to, std::string&& text) {
-        if (is_over || texts.size() >= kMostWaiting) {
+        if (is_over || texts.size() >= kMaxWaiting) {
             ++dropped;
             is_output_dropped = is_output_dropped || to == To::Output;
             return;

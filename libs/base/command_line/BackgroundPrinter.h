@@ -9,7 +9,7 @@ namespace hagen::base {
 /// the caller. Messages beyond the queue's size are dropped and counted.
 class BackgroundPrinter {
  public:
-    static constexpr std::size_t kMostWaiting = 1000;  ///< texts
+    static constexpr std::size_t kMaxWaiting = 1000;  ///< texts
     /// ErrorsInPlace replaces the current line of the terminal.
     enum class To { Output, Errors, ErrorsInPlace };
 

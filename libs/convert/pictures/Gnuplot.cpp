@@ -52,9 +52,9 @@ std::vector<char*> withoutTerminal() {
 }
 
 // A picture takes about a second of CPU time, and less than a megabyte.
-constexpr rlim_t kMostCpu_s = 20, kMostFileBytes = 64 << 20;
+constexpr rlim_t kMaxCpu_s = 20, kMaxFileBytes = 64 << 20;
 constexpr double kPatience_s = 5;  ///< for a start without CPU time
-constexpr double kLeastLoad = 0.02;
+constexpr double kMinLoad = 0.02;
 
 double cpuTimeOf_s(pid_t process) {
     const auto used = base::cpuTimeOf(process).value_or(std::chrono::nanoseconds(0));
@@ -65,7 +65,7 @@ double cpuTimeOf_s(pid_t process) {
 /// hangs if it does not use its time, for on a busy machine a picture may take many seconds.
 /// Returns its status; `complaint` says what was wrong if it was ended.
 int waitFor(pid_t process, std::string& complaint) {
-    const rlimit cpu{kMostCpu_s, kMostCpu_s + 1}, file{kMostFileBytes, kMostFileBytes};
+    const rlimit cpu{kMaxCpu_s, kMaxCpu_s + 1}, file{kMaxFileBytes, kMaxFileBytes};
     prlimit(process, RLIMIT_CPU, &cpu, nullptr);
     prlimit(process, RLIMIT_FSIZE, &file, nullptr);
     const auto start = std::chrono::steady_clock::now();
@@ -75,7 +75,7 @@ int waitFor(pid_t process, std::string& complaint) {
         // Where SIGCHLD is ignored, its status is lost (ECHILD); the pictures are checked anyway.
         if (ended == process || (ended < 0 && errno != EINTR)) break;
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        if (passed.count() > kPatience_s && cpuTimeOf_s(process) < kLeastLoad * passed.count()) {
+        if (passed.count() > kPatience_s && cpuTimeOf_s(process) < kMinLoad * passed.count()) {
             complaint = "it hangs";
             break;
         }

@@ -12,8 +12,8 @@
 namespace hagen::convert {
 namespace {
 
-constexpr int kMostBars = 60;
-constexpr int kMostComponents = 12;
+constexpr int kMaxBars = 60;
+constexpr int kMaxComponents = 12;
 
 std::size_t colourOf(std::int32_t component) {
     return static_cast<std::size_t>(std::max(component, 1) - 1) % kRoiColours.size();
@@ -62,12 +62,12 @@ int selectedColumn(const StageView& view) {
 
 /// Makes a title that gnuplot can draw: one line of limited length.
 std::string sanitizedTitle(const std::string& title) {
-    constexpr std::size_t kMost = 90;  // characters
+    constexpr std::size_t kMax = 90;  // characters
     std::string tidy;
     std::size_t characters = 0;
     for (const char c : title) {
         const auto byte = static_cast<unsigned char>(c);
-        if ((byte & 0xC0) != 0x80 && ++characters > kMost) return tidy + " ...";
+        if ((byte & 0xC0) != 0x80 && ++characters > kMax) return tidy + " ...";
         tidy += byte < 0x20 || byte == 0x7F ? ' ' : c;
     }
     return tidy;
@@ -142,7 +142,7 @@ class DataBlockWriter {
         std::stable_sort(longest.begin(), longest.end(), [&](std::size_t a, std::size_t b) {
             return maxima[a].persistence_m() > maxima[b].persistence_m();
         });
-        data_.bars = std::min<int>(static_cast<int>(longest.size()), kMostBars);
+        data_.bars = std::min<int>(static_cast<int>(longest.size()), kMaxBars);
         longest.resize(static_cast<std::size_t>(data_.bars));
         std::sort(longest.begin(),
                   longest.end());  // findPersistentMaxima() returns the oldest first
@@ -177,7 +177,7 @@ class DataBlockWriter {
                             view_.options.window_size);
         // Angles that are all zero have no components.
         const double all = std::max(found.eigenvalues.sum(), 1e-12);
-        const int components = std::min<int>(view_.options.window_size, kMostComponents);
+        const int components = std::min<int>(view_.options.window_size, kMaxComponents);
         block("$elementary", [&] {
             for (int c = 0; c < components; ++c) {
                 data_.component_share.push_back(std::max(0.0, found.eigenvalues(c)) / all);

@@ -13,10 +13,10 @@ namespace hagen::evaluation {
 namespace {
 
 constexpr int kWidth_px = 900, kHeight_px = 400, kLegendWidth_px = 190;
-constexpr std::size_t kMostLines = 7;
+constexpr std::size_t kMaxLines = 7;
 // Colour-blind safe palette (Okabe and Ito).
-constexpr std::array<const char*, kMostLines> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                       "#E69F00", "#333333", "#56B4E9"};
+constexpr std::array<const char*, kMaxLines> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                      "#E69F00", "#333333", "#56B4E9"};
 
 struct Value {
     std::string label;  ///< of the value on the x axis
@@ -134,7 +134,7 @@ class Chart {
     void writePlot(const Panel& panel) {
         text_ << "plot ";
         for (std::size_t l = 0; l < panel.lines.size(); ++l) {
-            const std::string colour = std::string(" lc rgb '") + kColours[l % kMostLines] + "'";
+            const std::string colour = std::string(" lc rgb '") + kColours[l % kMaxLines] + "'";
             text_ << (l == 0 ? "" : ", ") << block(l)
                   << " using 1:2:3:4 with yerrorbars pt 7 ps 0.2 lw 0.7" << colour << " notitle, "
                   << block(l) << " using 1:2 with " << (panel.has_lines ? "linespoints" : "points")
@@ -245,7 +245,7 @@ const base::OutputKind kCharts{
     }};
 
 void drawCharts(const std::filesystem::path& folder, const Summary& summary) {
-    if (summary.methods.size() <= kMostLines) {
+    if (summary.methods.size() <= kMaxLines) {
         drawPart(folder, summary, "by_range.svg", "range", &ScoreTotals::by_range);
         drawPart(folder, summary, "by_altitude.svg", "altitude of the sensor",
                  &ScoreTotals::by_altitude);

@@ -22,7 +22,7 @@ struct Surroundings {
         if (top_m == CellTops::kNone_m) return;
         seen += 1;
         tall += top_m >= kTallest_m;
-        if (!(top_m > kLowest_m && top_m < kTallest_m)) return;
+        if (!(top_m > kMinHeight_m && top_m < kTallest_m)) return;
         plants += 1;
         sum_m += top_m;
         sum_m2 += static_cast<double>(top_m) * top_m;

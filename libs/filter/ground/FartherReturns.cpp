@@ -78,7 +78,7 @@ void judgeFartherReturns(const Scan& scan, const RangeImage& image, const Ground
     for (std::size_t k = 0; k < n; ++k) {
         const float tolerance_m = ground.tolerance_m.data()[image.depth_mapper[list[k]]];
         const bool is_high = work.height_m[k] > tolerance_m;
-        const bool is_ground = work.height_m[k] >= kLowestGround_m &&
+        const bool is_ground = work.height_m[k] >= kMinGround_m &&
                                hasEvidence(ground.has_evidence, work.x_m[k], work.y_m[k]);
         const bool is_close =
             needs_clearance &&

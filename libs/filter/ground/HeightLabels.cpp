@@ -35,7 +35,7 @@ void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m
     labels.resize(height_m.rows(), height_m.cols());
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         const float h_m = height_m.data()[pixel];
-        const bool is_roi = h_m > tolerance_m.data()[pixel] || h_m < kLowestGround_m;
+        const bool is_roi = h_m > tolerance_m.data()[pixel] || h_m < kMinGround_m;
         labels.data()[pixel] = !hasValue(h_m) ? Label::Unclassified
                                : is_roi       ? Label::Roi
                                               : Label::Rou;

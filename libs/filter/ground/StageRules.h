@@ -55,11 +55,11 @@ constexpr float kShallow = 3;       // distance per height of the sensor from wh
 }  // namespace tolerance_rules
 
 namespace canopy_rules {
-constexpr int kReach = 6;                             // blocks in each direction
-constexpr float kLowest_m = 0.1f, kTallest_m = 1.0f;  // of a canopy's plants
-constexpr float kMinShare = 0.35f;                    // of the cells seen nearby
-constexpr float kMaxTall = 0.2f;                      // share of higher cells: walls, trees
-constexpr float kMinCells = 30;                       // seen nearby; with fewer, no canopy
+constexpr int kReach = 6;                                // blocks in each direction
+constexpr float kMinHeight_m = 0.1f, kTallest_m = 1.0f;  // of a canopy's plants
+constexpr float kMinShare = 0.35f;                       // of the cells seen nearby
+constexpr float kMaxTall = 0.2f;                         // share of higher cells: walls, trees
+constexpr float kMinCells = 30;                          // seen nearby; with fewer, no canopy
 constexpr double kDeviations = 2.0;
 constexpr double kMargin_m = 0.1;
 constexpr float kStandsOut_m = 0.1f;  // above the canopy: an obstacle in it

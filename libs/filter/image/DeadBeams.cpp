@@ -5,7 +5,7 @@
 namespace hagen {
 namespace {
 
-constexpr Eigen::Index kMostRows = 2;  // adjacent ones that are bridged
+constexpr Eigen::Index kMaxRows = 2;  // adjacent ones that are bridged
 
 /// Nearly always, the first columns show that all rows are live.
 void findLiveRows(const Image<float>& depth_m, std::vector<std::uint8_t>& is_live) {
@@ -50,7 +50,7 @@ void bridgeDeadBeams(const Image<float>& depth_m, const PixelDirections& directi
     Eigen::Index below = -1;  // the last live row
     for (Eigen::Index above = 0; above < rows; ++above) {
         if (!work.is_live[above]) continue;
-        if (below >= 0 && above - below - 1 <= kMostRows) {
+        if (below >= 0 && above - below - 1 <= kMaxRows) {
             for (Eigen::Index row = below + 1; row < above; ++row)
                 bridgeRow(directions, below, row, above, repaired_m);
         }

@@ -7,8 +7,8 @@
 namespace hagen {
 namespace {
 
-constexpr float kMostTiltCosine = 0.8660254f;  // 30 degrees
-constexpr double kLeastSpacing_deg = 1;
+constexpr float kMaxTiltCosine = 0.8660254f;  // 30 degrees
+constexpr double kMinSpacing_deg = 1;
 
 double medianSpacing_deg(const SensorModel& sensor) {
     std::vector<double> spacing_deg;
@@ -18,7 +18,7 @@ double medianSpacing_deg(const SensorModel& sensor) {
     }
     const auto middle = spacing_deg.begin() + static_cast<std::ptrdiff_t>(spacing_deg.size() / 2);
     std::nth_element(spacing_deg.begin(), middle, spacing_deg.end());
-    return std::max(kLeastSpacing_deg, *middle);
+    return std::max(kMinSpacing_deg, *middle);
 }
 
 SensorModel mirrored(SensorModel sensor) {
@@ -76,8 +76,8 @@ void level(const Scan& scan, const Eigen::Matrix3f& level_from_sensor, const Sen
 Posture postureOf(const std::optional<Attitude>& attitude) {
     if (!attitude) return Posture::Upright;
     const float up = levelFromSensor(*attitude)(2, 2);  // of the sensor's z axis
-    if (up < -kMostTiltCosine) return Posture::UpsideDown;
-    return up < kMostTiltCosine ? Posture::OnItsSide : Posture::Upright;
+    if (up < -kMaxTiltCosine) return Posture::UpsideDown;
+    return up < kMaxTiltCosine ? Posture::OnItsSide : Posture::Upright;
 }
 
 SensorModel sensorIn(Posture posture, const SensorModel& sensor) {

@@ -51,7 +51,7 @@ struct Heights {
     }
 };
 
-bool isPlant(float top_m) { return (top_m > kLowest_m) & (top_m < kTallest_m); }
+bool isPlant(float top_m) { return (top_m > kMinHeight_m) & (top_m < kTallest_m); }
 
 /// The highest return of each cell in a column of the grid, without the border.
 const float* columnOf(const CellTops& tops, int j) { return tops.highest_m.col(j + 1).data() + 1; }

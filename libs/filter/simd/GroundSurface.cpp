@@ -92,11 +92,11 @@ constexpr int kCells = GroundSurface::kCells;
 /// grids on the first fit.
 template <int kSide>
 void beginFit(std::size_t pixels, GroundFit<kSide>& fit) {
-    constexpr std::size_t kWidest = 64;
+    constexpr std::size_t kMaxWidth = 64;
     fit.candidates = 0;
-    if (fit.cell.size() < pixels + kWidest) {
-        fit.cell.resize(pixels + kWidest);
-        fit.z_m.resize(pixels + kWidest);
+    if (fit.cell.size() < pixels + kMaxWidth) {
+        fit.cell.resize(pixels + kMaxWidth);
+        fit.z_m.resize(pixels + kMaxWidth);
     }
     if (!fit.pyramid.empty()) return;
     for (auto* heights_m : {&fit.lowest_m, &fit.cleaned_m, &fit.envelope_m, &fit.ramp_m}) {

@@ -81,7 +81,7 @@ void LabelByHeightIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
         const auto has_value = hn::RebindMask(di, hn::Eq(h_m, h_m));
         const auto is_high =
             hn::RebindMask(di, hn::Or(hn::Gt(h_m, hn::LoadU(d, tolerance_m + pixel)),
-                                      hn::Lt(h_m, hn::Set(d, kLowestGround_m))));
+                                      hn::Lt(h_m, hn::Set(d, kMinGround_m))));
         const auto is = [&](Label what)
                             HAGEN_INLINE { return hn::Set(di, static_cast<std::int32_t>(what)); };
         const auto rou_or_roi = hn::IfThenElse(is_high, is(Label::Roi), is(Label::Rou));

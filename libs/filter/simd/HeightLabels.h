@@ -10,7 +10,7 @@
 namespace hagen {
 
 /// What is farther below the surface shows that this is not the ground.
-constexpr float kLowestGround_m = -1.5f;
+constexpr float kMinGround_m = -1.5f;
 
 /// The maximum height above ground at which a return is still ground.
 struct HeightTolerance {

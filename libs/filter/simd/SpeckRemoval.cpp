@@ -97,9 +97,9 @@ HWY_EXPORT(EnterColumnIn);
 HWY_EXPORT(CountVotesIn);
 
 void resize(std::size_t size, SpeckWorkspace& work) {
-    constexpr std::size_t kWidest = 64;
-    for (auto* image : {&work.distance, &work.doubt, &work.vote}) image->resize(size + kWidest);
-    work.elected.resize(size + kWidest);
+    constexpr std::size_t kMaxWidth = 64;
+    for (auto* image : {&work.distance, &work.doubt, &work.vote}) image->resize(size + kMaxWidth);
+    work.elected.resize(size + kMaxWidth);
 }
 
 std::uint8_t* bytesOf(Image<Label>& labels) {

@@ -5,9 +5,9 @@
 namespace hagen::live {
 namespace {
 
-constexpr float kLeastSlope = 0.5f;  // cosine of the tilt
-constexpr int kSteps = 8;            // to where the axis meets the surface
-constexpr int kLeastPixels = 20;
+constexpr float kMinSlope = 0.5f;  // cosine of the tilt
+constexpr int kSteps = 8;          // to where the axis meets the surface
+constexpr int kMinPixels = 20;
 constexpr float kClose_m = 0.3f, kNear_m = 20;
 
 /// Whether enough pixels nearby look like ground and lie on the surface.
@@ -19,7 +19,7 @@ bool isShown(const Ground& ground) {
         const bool is_close = std::abs(ground.height_m(i)) < kClose_m;
         shown += is_near && is_close && std::isfinite(ground.tolerance_m(i)) ? 1 : 0;
     }
-    return shown >= kLeastPixels;
+    return shown >= kMinPixels;
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ std::optional<float> groundBelow(const Ground& ground, const Eigen::Matrix3f& ve
     if (!ground.is_seen || !ground.has_surface || !isShown(ground)) return std::nullopt;
     const Eigen::Vector3f down =
         ground.from_sensor.linear() * vehicle_from_sensor.transpose() * Eigen::Vector3f(0, 0, -1);
-    if (-down.z() < kLeastSlope) return std::nullopt;
+    if (-down.z() < kMinSlope) return std::nullopt;
     const Eigen::Vector3f from_m = ground.from_sensor.translation();
     float distance_m = 0;
     for (int step = 0; step < kSteps; ++step) {

@@ -8,7 +8,7 @@ namespace hagen::live {
 namespace {
 
 constexpr std::uint16_t kUnknown_cm = std::numeric_limits<std::uint16_t>::max();
-constexpr float kMost_cm = 65533;  // the next one is "nothing", the last one "unknown"
+constexpr float kMax_cm = 65533;  // the next one is "nothing", the last one "unknown"
 constexpr float kGroundReach_m = 40;
 constexpr std::uint8_t kStep_deg = 5;
 constexpr std::uint8_t kMavlinkVersion = 3;
@@ -36,7 +36,7 @@ mavlink::ObstacleDistance obstacleDistance(const Directions& directions, const L
     message.frame = mavlink::kFrameBodyFrd;
     // What is horizontal may be shorter than the sensor's shortest range.
     message.min_distance = 1;
-    message.max_distance = centimetres(limits.zone_m, 1, kMost_cm);
+    message.max_distance = centimetres(limits.zone_m, 1, kMax_cm);
     for (std::size_t k = 0; k < directions.size(); ++k) {
         std::uint16_t& distance_cm = message.distances[k];
         switch (directions[k].state) {
@@ -80,8 +80,8 @@ std::vector<mavlink::ObstacleDistance3d> obstacleDistances3d(const std::vector<O
 mavlink::DistanceSensor distanceBelow(float distance_m, const Limits& limits, double time_s) {
     mavlink::DistanceSensor message;
     message.time_boot_ms = milliseconds(time_s);
-    message.min_distance = centimetres(limits.nearest_m, 1, kMost_cm);
-    message.max_distance = centimetres(kGroundReach_m, 1, kMost_cm);
+    message.min_distance = centimetres(limits.nearest_m, 1, kMax_cm);
+    message.max_distance = centimetres(kGroundReach_m, 1, kMax_cm);
     message.current_distance = centimetres(distance_m, 1, 100 * kGroundReach_m + 1);
     message.type = mavlink::kDistanceSensorLaser;
     message.orientation = mavlink::kRotationPitch270;

@@ -25,8 +25,8 @@ Eigen::Quaterniond turnBy(const Eigen::Vector3d& rotation_rad) {
 
 // Beyond these it is no multirotor's motion: gyroscopes measure less, and a direction that is moved
 // by such a speed would be free where an obstacle is.
-constexpr double kMostAngle_rad = 10, kMostRate_rad_s = 50;
-constexpr double kMostPlace_m = 1e7, kMostSpeed_m_s = 100;
+constexpr double kMaxAngle_rad = 10, kMaxRate_rad_s = 50;
+constexpr double kMaxCoordinate_m = 1e7, kMaxSpeed_m_s = 100;
 
 /// False for NaN.
 template <class... Value>
@@ -85,8 +85,8 @@ void VehicleMotion::add(Place place) {
 
 VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arrival_s) {
     if (const auto m = mavlink::messageOf<mavlink::Attitude>(frame)) {
-        if (!areWithin(kMostAngle_rad, m->roll, m->pitch, m->yaw) ||
-            !areWithin(kMostRate_rad_s, m->rollspeed, m->pitchspeed, m->yawspeed)) {
+        if (!areWithin(kMaxAngle_rad, m->roll, m->pitch, m->yaw) ||
+            !areWithin(kMaxRate_rad_s, m->rollspeed, m->pitchspeed, m->yawspeed)) {
             return Taken::Refused;
         }
         using Eigen::AngleAxisd;
@@ -100,7 +100,7 @@ VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arr
     }
     if (const auto m = mavlink::messageOf<mavlink::AttitudeQuaternion>(frame)) {
         if (!areWithin(2, m->q1, m->q2, m->q3, m->q4) ||
-            !areWithin(kMostRate_rad_s, m->rollspeed, m->pitchspeed, m->yawspeed)) {
+            !areWithin(kMaxRate_rad_s, m->rollspeed, m->pitchspeed, m->yawspeed)) {
             return Taken::Refused;
         }
         // A rotation's vector part is flipped like any other vector.
@@ -111,8 +111,8 @@ VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arr
         return Taken::Attitude;
     }
     if (const auto m = mavlink::messageOf<mavlink::LocalPositionNed>(frame)) {
-        if (!areWithin(kMostPlace_m, m->x, m->y, m->z) ||
-            !areWithin(kMostSpeed_m_s, m->vx, m->vy, m->vz)) {
+        if (!areWithin(kMaxCoordinate_m, m->x, m->y, m->z) ||
+            !areWithin(kMaxSpeed_m_s, m->vx, m->vy, m->vz)) {
             return Taken::Refused;
         }
         add({ourTime(m->time_boot_ms, arrival_s), flipped(m->x, m->y, m->z),

@@ -19,16 +19,16 @@ std::optional<std::uint8_t> crcExtra(std::uint32_t id);
 
 /// A MAVLink 2 message of any kind.
 struct Frame {
-    static constexpr std::size_t kLongestPayload = 255;
+    static constexpr std::size_t kMaxPayload = 255;
     /// Header, payload, checksum and signature.
-    static constexpr std::size_t kLongest = 10 + kLongestPayload + 2 + 13;
+    static constexpr std::size_t kMaxLength = 10 + kMaxPayload + 2 + 13;
 
     std::uint8_t sequence = 0;   ///< counts the messages of a component, modulo 256
     std::uint8_t system = 0;     ///< the vehicle that sent it
     std::uint8_t component = 0;  ///< its part that sent it
     std::uint32_t id = 0;        ///< kind of message, 24 bits
     /// The payload; zeros behind its end, which the sender left out.
-    std::array<std::uint8_t, kLongestPayload> payload{};
+    std::array<std::uint8_t, kMaxPayload> payload{};
     bool is_signed = false;  ///< it has a signature, which is not checked
 };
 

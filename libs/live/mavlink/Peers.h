@@ -19,9 +19,9 @@ using Clock = std::chrono::steady_clock;
 /// The timeout of poll(), which waits without an end if it is negative. A time that has passed is
 /// not waited for.
 inline int waitMs(double longest_s) {
-    constexpr double kLongest_s = 3600;
+    constexpr double kMaxDuration_s = 3600;
     if (!(longest_s > 0)) return 0;
-    return static_cast<int>(std::ceil(1e3 * std::min(longest_s, kLongest_s)));
+    return static_cast<int>(std::ceil(1e3 * std::min(longest_s, kMaxDuration_s)));
 }
 
 inline std::string errorText(int error) { return std::system_category().message(error); }

@@ -16,7 +16,7 @@ std::optional<double> FrameCoverage::add(double time_s, double measured_s,
     }
     double all_s = 0;
     for (const Frame& frame : frames_) all_s += frame.measured_s;
-    if (all_s < kLeastMeasured_s) return std::nullopt;
+    if (all_s < kMinMeasured_s) return std::nullopt;
     return frames_.front().time_s;
 }
 

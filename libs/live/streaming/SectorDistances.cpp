@@ -11,7 +11,7 @@ namespace {
 constexpr double kTurn_rad = 2 * kPi;
 constexpr double kPart_rad = kTurn_rad / 360;
 // How long an obstacle is in doubt where packets are lost again and again.
-constexpr double kLongestDoubt_s = 0.7;
+constexpr double kMaxDoubt_s = 0.7;
 
 /// The swept directions without what the head passed before `since_rad`: that is too old.
 TurnCoverage::Swept freshPart(TurnCoverage::Swept swept, double since_rad) {
@@ -115,7 +115,7 @@ bool SectorDistances::isFresh(const Seen& seen, double now_s) const {
 bool SectorDistances::matters(const Seen& seen, double now_s) const {
     constexpr double kForgotten_s = FrameCoverage::kForgotten_s;
     const double age_s = now_s - seen.first_time_s;
-    if (seen.turns) return age_s >= 0 && age_s <= settings_.stale_s + kLongestDoubt_s;
+    if (seen.turns) return age_s >= 0 && age_s <= settings_.stale_s + kMaxDoubt_s;
     const double looked_again_s = all_around_since_s_ - seen.first_time_s;
     return age_s >= 0 && age_s <= settings_.stale_s + kForgotten_s &&
            looked_again_s <= kForgotten_s;

@@ -17,15 +17,15 @@ namespace hagen::live {
 namespace {
 
 constexpr double kTurn_rad = 2 * kPi;
-constexpr std::size_t kMostPackets = 4000;  // whatever the clock says; a turn has up to 600
-constexpr double kRounding_rad = 0.01;      // of where packets begin and end
+constexpr std::size_t kMaxPackets = 4000;  // whatever the clock says; a turn has up to 600
+constexpr double kRounding_rad = 0.01;     // of where packets begin and end
 // A beam's correction may add half a turn; nearestColumn() wraps once.
-constexpr float kMostAzimuth_rad = 7.8F;
-constexpr double kMostTurned_rad = 1e12;  // 250 years at 20 Hz; still exact to 0.1 mrad
-constexpr double kMargin_rad = 0.02;      // of the sector's image, ahead of it
-constexpr int kEmptyColumns = 16;         // are two columns, where no returns are kept
+constexpr float kMaxAzimuth_rad = 7.8F;
+constexpr double kMaxRotation_rad = 1e12;  // 250 years at 20 Hz; still exact to 0.1 mrad
+constexpr double kMargin_rad = 0.02;       // of the sector's image, ahead of it
+constexpr int kEmptyColumns = 16;          // are two columns, where no returns are kept
 // Less than this moves no return to another pixel.
-constexpr double kLeastMotion_m = 0.01, kLeastMotion_rad = 1e-3;
+constexpr double kMinMotion_m = 0.01, kMinMotion_rad = 1e-3;
 
 template <class Value>
 void append(const std::vector<Value>& from, std::vector<Value>& to) {
@@ -80,8 +80,8 @@ float upOf(const std::optional<Attitude>& tilt) {
 }
 
 bool isStill(const Eigen::Isometry3d& motion) {
-    return motion.translation().norm() < kLeastMotion_m &&
-           Eigen::AngleAxisd(motion.linear()).angle() < kLeastMotion_rad;
+    return motion.translation().norm() < kMinMotion_m &&
+           Eigen::AngleAxisd(motion.linear()).angle() < kMinMotion_rad;
 }
 
 /// The angle between two directions that a sensor swept, at most a turn apart.
@@ -93,7 +93,7 @@ double between(const Sweep& a, const Sweep& b) {
 
 void checkSweep(const Sweep& sweep) {
     const double swept_rad = sweep.to_rad - sweep.from_rad;
-    const bool is_sound = std::abs(sweep.from_rad) <= kMostTurned_rad && swept_rad >= 0 &&
+    const bool is_sound = std::abs(sweep.from_rad) <= kMaxRotation_rad && swept_rad >= 0 &&
                           swept_rad <= kTurn_rad + kRounding_rad;
     if (!is_sound) {
         throw std::invalid_argument(
@@ -182,12 +182,12 @@ void StreamingSegmenter::setBeamOffsets(const BeamOffsets& offsets) {
 StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double time_s) {
     checkLocated(returns, filter_.sensor());
     const auto isUsable = [](float azimuth_rad) {
-        return std::abs(azimuth_rad) <= kMostAzimuth_rad;
+        return std::abs(azimuth_rad) <= kMaxAzimuth_rad;
     };
     if (!std::all_of(returns.azimuth_rad.begin(), returns.azimuth_rad.end(), isUsable)) {
         throw std::invalid_argument("streaming: a return has no azimuth, or one far beyond a turn");
     }
-    if (packets_.size() >= kMostPackets) restart();
+    if (packets_.size() >= kMaxPackets) restart();
     if (spare_.empty()) {
         packets_.emplace_back();
     } else {

@@ -13,9 +13,9 @@ constexpr int kEvery = 4;            // columns that are compared
 constexpr double kMemory_rad = 0.8;  // of returns that weigh e times less than the latest
 constexpr double kMisfit_m = 0.3;    // of returns that weigh half
 constexpr double kUsualRise_m = 0.1, kUsualTilt_rad = 0.1;  // per turn, as far as none is seen
-constexpr double kLeastWeight = 10;    // of all returns that are remembered; one that fits has 1
-constexpr double kSteepest = 0.6;      // slope from ring to ring
-constexpr float kLeastApart_m = 0.2F;  // of rings that tell a slope
+constexpr double kMinWeight = 10;    // of all returns that are remembered; one that fits has 1
+constexpr double kSteepest = 0.6;    // slope from ring to ring
+constexpr float kMinApart_m = 0.2F;  // of rings that tell a slope
 constexpr double kTurnBefore_rad[] = {kPi, 3 * kPi};  // how long ago it was seen
 
 }  // namespace
@@ -53,7 +53,7 @@ std::optional<double> TurnMotion::slopeAt(const Pixel& now) const {
         if (row < 0 || row >= rows_) continue;
         const Ground& ring = groundOf(row, now.column);
         const float apart_m = ring.radius_m - then.radius_m;
-        if (!isOfTurnBefore(ring) || std::abs(apart_m) < kLeastApart_m) continue;
+        if (!isOfTurnBefore(ring) || std::abs(apart_m) < kMinApart_m) continue;
         const double slope = (ring.point_m.z() - then.point_m.z()) / apart_m;
         return std::abs(slope) < kSteepest ? std::optional(slope) : std::nullopt;
     }
@@ -114,7 +114,7 @@ void TurnMotion::add(const Scan& sector, const std::vector<Label>& label, double
 }
 
 std::optional<Eigen::Isometry3d> TurnMotion::since(double turns) const {
-    if (weight_ < kLeastWeight) return std::nullopt;
+    if (weight_ < kMinWeight) return std::nullopt;
     const Eigen::Vector3d turn = -turns * Eigen::Vector3d(per_turn_[1], per_turn_[2], 0);
     Eigen::Isometry3d motion(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()));
     motion.translation().z() = -turns * per_turn_[0];

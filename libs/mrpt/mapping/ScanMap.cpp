@@ -18,19 +18,19 @@ octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()
 
 // Limits: memory for the voxels around the sensor, a bit each in three sets (512 MiB a set), and
 // for the map (about 3 GiB, or half of what the process may have).
-constexpr double kMostVoxelsInReach = 4294967296.0;
-constexpr std::size_t kMostNodes = 50'000'000, kBytesPerNode = 64;
+constexpr double kMaxVoxelsInReach = 4294967296.0;
+constexpr std::size_t kMaxNodes = 50'000'000, kBytesPerNode = 64;
 
 std::size_t mostNodes() {
     rlimit limit{};
-    if (getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kMostNodes;
-    return std::min<std::size_t>(kMostNodes, limit.rlim_cur / 2 / kBytesPerNode);
+    if (getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kMaxNodes;
+    return std::min<std::size_t>(kMaxNodes, limit.rlim_cur / 2 / kBytesPerNode);
 }
 
 void checkReach(const ScanMapOptions& options) {
     const double voxels = std::pow(2 * options.max_range_m / options.resolution_m + 4, 3);
-    if (voxels <= kMostVoxelsInReach) return;
-    const double side = std::cbrt(kMostVoxelsInReach) - 5;
+    if (voxels <= kMaxVoxelsInReach) return;
+    const double side = std::cbrt(kMaxVoxelsInReach) - 5;
     throw std::invalid_argument(
         "an OctoMap with voxels of " + std::to_string(options.resolution_m) +
         " m needs more than " + "4 billion of them within its range of " +
@@ -155,7 +155,7 @@ void ScanMap::insert(const MappedScan& scan) {
         millions << std::setprecision(3) << 1e-6 * static_cast<double>(most_nodes_);
         throw MapFull("the map has more than " + millions.str() +
                       " million nodes; use larger voxels" +
-                      (most_nodes_ < kMostNodes ? ", or a higher --memory-limit" : ""));
+                      (most_nodes_ < kMaxNodes ? ", or a higher --memory-limit" : ""));
     }
     const MapContent content = options_.content;
     const auto is_hit = [&](std::size_t i) {

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kMetadata = "metadata.yaml";
 constexpr const char* kSection = "rosbag2_bagfile_information";
-constexpr std::size_t kMostMetadata = 2 << 20;
+constexpr std::size_t kMaxMetadata = 2 << 20;
 
 /// What a metadata.yaml says about a bag.
 struct Metadata {
@@ -29,7 +29,7 @@ Metadata metadataOf(const fs::path& folder) {
     std::error_code none;
     if (!fs::is_regular_file(file, none)) return {};
     try {
-        const YAML::Node all = YAML::Load(base::readText(file, kMostMetadata));
+        const YAML::Node all = YAML::Load(base::readText(file, kMaxMetadata));
         if (all.IsMap() && all[kSection] && all[kSection].IsMap()) return {all[kSection], ""};
     } catch (const std::exception& e) {
         return {std::nullopt, e.what()};
@@ -93,12 +93,12 @@ std::vector<fs::path> foundFiles(const fs::path& folder) {
 
 /// "'a_1.mcap', 'a_2.mcap' and 3 more".
 std::string textOfNames(const std::vector<fs::path>& files) {
-    constexpr std::size_t kMost = 5;
+    constexpr std::size_t kMax = 5;
     std::string text;
-    for (std::size_t i = 0; i < std::min(kMost, files.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kMax, files.size()); ++i) {
         text += (i == 0 ? "'" : ", '") + files[i].filename().string() + "'";
     }
-    if (files.size() > kMost) text += " and " + std::to_string(files.size() - kMost) + " more";
+    if (files.size() > kMax) text += " and " + std::to_string(files.size() - kMax) + " more";
     return text;
 }
 

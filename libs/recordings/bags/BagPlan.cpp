@@ -15,8 +15,8 @@ namespace {
 using Topic = BagSurvey::Topic;
 using mrpt::poses::CPose3D;
 
-constexpr double kLeastCovered = 0.5;              // of the time of the poses
-constexpr int kMostFrameDepth = 64;                // frames on frames
+constexpr double kMinCovered = 0.5;                // of the time of the poses
+constexpr int kMaxFrameDepth = 64;                 // frames on frames
 constexpr const char* kOusterFrame = "os_sensor";  // of the maker's driver, whose packets name none
 
 std::string withSlash(const std::string& topic) {
@@ -91,9 +91,9 @@ class Planner {
         const auto lidars = std::count_if(
             survey_.topics.begin(), survey_.topics.end(),
             [](const Topic& topic) { return topic.kind != LidarKind::None && topic.messages > 0; });
-        if (static_cast<std::size_t>(lidars) <= kMostLidarTopics) return;
+        if (static_cast<std::size_t>(lidars) <= kMaxLidarTopics) return;
         fail("has " + std::to_string(lidars) + " topics of LiDARs, more than " +
-             std::to_string(kMostLidarTopics) + "; name those to read with --topic");
+             std::to_string(kMaxLidarTopics) + "; name those to read with --topic");
     }
 
     static std::string textOfKnownTypes() {
@@ -311,7 +311,7 @@ class Planner {
     Climb climb(const std::string& frame, const std::string& goal = "") const {
         Climb climb;
         climb.top = frame;
-        for (int depth = 0; depth < kMostFrameDepth; ++depth) {
+        for (int depth = 0; depth < kMaxFrameDepth; ++depth) {
             const std::string at = climb.top;
             if (const auto pose = goal.empty() ? std::nullopt : frames_.poseIn(at, goal)) {
                 climb.top = goal;
@@ -434,7 +434,7 @@ class Planner {
         const std::string source = plan_.poses->source + " and transforms from " + child + " to " +
                                    steps.front().series->child;
         auto poses = std::make_shared<PoseSeries>(composed(steps, plan_.poses->parent, CPose3D()));
-        if (poses->poses.empty() || covered_s(*poses) < kLeastCovered * covered_s(*plan_.poses)) {
+        if (poses->poses.empty() || covered_s(*poses) < kMinCovered * covered_s(*plan_.poses)) {
             plan_.remarks.push_back("the transforms from '" + child + "' to '" +
                                     steps.front().series->child +
                                     "' are too far apart in time to be used with the poses");
@@ -465,7 +465,7 @@ class Planner {
             if (topic.kind == LidarKind::None) continue;
             Way way;
             std::string at = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
-            for (int depth = 0; depth < kMostFrameDepth && vehicles.count(at) == 0; ++depth) {
+            for (int depth = 0; depth < kMaxFrameDepth && vehicles.count(at) == 0; ++depth) {
                 at = frames_.rootOf(at);
                 const auto next = survey_.transforms.find(at);
                 if (vehicles.count(at) > 0 || next == survey_.transforms.end() ||

@@ -40,7 +40,7 @@ struct BagPlan {
     std::vector<std::string> remarks;  ///< what is not read, and why
 };
 
-constexpr std::size_t kMostLidarTopics = 100;  ///< read without being named
+constexpr std::size_t kMaxLidarTopics = 100;  ///< read without being named
 
 /// Plans what to read.
 ///
@@ -60,7 +60,7 @@ constexpr std::size_t kMostLidarTopics = 100;  ///< read without being named
 /// taken for those of a sensor that has no place in that frame, with a remark.
 ///
 /// Throws std::runtime_error naming the file if a topic is not there or is not a LiDAR's, if none
-/// is, if there are more than kMostLidarTopics and none is named, or if metadata of an Ouster are
+/// is, if there are more than kMaxLidarTopics and none is named, or if metadata of an Ouster are
 /// missing or wrong. `survey` must outlive the plan.
 BagPlan planOf(const std::filesystem::path& file, const BagSurvey& survey,
                const BagOptions& options);

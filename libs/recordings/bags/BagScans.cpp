@@ -454,8 +454,8 @@ std::vector<std::string> BagScans::remarks() const {
         report(left_out.transforms, "transform", " that could not be read");
         report(left_out.other_parents, "transform", " of a frame that had another parent before");
         report(left_out.further, "transform",
-               " of frames beyond the first " + std::to_string(kMostMovingFrames) +
-                   " (of tf_static " + std::to_string(FrameTree::kMostFrames) + ")");
+               " of frames beyond the first " + std::to_string(kMaxMovingFrames) +
+                   " (of tf_static " + std::to_string(FrameTree::kMaxFrames) + ")");
     }
     BagSurvey others;  // that nothing is read of
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",
@@ -473,8 +473,8 @@ std::vector<std::string> BagScans::remarks() const {
         if (!is_used) others.topics.push_back(topic);
     }
     if (!others.topics.empty()) {
-        constexpr std::size_t kMost = 12;
-        remarks.push_back("topics that are not used: " + textOfTopics(others, kMost));
+        constexpr std::size_t kMax = 12;
+        remarks.push_back("topics that are not used: " + textOfTopics(others, kMax));
     }
     return remarks;
 }

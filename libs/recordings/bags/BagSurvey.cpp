@@ -12,8 +12,8 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr std::size_t kMostLookedAt = 20;  // messages of a Velodyne: turns
-constexpr std::size_t kMostOusterMetadata = 1 << 20;
+constexpr std::size_t kMaxExamined = 20;  // messages of a Velodyne: turns
+constexpr std::size_t kMaxOusterMetadata = 1 << 20;
 
 void addPose(const PoseMessage& message, std::int64_t recorded_ns, PoseSeries& series) {
     const auto pose = message.pose();
@@ -24,7 +24,7 @@ void addPose(const PoseMessage& message, std::int64_t recorded_ns, PoseSeries& s
         return std::abs(static_cast<double>(time_ns) -
                         static_cast<double>(series.poses.back().time_ns));
     };
-    if (!series.poses.empty() && apart_ns() < kLeastApart_ns) return;
+    if (!series.poses.empty() && apart_ns() < kMinApart_ns) return;
     mrpt::math::CQuaternionDouble q;
     pose->getAsQuaternion(q);
     series.poses.push_back({time_ns, pose->x(), pose->y(), pose->z(), q.r(), q.x(), q.y(), q.z()});
@@ -65,7 +65,7 @@ class BagSurveyor {
         const std::string& type = topic.topic.type;
         if (topic.kind != LidarKind::None) {
             const bool lacks_model =
-                topic.kind == LidarKind::Velodyne && topic.velodyne_messages < kMostLookedAt;
+                topic.kind == LidarKind::Velodyne && topic.velodyne_messages < kMaxExamined;
             if (topic.frame.empty() || lacks_model) look(message, topic);
         } else if (type == "nav_msgs/Odometry") {
             FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
@@ -83,7 +83,7 @@ class BagSurveyor {
         } else if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") {
             readFrames(message, topic);
         } else if (type == "std_msgs/String" && endsWith(topic.topic.name, "metadata") &&
-                   message.size <= kMostOusterMetadata) {
+                   message.size <= kMaxOusterMetadata) {
             FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
             survey_.ouster_metadata[topic.topic.name] = readString(fields);
         }
@@ -145,7 +145,7 @@ class BagSurveyor {
                 continue;
             }
             const bool is_known = survey_.transforms.count(transform.child) > 0;
-            if (!is_known && survey_.transforms.size() >= kMostMovingFrames) {
+            if (!is_known && survey_.transforms.size() >= kMaxMovingFrames) {
                 count(survey_.left_out[topic.topic.name].further, message, topic, which);
                 continue;
             }

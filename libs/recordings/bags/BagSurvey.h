@@ -48,7 +48,7 @@ struct LeftOut {
     Kind further;        ///< transforms of frames beyond the most that are kept
 };
 
-constexpr std::size_t kMostMovingFrames = 1000;  ///< of tf; of tf_static: FrameTree::kMostFrames
+constexpr std::size_t kMaxMovingFrames = 1000;  ///< of tf; of tf_static: FrameTree::kMaxFrames
 
 /// What must be known about a bag before its first scan is read. A static transform, the metadata
 /// of a sensor or a pose may come after the scan that needs it.

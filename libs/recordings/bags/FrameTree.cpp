@@ -3,13 +3,13 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr int kMostTreeDepth = 64;
+constexpr int kMaxTreeDepth = 64;
 
 }  // namespace
 
 bool FrameTree::add(const std::string& parent, const std::string& child,
                     const mrpt::poses::CPose3D& pose) {
-    if (parent == child || (edges_.size() >= kMostFrames && edges_.count(child) == 0)) {
+    if (parent == child || (edges_.size() >= kMaxFrames && edges_.count(child) == 0)) {
         return false;
     }
     edges_[child] = {parent, pose};
@@ -26,7 +26,7 @@ bool FrameTree::has(const std::string& frame) const {
 
 std::string FrameTree::rootOf(const std::string& frame) const {
     std::string root = frame;
-    for (int depth = 0; depth < kMostTreeDepth; ++depth) {
+    for (int depth = 0; depth < kMaxTreeDepth; ++depth) {
         const auto edge = edges_.find(root);
         if (edge == edges_.end()) break;
         root = edge->second.parent;
@@ -37,7 +37,7 @@ std::string FrameTree::rootOf(const std::string& frame) const {
 mrpt::poses::CPose3D FrameTree::poseInRoot(const std::string& frame) const {
     mrpt::poses::CPose3D pose;
     std::string at = frame;
-    for (int depth = 0; depth < kMostTreeDepth; ++depth) {
+    for (int depth = 0; depth < kMaxTreeDepth; ++depth) {
         const auto edge = edges_.find(at);
         if (edge == edges_.end()) break;
         pose = edge->second.pose + pose;

@@ -11,10 +11,10 @@ namespace hagen::recordings {
 /// Frames that do not move against each other, by tf_static.
 class FrameTree {
  public:
-    static constexpr std::size_t kMostFrames = 10000;
+    static constexpr std::size_t kMaxFrames = 10000;
 
     /// The pose of `child` in `parent`. A later one replaces it. False, and nothing is added, for a
-    /// frame on itself, and if there are kMostFrames others.
+    /// frame on itself, and if there are kMaxFrames others.
     bool add(const std::string& parent, const std::string& child, const mrpt::poses::CPose3D& pose);
 
     bool has(const std::string& frame) const;

@@ -10,7 +10,7 @@ namespace hagen::recordings {
 namespace {
 
 constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
-constexpr std::uint64_t kMostFooter = 1 << 16;  // it has 20 bytes; later versions may add some
+constexpr std::uint64_t kMaxFooter = 1 << 16;  // it has 20 bytes; later versions may add some
 enum McapOp : std::uint8_t {
     kMcapFooter = 0x02,
     kMcapSchema = 0x03,
@@ -57,7 +57,7 @@ class McapFile : public RecordFile {
             file_.beginSkip(size, mcapRecordName(op));
             return false;
         }
-        if (size > kMostUnpacked) {
+        if (size > kMaxUnpackedBytes) {
             throw std::runtime_error(mcapRecordName(op) + " claims " + std::to_string(size) +
                                      " bytes");
         }
@@ -139,7 +139,7 @@ class McapFile : public RecordFile {
 
     bool readFooter(std::uint64_t size) {
         if (size < 20) throw TooShort("the footer is too short");
-        if (size > kMostFooter) {
+        if (size > kMaxFooter) {
             throw std::runtime_error("the footer claims " + std::to_string(size) + " bytes");
         }
         if (!is_data_ended_) {

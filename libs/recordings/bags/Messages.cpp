@@ -151,8 +151,8 @@ PointCloud2 readPointCloud2(FieldReader& fields) {
     cloud.header = readHeader(fields);
     const auto height = fields.number<std::uint32_t>();
     const auto width = fields.number<std::uint32_t>();
-    constexpr std::size_t kLeastField = 13;
-    const std::size_t count = fields.count(kLeastField);
+    constexpr std::size_t kMinField = 13;
+    const std::size_t count = fields.count(kMinField);
     PointTable& table = cloud.table;
     for (std::size_t i = 0; i < count; ++i) {
         observations::PointField field;
@@ -191,8 +191,8 @@ LivoxMessage readLivox(FieldReader& fields) {
     fields.number<std::uint64_t>();  // time of the first point, by the sensor's clock
     const auto claimed = fields.number<std::uint32_t>();
     fields.take(4);  // number of the sensor, and three reserved bytes
-    constexpr std::size_t kLeastPoint = 19;
-    message.points.resize(fields.count(kLeastPoint));
+    constexpr std::size_t kMinPoint = 19;
+    message.points.resize(fields.count(kMinPoint));
     if (message.points.size() != claimed) {
         throw std::runtime_error("it claims " + std::to_string(claimed) + " points and has " +
                                  std::to_string(message.points.size()));
@@ -239,8 +239,8 @@ PoseMessage readOdometry(FieldReader& fields) {
 }
 
 std::vector<PoseMessage> readTransforms(FieldReader& fields) {
-    constexpr std::size_t kLeastTransform = 8 + 4 + 4 + 7 * 8;
-    std::vector<PoseMessage> transforms(fields.count(kLeastTransform));
+    constexpr std::size_t kMinTransform = 8 + 4 + 4 + 7 * 8;
+    std::vector<PoseMessage> transforms(fields.count(kMinTransform));
     for (PoseMessage& transform : transforms) transform = readOdometry(fields);  // the same fields
     return transforms;
 }

@@ -14,7 +14,7 @@ namespace {
 using mrpt::poses::CPose3D;
 
 constexpr double kFarApart_s = 0.5;
-constexpr double kLongestGap_s = 0.2;  // of Trajectory
+constexpr double kMaxGap_s = 0.2;  // of Trajectory
 
 }  // namespace
 
@@ -44,7 +44,7 @@ double covered_s(const PoseSeries& series) {
     for (std::size_t i = 1; i < series.poses.size(); ++i) {
         const double gap_s = 1e-9 * (static_cast<double>(series.poses[i].time_ns) -
                                      static_cast<double>(series.poses[i - 1].time_ns));
-        if (gap_s > 0 && gap_s <= kLongestGap_s) all_s += gap_s;
+        if (gap_s > 0 && gap_s <= kMaxGap_s) all_s += gap_s;
     }
     return all_s;
 }
@@ -74,7 +74,7 @@ PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top
         // As doubles: times of a broken file may be too far apart for integers.
         if (!whole.poses.empty() &&
             static_cast<double>(time_ns) - static_cast<double>(whole.poses.back().time_ns) <
-                kLeastApart_ns) {
+                kMinApart_ns) {
             continue;
         }
         if (!sparsest.at(timeOf(time_ns))) continue;

@@ -8,7 +8,7 @@ namespace hagen::recordings {
 
 mrpt::poses::CPose3D poseOf(const RecordedPose& pose);
 
-constexpr double kLeastApart_ns = 1e7;  ///< of poses that are kept
+constexpr double kMinApart_ns = 1e7;  ///< of poses that are kept
 
 /// Whether poses are close enough to place scans with them.
 bool isDense(const PoseSeries& series);

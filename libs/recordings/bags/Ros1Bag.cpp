@@ -8,7 +8,7 @@ namespace hagen::recordings {
 namespace {
 
 constexpr std::string_view kRos1Magic = "#ROSBAG V2.0\n";
-constexpr std::uint64_t kMostRecordHeader = 1 << 20;
+constexpr std::uint64_t kMaxRecordHeader = 1 << 20;
 enum Ros1Op : std::uint8_t {
     kRos1Message = 0x02,
     kRos1BagHeader = 0x03,
@@ -83,7 +83,7 @@ class Ros1Bag : public RecordFile {
             return false;
         }
         const std::uint64_t header_size = readSize("the size of a record", head_);
-        if (header_size > kMostRecordHeader) {
+        if (header_size > kMaxRecordHeader) {
             throw std::runtime_error("its header claims " + std::to_string(header_size) + " bytes");
         }
         file_.read(header_size, "the header of a record", head_);
@@ -96,7 +96,7 @@ class Ros1Bag : public RecordFile {
             chunk_infos_ += op == kRos1ChunkInfo;
             return false;
         }
-        if (size > kMostUnpacked) {
+        if (size > kMaxUnpackedBytes) {
             throw std::runtime_error("it claims " + std::to_string(size) + " bytes");
         }
         file_.read(size, ros1RecordName(op), content_);

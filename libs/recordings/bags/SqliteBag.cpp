@@ -157,7 +157,7 @@ class SqliteBag : public BagFile {
         sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
         sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
         // A few bytes of a schema can stand for a blob of any size.
-        sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMostUnpacked));
+        sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMaxUnpackedBytes));
         // Otherwise SQLite refuses a file that is shorter than it says.
         if (!cut_because_.empty()) {
             sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
@@ -182,7 +182,7 @@ class SqliteBag : public BagFile {
         if (state == SQLITE_ROW) return true;
         if (interruption_) std::rethrow_exception(std::exchange(interruption_, nullptr));
         if (state == SQLITE_TOOBIG) {
-            fail("a message has more than " + std::to_string(kMostUnpacked >> 20) + " MB");
+            fail("a message has more than " + std::to_string(kMaxUnpackedBytes >> 20) + " MB");
         }
         if (state != SQLITE_DONE) fail(sqlite3_errmsg(database_.get()));
         return false;

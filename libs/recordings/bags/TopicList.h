@@ -23,7 +23,7 @@ class TopicList {
         const auto key = std::tie(topic.name, topic.type, topic.encoding);
         const auto known = indices_.find(Key(key));
         if (known != indices_.end()) return known->second;
-        if (topics_.size() >= kMostTopics) throw std::runtime_error("there are too many topics");
+        if (topics_.size() >= kMaxTopics) throw std::runtime_error("there are too many topics");
         topics_.push_back(topic);
         return indices_[Key(key)] = topics_.size() - 1;
     }
@@ -31,7 +31,7 @@ class TopicList {
 
  private:
     using Key = std::tuple<std::string, std::string, std::string>;
-    static constexpr std::size_t kMostTopics = 65536;
+    static constexpr std::size_t kMaxTopics = 65536;
     std::vector<BagTopic> topics_;
     std::map<Key, std::size_t> indices_;
 };

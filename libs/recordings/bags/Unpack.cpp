@@ -115,9 +115,9 @@ void unpackBz2(ByteView packed, Growing& plain) {
 
 ByteView unpack(const std::string& compression, ByteView packed, std::uint64_t size,
                 std::vector<std::uint8_t>& plain) {
-    if (size > kMostUnpacked) {
+    if (size > kMaxUnpackedBytes) {
         failPacked("it claims to hold " + std::to_string(size) + " bytes, more than " +
-                   std::to_string(kMostUnpacked));
+                   std::to_string(kMaxUnpackedBytes));
     }
     const auto checkSize = [&](std::size_t found) {
         if (found == size) return;
@@ -145,7 +145,7 @@ ByteView unpack(const std::string& compression, ByteView packed, std::uint64_t s
 }
 
 void unpackZstd(ByteView packed, std::vector<std::uint8_t>& plain) {
-    Growing growing(plain, kMostUnpacked);
+    Growing growing(plain, kMaxUnpackedBytes);
     unpackZstd(packed, growing);
     growing.finish();
 }

@@ -8,7 +8,7 @@
 namespace hagen::recordings {
 
 /// The most bytes that a chunk or message may unpack to.
-constexpr std::uint64_t kMostUnpacked = std::uint64_t{1} << 29;
+constexpr std::uint64_t kMaxUnpackedBytes = std::uint64_t{1} << 29;
 
 /// Unpacks a chunk into `plain`; one that is not packed is returned as it is. Compression is "" or
 /// "none", "zstd", "lz4" (frames) or "bz2". `size` is what it claims to unpack to; memory grows

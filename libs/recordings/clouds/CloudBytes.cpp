@@ -40,8 +40,8 @@ bool put(std::string_view word, std::uint8_t* to) {
 
 }  // namespace
 
-// 128 bytes for each of the points that a scan may have (kMostReturns).
-constexpr std::size_t kMostFileBytes = std::size_t{2} << 30;
+// 128 bytes for each of the points that a scan may have (kMaxReturns).
+constexpr std::size_t kMaxFileBytes = std::size_t{2} << 30;
 
 Bytes readBytes(const std::filesystem::path& file) {
     std::ifstream in;
@@ -52,9 +52,9 @@ Bytes readBytes(const std::filesystem::path& file) {
     }
     in.seekg(0, std::ios::end);
     const auto size = static_cast<std::size_t>(in.tellg());
-    if (size > kMostFileBytes) {
+    if (size > kMaxFileBytes) {
         throw BrokenRecording(file.string() + ": is larger than 2 GiB; a cloud has at most " +
-                              std::to_string(kMostReturns) + " points");
+                              std::to_string(kMaxReturns) + " points");
     }
     Bytes bytes(size);
     in.seekg(0);
@@ -124,9 +124,9 @@ bool putNumber(std::string_view word, NumberType type, std::uint8_t* to) {
 }
 
 void checkNumber(const std::filesystem::path& file, std::size_t points) {
-    if (points <= kMostReturns) return;
+    if (points <= kMaxReturns) return;
     throw BrokenRecording(file.string() + ": has " + std::to_string(points) +
-                          " points, more than the " + std::to_string(kMostReturns) +
+                          " points, more than the " + std::to_string(kMaxReturns) +
                           " that a scan may have; is it a map of many scans?");
 }
 

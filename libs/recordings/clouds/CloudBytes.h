@@ -54,7 +54,7 @@ std::vector<std::string_view> wordsOf(std::string_view line);
 /// Writes the number that `word` spells in this type; false if it is no such number.
 bool putNumber(std::string_view word, observations::NumberType type, std::uint8_t* to);
 
-/// Throws BrokenRecording if these are more points than a scan may have (kMostReturns). Call it
+/// Throws BrokenRecording if these are more points than a scan may have (kMaxReturns). Call it
 /// before a table is made of them, which takes memory.
 void checkNumber(const std::filesystem::path& file, std::size_t points);
 

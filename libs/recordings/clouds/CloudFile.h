@@ -42,7 +42,7 @@ bool hasCloudName(const std::filesystem::path& file);
 
 /// Reads a cloud file; its format is detected by its content. Nothing larger than the file, as
 /// unpacked by a factor of 256 at most, is ever allocated. Throws BrokenRecording, also for more
-/// points than a scan may have (kMostReturns).
+/// points than a scan may have (kMaxReturns).
 ///
 /// - BIN: by its name also one without points, or whose first 4096 bytes are zero: rows without
 ///   returns. The bytes from the first return on then show the layout of its points.

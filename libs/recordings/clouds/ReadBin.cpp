@@ -21,13 +21,13 @@ bool isPacked(const Bytes& bytes) {
 
 /// Whether these are points of a LiDAR, if each has so many float32: x, y, z, intensity, ....
 bool arePoints(const Bytes& bytes, std::size_t numbers_per_point) {
-    constexpr float kFarthest_m = 1000.0f, kMostIntensity = 65535.0f;
+    constexpr float kFarthest_m = 1000.0f, kMaxIntensity = 65535.0f;
     const std::size_t numbers =
         bytes.size() / (sizeof(float) * numbers_per_point) * numbers_per_point;
     bool is_all_zero = true;
     for (std::size_t i = 0; i < numbers; ++i) {
         const auto number = numberAt<float>(bytes, sizeof(float) * i);
-        const float most = i % numbers_per_point < 3 ? kFarthest_m : kMostIntensity;
+        const float most = i % numbers_per_point < 3 ? kFarthest_m : kMaxIntensity;
         if (std::isfinite(number) && std::abs(number) > most) return false;
         if (std::fpclassify(number) == FP_SUBNORMAL) return false;  // of text and integers
         is_all_zero = is_all_zero && number == 0.0f;
@@ -45,7 +45,7 @@ struct FifthNumbers {
 
 FifthNumbers fifthsOf(const Bytes& bytes) {
     constexpr std::size_t kNumbers = 5;
-    constexpr float kHighestRing = 255.0f;
+    constexpr float kMaxRing = 255.0f;
     FifthNumbers fifths;
     const std::size_t points = bytes.size() / (sizeof(float) * kNumbers);
     for (std::size_t i = 0; i < points; ++i) {
@@ -53,7 +53,7 @@ FifthNumbers fifthsOf(const Bytes& bytes) {
             return numberAt<float>(bytes, sizeof(float) * (kNumbers * i + k));
         };
         const float ring = number(4);
-        if (!(ring >= 0 && ring <= kHighestRing) || ring != std::floor(ring)) {
+        if (!(ring >= 0 && ring <= kMaxRing) || ring != std::floor(ring)) {
             fifths.are_whole = false;
             return fifths;
         }
@@ -72,8 +72,8 @@ FifthNumbers fifthsOf(const Bytes& bytes) {
 /// Among four numbers per point, every fifth is an x, y, z or intensity by turns, or 0 where there
 /// is no return: with so many returns, not all are whole. Those of a grid are.
 bool areRings(const FifthNumbers& fifths) {
-    constexpr std::size_t kFewestReturns = 16;
-    return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kFewestReturns;
+    constexpr std::size_t kMinReturns = 16;
+    return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kMinReturns;
 }
 
 /// The first bytes; if these are zero, as in a scan that begins with rows of sky, those from the

@@ -12,7 +12,7 @@ using observations::PointTable;
 constexpr std::size_t kMinorVersion = 25, kHeaderSize = 94, kPointsStart = 96, kFormat = 104,
                       kRecords = 100, kRecordLength = 105, kLegacyPoints = 107, kScales = 131,
                       kOffsets = 155, kExtendedRecords = 243, kPoints = 247;
-constexpr std::size_t kSmallestHeader = 227, kHeaderOf14 = 375;
+constexpr std::size_t kMinHeader = 227, kHeaderOf14 = 375;
 
 /// A point data record format (tables 7 to 17): where its optional numbers are; 0: nowhere.
 struct LasFormat {
@@ -136,7 +136,7 @@ std::vector<std::string> remarksOnRecords(const Bytes& bytes, bool is_of_14, std
 }  // namespace
 
 CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
-    if (bytes.size() < kSmallestHeader) {
+    if (bytes.size() < kMinHeader) {
         throw BrokenRecording(file.string() + ": ends within its LAS header");
     }
     const int minor = bytes[kMinorVersion];
@@ -165,7 +165,7 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
                "points of " + std::to_string(record) + " bytes are too short for point format " +
                    std::to_string(number) + ", which has " + std::to_string(format.size));
     }
-    if (header_size < kSmallestHeader || start < header_size || start > bytes.size()) {
+    if (header_size < kMinHeader || start < header_size || start > bytes.size()) {
         failAt(file, "byte 94",
                "a header of " + std::to_string(header_size) + " bytes and points from byte " +
                    std::to_string(start) + " do not fit into its " + std::to_string(bytes.size()) +
@@ -188,8 +188,8 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
         }
         failAt(file, "byte 131", "a scale or offset of its coordinates is 0 or not finite");
     }
-    constexpr std::size_t kMostBytes = 3 * 8 + 2 + 8 + 4 + 2 + 8 + 8;
-    LasColumns columns(points, kMostBytes);
+    constexpr std::size_t kMaxBytes = 3 * 8 + 2 + 8 + 4 + 2 + 8 + 8;
+    LasColumns columns(points, kMaxBytes);
     for (std::size_t i = 0; i < points; ++i) {
         addLasPoint(bytes, start + i * record, format, scaling, columns);
     }
@@ -197,7 +197,7 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
     cloud.table = std::move(columns.table);
     if (points == 0) {
         // Without a point, no field was seen.
-        LasColumns one(1, kMostBytes);
+        LasColumns one(1, kMaxBytes);
         addLasPoint(Bytes(record, 0), 0, format, scaling, one);
         cloud.table = std::move(one.table);
         cloud.table.points = 0;

@@ -12,7 +12,7 @@ namespace {
 using observations::NumberType;
 using observations::PointField;
 
-constexpr std::size_t kMostNpyHeader = 1 << 20;
+constexpr std::size_t kMaxNpyHeader = 1 << 20;
 
 /// The header, a Python dictionary, as YAML: tuples are written as lists.
 YAML::Node npyHeaderOf(const std::filesystem::path& file, std::string text) {
@@ -154,13 +154,13 @@ void takeNpyFields(const std::filesystem::path& file, const YAML::Node& descr, C
 /// The columns of a plain array: x, y, z, intensity, field_4 and so on.
 void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
                     std::size_t columns, CloudFile& cloud, char& order) {
-    constexpr std::size_t kMostColumns = 1024;
+    constexpr std::size_t kMaxColumns = 1024;
     const ItemType item = itemTypeOf(file, descr);
     if (!item.type) {
         throw BrokenRecording(file.string() + ": its numbers are '" + descr.substr(0, 40) +
                               "'; convert them, for example with .astype(numpy.float32)");
     }
-    if (columns < 3 || columns > kMostColumns) {
+    if (columns < 3 || columns > kMaxColumns) {
         throw BrokenRecording(file.string() + ": has " + std::to_string(columns) +
                               " numbers per point: the array must be N x 3 or more (x, y, z, ...)");
     }
@@ -199,8 +199,7 @@ CloudFile readNpy(const std::filesystem::path& file, Bytes bytes) {
     if (length > bytes.size() - text_start) {
         throw BrokenRecording(file.string() + ": ends within its NPY header");
     }
-    if (length > kMostNpyHeader)
-        throw BrokenRecording(file.string() + ": its NPY header is absurd");
+    if (length > kMaxNpyHeader) throw BrokenRecording(file.string() + ": its NPY header is absurd");
     const std::string text(reinterpret_cast<const char*>(bytes.data()) + text_start, length);
     const YAML::Node header = npyHeaderOf(file, text);
     const YAML::Node descr = npyValueOf(file, header, "descr");

@@ -65,7 +65,7 @@ void readBinaryPcd(const std::filesystem::path& file, const PcdHeader& header, B
 /// All numbers of a field, then those of the next, packed by LZF.
 void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& header,
                        const Bytes& bytes, CloudFile& cloud) {
-    constexpr std::size_t kMostPerByte = 256;  // a reference of 3 bytes stands for 264 at most
+    constexpr std::size_t kMaxPerByte = 256;  // a reference of 3 bytes stands for 264 at most
     const std::size_t sizes = 2 * sizeof(std::uint32_t);
     if (bytes.size() - header.size < sizes) {
         if (header.points == 0) return;
@@ -79,7 +79,7 @@ void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& heade
                               " compressed bytes, but " + std::to_string(there) +
                               " are there; is it truncated?");
     }
-    if (unpacked / kMostPerByte > packed) {
+    if (unpacked / kMaxPerByte > packed) {
         throw BrokenRecording(file.string() + ": " + std::to_string(packed) +
                               " compressed bytes cannot become " + std::to_string(unpacked));
     }

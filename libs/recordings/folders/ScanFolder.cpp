@@ -30,9 +30,9 @@ std::size_t checkedCount(const fs::path& file, std::size_t bytes, std::size_t by
                               " bytes are not a multiple of " + std::to_string(bytes_per_point) +
                               "-byte points; is it truncated?");
     }
-    if (bytes / bytes_per_point > kMostReturns) {
-        throw BrokenRecording(file.string() + ": has more than the " +
-                              std::to_string(kMostReturns) + " points that a scan may have");
+    if (bytes / bytes_per_point > kMaxReturns) {
+        throw BrokenRecording(file.string() + ": has more than the " + std::to_string(kMaxReturns) +
+                              " points that a scan may have");
     }
     return bytes / bytes_per_point;
 }

@@ -65,7 +65,7 @@ mrpt::serialization::CSerializable::Ptr EntryReader::next() {
         throw AsksTooMuch(
             broken("it asks for more memory at byte " + std::to_string(stream_.getPosition()) +
                    " than an entry there can need: a count is wrong, or the entry exceeds " +
-                   std::to_string(kMostEntryBytes >> 20) + " MiB")
+                   std::to_string(kMaxEntryBytes >> 20) + " MiB")
                 .what());
     } catch (const std::exception& e) {
         const std::string reason = reasonOf(e);

@@ -6,7 +6,7 @@ namespace hagen::recordings {
 
 /// The most memory that an entry of a rawlog may take while it is read: a scan of 20 million
 /// returns with all fields.
-constexpr std::uint64_t kMostEntryBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxEntryBytes = std::uint64_t{1} << 30;
 
 /// More memory than there is: a count is wrong, or the limit is too low.
 struct AsksTooMuch : BrokenRecording {

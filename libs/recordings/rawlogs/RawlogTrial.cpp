@@ -25,7 +25,7 @@ struct VerdictHeader {
     std::uint64_t end;
     std::uint32_t text;
 };
-constexpr std::size_t kLongestText = 4096;
+constexpr std::size_t kMaxTextLength = 4096;
 
 /// MRPT's objects take more memory than their bytes in a rawlog: an empty pointer or text has 4
 /// bytes there and up to 32 in memory, and vectors double while they grow.
@@ -45,7 +45,7 @@ bool transfer(Call call, int pipe, Byte* at, std::size_t size) {
 }
 
 void send(int pipe, EntryVerdict::Kind kind, std::uint64_t end, const std::string& why = "") {
-    const std::size_t text = std::min(why.size(), kLongestText);
+    const std::size_t text = std::min(why.size(), kMaxTextLength);
     const VerdictHeader header{kind, end, static_cast<std::uint32_t>(text)};
     const bool is_sent =
         transfer(write, pipe, reinterpret_cast<const char*>(&header), sizeof header) &&
@@ -81,8 +81,8 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     constexpr std::uint64_t kShadow = std::uint64_t{1} << 40;  // of a sanitizer
     const std::uint64_t now = dataBytes();
     if (now == 0 || now > kShadow) return false;
-    const std::uint64_t left = std::min(stream.mostBytesLeft(), kMostEntryBytes);
-    const std::uint64_t more = std::min(kMostEntryBytes, kMemoryBesides + kMemoryPerByte * left);
+    const std::uint64_t left = std::min(stream.mostBytesLeft(), kMaxEntryBytes);
+    const std::uint64_t more = std::min(kMaxEntryBytes, kMemoryBesides + kMemoryPerByte * left);
     const rlimit limit{std::min<rlim_t>(now + more, of_program.rlim_cur), of_program.rlim_max};
     setrlimit(RLIMIT_DATA, &limit);
     return of_program.rlim_cur < now + more;
@@ -228,7 +228,7 @@ EntryVerdict RawlogTrial::next() {
     for (;;) {
         if (isStuck()) {
             stop();
-            if (starts_ == kMostStarts) {
+            if (starts_ == kMaxStarts) {
                 return broken(cannotBeRead("MRPT's reader hangs at it"));
             }
             try {

@@ -22,11 +22,11 @@ struct EntryVerdict {
 ///
 /// The child starts as a copy of the program without its other threads: a lock that one of these
 /// holds at that moment is never released there. If the child uses no CPU time for kPatience,
-/// another one replaces it, up to kMostStarts in all.
+/// another one replaces it, up to kMaxStarts in all.
 class RawlogTrial {
  public:
     static constexpr std::chrono::milliseconds kPatience{10000};
-    static constexpr int kMostStarts = 3;
+    static constexpr int kMaxStarts = 3;
 
     /// Starts the process. Throws std::runtime_error if that is not possible.
     /// @param file for messages.

@@ -12,7 +12,7 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr std::uint64_t kMostZeros = 256 << 20;  // more are no filling, and take their time
+constexpr std::uint64_t kMaxZeros = 256 << 20;  // more are no filling, and take their time
 
 /// Gzip members, one after the other.
 class GzipUnpacker : public Unpacker {
@@ -31,7 +31,7 @@ class GzipUnpacker : public Unpacker {
             while (step.in_size > 0 && *step.in == 0) {
                 ++step.in;
                 --step.in_size;
-                if (++zeros_ > kMostZeros) return false;
+                if (++zeros_ > kMaxZeros) return false;
             }
             if (step.in_size == 0) return true;
         }

@@ -10,7 +10,7 @@ std::list<Fragments::Open>::iterator Fragments::find(const IpPacket& fragment) {
                open.to_ip == fragment.to_ip;
     });
     if (found != open_.end()) return found;
-    if (open_.size() == kMostOpen) {
+    if (open_.size() == kMaxOpen) {
         lost_ += open_.front().fragments;
         open_.pop_front();
     }
@@ -30,10 +30,10 @@ bool Fragments::isComplete(const Open& open) {
 }
 
 Bytes Fragments::add(const IpPacket& fragment) {
-    constexpr std::size_t kMostBytes = 65535;
+    constexpr std::size_t kMaxBytes = 65535;
     const std::size_t end = fragment.offset + fragment.content.size;
     const bool is_whole_units = !fragment.has_more || fragment.content.size % kUnit == 0;
-    if (end > kMostBytes || fragment.content.size == 0 || !is_whole_units) {
+    if (end > kMaxBytes || fragment.content.size == 0 || !is_whole_units) {
         ++lost_;
         return {};
     }

@@ -22,7 +22,7 @@ class Fragments {
     void giveUpAll();
 
  private:
-    static constexpr std::size_t kMostOpen = 16;
+    static constexpr std::size_t kMaxOpen = 16;
     static constexpr std::size_t kUnit = 8;  ///< of offsets, bytes
     struct Open {
         std::uint32_t from_ip, to_ip;

@@ -52,12 +52,12 @@ bool isKnownLink(int link_type) {
 IpPacket readFrame(int link_type, Bytes frame) {
     IpPacket packet;
     const Bytes ip = ipOf(link_type, frame, packet.is_tagged);
-    constexpr std::size_t kLeastHeader = 20;
+    constexpr std::size_t kMinHeader = 20;
     if (ip.size == 0 || ip.at8(0) >> 4 != 4) return packet;
     const std::size_t header = 4 * (ip.at8(0) & 0xf);
     if (ip.size >= 10 && ip.at8(9) != kUdp) return packet;
     packet.kind = IpPacket::Kind::Cut;
-    if (header < kLeastHeader || ip.size < header) return packet;
+    if (header < kMinHeader || ip.size < header) return packet;
     // 0: the network card cut the packet up after the capture saw it.
     const std::size_t total = ip.at16(2) == 0 ? ip.size : ip.at16(2);
     if (total < header || total > ip.size) return packet;

@@ -19,10 +19,10 @@ std::string joined(const std::string& first, const std::string& second) {
 }
 
 void OtherDatagrams::add(const Datagram& datagram) {
-    constexpr std::size_t kMostKinds = 64;
+    constexpr std::size_t kMaxKinds = 64;
     ++all_;
     const std::pair kind{datagram.to_port, datagram.size};
-    if (kinds_.size() < kMostKinds || kinds_.count(kind) > 0) ++kinds_[kind];
+    if (kinds_.size() < kMaxKinds || kinds_.count(kind) > 0) ++kinds_[kind];
 }
 
 void OtherDatagrams::describe(std::string& text) const {

@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kEncoderTicks = 90112;  // of a turn
 constexpr double kTolerance = 0.15;      // captures have 0.01
-constexpr int kMostNumber = 64;          // from a column to one of the next packet
-constexpr int kMostLateTurns = 16;       // more: the sensor was started again
-constexpr std::uint16_t kMostColumns = 4096;
+constexpr int kMaxNumber = 64;           // from a column to one of the next packet
+constexpr int kMaxLateTurns = 16;        // more: the sensor was started again
+constexpr std::uint16_t kMaxColumns = 4096;
 
 }  // namespace
 
@@ -45,7 +45,7 @@ std::optional<OusterColumns::Column> OusterColumns::replace(const Column& column
     std::optional<Column>& latest = of_turn_[column.number];
     const std::optional<Column> before = latest;
     const int turns = before ? turnsBetween(*before, column) : 0;
-    const bool is_late = before && turns <= 0 && turns > -kMostLateTurns;  // or repeated
+    const bool is_late = before && turns <= 0 && turns > -kMaxLateTurns;  // or repeated
     if (!is_late) latest = column;
     return turns == 1 || turns == 2 ? before : std::nullopt;
 }
@@ -65,11 +65,11 @@ OusterColumns::Evidence OusterColumns::evidenceOf(double ratio) {
 }
 
 OusterColumns::Evidence OusterColumns::evidence() {
-    if (!first_ || first_->number >= kMostColumns) return Evidence::None;
+    if (!first_ || first_->number >= kMaxColumns) return Evidence::None;
     Column from = *first_;
     if (from.number == last_->number && before_) from = *before_;  // a packet of one column
     const int columns = last_->number - from.number;
-    if (from.frame != last_->frame || columns <= 0 || columns > kMostNumber) return Evidence::None;
+    if (from.frame != last_->frame || columns <= 0 || columns > kMaxNumber) return Evidence::None;
     const double all = static_cast<double>(sensor_.columns_per_frame) / columns;
     first_->all_ns =
         all * static_cast<double>(static_cast<std::int64_t>(last_->time_ns - from.time_ns));

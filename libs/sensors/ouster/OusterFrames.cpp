@@ -7,9 +7,9 @@
 namespace hagen::sensors {
 namespace {
 
-constexpr std::size_t kMostOpen = 2;
-constexpr std::size_t kMostLateInARow = 16;  // packets
-constexpr int kLargestStep = 600;  // frames: a minute at ten per second; more: another recording
+constexpr std::size_t kMaxOpen = 2;
+constexpr std::size_t kMaxConsecutiveLate = 16;  // packets
+constexpr int kMaxStep = 600;  // frames: a minute at ten per second; more: another recording
 
 OusterFrame emptyFrame(const OusterSensor& sensor, std::uint16_t id, std::int64_t time_ns) {
     OusterFrame frame;
@@ -38,7 +38,7 @@ const OusterFrame* OusterFrames::add(const std::uint8_t* packet, std::int64_t ti
     OusterFrame* const frame = frameOf(frameIdOf(packet, sensor_), time_ns);
     if (frame == nullptr) {
         ++counts_.late_packets;
-        if (++late_in_a_row_ >= kMostLateInARow) restart();
+        if (++late_in_a_row_ >= kMaxConsecutiveLate) restart();
         return nullptr;
     }
     late_in_a_row_ = 0;
@@ -55,12 +55,12 @@ const OusterFrame* OusterFrames::add(const std::uint8_t* packet, std::int64_t ti
 OusterFrame* OusterFrames::frameOf(std::uint16_t id, std::int64_t time_ns) {
     const std::uint16_t newest = open_.empty() ? last_id_ : open_.back().id;
     const bool has_newest = has_last_ || !open_.empty();
-    if (has_newest && std::abs(stepOf(newest, id)) > kLargestStep) restart();
+    if (has_newest && std::abs(stepOf(newest, id)) > kMaxStep) restart();
     for (OusterFrame& frame : open_) {
         if (frame.id == id) return &frame;
     }
     if (has_last_ && stepOf(last_id_, id) <= 0) return nullptr;
-    if (open_.size() == kMostOpen) {
+    if (open_.size() == kMaxOpen) {
         if (stepOf(open_.front().id, id) < 0) return nullptr;
         completeFirst();
     }

@@ -165,15 +165,15 @@ bool hasFusaHeader(const Metadata& metadata, const OusterProfile& profile) {
 }
 
 void readFormat(const Metadata& metadata, OusterSensor& sensor) {
-    constexpr std::size_t kMostColumns = 4096, kMostBeams = 256;
+    constexpr std::size_t kMaxColumns = 4096, kMaxBeams = 256;
     const bool has_format = metadata.find("pixels_per_column") != nullptr;
-    sensor.pixels = has_format ? metadata.count("pixels_per_column", 3, kMostBeams)
+    sensor.pixels = has_format ? metadata.count("pixels_per_column", 3, kMaxBeams)
                                : metadata.items("beam_altitude_angles");
-    if (sensor.pixels < 3 || sensor.pixels > kMostBeams) {
+    if (sensor.pixels < 3 || sensor.pixels > kMaxBeams) {
         throw std::runtime_error("'beam_altitude_angles' has " + std::to_string(sensor.pixels) +
                                  " numbers, not 3 ... 256");
     }
-    sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMostColumns)
+    sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMaxColumns)
                                           : columnsOfMode(metadata.requiredText("lidar_mode"));
     sensor.turn_s = turnTimeOfMode(metadata);
     const std::size_t most_of_packet = std::min<std::size_t>(64, sensor.columns_per_frame);
@@ -257,11 +257,11 @@ void sortBeams(OusterSensor& sensor) {
     sensor.model = std::make_shared<const SensorModel>(std::move(model));
 }
 
-constexpr std::size_t kMostBytes = 1 << 20;
+constexpr std::size_t kMaxBytes = 1 << 20;
 
 std::string readText(const std::filesystem::path& file) {
     std::ifstream stream = base::openToRead(file);
-    std::string text(kMostBytes + 1, '\0');
+    std::string text(kMaxBytes + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
     return text;
@@ -273,7 +273,7 @@ void checkText(const std::string& text) {
     const base::FileKind kind = base::kindOfBytes(text.substr(0, base::kFileKindBytes));
     const bool is_text = kind.what.rfind("text", 0) == 0;
     if (!kind.what.empty() && !is_text) throw std::runtime_error(kind.text());
-    if (text.size() > kMostBytes) throw std::runtime_error("is larger than 1 MB");
+    if (text.size() > kMaxBytes) throw std::runtime_error("is larger than 1 MB");
 }
 
 }  // namespace

@@ -19,9 +19,9 @@
 namespace hagen::sensors {
 namespace {
 
-constexpr std::size_t kMostBytes = 4 << 20;
-constexpr std::size_t kMostDepth = 32;
-constexpr std::size_t kMostName = 64;  // letters; a path is made of them for each element
+constexpr std::size_t kMaxBytes = 4 << 20;
+constexpr std::size_t kMaxDepth = 32;
+constexpr std::size_t kMaxNameBytes = 64;  // letters; a path is made of them for each element
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r\n";
@@ -62,13 +62,13 @@ class Elements {
                 return true;
             }
             const std::string_view name = tag.substr(1, tag.find_first_of(" \t\r\n/>", 1) - 1);
-            if (name.size() > kMostName) {
+            if (name.size() > kMaxNameBytes) {
                 throw std::runtime_error("the name '" + std::string(name.substr(0, 40)) +
                                          "...' of an element has more than " +
-                                         std::to_string(kMostName) + " letters");
+                                         std::to_string(kMaxNameBytes) + " letters");
             }
             names_.emplace_back(name);
-            if (names_.size() > kMostDepth) throw std::runtime_error("it is nested too deeply");
+            if (names_.size() > kMaxDepth) throw std::runtime_error("it is nested too deeply");
             if (tag[tag.size() - 2] == '/') {
                 path = pathOf();
                 text = {};
@@ -118,16 +118,16 @@ double correctionOf(const Laser& laser, int id, const std::string& name, double 
 }
 
 VelodyneLaser laserOf(const Laser& laser, int id) {
-    constexpr double kMost_cm = 100 * kMostCorrection_m;
+    constexpr double kMax_cm = 100 * kMaxCorrection_m;
     VelodyneLaser corrected;
     corrected.azimuth_deg = correctionOf(laser, id, "rotCorrection_", 180);
     corrected.elevation_deg = correctionOf(laser, id, "vertCorrection_", 90);
     corrected.elevation_sine = std::sin(radians(corrected.elevation_deg));
     corrected.elevation_cosine = std::cos(radians(corrected.elevation_deg));
-    corrected.distance_m = 0.01 * correctionOf(laser, id, "distCorrection_", kMost_cm);
-    corrected.vertical_offset_m = 0.01 * correctionOf(laser, id, "vertOffsetCorrection_", kMost_cm);
+    corrected.distance_m = 0.01 * correctionOf(laser, id, "distCorrection_", kMax_cm);
+    corrected.vertical_offset_m = 0.01 * correctionOf(laser, id, "vertOffsetCorrection_", kMax_cm);
     corrected.horizontal_offset_m =
-        0.01 * correctionOf(laser, id, "horizOffsetCorrection_", kMost_cm);
+        0.01 * correctionOf(laser, id, "horizOffsetCorrection_", kMax_cm);
     return corrected;
 }
 
@@ -189,7 +189,7 @@ VelodyneCalibration calibrationOf(std::string_view xml) {
 }  // namespace
 
 VelodyneCalibration readVelodyneCalibration(const std::filesystem::path& file) {
-    const std::string xml = base::readText(file, kMostBytes);
+    const std::string xml = base::readText(file, kMaxBytes);
     try {
         return calibrationOf(xml);
     } catch (const std::runtime_error& e) {

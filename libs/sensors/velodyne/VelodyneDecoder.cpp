@@ -18,8 +18,8 @@ namespace hagen::sensors {
 namespace {
 
 constexpr int kBlocks = kVelodyneBlocks;
-constexpr int kTurn = kReadingsOfTurn;    // 0.01 degrees
-constexpr double kMostAzimuth_deg = 1e6;  // far beyond, what is left of a turn is not exact
+constexpr int kTurn = kReadingsOfTurn;   // 0.01 degrees
+constexpr double kMaxAzimuth_deg = 1e6;  // far beyond, what is left of a turn is not exact
 
 /// A packet, read byte by byte.
 class Packet {
@@ -89,16 +89,16 @@ const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
         const auto& laser = lasers[i];
         const double length = std::hypot(laser.elevation_sine, laser.elevation_cosine);
         const auto isOffset = [](double offset_m) {
-            return std::abs(offset_m) <= kMostCorrection_m;
+            return std::abs(offset_m) <= kMaxCorrection_m;
         };
-        if (std::abs(length - 1) < 0.01 && std::abs(laser.azimuth_deg) <= kMostAzimuth_deg &&
+        if (std::abs(length - 1) < 0.01 && std::abs(laser.azimuth_deg) <= kMaxAzimuth_deg &&
             isOffset(laser.distance_m) && isOffset(laser.vertical_offset_m) &&
             isOffset(laser.horizontal_offset_m)) {
             continue;
         }
         throw std::runtime_error("the scan's own calibration is corrupt: laser " +
                                  std::to_string(i) + " has no direction, or offsets beyond " +
-                                 std::to_string(std::lround(kMostCorrection_m)) + " m");
+                                 std::to_string(std::lround(kMaxCorrection_m)) + " m");
     }
     return calibration;
 }

@@ -9,13 +9,13 @@
 namespace hagen::sensors {
 namespace {
 
-constexpr std::size_t kMostWaiting = 16, kOfSetClock = 16;
+constexpr std::size_t kMaxWaiting = 16, kOfSetClock = 16;
 constexpr double kFollows = 2.5;  // periods
 constexpr double kSecondUs = 1e6;
-constexpr double kEndOfTurnUs = 50e3;       // without packets
-constexpr double kLongestTurnUs = 250e3;    // the slowest sensors turn five times per second
-constexpr std::size_t kMostPackets = 2000;  // more than any sensor sends in that time
-constexpr int kLeastWrap = 100;             // 0.01 degrees; less is jitter of a sensor that stands
+constexpr double kEndOfTurnUs = 50e3;      // without packets
+constexpr double kMaxTurnUs = 250e3;       // the slowest sensors turn five times per second
+constexpr std::size_t kMaxPackets = 2000;  // more than any sensor sends in that time
+constexpr int kMinWrap = 100;              // 0.01 degrees; less is jitter of a sensor that stands
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void VelodyneTurns::add(const VelodynePacket& packet) {
     const double after_held_us =
         held_.empty() ? -1 : elapsedUs(held_.back().sensorTimeUs(), time_us);
     const bool follows_held = after_held_us >= 0 && after_held_us <= kFollows * period_us;
-    if (ahead_us >= -period_us * kMostWaiting && !follows_held) return insert(packet);
+    if (ahead_us >= -period_us * kMaxWaiting && !follows_held) return insert(packet);
     held_.push_back(packet);
     if (held_.size() >= kOfSetClock) setClock();
 }
@@ -68,7 +68,7 @@ void VelodyneTurns::insert(const VelodynePacket& packet) {
     ++counts_.packets;
     counts_.dual += packet.isDual();
     waiting_.insert(place, packet);
-    if (waiting_.size() <= kMostWaiting) return;
+    if (waiting_.size() <= kMaxWaiting) return;
     append(waiting_.front());
     waiting_.pop_front();
 }
@@ -101,10 +101,10 @@ void VelodyneTurns::append(const VelodynePacket& packet) {
     checkGap(packet);
     const double time_us = packet.sensorTimeUs();
     const int azimuth = packet.azimuth();
-    const bool wraps = azimuth >= 0 && azimuth < last_azimuth_ - kLeastWrap;
+    const bool wraps = azimuth >= 0 && azimuth < last_azimuth_ - kMinWrap;
     std::vector<std::uint8_t>& packets = turn_.packets;
-    const bool is_long = std::abs(elapsedUs(turn_start_us_, time_us)) > kLongestTurnUs ||
-                         packets.size() >= kMostPackets * kVelodynePacketBytes;
+    const bool is_long = std::abs(elapsedUs(turn_start_us_, time_us)) > kMaxTurnUs ||
+                         packets.size() >= kMaxPackets * kVelodynePacketBytes;
     if (wraps || is_long) endTurn();
     if (packets.empty()) {
         turn_.time_ns = packet.time_ns;

@@ -43,6 +43,6 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed);
 
 // Every course has a path past its static obstacles with this clearance, between these heights.
 constexpr double kCourseClearance_m = 0.65;
-constexpr double kLowest_m = 1.0, kHighest_m = 4.5;  ///< above the ground
+constexpr double kMinHeight_m = 1.0, kMaxHeight_m = 4.5;  ///< above the ground
 
 }  // namespace hagen::avoidance

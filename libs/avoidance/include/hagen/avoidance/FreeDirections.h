@@ -10,7 +10,7 @@ namespace hagen::avoidance {
 /// apart) times 5 elevations (-0.24 to 0.24 rad). Number = 60 * elevation + azimuth.
 constexpr std::size_t kDirectionAzimuths = 60, kDirectionElevations = 5;
 constexpr std::size_t kDirections = kDirectionAzimuths * kDirectionElevations;
-constexpr double kHighestDirection_rad = 0.24;
+constexpr double kMaxElevation_rad = 0.24;
 using DirectionSet = std::bitset<kDirections>;
 
 /// A unit vector.

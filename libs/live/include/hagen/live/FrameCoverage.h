@@ -8,7 +8,7 @@ namespace hagen::live {
 /// packets measured for most of it. Where packets are lost, nobody knows in which directions.
 class FrameCoverage {
  public:
-    static constexpr double kPeriod_s = 0.1, kLeastMeasured_s = 0.08;
+    static constexpr double kPeriod_s = 0.1, kMinMeasured_s = 0.08;
     /// What was seen is forgotten once a period has been measured that began so much later: it
     /// looked there again, and the pattern of the beams had time for a second look.
     static constexpr double kForgotten_s = kPeriod_s + 0.01;

@@ -18,7 +18,7 @@ using SharedBeams = std::shared_ptr<const RecoveredBeams>;
 /// Recovers the unnamed sensors of clouds, one per sensor label.
 ///
 /// The beams of a label are those of the fullest of its first five clouds with enough returns
-/// (kFewestReturnsForBeams); of equal ones, the first. After these five, they do not change.
+/// (kMinReturnsForBeams); of equal ones, the first. After these five, they do not change.
 class CloudSensors {
  public:
     static constexpr int kClouds = 5;

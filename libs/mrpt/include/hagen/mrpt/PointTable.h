@@ -42,11 +42,11 @@ struct PointTable {
 };
 
 /// The most numbers of a point, over all fields.
-constexpr std::size_t kMostNumbersPerPoint = 65536;
+constexpr std::size_t kMaxNumbersPerPoint = 65536;
 
 /// Checks a table from a file, before anything else reads it. Throws std::runtime_error, naming the
 /// field, for fields without name or numbers, duplicate names, fields that do not fit into a point,
-/// more than kMostNumbersPerPoint, and points that do not fit into the bytes.
+/// more than kMaxNumbersPerPoint, and points that do not fit into the bytes.
 void check(const PointTable& table);
 
 /// The field of exactly this name; null if there is none.

@@ -63,7 +63,7 @@ struct Interrupted : std::runtime_error {
 };
 
 /// Maximum number of LiDARs, by label, of a recording; each takes memory.
-constexpr std::size_t kMostLabels = 100;
+constexpr std::size_t kMaxLabels = 100;
 
 /// The sensor label of all scans in a scan folder.
 constexpr const char* kFolderLabel = "velodyne";

@@ -31,10 +31,10 @@ struct RecoveredBeams {
 constexpr const char* kRecoveredName = "recovered";
 
 /// Fewer returns than this do not show beams.
-constexpr std::size_t kFewestReturnsForBeams = 400;
+constexpr std::size_t kMinReturnsForBeams = 400;
 
 /// Recovers the beams of a spinning sensor from the coordinates of one of its scans; range, azimuth
-/// and row are not used. None if fewer than kFewestReturnsForBeams returns have a range.
+/// and row are not used. None if fewer than kMinReturnsForBeams returns have a range.
 ///
 /// Beams are peaks in the density of elevations, 2 to 256 of them, spaced at will. A peak counts if
 /// the density falls to less than half on both sides, by more than four standard deviations of the
@@ -58,7 +58,7 @@ constexpr std::size_t kFewestReturnsForBeams = 400;
 std::optional<RecoveredBeams> recoverBeams(const Scan& scan);
 
 /// The same from the ring of each return, as its sensor numbered them: the beam of a ring is at the
-/// median elevation of its returns. None if fewer than kFewestReturnsForBeams returns have a range,
+/// median elevation of its returns. None if fewer than kMinReturnsForBeams returns have a range,
 /// or if the numbers cannot be those of beams:
 ///
 /// - There must be 3 to 256 rings with at least five returns, all others together at most 5 %.

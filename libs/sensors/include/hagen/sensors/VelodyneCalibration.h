@@ -11,7 +11,7 @@ namespace hagen::sensors {
 
 /// Of a laser's range, and of where its light leaves the sensor. With more, a calibration is
 /// corrupt.
-inline constexpr double kMostCorrection_m = 10;
+inline constexpr double kMaxCorrection_m = 10;
 
 /// Where a laser of a Velodyne points, and what is added to its ranges.
 struct VelodyneLaser {
