@@ -1,4 +1,4 @@
-"""What mkdocs cannot be told in its settings."""
+"""Changes to pages that the settings of mkdocs cannot express."""
 import sys
 from pathlib import Path
 

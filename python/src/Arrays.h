@@ -19,8 +19,8 @@ struct PointsView {
 };
 
 /// An (N, 3) array of numbers as float32: itself if it is float32, otherwise a converted copy.
-/// Throws ValueError, saying what was expected, for other shapes, for what is no number, and, where
-/// numpy is told to raise (np.errstate(), warnings as errors), for what float32 cannot hold.
+/// Throws ValueError for other shapes, for values that are not numbers and, if numpy raises on
+/// overflow (np.errstate(), warnings as errors), for numbers beyond float32.
 pybind11::array_t<float> pointsFrom(const pybind11::object& points);
 PointsView viewOf(const pybind11::array_t<float>& points);
 

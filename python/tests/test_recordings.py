@@ -144,7 +144,7 @@ def test_reports_unreadable_files(tmp_path):
 
 
 def test_shows_non_utf8_texts(tmp_path):
-    """A sensor label, and a file name, from whoever made them."""
+    """Sensor labels and file names may hold any bytes."""
     recording = tmp_path / os.fsdecode(b"fl\xffght.rawlog")
     recording.write_bytes(gzip.decompress(POLES.read_bytes()).replace(b"lidar", b"lid\xffr"))
     scans = hagen.open(recording)

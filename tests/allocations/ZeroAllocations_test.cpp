@@ -23,7 +23,7 @@ test::SimpleScene street() {
     return scene;
 }
 
-/// Scans of the same sensor, as it goes on.
+/// Scans of the same sensor as it moves.
 std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> drive(const std::string& model_name) {
     const sensors::VelodyneModel& model = sensors::velodyneModel(model_name);
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> scans;

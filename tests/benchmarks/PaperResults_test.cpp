@@ -327,7 +327,7 @@ TEST_F(PaperResultsRun, WritesAllTablesAndFigures) {
                                     "## Missed obstacles and false alarms",
                                     "nothing is found",
                                     "## Hard sets",
-                                    "dead_beams=7",
+                                    "dead_beams",
                                     "| real, 16 beams ",
                                     "| simulated, 7 m ",
                                     "| HDL-64E ",

@@ -28,7 +28,7 @@ def check(holds, what):
 
 def check_offline(page):
     text = page.read_text(encoding="utf-8")
-    # Addresses in comments and namespaces of libraries are none that a page loads.
+    # Addresses in comments and namespaces of libraries are not loaded.
     check(not re.search(r"<(?:script|link|img|iframe)[^>]*\b(?:src|href)=", text),
           f"{page.name} loads nothing from elsewhere")
 
@@ -119,7 +119,7 @@ def check_replay(folder, model):
         begin = browser.run(STATE)
         browser.press("\ue014")  # arrow to the right
         stepped = browser.run(STATE)
-        check(int(stepped["step"]) == int(begin["step"]) + 1, f"{model}: a key goes on a step")
+        check(int(stepped["step"]) == int(begin["step"]) + 1, f"{model}: a key advances one step")
         browser.run("""const slider = document.getElementById('time');
             slider.value = slider.max / 2; slider.dispatchEvent(new Event('input'));""")
         middle = browser.run(STATE)

@@ -41,7 +41,7 @@ def without_setting(call):
 
 
 def flags(arguments):
-    """Flags without their values; a lone dash and a negative number are none."""
+    """Flags without their values; a lone dash and negative numbers do not count."""
     return [argument.partition("=")[0] for argument in arguments if re.match(r"--?[a-zA-Z]", argument)]
 
 
