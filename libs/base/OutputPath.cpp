@@ -12,16 +12,13 @@
 #include <stdexcept>
 #include <string>
 #include "base/Folder.h"
+#include "base/ReadFile.h"
 #include "base/WriteFile.h"
 
 namespace hagen::base {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& path, const std::string& what) {
-    throw std::runtime_error(path.string() + ": " + what);
-}
 
 fs::path withoutSlash(const fs::path& path) {  // "folder/"
     return path.has_filename() ? path : path.parent_path();
@@ -62,7 +59,7 @@ bool isMountPoint(const fs::path& path) {
 
 void checkReplaceable(const fs::path& path, const OutputKind& kind) {
     const auto refuse = [&](const std::string& what) {
-        fail(path, what + ", so it is not replaced; choose another name");
+        failAt(path, what + ", so it is not replaced; choose another name");
     };
     const bool is_file = kind.holds == nullptr;
     if (fs::is_symlink(path)) refuse("is a symbolic link");  // such as /dev/stdout
@@ -133,12 +130,12 @@ bool isLeftBehind(const fs::path& file, const std::string& output) {
 OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     : path_(std::move(path)), kind_(kind), overwrites_(overwrite) {
     if (!path_.has_filename() && kind_.holds == nullptr) {
-        fail(path_, "ends with '/', but will be a file");
+        failAt(path_, "ends with '/', but will be a file");
     }
     path_ = withoutSlash(path_);
     checkFree();
     const fs::path folder = parentOf(path_);
-    if (!fs::is_directory(folder)) fail(folder, "no such folder to write to");
+    if (!fs::is_directory(folder)) failAt(folder, "no such folder to write to");
     temporary_ = secretName(path_, kTemporaryMark);
 }
 
@@ -181,7 +178,7 @@ void OutputPath::commit() {
     flushToDisk(parentOf(path_), path_);
     if (old.empty()) return;
     if (const std::error_code error = removeAll(old)) {
-        fail(path_,
+        failAt(path_,
              "is complete, but the older one beside it cannot be removed: " + error.message());
     }
 }
@@ -191,7 +188,7 @@ fs::path OutputPath::replace() const {
     if (!fs::is_directory(temporary_) || !fs::is_directory(path_)) {
         std::error_code error;
         fs::rename(temporary_, path_, error);
-        if (error) fail(path_, "cannot be replaced: " + error.message() + "; choose another name");
+        if (error) failAt(path_, "cannot be replaced: " + error.message() + "; choose another name");
         return {};
     }
     // rename() does not replace a non-empty folder. An exchange leaves no moment without a folder.
@@ -266,10 +263,10 @@ void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path
         for (const fs::path& input : inputs) {
             if (input.empty()) continue;
             if (isWithin(input, *output)) {
-                fail(*output, "is or contains " + role + "; choose another output");
+                failAt(*output, "is or contains " + role + "; choose another output");
             }
             if (fs::exists(*output) && isWithin(*output, input)) {
-                fail(*output, "is in " + role + " " + input.string() +
+                failAt(*output, "is in " + role + " " + input.string() +
                                   " and may be a part of it, so it is not replaced; choose "
                                   "another output");
             }
@@ -277,7 +274,7 @@ void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path
         for (auto other = output + 1; other != outputs.end(); ++other) {
             if (other->empty()) continue;
             if (!isWithin(*output, *other) && !isWithin(*other, *output)) continue;
-            fail(output->string() + " and " + other->string(),
+            failAt(output->string() + " and " + other->string(),
                  "one output is inside the other; use separate paths");
         }
     }

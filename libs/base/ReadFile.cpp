@@ -9,18 +9,18 @@ namespace {
 
 constexpr std::size_t kMaxLineLength = 1 << 20;
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
-    throw std::runtime_error(file.string() + ": " + what);
-}
-
 }  // namespace
+
+void failAt(const std::filesystem::path& path, const std::string& what) {
+    throw std::runtime_error(path.string() + ": " + what);
+}
 
 void checkIsFile(const std::filesystem::path& file) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(file, error);
-    if (std::filesystem::is_directory(status)) fail(file, "is a folder, not a file");
+    if (std::filesystem::is_directory(status)) failAt(file, "is a folder, not a file");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        fail(file, "is a pipe or a device; store it in a file first");
+        failAt(file, "is a pipe or a device; store it in a file first");
     }
 }
 
@@ -29,7 +29,7 @@ std::ifstream openToRead(const std::filesystem::path& file) {
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in) {
-        fail(file, std::string("cannot be read") +
+        failAt(file, std::string("cannot be read") +
                        (errno == 0 ? "" : std::string(": ") + std::strerror(errno)));
     }
     return in;
@@ -42,11 +42,11 @@ std::string readText(const std::filesystem::path& file, std::size_t most_bytes) 
     while (in.read(block, sizeof block) || in.gcount() > 0) {
         text.append(block, static_cast<std::size_t>(in.gcount()));
         if (text.size() > most_bytes) {
-            fail(file, "is larger than " + std::to_string(most_bytes >> 20) +
+            failAt(file, "is larger than " + std::to_string(most_bytes >> 20) +
                            " MiB, too large for a text");
         }
     }
-    if (in.bad()) fail(file, "cannot be read");
+    if (in.bad()) failAt(file, "cannot be read");
     return text;
 }
 
@@ -55,7 +55,7 @@ bool nextLine(std::ifstream& in, std::string& line, const std::filesystem::path&
     for (int c = in.get(); c != std::ifstream::traits_type::eof(); c = in.get()) {
         if (c == '\n') return true;
         if (line.size() == kMaxLineLength)
-            fail(file, "has a line longer than 1 MiB and is not text");
+            failAt(file, "has a line longer than 1 MiB and is not text");
         line += static_cast<char>(c);
     }
     return !line.empty();

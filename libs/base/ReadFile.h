@@ -6,6 +6,9 @@
 
 namespace hagen::base {
 
+/// Throws std::runtime_error with a message about a path.
+[[noreturn]] void failAt(const std::filesystem::path& path, const std::string& what);
+
 /// Throws std::runtime_error for a folder, a pipe or a device: opening a pipe may block, and a
 /// device may be endless. Missing files pass.
 void checkIsFile(const std::filesystem::path& file);

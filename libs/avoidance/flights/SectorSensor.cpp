@@ -12,7 +12,6 @@ namespace hagen::avoidance {
 namespace {
 
 constexpr int kFiringsPerPacket = 24;
-constexpr double kTurn_rad = 2 * kPi;
 constexpr double kRounding_s = 1e-9;
 
 Eigen::Isometry3d isometryOf(const simulation::SensorPose& pose) {

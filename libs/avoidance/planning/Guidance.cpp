@@ -12,7 +12,7 @@ constexpr double kEase_m = 0.05;
 constexpr double kSight_m = 12;          ///< corners are cut up to this path length
 constexpr double kCutClearance_m = 0.9;  ///< needed for cutting a corner
 constexpr double kGoalSearch_m = 3;      ///< search radius for a substitute of a blocked goal
-constexpr double kHeightCost_per_m = 0.5;
+constexpr double kDetourHeightCost_per_m = 0.5;
 constexpr double kHeuristicWeight = 1.3;  ///< saves two thirds of the queries in dense forest
 constexpr int kMaxCells = 4000;
 
@@ -35,7 +35,7 @@ PathSearchOptions searchOptions(const GuidanceTask& task) {
     options.bounds_m.max().z() = task.ground_m + task.highest_m;
     options.min_clearance_m = task.limits.clearance_radius_m();
     options.wanted_height_m = task.ground_m + task.altitude_m;
-    options.height_cost_per_m = kHeightCost_per_m;
+    options.height_cost_per_m = kDetourHeightCost_per_m;
     options.anchor_m.z() = options.wanted_height_m;
     options.heuristic_weight = kHeuristicWeight;
     options.max_cells = kMaxCells;

@@ -43,4 +43,7 @@ double speedTowardsGoal(const PlanningTask& task);
 /// How far a height is outside the altitude limits [m]; 0 within them.
 double outOfAltitudes(double height_m, const PlanningTask& task);
 
+/// Costs of a command's end: per metre off the wanted height, and per metre outside the limits.
+constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
+
 }  // namespace hagen::avoidance

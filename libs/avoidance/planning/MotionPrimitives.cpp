@@ -8,7 +8,7 @@
 namespace hagen::avoidance {
 namespace {
 
-constexpr int kAzimuths = 36;
+constexpr int kHeadings = 36;
 constexpr double kSteepest_rad = 0.24;
 constexpr std::array<double, 4> kSpeedShares{1.0, 0.6, 0.3, 0.1};
 constexpr double kVertical_m_s = 1.0;
@@ -16,8 +16,7 @@ constexpr double kAtGoal_m = 0.5;
 
 // Cost weights, relative to progress at full speed straight to the carrot.
 constexpr double kDeviationCost = 0.2;
-constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
-constexpr double kChangeCost = 0.1;
+constexpr double kCommandChangeCost = 0.1;
 constexpr double kStandingCost = 0.3;  ///< of hovering away from the goal
 constexpr double kProximityCost = 0.25, kComfortable_m = 1.3;
 
@@ -55,12 +54,12 @@ std::vector<Eigen::Vector3d> commandsFor(const PlanningTask& task, const Eigen::
     const double speed_m_s = speedTowardsGoal(task);
     const std::array<double, 5> elevations_rad = elevationsTo(aim_m, task, speed_m_s);
     std::vector<Eigen::Vector3d> commands_m_s{{0, 0, 0}};
-    commands_m_s.reserve(kAzimuths * elevations_rad.size() * kSpeedShares.size() + 3);
+    commands_m_s.reserve(kHeadings * elevations_rad.size() * kSpeedShares.size() + 3);
     for (double vertical_m_s : {kVertical_m_s, -kVertical_m_s}) {
         commands_m_s.emplace_back(0, 0, std::min(task.speed_m_s, kVertical_m_s) * vertical_m_s);
     }
-    for (int azimuth = 0; azimuth < kAzimuths; ++azimuth) {
-        const double azimuth_rad = heading_rad + azimuth * 2 * M_PI / kAzimuths;
+    for (int azimuth = 0; azimuth < kHeadings; ++azimuth) {
+        const double azimuth_rad = heading_rad + azimuth * 2 * M_PI / kHeadings;
         for (double elevation_rad : elevations_rad) {
             const double level = std::cos(elevation_rad);
             const Eigen::Vector3d direction(level * std::cos(azimuth_rad),
@@ -83,7 +82,7 @@ Eigen::Vector3d endOf(const PlanningTask& task, const Eigen::Vector3d& command_m
     return state.position_m;
 }
 
-double costOf(const PlanningTask& task, const Eigen::Vector3d& aim_m,
+double commandCost(const PlanningTask& task, const Eigen::Vector3d& aim_m,
               const Eigen::Vector3d& command_m_s) {
     const Eigen::Vector3d end_m = endOf(task, command_m_s);
     const Eigen::Vector3d offset_m = (aim_m - task.start.position_m);
@@ -97,14 +96,14 @@ double costOf(const PlanningTask& task, const Eigen::Vector3d& aim_m,
     const bool stands = command_m_s.isZero() && offset_m.norm() > kAtGoal_m;
     return (stands ? kStandingCost : 0) - progress + kDeviationCost * deviation +
            kHeightCost_per_m * std::abs(end_m.z() - aim_m.z()) +
-           kOutOfAltitudesCost_per_m * outOfAltitudes(end_m.z(), task) + kChangeCost * change;
+           kOutOfAltitudesCost_per_m * outOfAltitudes(end_m.z(), task) + kCommandChangeCost * change;
 }
 
 std::vector<Candidate> rankedCandidates(const PlanningTask& task) {
     const Eigen::Vector3d aim_m = aimOf(task);
     std::vector<Candidate> candidates;
     for (const Eigen::Vector3d& command_m_s : commandsFor(task, aim_m)) {
-        candidates.push_back({costOf(task, aim_m, command_m_s), command_m_s});
+        candidates.push_back({commandCost(task, aim_m, command_m_s), command_m_s});
     }
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });

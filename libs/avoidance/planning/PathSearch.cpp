@@ -16,8 +16,8 @@ using Clearance = std::function<float(const Eigen::Vector3f&)>;
 /// Costs are integers of 0.1 mm, so that sums are exact and ties are the same on every machine.
 using Cost = std::int64_t;
 constexpr double kCostPerMetre = 10000;
-constexpr double kProximityCost = 2;  ///< extra cost per metre at the minimum clearance
-constexpr double kCheckStep_m = 0.1;
+constexpr double kProximityCost_per_m = 2;  ///< extra cost per metre at the minimum clearance
+constexpr double kSegmentStep_m = 0.1;
 constexpr double kGrazing_m = 0.05;  ///< tolerance of edges between cells
 constexpr std::int64_t kMaxCellsOfGrid = 30'000'000;
 
@@ -75,7 +75,7 @@ double extraCost(double clearance_m, double height_m, const PathSearchOptions& o
     const double range_m = options.wanted_clearance_m - options.min_clearance_m;
     const double short_m = options.wanted_clearance_m - clearance_m;
     const double share = range_m > 0 ? std::clamp(short_m / range_m, 0.0, 1.0) : 0.0;
-    return kProximityCost * share +
+    return kProximityCost_per_m * share +
            options.height_cost_per_m * std::abs(height_m - options.wanted_height_m);
 }
 
@@ -243,13 +243,13 @@ bool Search::mayPass(int from, int to) {
     const Eigen::Vector3d start_m = pointOf(from, a.place);
     const Eigen::Vector3d offset_m = pointOf(to, b.place) - start_m;
     const double length_m = offset_m.norm();
-    double at_m = std::max(a.clearance_m - min_m, kCheckStep_m);
-    const double end_m = length_m - std::max(b.clearance_m - min_m, kCheckStep_m);
+    double at_m = std::max(a.clearance_m - min_m, kSegmentStep_m);
+    const double end_m = length_m - std::max(b.clearance_m - min_m, kSegmentStep_m);
     while (at_m < end_m) {
         const Eigen::Vector3d point_m = start_m + at_m / length_m * offset_m;
         const double clearance_m = clearance_m_(point_m.cast<float>());
         if (clearance_m < min_m) return false;
-        at_m += std::max(clearance_m - min_m, kCheckStep_m);
+        at_m += std::max(clearance_m - min_m, kSegmentStep_m);
     }
     return true;
 }

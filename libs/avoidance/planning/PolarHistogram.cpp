@@ -16,7 +16,6 @@ constexpr double kSlowest_m_s = 0.3;
 
 // Cost weights of angles in radians and of the blocked fraction.
 constexpr double kTargetCost = 1.0, kChangeCost = 0.25;
-constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
 constexpr double kBlockedCost = 1.5;
 constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< directions free for less are a last resort
 
@@ -69,7 +68,7 @@ double blockedCost(const PlanningTask& task, double free_m, double reach_m) {
     return kBlockedCost * (1 - free_m / reach_m) + (is_shut ? kShutCost : 0);
 }
 
-double costOf(const PlanningTask& task, const Eigen::Vector3d& target,
+double directionCost(const PlanningTask& task, const Eigen::Vector3d& target,
               const Eigen::Vector3d& direction) {
     const double reach_m = kLookAhead_s * speedTowardsGoal(task);
     const double end_m = task.start.position_m.z() + reach_m * direction.z();
@@ -103,7 +102,7 @@ std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
             const double elevation_rad = row == 0 ? climb_rad : row * kCell_rad;
             const Eigen::Vector3d direction =
                 towards(heading_rad + column * kCell_rad, elevation_rad);
-            cells.push_back({costOf(task, target, direction), direction});
+            cells.push_back({directionCost(task, target, direction), direction});
         }
     }
     std::stable_sort(

@@ -14,7 +14,7 @@ namespace {
 
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>,
                                                  TreePoints, 3>;
-constexpr std::size_t kLeafSize = 32;
+constexpr std::size_t kWindowLeafSize = 32;
 constexpr double kTurnsPerTree = 3;
 constexpr double kRounding_turns = 1e-6;
 
@@ -54,7 +54,7 @@ struct WindowModel::PastScans {
     void build() {
         points.at_m.shrink_to_fit();
         in_window = points.at_m.size();
-        tree = std::make_unique<Tree>(3, points, kLeafSize);
+        tree = std::make_unique<Tree>(3, points, kWindowLeafSize);
     }
     bool hasAny(const Eigen::Vector3f& near_m, AnyWithin any) const {
         tree->findNeighbors(any, near_m.data(), {});

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Outcome of a pixel, in drawing order: errors are on top.
-enum Outcome { LeftOut, RouFound, RoiFound, FalseAlarm, Missed, kOutcomes };
+enum Outcome { LeftOut, RouFound, RoiFound, FalseAlarm, RoiMissed, kOutcomes };
 struct Style {
     const char *name, *colour;
 };
@@ -28,7 +28,7 @@ constexpr std::array<Style, kOutcomes> kStyles{{{"not scored or not labelled", "
 Outcome outcomeOf(Label truth, Label found) {
     if (truth == Label::Unclassified) return LeftOut;
     if (found == Label::Unclassified && truth == Label::Rou) return LeftOut;
-    if (truth == Label::Roi) return found == Label::Roi ? RoiFound : Missed;
+    if (truth == Label::Roi) return found == Label::Roi ? RoiFound : RoiMissed;
     return found == Label::Roi ? FalseAlarm : RouFound;
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr double kPeriod_s = 0.05;       // of OBSTACLE_DISTANCE
 constexpr std::size_t kOthersEvery = 2;  // periods: 3D and ground
 constexpr std::size_t kHeartbeatEvery = 20;
-constexpr double kMaxWait_s = 0.01;
+constexpr double kMaxMessageWait_s = 0.01;
 constexpr std::size_t kMaxAtOnce = 1000;  // datagrams; a flood must not delay sending
 constexpr double kAttitudeWithin_s = 3;   // then its absence is reported
 constexpr double kMaxBehind_s = 0.5;      // then periods are skipped
@@ -191,7 +191,7 @@ class AutopilotLink::Work {
     bool receive(double longest_s) {
         std::array<std::uint8_t, 65536>& buffer = buffer_;
         const std::size_t size =
-            peer_->receive(buffer.data(), buffer.size(), std::min(longest_s, kMaxWait_s));
+            peer_->receive(buffer.data(), buffer.size(), std::min(longest_s, kMaxMessageWait_s));
         if (size == 0) return false;
         const double arrival_s = steadyNow_s();
         const std::lock_guard lock(mutex_);

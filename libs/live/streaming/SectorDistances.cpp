@@ -8,7 +8,6 @@
 namespace hagen::live {
 namespace {
 
-constexpr double kTurn_rad = 2 * kPi;
 constexpr double kPart_rad = kTurn_rad / 360;
 // How long an obstacle is in doubt where packets are lost again and again.
 constexpr double kMaxDoubt_s = 0.7;

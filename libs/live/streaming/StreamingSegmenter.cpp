@@ -16,9 +16,8 @@
 namespace hagen::live {
 namespace {
 
-constexpr double kTurn_rad = 2 * kPi;
 constexpr std::size_t kMaxPackets = 4000;  // whatever the clock says; a turn has up to 600
-constexpr double kRounding_rad = 0.01;     // of where packets begin and end
+constexpr double kPacketEnd_rad = 0.01;     // of where packets begin and end
 // A beam's correction may add half a turn; nearestColumn() wraps once.
 constexpr float kMaxAzimuth_rad = 7.8F;
 constexpr double kMaxRotation_rad = 1e12;  // 250 years at 20 Hz; still exact to 0.1 mrad
@@ -94,7 +93,7 @@ double between(const Sweep& a, const Sweep& b) {
 void checkSweep(const Sweep& sweep) {
     const double swept_rad = sweep.to_rad - sweep.from_rad;
     const bool is_sound = std::abs(sweep.from_rad) <= kMaxRotation_rad && swept_rad >= 0 &&
-                          swept_rad <= kTurn_rad + kRounding_rad;
+                          swept_rad <= kTurn_rad + kPacketEnd_rad;
     if (!is_sound) {
         throw std::invalid_argument(
             "streaming: the sweep of a packet must go clockwise, from an angle of up to 1e12 rad "
@@ -382,7 +381,7 @@ bool StreamingSegmenter::knowsEnough() const {
             std::min(measured_s, packets_.back().time_s - packets_.front().time_s);
         known_rad = kTurn_rad * known_s / streaming_.context_s;
     }
-    return known_rad >= streaming_.least_known_rad - kRounding_rad;
+    return known_rad >= streaming_.least_known_rad - kPacketEnd_rad;
 }
 
 /// The columns of the image: all in and beside the sector, and those that are kept elsewhere. The
@@ -484,7 +483,7 @@ void StreamingSegmenter::label(bool is_cut) {
     const bool turns = last.sweep.has_value();
     const std::optional<Sweep>& oldest = packets_.front().sweep;
     const bool has_turn =
-        turns ? oldest && oldest->from_rad < head_rad_ - kTurn_rad + kRounding_rad : first_open > 0;
+        turns ? oldest && oldest->from_rad < head_rad_ - kTurn_rad + kPacketEnd_rad : first_open > 0;
     ++sectors_;
     open_ = 0;
     take_({sector_, labels_, turns ? std::optional<Sweep>(sector) : std::nullopt,

@@ -7,7 +7,6 @@
 namespace hagen::live {
 namespace {
 
-constexpr double kTurn_rad = 2 * kPi;
 // 0.06 degrees: less than between two firings (HDL-32E at 5 Hz: 0.083). Packets that follow each
 // other are up to 0.025 degrees apart, by the rounding of azimuths.
 constexpr double kGap_rad = 0.001;

@@ -13,8 +13,6 @@
 namespace hagen::sensors {
 namespace {
 
-constexpr std::size_t kUdpHeader = 8;
-
 struct CloseCapture {
     void operator()(pcap_t* capture) const { pcap_close(capture); }
 };

@@ -1,5 +1,6 @@
 #include "sensors/captures/CaptureWriter.h"
 #include "base/WriteFile.h"
+#include "sensors/captures/IpFrames.h"
 
 #include <cerrno>
 #include <system_error>
@@ -8,7 +9,7 @@ namespace hagen::sensors {
 namespace {
 
 constexpr std::size_t kBlockBytes = 1 << 16;
-constexpr std::size_t kEthernetHeader = 14, kIpHeader = 20, kUdpHeader = 8;
+constexpr std::size_t kEthernetHeader = 14, kIpHeader = 20;
 
 // pcap in the byte order of files of x86 and ARM; network headers in network order.
 void append16(std::string& bytes, unsigned value) {

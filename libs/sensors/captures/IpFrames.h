@@ -4,6 +4,8 @@
 
 namespace hagen::sensors {
 
+constexpr std::size_t kUdpHeader = 8;  ///< bytes
+
 /// Bytes of a frame, read in network order (most significant byte first).
 struct Bytes {
     const std::uint8_t* data = nullptr;

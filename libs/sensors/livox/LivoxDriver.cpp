@@ -13,7 +13,7 @@ namespace {
 constexpr double kFrame_s = 0.02;
 constexpr double kMaxFrame = 2;            // times as long as usual, by arrival
 constexpr double kPointInterval_s = 5e-6;  // of a Mid-360, if a packet does not contain it
-constexpr std::size_t kMaxPackets = 1000;  // per frame, whatever the clock; usual are 42
+constexpr std::size_t kMaxFramePackets = 1000;  // per frame, whatever the clock; usual are 42
 constexpr std::size_t kFramesOfScan = 5;
 
 /// Reads the packets of one Livox Mid-360 (Livox SDK 2, Cartesian data) in frames of 20 ms.
@@ -59,7 +59,7 @@ class LivoxDriver : public LidarDriver {
         const bool is_whole =
             last_ns >= start_ns_ &&
             1e-9 * static_cast<double>(last_ns - start_ns_) + 1.5 * packet_s > kFrame_s;
-        if (is_whole || packets_of_frame_ >= kMaxPackets) flush(sink);
+        if (is_whole || packets_of_frame_ >= kMaxFramePackets) flush(sink);
         return Taken::Yes;
     }
 

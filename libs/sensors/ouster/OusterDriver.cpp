@@ -15,7 +15,7 @@
 namespace hagen::sensors {
 namespace {
 
-constexpr long long kMaxLate = 16;  // packets
+constexpr long long kMaxLatePackets = 16;  // packets
 constexpr int kMaxTurns = 2;        // missing; more: the sensor was restarted
 
 /// Reads the packets of one Ouster. Returns are relative to the origin of its beams (its lidar
@@ -116,7 +116,7 @@ class OusterDriver : public LidarDriver {
         const long long at = turn * columns + static_cast<long long>(columns_.front());
         if (has_last_ && at < last_at_) {
             ++counts_.late;
-            if (last_at_ - at > std::min(kMaxLate * of_packet, columns / 2)) {
+            if (last_at_ - at > std::min(kMaxLatePackets * of_packet, columns / 2)) {
                 ++counts_.too_late;
                 return Taken::TooLate;
             }

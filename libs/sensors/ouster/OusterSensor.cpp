@@ -257,11 +257,11 @@ void sortBeams(OusterSensor& sensor) {
     sensor.model = std::make_shared<const SensorModel>(std::move(model));
 }
 
-constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr std::size_t kMaxMetadataBytes = 1 << 20;
 
 std::string readText(const std::filesystem::path& file) {
     std::ifstream stream = base::openToRead(file);
-    std::string text(kMaxBytes + 1, '\0');
+    std::string text(kMaxMetadataBytes + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
     return text;
@@ -273,7 +273,7 @@ void checkText(const std::string& text) {
     const base::FileKind kind = base::kindOfBytes(text.substr(0, base::kFileKindBytes));
     const bool is_text = kind.what.rfind("text", 0) == 0;
     if (!kind.what.empty() && !is_text) throw std::runtime_error(kind.text());
-    if (text.size() > kMaxBytes) throw std::runtime_error("is larger than 1 MB");
+    if (text.size() > kMaxMetadataBytes) throw std::runtime_error("is larger than 1 MB");
 }
 
 }  // namespace

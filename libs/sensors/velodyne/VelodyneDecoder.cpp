@@ -17,7 +17,6 @@
 namespace hagen::sensors {
 namespace {
 
-constexpr int kBlocks = kVelodyneBlocks;
 constexpr int kTurn = kReadingsOfTurn;   // 0.01 degrees
 constexpr double kMaxAzimuth_deg = 1e6;  // far beyond, what is left of a turn is not exact
 
@@ -139,7 +138,7 @@ int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
     for (std::size_t p = 0; p < packets.count; ++p) {
         const Packet packet(packets.at(p));
         const int step = packet.blocksPerFiring();
-        for (int b = 0; b + step < kBlocks; ++b) {
+        for (int b = 0; b + step < kVelodyneBlocks; ++b) {
             if (!packet.isValid(b) || !packet.isValid(b + step)) continue;
             int turn = packet.azimuth(b + step) - packet.azimuth(b);
             if (turn <= -kTurn / 2) turn += kTurn;
@@ -215,12 +214,12 @@ std::size_t collectBlocks(const VelodynePackets& packets, const VelodyneModel& m
                           std::vector<VelodyneBlock>& blocks) {
     static const ReadingDirections directions;
     const unsigned first_us = Packet(packets.at(0)).time_us();
-    blocks.resize(packets.count * kBlocks);
+    blocks.resize(packets.count * kVelodyneBlocks);
     VelodyneBlock* next = blocks.data();
     for (std::size_t p = 0; p < packets.count; ++p) {
         const Packet packet(packets.at(p));
         const double packet_us = elapsedUs(first_us, packet.time_us());
-        for (int b = 0; b < kBlocks; ++b) {
+        for (int b = 0; b < kVelodyneBlocks; ++b) {
             if (!packet.isValid(b)) continue;
             const int firing = b / packet.blocksPerFiring();
             const double block_us = packet_us + firing * model.blockPeriodUs();
@@ -231,7 +230,7 @@ std::size_t collectBlocks(const VelodynePackets& packets, const VelodyneModel& m
         }
     }
     blocks.resize(next - blocks.data());
-    return packets.count * kBlocks - blocks.size();
+    return packets.count * kVelodyneBlocks - blocks.size();
 }
 
 /// Equals beamSpan() of the sensor that sensorOf() returns, without its memory.
@@ -272,13 +271,13 @@ std::size_t decodeHdl64(const VelodynePackets& packets, const VelodyneCalibratio
     const double firing_us = 2 * hdl64Model().blockPeriodUs();
     const unsigned first_us = Packet(packets.at(0)).time_us();
     std::size_t returns = 0, unsound_blocks = 0;
-    resize(packets.count * kBlocks * kReturnsOfBlock + kPaddingReturns, scan);
+    resize(packets.count * kVelodyneBlocks * kReturnsOfBlock + kPaddingReturns, scan);
     work.blocks.resize(1);
     VelodyneBlock& block = work.blocks.front();
     for (std::size_t p = 0; p < packets.count; ++p) {
         const Packet packet(packets.at(p));
         const double packet_us = elapsedUs(first_us, packet.time_us());
-        for (int b = 0; b < kBlocks; ++b) {
+        for (int b = 0; b < kVelodyneBlocks; ++b) {
             if (!packet.isValid(b) && !packet.isLower(b)) {
                 ++unsound_blocks;
                 continue;
@@ -321,7 +320,7 @@ std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibrat
         scan.clear();
         return 0;
     }
-    checkReturns(packets.count * kBlocks * kReturnsOfBlock);
+    checkReturns(packets.count * kVelodyneBlocks * kReturnsOfBlock);
     if (areOfHdl64(packets)) return decodeHdl64(packets, own, scan, work);
     const VelodyneModel& model = modelOf(packets, 0);
     for (std::size_t p = 1; p < packets.count; ++p) {

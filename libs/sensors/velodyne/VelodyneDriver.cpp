@@ -23,10 +23,8 @@ constexpr int kMaxLate = 16;
 constexpr std::size_t kPositionBytes = 512;
 constexpr double kInterruptionUs = 50e3;
 constexpr double kForgottenUs = 250e3;  // returns from before such a gap are no context
-constexpr double kTurn_rad = 2 * kPi;
 constexpr double kOverlap_rad = 0.2;  // of packets that are not full
 constexpr double kNearest_m = 0.5;
-constexpr int kBlocks = kVelodyneBlocks;
 constexpr int kReadings = kReadingsOfTurn;
 // In 0.01 degrees: of azimuths of a motor that hardly turns, and of one within a packet.
 constexpr double kJitter = 10, kMaxOff = 100;
@@ -222,11 +220,11 @@ class VelodyneDriver : public LidarDriver {
     void findRuns(const VelodynePacket& packet) {
         runs_.clear();
         int before = -1;  // azimuth of the firing before, if that is sound
-        for (int f = 0; f < kBlocks / blocksPerFiring(packet); ++f) {
+        for (int f = 0; f < kVelodyneBlocks / blocksPerFiring(packet); ++f) {
             const int azimuth = azimuthOfFiring(packet, f);
             const double step = std::remainder(azimuth - before, kReadings);
             const bool goes_on = before >= 0 && step > -kJitter &&
-                                 step * kBlocks < kReadings / 8.0 * blocksPerFiring(packet);
+                                 step * kVelodyneBlocks < kReadings / 8.0 * blocksPerFiring(packet);
             if (azimuth >= 0 && goes_on) {
                 ++runs_.back().end;
             } else if (azimuth >= 0) {
@@ -241,10 +239,10 @@ class VelodyneDriver : public LidarDriver {
     /// broken readings. Returns false if the packet has no sound block.
     bool readSweep(const VelodynePacket& packet, double elapsed_us, Sweep& sweep) {
         findRuns(packet);
-        const int step = blocksPerFiring(packet), all_firings = kBlocks / step;
+        const int step = blocksPerFiring(packet), all_firings = kVelodyneBlocks / step;
         double from = -1, per_firing = 0;
         if (runs_.empty()) {  // halves of firings at most
-            for (int b = kBlocks - 1; b >= 0; --b) {
+            for (int b = kVelodyneBlocks - 1; b >= 0; --b) {
                 if (packet.azimuthOf(b) >= 0) from = packet.azimuthOf(b);
             }
             if (from < 0) return false;
@@ -290,15 +288,15 @@ class VelodyneDriver : public LidarDriver {
             sink.add(returns_, {sweep.from_rad, sweep.from_rad}, arrival_s);
             return;
         }
-        if (runs_.size() == 1 && runs_[0].first == 0 && runs_[0].end == kBlocks / step) {
+        if (runs_.size() == 1 && runs_[0].first == 0 && runs_[0].end == kVelodyneBlocks / step) {
             sink.add(returns_, sweep, arrival_s);
             return;
         }
-        const double firing_rad = (sweep.to_rad - sweep.from_rad) * step / kBlocks;
+        const double firing_rad = (sweep.to_rad - sweep.from_rad) * step / kVelodyneBlocks;
         std::size_t taken = 0;
         for (std::size_t r = 0; r < runs_.size(); ++r) {
             const bool is_last = r + 1 == runs_.size();
-            const int end_block = is_last ? kBlocks : runs_[r + 1].first * step;
+            const int end_block = is_last ? kVelodyneBlocks : runs_[r + 1].first * step;
             const std::size_t end = is_last ? returns_.size() : returnsBefore(packet, end_block);
             part_.clear();
             part_.beams = returns_.beams;

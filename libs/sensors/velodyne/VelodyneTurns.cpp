@@ -14,7 +14,7 @@ constexpr double kFollows = 2.5;  // periods
 constexpr double kSecondUs = 1e6;
 constexpr double kEndOfTurnUs = 50e3;      // without packets
 constexpr double kMaxTurnUs = 250e3;       // the slowest sensors turn five times per second
-constexpr std::size_t kMaxPackets = 2000;  // more than any sensor sends in that time
+constexpr std::size_t kMaxTurnPackets = 2000;  // more than any sensor sends in that time
 constexpr int kMinWrap = 100;              // 0.01 degrees; less is jitter of a sensor that stands
 
 }  // namespace
@@ -104,7 +104,7 @@ void VelodyneTurns::append(const VelodynePacket& packet) {
     const bool wraps = azimuth >= 0 && azimuth < last_azimuth_ - kMinWrap;
     std::vector<std::uint8_t>& packets = turn_.packets;
     const bool is_long = std::abs(elapsedUs(turn_start_us_, time_us)) > kMaxTurnUs ||
-                         packets.size() >= kMaxPackets * kVelodynePacketBytes;
+                         packets.size() >= kMaxTurnPackets * kVelodynePacketBytes;
     if (wraps || is_long) endTurn();
     if (packets.empty()) {
         turn_.time_ns = packet.time_ns;
