@@ -37,7 +37,7 @@ endfunction()
 # once per instruction set stay alone.
 option(HAGEN_UNITY_BUILD "Compile the libraries in batches of sources" ON)
 function(hagen_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${HAGEN_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 10)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${HAGEN_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 25)
   foreach(source ${ARGN})
     file(STRINGS ${source} per_target REGEX "foreach_target.h" LIMIT_COUNT 1)
     if(per_target)

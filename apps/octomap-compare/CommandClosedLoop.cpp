@@ -14,6 +14,7 @@
 #include "base/TextStream.h"
 
 #include "Commands.h"
+#include "base/Joined.h"
 #include "base/command_line/Interrupt.h"
 #include "base/command_line/ProgressLine.h"
 
@@ -131,26 +132,20 @@ int run(Flags flags) {
     return 0;
 }
 
-std::string listOf(const std::vector<std::string>& names) {
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-    return list;
-}
-
 void addFlags(Command& app, Flags& flags) {
     const auto list = [&](const char* flag, std::vector<std::string>& names,
                           const std::string& what) {
         return app.option(flag, names, what).delimiter(',').showDefault();
     };
     avoidance::CampaignPlan& plan = flags.plan;
-    list("--scenario", plan.scenarios, "courses, or all: " + listOf(avoidance::courseNames()))
+    list("--scenario", plan.scenarios, "courses, or all: " + base::joined(avoidance::courseNames()))
         .required();
     app.option("--seeds", flags.seeds,
                "seeds of the courses, A-B; the same seeds make the same runs")
         .required();
     app.option("--speed", plan.speeds_m_s, "maximum speeds in m/s (default: 4)").delimiter(',');
     takesWorldModels(list("--models", plan.models,
-                          "world models, or all: " + listOf(avoidance::worldModelNames())),
+                          "world models, or all: " + base::joined(avoidance::worldModelNames())),
                      {"all"});
     list("--guidance", plan.guidances, "straight, astar or all");
     list("--planner", plan.planners, "primitives, 3dvfh or all");

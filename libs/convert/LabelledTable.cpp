@@ -5,10 +5,10 @@
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include "convert/UniqueNames.h"
 #include "mrpt/PointFields.h"
 #include "mrpt/Results.h"
 #include "mrpt/TableCloud.h"
-#include "recordings/UniqueNames.h"
 
 #include <algorithm>
 #include <array>

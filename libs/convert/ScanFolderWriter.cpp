@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iomanip>
 #include <stdexcept>
-#include "settings/MostRange.h"
+#include "settings/MaxRange.h"
 
 #include "base/WriteFile.h"
 #include "recordings/CloudTimes.h"

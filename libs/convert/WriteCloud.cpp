@@ -1,7 +1,7 @@
 #include <hagen/convert/WriteCloud.h>
 #include "base/NumberText.h"
 #include "base/WriteFile.h"
-#include "recordings/UniqueNames.h"
+#include "convert/UniqueNames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 namespace hagen::observations {
 namespace {
 
-constexpr double kMaxScan_s = 2.0;
+constexpr double kMaxSpan_s = 2.0;
 constexpr std::int32_t kMaxRing = 65535;
 
 /// The unit of times that are `span` apart [s].
@@ -15,7 +15,7 @@ double timeUnit(const PointTable& table, const PointField& field, double span) {
     const bool is_integer = field.type < NumberType::Float32;
     if (is_integer) return span > 0 && span < 1e6 ? 1e-6 : 1e-9;
     for (const double unit : {1.0, 1e-3, 1e-6}) {
-        if (span * unit <= kMaxScan_s) return unit;
+        if (span * unit <= kMaxSpan_s) return unit;
     }
     return 1e-9;
 }
@@ -59,11 +59,11 @@ PointFieldValues<float> timesOf(const PointTable& table, const std::vector<std::
         return found;
     }
     const double unit_s = timeUnit(table, *field, *last - *first);
-    if ((*last - *first) * unit_s > kMaxScan_s) {
+    if ((*last - *first) * unit_s > kMaxSpan_s) {
         found.remark = "the field '" + field->name + "' is not used: its times span more than 2 s";
         return found;
     }
-    const bool is_relative = std::max(std::abs(*first), std::abs(*last)) * unit_s <= kMaxScan_s;
+    const bool is_relative = std::max(std::abs(*first), std::abs(*last)) * unit_s <= kMaxSpan_s;
     const double start = is_relative ? 0.0 : *first;
     found.values.reserve(times.size());
     for (const double time : times) {

@@ -68,7 +68,7 @@ double valueOf(const NameNumber& number) {
 }
 
 /// The time that a number is; none if it is a mere number.
-std::optional<double> timeOf(const NameNumber& number) {
+std::optional<double> timeIn(const NameNumber& number) {
     if (number.whole.empty()) return std::nullopt;
     const double value = valueOf(number);
     if (number.mark == '_') {
@@ -111,13 +111,13 @@ std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names) {
                      [&](std::size_t a, std::size_t b) { return names[a] < names[b]; });
     // A counter that gets a 13th digit is no time in milliseconds from there on.
     const bool are_times = std::all_of(names.begin(), names.end(), [](const std::string& name) {
-        return timeOf(numberIn(name)).has_value();
+        return timeIn(numberIn(name)).has_value();
     });
     std::vector<double> numbers;
     std::set<std::string_view> before;
     for (const std::string& name : names) {
         const NameNumber number = numberIn(name);
-        numbers.push_back(are_times ? *timeOf(number) : valueOf(number));
+        numbers.push_back(are_times ? *timeIn(number) : valueOf(number));
         before.insert(std::string_view(name).substr(
             0, static_cast<std::size_t>(number.whole.data() - name.data())));
         if (numbers.back() < 0) return order;
@@ -131,7 +131,7 @@ std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names) {
 CloudTimes timesOfNames(const std::vector<std::string>& names) {
     CloudTimes times;
     for (const std::string& name : names) {
-        const auto time_s = timeOf(numberIn(name));
+        const auto time_s = timeIn(numberIn(name));
         if (time_s && observations::isTime(*time_s)) times.times_s.push_back(*time_s);
     }
     if (times.times_s.size() == names.size() && ascend(times.times_s)) {

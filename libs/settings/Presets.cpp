@@ -9,6 +9,7 @@
 
 #include <hagen/settings/Settings.h>
 #include "base/Folder.h"
+#include "base/Joined.h"
 #include "settings/YamlParts.h"
 
 namespace hagen {
@@ -36,12 +37,6 @@ std::string presetName(const fs::path& name) {
     return (name.extension() == ".yaml" ? name.stem() : name).string();
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-    return text;
-}
-
 std::string searchedFolders() {
     std::vector<std::string> folders;
     for (const fs::path& folder : presetFolders()) {
@@ -49,7 +44,7 @@ std::string searchedFolders() {
         const bool exists = fs::is_directory(folder, error);
         folders.push_back(folder.string() + (exists ? "" : " (no such folder)"));
     }
-    return joined(folders);
+    return base::joined(folders);
 }
 
 /// The folders of addPresetFolder().
@@ -142,7 +137,7 @@ fs::path presetFile(const std::string& name, const std::function<bool(const fs::
     const std::string hint =
         known.empty() ? "" : "; did you mean '" + nearestOf(preset, known) + "'?";
     throw SettingsError(name + ": no such file or preset" + hint +
-                        " (presets: " + (known.empty() ? "none" : joined(known)) +
+                        " (presets: " + (known.empty() ? "none" : base::joined(known)) +
                         "; searched: " + searchedFolders() + "; " + kVariable + " adds folders)");
 }
 

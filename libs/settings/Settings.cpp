@@ -11,8 +11,9 @@
 #include "base/NumberText.h"
 #include "base/TextStream.h"
 #include "filter/OptionKeys.h"
-#include "settings/MostRange.h"
+#include "settings/MaxRange.h"
 
+#include "base/Joined.h"
 #include "settings/AirframeSettings.h"
 #include "settings/YamlParts.h"
 
@@ -52,12 +53,6 @@ void parseOption(const OptionKey& key, const YAML::Node& node, Options& options)
     }
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-    return text;
-}
-
 // The least that optionKeys() allows.
 constexpr int kMinColumns = 8, kMinWindow = 2;
 
@@ -65,7 +60,7 @@ constexpr int kMinColumns = 8, kMinWindow = 2;
 const std::vector<SettingsKey>& sensorKeys() {
     static const std::vector<SettingsKey> keys{
         {"model", "", kRecoveredName,
-         joined(knownSensorModels(), ", ") + ", custom, " + kRecoveredName,
+         base::joined(knownSensorModels(), ", ") + ", custom, " + kRecoveredName,
          "the sensor of point clouds; packets identify their own", ""},
         {"elevations_deg", "deg", "", "-90 ... 90, ascending, 2 to 256 of them",
          "the beams of a custom sensor, lowest first", ""},
@@ -394,7 +389,7 @@ std::string dumpSettings(const Settings& settings) {
     std::vector<std::string> elevations;
     for (const double elevation : sensor.elevations_deg)
         elevations.push_back(base::shortestText(elevation));
-    if (!elevations.empty()) values["elevations_deg"] = "[" + joined(elevations, ", ") + "]";
+    if (!elevations.empty()) values["elevations_deg"] = "[" + base::joined(elevations, ", ") + "]";
     const auto limit = [&](const char* key, std::optional<float> value) {
         if (value) values[key] = base::shortestText(*value);
     };

@@ -92,9 +92,9 @@ DirectionSet directionsAt(std::size_t elevation) {
     return at;
 }
 
-class Run {
+class Walk {
  public:
-    Run(const OpenLoop& open_loop, const OpenLoopListener& listener)
+    Walk(const OpenLoop& open_loop, const OpenLoopListener& listener)
         : open_loop_(open_loop),
           listener_(listener),
           scans_(open_loop.source, listener.keep_going) {
@@ -157,7 +157,7 @@ class Run {
 };
 
 /// Makes the models, and again when the vehicle nears the border of their box.
-void Run::prepareModels(const LoggedScan& scan) {
+void Walk::prepareModels(const LoggedScan& scan) {
     const bool is_begun = result_.scans > 0;
     const Eigen::AlignedBox3f inner = widened(box_m_, -kBorder_m, -kBorderUp_m);
     if (is_begun && (maps_whole_flight_ || inner.contains(scan.vehicle_m))) return;
@@ -181,7 +181,7 @@ void Run::prepareModels(const LoggedScan& scan) {
     }
 }
 
-void Run::updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pending) {
+void Walk::updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pending) {
     WorldModel& model = *models_[m];
     OpenLoopRow& row = pending.rows[m];
     OpenLoopCost& cost = pending.costs[m];
@@ -202,7 +202,7 @@ void Run::updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pen
 }
 
 /// The entry of a scan before the models are queried.
-PendingScan Run::pendingScanOf(const LoggedScan& scan) const {
+PendingScan Walk::pendingScanOf(const LoggedScan& scan) const {
     const std::size_t models = models_.size();
     PendingScan pending{std::vector<OpenLoopRow>(models),  std::vector<OpenLoopCost>(models),
                         std::vector<DirectionSet>(models), scan.mapped.time_s,
@@ -227,7 +227,7 @@ PendingScan Run::pendingScanOf(const LoggedScan& scan) const {
     return pending;
 }
 
-void Run::process(const LoggedScan& scan) {
+void Walk::process(const LoggedScan& scan) {
     if (truth_) truth_->see(scan.mapped);
     prepareModels(scan);
     PendingScan pending = pendingScanOf(scan);
@@ -261,7 +261,7 @@ void Run::process(const LoggedScan& scan) {
 }
 
 /// Scores the models on the oldest pending scan and reports its rows.
-void Run::scoreOldest() {
+void Walk::scoreOldest() {
     static const DirectionSet level = levelDirections();
     PendingScan& oldest = waiting_.front();
     const TrueDirections truth = oldest.truth ? *oldest.truth : oldest.later.directions();
@@ -292,7 +292,7 @@ void Run::scoreOldest() {
     waiting_.pop_front();
 }
 
-void Run::agree(const PendingScan& pending) {
+void Walk::agree(const PendingScan& pending) {
     for (std::size_t a = 0; a < models_.size(); ++a) {
         for (std::size_t b = 0; b < models_.size(); ++b) {
             result_.agreement[a][b] += freeAgreement(pending.blocked[a], pending.blocked[b]);
@@ -300,7 +300,7 @@ void Run::agree(const PendingScan& pending) {
     }
 }
 
-OpenLoopResult Run::finish() {
+OpenLoopResult Walk::finish() {
     while (!waiting_.empty()) scoreOldest();
     result_.unreadable_scans = scans_.unreadableScans();
     result_.why_unreadable = scans_.whyUnreadable();
@@ -347,7 +347,7 @@ void checkOpenLoop(const OpenLoop& open_loop) {
 
 OpenLoopResult runOpenLoop(const OpenLoop& open_loop, const OpenLoopListener& listener) {
     checkOpenLoop(open_loop);
-    return Run(open_loop, listener).result();
+    return Walk(open_loop, listener).result();
 }
 
 }  // namespace hagen::avoidance

@@ -8,7 +8,7 @@ namespace hagen::avoidance {
 namespace {
 
 // In units of 1/24, as in the rolling grid.
-constexpr int kHit = 20, kMiss = 10, kMax = 84;
+constexpr int kHitLogOdds = 20, kMissLogOdds = 10, kMaxLogOdds = 84;
 constexpr float kHalfRow = 2.2f;  ///< a degree in rows of the image; a VLP-16 has 2 degrees
 // Cells are looked up in finer images than voxels, for a tighter outline. The image of a cell must
 // not be finer than those of its voxels, so that its pixels contain theirs.
@@ -51,7 +51,7 @@ void DepthImageModel::addHits(const observations::MappedScan& scan) {
         if (hit_[block] == 0) hits_.push_back(block);
         hit_[block] |= bit;
         const int was = occupied_.has(index) ? log_odds_[index] : 0;
-        log_odds_[index] = static_cast<std::int8_t>(std::min(was + kHit, kMax));
+        log_odds_[index] = static_cast<std::int8_t>(std::min(was + kHitLogOdds, kMaxLogOdds));
         occupied_.setBlock(block, occupied_.block(block) | bit);
         unknown_.setBlock(block, unknown_.block(block) & ~bit);
     }
@@ -67,7 +67,7 @@ void DepthImageModel::clearSeenThrough(const Eigen::Vector3f& origin_m) {
                 nearerVoxels(cornerOf(first, origin_m), occupied & ~hit_[block], 0);
             forEachBit(seen_through, [&](unsigned bit) {
                 std::int8_t& log_odds = log_odds_[64 * block + bit];
-                log_odds = static_cast<std::int8_t>(log_odds - kMiss);
+                log_odds = static_cast<std::int8_t>(log_odds - kMissLogOdds);
                 if (log_odds < 0) occupied &= ~(std::uint64_t{1} << bit);
             });
             if (occupied != occupied_.block(block)) occupied_.setBlock(block, occupied);

@@ -4,7 +4,7 @@ namespace hagen::avoidance {
 
 namespace {
 
-octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
+octomap::point3d octomapPoint(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
 }  // namespace
 
@@ -12,8 +12,8 @@ OctoMapModel::OctoMapModel(const observations::ScanMapOptions& options,
                            const Eigen::AlignedBox3f& bounds_m)
     : map_(options), obstacles_(static_cast<float>(options.resolution_m)) {
     const Eigen::Vector3f margin = Eigen::Vector3f::Constant(kMapMargin_m);
-    octomap::point3d least = pointOf(bounds_m.min() - margin);
-    octomap::point3d most = pointOf(bounds_m.max() + margin);
+    octomap::point3d least = octomapPoint(bounds_m.min() - margin);
+    octomap::point3d most = octomapPoint(bounds_m.max() + margin);
     map_.tree().setBBXMin(least);
     map_.tree().setBBXMax(most);
     map_.tree().useBBXLimit(true);
@@ -52,7 +52,7 @@ float OctoMapModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limi
 
 bool OctoMapModel::isKnown(const Eigen::Vector3f& point_m) const {
     octomap::OcTreeKey key;
-    return map_.tree().coordToKeyChecked(pointOf(point_m), key) && map_.tree().search(key);
+    return map_.tree().coordToKeyChecked(octomapPoint(point_m), key) && map_.tree().search(key);
 }
 
 std::size_t OctoMapModel::bytes() const {

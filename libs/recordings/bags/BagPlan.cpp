@@ -1,5 +1,5 @@
 #include "recordings/bags/BagPlan.h"
-#include "recordings/bags/Remarks.h"
+#include "recordings/Remarks.h"
 
 #include <algorithm>
 #include <initializer_list>

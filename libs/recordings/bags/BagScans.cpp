@@ -3,7 +3,7 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include "mrpt/TableCloud.h"
-#include "recordings/bags/Remarks.h"
+#include "recordings/Remarks.h"
 #include "recordings/captures/LidarCapture.h"
 #include "sensors/ouster/OusterScan.h"
 #include "sensors/velodyne/VelodyneTurns.h"

@@ -1,6 +1,6 @@
 #include "recordings/PoseFile.h"
+#include "recordings/Remarks.h"
 #include "recordings/bags/BagScans.h"
-#include "recordings/bags/Remarks.h"
 
 #include "recordings/ScanObject.h"
 #include "recordings/Sources.h"

@@ -1,6 +1,6 @@
 #include "recordings/bags/BagSurvey.h"
 #include <hagen/sensors/VelodynePacket.h>
-#include "recordings/bags/Remarks.h"
+#include "recordings/Remarks.h"
 
 #include <cmath>
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include <hagen/mrpt/Trajectory.h>
 #include <mrpt/math/CQuaternion.h>
-#include "recordings/bags/Remarks.h"
+#include "recordings/Remarks.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #include "recordings/captures/LidarCapture.h"
-#include "recordings/bags/Remarks.h"
+#include "recordings/Remarks.h"
 #include "sensors/livox/LivoxPacket.h"
 
 #include <stdexcept>

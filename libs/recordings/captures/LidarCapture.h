@@ -1,7 +1,7 @@
 #pragma once
 #include <hagen/sensors/CaptureFile.h>
 #include <mrpt/obs/CObservation.h>
-#include "sensors/livox/SweepReader.h"
+#include "sensors/SweepReader.h"
 
 #include <filesystem>
 #include <functional>

@@ -4,7 +4,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/poses/CPose3D.h>
-#include "recordings/bags/Remarks.h"
+#include "recordings/Remarks.h"
 #include "recordings/captures/LidarCapture.h"
 
 #include <cstring>

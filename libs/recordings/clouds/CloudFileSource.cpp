@@ -1,7 +1,7 @@
 #include <hagen/recordings/BrokenRecording.h>
 #include "base/Folder.h"
 #include "mrpt/TableCloud.h"
-#include "recordings/bags/Remarks.h"
+#include "recordings/Remarks.h"
 #include "recordings/clouds/CloudFile.h"
 
 #include <algorithm>

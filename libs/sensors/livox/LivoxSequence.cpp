@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint64_t kInterruption_ns = 1000000000;
 constexpr std::uint64_t kMaxLate_ns = 16 * 480000;  // sixteen packets
-constexpr std::size_t kOfSetClock = 4;              // packets in a row
+constexpr std::size_t kLateOfSetClock = 4;          // packets in a row
 
 }  // namespace
 
@@ -19,7 +19,7 @@ bool LivoxSequence::wentBack(std::uint64_t time_ns) {
         too_late_in_a_row_ > 0 && time_ns > too_late_ns_ && time_ns - too_late_ns_ <= kMaxLate_ns;
     too_late_in_a_row_ = follows ? too_late_in_a_row_ + 1 : 1;
     too_late_ns_ = time_ns;
-    return too_late_in_a_row_ >= kOfSetClock;
+    return too_late_in_a_row_ >= kLateOfSetClock;
 }
 
 LivoxSequence::Step LivoxSequence::stepTo(const LivoxPacket& packet, PacketCounts& counts) {

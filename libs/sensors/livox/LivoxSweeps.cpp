@@ -1,4 +1,4 @@
-#include "sensors/livox/SweepReader.h"
+#include "sensors/SweepReader.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include <hagen/scan/Scan.h>
 #include <cstddef>
 #include <vector>
-#include "sensors/livox/SweepReader.h"
+#include "sensors/SweepReader.h"
 #include "sensors/ouster/OusterFrames.h"
 
 namespace hagen::sensors {

@@ -1,4 +1,4 @@
-#include "sensors/livox/SweepReader.h"
+#include "sensors/SweepReader.h"
 #include "sensors/ouster/OusterFrames.h"
 #include "sensors/ouster/OusterScan.h"
 

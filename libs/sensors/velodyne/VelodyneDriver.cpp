@@ -20,10 +20,9 @@ namespace hagen::sensors {
 namespace {
 
 constexpr int kMaxLate = 16;
-constexpr std::size_t kPositionBytes = 512;
 constexpr double kInterruptionUs = 50e3;
 constexpr double kForgottenUs = 250e3;  // returns from before such a gap are no context
-constexpr double kOverlap_rad = 0.2;  // of packets that are not full
+constexpr double kOverlap_rad = 0.2;    // of packets that are not full
 constexpr double kNearest_m = 0.5;
 constexpr int kReadings = kReadingsOfTurn;
 // In 0.01 degrees: of azimuths of a motor that hardly turns, and of one within a packet.

@@ -1,4 +1,5 @@
-#include "sensors/livox/SweepReader.h"
+#include <hagen/sensors/VelodynePacket.h>
+#include "sensors/SweepReader.h"
 #include "sensors/velodyne/VelodyneCalibrationFile.h"
 #include "sensors/velodyne/VelodyneTurns.h"
 
@@ -19,7 +20,6 @@
 namespace hagen::sensors {
 namespace {
 
-constexpr std::size_t kPositionBytes = 512;
 constexpr std::uint16_t kPositionPort = 8308;
 
 /// The Velodyne sensors of a recording, by address, port and model: VLP-16, Puck Hi-Res, HDL-32E

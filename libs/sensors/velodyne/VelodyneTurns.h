@@ -3,7 +3,7 @@
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <hagen/sensors/VelodyneModel.h>
 #include <hagen/sensors/VelodynePacket.h>
-#include "sensors/livox/SweepReader.h"
+#include "sensors/SweepReader.h"
 
 #include <cstddef>
 #include <cstdint>

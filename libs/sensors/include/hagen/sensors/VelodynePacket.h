@@ -12,6 +12,7 @@ namespace hagen::sensors {
 /// a time of four bytes, the mode and the model. All numbers are little-endian.
 constexpr std::size_t kVelodynePacketBytes = 1206;
 constexpr int kVelodyneBlocks = 12;
+constexpr std::size_t kPositionBytes = 512;                         ///< of a position packet (GPS)
 constexpr int kVelodyneBlockBytes = 100, kVelodyneHeaderBytes = 4;  ///< header and azimuth
 constexpr std::size_t kReturnsOfBlock = 32;
 constexpr unsigned kUpperBlock = 0xeeff, kLowerBlock = 0xddff;  ///< headers
