@@ -38,6 +38,8 @@ endfunction()
 option(HAGEN_UNITY_BUILD "Compile the libraries in batches of sources" ON)
 function(hagen_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${HAGEN_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 25)
+  # Types of an anonymous namespace within a batch are still used in one source only.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   foreach(source ${ARGN})
     file(STRINGS ${source} per_target REGEX "foreach_target.h" LIMIT_COUNT 1)
     if(per_target)

@@ -10,7 +10,7 @@ namespace hagen {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kMinBin_deg = 0.5, kMaxBin_deg = 30, kMaxRange_m = 20;
+constexpr double kMinBin_deg = 0.5, kMaxBin_deg = 30, kMaxBinRange_m = 20;
 
 /// The number of the bin that starts at an angle.
 int parseStart(const YAML::Node& node, const std::string& key, double least_deg, double bin_deg,
@@ -33,7 +33,7 @@ void parseBin(const YAML::Node& bin, double bin_deg, Image<float>& bin_range_m) 
     const int column = parseStart(bin[0], "azimuth_deg of a bin", -180, bin_deg, 2 * rows);
     const int row = parseStart(bin[1], "elevation_deg of a bin", -90, bin_deg, rows);
     if (bin_range_m(row, column) > 0) throw SettingsError("this bin occurs twice");
-    bin_range_m(row, column) = parseNumber<float>(bin[2], "range_m of a bin", 0, kMaxRange_m);
+    bin_range_m(row, column) = parseNumber<float>(bin[2], "range_m of a bin", 0, kMaxBinRange_m);
 }
 
 }  // namespace

@@ -123,9 +123,9 @@ class TrialFlight {
 
     /// Measured height above the ground.
     double altimeter_m(std::uint64_t stream, const Eigen::Vector3d& at) const {
-        constexpr double kNoise_m = 0.02;
+        constexpr double kAltitudeNoise_m = 0.02;
         simulation::Random random(course_.seed, stream);
-        return at.z() - groundHeight_m(course_, at) + kNoise_m * random.normal();
+        return at.z() - groundHeight_m(course_, at) + kAltitudeNoise_m * random.normal();
     }
 
     GuidanceTask guidanceTask(const VehicleState& state, double ground_m) const {

@@ -165,7 +165,7 @@ bool hasFusaHeader(const Metadata& metadata, const OusterProfile& profile) {
 }
 
 void readFormat(const Metadata& metadata, OusterSensor& sensor) {
-    constexpr std::size_t kMaxColumns = 4096, kMaxBeams = 256;
+    constexpr std::size_t kMaxFrameColumns = 4096, kMaxBeams = 256;
     const bool has_format = metadata.find("pixels_per_column") != nullptr;
     sensor.pixels = has_format ? metadata.count("pixels_per_column", 3, kMaxBeams)
                                : metadata.items("beam_altitude_angles");
@@ -173,7 +173,7 @@ void readFormat(const Metadata& metadata, OusterSensor& sensor) {
         throw std::runtime_error("'beam_altitude_angles' has " + std::to_string(sensor.pixels) +
                                  " numbers, not 3 ... 256");
     }
-    sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMaxColumns)
+    sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMaxFrameColumns)
                                           : columnsOfMode(metadata.requiredText("lidar_mode"));
     sensor.turn_s = turnTimeOfMode(metadata);
     const std::size_t most_of_packet = std::min<std::size_t>(64, sensor.columns_per_frame);
