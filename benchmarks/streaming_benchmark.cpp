@@ -273,7 +273,7 @@ int run(int argc, char** argv) {
     std::vector<live::StreamingOptions> all;
     Known known = Known::Nothing;
     std::optional<double> skip_rad;
-    bool ground_tells = true;
+    bool motion_from_ground = true;
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
         if (word == "-c" && i + 1 < argc) {
@@ -283,7 +283,7 @@ int run(int argc, char** argv) {
         } else if (word == "--pose") {
             known = Known::Pose;
         } else if (word == "--ignore-ground") {
-            ground_tells = false;
+            motion_from_ground = false;
         } else if (word == "--skip-deg" && i + 1 < argc) {
             skip_rad = radians(std::atof(argv[++i]));
         } else if (word == "--try" && i + 3 < argc) {
@@ -306,7 +306,7 @@ int run(int argc, char** argv) {
     }
     if (all.empty()) all.emplace_back();
     for (auto& options : all) {
-        options.ground_tells_motion = ground_tells;
+        options.estimate_motion_from_ground = motion_from_ground;
         if (skip_rad) options.skip_ahead_rad = options.skip_ahead_moved_rad = *skip_rad;
     }
     std::vector<Recording> recordings;

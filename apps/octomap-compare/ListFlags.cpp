@@ -12,7 +12,7 @@ void takesWorldModels(Flag flag, const std::vector<std::string>& also) {
             return std::find(names.begin(), names.end(), name) != names.end();
         };
         if (isIn(known) || isIn(also)) return "";
-        return "unknown world model '" + name + "'; known are " + avoidance::worldModelList();
+        return "unknown world model '" + name + "'; known: " + avoidance::worldModelList();
     };
     flag.transform(avoidance::worldModelFrom).check(errorOf, "");
 }

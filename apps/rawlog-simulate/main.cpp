@@ -26,7 +26,7 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
     const auto known_scenario = [known](const std::string& name) -> std::string {
         const auto names = simulation::scenarioNames();
         if (std::find(names.begin(), names.end(), name) != names.end()) return "";
-        return "unknown scenario '" + name + "'; known are " + known;
+        return "unknown scenario '" + name + "'; known: " + known;
     };
 
     app.option("--scenario", log.scenario, "the scene")

@@ -129,8 +129,7 @@ Plan readPlan(const fs::path& file) {
         } else if (key == "plain") {
             plain = value;
         } else {
-            fail(file, value,
-                 "unknown key " + key + "; known are rounds, hard_sets, settings, plain");
+            fail(file, value, "unknown key " + key + "; known: rounds, hard_sets, settings, plain");
         }
     });
     if (plan.settings.empty()) throw std::runtime_error(file.string() + ": has no settings");

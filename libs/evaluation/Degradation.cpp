@@ -365,7 +365,7 @@ Degradation::Degradation(const std::string& text) : name_(text) {
     } else if (key == "rate_hz") {
         function_ = atRate(number(2 * kRecordedHz, 100));
     }
-    if (!function_) fail(text, std::string("unknown; known are ") + kKnown);
+    if (!function_) fail(text, std::string("unknown; known: ") + kKnown);
 }
 
 void Degradation::checkSensor(const SensorModel& sensor) const {

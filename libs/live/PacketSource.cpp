@@ -113,7 +113,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
     message.msg_controllen = control.size();
     const ssize_t size = recvmsg(socket_, &message, MSG_DONTWAIT);
     if (size < 0) {
-        // A port that nobody has is told to a socket that has sent; ours has not.
+        // ECONNREFUSED follows a datagram that was sent; this socket sends none.
         if (errno == EINTR || errno == EAGAIN || errno == ECONNREFUSED) return Next::Nothing;
         fail(name_);
     }
@@ -152,7 +152,7 @@ ReplaySource::ReplaySource(const std::filesystem::path& file, double speed)
     });
 }
 
-/// Reads the next datagram; false at the end. Throws NoneYet if many frames are none.
+/// Reads the next datagram; false at the end. Throws NoneYet after many frames without one.
 bool ReplaySource::readWaiting() {
     search_start_s_ = steadyNow_s();
     return capture_.next(waiting_);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDirections_s = 0.05;
 constexpr double kMinTime_s = 0.125;  // of a rate
-constexpr double kOtherRate = 0.2;    // is told
+constexpr double kOtherRate = 0.2;    // relative change that is reported
 
 SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor) {
     SectorDistances::Settings settings;
@@ -98,11 +98,11 @@ std::optional<RateChange> SectorFigures::rateChange() {
     const double arrived_s = recent_last_s_ - recent_first_s_;  // not all of the time, at first
     if (arrived_s <= kMinTime_s || recent_sweep_rad_ <= 0) return std::nullopt;
     const double rate = recent_sweep_rad_ / (2 * kPi) / arrived_s;
-    const bool is_odd = rate_told_ > 0 && std::abs(rate / rate_told_ - 1) > kOtherRate;
+    const bool is_odd = reported_rate_ > 0 && std::abs(rate / reported_rate_ - 1) > kOtherRate;
     odd_rates_ = is_odd ? odd_rates_ + 1 : 0;
-    if (rate_told_ > 0 && odd_rates_ < 2) return std::nullopt;
-    const RateChange change{rate_told_, rate};
-    rate_told_ = rate;
+    if (reported_rate_ > 0 && odd_rates_ < 2) return std::nullopt;
+    const RateChange change{reported_rate_, rate};
+    reported_rate_ = rate;
     odd_rates_ = 0;
     if (change.before == 0) return std::nullopt;
     ++report_.rate_changes;

@@ -5,7 +5,7 @@
 
 namespace hagen::live {
 
-/// A speed of the motor that was told, and what it is now, in turns per second.
+/// The last reported speed of the motor and the current one, in turns per second.
 struct RateChange {
     double before, now;
 };
@@ -38,7 +38,7 @@ class SectorFigures {
     SectorDistances distances_;
     double counted_s_ = 0;
     LatencyHistogram recent_;
-    double recent_sweep_rad_ = 0, recent_first_s_ = 0, recent_last_s_ = 0, rate_told_ = 0;
+    double recent_sweep_rad_ = 0, recent_first_s_ = 0, recent_last_s_ = 0, reported_rate_ = 0;
     int odd_rates_ = 0;
 };
 

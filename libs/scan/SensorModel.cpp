@@ -68,7 +68,7 @@ SensorModel sensorModel(const std::string& name) {
         sensor.has_rings = known.has_rings;
         return sensor;
     }
-    std::string message = "unknown sensor model '" + name + "'; known are";
+    std::string message = "unknown sensor model '" + name + "'; known:";
     for (const std::string& known : knownSensorModels()) message += " " + known + ",";
     throw std::invalid_argument(message + " or 'custom' with its elevations");
 }

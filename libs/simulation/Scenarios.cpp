@@ -445,7 +445,7 @@ Scene makeScene(const std::string& scenario, std::uint64_t seed) {
         if (one.name == scenario) return one.make(seed);
         known += (known.empty() ? "" : ", ") + one.name;
     }
-    throw std::invalid_argument("unknown scenario '" + scenario + "'; known are " + known);
+    throw std::invalid_argument("unknown scenario '" + scenario + "'; known: " + known);
 }
 
 }  // namespace hagen::simulation

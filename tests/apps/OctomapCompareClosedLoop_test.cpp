@@ -266,7 +266,7 @@ TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
     };
     failsInstead("--scenario", "moon", "forest-0.05");
     failsInstead("--models", "W-RoI,X-Ray",
-                 "unknown world model 'X-Ray'; known are W-RoI (RoI window), ");
+                 "unknown world model 'X-Ray'; known: W-RoI (RoI window), ");
     failsInstead("--models", "RoI window,RoI windows", "'RoI windows'");
     failsInstead("--guidance", "psychic", "'psychic'");
     failsInstead("--seeds", "7-3", "seed");
@@ -314,7 +314,7 @@ TEST(Calibrate, AsksForAnOutputAndKnownModels) {
     expectFailure(octomapCompare({"calibrate"}), 2, "-o");
     expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", "X"}), 2, "X");
     expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", "X"}), 2,
-                  "known are W-RoI (RoI window), ");
+                  "known: W-RoI (RoI window), ");
     for (const char* model : {"oracle", "true scene", "RoI window,OctoMap 0.4 m", "all"}) {
         expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", model}), 1,
                       "/nowhere");

@@ -140,10 +140,10 @@ TEST_F(OpenLoopCommand, RefusesWrongUsage) {
     expectFailure(with(orchard, {"--models", "O-Full-0"}), 2, "O-Full-0");
     expectFailure(
         with(orchard, {"--models", "W-Roy"}), 2,
-        "unknown world model 'W-Roy'; known are W-RoI (RoI window), W-RoI+motion (RoI window with "
+        "unknown world model 'W-Roy'; known: W-RoI (RoI window), W-RoI+motion (RoI window with "
         "motion), W-Full (full window), ");
     expectFailure(with(orchard, {"--models", "oracle"}), 2, "--truth-scenario");
-    expectFailure(with(orchard, {"--truth-scenario", "jungle"}), 2, "known are");
+    expectFailure(with(orchard, {"--truth-scenario", "jungle"}), 2, "known:");
     expectFailure(with(orchard, {"--sensor-label", "roof"}), 1,
                   "has no LiDAR scan of 'roof'; there are 'lidar'");
     expectFailure(with(orchard, {"--truth-seed", "3"}), 2, "--truth-scenario");
@@ -198,7 +198,7 @@ TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
     EXPECT_EQ(run(gap("out")).exit_code, 1);
     EXPECT_TRUE(fs::exists(path("out/openloop.partial-2.csv")));
 
-    // What a killed run left is told, but not removed: it may be of another machine.
+    // Leftovers of a killed run are reported, not removed: another machine may be writing.
     folder_.write("out/scans.csv.tmp-999999999-0123456789abcdef", "");
     simulate(4, {"--overwrite"});
     const auto whole = run(gap("out"));

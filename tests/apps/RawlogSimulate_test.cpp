@@ -278,7 +278,7 @@ TEST_F(RawlogSimulate, ReproducesDemoRecording) {
 TEST_F(RawlogSimulate, RejectsWrongUsage) {
     expectFailure({"--scenario", "jungle", "--scans", "1", "--altitude", "2", "--seed", "1", "-o",
                    path("a.rawlog")},
-                  2, "unknown scenario 'jungle'; known are orchard, field, forest-0.02");
+                  2, "unknown scenario 'jungle'; known: orchard, field, forest-0.02");
     const Arguments orchard{"--scenario", "orchard", "--seed", "1", "-o", path("a.rawlog")};
     expectFailures(orchard, 2,
                    {{{"--scans", "0", "--altitude", "2"}, "--scans"},

@@ -531,7 +531,7 @@ TEST_F(SegmentationEvaluate, RejectsWrongUsage) {
                     {{"--label-map", "none.yaml"}, "none.yaml: no such file"},
                     {{"--label-map", map}, "map.yaml:1: label 'ground' is not 0"},
                     {{"--camera", camera}, "camera.yaml: has no key 'cx'"},
-                    {{"--degrade", "snow=3"}, "'snow=3': unknown; known are dead_beams"},
+                    {{"--degrade", "snow=3"}, "'snow=3': unknown; known: dead_beams"},
                     {{"--degrade", "dropout=120"}, "from 0 to 100"},
                     {{"--degrade", "dead_beams=16"}, "pole: 'dead_beams=16': the sensor"},
                     {{"--degrade"}, "--degrade"}});

@@ -368,7 +368,7 @@ std::string problemOf(const std::string& text) {
 
 TEST(Degradation, RejectsUnknownNames) {
     for (const char* text : {"", "snow=3", "dropout", "upside_down=1", "rain_percent=3"}) {
-        EXPECT_THAT(problemOf(text), HasSubstr("known are dead_beams=R[,R...], dropout=")) << text;
+        EXPECT_THAT(problemOf(text), HasSubstr("known: dead_beams=R[,R...], dropout=")) << text;
     }
 }
 

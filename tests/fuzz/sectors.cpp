@@ -55,7 +55,7 @@ live::StreamingOptions anyCut(Parts& parts) {
     cut.sector_rad = 0.02 * (1 + parts.number<std::uint8_t>());
     cut.window_rad = 0.02 * parts.number<std::uint8_t>();
     cut.keep_every = static_cast<int>(parts.below(20));
-    cut.ground_tells_motion = parts.chance();
+    cut.estimate_motion_from_ground = parts.chance();
     cut.skip_ahead_rad = 0.01 * parts.number<std::uint8_t>();
     cut.skip_ahead_moved_rad = 0.01 * parts.number<std::uint8_t>();
     return cut;

@@ -38,7 +38,7 @@ class Sender {
     int socket_;
 };
 
-/// A port that nobody listens on.
+/// A port without a listener.
 std::uint16_t freePort() {
     const int probe = socket(AF_INET, SOCK_DGRAM, 0);
     sockaddr_in at{};
@@ -69,7 +69,7 @@ TEST(Address, ReadsOrRejectsText) {
 TEST(UdpSource, RequestsLargeBuffer) {
     int most = 0;
     std::ifstream("/proc/sys/net/core/rmem_max") >> most;
-    if (most == 0) GTEST_SKIP() << "the system does not tell how large buffers may be";
+    if (most == 0) GTEST_SKIP() << "the system does not report the maximum size of buffers";
     const UdpSource source({0x7f000001, freePort()});
     EXPECT_GE(source.bufferBytes(), 2 * std::min(most, 8 << 20));
 }
@@ -156,7 +156,7 @@ TEST(ReplaySource, ReplaysAtRecordedPace) {
     }
 }
 
-/// Whoever reads must be able to stop in a file of nothing but frames that are no datagrams.
+/// A reader must be able to stop within a long run of frames without datagrams.
 TEST(ReplaySource, LongSearchContinuesInNextCall) {
     const test::TemporaryFolder folder;
     const auto file = test::CaptureWriter().write(folder / "a.pcap");

@@ -287,7 +287,7 @@ TEST(SerialPeer, SendsWholeMessagesOnly) {
     const std::string name = (folder / "line").string();
     const Line line(name);
     const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
-    // Nobody reads until the line is full.
+    // Not read until the line is full.
     const std::size_t size = 200;
     std::uint8_t sent = 0;
     while (sent < 250 && peer->send(Bytes(size, sent))) ++sent;
@@ -307,7 +307,7 @@ TEST(SerialPeer, SendsWholeMessagesOnly) {
     for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i / size);
 }
 
-/// Where obstacles were long ago is not told first, once the line goes on.
+/// When the line is free again, stale obstacles are not sent first.
 TEST(SerialPeer, ReportsBlockedLineAndDropsBacklog) {
     const test::TemporaryFolder folder;
     const std::string name = (folder / "line").string();

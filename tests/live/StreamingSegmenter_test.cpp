@@ -290,11 +290,12 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     tilted.scan.intensity.resize(tilted.scan.size());
     locateBeams(sensor_, tilted.scan);
     std::optional<Attitude> mount;
-    const auto errorsWith = [&](bool tells, double skip_ahead_rad, bool ground_tells = false) {
+    const auto errorsWith = [&](bool tells, double skip_ahead_rad,
+                                bool motion_from_ground = false) {
         taken_.clear();
         StreamingOptions options;
         options.skip_ahead_rad = skip_ahead_rad;
-        options.ground_tells_motion = ground_tells;
+        options.estimate_motion_from_ground = motion_from_ground;
         StreamingSegmenter segmenter(sensor_, {}, take(), options);
         segmenter.setMount(mount);
         if (tells) segmenter.setAttitude(Attitude{});
@@ -318,9 +319,9 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     EXPECT_LT(4 * told, not_told);
     // Without the oldest returns beside the sector, not knowing the tilt costs less.
     EXPECT_LT(errorsWith(false, radians(30.0)), not_told);
-    // The first sectors of ground tell the others.
+    // Motion is estimated from the first sectors of ground.
     EXPECT_LT(4 * errorsWith(false, 0, true), not_told);
-    // A mount is a tilt, but does not tell that the sensor stands still.
+    // A mount is a tilt, but does not imply that the sensor stands still.
     mount = Attitude{};
     EXPECT_GT(errorsWith(false, 0), 50u);
     EXPECT_LT(2 * errorsWith(false, radians(30.0)), errorsWith(false, 0));

@@ -138,7 +138,7 @@ TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
                 }),
                 HasSubstr("nested too deeply"));
     const std::string unknown = messageWith("\"RNG19_RFL8_SIG16_NIR16\"", "\"SIX_WORD_PIXEL\"");
-    EXPECT_THAT(unknown, HasSubstr("'SIX_WORD_PIXEL', which is not supported; known are LEGACY"));
+    EXPECT_THAT(unknown, HasSubstr("'SIX_WORD_PIXEL', which is not supported; known: LEGACY"));
     EXPECT_THAT(unknown, HasSubstr("FIVE_WORD_PIXEL. Set one of these in the sensor's"));
     EXPECT_THAT(messageWith("\"pixels_per_column\": 4", "\"pixels_per_column\": 5"),
                 HasSubstr("'beam_altitude_angles' has 4 numbers, not 5"));

@@ -72,7 +72,7 @@ class LocalUdp {
     std::uint16_t port_ = 0;
 };
 
-/// A port of this machine that nobody listens on.
+/// A port of this machine without a listener.
 inline std::uint16_t freePort() { return LocalUdp().port(); }
 
 }  // namespace hagen::test

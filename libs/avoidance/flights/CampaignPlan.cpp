@@ -20,7 +20,7 @@ void checkNames(const std::string& what, const std::vector<std::string>& names,
     checkGiven(what, names);
     for (const std::string& name : names) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        throw std::invalid_argument("unknown " + what + " '" + name + "'; known are " + list);
+        throw std::invalid_argument("unknown " + what + " '" + name + "'; known: " + list);
     }
 }
 

@@ -98,7 +98,7 @@ const CourseKind& kindNamed(const std::string& name) {
         if (kind.name == name) return kind;
         known += (known.empty() ? "" : ", ") + kind.name;
     }
-    throw std::invalid_argument("unknown course '" + name + "'; known are " + known);
+    throw std::invalid_argument("unknown course '" + name + "'; known: " + known);
 }
 
 }  // namespace

@@ -341,8 +341,8 @@ void checkOpenLoop(const OpenLoop& open_loop) {
     if (std::find(known.begin(), known.end(), open_loop.scene->scenario) != known.end()) return;
     std::string names;
     for (const std::string& name : known) names += " " + name;
-    throw std::invalid_argument("unknown scenario '" + open_loop.scene->scenario + "'; known are" +
-                                names);
+    throw std::invalid_argument("unknown scenario '" + open_loop.scene->scenario +
+                                "'; known:" + names);
 }
 
 OpenLoopResult runOpenLoop(const OpenLoop& open_loop, const OpenLoopListener& listener) {

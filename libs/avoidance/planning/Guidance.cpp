@@ -166,7 +166,7 @@ const std::vector<std::string>& guidanceNames() {
 std::unique_ptr<Guidance> makeGuidance(const std::string& name) {
     if (name == "straight") return std::make_unique<StraightGuidance>();
     if (name == "astar") return std::make_unique<PathGuidance>();
-    throw std::invalid_argument("unknown guidance '" + name + "'; known are straight, astar");
+    throw std::invalid_argument("unknown guidance '" + name + "'; known: straight, astar");
 }
 
 }  // namespace hagen::avoidance

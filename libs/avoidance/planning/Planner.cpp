@@ -12,7 +12,7 @@ const std::vector<std::string>& plannerNames() {
 std::unique_ptr<Planner> makePlanner(const std::string& name) {
     if (name == "primitives") return std::make_unique<MotionPrimitives>();
     if (name == "3dvfh") return std::make_unique<PolarHistogram>();
-    throw std::invalid_argument("unknown planner '" + name + "'; known are primitives, 3dvfh");
+    throw std::invalid_argument("unknown planner '" + name + "'; known: primitives, 3dvfh");
 }
 
 }  // namespace hagen::avoidance

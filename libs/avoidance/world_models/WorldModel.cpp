@@ -143,8 +143,7 @@ const Entry* findEntry(const std::string& name) {
 
 const Entry& entryOf(const std::string& name) {
     if (const Entry* entry = findEntry(name)) return *entry;
-    throw std::invalid_argument("unknown world model '" + name + "'; known are " +
-                                worldModelList());
+    throw std::invalid_argument("unknown world model '" + name + "'; known: " + worldModelList());
 }
 
 std::string lowerCase(std::string text) {

@@ -17,7 +17,7 @@ namespace hagen::live {
 namespace {
 
 constexpr std::size_t kMaxPackets = 4000;  // whatever the clock says; a turn has up to 600
-constexpr double kPacketEnd_rad = 0.01;     // of where packets begin and end
+constexpr double kPacketEnd_rad = 0.01;    // of where packets begin and end
 // A beam's correction may add half a turn; nearestColumn() wraps once.
 constexpr float kMaxAzimuth_rad = 7.8F;
 constexpr double kMaxRotation_rad = 1e12;  // 250 years at 20 Hz; still exact to 0.1 mrad
@@ -271,7 +271,7 @@ void StreamingSegmenter::addFrame(const Scan& returns, double time_s, double mea
     checkTime(first_s);
     checkTime(sensor_time_s.value_or(0));
     if (first_s > time_s) {
-        throw std::invalid_argument("streaming: a frame's first packet came after its last");
+        throw std::invalid_argument("streaming: a frame's first packet is later than its last");
     }
     Packet& packet = push(returns, time_s);
     packet.measured_s = measured_s;
@@ -290,8 +290,8 @@ void StreamingSegmenter::restart() {
     packets_.clear();
 }
 
-/// Packets that were overwritten by the latest turn, or that are too old. A clock that went back
-/// does not tell how old they are.
+/// Packets that were overwritten by the latest turn, or that are too old. After a clock that went
+/// back their age is unknown.
 void StreamingSegmenter::forget(double now_s) {
     while (packets_.size() > open_) {
         const Packet& oldest = packets_.front();
@@ -368,7 +368,7 @@ void StreamingSegmenter::addAhead(const Returns& returns) {
     }
 }
 
-/// Whether enough is in sight to tell what is ground.
+/// Whether enough is in sight to find the ground.
 bool StreamingSegmenter::knowsEnough() const {
     double known_rad = 0;
     for (const Packet& packet : packets_) {
@@ -470,7 +470,7 @@ void StreamingSegmenter::label(bool is_cut) {
 
     const SegmentationResult& result = judge();
     keepFound();
-    if (last.sweep && streaming_.ground_tells_motion) {
+    if (last.sweep && streaming_.estimate_motion_from_ground) {
         turn_motion_.add(sector_, labels_, head_rad_);
     }
     const bool is_doubtful = !knowsEnough();
@@ -482,8 +482,9 @@ void StreamingSegmenter::label(bool is_cut) {
     }
     const bool turns = last.sweep.has_value();
     const std::optional<Sweep>& oldest = packets_.front().sweep;
-    const bool has_turn =
-        turns ? oldest && oldest->from_rad < head_rad_ - kTurn_rad + kPacketEnd_rad : first_open > 0;
+    const bool has_turn = turns
+                              ? oldest && oldest->from_rad < head_rad_ - kTurn_rad + kPacketEnd_rad
+                              : first_open > 0;
     ++sectors_;
     open_ = 0;
     take_({sector_, labels_, turns ? std::optional<Sweep>(sector) : std::nullopt,

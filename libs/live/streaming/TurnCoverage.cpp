@@ -11,7 +11,7 @@ namespace {
 // other are up to 0.025 degrees apart, by the rounding of azimuths.
 constexpr double kGap_rad = 0.001;
 constexpr double kRounding_rad = 1e-5;  // of matrices of floats
-// A vehicle that yaws sees a gap between sectors that are none of the sensor's: 3 degrees.
+// A vehicle that yaws sees gaps of up to 3 degrees between sectors.
 constexpr double kBeside_rad = 0.05;
 
 }  // namespace

@@ -99,16 +99,16 @@ class BagSurveyor {
         }
         const VelodyneScanMessage scan = readVelodyneScan(fields);
         if (topic.frame.empty()) topic.frame = scan.header.frame;
-        bool tells_model = false;
+        bool names_model = false;
         for (const VelodyneScanMessage::Packet& packet : scan.packets) {
             const bool is_data =
                 sensors::isVelodyneData(packet.bytes, sensors::kVelodynePacketBytes);
             if (!is_data || sensors::isOfHdl64(packet.bytes)) continue;
             const std::uint8_t id = packet.bytes[sensors::kVelodyneModelAt];
             ++topic.velodyne_ids[id];
-            tells_model = tells_model || sensors::findVelodyneModel(id) != nullptr;
+            names_model = names_model || sensors::findVelodyneModel(id) != nullptr;
         }
-        topic.velodyne_messages += tells_model ? 1 : 0;
+        topic.velodyne_messages += names_model ? 1 : 0;
     }
 
     static void take(const PoseMessage& pose, const BagMessage& message, const BagTopic& topic,

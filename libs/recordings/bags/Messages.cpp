@@ -122,7 +122,7 @@ FieldReader fieldsOf(const BagMessage& message, const std::string& encoding,
     if (encoding == "ros1") return FieldReader(bytes);
     if (encoding != "cdr") {
         throw std::runtime_error("its serialisation '" + encoding.substr(0, 32) +
-                                 "' is not known; known are ros1 and cdr");
+                                 "' is not supported (ros1, cdr)");
     }
     if (isZstd(message)) {
         unpackZstd(bytes, unpacked);

@@ -137,7 +137,7 @@ ByteView unpack(const std::string& compression, ByteView packed, std::uint64_t s
         unpackBz2(packed, growing);
     } else {
         failPacked("its compression '" + compression.substr(0, 32) +
-                   "' is not known; known are none, zstd, lz4 and bz2");
+                   "' is not supported (none, zstd, lz4, bz2)");
     }
     growing.finish();
     checkSize(plain.size());

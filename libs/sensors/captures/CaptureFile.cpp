@@ -74,7 +74,7 @@ struct CaptureFile::Reader {
         const char* const link = pcap_datalink_val_to_name(link_type);
         throw BrokenCapture(file.string() + ": was captured on a link of type " +
                             (link == nullptr ? std::to_string(link_type) : link) +
-                            ", which is not supported; known are Ethernet, Linux 'any' and raw IP");
+                            ", which is not supported; known: Ethernet, Linux 'any' and raw IP");
     }
 
     /// Counts the fragments that are still open: there are no more frames.

@@ -133,7 +133,7 @@ std::size_t columnsOfMode(const std::string& mode) {
     throw std::runtime_error("'lidar_mode' is '" + mode + "', not like '1024x10'");
 }
 
-/// From a mode like "1024x10": turns per second; 0: it is none.
+/// From a mode like "1024x10": turns per second; 0 for other texts.
 double turnTimeOfMode(const Metadata& metadata) {
     const json* const found = metadata.find("lidar_mode");
     if (found == nullptr || !found->is_string()) return 0;
@@ -151,7 +151,7 @@ const OusterProfile& profileNamed(const std::string& name) {
         known += (known.empty() ? "" : ", ") + profile.name;
     }
     throw std::runtime_error("'udp_profile_lidar' is '" + name + "', which is not supported; " +
-                             "known are " + known +
+                             "known: " + known +
                              ". Set one of these in the sensor's configuration and record again");
 }
 

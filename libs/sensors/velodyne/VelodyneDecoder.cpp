@@ -80,8 +80,8 @@ std::string hex(unsigned value) {
 
 bool areOfHdl64(const VelodynePackets& packets) { return isOfHdl64(packets.at(0)); }
 
-/// Returns a scan's own calibration. Throws std::runtime_error if it is none: a laser that points
-/// nowhere, or far offsets, would place returns nowhere.
+/// Returns a scan's own calibration. Throws std::runtime_error if it is invalid: a laser that
+/// points nowhere, or far offsets, would place returns nowhere.
 const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
     const auto& lasers = calibration.lasers;
     for (std::size_t i = 0; i < lasers.size(); ++i) {
@@ -115,7 +115,7 @@ const VelodyneModel& modelOf(const VelodynePackets& packets, std::size_t packet)
     const VelodyneModel* model = findVelodyneModel(id);
     if (model == nullptr) {
         throw std::runtime_error("packet " + std::to_string(packet) + ": unknown model id " +
-                                 hex(id) + "; known are" + knownVelodynes());
+                                 hex(id) + "; known:" + knownVelodynes());
     }
     if (id != Packet(packets.at(0)).modelId()) {
         throw std::runtime_error("packet " + std::to_string(packet) + ": model id " + hex(id) +

@@ -92,7 +92,7 @@ std::string sensorName(const LiveOptions& options);
 /// Labels the packets of a source until it ends, the time is over or the listener says so. One
 /// thread receives, one labels (that of the caller; its real-time priority, if it has one, is
 /// lowered by one, for good), and one records. A recording that stops early is reported, and the
-/// session goes on. What a packet holds never ends it.
+/// session continues. No packet content ends it.
 ///
 /// Throws std::runtime_error naming the file or address that failed, also a recording that cannot
 /// begin, and SettingsError.

@@ -20,7 +20,7 @@ struct Address {
 /// Reads "192.168.1.77:2368" or "0.0.0.0:2368". Throws std::runtime_error saying what is wrong.
 Address parseAddress(const std::string& text);
 
-/// Where packets come from.
+/// A source of packets.
 class PacketSource {
  public:
     enum class Next { Packet, Nothing, End };

@@ -66,13 +66,13 @@ class SectorDistances {
     /// The vehicle's pose at a time, if it is known.
     using PoseAt = std::function<std::optional<VehiclePose>(double time_s)>;
 
-    /// `sensor` tells where its beams look.
+    /// `sensor` has the directions of the beams.
     explicit SectorDistances(const SensorModel& sensor) : SectorDistances(sensor, Settings()) {}
     SectorDistances(const SensorModel& sensor, const Settings& settings);
 
-    /// A clock that goes back does not tell how old the earlier sectors are: they are forgotten.
+    /// If the clock goes back, the age of earlier sectors is unknown and they are dropped.
     void take(const LabelledSector& sector);
-    /// What is known at a time of the clock by which packets came.
+    /// What is known at a time, by the clock of packet arrival.
     Sectors at(double now_s, const PoseAt& poseAt = {}) const;
     /// When the latest packet of a sector came; -infinity: there was no sector.
     double latest_s() const { return latest_s_; }

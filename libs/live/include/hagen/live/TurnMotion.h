@@ -22,7 +22,7 @@ class TurnMotion {
     TurnMotion(int rows, int columns, float zone_m);
 
     /// Compares a sector with the turn before, and keeps it for the next. One label per return;
-    /// `head_rad`: how far the sensor has turned by now. It goes on from turn to turn.
+    /// `head_rad`: how far the sensor has turned in total, over all turns.
     void add(const Scan& sector, const std::vector<Label>& label, double head_rad);
     void forget();
 
