@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "support/PointScan.h"
 #include "support/Program.h"
 
 namespace hagen::evaluation {
@@ -25,14 +26,7 @@ PinholeCamera smallCamera() {
 }
 
 Scan scanOf(const std::vector<Eigen::Vector3f>& points_m) {
-    Scan scan;
-    for (const Eigen::Vector3f& point : points_m) {
-        scan.x_m.push_back(point.x());
-        scan.y_m.push_back(point.y());
-        scan.z_m.push_back(point.z());
-    }
-    locateBeams(sensorModel("VLP-16"), scan);
-    return scan;
+    return test::scanOf(sensorModel("VLP-16"), points_m);
 }
 
 void expectAt(const PinholeCamera& camera, const Eigen::Vector3f& point_m, int u, int v) {
@@ -48,11 +42,6 @@ TEST(Camera, ProjectsDirectionsToPixels) {
     expectAt(smallCamera(), {8, -4, 0}, 6, 3);  // slope 1/2: 2 px
     expectAt(smallCamera(), {8, 0, 6}, 4, 0);   // slope 3/4 up: 3 px
     expectAt(smallCamera(), {8, 0, -2}, 4, 4);
-}
-
-TEST(Camera, RoundsToNearestPixel) {
-    expectAt(smallCamera(), {100, 12.4f, 0}, 4, 3);  // 0.496 px from the middle
-    expectAt(smallCamera(), {100, 12.6f, 0}, 3, 3);
 }
 
 TEST(Camera, IgnoresReturnsOutsideTheView) {

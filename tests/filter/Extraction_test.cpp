@@ -142,55 +142,6 @@ TEST(Extraction, MatchesDefinitionOnEveryInstructionSet) {
     }
 }
 
-TEST(Extraction, LabelsByPixelZoneAndRange) {
-    const LabelledReturns returns = Example().returns;
-    // 0 and 1: of a RoI pixel; 2: beyond the zone; 3: of a ROU pixel; 4: too near for the sensor;
-    // 5: too far for it; 6: without a range.
-    EXPECT_EQ(returns.roi, (std::vector<std::uint32_t>{0, 1, 4}));
-    EXPECT_EQ(returns.rou, (std::vector<std::uint32_t>{2, 3, 5}));
-    EXPECT_EQ(returns.unclassified, (std::vector<std::uint32_t>{6}));
-    EXPECT_EQ(returns.component, (std::vector<std::int32_t>{1, 1, 0, 0, 0, 0, 0}));
-}
-
-TEST(Extraction, NumbersComponentsWithoutGaps) {
-    Example example;
-    example.labels.data()[example.image.depth_mapper[3]] = Label::Roi;
-    example.components.data()[example.image.depth_mapper[3]] = 3;  // before the other one, 7
-    example.extract();
-    EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{2, 2, 0, 1, 0, 0, 0}));
-}
-
-TEST(Extraction, UnmappedReturnInZoneIsRoi) {
-    Example example;
-    projectScan(example.scan, example.sensor, 8, 10.0f, example.image,
-                work.projection);  // context smaller than the zone
-    example.extract();
-    EXPECT_EQ(example.image.depth_mapper[1], RangeImage::kNoPixel);
-    EXPECT_EQ(example.returns.label[1], Label::Roi);
-    EXPECT_EQ(example.returns.component[1], 0);
-    EXPECT_EQ(example.returns.label[2], Label::Rou);
-}
-
-TEST(Extraction, OwnLabelOverridesPixel) {
-    Example example;
-    const auto extracted = [&](const std::vector<Label>& own_label) {
-        example.extract(ownLabels(own_label));
-        return example.returns;
-    };
-    std::vector<Label> own_label(7, Label::Unclassified);
-    EXPECT_EQ(extracted(own_label).label, Example().returns.label);
-    own_label[1] = Label::Rou;
-    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0, 4}));
-    EXPECT_EQ(example.returns.rou, (std::vector<std::uint32_t>{1, 2, 3, 5}));
-    EXPECT_EQ(example.returns.component[1], 0);
-    own_label[3] = Label::Roi;
-    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0, 3, 4}));
-    EXPECT_EQ(example.returns.component[3], 0);  // its pixel has no component
-    own_label[2] = own_label[6] = Label::Roi;    // beyond the zone, no range
-    EXPECT_EQ(extracted(own_label).label[2], Label::Rou);
-    EXPECT_EQ(example.returns.label[6], Label::Unclassified);
-}
-
 TEST(Extraction, ReturnsFarBehindHaveNoComponent) {
     Example example;  // its second return is 10 m behind the first, which is in component 7
     const std::vector<Label> own_label(7, Label::Roi);

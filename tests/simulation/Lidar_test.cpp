@@ -82,23 +82,6 @@ TEST_P(EachSensor, ExactReturnsLieOnGround) {
     }
 }
 
-TEST(LidarTest, PoseFunctionMatchesFlight) {
-    const Simulation setup(level(), flightAt(3, 8, 10));
-    double last_s = 0;
-    const auto pose_at = [&](double time_s) {
-        last_s = std::max(last_s, time_s);
-        return setup.flight.at(time_s);
-    };
-    Random random(1);
-    const SimulatedScan by_function = simulateScan(setup.scene, setup.sensor, pose_at, 7.3, random);
-    const SimulatedScan flown = setup.scan(7.3, {});
-    EXPECT_EQ(by_function.scan.range_m, flown.scan.range_m);
-    EXPECT_EQ(by_function.scan.x_m, flown.scan.x_m);
-    EXPECT_EQ(by_function.firing, flown.firing);
-    EXPECT_EQ(by_function.altitude_m, flown.altitude_m);
-    EXPECT_LE(last_s, 7.3 + firingPattern(setup.sensor).revolutionPeriod_s() + kPosesBeyondTurn_s);
-}
-
 TEST_P(EachSensor, PartsEqualWholeTurn) {
     const Simulation setup(level(), flightAt(3, 8, 10), GetParam());
     const SimulatedScan whole = setup.scan(7.3, noFaults());
@@ -175,13 +158,6 @@ TEST(LidarTest, StartsBehindAndTurnsClockwise) {
     EXPECT_NEAR(scan.scan.azimuth_rad[3 * scan.size() / 4], -kPi / 2, 0.05);
 }
 
-TEST(LidarTest, ReportsAltitudeAndPose) {
-    const Simulation setup(level(), flightAt(3, 4, 4));
-    const SimulatedScan scan = setup.scan(2.0, noFaults());
-    EXPECT_NEAR(scan.altitude_m, setup.flight.at(2.0).position_m.z(), 1e-12);
-    EXPECT_NEAR((scan.pose.position_m - setup.flight.at(2.0).position_m).norm(), 0, 1e-12);
-}
-
 /// Expects ranges with this standard deviation.
 void expectNoise(const Simulation& setup, double noise_m) {
     SensorErrorModel faults = noFaults();
@@ -193,10 +169,6 @@ void expectNoise(const Simulation& setup, double noise_m) {
         squares += std::pow(static_cast<double>(noisy.scan.range_m[i] - exact.scan.range_m[i]), 2);
     }
     EXPECT_NEAR(std::sqrt(squares / static_cast<double>(exact.size())), noise_m, 0.001);
-}
-
-TEST(LidarTest, NoiseHasGivenDeviation) {
-    expectNoise(Simulation(level(), flightAt(3, 4, 0)), 0.02);
 }
 
 TEST(LidarTest, LosesWeakReturnsFirst) {
@@ -255,17 +227,6 @@ TEST(LidarTest, BeamsPassWires) {
     EXPECT_GT(wires, 20);
     EXPECT_LE(grounds, before);
     EXPECT_GE(grounds + wires, before);
-}
-
-TEST(LidarTest, MeasuresLargeSurfacesOnAxis) {
-    const Simulation setup(level(), flightAt(3, 4, 0));
-    SensorErrorModel faults = noFaults();
-    faults.footprint_rad = 0.003;
-    const SimulatedScan scan = setup.scan(0, faults);
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (scan.scan.range_m[i] > 40) continue;
-        ASSERT_NEAR(setup.inMap(scan, i, 0).z(), 0, 5e-3) << i;
-    }
 }
 
 TEST(LidarTest, MixesRangesAtEdges) {
@@ -435,18 +396,6 @@ TEST(Mid360, FillsItsFieldOfView) {
     EXPECT_GE(lowest, -7.0001);
     EXPECT_NEAR(highest, 52, 0.1);
     EXPECT_LE(highest, 52.0001);
-}
-
-TEST(Mid360, FramesDifferInDirections) {
-    const Simulation setup = livoxIndoors();
-    std::set<std::pair<float, float>> directions;
-    for (const double time_s : {0.0, 0.1, 0.2, 5.0, 3600.0}) {
-        const SimulatedScan scan = setup.scan(time_s, noFaults());
-        for (std::size_t i = 0; i < scan.size(); ++i) {
-            directions.insert({scan.scan.azimuth_rad[i], static_cast<float>(elevationOf(scan, i))});
-        }
-    }
-    EXPECT_EQ(directions.size(), 5 * 20000u);
 }
 
 TEST(Mid360, FramesBecomeUniform) {
