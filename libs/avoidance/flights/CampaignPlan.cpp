@@ -5,15 +5,10 @@
 #include <hagen/avoidance/WorldModel.h>
 #include <algorithm>
 #include <stdexcept>
+#include "base/Text.h"
 
 namespace hagen::avoidance {
 namespace {
-
-std::string joined(const std::vector<std::string>& names) {
-    std::string all;
-    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-    return all;
-}
 
 template <class Value>
 void checkGiven(const std::string& what, const std::vector<Value>& values) {
@@ -66,10 +61,10 @@ void checkNumberOfFlights(const CampaignPlan& plan) {
 }
 
 void check(const CampaignPlan& plan, const Shard& shard) {
-    checkNames("scenario", plan.scenarios, courseNames(), joined(courseNames()));
+    checkNames("scenario", plan.scenarios, courseNames(), base::joined(courseNames(), ", "));
     checkNames("world model", plan.models, worldModelNames(), worldModelList());
-    checkNames("guidance", plan.guidances, guidanceNames(), joined(guidanceNames()));
-    checkNames("planner", plan.planners, plannerNames(), joined(plannerNames()));
+    checkNames("guidance", plan.guidances, guidanceNames(), base::joined(guidanceNames(), ", "));
+    checkNames("planner", plan.planners, plannerNames(), base::joined(plannerNames(), ", "));
     checkPositive("speed", plan.speeds_m_s);
     for (const double speed_m_s : plan.speeds_m_s) {
         if (speed_m_s < kMinSpeed_m_s) {  // a flight would not end

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
+#include "base/Text.h"
 
 namespace hagen::avoidance {
 namespace {
@@ -23,9 +24,7 @@ template <class Value>
 Value valueIn(const Names& names, const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) return static_cast<Value>(found - names.begin());
-    std::string known;
-    for (const std::string& one : names) known += (known.empty() ? "" : ", ") + one;
-    throw std::invalid_argument("\"" + name + "\" is not one of " + known);
+    throw std::invalid_argument("\"" + name + "\" is not one of " + base::joined(names, ", "));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "avoidance/replays/ChooseRun.h"
 #include "base/NumberText.h"
+#include "base/Text.h"
 #include "base/TextStream.h"
 
 #include <algorithm>
@@ -59,12 +60,6 @@ std::string listOf(const std::vector<Run>& runs) {
     return list;
 }
 
-std::string joined(const std::set<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-    return text;
-}
-
 /// One line per scenario: "gap: seeds 1000-1049, 4 m/s, G-Full,W-RoI, astar".
 std::string overviewOf(const std::vector<Run>& runs) {
     struct Scenario {
@@ -84,8 +79,8 @@ std::string overviewOf(const std::vector<Run>& runs) {
         const std::uint64_t first = *scenario.seeds.begin(), last = *scenario.seeds.rbegin();
         text << "\n  " << name << ": seed" << (first == last ? " " : "s ") << first;
         if (last != first) text << "-" << last;
-        text << ", " << joined(scenario.speeds_m_s) << " m/s, " << joined(scenario.models) << ", "
-             << joined(scenario.guidances);
+        text << ", " << base::joined(scenario.speeds_m_s, ",") << " m/s, "
+             << base::joined(scenario.models, ",") << ", " << base::joined(scenario.guidances, ",");
     }
     return text.str();
 }
