@@ -35,7 +35,7 @@ std::vector<int> levelInColumn(const std::vector<Eigen::Vector3f>& column_m) {
     return level(column_m, static_cast<int>(column_m.size()));
 }
 
-/// What a sensor at this height sees, pixel by pixel.
+/// The pixels that a sensor at this height sees.
 PixelPoints seen(const test::SimpleScene& scene, const SensorModel& sensor, double height_m) {
     constexpr int kColumns = 100;
     const Eigen::Vector3d eye_m(0, 0, height_m);
@@ -247,7 +247,7 @@ TEST(RequireEvidence, ReachesFourBlocks) {
 }
 
 TEST(RequireEvidence, EndsAtGridEdge) {
-    // Grid columns follow one another in memory; what is at the end of one is not near the next.
+    // Grid columns follow one another in memory; the end of one is not near the start of the next.
     const std::vector<float> tolerance_m =
         required({{47.9f, 47.9f, 0, true}, {-47.9f, 47.9f, 5, false}, {47.9f, -47.9f, 5, false}});
     EXPECT_EQ(tolerance_m, (std::vector{0.5f, kWithdrawn, kWithdrawn}));

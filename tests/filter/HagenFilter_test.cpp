@@ -436,7 +436,7 @@ Scan hillyScan(unsigned seed, const SensorModel& sensor) {
     return test::scanOf(sensor, points);
 }
 
-/// What a filter with these options finds: all images that an option may change.
+/// The result of a filter with these options: all images that an option may change.
 std::vector<Image<float>> imagesWith(const Options& options, const Scan& scan) {
     HagenFilter filter(sensorModel("HDL-32E"), options);
     const SegmentationResult& r = filter.segment(scan, Attitude{0.05f, -0.08f});

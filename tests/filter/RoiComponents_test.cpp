@@ -85,7 +85,7 @@ TEST(RoiComponents, NearestObstacleIsFirst) {
     EXPECT_TRUE((numbered(depth_m, labels) == expected).all());
 }
 
-TEST(RoiComponents, WithoutRoiThereAreNone) {
+TEST(RoiComponents, WithoutRoiAreEmpty) {
     const auto depth_m = Image<float>::Constant(4, 5, 2.0f);
     EXPECT_TRUE((numbered(depth_m, Image<Label>::Constant(4, 5, Label::Rou)) == 0).all());
 }

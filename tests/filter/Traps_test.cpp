@@ -24,7 +24,7 @@ struct Tilt {
     double pitch_rad = 0, roll_rad = 0;
 };
 
-/// Where the sensor is, and what it sees.
+/// A scene, and the position of the sensor in it.
 struct Sight {
     SimpleScene scene;
     Vector3d sensor_m;
@@ -340,7 +340,7 @@ TEST(Traps, OnlyBeamsAboveHorizon) {
     }
 }
 
-/// Leaves 3 to 6 m away in every direction hide this share of what is behind.
+/// Leaves 3 to 6 m away in every direction hide this share of the returns behind them.
 auto leaves(double share) {
     return [share](const Vector3d&, Hit& hit, test::Random& random) {
         const bool is_hidden = random.chance(share);

@@ -89,7 +89,7 @@ TEST_P(EachSensor, PartsEqualWholeTurn) {
     Random random(2);
     std::size_t at = 0;
     const int all = firingPattern(setup.sensor).firings_per_revolution;
-    for (int first = 0; first < all; first += 101) {  // no multiple of what is cast together
+    for (int first = 0; first < all; first += 101) {  // not a multiple of the batch size
         const int end = std::min(first + 101, all);
         const SimulatedScan part = simulateFirings(setup.scene, setup.sensor, pose_at, 7.3,
                                                    {first, end}, random, noFaults());
