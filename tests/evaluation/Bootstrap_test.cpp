@@ -31,6 +31,16 @@ TEST(Bootstrap, MatchesBinomialInterval) {
     EXPECT_NEAR(narrow.high - narrow.low, 2 * 0.025, 0.0055);
 }
 
+TEST(Bootstrap, ResamplesScansNotReturns) {
+    // Two scans, one found whole and one missed whole, are 0, 0.5 or 1 however many their returns.
+    std::vector<Scores> scans(2);
+    scans[0].roi.hits = 1000;
+    scans[1].roi.misses = 1000;
+    const Interval recall = bootstrapIntervals(scans).roi.recall;
+    EXPECT_EQ(recall.low, 0.0);
+    EXPECT_EQ(recall.high, 1.0);
+}
+
 TEST(Bootstrap, DependsOnSeedOnly) {
     BootstrapOptions options;
     options.resamples = 100;

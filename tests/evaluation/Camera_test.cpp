@@ -44,6 +44,11 @@ TEST(Camera, ProjectsDirectionsToPixels) {
     expectAt(smallCamera(), {8, 0, -2}, 4, 4);
 }
 
+TEST(Camera, RoundsToNearestPixel) {
+    expectAt(smallCamera(), {100, 12.4f, 0}, 4, 3);  // 0.496 px from the middle
+    expectAt(smallCamera(), {100, 12.6f, 0}, 3, 3);
+}
+
 TEST(Camera, IgnoresReturnsOutsideTheView) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(

@@ -106,6 +106,14 @@ TEST(TrueHeights, AreInfiniteWithoutGround) {
     EXPECT_TRUE(heightsOf(scanOf({}, {})).empty());
 }
 
+/// As floats, such squared distances are whole numbers.
+TEST(TrueHeights, UseDistantGround) {
+    for (const float far_m : {1000.0f, 1500.0f, 2000.0f, 5000.0f, 9999.0f}) {
+        const auto heights = heightsOf(scanOf({{far_m, 0, -1}, {10, 0, 0}}, {G, O}));
+        EXPECT_NEAR(heights[1], 1, 1e-5) << far_m;
+    }
+}
+
 TEST(TrueHeights, SkipReturnsBeyondRange) {
     const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {7, 0, 0}}, {G, O, O});
     const std::vector<float> heights_m = heightsOf(scan, 6);
@@ -136,6 +144,11 @@ TEST(TrueHeights, UseTiltedSensorsHorizon) {
     scan.true_level_from_sensor = turn;
     scan.input.map_from_sensor.reset();
     EXPECT_NEAR(heightsOf(scan)[2], 0.8f, 1e-5f);
+}
+
+TEST(TrueHeights, IgnoreNonFiniteReturns) {
+    auto scan = scanOf({{4, 0, -2}, {std::nanf(""), 0, -1}, {3e8f, 0, 0}, {5, 0, 0}}, {G, G, G, O});
+    EXPECT_FLOAT_EQ(heightsOf(scan)[3], 2.0f);
 }
 
 }  // namespace

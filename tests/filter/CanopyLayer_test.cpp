@@ -65,6 +65,14 @@ TEST(CanopyLayer, TwoHighReturnsMakeAnObstacle) {
     EXPECT_EQ(toleratedBelow({0.85f, 0.85f}), kBefore_m);
 }
 
+TEST(CanopyLayer, DeviationCountsUpToMean) {
+    // Mean 0.288 m, standard deviation 0.256 m: not more than twice the mean.
+    const PixelPoints pixels = pixelsAt(field(20, [](int k) { return k % 5 == 0 ? 0.8f : 0.16f; }));
+    const Image<float> expected_m =
+        (pixels.z_m > 0.7f).select(kBefore_m, Image<float>::Constant(1, pixels.z_m.cols(), 0.676f));
+    EXPECT_LT((tolerated(pixels) - expected_m).abs().maxCoeff(), 2e-3f);
+}
+
 TEST(CanopyLayer, NeedsFewTallCells) {
     const auto share = [](int percent_tall) {
         return field(20, [=](int k) { return k % 100 < percent_tall ? 1.2f : 0.6f; });

@@ -111,6 +111,14 @@ TEST(FindLevelPixels, StepSlopeIsBelowThreeTenths) {
     EXPECT_EQ(levelInColumn({{5, -12, 0}, {10, -24, 3.91f}}), (std::vector{0, 0}));
 }
 
+TEST(FindLevelPixels, StepLeadsOutwards) {
+    EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0}}), (std::vector{1, 1}));
+    EXPECT_EQ(levelInColumn({{6, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));
+    EXPECT_EQ(levelInColumn({{-5, 0, 0}, {-6, 0, 0}}), (std::vector{1, 1}));
+    EXPECT_EQ(levelInColumn({{0, -6, 0}, {0, -5, 0}}), (std::vector{0, 0}));
+    EXPECT_EQ(levelInColumn({{5, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));  // nowhere
+}
+
 TEST(FindLevelPixels, ShortStepsAreSkipped) {
     // Ranges are 2 cm off: the short steps are steep, the long one is not.
     EXPECT_EQ(levelInColumn({{1, 0, 0}, {1.05f, 0, 0.02f}, {1.1f, 0, 0}}), (std::vector{1, 0, 1}));
@@ -152,6 +160,14 @@ TEST(FindLevelPixels, TableOverFloorIsNotLevel) {
     // Floor in another cell does not count.
     EXPECT_EQ(level({table[0], table[1], {3.8f, 0.1f, 0}, {4.6f, 0.1f, 0}}, 2),
               (std::vector{1, 1, 1, 1}));
+}
+
+TEST(FindLevelPixels, ToleratesSmallDropsBelow) {
+    const auto over = [](float below_m) {
+        return level({{3.2f, 0.3f, 1}, {3.6f, 0.3f, 1}, {3.4f, 0.1f, 1 - below_m}, kEmptyPixel}, 2);
+    };
+    EXPECT_EQ(over(0.29f), (std::vector{1, 1, 0, 0}));
+    EXPECT_EQ(over(0.31f), (std::vector{0, 0, 0, 0}));
 }
 
 TEST(KeepLevelRou, KeepsOnlyLevelRou) {

@@ -241,6 +241,10 @@ TEST(GroundSurface, SlopesAreIsotropic) {
     }
 }
 
+TEST(GroundSurface, FollowsGentleHill) {
+    EXPECT_LT(greatestError(surfaceUnder(groundPoints(40, 0.25f, kHill)), 38, kHill), 0.05f);
+}
+
 TEST(GroundSurface, WallDoesNotLiftHiddenGround) {
     // The ground is not visible within 1 m of the wall, nor for 6 m behind it.
     std::vector<Eigen::Vector3f> points;

@@ -144,6 +144,14 @@ TEST(Labelling, NinetyDegreeGateIsOpen) {
     EXPECT_TRUE((labelled(depth_m, upright_rad, 0.1f, Seeds::Lowest, 1.56f) == Label::Roi).all());
 }
 
+TEST(Labelling, GateAppliesOnlyToGroundSeeds) {
+    Image<float> depth_m(2, 3);
+    depth_m << 5, 5, 5, 4, 4, 4;
+    const Image<float> angle_rad = Image<float>::Constant(2, 3, 1.5f);
+    EXPECT_TRUE(
+        (labelled(depth_m, angle_rad, 0.1f, Seeds::TopAndNearest, 0.1f) == Label::Roi).all());
+}
+
 TEST(Labelling, EverySeedMarksAllRou) {
     test::Random random(32);
     for (const int rows : {3, 16, 70}) {

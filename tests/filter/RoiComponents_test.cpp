@@ -85,6 +85,15 @@ TEST(RoiComponents, NearestObstacleIsFirst) {
     EXPECT_TRUE((numbered(depth_m, labels) == expected).all());
 }
 
+TEST(RoiComponents, WrapInAzimuthAndAreNotDiagonal) {
+    Image<float> depth_m = Image<float>::Constant(2, 6, 5.0f);
+    Image<Label> labels = Image<Label>::Constant(2, 6, Label::Rou);
+    labels(0, 0) = labels(0, 5) = labels(1, 1) = Label::Roi;
+    const auto components = numbered(depth_m, labels);
+    EXPECT_EQ(components(0, 0), components(0, 5));
+    EXPECT_NE(components(0, 0), components(1, 1));
+}
+
 TEST(RoiComponents, WithoutRoiAreEmpty) {
     const auto depth_m = Image<float>::Constant(4, 5, 2.0f);
     EXPECT_TRUE((numbered(depth_m, Image<Label>::Constant(4, 5, Label::Rou)) == 0).all());

@@ -34,6 +34,15 @@ TEST(Sharpening, OwnValueUnderSumDoubles) {
     }
 }
 
+TEST(Sharpening, NeighboursWrapInAzimuth) {
+    Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
+    proximity_m(1, 0) = 6.0f;
+    proximity_m(1, 4) = 6.0f;
+    Image<float> sharpened_m;
+    sharpenMaxima(proximity_m, {{1, 0, 6.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m);
+    EXPECT_FLOAT_EQ(sharpened_m(1, 0), 12.0f);
+}
+
 TEST(Sharpening, LoneMaximumStays) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
     proximity_m(1, 2) = 6.0f;
@@ -42,6 +51,14 @@ TEST(Sharpening, LoneMaximumStays) {
         sharpenMaxima(proximity_m, {{1, 2, 6.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m, by_neighbours);
         EXPECT_EQ(sharpened_m(1, 2), 6.0f);
     }
+}
+
+TEST(Sharpening, NegligibleWeightsStayFinite) {
+    Image<float> proximity_m = Image<float>::Constant(3, 5, 0.0f);
+    proximity_m(1, 2) = 900.0f;
+    Image<float> sharpened_m;
+    sharpenMaxima(proximity_m, {{1, 2, 900.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m);
+    EXPECT_EQ(sharpened_m(1, 2), 900.0f);
 }
 
 TEST(Merge, MovesNearerByHalf) {

@@ -107,6 +107,12 @@ TEST(CheckLocated, RejectsRowsBeyondUnnamedSensor) {
     }
 }
 
+TEST(CheckLocated, RejectsRowsBeyondNamedSensor) {
+    Scan scan = locatedWith(sensorModel("VLP-16"));
+    scan.row.back() = 16;
+    EXPECT_THAT(objection(scan, sensorModel("VLP-16")), HasSubstr("a return in row 16"));
+}
+
 TEST(CheckLocated, RejectsRangeWithoutPosition) {
     const SensorModel sensor = sensorModel("VLP-16");
     for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity(),

@@ -229,6 +229,17 @@ TEST(LidarTest, BeamsPassWires) {
     EXPECT_GE(grounds + wires, before);
 }
 
+TEST(LidarTest, MeasuresLargeSurfacesOnAxis) {
+    const Simulation setup(level(), flightAt(3, 4, 0));
+    SensorErrorModel faults = noFaults();
+    faults.footprint_rad = 0.003;
+    const SimulatedScan scan = setup.scan(0, faults);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (scan.scan.range_m[i] > 40) continue;
+        ASSERT_NEAR(setup.inMap(scan, i, 0).z(), 0, 5e-3) << i;
+    }
+}
+
 TEST(LidarTest, MixesRangesAtEdges) {
     SceneContent content = emptyContent();
     Shape steps;  // bars 0.6 m before a wall, on the right-hand side of the path

@@ -19,5 +19,15 @@ TEST(ObjectClassTest, NamesAreUnique) {
     EXPECT_EQ(nameOf(ObjectClass::Wire), "wire");
 }
 
+TEST(ObjectClassTest, ClassesHaveLabels) {
+    EXPECT_EQ(labelOf(ObjectClass::Terrain), Label::Rou);
+    EXPECT_EQ(labelOf(ObjectClass::Canopy), Label::Rou);
+    EXPECT_EQ(labelOf(ObjectClass::Wire), Label::Roi);
+    EXPECT_EQ(labelOf(ObjectClass::Mover), Label::Roi);
+    EXPECT_EQ(labelOf(ObjectClass::Dust), Label::Unclassified);
+    EXPECT_EQ(labelOf(ObjectClass::Airframe), Label::Unclassified);
+    EXPECT_EQ(labelOf(ObjectClass::None), Label::Unclassified);
+}
+
 }  // namespace
 }  // namespace hagen::simulation
