@@ -505,12 +505,8 @@ TEST(HagenFilter, RejectsUnlocatedScan) {
     scan.x_m = {5.0f, 6.0f};
     scan.y_m = {0.0f, 0.0f};
     scan.z_m = {0.1f, 0.1f};
-    try {
-        filter.segment(scan);
-        FAIL() << "segmented a scan without rows";
-    } catch (const std::invalid_argument& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("locateBeams()"));
-    }
+    EXPECT_THAT([&] { filter.segment(scan); },
+                testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("locateBeams()")));
     locateBeams(filter.sensor(), scan);
     EXPECT_EQ(filter.segment(scan).returns.label.size(), 2u);
 }
@@ -522,12 +518,8 @@ TEST(HagenFilter, RejectsRowsOfAnotherSensor) {
         const SegmentationResult& result = filter.segment(ground.scan);
         const std::vector<Label> labels = result.returns.label;
         auto others = test::scanScene({}, sensorModel(other), 870, kTwoMetresUp);
-        try {
-            filter.segment(others.scan);
-            FAIL() << "segmented a scan of the " << other;
-        } catch (const std::invalid_argument& error) {
-            EXPECT_THAT(error.what(), testing::HasSubstr(own));
-        }
+        EXPECT_THAT([&] { filter.segment(others.scan); },
+                    testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr(own)));
         EXPECT_EQ(result.returns.label, labels);
         EXPECT_EQ(filter.segment(ground.scan).returns.label, labels);
         locateBeams(filter.sensor(), others.scan);  // as the message says

@@ -70,13 +70,9 @@ TEST(SensorModel, NearestRowMatchesSearch) {
 }
 
 TEST(SensorModel, RejectsUnknownName) {
-    try {
-        sensorModel("VLP-61");
-        FAIL();
-    } catch (const std::invalid_argument& e) {
-        EXPECT_THAT(e.what(), HasSubstr("VLP-61"));
-        EXPECT_THAT(e.what(), HasSubstr("HDL-32E"));
-    }
+    EXPECT_THAT([] { sensorModel("VLP-61"); },
+                testing::ThrowsMessage<std::invalid_argument>(
+                    testing::AllOf(HasSubstr("VLP-61"), HasSubstr("HDL-32E"))));
 }
 
 TEST(SensorModel, CustomBeamsMustAscend) {

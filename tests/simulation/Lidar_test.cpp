@@ -457,13 +457,10 @@ TEST(LidarTest, DependsOnSeedAndScene) {
 }
 
 TEST(LidarTest, RejectsOtherSensors) {
-    try {
-        firingPattern(sensorModel("VLP-32C"));
-        FAIL();
-    } catch (const std::invalid_argument& e) {
-        EXPECT_THAT(e.what(), AllOf(HasSubstr("'VLP-32C'"), HasSubstr("VLP-16"),
-                                    HasSubstr("HDL-32E"), HasSubstr("Mid-360")));
-    }
+    EXPECT_THAT([] { firingPattern(sensorModel("VLP-32C")); },
+                testing::ThrowsMessage<std::invalid_argument>(
+                    AllOf(HasSubstr("'VLP-32C'"), HasSubstr("VLP-16"), HasSubstr("HDL-32E"),
+                          HasSubstr("Mid-360"))));
 }
 
 }  // namespace
