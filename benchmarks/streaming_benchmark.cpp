@@ -162,7 +162,7 @@ struct Figures {
     double turn_us = 0;
 };
 
-/// What is known of the sensor's motion.
+/// The motion of the sensor, if it is known.
 enum class Known { Nothing, Attitude, Pose };
 
 Attitude attitudeOf(const Eigen::Isometry3d& pose) {

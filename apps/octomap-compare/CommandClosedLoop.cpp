@@ -14,7 +14,7 @@
 #include "base/TextStream.h"
 
 #include "Commands.h"
-#include "base/Joined.h"
+#include "base/Text.h"
 #include "base/command_line/Interrupt.h"
 #include "base/command_line/ProgressLine.h"
 

@@ -40,7 +40,7 @@ void print(std::size_t count, const std::string& what) {
     if (count > 0) std::cerr << "octomap-compare: " << count << " " << oneLine(what) << "\n";
 }
 
-/// Prints what is not in the figures.
+/// Prints which scans the figures leave out.
 void printLosses(const avoidance::OpenLoopResult& result) {
     print(result.scans_without_pose, "scans have no pose within 0.2 s and were skipped");
     print(result.unreadable_scans,
@@ -50,7 +50,7 @@ void printLosses(const avoidance::OpenLoopResult& result) {
     }
 }
 
-/// Prints what limits the figures.
+/// Prints the limitations of the figures.
 void printLimits(const avoidance::OpenLoopResult& result) {
     print(result.scans_placed_by_one_pose,
           "scans were placed by one pose each, because their returns have no times or the poses do "

@@ -1,4 +1,4 @@
-// What is tried, and on what: config/selection.yaml.
+// The values to try and the data to try them on: config/selection.yaml.
 #pragma once
 #include <hagen/settings/Settings.h>
 #include <filesystem>

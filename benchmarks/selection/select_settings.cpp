@@ -22,7 +22,7 @@ using namespace hagen::base;
 using namespace hagen::selection;
 namespace fs = std::filesystem;
 
-/// Flights on which nothing is published. The stages were developed on some of them.
+/// Flights without published results. The stages were developed on some of them.
 const std::vector<std::uint64_t> kSeeds{1, 2};
 constexpr int kScansPerFlight = 3;
 const std::string kHardFlights = "simulated, 2.5 m";
@@ -86,7 +86,7 @@ void addFlights(const DataSet& set, const fs::path& config, const Plan& plan, Lo
     }
 }
 
-/// Which data the scores are of: the name of a data set with real scans, by the vote of a drive.
+/// The data set of the scores: the name of a set of real scans, by the vote of a drive.
 using DataOfVotes = std::map<std::string, std::string>;
 
 LoadedScans load(const Flags& flags, const Plan& plan, DataOfVotes& data) {

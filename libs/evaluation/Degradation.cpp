@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include "base/NumberText.h"
+#include "base/Text.h"
 #include "filter/image/Posture.h"
 
 namespace hagen::evaluation {
@@ -25,7 +25,7 @@ constexpr float kNearestReturn_m = 0.05f;  // noise cannot move returns behind t
 constexpr float kDualStep_m = 1.0f;
 constexpr double kDualChance = 0.3;
 constexpr float kSteps = 2.5f;        // neighbours are at most so many azimuth steps apart
-constexpr float kSameRay = 0.25f;     // returns closer than this part of a step are of one ray
+constexpr float kSameRay = 0.25f;     // returns closer than this part of a step belong to one ray
 constexpr double kRecordedHz = 10.0;  // of recordings, for rate_hz
 
 std::array<std::vector<float>*, 7> floatsOf(Scan& s) {
@@ -126,7 +126,7 @@ Function withRain(double probability) {
     };
 }
 
-/// Turns the sensor, but not what is around it. `turn` rotates from the turned sensor's frame to
+/// Turns the sensor, but not its surroundings. `turn` rotates from the turned sensor's frame to
 /// that before. Rows and azimuths are those before.
 GroundTruthScan turned(const GroundTruthScan& scan, const Eigen::Matrix3f& turn) {
     GroundTruthScan result = scan;
@@ -293,8 +293,7 @@ double numberOf(const std::string& text, const std::string& value, double least,
 
 std::vector<int> rowsOf(const std::string& text, const std::string& values) {
     std::vector<int> rows;
-    std::istringstream stream(values + ",");  // an empty value at the end counts
-    for (std::string value; std::getline(stream, value, ',');) {
+    for (const std::string& value : base::split(values, ',')) {
         const auto row = base::numberFrom<std::uint8_t>(value);
         if (!row) fail(text, "expected rows (0 is the lowest beam), as in dead_beams=7,8");
         rows.push_back(*row);

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <memory>
 #include <nanoflann.hpp>
+#include <utility>
 #include <vector>
+#include "evaluation/TreePoints.h"
 
 namespace hagen::evaluation {
 
@@ -20,9 +22,12 @@ class PlanTree {
 
     /// Indices of all positions whose squared distance is below a limit, in no particular order.
     std::vector<std::uint32_t> within(const Eigen::Vector2f& at_m, float limit_m2) const {
-        All all{limit_m2, {}};
+        std::vector<std::pair<std::uint32_t, float>> found;
+        nanoflann::RadiusResultSet<float, std::uint32_t> all(limit_m2, found);
         if (!points_.at_m.empty()) tree_.findNeighbors(all, at_m.data(), {});
-        return all.found;
+        std::vector<std::uint32_t> indices;
+        for (const auto& [index, distance_m2] : found) indices.push_back(index);
+        return indices;
     }
     /// Squared distance of the `count`-th nearest position, or of the farthest one if there are
     /// fewer. There must be one.
@@ -41,31 +46,8 @@ class PlanTree {
  private:
     static constexpr std::size_t kLeafSize = 16;
 
-    /// The interfaces that nanoflann expects.
-    struct Points {
-        std::vector<Eigen::Vector2f> at_m;
+    using Points = TreePoints<2>;
 
-        std::size_t kdtree_get_point_count() const { return at_m.size(); }
-        float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-            return at_m[i][static_cast<Eigen::Index>(axis)];
-        }
-        template <class Box>
-        bool kdtree_get_bbox(Box&) const {
-            return false;
-        }
-    };
-    struct All {
-        float limit_m2;
-        std::vector<std::uint32_t> found;
-
-        bool addPoint(float, std::uint32_t point) {
-            found.push_back(point);
-            return true;
-        }
-        float worstDist() const { return limit_m2; }
-        static std::size_t size() { return 1; }
-        static bool full() { return true; }
-    };
     Points points_;
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 2>
         tree_;

@@ -46,7 +46,7 @@ void copyColumns(const PixelDirections& from, Eigen::Index first, Eigen::Index c
     copy(from.column_cosine, to.column_cosine);
 }
 
-/// What is known of each pixel by its closest return, unless that belongs to the sector.
+/// The context of each pixel from its closest return, unless that belongs to the sector.
 void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<Label>& labels,
                  Image<float>& known_m) {
     labels.resize(image.depth_m.rows(), image.depth_m.cols());
@@ -64,7 +64,7 @@ void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<
 /// The cells of the judged pixels in the zone, and those around that their tolerance depends on.
 CellArea areaOf(const Ground& ground, const Columns& judged, const Options& options) {
     constexpr float kBeyond_m = 1;  // of the zone: neighbours of pixels at its edge
-    constexpr int kSides = 1;       // beside a cell, what is tall matters
+    constexpr int kSides = 1;       // tall neighbours of a cell matter
     const float max_m = options.zone_m + kBeyond_m;
     const Eigen::Index rows = ground.cells.cell.rows();
     CellArea area{CellArea::kSide, 0, CellArea::kSide, 0};

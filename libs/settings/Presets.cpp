@@ -9,7 +9,7 @@
 
 #include <hagen/settings/Settings.h>
 #include "base/Folder.h"
-#include "base/Joined.h"
+#include "base/Text.h"
 #include "settings/YamlParts.h"
 
 namespace hagen {

@@ -13,7 +13,7 @@
 #include "filter/OptionKeys.h"
 #include "settings/MaxRange.h"
 
-#include "base/Joined.h"
+#include "base/Text.h"
 #include "settings/AirframeSettings.h"
 #include "settings/YamlParts.h"
 

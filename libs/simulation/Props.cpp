@@ -137,6 +137,15 @@ void addWall(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& to_m
     builder.add(ObjectClass::Wall, std::move(wall));
 }
 
+void addTrap(SceneBuilder& builder, const Vector2d& back_m, double yaw_rad, double width_m,
+             double depth_m, double height_m) {
+    const Vector2d out(std::cos(yaw_rad), std::sin(yaw_rad)), side(-out.y(), out.x());
+    const Vector2d left = back_m + 0.5 * width_m * side, right = back_m - 0.5 * width_m * side;
+    addWall(builder, left, right, height_m, 0.3);
+    addWall(builder, left, left + depth_m * out, height_m, 0.3);
+    addWall(builder, right, right + depth_m * out, height_m, 0.3);
+}
+
 void addWireLine(SceneBuilder& builder, const Vector2d& from_m, const Vector2d& to_m, double span_m,
                  const std::vector<double>& heights_m, double sideways_m, double radius_m) {
     constexpr double kSag = 0.02;

@@ -16,6 +16,9 @@ Shape makeDrone();
 /// Adds a wall along a line, in pieces that follow the ground.
 void addWall(SceneBuilder& builder, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
              double height_m, double thickness_m);
+/// Adds three walls from the middle of the one at the back, open in the direction `yaw_rad`.
+void addTrap(SceneBuilder& builder, const Eigen::Vector2d& back_m, double yaw_rad, double width_m,
+             double depth_m, double height_m);
 constexpr double kWireRadius_m = 0.012;
 
 /// Adds poles on a line, and wires between them at these heights, with a sag of 2 % of the span.

@@ -353,16 +353,6 @@ Scene makeTerrain(std::uint64_t seed) {
     return builder.build();
 }
 
-/// Adds U-shaped walls, the opening at `yaw_rad` from x.
-void addTrap(SceneBuilder& builder, const Vector2d& middle, double yaw_rad, double width_m,
-             double depth_m, double height_m) {
-    const Vector2d out(std::cos(yaw_rad), std::sin(yaw_rad)), side(-out.y(), out.x());
-    const Vector2d left = middle + 0.5 * width_m * side, right = middle - 0.5 * width_m * side;
-    addWall(builder, left, right, height_m, 0.3);
-    addWall(builder, left, left + depth_m * out, height_m, 0.3);
-    addWall(builder, right, right + depth_m * out, height_m, 0.3);
-}
-
 Scene makeTrap(std::uint64_t seed) {
     const Path path{26, 13};
     SceneBuilder builder(ground(3, 0.03, 0.025, 0.12), path, seed);

@@ -1,4 +1,4 @@
-// Which run a replay shows, and what it says where that is not clear.
+// Selection of the run to replay, and the errors if several or none match.
 #include <gtest/gtest.h>
 #include <stdexcept>
 

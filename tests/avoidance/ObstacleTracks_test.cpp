@@ -421,7 +421,7 @@ TEST(MotionPrimitives, EvasionRespectsLimits) {
     task.lowest_m = 1.9;
     EXPECT_GE(heightOf(planner->plan(BallModel(true), task)), 0);
     task.lowest_m = 1;
-    // Nothing is known: it brakes.
+    // In unknown space it brakes.
     class UnknownSpace : public BallModel {
      public:
         using BallModel::BallModel;

@@ -21,7 +21,7 @@ using mrpt::poses::CPose3D;
 
 constexpr float kWall_m = 6;
 
-/// A model that knows flat ground and a wall from the start, and notes what it is told.
+/// A model that knows flat ground and a wall from the start, and notes its updates.
 class WallModel : public WorldModel {
  public:
     struct Notes {

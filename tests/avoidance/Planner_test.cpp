@@ -221,8 +221,6 @@ TEST_P(Planners, AreDeterministic) {
     }
 }
 
-TEST(Planner, RejectsUnknownNames) { EXPECT_THROW(makePlanner("rrt"), std::invalid_argument); }
-
 TEST(MustStop, DependsOnStoppingDistance) {
     // From 4 m/s at 5 m/s^2 it stops after 1.6 m or a little more, 0.4 m are a period's way.
     const auto stopsBefore = [](float wall_m) {

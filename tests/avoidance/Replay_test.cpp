@@ -1,4 +1,4 @@
-// What a replay shows: the recording, the true scene, the end.
+// Contents of a replay: the recording, the true scene, the ending.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

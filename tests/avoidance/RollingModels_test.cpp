@@ -97,7 +97,7 @@ TEST(RollingModels, GridMatchesOctoMap) {
         // No ray passes exactly through an edge.
         const Eigen::Vector3f origin(0.0317f, 0.0523f, 1.0713f);
         for (int scan = 0; scan < 12; ++scan) {
-            // Returns come again at the same places, so that voxels are hit and cleared.
+            // Returns repeat at the same places, so that voxels are hit and cleared.
             auto points = randomPoints(random, origin, 800, 4, 2);
             for (auto& point : points) {
                 if (random.chance(0.3)) point = ((point.array() / 1.2f).round() * 1.2f + 0.05f);
@@ -244,7 +244,7 @@ std::vector<Eigen::Vector3f> rows(const Eigen::Vector3f& origin, float pillar_m)
     std::vector<Eigen::Vector3f> points;
     for (float elevation = -15; elevation <= 15; elevation += 2) {
         for (float azimuth = -179.9f; azimuth < 180; azimuth += 0.2f) {
-            if (azimuth > 100) continue;  // nothing there
+            if (azimuth > 100) continue;  // no returns
             const float e = elevation * static_cast<float>(M_PI / 180);
             const float a = azimuth * static_cast<float>(M_PI / 180);
             const Eigen::Vector3f ray(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a),

@@ -72,7 +72,7 @@ TEST(SectorSensor, SectorsEndWithTheirLastPacket) {
     EXPECT_NEAR(last_s, 0.3, kMaxSector_s);
 }
 
-/// Simulating parts of a turn is tested with the simulation: AllPartsOfATurnAreTheTurn.
+/// Simulating parts of a turn is tested with the simulation: EachSensor.PartsEqualWholeTurn.
 TEST(SectorSensor, ReturnsMatchWholeScans) {
     const Course course = courseWithWall();
     const TrialSensor whole(course, Air::Dusty);
@@ -118,7 +118,7 @@ TEST(SectorSensor, LabelsMatchGround) {
         for (std::size_t i = 0; i < sector.points_m.size(); ++i) {
             const Eigen::Vector3f at = sector.points_m[i];
             if ((at - sector.origin_m).norm() > 19) continue;
-            if (turns < 0.5) {  // too little was seen to tell what is ground
+            if (turns < 0.5) {  // too little was seen to find the ground
                 ASSERT_EQ(sector.labels[i], Label::Roi);
                 continue;
             }

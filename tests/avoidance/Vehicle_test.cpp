@@ -23,21 +23,6 @@ TEST(Vehicle, StoppingDistanceMatchesPhysics) {
     EXPECT_NEAR(state.velocity_m_s.norm(), 0, 1e-6);
 }
 
-TEST(Vehicle, ZeroStepChangesNothing) {
-    const VehicleState state{{1, 2, 3}, {4, 5, 6}};
-    const VehicleState same = advance(state, {0, 0, 0}, 0, {});
-    EXPECT_EQ(same.position_m, state.position_m);
-    EXPECT_EQ(same.velocity_m_s, state.velocity_m_s);
-}
-
-TEST(CommandQueue, NoCommandMeansNoMotion) {
-    const CommandQueue commands;
-    const VehicleState state =
-        commands.advanced({{1, 2, 3}, Eigen::Vector3d::Zero()}, 0, 1, VehicleLimits{});
-    EXPECT_EQ(state.position_m, Eigen::Vector3d(1, 2, 3));
-    EXPECT_EQ(state.velocity_m_s, Eigen::Vector3d::Zero());
-}
-
 TEST(CommandQueue, FollowsCommandsOnTime) {
     CommandQueue commands;
     commands.add(0.113, {4, 0, 0});

@@ -44,7 +44,7 @@ TEST(WindowSize, CoversStoppingTime) {
     for (double speed_m_s = 2; speed_m_s <= 14; speed_m_s += 0.5) {
         const FlightPace pace = paceOf(speed_m_s);
         const WindowSize size = windowSizeFor(pace);
-        // The last metre per second takes longer, at a speed that harms nobody.
+        // The last metre per second takes longer, at a harmless speed.
         const double needed_s = pace.reaction_s() + brakingFrom(speed_m_s).time_s - 0.4;
         EXPECT_GE(0.1 * static_cast<double>(size.scans), needed_s) << speed_m_s;
         EXPECT_LE(0.1 * static_cast<double>(size.scans), needed_s + 0.5) << speed_m_s;

@@ -215,7 +215,7 @@ TEST(WorldModel, SectorWindowMatchesBruteForce) {
     }
 }
 
-/// A ray that ends beyond a map's range met nothing there.
+/// A ray that ends beyond a map's range hits nothing within it.
 TEST(WorldModel, CutRaysAddNoObstacle) {
     const Eigen::AlignedBox3f wide(Eigen::Vector3f(-30, -30, -3), Eigen::Vector3f(30, 30, 6));
     std::vector<Eigen::Vector3f> far_off;
@@ -255,37 +255,8 @@ TEST(WorldModel, LimitedClearanceIsCutOff) {
     }
 }
 
-/// Bit by bit, and outside the box, too. Points and places of a lattice have many distances that
-/// differ by their rounding only.
-TEST(WorldModel, BatchQueriesMatchSingleOnes) {
-    const Eigen::AlignedBox3f box_m(Eigen::Vector3f(-3, -2, 0), Eigen::Vector3f(4, 3, 2.5f));
-    for (const std::string& name : modelsThatLearn()) {
-        simulation::Random random(9);
-        const auto model = makeWorldModel(name, setting());
-        const auto onLattice = [](const Eigen::Vector3f& at) -> Eigen::Vector3f {
-            return (at / 0.15f).array().round() * 0.15f;
-        };
-        for (int scan = 0; scan < 3; ++scan) {
-            std::vector<Eigen::Vector3f> points = sparsePoints(random, 400);
-            for (std::size_t i = 0; i < points.size(); i += 2) points[i] = onLattice(points[i]);
-            model->update(scanOf(points));
-        }
-        for (const float limit_m : {0.3f, 1.2f, 9.0f}) {
-            const auto clearance_m = model->clearanceQuery(box_m, limit_m);
-            int less = 0;
-            for (int i = 0; i < 1000; ++i) {
-                Eigen::Vector3f at = sparsePoints(random, 1)[0];
-                if (i % 2 == 0) at = onLattice(at);
-                EXPECT_EQ(clearance_m(at), model->clearanceWithin_m(at, limit_m)) << name;
-                less += clearance_m(at) < limit_m;
-            }
-            EXPECT_GT(less, 10) << name;
-        }
-    }
-}
-
-/// Of each 10 cm cube around the origin the nearest point, by brute force; so what is told is never
-/// nearer than the truth, and by no more than a cube's diagonal farther.
+/// By brute force: the nearest point of each 10 cm cube around the origin is kept. So a clearance
+/// is never below the true one, and exceeds it by at most a cube's diagonal.
 TEST(WorldModel, WindowKeepsNearestPointPerCube) {
     constexpr float kEdge_m = 0.1f;
     simulation::Random random(10);
@@ -320,26 +291,6 @@ TEST(WorldModel, WindowKeepsNearestPointPerCube) {
             const float truth_m = nearestOf(points, at);
             EXPECT_GE(model->clearance_m(at), truth_m - 1e-5f);
             EXPECT_LE(model->clearance_m(at), truth_m + kEdge_m * std::sqrt(3.0f));
-        }
-    }
-}
-
-/// Three scans share a tree; the oldest is forgotten by itself, whichever it shares with.
-TEST(WorldModel, WindowHoldsLastElevenScans) {
-    simulation::Random random(9);
-    const auto model = makeWorldModel("W-Full", setting());
-    std::vector<std::vector<Eigen::Vector3f>> past;
-    for (int number = 0; number < 25; ++number) {
-        past.push_back(sparsePoints(random, 5));
-        model->update(scanOf(twice(past.back())));
-        std::vector<Eigen::Vector3f> kept;
-        for (std::size_t i = past.size() > 11 ? past.size() - 11 : 0; i < past.size(); ++i) {
-            kept.insert(kept.end(), past[i].begin(), past[i].end());
-        }
-        EXPECT_EQ(model->obstacles().centre_m.size(), kept.size());
-        for (int i = 0; i < 50; ++i) {
-            const Eigen::Vector3f at = sparsePoints(random, 1)[0];
-            EXPECT_NEAR(model->clearance_m(at), nearestOf(kept, at), 1e-5f) << number;
         }
     }
 }
@@ -484,7 +435,7 @@ TEST(WorldModel, BytesMatchHeap) {
     for (const std::string& name : modelsThatLearn()) {
         simulation::Random random(5);
         const auto first = makeWorldModel(name, setting());
-        first->update(scanOf(sparsePoints(random, 3000)));  // what is kept for all models is there
+        first->update(scanOf(sparsePoints(random, 3000)));  // allocates what all models share
         const std::size_t before = heap();
         const auto model = makeWorldModel(name, setting());
         for (int i = 0; i < 12; ++i) model->update(scanOf(sparsePoints(random, 3000)));

@@ -121,7 +121,7 @@ TEST(Descend, FindsOptimumOfTrainingScans) {
         EXPECT_DOUBLE_EQ(d.objective, objectiveOf(kDrives, bowls(d.choice), left_out));
         EXPECT_LE(d.rounds, 2);  // the settings do not depend on each other
     }
-    // What is left out matters: z pulls away from the others.
+    // The left-out drive matters: z pulls away from the others.
     EXPECT_EQ(descend(kSettings, {2, 2}, kAny, kDrives, measure, "z", 10).choice, (Choice{0, 3}));
     EXPECT_NE(descend(kSettings, {2, 2}, kAny, kDrives, measure, "x", 10).choice, (Choice{0, 3}));
 }

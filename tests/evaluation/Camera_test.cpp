@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "support/PointScan.h"
 #include "support/Program.h"
 
 namespace hagen::evaluation {
@@ -25,14 +26,7 @@ PinholeCamera smallCamera() {
 }
 
 Scan scanOf(const std::vector<Eigen::Vector3f>& points_m) {
-    Scan scan;
-    for (const Eigen::Vector3f& point : points_m) {
-        scan.x_m.push_back(point.x());
-        scan.y_m.push_back(point.y());
-        scan.z_m.push_back(point.z());
-    }
-    locateBeams(sensorModel("VLP-16"), scan);
-    return scan;
+    return test::scanOf(sensorModel("VLP-16"), points_m);
 }
 
 void expectAt(const PinholeCamera& camera, const Eigen::Vector3f& point_m, int u, int v) {

@@ -137,8 +137,6 @@ TEST(DroneScores, SumOverScans) {
     EXPECT_EQ(sum.falseOnBareGroundPerScan(), 0.5);
 }
 
-TEST(DroneScores, AcceptEmptyScans) { EXPECT_EQ(scoresOf(scanOf({}, {}), {}).tall.all, 0); }
-
 TEST(DroneScores, RejectWrongSizes) {
     auto scan = scanOf({{4, 0, 0}}, {O});
     EXPECT_THROW(scoresOf(scan, {O, O}), std::invalid_argument);

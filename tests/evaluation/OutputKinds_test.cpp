@@ -95,16 +95,6 @@ TEST(OutputKinds, IdentifyPicturesByName) {
     EXPECT_FALSE(mayReplace(folder / "overlays", kOverlays));
 }
 
-TEST(OutputKinds, RejectForeignFiles) {
-    const test::TemporaryFolder folder;
-    folder.write("scans/velodyne/notes.txt", "mine");
-    folder.write("labels/labels/hand_made.json", "mine");
-    folder.write("pictures/wedding.png", "mine");
-    EXPECT_FALSE(mayReplace(folder / "scans", kScanFolders));
-    EXPECT_FALSE(mayReplace(folder / "labels", kScanFolders));
-    EXPECT_FALSE(mayReplace(folder / "pictures", kStagePictures));
-}
-
 TEST(OutputKinds, KeepSimilarlyNamedNeighbours) {
     const test::TemporaryFolder folder;
     for (const char* name : {"out.tmp/x", "out.old/x", "out.partial/x"}) folder.write(name, "mine");

@@ -1,4 +1,4 @@
-// A stage that gets an area of the ground grid finds in it what it finds with the whole grid.
+// A stage restricted to an area of the ground grid has the same results there as on all of it.
 #include <gtest/gtest.h>
 #include <hagen/filter/CellTops.h>
 #include "filter/simd/CanopyLayer.h"
@@ -96,7 +96,7 @@ TEST(CellTops, RaisesCellsKnownToBeHigher) {
     const Crops crops = makeCrops(6);
     CellTops all;
     findCellTops(crops.cells, crops.height_m, all);
-    // One pixel in five is left, with what its cell was.
+    // One pixel in five is left, with the height of its former cell.
     Crops thin;
     Image<float> known_m;
     for (auto* image :
@@ -118,7 +118,7 @@ TEST(CellTops, RaisesCellsKnownToBeHigher) {
     for (Eigen::Index k = 0; k < known_m.size(); ++k) {
         const int cell = thin.cells.cell.data()[k];
         if (cell == 0) continue;  // of empty pixels
-        // The highest of what is known of this cell, and of its own pixels.
+        // The maximum of the known heights of this cell and of its own pixels.
         float expected_m = before.highest_m.data()[cell];
         for (Eigen::Index other = 0; other < known_m.size(); ++other) {
             if (thin.cells.cell.data()[other] != cell || std::isnan(known_m.data()[other]))

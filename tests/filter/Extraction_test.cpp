@@ -16,42 +16,6 @@ namespace {
 
 FilterWorkspace work;  // shared by all tests, as by all scans in a filter
 
-/// Six returns in two pixels of a 2 x 8 image, and others outside it.
-struct Example {
-    SensorModel sensor = customSensorModel({-1, 1});
-    Scan scan;
-    RangeImage image;
-    Image<Label> labels = Image<Label>::Constant(2, 8, Label::Unclassified);
-    Image<std::int32_t> components = Image<std::int32_t>::Zero(2, 8);
-    LabelledReturns returns;
-
-    Example() {
-        const auto add = [&](float range_m, std::uint8_t row) {
-            for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(range_m);
-            scan.range_m.push_back(range_m);
-            scan.azimuth_rad.push_back(0.1f);
-            scan.row.push_back(row);
-        };
-        add(5.0f, 0);
-        add(15.0f, 0);
-        add(25.0f, 0);
-        add(6.0f, 1);
-        add(0.1f, 1);    // below the sensor's minimum range
-        add(500.0f, 1);  // above its maximum range
-        add(kNoValue, 1);
-        projectScan(scan, sensor, 8, 1000.0f, image, work.projection);
-        labels.data()[image.depth_mapper[0]] = Label::Roi;
-        labels.data()[image.depth_mapper[3]] = Label::Rou;
-        components.data()[image.depth_mapper[0]] = 7;
-        extract();
-    }
-
-    void extract(const OwnLabels& own_labels = {}, float component_gap_m = 1.0f) {
-        extractReturns(scan, {image, labels, components}, own_labels, {20.0f, component_gap_m},
-                       returns, work.extraction);
-    }
-};
-
 OwnLabels ownLabels(const std::vector<Label>& label) {
     OwnLabels own{label, {}};
     for (std::size_t i = 0; i < label.size(); ++i) {
@@ -104,6 +68,7 @@ LabelledReturns plainReturns(const Scan& scan, const RangeImage& image, const Im
 TEST(Extraction, MatchesDefinitionOnEveryInstructionSet) {
     test::Random random(23);
     const SensorModel sensor = sensorModel("VLP-16");
+    const float specials_m[] = {0.0f, 1e-6f, 20.0f, std::numeric_limits<float>::infinity()};
     LabelledReturns returns;  // reused, as in the filter
     for (int round = 0; round < 200; ++round) {
         const int size = random.chance(0.3) ? 64 * random.whole(0, 3) : random.whole(0, 500);
@@ -115,6 +80,7 @@ TEST(Extraction, MatchesDefinitionOnEveryInstructionSet) {
             for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(0.0f);
             scan.range_m.push_back(random.chance(0.05) ? kNoValue : random.real(0.0f, 140.0f));
             if (random.chance(0.7)) scan.range_m.back() = random.real(1.0f, 25.0f);
+            if (random.chance(0.05)) scan.range_m.back() = specials_m[random.whole(0, 3)];
             scan.azimuth_rad.push_back(random.real(-3.1f, 3.1f));
             scan.row.push_back(static_cast<std::uint8_t>(random.whole(0, 15)));
             if (has_own) own_label.push_back(static_cast<Label>(random.whole(0, 2)));
@@ -140,82 +106,6 @@ TEST(Extraction, MatchesDefinitionOnEveryInstructionSet) {
         });
         if (HasFatalFailure()) return;
     }
-}
-
-TEST(Extraction, LabelsByPixelZoneAndRange) {
-    const LabelledReturns returns = Example().returns;
-    // 0 and 1: of a RoI pixel; 2: beyond the zone; 3: of a ROU pixel; 4: too near for the sensor;
-    // 5: too far for it; 6: without a range.
-    EXPECT_EQ(returns.roi, (std::vector<std::uint32_t>{0, 1, 4}));
-    EXPECT_EQ(returns.rou, (std::vector<std::uint32_t>{2, 3, 5}));
-    EXPECT_EQ(returns.unclassified, (std::vector<std::uint32_t>{6}));
-    EXPECT_EQ(returns.component, (std::vector<std::int32_t>{1, 1, 0, 0, 0, 0, 0}));
-}
-
-TEST(Extraction, NumbersComponentsWithoutGaps) {
-    Example example;
-    example.labels.data()[example.image.depth_mapper[3]] = Label::Roi;
-    example.components.data()[example.image.depth_mapper[3]] = 3;  // before the other one, 7
-    example.extract();
-    EXPECT_EQ(example.returns.component, (std::vector<std::int32_t>{2, 2, 0, 1, 0, 0, 0}));
-}
-
-TEST(Extraction, UnmappedReturnInZoneIsRoi) {
-    Example example;
-    projectScan(example.scan, example.sensor, 8, 10.0f, example.image,
-                work.projection);  // context smaller than the zone
-    example.extract();
-    EXPECT_EQ(example.image.depth_mapper[1], RangeImage::kNoPixel);
-    EXPECT_EQ(example.returns.label[1], Label::Roi);
-    EXPECT_EQ(example.returns.component[1], 0);
-    EXPECT_EQ(example.returns.label[2], Label::Rou);
-}
-
-TEST(Extraction, OwnLabelOverridesPixel) {
-    Example example;
-    const auto extracted = [&](const std::vector<Label>& own_label) {
-        example.extract(ownLabels(own_label));
-        return example.returns;
-    };
-    std::vector<Label> own_label(7, Label::Unclassified);
-    EXPECT_EQ(extracted(own_label).label, Example().returns.label);
-    own_label[1] = Label::Rou;
-    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0, 4}));
-    EXPECT_EQ(example.returns.rou, (std::vector<std::uint32_t>{1, 2, 3, 5}));
-    EXPECT_EQ(example.returns.component[1], 0);
-    own_label[3] = Label::Roi;
-    EXPECT_EQ(extracted(own_label).roi, (std::vector<std::uint32_t>{0, 3, 4}));
-    EXPECT_EQ(example.returns.component[3], 0);  // its pixel has no component
-    own_label[2] = own_label[6] = Label::Roi;    // beyond the zone, no range
-    EXPECT_EQ(extracted(own_label).label[2], Label::Rou);
-    EXPECT_EQ(example.returns.label[6], Label::Unclassified);
-}
-
-TEST(Extraction, ReturnsFarBehindHaveNoComponent) {
-    Example example;  // its second return is 10 m behind the first, which is in component 7
-    const std::vector<Label> own_label(7, Label::Roi);
-    const auto component = [&](float component_gap_m) {
-        example.extract(ownLabels(own_label), component_gap_m);
-        EXPECT_EQ(example.returns.label[1], Label::Roi);
-        return example.returns.component[1];
-    };
-    EXPECT_EQ(component(10.01f), 1);
-    EXPECT_EQ(component(10.0f), 0);
-    EXPECT_EQ(component(1.0f), 0);
-    EXPECT_EQ(example.returns.component[0], 1);
-}
-
-TEST(Extraction, OnlyReturnsWithoutRangeAreUnclassified) {
-    Example example;
-    EXPECT_EQ(example.returns.unclassified, (std::vector<std::uint32_t>{6}));
-    for (const float range_m : {0.0f, std::numeric_limits<float>::infinity(), kNoValue}) {
-        example.scan.range_m[1] = range_m;
-        example.extract();
-        EXPECT_EQ(example.returns.label[1], Label::Unclassified) << range_m;
-    }
-    example.scan.range_m[1] = 1e-6f;
-    example.extract();
-    EXPECT_EQ(example.returns.label[1], Label::Roi);
 }
 
 }  // namespace

@@ -49,19 +49,6 @@ struct TwoMetresUp {
 
 constexpr Label kAsItsPixel = Label::Unclassified;
 
-TEST(FartherReturns, WallBehindFenceIsRoi) {
-    const TwoMetresUp example;
-    EXPECT_EQ(example.judged({example.on(8, 5), example.on(8, 12)}),
-              (std::vector<Label>{kAsItsPixel, Label::Roi}));
-}
-
-TEST(FartherReturns, GroundBehindPoleIsRou) {
-    const TwoMetresUp example;
-    const double to_ground_m = 2 / std::sin(radians(15));  // of the lowest beam
-    EXPECT_EQ(example.judged({example.on(0, to_ground_m), example.on(0, 3)}),
-              (std::vector<Label>{Label::Rou, kAsItsPixel}));
-}
-
 TEST(FartherReturns, FirstThirtyCentimetresFollowThePixel) {
     const TwoMetresUp example;
     EXPECT_EQ(example.judged({example.on(8, 5), example.on(8, 5.29), example.on(8, 5.31)}),

@@ -158,7 +158,7 @@ TEST(GroundStages, MatchOnEveryInstructionSet) {
     });
 }
 
-/// So that the comparisons above are of something.
+/// Ensures that the comparisons above are not vacuous.
 TEST(GroundStages, SightsExerciseEveryStage) {
     int canopies = 0, feet = 0, specks = 0, withdrawn = 0, kept = 0;
     forManySights([&](const Sight& sight) {

@@ -32,7 +32,7 @@ Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& toleran
     return tolerance_m;
 }
 
-TEST(HeightTolerance, OfLevelGroundGrowsWithTheDistance) {
+TEST(HeightTolerance, GrowsWithDistance) {
     const Image<float> tolerance_m =
         tolerated(pixelsAt({{0, 0, 0}, {3, 4, 0}, {-40, 0, 0}, kEmptyPixel}));
     EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.17f);
@@ -41,61 +41,19 @@ TEST(HeightTolerance, OfLevelGroundGrowsWithTheDistance) {
     EXPECT_FALSE(hasValue(tolerance_m(0, 3)));
 }
 
-TEST(HeightTolerance, BesideWhatIsTallIsLess) {
-    // Cells are 0.75 m wide: x = 3 is in cell 4, 3.8 in cell 5, 4.6 in cell 6.
-    const PixelPoints pixels = pixelsAt({{3, 4, 0}, {3.8f, 4, 1}, {4.6f, 4, 0}, {5.3f, 4, 0}});
-    const Image<float> tolerance_m = tolerated(pixels);
-    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.195f - 0.12f);
-    EXPECT_FLOAT_EQ(tolerance_m(0, 1), 0.17f + 0.005f * std::hypot(3.8f, 4.0f) - 0.12f);
-    EXPECT_FLOAT_EQ(tolerance_m(0, 2), 0.17f + 0.005f * std::hypot(4.6f, 4.0f) - 0.12f);
-    EXPECT_FLOAT_EQ(tolerance_m(0, 3), 0.17f + 0.005f * std::hypot(5.3f, 4.0f));
-}
-
-TEST(HeightTolerance, WhatStandsAtACornerOfTheCellIsNotBesideIt) {
-    // The cells of (3, 4): 4 and 5.
-    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3.8f, 4.6f, 1}}))(0, 0), 0.195f);
-    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4.6f, 1}}))(0, 0), 0.195f - 0.12f);
-    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 3.7f, 1}}))(0, 0), 0.195f - 0.12f);
-}
-
-TEST(HeightTolerance, BelowTheSensorTheNeighboursDoNotMatter) {
-    const PixelPoints pixels = pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 1}});
-    const auto fromHeight = [&](float sensor_height_m) {
-        return tolerated(pixels, {}, sensor_height_m)(0, 0);
-    };
-    EXPECT_FLOAT_EQ(fromHeight(0.1f), 0.195f - 0.12f);
-    EXPECT_FLOAT_EQ(fromHeight(5.0f / 3), 0.195f - 0.12f);
-    EXPECT_FLOAT_EQ(fromHeight(5), 0.195f - 0.04f);
-    EXPECT_NEAR(fromHeight(5000), 0.195f, 1e-4f);
-    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}))(0, 0), 0.17f);
-}
-
-TEST(HeightTolerance, MoreThanElevenTenthsOfAMetreIsNoReasonToTolerateLess) {
-    const Image<float> tolerance_m = tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.4f}, {3, 4, 1.4f}}));
-    EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.195f - 0.12f * 1.1f);
-}
-
-TEST(HeightTolerance, IsNeverLessThanFourCentimetres) {
+TEST(HeightTolerance, IsAtLeastFourCentimetres) {
     const Image<float> tolerance_m =
         tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.4f}, {3, 4, 1.4f}}), {0.1f, 0.0f, 0.12f});
     EXPECT_FLOAT_EQ(tolerance_m(0, 0), 0.04f);
 }
 
-TEST(HeightTolerance, AHoleInTheGroundChangesNothing) {
-    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, -2}}))(0, 0), 0.195f);
-}
-
-TEST(HeightTolerance, OneReturnOverTheGroundMayBeADropOfRain) {
+TEST(HeightTolerance, IgnoresLoneHighReturns) {
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}}))(0, 0), 0.195f);
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 0.5f}}))(0, 0),
                     0.195f - 0.12f * 0.5f);
 }
 
-TEST(HeightTolerance, TheCrownOfATreeDoesNotStandBelowIt) {
-    EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1.51f}, {3, 4, 6}}))(0, 0), 0.195f);
-}
-
-TEST(HeightTolerance, AgreesWithASearchThroughAllPixels) {
+TEST(HeightTolerance, MatchesBruteForce) {
     test::Random random(90);
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 600; ++i) {
@@ -130,7 +88,7 @@ TEST(HeightTolerance, AgreesWithASearchThroughAllPixels) {
     }
 }
 
-TEST(LabelByHeight, HigherThanTheToleranceOrFarBelowTheSurfaceIsRoi) {
+TEST(LabelByHeight, OutsideToleranceIsRoi) {
     Image<float> height_m(1, 6), tolerance_m(1, 6);
     height_m << -1.51f, -1.5f, 0.2f, 0.21f, 5, kNoValue;
     tolerance_m << 0.2f, 0.2f, 0.2f, 0.2f, 0.2f, kNoValue;
@@ -153,41 +111,24 @@ std::vector<Label> grown(const std::vector<Eigen::Vector3f>& column) {
 
 constexpr Label kRoi = Label::Roi, kRou = Label::Rou, kNone = Label::Unclassified;
 
-TEST(GrowFeet, AWallIsFollowedToItsFoot) {
-    EXPECT_EQ(grown({{3, 0, 0}, {8, 0, 0.05f}, {8, 0, 0.15f}, {8, 0, 0.5f}}),
-              (std::vector<Label>{kRou, kRoi, kRoi, kRoi}));
-}
-
-TEST(GrowFeet, GrassInFrontOfAWallIsNotItsFoot) {
-    EXPECT_EQ(grown({{5, 0, 0.15f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
-}
-
-TEST(GrowFeet, FortyFiveDegreesIsTheBorder) {
-    EXPECT_EQ(grown({{7.61f, 0, 0.1f}, {8, 0, 0.5f}}), (std::vector<Label>{kRoi, kRoi}));
-    EXPECT_EQ(grown({{7.59f, 0, 0.1f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
-    // in any direction
-    EXPECT_EQ(grown({{0, 7.59f, 0.1f}, {0, 8, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
-}
-
-TEST(GrowFeet, WhatIsLevelWithTheGroundIsNoFoot) {
-    EXPECT_EQ(grown({{8, 0, 0.015f}, {8, 0, 0.5f}}), (std::vector<Label>{kRou, kRoi}));
-    EXPECT_EQ(grown({{8, 0, 0.016f}, {8, 0, 0.5f}}), (std::vector<Label>{kRoi, kRoi}));
-}
-
-TEST(GrowFeet, UnderWhatIsNoObstacleThereIsNoFoot) {
-    EXPECT_EQ(grown({{8, 0, 0.05f}, {8, 0, 0.15f}}), (std::vector<Label>{kRou, kRou}));
-}
-
-TEST(GrowFeet, WhatIsBelowAPixelOfTheGroundIsNoFoot) {
-    EXPECT_EQ(grown({{8, 0, 0.1f}, {5, 0, 0.1f}, {8, 0, 1}}),
-              (std::vector<Label>{kRou, kRou, kRoi}));
-}
-
-TEST(GrowFeet, EmptyPixelsAreCrossedUpToThree) {
-    EXPECT_EQ(grown({{8, 0, 0.1f}, kEmptyPixel, kEmptyPixel, kEmptyPixel, {8, 0, 1}}),
-              (std::vector<Label>{kRoi, kNone, kNone, kNone, kRoi}));
-    EXPECT_EQ(grown({{8, 0, 0.1f}, kEmptyPixel, kEmptyPixel, kEmptyPixel, kEmptyPixel, {8, 0, 1}}),
-              (std::vector<Label>{kRou, kNone, kNone, kNone, kNone, kRoi}));
+TEST(GrowFeet, FollowsObstaclesDownToGround) {
+    const Eigen::Vector3f none = kEmptyPixel, top(8, 0, 1);
+    const std::pair<std::vector<Eigen::Vector3f>, std::vector<Label>> cases[] = {
+        {{{3, 0, 0}, {8, 0, 0.05f}, {8, 0, 0.15f}, {8, 0, 0.5f}}, {kRou, kRoi, kRoi, kRoi}},
+        {{{5, 0, 0.15f}, {8, 0, 0.5f}}, {kRou, kRoi}},            // grass in front of a wall
+        {{{7.61f, 0, 0.1f}, {8, 0, 0.5f}}, {kRoi, kRoi}},         // steeper than 45 degrees
+        {{{7.59f, 0, 0.1f}, {8, 0, 0.5f}}, {kRou, kRoi}},         // flatter
+        {{{0, 7.59f, 0.1f}, {0, 8, 0.5f}}, {kRou, kRoi}},         // in any direction
+        {{{8, 0, 0.015f}, {8, 0, 0.5f}}, {kRou, kRoi}},           // at ground level
+        {{{8, 0, 0.016f}, {8, 0, 0.5f}}, {kRoi, kRoi}},           // above it
+        {{{8, 0, 0.05f}, {8, 0, 0.15f}}, {kRou, kRou}},           // no obstacle above
+        {{{8, 0, 0.1f}, {5, 0, 0.1f}, top}, {kRou, kRou, kRoi}},  // ground in between
+        {{{8, 0, 0.1f}, none, none, none, top}, {kRoi, kNone, kNone, kNone, kRoi}},
+        {{{8, 0, 0.1f}, none, none, none, none, top}, {kRou, kNone, kNone, kNone, kNone, kRoi}},
+    };
+    for (const auto& [column, expected] : cases) {
+        EXPECT_EQ(grown(column), expected) << column.front().transpose();
+    }
 }
 
 /// Labels of 3 x 5 pixels that differ only in height (over the plane z = 0) after removing specks;
@@ -206,7 +147,7 @@ Image<Label> voted(const Image<float>& height_m, float distance_step_m = 0) {
     return labels;
 }
 
-TEST(RemoveSpecks, ALoneDoubtfulPixelFollowsItsNeighbours) {
+TEST(RemoveSpecks, DoubtfulPixelsFollowNeighbours) {
     Image<float> height_m = Image<float>::Zero(3, 5);
     height_m(1, 2) = 0.39f;
     EXPECT_TRUE((voted(height_m) == kRou).all());
@@ -215,7 +156,7 @@ TEST(RemoveSpecks, ALoneDoubtfulPixelFollowsItsNeighbours) {
     EXPECT_TRUE((voted(height_m) == kRoi).all());
 }
 
-TEST(RemoveSpecks, WhatIsClearlyHigherStays) {
+TEST(RemoveSpecks, KeepsClearlyHighPixels) {
     Image<float> height_m = Image<float>::Zero(3, 5);
     height_m(1, 2) = 0.41f;
     EXPECT_EQ(voted(height_m)(1, 2), kRoi);
@@ -224,7 +165,7 @@ TEST(RemoveSpecks, WhatIsClearlyHigherStays) {
     EXPECT_EQ((voted(height_m) == kRoi).count(), 1);
 }
 
-TEST(RemoveSpecks, ADrawChangesNothing) {
+TEST(RemoveSpecks, TieChangesNothing) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m(1, 2) = 0.3f;  // doubtful, RoI
     height_m(0, 1) = 2;     // votes for RoI
@@ -234,7 +175,7 @@ TEST(RemoveSpecks, ADrawChangesNothing) {
     EXPECT_EQ(voted(height_m)(1, 2), kRou);
 }
 
-TEST(RemoveSpecks, FewerThanThreeVotesChangeNothing) {
+TEST(RemoveSpecks, NeedsThreeVotes) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m(1, 2) = 0.1f;  // doubtful, ROU
     height_m(0, 2) = 2;
@@ -243,20 +184,14 @@ TEST(RemoveSpecks, FewerThanThreeVotesChangeNothing) {
     EXPECT_EQ(voted(height_m)(1, 2), kRoi);
 }
 
-TEST(RemoveSpecks, PixelsFartherApartThanAMetreHaveNoVote) {
+TEST(RemoveSpecks, IgnoresPixelsBeyondOneMetre) {
     Image<float> height_m = Image<float>::Zero(3, 5);
     height_m.col(2) = 0.3f;
     EXPECT_TRUE((voted(height_m, 0.9f).col(2) == kRou).all());
     EXPECT_TRUE((voted(height_m, 1.1f).col(2) == kRoi).all());
 }
 
-TEST(RemoveSpecks, WhatIsClearlyLowerStays) {
-    Image<float> height_m = Image<float>::Constant(3, 5, 0.6f);
-    height_m(1, 2) = -0.01f;
-    EXPECT_EQ(voted(height_m)(1, 2), kRou);
-}
-
-TEST(RemoveSpecks, VotesAreThoseBeforeAnyWasCounted) {
+TEST(RemoveSpecks, CountsLabelsBeforeVoting) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m.col(0) = 0.0f;
     height_m(1, 1) = 0.3f;  // 2 to 4: becomes ROU
@@ -267,7 +202,7 @@ TEST(RemoveSpecks, VotesAreThoseBeforeAnyWasCounted) {
     EXPECT_EQ(labels(1, 2), kRoi);
 }
 
-TEST(RemoveSpecks, AroundTheBackOfTheTurnPixelsAreNeighboursUpAndDownTheyAreNot) {
+TEST(RemoveSpecks, NeighboursWrapInAzimuthOnly) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m(1, 0) = 0.3f;
     height_m(0, 4) = height_m(1, 4) = height_m(2, 4) = 0;

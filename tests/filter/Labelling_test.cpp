@@ -116,26 +116,6 @@ TEST(Labelling, FollowsWindingPath) {
     }
 }
 
-TEST(Labelling, RegionsWrapInAzimuth) {
-    // Only column 0 has a seed with a path up; its upper pixel reaches the last column sideways.
-    Image<float> angle_rad = Image<float>::Constant(2, 5, 1.5f);
-    angle_rad.row(0) << 0.0f, 1.0f, 1.0f, 1.0f, 1.0f;
-    angle_rad(1, 0) = angle_rad(1, 4) = 0.0f;
-    const Image<Label> labels = labelled(Image<float>::Constant(2, 5, 10.0f), angle_rad, 0.1f);
-    EXPECT_EQ(labels(1, 4), Label::Rou);
-    EXPECT_EQ(labels(1, 2), Label::Roi);
-}
-
-TEST(Labelling, SeedNeedsAngle) {
-    Image<float> depth_m = Image<float>::Constant(4, 1, 10.0f), angle_rad(4, 1);
-    depth_m(1, 0) = kNoValue;
-    angle_rad << kNoValue, kNoValue, 0.0f, 0.0f;
-    const Image<Label> labels = labelled(depth_m, angle_rad, 0.1f);
-    EXPECT_EQ(labels(0, 0), Label::Roi);
-    EXPECT_EQ(labels(1, 0), Label::Unclassified);
-    EXPECT_EQ(labels(2, 0), Label::Roi);
-}
-
 TEST(Labelling, GatedSeedIsRoiUnlessReached) {
     // Steep lowest pixels in columns 0 and 1, level ones in 2; from there to 1 in steps of 0.4.
     Image<float> depth_m(3, 3), angle_rad(3, 3);
@@ -170,29 +150,6 @@ TEST(Labelling, GateAppliesOnlyToGroundSeeds) {
     const Image<float> angle_rad = Image<float>::Constant(2, 3, 1.5f);
     EXPECT_TRUE(
         (labelled(depth_m, angle_rad, 0.1f, Seeds::TopAndNearest, 0.1f) == Label::Roi).all());
-}
-
-TEST(Labelling, LiteralReadingSeedsTopAndNearest) {
-    Image<float> depth_m = Image<float>::Constant(4, 3, 10.0f), angle_rad(4, 3);
-    angle_rad.row(0) = 0.0f;
-    angle_rad.row(1) = 0.5f;
-    angle_rad.row(2) = 1.0f;
-    angle_rad.row(3) = 1.5f;
-    depth_m.row(1) = 5.0f;
-    const Image<Label> labels = labelled(depth_m, angle_rad, 0.1f, Seeds::TopAndNearest);
-    EXPECT_TRUE((labels.row(0) == Label::Rou).all());
-    EXPECT_TRUE((labels.row(1) == Label::Roi).all());  // the nearest
-    EXPECT_TRUE((labels.row(2) == Label::Rou).all());
-    EXPECT_TRUE((labels.row(3) == Label::Roi).all());  // the top
-}
-
-TEST(Labelling, RegionsCrossEmptyPixelsWithAngle) {
-    Image<float> depth_m = Image<float>::Constant(3, 1, 10.0f);
-    depth_m(1, 0) = kNoValue;
-    const Image<Label> labels = labelled(depth_m, Image<float>::Zero(3, 1), 0.1f);
-    EXPECT_EQ(labels(0, 0), Label::Rou);
-    EXPECT_EQ(labels(1, 0), Label::Unclassified);
-    EXPECT_EQ(labels(2, 0), Label::Rou);
 }
 
 TEST(Labelling, EverySeedMarksAllRou) {

@@ -8,11 +8,6 @@
 namespace hagen {
 namespace {
 
-TEST(Options, DefaultsFitSixteenBeams) {
-    EXPECT_NO_THROW(checkOptions(Options(), 16));
-    EXPECT_NO_THROW(checkOptions(Options(), 64));
-}
-
 TEST(Options, RejectsMoreComponentsThanWindow) {
     Options options;
     options.principal_components = options.window_size + 1;

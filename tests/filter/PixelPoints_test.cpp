@@ -63,13 +63,6 @@ TEST(PixelPoints, RepairedPixelIsOnItsBeam) {
     EXPECT_EQ((!l.pixels.x_m.isNaN()).count(), 2);
 }
 
-TEST(PixelPoints, EmptyScanHasNone) {
-    const Located l = located(sensorModel("VLP-16"), {}, [](Image<float>&) {});
-    EXPECT_EQ(l.pixels.x_m.rows(), 16);
-    EXPECT_EQ(l.pixels.x_m.cols(), kColumns);
-    EXPECT_TRUE(l.pixels.x_m.isNaN().all());
-}
-
 TEST(PixelPoints, MovingKeepsDistances) {
     test::Random random(65);
     PixelPoints pixels;

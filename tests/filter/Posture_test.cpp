@@ -106,22 +106,7 @@ test::LabelledScan sceneFrom(const SensorModel& sensor, const Attitude& attitude
     test::SimpleScene scene;
     scene.boxes = {{{8, -4, 0}, {9, 4, 3}}};
     scene.poles = {{-6, 5, 0.2, 4}};
-    const Eigen::Matrix3d level = levelFromSensor(attitude).cast<double>();
-    test::LabelledScan result;
-    std::vector<Eigen::Vector3f> points_m;
-    for (int column = 0; column < 870; ++column) {
-        for (int row = 0; row < sensor.rows(); ++row) {
-            const Eigen::Vector3d beam =
-                test::directionOf(static_cast<double>(columnAzimuth(column, 870)),
-                                  static_cast<double>(sensor.elevations_rad[row]));
-            const test::Hit hit = test::castRay(scene, {0, 0, 2}, level * beam);
-            if (hit.range_m > 60) continue;
-            points_m.push_back((hit.range_m * beam).cast<float>());
-            result.truth.push_back(hit.label);
-        }
-    }
-    result.scan = test::scanOf(sensor, points_m);
-    return result;
+    return test::scanScene(scene, sensor, 870, {0, 0, 2}, levelFromSensor(attitude).cast<double>());
 }
 
 TEST(Posture, LabelsHoldAtAnyRoll) {

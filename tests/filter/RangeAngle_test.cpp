@@ -53,44 +53,6 @@ PixelDirections directionsOf(int rows, int columns) {
 const std::pair<int, int> kSizes[] = {{2, 1},   {3, 7},  {8, 5},   {9, 31},  {16, 1},
                                       {16, 87}, {17, 2}, {32, 13}, {64, 29}, {128, 9}};
 
-Image<float> anglesOf(const Image<float>& depth_m, const SensorModel& sensor) {
-    Image<float> angles_rad;
-    rangeAngles(depth_m, pixelDirections(sensor, static_cast<int>(depth_m.cols())), angles_rad);
-    return angles_rad;
-}
-
-TEST(RangeAngle, LevelGroundIsZero) {
-    const SensorModel sensor = sensorModel("VLP-16");
-    Image<float> depth_m = Image<float>::Constant(16, 3, kNoValue);
-    for (int row = 0; row < 8; ++row)
-        depth_m.row(row) = -2.0f / std::sin(sensor.elevations_rad[row]);
-    const Image<float> angles_rad = anglesOf(depth_m, sensor);
-    for (int row = 0; row < 7; ++row) EXPECT_NEAR(angles_rad(row, 0), 0.0f, 1e-4f);
-    for (int row = 7; row < 15; ++row) EXPECT_FALSE(hasValue(angles_rad(row, 0)));
-}
-
-TEST(RangeAngle, WallIsNinetyDegrees) {
-    const SensorModel sensor = sensorModel("HDL-32E");
-    Image<float> depth_m(32, 2);
-    for (int row = 0; row < 32; ++row)
-        depth_m.row(row) = 10.0f / std::cos(sensor.elevations_rad[row]);
-    EXPECT_LT((anglesOf(depth_m, sensor) - static_cast<float>(kPi / 2)).abs().maxCoeff(), 1e-4f);
-}
-
-TEST(RangeAngle, SlopeHasItsAngle) {
-    // Points (x, z) with z = (x - 20) tan(30 deg), seen from the origin.
-    const SensorModel sensor = sensorModel("VLP-16");
-    const double slope = std::tan(radians(30));
-    Image<float> depth_m(16, 1);
-    for (int row = 0; row < 16; ++row) {
-        const double elevation = static_cast<double>(sensor.elevations_rad[row]);
-        depth_m(row, 0) =
-            static_cast<float>(20 * slope / (slope * std::cos(elevation) - std::sin(elevation)));
-    }
-    const Image<float> angles_rad = anglesOf(depth_m, sensor);
-    for (int row = 0; row < 15; ++row) EXPECT_NEAR(degrees(angles_rad(row, 0)), 30.0, 0.01);
-}
-
 TEST(RangeAngle, MatchesArctangent) {
     test::Random random(11);
     for (const auto& [rows, columns] : kSizes) {
@@ -136,22 +98,6 @@ TEST(RangeAngle, IsSameOnEveryInstructionSet) {
             }
         });
     }
-}
-
-TEST(CarryAngles, PrefersBeamAbove) {
-    Image<float> range_angle_rad(4, 1), carried_rad, expected(5, 1);
-    range_angle_rad << 0.1f, 0.2f, kNoValue, kNoValue;
-    expected << 0.1f, 0.2f, 0.2f, kNoValue, kNoValue;
-    carryAngles(range_angle_rad, carried_rad);
-    EXPECT_TRUE(test::same(carried_rad, expected));
-}
-
-TEST(CarryAngles, PrefersBeamBelowIfAsked) {
-    Image<float> range_angle_rad(4, 1), carried_rad, expected(5, 1);
-    range_angle_rad << 0.1f, 0.2f, kNoValue, kNoValue;
-    expected << 0.1f, 0.1f, 0.2f, kNoValue, kNoValue;
-    carryAngles(range_angle_rad, carried_rad, false);
-    EXPECT_TRUE(test::same(carried_rad, expected));
 }
 
 TEST(LevelGaps, GapsBecomeZero) {

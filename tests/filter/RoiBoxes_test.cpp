@@ -36,11 +36,6 @@ TEST(RoiBoxes, LoneReturnHasNoExtent) {
     EXPECT_FALSE(boxes[0].extents_m.isEmpty());
 }
 
-TEST(RoiBoxes, NoObstaclesGiveNoBoxes) {
-    EXPECT_TRUE(boxesOf({{6, 8, 0}}, {0}).empty());
-    EXPECT_TRUE(boxesOf({}, {}).empty());
-}
-
 RoiBox box(std::int32_t component, std::uint32_t returns, float size_m) {
     const Eigen::Vector3f corner = Eigen::Vector3f::Constant(size_m);
     return {component, returns, 1.0f, {-corner, corner}};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -52,7 +51,7 @@ Image<std::int32_t> floodedNumbers(const Image<float>& depth_m, const Image<Labe
     return components;
 }
 
-TEST(RoiComponents, AreThoseOfAPlainFloodOnEveryInstructionSet) {
+TEST(RoiComponents, MatchPlainFloodOnEveryInstructionSet) {
     test::Random random(20);
     for (int round = 0; round < 150; ++round) {
         const int rows = random.chance(0.5) ? random.whole(2, 16) : random.whole(17, 200);
@@ -76,7 +75,7 @@ TEST(RoiComponents, AreThoseOfAPlainFloodOnEveryInstructionSet) {
     }
 }
 
-TEST(RoiComponents, TheNearestObstacleIsNumberOne) {
+TEST(RoiComponents, NearestObstacleIsFirst) {
     Image<float> depth_m(1, 7);
     depth_m << 9.0f, 9.1f, 5.0f, 5.1f, 4.9f, 12.0f, 12.0f;
     Image<Label> labels = Image<Label>::Constant(1, 7, Label::Roi);
@@ -86,7 +85,7 @@ TEST(RoiComponents, TheNearestObstacleIsNumberOne) {
     EXPECT_TRUE((numbered(depth_m, labels) == expected).all());
 }
 
-TEST(RoiComponents, GoAroundTheBackAndNotDiagonally) {
+TEST(RoiComponents, WrapInAzimuthAndAreNotDiagonal) {
     Image<float> depth_m = Image<float>::Constant(2, 6, 5.0f);
     Image<Label> labels = Image<Label>::Constant(2, 6, Label::Rou);
     labels(0, 0) = labels(0, 5) = labels(1, 1) = Label::Roi;
@@ -95,55 +94,7 @@ TEST(RoiComponents, GoAroundTheBackAndNotDiagonally) {
     EXPECT_NE(components(0, 0), components(1, 1));
 }
 
-TEST(RoiComponents, AreTheClassesOfTheNeighbourRelation) {
-    test::Random random(19);
-    for (int round = 0; round < 20; ++round) {
-        const int rows = 6, columns = 15;
-        const Image<float> depth_m = random.image(rows, columns, 1.0f, 4.0f, 0.0);
-        Image<Label> labels(rows, columns);
-        for (Label& label : labels.reshaped()) label = random.chance(0.7) ? Label::Roi : Label::Rou;
-        const auto components = numbered(depth_m, labels);
-
-        // Reference: every pixel is its own class, classes are merged until nothing changes.
-        Image<int> classes(rows, columns);
-        for (int pixel = 0; pixel < rows * columns; ++pixel) classes.data()[pixel] = pixel;
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (int column = 0; column < columns; ++column) {
-                for (int row = 0; row < rows; ++row) {
-                    for (const auto& [other_row, other_column] :
-                         {std::pair{row + 1, column}, {row, (column + 1) % columns}}) {
-                        if (other_row >= rows) continue;
-                        const bool joined = labels(row, column) == Label::Roi &&
-                                            labels(other_row, other_column) == Label::Roi &&
-                                            std::abs(depth_m(row, column) -
-                                                     depth_m(other_row, other_column)) < 1.0f;
-                        int &a = classes(row, column), &b = classes(other_row, other_column);
-                        if (!joined || a == b) continue;
-                        a = b = std::min(a, b);
-                        changed = true;
-                    }
-                }
-            }
-        }
-        std::map<int, int> number_of_class;
-        std::map<int, float> nearest_m;
-        for (int pixel = 0; pixel < rows * columns; ++pixel) {
-            const int number = components.data()[pixel];
-            ASSERT_EQ(number > 0, labels.data()[pixel] == Label::Roi);
-            if (number == 0) continue;
-            ASSERT_EQ(number_of_class.emplace(classes.data()[pixel], number).first->second, number);
-            float& nearest = nearest_m.emplace(number, 1e9f).first->second;
-            nearest = std::min(nearest, depth_m.data()[pixel]);
-        }
-        ASSERT_EQ(nearest_m.size(), number_of_class.size());
-        for (int number = 1; number < static_cast<int>(nearest_m.size()); ++number) {
-            ASSERT_LE(nearest_m.at(number), nearest_m.at(number + 1));
-        }
-    }
-}
-
-TEST(RoiComponents, NoRoiHasNone) {
+TEST(RoiComponents, WithoutRoiAreEmpty) {
     const auto depth_m = Image<float>::Constant(4, 5, 2.0f);
     EXPECT_TRUE((numbered(depth_m, Image<Label>::Constant(4, 5, Label::Rou)) == 0).all());
 }

@@ -80,37 +80,22 @@ TEST(SectorFilter, MatchesWholeScan) {
         ASSERT_EQ(found.returns.label.size(), turn.sector.size());
         ASSERT_EQ(filter.found().size(), turn.sector.size());
         EXPECT_TRUE(found.ground.has_surface);
-        std::size_t different = 0, roi = 0, rou = 0;
+        // Labels, and regions before the ground is used, which contain most of the flat ground.
+        std::size_t different = 0, ground = 0, rou = 0, pole = 0, roi = 0;
         for (std::size_t i = 0; i < turn.sector.size(); ++i) {
             different += found.returns.label[i] != turn.whole[i];
-            roi += found.returns.label[i] == Label::Roi;
-            rou += found.returns.label[i] == Label::Rou;
+            const float above_m = turn.sector.z_m[i] + 2;
+            ground += above_m < 0.01f;
+            rou += above_m < 0.01f && filter.found()[i].region == Label::Rou;
+            pole += above_m > 0.5f;
+            roi += above_m > 0.5f && filter.found()[i].region == Label::Roi;
         }
         EXPECT_LE(different, turn.sector.size() / 1000) << name;
-        EXPECT_GT(roi, 20u) << name;
-        EXPECT_GT(rou, 400u) << name;
+        EXPECT_GT(ground, 400u) << name;
+        EXPECT_GT(rou, ground * 8 / 10) << name;
+        EXPECT_GT(pole, 20u) << name;
+        EXPECT_GT(roi, pole * 9 / 10) << name;
     }
-}
-
-/// On flat ground, most pixels of the ground are in regions of uninterest.
-TEST(SectorFilter, FindsRegionsWithoutGround) {
-    const SensorModel sensor = sensorModel("VLP-16");
-    const Turn turn = turnOf(sceneWithPole(), sensor, radians(20.0));
-    const ColumnMap columns = windowInFront();
-    SectorFilter filter(sensor, {});
-    filter.segment(turn.scan, {}, {turn.sector, columns, contextOf(turn.whole)});
-    std::size_t ground = 0, rou = 0, pole = 0, roi = 0;
-    for (std::size_t i = 0; i < turn.sector.size(); ++i) {
-        const bool is_ground = turn.sector.z_m[i]<-1.99f, is_pole = turn.sector.z_m[i]> - 1.5f;
-        ground += is_ground;
-        rou += is_ground && filter.found()[i].region == Label::Rou;
-        pole += is_pole;
-        roi += is_pole && filter.found()[i].region == Label::Roi;
-    }
-    EXPECT_GT(ground, 400u);
-    EXPECT_GT(rou, ground * 8 / 10);
-    EXPECT_GT(pole, 20u);
-    EXPECT_GT(roi, pole * 9 / 10);
 }
 
 /// Of a sector that sees a wall only, the context shows whether there is ground.

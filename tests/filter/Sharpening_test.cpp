@@ -8,13 +8,6 @@
 namespace hagen {
 namespace {
 
-TEST(Sharpening, PlateauMaximumDoubles) {
-    const Image<float> proximity_m = Image<float>::Constant(3, 5, 4.0f);
-    Image<float> sharpened_m;
-    sharpenMaxima(proximity_m, {{1, 2, 4.0f, 0.0f}}, 1.2f, 1.3f, sharpened_m);
-    EXPECT_NEAR(sharpened_m(1, 2), 8.0f, 1e-6f);  // 4 + mean of fours
-}
-
 TEST(Sharpening, FollowsEquation) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
     proximity_m(1, 2) = 6.0f;
@@ -96,30 +89,6 @@ TEST(Merge, DepthsMoveAway) {
     EXPECT_NEAR(merged_m(1, 2), 9.0f, 1e-6f);  // (6 + 12) / 2
     merged_m(1, 2) = 6.0f;
     EXPECT_TRUE(test::same(merged_m, depth_m));
-}
-
-TEST(SharpeningAndMerge, OnlyMaximaMove) {
-    test::Random random(11);
-    MaximaWorkspace work;
-    for (int round = 0; round < 20; ++round) {
-        const Image<float> depth_m = random.image(16, 60, 0.5f, 30.0f, 0.2);
-        Image<float> proximity_m, sharpened_m, merged_m;
-        std::vector<Maximum> maxima;
-        proximityOf(depth_m, 20.0f, proximity_m);
-        findPersistentMaxima(proximity_m, 0.5f, maxima, work);
-        ASSERT_FALSE(maxima.empty());
-        sharpenMaxima(proximity_m, maxima, 1.2f, 1.3f, sharpened_m);
-        mergeMaxima(depth_m, proximity_m, sharpened_m, maxima, 0.5f, merged_m);
-
-        Image<float> others_m = merged_m;
-        for (const Maximum& maximum : maxima) {
-            const float before_m = depth_m(maximum.row, maximum.column);
-            ASSERT_LE(merged_m(maximum.row, maximum.column), before_m);
-            ASSERT_GE(merged_m(maximum.row, maximum.column), 0.5f);
-            others_m(maximum.row, maximum.column) = before_m;
-        }
-        ASSERT_TRUE(test::same(others_m, depth_m));
-    }
 }
 
 }  // namespace

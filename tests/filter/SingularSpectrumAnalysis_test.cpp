@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 
@@ -20,8 +19,10 @@ Image<float> smoothed(const Image<float>& values, int window_size, int principal
 }
 
 /// Textbook singular spectrum analysis: singular value decomposition of the whole trajectory
-/// matrix, sum of the leading elementary matrices, mean of every antidiagonal.
-Eigen::VectorXd oracle(const Eigen::VectorXd& series, int window_size, int principal_components) {
+/// matrix, sum of the leading elementary matrices, mean of every antidiagonal. `gap` is the
+/// difference of the eigenvalues on both sides of the cut, relative to the greatest one.
+Eigen::ArrayXd oracle(const Eigen::VectorXd& series, int window_size, int principal_components,
+                      double& gap) {
     const int n = static_cast<int>(series.size()), k = n - window_size + 1;
     Eigen::MatrixXd trajectory(window_size, k);
     for (int i = 0; i < window_size; ++i) {
@@ -29,6 +30,10 @@ Eigen::VectorXd oracle(const Eigen::VectorXd& series, int window_size, int princ
     }
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(trajectory,
                                                 Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::VectorXd values = svd.singularValues().cwiseAbs2();
+    gap = principal_components >= values.size()
+              ? 1.0
+              : (values(principal_components - 1) - values(principal_components)) / values(0);
     Eigen::MatrixXd leading = Eigen::MatrixXd::Zero(window_size, k);
     const int components =
         std::min(principal_components, static_cast<int>(svd.singularValues().size()));
@@ -46,48 +51,9 @@ Eigen::VectorXd oracle(const Eigen::VectorXd& series, int window_size, int princ
     return sums.cwiseQuotient(counts);
 }
 
-/// Whether the eigenvalues on both sides of the cut differ enough for the result to be defined.
-bool isDefined(const Eigen::VectorXd& series, int window_size, int principal_components) {
-    const int k = static_cast<int>(series.size()) - window_size + 1;
-    Eigen::MatrixXd trajectory(window_size, k);
-    for (int i = 0; i < window_size; ++i) {
-        for (int j = 0; j < k; ++j) trajectory(i, j) = series(i + j);
-    }
-    const Eigen::VectorXd values =
-        Eigen::JacobiSVD<Eigen::MatrixXd>(trajectory).singularValues().cwiseAbs2();
-    if (principal_components >= values.size()) return true;
-    return values(principal_components - 1) - values(principal_components) > 1e-3 * values(0);
-}
-
 /// Maximum error of a result, and of results for which the eigenvalues on both sides of the cut
 /// differ by at least 1e-3 of the greatest one.
 constexpr double kTolerance = 2e-4, kAccuracy = 1e-4 / 3;
-
-/// One run at a time, by the eigenvectors of X X^T: the definition in the header. `gap` is the
-/// difference of the eigenvalues on both sides of the cut, relative to the greatest one.
-Eigen::ArrayXd plainSmoothed(const Eigen::ArrayXd& series, int window_size,
-                             int principal_components, double& gap) {
-    const Eigen::Index columns = series.size() - window_size + 1;
-    Eigen::MatrixXd trajectory(window_size, columns);
-    for (Eigen::Index k = 0; k < columns; ++k) trajectory.col(k) = series.segment(k, window_size);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(trajectory *
-                                                                trajectory.transpose());
-    const Eigen::VectorXd values = solver.eigenvalues().reverse();
-    gap = principal_components >= std::min<Eigen::Index>(window_size, columns)
-              ? 1.0
-              : (values(principal_components - 1) - values(principal_components)) / values(0);
-    const auto kept = solver.eigenvectors().rightCols(principal_components);
-    const Eigen::MatrixXd projection = kept * (kept.transpose() * trajectory);
-    Eigen::ArrayXd smooth(series.size());
-    for (Eigen::Index n = 0; n < series.size(); ++n) {
-        const Eigen::Index first = std::max<Eigen::Index>(0, n - columns + 1);
-        const Eigen::Index last = std::min<Eigen::Index>(n, window_size - 1);
-        double sum = 0;
-        for (Eigen::Index w = first; w <= last; ++w) sum += projection(w, n - w);
-        smooth(n) = sum / static_cast<double>(last - first + 1);
-    }
-    return smooth;
-}
 
 /// Typical columns: noise, constants, ramps, steps, walls above ground, waves, few distinct values;
 /// some with gaps.
@@ -121,13 +87,13 @@ void forEachRun(const Column& column, Visit visit) {
     }
 }
 
-TEST(Ssa, ManyRunsAtOnceAreSmoothedAsEachByItself) {
+TEST(Ssa, MatchesDenseSvd) {
     test::Random random(18);
     int clear = 0, unclear = 0;
-    for (const int rows : {2, 7, 8, 13, 15, 16, 31, 63, 127}) {
+    for (const int rows : {2, 7, 8, 13, 15, 16, 31, 63}) {
         for (const int window_size : {2, 3, 5, 8, 12, 16}) {
             if (window_size > rows) continue;
-            const Image<float> values = realLike(random, rows, 37);
+            const Image<float> values = realLike(random, rows, 21);
             for (const int components :
                  {1, window_size / 2, window_size * 5 / 8, window_size - 1}) {
                 if (components < 1) continue;
@@ -143,7 +109,7 @@ TEST(Ssa, ManyRunsAtOnceAreSmoothedAsEachByItself) {
                         }
                         double gap = 0;
                         const Eigen::ArrayXd expected =
-                            plainSmoothed(was.cast<double>(), window_size, components, gap);
+                            oracle(was.cast<double>(), window_size, components, gap);
                         if (!(gap > 1e-9)) return;
                         ++(gap > 1e-3 ? clear : unclear);
                         EXPECT_LT((run.cast<double>() - expected).abs().maxCoeff(),
@@ -155,11 +121,11 @@ TEST(Ssa, ManyRunsAtOnceAreSmoothedAsEachByItself) {
             }
         }
     }
-    EXPECT_GT(clear, 4000);
-    EXPECT_GT(unclear, 500);
+    EXPECT_GT(clear, 1500);
+    EXPECT_GT(unclear, 150);
 }
 
-TEST(Ssa, ARunDoesNotFeelItsNeighbours) {
+TEST(Ssa, SmoothsRunsIndependently) {
     test::Random random(20);
     for (const int rows : {13, 14, 15, 40}) {
         const Image<float> values = realLike(random, rows, 50);
@@ -170,7 +136,7 @@ TEST(Ssa, ARunDoesNotFeelItsNeighbours) {
     }
 }
 
-TEST(Ssa, IsTheSameOnEveryInstructionSet) {
+TEST(Ssa, IsSameOnEveryInstructionSet) {
     test::Random random(21);
     for (const auto& [rows, window_size, components] :
          {std::tuple{15, 8, 5}, {14, 8, 5}, {31, 8, 2}, {63, 16, 10}, {40, 20, 3}}) {
@@ -182,7 +148,7 @@ TEST(Ssa, IsTheSameOnEveryInstructionSet) {
     }
 }
 
-TEST(Ssa, IsFiniteWhateverTheValues) {
+TEST(Ssa, StaysFiniteForExtremeValues) {
     test::Random random(22);
     for (const float scale : {1e-38f, 1e-20f, 1e15f}) {
         const Image<float> values = realLike(random, 31, 60) * scale;
@@ -202,91 +168,30 @@ TEST(Ssa, IsFiniteWhateverTheValues) {
     }
 }
 
-TEST(Ssa, WindowsAsLongAsTheColumnAllows) {
+TEST(Ssa, AcceptsLongWindows) {
     test::Random random(23);
     const Image<float> values = random.image(127, 9, 0, 1.57f, 0.0);
     for (const int window_size : {64, 126}) {
         double gap = 0;
         const Image<float> found = smoothed(values, window_size, 1);
-        const Eigen::ArrayXd expected =
-            plainSmoothed(values.col(3).cast<double>(), window_size, 1, gap);
+        const Eigen::ArrayXd expected = oracle(values.col(3).cast<double>(), window_size, 1, gap);
         EXPECT_GT(gap, 1e-3);
         EXPECT_LT((found.col(3).cast<double>() - expected).abs().maxCoeff(), 1e-6);
     }
 }
 
-TEST(Ssa, AgreesWithADenseSingularValueDecomposition) {
-    test::Random random(13);
-    int compared = 0;
-    for (const auto& [rows, window_size] : {std::pair{15, 8}, {31, 8}, {63, 8}, {63, 16}, {8, 8}}) {
-        const Image<float> values = random.image(rows, 40, 0.0f, 1.6f, 0.0);
-        for (const int components : {1, 2, 4, 5, window_size - 1}) {
-            const Image<float> found = smoothed(values, window_size, components);
-            for (int column = 0; column < values.cols(); ++column) {
-                const Eigen::VectorXd series = values.col(column).cast<double>();
-                if (!isDefined(series, window_size, components)) continue;
-                const Eigen::VectorXd expected = oracle(series, window_size, components);
-                for (int row = 0; row < rows; ++row) {
-                    ASSERT_NEAR(found(row, column), expected(row), kAccuracy);
-                }
-                ++compared;
-            }
-        }
-    }
-    EXPECT_GT(compared, 500);
-}
-
-TEST(Ssa, AsManyComponentsAsTheWindowIsTheIdentity) {
+TEST(Ssa, AllComponentsGiveIdentity) {
     test::Random random(14);
     const Image<float> values = random.image(15, 30, 0.0f, 1.6f, 0.1);
     EXPECT_TRUE(test::same(smoothed(values, 8, 8), values));
 }
 
-TEST(Ssa, WithoutTheShortCutAllComponentsAreTheIdentityToo) {
-    // A run of 9 values has an 8 x 2 trajectory matrix: two components contain all of it.
-    test::Random random(15);
-    const Image<float> values = random.image(9, 30, 0.0f, 1.6f, 0.0);
-    EXPECT_LT((smoothed(values, 8, 2) - values).abs().maxCoeff(), 1e-6f);
-}
-
-TEST(Ssa, ASteadySlopeAndAConstantPassThrough) {
-    Image<float> values(15, 2);
-    for (int row = 0; row < 15; ++row) values.row(row) << 0.7f, 0.05f * static_cast<float>(row);
-    EXPECT_LT((smoothed(values, 8, 2) - values).abs().maxCoeff(), 1e-6f);
-}
-
-TEST(Ssa, TakesNoiseOutOfASine) {
-    test::Random random(16);
-    double before = 0, after = 0;
-    for (int round = 0; round < 20; ++round) {
-        Image<float> clean(63, 1);
-        for (int row = 0; row < 63; ++row) clean(row, 0) = std::sin(0.3f * static_cast<float>(row));
-        const Image<float> noisy = clean + random.image(63, 1, -0.2f, 0.2f, 0.0);
-        before += (noisy - clean).matrix().squaredNorm();
-        after += (smoothed(noisy, 16, 2) - clean).matrix().squaredNorm();
-    }
-    EXPECT_LT(after, 0.35 * before);
-}
-
-TEST(Ssa, EachRunBetweenGapsIsASeriesOfItsOwn) {
-    test::Random random(17);
-    Image<float> values = random.image(63, 1, 0.0f, 1.6f, 0.0);
-    values(0, 0) = values(20, 0) = values(28, 0) = kNoValue;  // runs of 19, 7 and 34
-    const Image<float> found = smoothed(values, 8, 3);
-    const Eigen::VectorXd low = oracle(values.col(0).segment(1, 19).cast<double>(), 8, 3);
-    const Eigen::VectorXd high = oracle(values.col(0).segment(29, 34).cast<double>(), 8, 3);
-    for (int i = 0; i < 19; ++i) EXPECT_NEAR(found(1 + i, 0), low(i), 1e-5);
-    for (int i = 0; i < 34; ++i) EXPECT_NEAR(found(29 + i, 0), high(i), 1e-5);
-    for (int row = 21; row < 28; ++row) EXPECT_EQ(found(row, 0), values(row, 0));  // shorter than W
-    for (const int row : {0, 20, 28}) EXPECT_FALSE(hasValue(found(row, 0)));
-}
-
-TEST(Ssa, AllZerosAndAllEmptyStaySo) {
+TEST(Ssa, KeepsZerosAndEmptyPixels) {
     EXPECT_TRUE((smoothed(Image<float>::Zero(15, 4), 8, 5) == 0.0f).all());
     EXPECT_TRUE(smoothed(Image<float>::Constant(15, 4, kNoValue), 8, 5).isNaN().all());
 }
 
-TEST(Ssa, TheLeadingElementarySeriesAddUpToWhatSmoothingGives) {
+TEST(Ssa, LeadingElementarySeriesSumToSmoothed) {
     test::Random random(19);
     for (const auto& [rows, window_size] : {std::pair{15, 8}, {31, 8}, {8, 8}, {20, 3}}) {
         const Image<float> values = random.image(rows, 10, 0.0f, 1.6f, 0.0);
@@ -307,7 +212,7 @@ TEST(Ssa, TheLeadingElementarySeriesAddUpToWhatSmoothingGives) {
     }
 }
 
-TEST(Ssa, AConstantSeriesIsItsFirstComponent) {
+TEST(Ssa, ConstantSeriesIsFirstComponent) {
     const SeriesComponents found = decomposeSeries(Eigen::ArrayXf::Constant(15, 1.5f), 8);
     EXPECT_NEAR(found.eigenvalues(0) / found.eigenvalues.sum(), 1.0, 1e-9);
     EXPECT_LT((found.elementary.col(0).array() - 1.5).abs().maxCoeff(), 1e-6);

@@ -24,7 +24,7 @@ struct Tilt {
     double pitch_rad = 0, roll_rad = 0;
 };
 
-/// Where the sensor is, and what it sees.
+/// A scene, and the position of the sensor in it.
 struct Sight {
     SimpleScene scene;
     Vector3d sensor_m;
@@ -47,37 +47,26 @@ struct Outcome {
 };
 
 Outcome outcome(const Sight& sight, const std::string& sensor_name) {
-    constexpr int kColumns = 870;
     const SensorModel sensor = sensorModel(sensor_name);
     const Eigen::Matrix3d world_from_sensor =
         (Eigen::AngleAxisd(sight.tilt.pitch_rad, Vector3d::UnitY()) *
          Eigen::AngleAxisd(sight.tilt.roll_rad, Vector3d::UnitX()))
             .toRotationMatrix();
     test::Random random(5);
-    test::LabelledScan seen;
-    std::vector<double> height_m;  // of each return, above the floor
-    for (int column = 0; column < kColumns; ++column) {
-        for (const float elevation_rad : sensor.elevations_rad) {
-            if (sight.upwards_only && elevation_rad <= 0) continue;
-            const Vector3d beam = test::directionOf(columnAzimuth(column, kColumns),
-                                                    static_cast<double>(elevation_rad));
-            const Vector3d direction = world_from_sensor * beam;
-            Hit hit = castRay(sight.scene, sight.sensor_m, direction);
-            if (sight.change) sight.change(direction, hit, random);
-            if (hit.range_m > static_cast<double>(sensor.max_range_m)) continue;
-            const Eigen::Vector3f point = (hit.range_m * beam).cast<float>();
-            seen.scan.x_m.push_back(point.x());
-            seen.scan.y_m.push_back(point.y());
-            seen.scan.z_m.push_back(point.z());
-            seen.scan.intensity.push_back(0.5f);
-            seen.truth.push_back(hit.label);
-            height_m.push_back((sight.sensor_m + hit.range_m * direction).z() - sight.floor_m);
-        }
-    }
-    locateBeams(sensor, seen.scan);
+    const auto change = [&](const Vector3d& direction, Hit& hit) {
+        if (sight.change) sight.change(direction, hit, random);
+        const double up = world_from_sensor.col(2).dot(direction);
+        if (sight.upwards_only && up < 1e-9) hit = {};
+    };
+    const test::LabelledScan seen =
+        test::scanScene(sight.scene, sensor, 870, sight.sensor_m, world_from_sensor, change);
 
     HagenFilter filter(sensor);
     const std::vector<Label>& label = filter.segment(seen.scan).returns.label;
+    const auto heightOf = [&](std::size_t i) {  // above the floor
+        const Eigen::Vector3f at(seen.scan.x_m[i], seen.scan.y_m[i], seen.scan.z_m[i]);
+        return (sight.sensor_m + world_from_sensor * at.cast<double>()).z() - sight.floor_m;
+    };
     Outcome o;
     for (std::size_t i = 0; i < seen.scan.size(); ++i) {
         const float range_m = seen.scan.range_m[i];
@@ -86,7 +75,7 @@ Outcome outcome(const Sight& sight, const std::string& sensor_name) {
         if (seen.truth[i] == Label::Rou) {
             ++o.floors;
             o.rou_floors += label[i] == Label::Rou;
-        } else if (height_m[i] > 0.3) {
+        } else if (heightOf(i) > 0.3) {
             ++o.dangers;
             o.missed_dangers += label[i] != Label::Roi;
         }
@@ -340,7 +329,7 @@ TEST(Traps, OnlyBeamsAboveHorizon) {
     }
 }
 
-/// Leaves 3 to 6 m away in every direction hide this share of what is behind.
+/// Leaves 3 to 6 m away in every direction hide this share of the returns behind them.
 auto leaves(double share) {
     return [share](const Vector3d&, Hit& hit, test::Random& random) {
         const bool is_hidden = random.chance(share);

@@ -128,7 +128,7 @@ void removeDust(simulation::SimulatedScan& measured) {
 /// Differences between a model's clearances and the true ones.
 struct Errors {
     double sum_m = 0;
-    int queries = 0, missed = 0;  ///< missed: the model knew nothing within 1 m more
+    int queries = 0, missed = 0;  ///< missed: off by more than 1 m
 
     double mean_m() const { return sum_m / (queries - missed); }
 };

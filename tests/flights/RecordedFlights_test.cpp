@@ -68,7 +68,7 @@ std::set<std::string> flightsOf(const std::vector<std::string>& rows) {
     return flights;
 }
 
-/// What is wrong with a recording, given the flights of this revision; empty: nothing.
+/// The fault of a recording, given the flights of this revision; empty if it has none.
 std::string faultOf(const Recording& recording, const Recording& flown) {
     if (recording.revision != flown.revision) {
         return "recorded at revision " + std::to_string(recording.revision) +

@@ -35,7 +35,7 @@ TEST(Trial, FliesStraightOverOpenGround) {
         EXPECT_NEAR(result.min_clearance_m, 2, 0.35);
         EXPECT_TRUE(std::isnan(result.first_reaction_m));
         EXPECT_EQ(result.emergency_stops, 0);
-        // At 4 m/s after 0.15 s of nothing and some 0.8 s of speeding up.
+        // At 4 m/s, after 0.15 s of latency and about 0.8 s of acceleration.
         EXPECT_GT(result.time_s, 18.5 / 4);
         EXPECT_LT(result.time_s, 18.5 / 4 + 2);
     }

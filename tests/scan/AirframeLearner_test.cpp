@@ -96,13 +96,6 @@ TEST(AirframeLearner, LearnedBinsMaskReturns) {
     EXPECT_EQ(maskAirframe(airframe, scan), 30u);
 }
 
-TEST(AirframeLearner, NothingNearGivesNoBins) {
-    const LearnedAirframe learned =
-        learnedFrom(10, [](int, Scan& scan) { addReturn(0, 0, 5, scan); });
-    EXPECT_EQ(learned.bins, 0);
-    EXPECT_EQ(learned.share_of_seen, 0);
-}
-
 TEST(AirframeLearner, IgnoresEmptyScansAndMissingRanges) {
     const LearnedAirframe learned = learnedFrom(10, [](int, Scan& scan) {
         addReturn(0, 0, 0.5, scan);

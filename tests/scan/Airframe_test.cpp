@@ -6,24 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "support/PointScan.h"
 #include "support/Random.h"
 
 namespace hagen {
 namespace {
 
+const SensorModel kSensor = sensorModel("VLP-16");
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-Scan scanOf(const std::vector<Eigen::Vector3f>& points_m) {
-    Scan scan;
-    for (const Eigen::Vector3f& point_m : points_m) {
-        scan.x_m.push_back(point_m.x());
-        scan.y_m.push_back(point_m.y());
-        scan.z_m.push_back(point_m.z());
-        scan.intensity.push_back(0);
-    }
-    locateBeams(sensorModel("VLP-16"), scan);
-    return scan;
-}
 
 Eigen::Vector3f randomPoint(test::Random& random, float most_m) {
     return {random.real(-most_m, most_m), random.real(-most_m, most_m),
@@ -77,7 +67,7 @@ TEST(Airframe, MasksBoxesSpheresAndBins) {
         const Airframe airframe = randomAirframe(random);
         std::vector<Eigen::Vector3f> points_m;
         for (int i = 0; i < 500; ++i) points_m.push_back(randomPoint(random, 1.5f));
-        const Scan before = scanOf(points_m);
+        const Scan before = test::scanOf(kSensor, points_m);
         Scan scan = before;
         const std::size_t masked = maskAirframe(airframe, scan);
         std::size_t expected = 0;
@@ -101,7 +91,8 @@ TEST(Airframe, MasksBorders) {
     Airframe airframe;
     airframe.boxes.push_back({{0, 0, 0}, {1, 1, 1}});
     airframe.spheres.push_back({{-2, 0, 0}, 1});
-    Scan scan = scanOf({{1, 1, 1}, {1, 1, 1.0001f}, {-3, 0, 0}, {-3.0001f, 0, 0}, {-1, 0, 0}});
+    Scan scan = test::scanOf(
+        kSensor, {{1, 1, 1}, {1, 1, 1.0001f}, {-3, 0, 0}, {-3.0001f, 0, 0}, {-1, 0, 0}});
     EXPECT_EQ(maskAirframe(airframe, scan), 3u);
     EXPECT_EQ(hasValue(scan.range_m[1]) + hasValue(scan.range_m[3]), 2);
 }
@@ -115,18 +106,12 @@ TEST(Airframe, BinsMeetAtPolesAndSeam) {
     EXPECT_EQ(airframeBinOf({1, 0.001f, 0.001f}, 90).row, 45);
 }
 
-TEST(Airframe, EmptyMasksNothing) {
-    Scan scan = scanOf({{0.1f, 0, 0}, {5, 5, 5}});
-    const Scan before = scan;
-    EXPECT_EQ(maskAirframe({}, scan), 0u);
-    EXPECT_EQ(scan.range_m, before.range_m);
-}
-
 TEST(Airframe, IgnoresReturnsWithoutRange) {
     Airframe airframe;
     airframe.spheres.push_back({{0, 0, 0}, 2});
     airframe.bin_range_m = Image<float>::Constant(90, 180, 2.0f);
-    Scan scan = scanOf({{0, 0, 0}, {kNoValue, 0, 1}, {kInfinity, 0, 0}, {0.5f, 0, 0}});
+    Scan scan =
+        test::scanOf(kSensor, {{0, 0, 0}, {kNoValue, 0, 1}, {kInfinity, 0, 0}, {0.5f, 0, 0}});
     EXPECT_EQ(maskAirframe(airframe, scan), 1u);
     for (const float range_m : scan.range_m) EXPECT_TRUE(std::isnan(range_m));
 }

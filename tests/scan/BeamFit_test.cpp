@@ -85,15 +85,6 @@ TEST(BeamFit, ShiftedBeamsDoNotFit) {
     EXPECT_EQ(fit->share(), 0.0f);
 }
 
-TEST(BeamFit, RadiansDoNotFit) {
-    std::vector<double> wrong;
-    for (const double beam_deg : beamsEvery(2, -15, 15)) wrong.push_back(radians(beam_deg));
-    const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 15)), customSensorModel(wrong), 600);
-    ASSERT_TRUE(fit);
-    // Only the beams at -1 and 1 degree are near +-0.26.
-    EXPECT_LT(fit->share(), 0.15f);
-}
-
 TEST(BeamFit, WrongBeamCountShows) {
     const std::vector<double> half_deg = beamsEvery(4, -15, 15);
     const auto fewer = fitBeams(scanOf(half_deg), sensorModel("VLP-16"), 600);

@@ -30,7 +30,7 @@ Scan locatedWith(const SensorModel& sensor, std::size_t returns = 3) {
     return scan;
 }
 
-/// What checkLocated() says against the scan; empty where it lets it pass.
+/// The error message of checkLocated(); empty if it accepts the scan.
 std::string objection(const Scan& scan, const SensorModel& sensor) {
     try {
         checkLocated(scan, sensor);

@@ -53,40 +53,6 @@ TEST(RangeImage, ForwardIsMiddleColumn) {
     EXPECT_NEAR(nearestColumn(static_cast<float>(-kPi / 2), 870), 652, 1);
 }
 
-TEST(RangeImage, EveryAzimuthHasAColumn) {
-    for (const float azimuth_rad : {-3.1415928f, -3.1415925f, 3.1415925f, 3.1415928f}) {
-        EXPECT_GE(nearestColumn(azimuth_rad, 870), 0);
-        EXPECT_LT(nearestColumn(azimuth_rad, 870), 870);
-    }
-}
-
-TEST(RangeImage, KeepsClosestReturn) {
-    const SensorModel sensor = sensorModel("VLP-16");
-    const Scan scan = randomScan(4, 20000);
-    RangeImage image;
-    projectScan(scan, sensor, 100, kFar, image, work);
-
-    Image<float> closest;
-    closest.setConstant(16, 100, kFar);
-    Image<std::int32_t> closest_return =
-        Image<std::int32_t>::Constant(16, 100, RangeImage::kNoReturn);
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const float range_m = scan.range_m[i];
-        if (!(range_m >= sensor.min_range_m && range_m <= sensor.max_range_m)) {
-            EXPECT_EQ(image.depth_mapper[i], RangeImage::kNoPixel);
-            continue;
-        }
-        const int column = nearestColumn(scan.azimuth_rad[i], 100);
-        EXPECT_EQ(image.depth_mapper[i], column * 16 + scan.row[i]);
-        if (!(range_m < closest(scan.row[i], column))) continue;
-        closest(scan.row[i], column) = range_m;
-        closest_return(scan.row[i], column) = static_cast<std::int32_t>(i);
-    }
-    closest = (closest == kFar).select(kNoValue, closest);
-    EXPECT_TRUE(test::same(image.depth_m, closest));
-    EXPECT_TRUE((image.closest_return == closest_return).all());
-}
-
 /// The definition, return by return.
 void projectPlainly(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                     RangeImage& image) {

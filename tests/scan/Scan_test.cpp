@@ -97,28 +97,5 @@ TEST(Scan, TieGoesToLowerBeam) {
     EXPECT_EQ(scan.row[0], 7);
 }
 
-TEST(Scan, AzimuthsMatchAtan2OnAxes) {
-    for (const float x : {0.0f, -0.0f, 2.0f, -2.0f}) {
-        for (const float y : {0.0f, -0.0f, 2.0f, -2.0f}) {
-            Scan scan;
-            addPoint(x, y, 1.0f, scan);
-            locateBeams(sensorModel("VLP-16"), scan);
-            EXPECT_NEAR(scan.azimuth_rad[0], std::atan2(y, x), 5e-7) << x << " " << y;
-            EXPECT_EQ(std::signbit(scan.azimuth_rad[0]), std::signbit(y));
-        }
-    }
-}
-
-TEST(Scan, ClearEmptiesAllFields) {
-    Scan scan;
-    addPoint(1, 2, 3, scan);
-    locateBeams(sensorModel("VLP-16"), scan);
-    scan.time_s.push_back(0.0f);
-    scan.clear();
-    EXPECT_TRUE(scan.x_m.empty() && scan.y_m.empty() && scan.z_m.empty() && scan.row.empty() &&
-                scan.range_m.empty() && scan.azimuth_rad.empty() && scan.intensity.empty() &&
-                scan.time_s.empty());
-}
-
 }  // namespace
 }  // namespace hagen

@@ -74,10 +74,6 @@ Vector3f somewhere(Random& random, double half_m) {
     return Eigen::Vector3d(x, y, z).cast<float>();
 }
 
-TEST(SceneDistanceTest, EmptySceneReturnsReach) {
-    EXPECT_EQ(SceneDistance(Scene(emptyContent()), kBounds, 3.0).at({0, 0, 0}, 0), 3.0f);
-}
-
 TEST(SceneDistanceTest, MatchesGeometry) {
     SceneContent content = emptyContent();
     Shape wall, pole, ball;
@@ -156,13 +152,6 @@ TEST(SceneDistanceTest, FollowsMovers) {
         EXPECT_NEAR(distance.at(below.cast<float>(), time_s), 1.0, 1e-4) << time_s;
         EXPECT_EQ(distance.at(below.cast<float>(), time_s + 3), 3.0f) << time_s;
     }
-}
-
-TEST(SceneDistanceTest, MeasuresScaledShapes) {
-    Shape rod;
-    rod.addRod({{0, 0, -1, 0.1f}, {0, 0, 1, 0.1f}});
-    const Scene scene = sceneOf(ObjectClass::Pole, 1, rod, Eigen::Affine3f(Eigen::Scaling(3.0f)));
-    EXPECT_NEAR(SceneDistance(scene, kBounds, 3.0).at({2, 0, 0}, 0), 1.7, 1e-5);
 }
 
 }  // namespace

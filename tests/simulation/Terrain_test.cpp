@@ -31,13 +31,6 @@ TEST(TerrainTest, HasGivenMaxSlope) {
     }
 }
 
-TEST(TerrainTest, IsLevelWithoutSlopeAndBumps) {
-    TerrainParameters form;
-    form.max_slope_rad = form.bump_m = 0;
-    Random random(5);
-    EXPECT_EQ(steepest(Terrain(form, random)), 0);
-}
-
 TEST(TerrainTest, PavedBandIsSmooth) {
     TerrainParameters form;
     form.max_slope_rad = 0;

@@ -68,13 +68,16 @@ Eigen::Vector3d directionOf(double azimuth_rad, double elevation_rad) {
 }
 
 LabelledScan scanScene(const SimpleScene& scene, const SensorModel& sensor, int columns,
-                       const Eigen::Vector3d& position_m) {
+                       const Eigen::Vector3d& position_m, const Eigen::Matrix3d& world_from_sensor,
+                       const ChangeHit& change) {
     LabelledScan result;
     for (int column = 0; column < columns; ++column) {
         for (int row = 0; row < sensor.rows(); ++row) {
             const Eigen::Vector3d direction = directionOf(
                 columnAzimuth(column, columns), static_cast<double>(sensor.elevations_rad[row]));
-            const Hit hit = castRay(scene, position_m, direction);
+            const Eigen::Vector3d in_world = world_from_sensor * direction;
+            Hit hit = castRay(scene, position_m, in_world);
+            change(in_world, hit);
             if (hit.range_m > static_cast<double>(sensor.max_range_m)) continue;
             const Eigen::Vector3f point = (hit.range_m * direction).cast<float>();
             result.scan.x_m.push_back(point.x());

@@ -3,6 +3,7 @@
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -42,10 +43,16 @@ struct LabelledScan {
     std::vector<Label> truth;
 };
 
-/// A level scan from `position_m`, with a ray through the centre of each pixel of an image with
-/// `columns`.
-LabelledScan scanScene(const SimpleScene& scene, const SensorModel& sensor, int columns,
-                       const Eigen::Vector3d& position_m);
+/// Changes the hit of a ray with this direction in the world.
+using ChangeHit = std::function<void(const Eigen::Vector3d& direction, Hit& hit)>;
+
+/// A scan from `position_m`, level by default, with a ray through the centre of each pixel of an
+/// image with `columns`.
+LabelledScan scanScene(
+    const SimpleScene& scene, const SensorModel& sensor, int columns,
+    const Eigen::Vector3d& position_m,
+    const Eigen::Matrix3d& world_from_sensor = Eigen::Matrix3d::Identity(),
+    const ChangeHit& change = [](const Eigen::Vector3d&, Hit&) {});
 
 /// The direction of a beam in the sensor frame.
 Eigen::Vector3d directionOf(double azimuth_rad, double elevation_rad);

@@ -5,7 +5,7 @@
 #include <hagen/avoidance/WorldModel.h>
 #include <algorithm>
 #include <stdexcept>
-#include "base/Joined.h"
+#include "base/Text.h"
 
 namespace hagen::avoidance {
 namespace {

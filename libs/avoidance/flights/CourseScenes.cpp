@@ -168,12 +168,9 @@ simulation::Scene makeTrap(const simulation::Random& random) {
     const double x_m = r.uniform(23, 28), y_m = r.uniform(-1.5, 1.5);
     const double yaw = kPi + r.uniform(-0.25, 0.25);
     const double width_m = r.uniform(9, 11), depth_m = r.uniform(8, 10);
-    const Vector2d back(x_m, y_m), out(std::cos(yaw), std::sin(yaw)), side(-out.y(), out.x());
-    const Vector2d left = back + width_m / 2 * side, right = back - width_m / 2 * side;
-    simulation::addWall(builder, left, right, kWallHeight_m, 0.3);
-    simulation::addWall(builder, left, left + depth_m * out, kWallHeight_m, 0.3);
-    simulation::addWall(builder, right, right + depth_m * out, kWallHeight_m, 0.3);
-    const Vector2d middle = back + depth_m / 2 * out;
+    simulation::addTrap(builder, {x_m, y_m}, yaw, width_m, depth_m, kWallHeight_m);
+    const Vector2d middle =
+        Vector2d(x_m, y_m) + depth_m / 2 * Vector2d(std::cos(yaw), std::sin(yaw));
     scatterTrees(builder, 0.01, [&](const Vector2d& at) { return (at - middle).norm() > 10; });
     scatterTufts(builder, 0.02, 0.3);
     return builder.build();

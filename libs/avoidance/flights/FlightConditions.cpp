@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
-#include "base/Joined.h"
+#include "base/Text.h"
 
 namespace hagen::avoidance {
 namespace {

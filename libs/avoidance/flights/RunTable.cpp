@@ -7,6 +7,7 @@
 #include <tuple>
 #include "base/NumberText.h"
 #include "base/ReadFile.h"
+#include "base/Text.h"
 
 namespace hagen::avoidance {
 namespace {
@@ -146,11 +147,9 @@ Columns columnsOf(bool has_updates, bool keys_only = false) {
 }
 
 std::string headerOf(const Columns& columns) {
-    std::string header;
-    for (const RunColumn* column : columns) {
-        header += (header.empty() ? "" : ",") + std::string(column->name);
-    }
-    return header;
+    std::vector<std::string> names;
+    for (const RunColumn* column : columns) names.emplace_back(column->name);
+    return base::joined(names, ",");
 }
 
 std::string fieldsOf(const Run& run, const Columns& columns) {
@@ -162,20 +161,8 @@ std::string fieldsOf(const Run& run, const Columns& columns) {
     return fields;
 }
 
-std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> fields(1);
-    for (const char c : line) {
-        if (c == ',') {
-            fields.emplace_back();
-        } else {
-            fields.back() += c;
-        }
-    }
-    return fields;
-}
-
 Run runFrom(const std::string& line, const Columns& columns) {
-    const std::vector<std::string> fields = split(line);
+    const std::vector<std::string> fields = base::split(line, ',');
     if (fields.size() != columns.size()) {
         throw std::runtime_error(std::to_string(fields.size()) + " fields, not " +
                                  std::to_string(columns.size()));
@@ -214,7 +201,8 @@ bool needsUpdates(const Run& run) { return run.setup.updates != Updates::Scans; 
 std::string keyOf(const Run& run) { return fieldsOf(run, columnsOf(needsUpdates(run), true)); }
 
 Run runOfKey(const std::string& key) {
-    return runFrom(key, columnsOf(split(key).size() == columnsOf(true, true).size(), true));
+    return runFrom(key,
+                   columnsOf(base::split(key, ',').size() == columnsOf(true, true).size(), true));
 }
 
 std::vector<Run> readRuns(const std::filesystem::path& file) {

@@ -23,7 +23,7 @@ class ScanFeed {
  public:
     virtual ~ScanFeed() = default;
 
-    /// Notes what is there at a control step, which the trace has reached.
+    /// Takes in the measurements up to a control step, which the trace has reached.
     virtual void receive(int step, const FlightTrace& trace, PoseBelief& belief) = 0;
     virtual bool isWaiting() const = 0;
     /// Takes what waits. Times the filter.

@@ -6,7 +6,7 @@
 
 namespace hagen::avoidance {
 
-/// Measures what stages cost. Does nothing without a measurement to write to.
+/// Measures the run time of stages. Without a measurement to write to, it only calls them.
 class Stopwatch {
  public:
     explicit Stopwatch(TrialMeasurement* measurement) : measurement_(measurement) {}

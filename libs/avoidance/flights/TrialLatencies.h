@@ -15,7 +15,7 @@ class TrialLatencies {
     TrialLatencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile);
 
     double draw_s();
-    /// What a planner expects.
+    /// The latency that a planner expects.
     double median_s() const;
 
  private:

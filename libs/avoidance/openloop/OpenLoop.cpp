@@ -125,7 +125,7 @@ class Walk {
             throw;
         } catch (const std::bad_alloc&) {
             why_ended_ = base::outOfMemory();
-        } catch (const std::exception& e) {  // what was scored before is kept
+        } catch (const std::exception& e) {  // earlier scores are kept
             why_ended_ = e.what();
         }
         if (why_ended_.empty() && !listener_.keep_going()) why_ended_ = "interrupted";
@@ -240,7 +240,7 @@ void Walk::process(const LoggedScan& scan) {
 
     const double now_s = scan.mapped.time_s;
     if (!kept_.empty() && now_s < kept_.back().time_s - LaterScansTruth::kDuration_s) {
-        // The clock went back: what is before has no later scans.
+        // The clock went back: earlier scans have no later ones.
         while (!waiting_.empty()) scoreOldest();
         kept_.clear();
         persistent_points_ = {};

@@ -143,7 +143,9 @@ class PathGuidance : public Guidance {
         const Eigen::Vector3d goal_m = freePlaceNear(world, levelGoal(task), options);
         const auto limit_m = static_cast<float>(options.wanted_clearance_m);
         // More clearance does not lower the cost.
-        const auto clearance_m = world.clearanceQuery(options.bounds_m.cast<float>(), limit_m);
+        const auto clearance_m = [&](const Eigen::Vector3f& point_m) {
+            return world.clearanceWithin_m(point_m, limit_m);
+        };
         // First with extra clearance that planners can follow easily, otherwise without.
         options.min_clearance_m += kEase_m;
         auto path_m = findPath(clearance_m, task.position_m, goal_m, options);

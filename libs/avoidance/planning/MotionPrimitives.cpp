@@ -142,7 +142,7 @@ Plan cheapestFree(const WorldModel& world, const PlanningTask& task) {
     return plan;
 }
 
-/// Whether something comes too close even if the vehicle brakes.
+/// Whether an obstacle comes too close even if the vehicle brakes.
 bool isBrakingUnsafe(const WorldModel& world, const PlanningTask& task) {
     std::vector<Eigen::Vector3f> path_m;
     rollOut(task.start, Eigen::Vector3d::Zero(), kLookAhead_s, task.limits, path_m);

@@ -111,7 +111,7 @@ std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
     return cells;
 }
 
-/// The fastest command in a direction that passes the check; nothing if none does.
+/// The fastest command in a direction that passes the check; empty if none passes.
 std::optional<Eigen::Vector3d> commandAlong(const WorldModel& world, const PlanningTask& task,
                                             const HistogramCell& cell, double free_m,
                                             CommandPaths& paths, Plan& plan) {

@@ -1,5 +1,6 @@
 #include "avoidance/replays/ChooseRun.h"
 #include "base/NumberText.h"
+#include "base/Text.h"
 #include "base/TextStream.h"
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <map>
 #include <set>
 #include <stdexcept>
-#include "base/Joined.h"
 
 namespace hagen::avoidance {
 namespace {

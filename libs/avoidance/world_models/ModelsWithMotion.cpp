@@ -6,7 +6,7 @@ namespace {
 
 constexpr float kBefore_m = 0.2f;  // a cell
 
-/// Of obstacles that are left out, the rays up to them remain: they clear what was there before.
+/// Removes obstacles but keeps the rays up to them, which clear earlier obstacles in between.
 observations::MappedScan withoutObstacles(const observations::MappedScan& scan,
                                           const std::vector<bool>& is_left_out) {
     observations::MappedScan rest;
@@ -34,14 +34,6 @@ observations::MappedScan withoutObstacles(const observations::MappedScan& scan,
 
 float ModelWithMotion::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
     return movers_.clearanceWithin_m(point_m, 0, still_->clearanceWithin_m(point_m, limit_m));
-}
-
-WorldModel::ClearanceQuery ModelWithMotion::clearanceQuery(const Eigen::AlignedBox3f& box_m,
-                                                           float limit_m) const {
-    return
-        [this, still_m = still_->clearanceQuery(box_m, limit_m)](const Eigen::Vector3f& point_m) {
-            return movers_.clearanceWithin_m(point_m, 0, still_m(point_m));
-        };
 }
 
 float ModelWithMotion::clearanceAfter_m(const Eigen::Vector3f& point_m, double after_s) const {

@@ -4,11 +4,10 @@
 
 namespace hagen::avoidance {
 
-/// A model of what stands, and the obstacles that move where they will be (Movers).
+/// A model of static obstacles, combined with predicted moving obstacles (Movers).
 class ModelWithMotion : public WorldModel {
  public:
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
-    ClearanceQuery clearanceQuery(const Eigen::AlignedBox3f& box_m, float limit_m) const override;
     float clearanceAfter_m(const Eigen::Vector3f& point_m, double after_s) const override;
     float fastest_m_s() const override { return movers_.fastest_m_s(); }
     bool isKnown(const Eigen::Vector3f& point_m) const override { return still_->isKnown(point_m); }
@@ -25,7 +24,7 @@ class ModelWithMotion : public WorldModel {
 };
 
 /// A window without the points of obstacles that move, as long as these are tracked. When a track
-/// ends, its points count again, because nothing is known of where the obstacle went.
+/// ends, its points count again, because the position of the obstacle is unknown.
 class WindowWithMotion : public ModelWithMotion {
  public:
     WindowWithMotion(bool roi_only, WindowSize size)

@@ -1,7 +1,6 @@
 #include "avoidance/world_models/Movers.h"
 #include <algorithm>
 #include <cmath>
-#include <nanoflann.hpp>
 
 #include "avoidance/world_models/Nearest.h"
 
@@ -12,16 +11,13 @@ namespace {
 // its standard deviation.
 constexpr float kDoubtOfSpeed = 0.1f, kDoubtOfSigma = 0.5f;
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>,
-                                                 TreePoints, 3>;
-
 }  // namespace
 
 struct Movers::Mover {
     Mover(const ObstacleTrack& track, double time_s);
 
     TreePoints points;  ///< at the time of the last scan
-    Tree tree;
+    PointTree tree;
     Eigen::Vector3f middle_m{0, 0, 0};
     float radius_m = 0;  ///< of a sphere around the points
     Eigen::Vector3f velocity_m_s;

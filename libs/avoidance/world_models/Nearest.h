@@ -1,25 +1,17 @@
 #pragma once
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
+#include <nanoflann.hpp>
+#include "evaluation/TreePoints.h"
 
 namespace hagen::avoidance {
 
-/// Points in the interface that nanoflann expects.
-struct TreePoints {
-    std::vector<Eigen::Vector3f> at_m;
-
-    std::size_t kdtree_get_point_count() const { return at_m.size(); }
-    float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return at_m[i][static_cast<Eigen::Index>(axis)];
-    }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-        return false;
-    }
-};
+/// A k-d tree of points in 3D.
+using TreePoints = evaluation::TreePoints<3>;
+using PointTree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>, TreePoints,
+                                        3>;
 
 /// A result set for nanoflann: the minimum squared distance over several trees, searched one after
 /// the other. It starts with a limit, so that searches beyond it end early.

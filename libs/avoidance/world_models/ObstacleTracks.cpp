@@ -11,7 +11,7 @@
 namespace hagen::avoidance {
 namespace {
 
-// What is followed.
+// Which obstacles are tracked.
 constexpr float kMaxWidth_m = 6;
 constexpr std::size_t kMinPoints = 3;
 constexpr float kThinning_m = 0.1f;

@@ -59,7 +59,7 @@ const std::vector<std::uint32_t>& RollingBox::moveTo(const Eigen::Vector3f& vehi
     const bool is_first = !is_placed_;
     is_placed_ = true;
     fillParts();
-    if (is_first) return left_;  // nothing was in it
+    if (is_first) return left_;  // it was empty
     // Places along an axis that were not in the box before.
     std::array<std::array<int, 2>, 3> entered;
     for (int axis = 0; axis < 3; ++axis) {

@@ -42,7 +42,7 @@ class SeenDirections {
     std::vector<Returns> seen_;
 };
 
-/// What a scan saw, and from where.
+/// The directions that a scan saw, and its origin.
 struct View {
     double time_s;  ///< the middle of the revolution, if the ages of its returns are known
     Eigen::Vector3f origin_m;

@@ -13,16 +13,6 @@ float UnbiasedModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float lim
                       std::min(limit_m, kReach_m));
 }
 
-WorldModel::ClearanceQuery UnbiasedModel::clearanceQuery(const Eigen::AlignedBox3f& box_m,
-                                                         float limit_m) const {
-    const float limit_of_model_m = limit_m + bias_m_;
-    if (limit_of_model_m <= 0) return WorldModel::clearanceQuery(box_m, limit_m);
-    return [=, biased_m = model_->clearanceQuery(box_m, limit_of_model_m)](
-               const Eigen::Vector3f& point_m) {
-        return std::clamp(biased_m(point_m) - bias_m_, 0.0f, std::min(limit_m, kReach_m));
-    };
-}
-
 float UnbiasedModel::clearanceAfter_m(const Eigen::Vector3f& point_m, double after_s) const {
     return std::clamp(model_->clearanceAfter_m(point_m, after_s) - bias_m_, 0.0f, kReach_m);
 }

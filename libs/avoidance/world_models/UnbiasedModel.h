@@ -13,7 +13,6 @@ class UnbiasedModel : public WorldModel {
     void update(const observations::MappedScan& scan) override { model_->update(scan); }
     float clearance_m(const Eigen::Vector3f& point_m) const override;
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
-    ClearanceQuery clearanceQuery(const Eigen::AlignedBox3f& box_m, float limit_m) const override;
     float clearanceAfter_m(const Eigen::Vector3f& point_m, double after_s) const override;
     float fastest_m_s() const override { return model_->fastest_m_s(); }
     bool isKnown(const Eigen::Vector3f& point_m) const override { return model_->isKnown(point_m); }

@@ -1,7 +1,6 @@
 #include "avoidance/world_models/VoxelTree.h"
 
 #include <cmath>
-#include <nanoflann.hpp>
 
 #include "avoidance/world_models/Nearest.h"
 

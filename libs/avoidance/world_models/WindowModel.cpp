@@ -2,25 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nanoflann.hpp>
 
 #include "avoidance/world_models/Nearest.h"
-#include "avoidance/world_models/PointGrid.h"
 #include "avoidance/world_models/Thinning.h"
 
 namespace hagen::avoidance {
 
 namespace {
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>,
-                                                 TreePoints, 3>;
 constexpr std::size_t kWindowLeafSize = 32;
 constexpr double kTurnsPerTree = 3;
 constexpr double kRounding_turns = 1e-6;
-
-/// To build a grid of the points takes about as long as one search of the trees per so many points.
-/// Most searches for a path are over before that pays.
-constexpr std::size_t kPointsPerQuery = 384;
 
 // Isolated points.
 constexpr float kNeighbourhood = 0.05f;  // share of the range: 1.5 rows of a VLP-16
@@ -42,7 +34,7 @@ struct WindowModel::PastScans {
     std::vector<std::uint8_t> is_hidden;    ///< per point: it does not count
     std::size_t in_window = 0;
     double turns = 0;  ///< including dropped scans
-    std::unique_ptr<Tree> tree;
+    std::unique_ptr<PointTree> tree;
 
     void add(const PastScans& older) {
         turns += older.turns;
@@ -54,7 +46,7 @@ struct WindowModel::PastScans {
     void build() {
         points.at_m.shrink_to_fit();
         in_window = points.at_m.size();
-        tree = std::make_unique<Tree>(3, points, kWindowLeafSize);
+        tree = std::make_unique<PointTree>(3, points, kWindowLeafSize);
     }
     bool hasAny(const Eigen::Vector3f& near_m, AnyWithin any) const {
         tree->findNeighbors(any, near_m.data(), {});
@@ -181,21 +173,6 @@ float WindowModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit
     return std::sqrt(nearest.worstDist());
 }
 
-WorldModel::ClearanceQuery WindowModel::clearanceQuery(const Eigen::AlignedBox3f& box_m,
-                                                       float limit_m) const {
-    std::size_t points = 0;
-    for (const auto& past : past_) points += past->in_window;
-    return [=, queries_left = points / kPointsPerQuery + 1,
-            grid = std::shared_ptr<const PointGrid>()](const Eigen::Vector3f& point_m) mutable {
-        if (!grid && --queries_left == 0) {
-            grid = std::make_shared<PointGrid>(obstacles().centre_m, box_m,
-                                               std::min(limit_m, kReach_m));
-        }
-        const auto found_m2 = grid ? grid->minDistance_m2(point_m) : std::nullopt;
-        return found_m2 ? std::sqrt(*found_m2) : clearanceWithin_m(point_m, limit_m);
-    };
-}
-
 bool WindowModel::isKnown(const Eigen::Vector3f& point_m) const {
     for (const auto& past : past_) {
         for (const PastView& at : past->views) {
@@ -211,7 +188,7 @@ bool WindowModel::isKnown(const Eigen::Vector3f& point_m) const {
 std::size_t WindowModel::bytes() const {
     std::size_t bytes = sizeof(*this);
     for (const auto& past : past_) {
-        bytes += sizeof(PastScans) + sizeof(Tree) +
+        bytes += sizeof(PastScans) + sizeof(PointTree) +
                  past->points.at_m.capacity() * sizeof(Eigen::Vector3f) +
                  past->track.capacity() * sizeof(std::uint32_t) + past->is_isolated.capacity() +
                  past->is_hidden.capacity() + past->tree->usedMemory(*past->tree);

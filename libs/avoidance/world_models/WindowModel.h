@@ -34,7 +34,6 @@ class WindowModel : public WorldModel {
     /// Points of these tracks no longer count, until the next call.
     void hide(const std::vector<std::uint32_t>& tracks);
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
-    ClearanceQuery clearanceQuery(const Eigen::AlignedBox3f& box_m, float limit_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;
     std::size_t bytes() const override;
     Obstacles obstacles() const override;

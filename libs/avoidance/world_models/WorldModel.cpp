@@ -2,8 +2,8 @@
 #include "avoidance/world_models/UnbiasedModel.h"
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
+#include "base/Text.h"
 
 #include "avoidance/world_models/DepthImageModel.h"
 #include "avoidance/world_models/GridModel.h"
@@ -146,13 +146,6 @@ const Entry& entryOf(const std::string& name) {
     throw std::invalid_argument("unknown world model '" + name + "'; known: " + worldModelList());
 }
 
-std::string lowerCase(std::string text) {
-    for (char& letter : text) {
-        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-    }
-    return text;
-}
-
 }  // namespace
 
 const std::vector<std::string>& worldModelNames() {
@@ -171,17 +164,17 @@ std::string displayName(const std::string& model) {
 
 std::string worldModelFrom(const std::string& text) {
     for (const Entry& entry : entries()) {
-        if (lowerCase(entry.display_name) == lowerCase(text)) return entry.name;
+        if (base::lowerCase(entry.display_name) == base::lowerCase(text)) return entry.name;
     }
     return text;
 }
 
 std::string worldModelList() {
-    std::string list;
+    std::vector<std::string> list;
     for (const Entry& entry : entries()) {
-        list += (list.empty() ? "" : ", ") + entry.name + " (" + entry.display_name + ")";
+        list.push_back(entry.name + " (" + entry.display_name + ")");
     }
-    return list;
+    return base::joined(list, ", ");
 }
 
 bool needsLabels(const std::string& model) { return entryOf(model).needs == Entry::Labels; }

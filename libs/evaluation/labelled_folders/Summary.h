@@ -60,7 +60,7 @@ struct Summary {
     std::vector<std::string> folders;       ///< paths
     std::vector<std::string> folder_names;  ///< short
     std::vector<std::string> sensor_texts;  ///< of each folder; empty: settings name the sensor
-    /// Of each folder: the settings with those of its recording, and what was not used as asked.
+    /// Of each folder: the settings merged with those of its recording, and ignored requests.
     std::vector<Settings> folder_settings;
     std::vector<std::vector<std::string>> folder_remarks;
     Settings settings;  ///< as asked for

@@ -37,7 +37,7 @@ namespace evidence_rules {
 constexpr float kSteepest = 0.3f;  // slope of a level step
 constexpr float kShort_m = 0.08f;  // a step as short as this is too noisy
 constexpr float kFar_m = 2.0f;     // no step over other pixels is longer
-constexpr float kDrop_m = 0.3f;    // nothing in a cell is farther below a level pixel
+constexpr float kDrop_m = 0.3f;    // no pixel of a cell is farther below a level pixel
 constexpr int kAbove = 4;          // a step leads to one of this many pixels above
 constexpr float kClose_m = 0.2f, kClose_per_m = 0.005f;  // to the surface
 constexpr float kMinShare = 0.55f;                       // of level pixels among the close ones
@@ -45,7 +45,7 @@ constexpr int kReach = 4;                                // blocks in each direc
 }  // namespace evidence_rules
 
 namespace tops_rules {
-constexpr float kOverhead_m = 1.5f;  // what is higher need not stand in its cell
+constexpr float kOverhead_m = 1.5f;  // a higher object need not stand in its cell
 }
 
 namespace tolerance_rules {

@@ -118,7 +118,7 @@ void growRegions(Words words, int columns, const ColumnLinks& links, LabellingWo
         is_waiting[to] |= more != 0;
     };
     for (int column = 0; column < columns; ++column) spread(column);
-    for (int column = 0; column < columns; ++column) {  // most have nothing left to spread
+    for (int column = 0; column < columns; ++column) {  // most are complete
         const int on_right = column + 1 < columns ? column + 1 : 0;
         std::uint64_t differ = 0;
         for (int word = 0; word < words; ++word) {

@@ -77,7 +77,7 @@ void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blo
     }
 }
 
-/// `own`: what is in each block. Most have no plants.
+/// `own`: the sums of each block. Most have no plants.
 void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>& blocks) {
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         blocks[block] = {};

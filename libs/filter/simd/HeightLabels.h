@@ -9,7 +9,7 @@
 
 namespace hagen {
 
-/// What is farther below the surface shows that this is not the ground.
+/// Pixels farther below the surface show that it is not the ground.
 constexpr float kMinGround_m = -1.5f;
 
 /// The maximum height above ground at which a return is still ground.

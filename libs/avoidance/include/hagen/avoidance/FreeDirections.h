@@ -19,7 +19,7 @@ double elevationOfDirection(std::size_t number);  ///< [rad]
 /// Whether a direction points down, so that it ends in the ground. An altimeter detects that, too.
 bool pointsDown(std::size_t number);
 
-/// How far a direction is checked, and for a sphere of what size.
+/// Length of a checked direction, and radius of the sphere that must fit.
 struct FreeDirectionOptions {
     float length_m = 8;
     float clearance_radius_m = 0.65f;  ///< radius of the sphere: vehicle and margin

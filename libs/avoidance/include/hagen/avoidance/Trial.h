@@ -51,7 +51,7 @@ struct TrialResult {
     double latency_p50_ms = 0, latency_p95_ms = 0, latency_max_ms = 0;
 };
 
-/// What a run cost on this machine; differs each time.
+/// Run times of the stages on this machine; they differ between runs.
 struct TrialMeasurement {
     std::map<std::string, std::vector<double>> stage_ms;  ///< CPU time by the profile's stage names
 };

@@ -17,7 +17,7 @@ struct FlightPace {
     double stopping_m() const { return 0.5 * speed_m_s * stopping_s(); }
 };
 
-/// What a sliding window of scans keeps.
+/// Number of scans and radius of a sliding window.
 struct WindowSize {
     std::size_t scans;
     float radius_m;  ///< points farther from their scan's origin are dropped

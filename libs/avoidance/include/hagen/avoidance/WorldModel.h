@@ -14,7 +14,7 @@
 
 namespace hagen::avoidance {
 
-/// What a vehicle knows about the obstacles around it. A planner queries nothing else, so that
+/// The obstacles around a vehicle, as far as they are known. A planner queries only this, so that
 /// models can be compared under one planner. Points are in the map frame, as estimated by the
 /// vehicle.
 class WorldModel {
@@ -36,14 +36,6 @@ class WorldModel {
     /// of the two.
     virtual float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
         return std::min(clearance_m(point_m), limit_m);
-    }
-
-    /// clearanceWithin_m() for many points of a box, as a path search asks for: the same answers,
-    /// which may be faster to compute. Valid until the model is updated or destroyed.
-    using ClearanceQuery = std::function<float(const Eigen::Vector3f& point_m)>;
-    virtual ClearanceQuery clearanceQuery(const Eigen::AlignedBox3f& /*box_m*/,
-                                          float limit_m) const {
-        return [=](const Eigen::Vector3f& point_m) { return clearanceWithin_m(point_m, limit_m); };
     }
 
     /// clearance_m() a time after the last scan, for models that predict motion. All others take
@@ -132,7 +124,7 @@ float distanceBias_m(const std::string& model);
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting);
 
-/// An OctoMap with other settings than those of the named models, to measure what they do.
+/// An OctoMap with other settings than those of the named models, to measure their effect.
 std::unique_ptr<WorldModel> makeOctoMap(const observations::ScanMapOptions& options,
                                         const Eigen::AlignedBox3f& bounds_m);
 

@@ -13,7 +13,7 @@
 
 namespace hagen {
 
-/// What a sector found of a return, for later sectors that have it as context.
+/// The result for a return of a sector, kept for later sectors that have it as context.
 struct ContextReturn {
     Label region = Label::Unclassified;  ///< of its pixel, by the stages of the paper
     /// The highest return of its ground cell, above the surface (CellTops.h); NaN: not known. Later

@@ -1,0 +1,33 @@
+#pragma once
+#include <cctype>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace hagen::base {
+
+/// The words of a container in one text, with a separator after all but the last.
+template <class Words>
+std::string joined(const Words& words, const std::string& separator = ", ") {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+    return text;
+}
+
+/// The parts of a text between separators. Parts may be empty; there is at least one.
+inline std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text + separator);  // an empty part at the end counts
+    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+/// ASCII letters in lower case.
+inline std::string lowerCase(std::string text) {
+    for (char& letter : text) {
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+    return text;
+}
+
+}  // namespace hagen::base
