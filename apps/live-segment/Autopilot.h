@@ -21,7 +21,7 @@ struct AutopilotFlags {
 };
 
 void declareAutopilot(base::Program& app, AutopilotFlags& flags);
-/// Throws UsageError if the peer is none.
+/// Throws UsageError unless the peer is valid.
 void checkAutopilot(const AutopilotFlags& flags);
 
 /// Opens the link and has the listener of a session feed it; null without --mavlink. It tells by

@@ -223,7 +223,7 @@ void ConversionOutputs::finish(const ConversionReport& report) {
     }
 }
 
-/// Whether an output that was given up has complete parts: members of a rawlog, scans, clouds.
+/// Whether a failed output has complete parts: members of a rawlog, scans, clouds.
 bool ConversionOutputs::hasWholeParts(Part part) const {
     if (part == kFolders) {
         return std::any_of(folder_writers_.begin(), folder_writers_.end(),

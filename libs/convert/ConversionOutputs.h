@@ -22,7 +22,7 @@ namespace hagen::convert {
 std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
 
 /// The requested outputs of a conversion. If one of them fails (a full disk, a full map, a missing
-/// gnuplot), it is given up and commit() names it; the others are not affected.
+/// gnuplot), commit() reports it; the others are not affected.
 class ConversionOutputs {
  public:
     /// Throws std::runtime_error naming an output that cannot be written.
@@ -53,8 +53,8 @@ class ConversionOutputs {
     /// False once all requested outputs are given up. On any thread.
     bool hasAny() const;
 
-    /// Gives the outputs their names. Throws std::runtime_error that names each that was given up,
-    /// why, and what is left of it, once the others are in place.
+    /// Renames the outputs to their final names, then throws std::runtime_error that lists each
+    /// failed output with the cause and what is left of it.
     void commit(const ConversionReport& report);
     /// Keeps the incomplete outputs under partial names; returns these names, and what failed.
     std::string keepPartial(const ConversionReport& report);

@@ -1,12 +1,14 @@
 #include <hagen/convert/WriteCloud.h>
 #include "base/NumberText.h"
 #include "base/WriteFile.h"
+#include "mrpt/NumberTypes.h"
 #include "recordings/UniqueNames.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace hagen::convert {
@@ -109,18 +111,10 @@ const char* plyName(NumberType type) {
 }
 
 char pcdLetter(NumberType type) {
-    switch (type) {
-        case NumberType::Int8:
-        case NumberType::Int16:
-        case NumberType::Int32:
-        case NumberType::Int64:
-            return 'I';
-        case NumberType::Float32:
-        case NumberType::Float64:
-            return 'F';
-        default:
-            return 'U';
-    }
+    return withType(type, [](auto number) {
+        if (std::is_floating_point_v<decltype(number)>) return 'F';
+        return std::is_signed_v<decltype(number)> ? 'I' : 'U';
+    });
 }
 
 std::string plyHeader(const std::vector<WrittenField>& fields, std::size_t points) {

@@ -133,7 +133,7 @@ void Session::reportEmptiness(const Scan& returns) {
                      "covered");
 }
 
-/// Sensors of one model without serial numbers are told apart by their addresses.
+/// Addresses distinguish sensors of one model without serial numbers.
 bool Session::isOfSensor(const Packet& packet) {
     const sensors::LidarDriver& driver = stream_->driver();
     if (driver.hasSerial() || !driver.isData(packet.datagram())) return true;

@@ -1,4 +1,5 @@
 #include <hagen/live/PacketSource.h>
+#include "base/NumberText.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -43,14 +44,9 @@ Address parseAddress(const std::string& text) {
         throw std::runtime_error("'" + text +
                                  "' is no IPv4 address and port, such as 0.0.0.0:2368");
     }
-    const std::string port = text.substr(colon + 1);
-    const bool is_number = !port.empty() && port.size() <= 5 &&
-                           port.find_first_not_of("0123456789") == std::string::npos;
-    const int number = is_number ? std::stoi(port) : 0;
-    if (number < 1 || number > 65535) {
-        throw std::runtime_error("'" + text + "': the port must be 1 to 65535");
-    }
-    return {ntohl(ip.s_addr), static_cast<std::uint16_t>(number)};
+    const auto port = base::numberFrom<std::uint16_t>(text.substr(colon + 1)).value_or(0);
+    if (port == 0) throw std::runtime_error("'" + text + "': the port must be 1 to 65535");
+    return {ntohl(ip.s_addr), port};
 }
 
 UdpSource::UdpSource(const Address& address)
@@ -113,7 +109,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
     message.msg_controllen = control.size();
     const ssize_t size = recvmsg(socket_, &message, MSG_DONTWAIT);
     if (size < 0) {
-        // A port that nobody has is told to a socket that has sent; ours has not.
+        // Only a socket that has sent gets errors of closed ports; ours has not.
         if (errno == EINTR || errno == EAGAIN || errno == ECONNREFUSED) return Next::Nothing;
         fail(name_);
     }
@@ -152,7 +148,8 @@ ReplaySource::ReplaySource(const std::filesystem::path& file, double speed)
     });
 }
 
-/// Reads the next datagram; false at the end. Throws NoneYet if many frames are none.
+/// Reads the next datagram; false at the end. Throws NoneYet after many frames without
+/// a datagram.
 bool ReplaySource::readWaiting() {
     search_start_s_ = steadyNow_s();
     return capture_.next(waiting_);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDirections_s = 0.05;
 constexpr double kMinTime_s = 0.125;  // of a rate
-constexpr double kOtherRate = 0.2;    // is told
+constexpr double kOtherRate = 0.2;    // is reported
 
 SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor) {
     SectorDistances::Settings settings;

@@ -5,7 +5,7 @@
 
 namespace hagen::live {
 
-/// A speed of the motor that was told, and what it is now, in turns per second.
+/// Expected and measured speed of the motor, in turns per second.
 struct RateChange {
     double before, now;
 };

@@ -53,7 +53,7 @@ std::vector<char*> withoutTerminal() {
 
 // A picture takes about a second of CPU time, and less than a megabyte.
 constexpr rlim_t kMaxCpu_s = 20, kMaxFileBytes = 64 << 20;
-constexpr double kPatience_s = 5;  ///< for a start without CPU time
+constexpr double kMaxIdle_s = 5;  ///< for a start without CPU time
 constexpr double kMinLoad = 0.02;
 
 double cpuTimeOf_s(pid_t process) {
@@ -75,7 +75,7 @@ int waitFor(pid_t process, std::string& complaint) {
         // Where SIGCHLD is ignored, its status is lost (ECHILD); the pictures are checked anyway.
         if (ended == process || (ended < 0 && errno != EINTR)) break;
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        if (passed.count() > kPatience_s && cpuTimeOf_s(process) < kMinLoad * passed.count()) {
+        if (passed.count() > kMaxIdle_s && cpuTimeOf_s(process) < kMinLoad * passed.count()) {
             complaint = "it hangs";
             break;
         }

@@ -18,13 +18,13 @@
 
 namespace hagen::live {
 
-/// Tells an autopilot what is around it, and takes the vehicle's motion from it: 20 times per
-/// second OBSTACLE_DISTANCE, 10 times the nearest obstacles (OBSTACLE_DISTANCE_3D) and the ground
-/// below (DISTANCE_SENSOR), once HEARTBEAT.
+/// Sends obstacles to an autopilot and receives the vehicle's motion: OBSTACLE_DISTANCE at 20 Hz,
+/// the nearest obstacles (OBSTACLE_DISTANCE_3D) and the ground below (DISTANCE_SENSOR) at 10 Hz,
+/// HEARTBEAT at 1 Hz.
 ///
-/// A thread of its own sends. If the one that labels stalls, or the sensor falls silent, it sends
-/// "unknown" for all directions after 0.3 s, no ground, a critical state, and tells so. Functions
-/// may be called by any thread. Times are of std::chrono::steady_clock, in seconds.
+/// A separate thread sends. If the labelling thread stalls or the sensor falls silent, it sends
+/// "unknown" for all directions after 0.3 s, no ground and a critical state, and reports it. All
+/// functions are thread-safe. Times are of std::chrono::steady_clock, in seconds.
 class AutopilotLink {
  public:
     struct Settings {

@@ -73,7 +73,7 @@ void VehicleMotion::add(Place place) {
         if (passed_s <= 0) return;
         const Eigen::Vector3d jump_m = place.place_m - last.place_m - passed_s * last.speed_m_s;
         if (passed_s > kStale_s) {
-            places_.clear();  // whether the estimate jumped meanwhile cannot be told
+            places_.clear();  // the estimate may have jumped meanwhile
         } else if (jump_m.norm() > kJump_m) {
             origin_m_ -= jump_m;
             place.place_m -= jump_m;

@@ -10,9 +10,9 @@
 
 namespace hagen::mavlink {
 
-/// Finds the MAVLink 2 messages in a stream of bytes, whatever is between them. What has a wrong
-/// checksum or an unknown number is no message: reading goes on behind its first byte, so that a
-/// message that follows is not lost. Never throws because of what the bytes are.
+/// Finds the MAVLink 2 messages in a stream of bytes, with any bytes between them. After a wrong
+/// checksum or an unknown number, reading resumes behind the first byte, so that no following
+/// message is lost. Invalid bytes never cause an exception.
 class Parser {
  public:
     struct Counts {
@@ -20,7 +20,7 @@ class Parser {
         std::size_t is_signed = 0;      ///< of these; signatures are not checked
         std::size_t lost = 0;           ///< missing by the sequence of their component
         std::size_t bad_checksum = 0;   ///< began like a message
-        std::size_t incompatible = 0;   ///< left out: of a format that nobody knows yet
+        std::size_t incompatible = 0;   ///< skipped: an unknown format
         std::size_t skipped_bytes = 0;  ///< of no message, such as MAVLink 1
     };
     using Take = std::function<void(const Frame&)>;

@@ -34,7 +34,7 @@ const Speed* speedOf(int baud) {
 
 constexpr std::chrono::milliseconds kOpenEvery{500};    // a line that was unplugged
 constexpr std::chrono::milliseconds kTakesWithin{300};  // as long as a direction stays known
-constexpr std::chrono::milliseconds kStuckFor{1000};    // is told, after the last time
+constexpr std::chrono::milliseconds kStuckFor{1000};    // is reported, after the last time
 
 class SerialPeer : public Peer {
  public:
@@ -134,8 +134,8 @@ class SerialPeer : public Peer {
         int bytes = 0;
         return ioctl(line_, TIOCOUTQ, &bytes) == 0 ? bytes : 0;
     }
-    /// After the line took some bytes. Some drivers, such as of pseudoterminals, do not tell how
-    /// many wait: then it moves as long as it takes some.
+    /// After the line accepted bytes. Some drivers (pseudoterminals) do not report how many wait:
+    /// then the line is alive while it accepts any.
     void noteWaiting() {
         waiting_ = waitingBytes();
         if (waiting_ == 0) moved_ = Clock::now();

@@ -13,7 +13,7 @@
 namespace hagen::mavlink {
 namespace {
 
-// A refused message is told with the next one. After this time without, the peer is there again.
+// The next call reports a refused message. After this time without one, the peer is back.
 constexpr std::chrono::milliseconds kRefusedFor{1000};
 // A connected socket keeps the address of the interface by which the peer was reached first. If
 // nothing comes back, another one may be right: it was down then, or has another address now.

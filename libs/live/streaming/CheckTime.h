@@ -6,7 +6,7 @@ namespace hagen::live {
 
 constexpr double kMaxTime_s = 1e11;  // still exact to 0.02 ms
 
-/// Throws std::invalid_argument unless it may be the time at which a packet came.
+/// Throws std::invalid_argument unless a packet may have arrived at this time.
 inline void checkTime(double time_s) {
     if (!(std::abs(time_s) <= kMaxTime_s)) {
         throw std::invalid_argument("streaming: a packet has no time, or one beyond 3000 years");

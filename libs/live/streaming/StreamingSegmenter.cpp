@@ -272,7 +272,7 @@ void StreamingSegmenter::addFrame(const Scan& returns, double time_s, double mea
     checkTime(first_s);
     checkTime(sensor_time_s.value_or(0));
     if (first_s > time_s) {
-        throw std::invalid_argument("streaming: a frame's first packet came after its last");
+        throw std::invalid_argument("streaming: a frame's first packet is later than its last");
     }
     Packet& packet = push(returns, time_s);
     packet.measured_s = measured_s;
@@ -291,8 +291,8 @@ void StreamingSegmenter::restart() {
     packets_.clear();
 }
 
-/// Packets that were overwritten by the latest turn, or that are too old. A clock that went back
-/// does not tell how old they are.
+/// Packets that were overwritten by the latest turn, or that are too old. After a
+/// clock step back, their age is unknown.
 void StreamingSegmenter::forget(double now_s) {
     while (packets_.size() > open_) {
         const Packet& oldest = packets_.front();
@@ -369,7 +369,7 @@ void StreamingSegmenter::addAhead(const Returns& returns) {
     }
 }
 
-/// Whether enough is in sight to tell what is ground.
+/// Whether enough is in sight to find the ground.
 bool StreamingSegmenter::knowsEnough() const {
     double known_rad = 0;
     for (const Packet& packet : packets_) {

@@ -12,7 +12,7 @@ constexpr double kTurn_rad = 2 * kPi;
 // other are up to 0.025 degrees apart, by the rounding of azimuths.
 constexpr double kGap_rad = 0.001;
 constexpr double kRounding_rad = 1e-5;  // of matrices of floats
-// A vehicle that yaws sees a gap between sectors that are none of the sensor's: 3 degrees.
+// Yaw of the vehicle opens gaps between sectors that are not the sensor's: 3 degrees.
 constexpr double kBeside_rad = 0.05;
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr double kMisfit_m = 0.3;    // of returns that weigh half
 constexpr double kUsualRise_m = 0.1, kUsualTilt_rad = 0.1;  // per turn, as far as none is seen
 constexpr double kMinWeight = 10;    // of all returns that are remembered; one that fits has 1
 constexpr double kSteepest = 0.6;    // slope from ring to ring
-constexpr float kMinApart_m = 0.2F;  // of rings that tell a slope
+constexpr float kMinApart_m = 0.2F;  // of rings that define a slope
 constexpr double kTurnBefore_rad[] = {kPi, 3 * kPi};  // how long ago it was seen
 
 }  // namespace

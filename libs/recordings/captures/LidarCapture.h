@@ -49,7 +49,7 @@ class LidarCapture {
     std::string broken_because_;
 };
 
-/// Opens a capture of Velodyne or Livox sensors, whose first packets tell which, or of the Ouster
+/// Opens a capture of Velodyne or Livox sensors, recognised by the first packets, or of the Ouster
 /// of a metadata file. `calibration`: of an HDL-64E. Throws std::runtime_error naming the file that
 /// cannot be opened, and if a calibration is given for another kind of sensor. The capture calls
 /// `check` as by checkWhileReading(), also while it is opened.

@@ -63,7 +63,7 @@ void checkNumber(const std::filesystem::path& file, std::size_t points);
 void checkRoom(const std::filesystem::path& file, std::size_t points, std::size_t bytes_per_point,
                std::size_t there);
 
-/// What a header says of bytes after the last point; empty if there are none.
+/// The remark on bytes after the last point; empty without any.
 std::vector<std::string> remarkOnRest(std::size_t bytes);
 
 }  // namespace hagen::recordings

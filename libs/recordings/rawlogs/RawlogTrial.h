@@ -21,18 +21,18 @@ struct EntryVerdict {
 /// program reads only entries that the child could read.
 ///
 /// The child starts as a copy of the program without its other threads: a lock that one of these
-/// holds at that moment is never released there. If the child uses no CPU time for kPatience,
+/// holds at that moment is never released there. If the child uses no CPU time for kMaxIdle,
 /// another one replaces it, up to kMaxStarts in all.
 class RawlogTrial {
  public:
-    static constexpr std::chrono::milliseconds kPatience{10000};
+    static constexpr std::chrono::milliseconds kMaxIdle{10000};
     static constexpr int kMaxStarts = 3;
 
     /// Starts the process. Throws std::runtime_error if that is not possible.
     /// @param file for messages.
     /// @param descriptor the open file; stays the caller's, and open as long as this.
     RawlogTrial(const std::filesystem::path& file, int descriptor,
-                std::chrono::milliseconds patience = kPatience);
+                std::chrono::milliseconds max_idle = kMaxIdle);
     ~RawlogTrial();
     RawlogTrial(const RawlogTrial&) = delete;
     RawlogTrial& operator=(const RawlogTrial&) = delete;
@@ -50,7 +50,7 @@ class RawlogTrial {
 
     std::filesystem::path file_;
     int descriptor_;
-    std::chrono::milliseconds patience_;
+    std::chrono::milliseconds max_idle_;
     pid_t process_ = -1;
     int verdicts_ = -1;
     int starts_ = 0;

@@ -25,7 +25,7 @@ void appendLittle32(std::string& bytes, std::uint64_t value) {
     }
 }
 
-/// A locally administered address: hosts are told apart by their IP addresses.
+/// A locally administered address: IP addresses distinguish the hosts.
 void appendMac(std::string& bytes, std::uint32_t ip) {
     append16(bytes, 0x0200);
     append32(bytes, ip);

@@ -133,7 +133,7 @@ std::size_t columnsOfMode(const std::string& mode) {
     throw std::runtime_error("'lidar_mode' is '" + mode + "', not like '1024x10'");
 }
 
-/// From a mode like "1024x10": turns per second; 0: it is none.
+/// From a mode like "1024x10": turns per second; 0: unknown mode.
 double turnTimeOfMode(const Metadata& metadata) {
     const json* const found = metadata.find("lidar_mode");
     if (found == nullptr || !found->is_string()) return 0;

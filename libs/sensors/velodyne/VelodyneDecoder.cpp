@@ -81,8 +81,8 @@ std::string hex(unsigned value) {
 
 bool areOfHdl64(const VelodynePackets& packets) { return isOfHdl64(packets.at(0)); }
 
-/// Returns a scan's own calibration. Throws std::runtime_error if it is none: a laser that points
-/// nowhere, or far offsets, would place returns nowhere.
+/// Returns a scan's own calibration. Throws std::runtime_error if it is invalid: a laser that
+/// points nowhere, or far offsets, would place returns nowhere.
 const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
     const auto& lasers = calibration.lasers;
     for (std::size_t i = 0; i < lasers.size(); ++i) {

@@ -5,7 +5,7 @@
 namespace hagen::live {
 
 /// Whether a sensor that does not turn has looked all around: within a tenth of a second, if its
-/// packets measured for most of it. Where packets are lost, nobody knows in which directions.
+/// packets measured for most of it. The directions of lost packets are unknown.
 class FrameCoverage {
  public:
     static constexpr double kPeriod_s = 0.1, kMinMeasured_s = 0.08;

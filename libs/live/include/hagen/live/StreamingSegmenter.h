@@ -26,10 +26,10 @@ struct StreamingOptions {
     double window_rad = 0.08726646259971647;  // 5 degrees
     /// Context beyond: each n-th column of the image (Thinning); 1: all, 0: none.
     int keep_every = 5;
-    /// Without tilt and pose, the ground tells how the sensor tilts and rises (TurnMotion).
+    /// Without tilt and pose, estimates tilt and climb from the ground (TurnMotion).
     bool ground_tells_motion = true;
-    /// Ahead of the sector, returns are almost a turn old. If nothing tells how the sensor has
-    /// moved since, not even the ground, those up to this angle are no context: ground that is
+    /// Ahead of the sector, returns are almost a turn old. If the motion of the sensor since then
+    /// is unknown, also from the ground, those up to this angle are no context: ground that is
     /// tilted against that of the sector looks like a step. Less than half a turn.
     double skip_ahead_rad = 0.4363323129985824;  // 25 degrees
     /// The same if its motion is known, or its tilt, or what the ground tells: what is seen from
@@ -54,7 +54,7 @@ struct LabelledSector {
     const Scan& returns;               ///< in the order in which they came, as measured
     const std::vector<Label>& label;   ///< one per return
     std::optional<Sweep> sweep;        ///< none: of a sensor that does not turn
-    double first_time_s, last_time_s;  ///< when its first and its last packet came
+    double first_time_s, last_time_s;  ///< arrival of its first and its last packet
     bool has_turn;                     ///< whether the rest of a turn was known
     bool is_doubtful;                  ///< all in the zone is RoI: too little of a turn was known
     bool is_cut;                       ///< ended by flush() or restart()
@@ -75,8 +75,8 @@ struct LabelledSector {
 /// It runs SectorFilter on the latest turn with the new sector in its place: on all returns in a
 /// window around the sector, and on some of the others, which show where the ground is. On the
 /// leading side, those are of the turn before. Labels are those of the whole scan but for a few.
-/// Without a turn before, sectors are judged by what there is, but all in the zone is RoI until
-/// half a turn is known: doubt is RoI, as in the filter.
+/// Until half a turn is known, everything in the zone is RoI: uncertain returns are RoI, as in the
+/// filter.
 ///
 ///     StreamingSegmenter segmenter(sensorModel("VLP-16"), {}, [&](const LabelledSector& sector) {
 ///         for (std::size_t i = 0; i < sector.returns.size(); ++i) ...
@@ -95,9 +95,8 @@ class StreamingSegmenter {
 
     /// The tilt and the pose of the sensor (map from sensor) from now on, as far as they are known.
     /// Context is moved by the pose since it was measured, or, without one, turned by the tilt.
-    /// Without both, the ground tells how a sensor that turns tilts and rises (TurnMotion), if
-    /// there is some; if not, context stays where it was measured. None, or numbers that are not
-    /// finite: unknown.
+    /// Without both, the ground in view shows how a rotating sensor tilts and rises (TurnMotion).
+    /// Without ground, context stays where it was measured. None or non-finite numbers: unknown.
     void setAttitude(const std::optional<Attitude>& attitude);
     void setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor);
     /// The tilt of the sensor on a level vehicle: the filter takes it while the tilt is unknown.
@@ -113,10 +112,10 @@ class StreamingSegmenter {
     /// `sweep` of packets that come late may be before that of others: their returns are labelled
     /// with the sector in progress. Calls the function if that ends a sector.
     void add(const Scan& returns, const Sweep& sweep, double time_s);
-    /// The same for a frame of a sensor that does not turn, which is a sector. `time_s` is when its
-    /// last packet came. `measured_s` is for how long its packets measured, if some may be lost.
-    /// `first_time_s` is when its first packet came; none: at once with the last. `sensor_time_s`
-    /// is when that was measured, by the sensor's clock.
+    /// The same for a frame of a sensor without rotation, which is one sector. `time_s`: arrival of
+    /// its last packet. `measured_s`: duration that its packets cover, if some may be lost.
+    /// `first_time_s`: arrival of its first packet (default: as the last). `sensor_time_s`: time of
+    /// that measurement on the sensor's clock.
     void addFrame(const Scan& returns, double time_s,
                   double measured_s = std::numeric_limits<double>::infinity(),
                   std::optional<double> first_time_s = std::nullopt,

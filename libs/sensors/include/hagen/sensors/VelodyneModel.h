@@ -40,7 +40,7 @@ const std::vector<VelodyneModel>& velodyneModels();
 const VelodyneModel* findVelodyneModel(std::uint8_t id);
 /// The HDL-64E S2 and S3, whose packets have no id: blocks of its upper 32 lasers (0xEEFF)
 /// alternate with blocks of the lower 32 (0xDDFF), two blocks to a firing. Its beams are those of a
-/// calibration (readVelodyneCalibration()); it is none of the models below.
+/// calibration (readVelodyneCalibration()); it is not among the models below.
 const VelodyneModel& hdl64Model();
 /// Returns the model with this name. Throws std::invalid_argument for any other.
 const VelodyneModel& velodyneModel(const std::string& name);
