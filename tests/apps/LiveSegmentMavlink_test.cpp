@@ -276,7 +276,7 @@ TEST_F(LiveSegmentMavlink, OtherParserReadsSame) {
     EXPECT_GT(messages["DISTANCE_SENSOR"], 3);
 }
 
-/// What is told, in short: k: all directions are known, u: none is; each once while it lasts.
+/// The reported states: k: all directions are known, u: all unknown; each once per run.
 std::string statesOf(const std::vector<mavlink::Frame>& frames) {
     std::string states;
     for (const auto& message : all<mavlink::ObstacleDistance>(frames)) {
@@ -290,7 +290,7 @@ std::string statesOf(const std::vector<mavlink::Frame>& frames) {
 
 TEST_F(LiveSegmentMavlink, SilenceIsReportedAndNotFree) {
     const std::string silent = capture(10, 1.2);
-    // Whoever gets no processor for a while knows less, rightly: then once more.
+    // A program without CPU time rightly knows less: then retry.
     constexpr int kAttempts = 5;
     for (int attempt = 1; attempt <= kAttempts; ++attempt) {
         Autopilot autopilot;

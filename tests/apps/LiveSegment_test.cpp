@@ -43,7 +43,7 @@ class LiveSegment : public test::ProgramTest {
         while (const auto entry = reader.next()) {
             const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
             if (!scan) continue;
-            // The recording repeats a turn, with its times; a sensor's clock goes on.
+            // The recording repeats a turn, with its times; a sensor's clock advances.
             for (auto& packet : scan->scan_packets) {
                 auto* const at =
                     reinterpret_cast<std::uint8_t*>(&packet) + sensors::kVelodyneTimeAt;
@@ -192,7 +192,7 @@ TEST_F(LiveSegment, ReceivesFromNetwork) {
     }
     packets.erase(packets.begin() + 40, packets.begin() + 43);
     std::atomic<bool> is_done = false;
-    // Sends until the program has ended: nobody knows when it begins to listen.
+    // Sends until the program has ended, because it starts to listen at an unknown time.
     std::thread sender([&] {
         const test::LocalUdp out;
         const auto send = [&](const std::string& bytes) {
@@ -255,7 +255,7 @@ TEST_F(LiveSegment, FullDiskEndsRecordingOnly) {
     EXPECT_THAT(json["recorded"]["failure"].get<std::string>(), HasSubstr(path("a.pcap")));
 }
 
-/// A terminal that is stopped, or a pipe that nobody reads.
+/// A stopped terminal, or a pipe without a reader.
 TEST_F(LiveSegment, EndsWithBlockedTerminal) {
     const std::string command =
         "mkfifo '" + path("fifo") + "'; exec 3<>'" + path("fifo") +

@@ -198,7 +198,7 @@ TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
     EXPECT_EQ(run(gap("out")).exit_code, 1);
     EXPECT_TRUE(fs::exists(path("out/openloop.partial-2.csv")));
 
-    // What a killed run left is told, but not removed: it may be of another machine.
+    // Leftovers of a killed run are reported, not removed: another machine may use them.
     folder_.write("out/scans.csv.tmp-999999999-0123456789abcdef", "");
     simulate(4, {"--overwrite"});
     const auto whole = run(gap("out"));

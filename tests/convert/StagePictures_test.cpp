@@ -347,7 +347,7 @@ TEST(StagePictures, QuoteGnuplotErrors) {
     EXPECT_THAT(error, HasSubstr("unknown terminal"));
 }
 
-/// What gnuplot is told to draw, but for the numbers of the images.
+/// The gnuplot commands without the numbers of the images.
 std::string commandsOf(const std::function<void()>& draw) {
     const TemporaryFolder programs;
     const std::string taken = (programs / "taken").string();

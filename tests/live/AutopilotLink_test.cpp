@@ -171,7 +171,7 @@ TEST_F(AutopilotLinkTest, SurvivesOutOfMemory) {
     takeTurn();
     ASSERT_TRUE(autopilot.receiveUntil<mavlink::ObstacleDistance>(
         [](const auto& m) { return !isAllUnknown(m); }));
-    // Nobody labels any longer, which is told.
+    // The link reports that labelling stopped.
     ASSERT_TRUE(autopilot.receiveUntil<mavlink::Heartbeat>(
         [](const auto& m) { return m.system_status == mavlink::kStateCritical; }));
     EXPECT_EQ(count("out_of_memory"), 1u);
@@ -199,7 +199,7 @@ TEST_F(AutopilotLinkTest, LateSectorIsNotFree) {
     link_->begin(sensor_, {20, 0});
     Scan scan;
     SegmentationResult result;
-    const double time_s = now_s() - 0.4;  // when its packets came
+    const double time_s = now_s() - 0.4;  // arrival of its packets
     link_->take({scan, {}, Sweep{0, 2 * kPi}, time_s, time_s, true, false, false, result});
     for (int i = 0; i < 5; ++i) {
         const auto message =

@@ -108,7 +108,7 @@ TEST_F(LivoxStreamTest, ClockSetBackDelaysNothing) {
     }
 }
 
-/// Each packet comes twice, as by a second network: at once, or after the next ones.
+/// Each packet arrives twice, as over a second network: at once, or after the next ones.
 TEST_F(LivoxStreamTest, ClockSetBackWithDuplicatesDelaysNothing) {
     for (const std::int64_t back_ns : {20000000, 200000000, 2000000000}) {
         for (const int later : {0, 1, 3}) {
@@ -186,7 +186,7 @@ TEST_F(LivoxStreamTest, FrameBeforeSilenceStaysOld) {
     }
 }
 
-/// Of each ten packets six are lost, and the others come again after the next one: four measured.
+/// Of ten packets, six are lost and four are duplicated after the next one: four measured.
 TEST_F(LivoxStreamTest, DuplicatesDoNotReplaceLostPackets) {
     double measured_s = 0;
     SectorDistances distances(sensorModel("Mid-360"));

@@ -1,9 +1,6 @@
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/live/PacketSource.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +9,7 @@
 #include <thread>
 
 #include "support/CaptureWriter.h"
+#include "support/LocalUdp.h"
 #include "support/Program.h"
 
 namespace hagen::live {
@@ -19,37 +17,6 @@ namespace {
 
 using Next = PacketSource::Next;
 using testing::HasSubstr;
-
-/// A socket that sends to a port of this machine.
-class Sender {
- public:
-    Sender() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {}
-    ~Sender() { close(socket_); }
-    void send(const std::string& bytes, const char* ip, std::uint16_t port) const {
-        sockaddr_in to{};
-        to.sin_family = AF_INET;
-        to.sin_port = htons(port);
-        inet_pton(AF_INET, ip, &to.sin_addr);
-        sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to),
-               sizeof to);
-    }
-
- private:
-    int socket_;
-};
-
-/// A port that nobody listens on.
-std::uint16_t freePort() {
-    const int probe = socket(AF_INET, SOCK_DGRAM, 0);
-    sockaddr_in at{};
-    at.sin_family = AF_INET;
-    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    bind(probe, reinterpret_cast<const sockaddr*>(&at), sizeof at);
-    socklen_t size = sizeof at;
-    getsockname(probe, reinterpret_cast<sockaddr*>(&at), &size);
-    close(probe);
-    return ntohs(at.sin_port);
-}
 
 TEST(Address, ReadsOrRejectsText) {
     const Address address = parseAddress("192.168.1.77:2368");
@@ -69,22 +36,22 @@ TEST(Address, ReadsOrRejectsText) {
 TEST(UdpSource, RequestsLargeBuffer) {
     int most = 0;
     std::ifstream("/proc/sys/net/core/rmem_max") >> most;
-    if (most == 0) GTEST_SKIP() << "the system does not tell how large buffers may be";
-    const UdpSource source({0x7f000001, freePort()});
+    if (most == 0) GTEST_SKIP() << "the maximum buffer size is unknown";
+    const UdpSource source({0x7f000001, test::freePort()});
     EXPECT_GE(source.bufferBytes(), 2 * std::min(most, 8 << 20));
 }
 
 TEST(UdpSource, ReceivesDatagrams) {
-    const std::uint16_t port = freePort();
+    const std::uint16_t port = test::freePort();
     UdpSource source({0x7f000001, port});
     EXPECT_TRUE(source.isLive());
     Packet packet;
     EXPECT_EQ(source.next(packet), Next::Nothing);
     const double before_s = steadyNow_s();
-    const Sender sender;
-    sender.send("abc", "127.0.0.1", port);
-    sender.send("", "127.0.0.1", port);
-    sender.send(std::string(9000, 'x'), "127.0.0.1", port);
+    const test::LocalUdp sender;
+    sender.send(std::string("abc"), test::localAddress(port));
+    sender.send(std::string(""), test::localAddress(port));
+    sender.send(std::string(9000, 'x'), test::localAddress(port));
     ASSERT_EQ(source.next(packet), Next::Packet);
     EXPECT_EQ(std::string(packet.bytes.begin(), packet.bytes.end()), "abc");
     EXPECT_EQ(packet.from_ip, 0x7f000001u);
@@ -102,14 +69,14 @@ TEST(UdpSource, ReceivesDatagrams) {
 
 /// A process that was stopped: what is in the buffer is old.
 TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
-    const std::uint16_t port = freePort();
+    const std::uint16_t port = test::freePort();
     UdpSource source({0x7f000001, port});
-    const Sender sender;
+    const test::LocalUdp sender;
     // The kernel begins to note times of arrival a moment after the first socket asks for them.
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    sender.send("abc", "127.0.0.1", port);
+    sender.send(std::string("abc"), test::localAddress(port));
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
-    sender.send("abc", "127.0.0.1", port);
+    sender.send(std::string("abc"), test::localAddress(port));
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
     Packet first, second;
     ASSERT_EQ(source.next(first), Next::Packet);
@@ -119,7 +86,7 @@ TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
 }
 
 TEST(UdpSource, NamesUnusableAddress) {
-    const std::uint16_t port = freePort();
+    const std::uint16_t port = test::freePort();
     const UdpSource source({0x7f000001, port});
     EXPECT_THAT(test::messageOf([&] {
                     UdpSource({0x7f000001, port});
@@ -156,7 +123,7 @@ TEST(ReplaySource, ReplaysAtRecordedPace) {
     }
 }
 
-/// Whoever reads must be able to stop in a file of nothing but frames that are no datagrams.
+/// A reader must be able to stop within a file without datagrams.
 TEST(ReplaySource, LongSearchContinuesInNextCall) {
     const test::TemporaryFolder folder;
     const auto file = test::CaptureWriter().write(folder / "a.pcap");

@@ -350,8 +350,7 @@ TEST_F(SectorDistancesTest, FramesWithLossesAreUnknown) {
     EXPECT_EQ(stateAfter(0, 50), State::Unknown);
 }
 
-/// Of three tenths of a second, a quarter of the packets comes at once, after a network stood
-/// still.
+/// After a network stall, a quarter of the packets of 0.3 s arrives at once.
 TEST_F(SectorDistancesTest, BurstOfFramesIsNotFullView) {
     const Scan scan;
     const std::vector<Label> labels;

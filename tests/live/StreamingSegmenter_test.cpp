@@ -318,9 +318,9 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     EXPECT_LT(4 * told, not_told);
     // Without the oldest returns beside the sector, not knowing the tilt costs less.
     EXPECT_LT(errorsWith(false, radians(30.0)), not_told);
-    // The first sectors of ground tell the others.
+    // The first sectors of ground correct the others.
     EXPECT_LT(4 * errorsWith(false, 0, true), not_told);
-    // A mount is a tilt, but does not tell that the sensor stands still.
+    // A mount is a tilt, but does not imply a sensor at rest.
     mount = Attitude{};
     EXPECT_GT(errorsWith(false, 0), 50u);
     EXPECT_LT(2 * errorsWith(false, radians(30.0)), errorsWith(false, 0));

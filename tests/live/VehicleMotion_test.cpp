@@ -101,7 +101,7 @@ TEST(VehicleMotion, PositionJumpMovesNothing) {
     }
 }
 
-/// Nobody knows whether the estimate jumped within a gap: no place of before compares.
+/// The estimate may have jumped within a gap, so earlier positions are not comparable.
 TEST(VehicleMotion, JumpInGapMovesNothing) {
     VehicleMotion motion;
     Vehicle vehicle;

@@ -380,7 +380,7 @@ TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
     }
 }
 
-/// Of a firing with two returns, one block does not tell what the other would have seen.
+/// One block of a dual-return firing does not show what the other would have seen.
 TEST_F(VelodyneStreamTest, HalfFiringIsNotSwept) {
     auto packets = turnsOf(1, 1000000, true);
     packets[40][100 * 5] = '\0';
@@ -452,7 +452,7 @@ TEST(VelodyneStreams, Hdl64NeedsCalibration) {
     EXPECT_THROW(sensors::makeVelodyneDriver(sensors::hdl64Model()), std::invalid_argument);
 }
 
-/// The lower blocks tell an HDL-64E also where their azimuths are unsound.
+/// The lower blocks identify an HDL-64E even if their azimuths are invalid.
 TEST(VelodyneStreams, SurvivesUnsoundLowerBlocksOfHdl64) {
     sensors::VelodyneCalibration calibration;
     for (int laser = 0; laser < 64; ++laser) {

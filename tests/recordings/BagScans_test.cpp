@@ -102,7 +102,7 @@ TEST(BagScans, ReportsOtherTypesOfTopic) {
 }
 
 TEST_P(Fixture, ReadsEveryMessageType) {
-    // Metadata that are none are an error only of who needs them.
+    // Invalid metadata is an error only for topics that need it.
     const BagOptions options{{"/cloud", "organised", "/livox", "/livox1", "/velodyne_packets"}, {}};
     const ReadBag read = readBag(file(), options);
     ASSERT_EQ(read.failed_because, "");

@@ -173,7 +173,7 @@ TEST_F(VelodyneCaptureTest, DropsDuplicates) {
     EXPECT_THAT(remarks_[0], HasSubstr(", 100 duplicate packets dropped"));
 }
 
-/// As by a slower path: each tenth packet comes again 30 ms later, and one came so late only.
+/// As over a slower path: every tenth packet is repeated after 30 ms, and one arrives only then.
 TEST_F(VelodyneCaptureTest, DropsPacketsFarTooLate) {
     const Packets packets = packetsOf("VLP-16", 24 * 200);
     Packets with_copies, without_one;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the messages of the fixtures in tests/recordings/data, one of each kind that is read: make_fixture_messages.py OUT.jsonl
 
-A cloud has the points (i, 2 i, -i / 2), ring i % 16 and time i ms, i from 1 to 20; other numbers are told below.
+A cloud has the points (i, 2 i, -i / 2), ring i % 16 and time i ms, i from 1 to 20; other numbers are listed below.
 """
 import base64
 import json

@@ -70,7 +70,7 @@ TEST_F(CaptureFileTest, CheckInterruptsSearch) {
     Datagram datagram;
     EXPECT_THROW(capture.next(datagram), Stop);
     EXPECT_EQ(capture.counts().frames, 3 * CaptureFile::kFramesPerCheck);
-    // Goes on where it was.
+    // Resumes at the same place.
     EXPECT_FALSE(capture.next(datagram));
     EXPECT_EQ(capture.counts().other_traffic, 5000u);
 }

@@ -59,7 +59,7 @@ TEST(CaptureWriter, WritesValidIpChecksums) {
     EXPECT_EQ((sum & 0xffff) + (sum >> 16), 0xffffu);
 }
 
-/// Whoever is killed leaves the blocks that are complete.
+/// A killed program leaves the complete blocks.
 TEST(CaptureWriter, EndsWithWholeFrame) {
     const test::TemporaryFolder folder;
     CaptureWriter writer(folder / "a.pcap");

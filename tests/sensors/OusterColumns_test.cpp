@@ -102,7 +102,7 @@ TEST_F(OusterColumnsTest, LegacyPacketsUseEncoder) {
     }
 }
 
-/// Metadata whose mode says nothing: numbers beyond the columns spoil the turn.
+/// Metadata with an unknown mode: column numbers beyond the maximum spoil the turn.
 TEST_F(OusterColumnsTest, LargeColumnNumbersMeanOtherMode) {
     OusterSensor sensor = sensor_;
     sensor.turn_s = 0;
