@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "convert/CdrWriter.h"
+#include "mrpt/NumberTypes.h"
 
 namespace hagen::convert {
 namespace {
@@ -87,27 +88,13 @@ void put(const CPose3D& pose, CdrWriter& to) {
 }
 
 std::uint8_t datatypeOf(const observations::PointField& field) {
-    switch (field.type) {  // the constants of sensor_msgs/PointField
-        case NumberType::Int8:
-            return 1;
-        case NumberType::UInt8:
-            return 2;
-        case NumberType::Int16:
-            return 3;
-        case NumberType::UInt16:
-            return 4;
-        case NumberType::Int32:
-            return 5;
-        case NumberType::UInt32:
-            return 6;
-        case NumberType::Float32:
-            return 7;
-        case NumberType::Float64:
-            return 8;
-        default:
-            throw std::runtime_error("a PointCloud2 cannot hold the field '" + field.name +
-                                     "' of type " + nameOf(field.type));
+    const auto& types = observations::kPointFieldTypes;
+    const auto* const type = std::find(types.begin(), types.end(), field.type);
+    if (type == types.end()) {
+        throw std::runtime_error("a PointCloud2 cannot hold the field '" + field.name +
+                                 "' of type " + nameOf(field.type));
     }
+    return static_cast<std::uint8_t>(1 + (type - types.begin()));
 }
 
 bool isFinite(const PointTable& table) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace hagen::convert {
@@ -109,18 +110,10 @@ const char* plyName(NumberType type) {
 }
 
 char pcdLetter(NumberType type) {
-    switch (type) {
-        case NumberType::Int8:
-        case NumberType::Int16:
-        case NumberType::Int32:
-        case NumberType::Int64:
-            return 'I';
-        case NumberType::Float32:
-        case NumberType::Float64:
-            return 'F';
-        default:
-            return 'U';
-    }
+    return withType(type, [](auto number) {
+        if (std::is_floating_point_v<decltype(number)>) return 'F';
+        return std::is_signed_v<decltype(number)> ? 'I' : 'U';
+    });
 }
 
 std::string plyHeader(const std::vector<WrittenField>& fields, std::size_t points) {

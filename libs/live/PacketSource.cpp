@@ -1,4 +1,5 @@
 #include <hagen/live/PacketSource.h>
+#include "base/NumberText.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -43,14 +44,9 @@ Address parseAddress(const std::string& text) {
         throw std::runtime_error("'" + text +
                                  "' is no IPv4 address and port, such as 0.0.0.0:2368");
     }
-    const std::string port = text.substr(colon + 1);
-    const bool is_number = !port.empty() && port.size() <= 5 &&
-                           port.find_first_not_of("0123456789") == std::string::npos;
-    const int number = is_number ? std::stoi(port) : 0;
-    if (number < 1 || number > 65535) {
-        throw std::runtime_error("'" + text + "': the port must be 1 to 65535");
-    }
-    return {ntohl(ip.s_addr), static_cast<std::uint16_t>(number)};
+    const auto port = base::numberFrom<std::uint16_t>(text.substr(colon + 1)).value_or(0);
+    if (port == 0) throw std::runtime_error("'" + text + "': the port must be 1 to 65535");
+    return {ntohl(ip.s_addr), port};
 }
 
 UdpSource::UdpSource(const Address& address)

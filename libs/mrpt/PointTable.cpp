@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 #include <set>
 #include <stdexcept>
+
+#include "base/Text.h"
+#include "mrpt/NumberTypes.h"
 
 namespace hagen::observations {
 namespace {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "tables need byte swapping");
-
-std::string inLowerCase(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return text;
-}
 
 template <class Number>
 Number numberAt(const std::uint8_t* at, bool is_swapped) {
@@ -28,39 +24,10 @@ Number numberAt(const std::uint8_t* at, bool is_swapped) {
     return number;
 }
 
-/// Calls `use` with a value of the C++ type.
-template <class Use>
-void withType(NumberType type, const Use& use) {
-    switch (type) {
-        case NumberType::Int8:  // NOLINT(bugprone-branch-clone): the types differ
-            return use(std::int8_t());
-        case NumberType::UInt8:
-            return use(std::uint8_t());
-        case NumberType::Int16:
-            return use(std::int16_t());
-        case NumberType::UInt16:
-            return use(std::uint16_t());
-        case NumberType::Int32:
-            return use(std::int32_t());
-        case NumberType::UInt32:
-            return use(std::uint32_t());
-        case NumberType::Int64:
-            return use(std::int64_t());
-        case NumberType::UInt64:
-            return use(std::uint64_t());
-        case NumberType::Float32:
-            return use(float());
-        case NumberType::Float64:
-            return use(double());
-    }
-}
-
 }  // namespace
 
 std::size_t bytesOf(NumberType type) {
-    std::size_t bytes = 0;
-    withType(type, [&](auto number) { bytes = sizeof number; });
-    return bytes;
+    return withType(type, [](auto number) { return sizeof number; });
 }
 
 const char* nameOf(NumberType type) {
@@ -113,9 +80,9 @@ const PointField* findExactly(const PointTable& table, const std::string& name) 
 const PointField* findField(const PointTable& table, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         if (const PointField* const field = findExactly(table, name)) return field;
-        const std::string sought = inLowerCase(name);
+        const std::string sought = base::lowerCase(name);
         for (const PointField& field : table.fields) {
-            if (inLowerCase(field.name) == sought) return &field;
+            if (base::lowerCase(field.name) == sought) return &field;
         }
     }
     return nullptr;

@@ -1,5 +1,6 @@
 #include "mrpt/Results.h"
 #include <hagen/mrpt/NewerClouds.h>
+#include "base/Text.h"
 #include "mrpt/MrptScene.h"
 
 #include <mrpt/obs/CObservation3DScene.h>
@@ -11,11 +12,6 @@ namespace hagen::observations {
 namespace {
 
 using mrpt::obs::CObservationPointCloud;
-
-bool endsWith(const std::string& text, const std::string& suffix) {
-    return text.size() >= suffix.size() &&
-           text.compare(text.size() - suffix.size(), suffix.size(), suffix) == 0;
-}
 
 const char* suffixOf(bool is_roi) { return is_roi ? kRoiSuffix : kNonRoiSuffix; }
 const mrpt::img::TColor& colorOf(bool is_roi) { return is_roi ? kRoiColor : kNonRoiColor; }
@@ -42,7 +38,7 @@ std::string suffixOf(const mrpt::obs::CObservation& observation) {
     // A cloud in an external file has not been read and is not a result.
     if (cloud == nullptr || cloud->pointcloud == nullptr) return "";
     for (const bool is_roi : {false, true}) {  // "_non_roi" ends in "_roi", too
-        if (endsWith(cloud->sensorLabel, suffixOf(is_roi)) &&
+        if (base::endsWith(cloud->sensorLabel, suffixOf(is_roi)) &&
             isMarked(*cloud->pointcloud, is_roi)) {
             return suffixOf(is_roi);
         }

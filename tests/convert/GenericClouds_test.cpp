@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "support/PointColumn.h"
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
 
@@ -26,15 +27,10 @@ namespace fs = std::filesystem;
 using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
+using test::column;
 using testing::Each;
 using testing::ElementsAreArray;
 using testing::HasSubstr;
-
-std::vector<double> column(const PointTable& table, const char* name) {
-    const auto* const field = findField(table, {name});
-    EXPECT_NE(field, nullptr) << name;
-    return field == nullptr ? std::vector<double>() : columnOf(table, *field);
-}
 
 CObservationPointCloud::Ptr asCloud(const mrpt::serialization::CSerializable::Ptr& entry) {
     auto cloud = std::dynamic_pointer_cast<CObservationPointCloud>(entry);

@@ -1,9 +1,6 @@
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/live/PacketSource.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +9,7 @@
 #include <thread>
 
 #include "support/CaptureWriter.h"
+#include "support/LocalUdp.h"
 #include "support/Program.h"
 
 namespace hagen::live {
@@ -75,16 +73,16 @@ TEST(UdpSource, RequestsLargeBuffer) {
 }
 
 TEST(UdpSource, ReceivesDatagrams) {
-    const std::uint16_t port = freePort();
+    const std::uint16_t port = test::freePort();
     UdpSource source({0x7f000001, port});
     EXPECT_TRUE(source.isLive());
     Packet packet;
     EXPECT_EQ(source.next(packet), Next::Nothing);
     const double before_s = steadyNow_s();
-    const Sender sender;
-    sender.send("abc", "127.0.0.1", port);
-    sender.send("", "127.0.0.1", port);
-    sender.send(std::string(9000, 'x'), "127.0.0.1", port);
+    const test::LocalUdp sender;
+    sender.send(std::string("abc"), test::localAddress(port));
+    sender.send(std::string(""), test::localAddress(port));
+    sender.send(std::string(9000, 'x'), test::localAddress(port));
     ASSERT_EQ(source.next(packet), Next::Packet);
     EXPECT_EQ(std::string(packet.bytes.begin(), packet.bytes.end()), "abc");
     EXPECT_EQ(packet.from_ip, 0x7f000001u);
@@ -102,14 +100,14 @@ TEST(UdpSource, ReceivesDatagrams) {
 
 /// A process that was stopped: what is in the buffer is old.
 TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
-    const std::uint16_t port = freePort();
+    const std::uint16_t port = test::freePort();
     UdpSource source({0x7f000001, port});
-    const Sender sender;
+    const test::LocalUdp sender;
     // The kernel begins to note times of arrival a moment after the first socket asks for them.
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    sender.send("abc", "127.0.0.1", port);
+    sender.send(std::string("abc"), test::localAddress(port));
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
-    sender.send("abc", "127.0.0.1", port);
+    sender.send(std::string("abc"), test::localAddress(port));
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
     Packet first, second;
     ASSERT_EQ(source.next(first), Next::Packet);
@@ -119,7 +117,7 @@ TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
 }
 
 TEST(UdpSource, NamesUnusableAddress) {
-    const std::uint16_t port = freePort();
+    const std::uint16_t port = test::freePort();
     const UdpSource source({0x7f000001, port});
     EXPECT_THAT(test::messageOf([&] {
                     UdpSource({0x7f000001, port});

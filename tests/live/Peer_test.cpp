@@ -1,10 +1,8 @@
 #include "live/mavlink/Peer.h"
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/LocalUdp.h"
 #include "support/Program.h"
 
 namespace hagen::mavlink {
@@ -67,42 +66,24 @@ TEST(PeerOpen, NamesMissingPeer) {
                 HasSubstr("no such host"));
 }
 
-/// A UDP socket of this machine.
-class Socket {
+/// The other end of a UDP connection; it replies to the latest sender.
+class UdpEnd {
  public:
-    explicit Socket(std::uint16_t port = 0) : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
-        sockaddr_in at{};
-        at.sin_family = AF_INET;
-        at.sin_port = htons(port);
-        at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        is_bound_ = bind(socket_, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0;
-        socklen_t size = sizeof at;
-        getsockname(socket_, reinterpret_cast<sockaddr*>(&at), &size);
-        port_ = ntohs(at.sin_port);
-        const timeval wait{2, 0};
-        setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
-    }
-    ~Socket() { close(socket_); }
+    explicit UdpEnd(std::uint16_t port = 0) : socket_(std::chrono::seconds(2), port) {}
 
     Bytes receive() {
-        std::array<std::uint8_t, 2048> buffer{};
-        socklen_t size = sizeof from_;
-        const ssize_t got = recvfrom(socket_, buffer.data(), buffer.size(), 0,
-                                     reinterpret_cast<sockaddr*>(&from_), &size);
-        return got < 0 ? Bytes{} : Bytes(buffer.begin(), buffer.begin() + got);
+        const auto got = socket_.receive();
+        if (!got) return {};
+        from_ = got->from;
+        return Bytes(got->bytes.begin(), got->bytes.end());
     }
-    void answer(const Bytes& bytes) {
-        sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&from_),
-               sizeof from_);
-    }
-    std::uint16_t port() const { return port_; }
+    void answer(const Bytes& bytes) const { socket_.send(bytes, from_); }
+    std::uint16_t port() const { return socket_.port(); }
     std::uint16_t fromPort() const { return ntohs(from_.sin_port); }
-    bool isBound() const { return is_bound_; }
+    bool isBound() const { return socket_.isBound(); }
 
  private:
-    int socket_;
-    bool is_bound_;
-    std::uint16_t port_;
+    test::LocalUdp socket_;
     sockaddr_in from_{};
 };
 
@@ -117,7 +98,7 @@ Bytes received(Peer& peer) {
 }
 
 TEST(UdpPeer, SendsAndReceives) {
-    Socket other;
+    UdpEnd other;
     const auto peer = peerAt(other.port());
     EXPECT_TRUE(peer->send({1, 2, 3}));
     EXPECT_EQ(other.receive(), (Bytes{1, 2, 3}));
@@ -129,7 +110,7 @@ TEST(UdpPeer, SendsAndReceives) {
 
 /// 0.0.0.0 is this machine, which answers from 127.0.0.1. What others send is not the peer's.
 TEST(UdpPeer, IgnoresOtherSenders) {
-    Socket other;
+    UdpEnd other;
     const auto peer = Peer::open(parsePeer("udp:0.0.0.0:" + std::to_string(other.port())));
     EXPECT_TRUE(peer->send({1}));
     EXPECT_EQ(other.receive(), Bytes{1});
@@ -141,7 +122,7 @@ TEST(UdpPeer, IgnoresOtherSenders) {
 
 /// After two seconds it looks for another way to the peer, and is the same to it.
 TEST(UdpPeer, ReconnectsFromSamePort) {
-    Socket other;
+    UdpEnd other;
     const auto peer = peerAt(other.port());
     EXPECT_TRUE(peer->send({1}));
     EXPECT_EQ(other.receive(), Bytes{1});
@@ -155,7 +136,7 @@ TEST(UdpPeer, ReconnectsFromSamePort) {
 }
 
 TEST(UdpPeer, SurvivesRefusedConnection) {
-    auto other = std::make_unique<Socket>();
+    auto other = std::make_unique<UdpEnd>();
     const std::uint16_t port = other->port();
     const auto peer = peerAt(port);
     other.reset();
@@ -165,7 +146,7 @@ TEST(UdpPeer, SurvivesRefusedConnection) {
     }
     EXPECT_THAT(peer->trouble(), HasSubstr("127.0.0.1:" + std::to_string(port)));
     EXPECT_THAT(peer->trouble(), HasSubstr("connection refused"));
-    Socket again(port);
+    UdpEnd again(port);
     ASSERT_TRUE(again.isBound());
     EXPECT_TRUE(peer->send({7}));
     EXPECT_EQ(again.receive(), Bytes{7});
@@ -193,7 +174,7 @@ void expectNoWait(Peer& peer) {
 }
 
 TEST(UdpPeer, ReturnsAtOncePastDeadline) {
-    const Socket other;
+    const UdpEnd other;
     expectNoWait(*peerAt(other.port()));
 }
 
@@ -224,58 +205,60 @@ class Line {
     int end_;
 };
 
-TEST(SerialPeer, SurvivesUnpluggedLine) {
-    const test::TemporaryFolder folder;
-    const std::string name = (folder / "line").string();
-    auto line = std::make_unique<Line>(name);
-    const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
+class SerialPeerTest : public testing::Test {
+ protected:
+    std::unique_ptr<Peer> open() const {
+        return Peer::open(parsePeer("serial:" + name_ + ":115200"));
+    }
+
+    const test::TemporaryFolder folder_;
+    const std::string name_ = (folder_ / "line").string();
+    std::unique_ptr<Line> line_ = std::make_unique<Line>(name_);
+};
+
+TEST_F(SerialPeerTest, SurvivesUnpluggedLine) {
+    const auto peer = open();
     EXPECT_FALSE(peer->hasDatagrams());
     // Those that a terminal would translate or obey.
     const Bytes special{0x03, 0x04, '\n', '\r', 0x11, 0x13, 0x7f, 0xfd, 0xff, 0x00};
     EXPECT_TRUE(peer->send(special));
-    EXPECT_EQ(line->receive(64), special);
-    line->send(special);
+    EXPECT_EQ(line_->receive(64), special);
+    line_->send(special);
     EXPECT_EQ(received(*peer), special);
 
-    line.reset();
+    line_.reset();
     for (int i = 0; i < 20 && peer->trouble().empty(); ++i) received(*peer);
-    EXPECT_THAT(peer->trouble(), HasSubstr(name + ": cannot be used"));
+    EXPECT_THAT(peer->trouble(), HasSubstr(name_ + ": cannot be used"));
     EXPECT_FALSE(peer->send({1}));
 
-    line = std::make_unique<Line>(name);
+    line_ = std::make_unique<Line>(name_);
     for (int i = 0; i < 100 && !peer->send({9}); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    EXPECT_EQ(line->receive(64), Bytes{9});
+    EXPECT_EQ(line_->receive(64), Bytes{9});
     EXPECT_EQ(peer->trouble(), "");
 }
 
-TEST(SerialPeer, ReturnsAtOncePastDeadline) {
-    const test::TemporaryFolder folder;
-    const std::string name = (folder / "line").string();
-    auto line = std::make_unique<Line>(name);
-    const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
+TEST_F(SerialPeerTest, ReturnsAtOncePastDeadline) {
+    const auto peer = open();
     expectNoWait(*peer);
-    line.reset();  // unplugged
+    line_.reset();  // unplugged
     for (int i = 0; i < 20 && peer->trouble().empty(); ++i) received(*peer);
     expectNoWait(*peer);
 }
 
 /// A service may be started without standard input: the line then has the descriptor 0.
-TEST(SerialPeer, WorksAsFileDescriptorZero) {
-    const test::TemporaryFolder folder;
-    const std::string name = (folder / "line").string();
+TEST_F(SerialPeerTest, WorksAsFileDescriptorZero) {
     const int input = dup(0);
     if (input < 0) GTEST_SKIP() << "there is none";
-    const Line line(name);
     close(0);
     {
-        const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
+        const auto peer = open();
         EXPECT_TRUE(isatty(0));
         const Bytes special{0x03, '\n', '\r', 0x7f, 0xff};
         EXPECT_TRUE(peer->send(special));
-        EXPECT_EQ(line.receive(64), special);
-        line.send(special);
+        EXPECT_EQ(line_->receive(64), special);
+        line_->send(special);
         EXPECT_EQ(received(*peer), special);
     }
     dup2(input, 0);
@@ -294,13 +277,13 @@ TEST(SerialPeer, SendsWholeMessagesOnly) {
     ASSERT_LT(sent, 250);
     Bytes all;
     for (int i = 0; i < 400 && all.size() < (sent + 1u) * size; ++i) {
-        const Bytes part = line.receive(4096);
+        const Bytes part = line_->receive(4096);
         all.insert(all.end(), part.begin(), part.end());
         // The rest of one that has begun goes first.
         if (peer->send(Bytes(size, sent))) break;
     }
     while (all.size() < (sent + 1u) * size) {
-        const Bytes part = line.receive(4096);
+        const Bytes part = line_->receive(4096);
         all.insert(all.end(), part.begin(), part.end());
     }
     ASSERT_EQ(all.size(), (sent + 1u) * size);
@@ -322,12 +305,12 @@ TEST(SerialPeer, ReportsBlockedLineAndDropsBacklog) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         peer->send(Bytes(kSize, 2));
     }
-    ASSERT_THAT(peer->trouble(), HasSubstr(name + ": does not accept data"));
+    ASSERT_THAT(peer->trouble(), HasSubstr(name_ + ": does not accept data"));
     EXPECT_TRUE(peer->send(Bytes(kSize, 4)));
 
     Bytes all;
     while (all.empty() || all.back() != 4) {
-        const Bytes part = line.receive(4096);
+        const Bytes part = line_->receive(4096);
         ASSERT_FALSE(part.empty());
         all.insert(all.end(), part.begin(), part.end());
     }
@@ -337,7 +320,7 @@ TEST(SerialPeer, ReportsBlockedLineAndDropsBacklog) {
     for (int i = 0; i < 40 && !peer->trouble().empty(); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         EXPECT_TRUE(peer->send(Bytes(kSize, 3)));
-        line.receive(4096);
+        line_->receive(4096);
     }
     EXPECT_EQ(peer->trouble(), "");
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "support/CloudFiles.h"
+#include "support/PointColumn.h"
 #include "support/Program.h"
 
 namespace hagen::recordings {
@@ -14,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using observations::NumberType;
 using observations::PointTable;
+using test::column;
 using test::FilePoint;
 using test::filePoints;
 using testing::AllOf;
@@ -25,18 +27,8 @@ using testing::SizeIs;
 
 class CloudFileTest : public testing::Test {
  protected:
-    void SetUp() override {
-        folder_ = fs::path(testing::TempDir()) /
-                  ("cloud_file_" +
-                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     fs::path write(const std::string& name, const std::string& text) const {
-        test::writeFile(folder_ / name, text);
-        return folder_ / name;
+        return folder_.write(name, text);
     }
     CloudFile read(const std::string& name, const std::string& text) const {
         return readCloud(write(name, text));
@@ -52,14 +44,8 @@ class CloudFileTest : public testing::Test {
         }
     }
 
-    fs::path folder_;
+    const test::TemporaryFolder folder_;
 };
-
-std::vector<double> column(const PointTable& table, const char* name) {
-    const auto* const field = findField(table, {name});
-    EXPECT_NE(field, nullptr) << name;
-    return field == nullptr ? std::vector<double>() : columnOf(table, *field);
-}
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
     const std::size_t at = text.find(what);
@@ -137,7 +123,7 @@ TEST_F(CloudFileTest, DetectsFormatByContent) {
     EXPECT_EQ(format(std::string(160, '\0')), std::nullopt);
     EXPECT_EQ(format("A text of 32 bytes is no cloud.\n"), std::nullopt);
     EXPECT_EQ(format(""), std::nullopt);
-    EXPECT_EQ(cloudFormatOf(folder_), std::nullopt);
+    EXPECT_EQ(cloudFormatOf(folder_.path()), std::nullopt);
     EXPECT_EQ(cloudFormatOf(folder_ / "missing"), std::nullopt);
 }
 

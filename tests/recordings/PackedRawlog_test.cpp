@@ -13,10 +13,12 @@
 
 #include "support/Program.h"
 #include "support/Random.h"
+#include "support/ReadRawlog.h"
 
 namespace hagen::recordings {
 namespace {
 
+using test::readLog;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
@@ -48,32 +50,19 @@ std::string zstdOf(const std::string& bytes, bool has_checksum = false) {
     return packed;
 }
 
-/// Reads a file to its end or to an error. Number of entries read, and the error message.
-std::pair<std::size_t, std::string> readAll(const fs::path& file) {
-    RawlogReader reader(file);
-    try {
-        while (reader.next()) {
-        }
-        EXPECT_EQ(reader.fractionRead(), 1.0);
-    } catch (const BrokenRecording& e) {
-        return {reader.entries(), e.what()};
-    }
-    return {reader.entries(), ""};
-}
-
 TEST(PackedRawlog, ReadsEveryCompression) {
     const test::TemporaryFolder folder;
     const std::string plain = plainLog(20), packed = zstdOf(plain);
     EXPECT_LT(packed.size(), plain.size());
     const std::pair<std::size_t, std::string> all(20, "");
-    EXPECT_EQ(readAll(folder.write("plain", plain)), all);
-    EXPECT_EQ(readAll(folder.write("zstd", packed)), all);
-    EXPECT_EQ(readAll(folder.write("checked", zstdOf(plain, true))), all);
+    EXPECT_EQ(readLog(folder.write("plain", plain)), all);
+    EXPECT_EQ(readLog(folder.write("zstd", packed)), all);
+    EXPECT_EQ(readLog(folder.write("checked", zstdOf(plain, true))), all);
     // Frames that end anywhere, one after the other.
-    EXPECT_EQ(readAll(folder.write("frames", zstdOf(plain.substr(0, 70000)) + zstdOf("") +
+    EXPECT_EQ(readLog(folder.write("frames", zstdOf(plain.substr(0, 70000)) + zstdOf("") +
                                                  zstdOf(plain.substr(70000)))),
               all);
-    EXPECT_EQ(readAll(folder.write("twice", packed + packed)).first, 40u);
+    EXPECT_EQ(readLog(folder.write("twice", packed + packed)).first, 40u);
 }
 
 TEST(PackedRawlog, ReadsTruncatedZstdLog) {
@@ -82,7 +71,7 @@ TEST(PackedRawlog, ReadsTruncatedZstdLog) {
     std::size_t most = 0;
     for (std::size_t cut = 0; cut < 50; ++cut) {
         const std::size_t size = 4 + cut * (packed.size() - 5) / 49;
-        const auto [entries, broken] = readAll(folder.write("cut", packed.substr(0, size)));
+        const auto [entries, broken] = readLog(folder.write("cut", packed.substr(0, size)));
         EXPECT_THAT(broken, HasSubstr("cut: entry " + std::to_string(entries) + " at byte "));
         EXPECT_THAT(broken, HasSubstr("the file is truncated"));
         EXPECT_GE(entries, most);
@@ -95,13 +84,13 @@ TEST(PackedRawlog, ReportsDamagedZstdLog) {
     const test::TemporaryFolder folder;
     std::string packed = zstdOf(plainLog(20), true);
     packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 0x10);
-    EXPECT_NE(readAll(folder.write("damaged", packed)).second, "");
-    EXPECT_THAT(readAll(folder.write("behind", zstdOf(plainLog(2)) + "something else")).second,
+    EXPECT_NE(readLog(folder.write("damaged", packed)).second, "");
+    EXPECT_THAT(readLog(folder.write("behind", zstdOf(plainLog(2)) + "something else")).second,
                 HasSubstr("the compressed data is corrupt"));
-    EXPECT_NE(readAll(folder.write("magic", "\x28\xb5\x2f\xfd")).second, "");
+    EXPECT_NE(readLog(folder.write("magic", "\x28\xb5\x2f\xfd")).second, "");
     // A frame with a window of 256 MiB, and its last block, which is empty.
     const std::string long_window("\x28\xb5\x2f\xfd\x00\x90\x01\x00\x00", 9);
-    EXPECT_THAT(readAll(folder.write("long", long_window)).second,
+    EXPECT_THAT(readLog(folder.write("long", long_window)).second,
                 HasSubstr("a window of more than 128 MiB; decompress it first"));
 }
 

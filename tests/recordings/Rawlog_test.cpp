@@ -13,10 +13,12 @@
 #include <stdexcept>
 
 #include "support/Program.h"
+#include "support/ReadRawlog.h"
 
 namespace hagen::recordings {
 namespace {
 
+using test::readLog;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
@@ -40,10 +42,14 @@ void writeLog(const fs::path& file, int entries) {
     writer.commit();
 }
 
-TEST(Rawlog, ReadsEntriesInOrder) {
-    const test::TemporaryFolder folder;
-    writeLog(folder / "a.rawlog", 20);
-    RawlogReader reader(folder / "a.rawlog");
+class Rawlog : public testing::Test {
+ protected:
+    const test::TemporaryFolder folder_;
+};
+
+TEST_F(Rawlog, ReadsEntriesInOrder) {
+    writeLog(folder_ / "a.rawlog", 20);
+    RawlogReader reader(folder_ / "a.rawlog");
     for (int i = 0; i < 20; ++i) {
         const auto entry = std::dynamic_pointer_cast<CObservationComment>(reader.next());
         ASSERT_NE(entry, nullptr);
@@ -54,75 +60,57 @@ TEST(Rawlog, ReadsEntriesInOrder) {
     EXPECT_EQ(reader.entries(), 20u);
 }
 
-TEST(Rawlog, MrptReadsOutput) {
-    const test::TemporaryFolder folder;
-    convert::RawlogWriter writer(folder / "a.rawlog", false);
+TEST_F(Rawlog, MrptReadsOutput) {
+    convert::RawlogWriter writer(folder_ / "a.rawlog", false);
     for (int i = 0; i < 5; ++i) writer.write(mrpt::obs::CObservationRobotPose());
     writer.commit();
     mrpt::obs::CRawlog rawlog;
-    ASSERT_TRUE(rawlog.loadFromRawLogFile((folder / "a.rawlog").string()));
+    ASSERT_TRUE(rawlog.loadFromRawLogFile((folder_ / "a.rawlog").string()));
     EXPECT_EQ(rawlog.size(), 5u);
 }
 
-TEST(Rawlog, WritesReproducibleBytes) {
-    const test::TemporaryFolder folder;
-    writeLog(folder / "a.rawlog", 20);
-    writeLog(folder / "b.rawlog", 20);
-    EXPECT_EQ(test::readFile(folder / "a.rawlog"), test::readFile(folder / "b.rawlog"));
+TEST_F(Rawlog, WritesReproducibleBytes) {
+    writeLog(folder_ / "a.rawlog", 20);
+    writeLog(folder_ / "b.rawlog", 20);
+    EXPECT_EQ(test::readFile(folder_ / "a.rawlog"), test::readFile(folder_ / "b.rawlog"));
 }
 
-/// Reads a file to its end or to an error. Number of entries read, and the error message.
-std::pair<std::size_t, std::string> readAll(const fs::path& file) {
-    RawlogReader reader(file);
-    try {
-        while (reader.next()) {
-        }
-    } catch (const BrokenRecording& e) {
-        EXPECT_THAT(e.what(), HasSubstr(file.string()));
-        return {reader.entries(), e.what()};
-    }
-    return {reader.entries(), ""};
-}
-
-TEST(Rawlog, ReadsEntriesBeforeTruncation) {
-    const test::TemporaryFolder folder;
+TEST_F(Rawlog, ReadsEntriesBeforeTruncation) {
     for (const int entries : {3, 20}) {
-        writeLog(folder / "whole.rawlog", entries);
-        const std::string bytes = test::readFile(folder / "whole.rawlog");
+        writeLog(folder_ / "whole.rawlog", entries);
+        const std::string bytes = test::readFile(folder_ / "whole.rawlog");
         for (std::size_t length = 1; length < bytes.size(); ++length) {
             const auto [read, broken] =
-                readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
+                readLog(folder_.write("cut.rawlog", bytes.substr(0, length)));
             ASSERT_NE(broken, "") << length << " of " << bytes.size();
             ASSERT_LE(read, static_cast<std::size_t>(entries));
         }
-        EXPECT_EQ(readAll(folder / "whole.rawlog"),
+        EXPECT_EQ(readLog(folder_ / "whole.rawlog"),
                   (std::pair<std::size_t, std::string>(entries, "")));
     }
 }
 
-TEST(Rawlog, ReadsTruncatedUncompressedLog) {
-    const test::TemporaryFolder folder;
+TEST_F(Rawlog, ReadsTruncatedUncompressedLog) {
     std::string bytes;
     {
-        mrpt::io::CFileOutputStream stream((folder / "plain.rawlog").string());
+        mrpt::io::CFileOutputStream stream((folder_ / "plain.rawlog").string());
         auto archive = mrpt::serialization::archiveFrom(stream);
         for (int i = 0; i < 3; ++i) archive << comment("plain " + std::to_string(i));
     }
-    bytes = test::readFile(folder / "plain.rawlog");
-    EXPECT_EQ(readAll(folder / "plain.rawlog").first, 3u);
+    bytes = test::readFile(folder_ / "plain.rawlog");
+    EXPECT_EQ(readLog(folder_ / "plain.rawlog").first, 3u);
     const std::size_t entry = bytes.size() / 3;  // all entries have the same size
     for (std::size_t length = 1; length < bytes.size(); ++length) {
-        const auto [read, broken] = readAll(folder.write("cut.rawlog", bytes.substr(0, length)));
+        const auto [read, broken] = readLog(folder_.write("cut.rawlog", bytes.substr(0, length)));
         ASSERT_EQ(read, length / entry);
         ASSERT_EQ(broken.empty(), length % entry == 0) << length;
     }
 }
 
-TEST(Rawlog, ReadsConcatenatedMembers) {
-    const test::TemporaryFolder folder;
-    writeLog(folder / "a.rawlog", 3);
-    const std::string bytes = test::readFile(folder / "a.rawlog");
-    EXPECT_EQ(readAll(folder.write("twice.rawlog", bytes + bytes)).first, 6u);
+TEST_F(Rawlog, ReadsConcatenatedMembers) {
+    writeLog(folder_ / "a.rawlog", 3);
+    const std::string bytes = test::readFile(folder_ / "a.rawlog");
+    EXPECT_EQ(readLog(folder_.write("twice.rawlog", bytes + bytes)).first, 6u);
 }
 
 /// A log in which each entry fills a member, and the file size after each.
@@ -145,35 +133,32 @@ std::vector<std::size_t> writeLargeEntries(const fs::path& file, int entries) {
 }
 
 /// As on a tape, or from a file system that had allocated more. gzip(1) ignores them, too.
-TEST(Rawlog, IgnoresTrailingZeros) {
-    const test::TemporaryFolder folder;
-    writeLog(folder / "a.rawlog", 20);
-    const std::string log = test::readFile(folder / "a.rawlog");
+TEST_F(Rawlog, IgnoresTrailingZeros) {
+    writeLog(folder_ / "a.rawlog", 20);
+    const std::string log = test::readFile(folder_ / "a.rawlog");
     for (const std::size_t zeros : {1u, 512u, 300000u}) {
-        RawlogReader reader(folder.write("zeros.rawlog", log + std::string(zeros, '\0')));
+        RawlogReader reader(folder_.write("zeros.rawlog", log + std::string(zeros, '\0')));
         while (reader.next()) {
         }
         EXPECT_EQ(reader.entries(), 20u);
         EXPECT_EQ(reader.fractionRead(), 1.0);
     }
-    RawlogReader other(folder.write("other.rawlog", log + std::string(512, '\0') + "x"));
+    RawlogReader other(folder_.write("other.rawlog", log + std::string(512, '\0') + "x"));
     EXPECT_THROW(while (other.next()){}, BrokenRecording);
 }
 
-TEST(Rawlog, ReadsRemovedFile) {
-    const test::TemporaryFolder folder;
-    writeLog(folder / "a.rawlog", 20);
-    RawlogReader reader(folder / "a.rawlog");
+TEST_F(Rawlog, ReadsRemovedFile) {
+    writeLog(folder_ / "a.rawlog", 20);
+    RawlogReader reader(folder_ / "a.rawlog");
     ASSERT_NE(reader.next(), nullptr);
-    fs::remove(folder / "a.rawlog");
+    fs::remove(folder_ / "a.rawlog");
     while (reader.next()) EXPECT_GT(reader.fractionRead(), 0);
     EXPECT_EQ(reader.entries(), 20u);
     EXPECT_EQ(reader.fractionRead(), 1.0);
 }
 
-TEST(Rawlog, EndsMembersBetweenEntries) {
-    const test::TemporaryFolder folder;
-    convert::RawlogWriter writer(folder / "a.rawlog", false);
+TEST_F(Rawlog, EndsMembersBetweenEntries) {
+    convert::RawlogWriter writer(folder_ / "a.rawlog", false);
     convert::Bytes small(1000, 1), member;
     for (int i = 0; i < 262; ++i) {
         convert::Bytes entries = small;
@@ -190,75 +175,70 @@ TEST(Rawlog, EndsMembersBetweenEntries) {
     EXPECT_TRUE(member.empty());
 }
 
-TEST(Rawlog, ReadsSeveralMembers) {
-    const test::TemporaryFolder folder;
-    const auto ends = writeLargeEntries(folder / "a.rawlog", 4);
-    EXPECT_EQ(fs::file_size(folder / "a.rawlog"), ends.back());
-    EXPECT_EQ(readAll(folder / "a.rawlog"), (std::pair<std::size_t, std::string>(4, "")));
+TEST_F(Rawlog, ReadsSeveralMembers) {
+    const auto ends = writeLargeEntries(folder_ / "a.rawlog", 4);
+    EXPECT_EQ(fs::file_size(folder_ / "a.rawlog"), ends.back());
+    EXPECT_EQ(readLog(folder_ / "a.rawlog"), (std::pair<std::size_t, std::string>(4, "")));
     mrpt::obs::CRawlog rawlog;
-    ASSERT_TRUE(rawlog.loadFromRawLogFile((folder / "a.rawlog").string()));
+    ASSERT_TRUE(rawlog.loadFromRawLogFile((folder_ / "a.rawlog").string()));
     ASSERT_EQ(rawlog.size(), 4u);
     EXPECT_EQ(rawlog.getAsObservation(3)->sensorLabel, std::string(300000, 'd'));
 }
 
-TEST(Rawlog, ReportsTrailingGarbage) {
-    const test::TemporaryFolder folder;
-    const auto ends = writeLargeEntries(folder / "whole.rawlog", 3);
-    const std::string bytes = test::readFile(folder / "whole.rawlog");
+TEST_F(Rawlog, ReportsTrailingGarbage) {
+    const auto ends = writeLargeEntries(folder_ / "whole.rawlog", 3);
+    const std::string bytes = test::readFile(folder_ / "whole.rawlog");
     for (const std::size_t at : {ends[0], ends[0] + 1, ends[0] + 2, ends[1]}) {
         std::string damaged = bytes;
         damaged[at] = static_cast<char>(damaged[at] ^ 0x20);  // in the next member's header
-        const auto [read, broken] = readAll(folder.write("damaged.rawlog", damaged));
+        const auto [read, broken] = readLog(folder_.write("damaged.rawlog", damaged));
         EXPECT_EQ(read, at < ends[1] ? 1u : 2u);
         EXPECT_THAT(broken, HasSubstr("compressed data is corrupt")) << at << broken;
     }
-    const auto [read, broken] = readAll(folder.write("longer.rawlog", bytes + "garbage"));
+    const auto [read, broken] = readLog(folder_.write("longer.rawlog", bytes + "garbage"));
     EXPECT_EQ(read, 3u);
     EXPECT_NE(broken, "");
 }
 
-TEST(Rawlog, WritesEmptyLogAsGzip) {
-    const test::TemporaryFolder folder;
-    convert::RawlogWriter(folder / "a.rawlog", false).commit();
+TEST_F(Rawlog, WritesEmptyLogAsGzip) {
+    convert::RawlogWriter(folder_ / "a.rawlog", false).commit();
     mrpt::obs::CRawlog rawlog;
-    EXPECT_TRUE(rawlog.loadFromRawLogFile((folder / "a.rawlog").string()));
+    EXPECT_TRUE(rawlog.loadFromRawLogFile((folder_ / "a.rawlog").string()));
     EXPECT_EQ(rawlog.size(), 0u);
 }
 
-TEST(Rawlog, ReportsUnknownClass) {
-    const test::TemporaryFolder folder;
+TEST_F(Rawlog, ReportsUnknownClass) {
     mrpt::obs::CObservationRobotPose pose;
     {
-        mrpt::io::CFileOutputStream stream((folder / "plain.rawlog").string());
+        mrpt::io::CFileOutputStream stream((folder_ / "plain.rawlog").string());
         mrpt::serialization::archiveFrom(stream) << pose;
     }
-    std::string bytes = test::readFile(folder / "plain.rawlog");
+    std::string bytes = test::readFile(folder_ / "plain.rawlog");
     bytes.replace(bytes.find("RobotPose"), 9, "RobotMood");
-    EXPECT_THAT(readAll(folder.write("mood.rawlog", bytes)).second,
+    EXPECT_THAT(readLog(folder_.write("mood.rawlog", bytes)).second,
                 HasSubstr("CObservationRobotMood"));
 }
 
-TEST(Rawlog, RejectsOtherFiles) {
-    const test::TemporaryFolder folder;
-    EXPECT_THROW(RawlogReader(folder / "none.rawlog"), std::runtime_error);
-    EXPECT_THROW(RawlogReader(folder.write("empty.rawlog", "")), std::runtime_error);
+TEST_F(Rawlog, RejectsOtherFiles) {
+    EXPECT_THROW(RawlogReader(folder_ / "none.rawlog"), std::runtime_error);
+    EXPECT_THROW(RawlogReader(folder_.write("empty.rawlog", "")), std::runtime_error);
     for (const std::string& text : {std::string("just some text, and more of it than a header"),
                                     std::string(500, '\0'), std::string(500, '\xff')}) {
-        RawlogReader reader(folder.write("text.rawlog", text));
+        RawlogReader reader(folder_.write("text.rawlog", text));
         EXPECT_THROW(reader.next(), BrokenRecording);
     }
     const std::string garbage = "just some text, and more of it than a header";
     EXPECT_THAT(
-        readAll(folder.write("text.rawlog", garbage)).second,
+        readLog(folder_.write("text.rawlog", garbage)).second,
         AllOf(HasSubstr("text.rawlog: is not a recording: "), HasSubstr("Known are rawlogs")));
-    const auto packed = folder.write("log.bz2", "BZh91AY&SY");
-    EXPECT_THAT(readAll(packed).second,
+    const auto packed = folder_.write("log.bz2", "BZh91AY&SY");
+    EXPECT_THAT(readLog(packed).second,
                 HasSubstr("is not a recording: it seems to be packed by bzip2: unpack it first"));
     // Behind an entry, it is a recording.
     convert::Bytes entry;
     convert::serialise(comment("first"), entry);
     const std::string bytes(entry.begin(), entry.end());
-    EXPECT_THAT(readAll(folder.write("longer.rawlog", bytes + garbage)).second,
+    EXPECT_THAT(readLog(folder_.write("longer.rawlog", bytes + garbage)).second,
                 HasSubstr("longer.rawlog: entry 1 at byte " + std::to_string(bytes.size()) +
                           " (uncompressed) cannot be read: it is not an MRPT object"));
 }
@@ -273,22 +253,20 @@ std::uint8_t CrashingObject::serializeGetVersion() const { return 0; }
 void CrashingObject::serializeTo(mrpt::serialization::CArchive&) const {}
 void CrashingObject::serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) { std::abort(); }
 
-TEST(Rawlog, SurvivesCrashingEntry) {
-    const test::TemporaryFolder folder;
+TEST_F(Rawlog, SurvivesCrashingEntry) {
     mrpt::rtti::registerClass(CLASS_ID(CrashingObject));
-    convert::RawlogWriter writer(folder / "a.rawlog", false);
+    convert::RawlogWriter writer(folder_ / "a.rawlog", false);
     writer.write(comment("before"));
     writer.write(CrashingObject());
     writer.write(comment("after"));
     writer.commit();
-    const auto [entries, why] = readAll(folder / "a.rawlog");
+    const auto [entries, why] = readLog(folder_ / "a.rawlog");
     EXPECT_EQ(entries, 1u);
     EXPECT_THAT(why, AllOf(HasSubstr("a.rawlog: entry 1 at byte "), HasSubstr("Aborted")));
 }
 
 /// The count of a text, 4 bytes before it, made larger than the file.
-TEST(Rawlog, RejectsCountBeyondFile) {
-    const test::TemporaryFolder folder;
+TEST_F(Rawlog, RejectsCountBeyondFile) {
     convert::Bytes bytes;
     convert::serialise(comment("first"), bytes);
     const std::size_t second = bytes.size();
@@ -297,7 +275,7 @@ TEST(Rawlog, RejectsCountBeyondFile) {
     const std::size_t count = text.find("xxx") - 4;
     for (const std::uint32_t wrong : {400'000'000u, 3'900'000'000u}) {
         text.replace(count, 4, reinterpret_cast<const char*>(&wrong), 4);
-        const auto [entries, why] = readAll(folder.write("a.rawlog", text));
+        const auto [entries, why] = readLog(folder_.write("a.rawlog", text));
         EXPECT_EQ(entries, 1u);
         EXPECT_THAT(why, HasSubstr("entry 1 at byte " + std::to_string(second)));
 #ifndef __SANITIZE_ADDRESS__  // whose shadow memory no limit can tell from the reader's
@@ -306,18 +284,16 @@ TEST(Rawlog, RejectsCountBeyondFile) {
     }
 }
 
-TEST(Rawlog, RemovesUncommittedFile) {
-    const test::TemporaryFolder folder;
-    { convert::RawlogWriter(folder / "a.rawlog", false).write(comment("a")); }
-    EXPECT_TRUE(fs::is_empty(folder.path()));
+TEST_F(Rawlog, RemovesUncommittedFile) {
+    { convert::RawlogWriter(folder_ / "a.rawlog", false).write(comment("a")); }
+    EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
-TEST(Rawlog, KeepsReadablePartialFile) {
-    const test::TemporaryFolder folder;
-    convert::RawlogWriter writer(folder / "a.rawlog", false);
+TEST_F(Rawlog, KeepsReadablePartialFile) {
+    convert::RawlogWriter writer(folder_ / "a.rawlog", false);
     writer.write(comment("a"));
-    EXPECT_EQ(writer.keepPartial(), folder / "a.partial.rawlog");
-    RawlogReader reader(folder / "a.partial.rawlog");
+    EXPECT_EQ(writer.keepPartial(), folder_ / "a.partial.rawlog");
+    RawlogReader reader(folder_ / "a.partial.rawlog");
     EXPECT_NE(reader.next(), nullptr);
     EXPECT_EQ(reader.next(), nullptr);
 }

@@ -26,7 +26,7 @@ inline sockaddr_in localAddress(std::uint16_t port) {
     return at;
 }
 
-/// A socket on a port of this machine that nobody else has.
+/// A UDP socket bound to a local port.
 class LocalUdp {
  public:
     struct Datagram {
@@ -34,11 +34,12 @@ class LocalUdp {
         sockaddr_in from;
     };
 
-    /// receive() waits for so long.
-    explicit LocalUdp(std::chrono::milliseconds wait = std::chrono::milliseconds(0))
+    /// `wait`: timeout of receive() (default: none). `port` 0: any free port.
+    explicit LocalUdp(std::chrono::milliseconds wait = std::chrono::milliseconds(0),
+                      std::uint16_t port = 0)
         : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
-        sockaddr_in at = localAddress(0);
-        bind(socket_, reinterpret_cast<const sockaddr*>(&at), sizeof at);
+        sockaddr_in at = localAddress(port);
+        is_bound_ = bind(socket_, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0;
         socklen_t size = sizeof at;
         getsockname(socket_, reinterpret_cast<sockaddr*>(&at), &size);
         port_ = ntohs(at.sin_port);
@@ -50,6 +51,7 @@ class LocalUdp {
     LocalUdp& operator=(const LocalUdp&) = delete;
 
     std::uint16_t port() const { return port_; }
+    bool isBound() const { return is_bound_; }
 
     std::optional<Datagram> receive() const {
         std::array<char, 2048> buffer{};
@@ -69,6 +71,7 @@ class LocalUdp {
 
  private:
     int socket_;
+    bool is_bound_ = false;
     std::uint16_t port_ = 0;
 };
 

@@ -10,17 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "support/PointColumn.h"
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
 
 namespace hagen::test {
-
-/// The numbers of a field, which must be there.
-inline std::vector<double> column(const observations::PointTable& table, const char* name) {
-    const auto* const field = findField(table, {name});
-    EXPECT_NE(field, nullptr) << name;
-    return field == nullptr ? std::vector<double>() : columnOf(table, *field);
-}
 
 /// A conversion with a VLP-16 named, and the returns of a scan of a pole for its input.
 class PoleConversion {

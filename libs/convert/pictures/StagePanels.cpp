@@ -42,7 +42,10 @@ StagePanelWriter::StagePanelWriter(const StageView& view, const StageData& data)
     text_ << "set encoding utf8\n" << data.blocks;
 }
 
-void StagePanelWriter::beginPicture(const std::string& name, int height_px, int width_px) {
+void StagePanelWriter::beginPicture(const std::string& name, const std::string& heading,
+                                    int height_px, int width_px) {
+    heading_ = heading;
+    has_heading_ = true;
     width_px_ = width_px;
     height_px_ = height_px;
     text_ << "set terminal pngcairo size " << width_px << "," << height_px
@@ -50,11 +53,6 @@ void StagePanelWriter::beginPicture(const std::string& name, int height_px, int 
 }
 
 void StagePanelWriter::endPicture() { text_ << "unset multiplot\nunset output\n"; }
-
-void StagePanelWriter::heading(const std::string& what) {
-    heading_ = what;
-    has_heading_ = true;
-}
 
 void StagePanelWriter::panelTitle(const std::string& title) { panel_title_ += title; }
 

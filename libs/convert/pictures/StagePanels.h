@@ -22,10 +22,10 @@ class StagePanelWriter {
 
     std::string script() const { return text_.str(); }
 
-    void beginPicture(const std::string& name, int height_px, int width_px = kWidth_px);
+    /// Begins a picture with a heading (left) and the scan's title (right).
+    void beginPicture(const std::string& name, const std::string& heading, int height_px,
+                      int width_px = kWidth_px);
     void endPicture();
-    /// Sets the stage's name (left) and the scan's title (right).
-    void heading(const std::string& what);
     /// Sets the title of the next panel, appended to the previous text.
     void panelTitle(const std::string& title);
     void depthImage(const Box& box, const std::string& block, bool has_azimuth);

@@ -13,23 +13,20 @@ namespace {
 constexpr int kWidth_px = StagePanelWriter::kWidth_px;
 
 void depthPicture(StagePanelWriter& panels) {
-    panels.beginPicture("1_depth.png", 330);
-    panels.heading("1  depth image (III-A)");
+    panels.beginPicture("1_depth.png", "1  depth image (III-A)", 330);
     panels.depthImage({84, kWidth_px - 105, 60, 270}, "$depth", true);
     panels.endPicture();
 }
 
 void maximaPicture(StagePanelWriter& panels) {
-    panels.beginPicture("2_maxima.png", 860);
-    panels.heading("2  persistent maxima of proximity (III-B)");
+    panels.beginPicture("2_maxima.png", "2  persistent maxima of proximity (III-B)", 860);
     panels.maximaImage({84, kWidth_px - 105, 590, 800}, true);
     panels.barcode({84, kWidth_px - 105, 60, 480});
     panels.endPicture();
 }
 
 void mergedPicture(StagePanelWriter& panels) {
-    panels.beginPicture("3_merged.png", 660);
-    panels.heading("3  maxima sharpened and merged (III-B)");
+    panels.beginPicture("3_merged.png", "3  maxima sharpened and merged (III-B)", 660);
     panels.depthImage({84, kWidth_px - 105, 390, 600}, "$merged", true);
     panels.angleBefore({84, 570, 60, 270});
     panels.angleAfter({650, kWidth_px - 60, 60, 270});
@@ -37,15 +34,13 @@ void mergedPicture(StagePanelWriter& panels) {
 }
 
 void rangeAnglePicture(StagePanelWriter& panels) {
-    panels.beginPicture("4_range_angle.png", 330);
-    panels.heading("4  range angle image (III-C)");
+    panels.beginPicture("4_range_angle.png", "4  range angle image (III-C)", 330);
     panels.angleImage({84, kWidth_px - 105, 60, 270}, "$angle", true, false);
     panels.endPicture();
 }
 
 void smoothedPicture(StagePanelWriter& panels) {
-    panels.beginPicture("5_smoothed.png", 860);
-    panels.heading("5  singular spectrum analysis (III-D)");
+    panels.beginPicture("5_smoothed.png", "5  singular spectrum analysis (III-D)", 860);
     panels.angleImage({84, kWidth_px - 105, 590, 800}, "$smoothed", true, true);
     panels.series({84, 560, 60, 460});
     panels.components({760, kWidth_px - 30, 60, 460});
@@ -53,24 +48,21 @@ void smoothedPicture(StagePanelWriter& panels) {
 }
 
 void labelPicture(StagePanelWriter& panels) {
-    panels.beginPicture("6_labels.png", 660);
-    panels.heading("6  regions of interest (III-E)");
+    panels.beginPicture("6_labels.png", "6  regions of interest (III-E)", 660);
     panels.labelImage({84, kWidth_px - 105, 390, 580}, true);
     panels.zoomLabels({84, kWidth_px - 105, 60, 270});
     panels.endPicture();
 }
 
 void topPicture(StagePanelWriter& panels) {
-    panels.beginPicture("7_top_view.png", 960, 900);
-    panels.heading("7  the returns from above");
+    panels.beginPicture("7_top_view.png", "7  the returns from above", 960, 900);
     panels.topView({70, 880, 60, 870}, true);
     panels.endPicture();
 }
 
 void overview(StagePanelWriter& panels) {
     const int height = 1540;
-    panels.beginPicture("stages.png", height);
-    panels.heading("Stages of the segmentation");
+    panels.beginPicture("stages.png", "Stages of the segmentation", height);
     const auto row = [&](int number) {
         const double top = height - 64.0 - 134.0 * number;
         return Box{84, kWidth_px - 105, top - 98, top};

@@ -1,4 +1,5 @@
 #include "live/mavlink/Peer.h"
+#include "base/NumberText.h"
 
 #include <stdexcept>
 
@@ -25,17 +26,10 @@ std::vector<std::string> partsOf(const std::string& text) {
     }
 }
 
-int numberOf(const std::string& text, int most) {
-    const bool is_number = !text.empty() && text.size() <= 8 &&
-                           text.find_first_not_of("0123456789") == std::string::npos;
-    const int number = is_number ? std::stoi(text) : 0;
-    return number <= most ? number : 0;
-}
-
 std::uint16_t portOf(const std::string& text, const std::string& part) {
-    const int port = numberOf(part, 65535);
+    const auto port = base::numberFrom<std::uint16_t>(part).value_or(0);
     if (port == 0) fail(text, "a port must be 1 to 65535");
-    return static_cast<std::uint16_t>(port);
+    return port;
 }
 
 }  // namespace
@@ -53,7 +47,7 @@ PeerAddress parsePeer(const std::string& text) {
     if (parts[0] == "serial" && parts.size() >= 3 && colon > 7) {
         address.kind = PeerAddress::Kind::Serial;
         address.device = text.substr(7, colon - 7);
-        address.baud = numberOf(parts.back(), 99999999);
+        address.baud = base::numberFrom<int>(parts.back()).value_or(0);
         if (!isBaud(address.baud)) fail(text, "unsupported baud rate");
         if (address.baud < kMinBaud) {
             fail(text, "messages need 6 kB/s, that is at least 115200 baud");

@@ -1,9 +1,9 @@
 #include <yaml-cpp/yaml.h>
 #include "base/Folder.h"
 #include "base/ReadFile.h"
+#include "base/Text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <set>
 
@@ -65,8 +65,7 @@ std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag)
 }
 
 bool isOfBag(const fs::path& file) {
-    std::string ending = file.extension().string();
-    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string ending = base::lowerCase(file.extension().string());
     return ending == ".mcap" || ending == ".db3";
 }
 

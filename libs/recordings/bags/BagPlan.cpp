@@ -35,7 +35,7 @@ std::string labelOf(const std::string& topic, std::set<std::string>& taken) {
     std::string label = topic.substr(!topic.empty() && topic.front() == '/');
     std::replace(label.begin(), label.end(), '/', '_');
     if (label.empty()) label = "lidar";
-    if (endsWith(label, "_roi")) label += "_points";
+    if (base::endsWith(label, "_roi")) label += "_points";
     std::string unique = label;
     for (int n = 2; !taken.insert(unique).second; ++n) unique = label + "_" + std::to_string(n);
     return unique;

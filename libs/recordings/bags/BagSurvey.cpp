@@ -82,7 +82,7 @@ class BagSurveyor {
             if (seen.orientations++ == 0) seen.frame = imu.header.frame;
         } else if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") {
             readFrames(message, topic);
-        } else if (type == "std_msgs/String" && endsWith(topic.topic.name, "metadata") &&
+        } else if (type == "std_msgs/String" && base::endsWith(topic.topic.name, "metadata") &&
                    message.size <= kMaxOusterMetadata) {
             FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
             survey_.ouster_metadata[topic.topic.name] = readString(fields);
@@ -124,7 +124,7 @@ class BagSurveyor {
 
     void readFrames(const BagMessage& message, const BagSurvey::Topic& topic) {
         FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
-        const bool is_static = endsWith(topic.topic.name, "tf_static");
+        const bool is_static = base::endsWith(topic.topic.name, "tf_static");
         for (const PoseMessage& transform : readTransforms(fields)) {
             const std::string& parent = transform.header.frame;
             const std::string which = "from '" + parent + "' to '" + transform.child + "'";

@@ -32,7 +32,6 @@ class FieldReader {
     static FieldReader ofCdr(ByteView bytes);
 
     bool isCdr() const { return is_cdr_; }
-    bool isBigEndian() const { return swaps_; }
     std::size_t left() const { return bytes_.size - at_; }
 
     template <class Number>

@@ -8,11 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mrpt/NumberTypes.h"
 #include "recordings/bags/Unpack.h"
 
 namespace hagen::recordings {
 namespace {
 
+using observations::kPointFieldTypes;
 using observations::NumberType;
 using observations::PointTable;
 
@@ -38,27 +40,9 @@ std::string withoutSlash(std::string frame) {
 }
 
 NumberType pointFieldType(std::uint8_t datatype) {
-    switch (datatype) {  // the constants of sensor_msgs/PointField
-        case 1:
-            return NumberType::Int8;
-        case 2:
-            return NumberType::UInt8;
-        case 3:
-            return NumberType::Int16;
-        case 4:
-            return NumberType::UInt16;
-        case 5:
-            return NumberType::Int32;
-        case 6:
-            return NumberType::UInt32;
-        case 7:
-            return NumberType::Float32;
-        case 8:
-            return NumberType::Float64;
-        default:
-            throw std::runtime_error("a field of its points has the type " +
-                                     std::to_string(datatype) + ", which there is not");
-    }
+    if (datatype >= 1 && datatype <= kPointFieldTypes.size()) return kPointFieldTypes[datatype - 1];
+    throw std::runtime_error("a field of its points has the type " + std::to_string(datatype) +
+                             ", which there is not");
 }
 
 template <std::size_t N>

@@ -9,12 +9,6 @@
 
 namespace hagen::recordings {
 
-/// Whether a topic or label ends like this.
-inline bool endsWith(const std::string& name, const std::string& ending) {
-    return name.size() >= ending.size() &&
-           name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 /// The topics of a recording, each once however many publishers it has.
 class TopicList {
  public:

@@ -3,6 +3,7 @@
 #include <hagen/scan/MostReturns.h>
 #include "base/NumberText.h"
 #include "base/ReadFile.h"
+#include "mrpt/NumberTypes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,29 +99,7 @@ std::vector<std::string_view> wordsOf(std::string_view line) {
 
 bool putNumber(std::string_view word, NumberType type, std::uint8_t* to) {
     if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-    switch (type) {
-        case NumberType::Int8:
-            return put<std::int8_t>(word, to);
-        case NumberType::UInt8:
-            return put<std::uint8_t>(word, to);
-        case NumberType::Int16:
-            return put<std::int16_t>(word, to);
-        case NumberType::UInt16:
-            return put<std::uint16_t>(word, to);
-        case NumberType::Int32:
-            return put<std::int32_t>(word, to);
-        case NumberType::UInt32:
-            return put<std::uint32_t>(word, to);
-        case NumberType::Int64:
-            return put<std::int64_t>(word, to);
-        case NumberType::UInt64:
-            return put<std::uint64_t>(word, to);
-        case NumberType::Float32:
-            return put<float>(word, to);
-        case NumberType::Float64:
-            return put<double>(word, to);
-    }
-    return false;
+    return withType(type, [&](auto number) { return put<decltype(number)>(word, to); });
 }
 
 void checkNumber(const std::filesystem::path& file, std::size_t points) {

@@ -64,9 +64,9 @@ std::uint64_t dataBytes() {
 }
 
 /// Whether a pipe has something to read, or an end, within this time. Signals do not prolong it.
-bool isReadable(int pipe, std::chrono::milliseconds patience) {
+bool isReadable(int pipe, std::chrono::milliseconds max_idle) {
     using Clock = std::chrono::steady_clock;
-    for (const auto end = Clock::now() + patience;;) {
+    for (const auto end = Clock::now() + max_idle;;) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
         pollfd waits{pipe, POLLIN, 0};
         const int ready = poll(&waits, 1, std::max(0, static_cast<int>(left.count())));
@@ -140,8 +140,8 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
 }  // namespace
 
 RawlogTrial::RawlogTrial(const std::filesystem::path& file, int descriptor,
-                         std::chrono::milliseconds patience)
-    : file_(file), descriptor_(descriptor), patience_(patience) {
+                         std::chrono::milliseconds max_idle)
+    : file_(file), descriptor_(descriptor), max_idle_(max_idle) {
     start();
 }
 
@@ -183,7 +183,7 @@ void RawlogTrial::stop() {
 bool RawlogTrial::isStuck() const {
     for (;;) {
         const auto before = base::cpuTimeOf(process_);
-        if (isReadable(verdicts_, patience_)) return false;
+        if (isReadable(verdicts_, max_idle_)) return false;
         if (before && base::cpuTimeOf(process_) == before) return true;
     }
 }

@@ -50,7 +50,7 @@ class RawlogTrial {
 
     std::filesystem::path file_;
     int descriptor_;
-    std::chrono::milliseconds patience_;
+    std::chrono::milliseconds max_idle_;
     pid_t process_ = -1;
     int verdicts_ = -1;
     int starts_ = 0;

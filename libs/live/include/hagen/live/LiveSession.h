@@ -75,7 +75,7 @@ struct LiveListener {
     std::function<SensorMotion(double time_s)> motion;
     /// More counts for `stats`, called at the end: the name of a section, and its values.
     std::map<std::string, std::function<std::vector<std::pair<std::string, std::size_t>>()>> counts;
-    /// What the user should know now: silence, another mode, another rate.
+    /// Messages for the user: silence, another mode, another rate.
     std::function<void(const std::string& remark)> remark = [](const auto&) {};
     /// Called every half a second.
     std::function<void(const LiveReport&, const LiveStatus&)> status = [](const auto&,
@@ -89,7 +89,7 @@ struct LiveListener {
 /// "a VLP-16" or "the Ouster of FILE".
 std::string sensorName(const LiveOptions& options);
 
-/// Labels the packets of a source until it ends, the time is over or the listener says so. One
+/// Labels the packets of a source until it ends, the time is over or the listener stops it. One
 /// thread receives, one labels (that of the caller; its real-time priority, if it has one, is
 /// lowered by one, for good), and one records. A recording that stops early is reported, and the
 /// session continues. No packet content ends it.

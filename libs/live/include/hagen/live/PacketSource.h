@@ -29,12 +29,12 @@ class PacketSource {
     /// Waits for the next packet, at most a tenth of a second. Throws std::runtime_error naming the
     /// source if it cannot be read.
     virtual Next next(Packet& packet) = 0;
-    /// Whether packets are lost if nobody takes them in time.
+    /// Whether packets that are not taken in time are lost.
     virtual bool isLive() const = 0;
 };
 
-/// Datagrams that come to an address of this machine, or to a multicast group. Their arrival is
-/// that of the kernel's time stamp, and never before that of the one before.
+/// Datagrams to an address of this machine or to a multicast group. Arrival times are the kernel's
+/// time stamps and never decrease.
 class UdpSource : public PacketSource {
  public:
     /// Throws std::runtime_error naming the address if it cannot be listened on.

@@ -14,8 +14,8 @@
 
 namespace hagen::live {
 
-/// The nearest obstacle in each direction around the vehicle, from labelled sectors, as protocols
-/// of autopilots want it: 72 directions of 5 degrees, clockwise in the vehicle's level frame
+/// The nearest obstacle in each direction around the vehicle, from labelled sectors, as in
+/// protocols of autopilots: 72 directions of 5 degrees, clockwise in the vehicle's level frame
 /// (x forward, y left, z up).
 ///
 /// **Stale is never free.** A direction that was not swept for 0.3 s is unknown, and so is one that
@@ -25,15 +25,15 @@ namespace hagen::live {
 /// nothing. An obstacle is forgotten when a later turn has passed all of its degree and of the
 /// sensor's, which is another if it is tilted or beside the vehicle's origin. A sensor that does
 /// not turn is taken to look all around within each tenth of a second, if few of its packets are
-/// lost (FrameCoverage). What it saw is forgotten once it has looked all around in a tenth of a
-/// second that began that much later. Where neither happened, the direction is unknown after 0.3 s,
-/// and for as long as 0.7 s more.
+/// lost (FrameCoverage). Its returns are dropped once it has looked all around in a tenth of a
+/// second that began that much later. Otherwise the direction is unknown after 0.3 s, for up to
+/// 0.7 s more.
 ///
-/// What a sector saw is turned and moved by the vehicle's motion since. Directions are level: a
-/// vehicle that rolls sees an obstacle on its right on its right. Without poses, the vehicle is
-/// level and stays.
+/// Returns of a sector are turned and moved by the vehicle's motion since then. Directions are
+/// level: a vehicle that rolls sees an obstacle on its right on its right. Without poses, the
+/// vehicle is level and stays.
 ///
-/// A copy is cheap: it shares what sectors saw, which does not change.
+/// A copy is cheap: it shares the immutable returns of sectors.
 class SectorDistances {
  public:
     static constexpr int kSectors = 72;

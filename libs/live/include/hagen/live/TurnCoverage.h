@@ -7,12 +7,12 @@
 
 namespace hagen::live {
 
-/// Where all beams of a sensor that turns have looked: some lag behind its head (BeamOffsets).
+/// The directions that all beams of a rotating sensor have swept; some beams lag (BeamOffsets).
 /// Between two packets, others may be lost, however narrow they are. Packets that come late close
 /// the gap that they left.
 class TurnCoverage {
  public:
-    /// The directions that a packet's sweep has completed, in angles that go on from turn to turn.
+    /// The directions that a packet's sweep has completed, in angles that grow from turn to turn.
     struct Swept {
         double from_rad, to_rad;
         double since_rad;  ///< without a gap from here to `to_rad`
@@ -30,7 +30,7 @@ class TurnCoverage {
     /// Adds the packets of a sector that has a sweep; valid until the next call.
     const std::vector<Swept>& add(const LabelledSector& sector);
     /// How far the sensor has turned, and how far it had before the latest sector. Unlike the
-    /// angles of sectors, these go on where a sensor has started again.
+    /// angles of sectors, these continue after a restart of the sensor.
     double head_rad() const { return head_rad_; }
     double before_rad() const { return before_rad_; }
     void clear();

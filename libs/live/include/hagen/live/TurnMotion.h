@@ -8,9 +8,8 @@
 
 namespace hagen::live {
 
-/// How a rotating sensor tilts and rises, told by the ground it sees: each ROU return of the zone
-/// is compared with what the same pixel saw a turn before. (Beyond the zone, ROU is not ground
-/// only.)
+/// Estimates how a rotating sensor tilts and rises: compares each ROU return of the zone with the
+/// return of the same pixel a turn before. (Beyond the zone, ROU is not only ground.)
 ///
 /// Point-to-plane registration (Chen and Medioni 1992) with three unknowns: height, roll and pitch.
 /// Heading and place do not show on level ground. The plane at a return goes through the next ring
@@ -18,7 +17,7 @@ namespace hagen::live {
 /// do older ones.
 class TurnMotion {
  public:
-    /// Of a sensor with so many rows, and images with so many columns. `zone_m`: of the filter.
+    /// Rows of the sensor, columns of the image, and the zone of the filter.
     TurnMotion(int rows, int columns, float zone_m);
 
     /// Compares a sector with the turn before, and keeps it for the next. One label per return;
@@ -26,9 +25,8 @@ class TurnMotion {
     void add(const Scan& sector, const std::vector<Label>& label, double head_rad);
     void forget();
 
-    /// Now from then, in the sensor frame: where that is now which was measured so many turns ago
-    /// (up to about one), if the sensor moves as in the latest turn. None: too little ground was
-    /// compared.
+    /// Transforms a point measured this many turns ago (up to about one) to the sensor frame of
+    /// now, if the sensor moves as in the latest turn. None: too little ground was compared.
     std::optional<Eigen::Isometry3d> since(double turns) const;
 
  private:
