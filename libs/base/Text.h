@@ -30,4 +30,10 @@ inline std::string lowerCase(std::string text) {
     return text;
 }
 
+/// Whether a text has this ending.
+inline bool endsWith(const std::string& text, const std::string& ending) {
+    return text.size() >= ending.size() &&
+           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
 }  // namespace hagen::base

@@ -265,12 +265,9 @@ TEST_F(SerialPeerTest, WorksAsFileDescriptorZero) {
     close(input);
 }
 
-TEST(SerialPeer, SendsWholeMessagesOnly) {
-    const test::TemporaryFolder folder;
-    const std::string name = (folder / "line").string();
-    const Line line(name);
-    const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
-    // Not read until the line is full.
+TEST_F(SerialPeerTest, SendsWholeMessagesOnly) {
+    const auto peer = open();
+    // Fill the line without reading.
     const std::size_t size = 200;
     std::uint8_t sent = 0;
     while (sent < 250 && peer->send(Bytes(size, sent))) ++sent;
@@ -290,12 +287,9 @@ TEST(SerialPeer, SendsWholeMessagesOnly) {
     for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i / size);
 }
 
-/// When the line is free again, stale obstacles are not sent first.
-TEST(SerialPeer, ReportsBlockedLineAndDropsBacklog) {
-    const test::TemporaryFolder folder;
-    const std::string name = (folder / "line").string();
-    const Line line(name);
-    const auto peer = Peer::open(parsePeer("serial:" + name + ":115200"));
+/// Stale obstacles are not sent once the line works again.
+TEST_F(SerialPeerTest, ReportsBlockedLineAndDropsBacklog) {
+    const auto peer = open();
     constexpr std::size_t kSize = 200;
     std::size_t sent = 0;
     while (sent < 250 && peer->send(Bytes(kSize, 1))) ++sent;
