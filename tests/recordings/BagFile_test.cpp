@@ -210,7 +210,7 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
     };
     expectBroken(chunk(far, "zstd"), "it claims to hold 9223372036854775807 bytes, more than");
     expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "brotli"),
-                 "a record at byte 8: cannot be unpacked: its compression 'brotli' is not known");
+                 "a record at byte 8: cannot be unpacked: its compression 'brotli' is not supported");
     expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "zstd"), "cannot be unpacked: ");
     expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "lz4"), "cannot be unpacked: ");
     expectBroken(chunk(ByteString("\5\0\0\0\0\0\0\0", 8), ""), "it holds 4 bytes and claims 5");
@@ -230,7 +230,7 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
         ros1 + test::ros1Record(
                    {{"op", "\x05"}, {"compression", "lz4"}, {"size", "\xff\xff\xff\x7f"}}, "abcd"),
         "it claims to hold 2147483647 bytes");
-    expectBroken(test::ros1BagOf(someMessages(), {"xz"}), "its compression 'xz' is not known");
+    expectBroken(test::ros1BagOf(someMessages(), {"xz"}), "its compression 'xz' is not supported");
 }
 
 TEST_F(BagFileTest, ReadsUnclosedRos1Bag) {
