@@ -179,7 +179,7 @@ void OutputPath::commit() {
     if (old.empty()) return;
     if (const std::error_code error = removeAll(old)) {
         failAt(path_,
-             "is complete, but the older one beside it cannot be removed: " + error.message());
+               "is complete, but the older one beside it cannot be removed: " + error.message());
     }
 }
 
@@ -188,7 +188,8 @@ fs::path OutputPath::replace() const {
     if (!fs::is_directory(temporary_) || !fs::is_directory(path_)) {
         std::error_code error;
         fs::rename(temporary_, path_, error);
-        if (error) failAt(path_, "cannot be replaced: " + error.message() + "; choose another name");
+        if (error)
+            failAt(path_, "cannot be replaced: " + error.message() + "; choose another name");
         return {};
     }
     // rename() does not replace a non-empty folder. An exchange leaves no moment without a folder.
@@ -267,15 +268,15 @@ void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path
             }
             if (fs::exists(*output) && isWithin(*output, input)) {
                 failAt(*output, "is in " + role + " " + input.string() +
-                                  " and may be a part of it, so it is not replaced; choose "
-                                  "another output");
+                                    " and may be a part of it, so it is not replaced; choose "
+                                    "another output");
             }
         }
         for (auto other = output + 1; other != outputs.end(); ++other) {
             if (other->empty()) continue;
             if (!isWithin(*output, *other) && !isWithin(*other, *output)) continue;
             failAt(output->string() + " and " + other->string(),
-                 "one output is inside the other; use separate paths");
+                   "one output is inside the other; use separate paths");
         }
     }
 }

@@ -30,7 +30,7 @@ std::ifstream openToRead(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) {
         failAt(file, std::string("cannot be read") +
-                       (errno == 0 ? "" : std::string(": ") + std::strerror(errno)));
+                         (errno == 0 ? "" : std::string(": ") + std::strerror(errno)));
     }
     return in;
 }
@@ -43,7 +43,7 @@ std::string readText(const std::filesystem::path& file, std::size_t most_bytes) 
         text.append(block, static_cast<std::size_t>(in.gcount()));
         if (text.size() > most_bytes) {
             failAt(file, "is larger than " + std::to_string(most_bytes >> 20) +
-                           " MiB, too large for a text");
+                             " MiB, too large for a text");
         }
     }
     if (in.bad()) failAt(file, "cannot be read");

@@ -209,8 +209,9 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
                                        name + ByteString("\4\0\0\0\0\0\0\0abcd", 12));
     };
     expectBroken(chunk(far, "zstd"), "it claims to hold 9223372036854775807 bytes, more than");
-    expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "brotli"),
-                 "a record at byte 8: cannot be unpacked: its compression 'brotli' is not supported");
+    expectBroken(
+        chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "brotli"),
+        "a record at byte 8: cannot be unpacked: its compression 'brotli' is not supported");
     expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "zstd"), "cannot be unpacked: ");
     expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "lz4"), "cannot be unpacked: ");
     expectBroken(chunk(ByteString("\5\0\0\0\0\0\0\0", 8), ""), "it holds 4 bytes and claims 5");

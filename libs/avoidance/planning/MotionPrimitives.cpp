@@ -83,7 +83,7 @@ Eigen::Vector3d endOf(const PlanningTask& task, const Eigen::Vector3d& command_m
 }
 
 double commandCost(const PlanningTask& task, const Eigen::Vector3d& aim_m,
-              const Eigen::Vector3d& command_m_s) {
+                   const Eigen::Vector3d& command_m_s) {
     const Eigen::Vector3d end_m = endOf(task, command_m_s);
     const Eigen::Vector3d offset_m = (aim_m - task.start.position_m);
     const Eigen::Vector2d flown_m = (end_m - task.start.position_m).head<2>();
@@ -96,7 +96,8 @@ double commandCost(const PlanningTask& task, const Eigen::Vector3d& aim_m,
     const bool stands = command_m_s.isZero() && offset_m.norm() > kAtGoal_m;
     return (stands ? kStandingCost : 0) - progress + kDeviationCost * deviation +
            kHeightCost_per_m * std::abs(end_m.z() - aim_m.z()) +
-           kOutOfAltitudesCost_per_m * outOfAltitudes(end_m.z(), task) + kCommandChangeCost * change;
+           kOutOfAltitudesCost_per_m * outOfAltitudes(end_m.z(), task) +
+           kCommandChangeCost * change;
 }
 
 std::vector<Candidate> rankedCandidates(const PlanningTask& task) {

@@ -69,7 +69,7 @@ double blockedCost(const PlanningTask& task, double free_m, double reach_m) {
 }
 
 double directionCost(const PlanningTask& task, const Eigen::Vector3d& target,
-              const Eigen::Vector3d& direction) {
+                     const Eigen::Vector3d& direction) {
     const double reach_m = kLookAhead_s * speedTowardsGoal(task);
     const double end_m = task.start.position_m.z() + reach_m * direction.z();
     const double speed_m_s = task.start.velocity_m_s.norm();

@@ -11,8 +11,8 @@ namespace hagen::sensors {
 namespace {
 
 constexpr double kFrame_s = 0.02;
-constexpr double kMaxFrame = 2;            // times as long as usual, by arrival
-constexpr double kPointInterval_s = 5e-6;  // of a Mid-360, if a packet does not contain it
+constexpr double kMaxFrame = 2;                 // times as long as usual, by arrival
+constexpr double kPointInterval_s = 5e-6;       // of a Mid-360, if a packet does not contain it
 constexpr std::size_t kMaxFramePackets = 1000;  // per frame, whatever the clock; usual are 42
 constexpr std::size_t kFramesOfScan = 5;
 

@@ -16,7 +16,7 @@ namespace hagen::sensors {
 namespace {
 
 constexpr long long kMaxLatePackets = 16;  // packets
-constexpr int kMaxTurns = 2;        // missing; more: the sensor was restarted
+constexpr int kMaxTurns = 2;               // missing; more: the sensor was restarted
 
 /// Reads the packets of one Ouster. Returns are relative to the origin of its beams (its lidar
 /// frame, with the axes of the sensor). Lost packets are those missing in complete turns, but for

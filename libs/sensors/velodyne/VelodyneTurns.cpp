@@ -12,10 +12,10 @@ namespace {
 constexpr std::size_t kMaxWaiting = 16, kOfSetClock = 16;
 constexpr double kFollows = 2.5;  // periods
 constexpr double kSecondUs = 1e6;
-constexpr double kEndOfTurnUs = 50e3;      // without packets
-constexpr double kMaxTurnUs = 250e3;       // the slowest sensors turn five times per second
+constexpr double kEndOfTurnUs = 50e3;          // without packets
+constexpr double kMaxTurnUs = 250e3;           // the slowest sensors turn five times per second
 constexpr std::size_t kMaxTurnPackets = 2000;  // more than any sensor sends in that time
-constexpr int kMinWrap = 100;              // 0.01 degrees; less is jitter of a sensor that stands
+constexpr int kMinWrap = 100;  // 0.01 degrees; less is jitter of a sensor that stands
 
 }  // namespace
 
