@@ -182,8 +182,8 @@ scan's first firing [s]. None if it is unknown.)")
             "The label of the LiDAR in the recording; bytes that are no UTF-8 are U+FFFD.")
         .def_property_readonly(
             "sensor", [](const PythonScan& scan) { return shownText(scan.sensor.name); },
-            R"(The model of the sensor, such as 'VLP-16'; 'recovered' if the beams are those that the
-clouds show.)")
+            R"(The model of the sensor, such as 'VLP-16'; 'recovered' if the beams were estimated
+from the clouds.)")
         .def_property_readonly("pose", &poseOf,
                                R"((4, 4) float64: from the sensor's frame at the time
 of the scan to the map. None if it is unknown.)")
@@ -222,8 +222,8 @@ void defineResult(py::module_& m) {
     py::class_<Segmented, std::shared_ptr<Segmented>>(m, "Result",
                                                       R"(The filter's result for one scan.
 
-Arrays share the memory of the result, and keep it alive: about 1 MB for a VLP-16. To keep the labels
-of many scans, copy them: result.labels.copy().)")
+Arrays share the memory of the result and keep it alive: about 1 MB for a VLP-16. To keep labels of
+many scans, copy them: result.labels.copy().)")
         .def_property_readonly(
             "labels",
             [](const py::object& self) {
