@@ -59,13 +59,13 @@ class ZeroAllocations : public testing::TestWithParam<const char*> {
     }
 };
 
-TEST_P(ZeroAllocations, OfThePapersPipeline) {
+TEST_P(ZeroAllocations, PaperPipeline) {
     expectNoAllocations(GetParam(), test::paperOptions(), {});
 }
 
-TEST_P(ZeroAllocations, OfTheDefaultPipeline) { expectNoAllocations(GetParam(), Options(), {}); }
+TEST_P(ZeroAllocations, DefaultPipeline) { expectNoAllocations(GetParam(), Options(), {}); }
 
-TEST_P(ZeroAllocations, WithAKnownAttitudeAndEveryOption) {
+TEST_P(ZeroAllocations, KnownAttitudeAndAllOptions) {
     Options options;
     options.ground_is_roi_below_m = 1.5f;
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
@@ -78,7 +78,7 @@ TEST_P(ZeroAllocations, WithAKnownAttitudeAndEveryOption) {
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
 }
 
-TEST(ZeroAllocationsAScan, OfCoordinates) {
+TEST(ZeroAllocationsPerScan, OfCoordinates) {
     if (!countsAllocations()) GTEST_SKIP() << "a sanitizer has malloc() for itself";
     const SensorModel sensor = sensorModel("HDL-64E");
     test::LabelledScan seen = test::scanScene(street(), sensor, 600, {0, 0, 1.7});

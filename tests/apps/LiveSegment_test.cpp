@@ -103,7 +103,7 @@ TEST_F(LiveSegment, RecordingConvertsToTheSameLabels) {
     EXPECT_GE(json["latency_ms"]["max"], json["latency_ms"]["p50"]);
 }
 
-TEST_F(LiveSegment, Mid360RecordingConvertsToTheSameLabels) {
+TEST_F(LiveSegment, Mid360RecordingKeepsLabels) {
     test::CaptureWriter writer;
     for (int k = 0; k < 700; ++k) {
         const std::int64_t time_ns = k * test::kLivoxPacket_ns;
@@ -125,7 +125,7 @@ TEST_F(LiveSegment, Mid360RecordingConvertsToTheSameLabels) {
 }
 
 /// Of real captures.
-TEST_F(LiveSegment, OusterRecordingConvertsToTheSameLabels) {
+TEST_F(LiveSegment, OusterRecordingKeepsLabels) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
     const std::vector<std::pair<std::string, std::string>> captures{

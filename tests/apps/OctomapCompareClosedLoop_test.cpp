@@ -117,7 +117,7 @@ std::vector<std::string> concatenated(const std::vector<fs::path>& tables) {
     return sortedLines(text);
 }
 
-TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
+TEST(ClosedLoopFlights, JobsAndShardsDoNotChangeRows) {
     const TemporaryFolder folder;
     const Outcome one = octomapCompare(flying(folder, "one", {"--jobs", "1"}));
     ASSERT_EQ(one.exit_code, 0) << one.err;
@@ -144,7 +144,7 @@ TEST(ClosedLoopFlights, TheSameBytesForAnyJobsAndShards) {
     EXPECT_EQ(readFile(folder / "one/runs.csv"), runs);
 }
 
-TEST(ClosedLoopFlights, SectorsAreAConditionThatLeavesTheRowsOfScansAsTheyAre) {
+TEST(ClosedLoopFlights, SectorsDoNotChangeRowsOfScans) {
     const TemporaryFolder folder;
     const auto fly = [&](const std::string& into, const std::string& updates,
                          const std::string& jobs) {
@@ -181,7 +181,7 @@ TEST(ClosedLoopFlights, SectorsAreAConditionThatLeavesTheRowsOfScansAsTheyAre) {
     EXPECT_EQ(readFile(folder / "scans/runs.csv"), both);
 }
 
-TEST(ClosedLoopFlights, MapsAndPathSearchesToo) {
+TEST(ClosedLoopFlights, CoversMapsAndPathSearches) {
     const TemporaryFolder folder;
     const auto fly = [&](const std::string& into, const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"closedloop",
@@ -237,7 +237,7 @@ TEST(ClosedLoopFlights, KeepsFinishedRunsWhenInterrupted) {
                                 "; the same command resumes there\n")));
 }
 
-TEST(ClosedLoopFlights, AFullDiskIsNamedAndWhatWasFinishedIsKept) {
+TEST(ClosedLoopFlights, KeepsFinishedRunsOnFullDisk) {
     const TemporaryFolder folder;
     auto arguments = flying(folder, "full", {"--jobs", "1"});
     ASSERT_EQ(octomapCompare(arguments).exit_code, 0);
@@ -251,7 +251,7 @@ TEST(ClosedLoopFlights, AFullDiskIsNamedAndWhatWasFinishedIsKept) {
     EXPECT_EQ(readFile(folder / "full/runs.csv").rfind(finished.substr(0, 400), 0), 0u);
 }
 
-TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
+TEST(ClosedLoop, RejectsWrongUsageBeforeWriting) {
     const TemporaryFolder folder;
     const auto fails = [&](const std::vector<std::string>& more, const std::string& part) {
         expectFailure(octomapCompare(flying(folder, "none", more)), 2, part);
@@ -290,7 +290,7 @@ TEST(ClosedLoop, WrongUsageIsToldBeforeAnythingIsMade) {
     expectFailure(octomapCompare({}), 2, "");
 }
 
-TEST(ClosedLoop, ABrokenProfileOrOneWithoutAStageIsNamed) {
+TEST(ClosedLoop, ReportsBrokenOrIncompleteProfile) {
     const TemporaryFolder folder;
     auto arguments = flying(folder, "none");
     auto& profile = *(std::find(arguments.begin(), arguments.end(), "--profile") + 1);
@@ -303,14 +303,14 @@ TEST(ClosedLoop, ABrokenProfileOrOneWithoutAStageIsNamed) {
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
-TEST(ClosedLoop, FoldersOfOthersAreLeftAlone) {
+TEST(ClosedLoop, KeepsForeignFolders) {
     const TemporaryFolder folder;
     folder.write("mine/file.txt", "text");
     expectFailure(octomapCompare(flying(folder, "mine", {"--overwrite"})), 1, "mine");
     EXPECT_EQ(readFile(folder / "mine/file.txt"), "text");
 }
 
-TEST(Calibrate, AsksForAnOutputAndKnownModels) {
+TEST(Calibrate, RequiresOutputAndKnownModels) {
     expectFailure(octomapCompare({"calibrate"}), 2, "-o");
     expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", "X"}), 2, "X");
     expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", "X"}), 2,

@@ -40,7 +40,7 @@ class OpenLoopCommand : public test::ProgramTest {
     }
 };
 
-TEST_F(OpenLoopCommand, TheOracleIsRightAndAllHaveDigestedTheSame) {
+TEST_F(OpenLoopCommand, OracleIsExactAndModelsGetSameScans) {
     simulate(4);
     const auto outcome =
         run({"-i", path("gap.rawlog"), "--poses", path("gap.tum"), "--truth-scenario", "gap",
@@ -79,7 +79,7 @@ TEST_F(OpenLoopCommand, TheOracleIsRightAndAllHaveDigestedTheSame) {
     for (const auto& [returns, times] : rows_of_returns) EXPECT_EQ(times, 3) << returns;
 }
 
-TEST_F(OpenLoopCommand, TheSameLogGivesTheSameBytesAndItsScanFolderTheSameFigures) {
+TEST_F(OpenLoopCommand, LogAndScanFolderGiveSameFigures) {
     simulate(4);
     ASSERT_EQ(run(gap("a")).exit_code, 0);
     ASSERT_EQ(run(with(gap("b"), {"-q"})).out, "");
@@ -92,14 +92,14 @@ TEST_F(OpenLoopCommand, TheSameLogGivesTheSameBytesAndItsScanFolderTheSameFigure
     EXPECT_THAT(folder.err, HasSubstr("4 scans were placed by one pose each"));
 }
 
-TEST_F(OpenLoopCommand, ALogWithPosesOfItsOwnNeedsNoFile) {
+TEST_F(OpenLoopCommand, UsesPosesOfLog) {
     const auto outcome = run({"-i", kOrchard, "--models", "W-RoI", "-o", path("out")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("30 scans of"));
     EXPECT_THAT(outcome.out, HasSubstr("truth: raw points of later scans"));
 }
 
-TEST_F(OpenLoopCommand, SaysHowManyScansLackAPose) {
+TEST_F(OpenLoopCommand, CountsScansWithoutPose) {
     simulate(6);
     std::istringstream poses(test::readFile(path("gap.tum")));
     std::string some;
@@ -125,7 +125,7 @@ TEST_F(OpenLoopCommand, SaysHowManyScansLackAPose) {
                   "contains no poses");
 }
 
-TEST_F(OpenLoopCommand, WhatIsNotReadIsToldAlsoWhereItIsQuiet) {
+TEST_F(OpenLoopCommand, ReportsSkippedDataDespiteQuiet) {
     simulate(4);
     std::ofstream(path("gap/velodyne/000009.BIN")) << "1234";
     const auto outcome = run(with({"-i", path("gap"), "-o", path("out"), "-q"}, kModels));
@@ -154,13 +154,13 @@ TEST_F(OpenLoopCommand, RefusesWrongUsage) {
     EXPECT_FALSE(fs::exists(path("no")));
 }
 
-TEST_F(OpenLoopCommand, ASceneThatIsNotTheLogsIsRefused) {
+TEST_F(OpenLoopCommand, RejectsSceneOfOtherLog) {
     expectFailure({"-i", kOrchard, "--truth-scenario", "orchard", "--truth-seed", "2", "--models",
                    "oracle", "-o", path("no")},
                   1, "was not simulated in orchard of seed 2");
 }
 
-TEST_F(OpenLoopCommand, LeavesWhatExistsAlone) {
+TEST_F(OpenLoopCommand, KeepsExistingFiles) {
     fs::create_directory(path("out"));
     folder_.write("out/scans.csv", "mine");
     expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("out")}, 1,
@@ -171,7 +171,7 @@ TEST_F(OpenLoopCommand, LeavesWhatExistsAlone) {
     expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("file")}, 1, "file");
 }
 
-TEST_F(OpenLoopCommand, OfABrokenMcapWhatWasDigestedIsKept) {
+TEST_F(OpenLoopCommand, KeepsScansBeforeBrokenMcapChunk) {
     simulate(12);
     const auto converted =
         test::run(HAGEN_RAWLOG_SEGMENT, {"-i", path("gap.rawlog"), "--mcap", path("gap.mcap")});
@@ -185,7 +185,7 @@ TEST_F(OpenLoopCommand, OfABrokenMcapWhatWasDigestedIsKept) {
     EXPECT_TRUE(fs::exists(path("cut/scans.partial.csv")));
 }
 
-TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
+TEST_F(OpenLoopCommand, KeepsScansBeforeBreakOfLog) {
     simulate(12);
     fs::resize_file(path("gap.rawlog"), fs::file_size(path("gap.rawlog")) * 2 / 3);
     const auto outcome = run(gap("out"));
@@ -211,7 +211,7 @@ TEST_F(OpenLoopCommand, OfABrokenLogWhatWasDigestedIsKeptAndTold) {
     EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), fs::directory_iterator()), 6);
 }
 
-TEST_F(OpenLoopCommand, SaysInPlainLinesHowFarItIsWhereThereIsNoTerminal) {
+TEST_F(OpenLoopCommand, PrintsPlainProgressWithoutTerminal) {
     simulate(4);
     const auto outcome = run(gap("out"));
     EXPECT_EQ(outcome.err.rfind("scan 1 of 4, about ", 0), 0u) << outcome.err;
@@ -220,7 +220,7 @@ TEST_F(OpenLoopCommand, SaysInPlainLinesHowFarItIsWhereThereIsNoTerminal) {
     EXPECT_EQ(run(with(gap("quiet"), {"-q"})).err, "");
 }
 
-TEST_F(OpenLoopCommand, AFileThatCannotBeWrittenCostsNoOther) {
+TEST_F(OpenLoopCommand, FailedOutputKeepsOthers) {
     const auto writing = [&](const std::string& limit_kib) {
         const std::string command = "ulimit -f " + limit_kib + "; exec " HAGEN_OCTOMAP_COMPARE +
                                     " openloop -i " + kOrchard + " --models W-RoI,W-Full -o " +

@@ -175,7 +175,7 @@ TEST(WriteCloud, PlyMatchesFormat) {
     fs::remove(file);
 }
 
-TEST(TableForPointCloud2, HasCoordinatesFirstAlignedAndNoLongIntegers) {
+TEST(TableForPointCloud2, StartsWithAlignedCoordinates) {
     PointTable input = twoPoints();
     addColumn("ns", NumberType::Int64, {9007199254740994.0, -1}, input);
     const PointTable table = tableForPointCloud2(input);

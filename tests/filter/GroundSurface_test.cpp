@@ -168,7 +168,7 @@ Grid slowSurface(const std::vector<Eigen::Vector3f>& points_m) {
     return expected_m;
 }
 
-TEST(GroundSurface, MatchesSlowFitWhereAllIsSeen) {
+TEST(GroundSurface, MatchesSlowFitInView) {
     for (unsigned seed = 82; seed < 84; ++seed) {
         test::Random random(seed);
         std::vector<Eigen::Vector3f> points;

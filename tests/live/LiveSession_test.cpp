@@ -436,7 +436,7 @@ TEST_F(LiveRecordingTest, KeepsExistingFiles) {
 }
 
 /// Of a vehicle that is rolled by 0.2, with a sensor that is pitched by 0.3 on it.
-TEST_F(LiveRecordingTest, WritesVehiclePosesOnThePacketClock) {
+TEST_F(LiveRecordingTest, WritesPosesInPacketTime) {
     options_.settings.mount.pitch_rad = 0.3f;
     const Eigen::Quaterniond rolled(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()));
     LiveListener listener;

@@ -226,7 +226,7 @@ TEST_F(CaptureSourceTest, ReportsTruncationAfterScans) {
     EXPECT_EQ(open()->scanTimes().at("velodyne").size(), 3u);
 }
 
-TEST_F(CaptureSourceTest, WhatOnlyReadingInAdvanceMissedIsTold) {
+TEST_F(CaptureSourceTest, ReportsLookAheadErrors) {
     const std::string bytes = test::readFile(capture_);
     for (const std::size_t last : {0u, 2u, 100u}) {
         SourceOptions options;
