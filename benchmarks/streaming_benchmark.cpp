@@ -1,4 +1,4 @@
-// What labels of sectors cost, and how they differ from those of whole scans: the table of
+// Cost of labelling sectors, and differences from labels of whole scans: the table of
 // docs/live.md.
 #include <hagen/live/LidarStream.h>
 #include <hagen/mrpt/ObservationScan.h>

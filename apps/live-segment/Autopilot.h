@@ -29,7 +29,7 @@ void checkAutopilot(const AutopilotFlags& flags);
 std::unique_ptr<live::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
                                                    const Settings& settings,
                                                    live::LiveListener& listener);
-/// What it sent and received, a line.
+/// Message counts in one line.
 std::string summaryOf(const live::AutopilotLink& link);
 
 }  // namespace hagen

@@ -150,7 +150,7 @@ std::string summaryOf(const live::LiveReport& r) {
     return text.str();
 }
 
-/// What failed in a session; empty: nothing.
+/// The failures of a session; empty without any.
 std::string failureOf(const live::LiveReport& report, const live::LiveOptions& options) {
     std::string failure = report.recorded.failure;
     if (report.recorded.left_out > 0) {

@@ -25,7 +25,7 @@ std::string clockOf(double seconds) {
     return text;
 }
 
-/// What remarks have in common that differ by their numbers and names.
+/// The common text of remarks that differ in numbers and names.
 std::string kindOf(const std::string& remark) {
     std::string kind;
     bool is_quoted = false;

@@ -1,4 +1,4 @@
-// What conversion-benchmark measured, as lines of JSON.
+// Results of conversion-benchmark as lines of JSON.
 #pragma once
 #include <cmath>
 #include <cstddef>

@@ -65,8 +65,8 @@ std::vector<std::string> drivesOf(const std::vector<ScanSet>& sets);
 double objectiveOf(const std::vector<ScanSet>& sets, const std::vector<Counts>& counts,
                    const std::string& left_out);
 
-/// What must not get worse: missed obstacle returns above 0.5 m of each group, without the sets of
-/// `left_out`.
+/// The limit that must not get worse: missed obstacle returns above 0.5 m of each group, without
+/// the sets of `left_out`.
 using MissedByGroup = std::array<std::int64_t, kGroups>;
 MissedByGroup missedOf(const std::vector<ScanSet>& sets, const std::vector<Counts>& counts,
                        const std::string& left_out);

@@ -64,7 +64,7 @@ def relinked(page, text, out, api):
         return pages.LINK.sub(lambda match: match[1] + target_on_site(match[2]) + match[3], prose)
 
     def title(match):
-        """What a link says that is only the name of a file, "[live.md](live.md)": the page's title."""
+        """The text of a link that was only a file name, "[live.md](live.md)": the page's title."""
         path = pages.ROOT / os.path.normpath(page.parent / match[1])
         return f"[{re.search(r'^# (.*)$', path.read_text(), re.M)[1]}]"
 

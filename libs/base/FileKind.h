@@ -6,7 +6,7 @@
 
 namespace hagen::base {
 
-/// What an unreadable file seems to be, for messages.
+/// The likely kind of an unreadable file, for messages.
 struct FileKind {
     std::string what;    ///< "a JPEG picture", "text"; empty if unknown
     std::string advice;  ///< "unpack it first"; may be empty

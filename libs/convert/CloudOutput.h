@@ -14,7 +14,7 @@ namespace hagen::convert {
 /// A folder of labelled clouds, or a folder of such folders, as an output.
 extern const base::OutputKind kClouds;
 
-/// What was changed in clouds when they were written, and in how many.
+/// Changes made to clouds when they were written, with counts.
 class CloudChanges {
  public:
     /// The changes in one cloud.
@@ -38,7 +38,7 @@ class CloudOutput {
 
     std::size_t files() const { return files_; }
     std::size_t points() const { return points_; }
-    /// What was changed in the files, for the user.
+    /// The changes in the files, for the user.
     std::vector<std::string> remarks() const { return changes_.texts(files_); }
 
     void commit() { folders_.commit(); }

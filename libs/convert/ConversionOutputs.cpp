@@ -233,7 +233,7 @@ bool ConversionOutputs::hasWholeParts(Part part) const {
            (part == kClouds && clouds_->files() > 0);
 }
 
-/// What was given up, why, and what of it is kept.
+/// The failed outputs, the reasons, and the parts that are kept.
 std::string ConversionOutputs::whatFailed() {
     std::string text;
     forEach([&](Part part, auto& output) {

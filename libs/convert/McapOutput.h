@@ -42,7 +42,7 @@ class McapOutput {
     std::size_t points() const { return points_; }
     std::size_t boxes() const { return boxes_; }
     std::size_t messages() const { return writer_.messages(); }
-    /// What was changed, for the user.
+    /// The changes, for the user.
     std::vector<std::string> remarks() const;
 
     /// Completes the file; nothing can be written afterwards.

@@ -28,7 +28,7 @@ struct WrittenField {
     std::size_t element;  ///< the first one of `from`
 };
 
-/// What a format cannot hold.
+/// The limits of a format.
 struct Limits {
     const char* format;
     bool has_long_integers, has_arrays;

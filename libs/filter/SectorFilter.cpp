@@ -215,7 +215,7 @@ void SectorFilter::State::keepHeights() {
     }
 }
 
-/// What follows the ground, for the columns that are judged, and stage 9.
+/// The stages after the ground, for the judged columns, and stage 9.
 void SectorFilter::State::labelSector(const SectorOfInterest& sector,
                                       const std::optional<Attitude>& horizon) {
     const Options& o = options;

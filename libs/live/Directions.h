@@ -4,7 +4,7 @@
 
 namespace hagen::live {
 
-/// What messages to an autopilot are made of: the middle of the first direction is straight ahead.
+/// The directions of messages to an autopilot: the middle of the first direction is straight ahead.
 using Direction = SectorDistances::Sector;
 using DirectionState = SectorDistances::State;
 using Directions = SectorDistances::Sectors;

@@ -41,7 +41,7 @@ using Scene = mrpt::viz::Scene;
 using VisualObject = mrpt::viz::CVisualObject;
 #endif
 
-/// What colour maps give: a TColor until version 2, a TColorf from 3 on.
+/// The result of colour maps: a TColor until version 2, a TColorf from 3 on.
 inline mrpt::img::TColor colorOf(const mrpt::img::TColor& color) { return color; }
 inline mrpt::img::TColor colorOf(const mrpt::img::TColorf& color) { return color.asTColor(); }
 

@@ -7,8 +7,8 @@
 
 namespace hagen::recordings {
 
-/// What an output rawlog holds of a scan of a capture, a bag or a live sensor: packets as they are,
-/// a cloud of the class asked for; null if none is asked for.
+/// The form of a scan of a capture, a bag or a live sensor in an output rawlog: packets as they
+/// are, a cloud of the class asked for; null if none is asked for.
 mrpt::serialization::CSerializable::Ptr objectOf(
     const mrpt::obs::CObservation::Ptr& scan,
     const std::optional<observations::CloudClass>& cloud_class);

@@ -4,7 +4,7 @@
 
 namespace hagen {
 
-/// What belongs to the airframe: what is near, in most scans, at the same range.
+/// Finds the airframe: near returns at the same range in most scans.
 struct AirframeRules {
     int rows = 90;                ///< of the bins: 2 degrees each
     float near_m = 1.5f;          ///< farther returns are never the airframe's

@@ -41,7 +41,7 @@ class SweepReader {
     /// The complete sweeps, oldest first. The caller takes them out.
     std::deque<LidarSweep>& complete() { return complete_; }
 
-    /// What was found of each sensor, with counts. Complete at the end, as the following.
+    /// Counts per sensor. Complete at the end, as the following.
     virtual std::vector<std::string> remarks() const = 0;
     /// ", "-separated counts of the ignored datagrams; "" if there are none.
     virtual std::string ignored() const = 0;

@@ -53,7 +53,7 @@ void parseOption(const OptionKey& key, const YAML::Node& node, Options& options)
     }
 }
 
-// The least that optionKeys() allows.
+// The minimum of optionKeys().
 constexpr int kMinColumns = 8, kMinWindow = 2;
 
 /// The keys of the section `sensor:`.

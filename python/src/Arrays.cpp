@@ -14,7 +14,7 @@ namespace {
 
 std::string shapeText(const py::array& array) { return textOf(array.attr("shape")); }
 
-/// Makes an array of what a caller has given. What this raises is the cause of a ValueError with
+/// Makes an array of an argument. Its exceptions are the cause of a ValueError with
 /// `text`; an interruption, and that there is no memory, stay what they are.
 template <class Array>
 Array converted(const py::object& values, const std::string& text) {

@@ -14,7 +14,7 @@
 
 namespace hagen::python {
 
-/// What to simulate, as the flags of rawlog-simulate.
+/// A simulation, with the flags of rawlog-simulate.
 struct SimulationRequest {
     std::string scenario;
     int scans = 1;

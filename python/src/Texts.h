@@ -14,7 +14,7 @@ pybind11::list shownTexts(const std::vector<std::string>& texts);
 /// The name of a file for Python: os.fsencode() returns its bytes.
 pybind11::str fileText(const std::string& name);
 
-/// What str() makes of an object. Surrogates, for which UTF-8 has no bytes, are escaped.
+/// The result of str() for an object. Surrogates, for which UTF-8 has no bytes, are escaped.
 std::string textOf(const pybind11::handle& object);
 
 /// From here on, exceptions whose text is no UTF-8 keep their type, and have it as by shownText().

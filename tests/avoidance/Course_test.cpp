@@ -31,7 +31,7 @@ Vector3f above(const Course& course, double x_m, double y_m, double height_m) {
     return Vector3d(x_m, y_m, course.scene.terrain().height_m(x_m, y_m) + height_m).cast<float>();
 }
 
-/// The least clearance on the straight way, at the altitude wanted, with what stands.
+/// The minimum clearance from static objects on the straight path at the wanted altitude.
 float minClearanceStraight_m(const Course& course) {
     float min_m = 1e9f;
     for (double x_m = course.start_m.x(); x_m <= course.goal_m.x(); x_m += 0.05) {

@@ -36,7 +36,7 @@ TEST(FreeDirections, AreUnitVectors) {
     }
 }
 
-/// What touches the sphere does not stop it.
+/// Contact does not stop the sphere.
 TEST(FreeDirections, TouchingIsFree) {
     const FreeDirectionOptions options;
     const auto leave_m = [&](float room_m) { return [room_m](const auto&) { return room_m; }; };

@@ -354,7 +354,7 @@ class BallModel : public WorldModel {
     float speed_m_s_;
 };
 
-/// The least distance from the ball's surface in 2 s, of which a command is held for 1.2 s.
+/// The minimum distance from the ball's surface in 2 s, if the command is held for 1.2 s.
 double nearestWay_m(const Eigen::Vector3d& command_m_s, double ball_first_m) {
     VehicleState state{{0, 0, 2}, {0, 0, 0}};
     double min_m = 1e9;

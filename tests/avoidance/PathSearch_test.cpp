@@ -33,7 +33,7 @@ double lengthOf(const Path& path_m) {
     return length_m;
 }
 
-/// The least clearance along the path, in steps of a centimetre.
+/// The minimum clearance along the path, in steps of 1 cm.
 double minClearance(const SolidWorld& world, const Path& path_m) {
     double min_m = WorldModel::kReach_m;
     for (std::size_t i = 1; i < path_m.size(); ++i) {

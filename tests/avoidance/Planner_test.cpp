@@ -12,7 +12,7 @@ using test::SmallFlight;
 using test::SmallFlightResult;
 using test::SolidWorld;
 
-/// A task in the air: eastwards, at 2 m, the goal far off.
+/// A task in the air: eastwards, at 2 m, with a distant goal.
 PlanningTask eastwards(double speed_m_s = 0) {
     PlanningTask task;
     task.start.position_m = {0, 0, 2};
@@ -68,7 +68,7 @@ TEST_P(Planners, ClimbToCarrot) {
 }
 
 TEST_P(Planners, KeepAltitudeLimits) {
-    // A wall that could be flown over, were it allowed; with no way around.
+    // A wall that could be flown over if the altitude limits allowed it, with no way around.
     SolidWorld world;
     world.ground(0).box({12, -40, 0}, {12.5f, 40, 5});
     SmallFlight over = flight();

@@ -430,7 +430,7 @@ std::size_t heap() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
 
 TEST(WorldModel, BytesMatchHeap) {
 #ifdef __SANITIZE_ADDRESS__
-    GTEST_SKIP() << "the sanitizer's heap does not tell its size";
+    GTEST_SKIP() << "the sanitizer's heap does not report its size";
 #endif
     for (const std::string& name : modelsThatLearn()) {
         simulation::Random random(5);
@@ -501,7 +501,7 @@ TEST(WorldModel, AcceptsDisplayNames) {
     EXPECT_EQ(worldModelFrom("OctoMap"), "OctoMap");
 }
 
-/// MRPT's own grid rounds its size; floats end to tell cells apart.
+/// MRPT's grid rounds its size; floats become too coarse for its cells.
 TEST(GridAtFarPlaces, RejectsBoundsBeyondFloatPrecision) {
     for (const float far_m : {1e3F, 5e4F, 1.9e5F}) {
         const Eigen::Vector3f there(far_m, -far_m, 0);

@@ -78,7 +78,7 @@ TEST(StageRows, HaveExpectedNames) {
     }
 }
 
-/// What stands in the document where there are these rows.
+/// The document with these rows.
 Performance small() {
     Performance p;
     for (const char* sensor : {"VLP-16", "16 x 435", "16 x 870", "16 x 1740", "16 x 3480",

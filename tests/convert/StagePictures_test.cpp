@@ -335,7 +335,7 @@ std::string errorWithGnuplot(const std::string& script) {
 }
 
 TEST(StagePictures, ReportTruncatedPicture) {
-    // What a full disk leaves: the program ends well, the files do not.
+    // With a full disk, the program succeeds but its files are incomplete.
     const std::string error = errorWithGnuplot(
         "for f in 1_depth 2_maxima; do printf '\\211PNG\\r\\n\\032\\nIHDR...' >$f.png; done\n");
     EXPECT_THAT(error, HasSubstr("1_depth.png could not be written completely"));

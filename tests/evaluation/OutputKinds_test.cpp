@@ -1,4 +1,4 @@
-// What outputs of each kind may hold, and so what may be replaced.
+// The permitted contents of outputs of each kind, which may be replaced.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>

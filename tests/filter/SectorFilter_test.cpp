@@ -48,7 +48,7 @@ Turn turnOf(const SimpleScene& scene, const SensorModel& sensor, double half_rad
     return turn;
 }
 
-/// What sectors found before, if it was no more than the labels.
+/// An earlier result of sectors that has labels only.
 std::vector<ContextReturn> contextOf(const std::vector<Label>& regions) {
     std::vector<ContextReturn> context;
     for (const Label region : regions) context.push_back({region, kNoValue});

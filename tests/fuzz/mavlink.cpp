@@ -1,4 +1,4 @@
-// Bytes of a MAVLink peer with any content, in parts of any size, and the motion that they tell.
+// Bytes of a MAVLink peer with any content, in parts of any size, and the motion in them.
 #include "live/autopilot/Messages.h"
 #include "live/autopilot/VehicleMotion.h"
 #include "live/mavlink/Parser.h"

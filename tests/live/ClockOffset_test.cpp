@@ -160,7 +160,7 @@ TEST(ClockOffset, DelayedMessagesAreOld) {
     }
 }
 
-/// Nobody can tell it from a link that stood still and stays late.
+/// It looks the same as a link that was blocked and stays late.
 TEST(ClockOffset, FollowsPausedSimulation) {
     for (const bool is_simulated : {false, true}) {
         ClockOffset clock(is_simulated);

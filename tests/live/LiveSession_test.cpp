@@ -267,7 +267,7 @@ TEST_F(LiveSessionTest, ReportsMissingReturns) {
                 ElementsAre(HasSubstr("no returns for 1 s"), HasSubstr("receiving returns")));
 }
 
-/// What came before a silence gets its labels although others send to the port.
+/// Packets before a pause are labelled although other sensors send to the port.
 TEST_F(LiveSessionTest, ForeignPacketsDoNotDelayLabels) {
     GivenPackets source;
     auto turn = turnsOf(1);
@@ -288,7 +288,7 @@ TEST_F(LiveSessionTest, ForeignPacketsDoNotDelayLabels) {
     EXPECT_EQ(cut_after, 74u + 10 + 1);
 }
 
-/// What waited is old: the newest packets are labelled first.
+/// After a backlog, the newest packets are labelled first.
 TEST_F(LiveSessionTest, DropsPacketsThatWaitedTooLong) {
     GivenPackets source;
     source.addAll(turnsOf(20)).pause(0.7).addAll(turnsOf(1, 4000000)).asSensor();

@@ -132,7 +132,7 @@ TEST_F(LivoxStreamTest, ClockSetBackWithDuplicatesDelaysNothing) {
     }
 }
 
-/// What waited in a network for long is not as new as what comes with it.
+/// Packets that were delayed by a network are older than those that arrive with them.
 TEST_F(LivoxStreamTest, DropsPacketsFarTooLate) {
     const auto packet = [](int i) { return packetOf(i, 5000000000 + kPacket_ns * i); };
     double time_s = 0;

@@ -108,7 +108,7 @@ TEST(UdpPeer, SendsAndReceives) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
-/// 0.0.0.0 is this machine, which answers from 127.0.0.1. What others send is not the peer's.
+/// 0.0.0.0 is this machine, which answers from 127.0.0.1. Datagrams of others are ignored.
 TEST(UdpPeer, IgnoresOtherSenders) {
     UdpEnd other;
     const auto peer = Peer::open(parsePeer("udp:0.0.0.0:" + std::to_string(other.port())));

@@ -12,7 +12,7 @@ struct Scheduling {
     int policy, priority;
 };
 
-/// What a thread with a policy and a priority has after lowerPriority(); policy -1 where the
+/// The priority of a thread after lowerPriority(); policy -1 where the
 /// system allows none that is real-time.
 Scheduling after(Scheduling before) {
     Scheduling result{-1, 0};

@@ -270,7 +270,7 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     const test::SimpleScene scene = sceneWithPole();
     const auto level = test::scanScene(scene, sensor_, kColumns, {0, 0, 2});
     const Attitude tilt{0, static_cast<float>(radians(3.0))};
-    // What a tilted sensor measures, as points of rays in its frame.
+    // Returns of a tilted sensor in its frame.
     test::LabelledScan tilted;
     const Eigen::Matrix3d turn = levelFromSensor(tilt).cast<double>();
     for (int column = 0; column < kColumns; ++column) {

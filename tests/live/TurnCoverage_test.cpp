@@ -85,7 +85,7 @@ TEST_F(TurnCoverageTest, NextTurnSweepsAgain) {
     EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700)}, {0, radians(5)}), radians(725));
 }
 
-/// What was swept before is not joined to what is swept now, where angles are by chance the next.
+/// Earlier sweeps are not joined to the current one, even where their angles are adjacent.
 TEST_F(TurnCoverageTest, AnglesContinueAfterRestart) {
     add(350, 370.5);
     EXPECT_EQ(add(10.5, 13), (Degrees{11.5, 12.5}));

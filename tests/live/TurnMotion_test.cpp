@@ -183,7 +183,7 @@ TEST_F(TurnMotionTest, ForgetsWithoutGround) {
     EXPECT_TRUE(motion_.since(1));
     fly({}, kSectors, Label::Roi);
     EXPECT_FALSE(motion_.since(1));
-    // What was seen before that turn is not compared.
+    // Earlier turns are not compared.
     fly({}, kSectors);
     EXPECT_FALSE(motion_.since(1));
 }

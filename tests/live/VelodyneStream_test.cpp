@@ -229,7 +229,7 @@ TEST_F(VelodyneStreamTest, SetClockIsInterruption) {
     EXPECT_EQ(stream_.counts().lost, 0u);
 }
 
-/// What a packet saw that was under way for more than a turn does not replace what is there now.
+/// A packet that was delayed by more than a turn does not replace newer directions.
 TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
     SectorDistances distances(sensorModel("VLP-16"));
     const auto countFree = [&](double now_s) {
@@ -351,7 +351,7 @@ TEST_F(VelodyneStreamTest, TakesPacketWithImplausibleSweep) {
     EXPECT_GT(all_.label.size(), 0u);
 }
 
-/// What an unsound block would have seen is not known: no sweep goes over it.
+/// The directions of an unsound block are unknown: no sweep covers them.
 TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
     auto packets = turnsOf(1);
     const auto setHeader = [&](int block, char value) {
@@ -416,7 +416,7 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     EXPECT_GT(counts.packets, 500u);  // in any order: many are too late
 }
 
-/// What only one beam sees: laser 9 of a VLP-32C looks 4.2 degrees behind the head.
+/// Directions of a single beam: laser 9 of a VLP-32C looks 4.2 degrees behind the head.
 TEST(VelodyneStreams, ObstacleOfLaggingBeamStays) {
     const auto& model = velodyneModel("VLP-32C");
     observations::Firings firings = test::fireAt({}, model, {0, 0, 2});

@@ -182,8 +182,8 @@ TEST(DepthCamera, RejectsInvalidScans) {
     }
 }
 
-/// What a camera of 58 x 45 degrees sees from 1.5 m above flat ground with a pole at 6 m, with the
-/// truth of each return.
+/// The view of a camera of 58 x 45 degrees from 1.5 m above flat ground with a pole at 6 m, with
+/// the truth of each return.
 struct Seen {
     CObservation3DRangeScan::Ptr observation = rangeImage();
     std::vector<Label> truth;

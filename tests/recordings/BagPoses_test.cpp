@@ -140,7 +140,7 @@ TEST_F(BagPosesTest, ComposesMovingTransforms) {
     expectClimb(*bag.scans->plan().poses);
     EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5, 1e-9);
     EXPECT_THAT(bag.scans->plan().remarks, testing::IsEmpty());
-    // What never changes between them is a part, too.
+    // Constant transforms between them are a part, too.
     const ReadBag still =
         read({cloud("/points"), moved(0, "base_link", "lidar", 0, 0, 1),
               moved(0.1, "base_link", "lidar", 0, 0, 2), transform("/tf", "odom", "base_link", 7)});

@@ -141,7 +141,7 @@ TEST_F(CloudFileTest, RejectsTruncatedFile) {
             const std::size_t size = k * (text.size() - 1) / 49;
             const std::string cut = text.substr(0, size);
             const bool is_shorter_bin = name == "points.bin" && size % 16 == 0;
-            // What follows the vertices is not read; a number's last digits may be cut.
+            // Bytes after the vertices are not read; a number's last digits may be cut.
             const std::size_t unread = name == "ascii.ply" ? 6 : name == "ascii.pcd" ? 7 : 5;
             const bool may_be_whole = name.find(".ply") != std::string::npos || name == "ascii.pcd"
                                           ? size + unread >= text.size()

@@ -77,7 +77,7 @@ class RawlogTrialTest : public testing::Test {
         writer.commit();
     }
 
-    /// What comes of the entries where the reader waits `times` times.
+    /// The entries if the reader waits `times` times.
     std::vector<EntryVerdict> verdicts(int times) {
         for (int i = 0; i < times; ++i) std::ofstream(locks / std::to_string(i)) << 'x';
         const int file = open((folder_ / "a.rawlog").c_str(), O_RDONLY | O_CLOEXEC);

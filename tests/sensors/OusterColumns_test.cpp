@@ -60,7 +60,7 @@ TEST_F(OusterColumnsTest, DetectsOtherModeAtOnce) {
     }
 }
 
-/// Where columns follow each other as fast as before, the number of the initialization tells.
+/// Where columns follow each other as fast as before, the initialization number decides.
 TEST_F(OusterColumnsTest, RestartedSensorMustShowColumns) {
     for (const OusterMode& mode : kOthers) {
         certain(kMode, 3);

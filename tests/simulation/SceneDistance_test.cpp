@@ -16,7 +16,7 @@ using test::sceneOf;
 
 const Eigen::AlignedBox3d kBounds(Eigen::Vector3d(-10, -10, -10), Eigen::Vector3d(10, 10, 10));
 
-/// The least of a convex function on [0, 1].
+/// The minimum of a convex function on [0, 1].
 template <class Function>
 double leastOf(const Function& function) {
     double low = 0, high = 1;

@@ -10,7 +10,7 @@ namespace hagen::avoidance {
 /// Of a plan, and of all plans of a folder: they are listed in memory.
 constexpr int kMaxFlights = 1'000'000;
 
-/// What to fly: every combination of the lists' entries.
+/// The flights: every combination of the lists' entries.
 struct CampaignPlan {
     std::vector<std::string> scenarios;
     std::uint64_t first_seed = 0, last_seed = 0;  ///< both included

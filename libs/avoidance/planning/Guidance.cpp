@@ -16,7 +16,7 @@ constexpr double kDetourHeightCost_per_m = 0.5;
 constexpr double kHeuristicWeight = 1.3;  ///< saves two thirds of the queries in dense forest
 constexpr int kMaxCells = 4000;
 
-/// The goal, level at the wanted altitude while it is far off: the ground in between is unknown.
+/// The goal, level at the wanted altitude while it is far away: the ground in between is unknown.
 Eigen::Vector3d levelGoal(const GuidanceTask& task) {
     Eigen::Vector3d goal_m = task.goal_m;
     const double distance_m = (task.goal_m - task.position_m).head<2>().norm();

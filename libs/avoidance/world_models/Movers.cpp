@@ -7,7 +7,7 @@
 namespace hagen::avoidance {
 namespace {
 
-// What may be wrong with a velocity, as a share of it (a turn is not foreseen) and as a share of
+// The error of a velocity, as a share of it (a turn is not foreseen) and as a share of
 // its standard deviation.
 constexpr float kDoubtOfSpeed = 0.1f, kDoubtOfSigma = 0.5f;
 

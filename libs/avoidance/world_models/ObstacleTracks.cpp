@@ -27,7 +27,7 @@ constexpr double kGate_m = 0.6, kGateOfWidth = 0.25;
 constexpr float kWidthChange_m = 1.4f, kWidthRatio = 1.4f;
 constexpr int kMaxMissed = 10;
 
-// What counts as moving.
+// Thresholds of moving obstacles.
 constexpr int kMinSeen = 3;
 constexpr double kMinSpeed_m_s = 0.5, kSigmas = 3, kRemembered_s = 0.6;
 constexpr std::size_t kCompared = 50;  // points of each sight

@@ -32,7 +32,7 @@ struct MissedGroup {
     Missed missed;
 };
 
-/// What matters to a drone, summed over scans.
+/// The scores for drones, summed over scans.
 struct DroneTotals {
     DroneScores all;
     std::vector<MissedGroup> by_range, by_kind;  ///< without empty parts

@@ -35,7 +35,7 @@ class AutopilotLink {
         bool is_simulated = false;  ///< the vehicle's clock may pause, or be slower than ours
         SectorDistances::Settings directions = aheadFirst();
     };
-    /// What was sent and received so far, by name.
+    /// Counts of sent and received messages by name.
     using Counts = std::vector<std::pair<std::string, std::size_t>>;
     /// Called by the thread that sends.
     using Remark = std::function<void(const std::string&)>;
@@ -51,7 +51,7 @@ class AutopilotLink {
     void begin(const SensorModel& sensor, Limits limits);
     /// Takes the sectors of the sensor. Requires begin().
     void take(const LabelledSector& sector);
-    /// How the sensor moves, as far as the autopilot tells.
+    /// The sensor's motion as reported by the autopilot.
     SensorMotion motionAt(double time_s) const;
     /// Sends for the last time.
     void stop();

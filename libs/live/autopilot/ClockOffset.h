@@ -20,7 +20,7 @@ class ClockOffset {
         double time_s;       ///< of our clock
         bool has_restarted;  ///< the vehicle's clock jumped or began anew: older times are void
     };
-    /// What our clock showed when a message was stamped; never after its arrival.
+    /// The local time at which a message was stamped; never after its arrival.
     Result ourTime(double stamp_s, double arrival_s);
 
  private:

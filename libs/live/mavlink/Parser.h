@@ -10,7 +10,7 @@
 
 namespace hagen::mavlink {
 
-/// Finds the MAVLink 2 messages in a stream of bytes, whatever is between them. What has a wrong
+/// Finds the MAVLink 2 messages in a stream of other bytes. A frame with a wrong
 /// checksum or an unknown number is not a message: reading resumes after its first byte, so that a
 /// message that follows is not lost. Never throws because of what the bytes are.
 class Parser {
@@ -27,7 +27,7 @@ class Parser {
 
     /// Adds bytes of a stream; calls `take` for each message that they complete.
     void add(const std::uint8_t* bytes, std::size_t size, const Take& take);
-    /// What was added ends here, as a datagram does: a message that began is not completed.
+    /// Ends the added bytes, as a datagram does: a partial message is not completed.
     void end(const Take& take);
 
     const Counts& counts() const { return counts_; }

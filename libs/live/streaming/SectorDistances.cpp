@@ -37,7 +37,7 @@ int directionOf(const Eigen::Vector2f& at_m, int number, double begin_rad) {
     return std::min(static_cast<int>(clockwise_rad / (kTurn_rad / number)), number - 1);
 }
 
-/// What a call of at() has found so far, from the newest sector to the oldest.
+/// The results of a call of at() so far, from the newest sector to the oldest.
 struct SectorDistances::Look {
     double now_s;
     const PoseAt& pose_at;
@@ -253,7 +253,7 @@ SectorDistances::Sectors SectorDistances::at(double now_s, const PoseAt& poseAt)
             continue;
         const Frames frames = framesOf(seen, look);
         const auto since_s = seen.all_around_since_s;
-        // What was seen since is at least as fresh.
+        // Later observations are at least as fresh.
         const bool is_swept =
             seen.turns ? is_fresh : (since_s && now_s - *since_s <= settings_.stale_s);
         if (is_swept) {

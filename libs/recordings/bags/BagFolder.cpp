@@ -18,7 +18,7 @@ constexpr const char* kMetadata = "metadata.yaml";
 constexpr const char* kSection = "rosbag2_bagfile_information";
 constexpr std::size_t kMaxMetadata = 2 << 20;
 
-/// What a metadata.yaml says about a bag.
+/// The content of a bag's metadata.yaml.
 struct Metadata {
     std::optional<YAML::Node> bag;
     std::string why_none;  ///< empty: there is no such file

@@ -297,7 +297,7 @@ class Planner {
 
     using Way = std::vector<const PoseSeries*>;
 
-    /// What leads from a frame up the tree.
+    /// The path from a frame up the tree.
     struct Climb {
         Way still;                       ///< transforms that never change, before the first moving
         std::vector<MovingStep> moving;  ///< from the first that moves on

@@ -13,7 +13,7 @@
 
 namespace hagen::recordings {
 
-/// What to read of a bag.
+/// Selects the topics of a bag.
 struct BagOptions {
     std::vector<std::string> topics;    ///< of LiDARs, with or without leading slash; empty: all
     std::filesystem::path sensor_json;  ///< metadata of its Ouster; empty: those of the bag

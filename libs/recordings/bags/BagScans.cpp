@@ -30,7 +30,7 @@ using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
 
-/// What was read of a topic.
+/// The messages of a topic.
 struct TopicState {
     std::string name;
     const BagSensor* sensor = nullptr;

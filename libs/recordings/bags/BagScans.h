@@ -35,7 +35,7 @@ class BagScans {
     std::size_t messagesRead() const;
     /// Fraction of the bag read so far, 0 ... 1.
     double fractionRead() const;
-    /// What was found on each topic, and what was left out. Complete at the end.
+    /// Remarks on each topic and on skipped messages. Complete at the end.
     std::vector<std::string> remarks() const;
 
  private:

@@ -36,7 +36,7 @@ struct PoseSeries {
     std::vector<RecordedPose> poses;  ///< at most one per 10 ms, in the order of the bag
 };
 
-/// What was left out of the messages of a topic of poses or frames.
+/// Skipped messages of a topic of poses or frames.
 struct LeftOut {
     struct Kind {
         std::size_t number = 0;
@@ -50,8 +50,8 @@ struct LeftOut {
 
 constexpr std::size_t kMaxMovingFrames = 1000;  ///< of tf; of tf_static: FrameTree::kMaxFrames
 
-/// What must be known about a bag before its first scan is read. A static transform, the metadata
-/// of a sensor or a pose may come after the scan that needs it.
+/// Facts about a bag that are needed before its first scan is read. A static transform, the
+/// metadata of a sensor or a pose may come after the scan that needs it.
 struct BagSurvey {
     struct Topic {
         BagTopic topic;

@@ -155,7 +155,7 @@ const OusterProfile& profileNamed(const std::string& name) {
                              ". Set one of these in the sensor's configuration and record again");
 }
 
-/// Metadata before firmware 3.2 do not name the header: then the profile tells.
+/// Metadata before firmware 3.2 do not name the header: then the profile decides.
 bool hasFusaHeader(const Metadata& metadata, const OusterProfile& profile) {
     if (profile.is_legacy) return false;
     const std::string header = metadata.text("header_type");

@@ -27,7 +27,7 @@ enum class ModelDistance { Unbiased, AsStored };
 std::string nameOf(ModelDistance distance);
 ModelDistance distanceFrom(const std::string& name);
 
-/// What updates the world model, and when.
+/// The updates of the world model.
 ///
 ///     scans    whole scans, each when the sensor's turn is complete: 10 Hz
 ///     sectors  sectors of 15 degrees, labelled by a StreamingSegmenter, each after its last

@@ -16,7 +16,7 @@
 
 namespace hagen::avoidance {
 
-/// What flies a course, and how. With a course and a latency profile it determines a run.
+/// The vehicle and its settings. With a course and a latency profile they determine a run.
 struct TrialSetup {
     std::string model = "W-RoI";
     std::string guidance = "astar";

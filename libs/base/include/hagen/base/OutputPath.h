@@ -54,7 +54,7 @@ class OutputPath {
     bool overwrites_;
 };
 
-/// What earlier runs left of an output, sorted by name: partial outputs (keepPartial()), and
+/// Leftovers of an output from earlier runs, sorted by name: partial outputs (keepPartial()), and
 /// temporary files of processes that have ended. Empty for an empty path.
 std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& output);
 

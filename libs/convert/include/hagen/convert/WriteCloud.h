@@ -24,7 +24,7 @@ const char* extensionOf(OutputFormat format);
 void writeCloud(const std::filesystem::path& file, OutputFormat format,
                 const observations::PointTable& table);
 
-/// What changes in a table when it is written, for the user: rounded numbers. Empty: nothing.
+/// Changes to a table when it is written, for the user: rounded numbers. Empty without any.
 std::vector<std::string> changesWhenWritten(OutputFormat format,
                                             const observations::PointTable& table);
 
@@ -33,7 +33,7 @@ std::vector<std::string> changesWhenWritten(OutputFormat format,
 /// many programs read them through pointers. It knows no 64-bit integers either; these become
 /// float64. Throws std::runtime_error if there is no x, y or z.
 observations::PointTable tableForPointCloud2(const observations::PointTable& table);
-/// What changes in it; see changesWhenWritten().
+/// Its changes; see changesWhenWritten().
 std::vector<std::string> changesInPointCloud2(const observations::PointTable& table);
 
 }  // namespace hagen::convert

@@ -7,7 +7,7 @@ namespace hagen::live {
 /// Times of a run of any length, in bounded memory: 1 us to 100 s in steps of 2 percent.
 class LatencyHistogram {
  public:
-    /// Adds a time; one that is not positive counts as the least.
+    /// Adds a time; values that are not positive count as the minimum.
     void add(double seconds);
 
     std::size_t count() const { return count_; }

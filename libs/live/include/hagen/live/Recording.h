@@ -19,7 +19,7 @@ struct RecordingOptions {
     }
 };
 
-/// What became of a recording.
+/// The result of a recording.
 struct Recorded {
     std::size_t packets = 0, poses = 0;        ///< written
     std::size_t left_out = 0;                  ///< datagrams that the disk was too slow for

@@ -82,7 +82,7 @@ class SectorDistances {
     static constexpr int kBins = kSectors * kParts;
     static constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-    /// What remains of a sector.
+    /// The remaining part of a sector.
     struct Seen {
         double first_time_s = 0, last_time_s = 0;
         bool turns = false;

@@ -61,7 +61,7 @@ struct LabelledSector {
     /// Of the sector and its context; its images have all columns around the sector only, and
     /// labels in these (SectorFilter.h).
     const SegmentationResult& result;
-    /// What each of its packets swept; less than `sweep`, if one is lost. Null: not known.
+    /// The sweep of each packet; less than `sweep` if one is lost. Null: unknown.
     const std::vector<Sweep>* packets = nullptr;
     /// Of a sensor that does not turn: for how long it measured. Infinity: it looked all around.
     double measured_s = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 #pragma once
-// What differs between MRPT 2.5 and later versions up to 3; scenes are in MrptScene.h.
+// Differences between MRPT 2.5 and later versions up to 3; scenes are in MrptScene.h.
 #include <hagen/mrpt/NewerClouds.h>
 #include <hagen/mrpt/RotatingScan.h>
 #include <mrpt/core/aligned_std_vector.h>

@@ -12,8 +12,8 @@
 
 namespace hagen::recordings {
 
-/// What must be known about a rawlog before its first scan is segmented. A pose may come after the
-/// scan that needs it.
+/// Facts about a rawlog that are needed before its first scan is segmented. A pose may come after
+/// the scan that needs it.
 struct RawlogSurvey {
     /// Vehicle poses from the best available source: CObservationRobotPose, then summed
     /// CActionRobotMovement3D, then CObservationOdometry, then summed CActionRobotMovement2D.

@@ -42,7 +42,7 @@ struct RecordedEntry {
     double fraction_read = 0;         ///< of the recording, this entry included: 0 ... 1
 };
 
-/// What a source reads.
+/// The options of a source.
 struct SourceOptions {
     std::vector<std::string> sensor_labels;  ///< LiDARs to read; empty: all
     std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive

@@ -15,7 +15,7 @@ struct OusterSensor;
 struct VelodyneCalibration;
 struct VelodyneModel;
 
-/// What a driver did with a datagram.
+/// The result of a datagram.
 enum class Taken {
     Yes,
     WrongSize,    ///< not a data packet
@@ -68,13 +68,13 @@ class LidarDriver {
     virtual ~LidarDriver() = default;
 
     virtual SensorModel sensor() const = 0;
-    /// `min_range_m`: the least range that counts.
+    /// `min_range_m`: the minimum range.
     virtual BeamOffsets beamOffsets(double /*min_range_m*/) const { return {}; }
     virtual bool turns() const { return true; }
     /// Whether the latest packet has two returns per firing.
     virtual bool isDual() const { return false; }
 
-    /// Whether a datagram holds data of this sensor, as far as it tells.
+    /// Whether a datagram seems to hold data of this sensor.
     virtual bool isData(const Datagram& datagram) const = 0;
     /// Whether packets have a serial number. Otherwise, sensors of one model differ by address.
     virtual bool hasSerial() const { return false; }
