@@ -1,8 +1,10 @@
 // For LD_PRELOAD, by faults_test.py. With HAGEN_FAILING_NEW=N, the N-th allocation by `new`,
 // counted from the start of main(), fails once, also in programs that the process starts. 0: none
-// fails, and their number is printed at the end. malloc() is not affected: C libraries report its
-// failure.
+// fails, and their number is printed at the end. The failing one prints its call stack. malloc() is
+// not affected: C libraries report its failure.
 #include <dlfcn.h>
+#include <execinfo.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -33,7 +35,11 @@ int countedMain(int argc, char** argv, char** environment) {
 }
 
 void* allocated(std::size_t size, std::size_t alignment) {
-    if (is_in_main && ++allocations == failing) throw std::bad_alloc();
+    if (is_in_main && ++allocations == failing) {
+        void* frames[64];
+        backtrace_symbols_fd(frames, backtrace(frames, 64), STDERR_FILENO);
+        throw std::bad_alloc();
+    }
     // aligned_alloc() wants a multiple of the alignment.
     void* const memory = std::aligned_alloc(
         alignment, (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment);
