@@ -33,8 +33,8 @@ function(hagen_hot target)
   target_compile_options(${target} PRIVATE -falign-functions=64 -falign-loops=32 -falign-jumps=16)
 endfunction()
 
-# hagen_unity(TARGET SOURCE...): compiles sources in batches, which halves the time of a build. Those that Highway compiles
-# once per instruction set stay alone.
+# hagen_unity(TARGET SOURCE...): compiles sources in batches, which makes builds faster. Those that Highway compiles once
+# per instruction set stay alone.
 option(HAGEN_UNITY_BUILD "Compile the libraries in batches of sources" ON)
 function(hagen_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${HAGEN_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 25)

@@ -12,7 +12,7 @@ constexpr double kSilence_s = 1.0;  // is reported; then another address can be 
 /// or another that starts to send while this one is silent.
 class SensorAddress {
  public:
-    /// Whether a packet from this address is of the sensor. Unsound packets count, too.
+    /// Whether a packet from this address belongs to the sensor. Unsound packets count as well.
     bool take(std::uint32_t ip, double arrival_s);
     /// None before the first packet.
     std::optional<std::uint32_t> ip() const {

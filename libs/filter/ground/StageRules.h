@@ -1,5 +1,6 @@
 // The numbers of the ground stages, for their definitions and for simd/. Distances are in metres,
-// slopes in metres per metre; each stage's header gives the reasons.
+// slopes in metres per metre; each stage's header gives the reasons. Halved and doubled, they
+// change the scores as in docs/results/sensitivity.csv (scripts/measure-sensitivity).
 #pragma once
 #include <algorithm>
 #include <cmath>

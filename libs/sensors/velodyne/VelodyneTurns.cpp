@@ -44,8 +44,8 @@ void VelodyneTurns::add(const VelodynePacket& packet) {
     if (held_.size() >= kOfSetClock) setClock();
 }
 
-/// So far back, one packet waited in a network, or is a copy. Several in a row are of a clock that
-/// was set.
+/// A single packet this old was delayed by the network or is a duplicate. Several in a row mean that
+/// the clock was set.
 void VelodyneTurns::setClock() {
     flush();
     endTurn();
