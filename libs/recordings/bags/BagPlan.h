@@ -59,9 +59,9 @@ constexpr std::size_t kMaxLidarTopics = 100;  ///< read without being named
 /// base_footprint, and without poses also the frame on which a sensor hangs in the end. Poses are
 /// taken for those of a sensor that has no place in that frame, with a remark.
 ///
-/// Throws std::runtime_error naming the file if a requested topic is missing or is not a LiDAR's, if
-/// the bag has no LiDAR topic, if it has more than kMaxLidarTopics and none is requested, or if the
-/// metadata of an Ouster are missing or wrong. `survey` must outlive the plan.
+/// Throws std::runtime_error naming the file if a requested topic is missing or is not a LiDAR's,
+/// if the bag has no LiDAR topic, if it has more than kMaxLidarTopics and none is requested, or if
+/// the metadata of an Ouster are missing or wrong. `survey` must outlive the plan.
 BagPlan planOf(const std::filesystem::path& file, const BagSurvey& survey,
                const BagOptions& options);
 

@@ -12,8 +12,8 @@ constexpr std::size_t kLateOfSetClock = 4;          // packets in a row
 
 }  // namespace
 
-/// A single late packet was delayed by the network. Several late packets in a row, shortly after one
-/// another, mean that the clock was set back.
+/// A single late packet was delayed by the network. Several late packets in a row, shortly after
+/// one another, mean that the clock was set back.
 bool LivoxSequence::wentBack(std::uint64_t time_ns) {
     const bool follows =
         too_late_in_a_row_ > 0 && time_ns > too_late_ns_ && time_ns - too_late_ns_ <= kMaxLate_ns;

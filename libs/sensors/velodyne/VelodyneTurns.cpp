@@ -44,8 +44,8 @@ void VelodyneTurns::add(const VelodynePacket& packet) {
     if (held_.size() >= kOfSetClock) setClock();
 }
 
-/// A single packet this old was delayed by the network or is a duplicate. Several in a row mean that
-/// the clock was set.
+/// A single packet this old was delayed by the network or is a duplicate. Several in a row mean
+/// that the clock was set.
 void VelodyneTurns::setClock() {
     flush();
     endTurn();
