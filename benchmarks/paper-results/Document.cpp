@@ -289,9 +289,9 @@ std::string ablationSection(const std::vector<Measured>& all) {
     return "## Ablation\n\n"
            "`default` with one stage removed at a time: first our stages, then those of the "
            "paper. Bold scores are higher without the stage.\n\n" +
-           ablationTable(
-               all, "`default`", kDefault, kDefault,
-               {ownStagesOfSurface(), ownStages(), paperStages(), paperStagesUnderSurface()})
+           ablationTable(all, "`default`", kDefault, kDefault,
+                         {ablationOf(StageGroup::Surface), ablationOf(StageGroup::Own),
+                          ablationOf(StageGroup::Paper), paperStagesUnderSurface()})
                .text() +
            "The ground surface relabels every pixel and thus hides the effect of earlier stages. "
            "[The ablation without it](results/ablation_without_surface.csv) also lacks canopy "
@@ -299,8 +299,9 @@ std::string ablationSection(const std::vector<Measured>& all) {
 }
 
 Table ablationWithoutSurface(const std::vector<Measured>& all) {
-    return ablationTable(all, "no ground surface", nameOf(kDefault, ownStagesOfSurface().front()),
-                         kWithoutSurface, {ownStages(), paperStages()});
+    return ablationTable(all, "no ground surface",
+                         nameOf(kDefault, {"", "ground_surface", "false"}), kWithoutSurface,
+                         {ablationOf(StageGroup::Own), ablationOf(StageGroup::Paper)});
 }
 
 // ---- provenance

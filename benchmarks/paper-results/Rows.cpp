@@ -8,8 +8,6 @@ const std::string kDefault = "default", kPaper = "paper", kWithoutSurface = "wit
 
 namespace {
 
-const Change kNoSurface{"no ground surface", "ground_surface", "false"};
-
 std::vector<Change> sweep(const std::string& symbol, const std::string& key,
                           const std::vector<std::string>& values) {
     std::vector<Change> changes;
@@ -70,28 +68,13 @@ const std::vector<Change>& componentSweep() {
     static const auto changes = sweep("PC", "principal_components", {"2", "4", "5", "8"});
     return changes;
 }
-const std::vector<Change>& ownStages() {
-    static const std::vector<Change> changes{{"no seed gate", "seed_gate_deg", "90"},
-                                             {"no context beyond the zone", "context_m", "zone"},
-                                             {"no attitude", "level_by_attitude", "false"}};
-    return changes;
-}
-const std::vector<Change>& ownStagesOfSurface() {
-    static const std::vector<Change> changes{
-        kNoSurface,
-        {"no evidence of ground needed", "ground_evidence", "false"},
-        {"no canopy layer", "canopy_layer", "false"},
-        {"obstacles not extended to the ground", "grow_feet", "false"},
-        {"no speckle filter", "remove_specks", "false"},
-        {"same tolerance next to tall obstacles", "ground_tolerance_beside_tall", "0"}};
-    return changes;
-}
-const std::vector<Change>& paperStages() {
-    static const std::vector<Change> changes{
-        {"no persistence: all maxima sharpened", "persistence_m", "0"},
-        {"no sharpening: no maximum is kept", "persistence_m", "1000"},
-        {"no gap repair", "repair_max_step_m", "0"},
-        {"no SSA: PC = W", "principal_components", "W"}};
+std::vector<Change> ablationOf(StageGroup group) {
+    std::vector<Change> changes;
+    for (const OptionKey& key : optionKeys()) {
+        for (const Ablation& off : key.ablations) {
+            if (off.group == group) changes.push_back({off.what, key.name, off.value});
+        }
+    }
     return changes;
 }
 
@@ -119,13 +102,13 @@ evaluation::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& c
     for (const auto& changes : {betaSweep(), componentSweep()}) {
         addChanges(kPaper, paper, changes, all.filter);
     }
-    for (const auto& changes :
-         {ownStagesOfSurface(), ownStages(), paperStages(), paperStagesUnderSurface()}) {
+    for (const auto& changes : {ablationOf(StageGroup::Surface), ablationOf(StageGroup::Own),
+                                ablationOf(StageGroup::Paper), paperStagesUnderSurface()}) {
         addChanges(kDefault, ours, changes, all.filter);
     }
     Settings without_surface = ours;
-    setOption(kNoSurface.key, kNoSurface.value, without_surface);
-    for (const auto& changes : {ownStages(), paperStages()}) {
+    setOption("ground_surface", "false", without_surface);
+    for (const auto& changes : {ablationOf(StageGroup::Own), ablationOf(StageGroup::Paper)}) {
         addChanges(kWithoutSurface, without_surface, changes, all.filter);
     }
     return all;

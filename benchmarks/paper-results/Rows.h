@@ -7,6 +7,7 @@
 
 #include "DataSets.h"
 #include "evaluation/labelled_folders/Methods.h"
+#include "filter/OptionKeys.h"
 
 namespace hagen {
 
@@ -23,11 +24,8 @@ std::string nameOf(const std::string& filter, const Change& change);
 /// The two sweeps of the paper.
 const std::vector<Change>& betaSweep();
 const std::vector<Change>& componentSweep();
-/// Ablations: each stage switched off. Of our stages, those that do not depend on the ground
-/// surface are separate.
-const std::vector<Change>& ownStages();
-const std::vector<Change>& ownStagesOfSurface();
-const std::vector<Change>& paperStages();
+/// Each stage of a group switched off (OptionKeys.h).
+std::vector<Change> ablationOf(StageGroup group);
 /// Those that only the ground surface makes up for: without it they leave nothing to score.
 const std::vector<Change>& paperStagesUnderSurface();
 

@@ -14,6 +14,12 @@ std::string shortest(float value) {
     return {text, end};
 }
 
+using Ablations = std::vector<Ablation>;
+Ablations off(StageGroup group, const char* value, const char* what) {
+    return {{group, value, what}};
+}
+Ablations both(const Ablations& a, const Ablations& b) { return {a.front(), b.front()}; }
+
 }  // namespace
 
 const std::vector<OptionKey>& optionKeys() {
@@ -22,16 +28,18 @@ const std::vector<OptionKey>& optionKeys() {
          &Options::zone_m, ""},
         {"context_m", "m", 0.1, std::numeric_limits<double>::infinity(),
          "returns up to this range enter the image, as context; never less than zone_m", "",
-         &Options::context_m, ""},
+         &Options::context_m, "", off(StageGroup::Own, "zone", "no context beyond the zone")},
         {"columns", "px", 8, 10000, "columns of the image per revolution", "I_w", &Options::columns,
          ""},
         {"repair_max_step_m", "m", 0, 1000,
          "fill one-pixel gaps between vertical neighbours that differ by less; 0: off", "",
-         &Options::repair_max_step_m, ""},
+         &Options::repair_max_step_m, "", off(StageGroup::Paper, "0", "no gap repair")},
         {"bridge_dead_beams", "", 0, 1, "fill the rows of beams that never return", "",
          &Options::bridge_dead_beams, ""},
         {"persistence_m", "m", 0, 1000, "minimum persistence of a maximum that is sharpened", "",
-         &Options::persistence_m, ""},
+         &Options::persistence_m, "",
+         both(off(StageGroup::Paper, "0", "no persistence: all maxima sharpened"),
+              off(StageGroup::Paper, "1000", "no sharpening: no maximum is kept"))},
         {"sharpening_sigma_px", "px", 0.01, 100, "spatial Gaussian of the bilateral filter", "g_s",
          &Options::sharpening_sigma_px, ""},
         {"sharpening_sigma_m", "m", 0.01, 100, "range Gaussian of the bilateral filter", "g_r",
@@ -51,7 +59,7 @@ const std::vector<OptionKey>& optionKeys() {
         {"window_size", "angles", 2, 64, "rows of the trajectory matrix", "W",
          &Options::window_size, ""},
         {"principal_components", "", 1, 64, "leading components kept; equal to W: no smoothing",
-         "PC", &Options::principal_components, ""},
+         "PC", &Options::principal_components, "", off(StageGroup::Paper, "W", "no SSA: PC = W")},
         {"beta_deg", "deg", 0, 90, "neighbours whose angles differ by less are one region", "beta",
          &Options::beta_deg, ""},
         {"seeds", "", 0, 2,
@@ -59,16 +67,17 @@ const std::vector<OptionKey>& optionKeys() {
          &Options::seeds, "paper"},
         {"seed_gate_deg", "deg", 0, 90,
          "a column's seed is ground only if its angle is less; 90: always", "",
-         &Options::seed_gate_deg, ""},
+         &Options::seed_gate_deg, "", off(StageGroup::Own, "90", "no seed gate")},
         {"level_by_attitude", "", 0, 1,
          "gravity-aligned angles if the log contains the sensor's attitude", "",
-         &Options::level_by_attitude, ""},
+         &Options::level_by_attitude, "", off(StageGroup::Own, "false", "no attitude")},
         {"ground_surface", "", 0, 1,
          "relabel all pixels by their height above a surface fitted to the ROU", "",
-         &Options::ground_surface, ""},
+         &Options::ground_surface, "", off(StageGroup::Surface, "false", "no ground surface")},
         {"ground_evidence", "", 0, 1,
          "ROU only where level returns show that the surface is ground; otherwise RoI", "",
-         &Options::ground_evidence, ""},
+         &Options::ground_evidence, "",
+         off(StageGroup::Surface, "false", "no evidence of ground needed")},
         {"ground_tolerance_m", "m", 0, 10,
          "a return is RoI if it is higher above that surface than this", "",
          &Options::ground_tolerance_m, ""},
@@ -76,15 +85,17 @@ const std::vector<OptionKey>& optionKeys() {
          &Options::ground_tolerance_per_m, ""},
         {"ground_tolerance_beside_tall", "m/m", 0, 1,
          "minus this per metre of height of the obstacle there", "",
-         &Options::ground_tolerance_beside_tall, ""},
+         &Options::ground_tolerance_beside_tall, "",
+         off(StageGroup::Surface, "0", "same tolerance next to tall obstacles")},
         {"canopy_layer", "", 0, 1,
          "a low layer that covers most of the surroundings is crop canopy: ROU", "",
-         &Options::canopy_layer, ""},
+         &Options::canopy_layer, "", off(StageGroup::Surface, "false", "no canopy layer")},
         {"grow_feet", "", 0, 1, "extend obstacles down to the ground surface", "",
-         &Options::grow_feet, ""},
+         &Options::grow_feet, "",
+         off(StageGroup::Surface, "false", "obstacles not extended to the ground")},
         {"remove_specks", "", 0, 1,
          "remove speckle: an uncertain isolated pixel takes its neighbours' label", "",
-         &Options::remove_specks, ""},
+         &Options::remove_specks, "", off(StageGroup::Surface, "false", "no speckle filter")},
         {"ground_is_roi_below_m", "m", 0, 1000,
          "ground less than this below the sensor is RoI; 0: off", "",
          &Options::ground_is_roi_below_m, ""},

@@ -6,14 +6,26 @@
 
 namespace hagen {
 
-/// A settings key of an option, by its name in reports and sweeps. Parsing, range checks, sweeps
-/// and `rawlog-segment --config-keys` all use this table.
+/// The part of the pipeline that a switch belongs to: the paper's stages, ours before the ground
+/// surface, and the ground surface with all that needs it.
+enum class StageGroup { Paper, Own, Surface };
+
+/// A row of the ablation: the value of a setting that switches a stage off.
+struct Ablation {
+    StageGroup group;
+    std::string value;  ///< "zone" and "W" stand for the values of zone_m and window_size
+    std::string what;   ///< name of the row
+};
+
+/// A settings key of an option, by its name in reports and sweeps. Parsing, range checks, sweeps,
+/// `rawlog-segment --config-keys` and the ablation all use this table.
 struct OptionKey {
     std::string name, unit;
     double least, most;        ///< allowed range, both inclusive
     std::string what, symbol;  ///< one-line description; the paper's symbol, if any
     std::variant<float Options::*, int Options::*, bool Options::*, Seeds Options::*> field;
     std::string section;  ///< of settings files; "paper" for readings of the paper
+    std::vector<Ablation> ablations = {};
 };
 const std::vector<OptionKey>& optionKeys();
 
