@@ -33,7 +33,7 @@ std::string dataSection(const std::vector<Measured>& all, const Provenance& prov
     std::string seeds;
     for (const auto seed : provenance.seeds)
         seeds += (seeds.empty() ? "" : ", ") + std::to_string(seed);
-    return "## Data\n\n" + table.text() + "Simulated flights have the seeds " + seeds +
+    return "## Data\n\n" + table.text() + "Simulated flights use the seeds " + seeds +
            " (tuning used seeds 1 and 2), roll and pitch with a standard deviation of 4 degrees, "
            "and one scan every 6 s. Only `default` uses the attitude.\n\n" +
            (those(all, [](const DataSet& set) { return set.flights.empty(); }).empty()
@@ -125,7 +125,7 @@ std::string pclNote(const std::vector<Measured>& all) {
 std::string headlineSection(const std::vector<Measured>& all) {
     return "## Comparison with other methods\n\n"
            "`paper` is our reading of the paper (`config/paper.yaml`; [other "
-           "readings](paper.md)), `default` are our presets (`config/vlp16.yaml`, `hdl32e.yaml` "
+           "readings](paper.md)), `default` our presets (`config/vlp16.yaml`, `hdl32e.yaml` "
            "or `hdl64e.yaml`, depending on the sensor). [baselines.md](baselines.md) describes "
            "the other methods. `default` and the `tuned` rows were tuned on these real scans, so "
            "their scores there are **in-sample**. Bold marks the highest score of a row.\n\n" +
@@ -179,13 +179,13 @@ std::string sweepTable(const std::vector<Measured>& all, const std::vector<Chang
 
 std::string paperSection(const std::vector<Measured>& all) {
     return "## The paper's tables\n\n"
-           "The paper varies beta and PC and scores RoI over fifty hand-labelled camera images, "
+           "The paper varies beta and PC and scores RoI on fifty hand-labelled camera images, "
            "which we do not have. It reports the best scores at beta = 10 degrees and PC = 5. "
            "Here the scans are `real` (SemanticKITTI at 16 beams) and `simulated` (the flights "
-           "at 1.5, 2.5 and 4 m). W is 8, so PC = 8 means no smoothing.\n\nOver returns:\n\n" +
+           "at 1.5, 2.5 and 4 m). W is 8, so PC = 8 means no smoothing.\n\nScored on returns:\n\n" +
            sweepTable(all, betaSweep(), "beta [deg]", &evaluation::MethodScores::returns) +
            sweepTable(all, componentSweep(), "PC", &evaluation::MethodScores::returns) +
-           "Over the pixels of a forward-looking camera (`config/camera_forward.yaml`), as in "
+           "Scored on the pixels of a forward-looking camera (`config/camera_forward.yaml`), as in "
            "the paper:\n\n" +
            sweepTable(all, betaSweep(), "beta [deg]", &evaluation::MethodScores::pixels) +
            sweepTable(all, componentSweep(), "PC", &evaluation::MethodScores::pixels);
@@ -293,7 +293,7 @@ std::string ablationSection(const std::vector<Measured>& all) {
                          {ablationOf(StageGroup::Surface), ablationOf(StageGroup::Own),
                           ablationOf(StageGroup::Paper), paperStagesUnderSurface()})
                .text() +
-           "The ground surface relabels every pixel and thus hides the effect of earlier stages. "
+           "The ground surface relabels every pixel, which hides the effect of earlier stages. "
            "[The ablation without it](results/ablation_without_surface.csv) also lacks canopy "
            "layer, extension to the ground, speckle filter and tolerances.\n\n";
 }

@@ -114,12 +114,12 @@ std::string hardSection(const std::vector<Measured>& all) {
     if (data.empty()) return "";
     return "## Hard sets\n\n"
            "Scores of `default` on degraded copies of the scans "
-           "([degradations](evaluation.md#hard-sets)). Changes of F1 are in points of 0.01.\n\n"
-           "Degradations that cost more than " +
-           cell(kCostly_points, 1) + " points of RoI's F1:\n\n" +
-           costlyList(data, &Degraded::roi_points) + "Of ROU's F1:\n\n" +
-           costlyList(data, &Degraded::rou_points) + "The " + std::to_string(kShown) +
-           " that cost most of RoI's F1 ([all](results/hard.csv)):\n\n" +
+           "([degradations](evaluation.md#hard-sets)). Changes in F1 are in points of 0.01.\n\n"
+           "Degradations that lower F1 of RoI by more than " +
+           cell(kCostly_points, 1) + " points:\n\n" + costlyList(data, &Degraded::roi_points) +
+           "F1 of ROU:\n\n" + costlyList(data, &Degraded::rou_points) + "The " +
+           std::to_string(kShown) +
+           " degradations that lower F1 of RoI most ([all](results/hard.csv)):\n\n" +
            hardTable(data, kShown).text();
 }
 

@@ -67,7 +67,7 @@ std::string leftOutSection(const std::vector<Measured>& all,
         "simulated flights and degraded copies of both (" +
         listed(record->hard_sets) +
         "; [method](evaluation.md#choosing-settings)). The first search starts from the presets, "
-        "which were tuned on all drives, and often stays there. The search from a plain start is "
+        "which were tuned on all drives, and often ends there. The search from a plain start is "
         "the stricter test. The stages themselves were developed on these drives. Intervals are "
         "Student's t over the drives.\n\n" +
         selection::scoreTable(*record);

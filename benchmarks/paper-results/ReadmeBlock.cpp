@@ -11,7 +11,7 @@ namespace {
 
 std::string leftOutText(const std::optional<selection::Record>& record) {
     if (!record) return "";
-    return "On real drives whose settings were chosen without them, means over drives:\n\n" +
+    return "Real drives, each scored with settings chosen without it, means over drives:\n\n" +
            selection::meanTable(*record);
 }
 
@@ -47,7 +47,7 @@ std::string readmeBlock(const std::vector<Measured>& all,
     }
     return table.text() +
            "Missed: obstacle returns more than 0.5 m above the ground that are not RoI. Nothing "
-           "found: obstacles without a single RoI return. False RoI: returns per scan on bare "
+           "found: obstacles without a single RoI return. False RoI: RoI returns per scan on bare "
            "ground. `default` and the `tuned` methods were tuned on these real scans.\n\n" +
            leftOutText(record);
 }

@@ -58,8 +58,8 @@ std::string wholeSection(const Performance& p) {
         }
     }
     return "## From packets to labels\n\n"
-           "Microseconds per scan on one core, from raw packets to one label per return and lists "
-           "of indices. MRPT does not support the packets of an HDL-64E; its rows start from "
+           "Microseconds per scan on one core, from raw packets to one label per return and index "
+           "lists. MRPT does not support the packets of an HDL-64E; its rows start from "
            "coordinates. `mrpt decode` is MRPT's `generatePointCloud()`, which decodes half of the "
            "scan. `zermas ground fit` starts from decoded returns. `VLP-16` is a real scan; the "
            "others are four simulated scans each.\n\n" +
@@ -103,8 +103,8 @@ std::string growthTable(const Performance& p, const std::string& what_grows,
 
 std::string growthSection(const Performance& p) {
     return "## Scaling\n\n"
-           "Run time from coordinates to labels by image size, on one simulated scan of an "
-           "orchard each. An exponent of 1 means that cost is proportional to size.\n\n" +
+           "Run time from coordinates to labels by image size, for one simulated orchard scan "
+           "per size. An exponent of 1 means that run time is proportional to size.\n\n" +
            growthTable(
                p, "beams x columns",
                {{435, "16 x 435"}, {870, "16 x 870"}, {1740, "16 x 1740"}, {3480, "16 x 3480"}}) +

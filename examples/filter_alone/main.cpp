@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-// A scan of your sensor. Here: flat ground 2 m below a VLP-16, and a wall 8 m ahead.
+// A scan of your sensor; here, flat ground 2 m below a VLP-16 and a wall 8 m ahead.
 hagen::Scan nextScan(const hagen::SensorModel& sensor) {
     hagen::Scan scan;
     for (float azimuth_rad = -3.14f; azimuth_rad < 3.14f; azimuth_rad += 0.0035f) {
@@ -26,7 +26,7 @@ hagen::Scan nextScan(const hagen::SensorModel& sensor) {
 
 int main() {
     const hagen::SensorModel sensor = hagen::sensorModel("VLP-16");
-    hagen::HagenFilter filter(sensor);  // keep it: it reuses its memory
+    hagen::HagenFilter filter(sensor);  // reuse it: it keeps its memory
 
     hagen::Scan scan = nextScan(sensor);
     hagen::locateBeams(sensor, scan);

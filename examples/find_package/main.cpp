@@ -1,10 +1,10 @@
-// A project of your own: segments one scan of an installed Hagen's choice of sensor.
+// Segments a scan of one point with an installed Hagen.
 #include <hagen/mrpt/ObservationSegmenter.h>
 
 #include <cstdio>
 
 int main() {
-    // Any observation of your log; here a cloud of one point straight ahead.
+    // Any observation from your log; here, a cloud of one point straight ahead.
     hagen::Scan scan;
     scan.x_m = {5.0f};
     scan.y_m = {0.0f};

@@ -325,7 +325,7 @@ TEST_F(PaperResultsRun, WritesAllTablesAndFigures) {
                                     "## Comparison with other methods",
                                     "drives or flights",
                                     "## Missed obstacles and false alarms",
-                                    "nothing is found",
+                                    "obstacles without a single RoI return",
                                     "## Hard sets",
                                     "dead_beams",
                                     "| real, 16 beams ",

@@ -10,7 +10,7 @@ UNITS = {"KiB": 2**10, "MiB": 2**20, "GiB": 2**30, "million": 1e6}
 def rows(page):
     """(what, limit, constants, file name) of each row."""
     table = page.partition("## Limits")[2].partition("\n## ")[0]
-    for line in re.findall(r"^\| (?!-|of )(.*) \|$", table, re.M):
+    for line in re.findall(r"^\| (?!-|quantity )(.*) \|$", table, re.M):
         what, limit, _, declared = line.split(" | ")
         *constants, file = re.findall(r"`(.*?)`", declared)
         yield what, limit, constants, file

@@ -80,7 +80,7 @@ def test_cost_is_of_shared_courses():
                         flights("street", "G-Full", 9, latency_ms=90),
                         "model,path_m,bytes\nW-RoI,0,1\nW-RoI,1000,1500000\nG-Full,1000,90000000\n")
     assert "|RoI window|5.0|10.0|25.0|1.50|\n|occupancy grid 0.2 m|20.0|40.0|25.0|90.00|\n" in page
-    assert "it holds 1.5 MB, the maps 90 to 90 MB" in page
+    assert "it uses 1.5 MB, the maps 90 to 90 MB" in page
 
 
 def test_missing_campaign_is_named():
