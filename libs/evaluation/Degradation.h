@@ -28,9 +28,8 @@ namespace hagen::evaluation {
 ///     above_deg=E, below_deg=E   only beams whose elevation is higher, or lower
 ///     dual_return           a ray whose neighbour in its row is more than 1 m farther has a second
 ///                           return there with probability 0.3
-///     rate_hz=R             one of R / 10 azimuths of each row, as if a 10 Hz sensor turned at R
-///     Hz
-///                           (20 or more)
+///     rate_hz=R             one of R / 10 azimuths of each row, as if a 10 Hz sensor turned at
+///                           R Hz (20 or more)
 class Degradation {
  public:
     using Random = simulation::Random;
