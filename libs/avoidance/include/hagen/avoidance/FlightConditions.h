@@ -1,17 +1,16 @@
 #pragma once
 #include <string>
 
-/// The conditions of a flight that have names in flags and in runs.csv. Each ...From() is the
-/// inverse of nameOf() and throws std::invalid_argument, listing the known names.
+/// The named conditions of a flight in flags and runs.csv. Each ...From() is the inverse of
+/// nameOf() and throws std::invalid_argument, listing the known names.
 namespace hagen::avoidance {
 
-/// Difference between the estimated pose and the true one; PoseBelief.h has the figures.
-/// "none", "noise", "drift".
+/// Error of the estimated pose (details in PoseBelief.h): "none", "noise", "drift".
 enum class PoseError { None, Noise, Drift };
 std::string nameOf(PoseError error);
 PoseError poseErrorFrom(const std::string& name);
 
-/// What the LiDAR meets besides the scene.
+/// Disturbances of the LiDAR besides the scene.
 ///
 ///     dusty  the default errors of the simulation: 1.5e-5 specks of dust per metre of a beam,
 ///            15 % mixed ranges at edges, and the vehicle's own legs, which the settings mask
@@ -20,9 +19,9 @@ enum class Air { Dusty, Clear };
 std::string nameOf(Air air);
 Air airFrom(const std::string& name);
 
-/// The distances that a world model returns: "unbiased", "as-stored". Models measure differently:
-/// windows to thinned points, maps to the faces of voxels. Unbiased: less the mean error, which was
-/// measured.
+/// The distances that a world model returns: "unbiased", "as-stored". Models measure to different
+/// geometry: windows to thinned points, maps to the faces of voxels. Unbiased distances are
+/// corrected by the measured mean error.
 enum class ModelDistance { Unbiased, AsStored };
 std::string nameOf(ModelDistance distance);
 ModelDistance distanceFrom(const std::string& name);
