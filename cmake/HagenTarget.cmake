@@ -12,8 +12,8 @@ function(hagen_target target)
                       # targets, because GCC takes this option from the precompiled header.
                       -fno-trapping-math)
   # SIMD (Highway): one binary selects among these instruction sets at run time. The disabled ones
-  # gain nothing here, and each costs a compilation. (ARM's SVE vectors have no compile-time size and cannot be
-  # stored in arrays.)
+  # gain nothing here, and each costs a compilation. (ARM's SVE vectors have no compile-time size
+  # and cannot be stored in arrays.)
   set(left_out HWY_SSSE3 HWY_AVX3_DL HWY_SVE HWY_SVE2 HWY_SVE_256 HWY_SVE2_128)
   list(JOIN left_out "|" left_out)
   target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(${left_out})")
