@@ -285,9 +285,9 @@ TEST_F(SegmentationEvaluate, RejectsUnusableLabels) {
                     {{"=" + theirs}, "expected NAME=DIR"},
                     {{"theirs="}, "expected NAME=DIR"},
                     {{"a=" + path("none")}, "none: no such folder"},
-                    {{"a=" + theirs, "--labels", "a=" + theirs}, "'a' is already used"},
-                    {{"hagen=" + theirs}, "'hagen' is already used"},
-                    {{"zermas tuned=" + theirs, "--baselines"}, "'zermas tuned' is already used"},
+                    {{"a=" + theirs, "--labels", "a=" + theirs}, "already a row 'a'"},
+                    {{"hagen=" + theirs}, "already a row 'hagen'"},
+                    {{"zermas tuned=" + theirs, "--baselines"}, "already a row 'zermas tuned'"},
                     {{"..=" + theirs}, "'..' cannot be the name of a row"}});
     expectFailure(with(flags, {"a=" + theirs}), 1, "theirs/000000.label: no such file");
     auto labels = recordings::readLabels(folder_ / "pole/labels/000000.label");

@@ -46,8 +46,8 @@ LabelRow labelRowFrom(const std::string& text, const std::vector<std::string>& t
     }
     const LabelRow row{text.substr(0, equals), text.substr(equals + 1)};
     if (std::find(taken.begin(), taken.end(), row.name) != taken.end()) {
-        throw SettingsError("--labels: the name '" + row.name +
-                            "' is already used; choose another");
+        throw SettingsError("--labels: there is already a row '" + row.name +
+                            "'; choose another name");
     }
     if (!fs::is_directory(row.folder)) {
         throw SettingsError("--labels: " + row.folder.string() + ": no such folder");

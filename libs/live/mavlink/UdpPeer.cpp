@@ -25,7 +25,7 @@ class UdpPeer : public Peer {
         : name_(address.host + ":" + std::to_string(address.port)) {
         const in_addr to_ip = resolve(address.host);
         socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-        if (socket_ < 0) fail("no socket", errno);
+        if (socket_ < 0) fail("cannot create a socket", errno);
         if (address.local_port != 0) {
             sockaddr_in at{};
             at.sin_family = AF_INET;
