@@ -18,7 +18,7 @@ namespace hagen::evaluation {
 ///                           range from 0.5 m to 12 m or the return's own range. Their ground truth
 ///                           is Unclassified
 ///     roll_deg=A, pitch_deg=A   the sensor is tilted (Attitude in Levelling.h) in the same
-///                           surroundings. Rows are computed anew; returns more than half a beam
+///                           surroundings. Rows are recomputed; returns more than half a beam
 ///                           step outside the field of view are removed. Methods get the attitude
 ///                           only if ",attitude" is appended
 ///     upside_down           the sensor is rolled by 180 degrees, and methods get the attitude. The

@@ -24,7 +24,7 @@ struct CampaignOptions {
 ///
 ///     campaign.json  settings hash, version and latency profile of all runs
 ///     profile.json   latency profile that runs draw from
-///     runs.csv       a row for each run, written when it ends; sorted when all have ended
+///     runs.csv       a row for each run, appended when it ends; sorted at the end of the campaign
 ///
 /// Returns all runs of the folder, sorted. runs.csv does not depend on the number of jobs. Throws
 /// CampaignStopped, and std::runtime_error naming the path if the folder holds other files or runs

@@ -196,8 +196,7 @@ Eigen::Vector3i Search::placeOf(int index) const {
     return {index % size_.x(), row % size_.y(), row / size_.y()};
 }
 
-/// Point 0 is the cell's centre, 1 to 4 are beside it. At start and goal, the exact positions are
-/// used.
+/// Point 0 is the cell's centre, 1 to 4 are beside it. Start and goal use exact positions.
 Eigen::Vector3d Search::pointOf(int index, int place) const {
     if (index == start_) return start_m_;
     if (index == goal_) return goal_m_;

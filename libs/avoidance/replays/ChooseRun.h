@@ -15,12 +15,11 @@ struct RunWanted {
     double speed_m_s = 0, latency_scale = 0;
 };
 
-/// The matching run. Throws std::invalid_argument listing the candidates unless exactly one
-/// matches.
+/// The matching run. Throws std::invalid_argument listing the candidates unless there is just one.
 Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted);
 
-/// The flags that select a run `among` others with its seed, for a shell: "--scenario gap --model
-/// W-RoI --guidance astar --speed 4 --latency-scale 4   # success".
+/// The flags that select a run `among` others with its seed, for a shell:
+/// "--scenario gap --model W-RoI --guidance astar --speed 4 --latency-scale 4   # success".
 std::string choiceOf(const Run& run, const std::vector<Run>& among);
 
 /// A unique name of a run for files: "gap-7-W-RoI-astar-4mps", followed by conditions that differ

@@ -34,16 +34,14 @@ struct ObstacleTrack {
 /// scan, and tracks each with a constant-velocity Kalman filter (per axis, in the plane).
 ///
 /// An obstacle is fast if seen in at least three scans, and faster than 0.5 m/s and three standard
-/// deviations of its speed. To be classified as moving, it must be fast, and
-/// - its points of up to 0.6 s ago, moved with its velocity, must fit its current points clearly
-/// better than unmoved (the visible part of a static obstacle changes as the vehicle passes, which
-/// moves its centre, but not its points);
-/// - it must cross free space: the scan of up to 0.6 s ago saw farther at a tenth of its points, or
-/// the current scan does so at its former points. The changing visible part of a static obstacle
-/// does   not. Rays pass a wire on both sides, so that pieces of it seem to move along it:
-/// obstacles less   than 15 cm high need both.
-/// Afterwards, it moves whenever it is fast: at close range, the visible part of a mover changes,
-/// too.
+/// deviations of its speed. A fast obstacle is first classified as moving if
+/// - its points of up to 0.6 s ago, moved with its velocity, fit its current points clearly better
+///   than unmoved (the visible part of a static obstacle changes as the vehicle passes, which moves
+///   its centre, but not its points), and
+/// - it crosses free space: the scan of up to 0.6 s ago saw farther at a tenth of its points, or
+///   the current scan does so at its former points. The visible part of a static obstacle does not.
+///   Parts of a wire seem to move along it, so obstacles less than 15 cm high need both scans.
+/// Afterwards, it moves whenever it is fast, because its visible part changes at close range, too.
 ///
 /// A track not seen for ten scans ends. Obstacles wider than 6 m, with fewer than three points, or
 /// with a point that is too far away are not tracked.

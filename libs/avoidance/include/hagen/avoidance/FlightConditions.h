@@ -10,9 +10,9 @@ enum class PoseError { None, Noise, Drift };
 std::string nameOf(PoseError error);
 PoseError poseErrorFrom(const std::string& name);
 
-/// Disturbances of the LiDAR besides the scene.
+/// Disturbances of the LiDAR.
 ///
-///     dusty  the default errors of the simulation: 1.5e-5 specks of dust per metre of a beam,
+///     dusty  the default errors of the simulation: 1.5e-5 dust specks per metre of beam,
 ///            15 % mixed ranges at edges, and the vehicle's own legs, which the settings mask
 ///     clear  none of these
 enum class Air { Dusty, Clear };
@@ -30,8 +30,7 @@ ModelDistance distanceFrom(const std::string& name);
 ///
 ///     scans    whole scans, each when the sensor's turn is complete: 10 Hz
 ///     sectors  sectors of 15 degrees, labelled by a StreamingSegmenter, each after its last
-///     packet;
-///              the planner runs at 50 Hz, on all sectors since its last start
+///              packet; the planner runs at 50 Hz, on all sectors since its last start
 enum class Updates { Scans, Sectors };
 std::string nameOf(Updates updates);
 Updates updatesFrom(const std::string& name);

@@ -73,9 +73,9 @@ struct WorldModelSetting {
 ///
 ///     W-RoI           RoI window: RoI points of the last scans, one per 10 cm cube
 ///                     (windowSizeFor())
-///     W-RoI+motion    RoI window with motion: the same, with obstacles that move where they will
-///                     be (ObstacleTracks); so W-Full+motion, and G-Full+motion and
-///                     R-Full-0.2+motion, which map what stands
+///     W-RoI+motion    RoI window with motion: the same, with predicted positions of moving
+///                     obstacles (ObstacleTracks); likewise W-Full+motion, G-Full+motion and
+///                     R-Full-0.2+motion
 ///     W-Full          full window: the same with all points
 ///     O-Full-0.2      OctoMap 0.2 m: all points
 ///     O-Full-0.4      OctoMap 0.4 m
@@ -87,8 +87,8 @@ struct WorldModelSetting {
 ///     R-Full-0.1      rolling grid 0.1 m: all points, in a box around the vehicle
 ///     R-Full-0.2      rolling grid 0.2 m
 ///     D-Full          depth-image map 0.2 m: the same box, updated from a depth image
-///     oracle          true scene: as it is at the time of the last scan
-///     oracle+motion   true scene with motion: as it will be
+///     oracle          true scene at the time of the last scan
+///     oracle+motion   true scene with future motion
 const std::vector<std::string>& worldModelNames();
 
 /// The name of a model for people, such as "RoI window" for W-RoI. Names that are not in
