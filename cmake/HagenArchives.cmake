@@ -1,7 +1,8 @@
-# Programs of packages that install alone: they link Hagen's own libraries as archives, while the shared ones are built
-# for the packages of libraries. The archives are made of the same objects; nothing is compiled twice.
+# For programs of self-contained packages: they link Hagen's own libraries as archives, while shared
+# libraries are built for the library packages. Archives contain the same objects, so nothing is
+# compiled twice.
 
-# hagen_archives_of(RESULT LIBRARY...): what a target links, with archives for Hagen's shared libraries.
+# hagen_archives_of(RESULT LIBRARY...): a target's libraries, with archives for Hagen's shared ones.
 function(hagen_archives_of result)
   set(archives "")
   foreach(library ${ARGN})

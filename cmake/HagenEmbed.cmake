@@ -20,7 +20,7 @@ function(hagen_find_script variable file package)
                                       /usr/share/javascript/three/examples/js/controls
             DOC "For the replays of octomap-compare" NO_DEFAULT_PATH)
   if(NOT ${variable})
-    message(FATAL_ERROR "${file} is missing: install the Debian package ${package}, or give its "
-                        "place as -D${variable}=FILE")
+    message(FATAL_ERROR "${file} is missing: install the Debian package ${package}, or pass "
+                        "-D${variable}=FILE")
   endif()
 endfunction()

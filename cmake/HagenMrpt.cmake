@@ -1,6 +1,6 @@
-# Finds MRPT from 2.5 to 3, whose packages have other names: mrpt_obs instead of mrpt-obs. Sets find_mrpt::PART, how
-# users of an installed Hagen find a part, and HAGEN_MRPT_SCENE, what
-# sources with 3D scenes link.
+# Finds MRPT 2.5 to 3, whose packages have other names: mrpt_obs instead of mrpt-obs. Sets
+# find_mrpt::PART, the find command for users of an installed Hagen, and HAGEN_MRPT_SCENE, the
+# target for 3D scenes.
 set(HAGEN_MRPT_PARTS obs maps opengl)
 set(HAGEN_MRPT_PREFIX mrpt-)
 set(HAGEN_MRPT_OLDEST 2.5)
@@ -15,7 +15,7 @@ if(NOT mrpt-obs_FOUND)
 endif()
 foreach(part ${HAGEN_MRPT_PARTS})
   find_package(${HAGEN_MRPT_PREFIX}${part} ${HAGEN_MRPT_OLDEST} REQUIRED)
-  # Version 3 calls its targets mrpt::mrpt_obs.
+  # Version 3 has targets such as mrpt::mrpt_obs.
   if(NOT TARGET mrpt::${part} AND TARGET mrpt::${HAGEN_MRPT_PREFIX}${part})
     add_library(mrpt::${part} ALIAS mrpt::${HAGEN_MRPT_PREFIX}${part})
   endif()

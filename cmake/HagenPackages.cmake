@@ -1,12 +1,13 @@
-# Debian packages, made by scripts/package: libhagen (the filter), libhagen-mrpt (the other libraries), libhagen-dev,
-# hagen-tools (programs, presets, documents, recordings), and python3-hagen. The components are those of
-# cmake/HagenTarget.cmake. The last two need none of the others (cmake/HagenArchives.cmake).
+# Debian packages, built by scripts/package: libhagen (the filter), libhagen-mrpt (the other
+# libraries), libhagen-dev, hagen-tools (programs, presets, documents, recordings), and
+# python3-hagen. Components are defined in cmake/HagenTarget.cmake. The last two packages are
+# self-contained (cmake/HagenArchives.cmake).
 set(HAGEN_PACKAGE_VERSION ${PROJECT_VERSION}-1 CACHE STRING "Version of the Debian packages")
-set(HAGEN_MAINTAINER "Hagen maintainers <hagen@users.noreply.github.com>" CACHE STRING "Of the Debian packages")
+set(HAGEN_MAINTAINER "Hagen maintainers <hagen@users.noreply.github.com>" CACHE STRING "Maintainer of the Debian packages")
 find_program(HAGEN_GZIP gzip REQUIRED)
 
-# Package of each component. A further one needs its line here, in CPACK_COMPONENTS_ALL, and its description and
-# dependencies below.
+# Package of each component. A new one needs a line here, in CPACK_COMPONENTS_ALL, and its
+# description and dependencies below.
 set(package_filter libhagen)
 set(package_mrpt libhagen-mrpt)
 set(package_dev libhagen-dev)
@@ -45,7 +46,7 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION libs)
 endforeach()
 
-# The first line of each description is the summary; CPack would put that of the project before it.
+# The first line of each description is the summary; CPack would prepend the project's.
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
 set(about "Hagen separates near obstacles (regions of interest) from ground and distant
 returns in the scans of a sparse LiDAR on board a drone, in real time and
@@ -53,30 +54,30 @@ without a map.
 ")
 set(CPACK_DEBIAN_FILTER_DESCRIPTION "obstacle detection in sparse LiDAR scans: the filter
 ${about}
-This package has the filter on plain arrays of points.")
+This package contains the filter for plain point arrays.")
 set(CPACK_DEBIAN_MRPT_DESCRIPTION "obstacle detection in sparse LiDAR scans: MRPT libraries
 ${about}
-This package has the libraries for observations and logs of MRPT, recordings
-of several kinds, simulation, evaluation and obstacle avoidance.")
+This package contains the libraries for MRPT observations and logs, several
+recording formats, simulation, evaluation and obstacle avoidance.")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "obstacle detection in sparse LiDAR scans: development files
 ${about}
-This package has headers, CMake packages, pkg-config files and examples. The
-filter needs Eigen only; other components of find_package(hagen) need
-libhagen-mrpt and the other recommended packages. The presets of sensors are
-in hagen-tools.")
+This package contains headers, CMake packages, pkg-config files and examples.
+The filter only needs Eigen; other components of find_package(hagen) need
+libhagen-mrpt and the other recommended packages. Sensor presets are in
+hagen-tools.")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "obstacle detection in sparse LiDAR scans: programs
 ${about}
-This package has programs that segment recordings (rawlogs of MRPT, network
-captures, ROS bags, point clouds), simulate flights, score a segmentation,
+This package contains programs that segment recordings (MRPT rawlogs, network
+captures, ROS bags, point clouds), simulate flights, score segmentations,
 and compare obstacle avoidance with and without a map.")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "obstacle detection in sparse LiDAR scans: Python module
 ${about}
-This package has the module hagen for Python 3: the filter on arrays of
-NumPy, recordings, simulation and scores.")
+This package contains the module hagen for Python 3: the filter for NumPy
+arrays, recordings, simulation and scores.")
 
 set(same "(= ${HAGEN_PACKAGE_VERSION})")
 set(CPACK_DEBIAN_MRPT_PACKAGE_DEPENDS "libhagen ${same}")
-# Not libhagen-mrpt: who uses the filter alone needs no MRPT.
+# Without libhagen-mrpt, because the filter alone needs no MRPT.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libhagen ${same}, libeigen3-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
     "libhagen-mrpt ${same}, hagen-tools ${same}, libmrpt-obs-dev, libmrpt-maps-dev, libmrpt-opengl-dev, liboctomap-dev")
@@ -95,7 +96,7 @@ if(HAGEN_BUILD_PYTHON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 endif()
 
-# Documents: for people in hagen-tools, and what Debian wants in each package.
+# Documents: those for users in hagen-tools, and those that Debian requires in each package.
 set(documents ${CMAKE_INSTALL_DATADIR}/doc)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents}/hagen-tools COMPONENT tools)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents}/hagen-tools COMPONENT tools
@@ -111,7 +112,7 @@ if(HAGEN_BUILD_PYTHON)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/rawlogs DESTINATION ${CMAKE_INSTALL_DATADIR}/hagen COMPONENT tools)
 
-# Not enabled: there is an instance per LiDAR, with flags of its own.
+# Not enabled, because each LiDAR has an instance with its own flags.
 set(HAGEN_UNIT_BINDIR ${CMAKE_INSTALL_FULL_BINDIR})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/systemd/live-segment@.service.in
                ${PROJECT_BINARY_DIR}/package/live-segment@.service @ONLY)
@@ -126,7 +127,7 @@ set(package_dir ${PROJECT_BINARY_DIR}/package)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/debian/copyright ${package_dir}/copyright @ONLY)
 string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
 file(WRITE ${package_dir}/changelog.Debian
-     "hagen (${HAGEN_PACKAGE_VERSION}) unstable; urgency=medium\n\n  * Packages of version ${PROJECT_VERSION}, made by scripts/package.\n\n -- ${HAGEN_MAINTAINER}  ${now}\n")
+     "hagen (${HAGEN_PACKAGE_VERSION}) unstable; urgency=medium\n\n  * Packages of version ${PROJECT_VERSION}, built by scripts/package.\n\n -- ${HAGEN_MAINTAINER}  ${now}\n")
 configure_file(${PROJECT_SOURCE_DIR}/CHANGELOG.md ${package_dir}/changelog COPYONLY)
 execute_process(COMMAND ${HAGEN_GZIP} -9nf changelog.Debian changelog WORKING_DIRECTORY ${package_dir}
                 COMMAND_ERROR_IS_FATAL ANY)
@@ -138,13 +139,13 @@ file(WRITE ${package_dir}/triggers "activate-noawait ldconfig\n")
 set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/debian/without_ldconfig.cmake)
 set(CPACK_DEBIAN_FILTER_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
 set(CPACK_DEBIAN_MRPT_PACKAGE_CONTROL_EXTRA ${package_dir}/triggers)
-# Python's compiled files come and go with the package.
+# Compiled Python files are created and removed with the package.
 file(WRITE ${package_dir}/postinst "#!/bin/sh\nset -e\nif [ \"$1\" = configure ]; then\n  py3compile -p python3-hagen\nfi\n")
 file(WRITE ${package_dir}/prerm "#!/bin/sh\nset -e\npy3clean -p python3-hagen\n")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${package_dir}/postinst ${package_dir}/prerm)
 include(CPack)
 
-# What is in the packages, and no tests: scripts/package builds it.
+# The contents of the packages, without tests; built by scripts/package.
 add_custom_target(packaged)
 get_property(libraries GLOBAL PROPERTY HAGEN_LIBRARIES)
 get_property(programs GLOBAL PROPERTY HAGEN_PROGRAMS)

@@ -1,6 +1,6 @@
 # Precompiles headers that most sources include, which halves the build time. The sets are in
 # cmake/precompiled.
-option(HAGEN_PRECOMPILED_HEADERS "Parse common headers once; off: each source includes what it names" ON)
+option(HAGEN_PRECOMPILED_HEADERS "Precompile common headers; OFF: each source parses its own includes" ON)
 
 # hagen_precompile(TARGET SET): the target uses the precompiled headers of cmake/precompiled/SET.h.
 # All targets of a set share the compiled result, so all are position-independent.

@@ -5,40 +5,40 @@ function(hagen_target target)
   target_compile_options(
     ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                       $<$<BOOL:${HAGEN_WARNINGS_AS_ERRORS}>:-Werror>
-                      # One result on every machine: no fused multiply-add unless it is written.
+                      # The same result on every machine: no implicit fused multiply-add.
                       -ffp-contract=off
-                      # Nothing reads floating-point exception flags. Without them GCC vectorises loops with a
-                      # condition per pixel; results do not change. It is set for all targets, because GCC takes
-                      # this option from the precompiled header.
+                      # No code reads floating-point exception flags. Without them, GCC vectorises
+                      # loops with a condition per pixel; results do not change. Set for all
+                      # targets, because GCC takes this option from the precompiled header.
                       -fno-trapping-math)
-  # SIMD (Highway): one binary for every machine, which selects among these instruction sets at run
-  # time. Those in between gain nothing here, and each costs a compilation. (ARM's SVE vectors have
-  # no compile-time size and cannot be stored in arrays.)
+  # SIMD (Highway): one binary selects among these instruction sets at run time. The disabled ones
+  # gain nothing here, and each costs a compilation. (ARM's SVE vectors have no compile-time size
+  # and cannot be stored in arrays.)
   set(left_out HWY_SSSE3 HWY_AVX3_DL HWY_SVE HWY_SVE2 HWY_SVE_256 HWY_SVE2_128)
   list(JOIN left_out "|" left_out)
   target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(${left_out})")
   if(HAGEN_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE})
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # warns of members of std::optional and std::regex then
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # otherwise warns about std::optional and std::regex
       target_compile_options(${target} PUBLIC -Wno-maybe-uninitialized)
     endif()
   endif()
 endfunction()
 
-# hagen_hot(TARGET): loops and functions start where a processor fetches. Otherwise a change elsewhere in the library
-# moves them, and small loops over bits become up to 15 % slower or faster.
+# hagen_hot(TARGET): aligns loops and functions to fetch blocks. Otherwise changes elsewhere in the
+# library make small bit loops up to 15 % slower or faster.
 function(hagen_hot target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   target_compile_options(${target} PRIVATE -falign-functions=64 -falign-loops=32 -falign-jumps=16)
 endfunction()
 
-# hagen_unity(TARGET SOURCE...): compiles sources in batches, which makes builds faster. Those that Highway compiles once
-# per instruction set stay alone.
+# hagen_unity(TARGET SOURCE...): compiles sources in batches for faster builds, except those that
+# Highway compiles once per instruction set.
 option(HAGEN_UNITY_BUILD "Compile the libraries in batches of sources" ON)
 function(hagen_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${HAGEN_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 25)
-  # Types of an anonymous namespace within a batch are still used in one source only.
+  # Types in anonymous namespaces are used in one source only, also within batches.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   foreach(source ${ARGN})
     file(STRINGS ${source} per_target REGEX "foreach_target.h" LIMIT_COUNT 1)
@@ -48,9 +48,9 @@ function(hagen_unity target)
   endforeach()
 endfunction()
 
-# hagen_library(NAME): creates the library hagen::NAME from all sources in this folder. Its public headers are in
-# include/hagen/NAME and are installed; private headers lie beside the sources and are included by their path in libs/.
-# Exported as component NAME of find_package(hagen).
+# hagen_library(NAME): creates the library hagen::NAME from all sources in this folder. Public
+# headers in include/hagen/NAME are installed; private headers are next to the sources and included
+# by their path in libs/. Exported as component NAME of find_package(hagen).
 function(hagen_library name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
   list(FILTER sources EXCLUDE REGEX "^pcl/")
@@ -67,7 +67,7 @@ function(hagen_library name)
   if(abi EQUAL 0)
     set(abi 0.${PROJECT_VERSION_MINOR})
   endif()
-  # No macro -Dhagen_NAME_EXPORTS: static and shared libraries are made of the same objects.
+  # No macro -Dhagen_NAME_EXPORTS: static and shared libraries contain the same objects.
   set_target_properties(
     hagen_${name}
     PROPERTIES EXPORT_NAME ${name}
@@ -91,8 +91,8 @@ function(hagen_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 endfunction()
 
-# hagen_program(NAME): settings of a program, which is installed with its manual page and completions. The page is made
-# from --help, so that a cross build without emulator has none.
+# hagen_program(NAME): settings of a program, which is installed with its manual page and
+# completions. The page is generated from --help, so cross builds without an emulator have none.
 set(HAGEN_ZSH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Folder of completions for zsh")
 find_program(HAGEN_HELP2MAN help2man)
 function(hagen_program name)

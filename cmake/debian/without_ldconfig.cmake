@@ -1,5 +1,5 @@
-# CPack writes maintainer scripts that call ldconfig for packages with libraries. Debian's trigger does that
-# (HagenPackages.cmake), so these packages need no scripts. CPack runs this when all packages are made.
+# CPack adds maintainer scripts that call ldconfig to packages with libraries. Debian's trigger
+# replaces them (HagenPackages.cmake), so this removes the scripts. CPack runs it last.
 foreach(package ${CPACK_PACKAGE_FILES})
   get_filename_component(name ${package} NAME)
   if(name MATCHES "^libhagen(-mrpt)?_")

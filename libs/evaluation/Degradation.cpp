@@ -24,9 +24,9 @@ constexpr float kNearestDrop_m = 0.5f, kFarthestDrop_m = 12.0f;
 constexpr float kNearestReturn_m = 0.05f;  // noise cannot move returns behind the sensor
 constexpr float kDualStep_m = 1.0f;
 constexpr double kDualChance = 0.3;
-constexpr float kSteps = 2.5f;        // neighbours are at most so many azimuth steps apart
-constexpr float kSameRay = 0.25f;     // returns closer than this part of a step belong to one ray
-constexpr double kRecordedHz = 10.0;  // of recordings, for rate_hz
+constexpr float kSteps = 2.5f;        // maximum spacing of neighbours, in azimuth steps
+constexpr float kSameRay = 0.25f;     // returns closer than this fraction of a step share a ray
+constexpr double kRecordedHz = 10.0;  // of recordings; for rate_hz
 
 std::array<std::vector<float>*, 7> floatsOf(Scan& s) {
     return {&s.x_m, &s.y_m, &s.z_m, &s.intensity, &s.range_m, &s.azimuth_rad, &s.time_s};
@@ -126,8 +126,8 @@ Function withRain(double probability) {
     };
 }
 
-/// Turns the sensor, but not its surroundings. `turn` rotates from the turned sensor's frame to
-/// that before. Rows and azimuths are those before.
+/// Turns the sensor, but not its surroundings. `turn` rotates from the turned sensor's frame to the
+/// original one. Rows and azimuths keep their original values.
 GroundTruthScan turned(const GroundTruthScan& scan, const Eigen::Matrix3f& turn) {
     GroundTruthScan result = scan;
     Scan& returns = result.input.scan;
@@ -142,8 +142,8 @@ GroundTruthScan turned(const GroundTruthScan& scan, const Eigen::Matrix3f& turn)
     return result;
 }
 
-/// Sines of the elevations half a beam step below the lowest beam and above the highest; -2 and 2
-/// beyond straight down and up, where the sine would decrease again.
+/// Sines of the elevations half a beam step below the lowest beam and above the highest. Elevations
+/// beyond straight down and up, where the sine would decrease again, give -2 and 2.
 std::pair<float, float> fieldOfView(const SensorModel& sensor) {
     const std::vector<float>& beams = sensor.elevations_rad;
     const std::size_t top = beams.size() - 1;
@@ -171,7 +171,7 @@ Function withTilt(const Eigen::Vector3f& axis, double angle_deg, bool is_known) 
     };
 }
 
-/// Rolled by 180 degrees: y and z change their signs, and with them azimuth and order of the rows.
+/// Rolls by 180 degrees: negates y and z, and adapts azimuth and row order.
 GroundTruthScan upsideDown(const GroundTruthScan& scan, const SensorModel& sensor, Random&) {
     const Eigen::Matrix3f roll = Eigen::Vector3f(1, -1, -1).asDiagonal();
     GroundTruthScan result = turned(scan, roll);
@@ -183,7 +183,7 @@ GroundTruthScan upsideDown(const GroundTruthScan& scan, const SensorModel& senso
     return result;
 }
 
-/// The returns of each row that have a range, by azimuth.
+/// The returns of each row with a range, by azimuth.
 std::vector<std::vector<std::size_t>> rowsByAzimuth(const Scan& scan, int rows) {
     std::vector<std::vector<std::size_t>> by_row(static_cast<std::size_t>(rows));
     for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -252,7 +252,7 @@ GroundTruthScan dualReturn(const GroundTruthScan& scan, const SensorModel& senso
     return result;
 }
 
-/// Keeps one ray in each bin of azimuth, and all its returns.
+/// Keeps one ray per azimuth bin, with all its returns.
 Function atRate(double rate_hz) {
     return [rate_hz](const GroundTruthScan& scan, const SensorModel& sensor, Random&) {
         const Scan& returns = scan.input.scan;
@@ -301,7 +301,7 @@ std::vector<int> rowsOf(const std::string& text, const std::string& values) {
     return rows;
 }
 
-/// Cuts an ending off, if it is there.
+/// Removes a suffix if present.
 bool takeEnding(const std::string& ending, std::string& text) {
     if (text.size() < ending.size() ||
         text.compare(text.size() - ending.size(), ending.size(), ending) != 0)

@@ -18,7 +18,7 @@ namespace hagen::evaluation {
 ///                           range from 0.5 m to 12 m or the return's own range. Their ground truth
 ///                           is Unclassified
 ///     roll_deg=A, pitch_deg=A   the sensor is tilted (Attitude in Levelling.h) in the same
-///                           surroundings. Rows are computed anew; returns more than half a beam
+///                           surroundings. Rows are recomputed; returns more than half a beam
 ///                           step outside the field of view are removed. Methods get the attitude
 ///                           only if ",attitude" is appended
 ///     upside_down           the sensor is rolled by 180 degrees, and methods get the attitude. The
@@ -28,9 +28,8 @@ namespace hagen::evaluation {
 ///     above_deg=E, below_deg=E   only beams whose elevation is higher, or lower
 ///     dual_return           a ray whose neighbour in its row is more than 1 m farther has a second
 ///                           return there with probability 0.3
-///     rate_hz=R             one of R / 10 azimuths of each row, as if a 10 Hz sensor turned at R
-///     Hz
-///                           (20 or more)
+///     rate_hz=R             one of R / 10 azimuths of each row, as if a 10 Hz sensor turned at
+///                           R Hz (20 or more)
 class Degradation {
  public:
     using Random = simulation::Random;

@@ -6,8 +6,8 @@
 namespace hagen::evaluation {
 
 /// The scans of a source, each degraded when pulled; scan i with seed i. Heights above the true
-/// ground are computed before, because a degraded scan may not show it. If the degradation mirrors
-/// the sensor, the source's methods must be those for mirrored(sensor()). Throws
+/// ground are computed before, because a degraded scan may not show the ground. If the degradation
+/// mirrors the sensor, the source's methods must be for mirrored(sensor()). Throws
 /// std::invalid_argument if the degradation cannot be applied to its sensor.
 class DegradedScans : public LabelledScanSource {
  public:

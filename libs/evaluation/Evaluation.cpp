@@ -5,7 +5,7 @@
 namespace hagen::evaluation {
 namespace {
 
-/// The labels that a method assigns, and its run time unless they were made beforehand.
+/// The labels that a method assigns, and its run time unless they are precomputed.
 std::vector<Label> timed(const Method& method, const ScanInput& input,
                          std::vector<double>& latency_ms) {
     if (method.is_recorded) return method.segment(input);
@@ -16,7 +16,7 @@ std::vector<Label> timed(const Method& method, const ScanInput& input,
     return found;
 }
 
-/// Names the scan in the message of labels that do not fit it.
+/// Adds the scan's name to errors about labels of the wrong size.
 template <class Work>
 auto forScan(const GroundTruthScan& scan, Work work) {
     try {
@@ -83,9 +83,9 @@ std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
             }
         }
         if (i < source.size()) {
-            throw std::invalid_argument(source.name() + ": has " + std::to_string(i) + " of " +
+            throw std::invalid_argument(source.name() + ": only " + std::to_string(i) + " of " +
                                         std::to_string(source.size()) +
-                                        " scans left; a source can be evaluated once");
+                                        " scans left; a source can be evaluated only once");
         }
     }
     return all;

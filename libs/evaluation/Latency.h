@@ -12,7 +12,7 @@ struct Latency {
     double sd_ms =
         NAN;  ///< sample standard deviation (denominator runs - 1); NaN for fewer than two runs
     double p50_ms = NAN, p95_ms = NAN,
-           p99_ms = NAN;  ///< the smallest value that this percentage does not exceed
+           p99_ms = NAN;  ///< percentiles (nearest rank)
     double max_ms = NAN;
 };
 

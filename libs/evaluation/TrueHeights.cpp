@@ -49,7 +49,7 @@ class GroundCells {
         tree_ = std::make_unique<PlanTree>(std::move(centres_m));
     }
 
-    /// The ground below this cell; minus infinity without any ground.
+    /// The ground below this cell; minus infinity without ground.
     float groundOf(const Cell& cell) const {
         if (heights_m_.empty()) return -std::numeric_limits<float>::infinity();
         // "As near" rather than "nearer"; squared distances between centres differ by 0.25 m2.

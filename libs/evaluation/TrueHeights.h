@@ -5,20 +5,20 @@
 
 namespace hagen::evaluation {
 
-/// Coordinates of the returns, rotated by levelFromSensor() of the scan. NaN without a range and
-/// beyond 10 km.
+/// Coordinates of the returns, rotated by levelFromSensor() of the scan. NaN if the range is
+/// missing or above 10 km.
 std::vector<Eigen::Vector3f> levelPoints(const GroundTruthScan& scan);
 
 /// Heights of obstacle returns above the true ground, independent of any method.
 ///
-/// The ground of a cell of kGroundCell_m is the median height of its ROU returns, at any range. The
-/// height of an obstacle return is that above the median of the ground cells within kGroundNear_m
-/// of its own cell (horizontally, between centres); if there are none, of the kGroundCells nearest
-/// ones (with those equally near as the last).
+/// The ground of a cell of kGroundCell_m is the median height of its ROU returns, at any range.
+/// Heights are relative to the median of the ground cells within kGroundNear_m of the return's cell
+/// (horizontally, between centres), or, without any, of the kGroundCells nearest cells and all as
+/// near as the last of them.
 ///
-/// `points_m` are levelPoints() of the scan. Returns one value per return [m]: NaN unless its truth
-/// is RoI and its range at most `max_range_m`; infinite without ground, so that an obstacle of
-/// unknown height does not count as low.
+/// `points_m`: levelPoints() of the scan. Returns one value per return [m]: NaN unless its truth is
+/// RoI and its range at most `max_range_m`; infinite without ground, so that an obstacle of unknown
+/// height does not count as low.
 std::vector<float> heightsAboveTrueGround(const GroundTruthScan& scan,
                                           const std::vector<Eigen::Vector3f>& points_m,
                                           float max_range_m);

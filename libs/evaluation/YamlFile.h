@@ -11,9 +11,9 @@ namespace hagen::evaluation {
 std::string yamlPlace(const std::filesystem::path& file, const YAML::Node& node);
 
 /// Calls `entry(key, key node, value node)` for each entry of the map in a file. Throws
-/// std::runtime_error if the file cannot be read, is not YAML, contains no map, or contains a key
-/// twice; the message names file and line. Exceptions of `entry` are passed on with the place of
-/// the value in front.
+/// std::runtime_error naming file and line if the file cannot be read, is not YAML, contains no
+/// map, or contains a key twice. Exceptions of `entry` are rethrown with the place of the value
+/// prepended.
 void forEachYamlEntry(
     const std::filesystem::path& file, const std::string& example,
     const std::function<void(const std::string& key, const YAML::Node& value)>& entry);

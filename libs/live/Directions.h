@@ -4,7 +4,7 @@
 
 namespace hagen::live {
 
-/// The directions of messages to an autopilot: the middle of the first direction is straight ahead.
+/// Direction bins of autopilot messages: the first is centred straight ahead.
 using Direction = SectorDistances::Sector;
 using DirectionState = SectorDistances::State;
 using Directions = SectorDistances::Sectors;

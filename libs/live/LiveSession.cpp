@@ -27,13 +27,13 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::size_t kQueue = 4096;  // packets: seconds
-constexpr double kFlush_s = 0.02;     // without packets; then the sector in progress is labelled
+constexpr std::size_t kQueue = 4096;  // packets; holds several seconds
+constexpr double kFlush_s = 0.02;     // without packets, before the sector in progress is labelled
 constexpr double kStatus_s = 0.5;
-// A direction is known if a complete turn is at most 0.3 s old when directions are evaluated, every
-// 0.05 s. Packets that waited too long for that are dropped, up to one that is nearly new.
+// SectorDistances treats a direction as unknown if its turn is 0.3 s old. Packets that waited
+// longer than kTooOld_s are therefore dropped, until one has waited less than kNew_s.
 constexpr double kTooOld_s = 0.15, kNew_s = 0.05;
-constexpr int kKeepsUp = 4;  // statuses in a row without dropped packets: the overload is over
+constexpr int kKeepsUp = 4;  // consecutive statuses without dropped packets that end an overload
 
 double processCpu_s() {
     return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
@@ -47,20 +47,20 @@ class Session {
     Session(const LiveOptions& options, const LiveListener& listener, bool is_live);
 
     void take(const Packet& packet);
-    /// The same for a packet that waited too long: it is not labelled.
+    /// Drops a packet that waited too long.
     void drop(const Packet& packet);
     /// Counts packets that were not labelled. Thread-safe.
     void lose(std::size_t packets) { lost_ += packets; }
-    /// Called by the thread that receives, with each datagram.
+    /// Called by the receiving thread for each datagram.
     void record(const Packet& packet) {
         if (recorder_) recorder_->add(packet);
     }
-    /// Releases a thread that waits in record().
+    /// Unblocks a thread waiting in record().
     void endRecording() {
         if (recorder_) recorder_->close();
     }
-    /// Reports silence and status; if the sensor is silent, ends the sector in progress. `is_idle`:
-    /// no packet waits.
+    /// Reports silence and status, and labels the sector in progress if the sensor is silent.
+    /// `is_idle`: the queue is empty.
     void update(bool is_idle);
     LiveReport finish(double start_cpu_s);
 
@@ -86,7 +86,7 @@ class Session {
     std::unique_ptr<Recorder> recorder_;
 
     double start_s_, status_s_;
-    double last_packet_s_ = 0, last_taken_s_ = 0;  ///< of the sensor, of all
+    double last_packet_s_ = 0, last_taken_s_ = 0;  ///< from the sensor, from any sender
     double last_return_s_ = 0;
     SensorAddress address_;
     std::size_t uncertain_ = 0, restarts_ = 0, mode_changes_ = 0;  ///< already reported
@@ -95,7 +95,7 @@ class Session {
     bool is_recording_reported_ = false, is_slow_recording_reported_ = false;
     bool has_place_ = false;
     std::size_t foreign_ip_ = 0;
-    std::size_t dropped_ = 0, dropped_before_ = 0;  ///< until now, until the last status
+    std::size_t dropped_ = 0, dropped_before_ = 0;  ///< total, total at the last status
     int keeps_up_ = kKeepsUp;                       ///< statuses
     std::atomic<std::size_t> lost_ = 0;
 };
@@ -119,7 +119,7 @@ void Session::takeSector(const LabelledSector& sector) {
     reportEmptiness(sector.returns);
 }
 
-/// A covered window looks like open air.
+/// A covered window looks like open air, so both are reported.
 void Session::reportEmptiness(const Scan& returns) {
     const bool is_empty = std::all_of(returns.range_m.begin(), returns.range_m.end(),
                                       [](float range_m) { return std::isnan(range_m); });
@@ -133,7 +133,7 @@ void Session::reportEmptiness(const Scan& returns) {
                      "covered");
 }
 
-/// Addresses distinguish sensors of one model without serial numbers.
+/// Sensors of the same model without serial numbers are distinguished by address.
 bool Session::isOfSensor(const Packet& packet) {
     const sensors::LidarDriver& driver = stream_->driver();
     if (driver.hasSerial() || !driver.isData(packet.datagram())) return true;
@@ -145,7 +145,7 @@ bool Session::isOfSensor(const Packet& packet) {
     if (before != packet.from_ip) {
         listener_.remark("the sensor's address changed from " + sensors::ipText(before) + " to " +
                          sensors::ipText(packet.from_ip));
-        stream_->flush();  // no sector has returns of both
+        stream_->flush();  // a sector never mixes returns of both
     }
     return true;
 }
@@ -168,8 +168,8 @@ void Session::take(const Packet& packet) {
     }
 }
 
-/// The pose of the vehicle, to be combined with the mount of the settings. Poses without a place
-/// have the origin, since labels need the tilt; once places are known, such poses are skipped.
+/// Removes the mount from the sensor's pose. Before the first position is known, poses are recorded
+/// at the origin, because labelling needs the tilt; later ones without position are skipped.
 void Session::recordPose(const Packet& packet, const SensorMotion& motion) {
     Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
     if (motion.map_from_sensor) {
@@ -214,7 +214,7 @@ void Session::reportUncertain() {
                                ": its packets are dropped. Is it in another mode?");
 }
 
-/// After a packet was taken.
+/// Called after an accepted packet.
 void Session::reportChanges() {
     if (is_uncertain_) {
         is_uncertain_ = false;
@@ -228,7 +228,7 @@ void Session::reportChanges() {
                                                 : "the sensor sends one return per firing now");
 }
 
-/// After a silence.
+/// Reports the end of a silence.
 void Session::reportReturn() {
     if (!is_silent_) return;
     is_silent_ = false;
@@ -261,7 +261,7 @@ void Session::showStatus(double now_s) {
     listener_.status(report_, status);
 }
 
-/// Whether packets were dropped since the last status: parts of a turn show no rate.
+/// Whether packets were dropped since the last status. Incomplete turns give no valid rate.
 bool Session::updateOverload() {
     const bool is_behind = dropped_ > dropped_before_;
     dropped_before_ = dropped_;
@@ -285,8 +285,8 @@ void Session::reportSilence(double now_s) {
 
 void Session::update(bool is_idle) {
     const double now_s = steadyNow_s();
-    // Packets that wait for a busy processor are not a silence; packets of other senders do not
-    // end one.
+    // Packets that wait for a busy processor do not count as silence, and packets from other
+    // senders do not end it.
     const double heard_s = is_idle ? now_s : last_taken_s_;
     if (report_.datagrams > 0 && !is_flushed_ && heard_s - last_packet_s_ > kFlush_s) {
         stream_->flush();

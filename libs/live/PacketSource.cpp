@@ -20,10 +20,10 @@
 namespace hagen::live {
 namespace {
 
-constexpr int kBufferBytes = 8 << 20;     // a second of an HDL-64E
-constexpr std::size_t kMaxBytes = 65536;  // of a datagram
+constexpr int kBufferBytes = 8 << 20;     // one second of HDL-64E data
+constexpr std::size_t kMaxBytes = 65536;  // per datagram
 constexpr double kMaxWait_s = 0.1;
-/// Of a capture. A longer one is a clock that was set, or hours without a sensor.
+/// Longer pauses in a capture (clock changes, sensor off) are skipped.
 constexpr double kMaxPause_s = 2;
 
 [[noreturn]] void fail(const std::string& what) {
@@ -42,7 +42,7 @@ Address parseAddress(const std::string& text) {
     in_addr ip{};
     if (colon == std::string::npos || inet_pton(AF_INET, host.c_str(), &ip) != 1) {
         throw std::runtime_error("'" + text +
-                                 "' is no IPv4 address and port, such as 0.0.0.0:2368");
+                                 "' is not an IPv4 address with a port, such as 0.0.0.0:2368");
     }
     const auto port = base::numberFrom<std::uint16_t>(text.substr(colon + 1)).value_or(0);
     if (port == 0) throw std::runtime_error("'" + text + "': the port must be 1 to 65535");
@@ -57,7 +57,7 @@ UdpSource::UdpSource(const Address& address)
     if (socket_ < 0) fail(name_);
     try {
         const int yes = 1;
-        // More than net.core.rmem_max is not given, unless the process may.
+        // SO_RCVBUF is limited by net.core.rmem_max; SO_RCVBUFFORCE needs CAP_NET_ADMIN.
         if (setsockopt(socket_, SOL_SOCKET, SO_RCVBUFFORCE, &kBufferBytes, sizeof kBufferBytes) !=
             0)
             setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &kBufferBytes, sizeof kBufferBytes);
@@ -65,8 +65,8 @@ UdpSource::UdpSource(const Address& address)
         getsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &buffer_bytes_, &size);
         setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
         setsockopt(socket_, IPPROTO_IP, IP_PKTINFO, &yes, sizeof yes);
-        // Several programs may listen to a group; of other addresses, a second one would take the
-        // packets away.
+        // Multicast groups can be shared by several programs. Sharing a unicast address would
+        // divert packets from the first program.
         if (address.isMulticast()) {
             setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
         }
@@ -109,7 +109,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
     message.msg_controllen = control.size();
     const ssize_t size = recvmsg(socket_, &message, MSG_DONTWAIT);
     if (size < 0) {
-        // ECONNREFUSED follows a datagram that was sent; this socket sends none.
+        // ECONNREFUSED reports an undelivered datagram, but this socket never sends.
         if (errno == EINTR || errno == EAGAIN || errno == ECONNREFUSED) return Next::Nothing;
         fail(name_);
     }
@@ -117,7 +117,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
     packet.from_ip = ntohl(from.sin_addr.s_addr);
     packet.from_port = ntohs(from.sin_port);
     packet.to_port = port_;
-    packet.arrival_s = steadyNow_s();  // first: what comes between makes packets older
+    packet.arrival_s = steadyNow_s();  // first, so that later calls do not add to the age
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
     packet.time_ns = nanoseconds(now);
@@ -134,7 +134,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
         const std::int64_t waited_ns = packet.time_ns - nanoseconds(stamp);
         packet.arrival_s -= 1e-9 * static_cast<double>(waited_ns);
         packet.time_ns -= waited_ns;
-        // The system's clock was set meanwhile: it came at an unknown time after the one before.
+        // The system clock was set back meanwhile, so the arrival time is unknown.
         if (waited_ns < 0) packet.arrival_s = latest_arrival_s_;
     }
     packet.arrival_s = latest_arrival_s_ = std::max(latest_arrival_s_, packet.arrival_s);

@@ -2,12 +2,12 @@
 
 namespace hagen::live {
 
-/// Under a real-time policy, lowers the calling thread's priority by one, if there is a lower one.
-/// Threads of equal priority under SCHED_FIFO do not take turns: on one core, who labels packets
-/// that wait would let nobody receive or send until none is left.
+/// Lowers the calling thread's real-time priority by one if possible. SCHED_FIFO threads of equal
+/// priority do not take turns: on one core, labelling would block receiving and sending until the
+/// queue is empty.
 void lowerPriority();
 
-/// Gives up a real-time policy for the calling thread.
+/// Switches the calling thread to the default scheduling policy.
 void leaveRealTime();
 
 }  // namespace hagen::live

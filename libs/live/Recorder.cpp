@@ -13,14 +13,14 @@ namespace hagen::live {
 namespace {
 
 constexpr std::chrono::milliseconds kFlush{200};     // without packets
-constexpr std::int64_t kPosePeriod_ns = 20'000'000;  // messages of attitude come as often
-constexpr std::size_t kMaxPoseBytes = 1 << 20;       // that wait: hours
+constexpr std::int64_t kPosePeriod_ns = 20'000'000;  // typical period of attitude messages
+constexpr std::size_t kMaxPoseBytes = 1 << 20;       // maximum queued pose lines: hours
 
-/// Keeps what was written of an output that is not complete. Empty: it has none.
+/// Keeps a partial output; returns a note with its path, or "" if nothing was written.
 std::string keptOf(base::OutputPath& output) {
     std::error_code ignored;
     if (!std::filesystem::exists(output.temporary(), ignored)) return "";
-    return "; what was written is in " + output.keepPartial().string();
+    return "; partial recording kept in " + output.keepPartial().string();
 }
 
 }  // namespace

@@ -15,30 +15,30 @@
 
 namespace hagen::live {
 
-/// Writes datagrams to a capture, and poses of the vehicle to a TUM file beside it, on a thread of
-/// its own: a slow disk delays nobody, and what does not fit into the queue is left out and
-/// counted. The files get their names at the end.
+/// Writes datagrams to a capture, and vehicle poses to a TUM file next to it, in a separate thread.
+/// If the disk is too slow, datagrams that do not fit into the queue are dropped and counted. The
+/// files get their final names in finish().
 class Recorder {
  public:
-    /// `waits`: add() waits for the disk instead. Throws std::runtime_error naming the file if one
-    /// cannot be written, or exists and may not be replaced.
+    /// `waits`: add() blocks on a full queue instead of dropping. Throws std::runtime_error naming
+    /// the file if it cannot be written, or exists and may not be replaced.
     Recorder(const RecordingOptions& options, bool has_poses, bool waits);
-    /// As finish().
+    /// Calls finish().
     ~Recorder();
 
-    /// Called by the thread that receives.
+    /// Called by the receiving thread.
     void add(const Packet& packet);
-    /// A pose at a time of the packets (Packet::time_ns). One at most 20 ms after the last one adds
-    /// nothing. Requires `has_poses`.
+    /// Adds a pose at a packet time (Packet::time_ns), unless it is at most 20 ms after the last
+    /// one. Requires `has_poses`.
     void addPose(std::int64_t time_ns, const Eigen::Isometry3d& map_from_vehicle);
-    /// What is added from now on is ignored.
+    /// Ignores all later add() calls.
     void close();
 
-    /// So far; any thread may ask.
+    /// Datagrams dropped so far. Thread-safe.
     std::size_t leftOut() const { return left_out_; }
     std::string failure() const;
 
-    /// Writes what waits, and gives the files their names.
+    /// Writes all queued data and renames the files.
     Recorded finish();
 
  private:
@@ -53,13 +53,13 @@ class Recorder {
     std::optional<base::OutputPath> poses_output_;
     sensors::CaptureWriter capture_;
     std::ofstream poses_;
-    Packet copy_;  ///< reused by the thread that receives
+    Packet copy_;  ///< reused by the receiving thread
     std::int64_t last_pose_ns_;
     std::atomic<std::size_t> left_out_ = 0;
     std::atomic<bool> is_closed_ = false;
 
-    mutable std::mutex mutex_;  // of all that follows
-    std::string pose_lines_;    ///< that wait
+    mutable std::mutex mutex_;  // guards all members below
+    std::string pose_lines_;    ///< not yet written
     Recorded recorded_;
 
     std::thread thread_;

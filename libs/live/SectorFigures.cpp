@@ -10,7 +10,7 @@ namespace hagen::live {
 namespace {
 
 constexpr double kDirections_s = 0.05;
-constexpr double kMinTime_s = 0.125;  // of a rate
+constexpr double kMinTime_s = 0.125;  // shortest time for a rate
 constexpr double kOtherRate = 0.2;    // relative change that is reported
 
 SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor) {
@@ -95,7 +95,7 @@ LiveStatus SectorFigures::status(double passed_s, bool turns) const {
 }
 
 std::optional<RateChange> SectorFigures::rateChange() {
-    const double arrived_s = recent_last_s_ - recent_first_s_;  // not all of the time, at first
+    const double arrived_s = recent_last_s_ - recent_first_s_;  // shorter at the start
     if (arrived_s <= kMinTime_s || recent_sweep_rad_ <= 0) return std::nullopt;
     const double rate = recent_sweep_rad_ / (2 * kPi) / arrived_s;
     const bool is_odd = reported_rate_ > 0 && std::abs(rate / reported_rate_ - 1) > kOtherRate;

@@ -5,29 +5,29 @@
 
 namespace hagen::live {
 
-/// The last reported speed of the motor and the current one, in turns per second.
+/// The last reported and the current motor speed, in turns per second.
 struct RateChange {
     double before, now;
 };
 
-/// What the report has of the sectors, and the status of the last half second.
+/// Computes the sector statistics of the report and of the half-second status.
 class SectorFigures {
  public:
-    /// Directions are of the vehicle, on which the sensor is tilted by `mount`.
+    /// Directions are relative to the vehicle; `mount` is the sensor's tilt on it.
     SectorFigures(const SensorModel& sensor, const Attitude& mount, LiveReport& report);
 
-    /// A sector that got its labels at `now_s`.
+    /// Adds a sector labelled at `now_s`.
     void take(const LabelledSector& sector, double now_s);
-    /// Counts the states of the directions, each twentieth of a second.
+    /// Counts the states of the directions, at 20 Hz.
     void countDirections(double now_s);
-    /// The latest distances go into the report.
+    /// Copies the latest distances into the report.
     void update(double now_s) { report_.latest = distances_.at(now_s); }
 
-    /// Of `passed_s` until now. A sensor that does not turn has no angles: its frames count.
+    /// Status of the last `passed_s`. For a sensor that does not turn, frames replace angles.
     LiveStatus status(double passed_s, bool turns) const;
-    /// Whether the motor has another speed, twice in a row: packets may have come in a burst.
+    /// A changed motor speed, confirmed by two statuses: packets may arrive in bursts.
     std::optional<RateChange> rateChange();
-    /// Begins anew with status and rate.
+    /// Resets status and rate.
     void next();
 
  private:

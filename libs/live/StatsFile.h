@@ -4,8 +4,8 @@
 
 namespace hagen::live {
 
-/// Writes the figures of a session as JSON, and gives the file its name. Throws std::runtime_error
-/// naming the file if it cannot be written.
+/// Writes the session statistics as JSON. Throws std::runtime_error naming the file if it cannot be
+/// written.
 void writeStats(const LiveReport& report, const LiveOptions& options, const LiveListener& listener,
                 base::OutputPath& file);
 

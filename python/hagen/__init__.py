@@ -7,7 +7,7 @@
         result = filter.segment(scan)
         obstacles = scan.xyz[result.labels == hagen.ROI]
 
-docs/python.md has more.
+See docs/python.md.
 """
 import pathlib as _pathlib
 
@@ -50,12 +50,12 @@ __all__ = [
     "simulate",
 ]
 
-# The presets that come with this package.
+# Presets of this package.
 _hagen._add_presets(_pathlib.Path(_hagen.__file__).parent / "config")
 
 
 def _several(names):
-    """A list of names; a str is a single one, not its letters."""
+    """Returns a list of names; a str is a single name."""
     return [names] if isinstance(names, str) else list(names)
 
 
@@ -75,13 +75,13 @@ def open(
     file: a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
         scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
         are distinguished by content.
-    sensor_labels: the LiDARs to read, a label or several; default: all. One that no scan has is in
-        Recording.remarks, after the last scan.
-    poses: a file of poses (TUM, KITTI); default: those of the recording.
-    sensor_json: the metadata of the Ouster of a capture or bag.
-    calibration: that of the HDL-64E of a capture (db.xml).
-    topics: the LiDAR topics of a bag to read, one or several; default: all.
-    first, last: the first and the last entry to read, both inclusive.
+    sensor_labels: one or several labels of LiDARs to read; default: all. Recording.remarks lists
+        those without scans, after the last scan.
+    poses: a pose file (TUM, KITTI); default: the poses of the recording.
+    sensor_json: Ouster metadata for a capture or bag.
+    calibration: HDL-64E calibration for a capture (db.xml).
+    topics: one or several LiDAR topics of a bag to read; default: all.
+    first, last: the range of entries to read, both inclusive.
 
     Raises FileNotFoundError, and RuntimeError naming the file (and the entry, while iterating) if it
     cannot be read.
@@ -112,17 +112,17 @@ def simulate(
 ):
     """Simulates a flight with a LiDAR over a scene: an iterator of scans with true labels (Scan.truth).
 
-    The scans are those that rawlog-simulate writes for the same scenario, seed, altitude and so on.
+    The scans equal those of rawlog-simulate for the same arguments.
 
     scenario: the scene, one of scenarios().
-    scans: how many.
+    scans: number of scans.
     seed: the same seed gives the same scene, flight and scans.
-    altitude_m: above the ground, 1 to 15.
+    altitude_m: height above the ground, 1 to 15.
     sensor: 'VLP-16', 'HDL-32E', 'HDL-64E' or 'Mid-360'.
-    speed_m_s: on straights, 0.1 to 20.
+    speed_m_s: speed on straights, 0.1 to 20.
     tilt_sd_deg: standard deviation of roll and of pitch, 0 to 15; 0: level flight.
-    every_s: from the start of one scan to the next, at least 0.1.
-    clear_air: no dust, and no returns of the vehicle itself.
+    every_s: time between the starts of scans, at least 0.1.
+    clear_air: no dust, and no returns from the vehicle itself.
 
     Raises ValueError for an unknown scenario or sensor, and for numbers out of range.
     """

@@ -14,8 +14,8 @@ namespace {
 
 std::string shapeText(const py::array& array) { return textOf(array.attr("shape")); }
 
-/// Makes an array of an argument. Its exceptions are the cause of a ValueError with
-/// `text`; an interruption, and that there is no memory, stay what they are.
+/// Converts an argument to an array. Exceptions become the cause of a ValueError with `text`,
+/// except interrupts and MemoryError.
 template <class Array>
 Array converted(const py::object& values, const std::string& text) {
     try {
@@ -27,13 +27,13 @@ Array converted(const py::object& values, const std::string& text) {
     }
 }
 
-/// Any object as an array; throws ValueError unless it contains real numbers.
+/// Converts any object to an array; throws ValueError unless it contains real numbers.
 py::array numbersFrom(const py::object& values, const std::string& expected) {
-    // As an array, it would have what is under the mask.
+    // Converting a masked array would expose the masked values.
     if (py::hasattr(values, "mask") &&
         py::module_::import("numpy.ma").attr("is_masked")(values).cast<bool>()) {
         throw py::value_error("expected " + expected +
-                              ", not an array with masked entries; leave them out first");
+                              ", not an array with masked entries; remove them first");
     }
     const auto array = converted<py::array>(
         values, "expected " + expected + ", not " + textOf(py::type::of(values)));
@@ -54,10 +54,10 @@ py::array_t<float> pointsFrom(const py::object& points) {
         throw py::value_error("expected " + expected + ", not of shape " + shapeText(array) +
                               (has_more ? "; pass points[:, :3]" : ""));
     }
-    if (static_cast<std::size_t>(array.shape(0)) > kMaxReturns) {  // before all are converted
+    if (static_cast<std::size_t>(array.shape(0)) > kMaxReturns) {  // before conversion
         throw py::value_error("the scan has " + std::to_string(array.shape(0)) +
                               " returns, more than the " + std::to_string(kMaxReturns) +
-                              " that it may have");
+                              " allowed");
     }
     return converted<py::array_t<float, py::array::forcecast>>(
         array, "expected " + expected + ", not numbers that float32 cannot hold");
@@ -69,8 +69,7 @@ PointsView viewOf(const py::array_t<float>& points) {
 }
 
 void copyPoints(const PointsView& points, Scan& scan) {
-    // Nothing is cleared first, as arrays would then be filled twice; locateBeams() writes the
-    // rest.
+    // Resizes without clearing, to avoid filling arrays twice; locateBeams() writes the rest.
     for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity})
         values->resize(points.returns);
     scan.time_s.clear();
@@ -88,7 +87,7 @@ void copyPoints(const PointsView& points, Scan& scan) {
     }
     const char* row = points.data;
     const auto at = [&](int column) {
-        float value;  // numpy does not align what it slices from structures
+        float value;  // numpy slices of structures are unaligned
         std::memcpy(&value, row + column * points.column_bytes, sizeof value);
         return value;
     };

@@ -11,28 +11,28 @@
 
 namespace hagen::python {
 
-/// The coordinates of returns as numpy holds them: float32, in any layout.
+/// The coordinates of returns in numpy's memory: float32, in any layout.
 struct PointsView {
     const char* data;
     std::size_t returns;
     std::ptrdiff_t row_bytes, column_bytes;
 };
 
-/// An (N, 3) array of numbers as float32: itself if it is float32, otherwise a converted copy.
-/// Throws ValueError for other shapes, for values that are not numbers and, if numpy raises on
-/// overflow (np.errstate(), warnings as errors), for numbers beyond float32.
+/// Returns an (N, 3) array of numbers as float32, without a copy if it is float32 already. Throws
+/// ValueError for other shapes, for values that are not numbers and, if numpy raises on overflow
+/// (np.errstate(), warnings as errors), for numbers beyond float32.
 pybind11::array_t<float> pointsFrom(const pybind11::object& points);
 PointsView viewOf(const pybind11::array_t<float>& points);
 
-/// Copies the coordinates into `scan`. Its ranges, azimuths and rows, and its intensities, are then
-/// any: call locateBeams(). Needs no GIL.
+/// Copies the coordinates into `scan`. All other arrays of `scan` are then undefined: call
+/// locateBeams(). Needs no GIL.
 void copyPoints(const PointsView& points, Scan& scan);
 
-/// An (N,) array of labels. Throws ValueError for other shapes, and for numbers other than 0, 1, 2;
-/// `what` names the argument.
+/// Returns an (N,) array of labels. Throws ValueError, naming the argument (`what`), for other
+/// shapes and for numbers other than 0, 1, 2.
 std::vector<Label> labelsFrom(const pybind11::object& labels, const std::string& what);
 
-/// An array that shares memory with `owner`, which stays alive as long as the array.
+/// An array that shares memory with `owner` and keeps it alive.
 template <class T>
 pybind11::array_t<T> shared(const std::vector<T>& values, const pybind11::object& owner) {
     return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data(),
@@ -51,7 +51,7 @@ pybind11::array_t<std::uint8_t> shared(const std::vector<Label>& labels,
                                        const pybind11::object& owner);
 pybind11::array_t<std::uint8_t> shared(const Image<Label>& labels, const pybind11::object& owner);
 
-/// Copies.
+/// Returns copies.
 template <class T>
 pybind11::array_t<T> copied(const std::vector<T>& values) {
     return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data());

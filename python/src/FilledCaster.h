@@ -11,9 +11,9 @@
 #include "Simulation.h"
 #include "Texts.h"
 
-// Objects of Python that hold none of C++, as __new__() alone makes them, and as __init__() of a
-// class derived from ours has them until it calls that of ours. For these, pybind11 would make up
-// memory that no constructor has seen.
+// Python objects without their C++ object, as __new__() alone creates them, or as seen in
+// __init__() of a derived class before it calls the base's. For these, pybind11 would use
+// uninitialized memory.
 namespace pybind11::detail {
 
 inline bool isEmpty(handle object, const std::type_info& held) {
@@ -24,14 +24,14 @@ inline bool isEmpty(handle object, const std::type_info& held) {
     return of_python->get_value_and_holder(type).value_ptr() == nullptr;
 }
 
-/// The caster of pybind11, but TypeError for such an object.
+/// pybind11's caster, but raises TypeError for such an object.
 template <class T>
 class FilledCaster : public type_caster_base<T> {
  public:
     bool load(handle source, bool convert) {
         if (source && isEmpty(source, typeid(T))) {
             throw type_error(hagen::python::textOf(type::handle_of(source).attr("__name__")) +
-                             ": the object is empty, as its constructor has not run");
+                             ": the object is empty, because its constructor has not run");
         }
         return type_caster_base<T>::load(source, convert);
     }

@@ -26,19 +26,18 @@ struct Segmented {
 /// without a range.
 std::vector<float> heightsOf(const Segmented& segmented);
 
-/// The filter for Python. Thread-safe: each call has its own filter.
-/// Memory of results that Python has dropped is used for the next ones, so that a loop over scans
-/// soon allocates none.
+/// The filter for Python. Thread-safe: each call has its own filter. Memory of results that Python
+/// has dropped is reused, so that a loop over scans soon allocates nothing.
 class Filter {
  public:
     /// Throws SettingsError if the options do not fit the sensor.
     explicit Filter(const Settings& settings);
 
-    /// Segments the returns of one scan, of the sensor of the settings, or of one with the beams
-    /// that the first scans show. Needs no GIL.
+    /// Segments the returns of one scan from the sensor in the settings, or from one with the beams
+    /// recovered from the first scans. Needs no GIL.
     std::shared_ptr<Segmented> segment(const PointsView& points,
                                        const std::optional<Attitude>& attitude);
-    /// Segments a scan of a recording: with its own sensor, beams, tilt and mount. Throws
+    /// Segments a scan of a recording with its own sensor, beams, tilt and mount. Throws
     /// std::runtime_error with the reason if it cannot be read. Needs no GIL.
     std::shared_ptr<Segmented> segment(const PythonScan& scan,
                                        const std::optional<Attitude>& attitude);
@@ -59,13 +58,13 @@ class Filter {
     const Settings settings_;
     std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
 
-    mutable std::mutex mutex_;  ///< of what follows
+    mutable std::mutex mutex_;  ///< guards all members below
     std::vector<HagenFilter> idle_;
-    int generation_ = 0;  ///< of the sensor that the idle filters are for
+    int generation_ = 0;  ///< of the sensor of the idle filters
     observations::CloudSensors sensors_;
     observations::SharedBeams beams_;
 
-    /// For scans of recordings, which may have several sensors, and settings of their own.
+    /// For scans of recordings, which may have several sensors and their own settings.
     struct Recorded {
         std::mutex mutex;
         std::weak_ptr<const recordings::ScanSource> source;

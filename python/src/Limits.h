@@ -6,8 +6,8 @@
 
 namespace hagen::python {
 
-/// Throws std::invalid_argument, which Python sees as ValueError, unless `value` lies between
-/// `least` and `most`; NaN does not. Requires the GIL.
+/// Throws std::invalid_argument (ValueError in Python) unless `value` is between `least` and
+/// `most`, which NaN is not. Requires the GIL.
 inline void checkLimits(const std::string& what, double value, double least, double most) {
     if (value >= least && value <= most) return;
     const auto text = [](double number) {

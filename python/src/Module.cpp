@@ -1,4 +1,4 @@
-// The Python module hagen._hagen; python/hagen/__init__.py is what users import.
+// The Python module hagen._hagen; users import it through python/hagen/__init__.py.
 #include <hagen/evaluation/ScanScores.h>
 #include <hagen/settings/Presets.h>
 #include <hagen/settings/Settings.h>
@@ -30,7 +30,7 @@ namespace py = pybind11;
 namespace hagen::python {
 namespace {
 
-/// Settings as of the flags -c, and single options.
+/// Settings from presets or files, as with -c, and from single options.
 Settings settingsFrom(const py::args& names, const py::kwargs& options) {
     Settings settings;
     const py::object fsencode = py::module_::import("os").attr("fsencode");
@@ -51,7 +51,7 @@ std::optional<Attitude> attitudeFrom(const py::object& attitude) {
         return py::value_error("attitude: expected (roll, pitch) [rad], each within +-2 pi, not " +
                                textOf(attitude));
     };
-    constexpr double kMax_rad = 6.2832;  // 2 pi, and what float32 makes of it
+    constexpr double kMax_rad = 6.2832;  // 2 pi, rounded up for float32
     const auto isAngle = [](double angle_rad) { return std::abs(angle_rad) <= kMax_rad; };
     try {
         const auto [roll_rad, pitch_rad] = attitude.cast<std::pair<double, double>>();
@@ -92,7 +92,7 @@ std::vector<double> timesWithoutPython(const Filter& filter, const py::object& x
     return seconds;
 }
 
-/// The images of a result by the names of SegmentationResult, those that the filter made.
+/// The images that the filter computed, by their names in SegmentationResult.
 py::dict stagesOf(const py::object& self) {
     const auto& r = self.cast<const Segmented&>().result;
     py::dict stages;
@@ -109,7 +109,7 @@ py::dict stagesOf(const py::object& self) {
     add("pixel_angle_rad", r.pixel_angle_rad);
     add("labels", r.labels);
     add("components", r.components);
-    if (r.ground.has_surface) {  // otherwise they are of an earlier scan
+    if (r.ground.has_surface) {  // otherwise from an earlier scan
         add("height_m", r.ground.height_m);
         add("tolerance_m", r.ground.tolerance_m);
     }
@@ -129,21 +129,23 @@ py::object groundOf(const Segmented& segmented) {
 
 evaluation::Scores evaluate(const py::object& labels, const py::object& truth,
                             const py::object& xyz, double max_range_m) {
-    checkLimits("max_range_m", max_range_m, 0.1, 1000);  // as of segmentation-evaluate
+    checkLimits("max_range_m", max_range_m, 0.1, 1000);  // as in segmentation-evaluate
     evaluation::GroundTruthScan scan;
     const std::vector<Label> found = labelsFrom(labels, "labels");
     scan.truth = labelsFrom(truth, "truth");
     if (found.size() != scan.truth.size()) {
-        throw py::value_error("there are " + std::to_string(found.size()) + " labels, but " +
-                              std::to_string(scan.truth.size()) + " of the truth");
+        throw py::value_error("numbers of labels (" + std::to_string(found.size()) +
+                              ") and true labels (" + std::to_string(scan.truth.size()) +
+                              ") differ");
     }
     if (xyz.is_none()) {
         scan.input.scan.range_m.assign(found.size(), 0);
     } else {
         copyPoints(viewOf(pointsFrom(xyz)), scan.input.scan);
         if (scan.input.scan.size() != found.size()) {
-            throw py::value_error("there are " + std::to_string(found.size()) + " labels, but " +
-                                  std::to_string(scan.input.scan.size()) + " points");
+            throw py::value_error("numbers of labels (" + std::to_string(found.size()) +
+                                  ") and points (" + std::to_string(scan.input.scan.size()) +
+                                  ") differ");
         }
         locateBeams(sensorModel("VLP-16"), scan.input.scan);  // for ranges only
     }
@@ -172,32 +174,32 @@ forward, y left, z up.)")
         .def_readonly("ring", &PythonScan::ring, R"((N,) uint8: the beam, counted from the lowest.
 None for a sensor without rings.)")
         .def_readonly("times", &PythonScan::times, R"((N,) float32: time of each return since the
-scan's first firing [s]. None if it is unknown.)")
+scan's first firing [s]. None if unknown.)")
         .def_readonly("time", &PythonScan::time_s, "Time of the scan [s since 1970].")
         .def_property_readonly(
             "sensor_label",
             [](const PythonScan& scan) {
                 return shownText(scan.recorded.observation->sensorLabel);
             },
-            "The label of the LiDAR in the recording; bytes that are no UTF-8 are U+FFFD.")
+            "The label of the LiDAR in the recording; invalid UTF-8 bytes become U+FFFD.")
         .def_property_readonly(
             "sensor", [](const PythonScan& scan) { return shownText(scan.sensor.name); },
             R"(The model of the sensor, such as 'VLP-16'; 'recovered' if the beams were estimated
 from the clouds.)")
         .def_property_readonly("pose", &poseOf,
                                R"((4, 4) float64: from the sensor's frame at the time
-of the scan to the map. None if it is unknown.)")
+of the scan to the map frame. None if unknown.)")
         .def_property_readonly("attitude", &attitudeOf, R"((roll, pitch) of the sensor against the
-horizon [rad]; None if they are unknown. See Filter.segment().)")
+horizon [rad]; None if unknown. See Filter.segment().)")
         .def_property_readonly(
             "entry", [](const PythonScan& scan) { return scan.recorded.entry; },
-            "The index of its entry in the recording.")
+            "Index of the entry in the recording.")
         .def_property_readonly(
             "name", [](const PythonScan& scan) { return fileText(scan.recorded.name); },
-            "The name of its file, without extension; empty for rawlogs, captures and bags.")
+            "File name without extension; empty for rawlogs, captures and bags.")
         .def_property_readonly(
             "remark", [](const PythonScan& scan) { return shownText(scan.remark); },
-            "What the user should know of this scan; may be empty.")
+            "Remark about this scan; may be empty.")
         .def_readonly("truth", &PythonScan::truth, R"((N,) uint8: true labels of a simulated scan:
 terrain and canopy are ROU, dust and the vehicle's own parts are unclassified, everything else is
 RoI at any range. Otherwise None.)")
@@ -236,11 +238,11 @@ many scans, copy them: result.labels.copy().)")
             [](const py::object& self) {
                 return shared(self.cast<const Segmented&>().result.returns.component, self);
             },
-            "(N,) int32: the obstacle of each return (RoI component), 1 the nearest; 0: none.")
+            "(N,) int32: obstacle (RoI component) of each return, from 1 (nearest); 0: none.")
         .def_property_readonly(
             "heights", [](const Segmented& segmented) { return copied(heightsOf(segmented)); },
-            R"((N,) float32: the height of each return above the ground surface [m], computed when
-asked for. NaN for returns without a range; all NaN if no ground was seen.)")
+            R"((N,) float32: the height of each return above the ground surface [m], computed on
+access. NaN for returns without a range; all NaN if no ground was seen.)")
         .def_property_readonly("ground", &groundOf,
                                R"((4, 4) float32: from the sensor's frame to the
 ground frame, whose z = 0 is the mean plane of the ground. None if no ground was seen.)")
@@ -261,14 +263,14 @@ smoothed_rad     the same after singular spectrum analysis
 pixel_angle_rad  the angle of each pixel, used for labelling
 labels           uint8, as for returns
 components       int32: obstacles, numbered from the nearest
-height_m         height above the ground surface; only if there is one
+height_m         height above the ground surface; only if there is a surface
 tolerance_m      pixels up to this height are ground; only if there is a surface)")
         .def_property_readonly(
             "sensor", [](const Segmented& segmented) { return shownText(segmented.sensor); },
-            "The model of the sensor; 'recovered' if the scans have shown its beams.")
+            "The sensor model; 'recovered' if its beams were estimated from scans.")
         .def_property_readonly(
             "remark", [](const Segmented& segmented) { return shownText(segmented.remark); },
-            "What the user should know of this scan; may be empty.")
+            "Remark about this scan; may be empty.")
         .def("__len__", [](const Segmented& segmented) { return segmented.scan.size(); })
         .def("__repr__", [](const Segmented& segmented) {
             const LabelledReturns& returns = segmented.result.returns;
@@ -287,31 +289,29 @@ far returns (ROU) in a LiDAR scan, without a map.
     result = filter.segment(xyz)          # (N, 3) [m], x forward, y left, z up
     near = xyz[result.labels == hagen.ROI]
 
-Keep the filter: it reuses its memory. It has no state but that, and may be used by several
-threads.)")
+Reuse the filter, because it keeps its memory. It has no other state, and is thread-safe.)")
         .def(py::init([](const py::args& settings, const py::kwargs& options) {
                  return std::make_unique<Filter>(settingsFrom(settings, options));
              }),
              R"(Filter(*settings, **options)
 
 settings: presets (hagen.presets()) or settings files; later ones override earlier ones. Without a
-sensor in them, arrays of points show their beams themselves.
+sensor in them, beams are estimated from the arrays of points.
 options: single options, such as zone_m=15 or beta_deg=7.5; see docs/settings.md.
 Raises hagen.SettingsError.)")
         .def("segment", &segment, py::arg("scan"), py::arg("attitude") = py::none(),
              R"(Segments one scan, which may be empty.
 
-scan: an array of shape (N, 3), x, y, z of each return in the sensor's frame [m], of the sensor of
-the settings. float32 is read as it is, other types are converted. Or a Scan of hagen.open() or
-hagen.simulate(), which comes with its own sensor, beams, tilt and mount, as in rawlog-segment.
-attitude: (roll, pitch) of the sensor against the horizon [rad], if known: pitch about y, nose down
-positive, then roll about x, left side up positive. A sensor may be mounted at any angle if it is.
+scan: an array of shape (N, 3) with x, y, z of each return in the sensor's frame [m], for the sensor
+in the settings; float32 is used directly, other types are converted. Or a Scan from hagen.open() or
+hagen.simulate(), which has its own sensor, beams, tilt and mount, as in rawlog-segment.
+attitude: (roll, pitch) of the sensor relative to the horizon [rad], if known: pitch about y, nose
+down positive, then roll about x, left side up positive. It allows any mounting angle.
 
-Raises ValueError if the shape is another one, or an angle is beyond +-2 pi. Other threads run
-meanwhile.)")
+Raises ValueError for other shapes, or an angle beyond +-2 pi. Releases the GIL.)")
         .def_property_readonly(
             "sensor", [](const Filter& filter) { return shownText(filter.sensor().name); },
-            "The model of the sensor; 'recovered' if the scans have shown its beams.")
+            "The sensor model; 'recovered' if its beams were estimated from scans.")
         .def_property_readonly(
             "elevations_rad",
             [](const Filter& filter) { return copied(filter.sensor().elevations_rad); },
@@ -352,11 +352,11 @@ void defineSources(py::module_& m) {
              })
         .def_property_readonly(
             "poses", [](const Recording& recording) { return shownText(recording.poseSource()); },
-            "Source of its poses; empty without poses.")
+            "Source of the poses; empty without poses.")
         .def_property_readonly(
             "remarks", [](const Recording& recording) { return shownTexts(recording.remarks()); },
-            R"(What the user should know of the recording as a whole, such as
-packets that are missing; complete after the last scan.)")
+            R"(Remarks about the recording as a whole, such as missing
+packets; complete after the last scan.)")
         .def("__repr__", [](const Recording& recording) {
             return shownText("<hagen.Recording: " + recording.file().string() + ">");
         });
@@ -402,14 +402,14 @@ void defineScores(py::module_& m) {
     py::class_<Scores>(m, "Scores", R"(Scores of both classes. Sums are micro-averages: counts are
 summed over returns and scans before ratios are computed.)")
         .def(py::init<>())
-        .def_readonly("roi", &Scores::roi, "Of near obstacles.")
-        .def_readonly("rou", &Scores::rou, "Of ground and far returns.")
+        .def_readonly("roi", &Scores::roi, "Score of near obstacles.")
+        .def_readonly("rou", &Scores::rou, "Score of ground and far returns.")
         .def_property_readonly("returns", &Scores::returns, "The number of scored returns.")
         .def_property_readonly("correct", &Scores::correct,
                                "The fraction with the correct label; NaN without returns.")
         .def(
             "__add__", [](Scores a, const Scores& b) { return a += b; }, py::is_operator())
-        // The object itself, which other names may have, too.
+        // Returns the object itself, which may have several names.
         .def(
             "__iadd__", [](Scores& a, const Scores& b) -> Scores& { return a += b; },
             py::return_value_policy::reference, py::is_operator())
@@ -420,9 +420,8 @@ segmentation-evaluate does.
 
 labels, truth: (N,) labels, 0 unclassified, 1 ROU, 2 RoI. Returns whose true label is 0 are not
 scored.
-xyz: (N, 3) [m]; only returns up to max_range_m from the sensor are scored. Without it, all are.
-Raises ValueError for other shapes and labels, and for a max_range_m that is not within 0.1 and
-1000.)");
+xyz: (N, 3) [m]; only returns up to max_range_m from the sensor are scored (default: all).
+Raises ValueError for other shapes and labels, and for a max_range_m outside 0.1 to 1000.)");
 }
 
 }  // namespace
@@ -432,12 +431,12 @@ namespace {
 
 newfunc new_object = nullptr;
 
-/// pybind11 throws a C++ exception through Python where its base class itself is called, as pickle
-/// does with old protocols.
+/// pybind11 throws a C++ exception through Python if its base class is called, as pickle does with
+/// old protocols.
 PyObject* newObject(PyTypeObject* type, PyObject* args, PyObject* words) {
     PyObject* const base = py::detail::get_internals().instance_base;
     if (reinterpret_cast<PyObject*>(type) != base) return new_object(type, args, words);
-    PyErr_SetString(PyExc_TypeError, "cannot be made, nor be pickled");
+    PyErr_SetString(PyExc_TypeError, "cannot be created or pickled");
     return nullptr;
 }
 
@@ -452,8 +451,8 @@ void refuseObjectsOfNoClass() {
 
 PYBIND11_MODULE(_hagen, m) {
     refuseObjectsOfNoClass();
-    // pybind11 looks NumPy up when it makes the first array. Two threads that do so at once wait
-    // for each other: one for the GIL, the other for the first one's result.
+    // pybind11 looks up NumPy for the first array. Two threads doing so at once would deadlock: one
+    // waits for the GIL, the other for the first one's result.
     py::dtype::of<float>();
     using namespace hagen;
     using namespace hagen::python;
@@ -477,7 +476,7 @@ PYBIND11_MODULE(_hagen, m) {
                 names.append(fileText(name));
             return names;
         },
-        "The names of the presets that Filter() knows.");
+        "The names of all presets for Filter().");
     m.def("_times_without_python", &timesWithoutPython, py::arg("filter"), py::arg("xyz"),
           py::arg("runs"));
     m.def("_add_presets", &addPresetFolder, py::arg("folder"));

@@ -5,10 +5,10 @@
 
 namespace hagen::python {
 
-/// Releases the GIL while it lives, as pybind11::gil_scoped_release. Where Python ends meanwhile,
-/// it ends the threads that want the GIL back (daemon threads), by unwinding their stacks:
-/// destructors on it would use Python without the GIL, and pybind11's ends the process by abort().
-/// So such a thread stays here until the process is gone, as from Python 3.14 on.
+/// Releases the GIL during its lifetime, like pybind11::gil_scoped_release. If Python exits
+/// meanwhile, it ends (daemon) threads that request the GIL by unwinding their stacks: destructors
+/// would use Python without the GIL, and pybind11's would abort() the process. Such a thread
+/// therefore blocks here until the process ends, as in Python 3.14.
 class OthersRun {
  public:
     OthersRun() : thread_(PyEval_SaveThread()) {}

@@ -9,10 +9,10 @@
 
 namespace hagen::python {
 
-/// A scan as Python sees it: its arrays, and the observation that the filter reads.
+/// A scan for Python: its arrays, and the observation that the filter reads.
 struct PythonScan {
     recordings::RecordedScan recorded;
-    /// The recording that it is from, which may name its sensor; null for simulated scans.
+    /// The recording, which may name the sensor; null for simulated scans.
     std::shared_ptr<const recordings::ScanSource> source;
 
     pybind11::array_t<float> xyz;        ///< (N, 3) [m]
@@ -31,7 +31,7 @@ struct PythonScan {
 };
 
 /// Fills the arrays from the recorded observation, whose returns keep their order. Requires the
-/// GIL, and releases it while it reads. Throws std::runtime_error naming the entry.
+/// GIL, and releases it while reading. Throws std::runtime_error naming the entry.
 void readArrays(PythonScan& scan);
 
 /// The pose as a matrix (4, 4), or None.

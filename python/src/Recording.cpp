@@ -15,8 +15,8 @@ namespace py = pybind11;
 
 namespace {
 
-/// Runs `read` without the GIL. A signal, such as Ctrl-C, ends it with the exception that Python's
-/// handler has raised.
+/// Runs `read` without the GIL. A signal, such as Ctrl-C, ends it with the exception raised by
+/// Python's handler.
 template <class Read>
 auto withoutGil(Read read) {
     try {
@@ -48,7 +48,7 @@ Recording::Recording(const std::filesystem::path& file, recordings::SourceOption
     options.keep_going = hasNoSignal;
     source_ = withoutGil([&] {
         std::shared_ptr<recordings::ScanSource> source = recordings::openRecording(file, options);
-        source->useSettings(Settings());  // beams of unnamed sensors
+        source->useSettings(Settings());  // for the beams of unnamed sensors
         source->usePoses(poses);
         return source;
     });

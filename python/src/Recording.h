@@ -14,8 +14,8 @@
 
 namespace hagen::python {
 
-/// A recording that Python iterates, from any number of threads: each scan goes to one. All
-/// functions require the GIL, and release it while they read.
+/// A recording that Python iterates, from any number of threads: each scan goes to one of them. All
+/// functions require the GIL, and release it while reading.
 class Recording {
  public:
     /// Throws FileNotFoundError, and like recordings::openRecording() and ScanSource::usePoses().
@@ -33,9 +33,9 @@ class Recording {
     std::filesystem::path file_;
     std::vector<std::string> wanted_labels_;
     std::shared_ptr<recordings::ScanSource> source_;
-    std::set<std::string> labels_;  ///< of the scans read
+    std::set<std::string> labels_;  ///< of the scans read so far
     bool is_at_end_ = false;
-    mutable std::mutex reading_;  ///< locked without the GIL, which a source takes now and then
+    mutable std::mutex reading_;  ///< locked without the GIL, which sources sometimes acquire
 };
 
 }  // namespace hagen::python

@@ -39,7 +39,7 @@ simulation::FlightSettings flightOf(const SimulationRequest& request) {
     return settings;
 }
 
-/// Packets if the sensor has them, otherwise a cloud with known beams.
+/// Packets if the sensor supports them, otherwise a cloud with known beams.
 mrpt::obs::CObservation::Ptr observationOf(const simulation::SimulatedScan& made,
                                            const SensorModel& sensor, double time_s) {
     mrpt::obs::CObservation::Ptr observation;
@@ -91,7 +91,7 @@ std::optional<PythonScan> Simulation::next() {
         Attitude{static_cast<float>(pose.roll()), static_cast<float>(pose.pitch())};
     readArrays(scan);
     if (static_cast<std::size_t>(scan.xyz.shape(0)) != made.size())
-        throw std::logic_error("the packets contain other returns than were simulated");
+        throw std::logic_error("the packets differ from the simulated returns");
 
     std::vector<std::uint8_t> truth, kind;
     for (const simulation::ObjectClass of_return : made.kind) {

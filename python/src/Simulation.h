@@ -30,7 +30,7 @@ class Simulation {
     /// Throws std::invalid_argument for unknown names and numbers out of range.
     explicit Simulation(const SimulationRequest& request);
 
-    /// The next scan; none at the end. Requires the GIL, and releases it while it simulates.
+    /// The next scan; none at the end. Requires the GIL, and releases it while simulating.
     std::optional<PythonScan> next();
     int scans() const { return request_.scans; }
     int left() const { return request_.scans - made_; }

@@ -1,4 +1,4 @@
-"""What the tests share: the recordings of the project, and its programs."""
+"""Shared by the tests: the recordings of the project, and its programs."""
 import os
 import pathlib
 import subprocess
@@ -12,10 +12,10 @@ ORCHARD = SOURCES / "rawlogs" / "orchard.rawlog"
 
 @pytest.fixture(scope="session")
 def program():
-    """Runs a program of the build, and returns what it prints."""
+    """Runs a program of the build, and returns its output."""
     folder = os.environ.get("HAGEN_BIN")
     if not folder:
-        pytest.skip("HAGEN_BIN does not name the folder of the programs")
+        pytest.skip("HAGEN_BIN is not set to the folder of the programs")
 
     def run(name, *arguments):
         command = [pathlib.Path(folder) / name, *map(str, arguments)]
@@ -26,7 +26,7 @@ def program():
 
 @pytest.fixture(scope="session")
 def poles_labels(program, tmp_path_factory):
-    """The scan folder that rawlog-segment makes of the poles and the wall."""
+    """The scan folder that rawlog-segment writes for the poles and the wall."""
     folder = tmp_path_factory.mktemp("poles") / "labels"
     program("rawlog-segment", "-i", POLES, "--kitti", folder, "-c", "vlp16", "-q")
     return folder

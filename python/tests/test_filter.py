@@ -10,7 +10,7 @@ import hagen
 
 
 def ground_and_pillar(height_m=1.5):
-    """A VLP-16 over flat ground, with a pillar 8 m away at 0.5 rad. Returns points, and which are of
+    """A VLP-16 over flat ground, with a pillar 8 m away at 0.5 rad. Returns points, and a mask of
     the pillar."""
     elevations = np.radians(np.arange(-15, 16, 2))
     azimuth, elevation = (
@@ -58,7 +58,7 @@ def test_heights_are_above_the_ground():
 
 
 def test_labels_match_program(program, poles_labels, tmp_path):
-    """Points of a scan folder, which come without packets, poses or tilt."""
+    """Points of a scan folder, without packets, poses or tilt."""
     folder = tmp_path / "scans"
     (folder / "velodyne").mkdir(parents=True)
     for file in (poles_labels / "velodyne").iterdir():
@@ -201,7 +201,7 @@ def test_filter_releases_gil():
 
     thread = threading.Thread(target=tick)
     interval = sys.getswitchinterval()
-    sys.setswitchinterval(60)  # only who gives the lock of Python away is interrupted
+    sys.setswitchinterval(60)  # threads switch only when the GIL is released
     try:
         thread.start()
         before = len(ticks)
@@ -287,7 +287,7 @@ def test_rejects_float32_overflow():
         warnings.simplefilter("error")
         with pytest.raises(ValueError, match="float32 cannot hold"):
             segmenter.segment(far)
-    with np.errstate(all="ignore"):  # they are infinite, and have no range
+    with np.errstate(all="ignore"):  # infinite, so without range
         assert np.all(segmenter.segment(far).labels == hagen.UNCLASSIFIED)
 
 

@@ -51,7 +51,7 @@ ARGUMENTS = {"segment": ([],), "__add__": (hagen.Scores(),), "__iadd__": (hagen.
     "name", ["ClassScore", "Filter", "Recording", "Result", "Scan", "Scores", "Simulation"]
 )
 def test_rejects_uninitialized_objects(name):
-    """__new__() alone makes them; using them would read uninitialized memory."""
+    """__new__() alone creates them; using them would read uninitialized memory."""
     of = getattr(hagen, name)
     own = members(of) | {"__len__", "__length_hint__", "__next__", "__repr__", "__add__", "__iadd__"}
     for member in own & set(vars(of)):
@@ -107,7 +107,7 @@ print(hagen.Filter(name).settings)
 
 
 def test_mrpt_out_of_memory_raises():
-    """The linker shows which allocation MRPT's clouds use: ours throws, MRPT's returns nullptr."""
+    """The linker shows which allocator MRPT's clouds use: ours throws, MRPT's returns nullptr."""
     environment = {**os.environ, "LD_DEBUG": "bindings", "LD_BIND_NOW": "1"}
     output = subprocess.run(
         [sys.executable, "-c", "import hagen"], env=environment, check=True, capture_output=True

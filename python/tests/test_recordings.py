@@ -32,7 +32,7 @@ def test_labels_match_program(poles_labels):
 
 
 def test_recording_settings_are_local(poles_labels, tmp_path):
-    """Also after it is deleted."""
+    """Even after its deletion."""
     folder = tmp_path / "near"
     (folder / "velodyne").mkdir(parents=True)
     scan = sorted((poles_labels / "velodyne").glob("*.bin"))[0]
@@ -41,7 +41,7 @@ def test_recording_settings_are_local(poles_labels, tmp_path):
     simulated = next(hagen.simulate("orchard", seed=1))
     expected = hagen.Filter("vlp16").segment(simulated).labels.copy()
     segmenter = hagen.Filter("vlp16")
-    near = segmenter.segment(next(iter(hagen.open(folder)))).labels  # both are gone here
+    near = segmenter.segment(next(iter(hagen.open(folder)))).labels  # both are destroyed here
     assert np.count_nonzero(near == hagen.ROI) < np.count_nonzero(
         hagen.Filter("vlp16").segment(next(iter(hagen.open(poles_labels)))).labels == hagen.ROI
     )
@@ -49,7 +49,7 @@ def test_recording_settings_are_local(poles_labels, tmp_path):
 
 
 def test_points_alone_give_similar_labels():
-    """Without the packets' own rows and azimuths, single returns change their pixel."""
+    """Without the packets' rows and azimuths, some returns change their pixel."""
     segmenter = hagen.Filter("vlp16")
     for scan in hagen.open(POLES):
         with_packets = segmenter.segment(scan).labels
@@ -76,7 +76,7 @@ def test_scan_attributes():
     np.testing.assert_allclose(first.attitude, (0, 0), atol=1e-6)
     assert recording.poses and recording.remarks == []
 
-    # A return of the lowest beam is on the ground: its elevation is that of its ring.
+    # A return of the lowest beam on the ground; its elevation identifies the ring.
     elevation = np.arctan2(first.xyz[:, 2], np.hypot(first.xyz[:, 0], first.xyz[:, 1]))
     np.testing.assert_allclose(np.degrees(elevation), 2.0 * first.ring - 15, atol=0.05)
     assert first.truth is None and first.altitude_m is None
@@ -114,7 +114,7 @@ def test_point_clouds(tmp_path):
     np.testing.assert_array_equal(cloud.xyz, scan.xyz)
     assert cloud.pose is None and cloud.name == "cloud"
     assert cloud.sensor == "VLP-16"  # recovered
-    # Beams of the settings go before those that the cloud shows.
+    # Beams from the settings override those estimated from the cloud.
     named = hagen.Filter("vlp16").segment(cloud)
     np.testing.assert_array_equal(named.labels, hagen.Filter("vlp16").segment(scan.xyz).labels)
 
@@ -144,7 +144,7 @@ def test_reports_unreadable_files(tmp_path):
 
 
 def test_shows_non_utf8_texts(tmp_path):
-    """Sensor labels and file names may hold any bytes."""
+    """Sensor labels and file names may contain any bytes."""
     recording = tmp_path / os.fsdecode(b"fl\xffght.rawlog")
     recording.write_bytes(gzip.decompress(POLES.read_bytes()).replace(b"lidar", b"lid\xffr"))
     scans = hagen.open(recording)
@@ -188,14 +188,14 @@ def test_broken_recording_raises_after_scans(tmp_path):
 
 
 def test_large_programs_can_read():
-    """The trial of a rawlog limits memory: beyond what the program has."""
+    """Probing a rawlog limits additional memory only."""
     ballast = np.ones(200_000_000 // 8)
     assert len(list(hagen.open(POLES))) == 10
     assert ballast[-1] == 1
 
 
 def test_long_read_is_interruptible(tmp_path):
-    """A capture without a packet of a LiDAR is read to its end by the first call."""
+    """The first call reads a capture without LiDAR packets to its end."""
     frame = b"\0" * 12 + b"\x08\x06" + b"\0" * 28  # ARP
     record = struct.pack("<IIII", 1700000000, 0, len(frame), len(frame)) + frame
     capture = tmp_path / "other.pcap"

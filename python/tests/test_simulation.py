@@ -10,7 +10,7 @@ import hagen
 
 @pytest.fixture(scope="module")
 def flight(program, tmp_path_factory):
-    """A flight as rawlog-simulate writes it."""
+    """A flight written by rawlog-simulate."""
     folder = tmp_path_factory.mktemp("flight") / "scans"
     program(
         "rawlog-simulate", "--scenario", "orchard", "--scans", 3, "--seed", 5, "--altitude", 3,
@@ -132,13 +132,13 @@ def test_rejects_wrong_flights():
 @pytest.mark.parametrize(
     "labels, truth, xyz, text",
     [
-        ([1, 2], [1], None, "2 labels, but 1 of the truth"),
+        ([1, 2], [1], None, r"labels \(2\) and true labels \(1\) differ"),
         ([1, 3], [1, 2], None, "labels.*not 3 at 1"),
         ([1, 2], [1, -1], None, "truth.*not -1 at 1"),
         ([1, 1.5], [1, 1], None, "not 1.5 at 1"),
         ([[1, 2]], [1, 2], None, r"labels.*not of shape \(1, 2\)"),
         (["RoI"], [2], None, "labels.*dtype <U3"),
-        ([1, 2], [1, 2], np.zeros((3, 3)), "2 labels, but 3 points"),
+        ([1, 2], [1, 2], np.zeros((3, 3)), r"labels \(2\) and points \(3\) differ"),
     ],
 )
 def test_rejects_wrong_labels(labels, truth, xyz, text):

@@ -247,7 +247,7 @@ TEST_F(LiveSegment, FullDiskEndsRecordingOnly) {
                            "VLP-16", "--replay", capture(), "--speed", "20", "--record",
                            path("a.pcap"), "--stats", path("stats.json")});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("what was written is in " + path("a.partial.pcap")));
+    EXPECT_THAT(outcome.err, HasSubstr("partial recording kept in " + path("a.partial.pcap")));
     EXPECT_FALSE(fs::exists(path("a.pcap")));
     EXPECT_TRUE(fs::exists(path("a.partial.pcap")));
     const auto json = stats();
@@ -374,7 +374,7 @@ TEST_F(LiveSegment, RejectsWrongFlags) {
     expectFailure({"--replay", file}, 2, "is required; models: VLP-16");
     expectFailure({"--replay", file, "--model", "OS1-64"}, 2, "supported are VLP-16");
     expectFailure({"--replay", file, "--model", "HDL-64E"}, 2, "--calibration FILE");
-    expectFailure({"--listen", "here", "--model", "VLP-16"}, 2, "'here' is no IPv4 address");
+    expectFailure({"--listen", "here", "--model", "VLP-16"}, 2, "'here' is not an IPv4 address");
     expectFailure({"--listen", "0.0.0.0:2368", "--speed", "2", "--model", "VLP-16"}, 2, "--speed");
     expectFailure({"--replay", file, "--sensor-json", file, "--model", "VLP-16"}, 2, "Ouster");
     expectFailure({"--replay", file, "--sensor-json", file}, 1, "flight.pcap");

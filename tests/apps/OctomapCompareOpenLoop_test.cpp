@@ -46,7 +46,7 @@ TEST_F(OpenLoopCommand, OracleIsExactAndModelsGetSameScans) {
         run({"-i", path("gap.rawlog"), "--poses", path("gap.tum"), "--truth-scenario", "gap",
              "--truth-seed", "3", "--models", "oracle,W-RoI,W-Full", "-o", path("out")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.out, HasSubstr("truth: the scene gap of seed 3"));
+    EXPECT_THAT(outcome.out, HasSubstr("truth: the scene gap with seed 3"));
     const auto summary = nlohmann::json::parse(test::readFile(path("out/summary.json")));
     EXPECT_EQ(summary["scans"], 4);
     EXPECT_EQ(summary["scans_moved_whole"], 0);
@@ -157,7 +157,7 @@ TEST_F(OpenLoopCommand, RefusesWrongUsage) {
 TEST_F(OpenLoopCommand, RejectsSceneOfOtherLog) {
     expectFailure({"-i", kOrchard, "--truth-scenario", "orchard", "--truth-seed", "2", "--models",
                    "oracle", "-o", path("no")},
-                  1, "was not simulated in orchard of seed 2");
+                  1, "was not simulated in orchard with seed 2");
 }
 
 TEST_F(OpenLoopCommand, KeepsExistingFiles) {

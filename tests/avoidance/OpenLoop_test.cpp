@@ -170,7 +170,7 @@ TEST_F(OpenLoopTest, RejectsWrongScene) {
     OpenLoop open_loop = openLoop(HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog", {"oracle"});
     open_loop.scene = {"wires", 1};
     EXPECT_THAT(test::messageOf([&] { runOpenLoop(open_loop); }),
-                HasSubstr("was not simulated in wires of seed 1"));
+                HasSubstr("was not simulated in wires with seed 1"));
 }
 
 /// The scans after a clock went back are no later scans of those before.

@@ -34,7 +34,7 @@ TEST_F(ReplayCommand, NamesMissingTable) {
     expectFailure({"replay", folder(), "--seed=1"}, 1, "runs.csv:1: is empty");
     writeRuns({});
     expectFailure({"replay", folder(), "--seed=1"}, 2,
-                  folder() + ": has no run of seed 1, nor any other");
+                  folder() + ": has no run with seed 1, nor any other");
 }
 
 TEST_F(ReplayCommand, ListsCommandsInstead) {
@@ -63,8 +63,9 @@ TEST_F(ReplayCommand, SelectsRunByListedLine) {
 
 TEST_F(ReplayCommand, NeedsOneRun) {
     writeRuns(threeContenders());
-    expectFailure({"replay", folder(), "--seed", "77"}, 2, "no run of seed 77");
-    expectFailure({"replay", folder(), "--seed", "1", "--model", "G-Full"}, 2, "no run of seed 1");
+    expectFailure({"replay", folder(), "--seed", "77"}, 2, "no run with seed 77");
+    expectFailure({"replay", folder(), "--seed", "1", "--model", "G-Full"}, 2,
+                  "no run with seed 1");
     expectFailure({"replay", folder(), "--seed", "1"}, 2,
                   "--scenario gap --model W-RoI --guidance straight --speed 4   # timeout\n");
     expectFailure({"replay", folder()}, 2, "--seed is required");
@@ -72,7 +73,7 @@ TEST_F(ReplayCommand, NeedsOneRun) {
                   "{optimistic,brake-known}");
     for (const char* spelling : {"brake-known", "brake_known"}) {
         expectFailure({"replay", folder(), "--seed", "1", "--unknown", spelling}, 2,
-                      "no run of seed 1 with these flags");
+                      "no run with seed 1 and these flags");
     }
     for (const char* model : {"O-Full-0.4", "OctoMap 0.4 m", "octomap 0.4 m"}) {
         expectFailure({"replay", folder(), "--seed", "1", "--model", model}, 1, "profile.json");

@@ -174,7 +174,7 @@ TEST(RunTable, ReadsOlderTables) {
     EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":2: 26 fields, not 24"));
     drop(header);
     folder.write("runs.csv", header + "\n");
-    EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":1: not the header"));
+    EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":1: wrong header"));
 }
 
 TEST(RunTable, SectorsAddAColumn) {
@@ -211,7 +211,7 @@ TEST(RunTable, NamesInvalidFile) {
     EXPECT_EQ(said(folder / "no.csv"),
               (folder / "no.csv").string() + ": cannot be read: No such file or directory");
     EXPECT_THAT(said(folder.write("a.csv", "")), HasSubstr("a.csv:1: is empty"));
-    EXPECT_THAT(said(folder.write("b.csv", "a,b\n1,2\n")), HasSubstr("b.csv:1: not the header"));
+    EXPECT_THAT(said(folder.write("b.csv", "a,b\n1,2\n")), HasSubstr("b.csv:1: wrong header"));
 }
 
 TEST(FlightConditions, NamesAreReadBack) {

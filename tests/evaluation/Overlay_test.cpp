@@ -37,7 +37,7 @@ TEST(Overlay, WritesOneFolderPerMethod) {
                         {0, 0, 0, 2, method, truth, truth.truth, pixels}, options);
         });
     };
-    const std::string twice = "two pictures would be beta_5/x_00_000007_overlay.png";
+    const std::string twice = "two pictures would have the name beta_5/x_00_000007_overlay.png";
     EXPECT_THAT(errorOf(same, "x/00"), testing::HasSubstr(twice));
     EXPECT_THAT(errorOf(name, "x_00"), testing::HasSubstr(twice));
     EXPECT_EQ(errorOf(above, "x/00"), "");

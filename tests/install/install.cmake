@@ -86,5 +86,5 @@ run("" ${finds} ${without_mrpt} -B ${work}/without_mrpt "-DCOMPONENTS=base;setti
 run("mrpt-obs" ERROR ${finds} ${without_mrpt} -B ${work}/mrpt -DCOMPONENTS=mrpt)
 run("optional convert: FALSE" ${finds} ${without_mrpt} -B ${work}/optional -DCOMPONENTS=filter -DOPTIONAL=convert)
 run("optional convert: TRUE" ${finds} -B ${work}/optional_found -DCOMPONENTS=filter -DOPTIONAL=convert)
-run("hagen has no component 'filtre'; it has " ERROR ${finds} -B ${work}/unknown -DCOMPONENTS=filtre)
+run("hagen has no component 'filtre'; available: " ERROR ${finds} -B ${work}/unknown -DCOMPONENTS=filtre)
 run("" ${finds} -B ${work}/all)

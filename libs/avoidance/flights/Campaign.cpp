@@ -31,18 +31,18 @@ void replace(const fs::path& file, const std::string& text) {
 /// A row without a line end is incomplete: its flight is repeated.
 void removeIncompleteRow(const fs::path& table) {
     const std::string text = base::readText(table);
-    const std::size_t complete = text.rfind('\n') + 1;  // 0 if there is none
+    const std::size_t complete = text.rfind('\n') + 1;  // 0 if there is no line end
     if (complete < text.size()) replace(table, text.substr(0, complete));
 }
 
-/// Prepares a folder for runs with these settings. Returns the runs that it has.
+/// Prepares a folder for runs with these settings. Returns the finished runs in it.
 std::vector<Run> openFolder(const fs::path& folder, const LatencyProfile& profile,
                             const std::string& settings, bool overwrites) {
     const fs::path campaign = folder / "campaign.json", table = folder / "runs.csv";
     const auto refuse = [](const fs::path& file) {
         throw std::runtime_error(file.string() +
                                  ": has other settings (version or latency profile); choose "
-                                 "another folder, or start it from scratch with --overwrite");
+                                 "another folder, or discard its runs with --overwrite");
     };
     fs::create_directories(folder);
     const std::size_t partial = base::partialOutputs(campaign).size();  // of a killed command
@@ -78,7 +78,7 @@ Run unflown(const CourseFlights& course, const TrialSetup& setup) {
     return run;
 }
 
-/// The courses, each with the setups that were not flown.
+/// The courses, each with the setups not yet flown.
 std::vector<CourseFlights> missingFlights(const std::vector<CourseFlights>& flights,
                                           const std::vector<Run>& runs) {
     std::set<std::string> flown;
@@ -124,7 +124,7 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
     std::size_t done = 0, all = 0;
     for (const CourseFlights& course : courses) all += course.setups.size();
     if (options.progress) options.progress(done, all);
-    std::mutex mutex;  // of the table and `done`
+    std::mutex mutex;  // guards the table and `done`
     std::atomic<std::size_t> next{0};
     std::atomic<bool> has_failed{false};
     TrialListener listener;

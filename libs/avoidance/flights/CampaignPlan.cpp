@@ -12,7 +12,7 @@ namespace {
 
 template <class Value>
 void checkGiven(const std::string& what, const std::vector<Value>& values) {
-    if (values.empty()) throw std::invalid_argument("no " + what + " is given");
+    if (values.empty()) throw std::invalid_argument("no " + what + " given");
 }
 
 void checkNames(const std::string& what, const std::vector<std::string>& names,
@@ -85,7 +85,7 @@ void check(const CampaignPlan& plan, const Shard& shard) {
     }
 }
 
-/// Each setup once with each of the values.
+/// Each setup combined with each value.
 template <class Value, class Field>
 std::vector<TrialSetup> withEach(const std::vector<TrialSetup>& setups,
                                  const std::vector<Value>& values, Field field) {

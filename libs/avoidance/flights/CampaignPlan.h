@@ -7,7 +7,7 @@
 
 namespace hagen::avoidance {
 
-/// Of a plan, and of all plans of a folder: they are listed in memory.
+/// Limit for a plan, and for all plans of a folder, because they are listed in memory.
 constexpr int kMaxFlights = 1'000'000;
 
 /// The flights: every combination of the lists' entries.
@@ -29,18 +29,18 @@ struct Shard {
     int number = 1, of = 1;
 };
 
-/// All flights through one course. The course is made once for them.
+/// All flights through one course, which is generated only once.
 struct CourseFlights {
     std::string scenario;
     std::uint64_t seed;
     std::vector<TrialSetup> setups;
 };
 
-/// The flights of a plan, courses seed by seed, so that a campaign that is stopped early has some
-/// of every scenario. Throws std::invalid_argument for unknown names (and lists the known ones), an
-/// empty list, a last seed before the first, a speed or latency scale outside (0, 100], an invalid
-/// shard, more than kMaxFlights, and a model with motion that is to fly with sectors: it follows
-/// obstacles of whole scans.
+/// The flights of a plan, ordered by seed, so that an interrupted campaign covers every scenario.
+/// Throws std::invalid_argument for unknown names (listing the known ones), an empty list, a last
+/// seed before the first, a speed or latency scale outside (0, 100], an invalid shard, more than
+/// kMaxFlights, and models with motion combined with sectors, because they track the obstacles of
+/// whole scans.
 std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shard = {});
 
 /// Throws std::runtime_error, naming the stage, if the profile lacks one that these flights need.

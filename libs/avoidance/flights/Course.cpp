@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Clearance = std::function<float(const Vector3f&)>;
 
-/// The limits of a flight: a rectangle seen from above, from below the lowest ground in it to above
-/// the highest.
+/// The limits of a flight: a rectangle seen from above, between heights below the lowest and above
+/// the highest ground in it.
 Eigen::AlignedBox3d boundsOver(const simulation::Terrain& terrain) {
     constexpr double kLeft_m = -6, kRight_m = 46, kHalfWidth_m = 15;
     constexpr double kBelow_m = 1, kAbove_m = 6;
@@ -58,7 +58,7 @@ double cutLength_m(const Clearance& clearance_m, const std::vector<Vector3d>& pa
     return length_m;
 }
 
-/// Empty: no path leads to the goal.
+/// Empty if no path leads to the goal.
 std::optional<double> oraclePath_m(const Course& course) {
     const Clearance clearance_m = [&](const Vector3f& at) {
         const double height_m = static_cast<double>(at.z()) -

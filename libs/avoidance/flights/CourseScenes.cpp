@@ -12,8 +12,8 @@ namespace {
 using Eigen::Vector2d;
 using Shapes = std::vector<std::size_t>;
 
-/// Only the ground that is flown over is meshed finely, so that scenes are made and scanned
-/// quickly.
+/// Only the ground below the flight is finely meshed, so that generating and scanning scenes is
+/// fast.
 constexpr simulation::GroundExtent kGround{48, 20, 90};
 
 simulation::SceneBuilder groundOf(double slope_deg, double bump_m, double grass_m,
@@ -63,7 +63,7 @@ simulation::TreeParameters lightTree(simulation::Random& random) {
     return form;
 }
 
-constexpr double kMaxTreeWidth_m = 1.9;  // crown and clumps of leaves, at the largest scale
+constexpr double kMaxTreeWidth_m = 1.9;  // crown and leaf clumps, at the largest scale
 
 Shapes addTrees(simulation::SceneBuilder& builder, int count) {
     return builder.addShapes(
@@ -103,7 +103,7 @@ simulation::Scene makeForest(double per_m2, const simulation::Random& random) {
 }
 
 /// Rows 4 m apart with a tree every 3 m, at an angle to the path: the flight has to change rows
-/// where a tree is missing.
+/// through gaps of missing trees.
 simulation::Scene makeOrchard(simulation::Random random) {
     simulation::SceneBuilder builder = groundOf(3, 0.04, 0.15, random);
     simulation::Random& r = builder.random();
@@ -141,7 +141,7 @@ simulation::Scene makeOrchard(simulation::Random random) {
 constexpr double kWallHeight_m = 6;  // above the altitude limit
 constexpr double kBesideField_m = 19;
 
-/// A wall across the field, with a gap that is not straight ahead; few trees.
+/// A wall across the field, with a gap off the straight line; few trees.
 simulation::Scene makeGap(const simulation::Random& random) {
     simulation::SceneBuilder builder = groundOf(2, 0.03, 0.1, random);
     simulation::Random& r = builder.random();
@@ -213,7 +213,7 @@ simulation::Scene makeWires(double radius_m, const simulation::Random& random) {
     return builder.build();
 }
 
-constexpr double kMaxMoverLength_m = 2.3;  // half of it: a car's
+constexpr double kMaxMoverLength_m = 2.3;  // half a car's length
 
 /// Adds movers whose circles cross the path, but not near its ends.
 template <class ShapeOf>
@@ -278,8 +278,7 @@ void addGardenWalls(simulation::SceneBuilder& builder) {
     }
 }
 
-/// Parked cars, also in the middle of the street and as tall as the flight altitude; lamps, trees,
-/// walls.
+/// Parked cars, also in the middle of the street and up to flight altitude; lamps, trees, walls.
 simulation::Scene makeStreet(const simulation::Random& random) {
     simulation::SceneBuilder builder = groundOf(2, 0.02, 0.08, random);
     simulation::Random& r = builder.random();

@@ -5,10 +5,10 @@
 
 namespace hagen::avoidance {
 
-/// Where a vehicle was, one sample per kControlStep_s from time 0 on, and how it was tilted. Its
-/// thrust carries weight and acceleration, so the body leans into every manoeuvre; the acceleration
-/// is smoothed over kTilt_s, because a body takes time to turn. The nose points along +x. The
-/// sensor sits at the middle of the body and is aligned with it.
+/// Position and tilt of a vehicle, one sample per kControlStep_s from time 0 on. Thrust carries
+/// weight and acceleration, so the body leans into every manoeuvre; the acceleration is smoothed
+/// over kTilt_s, because a body takes time to rotate. The nose points along +x. The sensor is at
+/// the centre of the body and aligned with it.
 class FlightTrace {
  public:
     static constexpr double kTilt_s = 0.1;  ///< time constant of the tilt
@@ -20,10 +20,10 @@ class FlightTrace {
 
     /// The sensor's true pose, clamped to the first and last sample.
     simulation::SensorPose at(double time_s) const;
-    /// Distance flown until then.
+    /// Distance flown up to a time.
     double distance_m(double time_s) const;
 
-    /// Root mean square of the smoothed acceleration's rate of change.
+    /// Root mean square jerk of the smoothed acceleration.
     double rmsJerk_m_s3() const;
 
  private:

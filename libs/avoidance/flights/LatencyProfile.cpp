@@ -18,7 +18,7 @@ using base::Json;
 double toMicroseconds(double latency_ms) { return std::round(1e3 * latency_ms) / 1e3; }
 
 std::vector<double> quantilesFrom(const nlohmann::json& value) {
-    constexpr double kMax_ms = 60000;  // a flight waits for them, step by step
+    constexpr double kMax_ms = 60000;  // a simulated flight waits for them
     const std::string rule = "must be one or more numbers from 0 to 60000 [ms] in ascending order";
     if (!value.is_array() || value.empty()) throw std::runtime_error(rule);
     std::vector<double> quantiles;
@@ -37,7 +37,7 @@ std::vector<double> quantilesFrom(const nlohmann::json& value) {
 LatencyProfile profileFrom(const nlohmann::json& root) {
     const auto by_stage = root.find("quantiles_ms");
     if (by_stage == root.end() || !by_stage->is_object()) {
-        throw std::runtime_error("has no key 'quantiles_ms'; expected a file made by `calibrate`");
+        throw std::runtime_error("has no key 'quantiles_ms'; expected a file of `calibrate`");
     }
     LatencyProfile profile;
     for (const auto& [key, text] : {std::pair{"machine", &profile.machine},

@@ -7,14 +7,14 @@
 
 namespace hagen::avoidance {
 
-/// The pose that a vehicle believes it has.
+/// The pose estimate of a vehicle.
 ///
-///     none   its true pose
+///     none   the true pose
 ///     noise  off by 5 cm per axis and 0.5 degrees about each axis (standard deviations), drawn
-///            every 0.1 s and linear in between: scan matching of each scan by itself
+///            every 0.1 s and interpolated linearly: independent matching of each scan
 ///     drift  off by 1 % of the distance flown, in one direction: odometry
 ///
-/// Its velocity is always the true one.
+/// The velocity is always exact.
 class PoseBelief {
  public:
     PoseBelief(PoseError error, std::uint64_t seed);

@@ -18,7 +18,7 @@ struct RunColumn {
     std::function<std::string(const Run&)> write;
     std::function<void(const std::string&, Run&)> read;  ///< throws
     bool is_key = false;                                 ///< identifies a run
-    std::string before{};  ///< value in older tables, which lack the column; empty: all have it
+    std::string before{};  ///< value for older tables without this column; empty: required
 };
 
 /// A number; NaN is an empty field.
@@ -90,8 +90,8 @@ RunColumn word(const char* name, std::string Run::*field) {
             [=](const std::string& text, Run& run) { run.*field = text; }};
 }
 
-/// In the order of the table. The last ones are missing in older tables; the very last one is also
-/// missing in tables of whole scans only.
+/// In the order of the table. Older tables lack the last columns; tables of whole scans also lack
+/// the very last one.
 const std::vector<RunColumn>& allColumns() {
     static const std::vector<RunColumn> all{
         key(word("scenario", &Run::scenario)),
@@ -178,7 +178,7 @@ Run runFrom(const std::string& line, const Columns& columns) {
     return run;
 }
 
-/// The columns of a table by its header; empty: the file is not a table of runs.
+/// The columns of a table by its header; empty if the file is not a table of runs.
 Columns columnsIn(const std::string& header) {
     Columns columns = columnsOf(true);
     while (headerOf(columns) != header) {
@@ -219,7 +219,7 @@ std::vector<Run> readRuns(const std::filesystem::path& file) {
         if (!text.empty() && text.back() == '\r') text.pop_back();
         if (line == 1) {
             columns = columnsIn(text);
-            if (columns.empty()) fail(line, "not the header of runs; it must be " + runHeader());
+            if (columns.empty()) fail(line, "wrong header; expected " + runHeader());
             continue;
         }
         try {

@@ -25,7 +25,7 @@ struct Run {
 std::string runHeader(bool has_updates = false);
 std::string rowOf(const Run& run, bool has_updates);
 
-/// Whether a table with this run needs the column `updates`; then all of its rows have it.
+/// Whether a table with this run needs the column `updates`; it then applies to all rows.
 bool needsUpdates(const Run& run);
 
 /// A run's key identifies it: the fields of its course and setup, in the order of the columns:
@@ -37,7 +37,7 @@ std::string keyOf(const Run& run);
 Run runOfKey(const std::string& key);
 
 /// Tables of older versions have neither column `air` nor `distance`: clear air, as-stored. Without
-/// `updates`, all are of whole scans. Throws std::runtime_error, naming file, line and column.
+/// `updates`, all runs use whole scans. Throws std::runtime_error naming file, line and column.
 std::vector<Run> readRuns(const std::filesystem::path& file);
 
 /// Orders runs by scenario, speed, planner, guidance, model, ..., seed.

@@ -11,30 +11,30 @@
 
 namespace hagen::avoidance {
 
-/// What the world model is updated with.
+/// The input of a world model update.
 struct FedScan {
     observations::MappedScan scan;
-    double arrived_s;      ///< when the last of it was there
-    std::uint64_t stream;  ///< of random numbers that belong to it
+    double arrived_s;      ///< arrival time of its last part
+    std::uint64_t stream;  ///< its random stream
 };
 
-/// What the sensor has measured, until the planner takes it.
+/// Buffers measurements until the planner takes them.
 class ScanFeed {
  public:
     virtual ~ScanFeed() = default;
 
-    /// Takes in the measurements up to a control step, which the trace has reached.
+    /// Adds the measurements up to a control step that the trace has reached.
     virtual void receive(int step, const FlightTrace& trace, PoseBelief& belief) = 0;
     virtual bool isWaiting() const = 0;
-    /// Takes what waits. Times the filter.
+    /// Takes the waiting measurements. Times the filter.
     virtual FedScan take(const FlightTrace& trace, PoseBelief& belief, Stopwatch& stopwatch) = 0;
 
-    virtual double period_s() const = 0;  ///< from one update to the next, at least
+    virtual double period_s() const = 0;  ///< minimum time between updates
     virtual int received() const = 0;     ///< whole scans, or sectors
-    virtual int dropped() const = 0;      ///< of these, those that were never taken
+    virtual int dropped() const = 0;      ///< number of these never taken
 };
 
-/// The feed of a setup's updates.
+/// Creates the feed for a setup's updates.
 std::unique_ptr<ScanFeed> makeFeed(const Course& course, const TrialSetup& setup, float zone_m);
 
 }  // namespace hagen::avoidance

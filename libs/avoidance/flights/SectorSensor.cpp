@@ -61,7 +61,7 @@ std::vector<observations::MappedScan> SectorSensor::measureUntil(double time_s,
     return sectors;
 }
 
-/// Measures packets from `first` to before `end` of a turn, and has them labelled.
+/// Measures packets [first, end) of a turn, and has them labelled.
 void SectorSensor::addPackets(int turn, int first, int end, const FlightTrace& trace,
                               PoseBelief& belief) {
     const simulation::SimulatedScan all =

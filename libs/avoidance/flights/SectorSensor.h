@@ -8,26 +8,26 @@
 
 namespace hagen::avoidance {
 
-/// The LiDAR of TrialSensor, labelled while it turns: packets of 24 firings go into a
-/// StreamingSegmenter, with the believed pose and tilt, as an autopilot would report them. The
-/// last packet of a turn has the 9 firings that are left.
+/// The LiDAR of TrialSensor, labelled while it turns: packets of 24 firings are passed to a
+/// StreamingSegmenter, with the estimated pose and tilt, as an autopilot would report them. The
+/// last packet of a turn has the remaining 9 firings.
 class SectorSensor {
  public:
     SectorSensor(const Course& course, Air air, float zone_m = Options().zone_m);
     SectorSensor(const SectorSensor&) = delete;
     SectorSensor& operator=(const SectorSensor&) = delete;
 
-    /// Measures from where the last call ended to `time_s`, along the trace, which must reach that
-    /// far. Returns the sectors whose last packet ended meanwhile, oldest first: their returns as
-    /// TrialSensor::place() places those of a turn, without obstacle numbers.
+    /// Measures from the end of the last call to `time_s`, along the trace, which must reach that
+    /// far. Returns the sectors completed meanwhile, oldest first, with returns placed like those
+    /// of TrialSensor::place() and without obstacle numbers.
     std::vector<observations::MappedScan> measureUntil(double time_s, const FlightTrace& trace,
                                                        PoseBelief& belief);
 
  private:
-    /// A return that was measured and is in no sector yet.
+    /// A measured return that is not in a sector yet.
     struct Measured {
         int turn;
-        float since_start_s;  ///< of its turn
+        float since_start_s;  ///< since the start of its turn
     };
     struct Labelled {
         Scan returns;
@@ -45,12 +45,12 @@ class SectorSensor {
     TrialSensor sensor_;
     simulation::FiringPattern pattern_;
     live::StreamingSegmenter segmenter_;
-    int turn_ = 0, packet_ = 0;  ///< the next one
+    int turn_ = 0, packet_ = 0;  ///< the next ones
     std::deque<Measured> measured_;
     std::vector<Labelled> labelled_;
 };
 
-/// Sectors that follow each other as one.
+/// Joins consecutive sectors.
 observations::MappedScan joined(const std::vector<observations::MappedScan>& sectors);
 
 }  // namespace hagen::avoidance

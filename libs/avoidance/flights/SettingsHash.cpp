@@ -13,7 +13,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// The 64-bit FNV-1a hash of Fowler, Noll and Vo, in hexadecimal.
+/// The 64-bit Fowler-Noll-Vo hash FNV-1a in hexadecimal.
 std::string hashOf(const std::string& text) {
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const char c : text) {
@@ -24,8 +24,8 @@ std::string hashOf(const std::string& text) {
     return digits.data();
 }
 
-/// The filter's default options, one "key=value" per line. Without their descriptions: words do not
-/// change runs.
+/// The filter's default options, one "key=value" per line, without descriptions, which do not
+/// affect runs.
 std::string filterText() {
     std::string text;
     const Options options;
@@ -33,7 +33,7 @@ std::string filterText() {
     return text;
 }
 
-/// How far models see.
+/// Sight ranges of the models.
 std::string reachText() {
     std::string text;
     for (const double speed_m_s : {1, 4, 8, 10, 14, 100}) {
@@ -44,7 +44,7 @@ std::string reachText() {
     return text;
 }
 
-/// As JSON.
+/// Vehicle parameters as JSON.
 std::string vehicleText() {
     const VehicleLimits limits;
     return base::Json{{"acceleration_m_s2", limits.acceleration_m_s2},

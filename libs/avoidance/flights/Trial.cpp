@@ -23,7 +23,7 @@ double groundHeight_m(const Course& course, const Eigen::Vector3d& at) {
     return course.scene.terrain().height_m(at.x(), at.y());
 }
 
-// Sectors come more often, but a direction is looked at once per turn, too.
+// Sectors arrive more often, but each direction is still measured once per turn.
 FlightPace paceOf(const TrialSetup& setup) {
     return {setup.speed_m_s, TrialSensor::kTurn_s, setup.limits};
 }
@@ -73,7 +73,7 @@ class TrialFlight {
     }
 
  private:
-    /// Plans on what waits as soon as the planner is free, within the step from `time_s`.
+    /// Plans on waiting measurements as soon as the planner is free, within the step from `time_s`.
     void think(double time_s) {
         const double start_s = std::max(time_s, free_s_);
         const double taken_s = latencies_.draw_s();
@@ -201,8 +201,8 @@ class TrialFlight {
     VehicleState state_;  ///< true
     FlightTrace trace_;
     CommandQueue commands_;
-    double free_s_ = 0;  ///< when the planner is free again
-    double scan_s_ = 0;  ///< time of the last scan that the model took in
+    double free_s_ = 0;  ///< time when the planner is free again
+    double scan_s_ = 0;  ///< time of the last scan in the model
     Eigen::Vector3f scan_offset_m_{0, 0, 0};
     bool in_emergency_ = false;
     std::vector<double> latency_ms_;

@@ -8,14 +8,14 @@
 
 namespace hagen::avoidance {
 
-/// Draws the latency of planning steps from the profile. With sectors, a step is charged as much as
-/// with a whole scan: updates with a few sectors take less, their labels about as much.
+/// Draws the latency of planning steps from the profile. A step with sectors costs as much as with
+/// a whole scan: updates with a few sectors take less time, labelling about the same.
 class TrialLatencies {
  public:
     TrialLatencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile);
 
     double draw_s();
-    /// The latency that a planner expects.
+    /// The latency that planners assume.
     double median_s() const;
 
  private:

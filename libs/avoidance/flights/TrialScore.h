@@ -19,10 +19,10 @@ class TrialJudge {
 
     TrialJudge(const Course& course, double speed_m_s);
 
-    /// A longer flight is a timeout, even if it keeps coming closer to the goal. [s]
+    /// Longer flights time out, even if the vehicle still approaches the goal. [s]
     static double longestFlight_s(const Course& course, double speed_m_s);
 
-    /// The outcome, once there is one.
+    /// The outcome, once the flight has ended.
     std::optional<Outcome> judge(const Eigen::Vector3d& position_m, double clearance_m,
                                  double collision_m, double time_s);
 
@@ -34,8 +34,8 @@ class TrialJudge {
     double nearest_m_, nearest_since_s_ = 0;
 };
 
-/// How far a vehicle can fly straight towards the goal until the true clearance first falls below
-/// `clearance_radius_m`. NaN if the whole line is free. [m]
+/// Distance that a vehicle can fly straight towards the goal until the true clearance first falls
+/// below `clearance_radius_m`. NaN if the whole line is free. [m]
 double freeDistance_m(const Course& course, const Eigen::Vector3d& position_m,
                       double clearance_radius_m, double time_s);
 

@@ -7,10 +7,10 @@
 namespace hagen::avoidance {
 namespace {
 
-constexpr std::uint64_t kFiringsPerStream = 4096;  // more than a turn has
+constexpr std::uint64_t kFiringsPerStream = 4096;  // exceeds the firings of a turn
 
 HagenFilter standardFilter(float zone_m) {
-    Settings settings;  // those of config/vlp16.yaml hold where no file was read
+    Settings settings;  // those of config/vlp16.yaml, the defaults without a file
     settings.options.zone_m = zone_m;
     return filterFor(settings.sensorModel(), settings.options);
 }

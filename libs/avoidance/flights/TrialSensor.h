@@ -10,41 +10,41 @@
 
 namespace hagen::avoidance {
 
-/// The LiDAR's faults in a trial: 2 cm of noise, 1 % of returns lost, thin wires missed more often
-/// with distance, and those of the air.
+/// The LiDAR's errors in a trial: 2 cm of noise, 1 % of returns lost, thin wires missed more often
+/// with distance, and those caused by the air.
 simulation::SensorErrorModel trialErrorModel(Air air);
 
-/// The vehicle's own parts as its settings mask them: those of config/airframe_simulated.yaml. None
-/// in clear air, where the sensor does not see them.
+/// Mask of the vehicle's own parts, from config/airframe_simulated.yaml. Empty in clear air, where
+/// the sensor does not see them.
 Airframe trialAirframe(Air air);
 
-/// The LiDAR on board and the filter behind it: a VLP-16 that turns ten times a second, segmented
-/// with the settings of config/vlp16.yaml. Returns from the vehicle itself are masked.
+/// The onboard LiDAR and its filter: a VLP-16 at 10 Hz, segmented with the settings of
+/// config/vlp16.yaml. Returns from the vehicle itself are masked.
 class TrialSensor {
  public:
     static constexpr double kTurn_s = 0.1;
 
-    /// `zone_m`: of the filter, instead of the 20 m of those settings.
+    /// `zone_m`: the filter's zone, instead of the 20 m of those settings.
     TrialSensor(const Course& course, Air air, float zone_m = Options().zone_m);
 
     const SensorModel& sensor() const { return filter_.sensor(); }
     const Options& options() const { return filter_.options(); }
 
     /// The turn that starts at `number` * kTurn_s, measured from the true poses. Masked returns
-    /// have no range. Depends on air, the course's seed and the number only, not on which other
-    /// turns were measured.
+    /// have no range. Depends only on air, the course's seed and the number, not on previously
+    /// measured turns.
     simulation::SimulatedScan measure(int number, const FlightTrace& trace) const;
 
-    /// Some firings of that turn, as far as the trace has got when the last of them ends. Depends
-    /// on air, seed, number and the first firing only.
+    /// Part of that turn, up to the position of the trace at its last firing. Depends only on air,
+    /// seed, number and the first firing.
     simulation::SimulatedScan measureFirings(int number, const simulation::FiringRange& firings,
                                              const FlightTrace& trace) const;
 
-    /// Segments a turn, with the horizon of the believed attitude. Valid until the next call.
+    /// Segments a turn, levelled by the estimated attitude. Valid until the next call.
     const LabelledReturns& segment(int number, const simulation::SimulatedScan& measured,
                                    const FlightTrace& trace, PoseBelief& belief);
 
-    /// Places each return with a range by the believed pose at its own time.
+    /// Places each return with a range by the estimated pose at its own time.
     static observations::MappedScan place(int number, const simulation::SimulatedScan& measured,
                                           const LabelledReturns& returns, const FlightTrace& trace,
                                           PoseBelief& belief);

@@ -10,18 +10,18 @@ namespace hagen::avoidance {
 /// Roll and pitch of an attitude without its heading: the inverse of levelFromSensor().
 Attitude tiltOf(const Eigen::Quaterniond& attitude);
 
-/// Believed poses during a turn of the sensor, as matrices that are straight between. During the
-/// turn, those until now count only.
+/// Estimated poses during a turn of the sensor, as linearly interpolated matrices. During the turn,
+/// only those up to now are valid.
 class TurnTransforms {
  public:
     TurnTransforms(double start_s, const FlightTrace& trace, PoseBelief& belief);
 
-    /// A return in the map.
+    /// A return in the map frame.
     Eigen::Vector3f place(const Eigen::Vector3f& point_m, float since_start_s) const;
 
  private:
     static constexpr int kSteps = 20;
-    static constexpr double kStep_s = 0.1 / kSteps;  // of TrialSensor::kTurn_s
+    static constexpr double kStep_s = 0.1 / kSteps;  // kSteps per TrialSensor::kTurn_s
     std::array<Eigen::Matrix<float, 3, 4>, kSteps + 2> poses_;
 };
 

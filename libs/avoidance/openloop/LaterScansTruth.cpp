@@ -6,7 +6,7 @@
 namespace hagen::avoidance {
 namespace {
 
-constexpr float kVehicleRadius_m = 1.0f;  // around the vehicle, space is free
+constexpr float kVehicleRadius_m = 1.0f;  // space this close to the vehicle is free
 constexpr float kPersistenceRange_m = 12, kCell_m = 0.3f;
 constexpr std::size_t kPersistenceScans = 5;
 constexpr std::uint8_t kPointsToBlock = 2;
@@ -92,7 +92,7 @@ LaterScansTruth::LaterScansTruth(const Eigen::Vector3f& position_m,
                                  const FreeDirectionOptions& options)
     : position_m_(position_m), options_(options) {}
 
-/// Tries only the azimuths that the point's sphere covers.
+/// Considers only azimuths within the point's sphere.
 void LaterScansTruth::addPoint(const Eigen::Vector3f& from_here_m) {
     const float flat_m = from_here_m.head<2>().norm();
     int half = kDirectionAzimuths / 2;

@@ -10,17 +10,17 @@
 
 namespace hagen::avoidance {
 
-/// Ground truth of the directions around a position, as far as it is known.
+/// Ground truth of the directions around a position, where known.
 struct TrueDirections {
     DirectionSet blocked;  ///< within `scored`
     DirectionSet scored;   ///< directions with known truth
 };
 
-/// The farthest range of a scan in cells of 2 degrees around its origin, along the map's axes.
+/// The maximum range of a scan in cells of 2 degrees around its origin, along the map's axes.
 class SeenRanges {
  public:
     explicit SeenRanges(const observations::MappedScan& scan);
-    /// Whether a return of the point's cell came from behind it.
+    /// Whether a return in the point's cell is from behind it.
     bool isSeenThrough(const Eigen::Vector3f& point_m) const;
 
  private:
@@ -52,7 +52,7 @@ class PersistentPoints {
 /// metre. Otherwise it is not scored.
 class LaterScansTruth {
  public:
-    static constexpr double kDuration_s = 2.5;  ///< later scans up to this time count
+    static constexpr double kDuration_s = 2.5;  ///< maximum age of later scans
 
     explicit LaterScansTruth(const Eigen::Vector3f& position_m,
                              const FreeDirectionOptions& options = {});
@@ -67,7 +67,7 @@ class LaterScansTruth {
 
     Eigen::Vector3f position_m_;
     FreeDirectionOptions options_;
-    std::array<std::uint8_t, kDirections> points_{};  ///< within the sphere's path, counted up to 2
+    std::array<std::uint8_t, kDirections> points_{};  ///< in the sphere's path, up to 2
     std::array<std::bitset<kSamples>, kDirections> seen_;
 };
 

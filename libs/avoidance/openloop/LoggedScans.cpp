@@ -82,7 +82,7 @@ LoggedScans::LoggedScans(const LogSource& source, const std::function<bool()>& k
     segmenter_.initialize(source_->useSettings(source.settings));
 }
 
-/// Looks up where each scan was taken. Throws std::runtime_error if most have no pose.
+/// Looks up the pose of each scan. Throws std::runtime_error if most have none.
 void LoggedScans::placeAll(const std::vector<TimePoint>& times, const std::string& log) {
     scans_ = times.size();
     for (const TimePoint time : times) {

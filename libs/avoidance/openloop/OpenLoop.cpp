@@ -18,11 +18,10 @@ namespace {
 constexpr float kMapMargin_m = 20, kMapMarginUp_m = 10;  // around the whole flight
 constexpr float kMaxMap_m3 = 100000;
 constexpr float kHalfBox_m = 30, kHalfBoxUp_m = 10;  // around the vehicle
-constexpr float kBorder_m = 12, kBorderUp_m = 5;     // more than queries and clearances reach
-constexpr double kReplayed_s = 3;                    // of scans, processed again after a reset
+constexpr float kBorder_m = 12, kBorderUp_m = 5;     // beyond the reach of queries and clearances
+constexpr double kReplayed_s = 3;                    // scans to process again after a reset
 
-// Half of a scan's obstacles are closer than this to the obstacles of its scene (usually 1 to 2
-// cm).
+// Maximum median distance between a scan's obstacles and those of its scene (usually 1 to 2 cm).
 constexpr float kMaxSceneDistance_m = 0.08f;
 constexpr std::size_t kMinPointsToCheck = 100;
 
@@ -35,7 +34,7 @@ Eigen::AlignedBox3f widened(const Eigen::AlignedBox3f& box, float aside_m, float
 class SceneTruth {
  public:
     SceneTruth(const OpenLoop::SimulatedScene& scene, const Eigen::AlignedBox3f& flight_m)
-        : name_(scene.scenario + " of seed " + std::to_string(scene.seed)),
+        : name_(scene.scenario + " with seed " + std::to_string(scene.seed)),
           distance_(simulation::makeScene(scene.scenario, scene.seed),
                     widened(flight_m, kMapMargin_m, kMapMarginUp_m).cast<double>(),
                     WorldModel::kReach_m) {}
@@ -45,7 +44,7 @@ class SceneTruth {
         return distance_.at(point_m, time_s_);
     }
 
-    /// Throws std::runtime_error if the scan's obstacles are not those of the scene.
+    /// Throws std::runtime_error if the scan's obstacles do not match the scene.
     void see(const observations::MappedScan& scan) {
         time_s_ = scan.time_s - simulation::kSimulatedLogStart_s;
         if (is_checked_) return;
@@ -70,7 +69,7 @@ class SceneTruth {
     bool is_checked_ = false;
 };
 
-/// A scan whose truth is not known yet.
+/// A scan whose ground truth is not known yet.
 struct PendingScan {
     std::vector<OpenLoopRow> rows;  ///< one per model
     std::vector<OpenLoopCost> costs;
@@ -156,7 +155,7 @@ class Walk {
     std::string why_ended_;
 };
 
-/// Makes the models, and again when the vehicle nears the border of their box.
+/// Creates the models, and recreates them when the vehicle nears the border of their box.
 void Walk::prepareModels(const LoggedScan& scan) {
     const bool is_begun = result_.scans > 0;
     const Eigen::AlignedBox3f inner = widened(box_m_, -kBorder_m, -kBorderUp_m);
@@ -240,7 +239,7 @@ void Walk::process(const LoggedScan& scan) {
 
     const double now_s = scan.mapped.time_s;
     if (!kept_.empty() && now_s < kept_.back().time_s - LaterScansTruth::kDuration_s) {
-        // The clock went back: earlier scans have no later ones.
+        // The clock went back, so no later scans will follow.
         while (!waiting_.empty()) scoreOldest();
         kept_.clear();
         persistent_points_ = {};
@@ -320,7 +319,7 @@ OpenLoopResult Walk::finish() {
 }  // namespace
 
 void checkOpenLoop(const OpenLoop& open_loop) {
-    if (open_loop.models.empty()) throw std::invalid_argument("no world model is given");
+    if (open_loop.models.empty()) throw std::invalid_argument("no world model given");
     for (const std::string& model : open_loop.models) {
         needsLabels(model);  // throws for unknown names
         if (std::count(open_loop.models.begin(), open_loop.models.end(), model) > 1) {
@@ -332,7 +331,7 @@ void checkOpenLoop(const OpenLoop& open_loop) {
         }
         if (needsTruth(model) && !open_loop.scene) {
             throw std::invalid_argument(
-                "the true scene (oracle) needs the scenario that the log was simulated in "
+                "the true scene (oracle) needs the simulated scenario "
                 "(--truth-scenario, --truth-seed)");
         }
     }

@@ -149,7 +149,7 @@ Json summaryOf(const OpenLoop& open_loop, const OpenLoopResult& result) {
 
 std::string truthOf(const OpenLoop& open_loop) {
     if (!open_loop.scene) return "raw points of later scans";
-    return "the scene " + open_loop.scene->scenario + " of seed " +
+    return "the scene " + open_loop.scene->scenario + " with seed " +
            std::to_string(open_loop.scene->seed);
 }
 
@@ -175,7 +175,7 @@ OpenLoopFiles::OpenLoopFiles(const fs::path& folder, bool overwrite,
 OpenLoopFiles::~OpenLoopFiles() {
     files_.clear();  // removes temporary files
     std::error_code ignored;
-    if (is_own_folder_) fs::remove(folder_, ignored);  // only if it is empty
+    if (is_own_folder_) fs::remove(folder_, ignored);  // succeeds only if empty
 }
 
 std::vector<fs::path> OpenLoopFiles::paths() const {

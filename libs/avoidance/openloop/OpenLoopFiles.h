@@ -19,12 +19,11 @@ namespace hagen::avoidance {
 ///     openloop_measured.csv  one row per model: cost on this machine
 ///     scans_measured.csv     one row per scan and model: cost on this machine
 ///
-/// Except for the measured values, the same log gives the same bytes. Files appear when they are
-/// complete.
+/// Except for the measured values, the files are reproducible. They appear only when complete.
 class OpenLoopFiles {
  public:
-    /// Throws std::runtime_error, naming it, if a file exists and `overwrite` is not set or it is
-    /// one of the inputs, or if the folder cannot be made.
+    /// Throws std::runtime_error naming a file that exists without `overwrite` or is one of the
+    /// inputs, or a folder that cannot be created.
     OpenLoopFiles(const std::filesystem::path& folder, bool overwrite,
                   const std::vector<std::filesystem::path>& inputs = {});
     ~OpenLoopFiles();
@@ -32,11 +31,11 @@ class OpenLoopFiles {
     std::vector<std::filesystem::path> paths() const;
 
     void add(const OpenLoopRow& row, const OpenLoopCost& cost);
-    /// Completes the files and removes partial files of earlier runs. Throws std::runtime_error,
-    /// naming them, if some could not be written; the others are complete.
+    /// Completes the files and removes partial files of earlier runs. Throws std::runtime_error
+    /// naming the files that could not be written; the others are complete.
     void commit(const OpenLoop& open_loop, const OpenLoopResult& result);
-    /// Keeps the results of a log that ended early as scans.partial.csv and so on. Returns why some
-    /// could not be written; "" if all were.
+    /// Keeps the results of a log that ended early as scans.partial.csv etc. Returns errors of
+    /// files that could not be written, or "".
     std::string keepPartial(const OpenLoop& open_loop, const OpenLoopResult& result);
 
  private:
@@ -57,7 +56,7 @@ class OpenLoopFiles {
 /// A description of the ground truth.
 std::string truthOf(const OpenLoop& open_loop);
 
-/// The result for a terminal: the log, one line per model, and the agreement of the models.
+/// A text report: the log, one line per model, and the agreement of the models.
 std::string tableOf(const OpenLoop& open_loop, const OpenLoopResult& result);
 
 }  // namespace hagen::avoidance

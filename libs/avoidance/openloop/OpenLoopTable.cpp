@@ -54,7 +54,7 @@ void addAgreement(std::ostream& out, const OpenLoopResult& result) {
     if (result.models.size() < 2) return;
     constexpr int kWidth = 7;
     const auto number = [](std::size_t model) { return "(" + std::to_string(model + 1) + ")"; };
-    // Columns have numbers, since the names would make them too wide.
+    // Columns are numbered, because the names are too wide.
     const int width = nameWidth(result) + 5;
     out << "\nagreement on free directions (Jaccard)\n" << std::setw(width) << "" << std::right;
     for (std::size_t b = 0; b < result.models.size(); ++b) out << std::setw(kWidth) << number(b);

@@ -6,17 +6,17 @@
 namespace hagen::avoidance {
 namespace {
 
-constexpr double kNearGoal_m = 4;  ///< closer than this, the goal's own height counts
+constexpr double kNearGoal_m = 4;  ///< below this distance, the goal's own height applies
 constexpr double kCarrot_m = 4, kNearestCarrot_m = 1;
 constexpr double kEase_m = 0.05;
 constexpr double kSight_m = 12;          ///< corners are cut up to this path length
 constexpr double kCutClearance_m = 0.9;  ///< needed for cutting a corner
-constexpr double kGoalSearch_m = 3;      ///< search radius for a substitute of a blocked goal
+constexpr double kGoalSearch_m = 3;      ///< search radius for a replacement of a blocked goal
 constexpr double kDetourHeightCost_per_m = 0.5;
-constexpr double kHeuristicWeight = 1.3;  ///< saves two thirds of the queries in dense forest
+constexpr double kHeuristicWeight = 1.3;  ///< saves 2/3 of the queries in dense forest
 constexpr int kMaxCells = 4000;
 
-/// The goal, level at the wanted altitude while it is far away: the ground in between is unknown.
+/// The goal, at the target altitude while it is far, because the ground in between is unknown.
 Eigen::Vector3d levelGoal(const GuidanceTask& task) {
     Eigen::Vector3d goal_m = task.goal_m;
     const double distance_m = (task.goal_m - task.position_m).head<2>().norm();
@@ -42,7 +42,7 @@ PathSearchOptions searchOptions(const GuidanceTask& task) {
     return options;
 }
 
-/// The goal, or the nearest free point on a grid around it if it is blocked or out of bounds.
+/// The goal, or, if blocked or out of bounds, the nearest free point on a grid around it.
 Eigen::Vector3d freePlaceNear(const WorldModel& world, const Eigen::Vector3d& goal_m,
                               const PathSearchOptions& options) {
     const auto isFree = [&](const Eigen::Vector3d& at_m) {
@@ -80,7 +80,7 @@ bool isInSight(const WorldModel& world, const Eigen::Vector3d& from_m, const Eig
     return true;
 }
 
-/// The point at this distance along a path, at most its end.
+/// The point at this distance along a path, or its end.
 Eigen::Vector3d placeAt(const std::vector<Eigen::Vector3d>& path_m, double ahead_m) {
     for (std::size_t i = 1; i < path_m.size(); ++i) {
         const Eigen::Vector3d step_m = path_m[i] - path_m[i - 1];
@@ -97,7 +97,7 @@ double lengthOf(const std::vector<Eigen::Vector3d>& path_m) {
     return length_m;
 }
 
-/// The maximum path distance of the carrot: planners fly straight, so it must not be behind a bend.
+/// The maximum path distance of the carrot: planners fly straight, so no bend may hide it.
 double carrotWay_m(const WorldModel& world, const std::vector<Eigen::Vector3d>& path_m,
                    double min_m) {
     double ahead_m = kCarrot_m;
@@ -108,8 +108,8 @@ double carrotWay_m(const WorldModel& world, const std::vector<Eigen::Vector3d>& 
     return ahead_m;
 }
 
-/// Grid paths turn in steps of 45 degrees. If the straight line to a farther point has enough
-/// clearance, the carrot lies on that line.
+/// Grid paths turn in steps of 45 degrees. The carrot lies on the straight line to a farther point
+/// if that line has enough clearance.
 Carrot carrotOn(const WorldModel& world, std::vector<Eigen::Vector3d> path_m,
                 double clearance_radius_m) {
     const double length_m = lengthOf(path_m);
@@ -142,11 +142,11 @@ class PathGuidance : public Guidance {
         PathSearchOptions options = searchOptions(task);
         const Eigen::Vector3d goal_m = freePlaceNear(world, levelGoal(task), options);
         const auto limit_m = static_cast<float>(options.wanted_clearance_m);
-        // More clearance does not lower the cost.
+        // More clearance does not reduce the cost.
         const auto clearance_m = [&](const Eigen::Vector3f& point_m) {
             return world.clearanceWithin_m(point_m, limit_m);
         };
-        // First with extra clearance that planners can follow easily, otherwise without.
+        // First with extra clearance, which is easier to follow, then without.
         options.min_clearance_m += kEase_m;
         auto path_m = findPath(clearance_m, task.position_m, goal_m, options);
         if (!path_m) {

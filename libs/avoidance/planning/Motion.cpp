@@ -49,7 +49,7 @@ std::optional<float> freeClearance(const WorldModel& world,
 float minClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
                      double start_after_s) {
     const float approach_m = world.fastest_m_s() * static_cast<float>(kControlStep_s);
-    float min_m = WorldModel::kReach_m, spare_m = 0;  // above the least so far
+    float min_m = WorldModel::kReach_m, spare_m = 0;  // margin above the minimum so far
     for (std::size_t i = 0; i < path_m.size(); ++i) {
         if (i > 0) spare_m -= (path_m[i] - path_m[i - 1]).norm() + approach_m;
         if (spare_m > 0) continue;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-// Shared by the planners: the path of a command, and whether it is free.
+// Shared by the planners: the path of a command and its collision check.
 namespace hagen::avoidance {
 
 constexpr double kLookAhead_s = 1.2;
@@ -14,13 +14,13 @@ void rollOut(const VehicleState& start, const Eigen::Vector3d& command_m_s, doub
              const VehicleLimits& limits, std::vector<Eigen::Vector3f>& path_m);
 
 /// The minimum clearance along a path of rollOut() that starts `start_after_s` after the model's
-/// last scan, or nothing if it is below `clearance_radius_m` somewhere. A path that starts closer
-/// than that must not come closer.
+/// last scan, or nullopt if it falls below `clearance_radius_m`. A path that starts closer to an
+/// obstacle must not approach it.
 std::optional<float> freeClearance(const WorldModel& world,
                                    const std::vector<Eigen::Vector3f>& path_m, double start_after_s,
                                    double clearance_radius_m);
 
-/// The minimum clearance along such a path, whatever it is, at most that at its start.
+/// The minimum clearance along such a path, at most that at its start, without any requirement.
 float minClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
                      double start_after_s);
 
@@ -31,8 +31,8 @@ struct CommandPaths {
 
 /// Checks a command: held for `hold_s` and followed by braking, and also interrupted after one
 /// period, so that braking will still be possible then. Too close to an obstacle, it must lead
-/// away. Returns the minimum clearance of both paths, or nothing if one is not free. `paths` is
-/// working memory that a planner reuses.
+/// away. Returns the minimum clearance of both paths, or nullopt if one is not free. `paths` is
+/// working memory reused by the planner.
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
                                   const Eigen::Vector3d& command_m_s, double hold_s,
                                   CommandPaths& paths);
@@ -40,10 +40,10 @@ std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& t
 /// The maximum speed, reduced so that the vehicle can stop at the goal.
 double speedTowardsGoal(const PlanningTask& task);
 
-/// How far a height is outside the altitude limits [m]; 0 within them.
+/// Distance of a height from the altitude limits [m]; 0 within them.
 double outOfAltitudes(double height_m, const PlanningTask& task);
 
-/// Costs of a command's end: per metre off the wanted height, and per metre outside the limits.
+/// Costs at a command's end: per metre off the target height, and per metre outside the limits.
 constexpr double kHeightCost_per_m = 0.3, kOutOfAltitudesCost_per_m = 3;
 
 }  // namespace hagen::avoidance

@@ -17,7 +17,7 @@ constexpr double kAtGoal_m = 0.5;
 // Cost weights, relative to progress at full speed straight to the carrot.
 constexpr double kDeviationCost = 0.2;
 constexpr double kCommandChangeCost = 0.1;
-constexpr double kStandingCost = 0.3;  ///< of hovering away from the goal
+constexpr double kStandingCost = 0.3;  ///< cost of hovering away from the goal
 constexpr double kProximityCost = 0.25, kComfortable_m = 1.3;
 
 struct Candidate {
@@ -25,8 +25,8 @@ struct Candidate {
     Eigen::Vector3d command_m_s;
 };
 
-/// The target of the candidates: the carrot, or a point farther in its direction if the path
-/// continues beyond it, so that the vehicle does not slow down at the carrot.
+/// The target of the candidates: the carrot, or a point beyond it if the path continues, so that
+/// the vehicle does not slow down at the carrot.
 Eigen::Vector3d aimOf(const PlanningTask& task) {
     const Eigen::Vector3d offset_m = task.carrot_m - task.start.position_m;
     const double length_m = offset_m.norm();
@@ -38,7 +38,7 @@ Eigen::Vector3d aimOf(const PlanningTask& task) {
     return aim_m;
 }
 
-/// The wanted height is to be reached within the look-ahead time, however far the carrot is.
+/// The target height should be reached within the look-ahead time, however far the carrot is.
 std::array<double, 5> elevationsTo(const Eigen::Vector3d& aim_m, const PlanningTask& task,
                                    double speed_m_s) {
     const Eigen::Vector3d offset_m = aim_m - task.start.position_m;
@@ -72,7 +72,7 @@ std::vector<Eigen::Vector3d> commandsFor(const PlanningTask& task, const Eigen::
     return commands_m_s;
 }
 
-/// Where a command leads within the look-ahead time, in coarse steps, which suffice for ranking.
+/// End of a command within the look-ahead time, in coarse steps, which suffice for ranking.
 Eigen::Vector3d endOf(const PlanningTask& task, const Eigen::Vector3d& command_m_s) {
     constexpr double kStep_s = 0.1;
     VehicleState state = task.start;
@@ -125,7 +125,7 @@ Plan cheapestFree(const WorldModel& world, const PlanningTask& task) {
     double best = std::numeric_limits<double>::infinity();
     CommandPaths paths;
     for (const Candidate& candidate : rankedCandidates(task)) {
-        if (candidate.cost >= best) break;  // the rest cost more, whatever their clearance
+        if (candidate.cost >= best) break;  // the rest cost more, regardless of clearance
         const std::optional<float> clearance_m =
             checkCommand(world, task, candidate.command_m_s, kLookAhead_s, paths);
         if (task.keeps_candidates) {
@@ -151,9 +151,9 @@ bool isBrakingUnsafe(const WorldModel& world, const PlanningTask& task) {
            task.limits.radius_m;
 }
 
-/// Where nothing is free among obstacles that move, standing still is no way out: the command that
-/// keeps the largest clearance, the cheapest of equal ones, within the limits of altitude. At full
-/// speed, even near the goal.
+/// Stopping is not safe among moving obstacles. If no command is free, chooses the one with the
+/// largest clearance (then the lowest cost) within the altitude limits, at full speed even near the
+/// goal.
 Eigen::Vector3d evadingCommand(const WorldModel& world, PlanningTask task) {
     constexpr double kFarOff_m = 1000;
     task.beyond_carrot_m += kFarOff_m;

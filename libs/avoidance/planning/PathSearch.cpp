@@ -21,24 +21,24 @@ constexpr double kSegmentStep_m = 0.1;
 constexpr double kGrazing_m = 0.05;  ///< tolerance of edges between cells
 constexpr std::int64_t kMaxCellsOfGrid = 30'000'000;
 
-/// State of a cell. Valid only if it has the number of the current search. 32 bytes, as most of a
-/// long search's time goes into fetching cells.
+/// State of a cell, valid only with the number of the current search. 32 bytes, because long
+/// searches are dominated by fetching cells.
 struct Cell {
     Cost cost;
     Cost extra_permille;  ///< extra cost per metre
     std::uint32_t search = 0;
     int parent;
     float clearance_m;
-    std::int8_t place;  ///< passing point; -1: not known yet, -2: none
+    std::int8_t place;  ///< passing point; -1: unknown, -2: none
     bool is_closed;
 };
 
 /// The 26 neighbours of a cell and the cell itself (number 13), in the order of their indices.
 constexpr int kNeighbours = 27, kItself = 13;
 
-/// A way into a cell. Among equal estimates, the one with more path done goes first, then those
-/// whose clearance was queried, then the lower cell, then the lower parent. The rank has all of
-/// that in its bits, since comparisons take much of the time of a search.
+/// A way into a cell. Ties of the estimate are broken by longer path done, then queried clearance,
+/// then lower cell, then lower parent. The rank packs all of these into bits, because comparisons
+/// dominate searches.
 struct Entry {
     static constexpr int kParentBits = 5, kCellBits = 25, kLeftBits = 33;
 
@@ -46,7 +46,7 @@ struct Entry {
     std::uint64_t rank;
 
     /// `parent` is a number of kNeighbours. If the entry is not exact, the clearance was not
-    /// queried yet, and it may cost more.
+    /// queried yet, and the cost may be higher.
     Entry(Cost estimate_of_all, Cost left, bool is_exact, int cell, int parent)
         : estimate(estimate_of_all),
           rank(((static_cast<std::uint64_t>(left) << 1 | (is_exact ? 0u : 1u)) << kCellBits |
@@ -68,7 +68,7 @@ static_assert(Entry::kParentBits + Entry::kCellBits + 1 + Entry::kLeftBits == 64
 static_assert(kNeighbours <= 1 << Entry::kParentBits);
 static_assert(kMaxCellsOfGrid <= 1 << Entry::kCellBits);
 
-/// The next entry first.
+/// The best entry first.
 using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
 double extraCost(double clearance_m, double height_m, const PathSearchOptions& options) {
@@ -107,13 +107,13 @@ class Search {
     Cost heuristic_permille_;
     std::vector<Cell>& cells_;
     Queue queue_;
-    std::array<Cost, 4> lengths_{};  ///< of a step along as many axes
+    std::array<Cost, 4> lengths_{};  ///< of a step along that many axes
     Eigen::Vector3i goal_place_{0, 0, 0};
     std::array<int, kNeighbours> offsets_{};             ///< of a neighbour's index
     std::array<Cost, kNeighbours> neighbour_lengths_{};  ///< of the step
 };
 
-/// Reused by later searches, because clearing it would cost more than most searches.
+/// Reused by later searches, because clearing costs more than most searches.
 struct Memory {
     std::vector<Cell> cells;
     std::uint32_t search = 0;
@@ -132,7 +132,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
       heuristic_permille_(std::llround(1000 * std::max(1.0, options.heuristic_weight))),
       cells_(memory().cells) {
     if (!(options.cell_m > 0) || options.bounds_m.isEmpty()) {
-        throw std::invalid_argument("path search: cells need a size, and bounds to lie in");
+        throw std::invalid_argument("path search: cell size and bounds must not be empty");
     }
     const auto nearest = [&](const Eigen::Vector3d& at_m) -> Eigen::Vector3d {
         return ((at_m - options.anchor_m) / options.cell_m).array().round();
@@ -146,7 +146,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
     const Eigen::Vector3d last = high.array().floor().max(nearest(start_m).array());
     const Eigen::Vector3d count = (last - first).array() + 1;
     if (!((count.array() >= 1).all() && count.prod() <= double(kMaxCellsOfGrid))) {
-        throw std::invalid_argument("path search: the bounds hold no cells, or too many");
+        throw std::invalid_argument("path search: the bounds contain no cells, or too many");
     }
     least_ = first.cast<int>();
     size_ = count.cast<int>();
@@ -172,7 +172,7 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
                             static_cast<double>(lengths_[1]) *
                             static_cast<double>(heuristic_permille_) / 1000;
     if (!(farthest < std::ldexp(1.0, Entry::kLeftBits))) {
-        throw std::invalid_argument("path search: the bounds are too long for its costs");
+        throw std::invalid_argument("path search: the bounds are too large");
     }
     if (has_goal) goal_place_ = placeOf(goal_);
     for (int i = 0; i < kNeighbours; ++i) {
@@ -196,8 +196,7 @@ Eigen::Vector3i Search::placeOf(int index) const {
     return {index % size_.x(), row % size_.y(), row / size_.y()};
 }
 
-/// Point 0 is the cell's centre, 1 to 4 are beside it. Start and goal are passed at their
-/// positions.
+/// Point 0 is the cell's centre, 1 to 4 are beside it. Start and goal use exact positions.
 Eigen::Vector3d Search::pointOf(int index, int place) const {
     if (index == start_) return start_m_;
     if (index == goal_) return goal_m_;
@@ -271,7 +270,7 @@ Cost Search::minCostToGoal(int x, int y, int z) const {
     return way * heuristic_permille_ / 1000;
 }
 
-/// Closes a cell and queues the ways from it into its neighbours.
+/// Closes a cell and queues its neighbours.
 void Search::open(int index) {
     cell(index).is_closed = true;
     const Cell here = cell(index);

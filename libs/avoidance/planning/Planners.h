@@ -9,8 +9,8 @@ class MotionPrimitives : public Planner {
     Plan plan(const WorldModel& world, const PlanningTask& task) const override;
 };
 
-/// "3dvfh": the cheapest direction of a polar histogram, after 3DVFH+ (Vanneste, Bellekens and
-/// Weyn, 2014). A cell holds the free distance of a sphere of the clearance radius.
+/// "3dvfh": chooses the cheapest direction of a polar histogram, after 3DVFH+ (Vanneste, Bellekens
+/// and Weyn, 2014). A cell holds the free distance of a sphere of the clearance radius.
 class PolarHistogram : public Planner {
  public:
     Plan plan(const WorldModel& world, const PlanningTask& task) const override;

@@ -11,13 +11,13 @@ constexpr double kCell_rad = 6 * M_PI / 180;
 constexpr int kAzimuths = 60, kMaxRow = 3;  ///< elevations of -18 to 18 degrees
 constexpr float kTraceStep_m = 0.1f;
 constexpr double kReaction_s = 0.3;  ///< reaction time in addition to the stopping distance
-constexpr double kHold_s = 0.4;      ///< in the check, before braking
+constexpr double kHold_s = 0.4;      ///< before braking, in the check
 constexpr double kSlowest_m_s = 0.3;
 
 // Cost weights of angles in radians and of the blocked fraction.
 constexpr double kTargetCost = 1.0, kChangeCost = 0.25;
 constexpr double kBlockedCost = 1.5;
-constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< directions free for less are a last resort
+constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< shorter free directions are a last resort
 
 struct HistogramCell {
     double cost;  ///< without the blocked fraction, which needs queries
@@ -40,7 +40,7 @@ double freeDistance(const WorldModel& world, const PlanningTask& task,
                     const Eigen::Vector3d& direction, double reach_m) {
     const auto clearance_radius_m = static_cast<float>(task.limits.clearance_radius_m());
     const auto speed_m_s = static_cast<float>(speedTowardsGoal(task));
-    // Objects that approach the sphere shorten the distance for which a clearance holds.
+    // Approaching objects shorten the distance for which a clearance holds.
     const float share = speed_m_s / (speed_m_s + world.fastest_m_s());
     float at_m = 0, needed_m = 0;
     while (at_m < reach_m) {
@@ -55,13 +55,13 @@ double freeDistance(const WorldModel& world, const PlanningTask& task,
     return reach_m;
 }
 
-/// The speed from which the vehicle can stop within a distance.
+/// The maximum speed for stopping within a distance.
 double speedFor(double free_m, const PlanningTask& task) {
     const double a = task.limits.acceleration_m_s2;
     return a * (std::sqrt(kReaction_s * kReaction_s + 2 * free_m / a) - kReaction_s);
 }
 
-/// The cost of a direction that is blocked before the end of the range.
+/// The cost of a direction blocked before the end of the range.
 double blockedCost(const PlanningTask& task, double free_m, double reach_m) {
     const double goal_m = (task.carrot_m - task.start.position_m).norm() + task.beyond_carrot_m;
     const bool is_shut = free_m < std::min(kOpen_m, goal_m);
@@ -81,8 +81,8 @@ double directionCost(const PlanningTask& task, const Eigen::Vector3d& target,
            kOutOfAltitudesCost_per_m * outOfAltitudes(end_m, task);
 }
 
-/// Rows and columns of the histogram are relative to the direction of the carrot. The wanted height
-/// is to be reached within the look-ahead, however far the carrot is.
+/// Rows and columns of the histogram are relative to the carrot's direction. The vehicle should
+/// reach the target height within the look-ahead, however far the carrot is.
 std::vector<HistogramCell> rankedCells(const PlanningTask& task) {
     const Eigen::Vector3d offset_m = task.carrot_m - task.start.position_m;
     const double heading_rad = std::atan2(offset_m.y(), offset_m.x());
@@ -136,7 +136,7 @@ Plan PolarHistogram::plan(const WorldModel& world, const PlanningTask& task) con
     CommandPaths paths;
     double best = std::numeric_limits<double>::infinity();
     for (const HistogramCell& cell : rankedCells(task)) {
-        if (cell.cost >= best) break;  // the rest cost more, whatever their free distance
+        if (cell.cost >= best) break;  // the rest cost more, regardless of free distance
         const double free_m = freeDistance(world, task, cell.direction, reach_m);
         const double cost = cell.cost + blockedCost(task, free_m, reach_m);
         if (cost >= best) continue;

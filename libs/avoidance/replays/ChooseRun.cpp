@@ -12,7 +12,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// A condition that is left out where it has its default.
+/// A condition that is omitted if default.
 struct Condition {
     std::string flag;
     std::string (*valueOf)(const Run&);
@@ -122,7 +122,7 @@ Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted) {
     };
     const std::vector<Run> found = thoseThat([&](const Run& run) { return matches(run, wanted); });
     if (found.size() == 1) return found[0];
-    const std::string seed = "of seed " + std::to_string(wanted.seed);
+    const std::string seed = "with seed " + std::to_string(wanted.seed);
     if (!found.empty()) {
         throw std::invalid_argument(std::to_string(found.size()) + " runs " + seed +
                                     " match; select one by flags:" + listOf(found));
@@ -131,7 +131,7 @@ Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted) {
         thoseThat([&](const Run& run) { return run.seed == wanted.seed; });
     if (!of_seed.empty()) {
         throw std::invalid_argument("has no run " + seed +
-                                    " with these flags; that seed has:" + overviewOf(of_seed));
+                                    " and these flags; available:" + overviewOf(of_seed));
     }
     throw std::invalid_argument("has no run " + seed +
                                 (runs.empty() ? ", nor any other" : "; there are:") +

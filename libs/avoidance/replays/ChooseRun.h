@@ -15,11 +15,10 @@ struct RunWanted {
     double speed_m_s = 0, latency_scale = 0;
 };
 
-/// The run that matches. Throws std::invalid_argument and lists the candidates if none or several
-/// match.
+/// The matching run. Throws std::invalid_argument listing the candidates unless there is just one.
 Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted);
 
-/// The flags that select a run `among` others of its seed, for a shell:
+/// The flags that select a run `among` others with its seed, for a shell:
 /// "--scenario gap --model W-RoI --guidance astar --speed 4 --latency-scale 4   # success".
 std::string choiceOf(const Run& run, const std::vector<Run>& among);
 

@@ -34,7 +34,7 @@ simulation::ObjectClass nearestKind(const simulation::Scene& scene, const Eigen:
         .cast(raysAround(at_m.cast<float>()), static_cast<float>(reach_m), hits);
     simulation::RayHit nearest{static_cast<float>(reach_m)};
     for (const simulation::RayHit& hit : hits) {
-        // Grass and crop bend and are no obstacles.
+        // Grass and crop bend and are not obstacles.
         if (hit.range_m <= nearest.range_m && hit.kind != simulation::ObjectClass::Canopy)
             nearest = hit;
     }
@@ -64,7 +64,7 @@ std::string wordsFor(simulation::ObjectClass kind) {
     }
 }
 
-/// Which limit of the judge a timeout exceeded.
+/// Which limit of TrialJudge a timeout exceeded.
 std::string wordsForTimeout(const Course& course, const TrialResult& result, double speed_m_s,
                             const Eigen::Vector3d& end_m) {
     if (course.bounds_m.exteriorDistance(end_m) > TrialJudge::kOutside_m) return "left the course";
@@ -83,7 +83,7 @@ std::string endingOf(const Course& course, const TrialResult& result, double spe
     }
     const auto clearance_m =
         static_cast<double>(course.distance.at(end_m.cast<float>(), result.time_s));
-    constexpr double kMore_m = 0.05;  // rays may miss the nearest point slightly
+    constexpr double kMore_m = 0.05;  // because rays may miss the nearest point
     const simulation::ObjectClass kind =
         nearestKind(course.scene, end_m, result.time_s, clearance_m + kMore_m);
     return "hit " + wordsFor(kind) + at + ": " + base::fixedText(clearance_m, 2) +

@@ -8,7 +8,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// Every n-th item, so that at most `most` are left.
+/// Every n-th item, at most `most` in total.
 template <class Item>
 std::vector<Item> sampled(const std::vector<Item>& all, std::size_t most) {
     const std::size_t every = (all.size() + most - 1) / std::max<std::size_t>(most, 1);
@@ -56,7 +56,7 @@ class ModelHistory {
             }
             std::vector<ModelCell>& stays = cells_[key];
             if (!stays.empty() && stays.back().until_step >= step) {
-                stays.back().until_step = step + 1;  // present in the last step, or listed twice
+                stays.back().until_step = step + 1;  // continued, or a duplicate
             } else {
                 stays.push_back({centre_m, step, step + 1});
             }
@@ -96,7 +96,7 @@ RecordedStep recorded(const TrialStep& step, const WorldModel::Obstacles& obstac
     return kept;
 }
 
-/// Long runs keep fewer points per step.
+/// Reduces the points per step of long runs.
 void thinLongRun(const FlightRecordingLimits& limits, FlightRecording& recording) {
     const std::size_t steps = recording.steps.size();
     if (steps <= limits.full_steps) return;

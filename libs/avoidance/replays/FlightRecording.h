@@ -16,7 +16,7 @@ namespace hagen::avoidance {
 std::string endingOf(const Course& course, const TrialResult& result, double speed_m_s,
                      const Eigen::Vector3d& end_m);
 
-/// A voxel or point of the world model, present from step `from_step` until before `until_step`.
+/// A voxel or point of the world model, present in the steps [from_step, until_step).
 struct ModelCell {
     Eigen::Vector3f centre_m;
     int from_step, until_step;
@@ -32,9 +32,9 @@ struct RecordedStep {
     double time_s, latency_ms;
     Eigen::Vector3d command_m_s, carrot_m;
     bool is_emergency;
-    std::size_t model_size;  ///< voxels or points that the model held, all of them
+    std::size_t model_size;                     ///< total voxels or points in the model
     std::vector<Eigen::Vector3f> roi_m, rou_m;  ///< returns of the scan
-    std::vector<Eigen::Vector3f> path_m;        ///< of guidance
+    std::vector<Eigen::Vector3f> path_m;        ///< from guidance
     std::vector<RecordedMotion> motions;
 };
 
@@ -52,7 +52,7 @@ struct RecordedEvent {
 /// A whole run, small enough for a web page.
 struct FlightRecording {
     Run run{};
-    bool is_same = false;  ///< every field of its row came out the same
+    bool is_same = false;  ///< the run was reproduced exactly
     Eigen::Vector3d start_m{0, 0, 0}, goal_m{0, 0, 0};
     double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
@@ -60,7 +60,7 @@ struct FlightRecording {
     std::string ending;                 ///< text of endingOf()
     TrueScene scene;
     std::vector<ModelCell> model;
-    float model_edge_m = 0;  ///< of its cells; 0: points
+    float model_edge_m = 0;  ///< of cells; 0: points
     std::vector<RecordedEvent> events;
 };
 
@@ -69,12 +69,12 @@ struct FlightRecordingLimits {
     std::size_t points = 2500;     ///< per label and step
     std::size_t motions = 60;      ///< per step
     std::size_t cells = 150000;    ///< of the model
-    float point_grid_m = 0.1f;     ///< models of points: one point per cube of this size
-    float reach_m = 25;            ///< of the returns that are kept
+    float point_grid_m = 0.1f;     ///< point models: one point per cube of this size
+    float reach_m = 25;            ///< maximum range of stored returns
 };
 
-/// Flies the run again and records it. Throws like makeCourse() and runTrial(), and what
-/// `continuing` throws, which is called at each planning step.
+/// Repeats the flight and records it. Throws like makeCourse() and runTrial(), and exceptions of
+/// `continuing`, which is called at each planning step.
 FlightRecording record(
     const Run& run, const LatencyProfile& profile, const FlightRecordingLimits& limits = {},
     const std::function<void()>& continuing = [] {});

@@ -66,17 +66,17 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
 
 std::string scriptText(std::string json) {
     // In a string, "</script>" would end the element, and "<!--<script>" would hide its end. JSON
-    // has a '<' only in strings.
+    // contains '<' only in strings.
     const std::string escaped = "\\u003c";
     for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos; at += escaped.size())
         json.replace(at, 1, escaped);
     return json;
 }
 
-/// Coordinates of pages are 16-bit centimetres from the start, so they reach 327 m.
+/// Pages store coordinates as 16-bit centimetres from the start, up to 327 m.
 constexpr double kUnit_m = 0.01;
 constexpr double kShapeUnit_m = 0.005;    // of shapes: up to 164 m
-constexpr double kTurnUnit_rad = 0.0001;  // more than half a turn
+constexpr double kTurnUnit_rad = 0.0001;  // covers more than half a turn
 
 class PageWriter {
  public:
@@ -255,7 +255,7 @@ class PageWriter {
     const FlightRecording& recording_;
 };
 
-/// Scenario, seed, contender, speed, deviations from the default condition, outcome.
+/// Scenario, seed, contender, speed, non-default conditions, outcome.
 std::string headingOf(const Run& run) {
     const TrialSetup& setup = run.setup;
     std::string text = run.scenario + ", seed " + std::to_string(run.seed) + ", " +
@@ -275,7 +275,7 @@ std::string headingOf(const Run& run) {
     return text + ": " + nameOf(run.result.outcome);
 }
 
-/// For the text of an HTML element.
+/// Escapes text for an HTML element.
 std::string htmlText(const std::string& text) {
     std::string escaped;
     for (const char c : text) {

@@ -130,7 +130,7 @@ CSetOfTriangles::Ptr trueSceneOf(const FlightRecording& recording) {
 
 void writeReplayScene(const FlightRecording& recording, const std::filesystem::path& place,
                       const std::filesystem::path& file) {
-    base::openToWrite(place, file);  // MRPT does not report why writing fails
+    base::openToWrite(place, file);  // MRPT does not report write errors
     Scene scene;
     scene.insert(linesOf(recording.scene.ground));
     if (!recording.scene.shapes.empty()) scene.insert(trueSceneOf(recording));

@@ -6,7 +6,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// Thin rods are drawn thicker: a wire of 24 mm would be less than a pixel wide.
+/// Draws thin rods thicker: a wire of 24 mm would be narrower than a pixel.
 constexpr float kMinRadius_m = 0.03f;
 
 simulation::Shape drawn(const simulation::Shape& shape) {

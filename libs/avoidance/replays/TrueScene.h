@@ -28,7 +28,7 @@ struct TrueScene {
     Ground ground;
 };
 
-/// The scene within the bounds of the flight and 20 m around them, until the flight ends.
+/// The scene within 20 m around the bounds of the flight, until it ends.
 TrueScene trueSceneOf(const simulation::Scene& scene, const Eigen::AlignedBox3d& bounds_m,
                       double duration_s);
 

@@ -20,7 +20,7 @@ DepthImage::DepthImage() {
     pixels_.assign(pixels, {kMax_mm, 0});
 }
 
-/// Columns count around a square whose corners lie on the axes, rows likewise from pole to pole.
+/// Columns run around a square whose corners lie on the axes, rows likewise from pole to pole.
 DepthImage::Place DepthImage::placeOf(const Eigen::Vector3f& ray) {
     const float x = ray.x(), y = ray.y(), z = ray.z();
     const float flat = std::max(std::abs(x) + std::abs(y), 1e-9f);
@@ -107,7 +107,7 @@ DepthImage::Block DepthImage::block(const Eigen::Vector3f& to_first_m, float ste
     Block block;
     const Values around2 = x.square() + y.square();
     block.away_m = (around2 + z.square()).sqrt();
-    // As in placeOf(), without branches.
+    // Like placeOf(), without branches.
     const Values across = y / (x.abs() + y.abs()).max(1e-9f);
     const Values column = (x >= 0).select((y >= 0).select(across, 4 + across), 2 - across);
     const Values row = z / (around2.sqrt() + z.abs()).max(1e-9f);
@@ -115,7 +115,7 @@ DepthImage::Block DepthImage::block(const Eigen::Vector3f& to_first_m, float ste
     const float scale = 1 / static_cast<float>(1 << block.level);
     const float per_unit = kPixelsPerUnit * scale;
     const int columns = kColumns >> block.level, rows = kRows >> block.level;
-    // Whole turns keep columns positive, so that truncation rounds down.
+    // Adding whole turns keeps columns positive, so that truncation rounds down.
     const float turns = static_cast<float>(2 * columns);
     const float wide = std::min(half_columns * scale, 0.5f * static_cast<float>(columns - 1));
     block.left = (column * per_unit + (turns - wide)).cast<int>();

@@ -13,14 +13,14 @@ namespace hagen::avoidance {
 /// elevation but need no arcus functions.
 class DepthImage {
  public:
-    /// A place of the image in pixels: column in [0, 512), row in [0, 256).
+    /// A position in the image in pixels: column in [0, 512), row in [0, 256).
     struct Place {
         float column, row;
     };
     struct Depths {
         float nearest_m, farthest_m;  ///< 0: no return
     };
-    static constexpr float kPixelsPerUnit = 128;  ///< a unit: about a radian ahead
+    static constexpr float kPixelsPerUnit = 128;  ///< a unit is about a radian ahead
 
     DepthImage();
 

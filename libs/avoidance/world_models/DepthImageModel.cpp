@@ -119,9 +119,9 @@ DepthImageModel::Outline DepthImageModel::outlineOf(const Eigen::Vector3f& to_co
     return outline;
 }
 
-/// The voxels of a block, of those asked for, that are nearer than all returns in their part of the
-/// image, of which there are some. A part is as large as the block's nearest voxel, and at least
-/// `min_half_rows` up and down.
+/// The requested voxels of a block that are nearer than all returns, at least one, in their part of
+/// the image. A part is as large as the block's nearest voxel, and at least `min_half_rows` up and
+/// down.
 std::uint64_t DepthImageModel::nearerVoxels(const Eigen::Vector3f& to_corner_m,
                                             std::uint64_t voxels, float min_half_rows) const {
     const Outline outline = outlineOf(to_corner_m, RollingBox::kBlock);
@@ -139,11 +139,11 @@ std::uint64_t DepthImageModel::nearerVoxels(const Eigen::Vector3f& to_corner_m,
     return nearer;
 }
 
-/// Whether nearerVoxels() may find one in a cell for kHalfRow. The answer no is certain.
+/// Whether nearerVoxels() may find any in a cell for kHalfRow. False is certain.
 bool DepthImageModel::mayHaveFree(const Eigen::Vector3f& to_corner_m, int voxels) const {
     const Outline outline = outlineOf(to_corner_m, voxels);
     if (outline.min_away_m > max_range_m_) return false;
-    // The voxels' middles are at most the spread from that of the cell. The gradient of a column is
+    // The centres of voxels are within the spread of the cell's centre. The gradient of a column is
     // at most 1 / (distance from the vertical axis), that of a row 1 / (distance).
     const float spread = DepthImage::kPixelsPerUnit * outline.spread_m;
     const DepthImage::Depths depths = image_.depthsAround(

@@ -12,18 +12,17 @@ namespace hagen::avoidance {
 /// A map that casts no rays, after D-Map (Cai et al. 2023, arXiv 2307.08493), in a box that moves
 /// with the vehicle.
 ///
-/// From the paper: a scan becomes a depth image; a cell of space is projected into it, and what is
-/// nearer than the depths there is free, what is farther remains unknown. The map holds unknown
-/// space in a tree, from which known cells are removed, and occupied voxels beside it. The tree is
-/// descended only where something is unknown, and not into cells that lie behind all depths of
-/// their part of the image, or where no ray goes.
+/// From the paper: a scan becomes a depth image, into which a cell of space is projected: cells
+/// nearer than its depths are free, farther ones remain unknown. The map stores unknown space in a
+/// tree, from which known cells are removed, and occupied voxels separately. The tree is descended
+/// only where it contains unknown cells, and not into cells behind all depths of their part of the
+/// image, or without rays.
 ///
 /// Not from the paper: the box; three levels of 64 children, in bit masks, instead of an octree.
-/// Free is decided voxel by voxel, because the rows of a VLP-16 are 2 degrees apart: a large cell
-/// has gaps between them that a scan did not see. A voxel counts as seen if a row passes within a
-/// degree of it. And occupied voxels, which are final in the paper, are checked against each image:
-/// if all depths around a voxel lie beyond it, its log odds fall as OctoMap's do, so that what
-/// moves away disappears.
+/// Free space is decided voxel by voxel, because the rows of a VLP-16 are 2 degrees apart: a large
+/// cell has gaps between them. A voxel counts as seen if a row passes within a degree of it.
+/// Occupied voxels, which are final in the paper, are checked against each image: if all depths
+/// around a voxel lie beyond it, its log odds fall as in OctoMap, so that moving objects disappear.
 class DepthImageModel : public WorldModel {
  public:
     DepthImageModel(float edge_m, const FlightPace& pace);
@@ -42,7 +41,7 @@ class DepthImageModel : public WorldModel {
     /// axis through it, and half that voxel's extent in the image.
     struct Outline {
         Eigen::Vector3f to_middle_m;
-        float spread_m;  ///< from the middle to that of the farthest voxel
+        float spread_m;  ///< from the centre to that of the farthest voxel
         float min_away_m, min_around_m, half_columns, half_rows;
     };
     Eigen::Vector3f cornerOf(const Eigen::Array3i& first, const Eigen::Vector3f& origin_m) const;
@@ -55,7 +54,7 @@ class DepthImageModel : public WorldModel {
     RollingBox box_;
     DepthImage image_;
     VoxelSet unknown_, occupied_;
-    std::vector<std::int8_t> log_odds_;  ///< per voxel; counts where occupied
+    std::vector<std::int8_t> log_odds_;  ///< per voxel; valid where occupied
     std::vector<std::uint64_t> hit_;     ///< bits per voxel of the scan; else 0
     std::vector<std::uint32_t> hits_;    ///< their blocks
 };

@@ -9,12 +9,12 @@ namespace hagen::avoidance {
 
 namespace {
 
-constexpr float kMaxPlaceInCells = 1e6F;  // floats still resolve a sixteenth of a cell
+constexpr float kMaxPlaceInCells = 1e6F;  // floats still resolve 1/16 of a cell
 
 mrpt::math::TPoint3D pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
-/// MRPT marks the end of every ray as occupied, even if there was no return. This restores the end
-/// cell of such a ray.
+/// MRPT marks the end of every ray as occupied, even without a return. This restores the end cell
+/// of such a ray.
 void insertRay(mrpt::maps::COccupancyGridMap3D& map, const mrpt::math::TPoint3D& from,
                const mrpt::math::TPoint3D& to, bool is_hit) {
     auto& grid = map.m_grid;
@@ -42,8 +42,8 @@ GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float ma
     corner_m_ = least * edge_m;
     const float farthest_m = corner_m_.abs().max((most * edge_m).abs()).maxCoeff();
     if (!(farthest_m <= kMaxPlaceInCells * edge_m)) {
-        throw std::runtime_error("a grid of cells of " + std::to_string(edge_m) +
-                                 " m cannot be made at places up to " + std::to_string(farthest_m) +
+        throw std::runtime_error("a grid with cells of " + std::to_string(edge_m) +
+                                 " m cannot cover positions up to " + std::to_string(farthest_m) +
                                  " m; shift the origin of the coordinates towards the path");
     }
     map_->setSize(pointOf(corner_m_), pointOf(most * edge_m), edge_m);

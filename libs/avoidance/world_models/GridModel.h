@@ -10,11 +10,11 @@ class COccupancyGridMap3D;
 
 namespace hagen::avoidance {
 
-/// MRPT's COccupancyGridMap3D of all points within the bounds, and a k-d tree of its occupied
+/// MRPT's COccupancyGridMap3D of all points within the bounds, with a k-d tree of its occupied
 /// cells.
 class GridModel : public WorldModel {
  public:
-    /// Returns farther than `max_range_m` only clear, up to this range.
+    /// Returns beyond `max_range_m` only clear, up to this range.
     GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float max_range_m);
     ~GridModel() override;
 

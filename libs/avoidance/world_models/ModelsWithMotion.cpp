@@ -4,7 +4,7 @@
 namespace hagen::avoidance {
 namespace {
 
-constexpr float kBefore_m = 0.2f;  // a cell
+constexpr float kBefore_m = 0.2f;  // one cell
 
 /// Removes obstacles but keeps the rays up to them, which clear earlier obstacles in between.
 observations::MappedScan withoutObstacles(const observations::MappedScan& scan,

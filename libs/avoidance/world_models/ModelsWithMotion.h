@@ -12,7 +12,7 @@ class ModelWithMotion : public WorldModel {
     float fastest_m_s() const override { return movers_.fastest_m_s(); }
     bool isKnown(const Eigen::Vector3f& point_m) const override { return still_->isKnown(point_m); }
     std::size_t bytes() const override { return still_->bytes() + movers_.bytes(); }
-    /// Includes the points of movers, which are drawn as voxels beside voxels.
+    /// Includes the points of movers, which are drawn as voxels next to voxels.
     Obstacles obstacles() const override;
 
  protected:
@@ -23,8 +23,8 @@ class ModelWithMotion : public WorldModel {
     Movers movers_;
 };
 
-/// A window without the points of obstacles that move, as long as these are tracked. When a track
-/// ends, its points count again, because the position of the obstacle is unknown.
+/// A window without the points of moving obstacles while these are tracked. When a track ends, its
+/// points count again, because the position of the obstacle is unknown.
 class WindowWithMotion : public ModelWithMotion {
  public:
     WindowWithMotion(bool roi_only, WindowSize size)
@@ -33,8 +33,8 @@ class WindowWithMotion : public ModelWithMotion {
     void update(const observations::MappedScan& scan) override;
 };
 
-/// A map without the returns of obstacles that move, except for the rays up to them. What was
-/// entered before an obstacle was known to move stays until rays clear it.
+/// A map without the returns of moving obstacles, except for the rays up to them. Cells entered
+/// before an obstacle was known to move stay until rays clear them.
 class MapWithMotion : public ModelWithMotion {
  public:
     MapWithMotion(std::unique_ptr<WorldModel> map, float farthest_m)

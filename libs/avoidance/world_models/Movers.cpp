@@ -7,8 +7,8 @@
 namespace hagen::avoidance {
 namespace {
 
-// The error of a velocity, as a share of it (a turn is not foreseen) and as a share of
-// its standard deviation.
+// Velocity error as a fraction of the speed (turns are not predicted) and of its standard
+// deviation.
 constexpr float kDoubtOfSpeed = 0.1f, kDoubtOfSigma = 0.5f;
 
 }  // namespace
@@ -21,7 +21,7 @@ struct Movers::Mover {
     Eigen::Vector3f middle_m{0, 0, 0};
     float radius_m = 0;  ///< of a sphere around the points
     Eigen::Vector3f velocity_m_s;
-    float doubt_m, doubt_m_s;  ///< clearance that is not certain, at once and per second
+    float doubt_m, doubt_m_s;  ///< clearance uncertainty, initially and per second
 };
 
 Movers::Mover::Mover(const ObstacleTrack& track, double time_s) : tree(3, points) {

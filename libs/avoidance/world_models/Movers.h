@@ -4,8 +4,8 @@
 
 namespace hagen::avoidance {
 
-/// The obstacles that move, where they will be: the points of the last scan that saw one, moved
-/// along at its velocity (ObstacleTracks), less the doubt in it.
+/// Predicts moving obstacles: the points of the last scan of each, moved with its velocity
+/// (ObstacleTracks), minus the uncertainty of that velocity.
 class Movers {
  public:
     explicit Movers(float farthest_m);
@@ -14,14 +14,14 @@ class Movers {
     void update(const observations::MappedScan& scan, const std::shared_ptr<const View>& view);
 
     const ObstacleTracks& tracks() const { return tracks_; }
-    /// The numbers of the tracks that move.
+    /// The numbers of the moving tracks.
     const std::vector<std::uint32_t>& moving() const { return moving_; }
-    /// The distance from a point to the nearest of them a time after the last scan, at most
+    /// The distance from a point to the nearest of them at a time after the last scan, at most
     /// `limit_m`.
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float after_s, float limit_m) const;
     float fastest_m_s() const { return fastest_m_s_; }
     std::size_t bytes() const;
-    /// Their points, added to those of `obstacles`.
+    /// Adds their points to `obstacles`.
     void addTo(WorldModel::Obstacles& obstacles) const;
 
  private:

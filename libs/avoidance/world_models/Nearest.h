@@ -13,14 +13,14 @@ using PointTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>, TreePoints,
                                         3>;
 
-/// A result set for nanoflann: the minimum squared distance over several trees, searched one after
-/// the other. It starts with a limit, so that searches beyond it end early.
+/// A result set for nanoflann: the minimum squared distance over several trees searched in turn. It
+/// starts with a limit, so that searches beyond it end early.
 class Nearest {
  public:
     explicit Nearest(float limit_m) : least_m2_(limit_m * limit_m) {}
 
-    /// Of the next tree, only the first `points` points count, and none that is hidden (not 0;
-    /// null: none is).
+    /// Restricts the next tree to its first `points` points without hidden ones (not 0; null: none
+    /// are hidden).
     void consider(std::size_t points, const std::uint8_t* is_hidden = nullptr) {
         counting_ = points;
         is_hidden_ = is_hidden;
@@ -42,8 +42,8 @@ class Nearest {
     std::size_t counting_ = std::numeric_limits<std::size_t>::max();
 };
 
-/// A result set for nanoflann: whether a tree has any point within a radius, of its first `points`
-/// points and apart from one. The search ends at the first.
+/// A result set for nanoflann: whether a tree has any point within a radius, among its first
+/// `points` points except one. The search ends at the first.
 class AnyWithin {
  public:
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

@@ -18,7 +18,7 @@ constexpr float kThinning_m = 0.1f;
 
 // The Kalman filter.
 constexpr double kAcceleration_m_s2 = 1;  // standard deviation
-constexpr double kPlaceSigma_m = 0.05;    // of a middle, plus a share of the width
+constexpr double kPlaceSigma_m = 0.05;    // of a centre, plus a fraction of the width
 constexpr double kPlaceSigmaOfWidth = 0.05;
 constexpr double kFirstSpeedSigma_m_s = 2;
 
@@ -30,8 +30,8 @@ constexpr int kMaxMissed = 10;
 // Thresholds of moving obstacles.
 constexpr int kMinSeen = 3;
 constexpr double kMinSpeed_m_s = 0.5, kSigmas = 3, kRemembered_s = 0.6;
-constexpr std::size_t kCompared = 50;  // points of each sight
-constexpr float kFarFit_m = 0.5f;      // distances count as this at most
+constexpr std::size_t kCompared = 50;  // points compared per sighting
+constexpr float kFarFit_m = 0.5f;      // upper limit of distances
 constexpr double kBetterFit = 0.8;
 constexpr float kMinHeight_m = 0.15f;
 constexpr double kCrossedShare = 0.1;
@@ -57,7 +57,7 @@ Eigen::Vector2d middleOf(const std::vector<Eigen::Vector3f>& points_m) {
     return sum / static_cast<double>(points_m.size());
 }
 
-/// The obstacles of a scan that can be followed, by their numbers.
+/// The trackable obstacles of a scan, by number.
 std::vector<Seen> seenIn(const observations::MappedScan& scan, float farthest_m) {
     struct Points {
         std::vector<Eigen::Vector3f> at_m;
@@ -165,9 +165,9 @@ std::vector<Match> possibleMatches(const std::vector<ObstacleTrack>& tracks,
     return matches;
 }
 
-// Whether it moves.
+// Motion detection.
 
-/// At most kCompared of the points, evenly.
+/// At most kCompared of the points, evenly spread.
 std::vector<Eigen::Vector3f> sampleOf(const std::vector<Eigen::Vector3f>& points_m) {
     const std::size_t step = (points_m.size() + kCompared - 1) / kCompared;
     std::vector<Eigen::Vector3f> sample;
@@ -191,7 +191,7 @@ double misfit_m(const std::vector<Eigen::Vector3f>& points_m,
     return sum_m / static_cast<double>(points_m.size());
 }
 
-/// Whether the older points fit better if they are moved along.
+/// Whether the older points fit better after motion.
 bool fitsBetterMoved(const ObstacleTrack& track) {
     const ObstacleTrack::Sight &now = track.sights.front(), &before = track.sights.back();
     const double passed_s = now.time_s - before.time_s;
@@ -209,7 +209,7 @@ float heightOf(const std::vector<Eigen::Vector3f>& points_m) {
     return box.sizes().z();
 }
 
-/// Whether a scan saw free space where a tenth of these points are.
+/// Whether a scan saw free space at a tenth of these points.
 bool sawFreeSpaceAt(const View& view, const std::vector<Eigen::Vector3f>& points_m) {
     int known = 0, free = 0;
     for (const Eigen::Vector3f& point_m : points_m) {

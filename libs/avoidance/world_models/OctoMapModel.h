@@ -26,7 +26,7 @@ class OctoMapModel : public WorldModel {
     void noteChanges();
 
     observations::ScanMap map_;
-    std::set<Key> occupied_;  ///< ordered, so that no hash decides the order
+    std::set<Key> occupied_;  ///< ordered, so that results do not depend on a hash
     VoxelTree obstacles_;
 };
 

@@ -8,7 +8,7 @@ namespace hagen::avoidance {
 
 namespace {
 
-constexpr float kSteepest = 0.25f;  ///< rise per metre of the planners' steepest commands
+constexpr float kSteepest = 0.25f;  ///< slope of the planners' steepest commands
 
 /// Modulo that is never negative.
 int wrap(int value, int size) {
@@ -59,8 +59,8 @@ const std::vector<std::uint32_t>& RollingBox::moveTo(const Eigen::Vector3f& vehi
     const bool is_first = !is_placed_;
     is_placed_ = true;
     fillParts();
-    if (is_first) return left_;  // it was empty
-    // Places along an axis that were not in the box before.
+    if (is_first) return left_;  // the box was empty
+    // Positions along an axis that are new in the box.
     std::array<std::array<int, 2>, 3> entered;
     for (int axis = 0; axis < 3; ++axis) {
         const int moved = std::clamp(least_[axis] - was[axis], -size_[axis], size_[axis]);

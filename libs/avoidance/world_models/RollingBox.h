@@ -8,23 +8,23 @@
 
 namespace hagen::avoidance {
 
-/// How far a robocentric map must reach from the vehicle, in x, y, z: as far as a window (what a
-/// plan can touch, at least 15 m); up and down as far as a plan climbs on that way, plus the reach
-/// of a clearance. 15 x 15 x 6 m at 4 m/s.
+/// Required reach of a robocentric map from the vehicle in x, y, z: horizontally that of a window
+/// (the reach of a plan, at least 15 m); vertically the climb of a plan over that distance, plus
+/// the reach of a clearance. 15 x 15 x 6 m at 4 m/s.
 Eigen::Vector3f rollingReachFor(const FlightPace& pace);
 
-/// Where the voxels of a box that moves with a vehicle are stored. Its size never changes; an index
-/// belongs to a position modulo the size, so that a move copies nothing: what enters takes the
-/// places of what leaves.
+/// Maps the voxels of a box that moves with a vehicle to storage. Its size is constant; an index
+/// belongs to a position modulo the size, so that moving copies nothing: entering voxels replace
+/// leaving ones.
 ///
-/// Voxels are grouped for bit masks of 64: 4 x 4 x 4 voxels are a block, 4 x 4 x 4 blocks a group.
-/// An index is 4096 group + 64 block + voxel; within a block, voxel = 16 z + 4 y + x, and so for
-/// blocks. The box moves by whole blocks.
+/// Voxels are grouped for bit masks of 64: 4 x 4 x 4 voxels form a block, 4 x 4 x 4 blocks a group.
+/// An index is 4096 group + 64 block + voxel; within a block, voxel = 16 z + 4 y + x, and likewise
+/// for blocks. The box moves by whole blocks.
 class RollingBox {
  public:
     static constexpr int kBlock = 4, kGroup = 16;  ///< edges in voxels
 
-    /// At least `reach_m` of it lies in each direction from the vehicle.
+    /// It extends at least `reach_m` from the vehicle in each direction.
     RollingBox(float edge_m, const Eigen::Vector3f& reach_m);
 
     /// Moves the box to the vehicle. Returns the blocks whose content leaves it, ascending.
@@ -44,7 +44,7 @@ class RollingBox {
     bool holds(const Eigen::Array3f& in_voxels) const {
         return (in_voxels >= 0).all() && (in_voxels < size_.cast<float>()).all();
     }
-    /// The middle of a voxel, given by its place from the minimum corner.
+    /// The centre of a voxel, given by its position from the minimum corner.
     Eigen::Vector3f centre_m(const Eigen::Array3i& place) const {
         return ((place + least_).cast<float>() + 0.5f) * edge_m_;
     }
@@ -53,13 +53,13 @@ class RollingBox {
     std::uint32_t indexOf(const Eigen::Array3i& place) const {
         return part(0)[place.x()] + part(1)[place.y()] + part(2)[place.z()];
     }
-    /// Part of the index by place along an axis. May be read one place outside the box.
+    /// Part of the index for a position along an axis. May be read one position outside the box.
     const std::uint32_t* part(int axis) const {
         return parts_[static_cast<std::size_t>(axis)].data() + 1;
     }
     /// Part of a group's number by the group's position along an axis, in groups of the map.
     std::uint32_t groupPart(int axis, int group) const;
-    /// Place of a block's first voxel.
+    /// Position of a block's first voxel.
     Eigen::Array3i placeOf(std::uint32_t block) const;
 
     std::size_t bytes() const;

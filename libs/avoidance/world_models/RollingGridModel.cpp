@@ -8,13 +8,13 @@ namespace hagen::avoidance {
 
 namespace {
 
-// Log odds in units of 1/24, so that they fit into a byte. OctoMap's: +0.85 (probability 0.7) for
-// a hit, -0.41 (0.4) for a ray that passes, from -2 (0.12) to 3.5 (0.97). Occupied: 0 or more.
+// Log odds in units of 1/24, so that they fit into a byte. As in OctoMap: +0.85 (probability 0.7)
+// for a hit, -0.41 (0.4) for a miss, limits -2 (0.12) and 3.5 (0.97). Occupied: 0 or more.
 constexpr int kHit = 20, kMiss = 10, kMin = -48, kMax = 84;
 constexpr std::int8_t kUnknown = std::numeric_limits<std::int8_t>::min();
 
-// Marks of voxels. They are bytes, which a ray sets without reading them: bits would make each step
-// wait for the one before.
+// Marks of voxels, as bytes, which a ray sets without reading: bits would make each step wait for
+// the previous one.
 constexpr std::int8_t kNotSeen = 0, kPassed = 1, kIsHit = 2;
 
 }  // namespace
@@ -39,7 +39,7 @@ void RollingGridModel::update(const observations::MappedScan& scan) {
     apply();
 }
 
-/// Marks hits and finds where rays end, each voxel once.
+/// Marks hits and determines the ends of rays, each voxel once.
 void RollingGridModel::markEnds(const observations::MappedScan& scan) {
     ends_.clear();
     hits_.clear();
@@ -61,7 +61,7 @@ void RollingGridModel::markEnds(const observations::MappedScan& scan) {
             end = (origin + share * ray).cast<int>().max(0).min(box_.size() - 1);
         }
         const std::uint32_t index = box_.indexOf(end);
-        // The ray enters the voxel where it is cut.
+        // The ray enters the voxel at the cut.
         const std::int8_t mark = is_hit ? kIsHit : kPassed;
         if (marks_[index] >= mark) return;
         marks_[index] = mark;
@@ -73,7 +73,7 @@ void RollingGridModel::markEnds(const observations::MappedScan& scan) {
     for (const Eigen::Vector3f& to_m : scan.passed_to_m) markEnd(to_m, false);
 }
 
-/// Marks the voxels from the origin to the end (without it) as passed (Amanatides & Woo 1987). The
+/// Marks the voxels from the origin to the end (exclusive) as passed (Amanatides & Woo 1987). The
 /// ray's length is 2^32, in integers, so that rounding errors do not add up.
 void RollingGridModel::trace(const Eigen::Array3f& origin, const Eigen::Array3i& end) {
     constexpr double kLength = 4294967296.0, kNever = 1e15;
@@ -100,7 +100,7 @@ void RollingGridModel::trace(const Eigen::Array3f& origin, const Eigen::Array3i&
         const std::uint32_t index = *x + *y + *z;
         marks[index] = kPassed;
         is_marked[index / 64] = 1;
-        // Masks instead of branches, which no processor could predict.
+        // Masks instead of unpredictable branches.
         const std::int64_t is_x = -std::int64_t{(next_x <= next_y) & (next_x <= next_z)};
         const std::int64_t is_y = ~is_x & -std::int64_t{next_y <= next_z};
         const std::int64_t is_z = ~(is_x | is_y);

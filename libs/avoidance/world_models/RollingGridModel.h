@@ -9,16 +9,16 @@
 namespace hagen::avoidance {
 
 /// An occupancy grid in a box that moves with the vehicle, so that memory is constant, as in
-/// ROG-Map (Ren et al. 2023, arXiv 2302.14819): circular indexing, log odds by ray traversal. What
-/// leaves the box is forgotten.
+/// ROG-Map (Ren et al. 2023, arXiv 2302.14819): circular indexing, log odds by ray traversal.
+/// Content that leaves the box is lost.
 ///
 /// Log odds and their limits are OctoMap's. A voxel is updated once per scan: occupied if it
 /// contains a return, otherwise free if a ray passes through. Rays that end in the same voxel are
-/// one ray to its centre. Farther returns than a window keeps (15 m at 4 m/s) only clear up to
-/// there, or to where the ray leaves the box.
+/// merged into one to its centre. Returns beyond the range of a window (15 m at 4 m/s) only clear,
+/// up to that range or the border of the box.
 ///
-/// ROG-Map keeps an inflated copy of the map for one radius of the vehicle; planners here ask for
-/// distances. What changes incrementally is a bit per occupied voxel; VoxelSet finds the exact
+/// ROG-Map keeps an inflated copy of the map for one vehicle radius, but these planners query
+/// distances. Only a bit per occupied voxel is updated incrementally; VoxelSet computes the exact
 /// distance from the bits.
 class RollingGridModel : public WorldModel {
  public:

@@ -30,7 +30,7 @@ bool SeenDirections::isSeen(const Eigen::Vector3f& from_origin_m) const {
            static_cast<float>(seen_[cellOf(from_origin_m).index()].farthest_cm);
 }
 
-/// Neighbours across an edge of the cube are left out.
+/// Neighbours across an edge of the cube are omitted.
 SeenDirections::Place SeenDirections::placeAt(const Eigen::Vector3f& from_origin_m) const {
     constexpr int kMinCells = 4;
     constexpr float kBehind_cm = 50;

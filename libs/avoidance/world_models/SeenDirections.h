@@ -15,7 +15,7 @@ class SeenDirections {
 
     void see(const Eigen::Vector3f& from_origin_m);
 
-    /// Whether a return in this direction was as far away.
+    /// Whether a return in this direction was at least as far away.
     bool isSeen(const Eigen::Vector3f& from_origin_m) const;
 
     enum class Place { Free, NotFree, Unknown };
@@ -44,7 +44,7 @@ class SeenDirections {
 
 /// The directions that a scan saw, and its origin.
 struct View {
-    double time_s;  ///< the middle of the revolution, if the ages of its returns are known
+    double time_s;  ///< middle of the revolution, if return ages are known
     Eigen::Vector3f origin_m;
     SeenDirections seen;
 };

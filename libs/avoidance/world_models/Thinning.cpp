@@ -6,7 +6,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// Spreads ten bits, with two zeros after each.
+/// Spreads ten bits, inserting two zeros after each.
 std::uint32_t spread(std::uint32_t bits) {
     bits = (bits | bits << 16) & 0x030000ff;
     bits = (bits | bits << 8) & 0x0300f00f;
@@ -24,7 +24,7 @@ std::uint32_t placeOnCurve(const Eigen::Array3f& at_cubes) {
 
 std::vector<ThinnedPoint> thinnedPoints(const std::vector<Eigen::Vector3f>& points_m,
                                         const Eigen::Vector3f& origin_m, float edge_m) {
-    std::vector<std::uint64_t> cubes_and_points;  // sort like pairs, but faster
+    std::vector<std::uint64_t> cubes_and_points;  // sorted like pairs, but faster
     cubes_and_points.reserve(points_m.size());
     for (std::size_t i = 0; i < points_m.size(); ++i) {
         const std::uint64_t cube = placeOnCurve((points_m[i] - origin_m).array() / edge_m);

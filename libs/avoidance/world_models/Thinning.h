@@ -5,10 +5,10 @@
 
 namespace hagen::avoidance {
 
-/// A point that stands for all those of a cube.
+/// A point that represents all points of a cube.
 struct ThinnedPoint {
     std::uint32_t index;      ///< among all points
-    std::uint32_t of_points;  ///< in the cube; 1: it is alone
+    std::uint32_t of_points;  ///< number of points in the cube
 };
 
 /// Keeps one point per cube of edge `edge_m`: the one nearest to the origin. The grid of cubes
@@ -17,7 +17,7 @@ struct ThinnedPoint {
 std::vector<ThinnedPoint> thinnedPoints(const std::vector<Eigen::Vector3f>& points_m,
                                         const Eigen::Vector3f& origin_m, float edge_m);
 
-/// The same, as places.
+/// The same, as coordinates.
 std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points_m,
                                      const Eigen::Vector3f& origin_m, float edge_m);
 

@@ -8,7 +8,7 @@ float UnbiasedModel::clearance_m(const Eigen::Vector3f& point_m) const {
 
 float UnbiasedModel::clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
     const float limit_of_model_m = limit_m + bias_m_;
-    if (limit_of_model_m <= 0) return limit_m;  // even next to an obstacle it is more
+    if (limit_of_model_m <= 0) return limit_m;  // the bias alone exceeds the limit
     return std::clamp(model_->clearanceWithin_m(point_m, limit_of_model_m) - bias_m_, 0.0f,
                       std::min(limit_m, kReach_m));
 }

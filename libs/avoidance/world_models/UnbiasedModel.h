@@ -3,8 +3,8 @@
 
 namespace hagen::avoidance {
 
-/// A model whose clearances are, by `bias_m` on average, larger than the true ones: subtracts it.
-/// With a negative bias, clearances grow; none exceeds kReach_m, and none falls below 0.
+/// Subtracts the mean error `bias_m` from the clearances of a model. With a negative bias,
+/// clearances grow. Results are limited to 0 to kReach_m.
 class UnbiasedModel : public WorldModel {
  public:
     UnbiasedModel(std::unique_ptr<WorldModel> model, float bias_m)

@@ -8,7 +8,7 @@ namespace hagen::avoidance {
 
 namespace {
 
-/// Squared distances from a coordinate to four intervals of equal length, one after the other.
+/// Squared distances from a coordinate to four consecutive intervals of equal length.
 struct Four {
     float of[4];
 
@@ -21,12 +21,12 @@ struct Four {
     }
 };
 
-/// Groups along an axis that are near enough, the nearest first.
+/// Groups along an axis within reach, nearest first.
 struct Column {
     float distance2;       ///< to the group, in squared voxels
-    float first;           ///< the group's first voxel, as a place in the box
+    float first;           ///< the group's first voxel, as a position in the box
     std::uint32_t part;    ///< of the group's number
-    std::uint64_t blocks;  ///< mask of its blocks that lie in the box and within reach
+    std::uint64_t blocks;  ///< mask of its blocks in the box and within reach
 };
 constexpr int kMaxColumns = 16;
 struct Columns {

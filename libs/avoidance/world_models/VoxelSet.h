@@ -14,9 +14,9 @@ void forEachBit(std::uint64_t bits, const Visit& visit) {
     for (; bits != 0; bits &= bits - 1) visit(static_cast<unsigned>(__builtin_ctzll(bits)));
 }
 
-/// A set of voxels of a RollingBox: a bit per voxel and a bit per block that has any, so that
-/// empty space is skipped 4096 voxels at a time. It is updated a block at a time, and answers the
-/// exact distance to its nearest voxel without a distance field.
+/// A set of voxels of a RollingBox: a bit per voxel and per non-empty block, so that empty space is
+/// skipped 4096 voxels at a time. It is updated block by block, and computes the exact distance to
+/// its nearest voxel without a distance field.
 class VoxelSet {
  public:
     explicit VoxelSet(const RollingBox& box) : voxels_(box.blocks(), 0), blocks_(box.groups(), 0) {}
@@ -37,7 +37,7 @@ class VoxelSet {
     /// The distance to the nearest voxel's faces; 0 inside a voxel, `limit_m` if none is closer.
     float distance_m(const RollingBox& box, const Eigen::Vector3f& point_m, float limit_m) const;
 
-    /// The middles of all voxels, in the order of their indices.
+    /// The centres of all voxels, in index order.
     std::vector<Eigen::Vector3f> centres_m(const RollingBox& box) const;
 
     std::size_t bytes() const {

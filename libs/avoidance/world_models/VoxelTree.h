@@ -6,13 +6,13 @@
 
 namespace hagen::avoidance {
 
-/// Maps extend this far beyond the bounds of the flight, because obstacles there block flight along
-/// the edge.
+/// Maps extend this far beyond the bounds of the flight, because obstacles there restrict flight
+/// along the edge.
 constexpr float kMapMargin_m = 3.0f;
 
 /// The exact distance to the nearest occupied voxel of a map. It is measured to the voxel's faces,
-/// because the obstacle may be at the near side. Rebuilding the tree for each scan takes a fraction
-/// of the time that updating a distance transform of the whole map takes.
+/// because the obstacle may be at the near side. Rebuilding the tree for each scan is much faster
+/// than updating a distance transform of the whole map.
 class VoxelTree {
  public:
     explicit VoxelTree(float edge_m);

@@ -15,7 +15,7 @@ constexpr double kTurnsPerTree = 3;
 constexpr double kRounding_turns = 1e-6;
 
 // Isolated points.
-constexpr float kNeighbourhood = 0.05f;  // share of the range: 1.5 rows of a VLP-16
+constexpr float kNeighbourhood = 0.05f;  // fraction of the range: 1.5 rows of a VLP-16
 constexpr float kMinNeighbourhood_m = 0.15f;
 
 struct PastView {
@@ -31,7 +31,7 @@ struct WindowModel::PastScans {
     TreePoints points;                      ///< in the order of the views; includes dropped scans
     std::vector<std::uint32_t> track;       ///< per point; 0: none
     std::vector<std::uint8_t> is_isolated;  ///< per point
-    std::vector<std::uint8_t> is_hidden;    ///< per point: it does not count
+    std::vector<std::uint8_t> is_hidden;    ///< per point: whether it is ignored
     std::size_t in_window = 0;
     double turns = 0;  ///< including dropped scans
     std::unique_ptr<PointTree> tree;
@@ -88,7 +88,7 @@ void WindowModel::update(const observations::MappedScan& scan, std::shared_ptr<c
     past->turns = scan.turns;
     gather(std::move(past));
     turns_ += scan.turns;
-    // One update more than fits, so that sectors never hold less than whole scans do.
+    // One update more than fits, so that sectors never cover less than whole scans.
     while (turns_ - past_.back()->views.back().turns >
            static_cast<double>(size_.scans) - kRounding_turns) {
         forgetOldest();
@@ -97,8 +97,8 @@ void WindowModel::update(const observations::MappedScan& scan, std::shared_ptr<c
     hide({});
 }
 
-/// Puts what is new into a tree: a whole scan into one of three scans, sectors into one of a turn,
-/// which joins two others when it is full.
+/// Adds the newest points to a tree: a whole scan to a tree of three scans, sectors to a tree of
+/// one turn, which is merged with two others when full.
 void WindowModel::gather(std::unique_ptr<PastScans> newest) {
     const auto fits = [](const PastScans& older, double turns, double most) {
         return older.turns + turns <= most + kRounding_turns;
@@ -118,8 +118,8 @@ void WindowModel::gather(std::unique_ptr<PastScans> newest) {
     past_.push_front(std::move(newest));
 }
 
-/// Isolated points of the newest scan are confirmed by any other point near them; older ones, which
-/// nothing has confirmed yet, by the newest scan.
+/// Isolated points of the newest scan are confirmed by any other point near them; older unconfirmed
+/// ones by the newest scan.
 void WindowModel::confirmIsolated() {
     const PastScans& newest = *past_.front();
     const PastView& last = newest.views.front();
@@ -155,7 +155,7 @@ void WindowModel::hide(const std::vector<std::uint32_t>& tracks) {
     }
 }
 
-/// Its points stay in the shared tree, but no longer count.
+/// Its points stay in the shared tree, but are ignored.
 void WindowModel::forgetOldest() {
     PastScans& oldest = *past_.back();
     oldest.in_window -= oldest.views.back().points;

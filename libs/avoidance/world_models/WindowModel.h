@@ -12,13 +12,13 @@ namespace hagen::avoidance {
 
 /// No map: the points of the last scans, each thinned to one point per 10 cm cube. Three scans
 /// share a k-d tree, so that a new scan costs a small tree and a query visits few trees. Sectors of
-/// a turn gather in a tree of their own first. Without thinning, a nearby wall would fill a scan
+/// a turn are first collected in a separate tree. Without thinning, a nearby wall would fill a scan
 /// with points much denser than the measurement noise.
 ///
-/// A return that is isolated may be dust or rain, or the first of something thin. It counts as soon
-/// as another return is near it, within 5 % of its range (at least 15 cm): in its own scan, in an
-/// earlier one of the window or in a later one. (As dynamic radius outlier removal does within a
-/// scan: Charron et al., "De-noising of Lidar Point Clouds Corrupted by Snowfall", CRV 2018.)
+/// An isolated return may be dust or rain, or the first of something thin. It counts once another
+/// return is within 5 % of its range (at least 15 cm): in its own scan, in an earlier one of the
+/// window or in a later one. (Like dynamic radius outlier removal within a scan: Charron et al.,
+/// "De-noising of Lidar Point Clouds Corrupted by Snowfall", CRV 2018.)
 class WindowModel : public WorldModel {
  public:
     static constexpr float kThinning_m = 0.1f;
@@ -27,11 +27,11 @@ class WindowModel : public WorldModel {
     ~WindowModel() override;
 
     void update(const observations::MappedScan& scan) override;
-    /// The same with the scan's view, and notes which track the points of each obstacle belong to,
-    /// by its number; 0: none.
+    /// The same with the scan's view and the track number of each obstacle, by obstacle number; 0:
+    /// none.
     void update(const observations::MappedScan& scan, std::shared_ptr<const View> view,
                 const std::vector<std::uint32_t>& track_of_obstacle);
-    /// Points of these tracks no longer count, until the next call.
+    /// Ignores points of these tracks until the next call.
     void hide(const std::vector<std::uint32_t>& tracks);
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const override;
     bool isKnown(const Eigen::Vector3f& point_m) const override;

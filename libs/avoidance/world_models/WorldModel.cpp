@@ -41,14 +41,14 @@ class OracleModel : public WorldModel {
     TrueClearance true_clearance_m_;
 };
 
-/// Knows the future, too.
+/// Knows the future scene, too.
 class OracleOfMotion : public OracleModel {
  public:
     using OracleModel::OracleModel;
     float clearanceAfter_m(const Eigen::Vector3f& point_m, double after_s) const override {
         return at(point_m, after_s);
     }
-    float fastest_m_s() const override { return 5; }  // of any scenario's obstacles
+    float fastest_m_s() const override { return 5; }  // maximum of all scenarios
 };
 
 using Factory = std::unique_ptr<WorldModel> (*)(const WorldModelSetting&);
@@ -56,8 +56,8 @@ using Factory = std::unique_ptr<WorldModel> (*)(const WorldModelSetting&);
 struct Entry {
     std::string name, display_name;
     enum { AllPoints, Labels, Truth } needs;
-    Factory make;  ///< of MoversOverMap: the map
-    /// Mean over walls and poles with equal weight, seeds 0-29; checked on seeds 100-119. Measure
+    Factory make;  ///< with Movers: of the map
+    /// Mean over walls and poles with equal weight, seeds 0-29; verified on seeds 100-119. Measure
     /// again when a model or its input changes.
     float distance_bias_m;
     enum { StandsStill, OwnMotion, MoversOverMap } motion = StandsStill;
@@ -204,7 +204,7 @@ std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
         model = std::make_unique<UnbiasedModel>(std::move(model), entry.distance_bias_m);
     }
     if (entry.motion == Entry::MoversOverMap) {
-        // Movers are points, which have no bias of voxels.
+        // Movers are points without voxel bias.
         return std::make_unique<MapWithMotion>(std::move(model),
                                                windowSizeFor(setting.pace).radius_m);
     }

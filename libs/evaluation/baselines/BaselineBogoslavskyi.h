@@ -28,7 +28,7 @@ Image<float> savitzkyGolay(const Image<float>& image, int window);
 /// Returns one label per return: RoI within `zone_m` unless ground; Unclassified outside the
 /// sensor's range limits. Ground grows breadth-first from the lowest pixel of each column over the
 /// smoothed image of inclination angles. A pixel without an angle is Roi (conservative). The
-/// clusters of the paper change no label and are left out.
+/// paper's clusters do not affect labels and are omitted.
 std::vector<Label> bogoslavskyiLabels(const Scan& scan, const SensorModel& sensor,
                                       const BogoslavskyiOptions& options = {});
 

@@ -49,13 +49,12 @@ std::optional<Plane> estimatePlane(const Scan& scan, const Indices& points) {
     return Plane{normal.cast<float>(), static_cast<float>(normal.dot(mean))};
 }
 
-/// True if a return is processed at all.
+/// Whether a return is processed at all.
 bool isInZone(const Scan& scan, const SensorModel& sensor, std::size_t i, float zone_m) {
     return sensor.sees(scan.range_m[i]) && scan.range_m[i] <= zone_m;
 }
 
-/// The returns in the zone, one list per stretch of the x axis, from the rearmost to the foremost;
-/// stretches are equally long.
+/// The returns in the zone, in equal stretches of the x axis, rearmost first.
 std::vector<Indices> alongX(const Scan& scan, const SensorModel& sensor,
                             const ZermasOptions& options) {
     Indices in_zone;

@@ -8,7 +8,7 @@ namespace hagen::evaluation {
 
 /// Zermas, Izzat, Papanikolopoulos: "Fast segmentation of 3D point clouds: a paradigm on LiDAR data
 /// for autonomous vehicle applications", ICRA 2017. Defaults are the published parameters;
-/// docs/baselines.md lists what the paper leaves open and the choices made here.
+/// docs/baselines.md lists choices where the paper is ambiguous.
 struct ZermasOptions {
     int segments = 3;            ///< N_segs: stretches of the x axis, one plane each
     int iterations = 3;          ///< N_iter: number of fits of a plane
@@ -25,8 +25,8 @@ struct ZermasOptions {
 std::vector<Label> zermasGroundFit(const Scan& scan, const SensorModel& sensor,
                                    const ZermasOptions& options = {});
 
-/// The same with ROU beyond the zone. The paper's scan line runs (SLR) change no label and are left
-/// out.
+/// The same with ROU beyond the zone. The paper's scan line runs (SLR) do not affect
+/// labels and are omitted.
 std::vector<Label> zermasLabels(const Scan& scan, const SensorModel& sensor,
                                 const ZermasOptions& options = {});
 

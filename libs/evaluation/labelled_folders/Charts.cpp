@@ -19,7 +19,7 @@ constexpr std::array<const char*, kMaxLines> kColours{"#0072B2", "#D55E00", "#00
                                                       "#E69F00", "#333333", "#56B4E9"};
 
 struct Value {
-    std::string label;  ///< of the value on the x axis
+    std::string label;  ///< on the x axis
     double x, y;
     Interval interval;
 };
@@ -31,12 +31,12 @@ struct Panel {
     std::string title, x_title, y_title;
     std::vector<Line> lines;
     double least_y;
-    bool has_labels = true;  ///< the x axis has the values' labels; otherwise numbers
+    bool has_labels = true;  ///< the x axis shows value labels instead of numbers
     bool has_lines = true;   ///< values are connected
 };
 
-/// The minimum value, rounded down; adjacent panels share it. Intervals may reach below the axis:
-/// those of few obstacles would press the values of all methods into a line.
+/// The minimum value, rounded down, shared by adjacent panels. Intervals may extend below the axis:
+/// wide ones of few obstacles would compress all values into a line.
 double leastOf(const std::vector<Line>& lines) {
     double least = 0.8;
     for (const Line& line : lines) {
@@ -161,7 +161,7 @@ Value recall(const GroupTotals& group) {
     return {"", 0, group.scores.correct(), group.intervals.correct};
 }
 
-/// One line per method, over the groups of a part.
+/// One line per method over the groups of a part.
 std::vector<Line> linesOf(const Summary& summary, std::vector<GroupTotals> ScoreTotals::*part,
                           const Figure& figure) {
     std::vector<Line> lines;
@@ -195,13 +195,13 @@ void drawKinds(const std::filesystem::path& folder, const Summary& summary) {
     if ((summary.methods.front().returns.*part).empty()) return;
     const std::vector<Line> lines = linesOf(summary, part, recall);
     Chart chart("by_kind.svg", kWidth_px, 1, 0.3, lines.size() > 1);
-    Panel panel{"Recall of each kind of object", "", "share found", lines, leastOf(lines)};
+    Panel panel{"Recall of each kind of object", "", "recall", lines, leastOf(lines)};
     panel.has_lines = false;
     chart.add(panel);
     chart.draw(folder);
 }
 
-/// True if every value of a sweep is a number; the x axis is then to scale.
+/// Whether all values of a sweep are numbers; the x axis is then to scale.
 bool areNumbers(const std::vector<const MethodTotals*>& methods, std::vector<double>& numbers) {
     for (const MethodTotals* method : methods) {
         const auto number = base::numberFrom<double>(method->sweep_value);

@@ -9,32 +9,32 @@
 
 namespace hagen::evaluation {
 
-/// Labelled scan folders, as sourcesOf() opens them. Degradations read them once each.
+/// Labelled scan folders, as opened by sourcesOf(). Each degradation reads them once.
 struct LabelledInputs {
     std::vector<std::string> folders;
     MethodSet rows;
     std::optional<LabelMap> label_map;
 };
 
-/// The scores of one degradation: one element per method, without those of --labels, whose labels
-/// are of the scans as recorded.
+/// The scores of one degradation: one element per method, without --labels, which apply to
+/// undegraded scans.
 struct HardSet {
     std::string name;
     std::vector<MethodScores> methods;
 };
 
-/// Returns the degradations that texts describe, after the standard ones if requested; each once.
-/// The standard ones are for the sensor with the fewest beams among the folders. Throws
-/// SettingsError if a text cannot be parsed, or does not fit the sensor of a folder.
+/// Returns the standard degradations if requested, then the given ones, without duplicates.
+/// Standard ones are for the sensor with the fewest beams among the folders. Throws SettingsError
+/// if a text cannot be parsed, or does not fit the sensor of a folder.
 std::vector<Degradation> degradationsOf(const std::vector<std::string>& texts, bool with_standard,
                                         const LabelledInputs& inputs);
 
-/// Called for each scan of each method on each degradation.
+/// Called for each scan, method and degradation.
 using HardSetListener =
     std::function<void(const std::string& degradation, const MethodOutput& output)>;
 
-/// Scores all methods on each degradation, one after the other; over returns, not over pixels.
-/// Throws like evaluate().
+/// Scores all methods on each degradation in turn, over returns, not pixels. Throws like
+/// evaluate().
 std::vector<HardSet> scoreHardSets(const LabelledInputs& inputs,
                                    const std::vector<Degradation>& degradations,
                                    const RangeBands& range, const HardSetListener& listener = {});

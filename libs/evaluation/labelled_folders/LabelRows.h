@@ -8,27 +8,27 @@
 
 namespace hagen::evaluation {
 
-/// The name of such a row, and the folder of its label files.
+/// Name of the row and folder of its label files.
 struct LabelRow {
     std::string name;
     std::filesystem::path folder;
 };
 
-/// Parses "NAME=DIR". `taken` are the names of all other rows. Throws SettingsError if there is no
-/// '=', no name, no such folder, or if the name is taken.
+/// Parses "NAME=DIR". `taken`: names of all other rows. Throws SettingsError without '=' or name,
+/// if the folder does not exist, or if the name is taken.
 LabelRow labelRowFrom(const std::string& text, const std::vector<std::string>& taken);
 
-/// Returns the folder with the label files (NNNNNN.label) of a scan folder that tables call
-/// `scans_name`: the row's folder or its labels/ if this is the only evaluated scan folder
-/// (`is_only`), or DIR/SCANS_NAME or DIR/SCANS_NAME/labels in any case. Throws std::runtime_error
-/// naming the file if a scan has none.
+/// Returns the folder with the label files (NNNNNN.label) for the scan folder shown as
+/// `scans_name`: DIR/SCANS_NAME or DIR/SCANS_NAME/labels, or, for a single evaluated scan folder
+/// (`is_only`), also DIR or DIR/labels. Throws std::runtime_error naming the file if a scan has no
+/// labels.
 std::filesystem::path labelFilesOf(const LabelRow& row, const recordings::ScanFolder& scans,
                                    const std::string& scans_name, bool is_only);
 
 /// A method that reads the labels of each scan from `folder`/NAME.label (uint32 per return; the low
-/// 16 bits are the label: 0 unclassified, 1 ROU, 2 RoI), where NAME is ScanInput::name. It throws
-/// std::runtime_error naming the file if that cannot be read, has another number of labels than the
-/// scan has returns, or another label.
+/// 16 bits are the label: 0 unclassified, 1 ROU, 2 RoI), where NAME is ScanInput::name. Throws
+/// std::runtime_error naming the file if it cannot be read, or has a wrong number of labels or an
+/// unknown label.
 Method labelFileMethod(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace hagen::evaluation

@@ -26,9 +26,9 @@ std::vector<std::uint16_t> readLabelsOf(const Scan& scan, const fs::path& file) 
     return labels;
 }
 
-/// Returns the entries of the first of these files that numbers objects in the high 16 bits, 0 for
-/// returns without number. Entire entries identify objects, because SemanticKITTI numbers those of
-/// each class anew. Empty: no file has numbers.
+/// Returns the entries of the first of these files with object numbers in the high 16 bits; 0 for
+/// returns without number. Entire entries identify objects, because SemanticKITTI numbers each
+/// class separately. Empty: no file has numbers.
 std::vector<std::uint32_t> readObjectsOf(const Scan& scan, const std::vector<fs::path>& files) {
     for (const fs::path& file : files) {
         if (!fs::exists(file)) continue;
@@ -68,7 +68,7 @@ class LabelledFolder : public LabelledScanSource {
     recordings::ScanFolder folder_;
     std::unique_ptr<recordings::ScanSource> scans_;
     MethodSet methods_;
-    std::vector<fs::path> label_folders_;  ///< of methods_.labels
+    std::vector<fs::path> label_folders_;  ///< for methods_.labels
     Settings settings_;
     observations::SharedBeams beams_;  ///< recovered; null if the settings name the sensor
     LabelMap kinds_;                   ///< from --label-map or the folder; empty: unknown
@@ -108,7 +108,7 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
     if (!settings_.sensor.model) beams_ = scans_->beamsOf(recordings::kFolderLabel);
     // Without times, poses cannot be assigned to scans.
     const bool has_poses = fs::exists(folder_.tumFile()) && !folder_.times().empty();
-    // A poses.txt is relative to the first scan, which may have been tilted: no attitude.
+    // A poses.txt is relative to the first scan, which may be tilted, so it gives no attitude.
     if (has_poses) scans_->usePoses({});
 }
 
@@ -180,7 +180,7 @@ void LabelledFolder::readTruth(std::size_t i, GroundTruthScan& scan) const {
     } else if (!kinds_.empty()) {
         scan.kinds = readLabelsOf(scan.input.scan, folder_.kindFile(i));
     }
-    // Predictions number what the filter found.
+    // Numbers in predictions are the filter's own.
     std::vector<fs::path> numbered{folder_.kindFile(i)};
     if (!folder_.hasPredictions()) numbered.insert(numbered.begin(), folder_.labelFile(i));
     scan.objects = readObjectsOf(scan.input.scan, numbered);
@@ -207,7 +207,7 @@ std::optional<GroundTruthScan> LabelledFolder::next() {
     return scan;
 }
 
-/// The last `parts` parts of a path.
+/// The last `parts` components of a path.
 std::string ending(const fs::path& path, std::size_t parts) {
     fs::path name = path.filename();
     fs::path rest = path.parent_path();

@@ -9,15 +9,15 @@
 
 namespace hagen::evaluation {
 
-/// Opens labelled scan folders. Ground-truth labels are those of labels/. With a label map they are
-/// derived from the classes in semantic/, or in labels/ if there is no semantic/. Class names come
-/// from the map, otherwise from the folder's kinds.yaml. Throws std::runtime_error naming a folder
-/// without scans, and SettingsError if a folder is given twice.
+/// Opens labelled scan folders. Ground-truth labels are read from labels/. With a label map they
+/// are derived from the classes in semantic/, or in labels/ if there is no semantic/. Class names
+/// come from the map, otherwise from the folder's kinds.yaml. Throws std::runtime_error naming a
+/// folder without scans, and SettingsError for a duplicate folder.
 LabelledScanSources sourcesOf(const std::vector<std::string>& folders, const MethodSet& rows,
                               const std::optional<LabelMap>& label_map);
 
-/// The settings with those of the recording merged in, and those that fit its recovered sensor.
-/// `source` is one of sourcesOf().
+/// The settings merged with those of the recording and adapted to its recovered sensor. `source`
+/// must come from sourcesOf().
 Settings settingsOf(const LabelledScanSource& source, const Settings& asked);
 
 }  // namespace hagen::evaluation

@@ -14,8 +14,7 @@
 namespace hagen::evaluation {
 namespace {
 
-/// Returns the attitude of the sensor if its pose in the map is known: yaw, pitch, roll about z, y,
-/// x.
+/// Returns the attitude of a sensor with a known map pose: yaw, pitch, roll about z, y, x.
 std::optional<Attitude> attitudeOf(const ScanInput& input) {
     if (!input.map_from_sensor) return std::nullopt;
     const Eigen::Matrix3f& turn = *input.map_from_sensor;
@@ -25,7 +24,7 @@ std::optional<Attitude> attitudeOf(const ScanInput& input) {
 
 Method filterMethod(const std::string& name, const SensorModel& sensor, const Settings& settings) {
     const auto filter = std::make_shared<HagenFilter>(filterFor(sensor, settings.options));
-    // Poses of scan folders are those of the sensor, with its mount.
+    // Scan folders store sensor poses, including the mount.
     const Attitude mount = settings.mount;
     const bool is_mounted_level = mount.roll_rad == 0 && mount.pitch_rad == 0;
     const std::optional<Attitude> otherwise =
@@ -51,15 +50,15 @@ std::vector<Baseline> allBaselines(float zone_m) {
     return all;
 }
 
-/// Splits "5,7.5" into two texts; an empty one is kept, and rejected later as a value.
+/// Splits "5,7.5" into two texts; empty ones are kept, and rejected later as values.
 std::vector<std::string> valuesOf(const std::string& text) {
     std::vector<std::string> values;
-    std::istringstream stream(text + ",");  // what ends in a comma has an empty value at its end
+    std::istringstream stream(text + ",");  // a trailing comma yields an empty value
     for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
     return values;
 }
 
-/// Returns the settings with those of a recording merged in, if it has any.
+/// Returns the settings merged with those of a recording, if any.
 Settings settingsFor(Settings settings, const std::filesystem::path& sensor_file) {
     if (std::filesystem::exists(sensor_file)) {
         mergeSettings(sensor_file, settings, SettingsOrigin::Recording);
@@ -116,7 +115,7 @@ std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::pat
     for (const SweepPoint& row : rows.filter) {
         Settings settings = settingsFor(row.settings, sensor_file);
         if (!row.sweep_key.empty())
-            setOption(row.sweep_key, row.sweep_value, settings);  // not that of the folder
+            setOption(row.sweep_key, row.sweep_value, settings);  // overrides the folder
         settings.options = settings.optionsFor(beams.get());
         methods.push_back(filterMethod(row.name, sensorOf(settings), settings));
     }

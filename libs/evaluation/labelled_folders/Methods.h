@@ -24,23 +24,22 @@ struct SweepPoint {
 /// Throws SettingsError if a sweep cannot be parsed or settings are inconsistent.
 std::vector<SweepPoint> rowsOf(const Settings& settings, const std::vector<std::string>& sweeps);
 
-/// All scored methods: the filter's rows, then the baselines if requested, then labels of others.
+/// All scored methods: the filter's rows, then the baselines if requested, then precomputed labels.
 struct MethodSet {
     std::vector<SweepPoint> filter;
     std::optional<Settings> baselines;  ///< provides zone and sensor of the baselines
     std::vector<LabelRow> labels = {};
-    bool is_upside_down = false;  ///< the sensor; see mirrored()
+    bool is_upside_down = false;  ///< whether the sensor is; see mirrored()
 };
 
-/// Adds a row per "NAME=DIR" of labels of other programs. Throws SettingsError like labelRowFrom().
+/// Adds a row per "NAME=DIR" of precomputed labels. Throws SettingsError like labelRowFrom().
 void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows);
 
-/// Returns the filter's and baselines' methods for a recording. Settings in `sensor_file`, if that
-/// exists, are merged into those of each row. If these name no sensor, it has the recovered `beams`
-/// (ScanSource::beamsOf()). Includes PCL's baselines if the program was built
-/// with PCL. The filter masks the airframe of its settings first, where it is in the sensor frame
-/// of the scan: in a scan that was turned (tilted, upside down), it is elsewhere. Throws
-/// SettingsError if settings and sensor are inconsistent.
+/// Returns the filter's and baselines' methods for a recording, including PCL's if built with it.
+/// Settings in `sensor_file`, if it exists, are merged into those of each row. If none name a
+/// sensor, the recovered `beams` (ScanSource::beamsOf()) are used. The filter first masks the
+/// airframe, which must be in the scan's sensor frame: turned scans (tilted, upside down) have it
+/// elsewhere. Throws SettingsError if settings and sensor are inconsistent.
 std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::path& sensor_file,
                                const observations::SharedBeams& beams = nullptr);
 

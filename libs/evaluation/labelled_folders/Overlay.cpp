@@ -22,7 +22,7 @@ struct Style {
 constexpr std::array<Style, kOutcomes> kStyles{{{"not scored or not labelled", "#DDDDDD"},
                                                 {"ROU found", "#A9BCCB"},
                                                 {"RoI found", "#0072B2"},
-                                                {"ROU taken for RoI", "#E69F00"},
+                                                {"ROU labelled RoI", "#E69F00"},
                                                 {"RoI missed", "#D00000"}}};
 
 Outcome outcomeOf(Label truth, Label found) {
@@ -32,7 +32,7 @@ Outcome outcomeOf(Label truth, Label found) {
     return found == Label::Roi ? FalseAlarm : RouFound;
 }
 
-/// Makes a name that of one file or folder.
+/// Makes a name usable for one file or folder.
 std::string fileName(std::string name) {
     std::replace(name.begin(), name.end(), '/', '_');
     return name == "." || name == ".." ? "_" : name;
@@ -95,8 +95,9 @@ void drawOverlay(const fs::path& folder, const std::string& source, const Method
     const std::string scan = fs::path(view.truth.name).stem().string();
     const fs::path picture = own / (fileName(source) + "_" + scan + "_overlay.png");
     if (fs::exists(picture)) {
-        throw std::runtime_error("two pictures would be " + fs::relative(picture, folder).string() +
-                                 "; give the rows and folders names that differ by more than '/'");
+        throw std::runtime_error(
+            "two pictures would have the name " + fs::relative(picture, folder).string() +
+            "; rename the rows or folders so that they differ by more than '/'");
     }
     draw(picture, source + ", scan " + scan + ", " + view.method_name, view, *options.camera,
          options.range.max_range_m);

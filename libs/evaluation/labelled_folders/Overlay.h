@@ -6,11 +6,11 @@
 
 namespace hagen::evaluation {
 
-/// A folder of these pictures (*_overlay.png), or of folders of them.
+/// A folder of these pictures (*_overlay.png), with or without subfolders.
 extern const base::OutputKind kOverlays;
 
-/// Draws the pixels of a labelled scan by outcome: correct RoI, correct ROU, missed RoI and false
-/// RoI each have a colour; pixels that are not scored are pale. The picture is
+/// Draws the pixels of a labelled scan, with a colour for each outcome: correct RoI, correct ROU,
+/// missed RoI and false RoI; pixels that are not scored are pale. The picture is
 /// FOLDER/SOURCE_SCAN_overlay.png; with several methods, FOLDER/METHOD/... Throws
 /// std::runtime_error like runGnuplot().
 void drawOverlay(const std::filesystem::path& folder, const std::string& source,

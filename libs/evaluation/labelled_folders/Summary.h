@@ -47,10 +47,10 @@ struct MethodTotals {
     DroneTotals drone;
 };
 
-/// The scores on a degradation.
+/// The scores for one degradation.
 struct HardSetTotals {
     std::string name;
-    /// As in Summary::methods, without those of --labels; `returns` in total only.
+    /// As in Summary::methods, without --labels; `returns` in total only.
     std::vector<MethodTotals> methods;
 };
 
@@ -58,12 +58,12 @@ struct HardSetTotals {
 struct Summary {
     std::vector<std::string> command_line;
     std::vector<std::string> folders;       ///< paths
-    std::vector<std::string> folder_names;  ///< short
-    std::vector<std::string> sensor_texts;  ///< of each folder; empty: settings name the sensor
-    /// Of each folder: the settings merged with those of its recording, and ignored requests.
+    std::vector<std::string> folder_names;  ///< short names
+    std::vector<std::string> sensor_texts;  ///< per folder; empty: settings name the sensor
+    /// Per folder: the settings merged with those of its recording, and ignored requests.
     std::vector<Settings> folder_settings;
     std::vector<std::vector<std::string>> folder_remarks;
-    Settings settings;  ///< as asked for
+    Settings settings;  ///< as requested
     RangeBands range;
     std::string label_map, camera;  ///< files, or empty
     BootstrapOptions bootstrap;
@@ -72,14 +72,14 @@ struct Summary {
     std::vector<HardSetTotals> hard_sets;
 };
 
-/// Sums the scores and computes intervals with the options in `summary`, and fills its methods.
+/// Sums the scores, computes intervals with the options in `summary`, and fills in its methods.
 void addScores(const std::vector<MethodScores>& methods, const std::vector<SweepPoint>& rows,
                Summary& summary);
 
 /// The same for degraded scans, without intervals.
 void addHardSets(const std::vector<HardSet>& sets, Summary& summary);
 
-/// How much better F1 is on degraded than on recorded scans, in points: hundredths.
+/// Change of F1 from recorded to degraded scans, in points (hundredths).
 double changeInPoints(double degraded, double recorded);
 
 }  // namespace hagen::evaluation

@@ -22,7 +22,7 @@ namespace hagen::evaluation {
 ///                                  "rou_f1_change_points": x, "drone": DRONE}, ...]}, ...]}
 ///
 ///     FOLDER: {"name", "path", "recovered_sensor", "settings": {key: value, ...} with those of the
-///              recording, as without a sweep, "remarks": [what was not used, ...]}
+///              recording, as without a sweep, "remarks": [unused parts, ...]}
 ///     SCORES: {"name", "scans": n, "returns": n, "correct": x, "correct_interval": [low, high],
 ///              "roi": CLASS, "rou": CLASS}
 ///     DRONE: {"returns_above_half_metre": MISSED,

@@ -25,10 +25,9 @@ void requireSensible(const PclEuclideanOptions& options) {
                              options.plane_iterations > 0 && options.plane_tilt_deg > 0.0f &&
                              options.cluster_tolerance_m > 0.0f && options.min_cluster_points > 0;
     if (!is_sensible) {
-        throw std::invalid_argument(
-            "pcl baseline: every length, angle and count must be above zero");
+        throw std::invalid_argument("pcl baseline: every length, angle and count must be positive");
     }
-    // PCL numbers voxels with 32 bits and reports an overflow on the terminal only.
+    // PCL numbers voxels with 32 bits and reports overflows only on the terminal.
     const double edge = std::ceil(2.0 * static_cast<double>(options.zone_m / options.leaf_m)) + 1.0;
     if (edge * edge * edge > static_cast<double>(std::numeric_limits<std::int32_t>::max())) {
         throw std::invalid_argument("pcl baseline: voxels of " + std::to_string(options.leaf_m) +
@@ -37,7 +36,7 @@ void requireSensible(const PclEuclideanOptions& options) {
     }
 }
 
-/// Silences PCL's terminal message for "no plane found", which is a valid result here.
+/// Suppresses PCL's terminal message for "no plane found", which is a valid result here.
 class SilentPcl {
  public:
     SilentPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
@@ -49,7 +48,7 @@ class SilentPcl {
     pcl::console::VERBOSITY_LEVEL before_ = pcl::console::getVerbosityLevel();
 };
 
-/// Returns the largest plane that is level enough to be ground; empty if there is none.
+/// Returns the largest plane within the tilt limit for ground; empty if there is none.
 pcl::PointIndices findGround(const Cloud::ConstPtr& cloud, const PclEuclideanOptions& options) {
     pcl::PointIndices ground;
     if (cloud->size() < 3) return ground;
@@ -68,7 +67,7 @@ pcl::PointIndices findGround(const Cloud::ConstPtr& cloud, const PclEuclideanOpt
     return ground;
 }
 
-/// Marks the points that are in a cluster of non-ground points.
+/// Marks the points in clusters of non-ground points.
 std::vector<bool> findObstacles(const Cloud::ConstPtr& cloud, const PclEuclideanOptions& options) {
     std::vector<bool> is_rest(cloud->size(), true);
     for (const auto i : findGround(cloud, options).indices) is_rest[i] = false;

@@ -14,17 +14,17 @@
 namespace hagen::live {
 namespace {
 
-constexpr double kPeriod_s = 0.05;       // of OBSTACLE_DISTANCE
-constexpr std::size_t kOthersEvery = 2;  // periods: 3D and ground
+constexpr double kPeriod_s = 0.05;       // OBSTACLE_DISTANCE period
+constexpr std::size_t kOthersEvery = 2;  // periods between 3D and ground messages
 constexpr std::size_t kHeartbeatEvery = 20;
 constexpr double kMaxMessageWait_s = 0.01;
 constexpr std::size_t kMaxAtOnce = 1000;  // datagrams; a flood must not delay sending
-constexpr double kAttitudeWithin_s = 3;   // then its absence is reported
-constexpr double kMaxBehind_s = 0.5;      // then periods are skipped
+constexpr double kAttitudeWithin_s = 3;   // before a missing attitude is reported
+constexpr double kMaxBehind_s = 0.5;      // before periods are skipped
 
 }  // namespace
 
-/// The sending thread, and the state that it shares with the others.
+/// The sending thread, and the state that it shares with other threads.
 class AutopilotLink::Work {
  public:
     Work(Settings settings, Remark remark)
@@ -114,7 +114,7 @@ class AutopilotLink::Work {
             attempt([&] { sendPeriod(period); });
             next_s = std::max(next_s + kPeriod_s, steadyNow_s() - kMaxBehind_s);
             double rest_s = 0;
-            do {  // also if late: unread messages get old
+            do {  // also if late: unread messages become stale
                 rest_s = std::max(next_s - steadyNow_s(), 0.0);
                 attempt([&] { receiveAll(rest_s); });
             } while (!is_at_end_ && rest_s > 0);
@@ -137,7 +137,7 @@ class AutopilotLink::Work {
     void sendPeriod(std::size_t period) {
         const double time_s = steadyNow_s();
         std::optional<float> below_m;
-        // Copies, so that labelling does not wait for the directions.
+        // Copied, so that computing the directions does not block labelling.
         std::unique_lock lock(mutex_);
         const SectorDistances distances = *distances_;
         const VehicleMotion motion = motion_;
@@ -181,7 +181,7 @@ class AutopilotLink::Work {
                            : "MAVLink: sending directions again");
     }
 
-    /// Everything that waits, so that nothing gets old.
+    /// Reads all waiting messages.
     void receiveAll(double longest_s) {
         for (std::size_t n = 0; n < kMaxAtOnce && receive(n == 0 ? longest_s : 0); ++n) {
         }
@@ -270,7 +270,7 @@ class AutopilotLink::Work {
     Limits limits_;
     double start_s_ = 0;
 
-    // Of the thread that sends.
+    // Used by the sending thread only.
     ObstacleNumbers numbers_;
     std::array<std::uint8_t, 65536> buffer_;
     std::uint8_t sequence_ = 0;
@@ -278,7 +278,7 @@ class AutopilotLink::Work {
     std::optional<bool> knows_attitude_;
     std::string trouble_;
 
-    mutable std::mutex mutex_;  // of all that follows
+    mutable std::mutex mutex_;  // guards all members below
     std::optional<SectorDistances> distances_;
     VehicleMotion motion_;
     mavlink::Parser parser_;

@@ -18,42 +18,42 @@
 
 namespace hagen::live {
 
-/// Sends obstacle distances to an autopilot and receives the vehicle's motion: 20 times per
-/// second OBSTACLE_DISTANCE, 10 times the nearest obstacles (OBSTACLE_DISTANCE_3D) and the ground
-/// below (DISTANCE_SENSOR), once HEARTBEAT.
+/// Sends obstacle distances to an autopilot and receives the vehicle's motion. Sends
+/// OBSTACLE_DISTANCE at 20 Hz, the nearest obstacles (OBSTACLE_DISTANCE_3D) and the ground below
+/// (DISTANCE_SENSOR) at 10 Hz, and HEARTBEAT at 1 Hz.
 ///
-/// A thread of its own sends. If the one that labels stalls, or the sensor falls silent, it sends
-/// "unknown" for all directions after 0.3 s, no ground and a critical state, and reports it.
-/// Functions may be called by any thread. Times are of std::chrono::steady_clock, in seconds.
+/// Runs its own sending thread. If labelling stalls or the sensor is silent for 0.3 s, it sends all
+/// directions as unknown, no ground and a critical state, and reports the stall. All functions are
+/// thread-safe. Times are std::chrono::steady_clock seconds.
 class AutopilotLink {
  public:
     struct Settings {
         mavlink::PeerAddress peer;
-        std::uint8_t system = 1;    ///< of the vehicle, and ours
-        std::size_t nearest = 5;    ///< obstacles that are sent one by one
+        std::uint8_t system = 1;    ///< MAVLink system ID
+        std::size_t nearest = 5;    ///< number of obstacles sent individually
         bool has_ground = true;     ///< whether the ground below is sent
-        bool is_simulated = false;  ///< the vehicle's clock may pause, or be slower than ours
+        bool is_simulated = false;  ///< the vehicle's clock may pause or run slow
         SectorDistances::Settings directions = aheadFirst();
     };
     /// Counts of sent and received messages by name.
     using Counts = std::vector<std::pair<std::string, std::size_t>>;
-    /// Called by the thread that sends.
+    /// Called by the sending thread.
     using Remark = std::function<void(const std::string&)>;
 
     /// Throws std::runtime_error naming the peer if it cannot be opened.
     AutopilotLink(Settings settings, Remark remark);
-    /// The last message says that nothing is known.
+    /// Sends a last message with all directions unknown.
     ~AutopilotLink();
     AutopilotLink(const AutopilotLink&) = delete;
     AutopilotLink& operator=(const AutopilotLink&) = delete;
 
-    /// Begins to send. `limits.nearest_m` is taken from the sensor.
+    /// Starts sending. `limits.nearest_m` is taken from the sensor.
     void begin(const SensorModel& sensor, Limits limits);
-    /// Takes the sectors of the sensor. Requires begin().
+    /// Adds a labelled sector. Requires begin().
     void take(const LabelledSector& sector);
     /// The sensor's motion as reported by the autopilot.
     SensorMotion motionAt(double time_s) const;
-    /// Sends for the last time.
+    /// Sends the last message and stops the thread.
     void stop();
     Counts counts() const;
 

@@ -5,28 +5,28 @@
 namespace hagen::live {
 namespace {
 
-constexpr double kDrift = 1e-3;  // no clock drifts faster
-constexpr double kSlow = 0.5;    // that of a simulation may be half as fast
-constexpr double kJump_s = 1;    // no clock drifts that far
-// A stamp that is corrupt, or of another vehicle, may be ahead; several in a row are right.
+constexpr double kDrift = 1e-3;  // maximum drift of a clock
+constexpr double kSlow = 0.5;    // minimum speed of a simulated clock
+constexpr double kJump_s = 1;    // larger changes are restarts, not drift
+// A single stamp this far ahead may be corrupt or from another vehicle; kInARow of them are valid.
 constexpr double kAhead_s = 0.1;
 constexpr int kInARow = 3;
 
-/// When a larger offset is believed: once all messages of some time agree on it. Those that waited
-/// do not, since a link that is free again delivers them faster than they were sent.
+/// A larger offset is accepted once all messages for `time_s` agree within `spread_s`. Delayed
+/// messages do not agree, because a recovered link delivers them faster than they were sent.
 struct Patience {
     double time_s, spread_s;
 };
 constexpr Patience kWentBack{0.5, 0.3};
-// Stamps that are later than those before may have waited.
+// Stamps later than the previous ones may be from delayed messages.
 constexpr Patience kAfterGap{10, 0.2};
 
 }  // namespace
 
-/// Of a message that is late by more than a jump: whether it is not, because the clock is another.
+/// Whether a message later than kJump_s is on time because the clock has restarted.
 bool ClockOffset::isOther(double stamp_s, double arrival_s) {
     const double offset_s = arrival_s - stamp_s;
-    // A clock that went on is older: its messages came by a longer way.
+    // A clock that did not restart has a later stamp; its messages are delayed.
     const bool may_be_anew = is_simulated_ || stamp_s < arrival_s - in_time_s_ + kJump_s;
     const bool went_back = may_be_anew && stamp_s < latest_stamp_s_ - kJump_s;
     const bool begins =

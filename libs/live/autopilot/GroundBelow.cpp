@@ -5,8 +5,8 @@
 namespace hagen::live {
 namespace {
 
-constexpr float kMinSlope = 0.5f;  // cosine of the tilt
-constexpr int kSteps = 8;          // to where the axis meets the surface
+constexpr float kMinSlope = 0.5f;  // cosine of the maximum tilt
+constexpr int kSteps = 8;          // iterations to intersect the axis with the surface
 constexpr int kMinPixels = 20;
 constexpr float kClose_m = 0.3f, kNear_m = 20;
 

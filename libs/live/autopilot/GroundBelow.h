@@ -5,10 +5,10 @@
 
 namespace hagen::live {
 
-/// How far the ground's surface is from the sensor along the vehicle's own downward axis, as a
-/// rangefinder would measure it. A sensor that has no beam there sees the ground around: the
-/// surface is that which the filter continues below the vehicle. None: fewer than 20 pixels
-/// within 20 m look like ground, or the vehicle is tilted against it by more than 60 degrees.
+/// Distance from the sensor to the ground surface along the vehicle's downward axis, as a
+/// rangefinder would measure it. Without beams in that direction, the filter's ground surface is
+/// extrapolated below the vehicle. nullopt if fewer than 20 pixels within 20 m look like ground, or
+/// the vehicle is tilted by more than 60 degrees against the ground.
 std::optional<float> groundBelow(const Ground& ground, const Eigen::Matrix3f& vehicle_from_sensor);
 
 }  // namespace hagen::live

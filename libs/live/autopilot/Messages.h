@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Messages as on the wire. Names, units and values of their fields are those of the definitions
+/// Messages as on the wire. Field names, units and values follow the definitions
 /// (https://mavlink.io/en/messages/common.html, .../ardupilotmega.html).
 namespace hagen::mavlink {
 
@@ -25,7 +25,7 @@ struct Heartbeat {
     static constexpr std::uint32_t kId = 0;
     static constexpr const char* kName = "HEARTBEAT";
     static constexpr std::uint8_t kCrcExtra = 50;
-    static constexpr std::size_t kBytes = 9;  ///< of the payload
+    static constexpr std::size_t kBytes = 9;  ///< payload size
 
     std::uint32_t custom_mode = 0;
     std::uint8_t type = 0;
@@ -51,7 +51,7 @@ struct Attitude {
     static constexpr std::uint32_t kId = 30;
     static constexpr const char* kName = "ATTITUDE";
     static constexpr std::uint8_t kCrcExtra = 39;
-    static constexpr std::size_t kBytes = 28;  ///< of the payload
+    static constexpr std::size_t kBytes = 28;  ///< payload size
 
     std::uint32_t time_boot_ms = 0;  ///< ms
     float roll = 0;                  ///< rad
@@ -79,7 +79,7 @@ struct AttitudeQuaternion {
     static constexpr std::uint32_t kId = 31;
     static constexpr const char* kName = "ATTITUDE_QUATERNION";
     static constexpr std::uint8_t kCrcExtra = 246;
-    static constexpr std::size_t kBytes = 48;  ///< of the payload
+    static constexpr std::size_t kBytes = 48;  ///< payload size
 
     std::uint32_t time_boot_ms = 0;  ///< ms
     float q1 = 0;
@@ -111,7 +111,7 @@ struct LocalPositionNed {
     static constexpr std::uint32_t kId = 32;
     static constexpr const char* kName = "LOCAL_POSITION_NED";
     static constexpr std::uint8_t kCrcExtra = 185;
-    static constexpr std::size_t kBytes = 28;  ///< of the payload
+    static constexpr std::size_t kBytes = 28;  ///< payload size
 
     std::uint32_t time_boot_ms = 0;  ///< ms
     float x = 0;                     ///< m
@@ -139,7 +139,7 @@ struct DistanceSensor {
     static constexpr std::uint32_t kId = 132;
     static constexpr const char* kName = "DISTANCE_SENSOR";
     static constexpr std::uint8_t kCrcExtra = 85;
-    static constexpr std::size_t kBytes = 39;  ///< of the payload
+    static constexpr std::size_t kBytes = 39;  ///< payload size
 
     std::uint32_t time_boot_ms = 0;      ///< ms
     std::uint16_t min_distance = 0;      ///< cm
@@ -177,7 +177,7 @@ struct ObstacleDistance {
     static constexpr std::uint32_t kId = 330;
     static constexpr const char* kName = "OBSTACLE_DISTANCE";
     static constexpr std::uint8_t kCrcExtra = 23;
-    static constexpr std::size_t kBytes = 167;  ///< of the payload
+    static constexpr std::size_t kBytes = 167;  ///< payload size
 
     std::uint64_t time_usec = 0;                ///< us
     std::array<std::uint16_t, 72> distances{};  ///< cm
@@ -209,7 +209,7 @@ struct ObstacleDistance3d {
     static constexpr std::uint32_t kId = 11037;
     static constexpr const char* kName = "OBSTACLE_DISTANCE_3D";
     static constexpr std::uint8_t kCrcExtra = 130;
-    static constexpr std::size_t kBytes = 28;  ///< of the payload
+    static constexpr std::size_t kBytes = 28;  ///< payload size
 
     std::uint32_t time_boot_ms = 0;  ///< ms
     float x = 0;                     ///< m

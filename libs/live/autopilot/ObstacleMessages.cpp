@@ -8,13 +8,13 @@ namespace hagen::live {
 namespace {
 
 constexpr std::uint16_t kUnknown_cm = std::numeric_limits<std::uint16_t>::max();
-constexpr float kMax_cm = 65533;  // the next one is "nothing", the last one "unknown"
+constexpr float kMax_cm = 65533;  // the next value means "nothing", the last one "unknown"
 constexpr float kGroundReach_m = 40;
 constexpr std::uint8_t kStep_deg = 5;
 constexpr std::uint8_t kMavlinkVersion = 3;
 constexpr std::uint8_t kUnknownVariance = 255;
 
-/// Rounded down, since nearer is safer.
+/// Rounds down, which is the safe side.
 std::uint16_t centimetres(float metres, float least_cm, float most_cm) {
     return static_cast<std::uint16_t>(std::clamp(std::floor(100 * metres), least_cm, most_cm));
 }
@@ -34,7 +34,7 @@ mavlink::ObstacleDistance obstacleDistance(const Directions& directions, const L
     message.increment_f = kStep_deg;
     message.angle_offset = 0;
     message.frame = mavlink::kFrameBodyFrd;
-    // What is horizontal may be shorter than the sensor's shortest range.
+    // Horizontal distances can be below the sensor's minimum range.
     message.min_distance = 1;
     message.max_distance = centimetres(limits.zone_m, 1, kMax_cm);
     for (std::size_t k = 0; k < directions.size(); ++k) {

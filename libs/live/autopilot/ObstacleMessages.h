@@ -9,28 +9,28 @@
 
 namespace hagen::live {
 
-/// What the messages say of the sensor.
+/// Sensor limits reported in the messages.
 struct Limits {
-    float zone_m = 20;       ///< nothing beyond is an obstacle
-    float nearest_m = 0.5f;  ///< shortest range of the sensor
+    float zone_m = 20;       ///< obstacles beyond are ignored
+    float nearest_m = 0.5f;  ///< minimum range of the sensor
 };
 
 /// OBSTACLE_DISTANCE: 72 directions of 5 degrees, the first straight ahead. Distances are
-/// horizontal, from 1 cm to the zone; zone + 1 cm: seen nothing; 65535: unknown.
+/// horizontal, from 1 cm to the zone; zone + 1 cm: no obstacle; 65535: unknown.
 mavlink::ObstacleDistance obstacleDistance(const Directions& directions, const Limits& limits,
                                            double time_s);
 
-/// OBSTACLE_DISTANCE_3D of each obstacle, in the body's frame, which tilts with the vehicle. All
-/// have one time.
+/// OBSTACLE_DISTANCE_3D of each obstacle, in the body frame, which tilts with the vehicle. All
+/// messages have the same time.
 std::vector<mavlink::ObstacleDistance3d> obstacleDistances3d(const std::vector<Obstacle>& obstacles,
                                                              const std::optional<VehiclePose>& pose,
                                                              const Limits& limits, double time_s);
 
-/// DISTANCE_SENSOR that looks down, from groundBelow(). Distances beyond 40 m are sent as 40.01 m:
-/// more than it can measure.
+/// Downward DISTANCE_SENSOR from groundBelow(). Distances beyond 40 m are sent as 40.01 m, which is
+/// above the stated maximum.
 mavlink::DistanceSensor distanceBelow(float distance_m, const Limits& limits, double time_s);
 
-/// HEARTBEAT of an onboard computer; `state`: mavlink::kState...
+/// HEARTBEAT of an onboard computer; `state`: one of mavlink::kState...
 mavlink::Heartbeat heartbeat(std::uint8_t state);
 
 }  // namespace hagen::live

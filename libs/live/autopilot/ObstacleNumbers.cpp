@@ -11,15 +11,15 @@ constexpr std::uint16_t kUnknown = std::numeric_limits<std::uint16_t>::max();
 
 bool isObstacle(const Direction& direction) { return direction.state == DirectionState::Obstacle; }
 
-/// The nearest point of each run of directions that see the same thing.
+/// The nearest point of each run of directions with the same obstacle.
 std::vector<Obstacle> obstaclesOf(const Directions& directions) {
     const std::size_t size = directions.size();
-    const auto goesOn = [&](std::size_t k) {  // from the direction before
+    const auto goesOn = [&](std::size_t k) {  // continues the previous direction
         const Direction& before = directions[(k + size - 1) % size];
         const Direction& here = directions[k];
         return isObstacle(before) && isObstacle(here) && (before.at_m - here.at_m).norm() < kGap_m;
     };
-    std::size_t begin = 0;  // of a run, unless one goes all around
+    std::size_t begin = 0;  // start of a run, unless one spans the full circle
     while (begin < size && goesOn(begin)) ++begin;
     std::vector<Obstacle> obstacles;
     float nearest_m = 0;

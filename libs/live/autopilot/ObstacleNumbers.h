@@ -12,16 +12,16 @@ namespace hagen::live {
 
 /// The nearest point of an obstacle.
 struct Obstacle {
-    std::uint16_t number = 0;  ///< the same as long as it is followed; never 65535
+    std::uint16_t number = 0;  ///< constant while the obstacle is tracked; never 65535
     Eigen::Vector3f at_m = Eigen::Vector3f::Zero();  ///< in the vehicle's level frame
 };
 
-/// Numbers the nearest obstacles, so that they can be followed. An obstacle is what neighbouring
-/// directions see less than a metre apart. It keeps its number while its nearest point stays within
-/// 1.5 m of where it was, moved by the vehicle's motion, from call to call.
+/// Tracks and numbers the nearest obstacles. Neighbouring directions whose points are less than 1 m
+/// apart form one obstacle. It keeps its number while its nearest point, corrected for the
+/// vehicle's motion, moves at most 1.5 m between calls.
 class ObstacleNumbers {
  public:
-    /// The nearest ones, at most `most`, nearest first.
+    /// Returns up to `most` obstacles, nearest first.
     std::vector<Obstacle> nearest(const Directions& directions, std::size_t most,
                                   const std::optional<VehiclePose>& pose);
 

@@ -11,10 +11,10 @@ namespace {
 constexpr double kKept_s = 2;
 constexpr double kStale_s = 0.5;
 constexpr double kTurnOn_s = 0.1, kMoveOn_s = 0.2;
-constexpr double kJump_m = 2;  // of the estimated place, against its speed
+constexpr double kJump_m = 2;  // maximum deviation of the position from its prediction
 constexpr double kNormError = 0.05;
 
-/// Forward, right, down to forward, left, up; north, east, down to north, west, up.
+/// Forward-right-down to forward-left-up, and north-east-down to north-west-up.
 Eigen::Vector3d flipped(double x, double y, double z) { return {x, -y, -z}; }
 
 Eigen::Quaterniond turnBy(const Eigen::Vector3d& rotation_rad) {
@@ -23,8 +23,8 @@ Eigen::Quaterniond turnBy(const Eigen::Vector3d& rotation_rad) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, rotation_rad / angle_rad));
 }
 
-// Beyond these it is no multirotor's motion: gyroscopes measure less, and a direction that is moved
-// by such a speed would be free where an obstacle is.
+// No multirotor exceeds these speeds, and no gyroscope measures such rates. Moving a direction at a
+// higher speed could free a direction with an obstacle.
 constexpr double kMaxAngle_rad = 10, kMaxRate_rad_s = 50;
 constexpr double kMaxCoordinate_m = 1e7, kMaxSpeed_m_s = 100;
 
@@ -58,7 +58,7 @@ double VehicleMotion::ourTime(std::uint32_t boot_ms, double arrival_s) {
     return result.time_s;
 }
 
-/// One that comes late, or the same in another message, adds nothing.
+/// Ignores late samples and repetitions in another message.
 void VehicleMotion::add(const Attitude& attitude) {
     if (!attitudes_.empty() && attitude.time_s <= attitudes_.back().time_s) return;
     attitudes_.push_back(attitude);
@@ -103,7 +103,7 @@ VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arr
             !areWithin(kMaxRate_rad_s, m->rollspeed, m->pitchspeed, m->yawspeed)) {
             return Taken::Refused;
         }
-        // A rotation's vector part is flipped like any other vector.
+        // The vector part of a quaternion is flipped like any other vector.
         const Eigen::Quaterniond turn(m->q1, m->q2, -m->q3, -m->q4);
         if (std::abs(turn.norm() - 1) > kNormError) return Taken::Refused;
         add({ourTime(m->time_boot_ms, arrival_s), turn.normalized(),
@@ -122,7 +122,7 @@ VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arr
     return Taken::Other;
 }
 
-/// Adds the place, if it is known.
+/// Adds the position if known.
 void VehicleMotion::placeAt(double time_s, VehiclePose& pose) const {
     const auto next = after(places_, time_s);
     if (next == places_.begin()) return;

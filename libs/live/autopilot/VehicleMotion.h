@@ -10,24 +10,24 @@
 
 namespace hagen::live {
 
-/// The poses of a vehicle over the last seconds, from its messages ATTITUDE, ATTITUDE_QUATERNION
-/// and LOCAL_POSITION_NED. Between messages they are interpolated; after the last one, turned on
-/// by its rates for 0.1 s and moved on by its speed for 0.2 s. Jumps of the estimated place (by
-/// more than 2 m against its speed) are left out: the map's origin is then another one.
+/// Vehicle poses of the last seconds, from ATTITUDE, ATTITUDE_QUATERNION and LOCAL_POSITION_NED.
+/// Poses are interpolated between messages and extrapolated after the last one: the attitude for
+/// 0.1 s, the position for 0.2 s. Jumps of the position estimate (more than 2 m from the
+/// prediction) are removed, because they move the map origin.
 class VehicleMotion {
  public:
     enum class Taken { Attitude, Place, Other, Refused };
 
-    /// A simulated vehicle's clock may pause, and be slower than ours.
+    /// The clock of a simulated vehicle may pause or run slow.
     explicit VehicleMotion(bool is_simulated) : clock_(is_simulated) {}
     VehicleMotion() = default;
 
-    /// Takes a message that came at `arrival_s`. Refused: a value is not finite, or a quaternion is
-    /// no rotation.
+    /// Adds a message received at `arrival_s`. Refuses values that are not finite, and quaternions
+    /// that are not rotations.
     Taken take(const mavlink::Frame& frame, double arrival_s);
-    /// The pose at a time of our clock; none: unknown, or the last attitude is 0.5 s old.
+    /// The pose at a local time; nullopt if unknown or the last attitude is 0.5 s old.
     std::optional<VehiclePose> at(double time_s) const;
-    /// How often the vehicle's clock began anew.
+    /// Number of restarts of the vehicle's clock.
     std::size_t restarts() const { return restarts_; }
 
  private:
@@ -49,7 +49,7 @@ class VehicleMotion {
     ClockOffset clock_;
     std::deque<Attitude> attitudes_;
     std::deque<Place> places_;
-    Eigen::Vector3d origin_m_ = Eigen::Vector3d::Zero();  ///< of the map; added to places
+    Eigen::Vector3d origin_m_ = Eigen::Vector3d::Zero();  ///< of the map; added to positions
     std::size_t restarts_ = 0;
 };
 

@@ -20,10 +20,10 @@ std::uint16_t checksum(const std::uint8_t* bytes, std::size_t size, std::uint16_
 std::vector<std::uint8_t> encode(const Frame& frame, std::size_t payload_bytes) {
     const auto extra = crcExtra(frame.id);
     if (!extra || payload_bytes > Frame::kMaxPayload) {
-        throw std::invalid_argument("MAVLink: message " + std::to_string(frame.id) + " of " +
-                                    std::to_string(payload_bytes) + " bytes is not known");
+        throw std::invalid_argument("MAVLink: unknown message " + std::to_string(frame.id) +
+                                    " of " + std::to_string(payload_bytes) + " bytes");
     }
-    // At least one byte is left.
+    // At least one byte remains.
     while (payload_bytes > 1 && frame.payload[payload_bytes - 1] == 0) --payload_bytes;
     std::vector<std::uint8_t> bytes{kStart,
                                     static_cast<std::uint8_t>(payload_bytes),

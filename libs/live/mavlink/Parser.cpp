@@ -7,7 +7,7 @@
 
 namespace hagen::mavlink {
 
-/// By the sequence; a component that begins again, or a message that comes late, looks like many.
+/// Counts gaps in the sequence. Gaps above half the range are restarts or late messages.
 void Parser::countLost(const Frame& frame) {
     const auto sender = std::make_pair(frame.system, frame.component);
     const auto last = sequences_.find(sender);
@@ -18,7 +18,7 @@ void Parser::countLost(const Frame& frame) {
     sequences_[sender] = frame.sequence;
 }
 
-/// How many bytes from `at` on are dealt with; 0: more must come.
+/// Number of bytes processed from `at` on; 0: incomplete.
 std::size_t Parser::takeOne(std::size_t at, bool is_at_end, const Take& take) {
     const std::uint8_t* const bytes = &waiting_[at];
     const std::size_t size = waiting_.size() - at;

@@ -10,24 +10,23 @@
 
 namespace hagen::mavlink {
 
-/// Finds the MAVLink 2 messages in a stream of other bytes. A frame with a wrong
-/// checksum or an unknown number is not a message: reading resumes after its first byte, so that a
-/// message that follows is not lost. Never throws because of what the bytes are.
+/// Finds MAVLink 2 messages in a byte stream. A frame with a wrong checksum or an unknown message
+/// ID is skipped by one byte only, so that a message inside is not lost. No input makes it throw.
 class Parser {
  public:
     struct Counts {
         std::size_t messages = 0;
-        std::size_t is_signed = 0;      ///< of these; signatures are not checked
-        std::size_t lost = 0;           ///< missing by the sequence of their component
-        std::size_t bad_checksum = 0;   ///< began like a message
+        std::size_t is_signed = 0;      ///< signatures are not checked
+        std::size_t lost = 0;           ///< gaps in the components' sequences
+        std::size_t bad_checksum = 0;   ///< frames with a wrong checksum
         std::size_t incompatible = 0;   ///< skipped: unknown incompatibility flags
-        std::size_t skipped_bytes = 0;  ///< of no message, such as MAVLink 1
+        std::size_t skipped_bytes = 0;  ///< outside messages, or MAVLink 1
     };
     using Take = std::function<void(const Frame&)>;
 
-    /// Adds bytes of a stream; calls `take` for each message that they complete.
+    /// Adds bytes of a stream; calls `take` for each completed message.
     void add(const std::uint8_t* bytes, std::size_t size, const Take& take);
-    /// Ends the added bytes, as a datagram does: a partial message is not completed.
+    /// Discards a partial message, as at the end of a datagram.
     void end(const Take& take);
 
     const Counts& counts() const { return counts_; }

@@ -14,7 +14,7 @@ constexpr int kMinBaud = 115200;
     throw std::runtime_error("'" + text + "': " + what);
 }
 
-/// The parts between colons.
+/// Splits a text at colons.
 std::vector<std::string> partsOf(const std::string& text) {
     std::vector<std::string> parts;
     std::size_t at = 0;

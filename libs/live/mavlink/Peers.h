@@ -11,13 +11,12 @@ namespace hagen::mavlink {
 
 std::unique_ptr<Peer> openUdp(const PeerAddress& address);
 std::unique_ptr<Peer> openSerial(const PeerAddress& address);
-/// Whether a serial line can have this speed.
+/// Whether serial lines support this baud rate.
 bool isBaud(int baud);
 
 using Clock = std::chrono::steady_clock;
 
-/// The timeout of poll(), which waits without an end if it is negative. A time that has passed is
-/// not waited for.
+/// The timeout for poll(), at least 0 because negative values would block forever.
 inline int waitMs(double longest_s) {
     constexpr double kMaxDuration_s = 3600;
     if (!(longest_s > 0)) return 0;

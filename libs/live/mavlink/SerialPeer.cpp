@@ -32,9 +32,9 @@ const Speed* speedOf(int baud) {
     return found == std::end(kSpeeds) ? nullptr : found;
 }
 
-constexpr std::chrono::milliseconds kOpenEvery{500};    // a line that was unplugged
-constexpr std::chrono::milliseconds kTakesWithin{300};  // as long as a direction stays known
-constexpr std::chrono::milliseconds kStuckFor{1000};    // between reports
+constexpr std::chrono::milliseconds kOpenEvery{500};    // between attempts to reopen
+constexpr std::chrono::milliseconds kTakesWithin{300};  // without progress, the line is stuck
+constexpr std::chrono::milliseconds kStuckFor{1000};    // duration of the error report
 
 class SerialPeer : public Peer {
  public:
@@ -56,7 +56,7 @@ class SerialPeer : public Peer {
             if (errno != EAGAIN && errno != EINTR) leave(errno);
             return false;
         }
-        // The rest of a message that has begun follows before the next one.
+        // The rest of a partly written message precedes the next one.
         rest_.assign(bytes.begin() + sent, bytes.end());
         noteWaiting();
         return true;
@@ -98,7 +98,7 @@ class SerialPeer : public Peer {
         }
         termios settings{};
         if (tcgetattr(line_, &settings) != 0) return leave(errno);
-        cfmakeraw(&settings);  // 8N1, nothing is translated
+        cfmakeraw(&settings);  // 8N1 without translation
         settings.c_cflag |= CLOCAL | CREAD;
         settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
         settings.c_cc[VMIN] = 1;
@@ -111,7 +111,7 @@ class SerialPeer : public Peer {
         moved_ = Clock::now();
     }
     void leave(int error) {
-        // Otherwise close() waits for what it does not take.
+        // Otherwise close() would wait for unsent data.
         if (line_ >= 0 && isStuck()) tcflush(line_, TCOFLUSH);
         if (line_ >= 0) close(line_);
         line_ = -1;
@@ -134,13 +134,13 @@ class SerialPeer : public Peer {
         int bytes = 0;
         return ioctl(line_, TIOCOUTQ, &bytes) == 0 ? bytes : 0;
     }
-    /// After the line took some bytes. Some drivers, such as of pseudoterminals, do not report how
-    /// many wait: then it moves as long as it takes some.
+    /// Called after bytes were accepted. Some drivers (pseudoterminals) always report an empty
+    /// queue; then each accepted write counts as progress.
     void noteWaiting() {
         waiting_ = waitingBytes();
         if (waiting_ == 0) moved_ = Clock::now();
     }
-    /// Messages that wait in a line that takes nothing would be the first ones later.
+    /// Drops queued messages of a stuck line; they would be sent late.
     void dropOld() {
         const int waiting = waitingBytes();
         if (waiting < waiting_ || (waiting == 0 && !isFull())) moved_ = Clock::now();
@@ -151,7 +151,7 @@ class SerialPeer : public Peer {
         rest_.clear();
         waiting_ = 0;
     }
-    /// Whether it takes nothing now.
+    /// Whether the line accepts no data now.
     bool isFull() const {
         pollfd line{line_, POLLOUT, 0};
         return poll(&line, 1, 0) == 0;
@@ -162,8 +162,8 @@ class SerialPeer : public Peer {
     int line_ = -1, error_ = 0;
     Clock::time_point tried_;
     std::vector<std::uint8_t> rest_;
-    int waiting_ = 0;          ///< bytes that the line had when it was looked at last
-    Clock::time_point moved_;  ///< when some of them had gone, or none were there
+    int waiting_ = 0;          ///< output queue at the last check
+    Clock::time_point moved_;  ///< last time the queue shrank or was empty
     std::optional<Clock::time_point> stuck_;
 };
 

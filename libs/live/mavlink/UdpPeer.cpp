@@ -13,10 +13,10 @@
 namespace hagen::mavlink {
 namespace {
 
-// A refused message is reported by the next send. After this time without, the peer is there again.
+// A refused message is reported by the next send. After this time without errors, it is back.
 constexpr std::chrono::milliseconds kRefusedFor{1000};
-// A connected socket keeps the address of the interface by which the peer was reached first. If
-// nothing comes back, another one may be right: it was down then, or has another address now.
+// A connected socket keeps its local address. If no replies arrive, another interface may be right:
+// it was down before, or its address changed. Reconnects after this time.
 constexpr std::chrono::milliseconds kSilent{2000};
 
 class UdpPeer : public Peer {
@@ -25,7 +25,7 @@ class UdpPeer : public Peer {
         : name_(address.host + ":" + std::to_string(address.port)) {
         const in_addr to_ip = resolve(address.host);
         socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-        if (socket_ < 0) fail("no socket", errno);
+        if (socket_ < 0) fail("cannot create a socket", errno);
         if (address.local_port != 0) {
             sockaddr_in at{};
             at.sin_family = AF_INET;
@@ -51,7 +51,7 @@ class UdpPeer : public Peer {
         if (!is_connected_) return false;
         if (::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) return true;
         note(errno);
-        // The error may be that of an earlier message: this one was not tried.
+        // The error may belong to an earlier message, so this one is sent again.
         return errno == ECONNREFUSED &&
                ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0;
     }
@@ -64,7 +64,7 @@ class UdpPeer : public Peer {
         const ssize_t got = recvfrom(socket_, buffer, size, MSG_DONTWAIT,
                                      reinterpret_cast<sockaddr*>(&from), &from_size);
         if (got > 0) {
-            // From anybody: what came before the socket was connected stays in its queue.
+            // Datagrams queued before the socket was connected may come from other senders.
             if (from.sin_addr.s_addr != peer_.sin_addr.s_addr || from.sin_port != peer_.sin_port) {
                 return 0;
             }
@@ -105,11 +105,11 @@ class UdpPeer : public Peer {
         is_connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&to_), sizeof to_) == 0;
         if (!is_connected_) note(errno);
         socklen_t size = sizeof peer_;
-        // Not always to_: 0.0.0.0 means this machine.
+        // May differ from to_: 0.0.0.0 means this machine.
         if (getpeername(socket_, reinterpret_cast<sockaddr*>(&peer_), &size) != 0) peer_ = {};
         heard_or_connected_ = Clock::now();
     }
-    /// Keeps the port, by which the peer knows us.
+    /// Keeps the local port, which the peer replies to.
     void disconnect() {
         sockaddr_in own{}, none{};
         socklen_t size = sizeof own;
@@ -118,7 +118,7 @@ class UdpPeer : public Peer {
         if (connect(socket_, reinterpret_cast<const sockaddr*>(&none), sizeof none) != 0) return;
         is_connected_ = false;
         own.sin_addr.s_addr = INADDR_ANY;
-        // Fails if it still is.
+        // Fails if the port is still bound.
         static_cast<void>(bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own));
     }
     void note(int error) {
@@ -128,7 +128,7 @@ class UdpPeer : public Peer {
     }
 
     std::string name_;
-    sockaddr_in to_{}, peer_{};  ///< asked for; connected to, at last
+    sockaddr_in to_{}, peer_{};  ///< requested, and last connected
     int socket_ = -1, error_ = 0;
     bool is_connected_ = false;
     Clock::time_point error_time_, heard_or_connected_;

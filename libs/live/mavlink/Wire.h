@@ -2,12 +2,12 @@
 #include <cstddef>
 #include <cstdint>
 
-// The layout of a MAVLink 2 frame: start, payload's length, two bytes of flags, sequence, system,
-// component, three bytes of the message's number, payload, checksum, perhaps a signature.
+// Layout of a MAVLink 2 frame: start, payload length, 2 flag bytes, sequence, system, component,
+// 3-byte message ID, payload, checksum, optional signature.
 namespace hagen::mavlink {
 
 constexpr std::uint8_t kStart = 0xfd;
-constexpr std::uint8_t kSigned = 0x01;  // of the flags that a receiver must know
+constexpr std::uint8_t kSigned = 0x01;  // incompatibility flag
 constexpr std::size_t kHeaderBytes = 10, kChecksumBytes = 2, kSignatureBytes = 13;
 
 }  // namespace hagen::mavlink

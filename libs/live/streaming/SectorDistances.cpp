@@ -9,16 +9,16 @@ namespace hagen::live {
 namespace {
 
 constexpr double kPart_rad = kTurn_rad / 360;
-// How long an obstacle is in doubt where packets are lost again and again.
+// Maximum time that an obstacle stays in doubt if packets keep getting lost.
 constexpr double kMaxDoubt_s = 0.7;
 
-/// The swept directions without what the head passed before `since_rad`: that is too old.
+/// The swept directions without the stale part before `since_rad`.
 TurnCoverage::Swept freshPart(TurnCoverage::Swept swept, double since_rad) {
     swept.since_rad = std::max(swept.since_rad, since_rad);
     return swept;
 }
 
-/// How far the sensor had turned when one of the sweeps completed an arc last; none: none did.
+/// Rotation of the sensor at the last completion of an arc by any of the sweeps; nullopt: never.
 std::optional<double> lastEndOfArc(const std::vector<TurnCoverage::Swept>& all, double since_rad,
                                    const TurnCoverage::Arc& arc) {
     std::optional<double> last_rad;
@@ -37,19 +37,19 @@ int directionOf(const Eigen::Vector2f& at_m, int number, double begin_rad) {
     return std::min(static_cast<int>(clockwise_rad / (kTurn_rad / number)), number - 1);
 }
 
-/// The results of a call of at() so far, from the newest sector to the oldest.
+/// Intermediate results of at(), from the newest sector to the oldest.
 struct SectorDistances::Look {
     double now_s;
     const PoseAt& pose_at;
     std::optional<VehiclePose> now;
-    double fresh_rad = std::numeric_limits<double>::infinity();  ///< what was swept before is stale
-    /// By degrees of the vehicle: how far the sensor had turned when it passed one last, and when
-    /// the sector came.
+    double fresh_rad = std::numeric_limits<double>::infinity();  ///< earlier sweeps are stale
+    /// Per degree of the vehicle: rotation of the sensor at the last pass, and arrival of its
+    /// sector.
     std::array<double, kBins> passed_rad, passed_s{};
-    /// By degrees of the sensor as it is now. If it is tilted, it looks at what is below the
-    /// horizon and at the horizon straight above that at different times.
+    /// Per degree of the current sensor frame. A tilted sensor looks below the horizon and at the
+    /// horizon straight above at different times.
     std::array<double, kBins> passed_by_sensor_rad;
-    std::array<bool, kSectors> is_doubtful{};  ///< an obstacle was there, and nobody looked again
+    std::array<bool, kSectors> is_doubtful{};  ///< unconfirmed old obstacle
     Sectors sectors;
 
     Look(double time_s, const PoseAt& pose) : now_s(time_s), pose_at(pose), now(poseAt(time_s)) {
@@ -61,11 +61,11 @@ struct SectorDistances::Look {
     }
 };
 
-/// Of a sector.
+/// Transforms for a sector.
 struct SectorDistances::Frames {
-    Eigen::Isometry3d level_from_sensor;      ///< from the sensor then to the vehicle's level now
-    Eigen::Isometry3d level_from_sensor_now;  ///< from the sensor as it is now
-    double yawed_rad;                         ///< of the sensor since then
+    Eigen::Isometry3d level_from_sensor;      ///< from the former sensor frame to the current level
+    Eigen::Isometry3d level_from_sensor_now;  ///< from the current sensor frame
+    double yawed_rad;                         ///< yaw of the sensor since then
 };
 
 SectorDistances::SectorDistances(const SensorModel& sensor, const Settings& settings)
@@ -109,8 +109,8 @@ bool SectorDistances::isFresh(const Seen& seen, double now_s) const {
     return age_s >= 0 && age_s <= settings_.stale_s && matters(seen, now_s);
 }
 
-/// Whether it may be used, or what it saw makes directions unknown: the sensor has not looked there
-/// again, and growing old makes no obstacle free.
+/// Whether a sector is still used. Until the sensor looks again, old obstacles make directions
+/// unknown, never free.
 bool SectorDistances::matters(const Seen& seen, double now_s) const {
     constexpr double kForgotten_s = FrameCoverage::kForgotten_s;
     const double age_s = now_s - seen.first_time_s;
@@ -140,7 +140,7 @@ SectorDistances::Frames SectorDistances::framesOf(const Seen& seen, const Look& 
     return frames;
 }
 
-/// Where the sensor, as it was then, saw an edge between two degrees; NaN: it did not.
+/// The azimuth at which the sensor then saw an edge between two degrees; NaN: outside its beams.
 double SectorDistances::azimuthOf(const Eigen::Matrix3d& sensor_from_level, int edge) const {
     const double clockwise_rad = edge * kPart_rad + settings_.begin_rad;
     const Eigen::Vector3d ahead =
@@ -149,7 +149,7 @@ double SectorDistances::azimuthOf(const Eigen::Matrix3d& sensor_from_level, int 
     return is_seen ? -std::atan2(ahead.y(), ahead.x()) : std::nan("");
 }
 
-/// When the sector came in which a beam looked first at an angle of the turning sensor.
+/// Arrival of the sector in which a beam first looked at an angle of the turning sensor.
 double SectorDistances::firstLook_s(double rad) const {
     constexpr double kRounding_rad = 1e-5;
     const auto isBefore = [&](const std::shared_ptr<const Seen>& seen) {
@@ -159,12 +159,12 @@ double SectorDistances::firstLook_s(double rad) const {
     return first == seen_.end() ? seen_.back()->first_time_s : (*first)->first_time_s;
 }
 
-/// Notes the degrees of the vehicle that a sector has passed, unless a later one has: all of a
-/// degree was swept, at the horizon, and nothing of it is stale.
+/// Records the degrees of the vehicle that a sector has completely swept at the horizon, without
+/// stale parts, unless a later sector has.
 void SectorDistances::noteHorizon(const Seen& seen, const Frames& frames, Look& look) const {
     const Eigen::Matrix3d sensor_from_level = frames.level_from_sensor.linear().transpose();
     double next_rad = 0;
-    int next = -1;  // the edge of which this is the azimuth
+    int next = -1;  // edge whose azimuth is next_rad
     for (int bin = 0; bin < kBins; ++bin) {
         if (look.passed_rad[bin] > kNever) continue;
         const double begin_rad = next == bin ? next_rad : azimuthOf(sensor_from_level, bin);
@@ -184,14 +184,14 @@ void SectorDistances::noteHorizon(const Seen& seen, const Frames& frames, Look& 
     }
 }
 
-/// The same of the sensor's degrees, which it has yawed away from since then.
+/// The same for the sensor's degrees, corrected for its yaw since then.
 void SectorDistances::noteSensor(const Seen& seen, const Frames& frames, Look& look) const {
     if (!seen.turns) {
         for (double& rad : look.passed_by_sensor_rad) rad = std::max(rad, seen.to_rad);
         return;
     }
     for (const TurnCoverage::Swept& swept : seen.swept) {
-        // The others do not end within it.
+        // Other degrees do not end within this sweep.
         const double last = std::ceil((swept.to_rad - frames.yawed_rad) / kPart_rad);
         const double first = std::floor((swept.from_rad - frames.yawed_rad) / kPart_rad) - 1;
         for (double k = std::max(first, last - kBins); k < last; ++k) {
@@ -204,7 +204,7 @@ void SectorDistances::noteSensor(const Seen& seen, const Frames& frames, Look& l
     }
 }
 
-/// Adds what a sector saw, but for what a later turn has passed since, without seeing it.
+/// Adds the obstacles of a sector, unless a later turn has passed them without detection.
 void SectorDistances::addObstacles(const Seen& seen, const Frames& frames, Look& look) const {
     const bool is_fresh = isFresh(seen, look.now_s);
     const Eigen::Isometry3f move = frames.level_from_sensor.cast<float>();
@@ -236,7 +236,7 @@ void SectorDistances::addObstacles(const Seen& seen, const Frames& frames, Look&
 
 SectorDistances::Sectors SectorDistances::at(double now_s, const PoseAt& poseAt) const {
     Look look(now_s, poseAt);
-    if (now_s < latest_s_ - settings_.stale_s) return look.sectors;  // a clock that went back
+    if (now_s < latest_s_ - settings_.stale_s) return look.sectors;  // the clock went back
     for (const auto& seen : seen_) {
         if (isFresh(*seen, now_s)) look.fresh_rad = std::min(look.fresh_rad, seen->from_rad);
     }
@@ -244,8 +244,8 @@ SectorDistances::Sectors SectorDistances::at(double now_s, const PoseAt& poseAt)
         const Seen& seen = **each;
         if (!matters(seen, now_s)) continue;
         const bool is_fresh = isFresh(seen, now_s);
-        // All was swept again, by a later turn. Without the horizon no direction is free, so that
-        // there are no doubts.
+        // A later turn has swept everything again. If it did not see the horizon, no direction is
+        // free anyway, so doubts do not matter.
         const auto areAllPassed = [&](const std::array<double, kBins>& all_rad) {
             return seen.isPassed(*std::min_element(all_rad.begin(), all_rad.end()));
         };

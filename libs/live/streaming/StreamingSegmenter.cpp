@@ -16,14 +16,14 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::size_t kMaxPackets = 4000;  // whatever the clock says; a turn has up to 600
-constexpr double kPacketEnd_rad = 0.01;    // of where packets begin and end
+constexpr std::size_t kMaxPackets = 4000;  // independent of the clock; a turn has up to 600
+constexpr double kPacketEnd_rad = 0.01;    // tolerance of packet boundaries
 // A beam's correction may add half a turn; nearestColumn() wraps once.
 constexpr float kMaxAzimuth_rad = 7.8F;
 constexpr double kMaxRotation_rad = 1e12;  // 250 years at 20 Hz; still exact to 0.1 mrad
-constexpr double kMargin_rad = 0.02;       // of the sector's image, ahead of it
-constexpr int kEmptyColumns = 16;          // are two columns, where no returns are kept
-// Less than this moves no return to another pixel.
+constexpr double kMargin_rad = 0.02;       // of the sector's image, ahead of the sector
+constexpr int kEmptyColumns = 16;  // column group where no returns are kept; two columns wide
+// Smaller motions leave all returns in their pixels.
 constexpr double kMinMotion_m = 0.01, kMinMotion_rad = 1e-3;
 
 template <class Value>
@@ -47,7 +47,7 @@ void append(const Scan& from, Scan& to) {
     forEachArray(from, to, [](const auto& values, auto& all) { append(values, all); });
 }
 
-/// Moves the returns from this one on. What is moved too far to be a number has no range.
+/// Moves the returns from index `first` on. Coordinates that overflow get no range.
 void moveReturns(const Eigen::Isometry3d& motion, std::size_t first, Scan& scan) {
     const Eigen::Matrix3f turn = motion.linear().cast<float>();
     const Eigen::Vector3f way_m = motion.translation().cast<float>();
@@ -71,7 +71,7 @@ std::optional<Attitude> ifFinite(const std::optional<Attitude>& attitude) {
     return is_known ? attitude : std::nullopt;
 }
 
-/// Where up is along the sensor's z axis; 0: neither way.
+/// Sign of the upward direction along the sensor's z axis; 0 for a sensor on its side.
 float upOf(const std::optional<Attitude>& tilt) {
     const Posture posture = postureOf(tilt);
     if (posture == Posture::Upright) return 1;
@@ -83,7 +83,7 @@ bool isStill(const Eigen::Isometry3d& motion) {
            Eigen::AngleAxisd(motion.linear()).angle() < kMinMotion_rad;
 }
 
-/// The angle between two directions that a sensor swept, at most a turn apart.
+/// The smallest angle between two sweeps at most a turn apart.
 double between(const Sweep& a, const Sweep& b) {
     const double apart_rad = std::abs(a.from_rad + a.to_rad - b.from_rad - b.to_rad) / 2;
     const double middle_rad = std::min(apart_rad, std::abs(kTurn_rad - apart_rad));
@@ -96,9 +96,8 @@ void checkSweep(const Sweep& sweep) {
                           swept_rad <= kTurn_rad + kPacketEnd_rad;
     if (!is_sound) {
         throw std::invalid_argument(
-            "streaming: the sweep of a packet must go clockwise, from an angle of up to 1e12 rad "
-            "to "
-            "one that is not smaller, and at most a turn");
+            "streaming: the sweep of a packet must be clockwise, at most a turn, and start within "
+            "1e12 rad");
     }
 }
 
@@ -130,7 +129,7 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
     check(streaming.least_known_rad >= 0 && streaming.least_known_rad <= kTurn_rad,
           "least_known_rad must be at least 0 and at most a turn");
     check(streaming.longest_sector_s > 0, "longest_sector_s must be positive");
-    check(take_ != nullptr, "there is no function that takes the sectors");
+    check(take_ != nullptr, "no callback for sectors");
 }
 
 void StreamingSegmenter::Returns::clear() {
@@ -174,7 +173,7 @@ void StreamingSegmenter::setMount(const std::optional<Attitude>& tilt) { mount_ 
 void StreamingSegmenter::setBeamOffsets(const BeamOffsets& offsets) {
     const auto isSound = [](double angle_rad) { return angle_rad >= 0 && angle_rad <= kTurn_rad; };
     check(isSound(offsets.behind_rad) && isSound(offsets.ahead_rad),
-          "beams look at least 0 and at most a turn behind or ahead of the head");
+          "beam offsets must be from 0 to a full turn");
     offsets_ = offsets;
 }
 
@@ -184,7 +183,7 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
         return std::abs(azimuth_rad) <= kMaxAzimuth_rad;
     };
     if (!std::all_of(returns.azimuth_rad.begin(), returns.azimuth_rad.end(), isUsable)) {
-        throw std::invalid_argument("streaming: a return has no azimuth, or one far beyond a turn");
+        throw std::invalid_argument("streaming: a return has no azimuth, or one beyond 7.8 rad");
     }
     if (packets_.size() >= kMaxPackets) restart();
     if (spare_.empty()) {
@@ -222,7 +221,7 @@ void StreamingSegmenter::thin(Packet& packet) {
     packet.thinned_end = thinned_.scan.size();
 }
 
-/// Those of packets that were forgotten, once they are most of them.
+/// Removes thinned returns of forgotten packets once they are the majority.
 void StreamingSegmenter::forgetThinned() {
     const std::size_t known = packets_.size() - open_;
     const std::size_t first = known > 0 ? packets_.front().thinned_first : thinned_.scan.size();
@@ -265,7 +264,7 @@ void StreamingSegmenter::addFrame(const Scan& returns, double time_s, double mea
                                   std::optional<double> sensor_time_s) {
     checkTime(time_s);
     if (!(measured_s >= 0)) {
-        throw std::invalid_argument("streaming: a frame was measured for less than no time");
+        throw std::invalid_argument("streaming: a frame has a negative measuring time");
     }
     const double first_s = first_time_s.value_or(time_s);
     checkTime(first_s);
@@ -290,8 +289,8 @@ void StreamingSegmenter::restart() {
     packets_.clear();
 }
 
-/// Packets that were overwritten by the latest turn, or that are too old. After a clock that went
-/// back their age is unknown.
+/// Removes packets that are too old or that the latest turn has overwritten. If the clock went
+/// back, their age is unknown.
 void StreamingSegmenter::forget(double now_s) {
     while (packets_.size() > open_) {
         const Packet& oldest = packets_.front();
@@ -303,7 +302,7 @@ void StreamingSegmenter::forget(double now_s) {
     }
 }
 
-/// Stretches that follow each other are copied at once. An empty one ends the last.
+/// Merges contiguous stretches into one copy. An empty stretch flushes the last one.
 void StreamingSegmenter::addThinned(std::size_t first, std::size_t end) {
     if (first != pending_end_ || first == end) {
         window_.append(thinned_, pending_first_, pending_end_);
@@ -312,20 +311,20 @@ void StreamingSegmenter::addThinned(std::size_t first, std::size_t end) {
     pending_end_ = end;
 }
 
-/// Where the returns of a packet are by now, if it is known how the sensor has moved since then.
+/// The transform of a packet's returns to the current sensor frame, if the motion since is known.
 std::optional<Eigen::Isometry3d> StreamingSegmenter::motionSince(const Packet& packet) const {
     const Packet& latest = packets_.back();
     if (!packet.pose && !latest.pose && packet.sweep) {
         const double middle_rad = (packet.sweep->from_rad + packet.sweep->to_rad) / 2;
         return turn_motion_.since((head_rad_ - middle_rad) / kTurn_rad);
     }
-    // A tilt and a pose do not compare: the pose has a heading and a place.
+    // Tilt and pose are not comparable: only the pose has heading and position.
     if (!packet.pose || !latest.pose || packet.has_place != latest.has_place) return std::nullopt;
     return latest.pose->inverse() * *packet.pose;
 }
 
-/// Returns of a turn keep the pixels in which they were measured: elsewhere they would not be
-/// neighbours. Those of frames, in which a sensor looks everywhere, get the pixels of today.
+/// Returns of a turn keep the pixels in which they were measured, and thereby their neighbours.
+/// Returns of frames, which cover all directions, get new pixels.
 void StreamingSegmenter::addMoved(const Returns& returns, std::size_t first, std::size_t end,
                                   const Eigen::Isometry3d& motion, bool keeps_pixels) {
     Returns& to = keeps_pixels ? window_ : moved_;
@@ -360,7 +359,7 @@ void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
     window_.append(returns, first, end);
 }
 
-/// Those ahead of the sensor, of a packet that it has begun to overwrite.
+/// Adds the returns ahead of the sensor from a partly overwritten packet.
 void StreamingSegmenter::addAhead(const Returns& returns) {
     for (std::size_t i = 0; i < returns.scan.size(); ++i) {
         const double clockwise_rad = -static_cast<double>(returns.scan.azimuth_rad[i]);
@@ -368,7 +367,7 @@ void StreamingSegmenter::addAhead(const Returns& returns) {
     }
 }
 
-/// Whether enough is in sight to find the ground.
+/// Whether the returns suffice to find the ground.
 bool StreamingSegmenter::knowsEnough() const {
     double known_rad = 0;
     for (const Packet& packet : packets_) {
@@ -384,14 +383,14 @@ bool StreamingSegmenter::knowsEnough() const {
     return known_rad >= streaming_.least_known_rad - kPacketEnd_rad;
 }
 
-/// The columns of the image: all in and beside the sector, and those that are kept elsewhere. The
-/// image has the same size for each sector, unless late packets make one wide. Returns false if
-/// that is the whole turn.
+/// Selects the image columns: all in and beside the sector, and a fraction elsewhere. All sectors
+/// have the same image size, unless late packets widen one. Returns false if the image spans the
+/// turn.
 bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     const int columns = filter_.options().columns;
     const Sweep& latest = *packets_.back().sweep;
     const double beside_rad = streaming_.window_rad + (latest.to_rad - latest.from_rad);
-    // Without motion, there is nothing ahead that needs narrow columns.
+    // Without known motion, nothing ahead needs narrow columns.
     const bool has_motion = packets_.back().pose || turn_motion_.since(1);
     const bool has_ahead = has_motion || streaming_.skip_ahead_rad < beside_rad;
     const double usual_rad =
@@ -400,7 +399,7 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     const int group = streaming_.keep_every > 0 ? streaming_.keep_every : kEmptyColumns;
     const int groups = (columns + group - 1) / group;
     const double group_rad = kTurn_rad * group / columns;
-    const double stretch = std::ceil(width_rad / group_rad) + 1;  // of late packets: any
+    const double stretch = std::ceil(width_rad / group_rad) + 1;  // unlimited for late packets
     if (stretch >= groups) return false;
     const int count = static_cast<int>(stretch);
     const double end_rad = sector.to_rad + (has_ahead ? beside_rad : kMargin_rad);
@@ -409,7 +408,7 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     return true;
 }
 
-/// The labels of the sector, and what later sectors need to know of it.
+/// Labels the sector, and keeps what later sectors need as context.
 const SegmentationResult& StreamingSegmenter::judge() {
     const bool is_upright = postureOf(tilt()) == Posture::Upright;
     const std::optional<Sweep>& sweep = packets_.back().sweep;
@@ -428,7 +427,7 @@ const SegmentationResult& StreamingSegmenter::judge() {
     return result;
 }
 
-/// From now on, the sector's packets are context.
+/// Turns the sector's packets into context.
 void StreamingSegmenter::keepFound() {
     forgetThinned();
     auto from = found_.begin();
@@ -447,9 +446,9 @@ void StreamingSegmenter::label(bool is_cut) {
     const Packet& first = packets_[first_open];
     const Packet& last = packets_.back();
     const Sweep sector{start_rad_, head_rad_};
-    if (first_open == 0) turn_motion_.forget();  // first sector, or the first one after a silence
+    if (first_open == 0) turn_motion_.forget();  // first sector, or first after a silence
 
-    // The sector comes first, so that its labels are the first ones.
+    // The sector's returns come first, and therefore also its labels.
     sector_.clear();
     sweeps_.clear();
     for (std::size_t i = first_open; i < packets_.size(); ++i) {

@@ -7,11 +7,11 @@
 namespace hagen::live {
 namespace {
 
-// 0.06 degrees: less than between two firings (HDL-32E at 5 Hz: 0.083). Packets that follow each
-// other are up to 0.025 degrees apart, by the rounding of azimuths.
+// 0.06 degrees: less than a firing interval (HDL-32E at 5 Hz: 0.083), more than the 0.025 degrees
+// between consecutive packets caused by azimuth rounding.
 constexpr double kGap_rad = 0.001;
-constexpr double kRounding_rad = 1e-5;  // of matrices of floats
-// A vehicle that yaws sees gaps of up to 3 degrees between sectors.
+constexpr double kRounding_rad = 1e-5;  // of float matrices
+// Covers gaps of up to 3 degrees between sectors, seen by a yawing vehicle.
 constexpr double kBeside_rad = 0.05;
 
 }  // namespace
@@ -31,7 +31,7 @@ const std::vector<TurnCoverage::Swept>& TurnCoverage::add(const LabelledSector& 
     swept_.clear();
     const double to_rad = sector.sweep->to_rad + added_rad_;
     if (to_rad < head_rad_) {
-        // The sensor has started again: a turn or more is between this and what was before.
+        // The sensor has restarted: leave at least a full turn to the angles before.
         added_rad_ += kTurn_rad * (std::ceil((head_rad_ - to_rad) / kTurn_rad) + 1);
         stretches_.clear();
     }
@@ -50,7 +50,7 @@ void TurnCoverage::add(const Sweep& sweep, const BeamOffsets& offsets) {
     const Sweep added{sweep.from_rad + added_rad_, sweep.to_rad + added_rad_};
     Sweep stretch = added;
     const auto isJoined = [&](const Sweep& other) {
-        if (other.to_rad < head_rad_ - kTurn_rad) return true;  // of no use any more
+        if (other.to_rad < head_rad_ - kTurn_rad) return true;  // obsolete
         const bool is_near =
             other.from_rad <= added.to_rad + kGap_rad && other.to_rad >= added.from_rad - kGap_rad;
         if (!is_near) return false;
@@ -61,7 +61,7 @@ void TurnCoverage::add(const Sweep& sweep, const BeamOffsets& offsets) {
     stretches_.erase(std::remove_if(stretches_.begin(), stretches_.end(), isJoined),
                      stretches_.end());
     stretches_.push_back(stretch);
-    // After a gap, the leading beams are the last to look at a direction without it.
+    // After a gap, the leading beams are the last to sweep a direction completely.
     const double since_rad = stretch.from_rad + offsets.ahead_rad;
     const double looked_from_rad = added.from_rad - offsets.behind_rad;
     const double looked_to_rad = added.to_rad + offsets.ahead_rad;

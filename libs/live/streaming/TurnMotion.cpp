@@ -9,14 +9,14 @@
 namespace hagen::live {
 namespace {
 
-constexpr int kEvery = 4;            // columns that are compared
-constexpr double kMemory_rad = 0.8;  // of returns that weigh e times less than the latest
-constexpr double kMisfit_m = 0.3;    // of returns that weigh half
-constexpr double kUsualRise_m = 0.1, kUsualTilt_rad = 0.1;  // per turn, as far as none is seen
-constexpr double kMinWeight = 10;    // of all returns that are remembered; one that fits has 1
-constexpr double kSteepest = 0.6;    // slope from ring to ring
-constexpr float kMinApart_m = 0.2F;  // of rings that define a slope
-constexpr double kTurnBefore_rad[] = {kPi, 3 * kPi};  // how long ago it was seen
+constexpr int kEvery = 4;                                   // compares every n-th column
+constexpr double kMemory_rad = 0.8;                         // decay angle of the weights
+constexpr double kMisfit_m = 0.3;                           // misfit with weight 1/2
+constexpr double kUsualRise_m = 0.1, kUsualTilt_rad = 0.1;  // prior per turn
+constexpr double kMinWeight = 10;    // minimum total weight; an exact return has 1
+constexpr double kSteepest = 0.6;    // maximum slope between rings
+constexpr float kMinApart_m = 0.2F;  // minimum distance of rings that define a slope
+constexpr double kTurnBefore_rad[] = {kPi, 3 * kPi};  // range of ages of the previous turn
 
 }  // namespace
 
@@ -44,8 +44,8 @@ bool TurnMotion::isOfTurnBefore(const Ground& ground) const {
     return ground.radius_m > 0 && ago_rad > kTurnBefore_rad[0] && ago_rad < kTurnBefore_rad[1];
 }
 
-/// Of the ground of the turn before, outwards: towards the ring on the side of the return, or else
-/// towards the other one.
+/// Outward slope of the previous turn's ground: towards the ring on the side of the return,
+/// otherwise towards the other one.
 std::optional<double> TurnMotion::slopeAt(const Pixel& now) const {
     const Ground& then = groundOf(now.row, now.column);
     const int side = now.ground.radius_m >= then.radius_m ? 1 : -1;
@@ -69,7 +69,7 @@ void TurnMotion::compare(const Pixel& now) {
     const Eigen::Vector3d outwards = point_m / now.ground.radius_m;
     const Eigen::Vector3d normal =
         Eigen::Vector3d(-*slope * outwards.x(), -*slope * outwards.y(), 1).normalized();
-    // A small turn moves a point by turn x point, along the normal by turn . (point x normal).
+    // A small rotation r moves a point by r x point, along the normal by r . (point x normal).
     const Eigen::Vector3d lever_m = point_m.cross(normal);
     const Eigen::Vector3d row = Eigen::Vector3d(normal.z(), lever_m.x(), lever_m.y()) / kMisfit_m;
     const double misfit = normal.dot(then.point_m.cast<double>() - point_m) / kMisfit_m;
@@ -105,7 +105,7 @@ void TurnMotion::add(const Scan& sector, const std::vector<Label>& label, double
         Ground& ground =
             ground_[static_cast<std::size_t>(pixel.column) * static_cast<std::size_t>(rows_) +
                     static_cast<std::size_t>(pixel.row)];
-        // Of several returns of a pixel, ground is kept.
+        // If a pixel has several returns, ground is kept.
         if (pixel.ground.radius_m > 0 || ground.head_rad < head_rad) ground = pixel.ground;
     }
     const Eigen::Vector3d usual(kUsualRise_m, kUsualTilt_rad, kUsualTilt_rad);

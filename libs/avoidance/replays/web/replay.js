@@ -16,7 +16,7 @@ const speeds = points(data.speeds), clearances = points(data.clearances);
 const goal = points(data.goal);
 const middles = points(data.model.middles), lives = numbers(data.model.lives);
 const cells = lives.length / 2, edge = data.model.edge_m;
-const ends = Math.max(0, moments - 1) * data.control_step_s;  // later than the last step
+const ends = Math.max(0, moments - 1) * data.control_step_s;  // after the last step
 
 // ---- scene
 const colors = {roi: 0xd55e00, rou: 0x9aa5b1, model: 0xe69f00, above: 0xb58a3c, free: 0x009e73, blocked: 0xcc79a7,
@@ -73,12 +73,12 @@ const movers = data.scene.movers.map(mover => {
     const last = poses.length / 4 - 1, rank = Math.max(0, Math.min(last, when / data.scene.mover_step_s));
     const low = Math.floor(rank), high = Math.min(low + 1, last), share = rank - low;
     made.position.set(...[0, 1, 2].map(k => (1 - share) * place(low, k) + share * place(high, k)));
-    const turn = heading(high) - heading(low);  // the short way round
+    const turn = heading(high) - heading(low);  // the shorter way
     made.rotation.z = heading(low) + share * Math.atan2(Math.sin(turn), Math.cos(turn));
   }};
 });
 
-/// The ground: a wire grid, and a surface a little lower so that returns stay above it.
+/// The ground: a wire grid, and a surface slightly below so that returns stay above it.
 function ground() {
   const {x_m, y_m, step_m, along_x, along_y} = data.scene.ground, heights = points(data.scene.ground.heights);
   const corners = [], edges = [], faces = [];
@@ -106,7 +106,7 @@ function ground() {
 }
 ground();
 
-/// Points whose number changes.
+/// Point sets of variable size.
 function cloud(color, size) {
   const geometry = new THREE.BufferGeometry();
   const made = new THREE.Points(geometry, new THREE.PointsMaterial({color, size}));
@@ -176,7 +176,7 @@ const {body: drone, room} = vehicle();
 // The model's cells: boxes if they have an edge, otherwise points. Low ones, mostly ground, are
 // paler; those above the altitude limit are hidden by default.
 function boxes(color, opacity) {
-  const size = 0.5 * edge;  // so that one can see through the gaps
+  const size = 0.5 * edge;  // smaller, so that the gaps are visible
   const made = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(size, size, size),
       new THREE.MeshLambertMaterial({color, transparent: opacity < 1, opacity, depthWrite: opacity === 1}),
       Math.max(1, cells));
@@ -231,7 +231,7 @@ function stepData(index) {
   return decoded.get(index);
 }
 function stepAt(time) {
-  let low = -1, high = data.steps.length - 1;  // the last one not later than `time`
+  let low = -1, high = data.steps.length - 1;  // the last step not later than `time`
   while (low < high) {
     const middle = Math.ceil((low + high) / 2);
     if (data.steps[middle].time_s <= time) low = middle; else high = middle - 1;
@@ -387,7 +387,7 @@ function tick(now) {
   if (time >= ends) pause(); else requestAnimationFrame(tick);
 }
 /// The flight continues after its last command to its end, which follows the last step here. A
-/// command that was still being computed at the end was never given.
+/// command still being computed at the end was never issued.
 const given = data.steps.filter(step => step.time_s < ends).length;
 function toStep(index) {
   pause();
@@ -425,7 +425,7 @@ function resize() {
 window.addEventListener('resize', resize);
 resize();
 controls.target.set(0, 0, 0);
-// The address with #t=5 starts at 5 s, otherwise the first plan is shown.
+// The address with #t=5 starts at 5 s, otherwise the page shows the first plan.
 const asked = window.location.hash.match(/^#t=([0-9.]+)$/);
 seek(asked ? Number(asked[1]) : data.steps.length > 0 ? data.steps[0].time_s : 0);
 controls.update();

@@ -16,7 +16,7 @@ struct Course {
     simulation::Scene scene;
     simulation::SceneDistance distance;  ///< true clearances
     Eigen::Vector3d start_m, goal_m;
-    double altitude_m;             ///< wanted above the ground
+    double altitude_m;             ///< target height above the ground
     Eigen::AlignedBox3d bounds_m;  ///< limits of the flight
     double oracle_path_m;          ///< length of the shortest path found in the true scene
 };
@@ -36,9 +36,9 @@ struct Course {
 ///     street       parked cars, also in the middle, lamps, trees and walls; flown at 1.5 m
 const std::vector<std::string>& courseNames();
 
-/// The course of a scenario. A seed makes the same course on every machine. Scenes without a path
-/// for the vehicle are rejected, and the next one is made from the seed's next stream.
-/// Throws std::invalid_argument, naming the known ones, for an unknown name.
+/// The course of a scenario. A seed gives the same course on every machine. Scenes without a path
+/// for the vehicle are rejected and replaced from the seed's next stream. Throws
+/// std::invalid_argument, listing the known names, for an unknown name.
 Course makeCourse(const std::string& scenario, std::uint64_t seed);
 
 // Every course has a path past its static obstacles with this clearance, between these heights.

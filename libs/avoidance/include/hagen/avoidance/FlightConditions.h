@@ -1,28 +1,27 @@
 #pragma once
 #include <string>
 
-/// The conditions of a flight that have names in flags and in runs.csv. Each ...From() is the
-/// inverse of nameOf() and throws std::invalid_argument, listing the known names.
+/// The named conditions of a flight in flags and runs.csv. Each ...From() is the inverse of
+/// nameOf() and throws std::invalid_argument, listing the known names.
 namespace hagen::avoidance {
 
-/// Difference between the estimated pose and the true one; PoseBelief.h has the figures.
-/// "none", "noise", "drift".
+/// Error of the estimated pose (details in PoseBelief.h): "none", "noise", "drift".
 enum class PoseError { None, Noise, Drift };
 std::string nameOf(PoseError error);
 PoseError poseErrorFrom(const std::string& name);
 
-/// What the LiDAR meets besides the scene.
+/// Disturbances of the LiDAR.
 ///
-///     dusty  the default errors of the simulation: 1.5e-5 specks of dust per metre of a beam,
+///     dusty  the default errors of the simulation: 1.5e-5 dust specks per metre of beam,
 ///            15 % mixed ranges at edges, and the vehicle's own legs, which the settings mask
 ///     clear  none of these
 enum class Air { Dusty, Clear };
 std::string nameOf(Air air);
 Air airFrom(const std::string& name);
 
-/// The distances that a world model returns: "unbiased", "as-stored". Models measure differently:
-/// windows to thinned points, maps to the faces of voxels. Unbiased: less the mean error, which was
-/// measured.
+/// The distances that a world model returns: "unbiased", "as-stored". Models measure to different
+/// geometry: windows to thinned points, maps to the faces of voxels. Unbiased distances are
+/// corrected by the measured mean error.
 enum class ModelDistance { Unbiased, AsStored };
 std::string nameOf(ModelDistance distance);
 ModelDistance distanceFrom(const std::string& name);
@@ -31,8 +30,7 @@ ModelDistance distanceFrom(const std::string& name);
 ///
 ///     scans    whole scans, each when the sensor's turn is complete: 10 Hz
 ///     sectors  sectors of 15 degrees, labelled by a StreamingSegmenter, each after its last
-///     packet;
-///              the planner runs at 50 Hz, on all sectors since its last start
+///              packet; the planner runs at 50 Hz, on all sectors since its last start
 enum class Updates { Scans, Sectors };
 std::string nameOf(Updates updates);
 Updates updatesFrom(const std::string& name);

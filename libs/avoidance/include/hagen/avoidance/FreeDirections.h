@@ -16,7 +16,7 @@ using DirectionSet = std::bitset<kDirections>;
 /// A unit vector.
 Eigen::Vector3f directionOf(std::size_t number);
 double elevationOfDirection(std::size_t number);  ///< [rad]
-/// Whether a direction points down, so that it ends in the ground. An altimeter detects that, too.
+/// Whether a direction points down and ends in the ground, which an altimeter detects, too.
 bool pointsDown(std::size_t number);
 
 /// Length of a checked direction, and radius of the sphere that must fit.
@@ -31,11 +31,11 @@ DirectionSet blockedDirections(const std::function<float(const Eigen::Vector3f&)
                                const Eigen::Vector3f& position_m,
                                const FreeDirectionOptions& options = {});
 
-/// Jaccard index of the free directions of two world models: number free in both over number free
-/// in either. 1 if neither has any.
+/// Jaccard index of the free directions of two world models: directions free in both over
+/// directions free in either. 1 if neither has any.
 double freeAgreement(const DirectionSet& blocked_a, const DirectionSet& blocked_b);
 
-/// A model's directions counted against ground truth.
+/// Counts of a model's directions against ground truth.
 struct DirectionCounts {
     std::size_t scored = 0, hits = 0, false_alarms = 0, misses = 0;
 

@@ -22,17 +22,17 @@ struct Carrot {
     double beyond_m = 0;                  ///< remaining path length from there to the goal
 };
 
-/// Chooses where to head. Keeps no state between calls.
+/// Chooses the next lookahead point. Keeps no state between calls.
 class Guidance {
  public:
     virtual ~Guidance() = default;
     virtual Carrot carrot(const WorldModel& world, const GuidanceTask& task) const = 0;
 };
 
-/// "straight": towards the goal, level at the wanted altitude above the ground until it is near.
+/// "straight": towards the goal, level at the target altitude above the ground until near the goal.
 /// "astar": 4 m ahead on an A* path over the same model (0.5 m cells), less if a bend would hide
-/// that point; corners are cut where there is clearance. If the goal is blocked or out of bounds,
-/// the path leads to the nearest free cell. Straight if there is no path. makeGuidance() throws
+/// that point; corners are cut where clearance permits. If the goal is blocked or out of bounds,
+/// the path leads to the nearest free cell. Without a path, flies straight. makeGuidance() throws
 /// std::invalid_argument for other names.
 const std::vector<std::string>& guidanceNames();
 std::unique_ptr<Guidance> makeGuidance(const std::string& name);

@@ -7,8 +7,8 @@
 
 namespace hagen::avoidance {
 
-/// How long each stage took on some machine, as quantiles of the measurements. Trials draw from it,
-/// so that they do not depend on the speed or load of the machine that they run on.
+/// Quantiles of each stage's run time measured on some machine. Trials draw from them, and so do
+/// not depend on the speed or load of the machine that runs them.
 struct LatencyProfile {
     std::string machine, made_by, date;  ///< processor; program and version; ISO date
     /// By stage: "filter", "MODEL/update", "MODEL/GUIDANCE", "MODEL/GUIDANCE+PLANNER" (a planner's
@@ -23,7 +23,7 @@ struct LatencyProfile {
     double at_ms(const std::string& stage, double share) const;
 };
 
-/// `count` quantiles of the measurements; none if there are no measurements.
+/// `count` quantiles of the measurements; empty without measurements.
 std::vector<double> quantilesOf(const std::vector<double>& measured_ms, int count = 201);
 
 /// The profile as JSON, latencies rounded to the microsecond.
@@ -32,10 +32,10 @@ std::string textOf(const LatencyProfile& profile);
 /// The inverse of textOf(). Throws std::runtime_error, naming the key.
 LatencyProfile latencyProfileFrom(const std::string& text);
 
-/// Reads a file as textOf() makes it. Throws std::runtime_error, naming the file and the key.
+/// Reads a file in the format of textOf(). Throws std::runtime_error naming the file and the key.
 LatencyProfile readLatencyProfile(const std::filesystem::path& file);
 
-/// The profile of config/campaign/profile.json when the program was built.
+/// The contents of config/campaign/profile.json at build time.
 LatencyProfile standardLatencyProfile();
 
 }  // namespace hagen::avoidance

@@ -17,25 +17,25 @@ namespace hagen::avoidance {
 struct LogSource {
     std::filesystem::path log;    ///< a rawlog, a capture or a scan folder
     std::filesystem::path poses;  ///< pose file (TUM, KITTI); empty: poses in the log
-    std::string sensor_label;     ///< of the LiDAR; empty: all LiDARs of the log
+    std::string sensor_label;     ///< LiDAR to use; empty: all LiDARs of the log
     Settings settings;
-    float own_reach_m = 0.8f;  ///< nearer returns are the vehicle's own and are left out
-    std::filesystem::path sensor_json = {};  ///< metadata of the Ouster of a capture; empty: none
+    float own_reach_m = 0.8f;  ///< nearer returns are from the vehicle and are dropped
+    std::filesystem::path sensor_json = {};  ///< Ouster metadata for a capture; empty: none
     std::vector<std::string> topics = {};    ///< LiDAR topics of a bag; empty: all
 };
 
 /// A segmented scan of a log in the map frame.
 struct LoggedScan {
-    std::size_t entry = 0;  ///< of the log, from 0; in a scan folder the scan
+    std::size_t entry = 0;  ///< index of the log entry (or folder scan), from 0
     observations::MappedScan mapped;
     Eigen::Vector3f vehicle_m{0, 0, 0};  ///< position of the vehicle at the end of the scan
-    /// Returns have no times, or the poses end before the scan does, or leave a gap in it.
+    /// Returns have no times, or the poses end before the scan or have a gap in it.
     bool is_placed_by_one_pose = false;
     double filter_ms = 0;  ///< CPU time of this thread in the filter
 };
 
-/// The segmented scans of a log, one after the other. Poses come from `poses` or, if that is empty,
-/// from the log; each return is placed by the pose at its own time.
+/// The segmented scans of a log in order. Poses come from `poses` or, if empty, from the log; each
+/// return is placed by the pose at its own time.
 class LoggedScans {
  public:
     /// Reads poses and times. Throws recordings::Interrupted once `keep_going` returns false, and
@@ -44,20 +44,20 @@ class LoggedScans {
     explicit LoggedScans(
         const LogSource& source, const std::function<bool()>& keep_going = [] { return true; });
 
-    /// Reads the next scan that has a pose; false at the end. Throws like ScanSource::nextScan(),
-    /// as where the log is truncated. Skips scans that cannot be read.
+    /// Reads the next scan with a pose; false at the end. Throws like ScanSource::nextScan(), also
+    /// where the log is truncated. Skips unreadable scans.
     bool next(LoggedScan& scan);
 
     const std::string& poseSource() const { return source_->poses().source; }
     /// The map's z axis points against gravity.
     bool posesHaveHorizon() const { return source_->poses().vehicle.has_horizon; }
-    /// Number of scans in the log, and of those without a pose, which are skipped.
+    /// Number of scans in the log, and of those skipped for lack of a pose.
     std::size_t scans() const { return scans_; }
     std::size_t scansWithoutPose() const { return without_pose_; }
-    /// Number of scans so far that could not be read, and the error of the first of them.
+    /// Number of unreadable scans so far, and the first error.
     std::size_t unreadableScans() const { return unreadable_; }
     const std::string& whyUnreadable() const { return why_unreadable_; }
-    /// What the user should know of the log as a whole (ScanSource::remarks()).
+    /// Remarks about the log as a whole (ScanSource::remarks()).
     std::vector<std::string> remarks() const { return source_->remarks(); }
     /// Contains the vehicle's position at every scan.
     const Eigen::AlignedBox3f& flight_m() const { return flight_m_; }

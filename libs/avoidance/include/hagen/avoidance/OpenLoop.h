@@ -17,8 +17,8 @@ struct OpenLoop {
     LogSource source;
     std::vector<std::string> models;
 
-    /// The scene that the log was simulated in (rawlog-simulate), used as ground truth. Without it,
-    /// later scans are the truth (LaterScansTruth).
+    /// The scene that the log was simulated in (rawlog-simulate), used as ground truth. Otherwise,
+    /// ground truth comes from later scans (LaterScansTruth).
     struct SimulatedScene {
         std::string scenario;
         std::uint64_t seed = 1;
@@ -36,19 +36,19 @@ struct OpenLoopRow {
     double time_s = 0;
     std::string model;
     std::size_t returns = 0, roi = 0;  ///< of the scan
-    std::size_t obstacles = 0;         ///< points or voxels that the model holds
-    std::size_t bytes = 0;             ///< of the model
+    std::size_t obstacles = 0;         ///< points or voxels in the model
+    std::size_t bytes = 0;             ///< memory of the model
     std::size_t blocked = 0;           ///< directions
-    std::size_t truly_blocked = 0;     ///< of those scored
-    DirectionCounts all, level;        ///< `level`: directions that do not point down
+    std::size_t truly_blocked = 0;     ///< among the scored ones
+    DirectionCounts all, level;        ///< `level`: without downward directions
 };
 
 /// The cost on this machine: CPU time of the thread, and heap.
 struct OpenLoopCost {
-    double filter_ms = 0;   ///< of the scan, the same for all models
-    double update_ms = 0;   ///< of the model
-    double queries_ms = 0;  ///< of all directions
-    double heap_bytes = 0;  ///< that the model holds
+    double filter_ms = 0;   ///< labelling the scan, the same for all models
+    double update_ms = 0;   ///< updating the model
+    double queries_ms = 0;  ///< querying all directions
+    double heap_bytes = 0;  ///< heap of the model
 };
 
 /// A model's figures over the log.
@@ -56,7 +56,7 @@ struct OpenLoopModel {
     std::string name;
     std::vector<double> obstacles, bytes, blocked;  ///< one entry per scan
     DirectionCounts all, level;
-    std::array<DirectionCounts, kDirectionElevations> by_elevation;  ///< the lowest first
+    std::array<DirectionCounts, kDirectionElevations> by_elevation;  ///< lowest first
     std::vector<double> update_ms, queries_ms;
     double peak_heap_bytes = 0;
 };
@@ -64,10 +64,10 @@ struct OpenLoopModel {
 struct OpenLoopResult {
     std::size_t scans = 0;                                     ///< processed
     std::size_t scans_without_pose = 0, unreadable_scans = 0;  ///< skipped
-    std::string why_unreadable;                                ///< of the first; empty: none
-    std::vector<std::string> remarks;          ///< what of the log as a whole was not used
+    std::string why_unreadable;                                ///< first error; empty: none
+    std::vector<std::string> remarks;          ///< unused parts of the log as a whole
     std::size_t scans_placed_by_one_pose = 0;  ///< see LoggedScan
-    std::size_t model_resets = 0;  ///< because the vehicle came near the border of the maps
+    std::size_t model_resets = 0;  ///< because the vehicle neared the border of the maps
     std::string poses;
     bool poses_have_horizon = true;
     std::vector<double> returns, roi, filter_ms;  ///< one entry per scan
@@ -82,7 +82,7 @@ struct OpenLoopListener {
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// The log is truncated, or the listener stopped. `result` covers the scans processed before that.
+/// The log is truncated, or the listener stopped it. `result` covers the scans processed so far.
 struct OpenLoopEnded : std::runtime_error {
     OpenLoopEnded(const std::string& why, OpenLoopResult processed)
         : std::runtime_error(why), result(std::move(processed)) {}
@@ -94,14 +94,14 @@ struct OpenLoopEnded : std::runtime_error {
 void checkOpenLoop(const OpenLoop& open_loop);
 
 /// Runs all models on a log. After each scan, every model is queried in all directions around the
-/// vehicle; the answers are compared with the truth and with those of the other models.
+/// vehicle; the answers are compared with the ground truth and among the models.
 ///
 /// Maps cover a box: the whole flight and 20 m around it if that is at most 100 000 m3, otherwise
-/// 60 x 60 x 20 m around the vehicle. When the vehicle comes near the border of the latter, all
-/// models are reset around it and process the last 3 s again, which is not counted.
+/// 60 x 60 x 20 m around the vehicle. When the vehicle nears the border of the latter, all models
+/// are reset around it and process the last 3 s again, which is not counted.
 ///
-/// Throws like checkOpenLoop(); std::runtime_error like LoggedScans, and if the log's obstacles are
-/// not those of the scene; OpenLoopEnded.
+/// Throws like checkOpenLoop(); std::runtime_error like LoggedScans, and if the log's obstacles do
+/// not match the scene; OpenLoopEnded.
 OpenLoopResult runOpenLoop(const OpenLoop& open_loop, const OpenLoopListener& listener = {});
 
 }  // namespace hagen::avoidance

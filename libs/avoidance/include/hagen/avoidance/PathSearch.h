@@ -10,14 +10,14 @@ namespace hagen::avoidance {
 struct PathSearchOptions {
     Eigen::AlignedBox3d bounds_m;  ///< contains the centres of all cells
     double cell_m = 0.5;
-    double min_clearance_m = 0.65;    ///< of every point of the path
+    double min_clearance_m = 0.65;    ///< for every point of the path
     double wanted_clearance_m = 1.2;  ///< cells with less clearance cost more
-    int max_cells = 200000;           ///< limit of expanded cells; then the search gives up
+    int max_cells = 200000;           ///< limit of expanded cells before giving up
     double heuristic_weight =
         1;  ///< 1: the cheapest path; w > 1: at most w times its cost, found sooner (weighted A*)
     Eigen::Vector3d anchor_m{0, 0, 0};  ///< the centre of one of the cells
     double wanted_height_m = 0;
-    double height_cost_per_m = 0;  ///< per metre of path and metre off the wanted height
+    double height_cost_per_m = 0;  ///< per metre of path and metre off the target height
 };
 
 /// A* over cubic cells with 26 neighbours (weighted, Pohl 1970). A cell is passed at its centre or,

@@ -10,16 +10,16 @@ namespace hagen::avoidance {
 
 /// The input of a local planner.
 struct PlanningTask {
-    VehicleState start;          ///< predicted for when a command given now takes effect
-    double start_after_s = 0;    ///< time from the model's last scan to then
+    VehicleState start;          ///< predicted for the time when a command takes effect
+    double start_after_s = 0;    ///< time since the model's last scan
     Eigen::Vector3d carrot_m;    ///< lookahead point of the guidance
     double beyond_carrot_m = 0;  ///< remaining path length from there; 0: the carrot is the goal
     double speed_m_s = 4;        ///< maximum
     double ground_m = 0;         ///< height of the ground below, from the altimeter
-    double altitude_m = 2;       ///< wanted, above the ground
+    double altitude_m = 2;       ///< target height above the ground
     double lowest_m = 1.0, highest_m = 4.5;  ///< altitude limits above the ground
     VehicleLimits limits;
-    double period_s = 0.1;               ///< longest time until the next command can replace one
+    double period_s = 0.1;               ///< maximum time until the next command
     bool brakes_in_known_space = false;  ///< braking must end in observed space
     bool keeps_candidates = false;       ///< for visualization
 };
@@ -33,7 +33,7 @@ struct CandidateMotion {
 
 struct Plan {
     Eigen::Vector3d command_m_s{0, 0, 0};  ///< velocity to fly
-    bool is_emergency = false;             ///< no motion is free or contact is near
+    bool is_emergency = false;             ///< no motion is free, or contact is imminent
     std::vector<CandidateMotion> candidates;
 };
 
@@ -46,9 +46,9 @@ class Planner {
 /// "primitives": motion primitives of 36 azimuths x 5 elevations x 4 speeds, up, down and hovering,
 /// each followed by braking.
 /// "3dvfh": polar histogram with 6 degree cells (3DVFH+).
-/// Both brake if no motion is free or contact is near (mustStop); where obstacles move and braking
-/// is not safe, "primitives" evades instead. makePlanner() throws std::invalid_argument for other
-/// names.
+/// Both brake if no motion is free or contact is imminent (mustStop); near moving obstacles, where
+/// braking is not safe, "primitives" evades instead. makePlanner() throws std::invalid_argument for
+/// other names.
 const std::vector<std::string>& plannerNames();
 std::unique_ptr<Planner> makePlanner(const std::string& name);
 

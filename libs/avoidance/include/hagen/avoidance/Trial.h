@@ -16,7 +16,7 @@
 
 namespace hagen::avoidance {
 
-/// The vehicle and its settings. With a course and a latency profile they determine a run.
+/// The setup of a run. With a course and a latency profile it determines the result.
 struct TrialSetup {
     std::string model = "W-RoI";
     std::string guidance = "astar";
@@ -24,30 +24,30 @@ struct TrialSetup {
     double speed_m_s = 4;
     PoseError pose_error = PoseError::None;
     double latency_scale = 1;            ///< 4: an embedded computer
-    bool brakes_in_known_space = false;  ///< stay able to brake within space that was seen
+    bool brakes_in_known_space = false;  ///< be able to brake within observed space
     Air air = Air::Dusty;
     ModelDistance distance = ModelDistance::Unbiased;
     Updates updates = Updates::Scans;
     VehicleLimits limits;
-    /// If set, makes the world model instead of `model`, whose latencies then apply. For
-    /// experiments; campaigns fly named models.
+    /// If set, creates the world model; `model` then only selects latencies. For experiments;
+    /// campaigns use named models.
     std::function<std::unique_ptr<WorldModel>(const WorldModelSetting&)> make_world;
 };
 
-/// The stages of one planning step by their names in a latency profile: the filter if the model
-/// needs labels, update, guidance, planner.
+/// The names of a planning step's stages in a latency profile: the filter if the model needs
+/// labels, update, guidance, planner.
 std::vector<std::string> stagesOf(const TrialSetup& setup);
 
 /// The outcome of a run. Does not depend on the machine.
 struct TrialResult {
     Outcome outcome = Outcome::Timeout;
-    double min_clearance_m = std::numeric_limits<double>::infinity();  ///< true, minimum
+    double min_clearance_m = std::numeric_limits<double>::infinity();  ///< true minimum
     double path_m = 0, time_s = 0;                                     ///< flown, until the end
     /// True free distance ahead when a command first left the straight line; NaN: never.
     double first_reaction_m = std::numeric_limits<double>::quiet_NaN();
     double rms_jerk_m_s3 = 0;
     int scans = 0, dropped_scans = 0, emergency_stops = 0;
-    /// From sensor to command, by the profile.
+    /// Sensor-to-command latencies drawn from the profile.
     double latency_p50_ms = 0, latency_p95_ms = 0, latency_max_ms = 0;
 };
 

@@ -9,7 +9,7 @@ struct VehicleLimits {
     double acceleration_m_s2 = 5;
     double actuation_delay_s = 0.05;  ///< until a command takes effect
     double radius_m = 0.45;
-    double margin_m = 0.2;      ///< that planners add to the radius
+    double margin_m = 0.2;      ///< added to the radius by planners
     double collision_m = 0.30;  ///< a true clearance below this is a collision
     double response_per_s = 5;  ///< gain: acceleration per velocity error
 
@@ -31,7 +31,7 @@ Eigen::Vector3d accelerationFor(const VehicleState& state, const Eigen::Vector3d
 VehicleState advance(const VehicleState& state, const Eigen::Vector3d& command_m_s, double step_s,
                      const VehicleLimits& limits);
 
-/// Velocity commands, each with the time from which the vehicle follows it.
+/// Velocity commands, each with its start time.
 class CommandQueue {
  public:
     /// Times must not decrease.
@@ -40,8 +40,8 @@ class CommandQueue {
     /// The command followed at a time; zero before the first.
     Eigen::Vector3d at(double time_s) const;
 
-    /// The state at `to_s` of a vehicle that is in `state` at `from_s`. Integrates in steps of at
-    /// most kControlStep_s; a step ends where a new command begins.
+    /// The state at `to_s` given `state` at `from_s`. Integrates in steps of at most
+    /// kControlStep_s; a step ends where a new command starts.
     VehicleState advanced(VehicleState state, double from_s, double to_s,
                           const VehicleLimits& limits) const;
 

@@ -4,14 +4,14 @@
 
 namespace hagen::avoidance {
 
-/// How a vehicle flies.
+/// Speed and sensor rate of a flight.
 struct FlightPace {
     double speed_m_s = 4;        ///< maximum
     double scan_period_s = 0.1;  ///< of the sensor
     VehicleLimits limits;
 
-    /// From a return to the response of the vehicle, at the longest: a scan that it waits in, one
-    /// that it just missed, and the actuation.
+    /// Maximum time from a return to the vehicle's response: two scan periods (waiting in one, just
+    /// missed by another) and the actuation delay.
     double reaction_s() const { return 2 * scan_period_s + limits.actuation_delay_s; }
     double stopping_s() const { return speed_m_s / limits.acceleration_m_s2; }
     double stopping_m() const { return 0.5 * speed_m_s * stopping_s(); }
@@ -25,18 +25,17 @@ struct WindowSize {
 
 /// The window for a flight.
 ///
-/// Scans: those of the time from a return to standstill (reaction and braking). What a plan relied
-/// on must be remembered until the vehicle could have stopped for it: meanwhile, it may be hidden
-/// behind something nearer, or above or below the sensor's field of view. 11 scans at 4 m/s, 23 at
-/// 10 m/s.
+/// Scans: those within the time from a return to standstill (reaction and braking). A plan's
+/// obstacles must be remembered until the vehicle could have stopped for them: meanwhile, they may
+/// be occluded, or above or below the sensor's field of view. 11 scans at 4 m/s, 23 at 10 m/s.
 ///
-/// Radius: what a plan can touch: the way flown while reacting and during the planner's look-ahead,
-/// the way of braking, and the reach of a model's clearance. At least 15 m, for path searches,
-/// at most 50 m. 27.5 m at 10 m/s.
+/// Radius: the reach of a plan: the distance flown during reaction and the planner's look-ahead,
+/// the braking distance, and the reach of a model's clearance. At least 15 m, for path searches, at
+/// most 50 m. 27.5 m at 10 m/s.
 WindowSize windowSizeFor(const FlightPace& pace);
 
-/// How far the filter's zone reaches, and maps of a whole flight take returns: as far as the window
-/// of such a flight, so that from 7.8 m/s on all models see equally far; 20 m at least, the zone of
+/// Range of the filter's zone, and of returns in maps of a whole flight: that of the window for
+/// such a flight, so that from 7.8 m/s on all models see equally far; at least 20 m, the zone of
 /// the presets. In metres.
 float perceptionRangeFor_m(const FlightPace& pace);
 

@@ -14,9 +14,8 @@
 
 namespace hagen::avoidance {
 
-/// The obstacles around a vehicle, as far as they are known. A planner queries only this, so that
-/// models can be compared under one planner. Points are in the map frame, as estimated by the
-/// vehicle.
+/// The known obstacles around a vehicle. A planner queries only this class, so that models can be
+/// compared under one planner. Points are in the map frame, as estimated by the vehicle.
 class WorldModel {
  public:
     /// Clearances are limited to this value.
@@ -38,8 +37,8 @@ class WorldModel {
         return std::min(clearance_m(point_m), limit_m);
     }
 
-    /// clearance_m() a time after the last scan, for models that predict motion. All others take
-    /// the world to stand still.
+    /// clearance_m() at a time after the last scan, for models that predict motion. All others
+    /// assume a static world.
     virtual float clearanceAfter_m(const Eigen::Vector3f& point_m, double /*after_s*/) const {
         return clearance_m(point_m);
     }
@@ -49,7 +48,7 @@ class WorldModel {
     /// Whether a point was observed, as free or occupied.
     virtual bool isKnown(const Eigen::Vector3f& point_m) const = 0;
 
-    /// Memory of the model's data, computed from the sizes of its containers.
+    /// Memory of the model's data, computed from container sizes.
     virtual std::size_t bytes() const = 0;
 
     /// Obstacles for visualization: their centres, and the edge length of a voxel (0: points).
@@ -60,24 +59,23 @@ class WorldModel {
     virtual Obstacles obstacles() const = 0;
 };
 
-/// Parameters of a world model that are known before the flight.
+/// Parameters of a world model known before the flight.
 struct WorldModelSetting {
     Eigen::AlignedBox3f bounds_m;  ///< of the flight; maps extend 3 m beyond
-    /// The true distance to the nearest obstacle, a time after the last scan. Only the oracles need
-    /// it.
+    /// The true distance to the nearest obstacle at a time after the last scan. Only for oracles.
     std::function<float(const Eigen::Vector3f& point_m, double after_s)> true_clearance_m;
-    FlightPace pace;  ///< windows are as large as it needs
+    FlightPace pace;  ///< determines window sizes
     ModelDistance distance = ModelDistance::Unbiased;
 };
 
-/// Names of all world models. The first is the key in flags, files and hashes, the second is what
-/// people read (displayName()):
+/// Names of all world models. The first is used in flags, files and hashes, the second is for
+/// people (displayName()):
 ///
 ///     W-RoI           RoI window: RoI points of the last scans, one per 10 cm cube
 ///                     (windowSizeFor())
-///     W-RoI+motion    RoI window with motion: the same, with obstacles that move where they will
-///                     be (ObstacleTracks); so W-Full+motion, and G-Full+motion and
-///                     R-Full-0.2+motion, which map what stands
+///     W-RoI+motion    RoI window with motion: the same, with predicted positions of moving
+///                     obstacles (ObstacleTracks); likewise W-Full+motion, G-Full+motion and
+///                     R-Full-0.2+motion
 ///     W-Full          full window: the same with all points
 ///     O-Full-0.2      OctoMap 0.2 m: all points
 ///     O-Full-0.4      OctoMap 0.4 m
@@ -89,16 +87,16 @@ struct WorldModelSetting {
 ///     R-Full-0.1      rolling grid 0.1 m: all points, in a box around the vehicle
 ///     R-Full-0.2      rolling grid 0.2 m
 ///     D-Full          depth-image map 0.2 m: the same box, updated from a depth image
-///     oracle          true scene: as it is at the time of the last scan
-///     oracle+motion   true scene with motion: as it will be
+///     oracle          true scene at the time of the last scan
+///     oracle+motion   true scene with future motion
 const std::vector<std::string>& worldModelNames();
 
-/// The name of a model for people, such as "RoI window" for W-RoI. A name that is not in
-/// worldModelNames(), such as one in a table of another version, is returned as it is.
+/// The name of a model for people, such as "RoI window" for W-RoI. Names that are not in
+/// worldModelNames(), such as those of other versions, are returned unchanged.
 std::string displayName(const std::string& model);
 
 /// The entry of worldModelNames() for user input: either that name, or displayName() in upper or
-/// lower case. Any other text is returned as it is, for the caller to reject.
+/// lower case. Any other text is returned unchanged, for the caller to reject.
 std::string worldModelFrom(const std::string& text);
 
 /// All names for error messages: "W-RoI (RoI window), W-Full (full window), ...".
@@ -119,12 +117,12 @@ bool predictsMotion(const std::string& model);
 /// names.
 float distanceBias_m(const std::string& model);
 
-/// Throws std::invalid_argument for unknown names and lists the known ones; also if an oracle gets
-/// no true clearance.
+/// Throws std::invalid_argument for unknown names, listing the known ones, and for an oracle
+/// without true clearances.
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting);
 
-/// An OctoMap with other settings than those of the named models, to measure their effect.
+/// An OctoMap with custom settings, to measure their effect.
 std::unique_ptr<WorldModel> makeOctoMap(const observations::ScanMapOptions& options,
                                         const Eigen::AlignedBox3f& bounds_m);
 

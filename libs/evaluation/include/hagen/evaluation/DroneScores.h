@@ -8,11 +8,11 @@
 
 namespace hagen::evaluation {
 
-/// The number of missed items, and of all.
+/// Counts of missed and of all items.
 struct Missed {
     std::int64_t missed = 0, all = 0;
 
-    double share() const;  ///< NaN if there is nothing to miss
+    double share() const;  ///< NaN if there are no items
     Missed& operator+=(const Missed& other);
 };
 

@@ -19,13 +19,13 @@ class LabelledScanSource {
     /// The next scan; none at the end.
     virtual std::optional<GroundTruthScan> next() = 0;
 
-    virtual const std::string& name() const = 0;  ///< in tables
+    virtual const std::string& name() const = 0;  ///< shown in tables
     virtual std::size_t size() const = 0;         ///< number of scans
     virtual const LabelMap& kinds() const = 0;    ///< the object classes of its scans
-    virtual SensorModel sensor() const = 0;       ///< that its scans are located for
+    virtual SensorModel sensor() const = 0;       ///< the sensor for which its scans are located
     /// Describes a recovered sensor; empty if the recording or the settings name the sensor.
     virtual std::string sensorText() const { return ""; }
-    /// Unused parts; complete after the last scan.
+    /// Unused parts of the source; complete after the last scan.
     virtual std::vector<std::string> remarks() const { return {}; }
     /// Creates the methods for its sensor. All sources must return the same names in this order.
     virtual std::vector<Method> makeMethods() const = 0;
@@ -42,7 +42,7 @@ struct MethodScores {
     std::string name;
     std::vector<ScanScores> returns;  ///< over returns
     std::vector<ScanScores>
-        pixels;  ///< over the camera's pixels, one return each; empty without a camera
+        pixels;  ///< over camera pixels, one return each; empty without a camera
     std::vector<DroneScores> drone;
     std::vector<double> latency_ms;  ///< of each call of Method::segment; empty if is_recorded
 };
@@ -59,9 +59,9 @@ struct MethodOutput {
 using EvaluationListener = std::function<void(const MethodOutput&)>;
 
 /// Segments every scan with every method and scores the labels. Pulls all scans one by one, so a
-/// source can be evaluated once. Every method first processes the first scan of each source as a
-/// warm-up, neither scored nor timed. Throws std::runtime_error naming a scan whose labels do not
-/// fit, and std::invalid_argument without sources and if their methods differ.
+/// source can be evaluated only once. Every method first processes the first scan of each source as
+/// a warm-up, neither scored nor timed. Throws std::runtime_error naming a scan with the wrong
+/// number of labels, and std::invalid_argument without sources or if their methods differ.
 std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
                                    const EvaluationOptions& options = {},
                                    const EvaluationListener& listener = {});

@@ -26,12 +26,12 @@ using LabelMap = std::map<std::uint16_t, SemanticClass>;
 /// Throws std::runtime_error; the message names file, line and error.
 LabelMap readLabelMap(const std::filesystem::path& file);
 
-/// Returns the labels of returns of these classes. Throws std::invalid_argument for a number that
-/// is not in the map; the message names it.
+/// Returns the labels of classes. Throws std::invalid_argument naming a number that is not in the
+/// map.
 std::vector<Label> labelsOfClasses(const std::vector<std::uint16_t>& kinds, const LabelMap& map);
 
-/// Converts the numbers of a label file to labels. Throws std::invalid_argument for any but 0, 1,
-/// 2.
+/// Converts the numbers of a label file to labels. Throws std::invalid_argument for numbers other
+/// than 0, 1, 2.
 std::vector<Label> labelsOfNumbers(const std::vector<std::uint16_t>& numbers);
 
 }  // namespace hagen::evaluation

@@ -12,10 +12,9 @@ namespace hagen::evaluation {
 /// The input of a method for one scan.
 struct ScanInput {
     Scan scan;  ///< with range, azimuth and row
-    /// Rotates directions from the sensor's frame to the map's, whose z points up. nullopt if the
-    /// pose is unknown.
+    /// Rotates from the sensor's frame to the map frame (z up). nullopt if the pose is unknown.
     std::optional<Eigen::Matrix3f> map_from_sensor;
-    std::string name = {};  ///< of its file, without folder and extension; empty: unknown
+    std::string name = {};  ///< file name without folder and extension; empty: unknown
 };
 
 /// A segmenter for scans of one sensor and its name in tables: the filter or a baseline. `segment`
@@ -23,7 +22,7 @@ struct ScanInput {
 struct Method {
     std::string name;
     std::function<std::vector<Label>(const ScanInput& input)> segment;
-    /// The labels were made beforehand, and `segment` only reads them: it is not timed.
+    /// Labels are precomputed and only read by `segment`, which is not timed.
     bool is_recorded = false;
 };
 

@@ -14,25 +14,25 @@ namespace hagen::evaluation {
 
 /// A scan with ground-truth labels.
 struct GroundTruthScan {
-    std::string name;  ///< its file or entry, for messages
+    std::string name;  ///< file or entry, for messages
     ScanInput input;
     std::vector<Label> truth;  ///< one label per return; Unclassified returns are not scored
     std::vector<std::uint16_t> kinds;    ///< class of each return; empty: unknown
     std::vector<std::uint32_t> objects;  ///< obstacle of each return; 0: none; empty: unknown
     double altitude_m = NAN;             ///< of the sensor above the ground; NaN: unknown
-    /// The true attitude, like ScanInput::map_from_sensor, if methods do not get it.
+    /// The true attitude, like ScanInput::map_from_sensor, if withheld from the methods.
     std::optional<Eigen::Matrix3f> true_level_from_sensor;
     /// Heights of obstacle returns above the true ground. Empty: heightsAboveTrueGround().
     std::vector<float> heights_m = {};
 
-    /// Rotates to a frame whose z points up: by the true attitude, otherwise the input's, otherwise
-    /// the identity.
+    /// Rotates to a frame with z up: by the true attitude, or else the input's, or else the
+    /// identity.
     Eigen::Matrix3f levelFromSensor() const;
 };
 
 /// The scores of one scan, in total and by part.
 struct ScanScores {
-    std::size_t folder = 0;  ///< index of the evaluated folder that it belongs to
+    std::size_t folder = 0;  ///< index of the evaluated folder
     double altitude_m = NAN;
     Scores all;
     std::vector<Scores> by_range;           ///< one entry per band, nearest first
@@ -51,11 +51,11 @@ struct RangeBands {
     std::string nameOf(std::size_t band) const;  ///< "5-10 m"
 };
 
-/// Throws std::invalid_argument unless there are as many labels (`what`: their name) as returns.
+/// Throws std::invalid_argument unless the numbers of labels (named `what`) and returns agree.
 void checkSizes(std::size_t returns, std::size_t labels, const std::string& what);
 
-/// Scores the labels `found`: of the returns `chosen` (all if omitted), those within the maximum
-/// range whose ground truth is not Unclassified. Throws std::invalid_argument if the sizes differ
+/// Scores the labels `found` of the returns `chosen` (default: all) within the maximum range whose
+/// ground truth is not Unclassified. Throws std::invalid_argument if the sizes differ
 /// (checkSizes()), if a scored class has no name in `kinds`, or like RangeBands::count().
 ScanScores scoreScan(const GroundTruthScan& scan, const std::vector<Label>& found,
                      const LabelMap& kinds, const RangeBands& bands,

@@ -9,8 +9,8 @@
 
 namespace hagen::live {
 
-/// Labels the packets of one LiDAR as they arrive: sector by sector, or, of a sensor that does not
-/// turn, frame by frame with the returns of the last 0.1 s as context.
+/// Labels the packets of one LiDAR as they arrive: sector by sector, or, for a sensor without a
+/// rotating head, frame by frame with the returns of the last 0.1 s as context.
 class LidarStream : private sensors::ReturnSink {
  public:
     /// `settings`: options, range limits, airframe and mount. Throws SettingsError if the options
@@ -18,20 +18,20 @@ class LidarStream : private sensors::ReturnSink {
     LidarStream(std::unique_ptr<sensors::LidarDriver> driver, const Settings& settings,
                 StreamingSegmenter::Take take, const StreamingOptions& streaming = {});
 
-    /// Takes a datagram that arrived at `arrival_s`, in seconds of any clock that does not go back.
-    /// Throws std::invalid_argument if that is not finite.
+    /// Adds a datagram that arrived at `arrival_s`, in seconds of any monotonic clock. Throws
+    /// std::invalid_argument unless the time is finite.
     sensors::Taken add(const sensors::Datagram& datagram, double arrival_s);
-    /// Labels what has come: the sensor is silent.
+    /// Labels the sector in progress, because the sensor is silent.
     void flush() override;
 
-    /// Tilt and pose of the sensor from now on (StreamingSegmenter). While the tilt is unknown,
-    /// that of the settings' mount on a level vehicle is used.
+    /// Sets tilt and pose of the sensor (StreamingSegmenter). While the tilt is unknown, the
+    /// mount's tilt on a level vehicle is used.
     void move(const SensorMotion& motion);
 
     sensors::LidarDriver& driver() { return *driver_; }
     const sensors::LidarDriver& driver() const { return *driver_; }
     const sensors::PacketCounts& counts() const { return driver_->counts(); }
-    /// Returns of the airframe.
+    /// Number of returns from the airframe.
     std::size_t returnsMasked() const { return returns_masked_; }
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 

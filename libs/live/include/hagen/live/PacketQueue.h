@@ -10,11 +10,11 @@
 
 namespace hagen::live {
 
-/// A datagram that came.
+/// A received datagram.
 struct Packet {
     std::vector<std::uint8_t> bytes;
-    std::int64_t time_ns = 0;  ///< since 1970: when it came, of a capture when it was recorded
-    double arrival_s = 0;      ///< when it came, by steadyNow_s()
+    std::int64_t time_ns = 0;              ///< since 1970: arrival, or recording time in a capture
+    double arrival_s = 0;                  ///< arrival by steadyNow_s()
     std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4
     std::uint16_t from_port = 0, to_port = 0;
 
@@ -24,27 +24,27 @@ struct Packet {
     }
 };
 
-/// Seconds of a clock that does not jump.
+/// Seconds of a monotonic clock.
 double steadyNow_s();
 
-/// Packets from the thread that receives them to the one that labels them. Bounded, and its memory
-/// is reused: it has as much as the packets that waited at a time.
+/// Passes packets from the receiving to the labelling thread. Bounded; buffers are reused, so
+/// memory grows only to the maximum number of waiting packets.
 class PacketQueue {
  public:
     explicit PacketQueue(std::size_t most);
 
-    /// Adds a packet; its memory is exchanged for that of an older one. If the queue is full,
-    /// false: the packet is lost.
+    /// Adds a packet by swapping its buffer with a used one. Returns false if the queue is full and
+    /// the packet was dropped.
     bool push(Packet& packet);
-    /// The same, but waits for a place; false if the queue was closed.
+    /// Waits while the queue is full; returns false if it was closed.
     bool pushOrWait(Packet& packet);
-    /// No packets follow.
+    /// Marks the end: no more packets follow.
     void close();
 
     enum class Popped { Packet, Nothing, Closed };
-    /// Takes the oldest packet; waits at most this long for one.
+    /// Takes the oldest packet; waits up to this long if there is none.
     Popped pop(Packet& packet, std::chrono::microseconds longest);
-    /// How many packets wait.
+    /// Number of waiting packets.
     std::size_t size() const;
 
  private:
@@ -53,7 +53,7 @@ class PacketQueue {
     mutable std::mutex mutex_;
     std::condition_variable has_packet_, has_place_;
     std::vector<Packet> ring_;
-    std::vector<std::vector<std::uint8_t>> spare_;  ///< memory for the next packets, last first
+    std::vector<std::vector<std::uint8_t>> spare_;  ///< buffers, used from the back
     std::size_t first_ = 0, size_ = 0;
     bool is_closed_ = false;
 };

@@ -12,12 +12,12 @@ namespace hagen::live {
 
 /// An IPv4 address and a port.
 struct Address {
-    std::uint32_t ip = 0;  ///< 0: all of this machine
+    std::uint32_t ip = 0;  ///< 0: all local interfaces
     std::uint16_t port = 0;
 
     bool isMulticast() const { return (ip >> 28) == 0xe; }
 };
-/// Reads "192.168.1.77:2368" or "0.0.0.0:2368". Throws std::runtime_error saying what is wrong.
+/// Parses "192.168.1.77:2368" or "0.0.0.0:2368". Throws std::runtime_error describing the error.
 Address parseAddress(const std::string& text);
 
 /// A source of packets.
@@ -26,18 +26,18 @@ class PacketSource {
     enum class Next { Packet, Nothing, End };
 
     virtual ~PacketSource() = default;
-    /// Waits for the next packet, at most a tenth of a second. Throws std::runtime_error naming the
-    /// source if it cannot be read.
+    /// Waits up to 0.1 s for the next packet. Throws std::runtime_error naming the source if it
+    /// cannot be read.
     virtual Next next(Packet& packet) = 0;
-    /// Whether packets that are not taken in time are lost.
+    /// Whether packets are lost unless they are read in time.
     virtual bool isLive() const = 0;
 };
 
-/// Datagrams to an address of this machine or to a multicast group. Arrival times are the kernel's
-/// time stamps and never decrease.
+/// Receives datagrams sent to a local address or a multicast group. Arrival times are kernel time
+/// stamps and never decrease.
 class UdpSource : public PacketSource {
  public:
-    /// Throws std::runtime_error naming the address if it cannot be listened on.
+    /// Throws std::runtime_error naming the address if the socket cannot be bound.
     explicit UdpSource(const Address& address);
     ~UdpSource() override;
     UdpSource(const UdpSource&) = delete;
@@ -45,7 +45,7 @@ class UdpSource : public PacketSource {
 
     Next next(Packet& packet) override;
     bool isLive() const override { return true; }
-    /// Bytes that the kernel buffers.
+    /// Size of the kernel's receive buffer.
     int bufferBytes() const { return buffer_bytes_; }
 
  private:
@@ -56,7 +56,7 @@ class UdpSource : public PacketSource {
     double latest_arrival_s_ = steadyNow_s();
 };
 
-/// The datagrams of a capture, as fast as they were recorded, or `speed` times as fast.
+/// Replays the datagrams of a capture at `speed` times the recorded rate.
 class ReplaySource : public PacketSource {
  public:
     /// Throws BrokenCapture naming the file.
@@ -75,7 +75,7 @@ class ReplaySource : public PacketSource {
     bool has_waiting_ = false;
     double search_start_s_ = 0;
     std::optional<std::int64_t> latest_ns_;
-    double start_s_ = 0, played_s_ = 0;  ///< of the capture, without its longest pauses
+    double start_s_ = 0, played_s_ = 0;  ///< capture time, without long pauses
 };
 
 }  // namespace hagen::live

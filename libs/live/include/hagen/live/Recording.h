@@ -6,14 +6,14 @@
 
 namespace hagen::live {
 
-/// A capture of all datagrams that come to a session.
+/// Options of a recording: a capture of all received datagrams.
 struct RecordingOptions {
-    std::filesystem::path file;  ///< .pcap; empty: nothing is recorded
+    std::filesystem::path file;  ///< .pcap; empty: no recording
     bool overwrite = false;      ///< replaces existing files
-    std::size_t queue = 4096;    ///< datagrams that wait for the disk at most
+    std::size_t queue = 4096;    ///< maximum number of datagrams waiting for the disk
 
-    /// Where the poses of the vehicle go, if some are known: beside `file`, with the extension
-    /// .tum. Empty without `file`.
+    /// File for the vehicle's poses, if known: `file` with the extension .tum. Empty without
+    /// `file`.
     std::filesystem::path posesFile() const {
         return std::filesystem::path(file).replace_extension(file.empty() ? "" : ".tum");
     }
@@ -22,9 +22,9 @@ struct RecordingOptions {
 /// The result of a recording.
 struct Recorded {
     std::size_t packets = 0, poses = 0;        ///< written
-    std::size_t left_out = 0;                  ///< datagrams that the disk was too slow for
-    std::vector<std::filesystem::path> files;  ///< complete ones
-    /// Why it ended early, naming the file and what is left of it; empty: it did not.
+    std::size_t left_out = 0;                  ///< datagrams dropped because the disk was too slow
+    std::vector<std::filesystem::path> files;  ///< completed files
+    /// Why recording stopped early, with the file and its partial copy; empty: it did not.
     std::string failure;
 };
 

@@ -15,25 +15,24 @@
 namespace hagen::live {
 
 /// The nearest obstacle in each direction around the vehicle, from labelled sectors, as in
-/// protocols of autopilots: 72 directions of 5 degrees, clockwise in the vehicle's level frame
-/// (x forward, y left, z up).
+/// autopilot protocols: 72 directions of 5 degrees, clockwise in the vehicle's level frame (x
+/// forward, y left, z up).
 ///
-/// **Stale is never free.** A direction that was not swept for 0.3 s is unknown, and so is one that
-/// was swept in part: a lost packet leaves a gap, however narrow it is (TurnCoverage). "Seen
-/// nothing" means that the sensor swept all of it, at the horizon, and that none of the returns is
-/// RoI; a sensor that was tilted so far that it had no beam at the horizon there never sees
-/// nothing. An obstacle is forgotten when a later turn has passed all of its degree and of the
-/// sensor's, which is another if it is tilted or beside the vehicle's origin. A sensor that does
-/// not turn is taken to look all around within each tenth of a second, if few of its packets are
-/// lost (FrameCoverage). Its returns are dropped once it has looked all around in a tenth of a
-/// second that began that much later. Otherwise the direction is unknown after 0.3 s, for up to
-/// 0.7 s more.
+/// **Stale is never free.** A direction is unknown if the sensor has not swept it for 0.3 s, or
+/// only in part: a lost packet leaves a gap, however narrow (TurnCoverage). "Seen nothing" means
+/// that the sensor swept the whole direction at the horizon without RoI returns; a sensor tilted so
+/// that no beam points at the horizon never reports it. An obstacle is forgotten once a later turn
+/// has passed its degree both around the vehicle and around the sensor; these differ if the sensor
+/// is tilted or offset from the vehicle's origin. A sensor without a rotating head is assumed to
+/// cover all directions within 0.1 s if few of its packets are lost (FrameCoverage). Its returns
+/// are dropped after the next complete period; otherwise the direction is unknown after 0.3 s, for
+/// up to 0.7 s more.
 ///
-/// Returns of a sector are turned and moved by the vehicle's motion since then. Directions are
-/// level: a vehicle that rolls sees an obstacle on its right on its right. Without poses, the
-/// vehicle is level and stays.
+/// Returns are moved with the vehicle since they were measured. Directions are level: an obstacle
+/// on the right stays on the right while the vehicle rolls. Without poses, the vehicle is assumed
+/// level and stationary.
 ///
-/// A copy is cheap: it shares the immutable returns of sectors.
+/// Copies are cheap: they share the immutable returns of sectors.
 class SectorDistances {
  public:
     static constexpr int kSectors = 72;
@@ -42,55 +41,55 @@ class SectorDistances {
     struct Sector {
         State state = State::Unknown;
         /// Horizontal distance of the nearest RoI return from the vehicle's origin; NaN unless
-        /// there is an obstacle. In a direction that is swept in part, a nearer one may be in the
-        /// rest.
+        /// there is an obstacle. If the direction is only partly swept, the rest may hold a nearer
+        /// one.
         float distance_m = std::numeric_limits<float>::quiet_NaN();
-        /// Where the obstacle is, in the vehicle's level frame of now (heading as the vehicle's).
+        /// Position of the obstacle in the vehicle's current level frame (with its heading).
         Eigen::Vector3f at_m = Eigen::Vector3f::Zero();
-        /// When the oldest sector that this rests on came; -infinity if it is unknown.
+        /// Arrival time of the oldest sector used; -infinity if unknown.
         double time_s = -std::numeric_limits<double>::infinity();
     };
     using Sectors = std::array<Sector, kSectors>;
 
     struct Settings {
-        /// How the sensor is mounted.
+        /// The sensor's mount.
         Eigen::Isometry3d body_from_sensor = Eigen::Isometry3d::Identity();
         /// Obstacles are RoI returns between these heights above the body's origin.
         float low_m = -std::numeric_limits<float>::infinity();
         float high_m = std::numeric_limits<float>::infinity();
         double stale_s = 0.3;
-        /// Where the first direction begins, clockwise from ahead. 0: as in MAVLink's
-        /// OBSTACLE_DISTANCE with angle_offset 2.5 degrees.
+        /// Start of the first direction, clockwise from ahead. 0: as in MAVLink's OBSTACLE_DISTANCE
+        /// with angle_offset 2.5 degrees.
         double begin_rad = 0;
     };
-    /// The vehicle's pose at a time, if it is known.
+    /// Returns the vehicle's pose at a time, if known.
     using PoseAt = std::function<std::optional<VehiclePose>(double time_s)>;
 
-    /// `sensor` has the directions of the beams.
+    /// `sensor` provides the beam directions.
     explicit SectorDistances(const SensorModel& sensor) : SectorDistances(sensor, Settings()) {}
     SectorDistances(const SensorModel& sensor, const Settings& settings);
 
-    /// If the clock goes back, the age of earlier sectors is unknown and they are dropped.
+    /// If the clock goes back, earlier sectors are dropped because their age is unknown.
     void take(const LabelledSector& sector);
-    /// What is known at a time, by the clock of packet arrival.
+    /// The directions at a time of the packet arrival clock.
     Sectors at(double now_s, const PoseAt& poseAt = {}) const;
-    /// When the latest packet of a sector came; -infinity: there was no sector.
+    /// Arrival of the latest packet of any sector; -infinity before the first.
     double latest_s() const { return latest_s_; }
 
  private:
-    static constexpr int kParts = 5;  ///< of a direction, a degree each
+    static constexpr int kParts = 5;  ///< of 1 degree in each direction
     static constexpr int kBins = kSectors * kParts;
     static constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-    /// The remaining part of a sector.
+    /// The stored part of a sector.
     struct Seen {
         double first_time_s = 0, last_time_s = 0;
         bool turns = false;
         std::vector<TurnCoverage::Swept> swept;  ///< by its packets
-        double ahead_rad = 0;                    ///< of its beams
-        /// It does not turn, and FrameCoverage says that it has looked all around since then.
+        double ahead_rad = 0;                    ///< beam offset
+        /// Without a rotating head: when the period began that FrameCoverage found complete.
         std::optional<double> all_around_since_s;
-        double from_rad = 0, to_rad = 0;     ///< how far the sensor had turned before, and has now
+        double from_rad = 0, to_rad = 0;     ///< total rotation before and after
         std::vector<Eigen::Vector3f> roi_m;  ///< in the sensor's frame
 
         bool isPassed(double at_rad) const { return at_rad - to_rad > kLaterTurn_rad; }
@@ -107,16 +106,16 @@ class SectorDistances {
     void addObstacles(const Seen& seen, const Frames& frames, Look& look) const;
 
     Settings settings_;
-    double lowest_, highest_;                       ///< sines of the elevations of its beams
-    std::deque<std::shared_ptr<const Seen>> seen_;  ///< in the order in which they came
+    double lowest_, highest_;  ///< sines of the lowest and highest beam elevation
+    std::deque<std::shared_ptr<const Seen>> seen_;  ///< in order of arrival
     TurnCoverage coverage_;
     FrameCoverage frames_;
-    double all_around_since_s_ = kNever;  ///< begin of the last measured period, without turns
+    double all_around_since_s_ = kNever;  ///< start of the last complete period, without turns
     double latest_s_ = kNever;
 };
 
-/// In which of `number` equal directions something is, clockwise; the first one begins so far
-/// clockwise from ahead.
+/// Returns in which of `number` equal directions a point is, clockwise; the first one begins at
+/// `begin_rad`, clockwise from ahead.
 int directionOf(const Eigen::Vector2f& at_m, int number, double begin_rad = 0);
 
 }  // namespace hagen::live

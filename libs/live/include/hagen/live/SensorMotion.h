@@ -5,7 +5,7 @@
 
 namespace hagen::live {
 
-/// Tilt and pose of a sensor, as far as they are known: what StreamingSegmenter takes.
+/// Tilt and pose of a sensor, if known: the input of StreamingSegmenter.
 struct SensorMotion {
     std::optional<Attitude> attitude;
     std::optional<Eigen::Isometry3d> map_from_sensor;

@@ -12,12 +12,12 @@ namespace hagen::evaluation {
 /// tutorial's lengths suit a table top; docs/baselines.md explains the ones used here.
 struct PclEuclideanOptions {
     float leaf_m = 0.2f;               ///< edge of a voxel
-    float plane_distance_m = 0.2f;     ///< points of the plane are closer to it than this
+    float plane_distance_m = 0.2f;     ///< maximum distance of points of the plane
     int plane_iterations = 100;        ///< RANSAC iterations, from the tutorial
     float plane_tilt_deg = 30.0f;      ///< maximum slope of the ground in the sensor's frame
-    float cluster_tolerance_m = 0.7f;  ///< neighbours in a cluster are closer than this
-    int min_cluster_points = 10;       ///< smaller clusters, in voxels, are not obstacles
-    float zone_m = 20.0f;              ///< returns farther than this are ROU and are not processed
+    float cluster_tolerance_m = 0.7f;  ///< maximum distance of neighbours in a cluster
+    int min_cluster_points = 10;       ///< smaller clusters (in voxels) are not obstacles
+    float zone_m = 20.0f;              ///< farther returns are ROU and not processed
 };
 
 /// Returns one label per return. RoI: the return's voxel is in a cluster. ROU: returns of the
