@@ -58,7 +58,7 @@ TEST_F(OpenLoopCommand, OracleIsExactAndModelsGetSameScans) {
     EXPECT_GT(models[1]["directions"]["level"]["recall"], 0.9);
     EXPECT_GT(models[2]["obstacles"], models[1]["obstacles"]);
     EXPECT_EQ(summary["free_agreement"]["jaccard"][0][0], 1.0);
-#ifndef __SANITIZE_ADDRESS__  // whose heap does not tell its size
+#ifndef __SANITIZE_ADDRESS__  // its heap does not report its size
     EXPECT_GT(summary["measured"]["models"][2]["peak_heap_bytes"], 100000);
 #endif
 
@@ -171,7 +171,7 @@ TEST_F(OpenLoopCommand, KeepsExistingFiles) {
     expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("file")}, 1, "file");
 }
 
-TEST_F(OpenLoopCommand, KeepsScansBeforeBrokenMcapChunk) {
+TEST_F(OpenLoopCommand, KeepsScansOfTruncatedMcap) {
     simulate(12);
     const auto converted =
         test::run(HAGEN_RAWLOG_SEGMENT, {"-i", path("gap.rawlog"), "--mcap", path("gap.mcap")});
@@ -185,7 +185,7 @@ TEST_F(OpenLoopCommand, KeepsScansBeforeBrokenMcapChunk) {
     EXPECT_TRUE(fs::exists(path("cut/scans.partial.csv")));
 }
 
-TEST_F(OpenLoopCommand, KeepsScansBeforeBreakOfLog) {
+TEST_F(OpenLoopCommand, KeepsScansOfTruncatedRawlog) {
     simulate(12);
     fs::resize_file(path("gap.rawlog"), fs::file_size(path("gap.rawlog")) * 2 / 3);
     const auto outcome = run(gap("out"));

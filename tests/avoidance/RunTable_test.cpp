@@ -49,7 +49,7 @@ TEST(RunTable, IgnoresLocaleAndNegativeZero) {
     EXPECT_THAT(row, HasSubstr(",success,0.0000,43.250,"));
 }
 
-/// Any run, of a few values each so that sorting meets equal ones.
+/// A random run with few distinct values, so that sorting meets ties.
 Row anyRun(simulation::Random& random) {
     Row run = someRun();
     run.scenario = random.chance(0.5) ? "gap" : "u-trap";
@@ -177,7 +177,7 @@ TEST(RunTable, ReadsOlderTables) {
     EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":1: not the header"));
 }
 
-TEST(RunTable, SectorsAddAColumn) {
+TEST(RunTable, SectorsAddColumn) {
     const Row scans = someRun();
     Row sectors = scans;
     sectors.setup.updates = Updates::Sectors;

@@ -26,7 +26,7 @@ FlightTrace fastTrace() {
     return trace;
 }
 
-/// Share of the returns at a man's height that lie on the wall's near face.
+/// Share of the returns at head height that lie on the wall's near face.
 double shareOnWall(const observations::MappedScan& scan, const Eigen::Vector3d& offset_m,
                    double tolerance_m) {
     double on = 0, all = 0;
@@ -95,7 +95,7 @@ int countOf(simulation::ObjectClass kind, const simulation::SimulatedScan& measu
     return count;
 }
 
-TEST(TrialSensor, DustyAirHasDustOnly) {
+TEST(TrialSensor, DustyAirAddsOnlyDust) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -10, 10);
     const Course course = simpleCourse(std::move(content));
@@ -113,7 +113,7 @@ TEST(TrialSensor, DustyAirHasDustOnly) {
         EXPECT_GT(std::count(measured.kind.begin(), measured.kind.end(),
                              simulation::ObjectClass::Airframe),
                   50);
-        // Legs hide a few per cent, the mask takes next to nothing.
+        // Legs hide a few per cent of the wall, the mask almost nothing.
         EXPECT_GT(countOf(simulation::ObjectClass::Wall, measured),
                   0.95 * countOf(simulation::ObjectClass::Wall, in_clear_air));
         const auto labels = dusty.segment(turn, measured, trace, belief);

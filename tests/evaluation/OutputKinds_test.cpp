@@ -1,4 +1,4 @@
-// The permitted contents of outputs of each kind, which may be replaced.
+// Which existing outputs of each kind may be replaced.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
@@ -46,7 +46,7 @@ TEST(OutputKinds, ReplaceOwnKindOnly) {
     folder.write("scans/simulated_by.txt", "");
     folder.write("mine/velodyne/000000.bin", "");
     folder.write("mine/labels/000000.label", "");
-    folder.write("mine/kinds.yaml", "");  // as the documents say
+    folder.write("mine/kinds.yaml", "");  // as documented
     folder.write("work/velodyne/000000.bin", "");
     folder.write("work/notes.txt", "");
     EXPECT_FALSE(mayReplace(folder / "scans", kFile));

@@ -1,5 +1,5 @@
-// Captures of a network: libpcap's files, fragments, and what is in the datagrams. The first byte
-// names the sensor.
+// Network captures: libpcap files, fragments, and the contents of datagrams. The first byte selects
+// the sensor.
 #include "recordings/captures/LidarCapture.h"
 
 #include <memory>
