@@ -111,8 +111,7 @@ std::vector<Message> all(const std::vector<mavlink::Frame>& frames) {
     return messages;
 }
 
-/// Whether a replay took much longer than `replay_s`: starved of CPU time, the program correctly
-/// sends unknown directions.
+/// Whether a replay took much longer than `replay_s`, so that directions are correctly unknown.
 bool isTooSlow(const std::vector<mavlink::Frame>& frames, double replay_s) {
     const auto distances = all<mavlink::ObstacleDistance>(frames);
     if (distances.empty()) return true;
@@ -202,10 +201,10 @@ TEST_F(LiveSegmentMavlink, IndependentParserAgrees) {
     ASSERT_EQ(run({"-q", "--replay", capture(12), "--mavlink", autopilot.peer()}).exit_code, 0);
     autopilot.stop();
     const auto file = folder_.write("bytes", autopilot.bytes());
-    const auto read = test::run(
-        "/usr/bin/env",
-        {"-C", modules.string(), "node",
-         std::string(HAGEN_SOURCE_DIR) + "/tests/live/read_mavlink.mjs", file.string()});
+    const auto read =
+        test::run("/usr/bin/env",
+                  {"-C", modules.string(), "node",
+                   std::string(HAGEN_SOURCE_DIR) + "/tests/live/read_mavlink.mjs", file.string()});
     if (read.exit_code == 127 || read.exit_code == 77) {
         GTEST_SKIP() << "node or node-mavlink is missing: " << read.err;
     }
@@ -316,8 +315,7 @@ TEST_F(LiveSegmentMavlink, ReportsSilenceAsUnknown) {
     }
 }
 
-/// Sends, in real time, the packets of a sensor on a yawing and rolling vehicle, and the vehicle's
-/// attitude.
+/// Sends packets of a sensor on a yawing and rolling vehicle, and its attitude, in real time.
 class FlyingSensor {
  public:
     FlyingSensor(std::uint16_t port, Autopilot& autopilot)
@@ -422,8 +420,8 @@ TEST_F(LiveSegmentMavlink, PolesStayInPlaceInFlight) {
 
     const auto messages = all<mavlink::ObstacleDistance>(autopilot.frames());
     ASSERT_GT(messages.size(), 40u);
-    // All processes share a clock. Starved of CPU time, the program is late: its directions are then
-    // unknown, and a few messages may be wrong.
+    // All processes share a clock. Starved of CPU time, the program is late: its directions are
+    // then unknown, and a few messages may be wrong.
     int compared = 0, wrong = 0;
     for (std::size_t i = messages.size() / 3; i + 1 < messages.size(); ++i) {
         const auto& distances = messages[i].distances;
@@ -455,8 +453,7 @@ TEST_F(LiveSegmentMavlink, PolesStayInPlaceInFlight) {
     EXPECT_LE(wrong, compared / 5) << "of " << compared;
 }
 
-/// Sends turns over a network that drops, duplicates, delays and injects packets, and records the
-/// deliveries.
+/// Sends turns over a network that drops, duplicates, delays and injects packets.
 class FaultyNetwork {
  public:
     explicit FaultyNetwork(std::uint16_t port)

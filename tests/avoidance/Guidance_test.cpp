@@ -44,8 +44,8 @@ TEST(Guidance, PathThroughEmptySpaceIsStraight) {
     EXPECT_NEAR(at_m.norm(), std::sqrt(16 + 4), 0.3);
 }
 
-/// The grid path turns by 45 degrees. The straight line to the goal is halfway between two rows of
-/// posts.
+/// The grid path turns by 45 degrees. The straight line to the goal is midway between two rows
+/// of posts.
 TEST(Guidance, CutsCornersWithClearance) {
     constexpr float kRoom_m = 1.4f, kPost_m = 0.2f;
     const Eigen::Vector2f along = Eigen::Vector2f(2, 1).normalized();

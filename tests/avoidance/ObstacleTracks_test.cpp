@@ -165,7 +165,7 @@ TEST(ObstacleTracks, FlatObstaclesNeedBothCriteria) {
     EXPECT_EQ(movingScans(slice, 0, 1), 0) << "background earlier visible at the new position";
 }
 
-// More of a wall becomes visible as the vehicle passes: its centre moves at 3 m/s, its points do not.
+// While passing, more of a wall becomes visible: its centre moves at 3 m/s, its points do not.
 TEST(ObstacleTracks, GrowingWallDoesNotMove) {
     ObstacleTracks tracks;
     simulation::Random random(2);

@@ -182,7 +182,7 @@ TEST(RollingModels, ForgetsOnlyVoxelsOutsideBox) {
         ASSERT_FALSE(kept.empty());
         model->update(scanOf(origin + Eigen::Vector3f(60, 0, 0), {}));
         model->update(scanOf(origin, {}));
-        EXPECT_TRUE(model->obstacles().centre_m.empty()) << name << ": still has voxels after leaving";
+        EXPECT_TRUE(model->obstacles().centre_m.empty()) << name << ": not cleared";
         EXPECT_FALSE(model->isKnown(kept[0]));
     }
 }
@@ -213,7 +213,7 @@ TEST(RollingModels, IgnoresOrderOfReturns) {
             const Eigen::Vector3f origin(0.9f * static_cast<float>(step), 0, 1);
             auto points = randomPoints(random, origin, 1500, 9, 3);
             one->update(scanOf(origin, points));
-            std::reverse(points.begin(), points.end());  
+            std::reverse(points.begin(), points.end());
             other->update(scanOf(origin, points));
             EXPECT_EQ(one->obstacles().centre_m, other->obstacles().centre_m) << name;
             for (int i = 0; i < 300; ++i) {

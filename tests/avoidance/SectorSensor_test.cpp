@@ -1,5 +1,4 @@
-// A LiDAR labelled during each turn, compared with TrialSensor, the directions of beams and the
-// scene.
+// A LiDAR labelled during each turn, compared with TrialSensor, beam directions and the scene.
 #include "avoidance/flights/SectorSensor.h"
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>

@@ -95,8 +95,7 @@ TEST(WorldModel, ClearanceMatchesBruteForce) {
         const auto points = sparsePoints(random, 60);
         const auto model = makeWorldModel(name, setting());
         model->update(scanOf(twice(points)));
-        // A point's cube is nearer than the point by at most its diagonal; the nearest cube is
-        // chosen by centre.
+        // A cube is nearer than its point by at most its diagonal. Cubes are compared by centre.
         const float diagonal = std::sqrt(3.0f) * edgeOf(name);
         // In a grid, rays clear cells hit by other rays.
         const bool is_whole = name != "G-Full";
@@ -186,8 +185,7 @@ TEST(WorldModel, RoiModelsIgnoreOtherReturns) {
     }
 }
 
-/// By brute force over all points of the last eleven turns; thinning may keep a different point of a
-/// 10 cm cube.
+/// By brute force over all points of the last 11 turns; thinning may keep another point per 10 cm.
 TEST(WorldModel, SectorWindowMatchesBruteForce) {
     simulation::Random random(17);
     const auto model = makeWorldModel("W-Full", setting());

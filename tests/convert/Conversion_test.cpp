@@ -837,7 +837,8 @@ TEST_P(ConversionTest, ReportsProgressPerEntry) {
 INSTANTIATE_TEST_SUITE_P(Threads, ConversionTest, testing::Values(1, 4));
 
 /// All callbacks and files of a conversion with `jobs` threads.
-std::string outputsOf(Conversion conversion, const test::TemporaryFolder& folder, std::size_t jobs) {
+std::string outputsOf(Conversion conversion, const test::TemporaryFolder& folder,
+                      std::size_t jobs) {
     conversion.jobs = jobs;
     conversion.overwrite = true;
     conversion.rawlog = folder / "out.rawlog";
@@ -851,7 +852,7 @@ std::string outputsOf(Conversion conversion, const test::TemporaryFolder& folder
     };
     for (const ScanReport& scan : convert(conversion, listener).scan_reports) {
         text += std::to_string(scan.entry) + scan.sensor_label + scan.name + " " +
-                 std::to_string(scan.roi) + "\n";
+                std::to_string(scan.roi) + "\n";
     }
     text += test::readFile(conversion.rawlog);
     std::vector<fs::path> files{fs::recursive_directory_iterator(conversion.folder), {}};

@@ -71,8 +71,7 @@ TEST(HagenFilter, WallIsRoiAndGroundIsRou) {
     HagenFilter papers(sensorModel("VLP-16"), paperOptions());
     const auto& result = papers.segment(wall.scan);
     EXPECT_EQ(mistakes(wall, result, Label::Roi), 0);
-    // Where a beam hits the ground just in front of the wall, the slope to the beam above is the
-    // wall's.
+    // Where a beam hits the ground just before the wall, the slope to the next beam is the wall's.
     const double wall_columns = 870 * 2 * std::atan(5.0 / 10.0) / (2 * kPi);
     EXPECT_LE(mistakes(wall, result, Label::Rou), wall_columns);
     // The height makes it ground again, and at most the lowest returns of the wall.
@@ -478,8 +477,7 @@ TEST(HagenFilter, EveryOptionReachesItsStage) {
     standard.ground_evidence = false;  // this ground is too rough
     const auto expected = imagesWith(standard, scan);
     for (const OptionKey& key : optionKeys()) {
-        if (key.name == "zone_m" || key.name == "bridge_dead_beams")
-            continue;  // tested separately
+        if (key.name == "zone_m" || key.name == "bridge_dead_beams") continue;  // tested separately
         Options changed = standard;
         if (const auto* real = std::get_if<float Options::*>(&key.field)) {
             changed.*(*real) *= 0.5f;

@@ -1,6 +1,6 @@
 // Scenes in which a filter may mistake dangerous objects for ground. Uncertain returns must be RoI:
-// walls, ceilings, furniture and foliage in the zone are RoI. The share of ROU floor is checked where
-// the floor is well visible.
+// walls, ceilings, furniture and foliage in the zone are RoI. The share of ROU floor is checked
+// where the floor is well visible.
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/scan/Angle.h>
@@ -380,8 +380,7 @@ TEST(Traps, LeavesBeforeFirstGroundRing) {
     EXPECT_EQ(outcome(sight, "VLP-16").missed_dangers, 0);
 }
 
-// The tops of cars and boxes before the first ring are mistaken for rising ground; the ring is the
-// evidence.
+// The tops of cars and boxes before the first ring look like rising ground; the ring is evidence.
 TEST(Traps, DISABLED_CarBeforeFirstGroundRing) {
     SimpleScene car;
     car.boxes = {{{9, -2.2, 0}, {12, 2.2, 1.5}}, {{-2.2, 9, 0}, {2.2, 10.8, 1.5}}};

@@ -8,8 +8,7 @@
 
 namespace hagen::fuzz {
 
-/// Checks each labelled sector: every return has a label, and directions that are near or stale are
-/// never free.
+/// Checks each sector: every return has a label; near or stale directions are never free.
 class SectorChecker {
  public:
     explicit SectorChecker(const SensorModel& sensor) : distances_(sensor) {}

@@ -1,7 +1,8 @@
 #pragma once
 // Common parts of the fuzz targets. A target is a function of any bytes that returns, or
-// rejects them with a std::runtime_error with a message. Each file of this folder has one. scripts/fuzz
-// runs them with libFuzzer; Seeds_test.cpp runs the seeds and some mutations as an ordinary test.
+// rejects them with a std::runtime_error with a message. Each file of this folder has one.
+// scripts/fuzz runs them with libFuzzer; Seeds_test.cpp runs the seeds and some mutations as an
+// ordinary test.
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
@@ -40,8 +41,8 @@ struct Violation : std::logic_error {
 /// Throws Violation if a condition does not hold.
 void require(bool holds, const std::string& what);
 
-/// Returns false if a function rejects its input with a std::runtime_error with a message. Any other
-/// exception is a finding.
+/// Returns false if a function rejects its input with a std::runtime_error with a message. Any
+/// other exception is a finding.
 template <class Call>
 bool mayRefuse(const Call& call) {
     try {

@@ -1,5 +1,4 @@
-// The filter with any scan, sensor, attitude and options. All instruction sets must give the same
-// labels.
+// The filter with any scan, sensor, attitude and options, on all instruction sets: equal labels.
 #include <hagen/filter/HagenFilter.h>
 #include "scan/InstructionSets.h"
 

@@ -10,8 +10,7 @@
 namespace hagen::fuzz {
 namespace {
 
-constexpr std::size_t kMaxBytesRead = 4
-                                      << 20;  // a zstd block may repeat a byte without limit
+constexpr std::size_t kMaxBytesRead = 4 << 20;  // a zstd block may repeat a byte without limit
 
 std::string readInSteps(const std::filesystem::path& file, unsigned seed) {
     std::minstd_rand random(seed);

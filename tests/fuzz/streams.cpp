@@ -1,5 +1,5 @@
-// A stream of LiDAR datagrams, some modified, truncated, late, lost or duplicated. Nothing throws, and
-// each datagram is accepted, or rejected and counted. The first byte of the input selects the sensor.
+// A stream of LiDAR datagrams, some modified, truncated, late, lost or duplicated. Nothing throws,
+// and each datagram is accepted, or rejected and counted. Byte 0 of the input selects the sensor.
 #include <hagen/live/LidarStream.h>
 #include "sensors/ouster/OusterSensor.h"
 

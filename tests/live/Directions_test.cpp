@@ -112,7 +112,7 @@ class Flight {
 
 class DirectionsInFlight : public testing::Test {
  protected:
-    /// Compares directions with the geometric positions of poles; returns the number of compared poles.
+    /// Compares directions with true positions of poles; returns the number of compared poles.
     int compare(const Flight& flight, const SectorDistances& distances, double now_s,
                 bool all_is_seen = true) {
         const Vehicle vehicle = flight.vehicleAt(now_s);

@@ -79,8 +79,7 @@ TEST_F(LivoxStreamTest, CountsLossesDuplicatesAndJumps) {
     EXPECT_EQ(counts.packets, 9u);
 }
 
-/// As by PTP. After the step, packets are neither late nor held back until the clock reaches its
-/// earlier value.
+/// As by PTP. Later packets are neither late nor held back until the clock has caught up.
 TEST_F(LivoxStreamTest, ClockSetBackDelaysNothing) {
     for (const std::int64_t back_ns : {20000000, 200000000, 900000000, 2000000000}) {
         frames_.clear();

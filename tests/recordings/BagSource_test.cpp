@@ -93,7 +93,7 @@ TEST_F(BagSourceTest, KeepsMountInLidarPoses) {
     };
     EXPECT_TRUE(poseOf("lidar").is_of_sensor);
     EXPECT_TRUE(poseOf("lidar").attitude_is_of_sensor);
-    // Nothing says where the LiDAR is on it.
+    // The mount of the LiDAR is unknown.
     EXPECT_TRUE(poseOf("base_link").is_of_sensor);
     EXPECT_TRUE(poseOf("base_link").attitude_is_of_sensor);
 }
@@ -149,7 +149,7 @@ TEST_F(BagSourceTest, ReportsLookAheadErrors) {
         test::writeBytes(bag, whole.substr(0, whole.size() / 2));
         SourceOptions options;
         options.last_entry = last;
-        options.keep_going = [&] {  // it reads the file that is replaced now
+        options.keep_going = [&] {  // replaces the file being read
             fs::remove(bag);
             test::writeBytes(bag, whole);
             return true;

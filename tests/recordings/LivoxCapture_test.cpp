@@ -41,7 +41,7 @@ class LivoxCaptureTest : public testing::Test {
         }
         return writer;
     }
-    /// `count` packets of 480 us with a point each, whose x is the number of the packet.
+    /// `count` packets of 480 us with one point each; x is the packet's number.
     static std::vector<std::string> packets(int count, std::int64_t first_ns = 5000) {
         std::vector<std::string> all;
         for (int i = 0; i < count; ++i) {
@@ -92,7 +92,7 @@ TEST_F(LivoxCaptureTest, ReadsBothDataTypes) {
         const auto observed = observedOf(*scans[0]);
         EXPECT_EQ(observed.sensor.name, "Mid-360");
         EXPECT_FALSE(observed.sensor.has_rings);
-        const Scan& scan = observed.scan;  // without the point that has no range
+        const Scan& scan = observed.scan;  // without the point without range
         EXPECT_THAT(scan.x_m,
                     ElementsAre(FloatNear(1500 * unit_m, 1e-4f), FloatNear(-3000 * unit_m, 1e-4f)));
         EXPECT_THAT(scan.y_m,
