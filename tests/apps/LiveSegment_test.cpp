@@ -256,7 +256,7 @@ TEST_F(LiveSegment, FullDiskEndsRecordingOnly) {
 }
 
 /// A stopped terminal, or a pipe that is not read.
-TEST_F(LiveSegment, EndsWithBlockedTerminal) {
+TEST_F(LiveSegment, EndsDespiteBlockedTerminal) {
     const std::string command =
         "mkfifo '" + path("fifo") + "'; exec 3<>'" + path("fifo") +
         "'; head -c 65536 /dev/zero >&3; exec timeout 20 '" + HAGEN_LIVE_SEGMENT + "' --replay '" +

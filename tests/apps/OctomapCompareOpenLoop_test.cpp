@@ -79,7 +79,7 @@ TEST_F(OpenLoopCommand, OracleIsExactAndModelsGetSameScans) {
     for (const auto& [returns, times] : rows_of_returns) EXPECT_EQ(times, 3) << returns;
 }
 
-TEST_F(OpenLoopCommand, LogAndScanFolderGiveSameFigures) {
+TEST_F(OpenLoopCommand, LogAndScanFolderGiveSameResults) {
     simulate(4);
     ASSERT_EQ(run(gap("a")).exit_code, 0);
     ASSERT_EQ(run(with(gap("b"), {"-q"})).out, "");
@@ -135,7 +135,7 @@ TEST_F(OpenLoopCommand, ReportsSkippedDataDespiteQuiet) {
     EXPECT_EQ(summary["remarks"].size(), 1u);
 }
 
-TEST_F(OpenLoopCommand, RefusesWrongUsage) {
+TEST_F(OpenLoopCommand, RejectsWrongUsage) {
     const std::vector<std::string> orchard{"-i", kOrchard, "-o", path("no")};
     expectFailure(with(orchard, {"--models", "O-Full-0"}), 2, "O-Full-0");
     expectFailure(

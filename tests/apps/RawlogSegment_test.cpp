@@ -483,7 +483,7 @@ TEST_F(RawlogSegment, KeepsOutputOnInterrupt) {
     }
 }
 
-TEST(PolesAndWall, RecordingMatchesItsGenerator) {
+TEST(PolesAndWall, RecordingMatchesGenerator) {
     recordings::RawlogReader reader(HAGEN_SOURCE_DIR "/rawlogs/poles_and_wall.rawlog");
     for (int scan = 0; scan < test::kPolesAndWallScans; ++scan) {
         ASSERT_NE(reader.next(), nullptr);

@@ -114,7 +114,7 @@ TEST_P(EachCourse, DependsOnSeedOnly) {
     EXPECT_GT(scan.size(), 8000u);
 }
 
-TEST(CourseTest, ForestMatchesItsDensity) {
+TEST(CourseTest, ForestMatchesDensity) {
     for (const auto& [name, per_m2] :
          std::map<std::string, double>{{"forest-0.02", 0.02}, {"forest-0.10", 0.10}}) {
         const double expected = per_m2 * 56 * 34;  // minus the trees within 3.9 m of the ends

@@ -24,8 +24,7 @@ TEST(FlightTrace, LeansIntoAcceleration) {
     EXPECT_NEAR((trace.at(0).attitude.toRotationMatrix() - Eigen::Matrix3d::Identity()).norm(), 0,
                 1e-12);
     const Eigen::Matrix3d attitude = trace.at(1).attitude.toRotationMatrix();
-    EXPECT_NEAR(std::atan2(attitude(0, 2), attitude(2, 2)), radians(45),
-                1e-3);                      // up leans forward
+    EXPECT_NEAR(std::atan2(attitude(0, 2), attitude(2, 2)), radians(45), 1e-3);  // leans ahead
     EXPECT_NEAR(attitude(1, 0), 0, 1e-12);  // heading stays along x
 }
 

@@ -56,13 +56,13 @@ TEST(LatencyProfile, StandardProfileIsComplete) {
     }
 }
 
-TEST(LatencyProfile, NamesMissingStage) {
+TEST(LatencyProfile, ReportsMissingStage) {
     const LatencyProfile profile;
     EXPECT_THAT(messageOf([&] { profile.median_ms("W-RoI/update"); }),
                 HasSubstr("\"W-RoI/update\""));
 }
 
-TEST(LatencyProfile, NamesBrokenKey) {
+TEST(LatencyProfile, ReportsBrokenKey) {
     const TemporaryFolder folder;
     const auto messageFor = [&](const std::string& text) {
         const auto file = folder.write("p.json", text);

@@ -28,7 +28,7 @@ class ReplayCommand : public test::ProgramTest {
     }
 };
 
-TEST_F(ReplayCommand, NamesMissingTable) {
+TEST_F(ReplayCommand, ReportsMissingTable) {
     expectFailure({"replay", folder(), "--seed=1"}, 1, "runs.csv: cannot be read");
     folder_.write("runs.csv", "");
     expectFailure({"replay", folder(), "--seed=1"}, 1, "runs.csv:1: is empty");

@@ -34,7 +34,7 @@ avoidance::FlightRecording smallRecording() {
     return recording;
 }
 
-TEST(Replay, PageHoldsCentimetresFromStart) {
+TEST(Replay, PageStoresCentimetresFromStart) {
     const std::string page = avoidance::replayPage(smallRecording());
     // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
     EXPECT_THAT(page, HasSubstr("\"track\":\"ZADIACwB\""));
@@ -45,7 +45,7 @@ TEST(Replay, PageHoldsCentimetresFromStart) {
     EXPECT_THAT(avoidance::replayPage(avoidance::FlightRecording{}), HasSubstr("\"steps\":[]"));
 }
 
-TEST(Replay, PageEscapesItsTexts) {
+TEST(Replay, PageEscapesTexts) {
     avoidance::FlightRecording recording = smallRecording();
     recording.run.scenario = "a & <b>";
     recording.ending = "</script>";
@@ -65,7 +65,7 @@ TEST(Replay, RecordingIsInterruptible) {
     EXPECT_THROW(avoidance::record(run, profile, {}, endAtTheThird), Interrupted);
 }
 
-TEST(Replay, SceneHoldsModelAtEnd) {
+TEST(Replay, SceneShowsFinalModel) {
     const test::TemporaryFolder folder;
     avoidance::writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
     observations::Scene scene;
@@ -101,7 +101,7 @@ avoidance::TrueScene smallScene() {
     return scene;
 }
 
-TEST(Replay, PageHoldsShapesAndPoses) {
+TEST(Replay, PageStoresShapesAndPoses) {
     avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
     const std::string page = avoidance::replayPage(recording);
@@ -119,7 +119,7 @@ TEST(Replay, PageHoldsShapesAndPoses) {
     EXPECT_THAT(page, HasSubstr("\"along_x\":1,\"along_y\":1,\"heights\":\"zv8=\""));  // -50: CE FF
 }
 
-TEST(Replay, SceneHoldsTrueObstacles) {
+TEST(Replay, SceneContainsTrueObstacles) {
     const test::TemporaryFolder folder;
     avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();

@@ -124,7 +124,7 @@ TEST(RunTable, SortingIsDeterministic) {
     }));
 }
 
-TEST(RunTable, NamesBrokenLineAndColumn) {
+TEST(RunTable, ReportsBrokenLineAndColumn) {
     const test::TemporaryFolder folder;
     const std::string good = rowOf(someRun(), false);
     const auto broken = [&](const std::string& row) {
@@ -203,7 +203,7 @@ TEST(RunTable, SectorsAddColumn) {
                 HasSubstr("column updates: \"turns\" is not one of scans, sectors"));
 }
 
-TEST(RunTable, NamesInvalidFile) {
+TEST(RunTable, ReportsInvalidFile) {
     const test::TemporaryFolder folder;
     const auto said = [](const std::filesystem::path& file) {
         return test::messageOf([&] { readRuns(file); });

@@ -52,7 +52,7 @@ std::vector<observations::MappedScan> sectorsOf(const Course& course, Air air, P
     return sectors;
 }
 
-TEST(SectorSensor, SectorsEndWithTheirLastPacket) {
+TEST(SectorSensor, SectorsEndWithLastPacket) {
     const auto sectors = sectorsOf(courseWithWall(), Air::Clear, PoseError::None, 15);
     ASSERT_GT(sectors.size(), 70u);
     double last_s = 0, turns = 0;

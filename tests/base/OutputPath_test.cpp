@@ -99,7 +99,7 @@ TEST_F(OutputPathTest, FindsTemporaryFilesOfEndedProcesses) {
     EXPECT_EQ(leftBehind({folder_ / "b"}), "");
 }
 
-TEST_F(OutputPathTest, RefusesOtherTypes) {
+TEST_F(OutputPathTest, RefusesToReplaceOtherTypes) {
     folder_.write("file", "old");
     fs::create_directory(folder_ / "folder");
     fs::create_symlink("file", folder_ / "link");
@@ -152,7 +152,7 @@ TEST_F(OutputPathTest, RefusesOutputsInInputs) {
     EXPECT_EQ(refusal("inside"), "");
 }
 
-TEST_F(OutputPathTest, WriteErrorsNameReason) {
+TEST_F(OutputPathTest, WriteErrorsIncludeReason) {
     const auto errorAt = [&](const fs::path& place) {
         return test::messageOf([&] { writeText("text", place, "named.csv"); });
     };

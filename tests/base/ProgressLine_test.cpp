@@ -48,7 +48,7 @@ TEST(ProgressLine, UpdatesOneLineOnTerminal) {
     EXPECT_EQ(onTerminal([] { ProgressLine("scan").show(0, 0); }), "");
 }
 
-TEST(ProgressLine, PrintsLinePerTenthElsewhere) {
+TEST(ProgressLine, PrintsLinePerTenthWithoutTerminal) {
     testing::internal::CaptureStderr();
     {
         ProgressLine line("flight");

@@ -152,7 +152,7 @@ TEST_P(ConversionTest, WritesReproducibleBytes) {
     }
 }
 
-TEST_P(ConversionTest, ReproducesItsOwnOutput) {
+TEST_P(ConversionTest, ReproducesOwnOutput) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(scanFrom(2, "rear"));
     frame->insert(pose());
@@ -396,7 +396,7 @@ TEST_P(ConversionTest, ReportsScanWithoutTime) {
     EXPECT_EQ(first->timestamp, INVALID_TIMESTAMP);
 }
 
-TEST_P(ConversionTest, ReportsLostPosesWithoutHorizon) {
+TEST_P(ConversionTest, ReportsMissingPosesWithoutHorizon) {
     const auto odometryAt = [](double x_m) {
         auto observation = mrpt::obs::CObservationOdometry::Create();
         observation->sensorLabel = "odometry";

@@ -112,7 +112,7 @@ TEST_F(GenericClouds, KeepFieldsInResults) {
     }
 }
 
-TEST_F(GenericClouds, ReproduceTheirOwnOutput) {
+TEST_F(GenericClouds, ReproduceOwnOutput) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(test::poleScanFrom(1, "rear"));
     write({test::poleScanFrom(0, "lidar"), frame});

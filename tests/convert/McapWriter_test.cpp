@@ -198,7 +198,7 @@ TEST_F(McapWriterTest, ReportsWriteError) {
 const RosHeader kAt{1700000000250000000, "lidar"};
 constexpr double kAt_s = 1700000000.25;
 
-TEST(RosMessages, CloudsEqualOtherWriter) {
+TEST(RosMessages, CloudsMatchTestWriter) {
     const std::vector<float> xyzi{1, 2, 3, 0.5f, -4, 5, -6, 0.25f};
     observations::PointTable table;
     table.points = 2;
@@ -232,7 +232,7 @@ TEST(RosMessages, RejectUnsupportedValues) {
     }
 }
 
-TEST(RosMessages, PosesEqualOtherWriter) {
+TEST(RosMessages, PosesMatchTestWriter) {
     const mrpt::poses::CPose3D turned(1, -2, 3, 0.5, 0, 0), level(4, 5, 6, 0, 0, 0);
     test::MessageBytes pose(true);
     pose.header(kAt_s, "lidar").pose(1, -2, 3, 0.5);

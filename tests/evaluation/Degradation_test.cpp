@@ -94,7 +94,7 @@ TEST(Degradation, DeadBeamsRemoveRows) {
     });
 }
 
-TEST(Degradation, DropoutRemovesItsShare) {
+TEST(Degradation, DropoutRemovesGivenShare) {
     const auto scan = randomScan();
     const double returns = static_cast<double>(scan.input.scan.size());
     const auto first = degraded(scan, "dropout=20");
@@ -340,7 +340,7 @@ TEST(Degradation, KeepsReturnsWithoutRange) {
     }
 }
 
-TEST(Degradation, StandardSetsFitTheSensor) {
+TEST(Degradation, StandardSetsFitSensor) {
     const auto namesFor = [](const std::string& model) {
         std::vector<std::string> names;
         for (const Degradation& degradation : standardDegradations(sensorModel(model))) {

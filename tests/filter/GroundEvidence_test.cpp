@@ -111,7 +111,7 @@ TEST(FindLevelPixels, StepSlopeIsBelowThreeTenths) {
     EXPECT_EQ(levelInColumn({{5, -12, 0}, {10, -24, 3.91f}}), (std::vector{0, 0}));
 }
 
-TEST(FindLevelPixels, StepLeadsOutwards) {
+TEST(FindLevelPixels, OnlyOutwardStepsAreLevel) {
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0}}), (std::vector{1, 1}));
     EXPECT_EQ(levelInColumn({{6, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));
     EXPECT_EQ(levelInColumn({{-5, 0, 0}, {-6, 0, 0}}), (std::vector{1, 1}));

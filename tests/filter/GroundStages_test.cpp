@@ -137,7 +137,7 @@ void expectSame(const Judged& a, const Judged& b) {
     EXPECT_TRUE((a.labels == b.labels).all());
 }
 
-TEST(GroundStages, MatchTheirDefinitions) {
+TEST(GroundStages, MatchDefinitions) {
     forManySights([](const Sight& sight) {
         limitInstructionSets("plain");
         const Judged plain = judged(sight);

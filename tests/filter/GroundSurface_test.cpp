@@ -85,7 +85,7 @@ TEST(GroundSurface, IsPlaneWithoutCandidates) {
     EXPECT_TRUE((surface.height_m == 0).all());
 }
 
-TEST(GroundSurface, OneHeightFillsSquare) {
+TEST(GroundSurface, SingleHeightFillsSquare) {
     test::Random random(80);
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 40; ++i) {
@@ -306,7 +306,7 @@ TEST(GroundSurface, RecoversGroundCutOffByLabels) {
 
 // Blocks 0.3 m high hide the ground: the slope limits accept them, the first fit does not. The same
 // holds for mirrored blocks below ground.
-TEST(GroundSurface, KeepsFarPixelsCutOff) {
+TEST(GroundSurface, KeepsDistantPixelsExcluded) {
     for (const float height_m : {0.3f, -0.5f}) {
         auto points = groundPoints(20, 0.25f, kLevel);
         std::vector<Label> labels;

@@ -343,7 +343,7 @@ double changedByTurning(const Scan& scan, const SensorModel& sensor, const Optio
     return changed / static_cast<double>(labels.size());
 }
 
-TEST(HagenFilter, HeadingHardlyMatters) {
+TEST(HagenFilter, HeadingBarelyAffectsLabels) {
     SimpleScene scene;
     scene.boxes.push_back({{8, -5, 0}, {9, 5, 3}});
     scene.boxes.push_back({{-6, 3, 0}, {-5, 9, 0.4}});

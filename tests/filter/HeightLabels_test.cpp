@@ -165,7 +165,7 @@ TEST(RemoveSpecks, KeepsClearlyHighPixels) {
     EXPECT_EQ((voted(height_m) == kRoi).count(), 1);
 }
 
-TEST(RemoveSpecks, TieChangesNothing) {
+TEST(RemoveSpecks, TieKeepsLabel) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m(1, 2) = 0.3f;  // doubtful, RoI
     height_m(0, 1) = 2;     // votes for RoI

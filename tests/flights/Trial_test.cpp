@@ -31,8 +31,7 @@ TEST(Trial, FliesStraightOverOpenGround) {
         setup.air = Air::Clear;
         const TrialResult result = runTrial(course, setup, constantProfile(10));
         EXPECT_EQ(result.outcome, Outcome::Success) << model;
-        EXPECT_NEAR(result.path_m, 18.5,
-                    0.2);  // until the goal counts as reached
+        EXPECT_NEAR(result.path_m, 18.5, 0.2);  // until the goal counts as reached
         EXPECT_NEAR(result.min_clearance_m, 2, 0.35);
         EXPECT_TRUE(std::isnan(result.first_reaction_m));
         EXPECT_EQ(result.emergency_stops, 0);

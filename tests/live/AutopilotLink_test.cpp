@@ -208,7 +208,7 @@ TEST_F(AutopilotLinkTest, LateSectorIsNotFree) {
     }
 }
 
-TEST_F(AutopilotLinkTest, SendsAtItsRates) {
+TEST_F(AutopilotLinkTest, SendsAtConfiguredRates) {
     link_->begin(sensor_, {20, 0});
     std::thread labels([&] {
         for (int i = 0; i < 30; ++i) {

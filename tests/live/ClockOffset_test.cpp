@@ -49,7 +49,7 @@ TEST(ClockOffset, DetectsRestartWithinOneSecond) {
     }
 }
 
-TEST(ClockOffset, FollowsSetClockAfterSeveralStamps) {
+TEST(ClockOffset, FollowsClockStepAfterSeveralStamps) {
     for (const double ahead_s : {0.5, 1000.0}) {
         ClockOffset clock;
         int restarts = 0;

@@ -233,7 +233,7 @@ TEST_F(LiveSessionTest, CountsEachPacketOnce) {
     EXPECT_THAT(remarks_, IsEmpty());
 }
 
-TEST_F(LiveSessionTest, ReportsSilenceAndItsEnd) {
+TEST_F(LiveSessionTest, ReportsStartAndEndOfSilence) {
     GivenPackets source;
     auto turn = turnsOf(1);
     turn.resize(74);  // not a whole number of sectors
@@ -403,7 +403,7 @@ TEST_F(LiveRecordingTest, RecordsEveryDatagramAsReceived) {
     }
 }
 
-TEST_F(LiveRecordingTest, CountsDatagramsNotWrittenInTime) {
+TEST_F(LiveRecordingTest, CountsDatagramsDroppedBySlowDisk) {
     options_.recording.queue = 1;
     GivenPackets source;
     source.addAll(turnsOf(20)).asSensor();

@@ -46,7 +46,7 @@ class LivoxStreamTest : public testing::Test {
         }};
 };
 
-TEST_F(LivoxStreamTest, FramesAreTwentyMilliseconds) {
+TEST_F(LivoxStreamTest, FramesLastTwentyMilliseconds) {
     for (int i = 0; i < 420; ++i) {
         EXPECT_EQ(add(packetOf(i, 1000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i), Taken::Yes);
     }
@@ -80,7 +80,7 @@ TEST_F(LivoxStreamTest, CountsLossesDuplicatesAndJumps) {
 }
 
 /// As by PTP. Later packets are neither late nor held back until the clock has caught up.
-TEST_F(LivoxStreamTest, ClockSetBackDelaysNothing) {
+TEST_F(LivoxStreamTest, ClockStepBackDoesNotDelayPackets) {
     for (const std::int64_t back_ns : {20000000, 200000000, 900000000, 2000000000}) {
         frames_.clear();
         LidarStream stream(sensors::makeDriver("Mid-360"), {},
@@ -108,7 +108,7 @@ TEST_F(LivoxStreamTest, ClockSetBackDelaysNothing) {
 }
 
 /// Each packet arrives twice, as over a second network: immediately or after the next ones.
-TEST_F(LivoxStreamTest, ClockSetBackWithDuplicatesDelaysNothing) {
+TEST_F(LivoxStreamTest, ClockStepBackToleratesDuplicates) {
     for (const std::int64_t back_ns : {20000000, 200000000, 2000000000}) {
         for (const int later : {0, 1, 3}) {
             LidarStream stream(sensors::makeDriver("Mid-360"), {}, [](const LabelledSector&) {});
@@ -154,7 +154,7 @@ TEST_F(LivoxStreamTest, DropsPacketsFarTooLate) {
 }
 
 /// A frame in progress does not extend beyond a silence.
-TEST_F(LivoxStreamTest, FrameBeforeSilenceStaysOld) {
+TEST_F(LivoxStreamTest, FrameEndsAtSilence) {
     SectorDistances distances(sensorModel("Mid-360"));
     LidarStream stream(sensors::makeDriver("Mid-360"), {}, [&](const LabelledSector& sector) {
         frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
@@ -218,7 +218,7 @@ TEST_F(LivoxStreamTest, DuplicatesDoNotReplaceLostPackets) {
 }
 
 /// With few returns around it, a near return may be an obstacle.
-TEST_F(LivoxStreamTest, MostPacketsLostMeansNoGround) {
+TEST_F(LivoxStreamTest, HeavyPacketLossMakesSectorsDoubtful) {
     double measured_s = 0;
     std::size_t sectors = 0, doubtful = 0;
     const auto fly = [&](int every) {

@@ -39,7 +39,7 @@ TEST(ObstacleNumbers, MergesNeighboursWithinOneMetre) {
     EXPECT_NEAR(found[3].at_m.norm(), std::hypot(9, 0.5), 1e-4);
 }
 
-TEST(ObstacleNumbers, RoomHasOneNumber) {
+TEST(ObstacleNumbers, RoomIsSingleObstacle) {
     std::vector<Seen> all;
     for (std::size_t k = 0; k < 72; ++k) all.push_back({k, k == 50 ? 3.8 : 4.0});
     ObstacleNumbers numbers;

@@ -116,7 +116,7 @@ TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
     EXPECT_GE(second.arrival_s - first.arrival_s, 0.59);
 }
 
-TEST(UdpSource, NamesUnusableAddress) {
+TEST(UdpSource, ReportsUnusableAddress) {
     const std::uint16_t port = test::freePort();
     const UdpSource source({0x7f000001, port});
     EXPECT_THAT(test::messageOf([&] {

@@ -26,7 +26,7 @@ namespace {
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-TEST(ParsePeer, ReadsBothKinds) {
+TEST(ParsePeer, ReadsUdpAndSerialPeers) {
     const PeerAddress udp = parsePeer("udp:192.168.1.10:14550");
     EXPECT_EQ(udp.kind, PeerAddress::Kind::Udp);
     EXPECT_EQ(udp.host, "192.168.1.10");
@@ -57,7 +57,7 @@ TEST(ParsePeer, ReportsErrors) {
     EXPECT_THAT(messageOf("serial:/dev/ttyS0:57600"), HasSubstr("at least 115200 baud"));
 }
 
-TEST(PeerOpen, NamesMissingPeer) {
+TEST(PeerOpen, ReportsMissingPeer) {
     EXPECT_THAT(test::messageOf([] { Peer::open(parsePeer("serial:/dev/none:115200")); }),
                 HasSubstr("/dev/none: cannot be used: No such file"));
     EXPECT_THAT(test::messageOf([] { Peer::open(parsePeer("serial:/dev/null:115200")); }),

@@ -71,7 +71,7 @@ TEST_F(SectorDistancesTest, LostPacketIsUnknown) {
 }
 
 /// A packet of 1 degree, as from an HDL-32E with dual returns.
-TEST_F(SectorDistancesTest, NarrowLostPacketIsNotPassed) {
+TEST_F(SectorDistancesTest, NarrowLostPacketKeepsObstacle) {
     for (const double lost_deg : {12.0, 12.2, 12.5, 12.9}) {
         SectorDistances distances(sensor_);
         turn(0, 0.1, {{lost_deg + 0.5, 5}}, distances);
@@ -96,7 +96,7 @@ TEST_F(SectorDistancesTest, KeepsObstacleOfPacketLostTwice) {
 }
 
 /// Packets of an Ouster with 512 columns are 11 degrees wide: 16 packets are half a turn.
-TEST_F(SectorDistancesTest, LatePacketDoesNotPassItsTurn) {
+TEST_F(SectorDistancesTest, LatePacketDoesNotRemoveObstacle) {
     const auto sweepOf = [](int k) { return Sweep{radians(11.25 * k), radians(11.25 * (k + 1))}; };
     for (const int late : {1, 14, 15, 16}) {
         SectorDistances distances(sensor_);
@@ -170,7 +170,7 @@ TEST_F(SectorDistancesTest, ForgetsTurnsBeforeClockJump) {
     }
 }
 
-TEST_F(SectorDistancesTest, PartOfSectorIsNotFree) {
+TEST_F(SectorDistancesTest, PartlySweptDirectionIsNotFree) {
     SectorDistances distances(sensor_);
     take(0, 13, 1, {{11, 4}}, distances);
     const auto at = distances.at(1);
@@ -396,7 +396,7 @@ TEST_F(SectorDistancesTest, FrameObstacleStaysUntilSecondLook) {
     }
 }
 
-TEST_F(SectorDistancesTest, FrameObstacleHoldsTenthOfSecond) {
+TEST_F(SectorDistancesTest, FrameObstacleLastsTenthOfSecond) {
     SectorDistances distances(sensorModel("Mid-360"));
     take(std::nullopt, 1.00, {{2, 4}}, distances);
     for (int k = 1; k < 5; ++k) take(std::nullopt, 1 + 0.02 * k, {{2, 5}}, distances);

@@ -91,7 +91,7 @@ class StreamingSegmenterTest : public testing::Test {
     std::vector<Taken> taken_;
 };
 
-TEST_F(StreamingSegmenterTest, StillSensorMatchesWholeScan) {
+TEST_F(StreamingSegmenterTest, StaticSensorMatchesWholeScan) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     std::vector<Label> truth;
     const std::vector<Scan> packets = packetsOf(turn, &truth);
@@ -471,7 +471,7 @@ TEST_F(StreamingSegmenterTest, SilenceEndsContext) {
     EXPECT_TRUE(taken_.back().is_cut);
 }
 
-TEST_F(StreamingSegmenterTest, LabelsSensorThatDoesNotTurn) {
+TEST_F(StreamingSegmenterTest, LabelsStalledSensor) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const Scan packet = packetsOf(turn)[3];
     StreamingSegmenter segmenter(sensor_, {}, take());

@@ -79,14 +79,14 @@ TEST_F(TurnCoverageTest, RequiresAllBeams) {
     EXPECT_EQ(late.size(), 14u);
 }
 
-TEST_F(TurnCoverageTest, NextTurnSweepsAgain) {
+TEST_F(TurnCoverageTest, NextTurnIsSweptAgain) {
     add(350, 362.5);
     EXPECT_EQ(add(362.5, 364.5), (Degrees{0.5, 1.5, 2.5, 3.5, 359.5}));
     EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700)}, {0, radians(5)}), radians(725));
 }
 
 /// Earlier sweeps are not joined to the current one, even where their angles are adjacent.
-TEST_F(TurnCoverageTest, RestartStartsAtNextTurn) {
+TEST_F(TurnCoverageTest, RestartDoesNotJoinEarlierSweeps) {
     add(350, 370.5);
     EXPECT_EQ(add(10.5, 13), (Degrees{11.5, 12.5}));
     EXPECT_NEAR(degrees(coverage_.head_rad()), 13 + 720, 1e-9);

@@ -159,7 +159,7 @@ TEST(StreamedRecordings, RealCaptureLabelsMatchWholeScans) {
     }
 }
 
-TEST_F(VelodyneStreamTest, LabelsAfterThreePackets) {
+TEST_F(VelodyneStreamTest, LabelsSectorEveryThreePackets) {
     const auto packets = turnsOf(3);
     addAll(packets, stream_);
     EXPECT_EQ(stream_.counts().packets, packets.size());

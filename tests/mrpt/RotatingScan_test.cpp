@@ -168,7 +168,7 @@ TEST(RotatingScan, ReadsAllRangesOfPixels) {
     EXPECT_THAT(observed.remark, HasSubstr("1 of its ranges have no point"));
 }
 
-TEST(RotatingScan, TakesElevationsFromModel) {
+TEST(RotatingScan, UsesElevationsOfModel) {
     CObservationRotatingScan scan = smallScan();
     scan.rowCount = 64;
     scan.rangeImage.setZero(64, 4);

@@ -166,7 +166,7 @@ TEST(VelodyneObservation, DecodesDualReturns) {
     }
 }
 
-TEST(VelodyneObservation, TimesIncreaseOverTheHour) {
+TEST(VelodyneObservation, TimesIncreaseAcrossHour) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     Firings firings = randomFirings(56, model, 240, 0.0);
     firings.first_time_us = 3599995000u;

@@ -346,7 +346,7 @@ TEST_F(BagScansTest, ReadsOusterMetadataOfBag) {
                 HasSubstr("Is it another sensor's metadata?"));
 }
 
-TEST_F(BagScansTest, KeepsTurnBeforeBreak) {
+TEST_F(BagScansTest, KeepsTurnBeforeTruncation) {
     const auto scan = test::poleScanFrom(1, "lidar");
     std::vector<SentMessage> messages;
     for (int i = 0; i < 3; ++i) {

@@ -134,7 +134,7 @@ TEST_F(BagSourceTest, ReadsSelectedEntriesLabelsAndTopics) {
     EXPECT_THAT(test::messageOf([&] { open(options); }), HasSubstr("has no topic '/none'"));
 }
 
-TEST_F(BagSourceTest, ReportsBreakAfterScans) {
+TEST_F(BagSourceTest, ReportsTruncationAfterScans) {
     fs::resize_file(bag_, fs::file_size(bag_) - 10);
     const auto source = open();
     for (int i = 0; i < 6; ++i) EXPECT_TRUE(source->nextScan());

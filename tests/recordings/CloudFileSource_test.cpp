@@ -128,7 +128,7 @@ TEST_F(CloudFileSourceTest, AssumesPeriodWithoutTimes) {
                 ElementsAre(0.0, testing::DoubleNear(0.1, 1e-6)));
 }
 
-TEST_F(CloudFileSourceTest, TakesPaddedNumbersAsCounters) {
+TEST_F(CloudFileSourceTest, ReadsPaddedNumbersAsCounters) {
     const std::vector<std::vector<std::string>> kNames{
         {"0000000000.bin", "0000000001.bin"},  // as in KITTI's raw recordings
         {"0000000000000.bin", "0000000000001.bin"},
@@ -169,7 +169,7 @@ TEST_F(CloudFileSourceTest, ReadsNuScenes) {
     EXPECT_EQ(rings[3], 3);
 }
 
-TEST_F(CloudFileSourceTest, KeepsEndingsOfEqualNames) {
+TEST_F(CloudFileSourceTest, KeepsExtensionsOfEqualNames) {
     EXPECT_THAT(scansOf(folderOf({"1.bin", "1.pcd"})).first, ElementsAre("1.bin", "1.pcd"));
 }
 

@@ -236,7 +236,7 @@ TEST_F(CloudFileTest, PcdReportsViewpointAndRest) {
     EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("4 bytes after")));
 }
 
-TEST_F(CloudFileTest, PcdErrorsNameTheLine) {
+TEST_F(CloudFileTest, PcdErrorsIncludeLine) {
     const std::string text = test::asciiPcd(filePoints());
     const auto complaintOn = [&](const std::string& what, const std::string& with) {
         return complaint("a.pcd", replaced(text, what, with));
@@ -295,7 +295,7 @@ TEST_F(CloudFileTest, PlySkipsBinaryLists) {
     EXPECT_THAT(complaint("a.ply", header + packed.text), HasSubstr("but 0 are there"));
 }
 
-TEST_F(CloudFileTest, PlyErrorsNameTheLine) {
+TEST_F(CloudFileTest, PlyErrorsIncludeLine) {
     const std::string text = test::asciiPly(filePoints());
     const auto complaintOn = [&](const std::string& what, const std::string& with) {
         return complaint("a.ply", replaced(text, what, with));

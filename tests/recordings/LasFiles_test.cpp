@@ -58,7 +58,7 @@ std::string randomLas(const Format& format, unsigned seed) {
 
 class LasFiles : public testing::TestWithParam<Format> {};
 
-TEST_P(LasFiles, AgreesWithOtherReader) {
+TEST_P(LasFiles, AgreesWithIndependentReader) {
     const fs::path modules = test::dataFolder("HAGEN_NODE_MODULES");
     if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES is not a folder with copc";
     const test::TemporaryFolder folder;

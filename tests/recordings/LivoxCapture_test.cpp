@@ -136,7 +136,7 @@ TEST_F(LivoxCaptureTest, CountsImuPackets) {
                           "UDP datagram"));
 }
 
-TEST_F(LivoxCaptureTest, ScansAreTenthOfSecond) {
+TEST_F(LivoxCaptureTest, ScansLastTenthOfSecond) {
     const Scans scans = read(captureOf(packets(500)).bytes());
     ASSERT_EQ(scans.size(), 3u);
     std::size_t points = 0;
@@ -165,7 +165,7 @@ TEST_F(LivoxCaptureTest, DropsAndCountsDuplicates) {
     EXPECT_THAT(remarks_[0], HasSubstr("100 packets in 1 scan, 1 duplicate packet dropped"));
 }
 
-TEST_F(LivoxCaptureTest, LateDuplicatesHideNoLoss) {
+TEST_F(LivoxCaptureTest, LateDuplicatesDoNotHideLosses) {
     const auto sent = packets(300);
     auto all = sent;
     all.erase(all.begin() + 50, all.begin() + 53);

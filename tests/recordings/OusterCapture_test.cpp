@@ -171,7 +171,7 @@ TEST_F(OusterCaptureTest, ReturnsMatchGeometry) {
     }
 }
 
-TEST_F(OusterCaptureTest, NamesOtherFusaSensor) {
+TEST_F(OusterCaptureTest, ReportsOtherFusaSensor) {
     const sensors::OusterSensor sensor = sensorOf("FUSA_RNG15_RFL8_NIR8_DUAL");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("FUSA_RNG15_RFL8_NIR8_DUAL", "123"));
@@ -234,7 +234,7 @@ TEST_F(OusterCaptureTest, CountsLostDuplicateAndLatePackets) {
                 HasSubstr("2 turns lost, 16 columns missing, 1 packet more than a turn"));
 }
 
-TEST_F(OusterCaptureTest, RestartLosesNothing) {
+TEST_F(OusterCaptureTest, RestartLosesNoPackets) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 3, 5000);
     const auto again = packetsOfFrames(sensor, 3, 0);
@@ -255,7 +255,7 @@ TEST_F(OusterCaptureTest, EarlyRestartLosesSixteenPackets) {
     EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
 }
 
-TEST_F(OusterCaptureTest, CountsEverythingElse) {
+TEST_F(OusterCaptureTest, CountsIgnoredDatagrams) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 1);
     packets.push_back(std::string(48, '\0'));
@@ -274,7 +274,7 @@ TEST_F(OusterCaptureTest, CountsEverythingElse) {
               "992137000143, 1 other UDP datagram (most: 1 of 5 bytes to port 7502)");
 }
 
-TEST_F(OusterCaptureTest, NamesMetadataOfOtherSensor) {
+TEST_F(OusterCaptureTest, ReportsMetadataOfOtherSensor) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("RNG19_RFL8_SIG16_NIR16", "123"));

@@ -90,7 +90,7 @@ TEST_F(ScanFolderTest, ReadsNuScenesWithoutRings) {
 }
 
 /// Among zeros, returns may look like points of five numbers if only every fifth number is checked.
-TEST_F(ScanFolderTest, TakesZerosAsFourNumbers) {
+TEST_F(ScanFolderTest, ReadsZerosAsFourNumbers) {
     Scan scan;
     for (std::vector<float>* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity}) {
         values->resize(4000);

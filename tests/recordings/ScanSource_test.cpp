@@ -156,7 +156,7 @@ TEST_F(ScanSourceTest, RecoversSameBeamsForEveryPart) {
     }
 }
 
-TEST_F(ScanSourceTest, RecoversNothingForNamedSensor) {
+TEST_F(ScanSourceTest, SkipsRecoveryForNamedSensor) {
     const fs::path rawlog = rawlogOf({spin(1, "a", "VLP-16")});
     Settings settings;
     settings.sensor.model = "VLP-16";
@@ -186,7 +186,7 @@ TEST_F(ScanSourceTest, RecoversBeamsOfScanFolder) {
                 ElementsAre("0:velodyne:-", "1:velodyne:-", "2:velodyne:-"));
 }
 
-TEST_F(ScanSourceTest, ReportsBreakAfterRecovery) {
+TEST_F(ScanSourceTest, ReportsTruncationAfterRecovery) {
     const fs::path rawlog = rawlogOf({spin(1, "a", "VLP-16"), spin(2, "a", "VLP-16")});
     const std::string bytes = test::readFile(rawlog);
     std::ofstream(rawlog, std::ios::binary) << bytes.substr(0, bytes.size() - 100);
@@ -275,7 +275,7 @@ TEST_F(ScanSourceTest, AssumesTenScansPerSecond) {
     }
 }
 
-TEST_F(ScanSourceTest, MakesObjectsOfFolderScans) {
+TEST_F(ScanSourceTest, ConvertsFolderScansToObjects) {
     SourceOptions options;
     options.folder_objects = observations::CloudClass::Simple;
     const auto entry = openRecording(scanFolderOf(1), options)->nextEntry();
@@ -365,7 +365,7 @@ TEST_F(ScanSourceTest, ScanTimesDoNotDependOnPoses) {
     EXPECT_EQ(source->poses().source, "CObservationRobotPose");
 }
 
-TEST_F(ScanSourceTest, MergesSensorOfFolder) {
+TEST_F(ScanSourceTest, UsesSensorOfFolder) {
     const fs::path folder = scanFolderOf(1);
     std::ofstream(folder / "sensor.yaml") << "sensor:\n  model: HDL-32E\n";
     EXPECT_EQ(openRecording(folder)->settingsFor({}).sensor.model, "HDL-32E");

@@ -194,7 +194,7 @@ TEST_F(VelodyneCaptureTest, DropsPacketsFarTooLate) {
 }
 
 /// By slightly more than 16 packets, so that new packets could be mistaken for late ones.
-TEST_F(VelodyneCaptureTest, ClockSetBackByLittleLosesNothing) {
+TEST_F(VelodyneCaptureTest, SmallClockStepBackLosesNoPackets) {
     for (const std::uint32_t back_us : {23000u, 30000u, 42000u}) {
         Packets packets = packetsOf("VLP-16", 24 * 100, 0.0, 900000000u);
         const auto end_us = static_cast<std::uint32_t>(900000000 + 100 * 1327);
@@ -206,7 +206,7 @@ TEST_F(VelodyneCaptureTest, ClockSetBackByLittleLosesNothing) {
 }
 
 /// Few packets after a clock step are sufficient.
-TEST_F(VelodyneCaptureTest, ClockSetBeforeEndLosesNothing) {
+TEST_F(VelodyneCaptureTest, ClockStepBeforeEndLosesNoPackets) {
     Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 900000000u);
     for (const std::uint32_t time_us : {100000000u, 50000000u}) {
         const Packets later = packetsOf("VLP-16", 24 * 5, 200.0, time_us);
@@ -239,7 +239,7 @@ TEST_F(VelodyneCaptureTest, ClockStepEndsTurn) {
     EXPECT_THAT(remarks_[0], HasSubstr(", 2 interruptions (gap or clock jump)"));
 }
 
-TEST_F(VelodyneCaptureTest, StandingSensorHasBoundedScans) {
+TEST_F(VelodyneCaptureTest, StalledSensorHasBoundedScans) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     observations::Firings firings;
     firings.range_m.setConstant(16, 24 * 1000, 5.0f);
@@ -288,7 +288,7 @@ TEST_F(VelodyneCaptureTest, SeparatesSensors) {
                 HasSubstr("velodyne_3 (HDL-32E at 10.0.0.101, port 2368): 40 packets"));
 }
 
-TEST_F(VelodyneCaptureTest, CountsEverythingElse) {
+TEST_F(VelodyneCaptureTest, CountsIgnoredDatagrams) {
     CaptureWriter writer = captureOf(packetsOf("VLP-16", 24 * 5));
     SentDatagram position = sent(ByteString(512, '\0'));
     position.to_port = 8308;

@@ -130,7 +130,7 @@ TEST(CheckLocated, RejectsRangeWithoutPosition) {
     }
 }
 
-TEST(CheckLocated, ProjectionChecksItsScan) {
+TEST(CheckLocated, ProjectionChecksScan) {
     RangeImage image;
     ProjectionWorkspace work;
     const SensorModel sensor = sensorModel("VLP-16");

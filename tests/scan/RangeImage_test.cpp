@@ -118,7 +118,7 @@ TEST(RangeImage, MatchesDefinition) {
     }
 }
 
-TEST(RangeImage, ReturnsByPixelHoldsEachOnce) {
+TEST(RangeImage, ReturnsByPixelContainsEachOnce) {
     const Scan scan = randomScan(7, 5000);
     RangeImage image;
     projectScan(scan, sensorModel("VLP-16"), 50, kFar, image, work);

@@ -194,7 +194,7 @@ TEST_F(CaptureFileTest, CountsOtherTrafficAndCutFrames) {
     expectBalance();
 }
 
-TEST_F(CaptureFileTest, TruncatedFileNamesPosition) {
+TEST_F(CaptureFileTest, ReportsPositionOfTruncation) {
     CaptureWriter writer;
     for (int i = 0; i < 5; ++i) writer.datagram(sent(ByteString(60, 'x')));
     std::vector<ByteString> frames(5, ethernet(test::ipOf(sent(ByteString(60, 'x')))));
@@ -246,7 +246,7 @@ TEST_F(CaptureFileTest, DetectsCaptureByContent) {
     EXPECT_FALSE(isCapture(folder_ / "none.pcap"));
 }
 
-TEST_F(CaptureFileTest, NamesUnreadableFile) {
+TEST_F(CaptureFileTest, ReportsUnreadableFile) {
     EXPECT_THAT(test::messageOf([&] { read(CaptureWriter(105).bytes()); }),
                 HasSubstr("a.pcap: was captured on a link of type IEEE802_11, which is not"));
     EXPECT_THAT(test::messageOf([&] { read(CaptureWriter().bytes().substr(0, 10)); }),

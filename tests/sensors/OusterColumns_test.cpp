@@ -61,7 +61,7 @@ TEST_F(OusterColumnsTest, DetectsOtherModeImmediately) {
 }
 
 /// If the column rate is unchanged, the initialization number decides.
-TEST_F(OusterColumnsTest, RestartedSensorMustShowColumns) {
+TEST_F(OusterColumnsTest, RestartRequiresProofOfColumns) {
     for (const OusterMode& mode : kOthers) {
         certain(kMode, 3);
         ++ouster_.initialization;

@@ -108,7 +108,7 @@ TEST_F(SettingsTest, PresetsDifferOnlyWhereDocumented) {
     }
 }
 
-TEST_F(SettingsTest, PresetsFitTheirSensors) {
+TEST_F(SettingsTest, PresetsFitSensors) {
     for (const auto& [file, name, beams, columns] : {std::tuple{"vlp16.yaml", "VLP-16", 16, 870},
                                                      {"hdl32e.yaml", "HDL-32E", 32, 870},
                                                      {"hdl64e.yaml", "HDL-64E", 64, 870},
@@ -254,7 +254,7 @@ TEST_F(SettingsTest, RejectsInvalidYaml) {
     EXPECT_THROW(mergeSettings(folder_.path(), settings), SettingsError);
 }
 
-TEST_F(SettingsTest, EmptyFileChangesNothing) {
+TEST_F(SettingsTest, EmptyFileKeepsSettings) {
     EXPECT_NO_THROW(settingsOf(""));
     EXPECT_NO_THROW(settingsOf("# nothing but words\n"));
 }

@@ -86,9 +86,8 @@ TEST(SceneDistanceTest, MatchesGeometry) {
     const SceneDistance distance(Scene(std::move(content)), kBounds, 3.0);
     EXPECT_NEAR(distance.at({3, 0, 2}, 0), 2, 1e-5);
     EXPECT_NEAR(distance.at({5.15f, 0, 7}, 0), 1, 1e-5);
-    EXPECT_NEAR(distance.at({4, 5, 2}, 0), std::sqrt(2.0), 1e-5);  // an edge
-    EXPECT_NEAR(distance.at({0, 3, 5.2f}, 0), std::hypot(1.0, 0.2) - 0.1,
-                1e-3);  // upper ball
+    EXPECT_NEAR(distance.at({4, 5, 2}, 0), std::sqrt(2.0), 1e-5);                 // an edge
+    EXPECT_NEAR(distance.at({0, 3, 5.2f}, 0), std::hypot(1.0, 0.2) - 0.1, 1e-3);  // upper ball
     EXPECT_EQ(distance.at({0, 4.05f, 2}, 0), 0);
     EXPECT_NEAR(distance.at({-4, 0, 4}, 0), 1.5, 1e-5);
     EXPECT_EQ(distance.at({-2, -7, 2}, 0), 3.0f);
