@@ -93,7 +93,7 @@ TEST_F(RawlogSegmentTrouble, RejectsPipesAndDevices) {
     }
 }
 
-/// A file size limit affects the largest output alone.
+/// A file size limit affects only the largest output.
 TEST_F(RawlogSegmentTrouble, UnwritableOutputDoesNotAffectOthers) {
     const std::vector<std::string> names{"out.rawlog", "map.bt", "map.3Dscene", "out.json"};
     const Arguments flags{"-i",           recording(),    "--octomap-resolution",
@@ -270,7 +270,7 @@ TEST_F(RawlogSegmentTrouble, HangingGnuplotAffectsPicturesOnly) {
     }
 }
 
-/// Times at the ends of the clock, and poses at such times.
+/// Times at the limits of the clock, and poses at these times.
 TEST_F(RawlogSegmentTrouble, IgnoresImplausibleTimes) {
     const std::vector<std::int64_t> ticks{std::numeric_limits<std::int64_t>::min(),
                                           std::numeric_limits<std::int64_t>::max(), -1, 0,

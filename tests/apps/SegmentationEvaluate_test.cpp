@@ -167,7 +167,7 @@ TEST_F(SegmentationEvaluate, RecoversUnnamedSensor) {
     EXPECT_EQ(row(outcome.out, "beta_deg=10"), (std::vector<double>{1, 1, 1, 1, 1, 1}));
     EXPECT_THAT(json({"-i", pole})["folders"][0]["recovered_sensor"].get<std::string>(),
                 HasSubstr("8 beams recovered"));
-    // Degraded copies are of the same sensor, mirrored if it is upside down.
+    // Degraded copies have the same sensor, mirrored if upside down.
     for (const std::string degradation : {"upside_down", "dead_beams=3"}) {
         const auto degraded = run({"-i", pole, "--degrade", degradation});
         EXPECT_EQ(degraded.exit_code, 0) << degraded.err;

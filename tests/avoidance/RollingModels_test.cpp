@@ -43,7 +43,7 @@ std::vector<Eigen::Vector3f> randomPoints(simulation::Random& random, const Eige
     return points;
 }
 
-/// Distance to the nearest face of any voxel, one by one.
+/// Distance to the nearest voxel face, by brute force.
 float bruteForce(const WorldModel::Obstacles& voxels, const Eigen::Vector3f& at) {
     float least = WorldModel::kReach_m;
     for (const Eigen::Vector3f& centre : voxels.centre_m) {

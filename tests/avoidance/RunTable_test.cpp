@@ -43,7 +43,7 @@ TEST(RunTable, RowMatchesHeader) {
 TEST(RunTable, IgnoresLocaleAndNegativeZero) {
     Row run = someRun();
     run.result.min_clearance_m = -1e-9;
-    std::setlocale(LC_ALL, "de_DE.UTF-8");  // decimal commas, where it is installed
+    std::setlocale(LC_ALL, "de_DE.UTF-8");  // decimal commas, if installed
     const std::string row = rowOf(run, false);
     std::setlocale(LC_ALL, "C");
     EXPECT_THAT(row, HasSubstr(",success,0.0000,43.250,"));

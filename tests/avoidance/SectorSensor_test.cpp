@@ -82,7 +82,7 @@ TEST(SectorSensor, ReturnsMatchWholeScans) {
         for (int turn = 0; turn < 3; ++turn) {
             int first = 0;
             for (const int ms : {20, 40, 60, 80, 100}) {
-                // Packets of 24 firings of 55.296 us; the last one has what is left.
+                // Packets of 24 firings of 55.296 us; the last one has the remainder.
                 const int end = ms == 100 ? 1809 : static_cast<int>(ms / (24 * 0.055296)) * 24;
                 const auto measured = whole.measureFirings(turn, {first, end}, trace);
                 LabelledReturns labelled;

@@ -14,7 +14,7 @@ using test::emptyContent;
 using test::putWall;
 using test::simpleCourse;
 
-/// A second of flight at 8 m/s along x while it brakes hard, so that the body is tilted.
+/// One second of flight at 8 m/s along x with hard braking, so that the body is tilted.
 FlightTrace fastTrace() {
     VehicleState state{{0, 0, 2}, {8, 0, 0}};
     FlightTrace trace(state);
@@ -55,7 +55,7 @@ TEST(TrialSensor, PlacesReturnsDuringFlight) {
         const Eigen::Vector3d offset = belief.offset_m(trace, 0.75);
         EXPECT_NEAR((scan.origin_m.cast<double>() - trace.at(0.75).position_m - offset).norm(), 0,
                     1e-4);
-        EXPECT_GT(shareOnWall(scan, offset, 0.08), 0.98);  // 4 sigma; it moved 0.5 m meanwhile
+        EXPECT_GT(shareOnWall(scan, offset, 0.08), 0.98);  // 4 sigma; the vehicle moved 0.5 m
     }
 }
 

@@ -134,7 +134,7 @@ TEST(WorldModel, IsFreeAndUnknownBeforeScans) {
             EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({1, 1, 1})) << name;
             EXPECT_FALSE(model->isKnown({1, 1, 1})) << name;
             EXPECT_TRUE(model->obstacles().centre_m.empty()) << name;
-            model->update({});  // with nothing in it
+            model->update({});  // an empty scan
         }
     }
 }

@@ -53,7 +53,7 @@ TEST(OutputKinds, ReplaceOwnKindOnly) {
     EXPECT_FALSE(mayReplace(folder / "file", kScanFolders));
     EXPECT_FALSE(mayReplace("/dev/null", kFile));
     EXPECT_TRUE(mayReplace(folder / "scans", kScanFolders));
-    // Labelled by hand, it has the same names.
+    // A folder labelled by hand has the same names.
     EXPECT_FALSE(mayReplace(folder / "mine", kScanFolders));
     EXPECT_THAT(test::messageOf([&] { OutputPath(folder / "work", kScanFolders, true); }),
                 HasSubstr("'notes.txt'"));

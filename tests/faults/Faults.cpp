@@ -1,7 +1,7 @@
-// For LD_PRELOAD, by faults_test.py. With HAGEN_FAILING_NEW=N, the N-th allocation by `new`,
-// counted from the start of main(), fails once, also in programs that the process starts. 0: none
-// fails, and their number is printed at the end. The failing one prints its call stack. malloc() is
-// not affected: C libraries report its failure.
+// Preloaded (LD_PRELOAD) by faults_test.py. With HAGEN_FAILING_NEW=N, the N-th allocation by `new`
+// since the start of main(), also in child processes, fails once and prints its call stack. With 0,
+// none fails, and their number is printed at the end. malloc() is not affected: C libraries report
+// its failure.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <unistd.h>

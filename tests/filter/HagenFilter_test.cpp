@@ -74,7 +74,7 @@ TEST(HagenFilter, WallIsRoiAndGroundIsRou) {
     // Where a beam hits the ground just before the wall, the slope to the next beam is the wall's.
     const double wall_columns = 870 * 2 * std::atan(5.0 / 10.0) / (2 * kPi);
     EXPECT_LE(mistakes(wall, result, Label::Rou), wall_columns);
-    // The height makes it ground again, and at most the lowest returns of the wall.
+    // Their height makes these returns ground again, with at most the lowest of the wall.
     HagenFilter filter(sensorModel("VLP-16"));
     EXPECT_EQ(missedAboveGrass(wall, filter.segment(wall.scan)), 0);
     EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);

@@ -195,7 +195,7 @@ TEST_F(DirectionsInFlight, PolesStayInPlaceInFlight) {
     SectorDistances distances(sensor_, aheadFirst());
     int compared = 0;
     for (double now_s = 0.25; now_s < 1; now_s += 0.013) {
-        flight.fly(now_s - 0.01, distances);  // labels take a while
+        flight.fly(now_s - 0.01, distances);  // labels are delayed
         compared += compare(flight, distances, now_s);
     }
     EXPECT_GT(compared, 200);

@@ -28,7 +28,7 @@ Directions directionsOf(const std::vector<Seen>& all) {
 
 TEST(ObstacleNumbers, MergesNeighboursWithinOneMetre) {
     ObstacleNumbers numbers;
-    // One across straight ahead, one at 90 degrees, two neighbours 3 m apart.
+    // One obstacle around 0 degrees, one at 90 degrees, two neighbours 3 m apart.
     const auto found = numbers.nearest(
         directionsOf({{71, 5.2}, {0, 5}, {1, 5.1}, {18, 8}, {40, 6}, {41, 9}}), 10, {});
     ASSERT_EQ(found.size(), 4u);

@@ -213,7 +213,7 @@ TEST_F(SectorDistancesTest, DistancesAreRelativeToBody) {
         Eigen::Translation3d(0.5, 0, 0) * Eigen::AngleAxisd(-kPi / 2, Eigen::Vector3d::UnitZ());
     SectorDistances distances(sensor_, settings);
     take(0, 20, 1, {}, distances);             // right of the body
-    take(260, 280, 1, {{271, 4}}, distances);  // ahead of it
+    take(260, 280, 1, {{271, 4}}, distances);  // ahead of the body
     const auto at = distances.at(1);
     EXPECT_EQ(at[19].state, State::SeenNothing);
     EXPECT_EQ(at[1].state, State::SeenNothing);

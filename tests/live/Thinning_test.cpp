@@ -72,7 +72,7 @@ TEST(Thinning, MatchesDefinition) {
     }
 }
 
-/// maskAirframe() leaves them without a range.
+/// maskAirframe() leaves masked returns without a range.
 TEST(Thinning, IgnoresMaskedReturns) {
     Scan scan;
     add(10, 3, kNoValue, 0, scan);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr int kPoints = 40;
 
-/// Point data record formats with their bytes per point and the place of the GPS time (0: none).
+/// Point data record formats with their bytes per point and the offset of the GPS time (0: none).
 struct Format {
     int number;
     std::size_t bytes, gps_time;

@@ -32,7 +32,7 @@ stream.append(bytes);
 for (let record; (record = stream.nextRecord()); ) {
   if (record.type === "Message") streamed.push(record);
 }
-if (!stream.done()) throw new Error("the file does not end where it should");
+if (!stream.done()) throw new Error("the file has an unexpected end");
 
 // Indexed reader.
 const readable = {
@@ -44,7 +44,7 @@ let found = 0;
 for await (const message of indexed.readMessages({ validateCrcs: true })) {
   const same = streamed.find((one) => one.channelId === message.channelId && one.sequence === message.sequence);
   if (!same || same.logTime !== message.logTime || Buffer.compare(same.data, message.data) !== 0) {
-    throw new Error(`the index leads to another message (${message.channelId}, ${message.sequence})`);
+    throw new Error(`the index points to another message (${message.channelId}, ${message.sequence})`);
   }
   ++found;
 }

@@ -87,7 +87,7 @@ SentMessage stringMessage(const std::string& topic, double time_s, const std::st
 struct BagShape {
     std::string compression = "none";    ///< "none", "bz2", "lz4", "zstd", or invalid
     std::size_t messages_per_chunk = 4;  ///< of an MCAP; 0: no chunks
-    bool is_closed = true;               ///< of a ROS 1 bag: it has an index
+    bool is_closed = true;               ///< a ROS 1 bag has an index
 };
 
 /// A ROS 1 bag, and an MCAP with ROS 2 (or ROS 1) messages.
