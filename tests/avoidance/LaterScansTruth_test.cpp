@@ -57,12 +57,12 @@ TEST(SeenRanges, IgnoresPointAtOrigin) {
 }
 
 TEST(LaterScansTruth, ScoresOnlyFullySeenDirections) {
-    // All returns are 6 m away; the paths with their clearance end elsewhere.
+    // No returns near the paths, whose lengths are below and above the range of 6 m.
     LaterScansTruth short_way({0, 0, 2}, {5.0f, 0.65f}), long_way({0, 0, 2}, {6.9f, 0.2f});
     observations::MappedScan scan = everywhere({0, 0, 2}, 6, false);
     scan.points_m.erase(std::remove_if(scan.points_m.begin(), scan.points_m.end(),
                                        [](const auto& p) { return std::abs(p.z() - 2) < 2.5f; }),
-                        scan.points_m.end());  // nor returns near the paths
+                        scan.points_m.end());
     short_way.see(scan.points_m, SeenRanges(scan));
     EXPECT_TRUE(short_way.directions().scored.none());
     long_way.see(scan.points_m, SeenRanges(scan));

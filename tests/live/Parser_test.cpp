@@ -82,7 +82,7 @@ TEST_F(ParserTest, SkipsGarbage) {
         for (int k = 0; k < 8; ++k) {
             const std::size_t noise = random() % 40;
             for (std::size_t i = 0; i < noise; ++i) {
-                // Many of them start a message.
+                // Many noise bytes look like the start of a message.
                 bytes.push_back(static_cast<std::uint8_t>(random() % 4 == 0 ? 0xfd : random()));
             }
             const Bytes message = attitude(static_cast<std::uint8_t>(k));

@@ -268,7 +268,7 @@ TEST(RotatingScan, RejectsTruncatedAndExternalScans) {
     for (std::size_t size = 1; size < bytes.size(); size += 3) {
         EXPECT_THROW(test::objectOf(bytes.substr(0, size)), std::exception) << size;
     }
-    // The images begin after the header; this one claims 65535 x 65535 points.
+    // The images begin after the header; this header claims 65535 x 65535 points.
     std::string huge = bytes;
     huge.replace(huge.size() - 1 - 36 * 4 - 4, 4, "\xff\xff\xff\xff");
     EXPECT_THROW(test::objectOf(huge), std::exception);
