@@ -1,5 +1,5 @@
-// From packets to labels and lists of indices nothing is allocated, once the memory is there. In a
-// program of its own, for it replaces malloc().
+// After the first scans, the path from packets to labels and index lists does not allocate. This is
+// a separate program because it replaces malloc().
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/mrpt/VelodyneObservation.h>
@@ -23,7 +23,7 @@ test::SimpleScene street() {
     return scene;
 }
 
-/// Scans of the same sensor as it moves.
+/// Scans of a moving sensor.
 std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> drive(const std::string& model_name) {
     const sensors::VelodyneModel& model = sensors::velodyneModel(model_name);
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> scans;
@@ -55,7 +55,7 @@ void expectNoAllocations(const std::string& model, const Options& options,
 class ZeroAllocations : public testing::TestWithParam<const char*> {
  protected:
     void SetUp() override {
-        if (!countsAllocations()) GTEST_SKIP() << "a sanitizer has malloc() for itself";
+        if (!countsAllocations()) GTEST_SKIP() << "the sanitizer replaces malloc()";
     }
 };
 
@@ -78,8 +78,8 @@ TEST_P(ZeroAllocations, KnownAttitudeAndAllOptions) {
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
 }
 
-TEST(ZeroAllocationsPerScan, OfCoordinates) {
-    if (!countsAllocations()) GTEST_SKIP() << "a sanitizer has malloc() for itself";
+TEST(ZeroAllocationsPerScan, LocateBeamsAndSegment) {
+    if (!countsAllocations()) GTEST_SKIP() << "the sanitizer replaces malloc()";
     const SensorModel sensor = sensorModel("HDL-64E");
     test::LabelledScan seen = test::scanScene(street(), sensor, 600, {0, 0, 1.7});
     HagenFilter filter(sensor, Options());
@@ -97,9 +97,9 @@ INSTANTIATE_TEST_SUITE_P(Sensors, ZeroAllocations, testing::Values("VLP-16", "HD
                              return std::string(of.param) == "VLP-16" ? "Vlp16" : "Hdl32";
                          });
 
-/// The counter counts: what every way to ask for memory adds.
+/// Every kind of allocation is counted.
 TEST(AllocationCounter, SeesNewAndEigen) {
-    if (!countsAllocations()) GTEST_SKIP() << "a sanitizer has malloc() for itself";
+    if (!countsAllocations()) GTEST_SKIP() << "the sanitizer replaces malloc()";
     const std::size_t before = allocations();
     const auto number = std::make_unique<int>(1);
     EXPECT_EQ(allocations() - before, 1u);

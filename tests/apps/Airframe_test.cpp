@@ -78,7 +78,7 @@ class AirframeMask : public test::SegmentTest {
 
 class AirframeFlight : public AirframeMask, public testing::WithParamInterface<Flight> {};
 
-/// Without a mask, with a learned one, and with boxes if the sensor is upright.
+/// Without a mask, with a learned mask, and with boxes if the sensor is upright.
 TEST_P(AirframeFlight, MasksRemoveAirframeOnly) {
     fly(GetParam(), "flight", "3", "15");
     fly(GetParam(), "other", "4", "4");
@@ -149,7 +149,7 @@ TEST_F(AirframeMask, AppliesToEvaluation) {
     EXPECT_EQ(missed("airframe: [sphere: {centre_m: [0, 0, 0], radius_m: 20}]"), 1);
 }
 
-TEST_F(AirframeMask, WarnsIfMostIsMasked) {
+TEST_F(AirframeMask, WarnsIfMostReturnsAreMasked) {
     fs::create_directories(path("scans/velodyne"));
     for (int scan = 0; scan < 12; ++scan) {  // a wall all around a standing vehicle
         std::ofstream out(path("scans/velodyne/" + convert::scanName(scan) + ".bin"),
@@ -203,7 +203,7 @@ TEST_F(AirframeMask, RejectsWrongUsage) {
                    {{{"--learn-seconds", "0.5"}, "at least 10 are needed"},
                     {{"--from", "5"}, "--learn-seconds"},
                     {{"--sensor-label", "rear"}, "has 0 scans"}});
-    for (const char* file : {"mine.yaml", "b.yaml"}) {  // or its picture exists
+    for (const char* file : {"mine.yaml", "b.yaml"}) {  // the mask or its picture exists
         expectFailure({"-i", recording(), "--learn-airframe", path(file)}, 1, "--overwrite");
     }
     expectFailures(

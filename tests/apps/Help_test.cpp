@@ -14,7 +14,7 @@ struct Command {
 
 class Help : public testing::TestWithParam<Command> {};
 
-TEST_P(Help, FitsATerminal) {
+TEST_P(Help, FitsIn80Columns) {
     auto words = GetParam().words;
     words.push_back("--help");
     const auto outcome = test::run(GetParam().program, words);
@@ -27,7 +27,7 @@ TEST_P(Help, FitsATerminal) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfPrograms, Help,
+INSTANTIATE_TEST_SUITE_P(Programs, Help,
                          testing::Values(Command{HAGEN_LIVE_SEGMENT, {}},
                                          Command{HAGEN_RAWLOG_SEGMENT, {}},
                                          Command{HAGEN_RAWLOG_SIMULATE, {}},

@@ -1,4 +1,4 @@
-// live-segment --mavlink, as an autopilot on the other end sees it.
+// live-segment --mavlink, as seen by an autopilot.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ constexpr std::uint16_t kNothing_cm = 2001, kUnknown_cm = 65535;
 constexpr auto now_s = test::steadyNow_s;
 using test::freePort;
 
-/// Two poles on flat ground, from 2 m: one 20 degrees left of ahead, one on the right.
+/// Two poles on flat ground, seen from 2 m: one 20 degrees left of ahead, one on the right.
 test::SimpleScene poles() {
     test::SimpleScene scene;
     scene.poles.push_back({8, 3, 0.2, 6});
@@ -49,7 +49,7 @@ test::SimpleScene poles() {
     return scene;
 }
 
-/// A UDP socket of this machine, and all that comes to it.
+/// A local UDP socket that stores the bytes it receives.
 class Autopilot {
  public:
     Autopilot() : receiver_([this] { receive(); }) {}
@@ -58,7 +58,7 @@ class Autopilot {
         is_at_end_ = true;
         if (receiver_.joinable()) receiver_.join();
     }
-    /// To whom messages came from.
+    /// Replies to the first sender.
     void send(mavlink::Frame frame) {
         if (!has_sender_) return;
         frame.sequence = sequence_++;
@@ -67,7 +67,7 @@ class Autopilot {
     }
     std::string peer() const { return "udp:127.0.0.1:" + std::to_string(socket_.port()); }
     bool hasSender() const { return has_sender_; }
-    /// After stop().
+    /// Call stop() first.
     const std::string& bytes() const { return bytes_; }
     std::vector<mavlink::Frame> frames() const { return framesOf(bytes_); }
 
@@ -111,8 +111,7 @@ std::vector<Message> all(const std::vector<mavlink::Frame>& frames) {
     return messages;
 }
 
-/// Whether a replay of so many seconds took much longer: the program had to wait for a processor,
-/// and what it sends is unknown, rightly.
+/// Whether a replay took much longer than `replay_s`, so that directions are correctly unknown.
 bool isTooSlow(const std::vector<mavlink::Frame>& frames, double replay_s) {
     const auto distances = all<mavlink::ObstacleDistance>(frames);
     if (distances.empty()) return true;
@@ -126,7 +125,7 @@ class LiveSegmentMavlink : public test::ProgramTest {
     test::Outcome run(const std::vector<std::string>& arguments) const override {
         return test::run(HAGEN_LIVE_SEGMENT, with({"--model", "VLP-16"}, arguments));
     }
-    /// Turns of a sensor that stays, with a pause after half of them.
+    /// Turns of a static sensor, with a pause halfway through.
     std::string capture(int turns, double pause_s = 0) const {
         const auto& model = sensors::velodyneModel("VLP-16");
         observations::Firings firings = test::fireAt(poles(), model, {0, 0, 2});
@@ -160,16 +159,16 @@ TEST_F(LiveSegmentMavlink, SendsObstacles) {
             const int distance_cm = message.distances[k];
             const bool is_left_pole = std::abs(deg - (360 - 20.6)) < 6;
             const bool is_right_pole = std::abs(deg - 99.5) < 6;
-            const bool is_as_it_is = deg == 340      ? std::abs(distance_cm - 834) < 8
+            const bool is_expected = deg == 340      ? std::abs(distance_cm - 834) < 8
                                      : deg == 100    ? std::abs(distance_cm - 588) < 8
                                      : is_left_pole  ? distance_cm > 800
                                      : is_right_pole ? distance_cm > 550
                                                      : distance_cm == kNothing_cm;
-            if (!is_as_it_is) return false;
+            if (!is_expected) return false;
         }
         return true;
     };
-    // The others are those of the beginning, and the last one.
+    // The others are the first ones and the last one.
     EXPECT_GT(std::count_if(distances.begin(), distances.end(), is_right),
               static_cast<std::ptrdiff_t>(distances.size() / 2));
     for (const std::uint16_t distance_cm : distances.back().distances) {
@@ -177,7 +176,7 @@ TEST_F(LiveSegmentMavlink, SendsObstacles) {
     }
     const auto obstacles = all<mavlink::ObstacleDistance3d>(frames);
     ASSERT_GT(obstacles.size(), 4u);
-    // Two a turn, the nearer one first; on a busy machine, the first of all may be missing.
+    // Two per turn, the nearer one first; on a busy machine, the very first may be missing.
     const auto middle = obstacles.begin() + static_cast<std::ptrdiff_t>(obstacles.size() / 2);
     const auto& nearest = *std::min_element(middle, middle + 2, [](const auto& a, const auto& b) {
         return std::hypot(a.x, a.y) < std::hypot(b.x, b.y);
@@ -194,20 +193,20 @@ TEST_F(LiveSegmentMavlink, SendsObstacles) {
     EXPECT_EQ(json["not_sent"], 0);
 }
 
-/// tests/mavlink/read_mavlink.mjs: a parser by others, with the definitions of their own.
-TEST_F(LiveSegmentMavlink, OtherParserReadsSame) {
+/// tests/live/read_mavlink.mjs uses an independent parser with its own message definitions.
+TEST_F(LiveSegmentMavlink, IndependentParserAgrees) {
     const std::filesystem::path modules = test::dataFolder("HAGEN_NODE_MODULES");
-    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES names no folder with node-mavlink";
+    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES is not a folder with node-mavlink";
     Autopilot autopilot;
     ASSERT_EQ(run({"-q", "--replay", capture(12), "--mavlink", autopilot.peer()}).exit_code, 0);
     autopilot.stop();
     const auto file = folder_.write("bytes", autopilot.bytes());
-    const auto read = test::run(
-        "/usr/bin/env",
-        {"-C", modules.string(), "node",
-         std::string(HAGEN_SOURCE_DIR) + "/tests/mavlink/read_mavlink.mjs", file.string()});
+    const auto read =
+        test::run("/usr/bin/env",
+                  {"-C", modules.string(), "node",
+                   std::string(HAGEN_SOURCE_DIR) + "/tests/live/read_mavlink.mjs", file.string()});
     if (read.exit_code == 127 || read.exit_code == 77) {
-        GTEST_SKIP() << "node or node-mavlink is not there: " << read.err;
+        GTEST_SKIP() << "node or node-mavlink is missing: " << read.err;
     }
     ASSERT_EQ(read.exit_code, 0) << read.err;
 
@@ -269,14 +268,14 @@ TEST_F(LiveSegmentMavlink, OtherParserReadsSame) {
     EXPECT_EQ(line_number, frames.size());
     EXPECT_EQ(json["counts"]["bad"], 0);
     EXPECT_EQ(json["counts"]["bytes"], autopilot.bytes().size());
-    // 20 of these for 10 of those (up to 5 obstacles each) and one heartbeat.
+    // Per heartbeat: 20 OBSTACLE_DISTANCE and 10 times up to 5 OBSTACLE_DISTANCE_3D.
     EXPECT_GE(messages["OBSTACLE_DISTANCE"], 20 * (messages["HEARTBEAT"] - 1));
     EXPECT_GT(messages["HEARTBEAT"], 0);
     EXPECT_GT(messages["OBSTACLE_DISTANCE_3D"], 4);
     EXPECT_GT(messages["DISTANCE_SENSOR"], 3);
 }
 
-/// The sequence of states: k: all directions are known, u: none is.
+/// The sequence of states: k if all directions are known, u if all are unknown.
 std::string statesOf(const std::vector<mavlink::Frame>& frames) {
     std::string states;
     for (const auto& message : all<mavlink::ObstacleDistance>(frames)) {
@@ -288,9 +287,9 @@ std::string statesOf(const std::vector<mavlink::Frame>& frames) {
     return states;
 }
 
-TEST_F(LiveSegmentMavlink, SilenceIsReportedAndNotFree) {
+TEST_F(LiveSegmentMavlink, ReportsSilenceAsUnknown) {
     const std::string silent = capture(10, 1.2);
-    // A program without processor time rightly knows less: then retry.
+    // Retry: starved of CPU time, the program correctly sends more unknown directions.
     constexpr int kAttempts = 5;
     for (int attempt = 1; attempt <= kAttempts; ++attempt) {
         Autopilot autopilot;
@@ -298,7 +297,7 @@ TEST_F(LiveSegmentMavlink, SilenceIsReportedAndNotFree) {
                                   path("stats.json"), "--overwrite"});
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
         autopilot.stop();
-        // Free, then unknown, then free again, then the end.
+        // Known, then unknown, then known again.
         const std::string states = statesOf(autopilot.frames());
         ASSERT_FALSE(states.empty());
         EXPECT_EQ(states.front(), 'u');
@@ -316,8 +315,7 @@ TEST_F(LiveSegmentMavlink, SilenceIsReportedAndNotFree) {
     }
 }
 
-/// Sends what a sensor measures on a vehicle that yaws and rolls, and the vehicle's attitude, both
-/// at the time at which they are sent.
+/// Sends packets of a sensor on a yawing and rolling vehicle, and its attitude, in real time.
 class FlyingSensor {
  public:
     FlyingSensor(std::uint16_t port, Autopilot& autopilot)
@@ -336,7 +334,7 @@ class FlyingSensor {
                                yaw_rate * std::cos(vehicle.roll_rad)};
         return vehicle;
     }
-    /// The next packet, when it is due.
+    /// Sends the next packet when it is due.
     void send() {
         const auto& model = sensors::velodyneModel("VLP-16");
         const double due_s = start_s_ + 24e-6 * model.firing_period_us * packet_;
@@ -408,13 +406,13 @@ TEST_F(LiveSegmentMavlink, PolesStayInPlaceInFlight) {
     EXPECT_THAT(outcome.err, HasSubstr("receiving the attitude of vehicle 1"));
 
     std::istringstream poses(test::readFile(path("flight.tum")));
-    poses.ignore(100, '\n');  // names of columns
+    poses.ignore(100, '\n');  // column names
     double time_s, x, y, z, max_tilt_rad = 0;
     Eigen::Quaterniond turn;
     while (poses >> time_s >> x >> y >> z >> turn.x() >> turn.y() >> turn.z() >> turn.w()) {
         max_tilt_rad = std::max(max_tilt_rad, std::acos((turn * Eigen::Vector3d::UnitZ()).z()));
     }
-    EXPECT_NEAR(max_tilt_rad, 0.14, 0.03);  // as FlyingSensor rolls
+    EXPECT_NEAR(max_tilt_rad, 0.14, 0.03);  // roll of FlyingSensor
     const auto converted = test::run(
         HAGEN_RAWLOG_SEGMENT,
         {"-i", path("flight.pcap"), "--poses", path("flight.tum"), "-o", path("flight.rawlog")});
@@ -422,8 +420,8 @@ TEST_F(LiveSegmentMavlink, PolesStayInPlaceInFlight) {
 
     const auto messages = all<mavlink::ObstacleDistance>(autopilot.frames());
     ASSERT_GT(messages.size(), 40u);
-    // Clocks are the same on this machine. A process that waits for a processor is late: what it
-    // sends is then unknown, and a few messages may be wrong.
+    // All processes share a clock. Starved of CPU time, the program is late: its directions are
+    // then unknown, and a few messages may be wrong.
     int compared = 0, wrong = 0;
     for (std::size_t i = messages.size() / 3; i + 1 < messages.size(); ++i) {
         const auto& distances = messages[i].distances;
@@ -455,8 +453,7 @@ TEST_F(LiveSegmentMavlink, PolesStayInPlaceInFlight) {
     EXPECT_LE(wrong, compared / 5) << "of " << compared;
 }
 
-/// Sends turns over a network that loses, repeats, delays and adds packets, and knows what came
-/// through.
+/// Sends turns over a network that drops, duplicates, delays and injects packets.
 class FaultyNetwork {
  public:
     explicit FaultyNetwork(std::uint16_t port)
@@ -469,7 +466,7 @@ class FaultyNetwork {
         packet_rad_ = radians(24 * firings.azimuth_step_deg);
     }
 
-    /// The next packet of the sensor, when it is due.
+    /// Sends the sensor's next packet when it is due.
     void send() {
         constexpr double kPeriod_s = 0.1 / 76;  // 76 packets per turn; the last one overlaps
         const double time_s = kPeriod_s * static_cast<double>(sent_);
@@ -478,7 +475,7 @@ class FaultyNetwork {
         std::string bytes = packets_[k];
         const auto us = static_cast<std::uint32_t>(1e6 * time_s);
         std::memcpy(&bytes[1200], &us, sizeof us);
-        // For a second out of two, a direction of 60 degrees is lost.
+        // Every other second, packets of a 60 degree sector are dropped.
         const double second = std::fmod(time_s, 2.0);
         const double deg = degrees(static_cast<double>(k) * packet_rad_);
         const double blind_deg = std::fmod(time_s * 37, 360.0);
@@ -486,7 +483,7 @@ class FaultyNetwork {
         switch (random_() % 20) {
             case 0:
             case 1:
-                return count();  // lost
+                return count();  // dropped
             case 2:
                 deliver(bytes, k);
                 deliver(bytes, k);
@@ -519,13 +516,13 @@ class FaultyNetwork {
         }
     }
 
-    /// Whether a packet that came through between two times has measured this azimuth.
-    bool hasCome(double clockwise_deg, double from_s, double to_s) const {
-        for (auto come = come_.rbegin(); come != come_.rend(); ++come) {
-            if (come->time_s < from_s) return false;
-            if (come->time_s - 0.01 > to_s) continue;
+    /// Whether a packet delivered between two times measured this azimuth.
+    bool wasMeasured(double clockwise_deg, double from_s, double to_s) const {
+        for (auto delivery = deliveries_.rbegin(); delivery != deliveries_.rend(); ++delivery) {
+            if (delivery->time_s < from_s) return false;
+            if (delivery->time_s - 0.01 > to_s) continue;
             const double into_deg =
-                clockwise_deg - degrees(static_cast<double>(come->k) * packet_rad_) + 0.6;
+                clockwise_deg - degrees(static_cast<double>(delivery->k) * packet_rad_) + 0.6;
             if (std::fmod(into_deg + 720, 360.0) < degrees(packet_rad_) + 1.2) return true;
         }
         return false;
@@ -533,14 +530,14 @@ class FaultyNetwork {
     std::size_t faults() const { return faults_; }
 
  private:
-    struct Come {
-        double time_s;  ///< after it was sent
+    struct Delivery {
+        double time_s;  ///< just after sending
         std::size_t k;
     };
     void count() { ++faults_; }
     void deliver(const std::string& bytes, std::optional<std::size_t> k) {
         socket_.send(bytes, to_);
-        if (k) come_.push_back({now_s(), *k});
+        if (k) deliveries_.push_back({now_s(), *k});
     }
 
     test::LocalUdp socket_;
@@ -548,12 +545,12 @@ class FaultyNetwork {
     sockaddr_in to_{};
     std::mt19937 random_;
     std::vector<std::string> packets_;
-    std::vector<Come> come_;
+    std::vector<Delivery> deliveries_;
     std::string late_;
     std::size_t late_k_ = 0, sent_ = 0, faults_ = 0;
 };
 
-TEST_F(LiveSegmentMavlink, NothingStaleIsFree) {
+TEST_F(LiveSegmentMavlink, StaleDirectionsAreNotFree) {
     const char* const longer = std::getenv("HAGEN_NETWORK_FAULT_SECONDS");
     const std::string duration = longer != nullptr ? longer : "4";
     Autopilot autopilot;
@@ -579,10 +576,10 @@ TEST_F(LiveSegmentMavlink, NothingStaleIsFree) {
             ++free;
             for (int part = 0; part < 5; ++part) {
                 const double deg = 5 * static_cast<double>(k) - 2 + part;
-                if (network.hasCome(deg, time_s - 0.3, time_s)) continue;
+                if (network.wasMeasured(deg, time_s - 0.3, time_s)) continue;
                 ++stale;
                 ADD_FAILURE() << "direction " << k << " is free at " << time_s << ", but " << deg
-                              << " degrees did not come";
+                              << " degrees were not measured";
                 break;
             }
         }
@@ -593,11 +590,11 @@ TEST_F(LiveSegmentMavlink, NothingStaleIsFree) {
     std::cout << network.faults() << " faults: " << free << " directions free, " << unknown
               << " unknown, " << obstacles << " obstacles, " << stale << " stale and free\n";
     if (free < 500 || obstacles < 50) {
-        GTEST_SKIP() << "this machine is too slow at the moment: little was known";
+        GTEST_SKIP() << "this machine is too slow at the moment: too few directions were known";
     }
 }
 
-TEST_F(LiveSegmentMavlink, SerialLineHasSameMessages) {
+TEST_F(LiveSegmentMavlink, SerialLineGetsSameMessages) {
     const int line = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
     ASSERT_GE(line, 0);
     grantpt(line);

@@ -69,7 +69,7 @@ class LiveSegment : public test::ProgramTest {
         return nlohmann::json::parse(test::readFile(path("stats.json")));
     }
 
-    /// Expects that the capture live.pcap converts to the same bytes as another one.
+    /// Expects live.pcap to convert to the same bytes as another capture.
     void expectSameLabels(const std::string& file, const std::vector<std::string>& flags) const {
         for (const auto& [in, out] :
              {std::pair{file, "whole.rawlog"}, {path("live.pcap"), "recorded.rawlog"}}) {
@@ -85,7 +85,7 @@ class LiveSegment : public test::ProgramTest {
     const std::vector<std::string> sensor_{"--model", "VLP-16"};
 };
 
-TEST_F(LiveSegment, RecordingConvertsToTheSameLabels) {
+TEST_F(LiveSegment, RecordingConvertsToSameLabels) {
     const std::string file = capture();
     const auto outcome = run(with(sensor_, {"--replay", file, "--speed", "20", "--record",
                                             path("live.pcap"), "--stats", path("stats.json")}));
@@ -124,10 +124,10 @@ TEST_F(LiveSegment, Mid360RecordingKeepsLabels) {
     EXPECT_EQ(entries, 3 * 4);  // 0.336 s: each scan with its RoI and its ROU
 }
 
-/// Of real captures.
+/// Uses real captures.
 TEST_F(LiveSegment, OusterRecordingKeepsLabels) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA is not a folder of captures";
     const std::vector<std::pair<std::string, std::string>> captures{
         {"OS-0-32-U1_v2.2.0_1024x10.pcap", "OS-0-32-U1_v2.2.0_1024x10.json"},
         {"OS-1-128_v2.3.0_1024x10_lb_n3.pcap", "OS-1-128_v2.3.0_1024x10.json"}};
@@ -146,7 +146,7 @@ TEST_F(LiveSegment, OusterRecordingKeepsLabels) {
     }
 }
 
-TEST_F(LiveSegment, OutputsReplaceNoInputOrOutput) {
+TEST_F(LiveSegment, RefusesToOverwriteInputs) {
     const std::string file = capture(), before = test::readFile(file);
     const std::vector<std::string> flags = with(sensor_, {"-q", "--replay", file, "--speed", "50"});
     const auto refused = [&](const std::vector<std::string>& more, const std::string& words) {
@@ -172,14 +172,14 @@ TEST_F(LiveSegment, FailedRecordingKeepsStatistics) {
     EXPECT_GT(stats()["packets"]["taken"], 0);
 }
 
-TEST_F(LiveSegment, FailedStatisticsAffectNothingElse) {
+TEST_F(LiveSegment, FailedStatisticsKeepSummary) {
     const auto outcome =
         test::run("/bin/bash", {"-c", "(ulimit -f 0; exec \"" + std::string(HAGEN_LIVE_SEGMENT) +
                                           "\" --model VLP-16 --speed 50 --replay \"" + capture() +
                                           "\" --stats \"" + path("stats.json") +
                                           "\") 2>&1 | cat; exit ${PIPESTATUS[0]}"});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.out, HasSubstr("packets"));  // of the summary
+    EXPECT_THAT(outcome.out, HasSubstr("packets"));  // part of the summary
     EXPECT_THAT(outcome.out, HasSubstr("stats.json: cannot be written"));
     EXPECT_FALSE(fs::exists(path("stats.json")));
 }
@@ -192,7 +192,7 @@ TEST_F(LiveSegment, ReceivesFromNetwork) {
     }
     packets.erase(packets.begin() + 40, packets.begin() + 43);
     std::atomic<bool> is_done = false;
-    // Sends until the program has ended: the start of listening is unknown.
+    // Sends until the program ends, as it is unknown when it starts to listen.
     std::thread sender([&] {
         const test::LocalUdp out;
         const auto send = [&](const std::string& bytes) {
@@ -201,7 +201,7 @@ TEST_F(LiveSegment, ReceivesFromNetwork) {
         for (std::size_t i = 0; !is_done; ++i) {
             send(packets[i % packets.size()]);
             if (i % 50 == 7) send("noise");
-            if (i % 50 == 9) {  // a sensor of another model
+            if (i % 50 == 9) {  // another sensor model
                 std::string other = packets[i % packets.size()];
                 other.back() = '\x21';
                 send(other);
@@ -209,7 +209,7 @@ TEST_F(LiveSegment, ReceivesFromNetwork) {
             std::this_thread::sleep_for(std::chrono::microseconds(1300));
         }
     });
-    // On a busy machine it takes longer until the program listens, and until enough has come.
+    // On a busy machine, the program needs longer to start and to receive enough packets.
     test::Outcome outcome{};
     for (double duration_s = 1.5; duration_s < 60; duration_s *= 2) {
         outcome = run(with(sensor_, {"--listen", "127.0.0.1:" + std::to_string(port), "--duration",
@@ -232,7 +232,7 @@ TEST_F(LiveSegment, ReceivesFromNetwork) {
     EXPECT_TRUE(fs::exists(path("a.pcap")));
 }
 
-TEST_F(LiveSegment, LoadsNothingOfMrpt) {
+TEST_F(LiveSegment, DoesNotLoadMrpt) {
     const auto libraries = test::run("ldd", {HAGEN_LIVE_SEGMENT});
     ASSERT_EQ(libraries.exit_code, 0) << libraries.err;
     EXPECT_THAT(libraries.out, HasSubstr("libyaml-cpp"));
@@ -255,18 +255,18 @@ TEST_F(LiveSegment, FullDiskEndsRecordingOnly) {
     EXPECT_THAT(json["recorded"]["failure"].get<std::string>(), HasSubstr(path("a.pcap")));
 }
 
-/// A terminal that is stopped, or a pipe without a reader.
-TEST_F(LiveSegment, EndsWithBlockedTerminal) {
+/// A stopped terminal, or a pipe that is not read.
+TEST_F(LiveSegment, EndsDespiteBlockedTerminal) {
     const std::string command =
         "mkfifo '" + path("fifo") + "'; exec 3<>'" + path("fifo") +
         "'; head -c 65536 /dev/zero >&3; exec timeout 20 '" + HAGEN_LIVE_SEGMENT + "' --replay '" +
         capture() + "' --model HDL-32E --speed 20 --stats '" + path("stats.json") + "' 2>&3";
     const auto outcome = test::run("/bin/bash", {"-c", command});
-    EXPECT_EQ(outcome.exit_code, 1);   // it is no HDL-32E
-    EXPECT_TRUE(stats().is_object());  // it is whole
+    EXPECT_EQ(outcome.exit_code, 1);   // not an HDL-32E
+    EXPECT_TRUE(stats().is_object());  // complete
 }
 
-/// live-segment in the background, with packets that come to it until this ends.
+/// Runs live-segment in the background and sends it packets.
 class LiveSegmentKilled : public LiveSegment {
  protected:
     LiveSegmentKilled() {
@@ -307,7 +307,7 @@ class LiveSegmentKilled : public LiveSegment {
             waitpid(process_, nullptr, 0);
         }
     }
-    /// Ends live-segment by a signal; its exit code, -1: the signal ended it.
+    /// Sends a signal; returns the exit code, or -1 if the signal killed live-segment.
     int end(int signal) {
         int status = 0;
         kill(process_, signal);
@@ -315,14 +315,14 @@ class LiveSegmentKilled : public LiveSegment {
         process_ = -1;
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
-    static bool waitUntil(const std::function<bool()>& isSo) {
+    static bool waitUntil(const std::function<bool()>& condition) {
         for (int i = 0; i < 3000; ++i) {
-            if (isSo()) return true;
+            if (condition()) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
         return false;
     }
-    /// Whether a part of the recording is on the disk.
+    /// Whether part of the recording is on disk.
     bool hasWritten() const {
         for (const auto& file : files()) {
             const bool is_recording = file.filename().string().find(".tmp-") != std::string::npos;
@@ -336,7 +336,7 @@ class LiveSegmentKilled : public LiveSegment {
     std::atomic<bool> is_done_ = false;
 };
 
-TEST_F(LiveSegmentKilled, LeavesAReadableCapture) {
+TEST_F(LiveSegmentKilled, LeavesReadableCapture) {
     ASSERT_TRUE(waitUntil([&] { return hasWritten(); })) << test::readFile(path("err"));
     EXPECT_EQ(end(SIGKILL), -1);
     EXPECT_FALSE(fs::exists(path("a.pcap")));
@@ -353,14 +353,14 @@ TEST_F(LiveSegmentKilled, LeavesAReadableCapture) {
     EXPECT_GT(datagrams, 40u);
 }
 
-TEST_F(LiveSegmentKilled, CompletesTheRecordingOnSigterm) {
+TEST_F(LiveSegmentKilled, CompletesRecordingOnSigterm) {
     ASSERT_TRUE(waitUntil([&] { return hasWritten(); })) << test::readFile(path("err"));
     EXPECT_EQ(end(SIGTERM), 0) << test::readFile(path("err"));
     EXPECT_TRUE(fs::exists(path("a.pcap")));
     EXPECT_THAT(test::readFile(path("out")), HasSubstr("recorded: " + path("a.pcap")));
 }
 
-TEST_F(LiveSegment, SilenceIsError) {
+TEST_F(LiveSegment, FailsWithoutPackets) {
     expectFailure(with(sensor_, {"-q", "--listen", "127.0.0.1:" + std::to_string(freePort()),
                                  "--duration", "0.1"}),
                   1, "no packet from a VLP-16 received");

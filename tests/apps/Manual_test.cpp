@@ -28,7 +28,7 @@ TEST_P(Manual, ListsEveryFlag) {
     EXPECT_THAT(test::readFile(share / "zsh/site-functions" / ("_" + name)), HasSubstr(name));
 }
 
-INSTANTIATE_TEST_SUITE_P(OfPrograms, Manual,
+INSTANTIATE_TEST_SUITE_P(Programs, Manual,
                          testing::Values(HAGEN_LIVE_SEGMENT, HAGEN_RAWLOG_SEGMENT,
                                          HAGEN_RAWLOG_SIMULATE, HAGEN_SEGMENTATION_EVALUATE,
                                          HAGEN_OCTOMAP_COMPARE));

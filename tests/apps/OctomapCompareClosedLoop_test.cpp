@@ -88,7 +88,7 @@ int exitCodeOf(pid_t pid) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Waits for the first row of a table, for ten minutes at most: a flight takes that long under
+/// Waits up to 10 minutes for the first row of a table: a flight may take that long under
 /// sanitizers on a busy machine.
 void waitForARow(const fs::path& table) {
     for (int i = 0; i < 60000; ++i) {
@@ -107,7 +107,7 @@ std::vector<std::string> sortedLines(const std::string& text) {
     return lines;
 }
 
-/// Those of the tables together, which have the same header.
+/// The sorted lines of all tables, which share a header.
 std::vector<std::string> concatenated(const std::vector<fs::path>& tables) {
     std::string text;
     for (const fs::path& table : tables) {
@@ -139,7 +139,7 @@ TEST(ClosedLoopFlights, JobsAndShardsDoNotChangeRows) {
         tables.push_back(folder / into / "runs.csv");
     }
     EXPECT_EQ(concatenated(tables), sortedLines(runs));
-    // Nothing is left to fly.
+    // No flight is left.
     ASSERT_EQ(octomapCompare(flying(folder, "one")).exit_code, 0);
     EXPECT_EQ(readFile(folder / "one/runs.csv"), runs);
 }
@@ -176,7 +176,7 @@ TEST(ClosedLoopFlights, SectorsDoNotChangeRowsOfScans) {
         EXPECT_EQ(one, row);
     }
     EXPECT_NE(of_sectors, of_scans);
-    // One after the other into one folder is the same.
+    // Two runs into the same folder are equivalent.
     fly("scans", "sectors", "1");
     EXPECT_EQ(readFile(folder / "scans/runs.csv"), both);
 }

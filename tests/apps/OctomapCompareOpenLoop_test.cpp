@@ -58,7 +58,7 @@ TEST_F(OpenLoopCommand, OracleIsExactAndModelsGetSameScans) {
     EXPECT_GT(models[1]["directions"]["level"]["recall"], 0.9);
     EXPECT_GT(models[2]["obstacles"], models[1]["obstacles"]);
     EXPECT_EQ(summary["free_agreement"]["jaccard"][0][0], 1.0);
-#ifndef __SANITIZE_ADDRESS__  // whose heap does not tell its size
+#ifndef __SANITIZE_ADDRESS__  // its heap does not report its size
     EXPECT_GT(summary["measured"]["models"][2]["peak_heap_bytes"], 100000);
 #endif
 
@@ -79,7 +79,7 @@ TEST_F(OpenLoopCommand, OracleIsExactAndModelsGetSameScans) {
     for (const auto& [returns, times] : rows_of_returns) EXPECT_EQ(times, 3) << returns;
 }
 
-TEST_F(OpenLoopCommand, LogAndScanFolderGiveSameFigures) {
+TEST_F(OpenLoopCommand, LogAndScanFolderGiveSameResults) {
     simulate(4);
     ASSERT_EQ(run(gap("a")).exit_code, 0);
     ASSERT_EQ(run(with(gap("b"), {"-q"})).out, "");
@@ -135,7 +135,7 @@ TEST_F(OpenLoopCommand, ReportsSkippedDataDespiteQuiet) {
     EXPECT_EQ(summary["remarks"].size(), 1u);
 }
 
-TEST_F(OpenLoopCommand, RefusesWrongUsage) {
+TEST_F(OpenLoopCommand, RejectsWrongUsage) {
     const std::vector<std::string> orchard{"-i", kOrchard, "-o", path("no")};
     expectFailure(with(orchard, {"--models", "O-Full-0"}), 2, "O-Full-0");
     expectFailure(
@@ -171,7 +171,7 @@ TEST_F(OpenLoopCommand, KeepsExistingFiles) {
     expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("file")}, 1, "file");
 }
 
-TEST_F(OpenLoopCommand, KeepsScansBeforeBrokenMcapChunk) {
+TEST_F(OpenLoopCommand, KeepsScansOfTruncatedMcap) {
     simulate(12);
     const auto converted =
         test::run(HAGEN_RAWLOG_SEGMENT, {"-i", path("gap.rawlog"), "--mcap", path("gap.mcap")});
@@ -185,7 +185,7 @@ TEST_F(OpenLoopCommand, KeepsScansBeforeBrokenMcapChunk) {
     EXPECT_TRUE(fs::exists(path("cut/scans.partial.csv")));
 }
 
-TEST_F(OpenLoopCommand, KeepsScansBeforeBreakOfLog) {
+TEST_F(OpenLoopCommand, KeepsScansOfTruncatedRawlog) {
     simulate(12);
     fs::resize_file(path("gap.rawlog"), fs::file_size(path("gap.rawlog")) * 2 / 3);
     const auto outcome = run(gap("out"));

@@ -18,7 +18,7 @@ class Presets : public test::SegmentTest {
     }
 };
 
-TEST_F(Presets, NameMeansFile) {
+TEST_F(Presets, NameSelectsPresetFile) {
     for (const std::string name : {"vlp16", "hdl64e", "mid360", "paper"}) {
         EXPECT_EQ(expectSuccess({"--config-dump", "-c", name}).out,
                   run({"--config-dump", "-c", config(name)}).out);
@@ -34,7 +34,7 @@ TEST_F(Presets, AreFoundBesideMovedProgram) {
     EXPECT_THAT(outcome.out, HasSubstr("zone_m: 17 "));
 }
 
-TEST_F(Presets, UnknownNameIsWrongUsage) {
+TEST_F(Presets, RejectsUnknownNames) {
     const std::string folder = HAGEN_SOURCE_DIR "/config";
     expectFailure({"-i", folder, "-o", path("out.rawlog"), "-c", "vlp61"}, 2,
                   "vlp61: no such file or preset; did you mean 'vlp16'?");

@@ -45,14 +45,14 @@ class RawlogSegmentBag : public test::SegmentTest {
         }
         return messages;
     }
-    /// The labels that the program gives to an input.
+    /// The program's labels of an input.
     std::string labelled(const std::string& input) const {
         expectSuccess({"-q", "-i", input, "--kitti", path("labels"), "--overwrite"});
         return labelsOf("labels");
     }
 };
 
-TEST_F(RawlogSegmentBag, EveryFormatOfPacketsGetsSameLabels) {
+TEST_F(RawlogSegmentBag, PacketsGetSameLabelsInAnyFormat) {
     const auto messages = messagesOfRecording(true, false);
     const std::string due = labelled(recording());
     EXPECT_GT(due.size(), 100000u);
@@ -65,12 +65,12 @@ TEST_F(RawlogSegmentBag, EveryFormatOfPacketsGetsSameLabels) {
     fs::create_directory(path("folder"));
     fs::copy(path("flight.db3"), path("folder") + "/folder_0.db3");
     EXPECT_EQ(labelled(path("folder")), due);
-    // Names do not matter.
+    // File names do not matter.
     fs::rename(bag, path("flight.rawlog"));
     EXPECT_EQ(labelled(path("flight.rawlog")), due);
 }
 
-TEST_F(RawlogSegmentBag, CloudsGetLabelsOfRawlog) {
+TEST_F(RawlogSegmentBag, CloudsGetSameLabelsAsRawlog) {
     const auto messages = messagesOfRecording(false, true);
     convert::RawlogWriter writer(path("clouds.rawlog"), true);
     const auto source = recordings::openRecording(recording());
@@ -206,7 +206,7 @@ class BagsOfOtherPrograms : public RawlogSegmentBag {
     }
 };
 
-TEST_F(BagsOfOtherPrograms, Rosbag) {
+TEST_F(BagsOfOtherPrograms, RosbagGetsSameLabels) {
     if (test::run("/usr/bin/python3", {"-c", "import rosbag"}).exit_code != 0) {
         GTEST_SKIP() << "python3-rosbag is not installed";
     }
@@ -219,9 +219,9 @@ TEST_F(BagsOfOtherPrograms, Rosbag) {
     }
 }
 
-TEST_F(BagsOfOtherPrograms, Mcap) {
+TEST_F(BagsOfOtherPrograms, McapGetsSameLabels) {
     const fs::path modules = test::dataFolder("HAGEN_NODE_MODULES");
-    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES names no folder with @mcap/core";
+    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES is not a folder with @mcap/core";
     const std::string messages = lines(), due = labelled(recording());
     for (const std::string kind : {"none", "zstd", "lz4", "plain", "ros1"}) {
         const auto made =

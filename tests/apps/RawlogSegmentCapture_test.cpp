@@ -35,7 +35,7 @@ TEST_F(RawlogSegmentCapture, CaptureAndRawlogGetSameLabels) {
     EXPECT_THAT(outcome.out, HasSubstr("LiDAR scans in "));
     EXPECT_THAT(outcome.out, HasSubstr("sensor velodyne: VLP-16, 16 beams"));
     EXPECT_THAT(outcome.err, HasSubstr("velodyne (VLP-16 at 10.0.0.100, port 2368): "));
-    // The output has the scans with their packets.
+    // The output contains the scans with their packets.
     expectSuccess({"-q", "-i", path("of_capture.rawlog"), "--kitti", path("b")});
     EXPECT_TRUE(labelsOf("a") == labelsOf("b"));
     EXPECT_GT(labelsOf("a").size(), 100000u);
@@ -53,7 +53,7 @@ TEST_F(RawlogSegmentCapture, KeepsReadablePartOfCutCapture) {
         if (cut != 3) continue;
         EXPECT_THAT(outcome.err, HasSubstr("entries before it are in " + path("out.partial")));
     }
-    recordings::RawlogReader reader(path("out.partial.rawlog"));  // of the first cut
+    recordings::RawlogReader reader(path("out.partial.rawlog"));  // from the first cut
     while (reader.next()) {
     }
     EXPECT_GE(reader.entries(), 12u);  // four scans, each with two clouds
@@ -88,7 +88,7 @@ TEST_F(RawlogSegmentCapture, OusterRequiresMetadata) {
                   "is no capture");
 }
 
-TEST_F(RawlogSegmentCapture, RejectsOtherCaptures) {
+TEST_F(RawlogSegmentCapture, RejectsUnsupportedCaptures) {
     test::SentDatagram ouster;
     ouster.content = std::string(8448, '\0');
     ouster.to_port = 7502;

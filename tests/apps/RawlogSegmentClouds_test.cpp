@@ -131,11 +131,11 @@ TEST_F(RawlogSegmentClouds, EveryFormatGetsSameLabels) {
     }
 }
 
-TEST_F(RawlogSegmentClouds, EveryFormatOfRealScansGetsSameLabels) {
+TEST_F(RawlogSegmentClouds, RealScansGetSameLabelsInAnyFormat) {
     const fs::path data = test::dataFolder("HAGEN_LABELLED_DATA");
-    if (data.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA names no folder of scans";
+    if (data.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA is not a folder of scans";
     const recordings::ScanFolder scans(data / "beams16" / "00");
-    // The folder names its beams; cloud files need the settings.
+    // The folder specifies its beams; cloud files need the settings.
     const std::vector<std::string> settings{"-q", "-c", config("vlp16"), "-c",
                                             scans.sensorFile().string()};
     expectSuccess(
@@ -180,12 +180,12 @@ TEST_F(RawlogSegmentClouds, ReadsOwnOutput) {
 
 TEST_F(RawlogSegmentClouds, KeepsFieldsOfMrpt3) {
     const fs::path data = test::dataFolder("HAGEN_MRPT3_DATA");
-    if (data.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA names no folder of logs of MRPT 3";
+    if (data.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not a folder of MRPT 3 logs";
     const std::string log = (data / "sample_mrpt3.rawlog").string();
     expectSuccess({"-q", "-i", log, "--clouds", path("out")});
     const auto table = recordings::readCloud(path("out") + "/cloud/000000.ply").table;
     EXPECT_EQ(namesOf(table), "x, y, z, intensity, t, ring, label, obstacle");
-    // Its rings are a VLP-16's laser numbers, which do not rise with the elevation.
+    // Its rings are VLP-16 laser numbers, which do not increase with elevation.
     const auto column = [&](const char* name) {
         return columnOf(table, *findField(table, {name}));
     };
@@ -199,7 +199,7 @@ TEST_F(RawlogSegmentClouds, KeepsFieldsOfMrpt3) {
     EXPECT_THAT(again.out, HasSubstr("its ring numbers do not agree with elevations"));
 }
 
-TEST_F(RawlogSegmentClouds, ReportsPlaceOfErrors) {
+TEST_F(RawlogSegmentClouds, ReportsErrorLocations) {
     const auto fails = [&](const std::string& name, const std::string& text,
                            const std::string& words) {
         const std::string file = write(name, text);

@@ -33,7 +33,7 @@ class RawlogSegmentMcap : public test::SegmentTest {
 };
 
 TEST_F(RawlogSegmentMcap, OwnOutputGetsSameLabels) {
-    // Clouds, so that both runs get the same numbers: beams of packets would be known better.
+    // Clouds, so that both runs have the same input: packets specify beams more precisely.
     expectSuccess({"-q", "-i", recording(), "--mcap", path("clouds.mcap"), "--to", "9"});
     expectSuccess({"-q", "-i", path("clouds.mcap"), "-c", config("vlp16"), "--mcap", path("a.mcap"),
                    "--clouds", path("a")});
@@ -65,7 +65,7 @@ TEST_F(RawlogSegmentMcap, SummaryMatchesStatistics) {
 /// tests/recordings/read_mcap.mjs uses the npm packages of the format's authors.
 TEST_F(RawlogSegmentMcap, ReferenceReaderAgrees) {
     const fs::path modules = test::dataFolder("HAGEN_NODE_MODULES");
-    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES names no folder with @mcap/core";
+    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES is not a folder with @mcap/core";
     expectSuccess(
         {"-q", "-i", recording(), "--mcap", path("out.mcap"), "--stats", path("out.json")});
     const auto read = test::run(
@@ -73,7 +73,7 @@ TEST_F(RawlogSegmentMcap, ReferenceReaderAgrees) {
         {"-C", modules.string(), "node",
          std::string(HAGEN_SOURCE_DIR) + "/tests/recordings/read_mcap.mjs", path("out.mcap")});
     if (read.exit_code == 127 || read.exit_code == 77) {
-        GTEST_SKIP() << "node, a package or zstd is not there: " << read.err;
+        GTEST_SKIP() << "node, a package or zstd is missing: " << read.err;
     }
     ASSERT_EQ(read.exit_code, 0) << read.err;
     const auto stats = readJson("out.json");
@@ -114,7 +114,7 @@ TEST_F(RawlogSegmentMcap, ReferenceReaderAgrees) {
             {"/lidar/obstacles", 10}, {"/lidar/points", 10}, {"/lidar/pose", 10}, {"/tf", 10}}));
     EXPECT_EQ(points, stats["mcap"]["points"]);
     EXPECT_EQ(boxes, stats["mcap"]["boxes"]);
-    // The last line: the summary of the file.
+    // The last line is the file's summary.
     EXPECT_EQ(line["profile"], "ros2");
     EXPECT_EQ(line["messages"], "40");
     EXPECT_EQ(line["chunks"], line["chunkIndexes"]);

@@ -51,7 +51,7 @@ bool isAtWall(const octomap::point3d& p) {
     return p.x() > 15.8 && p.x() < 16.7 && p.y() > -2.3 && p.y() < 3.3 && p.z() < 4.3;
 }
 
-TEST_F(RawlogSegmentOctomap, ObstaclesAreAtTruePlaces) {
+TEST_F(RawlogSegmentOctomap, ObstaclesAreAtTruePositions) {
     const octomap::OcTree tree = mapOf({});
     EXPECT_EQ(tree.getResolution(), 0.2);
     std::set<int> poles;
@@ -111,7 +111,7 @@ TEST_F(RawlogSegmentOctomap, ScanFolderGivesSameObstacles) {
 }
 
 TEST_F(RawlogSegmentOctomap, OmitsScansWithoutUsablePose) {
-    std::string half, far;  // for the first half second only; and beyond any map
+    std::string half, far;  // for the first 0.5 s only; outside any map
     for (int i = 0; i < 10; ++i) {
         const std::string time = std::to_string(1767225600 + 0.1 * i);
         if (i <= 5) half += time + " " + std::to_string(0.3 * i) + " 0 1.2 0 0 0 1\n";
@@ -124,7 +124,7 @@ TEST_F(RawlogSegmentOctomap, OmitsScansWithoutUsablePose) {
     const auto outcome =
         expectSuccess({"-i", recording(), "--octomap", path("far.bt"), "-o", path("out.rawlog"),
                        "--poses", folder_.write("far.tum", far)});
-    // The scan before it moves towards it.
+    // The far pose also displaces the scan before it.
     EXPECT_THAT(outcome.out, HasSubstr("in the OctoMap: 8 of 10 scans"));
     EXPECT_THAT(outcome.out, HasSubstr("10 LiDAR scans"));
     EXPECT_THAT(outcome.err, HasSubstr("lies outside an OctoMap"));

@@ -37,7 +37,7 @@ class RawlogSegmentTrouble : public test::SegmentTest {
         for (int i = 0; i < scans; ++i) lines += "1 0 0 0 0 1 0 0 0 0 1 1\n";
         return folder_.write("still.txt", lines);
     }
-    /// A log of small scans, each changed.
+    /// A log of small scans modified by `change`.
     std::string logOf(int scans, const Change& change) const {
         recordings::RawlogReader reader(recording());
         CObservationVelodyneScan::Ptr scan;
@@ -67,7 +67,7 @@ class RawlogSegmentTrouble : public test::SegmentTest {
     }
 };
 
-/// The next file would get the number of a closed stream: messages would go into the output.
+/// A new file could reuse a closed stream's descriptor: messages would end up in the output.
 TEST_F(RawlogSegmentTrouble, ClosedStreamsDoNotChangeOutput) {
     const Arguments flags{"-i", recording(), "--preview", "--overwrite", "-o"};
     expectSuccess(with(flags, {path("open.rawlog")}));
@@ -93,7 +93,7 @@ TEST_F(RawlogSegmentTrouble, RejectsPipesAndDevices) {
     }
 }
 
-/// A file size limit affects the largest output alone.
+/// A file size limit affects only the largest output.
 TEST_F(RawlogSegmentTrouble, UnwritableOutputDoesNotAffectOthers) {
     const std::vector<std::string> names{"out.rawlog", "map.bt", "map.3Dscene", "out.json"};
     const Arguments flags{"-i",           recording(),    "--octomap-resolution",
@@ -175,15 +175,15 @@ TEST_F(RawlogSegmentTrouble, LimitsNumberOfSensors) {
     expectSuccess({"-i", log, "-o", path("out.rawlog"), "--sensor-label", "lidar119"});
 }
 
-/// U+009B starts a command as ESC [ does, and so does its byte on terminals with 8 bits.
-TEST_F(RawlogSegmentTrouble, LabelsSendNoControlCharacters) {
+/// Like ESC [, U+009B starts a control sequence, as does byte 0x9b on 8-bit terminals.
+TEST_F(RawlogSegmentTrouble, ReplacesControlCharactersOfLabels) {
     const std::string line = "rawlog-segment: all is lost";
     const std::string label =
         "a\x1b[2J\x07\r\n" + line + "Ö\xc2\x9b" + "2J\x9b" + "2J\u65e5\u202egpj\u2066";
     const std::string safe = "a?[2J???" + line + "Ö??2J?2J\u65e5???gpj???";
     const auto log = logOf(12, [&](int i, CObservationVelodyneScan& scan) {
         scan.sensorLabel = label;
-        if (i == 11) scan.scan_packets.clear();  // is reported
+        if (i == 11) scan.scan_packets.clear();  // causes a remark
     });
     const auto segmented = expectSuccess({"-i", log, "-o", path("out.rawlog")});
     EXPECT_THAT(segmented.out, HasSubstr("sensor " + safe + ": "));
@@ -196,7 +196,7 @@ TEST_F(RawlogSegmentTrouble, LabelsSendNoControlCharacters) {
     EXPECT_THAT(learned.out, HasSubstr("LiDAR scans of '" + safe + "':\n"));
 }
 
-TEST_F(RawlogSegmentTrouble, LabelMayBeNameOfMarkerFile) {
+TEST_F(RawlogSegmentTrouble, AcceptsLabelNamedLikeMarkerFile) {
     const auto log = logOf(4, [](int i, CObservationVelodyneScan& scan) {
         scan.sensorLabel = i % 2 == 0 ? "front" : "made_by.txt";
     });
@@ -205,8 +205,8 @@ TEST_F(RawlogSegmentTrouble, LabelMayBeNameOfMarkerFile) {
     EXPECT_TRUE(fs::is_directory(path("clouds/made_by.txt_")));
 }
 
-/// A file of zeros is one line of gigabytes.
-TEST_F(RawlogSegmentTrouble, LimitsSizes) {
+/// A file of zeros is a single line of 4 GiB.
+TEST_F(RawlogSegmentTrouble, LimitsLineAndMapSizes) {
     std::ofstream(path("poses.tum")).close();
     fs::resize_file(path("poses.tum"), std::uintmax_t{4} << 30);
     const Arguments map{"-i", recording(), "--octomap", path("map.bt")};
@@ -226,7 +226,7 @@ TEST_F(RawlogSegmentTrouble, OutputsDoNotReplaceSettings) {
     EXPECT_EQ(test::readFile(inner), "beta_deg: 7\n");
 }
 
-/// CLI11 would accept nan, and turn -1 into a large unsigned number.
+/// CLI11 would accept nan and convert -1 to a large unsigned number.
 TEST_F(RawlogSegmentTrouble, FlagsAcceptNumbersOnly) {
     for (const std::string wrong :
          {"--memory-limit=nan", "--memory-limit=inf", "--to=-0", "--from=99999999999999999999",
@@ -236,8 +236,8 @@ TEST_F(RawlogSegmentTrouble, FlagsAcceptNumbersOnly) {
     }
 }
 
-TEST_F(RawlogSegmentTrouble, WithoutFileDescriptorsOutputsAreCompleteOrMissing) {
-    // Fewer than 5 do not even load the program's libraries.
+TEST_F(RawlogSegmentTrouble, MissingDescriptorsDoNotDamageOutput) {
+    // With fewer than 5, the program's libraries do not load.
     for (int descriptors = 6; descriptors < 12; descriptors += 2) {
         const auto outcome = runAfter("ulimit -n " + std::to_string(descriptors) + "; ",
                                       {"-i", recording(), "--kitti", path("k"), "--mcap",
@@ -252,7 +252,7 @@ TEST_F(RawlogSegmentTrouble, WithoutFileDescriptorsOutputsAreCompleteOrMissing) 
     }
 }
 
-/// A gnuplot that hangs, floods standard error or leaves processes.
+/// A gnuplot that hangs, floods standard error or leaves processes behind.
 TEST_F(RawlogSegmentTrouble, HangingGnuplotAffectsPicturesOnly) {
     for (const std::string script : {"sleep 1000 & wait", "exec yes >&2"}) {
         fs::permissions(folder_.write("gnuplot", "#!/bin/bash\n" + script + "\n"),
@@ -270,7 +270,7 @@ TEST_F(RawlogSegmentTrouble, HangingGnuplotAffectsPicturesOnly) {
     }
 }
 
-/// Times at the ends of the clock, and poses at such times.
+/// Times at the limits of the clock, and poses at these times.
 TEST_F(RawlogSegmentTrouble, IgnoresImplausibleTimes) {
     const std::vector<std::int64_t> ticks{std::numeric_limits<std::int64_t>::min(),
                                           std::numeric_limits<std::int64_t>::max(), -1, 0,
@@ -318,7 +318,7 @@ TEST_F(RawlogSegmentTrouble, LimitsIncludesOfRecordedSettings) {
     }
 }
 
-/// For whatever reason: here, memory for their stacks.
+/// Here for lack of stack memory.
 TEST_F(RawlogSegmentTrouble, MissingThreadsDoNotDamageOutput) {
     for (const int mb : {900, 600}) {
         const auto outcome =
@@ -352,7 +352,7 @@ TEST_F(RawlogSegmentTrouble, InterruptedPicturesKeepRawlog) {
     EXPECT_TRUE(fs::exists(path("out.partial.rawlog"))) << outcome.err;
 }
 
-/// As on a disk that is unplugged.
+/// As if a disk were unplugged.
 TEST_F(RawlogSegmentTrouble, KeepsScansBeforeMissingOne) {
     expectSuccess({"-i", recording(), "--kitti", path("scans")});
     fs::remove(path("scans/poses.txt"));

@@ -184,7 +184,7 @@ TEST_F(RawlogSegment, ReportsCloudsWithoutBeams) {
     EXPECT_THAT(few.out, HasSubstr("sensor velodyne: too few returns"));
     EXPECT_THAT(few.out, HasSubstr("VLP-16 assumed"));
 
-    writeScan(randomScan(1000, {130, -60, 10}, {150, -40, 14}));  // in the frame of a map
+    writeScan(randomScan(1000, {130, -60, 10}, {150, -40, 14}));  // in a map frame
     const auto far = expectSuccess({"-i", path("scans"), "--stats", path("c.json")});
     EXPECT_THAT(far.err, HasSubstr("no return is RoI"));
     EXPECT_THAT(far.err, HasSubstr("relative to the sensor"));
@@ -219,7 +219,7 @@ TEST_F(RawlogSegment, ComparesCloudsWithNamedSensor) {
     EXPECT_FALSE(fs::exists(path("labels")));
 }
 
-TEST_F(RawlogSegment, RejectsSettingsThatRecoveredBeamsDoNotFit) {
+TEST_F(RawlogSegment, RejectsSettingsUnfitForRecoveredBeams) {
     Scan scan;
     for (int column = 0; column < 400; ++column) {
         for (const float slope : {-0.3f, -0.2f, -0.1f, 0.1f}) {
@@ -264,12 +264,12 @@ TEST_F(RawlogSegment, OverwritesOwnOutputsOnly) {
     EXPECT_GT(fs::file_size(path("out.rawlog")), 1000u);
     EXPECT_FALSE(fs::exists(path("scans/velodyne/000077.bin")));
 
-    folder_.write("mine/velodyne/000000.bin", "mine");  // a folder that somebody labelled by hand
+    folder_.write("mine/velodyne/000000.bin", "mine");  // a folder labelled by hand
     folder_.write("mine/labels/000000.label", "mine");
     folder_.write("work/src/main.cpp", "");
     folder_.write("notes.txt", "mine");
     fs::copy_file(recording(), path("flight.rawlog"));
-    folder_.write("flight_Images/cloud_1.bin", "mine");  // MRPT stores a part of the recording here
+    folder_.write("flight_Images/cloud_1.bin", "mine");  // MRPT stores parts of recordings here
     expectFailures({"-i", path("flight.rawlog"), "--overwrite"}, 1,
                    {{{"--kitti", path("mine")}, "mine: is not a scan folder of an earlier run"},
                     {{"--stats", path("flight_Images/cloud_1.bin")}, "flight_Images"},
@@ -458,14 +458,14 @@ TEST_F(RawlogSegment, ReportsUnwritableOutputs) {
                     AnyOf(HasSubstr("cannot be written"), HasSubstr("File too large")));
         EXPECT_TRUE(fs::is_empty(folder_.path())) << output[0];
     }
-    if (geteuid() == 0) GTEST_SKIP() << "root writes everywhere else";
+    if (geteuid() == 0) GTEST_SKIP() << "root may write to the other folders";
     fs::create_directory(folder_ / "locked");
     fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
     expectFailure({"-i", recording(), "-o", path("locked/out")}, 1, "Permission denied");
 }
 
 TEST_F(RawlogSegment, KeepsOutputOnInterrupt) {
-    // Concatenated gzip files are one log; converting it takes many times as long as the wait.
+    // Concatenated gzip files form one log, whose conversion takes much longer than the wait.
     const std::string bytes = test::readFile(recording());
     std::string many;
     for (int i = 0; i < 200; ++i) many += bytes;
@@ -483,7 +483,7 @@ TEST_F(RawlogSegment, KeepsOutputOnInterrupt) {
     }
 }
 
-TEST(PolesAndWall, RecordingMatchesItsGenerator) {
+TEST(PolesAndWall, RecordingMatchesGenerator) {
     recordings::RawlogReader reader(HAGEN_SOURCE_DIR "/rawlogs/poles_and_wall.rawlog");
     for (int scan = 0; scan < test::kPolesAndWallScans; ++scan) {
         ASSERT_NE(reader.next(), nullptr);

@@ -66,7 +66,7 @@ class RawlogSimulate : public test::ProgramTest {
                                           "--every-s",  "0.5"};
 };
 
-TEST_F(RawlogSimulate, WritesSameReturnsWithTruth) {
+TEST_F(RawlogSimulate, WritesSameReturnsToLogAndFolder) {
     const auto outcome = expectSuccess(
         with(wires_, {"-o", path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")}));
     EXPECT_EQ(outcome.err, "");
@@ -242,7 +242,7 @@ TEST_F(RawlogSimulate, ClearAirHasNoUnclassifiedReturns) {
 }
 
 /// The exact command is in rawlogs/README.md. If sines differ in the last bit between machines, a
-/// return may differ, and random numbers after it; so the comparison of returns has a tolerance.
+/// return and later random numbers may differ, so returns are compared with a tolerance.
 TEST_F(RawlogSimulate, ReproducesDemoRecording) {
     const std::string command =
         "rawlog-simulate --scenario orchard --scans 30 --every-s 0.2 "

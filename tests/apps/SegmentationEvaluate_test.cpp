@@ -167,7 +167,7 @@ TEST_F(SegmentationEvaluate, RecoversUnnamedSensor) {
     EXPECT_EQ(row(outcome.out, "beta_deg=10"), (std::vector<double>{1, 1, 1, 1, 1, 1}));
     EXPECT_THAT(json({"-i", pole})["folders"][0]["recovered_sensor"].get<std::string>(),
                 HasSubstr("8 beams recovered"));
-    // Degraded copies are of the same sensor, mirrored if it is upside down.
+    // Degraded copies have the same sensor, mirrored if upside down.
     for (const std::string degradation : {"upside_down", "dead_beams=3"}) {
         const auto degraded = run({"-i", pole, "--degrade", degradation});
         EXPECT_EQ(degraded.exit_code, 0) << degraded.err;
@@ -241,7 +241,7 @@ TEST_F(SegmentationEvaluate, ScoresLabelsOfOtherPrograms) {
 }
 
 /// A closed pipe, an input as output, and an interruption.
-TEST_F(SegmentationEvaluate, KeepsFilesOnTrouble) {
+TEST_F(SegmentationEvaluate, KeepsFilesOnFailure) {
     const std::string pole = labelledPole();
     const auto piped =
         test::run("/bin/bash", {"-c", "\"" + std::string(HAGEN_SEGMENTATION_EVALUATE) + "\" -i \"" +
@@ -257,8 +257,8 @@ TEST_F(SegmentationEvaluate, KeepsFilesOnTrouble) {
         "timeout -s TERM -k 20 0.5 \"" + std::string(HAGEN_SEGMENTATION_EVALUATE) + "\" -i \"" +
         pole + "\" --baselines --hard-sets --bootstrap 1000000 --charts \"" + path("charts") + "\"";
     const auto outcome = test::run("/bin/bash", {"-c", interrupted});
-    if (outcome.exit_code == 0) GTEST_SKIP() << "all was scored within half a second";
-    if (outcome.err.empty()) GTEST_SKIP() << "it had not begun after half a second";
+    if (outcome.exit_code == 0) GTEST_SKIP() << "scoring ended within 0.5 s";
+    if (outcome.err.empty()) GTEST_SKIP() << "scoring had not begun after 0.5 s";
     EXPECT_THAT(outcome.err, HasSubstr("interrupted; nothing was written"));
     expectNoTemporaryFiles();
 }
@@ -299,7 +299,7 @@ TEST_F(SegmentationEvaluate, RejectsUnusableLabels) {
     expectFailure(with(flags, {"a=" + theirs}), 1, "000000.label: has 2 labels for");
 }
 
-// The pole's returns above 0.5 m are those of beams that meet it above z = 0.5 m - 2 m.
+// Of the pole's returns, those above z = 0.5 m - 2 m are more than 0.5 m above ground.
 TEST_F(SegmentationEvaluate, ScoresTallObstacles) {
     const std::string pole = poleWithKinds();
     auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
@@ -380,9 +380,9 @@ TEST_F(SegmentationEvaluate, HardSetsAreStandardDegradations) {
 }
 
 // The published filter on labelled recordings, with the required scores.
-TEST_F(SegmentationEvaluate, PaperReachesItsScoresOnRealScans) {
+TEST_F(SegmentationEvaluate, PaperPresetReachesRequiredScores) {
     std::vector<std::string> arguments = sixteenBeamScans();
-    if (arguments.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA names no folder of labelled scans";
+    if (arguments.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA is not a folder of labelled scans";
     arguments.insert(arguments.end(), {"-c", kPaper});
     const auto outcome = run(arguments);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -393,7 +393,7 @@ TEST_F(SegmentationEvaluate, PaperReachesItsScoresOnRealScans) {
 // The shipped map turns the classes of semantic/ into the labels of labels/.
 TEST_F(SegmentationEvaluate, ShippedLabelMapMatchesData) {
     std::vector<std::string> arguments = sixteenBeamScans();
-    if (arguments.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA names no folder of labelled scans";
+    if (arguments.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA is not a folder of labelled scans";
     const auto plain = json(arguments);
     arguments.insert(arguments.end(), {"--label-map", kConfig + "semantic_kitti.yaml"});
     const auto mapped = json(arguments);
@@ -455,7 +455,7 @@ TEST_F(SegmentationEvaluate, AppliesLabelMap) {
     const auto upside_down = json({"-i", pole, "--label-map", map});
     EXPECT_EQ(upside_down["methods"][0]["returns"]["all"]["roi"]["recall"], 0.0);
     EXPECT_EQ(upside_down["methods"][0]["returns"]["by_kind"][0]["name"], "mast");
-    fs::remove_all(folder_ / "pole/semantic");  // then classes are those of labels/
+    fs::remove_all(folder_ / "pole/semantic");  // then classes come from labels/
     folder_.write("map.yaml",
                   "1: {name: soil, label: 1}\n2: {name: obstacle, label: 2}\n"
                   "0: {name: nothing, label: 0}\n");

@@ -133,7 +133,7 @@ TEST_F(Campaign, WritesTableWithoutFlights) {
     EXPECT_EQ(table("c"), runHeader() + "\n");
 }
 
-TEST_F(Campaign, ReportsErrorOfAFlight) {
+TEST_F(Campaign, ReportsFlightError) {
     std::vector<CourseFlights> flights = flightsOf(plan_);
     flights[1].scenario = "moon";
     options_.jobs = 2;

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/// Made once; courses are costly.
+/// Built only once, as courses are expensive.
 const Course& course(const std::string& name, std::uint64_t seed) {
     static std::map<std::pair<std::string, std::uint64_t>, Course> made;
     const auto key = std::make_pair(name, seed);
@@ -56,8 +56,8 @@ simulation::SimulatedScan scanAtStart(const Course& course, double time_s = 0) {
                                     trialErrorModel(Air::Clear));
 }
 
-/// The nearest that stands on the ground or moves, by rays in all directions.
-double nearestThing_m(const Course& course, const Vector3f& from, double time_s) {
+/// Distance to the nearest standing or moving object, by rays in all directions.
+double nearestObject_m(const Course& course, const Vector3f& from, double time_s) {
     std::vector<simulation::Ray> rays;
     simulation::Random random(3);
     for (int i = 0; i < 4000; ++i) {
@@ -96,7 +96,7 @@ TEST_P(EachCourse, HasFreeEndsAndPath) {
             const double ground_m = c.scene.terrain().height_m(end.x(), end.y());
             EXPECT_NEAR(end.z() - ground_m, c.altitude_m, 1e-9);
             for (double time_s = 0; time_s < 30; time_s += 3) {
-                EXPECT_GT(nearestThing_m(c, end.cast<float>(), time_s), 2.0) << "seed " << seed;
+                EXPECT_GT(nearestObject_m(c, end.cast<float>(), time_s), 2.0) << "seed " << seed;
             }
         }
     }
@@ -114,10 +114,10 @@ TEST_P(EachCourse, DependsOnSeedOnly) {
     EXPECT_GT(scan.size(), 8000u);
 }
 
-TEST(CourseTest, ForestMatchesItsDensity) {
+TEST(CourseTest, ForestMatchesDensity) {
     for (const auto& [name, per_m2] :
          std::map<std::string, double>{{"forest-0.02", 0.02}, {"forest-0.10", 0.10}}) {
-        const double expected = per_m2 * 56 * 34;  // less those at the ends: 3.9 m about each
+        const double expected = per_m2 * 56 * 34;  // minus the trees within 3.9 m of the ends
         double mean = 0;
         for (std::uint64_t seed = 1; seed <= 3; ++seed)
             mean += count(course(name, seed), simulation::ObjectClass::Tree) / 3.0;
@@ -140,7 +140,7 @@ TEST(CourseTest, TrapBlocksAllAltitudes) {
     }
 }
 
-/// How wide the wires are that a fence of rays, up from below the straight way, meets [m].
+/// Widths of the wires hit by a fence of upward rays from below the straight path.
 std::vector<double> wireWidths_m(const Course& c) {
     constexpr double kStep_m = 0.001;
     std::vector<simulation::RayHit> hits;

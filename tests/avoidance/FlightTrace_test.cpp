@@ -6,7 +6,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// A second at this acceleration along x, from rest.
+/// One second at this acceleration along x, from rest.
 FlightTrace accelerating(double acceleration_m_s2) {
     VehicleState state;
     FlightTrace trace(state);
@@ -24,8 +24,8 @@ TEST(FlightTrace, LeansIntoAcceleration) {
     EXPECT_NEAR((trace.at(0).attitude.toRotationMatrix() - Eigen::Matrix3d::Identity()).norm(), 0,
                 1e-12);
     const Eigen::Matrix3d attitude = trace.at(1).attitude.toRotationMatrix();
-    EXPECT_NEAR(std::atan2(attitude(0, 2), attitude(2, 2)), radians(45), 1e-3);  // up leans ahead
-    EXPECT_NEAR(attitude(1, 0), 0, 1e-12);  // the nose stays over x
+    EXPECT_NEAR(std::atan2(attitude(0, 2), attitude(2, 2)), radians(45), 1e-3);  // leans ahead
+    EXPECT_NEAR(attitude(1, 0), 0, 1e-12);  // heading stays along x
 }
 
 TEST(FlightTrace, InterpolatesBetweenSamples) {
@@ -59,10 +59,10 @@ TEST(PoseBelief, DriftGrowsWithDistance) {
                 0, 1e-12);
 }
 
-TEST(PoseBelief, NoiseMatchesItsDeviation) {
+TEST(PoseBelief, NoiseMatchesStandardDeviation) {
     const FlightTrace trace(VehicleState{});
     PoseBelief belief(PoseError::Noise, 5), late(PoseError::Noise, 5), other(PoseError::Noise, 6);
-    const Eigen::Vector3d last = late.offset_m(trace, 99);  // asked out of turn
+    const Eigen::Vector3d last = late.offset_m(trace, 99);  // queried out of order
     double squares_m2 = 0, squares_rad2 = 0;
     const int knots = 1000;
     for (int knot = 0; knot < knots; ++knot) {

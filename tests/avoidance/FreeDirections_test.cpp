@@ -13,12 +13,12 @@ namespace {
 using Points = std::vector<Eigen::Vector3f>;
 
 float nearest(const Points& points_m, const Eigen::Vector3f& to_m) {
-    float min_m = 3.0f;  // the reach of world models
+    float min_m = 3.0f;  // range of world models
     for (const auto& point_m : points_m) min_m = std::min(min_m, (point_m - to_m).norm());
     return min_m;
 }
 
-/// From a point to the way that a direction leads.
+/// Distance from a point to the path in a direction.
 float distanceToPath(const Eigen::Vector3f& point_m, const Eigen::Vector3f& direction,
                      float length_m) {
     const float along_m = std::clamp(point_m.dot(direction), 0.0f, length_m);
@@ -63,7 +63,7 @@ TEST(FreeDirections, MatchBruteForce) {
             for (const auto& p : points_m) {
                 min_m = std::min(min_m, distanceToPath(p, directionOf(n), 8.0f));
             }
-            // A least step may pass what the sphere would but graze.
+            // A minimum step may skip an obstacle that the sphere only grazes.
             if (std::abs(min_m - 0.65f) > 0.002f) {
                 EXPECT_EQ(blocked[n], min_m < 0.65f) << seed << " " << n;
             }

@@ -39,13 +39,13 @@ TEST(Guidance, PathThroughEmptySpaceIsStraight) {
     const Carrot ahead = carrot("astar", {}, task);
     EXPECT_TRUE(ahead.at_m.isApprox(Eigen::Vector3d(4, 0, 2), 1e-9));
     EXPECT_NEAR(ahead.beyond_m, 36, 1e-9);
-    task.goal_m = {40, 17, 2};  // the path goes by 45 degrees, the carrot does not
+    task.goal_m = {40, 17, 2};  // the path has 45 degree steps, the carrot does not
     const Eigen::Vector3d at_m = carrot("astar", {}, task).at_m;
     EXPECT_NEAR(at_m.norm(), std::sqrt(16 + 4), 0.3);
 }
 
-/// The grid path turns by 45 degrees. The straight line to the goal is as far from the posts as it
-/// is between the two rows.
+/// The grid path turns by 45 degrees. The straight line to the goal is midway between two rows
+/// of posts.
 TEST(Guidance, CutsCornersWithClearance) {
     constexpr float kRoom_m = 1.4f, kPost_m = 0.2f;
     const Eigen::Vector2f along = Eigen::Vector2f(2, 1).normalized();
@@ -71,7 +71,7 @@ TEST(Guidance, CarrotEndsAtGoal) {
     EXPECT_NEAR(near.beyond_m, 0, 1e-9);
 }
 
-/// Planners fly straight at it: it must not hide behind a bend of the path.
+/// Planners fly straight at the carrot, so it must not be hidden behind a bend.
 TEST(Guidance, CarrotStaysInSight) {
     SolidWorld world;  // an S between two walls, 2.2 m wide
     world.box({2, -20, -10}, {2.4f, 0.7f, 20}).box({4.6f, -0.7f, -10}, {5, 20, 20});
@@ -102,7 +102,7 @@ TEST(Guidance, PathLeadsAroundWall) {
 
 TEST(Guidance, PathKeepsAltitudeLimits) {
     SolidWorld world;
-    world.box({6, -30, -10}, {7, 30, 3.5f});  // over it there would be room from 4.15 m
+    world.box({6, -30, -10}, {7, 30, 3.5f});  // flying over it requires 4.15 m
     GuidanceTask task = eastwards();
     double highest_m = 0;
     for (const auto& at : carrot("astar", world, task).path_m) {

@@ -15,7 +15,7 @@ using test::TemporaryFolder;
 
 TEST(LatencyProfile, DrawsMatchQuantiles) {
     LatencyProfile profile;
-    profile.quantiles_ms["a"] = {1, 2, 10};  // a half in 1..2, a half in 2..10
+    profile.quantiles_ms["a"] = {1, 2, 10};  // half in 1..2, half in 2..10
     simulation::Random random(7);
     int low = 0;
     double sum = 0;
@@ -56,13 +56,13 @@ TEST(LatencyProfile, StandardProfileIsComplete) {
     }
 }
 
-TEST(LatencyProfile, NamesMissingStage) {
+TEST(LatencyProfile, ReportsMissingStage) {
     const LatencyProfile profile;
     EXPECT_THAT(messageOf([&] { profile.median_ms("W-RoI/update"); }),
                 HasSubstr("\"W-RoI/update\""));
 }
 
-TEST(LatencyProfile, NamesBrokenKey) {
+TEST(LatencyProfile, ReportsBrokenKey) {
     const TemporaryFolder folder;
     const auto messageFor = [&](const std::string& text) {
         const auto file = folder.write("p.json", text);

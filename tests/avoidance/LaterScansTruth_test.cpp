@@ -9,7 +9,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// Returns from every direction, at this range or where the wall x = 5 is nearer.
+/// Returns from every direction at this range, or from the wall x = 5 if it is nearer.
 observations::MappedScan everywhere(const Eigen::Vector3f& origin_m, float range_m, bool has_wall) {
     observations::MappedScan scan;
     scan.origin_m = origin_m;
@@ -57,19 +57,19 @@ TEST(SeenRanges, IgnoresPointAtOrigin) {
 }
 
 TEST(LaterScansTruth, ScoresOnlyFullySeenDirections) {
-    // All that came back came from 6 m, which a way with its room does not reach by 0.65 m.
+    // No returns near the paths, whose lengths are below and above the range of 6 m.
     LaterScansTruth short_way({0, 0, 2}, {5.0f, 0.65f}), long_way({0, 0, 2}, {6.9f, 0.2f});
     observations::MappedScan scan = everywhere({0, 0, 2}, 6, false);
     scan.points_m.erase(std::remove_if(scan.points_m.begin(), scan.points_m.end(),
                                        [](const auto& p) { return std::abs(p.z() - 2) < 2.5f; }),
-                        scan.points_m.end());  // not even those near the ways
+                        scan.points_m.end());
     short_way.see(scan.points_m, SeenRanges(scan));
     EXPECT_TRUE(short_way.directions().scored.none());
     long_way.see(scan.points_m, SeenRanges(scan));
     EXPECT_TRUE(long_way.directions().scored.none());
 }
 
-TEST(LaterScansTruth, TwoPointsBlock) {
+TEST(LaterScansTruth, TwoPointsBlockDirection) {
     observations::MappedScan scan = everywhere({0.5f, 0, 2}, 20, false);
     scan.points_m.push_back({4, 0, 2});
     EXPECT_FALSE(truthOf(scan).blocked[120]);  // level, along x
@@ -87,7 +87,7 @@ TEST(PersistentPoints, RequireEarlierNearbyPoint) {
     scan.points_m = {{1.1f, 1.9f, 3.05f}, {-4, 5, -7}, {13, 0, 0}};
     EXPECT_EQ(points.of(scan), (std::vector<Eigen::Vector3f>{{1.1f, 1.9f, 3.05f}}));
     for (int i = 0; i < 4; ++i) points.of(observations::MappedScan());
-    EXPECT_EQ(points.of(scan).size(), 2u);  // five scans ago; 13 m is out of reach
+    EXPECT_EQ(points.of(scan).size(), 2u);  // five scans ago; 13 m is out of range
     for (int i = 0; i < 5; ++i) points.of(observations::MappedScan());
     EXPECT_TRUE(points.of(scan).empty());
 }
@@ -102,7 +102,7 @@ TEST(LaterScansTruth, MatchesBruteForce) {
             for (int axis = 0; axis < 3; ++axis) {
                 p[axis] = static_cast<float>(random.uniform(-1, 1) * (axis == 2 ? 3 : 10));
             }
-            if (i < 2) p *= 0.05f;  // around the place itself
+            if (i < 2) p *= 0.05f;  // near the origin
             scan.points_m.push_back(p);
         }
         if (seed > 5) scan.points_m.erase(scan.points_m.begin(), scan.points_m.begin() + 2);

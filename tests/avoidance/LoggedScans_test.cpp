@@ -26,8 +26,8 @@ using mrpt::poses::CPose3D;
 
 class LoggedScansTest : public testing::Test {
  protected:
-    /// A log of clouds of a pole, one a second from time 10 on, by a sensor 0.5 m before the
-    /// vehicle and turned by 90 degrees.
+    /// A log of clouds of a pole at 1 Hz from time 10 s, by a sensor 0.5 m ahead of the vehicle's
+    /// origin and turned left by 90 degrees.
     fs::path poleLog(int scans) const {
         test::SimpleScene scene;
         scene.poles.push_back({6, 1, 0.2, 5});
@@ -65,7 +65,7 @@ TEST_F(LoggedScansTest, PlacesPointsByPoses) {
     EXPECT_EQ(scan.mapped.time_s, 10);
     EXPECT_NEAR((scan.mapped.origin_m - Eigen::Vector3f(20.5f, 0, 2)).norm(), 0, 1e-5);
     EXPECT_NEAR((scan.vehicle_m - Eigen::Vector3f(20, 0, 2)).norm(), 0, 1e-5);
-    // Ahead and to the left of the sensor is to the left and behind, of the vehicle.
+    // Ahead and left of the sensor means left and behind for the vehicle.
     const Eigen::Vector2f pole_m(20.5f - 1, 6);
     std::size_t roi = 0;
     for (std::size_t i = 0; i < scan.mapped.points_m.size(); ++i) {
@@ -96,7 +96,7 @@ TEST_F(LoggedScansTest, SkipsOwnReturns) {
     }
 }
 
-/// The recording was flown at 4 m/s, so that a turn is 0.4 m long.
+/// The recording was flown at 4 m/s: 0.4 m per turn.
 TEST_F(LoggedScansTest, PlacesReturnsAtTheirTimes) {
     LoggedScans scans({HAGEN_SOURCE_DIR "/rawlogs/orchard.rawlog", "", "", {}});
     EXPECT_THAT(scans.poseSource(), HasSubstr("CObservationRobotPose"));
@@ -160,7 +160,7 @@ TEST_F(LoggedScansTest, LookAheadIsInterruptible) {
                  recordings::Interrupted);
 }
 
-TEST_F(LoggedScansTest, ReadsTruncatedLogUpToBreak) {
+TEST_F(LoggedScansTest, ReadsScansBeforeTruncation) {
     const fs::path log = poleLog(8);
     fs::resize_file(log, fs::file_size(log) * 3 / 4);
     LoggedScans scans({log, posesAt({10, 11, 12, 13, 14, 15, 16, 17}), "", {}});

@@ -10,7 +10,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// An upright cylinder, of which a sensor at the origin sees the near half.
+/// An upright cylinder whose near half is visible from the origin.
 struct Pillar {
     Eigen::Vector2d at_m;
     double radius_m = 0.25;
@@ -43,7 +43,7 @@ observations::MappedScan scanAt(int number) {
     return scan;
 }
 
-/// A wall all around, behind everything.
+/// A surrounding wall behind everything.
 void addBackground(observations::MappedScan& scan) {
     constexpr double kStep_rad = 0.02, kRadius_m = 12;
     for (double azimuth_rad = 0; azimuth_rad < 2 * M_PI; azimuth_rad += kStep_rad) {
@@ -58,7 +58,7 @@ void addBackground(observations::MappedScan& scan) {
     }
 }
 
-/// Where a pillar with a constant velocity is.
+/// Position of a pillar with constant velocity.
 Pillar moved(const Pillar& pillar, const Eigen::Vector2d& velocity_m_s, double time_s) {
     return {pillar.at_m + time_s * velocity_m_s, pillar.radius_m};
 }
@@ -66,7 +66,7 @@ Pillar moved(const Pillar& pillar, const Eigen::Vector2d& velocity_m_s, double t
 const Pillar kWalker{{6, -3}};
 const Eigen::Vector2d kWalk_m_s(0.3, 1.5);
 
-/// Scans of one pillar that moves, and one that stands.
+/// Scans of a moving and a standing pillar.
 std::vector<observations::MappedScan> walkerAndPost(int scans, double age_s = 0.04) {
     simulation::Random random(1);
     std::vector<observations::MappedScan> all;
@@ -111,7 +111,7 @@ TEST(ObstacleTracks, EstimateVelocities) {
     EXPECT_LT(post.velocity_m_s.norm(), 0.2);
 }
 
-/// Scans of a pillar that moves, of which only the part within a height is seen.
+/// Scans of a moving pillar, cropped to a height.
 std::vector<observations::MappedScan> slicesOfWalker(double max_height_m) {
     simulation::Random random(5);
     std::vector<observations::MappedScan> all;
@@ -146,26 +146,26 @@ int movingScans(std::vector<observations::MappedScan> scans, int first_with_back
     return moving;
 }
 
-// Where no scan sees farther, it may be another part of what stands there.
+// Where no scan sees farther, the return may be another part of a static object.
 TEST(ObstacleTracks, MotionRequiresCrossingFreeSpace) {
     constexpr int kNever = 100;
     const auto walker = slicesOfWalker(1.5);
     EXPECT_EQ(movingScans(walker, kNever, kNever), 0);
     EXPECT_GT(movingScans(walker, 0, kNever), 5);
-    EXPECT_GT(movingScans(walker, 8, kNever), 2) << "farther now, where it was";
-    EXPECT_GT(movingScans(walker, 0, 1), 2) << "farther before, where it is";
+    EXPECT_GT(movingScans(walker, 8, kNever), 2) << "background now visible at the old position";
+    EXPECT_GT(movingScans(walker, 0, 1), 2) << "background earlier visible at the new position";
 }
 
-// Rays pass a wire on both sides: where its pieces were, and where they are.
+// Rays pass a wire at the old and at the new positions of its pieces.
 TEST(ObstacleTracks, FlatObstaclesNeedBothCriteria) {
     const auto slice = slicesOfWalker(0.1);
     EXPECT_GT(slice[0].points_m.size(), 3u);
     EXPECT_GT(movingScans(slice, 0, 100), 5);
-    EXPECT_EQ(movingScans(slice, 13, 100), 0) << "farther now, where it was";
-    EXPECT_EQ(movingScans(slice, 0, 1), 0) << "farther before, where it is";
+    EXPECT_EQ(movingScans(slice, 13, 100), 0) << "background now visible at the old position";
+    EXPECT_EQ(movingScans(slice, 0, 1), 0) << "background earlier visible at the new position";
 }
 
-// A wall is seen more and more as the vehicle passes: its middle moves at 3 m/s, its points do not.
+// While passing, more of a wall becomes visible: its centre moves at 3 m/s, its points do not.
 TEST(ObstacleTracks, GrowingWallDoesNotMove) {
     ObstacleTracks tracks;
     simulation::Random random(2);
@@ -213,9 +213,9 @@ TEST(ObstacleTracks, SurviveNineHiddenScans) {
         tracks.update(scan);
     }
     EXPECT_EQ(tracks.tracks().size(), 2u);
-    // At once, although there is no earlier scan left to compare with.
+    // Moving at once, although no earlier scan is left for comparison.
     EXPECT_TRUE(trackNear(tracks, moved(kWalker, kWalk_m_s, 1.8).at_m).is_moving);
-    // Longer, and it is forgotten.
+    // After a longer gap, tracks are dropped.
     for (int number = 18; number < 30; ++number) tracks.update(scanAt(number));
     EXPECT_TRUE(tracks.tracks().empty());
 }
@@ -254,7 +254,7 @@ TEST(WindowWithMotion, PredictsMoversWithoutTrail) {
     }
     EXPECT_GT(moving->clearanceAfter_m(placeAfter(0), 1.0), 0.8f);
     EXPECT_FLOAT_EQ(moving->clearance_m(placeAfter(0)), moving->clearanceAfter_m(placeAfter(0), 0));
-    // Where it was 0.8 s ago.
+    // Its position 0.8 s ago.
     EXPECT_GT(moving->clearance_m(placeAfter(-0.8)), 0.6f);
     EXPECT_LT(standing->clearance_m(placeAfter(-0.8)), 0.3f);
     EXPECT_EQ(standing->fastest_m_s(), 0);
@@ -279,7 +279,7 @@ TEST(MapWithMotion, PredictsMoversAndKeepsMap) {
     }
 }
 
-/// A post that was there in the first scan only; later, only the walker's returns are behind it.
+/// A post exists in the first scan only; later, only the walker's returns are behind it.
 TEST(MapWithMotion, RaysUpToMoversClear) {
     const Eigen::Vector2d post(3.1, -0.72);
     const double azimuth_rad = std::atan2(post.y(), post.x());
@@ -332,7 +332,7 @@ TEST(WindowWithMotion, EqualsWindowWithoutMovers) {
 
 // The planner.
 
-/// A ball that comes along the x axis from the right.
+/// A ball that approaches along the x axis.
 class BallModel : public WorldModel {
  public:
     static constexpr float kFirst_m = 6, kSpeed_m_s = 3, kRadius_m = 0.5f;
@@ -375,7 +375,7 @@ PlanningTask taskTowards(const Eigen::Vector3d& carrot_m, double start_after_s) 
     return task;
 }
 
-// Straight ahead there is room for the way until the vehicle stops, but the ball comes.
+// Straight ahead there is room to stop, but the ball approaches.
 TEST(MotionPrimitives, AvoidApproachingObstacle) {
     const PlanningTask task = taskTowards({12, 0, 2}, 0.3);
     const double ball_m = 6 - 3 * 0.3;
@@ -387,7 +387,7 @@ TEST(MotionPrimitives, AvoidApproachingObstacle) {
     EXPECT_LT(nearestWay_m(still.command_m_s, ball_m), 0.3);
 }
 
-// The ball stands in the way, or is gone before the vehicle is there.
+// The ball stands in the way, or leaves before the vehicle arrives.
 TEST(PolarHistogram, RanksDirectionsByPrediction) {
     const PlanningTask task = taskTowards({20, 0, 2}, 0);
     const auto planner = makePlanner("3dvfh");
@@ -396,14 +396,14 @@ TEST(PolarHistogram, RanksDirectionsByPrediction) {
 }
 
 TEST(MotionPrimitives, EvadeWhenNothingIsFree) {
-    // Hovering at the goal; the ball's surface is 1.15 m away, and here 0.4 s later.
+    // Hovering at the goal; the ball's surface is 1.15 m away and arrives 0.4 s later.
     const PlanningTask task = taskTowards({0, 0, 2}, 1.45);
     const double ball_m = 6 - 3 * 1.45;
     const Plan plan = makePlanner("primitives")->plan(BallModel(true), task);
     EXPECT_TRUE(plan.is_emergency);
     EXPECT_GT(plan.command_m_s.norm(), 3);
     EXPECT_GT(nearestWay_m(plan.command_m_s, ball_m), nearestWay_m({0, 0, 0}, ball_m) + 0.2);
-    // In a world that stands still, standing still is safe.
+    // In a static world, hovering is safe.
     PlanningTask near = task;
     near.start.position_m.x() = 5.2;
     near.start_after_s = 0;
@@ -415,13 +415,13 @@ TEST(MotionPrimitives, EvasionRespectsLimits) {
     PlanningTask task = taskTowards({0, 0, 2}, 1.45);
     const auto heightOf = [](const Plan& plan) { return plan.command_m_s.z(); };
     const auto planner = makePlanner("primitives");
-    // The ball's middle is above: down is away from it, if the altitude allows.
+    // The ball's centre is above, so the vehicle evades downwards if the altitude limit allows.
     task.start.position_m.z() = 1.9;
     EXPECT_LT(heightOf(planner->plan(BallModel(true), task)), 0);
     task.lowest_m = 1.9;
     EXPECT_GE(heightOf(planner->plan(BallModel(true), task)), 0);
     task.lowest_m = 1;
-    // In unknown space it brakes.
+    // In unknown space the vehicle brakes.
     class UnknownSpace : public BallModel {
      public:
         using BallModel::BallModel;

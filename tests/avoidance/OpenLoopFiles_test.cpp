@@ -6,7 +6,7 @@
 namespace hagen::avoidance {
 namespace {
 
-TEST(OpenLoopFiles, RowsMatchTheirHeaders) {
+TEST(OpenLoopFiles, RowsMatchHeaders) {
     const test::TemporaryFolder folder;
     OpenLoopFiles files(folder / "out", false);
     const OpenLoopRow row{1, 2, 3.5, "W-RoI", 4, 5, 6, 7, 8, 9, {10, 11, 12, 13}, {14, 15, 16, 17}};

@@ -21,11 +21,11 @@ using mrpt::poses::CPose3D;
 
 constexpr float kWall_m = 6;
 
-/// A model that knows flat ground and a wall from the start, and notes its updates.
+/// A model that contains flat ground and a wall from the start and counts its updates.
 class WallModel : public WorldModel {
  public:
     struct Notes {
-        std::vector<Eigen::AlignedBox3f> bounds_m;  ///< an entry a model
+        std::vector<Eigen::AlignedBox3f> bounds_m;  ///< one per model
         std::vector<int> updates;
     };
     WallModel(const WorldModelSetting& setting, Notes& notes) : notes_(notes) {
@@ -108,7 +108,7 @@ TEST_F(OpenLoopTest, ModelsSeeWall) {
     }
     EXPECT_GE(result.models[0].level.precision(), 0.98);
     EXPECT_GE(result.models[1].level.precision(), 0.98);
-    // The ground, which ends what leads down, is no RoI.
+    // The ground, which blocks downward directions, is not RoI.
     EXPECT_LT(result.models[0].by_elevation[0].recall(), result.models[1].by_elevation[0].recall());
     EXPECT_LT(result.models[0].obstacles.back(), result.models[1].obstacles.back());
     EXPECT_EQ(result.agreement[0][1], result.agreement[1][0]);
@@ -139,7 +139,7 @@ TEST_F(OpenLoopTest, ShortFlightNeedsNoReset) {
 }
 
 TEST_F(OpenLoopTest, LongFlightResetsMaps) {
-    // 10 m a second, away from the wall.
+    // At 10 m/s, away from the wall.
     const auto result = runOpenLoop(wallsOnly(wallFlight(25, -10, 1, 90)));
     EXPECT_GE(result.model_resets, 10u);
     ASSERT_EQ(notes_.bounds_m.size(), result.model_resets + 1);
@@ -149,7 +149,7 @@ TEST_F(OpenLoopTest, LongFlightResetsMaps) {
         all.extend(box);
     }
     EXPECT_TRUE(all.contains(Eigen::Vector3f(-250, 0, 2)));
-    // Two scans or three each, and those of the 3 s before.
+    // 2 or 3 scans each, plus those of the previous 3 s.
     for (const int updates : notes_.updates) EXPECT_LE(updates, 3 + 4);
     EXPECT_GE(notes_.updates.at(3), 3 + 2);
 }
@@ -173,8 +173,8 @@ TEST_F(OpenLoopTest, RejectsWrongScene) {
                 HasSubstr("was not simulated in wires with seed 1"));
 }
 
-/// The scans after a clock went back are no later scans of those before.
-TEST_F(OpenLoopTest, RestartsWhenClockGoesBack) {
+/// Scans after a clock reset do not count as later scans of earlier ones.
+TEST_F(OpenLoopTest, RestartsWhenClockJumpsBack) {
     const fs::path log = wallFlight(8);
     const auto hitsWith = [&](double first_s) {
         std::ofstream times(log / "times.txt");
@@ -203,12 +203,12 @@ TEST_F(OpenLoopTest, RestartsWhenClockGoesBack) {
               std::vector<std::size_t>(in_order.begin() + 1, in_order.end()));
 }
 
-TEST_F(OpenLoopTest, KeepsResultsBeforeBreak) {
+TEST_F(OpenLoopTest, KeepsResultsBeforeCorruptScan) {
     const fs::path log = wallFlight(6);
     fs::resize_file(log / "velodyne/1004.bin", 1001);
     try {
         runOpenLoop(wallsOnly(log));
-        FAIL() << "it does not say that the log is broken";
+        FAIL() << "the corrupt scan is not reported";
     } catch (const OpenLoopEnded& ended) {
         EXPECT_THAT(ended.what(), HasSubstr("1004.bin"));
         EXPECT_EQ(ended.result.scans, 4u);

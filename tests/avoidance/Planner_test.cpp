@@ -87,7 +87,7 @@ TEST_P(Planners, FlyAroundTrunk) {
     EXPECT_EQ(flown.emergencies, 0);
 }
 
-/// A wall across the way with one gap, off the straight line.
+/// A wall across the path with one gap beside the straight line.
 SolidWorld wallWithGap(float width_m) {
     SolidWorld world;
     world.box({20, -100, -100}, {20.2f, 1 - width_m / 2, 100});
@@ -114,7 +114,7 @@ TEST_P(Planners, MoveAwayFromNearObstacle) {
     task.carrot_m = {-20, 0, 2};
     const Plan away = plan(world, task);
     EXPECT_LT(away.command_m_s.x(), -1);
-    task.carrot_m = {20, 0, 2};  // wants to go through
+    task.carrot_m = {20, 0, 2};  // beyond the obstacle
     EXPECT_LE(plan(world, task).command_m_s.x(), 0.1);
 }
 
@@ -149,7 +149,7 @@ TEST_P(Planners, StayInKnownSpace) {
 }
 
 TEST_P(Planners, AvoidCrossingObstacle) {
-    // A ball rolls across the way so that it would meet a vehicle that flew on.
+    // A ball crosses the path on a collision course.
     for (float ball_m_s : {0.4f, 0.8f}) {
         SolidWorld world;
         SmallFlight crossing = flight();
@@ -163,7 +163,7 @@ TEST_P(Planners, AvoidCrossingObstacle) {
     }
 }
 
-/// Open towards the start, across the straight way.
+/// Open towards the start, across the straight path.
 SolidWorld trap() {
     SolidWorld world;
     world.ground(0).box({20, -5, 0}, {20.3f, 5, 9});
@@ -215,20 +215,20 @@ TEST_P(Planners, AreDeterministic) {
     const Plan kept = plan(world, task);
     EXPECT_EQ(first.command_m_s, kept.command_m_s);
     ASSERT_FALSE(kept.candidates.empty());
-    for (const CandidateMotion& motion : kept.candidates) {  // each ends standing, where it says
+    for (const CandidateMotion& motion : kept.candidates) {  // each ends at rest
         EXPECT_TRUE(motion.path_m.front().isApprox(Eigen::Vector3f(0, 0, 2)));
         EXPECT_LT((motion.path_m.back() - motion.path_m[motion.path_m.size() - 2]).norm(), 0.005f);
     }
 }
 
 TEST(MustStop, DependsOnStoppingDistance) {
-    // From 4 m/s at 5 m/s^2 it stops after 1.6 m or a little more, 0.4 m are a period's way.
+    // From 4 m/s at 5 m/s^2, stopping takes slightly more than 1.6 m; a period covers 0.4 m.
     const auto stopsBefore = [](float wall_m) {
         SolidWorld world;
         world.box({wall_m, -100, -100}, {wall_m + 1, 100, 100});
         return mustStop(world, eastwards(4));
     };
-    EXPECT_TRUE(stopsBefore(2.4f));  // 0.4 + 1.6 + 0.45 = 2.45 m at least
+    EXPECT_TRUE(stopsBefore(2.4f));  // needs at least 0.4 + 1.6 + 0.45 = 2.45 m
     EXPECT_FALSE(stopsBefore(3.0f));
     EXPECT_FALSE(mustStop(SolidWorld().sphere({0.5f, 0, 2}, 0.2f), eastwards(0)));
 }

@@ -28,7 +28,7 @@ class ReplayCommand : public test::ProgramTest {
     }
 };
 
-TEST_F(ReplayCommand, NamesMissingTable) {
+TEST_F(ReplayCommand, ReportsMissingTable) {
     expectFailure({"replay", folder(), "--seed=1"}, 1, "runs.csv: cannot be read");
     folder_.write("runs.csv", "");
     expectFailure({"replay", folder(), "--seed=1"}, 1, "runs.csv:1: is empty");
@@ -37,7 +37,7 @@ TEST_F(ReplayCommand, NamesMissingTable) {
                   folder() + ": has no run with seed 1, nor any other");
 }
 
-TEST_F(ReplayCommand, ListsCommandsInstead) {
+TEST_F(ReplayCommand, UnknownCommandListsCommands) {
     const std::string there_are = "there are closedloop, calibrate, openloop, replay";
     expectFailure({"fly"}, 2, "'fly' is not a command; " + there_are);
     expectFailure({}, 2, "no command given; " + there_are);
@@ -57,11 +57,11 @@ TEST_F(ReplayCommand, SelectsRunByListedLine) {
         std::vector<std::string> arguments{"replay", folder(), "--seed", "1"};
         std::istringstream words(line);
         for (std::string word; words >> word && word != "#";) arguments.push_back(word);
-        expectFailure(arguments, 1, "profile.json");  // chosen; it cannot be flown here
+        expectFailure(arguments, 1, "profile.json");  // selected, but not flown
     }
 }
 
-TEST_F(ReplayCommand, NeedsOneRun) {
+TEST_F(ReplayCommand, RequiresSingleRun) {
     writeRuns(threeContenders());
     expectFailure({"replay", folder(), "--seed", "77"}, 2, "no run with seed 77");
     expectFailure({"replay", folder(), "--seed", "1", "--model", "G-Full"}, 2,

@@ -34,7 +34,7 @@ avoidance::FlightRecording smallRecording() {
     return recording;
 }
 
-TEST(Replay, PageHoldsCentimetresFromStart) {
+TEST(Replay, PageStoresCentimetresFromStart) {
     const std::string page = avoidance::replayPage(smallRecording());
     // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
     EXPECT_THAT(page, HasSubstr("\"track\":\"ZADIACwB\""));
@@ -45,7 +45,7 @@ TEST(Replay, PageHoldsCentimetresFromStart) {
     EXPECT_THAT(avoidance::replayPage(avoidance::FlightRecording{}), HasSubstr("\"steps\":[]"));
 }
 
-TEST(Replay, PageEscapesItsTexts) {
+TEST(Replay, PageEscapesTexts) {
     avoidance::FlightRecording recording = smallRecording();
     recording.run.scenario = "a & <b>";
     recording.ending = "</script>";
@@ -65,7 +65,7 @@ TEST(Replay, RecordingIsInterruptible) {
     EXPECT_THROW(avoidance::record(run, profile, {}, endAtTheThird), Interrupted);
 }
 
-TEST(Replay, SceneHoldsModelAtEnd) {
+TEST(Replay, SceneShowsFinalModel) {
     const test::TemporaryFolder folder;
     avoidance::writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
     observations::Scene scene;
@@ -81,14 +81,14 @@ TEST(Replay, SceneHoldsModelAtEnd) {
     ASSERT_NE(scene.getByName("vehicle"), nullptr);
     EXPECT_EQ(scene.getByName("vehicle")->getPose().x, 6);
     avoidance::writeReplayScene(avoidance::FlightRecording{}, folder / "empty.3Dscene", "empty");
-    // Blamed is the file that was asked for, not its temporary name.
+    // The error names the requested file, not its temporary name.
     EXPECT_EQ(test::messageOf([&] {
                   avoidance::writeReplayScene({}, folder / "no/a.partial", "no/a.3Dscene");
               }),
               "no/a.3Dscene: cannot be written: No such file or directory");
 }
 
-/// A triangle that stands at x = 7 m and one that moves from there to 8 m in a step.
+/// A triangle at x = 7 m and one that moves from there to 8 m in one step.
 avoidance::TrueScene smallScene() {
     avoidance::TrueScene scene;
     simulation::Shape triangle;
@@ -101,7 +101,7 @@ avoidance::TrueScene smallScene() {
     return scene;
 }
 
-TEST(Replay, PageHoldsShapesAndPoses) {
+TEST(Replay, PageStoresShapesAndPoses) {
     avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
     const std::string page = avoidance::replayPage(recording);
@@ -119,7 +119,7 @@ TEST(Replay, PageHoldsShapesAndPoses) {
     EXPECT_THAT(page, HasSubstr("\"along_x\":1,\"along_y\":1,\"heights\":\"zv8=\""));  // -50: CE FF
 }
 
-TEST(Replay, SceneHoldsTrueObstacles) {
+TEST(Replay, SceneContainsTrueObstacles) {
     const test::TemporaryFolder folder;
     avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
@@ -150,7 +150,7 @@ TEST(TrueScene, MatchesCourse) {
     }
     ASSERT_EQ(seen.movers.size(), content.movers.size());
     for (std::size_t i = 0; i < seen.movers.size(); ++i) {
-        EXPECT_FALSE(seen.shapes[seen.movers[i].shape].triangles.empty());  // rods, too
+        EXPECT_FALSE(seen.shapes[seen.movers[i].shape].triangles.empty());  // also of rods
         for (const double time_s : {0.0, 1.3, 2.99, 3.0}) {
             const Eigen::Affine3f truly =
                 simulation::poseOf(content.movers[i], content.terrain, time_s);
@@ -189,7 +189,7 @@ TEST(Ending, DescribesOutcome) {
     EXPECT_EQ(avoidance::endingOf(course, result, 4, start_m),
               "gave up for lack of progress at 2.50 s");
     EXPECT_EQ(avoidance::endingOf(course, result, 4, {1000, 0, 2}), "left the course at 2.50 s");
-    // Three times 40 m at 4 m/s and 20 s are 50 s; at 2 m/s they are 80 s.
+    // The limit is three times 40 m at 4 m/s, plus 20 s: 50 s; at 2 m/s: 80 s.
     result.time_s = 50.5;
     EXPECT_EQ(avoidance::endingOf(course, result, 4, start_m), "ran out of time at 50.50 s");
     EXPECT_EQ(avoidance::endingOf(course, result, 2, start_m),

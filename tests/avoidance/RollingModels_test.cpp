@@ -15,7 +15,7 @@ namespace hagen::avoidance {
 namespace {
 
 const std::vector<std::string> kNames{"R-Full-0.1", "R-Full-0.2", "D-Full"};
-// At 4 m/s, in x, y, z; and what a box may hold in addition, as it consists of whole groups.
+// At 4 m/s, along x, y, z. A box may be kMore_m larger, as it consists of whole voxel groups.
 const Eigen::Array3f kReach_m(15, 15, 6);
 constexpr float kMore_m = 4;
 
@@ -43,7 +43,7 @@ std::vector<Eigen::Vector3f> randomPoints(simulation::Random& random, const Eige
     return points;
 }
 
-/// Distance to the nearest face of any voxel, one by one.
+/// Distance to the nearest voxel face, by brute force.
 float bruteForce(const WorldModel::Obstacles& voxels, const Eigen::Vector3f& at) {
     float least = WorldModel::kReach_m;
     for (const Eigen::Vector3f& centre : voxels.centre_m) {
@@ -83,7 +83,7 @@ TEST(RollingModels, ClearanceMatchesVoxelsWhileMoving) {
     }
 }
 
-/// As for an OctoMap, which is neither cut to a box nor in bytes.
+/// Like an OctoMap, which has no box and stores floats.
 TEST(RollingModels, GridMatchesOctoMap) {
     for (const std::string name : {"R-Full-0.1", "R-Full-0.2"}) {
         const float edge = edgeOf(name);
@@ -101,7 +101,7 @@ TEST(RollingModels, GridMatchesOctoMap) {
             auto points = randomPoints(random, origin, 800, 4, 2);
             for (auto& point : points) {
                 if (random.chance(0.3)) point = ((point.array() / 1.2f).round() * 1.2f + 0.05f);
-                if (random.chance(0.1)) {  // beyond the range, but not over the box
+                if (random.chance(0.1)) {  // beyond the range, but not above the box
                     const Eigen::Vector3f ray =
                         (point - origin).cwiseProduct(Eigen::Vector3f(1, 1, 0.05f));
                     point = origin + 30 * ray.normalized();
@@ -151,7 +151,7 @@ TEST(RollingModels, GridUpdatesAsFastAsOctoMap) {
     }
 }
 
-TEST(RollingModels, ForgetsOnlyWhatLeavesBox) {
+TEST(RollingModels, ForgetsOnlyVoxelsOutsideBox) {
     for (const std::string& name : kNames) {
         simulation::Random random(5);
         const auto model = make(name);
@@ -175,14 +175,14 @@ TEST(RollingModels, ForgetsOnlyWhatLeavesBox) {
             }
             for (const auto& centre : now) {
                 ASSERT_NE(std::find(kept.begin(), kept.end(), centre), kept.end())
-                    << name << " step " << step << ": appeared";
+                    << name << " step " << step << ": new voxel";
             }
             kept = now;
         }
         ASSERT_FALSE(kept.empty());
         model->update(scanOf(origin + Eigen::Vector3f(60, 0, 0), {}));
         model->update(scanOf(origin, {}));
-        EXPECT_TRUE(model->obstacles().centre_m.empty()) << name << ": been away";
+        EXPECT_TRUE(model->obstacles().centre_m.empty()) << name << ": not cleared";
         EXPECT_FALSE(model->isKnown(kept[0]));
     }
 }
@@ -213,7 +213,7 @@ TEST(RollingModels, IgnoresOrderOfReturns) {
             const Eigen::Vector3f origin(0.9f * static_cast<float>(step), 0, 1);
             auto points = randomPoints(random, origin, 1500, 9, 3);
             one->update(scanOf(origin, points));
-            std::reverse(points.begin(), points.end());  // nor does the order of returns matter
+            std::reverse(points.begin(), points.end());
             other->update(scanOf(origin, points));
             EXPECT_EQ(one->obstacles().centre_m, other->obstacles().centre_m) << name;
             for (int i = 0; i < 300; ++i) {
@@ -225,7 +225,7 @@ TEST(RollingModels, IgnoresOrderOfReturns) {
     }
 }
 
-/// Faster flights reach farther, also up and down.
+/// Faster flights need a larger range, also up and down.
 TEST(RollingModels, BoxGrowsWithSpeed) {
     for (const std::string& name : kNames) {
         FlightPace pace;
@@ -239,7 +239,7 @@ TEST(RollingModels, BoxGrowsWithSpeed) {
     }
 }
 
-/// Returns on walls around the sensor, in 16 rows as a VLP-16 has them, with a pillar in front.
+/// Returns of walls around the sensor, in 16 rows as of a VLP-16, with a pillar in front.
 std::vector<Eigen::Vector3f> rows(const Eigen::Vector3f& origin, float pillar_m) {
     std::vector<Eigen::Vector3f> points;
     for (float elevation = -15; elevation <= 15; elevation += 2) {
@@ -256,7 +256,7 @@ std::vector<Eigen::Vector3f> rows(const Eigen::Vector3f& origin, float pillar_m)
     return points;
 }
 
-/// Voxel by voxel against the returns, by angles.
+/// Compares each voxel with the returns, by angle.
 TEST(DepthImageMap, KnownSpaceMatchesBruteForce) {
     constexpr float kEdge_m = 0.2f, kDegree = static_cast<float>(M_PI / 180);
     const Eigen::Vector3f origin(0.11f, -0.05f, 1.02f);
@@ -277,8 +277,8 @@ TEST(DepthImageMap, KnownSpaceMatchesBruteForce) {
         if (model->clearance_m(voxel) == 0) continue;
         const float away = (voxel - origin).norm();
         const Eigen::Vector3f direction = (voxel - origin) / away;
-        const float own = std::atan(0.5f * kEdge_m / away);  // what the voxel covers, at least
-        // Half a row, and pixels of up to twice the voxel or a degree.
+        const float own = std::atan(0.5f * kEdge_m / away);  // the voxel's minimum half-angle
+        // Half a row plus pixels of up to two voxels or one degree.
         const float wide = std::max(6 * own, 3 * kDegree);
         bool is_hidden = false, has_return = false, has_beside = false, is_all_beyond = true;
         for (std::size_t k = 0; k < points.size(); ++k) {
@@ -333,7 +333,7 @@ TEST(DepthImageMap, KnownSpaceStaysKnown) {
     EXPECT_GT(known.size(), 1000u);
 }
 
-/// Three images that see through a pillar make it disappear, and only it.
+/// Three images that see through a pillar remove it and nothing else.
 TEST(DepthImageMap, RemovesPillarSeenThrough) {
     const auto model = make("D-Full");
     const Eigen::Vector3f origin(0.11f, -0.05f, 1.02f), beside = origin + Eigen::Vector3f(4, 0, 0);
@@ -341,13 +341,13 @@ TEST(DepthImageMap, RemovesPillarSeenThrough) {
     const std::size_t all = model->obstacles().centre_m.size();
     ASSERT_NEAR(model->clearance_m(beside), 1, 0.25);
     for (int scan = 0; scan < 2; ++scan) model->update(scanOf(origin, rows(origin, 12)));
-    EXPECT_NEAR(model->clearance_m(beside), 1, 0.25) << "two misses outweigh no hit";
+    EXPECT_NEAR(model->clearance_m(beside), 1, 0.25) << "two misses must not outweigh a hit";
     model->update(scanOf(origin, rows(origin, 12)));
     EXPECT_GT(model->clearance_m(beside), 2.5);
     EXPECT_GT(model->obstacles().centre_m.size(), all - all / 10);
 }
 
-/// A voxel in which one ray ends and past which another goes is not seen through.
+/// A voxel with a return is not seen through, even if other rays pass it.
 TEST(DepthImageMap, KeepsVoxelWithReturn) {
     const auto model = make("D-Full");
     std::vector<Eigen::Vector3f> points;
@@ -355,13 +355,13 @@ TEST(DepthImageMap, KeepsVoxelWithReturn) {
         for (float z = -0.5f; z <= 0.5f; z += 0.01f) points.emplace_back(10.0f, y, z);
     }
     const auto wall = points;
-    points.emplace_back(0.801f, 0.199f, 0.199f);  // in a corner, beside the middle's pixels
+    points.emplace_back(0.801f, 0.199f, 0.199f);  // in a corner, beside the centre's pixels
     for (int scan = 0; scan < 10; ++scan) model->update(scanOf({0, 0, 0}, points));
     int scans = 0;
     for (; model->clearance_m({0.9f, 0.1f, 0.1f}) == 0 && scans < 50; ++scans) {
         model->update(scanOf({0, 0, 0}, wall));
     }
-    EXPECT_EQ(scans, 9) << "from the greatest log odds";
+    EXPECT_EQ(scans, 9) << "from the maximum log odds";
 }
 
 }  // namespace

@@ -43,13 +43,13 @@ TEST(RunTable, RowMatchesHeader) {
 TEST(RunTable, IgnoresLocaleAndNegativeZero) {
     Row run = someRun();
     run.result.min_clearance_m = -1e-9;
-    std::setlocale(LC_ALL, "de_DE.UTF-8");  // decimal commas, where it is installed
+    std::setlocale(LC_ALL, "de_DE.UTF-8");  // decimal commas, if installed
     const std::string row = rowOf(run, false);
     std::setlocale(LC_ALL, "C");
     EXPECT_THAT(row, HasSubstr(",success,0.0000,43.250,"));
 }
 
-/// Any run, of a few values each so that sorting meets equal ones.
+/// A random run with few distinct values, so that sorting meets ties.
 Row anyRun(simulation::Random& random) {
     Row run = someRun();
     run.scenario = random.chance(0.5) ? "gap" : "u-trap";
@@ -124,7 +124,7 @@ TEST(RunTable, SortingIsDeterministic) {
     }));
 }
 
-TEST(RunTable, NamesBrokenLineAndColumn) {
+TEST(RunTable, ReportsBrokenLineAndColumn) {
     const test::TemporaryFolder folder;
     const std::string good = rowOf(someRun(), false);
     const auto broken = [&](const std::string& row) {
@@ -177,7 +177,7 @@ TEST(RunTable, ReadsOlderTables) {
     EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":1: wrong header"));
 }
 
-TEST(RunTable, SectorsAddAColumn) {
+TEST(RunTable, SectorsAddColumn) {
     const Row scans = someRun();
     Row sectors = scans;
     sectors.setup.updates = Updates::Sectors;
@@ -203,7 +203,7 @@ TEST(RunTable, SectorsAddAColumn) {
                 HasSubstr("column updates: \"turns\" is not one of scans, sectors"));
 }
 
-TEST(RunTable, NamesInvalidFile) {
+TEST(RunTable, ReportsInvalidFile) {
     const test::TemporaryFolder folder;
     const auto said = [](const std::filesystem::path& file) {
         return test::messageOf([&] { readRuns(file); });

@@ -1,5 +1,4 @@
-// The LiDAR that is labelled while it turns. The oracles are TrialSensor, the direction in which a
-// beam points at a time, and the scene.
+// A LiDAR labelled during each turn, compared with TrialSensor, beam directions and the scene.
 #include "avoidance/flights/SectorSensor.h"
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
@@ -19,7 +18,7 @@ using test::simpleCourse;
 constexpr double kStep_s = kControlStep_s;
 constexpr double kMaxSector_s = 0.1 * 15 / 360;
 
-/// A flight along x at a speed, which turns aside from 0.25 s on.
+/// A flight along x that turns aside at 0.25 s.
 FlightTrace traceUntil(int steps, double speed_m_s = 8) {
     VehicleState state{{0, 0, 2}, {speed_m_s, 0, 0}};
     FlightTrace trace(state);
@@ -38,14 +37,14 @@ Course courseWithWall() {
     return simpleCourse(std::move(content));
 }
 
-/// The sectors of a flight, asked for at each control step.
+/// The sectors of a flight, requested at each control step.
 std::vector<observations::MappedScan> sectorsOf(const Course& course, Air air, PoseError error,
                                                 int steps) {
     SectorSensor sensor(course, air);
     PoseBelief belief(error, 3);
     std::vector<observations::MappedScan> sectors;
     for (int step = 1; step <= steps; ++step) {
-        // Only what was flown until then is known.
+        // Only the trace flown so far is known.
         for (auto& sector : sensor.measureUntil(kStep_s * step, traceUntil(step), belief)) {
             sectors.push_back(std::move(sector));
         }
@@ -53,7 +52,7 @@ std::vector<observations::MappedScan> sectorsOf(const Course& course, Air air, P
     return sectors;
 }
 
-TEST(SectorSensor, SectorsEndWithTheirLastPacket) {
+TEST(SectorSensor, SectorsEndWithLastPacket) {
     const auto sectors = sectorsOf(courseWithWall(), Air::Clear, PoseError::None, 15);
     ASSERT_GT(sectors.size(), 70u);
     double last_s = 0, turns = 0;
@@ -61,7 +60,7 @@ TEST(SectorSensor, SectorsEndWithTheirLastPacket) {
         EXPECT_LE(sector.turns, 15.0 / 360 + 1e-9);
         EXPECT_GT(sector.time_s, last_s);
         turns += sector.turns;
-        // Continuous: it is as old as the sensor turned since the one before.
+        // Sectors follow each other without gaps.
         EXPECT_NEAR(sector.time_s, 0.1 * turns, 1e-4);
         for (const float age_s : sector.age_s) {
             ASSERT_GE(age_s, -4e-5f);  // a turn lasts a little longer than 0.1 s
@@ -83,7 +82,7 @@ TEST(SectorSensor, ReturnsMatchWholeScans) {
         for (int turn = 0; turn < 3; ++turn) {
             int first = 0;
             for (const int ms : {20, 40, 60, 80, 100}) {
-                // Packets of 24 firings of 55.296 us; the last one has what is left.
+                // Packets of 24 firings of 55.296 us; the last one has the remainder.
                 const int end = ms == 100 ? 1809 : static_cast<int>(ms / (24 * 0.055296)) * 24;
                 const auto measured = whole.measureFirings(turn, {first, end}, trace);
                 LabelledReturns labelled;
@@ -102,7 +101,7 @@ TEST(SectorSensor, ReturnsMatchWholeScans) {
             found.insert(found.end(), sector.points_m.begin(), sector.points_m.end());
         }
         ASSERT_GT(expected.size(), 40000u);
-        ASSERT_GT(found.size(), expected.size());  // of the fourth turn, too
+        ASSERT_GT(found.size(), expected.size());  // also of the fourth turn
         for (std::size_t i = 0; i < expected.size(); ++i) {
             ASSERT_LT((found[i] - expected[i]).norm(), 1e-4f) << nameOf(error) << " " << i;
         }
@@ -118,7 +117,7 @@ TEST(SectorSensor, LabelsMatchGround) {
         for (std::size_t i = 0; i < sector.points_m.size(); ++i) {
             const Eigen::Vector3f at = sector.points_m[i];
             if ((at - sector.origin_m).norm() > 19) continue;
-            if (turns < 0.5) {  // too little was seen to find the ground
+            if (turns < 0.5) {  // too few returns to find the ground
                 ASSERT_EQ(sector.labels[i], Label::Roi);
                 continue;
             }
@@ -130,7 +129,7 @@ TEST(SectorSensor, LabelsMatchGround) {
     EXPECT_GT(right, 0.97 * all);
 }
 
-/// When the model knows of an obstacle at a point.
+/// Time at which the model contains an obstacle at a point.
 double knownAt_s(const std::string& name, bool by_sectors, const Eigen::Vector3f& point_m) {
     const Course course = courseWithWall();
     WorldModelSetting setting;
@@ -150,7 +149,7 @@ double knownAt_s(const std::string& name, bool by_sectors, const Eigen::Vector3f
             const auto& labels = scans.segment(ms / 100 - 1, measured, trace, belief);
             model->update(TrialSensor::place(ms / 100 - 1, measured, labels, trace, belief));
         }
-        // A voxel of 0.4 m, and its bias.
+        // A voxel of 0.4 m plus its bias.
         if (model->clearance_m(point_m) < 0.5f) return 1e-3 * ms;
     }
     return 1;
@@ -160,12 +159,12 @@ TEST(SectorSensor, WallReachesModelWithinSector) {
     for (const char* model : {"W-RoI", "W-Full", "R-Full-0.2", "O-Full-0.4"}) {
         for (const float y_m : {-3.0f, 3.0f}) {
             const Eigen::Vector3f on_wall(10, y_m, 2);
-            // A turn begins behind and goes clockwise.
+            // A turn begins behind and proceeds clockwise.
             const double clockwise_rad = kPi - std::atan2(static_cast<double>(y_m), 10.0);
             const double seen_s = 0.1 * clockwise_rad / (2 * kPi);
             const double known_s = knownAt_s(model, true, on_wall);
             EXPECT_GT(known_s, seen_s - 0.001) << model << " " << y_m;
-            // A sector, the packet before it, and the millisecond that this test takes.
+            // A sector, the preceding packet and this test's resolution of 1 ms.
             EXPECT_LT(known_s, seen_s + kMaxSector_s + 0.0014 + 0.001) << model << " " << y_m;
         }
         EXPECT_NEAR(knownAt_s(model, false, {10, 0, 2}), 0.1, 1e-9) << model;

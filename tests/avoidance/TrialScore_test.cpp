@@ -35,7 +35,7 @@ TEST(TrialJudge, TimesOutWithoutProgress) {
 TEST(TrialJudge, LimitsFlightTime) {
     const Course course = simpleCourse(emptyContent());
     TrialJudge judge(course, 4);
-    for (double time_s = 0; time_s < 34.9; time_s += 5) {  // a metre and a bit in five seconds
+    for (double time_s = 0; time_s < 34.9; time_s += 5) {  // a little more than 1 m in 5 s
         EXPECT_EQ(judge.judge({time_s / 4, 0, 2}, 2, 0.3, time_s), std::nullopt) << time_s;
     }
     EXPECT_EQ(judge.judge({12, 0, 2}, 2, 0.3, 35.1), Outcome::Timeout);

@@ -14,7 +14,7 @@ using test::emptyContent;
 using test::putWall;
 using test::simpleCourse;
 
-/// A second of flight at 8 m/s along x while it brakes hard, so that the body is tilted.
+/// One second of flight at 8 m/s along x with hard braking, so that the body is tilted.
 FlightTrace fastTrace() {
     VehicleState state{{0, 0, 2}, {8, 0, 0}};
     FlightTrace trace(state);
@@ -26,7 +26,7 @@ FlightTrace fastTrace() {
     return trace;
 }
 
-/// Share of the returns at a man's height that lie on the wall's near face.
+/// Share of the returns at head height that lie on the wall's near face.
 double shareOnWall(const observations::MappedScan& scan, const Eigen::Vector3d& offset_m,
                    double tolerance_m) {
     double on = 0, all = 0;
@@ -55,7 +55,7 @@ TEST(TrialSensor, PlacesReturnsDuringFlight) {
         const Eigen::Vector3d offset = belief.offset_m(trace, 0.75);
         EXPECT_NEAR((scan.origin_m.cast<double>() - trace.at(0.75).position_m - offset).norm(), 0,
                     1e-4);
-        EXPECT_GT(shareOnWall(scan, offset, 0.08), 0.98);  // 4 sigma; it moved 0.5 m meanwhile
+        EXPECT_GT(shareOnWall(scan, offset, 0.08), 0.98);  // 4 sigma; the vehicle moved 0.5 m
     }
 }
 
@@ -95,7 +95,7 @@ int countOf(simulation::ObjectClass kind, const simulation::SimulatedScan& measu
     return count;
 }
 
-TEST(TrialSensor, DustyAirHasDustOnly) {
+TEST(TrialSensor, DustyAirAddsOnlyDust) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -10, 10);
     const Course course = simpleCourse(std::move(content));
@@ -113,7 +113,7 @@ TEST(TrialSensor, DustyAirHasDustOnly) {
         EXPECT_GT(std::count(measured.kind.begin(), measured.kind.end(),
                              simulation::ObjectClass::Airframe),
                   50);
-        // Legs hide a few per cent, the mask takes next to nothing.
+        // Legs hide a few per cent of the wall, the mask almost nothing.
         EXPECT_GT(countOf(simulation::ObjectClass::Wall, measured),
                   0.95 * countOf(simulation::ObjectClass::Wall, in_clear_air));
         const auto labels = dusty.segment(turn, measured, trace, belief);

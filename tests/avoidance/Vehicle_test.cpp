@@ -33,13 +33,13 @@ TEST(CommandQueue, FollowsCommandsOnTime) {
     const VehicleLimits limits;
     const VehicleState before = commands.advanced(VehicleState{}, 0, 0.113, limits);
     EXPECT_EQ(before.velocity_m_s.x(), 0);
-    // Saturated: 5 m/s^2 for 0.2 s, of which every millisecond counts.
+    // Saturated: 5 m/s^2 for exactly 0.2 s.
     const VehicleState after = commands.advanced(VehicleState{}, 0, 0.313, limits);
     EXPECT_NEAR(after.velocity_m_s.x(), 1.0, 1e-12);
     EXPECT_NEAR(after.position_m.x(), 0.5 * 5 * 0.04, 1e-12);
 }
 
-TEST(CommandQueue, ForgettingKeepsFuture) {
+TEST(CommandQueue, ForgettingKeepsFutureCommands) {
     CommandQueue all, some;
     for (CommandQueue* commands : {&all, &some}) {
         commands->add(0.1, {1, 0, 0});

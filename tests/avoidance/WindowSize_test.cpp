@@ -7,7 +7,7 @@ namespace {
 
 FlightPace paceOf(double speed_m_s) { return {speed_m_s, 0.1, {}}; }
 
-/// The time and the way of braking from a speed to 2 % of it or 0.1 m/s, in control steps.
+/// Time and distance of braking from a speed to 2 % of it or 0.1 m/s, in control steps.
 struct Braking {
     double time_s = 0, way_m = 0;
 };
@@ -44,7 +44,7 @@ TEST(WindowSize, CoversStoppingTime) {
     for (double speed_m_s = 2; speed_m_s <= 14; speed_m_s += 0.5) {
         const FlightPace pace = paceOf(speed_m_s);
         const WindowSize size = windowSizeFor(pace);
-        // The last metre per second takes longer, at a harmless speed.
+        // Below 1 m/s, braking takes longer, but the speed is harmless.
         const double needed_s = pace.reaction_s() + brakingFrom(speed_m_s).time_s - 0.4;
         EXPECT_GE(0.1 * static_cast<double>(size.scans), needed_s) << speed_m_s;
         EXPECT_LE(0.1 * static_cast<double>(size.scans), needed_s + 0.5) << speed_m_s;

@@ -56,7 +56,7 @@ std::vector<Eigen::Vector3f> wall(float x_m = 5.1f) {
     return points;
 }
 
-/// A board of 1.4 x 0.6 m at x = 3.1 m, before the wall.
+/// A board of 1.4 x 0.6 m at x = 3.1 m, in front of the wall.
 std::vector<Eigen::Vector3f> board() {
     std::vector<Eigen::Vector3f> points;
     for (float y = -0.7f; y <= 0.7f; y += 0.05f) {
@@ -65,7 +65,7 @@ std::vector<Eigen::Vector3f> board() {
     return points;
 }
 
-/// Few points all around, so that no ray clears another's end.
+/// Few points all around, so that no ray clears the end of another.
 std::vector<Eigen::Vector3f> sparsePoints(simulation::Random& random, int count) {
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < count; ++i) {
@@ -95,10 +95,9 @@ TEST(WorldModel, ClearanceMatchesBruteForce) {
         const auto points = sparsePoints(random, 60);
         const auto model = makeWorldModel(name, setting());
         model->update(scanOf(twice(points)));
-        // The cube that a point lies in is nearer than the point by its diagonal at most; which
-        // cube is nearest is judged by middles.
+        // A cube is nearer than its point by at most its diagonal. Cubes are compared by centre.
         const float diagonal = std::sqrt(3.0f) * edgeOf(name);
-        // A grid's rays clear what others hit.
+        // In a grid, rays clear cells hit by other rays.
         const bool is_whole = name != "G-Full";
         for (int i = 0; i < 400; ++i) {
             const Eigen::Vector3f at = sparsePoints(random, 1)[0];
@@ -135,7 +134,7 @@ TEST(WorldModel, IsFreeAndUnknownBeforeScans) {
             EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({1, 1, 1})) << name;
             EXPECT_FALSE(model->isKnown({1, 1, 1})) << name;
             EXPECT_TRUE(model->obstacles().centre_m.empty()) << name;
-            model->update({});  // with nothing in it
+            model->update({});  // an empty scan
         }
     }
 }
@@ -169,7 +168,7 @@ TEST(WorldModel, SeenSpaceIsKnown) {
         const auto model = makeWorldModel(name, setting());
         model->update(scanOf(wall()));
         EXPECT_TRUE(model->isKnown({3.1f, 0.1f, 1.1f})) << name;
-        EXPECT_FALSE(model->isKnown({5.9f, 0.1f, 1.1f})) << name << ": behind it";
+        EXPECT_FALSE(model->isKnown({5.9f, 0.1f, 1.1f})) << name << ": behind the wall";
         EXPECT_FALSE(model->isKnown({-3, 0, 1})) << name << ": behind the sensor";
     }
 }
@@ -186,14 +185,13 @@ TEST(WorldModel, RoiModelsIgnoreOtherReturns) {
     }
 }
 
-/// By brute force over all points of the last eleven turns; thinning may keep another of a 10 cm
-/// cube.
+/// By brute force over all points of the last 11 turns; thinning may keep another point per 10 cm.
 TEST(WorldModel, SectorWindowMatchesBruteForce) {
     simulation::Random random(17);
     const auto model = makeWorldModel("W-Full", setting());
     std::vector<std::pair<double, std::vector<Eigen::Vector3f>>> updates;
     for (int i = 0; i < 150; ++i) {
-        // As a planner asks that is late now and then: a sector to more than a turn.
+        // Like a planner that is sometimes late: from a sector to more than a turn.
         const double turns = i % 7 == 3 ? random.uniform(0.04, 1.3) : 0.2;
         updates.emplace_back(turns, twice(sparsePoints(random, 6)));
         observations::MappedScan sectors = scanOf(updates.back().second);
@@ -215,7 +213,7 @@ TEST(WorldModel, SectorWindowMatchesBruteForce) {
     }
 }
 
-/// A ray that ends beyond a map's range hits nothing within it.
+/// A ray that ends beyond a map's range adds no obstacle within it.
 TEST(WorldModel, CutRaysAddNoObstacle) {
     const Eigen::AlignedBox3f wide(Eigen::Vector3f(-30, -30, -3), Eigen::Vector3f(30, 30, 6));
     std::vector<Eigen::Vector3f> far_off;
@@ -295,7 +293,7 @@ TEST(WorldModel, WindowKeepsNearestPointPerCube) {
     }
 }
 
-/// By brute force, over scans that come and go.
+/// By brute force, while scans enter and leave the window.
 TEST(WorldModel, WindowHidesIsolatedPoints) {
     struct Point {
         Eigen::Vector3f at;
@@ -308,7 +306,7 @@ TEST(WorldModel, WindowHidesIsolatedPoints) {
     std::size_t isolated = 0, confirmed = 0;
     for (int scan = 0; scan < 60; ++scan) {
         std::vector<Eigen::Vector3f> points;
-        for (int i = 0; i < 5; ++i) {  // each in a cube of its own
+        for (int i = 0; i < 5; ++i) {  // each in its own cube
             const auto cube = static_cast<float>(i) + 31;
             const auto y = static_cast<float>(random.uniform(-0.6, 0.6));
             const auto z = static_cast<float>(random.uniform(1.0, 1.6));
@@ -361,7 +359,7 @@ TEST(WorldModel, WindowForgetsAfterElevenTurns) {
     }
 }
 
-TEST(WorldModel, RaysClearWhatMovedAway) {
+TEST(WorldModel, RaysClearMovedObstacles) {
     for (const std::string name : {"O-Full-0.2", "O-RoI+rays-0.2", "O-RoI+rays-0.4", "G-Full",
                                    "R-Full-0.1", "R-Full-0.2", "D-Full"}) {
         const bool takes_passing_rays = name[0] == 'G' || name[0] == 'R';
@@ -397,7 +395,7 @@ TEST(SeenDirections, FreePlacesHaveFartherReturns) {
     EXPECT_EQ(placeAt(5.4f, 0.1f), Place::NotFree);
     EXPECT_EQ(placeAt(-2, 0.1f), Place::Unknown);
     EXPECT_EQ(placeAt(2, 4), Place::Unknown) << "beside the wall";
-    // A pole before the wall: beside it, rays may have passed it.
+    // A pole in front of the wall: rays close beside it may have passed it.
     auto points = wall();
     for (float z = 0; z < 2; z += 0.05f) points.emplace_back(3, 0.2f, z);
     const View past_pole = viewOf(scanOf(points));
@@ -440,14 +438,14 @@ TEST(WorldModel, BytesMatchHeap) {
         const auto model = makeWorldModel(name, setting());
         for (int i = 0; i < 12; ++i) model->update(scanOf(sparsePoints(random, 3000)));
         const auto measured = static_cast<double>(heap() - before);
-        const auto told = static_cast<double>(model->bytes());
-        // An octree is made of pieces so small that malloc doubles them.
-        EXPECT_GT(told, 0.35 * measured) << name << " " << measured;
-        EXPECT_LT(told, 1.5 * measured) << name << " " << measured;
+        const auto reported = static_cast<double>(model->bytes());
+        // malloc doubles the size of an octree's small nodes.
+        EXPECT_GT(reported, 0.35 * measured) << name << " " << measured;
+        EXPECT_LT(reported, 1.5 * measured) << name << " " << measured;
     }
 }
 
-TEST(WorldModel, OraclesKnowTheTruth) {
+TEST(WorldModel, OraclesReturnTrueClearance) {
     const auto model = makeWorldModel("oracle", setting());
     EXPECT_FLOAT_EQ(1.5f, model->clearance_m({3.5f, 0, 0}));
     EXPECT_EQ(WorldModel::kReach_m, model->clearance_m({-20, 0, 0}));

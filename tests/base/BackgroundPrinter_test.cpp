@@ -42,7 +42,7 @@ class FullErrors {
     }
     ~FullErrors() { endAndRead(); }
 
-    /// Reads up to so many bytes.
+    /// Reads at most `bytes` bytes.
     std::string read(std::size_t bytes) const {
         std::string all, part(kPipe, '\0');
         while (all.size() < bytes) {

@@ -16,7 +16,7 @@ TEST(Folder, ListsEntriesByName) {
                 testing::ElementsAre(folder / "a", folder / "b", folder / "c.txt"));
 }
 
-TEST(Folder, NamesUnreadableFolder) {
+TEST(Folder, ReportsUnreadableFolder) {
     const test::TemporaryFolder folder;
     try {
         entriesOf(folder / "none");

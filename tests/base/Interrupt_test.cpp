@@ -7,7 +7,7 @@
 namespace hagen::base {
 namespace {
 
-/// Each in a process of its own, which a signal that is not caught would end.
+/// Each in its own process, as an uncaught signal would end it.
 TEST(Interrupt, CatchesTerminatingSignals) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGQUIT, SIGUSR1}) {
         const auto wait = [&] {

@@ -7,7 +7,7 @@
 namespace hagen::base {
 namespace {
 
-/// A worker gets the limit of the program that starts it. In a process of its own.
+/// A worker inherits its parent's limit. Runs in a separate process.
 TEST(MemoryLimit, IsNeverRaised) {
     const auto limitTwice = [] {
         constexpr rlim_t kLow = 1 << 28, kHigh = 1 << 30;
@@ -15,7 +15,7 @@ TEST(MemoryLimit, IsNeverRaised) {
         limitMemory(kLow);
         limitMemory(kHigh);
         getrlimit(RLIMIT_DATA, &limit);
-        // Sanitizers need memory of their own: with them there is no limit.
+        // Sanitizers disable the limit, as they need extra memory.
         std::_Exit(limit.rlim_cur == kLow || limit.rlim_cur > kHigh ? 7 : 1);
     };
     EXPECT_EXIT(limitTwice(), testing::ExitedWithCode(7), "");

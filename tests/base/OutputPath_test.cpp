@@ -89,7 +89,7 @@ TEST_F(OutputPathTest, FindsTemporaryFilesOfEndedProcesses) {
     const auto of = [&](const std::string& process) {
         return folder_.write("a.rawlog.tmp-" + process + "-0123456789abcdef", "half");
     };
-    of("1");  // is running
+    of("1");  // still running
     of("x");
     EXPECT_THAT(partialOutputs(file_), IsEmpty());
     const fs::path ended = of("999999999");
@@ -99,7 +99,7 @@ TEST_F(OutputPathTest, FindsTemporaryFilesOfEndedProcesses) {
     EXPECT_EQ(leftBehind({folder_ / "b"}), "");
 }
 
-TEST_F(OutputPathTest, RefusesOtherTypes) {
+TEST_F(OutputPathTest, RefusesToReplaceOtherTypes) {
     folder_.write("file", "old");
     fs::create_directory(folder_ / "folder");
     fs::create_symlink("file", folder_ / "link");
@@ -152,7 +152,7 @@ TEST_F(OutputPathTest, RefusesOutputsInInputs) {
     EXPECT_EQ(refusal("inside"), "");
 }
 
-TEST_F(OutputPathTest, WriteErrorsNameTheReason) {
+TEST_F(OutputPathTest, WriteErrorsIncludeReason) {
     const auto errorAt = [&](const fs::path& place) {
         return test::messageOf([&] { writeText("text", place, "named.csv"); });
     };
@@ -160,7 +160,7 @@ TEST_F(OutputPathTest, WriteErrorsNameTheReason) {
     EXPECT_EQ(errorAt("/dev/full"), "named.csv: cannot be written: No space left on device");
     std::ofstream out("/dev/full");  // full before it is closed
     out << std::string(100000, 'x') << std::flush;
-    errno = EACCES;  // of something else since
+    errno = EACCES;  // set by a later call
     EXPECT_EQ(test::messageOf([&] { closeWritten(out, "named.csv"); }),
               "named.csv: cannot be written: No space left on device");
     EXPECT_EQ(errorAt(folder_ / "a.csv"), "");

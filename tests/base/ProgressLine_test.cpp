@@ -14,7 +14,7 @@
 namespace hagen::base {
 namespace {
 
-/// What is written to standard error if it is a terminal.
+/// The output on standard error if that is a terminal.
 std::string onTerminal(const std::function<void()>& write) {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) {
@@ -48,7 +48,7 @@ TEST(ProgressLine, UpdatesOneLineOnTerminal) {
     EXPECT_EQ(onTerminal([] { ProgressLine("scan").show(0, 0); }), "");
 }
 
-TEST(ProgressLine, PrintsLinePerTenthElsewhere) {
+TEST(ProgressLine, PrintsLinePerTenthWithoutTerminal) {
     testing::internal::CaptureStderr();
     {
         ProgressLine line("flight");

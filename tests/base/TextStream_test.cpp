@@ -9,7 +9,7 @@
 namespace hagen::base {
 namespace {
 
-/// In a process of its own, with little memory.
+/// Runs in a separate process with little memory.
 TEST(TextStream, ThrowsIfMemoryRunsOut) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer ends the program if memory runs out";

@@ -43,7 +43,7 @@ TEST(Tables, CsvHasNoMarkdown) {
 TEST(Tables, MarkBestValuesBold) {
     EXPECT_EQ(pairCell(0.95801, 0.5, 0.95849, 0.6), "**0.958** / 0.500");
     EXPECT_EQ(pairCell(NAN, 0.5), "- / 0.500");
-    EXPECT_EQ(boldAbove(0.9581, 0.9579), "0.958");  // the same as it is printed
+    EXPECT_EQ(boldAbove(0.9581, 0.9579), "0.958");  // equal when rounded
     EXPECT_EQ(boldAbove(0.959, 0.958), "**0.959**");
     EXPECT_EQ(boldAbove(0.957, 0.958), "0.957");
     EXPECT_EQ(cell(evaluation::Interval{0.9511, 0.9639}), "0.951 to 0.964");

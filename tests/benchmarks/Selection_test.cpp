@@ -24,7 +24,7 @@ const fs::path kConfig = HAGEN_SOURCE_DIR "/config";
 
 constexpr std::int64_t kReturns = 100000;
 
-/// Counts with this F1 in both classes: as many misses as false alarms.
+/// Counts with this F1 in both classes: equal numbers of misses and false alarms.
 Counts countsOf(double f1, std::int64_t missed = 0) {
     const auto wrong = std::llround((1 - f1) * kReturns);
     const evaluation::ClassScore score{kReturns - wrong, wrong, wrong};
@@ -54,10 +54,10 @@ std::vector<Counts> bowls(const Choice& choice) {
     return counts;
 }
 
-/// No limit of missed returns.
+/// No limit on missed returns.
 const MissedByGroup kAny{kReturns, kReturns, kReturns};
 
-/// The best of all choices, by trying all of them.
+/// The best choice, by exhaustive search.
 Choice bruteForce(const std::string& left_out) {
     Choice best;
     double most = -INFINITY;
@@ -121,7 +121,7 @@ TEST(Descend, FindsOptimumOfTrainingScans) {
         EXPECT_DOUBLE_EQ(d.objective, objectiveOf(kDrives, bowls(d.choice), left_out));
         EXPECT_LE(d.rounds, 2);  // the settings do not depend on each other
     }
-    // The left-out drive matters: z pulls away from the others.
+    // The left-out drive matters: the optimum of z is far from the others.
     EXPECT_EQ(descend(kSettings, {2, 2}, kAny, kDrives, measure, "z", 10).choice, (Choice{0, 3}));
     EXPECT_NE(descend(kSettings, {2, 2}, kAny, kDrives, measure, "x", 10).choice, (Choice{0, 3}));
 }
@@ -176,7 +176,7 @@ TEST(Descend, RespectsLimitInEachGroup) {
               (Choice{4, 4}));
 }
 
-TEST(Descend, FirstGoesBelowLimit) {
+TEST(Descend, ReducesMissesBelowLimitFirst) {
     CachedMeasure measure(trade);
     const MissedByGroup limit = missedOf(kGroupsOfSets, trade({0, 0}), "");
     const Descended d = descend(kSettings, {4, 0}, limit, kGroupsOfSets, measure, "", 5);
@@ -330,7 +330,7 @@ TEST(SelectionTables, ListHeldOutScoresFirst) {
     EXPECT_THAT(text, HasSubstr("0.900 / 0.900"));
     EXPECT_THAT(text, HasSubstr("**0.910 / 0.910**"));  // the mean, held out
     EXPECT_THAT(text, HasSubstr("0.783 to 1.000"));     // 0.91 +- 12.706 * 0.01, at most 1
-    EXPECT_THAT(text, HasSubstr("0.955 / 0.955"));      // the mean of the present settings
+    EXPECT_THAT(text, HasSubstr("0.955 / 0.955"));      // the mean of the current settings
     EXPECT_THAT(text, HasSubstr("14 of 200000 (0.01 %)"));
     EXPECT_THAT(text, ContainsRegex("from a plain start.. +\\| ..0.820 / 0.820"));
     EXPECT_LT(text.find("held out"), text.find("in-sample"));

@@ -28,12 +28,12 @@ def check(holds, what):
 
 def check_offline(page):
     text = page.read_text(encoding="utf-8")
-    # Addresses in comments and namespaces of libraries are not loaded.
+    # URLs in comments and library namespaces are not loaded.
     check(not re.search(r"<(?:script|link|img|iframe)[^>]*\b(?:src|href)=", text),
-          f"{page.name} loads nothing from elsewhere")
+          f"{page.name} is self-contained")
 
 
-# Pixels of the view that change as a layer is switched on or off, in parts of a thousand.
+# Pixels of the view that change when a layer is toggled, in per mille.
 TOGGLED = """
 const picture = () => {
   document.getElementById('time').dispatchEvent(new Event('input'));  // draws
@@ -53,7 +53,7 @@ for (let i = 0; i < before.length; i += 4) {
 }
 return 1000 * changed / (200 * 120);"""
 
-# Panels, opened, that lie over one another, or reach out of the window.
+# Open panels that overlap or extend beyond the window.
 OVERLAPS = """
 document.getElementById('layers').open = true;
 const boxes = ['header', '#layers', 'footer'].map(
@@ -76,14 +76,14 @@ def check_panels(page):
             browser.open(page)
             browser.wait_for("return document.body.dataset.step !== undefined;")
             wrong = browser.run(OVERLAPS)
-            check(wrong == [], f"{width} x {height} px: panels lie apart {wrong}")
+            check(wrong == [], f"{width} x {height} px: panels do not overlap {wrong}")
 
 
 def check_crash(folder):
-    """A replay ends where and when the flight did, not at its last plan."""
+    """A replay ends at the end of the flight, not at its last plan."""
     with open(folder / "runs.csv", encoding="utf-8") as table:
         collisions = [row for row in csv.DictReader(table) if row["outcome"] == "collision"]
-    check(collisions, "of some fast flights that plan late, one ends in a collision")
+    check(collisions, "one of the fast flights with late plans collides")
     row = collisions[0]
     command("replay", folder, "--seed", row["seed"])
     page = folder / f"replay-forest-0.10-{row['seed']}-W-RoI-straight-14mps-latency16.html"
@@ -93,18 +93,18 @@ def check_crash(folder):
         ending = browser.run("return document.getElementById('ending').textContent;")
         check(re.fullmatch(rf"Hit a tree at {float(row['time_s']):.2f} s: "
                            rf"{float(row['min_clearance_m']):.2f} m from .*", ending), ending)
-        browser.press("\ue010")  # end
+        browser.press("\ue010")  # End
         end = browser.run(STATE)
-        check(abs(float(end["time"]) - float(row["time_s"])) < 0.011, "it ends at the impact")
+        check(abs(float(end["time"]) - float(row["time_s"])) < 0.011, "the replay ends at impact")
         check(abs(float(end["clearance"]) - float(row["min_clearance_m"])) < 0.011,
-              f"where the clearance is that of the table: {end['clearance']} m")
-        browser.press("\ue012")  # arrow to the left
+              f"the final clearance matches the table: {end['clearance']} m")
+        browser.press("\ue012")  # left arrow
         last = browser.run(STATE)
         check(last["step"] == end["step"] and float(last["time"]) < float(end["time"]),
-              "the last plan was before it")
-        browser.press("\ue014")  # arrow to the right
+              "the last plan precedes the impact")
+        browser.press("\ue014")  # right arrow
         check(browser.run(STATE) == end, "the step after the last plan is the end")
-        check(browser.run(TOGGLED, "scene") > 50, "the true scene can be switched off and on")
+        check(browser.run(TOGGLED, "scene") > 50, "the true scene can be toggled")
         check(browser.errors() == [], "no errors")
 
 
@@ -117,7 +117,7 @@ def check_replay(folder, model):
         browser.open(page)
         browser.wait_for("return document.body.dataset.step !== undefined;")
         begin = browser.run(STATE)
-        browser.press("\ue014")  # arrow to the right
+        browser.press("\ue014")  # right arrow
         stepped = browser.run(STATE)
         check(int(stepped["step"]) == int(begin["step"]) + 1, f"{model}: a key advances one step")
         browser.run("""const slider = document.getElementById('time');
@@ -140,7 +140,7 @@ def check_replay(folder, model):
         check(colors > 20, f"{model}: the view is not blank ({colors} colours)")
         browser.click("#play")
         browser.wait_for(f"return Number(document.body.dataset.time) > {middle['time']} + 0.3;")
-        check(True, f"{model}: it plays")
+        check(True, f"{model}: the button plays")
         browser.press("\ue00d")  # space
         paused = browser.run(STATE)
         time.sleep(0.5)
@@ -148,7 +148,7 @@ def check_replay(folder, model):
         browser.press("\ue010")  # end
         end = browser.run("return [document.getElementById('time').max, "
                           "document.body.dataset.time].map(Number);")
-        check(abs(end[0] - end[1]) < 0.01, f"{model}: the key End leads to the end")
+        check(abs(end[0] - end[1]) < 0.01, f"{model}: the End key jumps to the end")
         check(browser.errors() == [], f"{model}: no errors")
 
 

@@ -1,5 +1,5 @@
-"""A headless Chromium, driven through chromedriver by the WebDriver protocol: the standard library
-alone. Exits with 77 (skipped) where either is not installed."""
+"""A headless Chromium, controlled via chromedriver (WebDriver protocol) with only the standard
+library. Exits with 77 (skipped) if either is not installed."""
 import json
 import pathlib
 import re
@@ -78,10 +78,10 @@ class Browser:
     def wait_for(self, script, seconds=30):
         end = time.monotonic() + seconds
         while not self.run(script):
-            assert time.monotonic() < end, f"in vain waited for: {script}"
+            assert time.monotonic() < end, f"timeout waiting for: {script}"
             time.sleep(0.1)
 
     def errors(self):
-        """What the console complained of; WebGL in software may say that it is slow."""
+        """Errors on the console; warnings about slow software WebGL are ignored."""
         log = self.call("POST", self.session + "/se/log", {"type": "browser"})
         return [entry["message"] for entry in log if entry["level"] == "SEVERE"]

@@ -152,7 +152,7 @@ TEST_P(ConversionTest, WritesReproducibleBytes) {
     }
 }
 
-TEST_P(ConversionTest, ReproducesItsOwnOutput) {
+TEST_P(ConversionTest, ReproducesOwnOutput) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(scanFrom(2, "rear"));
     frame->insert(pose());
@@ -295,12 +295,12 @@ TEST_P(ConversionTest, LabelsCloudsLikeTheirPackets) {
     }
 }
 
-TEST(Conversion, LabelsCloudsEquallyOnAnyThreads) {
+TEST(Conversion, LabelsOfCloudsDoNotDependOnThreads) {
     const test::TemporaryFolder folder;
     std::vector<CObservation::Ptr> scans;
     for (int i = 0; i < 12; ++i) scans.push_back(scanFrom(0.3 * i, i % 3 == 0 ? "rear" : "front"));
     auto clouds = cloudsOf(scans);
-    // The first cloud of each label has three beams only: fewer than show a model.
+    // The first cloud of each label has only three beams, too few to identify a model.
     for (const std::size_t first : {0, 1}) {
         auto& points = *dynamic_cast<CObservationPointCloud&>(*clouds[first]).pointcloud;
         std::vector<bool> is_deleted;
@@ -330,7 +330,7 @@ TEST(Conversion, LabelsCloudsEquallyOnAnyThreads) {
     };
     const auto alone = converted(1, 0, 11);
     EXPECT_EQ(converted(4, 0, 11).first, alone.first);
-    // Nor do they depend on the part that is converted.
+    // The labels do not depend on the converted range either.
     EXPECT_EQ(converted(2, 0, 0).second.front().roi, alone.second.front().roi);
     EXPECT_EQ(converted(2, 6, 11).second.back().roi, alone.second.back().roi);
 }
@@ -370,7 +370,7 @@ TEST_P(ConversionTest, KeepsPosesOfLog) {
     const auto poses = recordings::readTumPoses(folder_ / "scans/poses.tum");
     ASSERT_EQ(poses.size(), 2u);
     EXPECT_NEAR(poses[1].pose.x(), 0.1, 1e-6);
-    // One for each scan without a pose near its time.
+    // One remark for each scan without a pose near its time.
     ASSERT_EQ(remarks.size(), 2u);
     EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
     EXPECT_EQ(remarks[1].rfind("entry 7 (lidar): no pose", 0), 0u) << remarks[1];
@@ -396,7 +396,7 @@ TEST_P(ConversionTest, ReportsScanWithoutTime) {
     EXPECT_EQ(first->timestamp, INVALID_TIMESTAMP);
 }
 
-TEST_P(ConversionTest, ReportsLostPosesWithoutHorizon) {
+TEST_P(ConversionTest, ReportsMissingPosesWithoutHorizon) {
     const auto odometryAt = [](double x_m) {
         auto observation = mrpt::obs::CObservationOdometry::Create();
         observation->sensorLabel = "odometry";
@@ -415,8 +415,7 @@ TEST_P(ConversionTest, ReportsLostPosesWithoutHorizon) {
     EXPECT_FALSE(fs::exists(folder_ / "scans/poses.txt"));
 }
 
-/// The mount is in the log, or in the settings: the poses of scans, and what they lead to, are the
-/// same.
+/// A mount in the log and one in the settings lead to the same poses and results.
 TEST_P(ConversionTest, AppliesMountOfSettings) {
     const mrpt::poses::CPose3D mount(0, 0, 0, 0, radians(-20), radians(180));
     const auto converted = [&](bool is_recorded, const std::string& name) {
@@ -529,7 +528,7 @@ TEST_P(ConversionTest, ReportsUnreadableScan) {
               (std::vector<std::string>{"pose", "lidar", "lidar", "lidar_roi", "lidar_non_roi"}));
 }
 
-/// They are the recording's, and no fault of the settings, which would end the conversion.
+/// The limits are from the recording; invalid limits in the settings would end the conversion.
 TEST_P(ConversionTest, ReportsScanWithInvalidLimits) {
     const double nan = std::nan("");
     for (const auto& [min_m, max_m] : {std::pair{2.0, 1.0}, {nan, 100.0}, {0.0, nan}}) {
@@ -837,30 +836,31 @@ TEST_P(ConversionTest, ReportsProgressPerEntry) {
 
 INSTANTIATE_TEST_SUITE_P(Threads, ConversionTest, testing::Values(1, 4));
 
-/// Everything a user sees of a conversion with this many threads: callbacks and files.
-std::string storyOf(Conversion conversion, const test::TemporaryFolder& folder, std::size_t jobs) {
+/// All callbacks and files of a conversion with `jobs` threads.
+std::string outputsOf(Conversion conversion, const test::TemporaryFolder& folder,
+                      std::size_t jobs) {
     conversion.jobs = jobs;
     conversion.overwrite = true;
     conversion.rawlog = folder / "out.rawlog";
     conversion.folder = folder / "scans";
-    std::string story;
+    std::string text;
     ConversionListener listener;
-    listener.remark = [&](const auto& entry, const auto& what) { story += entry + what + "\n"; };
-    listener.unreadable = [&](const auto& entry, const auto& why) { story += entry + why + "\n"; };
+    listener.remark = [&](const auto& entry, const auto& what) { text += entry + what + "\n"; };
+    listener.unreadable = [&](const auto& entry, const auto& why) { text += entry + why + "\n"; };
     listener.progress = [&](const ConversionReport& report) {
-        story += std::to_string(report.entries) + " " + std::to_string(report.fraction) + "\n";
+        text += std::to_string(report.entries) + " " + std::to_string(report.fraction) + "\n";
     };
     for (const ScanReport& scan : convert(conversion, listener).scan_reports) {
-        story += std::to_string(scan.entry) + scan.sensor_label + scan.name + " " +
-                 std::to_string(scan.roi) + "\n";
+        text += std::to_string(scan.entry) + scan.sensor_label + scan.name + " " +
+                std::to_string(scan.roi) + "\n";
     }
-    story += test::readFile(conversion.rawlog);
+    text += test::readFile(conversion.rawlog);
     std::vector<fs::path> files{fs::recursive_directory_iterator(conversion.folder), {}};
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {
-        if (fs::is_regular_file(file)) story += file.string() + test::readFile(file);
+        if (fs::is_regular_file(file)) text += file.string() + test::readFile(file);
     }
-    return story;
+    return text;
 }
 
 TEST(ConversionThreads, DoNotAffectResults) {
@@ -889,10 +889,10 @@ TEST(ConversionThreads, DoNotAffectResults) {
     }
     Conversion conversion;
     conversion.input = folder / "in.rawlog";
-    const std::string alone = storyOf(conversion, folder, 1);
+    const std::string alone = outputsOf(conversion, folder, 1);
     EXPECT_THAT(alone, HasSubstr("0x99"));
     for (const std::size_t jobs : {0, 2, 3, 8}) {
-        EXPECT_TRUE(storyOf(conversion, folder, jobs) == alone) << jobs << " threads";
+        EXPECT_TRUE(outputsOf(conversion, folder, jobs) == alone) << jobs << " threads";
     }
 }
 

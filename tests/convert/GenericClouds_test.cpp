@@ -38,7 +38,7 @@ CObservationPointCloud::Ptr asCloud(const mrpt::serialization::CSerializable::Pt
     return cloud;
 }
 
-/// Other fields of a cloud that was read as a generic one.
+/// The other fields of a cloud read as a generic cloud.
 const PointTable& fieldsOf(const CObservationPointCloud& observation) {
     static const PointTable none;
     const PointTable* const fields = observations::otherFieldsOf(*observation.pointcloud);
@@ -66,7 +66,7 @@ class GenericClouds : public testing::Test {
         for (const auto& entry : entries) writer.write(*entry);
         writer.commit();
     }
-    /// Converts the output once more; the file is the same.
+    /// Converts the output again and expects an equal file.
     void expectSameAgain() const {
         Conversion again = conversion_;
         again.input = conversion_.rawlog;
@@ -112,7 +112,7 @@ TEST_F(GenericClouds, KeepFieldsInResults) {
     }
 }
 
-TEST_F(GenericClouds, ReproduceTheirOwnOutput) {
+TEST_F(GenericClouds, ReproduceOwnOutput) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(test::poleScanFrom(1, "rear"));
     write({test::poleScanFrom(0, "lidar"), frame});
@@ -120,7 +120,7 @@ TEST_F(GenericClouds, ReproduceTheirOwnOutput) {
     convert(conversion_);
     expectSameAgain();
 
-    conversion_.settings.options.zone_m = 0.2f;  // nothing is so near
+    conversion_.settings.options.zone_m = 0.2f;  // all returns are farther
     conversion_.settings.options.context_m = 0.3f;
     conversion_.overwrite = true;
     conversion_.preview = false;
@@ -206,7 +206,7 @@ TEST_F(GenericClouds, AreOptional) {
     }
 }
 
-// MRPT 3 wrote the sample; what it wrote is what we write, up to the fields of the newest version.
+// The sample was written by MRPT 3; its fields and bytes are preserved.
 TEST_F(GenericClouds, KeepCloudOfMrpt3) {
     const char* const folder = std::getenv("HAGEN_MRPT3_DATA");
     if (folder == nullptr) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not set (see CONTRIBUTING.md)";

@@ -29,7 +29,7 @@ using testing::Pair;
 class McapOutputTest : public test::PoleConversion, public testing::Test {
  protected:
     McapOutputTest() { conversion_.mcap = folder_ / "out.mcap"; }
-    /// The scan with two points more that are no returns, and fields of other types.
+    /// The scan with two additional points that are not returns, and fields of other types.
     PointTable tableOfScan() const {
         const PointTable scan = observations::tableOf(observed_.scan);
         PointTable table;
@@ -53,7 +53,7 @@ class McapOutputTest : public test::PoleConversion, public testing::Test {
         addColumn("label", NumberType::UInt8, numbers, table);
         return table;
     }
-    /// The clouds that our own reader finds in an output.
+    /// The clouds of a topic, read by our own reader.
     static std::vector<mrpt::obs::CObservation::ConstPtr> cloudsOf(const fs::path& file,
                                                                    const std::string& topic) {
         recordings::SourceOptions options;
@@ -172,7 +172,7 @@ TEST_F(McapOutputTest, WritesTopicsPerLidar) {
                                    "allows"));
 }
 
-TEST_F(McapOutputTest, ReportsTimesBeyondRos) {
+TEST_F(McapOutputTest, ReportsTimesOutsideRosRange) {
     const auto early = test::poleScanFrom(0, "lidar"), late = test::poleScanFrom(1, "lidar");
     early->timestamp = mrpt::Clock::fromDouble(-5);
     late->timestamp = mrpt::Clock::fromDouble(2147483648.0);
@@ -193,7 +193,7 @@ TEST_F(McapOutputTest, KeepsPartialFileOnInterrupt) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "lidar"), test::poleScanFrom(1, "lidar"),
                                      test::poleScanFrom(2, "lidar")});
     conversion_.jobs = 1;
-    // Poses are looked for beforehand, which asks, too.
+    // The preceding search for poses also calls keep_going.
     int due = 0;
     ConversionListener counting;
     counting.keep_going = [&] { return ++due > 0; };

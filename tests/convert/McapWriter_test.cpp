@@ -39,7 +39,7 @@ std::uint64_t little(const std::string& bytes, std::size_t at, int size) {
     return number;
 }
 
-/// Bytes that do not repeat.
+/// Bytes that do not compress.
 Bytes noise(std::size_t size, std::uint32_t seed) {
     Bytes bytes(size);
     for (std::uint8_t& byte : bytes) {
@@ -89,7 +89,7 @@ TEST_F(McapWriterTest, WritesReproducibleBytes) {
     EXPECT_TRUE(bytesOf("a.mcap") == bytesOf("b.mcap"));
 }
 
-/// Their numbers have 16 bits, and none is 0.
+/// Topic IDs have 16 bits and are not 0.
 TEST_F(McapWriterTest, LimitsTopicsTo16Bits) {
     McapWriter writer(folder_ / "a.mcap", "a.mcap");
     for (int topic = 1; topic <= 65535; ++topic) {
@@ -104,7 +104,7 @@ TEST_F(McapWriterTest, WritesFileWithoutMessages) {
 }
 
 /// Follows the footer to the summary, its chunk indices to the message indices, and these to the
-/// times of the messages, byte by byte as the specification lays them out.
+/// times of the messages, byte by byte as specified.
 TEST_F(McapWriterTest, IndexesEveryMessage) {
     const auto written = write("a.mcap");
     const std::string bytes = bytesOf("a.mcap");
@@ -179,7 +179,7 @@ TEST_F(McapWriterTest, ReportsTrailingBytes) {
 TEST_F(McapWriterTest, ReportsWriteError) {
     EXPECT_THAT(test::messageOf([&] { McapWriter(folder_ / "none/a.mcap", "out.mcap"); }),
                 StartsWith("out.mcap: cannot be written"));
-    if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "/dev/full does not exist";
     EXPECT_THAT(test::messageOf([&] {
                     McapWriter writer("/dev/full", "out.mcap");
                     writer.close();
@@ -193,12 +193,12 @@ TEST_F(McapWriterTest, ReportsWriteError) {
                 StartsWith("out.mcap: cannot be written"));
 }
 
-// Messages, by the writer of the tests.
+// Messages, compared with the tests' own writer.
 
 const RosHeader kAt{1700000000250000000, "lidar"};
 constexpr double kAt_s = 1700000000.25;
 
-TEST(RosMessages, CloudsEqualOtherWriter) {
+TEST(RosMessages, CloudsMatchTestWriter) {
     const std::vector<float> xyzi{1, 2, 3, 0.5f, -4, 5, -6, 0.25f};
     observations::PointTable table;
     table.points = 2;
@@ -232,7 +232,7 @@ TEST(RosMessages, RejectUnsupportedValues) {
     }
 }
 
-TEST(RosMessages, PosesEqualOtherWriter) {
+TEST(RosMessages, PosesMatchTestWriter) {
     const mrpt::poses::CPose3D turned(1, -2, 3, 0.5, 0, 0), level(4, 5, 6, 0, 0, 0);
     test::MessageBytes pose(true);
     pose.header(kAt_s, "lidar").pose(1, -2, 3, 0.5);

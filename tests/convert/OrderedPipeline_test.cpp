@@ -22,7 +22,7 @@ struct Seen {
     int read = 0;
 };
 
-/// Squares 0 ... items - 1, slowly and at random.
+/// Squares 0 ... items - 1 with random delays.
 PipelineSteps<Numbered> squares(int items, Seen& seen) {
     PipelineSteps<Numbered> steps;
     steps.read = [&seen, items](Numbered& item) {
@@ -54,7 +54,7 @@ TEST(OrderedPipeline, KeepsOrder) {
     EXPECT_TRUE(seen.written.empty());
 }
 
-/// The first exception ends it; what was written by then is a beginning, in order.
+/// The first exception ends the pipeline; the items written by then are an ordered prefix.
 TEST(OrderedPipeline, StopsAtException) {
     for (const std::size_t threads : {1, 2, 8}) {
         for (int step = 0; step < 5; ++step) {

@@ -59,7 +59,7 @@ TEST(ScanFolderWriter, WritesReadableFolder) {
     EXPECT_EQ(settings.sensorModel().max_range_m, sensor.max_range_m);
 }
 
-/// Such as of clouds beside one whose name has no number, which was left out.
+/// Scans may be written in a different order than that of their names.
 TEST(ScanFolderWriter, OrdersTimesAndPosesByName) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path());

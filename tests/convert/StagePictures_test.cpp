@@ -35,7 +35,7 @@ constexpr Colour kNearestObstacle = kObstacles[0];
 constexpr Colour kRou{0xA9, 0xBC, 0xCB};
 constexpr Colour kEmpty{0xE9, 0xE9, 0xE9};
 
-/// A picture as it was read back; row 0 on top.
+/// A picture read back from its file; row 0 on top.
 struct Picture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;
@@ -71,7 +71,7 @@ Picture readPicture(const std::filesystem::path& file) {
     return picture;
 }
 
-/// Segments a scan and draws it into a folder of its own.
+/// Segments a scan and draws it into its own folder.
 class Drawn {
  public:
     explicit Drawn(const Scan& scan, const std::string& title = "a scene", Options options = {},
@@ -93,14 +93,14 @@ Scan scanOf(const SimpleScene& scene, const char* sensor = "VLP-16") {
     return test::scanScene(scene, sensorModel(sensor), 870, {0, 0, 2}).scan;
 }
 
-/// A pole ten metres away, at these places in the sensor's frame.
+/// A pole at this position in the sensor frame.
 SimpleScene poleAt(double x_m, double y_m) {
     SimpleScene scene;
     scene.poles.push_back({x_m, y_m, 0.3, 8});
     return scene;
 }
 
-/// Sets an environment variable for as long as it lives.
+/// Sets an environment variable during its lifetime.
 class Environment {
  public:
     Environment(const char* name, const std::string& value) : name_(name) {
@@ -127,7 +127,7 @@ std::string errorOf(Action action) {
     return "no error";
 }
 
-// In shares of a picture: where the whole images stand, below the legend, and where the top view.
+// Positions of the full images below the legend and of the top view, as fractions of a picture.
 constexpr double kImageTop = 0.13, kImageBottom = 0.41, kImageMiddle = 0.4913;
 constexpr double kTopViewTop = 0.095, kTopViewBottom = 0.93, kTopViewMiddle = 0.528;
 
@@ -178,7 +178,7 @@ TEST(StagePictures, DrawLeftAndForward) {
 }
 
 TEST(StagePictures, DrawLowestBeamAtBottom) {
-    SimpleScene scene;  // ground and nothing else: the upper half is empty
+    SimpleScene scene;  // only ground: the upper half is empty
     const Picture labels = Drawn(scanOf(scene)).picture("6_labels.png");
     constexpr double kMiddle = (0.12 + 0.41) / 2;
     EXPECT_EQ(labels.count(kRou, 0, 1, kImageTop, kMiddle), 0);
@@ -223,7 +223,7 @@ TEST(StagePictures, QuoteTitle) {
           std::string("Flug über Wiese, 空, not UTF-8: \xFF\xFE\xC3, zero \0 byte", 50) +
               std::string(5000, 'w')}) {
         const Drawn drawn(scan, title);
-        // Below its line the picture is as it is without a title.
+        // Below the title, the picture does not change.
         EXPECT_EQ(drawn.picture("6_labels.png").count(kRou),
                   plain.picture("6_labels.png").count(kRou))
             << title;
@@ -243,7 +243,7 @@ TEST(StagePictures, OmitNonFiniteReturns) {
     for (std::size_t i = 0; i < scan.size(); i += 3) {
         scan.x_m[i] = i % 2 == 0 ? kNoValue : std::numeric_limits<float>::infinity();
     }
-    scan.x_m[1] = scan.y_m[1] = scan.z_m[1] = 0.01f;  // nearer than the sensor sees
+    scan.x_m[1] = scan.y_m[1] = scan.z_m[1] = 0.01f;  // below the minimum range
     locateBeams(sensorModel("VLP-16"), scan);
     EXPECT_NO_THROW(Drawn{scan});
 }
@@ -319,13 +319,13 @@ TEST(StagePictures, RejectMissingFolder) {
 
 TEST(StagePictures, ReportWriteError) {
     const TemporaryFolder folder;
-    // Root may write into any folder, but nobody a file where a folder with something in it is.
+    // Not even root can replace a non-empty folder by a file.
     std::filesystem::create_directories(folder / "4_range_angle.png" / "something");
     const std::string error = errorInto(folder.path());
     EXPECT_THAT(error, HasSubstr((folder / "4_range_angle.png").string()));
 }
 
-/// A program named gnuplot, in the place of the real one.
+/// Uses a script instead of gnuplot.
 std::string errorWithGnuplot(const std::string& script) {
     const TemporaryFolder programs, folder;
     const auto program = programs.write("gnuplot", "#!/bin/sh\n" + script);
@@ -369,7 +369,7 @@ std::string commandsOf(const std::function<void()>& draw) {
     return text;
 }
 
-/// The tests above check what a picture shows; this one pins each size, position, colour and text
+/// The tests above check what a picture shows; this test pins each size, position, colour and text
 /// by the FNV-1a hash of the script. If a change is intended, look at the pictures, then record its
 /// hash.
 void expectHash(std::uint64_t recorded, const std::string& commands) {

@@ -1,5 +1,5 @@
-"""Blocks of code on the pages: each is checked by scripts/check-docs in some manner, or says why it is not; and the parts of
-that check which need no programs."""
+"""Every code block on the pages is checked by scripts/check-docs or has a reason not to be. Also tests the parts of that
+check that need no programs."""
 import sys
 import unittest
 from importlib.machinery import SourceFileLoader
@@ -15,7 +15,7 @@ pages, shell = check_docs.pages, check_docs.shell
 
 
 class Blocks(unittest.TestCase):
-    def test_every_block_is_checked_or_says_why_not(self):
+    def test_every_block_is_checked_or_has_reason(self):
         for page in pages.all_pages():
             text = (ROOT / page).read_text()
             found = list(pages.blocks(page))
@@ -25,13 +25,13 @@ class Blocks(unittest.TestCase):
                 self.assertNotEqual(check_docs.manner(block), "unknown", where)
                 self.assertNotEqual(block.notes.get("not run", "why"), None, where)
 
-    def test_blocks_that_show_a_file_are_as_the_file(self):
+    def test_blocks_of_files_match_the_files(self):
         for page in pages.all_pages():
             for block in pages.blocks(page):
                 if check_docs.manner(block) == "file":
                     self.assertIn(block.code.strip(), (ROOT / block.notes["file"]).read_text(), f"{page}:{block.line}")
 
-    def test_comments_before_a_block_are_its_notes(self):
+    def test_comments_before_block_are_notes(self):
         page = Path("docs/any.md")
         text = "<!-- of no block -->\n\nprose\n\n<!-- in order -->\n<!-- with: a=b -->\n```\none\n```\n<!-- given: int i; -->\n```cpp\ntwo\n```\n"
         found = [pages.Block(page, 0, match["language"], match["code"], dict(pages.NOTE.findall(match["notes"])))
@@ -50,24 +50,24 @@ class Commands(unittest.TestCase):
     def setUp(self):
         self.flags = shell.Flags(ROOT, {"seg", "compare"}, help_of)
 
-    def test_lines_are_joined_and_comments_left_out(self):
+    def test_joins_lines_and_omits_comments(self):
         self.assertEqual(shell.commands("one --a \\\n   two\n\n# all\nthree   # rest\nfour a#b\n"), ["one --a two", "three", "four a#b"])
 
-    def test_each_program_of_a_line_is_found(self):
+    def test_finds_each_program_of_line(self):
         self.assertEqual(shell.calls("A=1 seg -i 'a b' && sudo apt install x > log; cd y"),
                          [["seg", "-i", "a b"], ["apt", "install", "x", "log"], ["cd", "y"]])
 
-    def test_flags_of_the_help_are_no_faults(self):
+    def test_accepts_flags_of_help(self):
         for command in ("seg -i a --output=b", "build/release/bin/seg -i a", "compare fly --seed -1", "seg --help", "cmake --anything",
                         "scripts/check-docs --build x"):
             self.assertEqual(self.flags.faults(command), [], command)
 
-    def test_unknown_flags_programs_commands_and_scripts_are_faults(self):
+    def test_rejects_unknown_flags_programs_commands_and_scripts(self):
         for command in ("seg --inputs a", "seg --preview", "seg -x", "compare walk --seed 1", "compare fly --input a", "segg -i a", "scripts/none",
                         "scripts/check-docs --nothing", "cd a && seg --none", "seg 'open"):
             self.assertEqual(len(self.flags.faults(command)), 1, command)
 
-    def test_commands_in_prose_are_found_with_their_line(self):
+    def test_finds_commands_and_lines_in_prose(self):
         self.assertEqual(list(shell.inline("one `seg -i a`\n`other -i`\n```\n`seg -x`\n```\n| `build/dev/bin/seg --b` |", ["seg"])),
                          [(1, "seg -i a"), (6, "build/dev/bin/seg --b")])
 

@@ -1,9 +1,9 @@
-"""Commands of the documents: as lines of a block, their programs and flags."""
+"""Commands in the documentation: lines of a block, their programs and flags."""
 import re
 import shlex
 from pathlib import Path
 
-# Programs of others; their flags are not ours to check.
+# Third-party programs, whose flags are not checked.
 FOREIGN = {"cmake", "ctest", "apt", "cd", "cp", "echo", "export", "install", "journalctl", "mkdir", "npm", "pip", "pkg-config",
            "python3", "snakemake", "systemctl", "tar", "tee", "doxygen", "man", "git"}
 
@@ -34,14 +34,14 @@ def calls(command):
 
 
 def without_setting(call):
-    """A call without variables that are set for it, and without sudo."""
+    """A call without variable assignments and sudo."""
     while call and (re.match(r"[A-Z_]+=", call[0]) or call[0] == "sudo"):
         call = call[1:]
     return call
 
 
 def flags(arguments):
-    """Flags without their values; a lone dash and negative numbers do not count."""
+    """Flags without their values; ignores a lone dash and negative numbers."""
     return [argument.partition("=")[0] for argument in arguments if re.match(r"--?[a-zA-Z]", argument)]
 
 
@@ -49,7 +49,7 @@ class Flags:
     """Checks the flags of commands against the programs' own help."""
 
     def __init__(self, root, programs, help_of):
-        """`programs`: names of ours; `help_of(name, subcommand)`: what --help prints, None if there is no such subcommand."""
+        """`programs`: our programs; `help_of(name, subcommand)`: output of --help, None if there is no such subcommand."""
         self.root, self.programs, self.help_of = Path(root), set(programs), help_of
 
     def faults(self, command):
@@ -69,7 +69,7 @@ class Flags:
             text = script.read_text()
             if call[0] == "scripts/test":  # passes its arguments on
                 text += self.help_of("ctest", None)
-        elif name.endswith("-benchmarks"):  # of Google Benchmark, which knows no --help
+        elif name.endswith("-benchmarks"):  # Google Benchmark has no --help
             text = "--benchmark_"
         elif name in self.programs:
             words = [argument for argument in call[1:2] if not argument.startswith("-")]
@@ -79,7 +79,7 @@ class Flags:
         elif name in FOREIGN or call[0].startswith("build/"):
             return []
         else:
-            return [f"{name}: neither a program of ours nor a known one"]
+            return [f"{name}: neither ours nor a known program"]
         return [f"{name}: no flag {flag}" for flag in flags(call[1:])
                 if not flag.startswith("--benchmark_") and flag not in ("--help", "-h")
                 and not re.search(r"(?<![\w-])" + re.escape(flag) + r"(?![\w-])", text)]

@@ -1,4 +1,4 @@
-"""The table of limits in docs/reliability.md: each file declares its constants with the values of the table."""
+"""The table of limits in docs/reliability.md: the constants in each file have the values of the table."""
 import re
 import unittest
 from pathlib import Path
@@ -17,7 +17,7 @@ def rows(page):
 
 
 def values_of_page(limit):
-    """The numbers of a limit such as '64 MiB plus 32 bytes'; what is in parentheses explains them."""
+    """The numbers of a limit such as '64 MiB plus 32 bytes', except explanations in parentheses."""
     text = re.sub(r"\(.*?\)", "", limit).replace("half", "2").replace("2^32", str(2**32))
     for number, unit in re.findall(r"(-?\d[\d.]*(?:e\d+)?) ?(\w*)", text):
         yield float(number) * UNITS.get(unit, 1), unit
@@ -31,7 +31,7 @@ def values_of_code(code, constant):
 
 
 class Limits(unittest.TestCase):
-    def test_code_declares_limits_of_page(self):
+    def test_code_declares_documented_limits(self):
         found = list(rows((ROOT / "docs/reliability.md").read_text()))
         self.assertGreater(len(found), 20)
         for what, limit, constants, file in found:

@@ -1,6 +1,6 @@
-"""Links of the documents: each leads to a page, heading, picture or file that is there.
+"""Each link in the documentation leads to an existing page, heading, picture or file.
 
-Web addresses are not opened. Usage: links_test.py [PAGE.md...]; default: all pages.
+URLs are not opened. Usage: links_test.py [PAGE.md...]; default: all pages.
 """
 import os
 import sys
@@ -12,7 +12,7 @@ import pages  # noqa: E402
 
 
 def faults(path, read=lambda path: path.read_text()):
-    """One line for each link of a page that leads nowhere."""
+    """One line for each broken link of a page."""
     found = []
     for line, target, is_picture in pages.links(read(path)):
         where = f"{path}:{line}: {target}: "
@@ -32,7 +32,7 @@ def faults(path, read=lambda path: path.read_text()):
 
 
 class Links(unittest.TestCase):
-    def test_all_links_lead_somewhere(self):
+    def test_no_link_is_broken(self):
         found = [fault for page in pages.all_pages() for fault in faults(pages.ROOT / page)]
         self.assertEqual(found, [])
 
@@ -48,16 +48,16 @@ class Links(unittest.TestCase):
         page = pages.ROOT / "docs/live.md"
         return faults(page, lambda path: text if path == page else path.read_text())
 
-    def test_a_missing_file_heading_or_picture_is_a_fault(self):
+    def test_reports_missing_files_headings_and_pictures(self):
         for link in ("[a](nowhere.md)", "[a](python.md#nothing)", "[a](#nothing)", "![a](pictures/none.png)",
                      "![a](python.md)", "![a](https://example.org/a.png)", "[![a](none.png)](python.md)"):
             self.assertEqual(len(self.faults_of(f"# One\n{link}\n")), 1, link)
 
-    def test_headings_have_the_anchors_of_github(self):
+    def test_anchors_match_github(self):
         text = "# `a`-b, [c](d.md): 1.5 m?\n## Twice\n## Twice\n```\n# no heading\n```\n"
         self.assertEqual(pages.anchors(text), {"a-b-c-15-m", "twice", "twice-1"})
 
-    def test_code_has_no_links(self):
+    def test_ignores_links_in_code(self):
         self.assertEqual(self.faults_of("`[a](nowhere.md)`\n```\n[a](nowhere.md)\n```\n[one](python.md#segment)\n"), [])
 
 

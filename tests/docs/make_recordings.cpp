@@ -1,5 +1,4 @@
-// Writes recordings for the commands of the documents, from those of rawlogs/: make-recordings
-// RAWLOG FOLDER
+// Writes recordings for the documented commands, based on rawlogs/: make-recordings RAWLOG FOLDER
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -45,7 +44,7 @@ void writeVelodyne(const fs::path& rawlog, const fs::path& folder) {
     test::writeBytes(folder / "flight.mcap", test::mcapOf(messages));
 }
 
-/// Flat ground 1.7 m below, and a wall all around, 15 m away.
+/// Flat ground 1.7 m below, and a surrounding wall 15 m away.
 void writeHdl64(const fs::path& folder) {
     const auto lasers = test::hdl64Lasers();
     test::CaptureWriter capture;

@@ -19,10 +19,10 @@ class Silent(http.server.SimpleHTTPRequestHandler):
 
 
 def search(browser, url, words):
-    """The pages that the search field of a page finds, the best first."""
+    """The pages found by the search field of a page, the best first."""
     browser.call("POST", browser.session + "/url", {"url": url})
     browser.wait_for("return document.querySelector('.md-search__input') !== null")
-    # The field takes no words before the index is there.
+    # The field accepts no words before the index is loaded.
     browser.run("document.querySelector('#__search').click(); document.querySelector('.md-search__input').focus()")
     browser.run("const field = document.querySelector('.md-search__input'); field.value = arguments[0];"
                 "for (const name of ['input', 'keyup']) field.dispatchEvent(new Event(name, {bubbles: true}))", words)

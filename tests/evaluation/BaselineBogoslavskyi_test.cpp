@@ -61,7 +61,7 @@ TEST(SavitzkyGolay, RejectsEvenWindows) {
     }
 }
 
-/// The share of the near returns with this true label that are found to have it.
+/// Share of the near returns with this true label that are labelled correctly.
 double recall(const LabelledScan& scene, const std::vector<Label>& labels, Label label) {
     int hits = 0, all = 0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -83,7 +83,7 @@ TEST(BogoslavskyiLabels, SeparatesObstaclesFromFlatGround) {
     EXPECT_GT(recall(labelled, labels, Label::Rou), 0.95);
 }
 
-TEST(BogoslavskyiLabels, SmoothsTheAngles) {
+TEST(BogoslavskyiLabels, SmoothsAngles) {
     // A box's foot is a step in the angles, which smoothing spreads over its neighbours.
     SimpleScene scene;
     scene.boxes.push_back({{4.0, -3.0, 0.0}, {5.0, 3.0, 1.0}});

@@ -49,7 +49,7 @@ TEST(Camera, RoundsToNearestPixel) {
     expectAt(smallCamera(), {100, 12.6f, 0}, 3, 3);
 }
 
-TEST(Camera, IgnoresReturnsOutsideTheView) {
+TEST(Camera, IgnoresReturnsOutsideView) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(
         visibleReturns(
@@ -66,7 +66,7 @@ TEST(Camera, KeepsNearestReturnPerPixel) {
     EXPECT_EQ(pixels[0].index, 1u);
 }
 
-TEST(Camera, AppliesItsPose) {
+TEST(Camera, AppliesPose) {
     PinholeCamera camera = smallCamera();
     camera.pose.translation() = Eigen::Vector3d(0, 1, 0);  // 1 m to the left of the sensor
     expectAt(camera, {5, 1, 0}, 4, 3);

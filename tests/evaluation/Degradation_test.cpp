@@ -23,8 +23,8 @@ constexpr auto G = Label::Rou, O = Label::Roi, U = Label::Unclassified;
 const SensorModel kSensor = sensorModel("VLP-16");
 constexpr int kColumns = 360;
 
-/// A return on the centre of every pixel, with random ranges and truth. `kinds` and `objects` hold
-/// the index of the return, which shows what happens to it.
+/// A return at the centre of every pixel, with random ranges and truth. `kinds` and `objects` hold
+/// the index of the return, so that it can be traced.
 GroundTruthScan randomScan(unsigned seed = 1) {
     test::Random random(seed);
     std::vector<Vector3f> points_m;
@@ -54,7 +54,7 @@ Vector3f point(const GroundTruthScan& scan, std::size_t i) {
     return {s.x_m[i], s.y_m[i], s.z_m[i]};
 }
 
-/// Every array has the same size, and ranges and azimuths are those of the coordinates.
+/// All arrays have the same size, and ranges and azimuths match the coordinates.
 void expectSound(const GroundTruthScan& scan) {
     const Scan& s = scan.input.scan;
     for (const std::size_t size :
@@ -68,7 +68,7 @@ void expectSound(const GroundTruthScan& scan) {
     }
 }
 
-/// The part that remains is that of the returns for which `isKept(original index)`.
+/// Expects exactly the returns with `isKept(original index)` to remain.
 template <class IsKept>
 void expectPart(const GroundTruthScan& scan, const GroundTruthScan& part, IsKept isKept) {
     expectSound(part);
@@ -94,7 +94,7 @@ TEST(Degradation, DeadBeamsRemoveRows) {
     });
 }
 
-TEST(Degradation, DropoutRemovesItsShare) {
+TEST(Degradation, DropoutRemovesGivenShare) {
     const auto scan = randomScan();
     const double returns = static_cast<double>(scan.input.scan.size());
     const auto first = degraded(scan, "dropout=20");
@@ -159,7 +159,7 @@ TEST(Degradation, KeepsReturnsNearerThanDrops) {
     EXPECT_GT(degraded(scan, "noise_m=10").input.scan.range_m[0], 0.0f);
 }
 
-/// The tilted scan of a sensor that turns, with the attitude that it would report.
+/// Expects points to be rotated and cropped to the field of view, and the attitude on request.
 void expectTilted(const std::string& text, const Attitude& attitude) {
     const auto scan = randomScan();
     const auto tilted = degraded(scan, text);
@@ -284,7 +284,7 @@ TEST(Degradation, SecondReturnsLieBehindEdges) {
     }
 }
 
-// Across a gap, the next return of the row is no neighbour.
+// Across a gap, the next return of the row is not a neighbour.
 TEST(Degradation, SecondReturnsNeedNeighbours) {
     GroundTruthScan scan;
     std::vector<Vector3f> points_m;
@@ -340,7 +340,7 @@ TEST(Degradation, KeepsReturnsWithoutRange) {
     }
 }
 
-TEST(Degradation, StandardSetsFitTheSensor) {
+TEST(Degradation, StandardSetsFitSensor) {
     const auto namesFor = [](const std::string& model) {
         std::vector<std::string> names;
         for (const Degradation& degradation : standardDegradations(sensorModel(model))) {
@@ -386,7 +386,7 @@ TEST(Degradation, RejectsValuesOutOfRange) {
     EXPECT_EQ(problemOf("pitch_deg=-20,attitude"), "");
 }
 
-/// One scan, again and again.
+/// The same scan three times.
 class OneScan : public LabelledScanSource {
  public:
     std::optional<GroundTruthScan> next() override {
@@ -420,7 +420,7 @@ TEST(DegradedScans, UseOneSeedPerScan) {
     EXPECT_EQ(again.next()->kinds, first->kinds);
 }
 
-// Beams that look up see no ground.
+// Beams above the horizon see no ground.
 TEST(DegradedScans, KeepRecordedHeights) {
     DegradedScans scans(std::make_unique<OneScan>(), Degradation("above_deg=0"));
     const auto recorded = randomScan();

@@ -52,7 +52,7 @@ TEST(DroneScores, CountUnknownHeightsAsTall) {
 TEST(DroneScores, PreferGivenHeights) {
     auto scan = scanOf({{4, 0, kGround_m}, {4, 0, 0}, {4, 0, -1.9f}, {30, 0, 0}, {4, 1, 0}},
                        {G, O, O, O, U});
-    scan.heights_m = {9, 0.4f, 0.6f, 9, 9};  // of obstacles in range only
+    scan.heights_m = {9, 0.4f, 0.6f, 9, 9};  // only used for obstacles in range
     EXPECT_EQ(scoresOf(scan, {G, G, G, G, G}).tall.all, 1);
     scan.heights_m.pop_back();
     EXPECT_THROW(scoresOf(scan, {G, G, G, G, G}), std::invalid_argument);

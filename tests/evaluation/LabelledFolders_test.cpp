@@ -59,7 +59,7 @@ TEST_F(LabelledFolders, UseMountWithoutPoses) {
     folder_.write("hanging/sensor.yaml", "sensor: {model: VLP-16, mount_roll_deg: 180}");
     EXPECT_LT((upOf() + Eigen::Vector3f::UnitZ()).norm(), 1e-6f);
     folder_.write("hanging/times.txt", "100\n");
-    folder_.write("hanging/poses.tum", "100 0 0 2 0 0 0 1\n");  // poses of the sensor win
+    folder_.write("hanging/poses.tum", "100 0 0 2 0 0 0 1\n");  // sensor poses take precedence
     EXPECT_LT((upOf() - Eigen::Vector3f::UnitZ()).norm(), 1e-6f);
 }
 

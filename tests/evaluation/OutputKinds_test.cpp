@@ -1,4 +1,4 @@
-// The permitted contents of outputs of each kind, which may be replaced.
+// Which existing outputs of each kind may be replaced.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
@@ -46,14 +46,14 @@ TEST(OutputKinds, ReplaceOwnKindOnly) {
     folder.write("scans/simulated_by.txt", "");
     folder.write("mine/velodyne/000000.bin", "");
     folder.write("mine/labels/000000.label", "");
-    folder.write("mine/kinds.yaml", "");  // as the documents say
+    folder.write("mine/kinds.yaml", "");  // as documented
     folder.write("work/velodyne/000000.bin", "");
     folder.write("work/notes.txt", "");
     EXPECT_FALSE(mayReplace(folder / "scans", kFile));
     EXPECT_FALSE(mayReplace(folder / "file", kScanFolders));
     EXPECT_FALSE(mayReplace("/dev/null", kFile));
     EXPECT_TRUE(mayReplace(folder / "scans", kScanFolders));
-    // Labelled by hand, it has the same names.
+    // A folder labelled by hand has the same names.
     EXPECT_FALSE(mayReplace(folder / "mine", kScanFolders));
     EXPECT_THAT(test::messageOf([&] { OutputPath(folder / "work", kScanFolders, true); }),
                 HasSubstr("'notes.txt'"));

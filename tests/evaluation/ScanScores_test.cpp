@@ -53,7 +53,7 @@ TEST(ScanScores, RejectExcessiveBandCounts) {
 }
 
 TEST(ScanScores, ScoreClassesByName) {
-    // Two wires, one missed; a tree found; terrain called RoI; dust is left out with its kind.
+    // Two wires, one missed; a tree found; terrain labelled RoI; dust is excluded with its class.
     GroundTruthScan scan = scanAt({1, 2, 3, 4, 5}, {O, O, O, G, U});
     scan.kinds = {5, 5, 3, 1, 10};
     const ScanScores scores = scoreScan(scan, {O, G, O, O, O}, kKinds, {});

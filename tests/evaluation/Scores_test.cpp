@@ -17,7 +17,7 @@ Scores scoresOf(const std::vector<Label>& truth, const std::vector<Label>& found
 
 TEST(Scores, MatchHandCounts) {
     // Of four RoI returns two are found, one is called ROU, one unclassified; of two ROU returns
-    // one is found, one is called RoI; the return without a true label counts nowhere.
+    // one is found, one is called RoI; the return without a true label is not counted.
     const Scores scores = scoresOf({O, O, O, G, G, U, O}, {O, O, G, O, G, O, U});
     EXPECT_EQ(scores.roi.hits, 2);
     EXPECT_EQ(scores.roi.misses, 2);

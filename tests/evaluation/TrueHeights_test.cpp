@@ -32,7 +32,7 @@ float plainMedian(std::vector<float> values) {
     return values[values.size() / 2];
 }
 
-/// The definition, word by word: all cells, all distances.
+/// Direct implementation of the definition: all cells, all distances.
 float plainHeight(const GroundTruthScan& scan, std::size_t obstacle) {
     const auto centre = [&](std::size_t i) {
         return Eigen::Vector2f(0.5f * std::floor(2 * scan.input.scan.x_m[i]) + 0.25f,
@@ -121,7 +121,7 @@ TEST(TrueHeights, SkipReturnsBeyondRange) {
     EXPECT_TRUE(std::isnan(heights_m[2]));
 }
 
-// They have no level point, so no cell: to number it is undefined, which the sanitizers see.
+// Such returns have no cell; sanitizers would report the overflow of a cell number.
 TEST(TrueHeights, SkipImplausiblyFarReturns) {
     const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {20000, 0, 0}, {20000, 0, -2}}, {G, O, O, G});
     const std::vector<float> heights_m = heightsOf(scan, 1e6f);
@@ -129,9 +129,8 @@ TEST(TrueHeights, SkipImplausiblyFarReturns) {
     EXPECT_TRUE(std::isnan(heights_m[2]));
 }
 
-// The same scene for a level and for a tilted sensor that knows its attitude, or whose is known to
-// the scorer only.
-TEST(TrueHeights, UseTiltedSensorsHorizon) {
+// A tilted sensor whose attitude is unknown, known, or known to the scorer only.
+TEST(TrueHeights, UseTrueHorizonOfTiltedSensor) {
     const std::vector<Vector3f> points_m{{4, 1, -2}, {4.2f, 1.1f, -2}, {4, 1, -1.2f}};
     const Eigen::Matrix3f turn =
         Eigen::AngleAxisf(static_cast<float>(radians(30)), Vector3f::UnitX()).toRotationMatrix();

@@ -1,7 +1,7 @@
-// For LD_PRELOAD, by faults_test.py. With HAGEN_FAILING_NEW=N, the N-th allocation by `new`,
-// counted from the start of main(), fails once, also in programs that the process starts. 0: none
-// fails, and their number is printed at the end. The failing one prints its call stack. malloc() is
-// not affected: C libraries report its failure.
+// Preloaded (LD_PRELOAD) by faults_test.py. With HAGEN_FAILING_NEW=N, the N-th allocation by `new`
+// since the start of main(), also in child processes, fails once and prints its call stack. With 0,
+// none fails, and their number is printed at the end. malloc() is not affected: C libraries report
+// its failure.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <unistd.h>
@@ -40,7 +40,7 @@ void* allocated(std::size_t size, std::size_t alignment) {
         backtrace_symbols_fd(frames, backtrace(frames, 64), STDERR_FILENO);
         throw std::bad_alloc();
     }
-    // aligned_alloc() wants a multiple of the alignment.
+    // aligned_alloc() requires a multiple of the alignment.
     void* const memory = std::aligned_alloc(
         alignment, (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment);
     if (memory == nullptr) throw std::bad_alloc();
@@ -66,7 +66,7 @@ void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memo
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
-/// Of the C library, which calls main().
+/// C library function that calls main().
 extern "C" int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*fini)(),
                                  void (*rtld_fini)(), void* stack_end) {
     program = main;

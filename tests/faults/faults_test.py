@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Makes the n-th system call (strace) or allocation (Faults.cpp) of a program fail, or sends a signal at a system call,
-and checks the outcome: exit code 0, 1 or 2 within TIMEOUT_S; each output complete or as it was before, and complete if
-the exit code is 0; nothing else left but readable .partial files; a second run succeeds.
+and checks the outcome: exit code 0, 1 or 2 within TIMEOUT_S; each output complete or unchanged, and complete if the
+exit code is 0; no other files left except readable .partial files; a second run succeeds.
 
     faults_test.py CASE --build DIR --calls rename,write,signals,new [--every K] [--allocations N]
 
-Exit codes: 0 passed, 1 failed, 2 cannot run: strace is missing, or has no permission to trace."""
+Exit codes: 0 passed, 1 failed, 2 cannot run: strace is missing or not permitted to trace."""
 import argparse
 import json
 import os
@@ -27,7 +27,7 @@ SIGNALS = ["SIGINT", "SIGTERM", "SIGHUP", "SIGKILL"]
 
 
 def run(command, folder, timeout=None, environment=None):
-    """Like subprocess.run(), but ends everything that the command has started."""
+    """Like subprocess.run(), but kills all processes started by the command."""
     pipe, environment = subprocess.PIPE, {**os.environ, **(environment or {})}
     process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=pipe, stderr=pipe, env=environment,
                                start_new_session=True, text=True, errors="replace")
@@ -45,7 +45,7 @@ def must(command, folder):
 
 
 def content(path):
-    """The bytes of a file, those of all files of a folder by name, or None."""
+    """The bytes of a file, or of all files of a folder by name; None if missing."""
     if path.is_dir():
         return {str(file.relative_to(path)): file.read_bytes() for file in sorted(path.rglob("*")) if file.is_file()}
     return path.read_bytes() if path.exists() else None
@@ -71,13 +71,13 @@ def same_names(found, expected):
 
 @dataclass
 class Case:
-    """A run that replaces the outputs of an earlier one, which had other arguments."""
+    """A run that replaces the outputs of an earlier run with other arguments."""
     program: Path
     arguments: list
-    before: list  # further arguments of the earlier run
+    before: list  # additional arguments of the earlier run
     after: list
     outputs: list
-    same: dict = field(default_factory=dict)  # comparison by output, if it is not of the bytes
+    same: dict = field(default_factory=dict)  # comparison by output; default: of the bytes
 
 
 def conversion(bin_folder, folder, with_map=True):
@@ -108,7 +108,7 @@ def evaluation(bin_folder, folder):
 
 
 CASES = {"conversion": conversion, "simulation": simulation, "evaluation": evaluation,
-         # Without an OctoMap, whose nodes are most of the allocations.
+         # Without an OctoMap, whose nodes dominate the allocations.
          "plain": lambda *folders: conversion(*folders, with_map=False)}
 
 
@@ -155,7 +155,7 @@ class Injector:
         return found[::every]
 
     def try_fault(self, fault):
-        """Returns what is wrong."""
+        """Returns the errors."""
         folder = self.copy()
         try:
             if fault.startswith("new:"):
@@ -217,7 +217,7 @@ def main():
     parser.add_argument("--allocations", type=int, default=10000, help="maximum number of failed allocations")
     flags = parser.parse_args()
     if not shutil.which("strace") or run(["strace", "-qq", "-o", "/dev/null", "true"], "/").returncode != 0:
-        raise RuntimeError("strace is missing, or has no permission to trace")
+        raise RuntimeError("strace is missing or not permitted to trace")
     if not (flags.build / "lib/libfaults.so").exists():
         raise RuntimeError(f"{flags.build}/lib/libfaults.so is missing: build the target faults")
     injector = Injector(CASES[flags.case], flags.build.resolve())

@@ -52,14 +52,14 @@ TEST(CanopyLayer, ToleratesMeanPlusTwoDeviations) {
     EXPECT_LT((tolerated(pixelsAt(mixed)) - 1.1f).abs().maxCoeff(), 1e-3f);
 }
 
-TEST(CanopyLayer, TwoHighReturnsMakeAnObstacle) {
+TEST(CanopyLayer, TwoHighReturnsMakeObstacle) {
     const auto points = field(40, [](int) { return 0.6f; });
     const auto toleratedBelow = [&](std::vector<float> heights_m) {
         auto with = points;
         for (const float height_m : heights_m) with.emplace_back(1.1f, 1.1f, height_m);
         return tolerated(pixelsAt(with)).rightCols<1>().value();
     };
-    // The plants are tolerated up to 0.7 m, and one higher cell changes their deviation little.
+    // Plants are tolerated up to 0.7 m; one higher cell hardly changes their deviation.
     EXPECT_NEAR(toleratedBelow({0.79f, 0.79f}), 0.7f, 0.02f);
     EXPECT_NEAR(toleratedBelow({0.95f, 0.79f}), 0.7f, 0.03f);
     EXPECT_EQ(toleratedBelow({0.85f, 0.85f}), kBefore_m);
@@ -92,7 +92,7 @@ TEST(CanopyLayer, NeedsThirtyFivePercentPlants) {
     EXPECT_LT((tolerated(pixelsAt(share(36))) - 0.7f).abs().maxCoeff(), 2e-3f);
 }
 
-TEST(CanopyLayer, PlantsAreBetweenTenCentimetresAndOneMetre) {
+TEST(CanopyLayer, PlantsAreTenToHundredCentimetresHigh) {
     EXPECT_TRUE((tolerated(pixelsAt(field(20, [](int) { return 0.1f; }))) == kBefore_m).all());
     EXPECT_TRUE((tolerated(pixelsAt(field(20, [](int) { return 1.0f; }))) == kBefore_m).all());
     EXPECT_TRUE((tolerated(pixelsAt(field(20, [](int) { return 0.99f; }))) > 1.0f).all());

@@ -1,4 +1,4 @@
-// A stage restricted to an area of the ground grid has the same results there as on all of it.
+// A stage restricted to an area of the ground grid gives the same results there as on the whole.
 #include <gtest/gtest.h>
 #include <hagen/filter/CellTops.h>
 #include "filter/simd/CanopyLayer.h"
@@ -21,7 +21,7 @@ struct Crops {
     Image<float> height_m;
 };
 
-/// Low plants everywhere, with taller things among them; one pixel in seven is empty.
+/// Low plants everywhere, with taller objects among them; one pixel in seven is empty.
 Crops makeCrops(unsigned seed) {
     test::Random random(seed);
     Crops crops;
@@ -58,11 +58,11 @@ TEST(CellArea, MatchesWholeGridInside) {
     ToleranceWorkspace work;
     toleratedHeights(crops.pixels, crops.cells, whole, {}, 2.0f, whole_m, work);
     tolerateCanopy(crops.cells, whole, whole_m);
-    ASSERT_GT(whole_m.maxCoeff<Eigen::PropagateNumbers>(), 0.4f);  // there is a canopy
+    ASSERT_GT(whole_m.maxCoeff<Eigen::PropagateNumbers>(), 0.4f);  // contains a canopy
 
     const CellArea insides[] = {
         {60, 70, 61, 73}, {0, 20, 0, 9}, {97, 130, 111, 130}, {1, 7, 60, 70}};
-    CellTops tops;  // the same for all: areas before leave their heights
+    CellTops tops;  // reused: heights of earlier areas remain
     ToleranceWorkspace work_of_area;
     for (const CellArea& inside : insides) {
         const CellArea area = inside.grownBy(kCanopyReach);
@@ -132,7 +132,7 @@ TEST(CellTops, RaisesCellsKnownToBeHigher) {
     EXPECT_TRUE((tops.top_m == before.top_m).all());
     for (Eigen::Index k = 0; k < known_m.size(); ++k) {
         const int cell = thin.cells.cell.data()[k];
-        ASSERT_EQ(highestOf(tops, cell), before.highest_m.data()[cell]);  // not what was raised
+        ASSERT_EQ(highestOf(tops, cell), before.highest_m.data()[cell]);  // without raised heights
     }
 }
 

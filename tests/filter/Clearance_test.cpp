@@ -48,7 +48,7 @@ TEST(Clearance, FollowsGravityOverSlopes) {
         test::groundPoints(20, 0.5f, [&](float x_m, float) { return rise * x_m - 3; });
     GroundFrameWorkspace work;
     for (const Attitude& attitude :
-         {Attitude{}, Attitude{0.1f, -0.15f}}) {  // of the airframe, not of the ground
+         {Attitude{}, Attitude{0.1f, -0.15f}}) {  // attitude of the airframe
         PixelPoints pixels = pixelsAt(points);
         Eigen::Isometry3f sensor_from_level = Eigen::Isometry3f::Identity();
         sensor_from_level.linear() = levelFromSensor(attitude).transpose();

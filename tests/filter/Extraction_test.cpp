@@ -14,7 +14,7 @@
 namespace hagen {
 namespace {
 
-FilterWorkspace work;  // shared by all tests, as by all scans in a filter
+FilterWorkspace work;  // reused by all tests, as by a filter for all scans
 
 OwnLabels ownLabels(const std::vector<Label>& label) {
     OwnLabels own{label, {}};

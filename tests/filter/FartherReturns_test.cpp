@@ -27,11 +27,11 @@ struct TwoMetresUp {
 
     std::vector<Label> judged(const std::vector<Eigen::Vector3f>& points_m,
                               float least_clearance_m = 0) const {
-        static FilterWorkspace work;  // shared by all tests, as by all scans in a filter
+        static FilterWorkspace work;  // reused by all tests, as by a filter for all scans
         const Scan scan = test::scanOf(sensor, points_m);
         RangeImage image;
         projectScan(scan, sensor, 870, 48.0f, image, work.projection);
-        OwnLabels own_labels{std::vector<Label>(99, Label::Roi), {7, 8}};  // of an earlier scan
+        OwnLabels own_labels{std::vector<Label>(99, Label::Roi), {7, 8}};  // from an earlier scan
         judgeFartherReturns(scan, image, ground, {Eigen::Vector3f::UnitZ(), least_clearance_m},
                             kZone_m, own_labels, work.farther_returns);
         std::vector<std::int32_t> labelled;
@@ -49,7 +49,7 @@ struct TwoMetresUp {
 
 constexpr Label kAsItsPixel = Label::Unclassified;
 
-TEST(FartherReturns, FirstThirtyCentimetresFollowThePixel) {
+TEST(FartherReturns, FollowPixelWithinThirtyCentimetres) {
     const TwoMetresUp example;
     EXPECT_EQ(example.judged({example.on(8, 5), example.on(8, 5.29), example.on(8, 5.31)}),
               (std::vector<Label>{kAsItsPixel, kAsItsPixel, Label::Roi}));
@@ -86,9 +86,9 @@ TEST(FartherReturns, FarBelowSurfaceIsRoi) {
     EXPECT_EQ(example.judged(points)[1], Label::Roi);
 }
 
-// On the beam, 7 m away are 6.8 m from the sensor along the ground: (6.7, 1.2) m, in the third
-// block along x and in the first along y.
-TEST(FartherReturns, WithoutEvidenceIsRoi) {
+// A range of 7 m on the beam is 6.8 m along the ground: (6.7, 1.2) m, in the third block along x
+// and the first along y.
+TEST(FartherReturns, WithoutEvidenceAreRoi) {
     TwoMetresUp example;
     const auto labelWithout = [&](const std::vector<std::size_t>& blocks) {
         example.ground.has_evidence.assign(PixelCells::kNoBlock + 1u, 1);
@@ -109,7 +109,7 @@ TEST(FartherReturns, IgnoresReturnsBeyondZone) {
               (std::vector<Label>{kAsItsPixel, Label::Roi, kAsItsPixel}));
 }
 
-// 2 m above level ground, everything on it is 2 m below.
+// At 2 m above level ground, every ground return is 2 m below.
 TEST(FartherReturns, TooCloseGroundIsRoi) {
     const TwoMetresUp example;
     const double to_ground_m = 2 / std::sin(radians(15));  // of the lowest beam

@@ -15,7 +15,7 @@ using test::pixelsAt;
 
 constexpr float kWithdrawn = -std::numeric_limits<float>::infinity();
 
-GroundEvidenceWorkspace work;  // shared by all tests, as by all scans in a filter
+GroundEvidenceWorkspace work;  // reused by all tests, as by a filter for all scans
 
 std::vector<int> level(const PixelPoints& pixels) {
     Image<std::uint8_t> is_level;
@@ -35,7 +35,7 @@ std::vector<int> levelInColumn(const std::vector<Eigen::Vector3f>& column_m) {
     return level(column_m, static_cast<int>(column_m.size()));
 }
 
-/// The pixels that a sensor at this height sees.
+/// The pixels seen by a sensor at this height.
 PixelPoints seen(const test::SimpleScene& scene, const SensorModel& sensor, double height_m) {
     constexpr int kColumns = 100;
     const Eigen::Vector3d eye_m(0, 0, height_m);
@@ -52,7 +52,7 @@ PixelPoints seen(const test::SimpleScene& scene, const SensorModel& sensor, doub
     return pixelsAt(points_m, sensor.rows());
 }
 
-/// Level pixels among those between these heights, and pixels there.
+/// Numbers of level pixels and of all pixels between two heights.
 struct LevelShare {
     int level = 0, pixels = 0;
 };
@@ -111,7 +111,7 @@ TEST(FindLevelPixels, StepSlopeIsBelowThreeTenths) {
     EXPECT_EQ(levelInColumn({{5, -12, 0}, {10, -24, 3.91f}}), (std::vector{0, 0}));
 }
 
-TEST(FindLevelPixels, StepLeadsOutwards) {
+TEST(FindLevelPixels, OnlyOutwardStepsAreLevel) {
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0}}), (std::vector{1, 1}));
     EXPECT_EQ(levelInColumn({{6, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));
     EXPECT_EQ(levelInColumn({{-5, 0, 0}, {-6, 0, 0}}), (std::vector{1, 1}));
@@ -126,7 +126,7 @@ TEST(FindLevelPixels, ShortStepsAreSkipped) {
     EXPECT_EQ(levelInColumn({{1, 0, 0}, {1, 0, 0.05f}, {1, 0, 0.1f}}), (std::vector{0, 0, 0}));
     EXPECT_EQ(levelInColumn({{1.2f, 0, 0}, {1.15f, 0, 0.02f}, {1.1f, 0, 0}}),
               (std::vector{0, 0, 0}));
-    // Not into the next column.
+    // Steps do not lead into the next column.
     EXPECT_EQ(level({{1, 0, 0}, {1.05f, 0, 0.02f}, {1.1f, 0, 0}, {9, 0, 9}}, 2),
               (std::vector{0, 0, 0, 0}));
 }
@@ -138,14 +138,14 @@ TEST(FindLevelPixels, EmptyPixelsAreSkipped) {
     EXPECT_EQ(levelInColumn({low, none, none, none, none, high}),
               (std::vector{0, 0, 0, 0, 0, 0}));  // too many
     EXPECT_EQ(levelInColumn({low, none, steep}), (std::vector{0, 0, 0}));
-    // Not over a return that is neither empty nor close: it decides.
+    // A return in between that is not close is not skipped.
     EXPECT_EQ(levelInColumn({low, {3, 0, 0.3f}, {3.1f, 0, 0.4f}, {4, 0, 0}}),
               (std::vector{0, 0, 0, 0}));
     // Not farther than 2 m; to the pixel above, at any distance.
     EXPECT_EQ(levelInColumn({low, none, {4.99f, 0, 0}}), (std::vector{1, 0, 1}));
     EXPECT_EQ(levelInColumn({low, none, {5.01f, 0, 0}}), (std::vector{0, 0, 0}));
     EXPECT_EQ(levelInColumn({low, {9, 0, 0}}), (std::vector{1, 1}));
-    // Not into the next column.
+    // Steps do not lead into the next column.
     EXPECT_EQ(level({none, low, none, high}, 2), (std::vector{0, 0, 0, 0}));
 }
 
@@ -183,13 +183,13 @@ TEST(KeepLevelRou, KeepsOnlyLevelRou) {
     EXPECT_TRUE((candidates == expected).all());
 }
 
-/// A pixel with what requireEvidence() sees of it.
+/// A pixel as used by requireEvidence().
 struct Seen {
     float x_m, y_m, height_m;
     bool is_level;
 };
 
-/// The tolerances of these pixels, of 0.5 m before.
+/// The tolerances of these pixels, initially 0.5 m.
 std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
     std::vector<Eigen::Vector3f> points_m;
     for (const Seen& s : seen) points_m.emplace_back(s.x_m, s.y_m, s.height_m);
@@ -202,7 +202,7 @@ std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
     }
     PixelCells cells;
     findPixelCells(pixels, cells);
-    std::vector<std::uint8_t> has_evidence(7, 1);  // of an earlier scan
+    std::vector<std::uint8_t> has_evidence(7, 1);  // from an earlier scan
     requireEvidence(pixels, cells, pixels.z_m, is_level, tolerance_m, has_evidence, work);
     EXPECT_EQ(has_evidence.size(), PixelCells::kNoBlock + 1u);
     EXPECT_EQ(has_evidence.back(), 0);
@@ -214,7 +214,7 @@ std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
     return {tolerance_m.data(), tolerance_m.data() + tolerance_m.size()};
 }
 
-/// So many pixels close to the surface, of which some are level, in one cell.
+/// `number` pixels of one cell, close to the surface; the first `of_them_level` are level.
 std::vector<Seen> closePixels(int number, int of_them_level, float x_m = 1, float y_m = 1) {
     std::vector<Seen> pixels(static_cast<std::size_t>(number), {x_m, y_m, 0, false});
     for (int i = 0; i < of_them_level; ++i) pixels[static_cast<std::size_t>(i)].is_level = true;
@@ -234,7 +234,7 @@ TEST(RequireEvidence, NeedsFiftyFivePercentLevel) {
 }
 
 TEST(RequireEvidence, SumsSharesOverCells) {
-    // The cell at 1 m alone would have evidence, that at 5 m not.
+    // Alone, the cell at 1 m has evidence, the cell at 5 m does not.
     std::vector<Seen> pixels = closePixels(100, 80);
     const auto join = [&](const std::vector<Seen>& more) {
         pixels.insert(pixels.end(), more.begin(), more.end());
@@ -263,7 +263,7 @@ TEST(RequireEvidence, ReachesFourBlocks) {
 }
 
 TEST(RequireEvidence, EndsAtGridEdge) {
-    // Grid columns follow one another in memory; the end of one is not near the start of the next.
+    // Grid columns are contiguous in memory, but the end of one is not near the start of the next.
     const std::vector<float> tolerance_m =
         required({{47.9f, 47.9f, 0, true}, {-47.9f, 47.9f, 5, false}, {47.9f, -47.9f, 5, false}});
     EXPECT_EQ(tolerance_m, (std::vector{0.5f, kWithdrawn, kWithdrawn}));
@@ -282,7 +282,7 @@ TEST(RequireEvidence, ToleranceGrowsWithDistance) {
 }
 
 TEST(RequireEvidence, OutsideGridHasNoEvidence) {
-    // Neither has a pixel outside a tolerance, nor does it show anything about the cells inside.
+    // A pixel outside has no tolerance and is no evidence for cells inside.
     for (const auto& [x_m, y_m] : {std::pair{48.1f, 0.0f},
                                    {-48.1f, 0.0f},
                                    {0.0f, 48.1f},

@@ -43,7 +43,7 @@ float greatestHeight(const Eigen::Isometry3f& ground_from_sensor,
     return greatest_m;
 }
 
-GroundFrameWorkspace work;  // shared by all tests, as by all scans in a filter
+GroundFrameWorkspace work;  // reused by all tests, as by a filter for all scans
 
 TEST(GroundFrame, PlaneHasZeroHeightAtAnyTilt) {
     test::Random random(70);
@@ -56,7 +56,7 @@ TEST(GroundFrame, PlaneHasZeroHeightAtAnyTilt) {
             EXPECT_LT(greatestHeight(frame, points), 0.01f);
             EXPECT_NEAR(frame.translation().z(), below_m, 0.01f);
             EXPECT_NEAR(frame.translation().head<2>().norm(), 0, 1e-5);
-            // A rotation by the shortest way: forward stays forward in top view.
+            // The shortest rotation: forward stays forward in top view.
             EXPECT_TRUE((frame.linear() * frame.linear().transpose()).isIdentity(1e-5f));
             EXPECT_GT(frame.linear()(0, 0), 0.9f);
         }
@@ -155,7 +155,7 @@ TEST(CanBeGround, NeedsSensorAboveLevelGround) {
     EXPECT_TRUE(canBeGround(frameAt(2, 44), {}, labels));
     EXPECT_TRUE(canBeGround(frameAt(2, -44), {}, labels));
     EXPECT_FALSE(canBeGround(frameAt(2, 46), {}, labels));
-    // A sensor mounted at this tilt that knows it.
+    // A sensor with a known mount of 60 degrees.
     const Attitude mounted{static_cast<float>(radians(60)), 0};
     EXPECT_TRUE(canBeGround(frameAt(2, 60), mounted, labels));
     EXPECT_FALSE(canBeGround(frameAt(2, 0), mounted, labels));
@@ -176,7 +176,7 @@ TEST(Upwards, WithoutAttitudeIsGroundNormal) {
 }
 
 TEST(Upwards, SlopeLeansFromNormal) {
-    // A level sensor over ground that rises ahead by 10 degrees is nose down against it, and up
+    // A level sensor over ground that rises ahead by 10 degrees is nose down relative to it, and up
     // leans forward from the ground normal.
     const Attitude against_slope{0, static_cast<float>(radians(10))};
     const Eigen::Isometry3f frame =

@@ -57,7 +57,7 @@ Sight randomSight(test::Random& random, int rows, int columns, float step_m, dou
     return s;
 }
 
-/// Sizes that are no multiple of a vector, one column, many rows, equal values, empty images.
+/// Sizes that are not multiples of a vector, one column, many rows, equal values, empty images.
 template <class Visit>
 void forManySights(Visit visit) {
     test::Random random(110);
@@ -75,7 +75,7 @@ void forManySights(Visit visit) {
 }
 
 const HeightTolerance kTolerance;
-FilterWorkspace work;  // shared by all tests, as by all scans in a filter
+FilterWorkspace work;  // reused by all tests, as by a filter for all scans
 
 /// All stages from the pixels to the labels.
 struct Judged {
@@ -137,7 +137,7 @@ void expectSame(const Judged& a, const Judged& b) {
     EXPECT_TRUE((a.labels == b.labels).all());
 }
 
-TEST(GroundStages, MatchTheirDefinitions) {
+TEST(GroundStages, MatchDefinitions) {
     forManySights([](const Sight& sight) {
         limitInstructionSets("plain");
         const Judged plain = judged(sight);
@@ -159,7 +159,7 @@ TEST(GroundStages, MatchOnEveryInstructionSet) {
 }
 
 /// Ensures that the comparisons above are not vacuous.
-TEST(GroundStages, SightsExerciseEveryStage) {
+TEST(GroundStages, TestScansExerciseEveryStage) {
     int canopies = 0, feet = 0, specks = 0, withdrawn = 0, kept = 0;
     forManySights([&](const Sight& sight) {
         const Judged j = judged(sight);

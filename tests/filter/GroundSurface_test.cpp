@@ -19,7 +19,7 @@ constexpr int kCells = GroundSurface::kCells;
 constexpr float kCell_m = GroundSurface::kCell_m;
 constexpr float kNone = std::numeric_limits<float>::infinity();
 using Grid = Eigen::ArrayXXf;
-GroundSurfaceWorkspace work;  // shared by all tests, as by all scans in a filter
+GroundSurfaceWorkspace work;  // reused by all tests, as by a filter for all scans
 
 /// The surface fitted to all points.
 GroundSurface surfaceUnder(const std::vector<Eigen::Vector3f>& points_m) {
@@ -85,7 +85,7 @@ TEST(GroundSurface, IsPlaneWithoutCandidates) {
     EXPECT_TRUE((surface.height_m == 0).all());
 }
 
-TEST(GroundSurface, OneHeightFillsSquare) {
+TEST(GroundSurface, SingleHeightFillsSquare) {
     test::Random random(80);
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < 40; ++i) {
@@ -218,9 +218,9 @@ TEST(GroundSurface, RemovesCellsAboveSteepestSlopes) {
 }
 
 TEST(GroundSurface, SlopesAreIsotropic) {
-    // Level ground in 3 x 3 cells, a plateau in 3 x 3 others, walls everywhere else. To the far
-    // corner of the plateau it is 9 cells in one axis and 5 in the other: 4 straight steps, 5
-    // diagonal ones.
+    // Level ground in 3 x 3 cells, a plateau in another 3 x 3, walls everywhere else. The far
+    // corner of the plateau is 9 cells away along one axis and 5 along the other: 4 straight and
+    // 5 diagonal steps.
     const float height_m = 0.3f * kCell_m * (4 + 5 * std::sqrt(2.0f)) + 0.15f;
     for (const auto& [dx, dy] :
          {std::pair{9, 5}, {9, -5}, {-9, 5}, {-9, -5}, {5, 9}, {5, -9}, {-5, 9}, {-5, -9}}) {
@@ -281,7 +281,7 @@ TEST(GroundSurface, IgnoresOtherPixels) {
 }
 
 TEST(GroundSurface, RecoversGroundCutOffByLabels) {
-    // A mound of 0.15 m that the labelling took for an obstacle, with a 2 m bush on it.
+    // A mound of 0.15 m, labelled as an obstacle, with a 2 m bush on it.
     const auto mound = [](float x_m, float y_m) {
         return 0.15f * std::exp(-((x_m - 8) * (x_m - 8) + y_m * y_m) / (2 * 2 * 2));
     };
@@ -304,9 +304,9 @@ TEST(GroundSurface, RecoversGroundCutOffByLabels) {
     EXPECT_LT(greatestError(surface, 18, mound), 0.03f);
 }
 
-// Blocks 0.3 m high that hide the ground: the slopes allow them, the first fit does not. The same
-// for mirror images below the ground.
-TEST(GroundSurface, KeepsFarPixelsCutOff) {
+// Blocks 0.3 m high hide the ground: the slope limits accept them, the first fit does not. The same
+// holds for mirrored blocks below ground.
+TEST(GroundSurface, KeepsDistantPixelsExcluded) {
     for (const float height_m : {0.3f, -0.5f}) {
         auto points = groundPoints(20, 0.25f, kLevel);
         std::vector<Label> labels;

@@ -34,7 +34,7 @@ int mistakes(const LabelledScan& labelled, const SegmentationResult& result, Lab
     return wrong;
 }
 
-/// Those of obstacles higher than grass: the ground is two metres below the sensor.
+/// Missed returns higher than grass, with the ground 2 m below the sensor.
 int missedAboveGrass(const LabelledScan& labelled, const SegmentationResult& result) {
     int missed = 0;
     for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
@@ -71,11 +71,10 @@ TEST(HagenFilter, WallIsRoiAndGroundIsRou) {
     HagenFilter papers(sensorModel("VLP-16"), paperOptions());
     const auto& result = papers.segment(wall.scan);
     EXPECT_EQ(mistakes(wall, result, Label::Roi), 0);
-    // Where a beam hits the ground just in front of the wall, its slope to the beam above is that
-    // of the wall.
+    // Where a beam hits the ground just before the wall, the slope to the next beam is the wall's.
     const double wall_columns = 870 * 2 * std::atan(5.0 / 10.0) / (2 * kPi);
     EXPECT_LE(mistakes(wall, result, Label::Rou), wall_columns);
-    // The height makes it ground again, and at most the lowest returns of the wall.
+    // Their height makes these returns ground again, with at most the lowest of the wall.
     HagenFilter filter(sensorModel("VLP-16"));
     EXPECT_EQ(missedAboveGrass(wall, filter.segment(wall.scan)), 0);
     EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);
@@ -92,7 +91,7 @@ TEST(HagenFilter, FloatingBoxIsRoi) {
     }
 }
 
-// Limitation of the paper's seeds: whatever the lowest beam of a column hits is labelled ground.
+// Limitation of the paper's seeds: the return of a column's lowest beam is labelled ground.
 TEST(HagenFilter, NearWallIsRouOnlyInPaper) {
     SimpleScene scene;
     scene.boxes.push_back({{5, -2, 0}, {6, 2, 4}});
@@ -105,7 +104,7 @@ TEST(HagenFilter, NearWallIsRouOnlyInPaper) {
     EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);
 }
 
-/// The scan of a sensor with this attitude at the same place.
+/// The scan of a sensor with this attitude at the same position.
 Scan tilted(const Scan& level, const SensorModel& sensor, const Attitude& attitude) {
     const Eigen::Matrix3f sensor_from_level = levelFromSensor(attitude).transpose();
     std::vector<Eigen::Vector3f> points;
@@ -158,7 +157,7 @@ TEST(HagenFilter, IgnoresUnusedAttitude) {
     EXPECT_EQ(filter.segment(pole.scan, Attitude{0.2f, 0.2f}).returns.label, labels);
 }
 
-/// The mount chooses the rows of the image, also where angles are relative to the airframe.
+/// The mount determines the image rows, also if angles are relative to the airframe.
 TEST(HagenFilter, UpsideDownLabelsMatchUpright) {
     const SensorModel sensor = sensorModel("VLP-16");
     SimpleScene scene;
@@ -178,7 +177,7 @@ TEST(HagenFilter, UpsideDownLabelsMatchUpright) {
     }
 }
 
-/// A result that another filter filled, of fewer returns behind their pixels.
+/// A result from another filter, with fewer returns behind pixels.
 TEST(HagenFilter, IgnoresResultOfAnotherFilter) {
     const SensorModel sensor = sensorModel("VLP-16");
     SimpleScene scene;
@@ -221,7 +220,7 @@ TEST(HagenFilter, LowGroundAlarmNeedsNoSurface) {
     }
 }
 
-TEST(HagenFilter, ReturnBehindPixelIsJudgedAlone) {
+TEST(HagenFilter, ReturnBehindPixelHasOwnLabel) {
     const SensorModel sensor = sensorModel("VLP-16");
     auto ground = test::scanScene({}, sensor, 870, kTwoMetresUp);
     const std::size_t behind = static_cast<std::size_t>(
@@ -344,7 +343,7 @@ double changedByTurning(const Scan& scan, const SensorModel& sensor, const Optio
     return changed / static_cast<double>(labels.size());
 }
 
-TEST(HagenFilter, HeadingHardlyMatters) {
+TEST(HagenFilter, HeadingBarelyAffectsLabels) {
     SimpleScene scene;
     scene.boxes.push_back({{8, -5, 0}, {9, 5, 3}});
     scene.boxes.push_back({{-6, 3, 0}, {-5, 9, 0.4}});
@@ -426,7 +425,7 @@ Scan hillyScan(unsigned seed, const SensorModel& sensor) {
     for (int i = 0; i < 15000; ++i) {
         const float x_m = random.real(-24, 24), y_m = random.real(-24, 24);
         const float ground_m = -2 + 0.05f * x_m + 0.3f * std::sin(0.3f * y_m);
-        const bool is_thicket = x_m < -15 && y_m > 0;  // no ground in sight
+        const bool is_thicket = x_m < -15 && y_m > 0;  // no visible ground
         const float above_m = is_thicket                            ? random.real(0.5f, 0.9f)
                               : random.chance(0.3)                  ? random.real(0, 0.4f)
                               : random.chance(x_m > 0 ? 0.5 : 0.01) ? random.real(0, 3)
@@ -436,7 +435,7 @@ Scan hillyScan(unsigned seed, const SensorModel& sensor) {
     return test::scanOf(sensor, points);
 }
 
-/// The result of a filter with these options: all images that an option may change.
+/// All result images that an option may change.
 std::vector<Image<float>> imagesWith(const Options& options, const Scan& scan) {
     HagenFilter filter(sensorModel("HDL-32E"), options);
     const SegmentationResult& r = filter.segment(scan, Attitude{0.05f, -0.08f});
@@ -475,11 +474,10 @@ TEST(HagenFilter, EveryOptionReachesItsStage) {
     standard.canopy_layer = false;  // it would hide the other tolerances
     standard.ground_tolerance_per_m = 0.02f;
     standard.ground_tolerance_beside_tall = 0.2f;
-    standard.ground_evidence = false;  // as nearly all of this ground is rough
+    standard.ground_evidence = false;  // this ground is too rough
     const auto expected = imagesWith(standard, scan);
     for (const OptionKey& key : optionKeys()) {
-        if (key.name == "zone_m" || key.name == "bridge_dead_beams")
-            continue;  // tests of their own
+        if (key.name == "zone_m" || key.name == "bridge_dead_beams") continue;  // tested separately
         Options changed = standard;
         if (const auto* real = std::get_if<float Options::*>(&key.field)) {
             changed.*(*real) *= 0.5f;
@@ -522,7 +520,7 @@ TEST(HagenFilter, RejectsRowsOfAnotherSensor) {
                     testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr(own)));
         EXPECT_EQ(result.returns.label, labels);
         EXPECT_EQ(filter.segment(ground.scan).returns.label, labels);
-        locateBeams(filter.sensor(), others.scan);  // as the message says
+        locateBeams(filter.sensor(), others.scan);  // as the message suggests
         EXPECT_NO_THROW(filter.segment(others.scan));
     }
 }

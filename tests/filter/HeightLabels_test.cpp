@@ -19,10 +19,10 @@ using test::cellFromSensor;
 using test::kEmptyPixel;
 using test::pixelsAt;
 
-/// Over the plane z = 0, so a pixel's height is its z.
+/// Relative to the plane z = 0, so a pixel's height is its z.
 Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {},
                        float sensor_height_m = 1) {
-    static ToleranceWorkspace work;  // shared by all tests, as by all scans in a filter
+    static ToleranceWorkspace work;  // reused by all tests, as by a filter for all scans
     Image<float> tolerance_m;
     CellTops tops;
     PixelCells cells;
@@ -98,8 +98,8 @@ TEST(LabelByHeight, OutsideToleranceIsRoi) {
     EXPECT_TRUE((labels == expected).all());
 }
 
-/// The labels of a column over the plane z = 0, lowest row first, after growing feet. The labels
-/// before are those of a tolerance of 0.2 m.
+/// The labels of a column over the plane z = 0, lowest row first, after growing feet. The initial
+/// labels use a tolerance of 0.2 m.
 std::vector<Label> grown(const std::vector<Eigen::Vector3f>& column) {
     const PixelPoints pixels = pixelsAt(column, static_cast<int>(column.size()));
     static FeetWorkspace work;
@@ -165,7 +165,7 @@ TEST(RemoveSpecks, KeepsClearlyHighPixels) {
     EXPECT_EQ((voted(height_m) == kRoi).count(), 1);
 }
 
-TEST(RemoveSpecks, TieChangesNothing) {
+TEST(RemoveSpecks, TieKeepsLabel) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m(1, 2) = 0.3f;  // doubtful, RoI
     height_m(0, 1) = 2;     // votes for RoI
@@ -195,7 +195,7 @@ TEST(RemoveSpecks, CountsLabelsBeforeVoting) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m.col(0) = 0.0f;
     height_m(1, 1) = 0.3f;  // 2 to 4: becomes ROU
-    height_m(1, 2) = 0.3f;  // 2 to 1, with the left one still counted as RoI
+    height_m(1, 2) = 0.3f;  // 2 to 1, as the left one still counts as RoI
     height_m(0, 2) = 0.0f;
     const Image<Label> labels = voted(height_m);
     EXPECT_EQ(labels(1, 1), kRou);

@@ -1,4 +1,4 @@
-// Same result on every machine: the whole filter on each available instruction set, bit for bit.
+// The whole filter gives bitwise equal results on all available instruction sets.
 #include "scan/InstructionSets.h"
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
@@ -51,7 +51,7 @@ class Bytes {
     void add(const std::string& name, const std::vector<T>& values) {
         add(name, values.data(), values.size());
     }
-    /// The first name whose values differ; empty if there is none.
+    /// The first name with different values; empty if all are equal.
     std::string differenceFrom(const Bytes& other) const {
         for (std::size_t i = 0; i < names_.size(); ++i) {
             if (bytes_[i] != other.bytes_[i]) return names_[i];
@@ -115,12 +115,12 @@ void expectOneResult(const std::string& sensor_name, const Options& options,
     ASSERT_FALSE(results.empty());
     for (const auto& [name, bytes] : results) {
         EXPECT_EQ(bytes.differenceFrom(results.front().second), "")
-            << name << " against " << results.front().first;
+            << name << " differs from " << results.front().first;
     }
 }
 
-/// The stages as they are defined: same labels, though sums may have other rounding errors.
-TEST(InstructionSets, DefinitionsGiveTheSameLabels) {
+/// The reference stages give the same labels, although sums may be rounded differently.
+TEST(InstructionSets, ReferenceStagesGiveSameLabels) {
     for (const char* const name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
         for (const unsigned seed : {3, 4, 5}) {
             const SensorModel sensor = sensorModel(name);

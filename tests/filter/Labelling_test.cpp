@@ -15,7 +15,7 @@ constexpr float kNoGate_rad = static_cast<float>(kPi / 2);
 
 Image<Label> labelled(const Image<float>& depth_m, const Image<float>& angle_rad, float beta_rad,
                       Seeds seeds = Seeds::Lowest, float seed_gate_rad = kNoGate_rad) {
-    static LabellingWorkspace work;  // shared by all tests, as by all scans in a filter
+    static LabellingWorkspace work;  // reused by all tests, as by a filter for all scans
     Image<Label> labels;
     labelRegions(depth_m, angle_rad, beta_rad, seeds, seed_gate_rad, labels, work);
     return labels;
@@ -93,7 +93,7 @@ TEST(Labelling, MatchesSlowLabellerOnEveryInstructionSet) {
 }
 
 TEST(Labelling, FollowsWindingPath) {
-    // Up one column, over the top, down the next, and so on: 0 is the path, 1 separates it.
+    // Up one column, across, down the next, and so on: 0 is the path, 1 separates it.
     for (const int rows : {5, 64, 65, 130}) {
         const int columns = 40;
         Image<float> angle_rad = Image<float>::Constant(rows, columns, 1.0f);
@@ -117,7 +117,7 @@ TEST(Labelling, FollowsWindingPath) {
 }
 
 TEST(Labelling, GatedSeedIsRoiUnlessReached) {
-    // Steep lowest pixels in columns 0 and 1, level ones in 2; from there to 1 in steps of 0.4.
+    // Lowest pixels are steep in columns 0 and 1, level in 2; from 2 to 1, angles differ by 0.4.
     Image<float> depth_m(3, 3), angle_rad(3, 3);
     depth_m.row(0) = 5.0f;
     depth_m.row(1) = 6.0f;

@@ -13,7 +13,7 @@ namespace hagen {
 namespace {
 
 std::vector<Maximum> maximaOf(const Image<float>& proximity_m, float min_persistence_m = 0.0f) {
-    static MaximaWorkspace work;  // shared by all tests, as by all scans in a filter
+    static MaximaWorkspace work;  // reused by all tests, as by a filter for all scans
     std::vector<Maximum> maxima;
     findPersistentMaxima(proximity_m, min_persistence_m, maxima, work);
     return maxima;
@@ -63,8 +63,7 @@ std::vector<Maximum> bruteForceMaxima(const Image<float>& proximity_m, float min
     return maxima;
 }
 
-/// The definition as a sweep: every pixel, oldest first, joins the components that it touches. In
-/// the specified order.
+/// The definition as a sweep: every pixel, oldest first, joins the components that it touches.
 std::vector<Maximum> sweptMaxima(const Image<float>& proximity_m, float min_persistence_m) {
     const int rows = static_cast<int>(proximity_m.rows());
     const int columns = static_cast<int>(proximity_m.cols());
@@ -191,7 +190,7 @@ TEST(PersistentMaxima, PlateauHasMaximumAtFirstPixel) {
 TEST(PersistentMaxima, WrapInAzimuthOnly) {
     Image<float> proximity_m = Image<float>::Constant(5, 9, kNoValue);
     proximity_m(2, 0) = 3.0f;
-    proximity_m(2, 8) = 2.0f;  // next to the first, around the back: not a maximum
+    proximity_m(2, 8) = 2.0f;  // next to the first across the seam: not a maximum
     EXPECT_EQ(maximaOf(proximity_m).size(), 1u);
     proximity_m(2, 8) = kNoValue;
     proximity_m(0, 4) = 3.0f;
@@ -199,7 +198,7 @@ TEST(PersistentMaxima, WrapInAzimuthOnly) {
     EXPECT_EQ(maximaOf(proximity_m).size(), 3u);
 }
 
-TEST(PersistentMaxima, EmptyZoneHasNone) {
+TEST(PersistentMaxima, EmptyZoneHasNoMaxima) {
     EXPECT_TRUE(maximaOf(Image<float>::Constant(4, 9, 0.0f)).empty());
     EXPECT_TRUE(maximaOf(Image<float>::Constant(4, 9, kNoValue)).empty());
 }

@@ -35,7 +35,7 @@ Located located(const SensorModel& sensor, const std::vector<Eigen::Vector3f>& p
 
 TEST(PixelPoints, PixelIsAtClosestReturn) {
     const SensorModel sensor = sensorModel("VLP-16");
-    // Off the centre of beam and column, as real returns are.
+    // Off the centre of beam and column, like real returns.
     const Eigen::Vector3f near = test::onBeam(sensor, 3, 40.2, 6) + Eigen::Vector3f(0, 0, 0.02f);
     const Eigen::Vector3f far = test::onBeam(sensor, 3, 40.3, 9);
     for (const auto& points : {std::vector{far, near}, std::vector{near, far}}) {

@@ -42,8 +42,8 @@ TEST(Posture, ImageRowsRise) {
     EXPECT_EQ(sensorIn(Posture::OnItsSide, sensorModel("VLP-16")).rows(), 91);  // 2 degrees apart
 }
 
-// The image's frame is the sensor's, turned; what is left of the tilt completes it.
-TEST(Posture, FrameAndRestMakeTheTilt) {
+// The image frame is the turned sensor frame; the rest of the tilt completes it.
+TEST(Posture, FrameAndRestComposeTilt) {
     test::Random random(8);
     for (int k = 0; k < 200; ++k) {
         const Attitude attitude = tilt(static_cast<double>(random.real(-180, 180)),
@@ -89,8 +89,8 @@ TEST(Posture, TurnedScanIsRotated) {
 TEST(Posture, TurningKeepsMissingRanges) {
     const SensorModel sensor = sensorModel("VLP-16");
     Scan scan = test::scanOf(sensor, {{5, 1, 0}, {4, 0, 0.5f}, {0, 2.65e-23f, 0}, {0, 0, 0}});
-    scan.range_m[1] = kNoValue;     // the airframe
-    EXPECT_GT(scan.range_m[2], 0);  // so close that the square of a part of it is 0
+    scan.range_m[1] = kNoValue;     // masked airframe
+    EXPECT_GT(scan.range_m[2], 0);  // so close that a squared coordinate is 0
     EXPECT_TRUE(std::isnan(scan.range_m[3]));
     for (const Attitude& attitude : {tilt(180), tilt(90), tilt(40, -20)}) {
         HagenFilter filter(sensor, {});

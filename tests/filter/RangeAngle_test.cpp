@@ -41,7 +41,7 @@ Image<float> plainCarried(const Image<float>& range_angle_rad, bool to_beam_abov
     return carried_rad;
 }
 
-/// A sensor with this many beams, from 25 degrees below to 15 above.
+/// A sensor with this many beams, from -25 to 15 degrees.
 PixelDirections directionsOf(int rows, int columns) {
     SensorModel sensor;
     for (int row = 0; row < rows; ++row) {

@@ -20,7 +20,7 @@ using test::SimpleScene;
 const Eigen::Vector3d kTwoMetresUp(0, 0, 2);
 constexpr int kColumns = 870;
 
-/// A turn whose first returns are those of a sector, around the front.
+/// A turn whose first returns belong to a sector around the front.
 struct Turn {
     Scan scan, sector;
     std::vector<Label> whole;  ///< labels of the whole scan
@@ -48,7 +48,7 @@ Turn turnOf(const SimpleScene& scene, const SensorModel& sensor, double half_rad
     return turn;
 }
 
-/// An earlier result of sectors that has labels only.
+/// An earlier sector result that contains only labels.
 std::vector<ContextReturn> contextOf(const std::vector<Label>& regions) {
     std::vector<ContextReturn> context;
     for (const Label region : regions) context.push_back({region, kNoValue});
@@ -80,7 +80,7 @@ TEST(SectorFilter, MatchesWholeScan) {
         ASSERT_EQ(found.returns.label.size(), turn.sector.size());
         ASSERT_EQ(filter.found().size(), turn.sector.size());
         EXPECT_TRUE(found.ground.has_surface);
-        // Labels, and regions before the ground is used, which contain most of the flat ground.
+        // Labels, and the regions before ground estimation, which contain most of the flat ground.
         std::size_t different = 0, ground = 0, rou = 0, pole = 0, roi = 0;
         for (std::size_t i = 0; i < turn.sector.size(); ++i) {
             different += found.returns.label[i] != turn.whole[i];
@@ -98,7 +98,7 @@ TEST(SectorFilter, MatchesWholeScan) {
     }
 }
 
-/// Of a sector that sees a wall only, the context shows whether there is ground.
+/// If a sector sees only a wall, the context shows the ground.
 TEST(SectorFilter, ContextRevealsGround) {
     SimpleScene scene;
     scene.boxes.push_back({{2, -20, 0}, {3, 20, 6}});
@@ -142,7 +142,7 @@ TEST(SectorFilter, RejectsUnlocatedReturns) {
     EXPECT_THROW(SectorFilter(sensor, options), std::invalid_argument);
 }
 
-/// Thin plants in rows. One column in six meets few of their tops.
+/// Thin plants in rows. One column in six hits few of their tops.
 SimpleScene sceneWithCrops() {
     SimpleScene scene;
     for (int i = -14; i <= 14; ++i) {
@@ -153,7 +153,7 @@ SimpleScene sceneWithCrops() {
     return scene;
 }
 
-/// The returns of the sector, and of the others those of one column in six.
+/// The returns of the sector and, elsewhere, of one column in six.
 Turn thinned(const Turn& turn, std::vector<std::size_t>& kept) {
     Turn thin;
     thin.sector = turn.sector;
@@ -173,7 +173,7 @@ TEST(SectorFilter, CanopyNeedsHeightsOfContext) {
     const Turn turn = turnOf(sceneWithCrops(), sensor, radians(7.5));
     std::vector<std::size_t> kept;
     const Turn thin = thinned(turn, kept);
-    // What the sectors found that had all of these returns: here, one of the whole turn.
+    // The result of sectors with all these returns: here, of one whole turn.
     SectorFilter all(sensor, {});
     ColumnMap every_column;
     mapColumns(kColumns, 6, 0, kColumns / 6, every_column);

@@ -8,7 +8,7 @@
 namespace hagen {
 namespace {
 
-/// The seeds that remain, of the lowest pixel of a single column.
+/// The remaining seeds, from the lowest pixel of a single column.
 bool passes(const std::vector<float>& column_m, float angle_rad, float gate_rad = 0.5f) {
     const auto rows = static_cast<Eigen::Index>(column_m.size());
     Image<float> depth_m(rows, 1), pixel_angle_rad = Image<float>::Zero(rows, 1);
@@ -32,7 +32,7 @@ TEST(SeedGate, NeedsLevelSeedBelowFartherPixel) {
     EXPECT_FALSE(passes({5, kNoValue, kNoValue}, 0.0f));
 }
 
-TEST(SeedGate, JudgesColumnsAlone) {
+TEST(SeedGate, JudgesColumnsIndependently) {
     Image<float> depth_m(2, 3);
     depth_m << 5, 6, 7,  //
         kNoValue, 8, 9;

@@ -12,7 +12,7 @@ namespace hagen {
 namespace {
 
 Image<float> smoothed(const Image<float>& values, int window_size, int principal_components) {
-    static SsaWorkspace work;  // shared by all tests, as by all scans in a filter
+    static SsaWorkspace work;  // reused by all tests, as by a filter for all scans
     Image<float> result;
     smoothColumns(values, window_size, principal_components, result, work);
     return result;
@@ -20,7 +20,7 @@ Image<float> smoothed(const Image<float>& values, int window_size, int principal
 
 /// Textbook singular spectrum analysis: singular value decomposition of the whole trajectory
 /// matrix, sum of the leading elementary matrices, mean of every antidiagonal. `gap` is the
-/// difference of the eigenvalues on both sides of the cut, relative to the greatest one.
+/// difference of the eigenvalues on both sides of the cut, relative to the largest one.
 Eigen::ArrayXd oracle(const Eigen::VectorXd& series, int window_size, int principal_components,
                       double& gap) {
     const int n = static_cast<int>(series.size()), k = n - window_size + 1;
@@ -52,7 +52,7 @@ Eigen::ArrayXd oracle(const Eigen::VectorXd& series, int window_size, int princi
 }
 
 /// Maximum error of a result, and of results for which the eigenvalues on both sides of the cut
-/// differ by at least 1e-3 of the greatest one.
+/// differ by at least 1e-3 of the largest one.
 constexpr double kTolerance = 2e-4, kAccuracy = 1e-4 / 3;
 
 /// Typical columns: noise, constants, ramps, steps, walls above ground, waves, few distinct values;
@@ -156,7 +156,7 @@ TEST(Ssa, StaysFiniteForExtremeValues) {
         ASSERT_TRUE((found.isNaN() == values.isNaN()).all());
         ASSERT_LE(found.isNaN().select(0.0f, found.abs()).maxCoeff(), 10 * scale);
     }
-    // Few values: eigenvalues coincide, matrices decompose into blocks.
+    // With few distinct values, eigenvalues coincide and matrices decompose into blocks.
     for (int round = 0; round < 50; ++round) {
         Image<float> values = random.image(random.whole(9, 40), 40, 0, 1, 0.02);
         const float least = 0.1f * static_cast<float>(round % 7);

@@ -1,6 +1,6 @@
-// Scenes that tempt a filter to take something dangerous for ground. Where it is in doubt, it must
-// be so on the safe side: walls, ceilings, furniture and foliage in the zone are RoI. How much of
-// the floor is ROU is stated where it is seen well.
+// Scenes in which a filter may mistake dangerous objects for ground. Uncertain returns must be RoI:
+// walls, ceilings, furniture and foliage in the zone are RoI. The share of ROU floor is checked
+// where the floor is well visible.
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/scan/Angle.h>
@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using test::Hit;
 using test::SimpleScene;
 
-/// Of the sensor; the filter does not know it.
+/// The sensor's tilt, unknown to the filter.
 struct Tilt {
     double pitch_rad = 0, roll_rad = 0;
 };
@@ -29,9 +29,9 @@ struct Sight {
     SimpleScene scene;
     Vector3d sensor_m;
     Tilt tilt = {};
-    /// Floors are up to here; dangers are obstacles 0.3 m above.
+    /// Maximum height of floors; obstacles more than 0.3 m above count as dangers.
     double floor_m = 0;
-    /// Changes what a ray hits: leaves, water.
+    /// Changes the hit of a ray, e.g. for leaves or water.
     std::function<void(const Vector3d& direction, Hit&, test::Random&)> change = {};
     /// Without the beams below the sensor's horizon.
     bool upwards_only = false;
@@ -88,7 +88,7 @@ const std::vector<std::string> kSensors{"VLP-16", "HDL-32E", "HDL-64E"};
 /// Level, pitched and rolled as in flight.
 const std::vector<Tilt> kTilts{{0, 0}, {0.2, 0}, {0, 0.15}};
 
-/// Calls visit(outcome, sensor) for all sensors level, and for the smallest one also tilted.
+/// Calls visit(outcome, sensor) for all sensors when level, and for the VLP-16 also when tilted.
 template <class Visit>
 void forEachSensor(Sight sight, Visit visit) {
     for (const std::string& sensor : kSensors) {
@@ -176,7 +176,7 @@ TEST(Traps, FurnishedRoom) {
                   [](const Outcome& o, const std::string& sensor) {
                       EXPECT_GT(o.dangers, 10000);
                       EXPECT_EQ(o.missed_dangers, 0);
-                      // Others see too much furniture at the height of the floor.
+                      // Other sensors see too much furniture at floor height.
                       if (sensor == "HDL-32E") {
                           EXPECT_GT(o.floorShare(), 0.95);
                       }
@@ -191,7 +191,7 @@ TEST(Traps, FurnishedRoom) {
 TEST(Traps, FurnishedRoomIsNotCrop) {
     EXPECT_EQ(outcome({furnishedRoom(), {0.3, 0.2, 1.1}, {0, 0.15}}, "HDL-64E").missed_dangers, 0);
     const Outcome pitched = outcome({furnishedRoom(), {-0.9, -0.5, 1.1}, {0.2, 0}}, "HDL-64E");
-    EXPECT_LE(pitched.missed_dangers, 0.002 * pitched.dangers);  // close to a plane that is tilted
+    EXPECT_LE(pitched.missed_dangers, 0.002 * pitched.dangers);  // close to a tilted plane
 }
 
 // The same with a level sensor.
@@ -210,7 +210,7 @@ TEST(Traps, Corridor) {
             const Outcome o = outcome({corridor(), {x_m, 0.2, 1.1}}, sensor);
             EXPECT_GT(o.dangers, 10000) << sensor;
             EXPECT_EQ(o.missed_dangers, 0) << sensor << " " << x_m;
-            // Close to one end, the VLP-16 sees too little of the floor.
+            // Close to an end of the corridor, the VLP-16 sees too little of the floor.
             if (sensor != "VLP-16" || x_m == 0) {
                 EXPECT_GT(o.floorShare(), 0.95) << sensor << " " << x_m;
             }
@@ -223,10 +223,10 @@ TEST(Traps, Corridor) {
 
 TEST(Traps, CorridorEndIsNotCrop) {
     const Outcome pitched = outcome({corridor(), {-12, 0.2, 1.1}, {0.2, 0}}, "HDL-64E");
-    EXPECT_LE(pitched.missed_dangers, 0.003 * pitched.dangers);  // close to a plane that is tilted
+    EXPECT_LE(pitched.missed_dangers, 0.003 * pitched.dangers);  // close to a tilted plane
 }
 
-// The plane is 3 degrees off, and some of the lowest returns of the walls are close to it.
+// The plane has an error of 3 degrees, and some of the walls' lowest returns are close to it.
 TEST(Traps, DISABLED_CorridorPitched) {
     EXPECT_EQ(outcome({corridor(), {0, 0.2, 1.1}, {0.2, 0}}, "VLP-16").missed_dangers, 0);
 }
@@ -246,8 +246,8 @@ TEST(Traps, HallWithCeiling) {
     }
 }
 
-// The plane is 16 degrees off, so the floor is still level enough to be evidence, also for the
-// walls; the surface ends above their feet.
+// The plane has an error of 16 degrees: the floor is still level enough to be evidence, also for
+// the walls, and the surface ends above their feet.
 TEST(Traps, DISABLED_HallTilted) {
     EXPECT_EQ(outcome({hall(), {3, 2, 4}, {0.2, 0}}, "VLP-16").missed_dangers, 0);
     EXPECT_EQ(outcome({hall(), {3, 2, 4}, {0, 0.15}}, "VLP-16").missed_dangers, 0);
@@ -276,7 +276,7 @@ TEST(Traps, UnderBridge) {
     }
 }
 
-/// A balcony 12 m above the street, 2 m deep, with a rail; its house, and another one across.
+/// A balcony 12 m above the street, 2 m deep, with a rail, between its house and another one.
 SimpleScene balcony() {
     SimpleScene scene;
     scene.boxes = {{{2, -20, 0}, {10, 20, 30}}, {{-30, -40, 0}, {-14, 40, 15}}};
@@ -361,9 +361,9 @@ TEST(Traps, FoliageWithLittleGround) {
                 sight.change = leaves(share);
                 const Outcome o = outcome(sight, sensor);
                 EXPECT_GT(o.dangers, 7000) << sensor;
-                EXPECT_LE(o.missed_dangers, 0.01 * o.dangers)  // at most 0.6 % were
+                EXPECT_LE(o.missed_dangers, 0.01 * o.dangers)  // measured: at most 0.6 %
                     << sensor << " " << share << " " << height_m;
-                // From 3 m above dense leaves, too little of the ground is seen.
+                // From 3 m, dense leaves hide too much of the ground.
                 if (height_m < 2 || share < 0.9) {
                     EXPECT_GT(o.floorShare(), 0.85) << sensor << " " << share << " " << height_m;
                 }
@@ -373,15 +373,14 @@ TEST(Traps, FoliageWithLittleGround) {
 }
 
 // The lowest leaves between the sensor and the first ring of ground, 11 m away, look like ground
-// that rises to 1.5 m: a little more than hidden ground may.
+// that rises to 1.5 m, slightly more than allowed for hidden ground.
 TEST(Traps, LeavesBeforeFirstGroundRing) {
     Sight sight{{}, {0, 0, 3}};
     sight.change = leaves(0.6);
     EXPECT_EQ(outcome(sight, "VLP-16").missed_dangers, 0);
 }
 
-// The tops of cars and boxes before the first ring are taken for ground that rises to them. That
-// ring is the evidence.
+// The tops of cars and boxes before the first ring look like rising ground; the ring is evidence.
 TEST(Traps, DISABLED_CarBeforeFirstGroundRing) {
     SimpleScene car;
     car.boxes = {{{9, -2.2, 0}, {12, 2.2, 1.5}}, {{-2.2, 9, 0}, {2.2, 10.8, 1.5}}};
@@ -414,7 +413,7 @@ TEST(Traps, Cliff) {
     }
 }
 
-/// No returns from ground up to so far away.
+/// No ground returns within `reach_m`.
 auto water(double reach_m) {
     return [reach_m](const Vector3d& direction, Hit& hit, test::Random&) {
         const double distance_m = hit.range_m * direction.head<2>().norm();
@@ -451,7 +450,7 @@ TEST(Traps, OpenWater) {
     });
 }
 
-// Like the car: the bank, within reach, is evidence for a hill under the pontoon.
+// Like the car: the nearby bank is evidence for a hill under the pontoon.
 TEST(Traps, DISABLED_PontoonInWater) {
     Sight sight{lake(), {0, 0, 4}};
     sight.scene.boxes.push_back({{-2, 8, 0}, {3, 10, 1.5}});

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t kSeeds[] = {200, 201, 202};  // the biases were measured on others
+constexpr std::uint64_t kSeeds[] = {200, 201, 202};  // not those used to measure the biases
 constexpr double kSpeed_m_s = 4, kAltitude_m = 2.5, kFirst_s = 1, kLast_s = 2.6;
 
 /// A pole, or a wall if its radius is 0, seen from above.
@@ -37,7 +37,7 @@ struct Border {
     Vector2d at_m, outwards;
 };
 
-/// A random place on the outline of an obstacle.
+/// A random point on the outline of an obstacle.
 Border borderOf(const Obstacle& obstacle, simulation::Random& random) {
     Vector2d at_m, outwards;
     if (obstacle.isPole()) {
@@ -98,7 +98,7 @@ Course courseWith(const Obstacle& obstacle, std::uint64_t seed) {
     return {"passing", seed, scene, distance, start, goal, kAltitude_m, bounds, 0};
 }
 
-/// Along x, weaving by some centimetres, so that the sensor's rows fall elsewhere in each scan.
+/// Along x, weaving by some centimetres, so that the sensor's rows hit other places in each scan.
 FlightTrace traceOf(simulation::Random& random) {
     constexpr double kAcross_m = 0.15, kUp_m = 0.1, kRate_rad_s = 2.5;
     const double across_rad = random.uniform(0, 2 * kPi), up_rad = random.uniform(0, 2 * kPi);
@@ -125,7 +125,7 @@ void removeDust(simulation::SimulatedScan& measured) {
     }
 }
 
-/// Differences between a model's clearances and the true ones.
+/// Errors of a model's clearances.
 struct Errors {
     double sum_m = 0;
     int queries = 0, missed = 0;  ///< missed: off by more than 1 m
@@ -138,7 +138,7 @@ struct ErrorsOfModel {
     double bias_m() const { return (wall.mean_m() + pole.mean_m()) / 2; }
 };
 
-/// Whether the sensor sees a place beside the obstacle.
+/// Whether a point beside the obstacle is visible to the sensor.
 bool isSeen(const simulation::Scene::Snapshot& snapshot, const Eigen::Vector3f& from_m,
             const Eigen::Vector3f& at_m) {
     const Eigen::Vector3f way_m = at_m - from_m;
@@ -147,8 +147,8 @@ bool isSeen(const simulation::Scene::Snapshot& snapshot, const Eigen::Vector3f& 
     return std::isnan(hits.front().range_m);
 }
 
-/// A VLP-16 flies past an obstacle. After each scan, the models are queried at random points that
-/// the sensor sees, 0.3 to 1.5 m from the obstacle.
+/// A VLP-16 flies past an obstacle. After each scan, the models are queried at random
+/// visible points, 0.3 to 1.5 m from the obstacle.
 void flyPast(const Obstacle& kind, std::uint64_t seed, ModelDistance distance,
              std::map<std::string, ErrorsOfModel>& errors) {
     simulation::Random scene_random(seed, 1), path_random(seed, 2), query_random(seed, 3);
@@ -205,7 +205,7 @@ double tolerance_m(const std::string& model) {
 TEST(DistanceBias, RemainingBiasIsSmall) {
     std::map<std::string, ErrorsOfModel> errors;
     for (const std::string& model : worldModelNames()) {
-        // Maps of RoI points store distances as those of all points do.
+        // Maps of RoI points have the same biases as maps of all points.
         const bool is_roi_map = model.compare(0, 5, "O-RoI") == 0;
         if (!needsTruth(model) && !is_roi_map) errors[model] = {};
     }
@@ -220,7 +220,7 @@ TEST(DistanceBias, RemainingBiasIsSmall) {
     }
 }
 
-/// A point lies in a voxel, so that the voxel's face is nearer, by its diagonal at most.
+/// The face of a point's voxel is nearer than the point, by at most the voxel's diagonal.
 TEST(DistanceBias, MapsAsStoredUnderestimateDistances) {
     std::map<std::string, ErrorsOfModel> errors{{"O-Full-0.2", {}}};
     flyPast(kWall, 0, ModelDistance::AsStored, errors);

@@ -1,4 +1,4 @@
-// Some short flights must repeat the recorded ones exactly, unless kRevision was counted up.
+// Some short flights must reproduce the recorded ones exactly, unless kRevision was incremented.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/avoidance/Trial.h>
@@ -23,12 +23,12 @@ using testing::HasSubstr;
 
 const char kFile[] = HAGEN_SOURCE_DIR "/tests/flights/recorded_flights.csv";
 const std::string kHowToRecord =
-    "count up kRevision in libs/avoidance/flights/SettingsHash.h, and record "
+    "increment kRevision in libs/avoidance/flights/SettingsHash.h, and record "
     "again: "
     "HAGEN_RECORD_FLIGHTS=1 scripts/test -R RecordedFlights";
 
-/// The recorded flights: "revision,N", then rows as in runs.csv. A flight may have several: it
-/// comes out as one of them, and which one depends on the machine (docs/octomap-compare.md).
+/// The recorded flights: "revision,N", then rows as in runs.csv. A flight may have several
+/// rows: the result is one of them, depending on the machine (docs/octomap-compare.md).
 struct Recording {
     int revision;
     std::string rows;
@@ -56,7 +56,7 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-/// Which flights they are: the first five columns of each row, and its last two, air and distance.
+/// Keys of the flights: the first five columns of each row and the last two, air and distance.
 std::set<std::string> flightsOf(const std::vector<std::string>& rows) {
     std::set<std::string> flights;
     for (const std::string& row : rows) {
@@ -68,12 +68,12 @@ std::set<std::string> flightsOf(const std::vector<std::string>& rows) {
     return flights;
 }
 
-/// The fault of a recording, given the flights of this revision; empty if it has none.
-std::string faultOf(const Recording& recording, const Recording& flown) {
+/// The error of a recording compared with the flights of this revision; empty if there is none.
+std::string errorOf(const Recording& recording, const Recording& flown) {
     if (recording.revision != flown.revision) {
         return "recorded at revision " + std::to_string(recording.revision) +
                ", but kRevision is " + std::to_string(flown.revision) +
-               "; if it was counted up, record again: HAGEN_RECORD_FLIGHTS=1 scripts/test -R "
+               "; if it was incremented, record again: HAGEN_RECORD_FLIGHTS=1 scripts/test -R "
                "RecordedFlights";
     }
     const std::vector<std::string> rows = linesOf(flown.rows), recorded = linesOf(recording.rows);
@@ -84,13 +84,13 @@ std::string faultOf(const Recording& recording, const Recording& flown) {
     return "flights differ from the recorded ones; if the change is intended, " + kHowToRecord;
 }
 
-/// Why these flights may not replace the recorded ones; empty: they may.
+/// Why these flights may not replace the recorded ones; empty if they may.
 std::string obstacleTo(const Recording& flown, const Recording& recorded) {
     if (flown.revision > recorded.revision || textOf(flown) == textOf(recorded)) return "";
-    return "flights or kRevision changed, but kRevision was not counted up; first " + kHowToRecord;
+    return "flights or kRevision changed, but kRevision was not incremented; first " + kHowToRecord;
 }
 
-/// Latencies that do not depend on the profile that comes with the program.
+/// Latencies independent of the installed profile.
 LatencyProfile someProfile() {
     LatencyProfile profile = constantProfile(1);
     for (auto& [stage, quantiles_ms] : profile.quantiles_ms) quantiles_ms = {2, 5, 8, 40};
@@ -98,8 +98,8 @@ LatencyProfile someProfile() {
 }
 
 /// Every scenario, air, guidance, planner, pose error and kind of model at least once. Fast
-/// flights, because they are short; and those that come out the same if the directions of the
-/// LiDAR's rays change by 1e-6, because processors may differ by less.
+/// flights, because they are short, with the same result if the directions of the LiDAR's rays
+/// change by 1e-6, because processors may differ by less.
 std::vector<std::string> keys() {
     return {"forest-0.02,1,W-RoI,straight,10,primitives,none,1,optimistic,dusty,unbiased",
             "forest-0.02,5,O-RoI-0.4,straight,10,3dvfh,noise,1,optimistic,dusty,unbiased",
@@ -135,7 +135,7 @@ TEST(RecordedFlights, MatchRecording) {
         std::ofstream(kFile, std::ios::binary) << textOf(flown);
         return;
     }
-    EXPECT_EQ(faultOf(recorded, flown), "") << "recorded:\n"
+    EXPECT_EQ(errorOf(recorded, flown), "") << "recorded:\n"
                                             << recorded.rows << "flown:\n"
                                             << flown.rows;
 }

@@ -16,7 +16,7 @@ using test::emptyContent;
 using test::putWall;
 using test::simpleCourse;
 
-/// All of a result, to compare.
+/// A result as text, for comparison.
 std::string textOf(const TrialResult& result) {
     hagen::avoidance::Run run{};
     run.result = result;
@@ -31,7 +31,7 @@ TEST(Trial, FliesStraightOverOpenGround) {
         setup.air = Air::Clear;
         const TrialResult result = runTrial(course, setup, constantProfile(10));
         EXPECT_EQ(result.outcome, Outcome::Success) << model;
-        EXPECT_NEAR(result.path_m, 18.5, 0.2);  // to where the goal counts as reached
+        EXPECT_NEAR(result.path_m, 18.5, 0.2);  // until the goal counts as reached
         EXPECT_NEAR(result.min_clearance_m, 2, 0.35);
         EXPECT_TRUE(std::isnan(result.first_reaction_m));
         EXPECT_EQ(result.emergency_stops, 0);
@@ -41,8 +41,7 @@ TEST(Trial, FliesStraightOverOpenGround) {
     }
 }
 
-/// A course that leads aside is as straight as one ahead: it reacts to what is in the way, not at
-/// once.
+/// On a diagonal course, the first reaction is to the wall, not to the start.
 TEST(Trial, FirstReactionIsToObstacle) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -2.5f, 2.5f);
@@ -96,7 +95,7 @@ TEST(Trial, BusyPlannerUsesNewestScan) {
     std::vector<double> given_s;
     TrialListener listener;
     listener.step = [&](const TrialStep& step) { given_s.push_back(step.time_s); };
-    // Three stages of 80 ms: from one plan to the next 240 ms, on the newest of 2 or 3 scans.
+    // Three stages of 80 ms: a plan every 240 ms, for the newest of 2 or 3 scans.
     const TrialResult result = runTrial(course, setup, constantProfile(80), nullptr, listener);
     ASSERT_GT(given_s.size(), 20u);
     for (std::size_t i = 1; i < given_s.size(); ++i) {
@@ -135,7 +134,7 @@ TEST(Trial, FliesAroundWall) {
     TrialSetup setup;
     const TrialResult result = runTrial(course, setup, constantProfile(10));
     EXPECT_EQ(result.outcome, Outcome::Success);
-    EXPECT_GT(result.path_m, 18.5 + 1);  // 2 hypot(10, 4.5) - 20 at the least, but for the arrival
+    EXPECT_GT(result.path_m, 18.5 + 1);  // at least 2 hypot(10, 4.5) - 20, minus the arrival
     EXPECT_GT(result.min_clearance_m, 0.3);
 }
 
@@ -148,7 +147,7 @@ TEST(Trial, LateBrakingCollides) {
     setup.model = "oracle";
     setup.speed_m_s = 8;
     LatencyProfile profile =
-        constantProfile(1);  // half of the plans take seconds, against the median
+        constantProfile(1);  // half of the plans take seconds, far above the median
     profile.quantiles_ms["oracle/update"] = {1, 1, 20000};
     const TrialResult result = runTrial(course, setup, profile);
     EXPECT_EQ(result.outcome, Outcome::Collision);
@@ -159,7 +158,7 @@ TEST(Trial, AccountsForKnownLatency) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -40, 40);
     TrialSetup setup;
-    setup.latency_scale = 100;  // each plan takes three seconds, and the planner knows
+    setup.latency_scale = 100;  // each plan takes 3 s, which the planner knows
     setup.guidance = "straight";
     setup.model = "oracle";
     setup.speed_m_s = 8;
@@ -198,7 +197,7 @@ TEST(Trial, SectorsArePlannedAtFiftyHertz) {
         turns += step.scan.turns;
         EXPECT_NEAR(turns, 10 * step.scan.time_s, 1e-3);
         EXPECT_LE(step.scan.time_s, step.time_s - 0.004 + 1e-9);
-        // A packet or two are not full, and up to two wait for a third.
+        // One or two packets are incomplete, and up to two wait for a third.
         EXPECT_GE(step.scan.time_s, step.time_s - 0.004 - 0.0054);
         EXPECT_NEAR(step.latency_ms, 1e3 * (step.time_s - step.scan.time_s), 1e-6);
     };

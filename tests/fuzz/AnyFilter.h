@@ -1,5 +1,5 @@
 #pragma once
-// Sensors, options and numbers of which a filter may be made.
+// Random sensors, options and numbers for a filter.
 #include <hagen/filter/Levelling.h>
 #include <hagen/filter/Options.h>
 #include <hagen/scan/SensorModel.h>
@@ -11,16 +11,16 @@
 
 namespace hagen::fuzz {
 
-/// A number that is often an odd one.
+/// A number, often an extreme one.
 float oddNumber(Parts& parts);
 
 /// Changes some options, within their limits. Images get up to 256 columns.
 void setOptions(Parts& parts, Options& options);
 
-/// Throws std::invalid_argument: too few beams.
+/// Throws std::invalid_argument if there are too few beams.
 SensorModel anySensor(Parts& parts);
 
-/// None, or any numbers.
+/// No attitude, or any numbers.
 std::optional<Attitude> anyTilt(Parts& parts);
 std::optional<Eigen::Isometry3d> anyPose(Parts& parts);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the fuzz targets of ROS recordings share.
+// Common parts of the fuzz targets for ROS recordings.
 #include <filesystem>
 #include <vector>
 
@@ -8,10 +8,10 @@
 
 namespace hagen::fuzz {
 
-/// Surveys and reads a bag, as a program does.
+/// Surveys and reads a bag like a program.
 void readAnyBag(const std::filesystem::path& file);
 
-/// One message of each type that is read; scans are short.
+/// One message of each supported type; scans are short.
 std::vector<test::SentMessage> everyMessage();
 
 }  // namespace hagen::fuzz

@@ -1,5 +1,5 @@
-// Memory as the process of RawlogTrial.cpp has it: beyond a limit, `new` throws std::bad_alloc. The
-// address sanitizer knows no limit of a process.
+// As in the process of RawlogTrial.cpp, `new` throws std::bad_alloc beyond a limit. The address
+// sanitizer does not support memory limits.
 #include <malloc.h>
 
 #include <atomic>
@@ -8,7 +8,7 @@
 
 namespace {
 
-constexpr std::size_t kMax = std::size_t{1} << 28;  // all that is allocated at a time
+constexpr std::size_t kMax = std::size_t{1} << 28;  // total of live allocations
 
 std::atomic<std::size_t> allocated{0};
 

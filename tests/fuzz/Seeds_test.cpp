@@ -1,4 +1,4 @@
-// Every fuzz target with its seeds, their beginnings and some mutations. HAGEN_FUZZ_SECONDS: time
+// Runs every fuzz target on its seeds, their prefixes and some mutations. HAGEN_FUZZ_SECONDS: time
 // for mutations per target (default: a few hundred mutations); HAGEN_FUZZ_SEED: random seed
 // (default: 1).
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ unsigned numberFrom(const char* variable, unsigned otherwise) {
     return text == nullptr ? otherwise : static_cast<unsigned>(std::strtoul(text, nullptr, 10));
 }
 
-/// A seed with a few bytes changed, and perhaps a part removed or repeated.
+/// A seed with a few bytes changed, and possibly a part removed or repeated.
 std::string mutated(std::string bytes, std::mt19937& random) {
     if (bytes.empty()) return bytes;
     const auto place = [&] { return random() % bytes.size(); };
@@ -44,7 +44,7 @@ class Seeds : public testing::TestWithParam<std::string> {
         return *std::find_if(all.begin(), all.end(),
                              [](const Target& each) { return each.name == GetParam(); });
     }
-    /// Fails, with the bytes, on a finding.
+    /// Fails on a finding and prints the bytes.
     void run(const std::string& input) const {
         try {
             target().run(input);
@@ -66,7 +66,7 @@ TEST_P(Seeds, AreReadOrRejected) {
 }
 
 TEST_P(Seeds, MutationsAreReadOrRejected) {
-    if (!target().is_bounded) GTEST_SKIP() << "it may take all memory: " << target().name;
+    if (!target().is_bounded) GTEST_SKIP() << "may exhaust memory: " << target().name;
     std::mt19937 random(numberFrom("HAGEN_FUZZ_SEED", 1));
     const auto seeds = target().seeds();
     const std::size_t least = seeds.size() * (1 + 200 / seeds.size());

@@ -1,7 +1,8 @@
 #pragma once
-// Common parts of the fuzz targets. A target is a function of any bytes: it returns, or rejects
-// them with a std::runtime_error that has a message. Each file of this folder has one. scripts/fuzz
-// runs them with libFuzzer; Seeds_test.cpp runs the seeds and some mutations as an ordinary test.
+// Common parts of the fuzz targets. A target is a function of any bytes that returns, or
+// rejects them with a std::runtime_error with a message. Each file of this folder has one.
+// scripts/fuzz runs them with libFuzzer; Seeds_test.cpp runs the seeds and some mutations as an
+// ordinary test.
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
@@ -22,8 +23,8 @@ struct Target {
     Seeds (*seeds)();
     /// Words of the format for libFuzzer's dictionary.
     std::vector<std::string> words = {};
-    std::size_t longest = 4096;  ///< bytes of an input
-    bool is_bounded = true;      ///< false: mutations may take all memory
+    std::size_t longest = 4096;  ///< maximum size of an input [bytes]
+    bool is_bounded = true;      ///< false if mutations may exhaust memory
 };
 
 /// The targets of this program, sorted by name.
@@ -33,15 +34,15 @@ bool add(Target target);
 /// The words of a text.
 std::vector<std::string> wordsIn(const std::string& text);
 
-/// An error that no input may cause.
+/// An error that must not occur for any input.
 struct Violation : std::logic_error {
     using std::logic_error::logic_error;
 };
 /// Throws Violation if a condition does not hold.
 void require(bool holds, const std::string& what);
 
-/// Calls a function that may reject its input with a std::runtime_error that has a message; returns
-/// false if it does. Any other exception is a finding.
+/// Returns false if a function rejects its input with a std::runtime_error with a message. Any
+/// other exception is a finding.
 template <class Call>
 bool mayRefuse(const Call& call) {
     try {
@@ -67,10 +68,10 @@ class InputFile {
     std::filesystem::path path_;
 };
 
-/// A folder of this process for such files; in memory if possible.
+/// This process's folder for such files; in memory if possible.
 const std::filesystem::path& scratch();
 
-/// Splits an input. After its end, everything is zero.
+/// Splits an input. Reads zeros after its end.
 class Parts {
  public:
     explicit Parts(std::string_view input) : rest_(input) {}

@@ -1,4 +1,4 @@
-// The files of a campaign: its table and latency profile, with any content.
+// Table and latency profile of a campaign with any content.
 #include <hagen/avoidance/LatencyProfile.h>
 #include "avoidance/flights/RunTable.h"
 
@@ -7,7 +7,7 @@
 namespace hagen::fuzz {
 namespace {
 
-/// The key of a run reads as the same.
+/// The key of a run round-trips.
 void writeAndReadKey(const avoidance::Run& run) {
     const std::string key = avoidance::keyOf(run);
     require(avoidance::keyOf(avoidance::runOfKey(key)) == key, "a key changes by writing it");

@@ -1,5 +1,4 @@
-// Captures of a network: libpcap's files, fragments, and what is in the datagrams. The first byte
-// names the sensor.
+// Network captures: libpcap files, fragments, contents of datagrams. Byte 0 selects the sensor.
 #include "recordings/captures/LidarCapture.h"
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Point cloud files of all formats, and what is made of their points.
+// Point cloud files of all formats, and the scans made from them.
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include "mrpt/TableCloud.h"
@@ -17,7 +17,7 @@ void readAnyCloud(std::string_view input) {
     recordings::cloudFormatOf(file.path());
     recordings::CloudFile cloud;
     if (!mayRefuse([&] { cloud = recordings::readCloud(file.path()); })) return;
-    // A packed file may unpack to 256 times its size.
+    // A compressed file may unpack to 256 times its size.
     require(cloud.table.bytes.size() <= 256 * (input.size() + 4096), "more points than bytes");
     mayRefuse([&] {
         const auto table = std::make_shared<const observations::PointTable>(cloud.table);

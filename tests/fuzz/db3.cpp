@@ -1,5 +1,5 @@
-// Databases of ROS 2: SQLite files. The first byte of the input chooses one; the others are written
-// over it, each with its place, because few changes of a database leave one.
+// ROS 2 databases (SQLite files). The first byte of the input selects one; the others overwrite
+// bytes at given offsets, because most mutations would not be a database.
 #include <algorithm>
 #include <fstream>
 #include <iterator>

@@ -1,4 +1,4 @@
-// Label files, maps of labels, and calibrations of an HDL-64E.
+// Label files, label maps, and HDL-64E calibrations.
 #include <hagen/evaluation/LabelMap.h>
 #include <hagen/recordings/ScanFolder.h>
 #include "sensors/velodyne/VelodyneCalibrationFile.h"

@@ -1,5 +1,4 @@
-// Messages of ROS, without a bag around them. The first byte names the type, its highest bit the
-// serialisation.
+// ROS messages outside a bag. The first byte selects the type, its highest bit the serialisation.
 #include "mrpt/TableCloud.h"
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Text files of numbers: poses of all kinds, and times in the names of files.
+// Text files of numbers: poses of all formats, and times in file names.
 #include "recordings/NumberTable.h"
 #include "recordings/PoseFile.h"
 
@@ -17,14 +17,14 @@ void readTables(std::string_view input) {
         for (const auto& line : recordings::readNumberTable(file.path())) {
             for (const double number : line.numbers) require(std::isfinite(number), "no number");
         }
-        // Every byte of it is part of a number, of a comment or between them.
+        // Every byte belongs to a number, a comment or a separator.
         const bool has_nul = input.find('\0') != std::string_view::npos;
         require(!has_nul || input.find('#') != std::string_view::npos, "bytes that are no numbers");
     });
     mayRefuse([&] { recordings::kindOfPoseFile(file.path()); });
     mayRefuse([&] {
         const auto poses = recordings::readTumPoses(file.path());
-        // What is written reads as the same.
+        // The written file round-trips.
         if (poses.empty()) return;
         const auto copy = scratch() / "copy.tum";
         recordings::writeTumPoses(copy, poses);

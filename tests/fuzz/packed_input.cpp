@@ -1,4 +1,4 @@
-// Files packed by gzip or zstd, read in steps of any size. The first byte chooses them.
+// Files compressed by gzip or zstd, read in steps of a size selected by the first byte.
 #include "convert/GzipOutput.h"
 #include "recordings/rawlogs/PackedInput.h"
 
@@ -10,8 +10,7 @@
 namespace hagen::fuzz {
 namespace {
 
-constexpr std::size_t kMaxBytesRead = 4
-                                      << 20;  // a zstd block may repeat a byte as often as it likes
+constexpr std::size_t kMaxBytesRead = 4 << 20;  // a zstd block may repeat a byte without limit
 
 std::string readInSteps(const std::filesystem::path& file, unsigned seed) {
     std::minstd_rand random(seed);

@@ -1,8 +1,7 @@
-// The objects of a rawlog, by MRPT's reader, and what is made of its scans. That reader believes
-// the sizes it reads, and may take all memory (a matrix of a rotating scan, which LimitedNew.cpp
-// does not see) or crash. RawlogReader therefore has a rawlog tried by another process, with a
-// limit of memory (RawlogTrial). What MRPT does is no finding of ours; what is made of an object
-// that it has read is one.
+// The objects of a rawlog, read by MRPT, and the conversion of its scans. MRPT trusts sizes in
+// files and may exhaust memory (a matrix of a rotating scan, which LimitedNew.cpp does not see) or
+// crash. Therefore, RawlogReader first reads a rawlog in another process with a memory limit
+// (RawlogTrial). Errors inside MRPT are not findings; errors in the conversion of an object are.
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <mrpt/obs/CObservationComment.h>

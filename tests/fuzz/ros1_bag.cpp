@@ -1,4 +1,4 @@
-// Bags of ROS 1.
+// ROS 1 bags.
 #include "fuzz/Bags.h"
 
 namespace hagen::fuzz {

@@ -1,4 +1,4 @@
-// Scan folders. The input has its files one after the other, with bytes 0xff between them.
+// Scan folders. The input contains the files, separated by bytes 0xff.
 #include <hagen/recordings/ScanSource.h>
 
 #include <fstream>

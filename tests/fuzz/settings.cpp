@@ -11,7 +11,7 @@ void readSettings(std::string_view input) {
     const InputFile file(input, "input.yaml");
     mayRefuse([&] { readAirframeBins(file.path()); });
     Settings settings;
-    // An include may name any file, so it is read as a recording's own.
+    // An include may name any file, so the text is read like a recording's own settings.
     const bool is_read =
         mayRefuse([&] { mergeSettings(file.path(), settings, SettingsOrigin::Recording); });
     if (!is_read) return;
@@ -19,9 +19,9 @@ void readSettings(std::string_view input) {
         const SensorModel sensor = settings.sensorModel();
         require(sensor.rows() >= 2 && sensor.rows() <= 256, "a sensor's rows");
     });
-    // What is written reads as the same.
+    // The written file round-trips.
     const std::string text = dumpSettings(settings);
-    if (!settings.airframe.learned.empty()) return;  // a file of another folder, perhaps
+    if (!settings.airframe.learned.empty()) return;  // may be a file in another folder
     const InputFile copy(text, "copy.yaml");
     Settings again;
     const bool is_again =

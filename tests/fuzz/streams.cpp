@@ -1,6 +1,5 @@
-// Datagrams of a LiDAR, one after the other: sound ones, and those with any bytes changed, cut off,
-// late, lost or repeated. Nothing throws, and each is taken, or refused and counted. The first byte
-// of the input names the sensor.
+// A stream of LiDAR datagrams, some modified, truncated, late, lost or duplicated. Nothing throws,
+// and each datagram is accepted, or rejected and counted. Byte 0 of the input selects the sensor.
 #include <hagen/live/LidarStream.h>
 #include "sensors/ouster/OusterSensor.h"
 
@@ -22,7 +21,7 @@ void put(std::string& bytes, std::size_t at, Number number) {
     std::memcpy(&bytes[at], &number, sizeof number);
 }
 
-/// The n-th packet of a Velodyne in a ring of wall.
+/// The n-th packet of a Velodyne surrounded by a wall.
 std::string velodynePacket(std::size_t n, std::uint8_t model) {
     std::string bytes(1206, '\0');
     for (std::size_t block = 0; block < 12; ++block) {
@@ -38,7 +37,7 @@ std::string velodynePacket(std::size_t n, std::uint8_t model) {
     return bytes;
 }
 
-/// The n-th packet of a Livox, of the maker's protocol: points of 14 bytes.
+/// The n-th packet of a Livox in the manufacturer's protocol, with points of 14 bytes.
 std::string livoxPacket(std::size_t n) {
     constexpr std::size_t kPoints = 96;
     std::string bytes(36 + 14 * kPoints, '\0');
@@ -57,7 +56,7 @@ std::string livoxPacket(std::size_t n) {
     return bytes;
 }
 
-/// A small image, which is fast.
+/// A small image is fast.
 Settings fewColumns() {
     Settings settings;
     settings.options.columns = 128;
@@ -95,13 +94,13 @@ AnyLidar anyLidar(std::size_t kind) {
     return {sensors::makeDriver("Mid-360"), fewColumns(), livoxPacket};
 }
 
-/// Of datagrams, those that were counted.
+/// Number of counted datagrams.
 std::size_t counted(const sensors::PacketCounts& c) {
     return c.packets + c.wrong_size + c.other_sensor + c.auxiliary + c.duplicate + c.unsound +
            c.too_late + c.uncertain;
 }
 
-/// Each datagram takes four bytes of the input, and three for each byte of it that is changed.
+/// Each datagram uses four bytes of the input, and three more per changed byte.
 void streamDatagrams(std::string_view input) {
     Parts parts(input);
     std::unique_ptr<SectorChecker> checker;

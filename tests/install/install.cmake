@@ -5,7 +5,7 @@ set(work ${BUILD}/install-test)
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
 
-# run(EXPECTED COMMAND...): the command succeeds and prints EXPECTED; with ERROR before, it fails and prints it.
+# run([ERROR] EXPECTED COMMAND...): the command succeeds (with ERROR: fails) and prints EXPECTED.
 function(run expected)
   set(command ${ARGN})
   set(fails FALSE)
@@ -38,7 +38,7 @@ endif()
 set(project ${CMAKE_CURRENT_LIST_DIR}/project)
 set(labels "78 of 7248 returns are RoI")
 
-# By find_package. A shared library asks for Eigen alone.
+# By find_package. A shared library requires only Eigen.
 set(alone ${hidden})
 if(SHARED)
   list(APPEND alone -DCMAKE_DISABLE_FIND_PACKAGE_hwy=ON)
@@ -65,14 +65,14 @@ run(${labels} ${work}/labels)
 run("" ${configure} ${hidden} -S ${project} -B ${work}/add_subdirectory -DHAGEN_SOURCE=${SOURCE} -DBUILD_SHARED_LIBS=ON)
 run("" ${CMAKE_COMMAND} --build ${work}/add_subdirectory)
 run(${labels} ${work}/add_subdirectory/labels)
-# Nothing but the filter's sources and the project's own is compiled.
+# Only the sources of the filter and of the project are compiled.
 file(GLOB_RECURSE objects RELATIVE ${work}/add_subdirectory ${work}/add_subdirectory/*.o)
 list(FILTER objects EXCLUDE REGEX "libs/(scan|filter)/|precompiled|main\\.cpp\\.o$")
 if(objects)
   message(FATAL_ERROR "compiled for the filter alone: ${objects}")
 endif()
 
-# By FetchContent; built above.
+# By FetchContent, built above.
 run("" ${configure} ${hidden} -S ${project} -B ${work}/fetched -DHAGEN_SOURCE=${SOURCE} -DFETCHED=ON)
 
 # Each component alone; those below MRPT also without it.

@@ -24,7 +24,7 @@ using testing::Contains;
 using testing::HasSubstr;
 constexpr auto now_s = test::steadyNow_s;
 
-/// An autopilot: a UDP socket of this machine.
+/// An autopilot, simulated by a local UDP socket.
 class Autopilot {
  public:
     mavlink::PeerAddress address() const {
@@ -33,7 +33,7 @@ class Autopilot {
         address.port = socket_.port();
         return address;
     }
-    /// The next message; id 0xffffff: none came within 5 s.
+    /// The next message, or id 0xffffff after 5 s without one.
     mavlink::Frame receive() {
         mavlink::Frame frame;
         frame.id = 0xffffff;
@@ -48,7 +48,7 @@ class Autopilot {
         EXPECT_EQ(frame.component, 196);
         return frame;
     }
-    /// The first of this kind that is as asked, among the next ones.
+    /// The first of the next `most` messages that satisfies `is`.
     template <class Message, class Is>
     std::optional<Message> receiveUntil(const Is& is, int most = 400) {
         for (int i = 0; i < most; ++i) {
@@ -87,7 +87,7 @@ class AutopilotLinkTest : public testing::Test {
             remarks_.push_back(remark);
         });
     }
-    /// A turn that sees one return straight ahead, or as many on other sides, each 1 m farther.
+    /// A turn with one return straight ahead and others to the left, each 1 m farther.
     void takeTurn(int returns = 1) {
         Scan scan;
         for (int i = 0; i < returns; ++i) {
@@ -108,7 +108,7 @@ class AutopilotLinkTest : public testing::Test {
         for (const auto& [each, number] : link_->counts()) {
             if (each == name) return number;
         }
-        ADD_FAILURE() << "no count " << name;
+        ADD_FAILURE() << "missing count " << name;
         return 0;
     }
     std::vector<std::string> remarks() {
@@ -122,7 +122,7 @@ class AutopilotLinkTest : public testing::Test {
     double turned_rad_ = 0;
     std::mutex mutex_;
     std::vector<std::string> remarks_;
-    std::unique_ptr<AutopilotLink> link_;  // whose thread uses the others
+    std::unique_ptr<AutopilotLink> link_;  // its thread uses the members above
 };
 
 TEST_F(AutopilotLinkTest, SendsUnknownBeforeLabels) {
@@ -149,7 +149,7 @@ TEST_F(AutopilotLinkTest, ReportsStalledLabelling) {
     ASSERT_TRUE(third);
     EXPECT_NEAR(third->x, 6, 1e-5);
     EXPECT_NEAR(third->z, 0.5, 1e-5);
-    // Nobody labels any longer.
+    // Labelling stops.
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::ObstacleDistance>(isAllUnknown));
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::Heartbeat>(
         [](const auto& m) { return m.system_status == mavlink::kStateCritical; }));
@@ -161,7 +161,7 @@ TEST_F(AutopilotLinkTest, ReportsStalledLabelling) {
     EXPECT_THAT(remarks(), Contains(HasSubstr("sending directions again")));
 }
 
-/// A remark that finds no memory stands for any step that finds none.
+/// A remark that throws std::bad_alloc represents any step that does.
 TEST_F(AutopilotLinkTest, SurvivesOutOfMemory) {
     Autopilot autopilot;
     settings_.peer = autopilot.address();
@@ -208,7 +208,7 @@ TEST_F(AutopilotLinkTest, LateSectorIsNotFree) {
     }
 }
 
-TEST_F(AutopilotLinkTest, SendsAtItsRates) {
+TEST_F(AutopilotLinkTest, SendsAtConfiguredRates) {
     link_->begin(sensor_, {20, 0});
     std::thread labels([&] {
         for (int i = 0; i < 30; ++i) {
@@ -226,7 +226,7 @@ TEST_F(AutopilotLinkTest, SendsAtItsRates) {
     }
     labels.join();
     EXPECT_EQ(messages[mavlink::ObstacleDistance::kId], 20);
-    // One obstacle; none, if this process had to wait.
+    // One obstacle, or none if this process was delayed.
     EXPECT_LE(messages[mavlink::ObstacleDistance3d::kId], 10);
     EXPECT_GT(messages[mavlink::ObstacleDistance3d::kId], 2);
     EXPECT_EQ(messages[mavlink::DistanceSensor::kId], 0);  // no ground
@@ -242,7 +242,7 @@ TEST_F(AutopilotLinkTest, SensorMovesWithVehicle) {
     vehicle.ned_m = {10, 20, -5};
     EXPECT_FALSE(link_->motionAt(now_s()).attitude);
     autopilot_.send(vehicle.attitude(100), 2);     // another vehicle
-    autopilot_.send(vehicle.attitude(100), 1, 9);  // another part of ours
+    autopilot_.send(vehicle.attitude(100), 1, 9);  // another component of our vehicle
     autopilot_.sendRaw("noise");
     autopilot_.send(mavlink::frameOf(mavlink::Heartbeat()));
     autopilot_.send(vehicle.attitude(100));
@@ -267,7 +267,7 @@ TEST_F(AutopilotLinkTest, SensorMovesWithVehicle) {
     EXPECT_FALSE(link_->motionAt(now_s()).map_from_sensor);
 }
 
-/// With so many obstacles, a period takes longer than it should.
+/// With so many obstacles, a period takes too long.
 TEST_F(AutopilotLinkTest, ReadsMessagesWhenLate) {
     link_->begin(sensor_, {20, 0});
     autopilot_.receive();
@@ -294,7 +294,7 @@ TEST_F(AutopilotLinkTest, LastMessageIsUnknown) {
     link_->stop();
     const std::size_t sent = count("obstacle_distance");
     ASSERT_TRUE(autopilot_.receiveUntil<mavlink::ObstacleDistance>(isAllUnknown));
-    EXPECT_EQ(count("obstacle_distance"), sent);  // there is no further one
+    EXPECT_EQ(count("obstacle_distance"), sent);  // no more messages
 }
 
 TEST_F(AutopilotLinkTest, MountTiltsSensor) {

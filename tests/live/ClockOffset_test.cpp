@@ -31,7 +31,7 @@ TEST(ClockOffset, FollowsDriftingClock) {
         const auto result = clock.ourTime(stamp_s, arrival_s);
         EXPECT_FALSE(result.has_restarted);
         EXPECT_LE(result.time_s, arrival_s);
-        EXPECT_GE(result.time_s, arrival_s - 0.0055);  // ten seconds of drift
+        EXPECT_GE(result.time_s, arrival_s - 0.0055);  // 10 s of drift
     }
 }
 
@@ -43,13 +43,13 @@ TEST(ClockOffset, DetectsRestartWithinOneSecond) {
     for (int i = 0; i < 100; ++i) {
         const auto result = clock.ourTime(2 + 0.02 * i, 603 + 0.02 * i);
         if (result.has_restarted) ++restarts;
-        // Before it is noticed, messages are of a time before the last ones.
+        // Until the restart is detected, messages are older than the previous ones.
         EXPECT_LT(result.time_s, restarts > 0 ? 605 : 600);
         EXPECT_EQ(restarts, 0.02 * i > 0.49 ? 1 : 0) << i;
     }
 }
 
-TEST(ClockOffset, FollowsSetClockAfterSeveralStamps) {
+TEST(ClockOffset, FollowsClockStepAfterSeveralStamps) {
     for (const double ahead_s : {0.5, 1000.0}) {
         ClockOffset clock;
         int restarts = 0;
@@ -63,8 +63,8 @@ TEST(ClockOffset, FollowsSetClockAfterSeveralStamps) {
     }
 }
 
-/// Its first message may be later than the last one before, or earlier.
-TEST(ClockOffset, DetectsRestartOutOfReach) {
+/// The first time stamp after the restart may be later or earlier than the last one before.
+TEST(ClockOffset, FollowsRestartAfterLongGap) {
     for (const double uptime_s : {5.0, 11.5, 12.0, 15.0, 25.0}) {
         ClockOffset clock;
         for (double stamp_s = 3; stamp_s < 12; stamp_s += 0.02) clock.ourTime(stamp_s, stamp_s);
@@ -79,7 +79,7 @@ TEST(ClockOffset, DetectsRestartOutOfReach) {
     }
 }
 
-/// Two ways to a vehicle; the fast one fails.
+/// Of two paths to a vehicle, the fast one fails.
 TEST(ClockOffset, MessagesOnSlowerPathAreOld) {
     for (const double longer_s : {0.8, 1.5, 2.0, 10.0}) {
         ClockOffset clock;
@@ -110,7 +110,7 @@ TEST(ClockOffset, SingleMessagesOnSlowerPathAreOld) {
 }
 
 TEST(ClockOffset, DrainingBacklogIsOld) {
-    // 50 per second, nothing for a while, then faster than they were sent, or late for ever.
+    // Messages at 50 Hz, then an outage, then a backlog that drains faster than messages are sent.
     for (const double speed : {1.1, 1.5, 2.0, 4.0}) {
         ClockOffset clock;
         double free_s = 0;
@@ -121,12 +121,12 @@ TEST(ClockOffset, DrainingBacklogIsOld) {
             free_s = arrival_s + 0.02 / speed;
             const auto result = clock.ourTime(stamp_s, arrival_s);
             EXPECT_FALSE(result.has_restarted) << stamp_s;
-            ASSERT_LE(result.time_s, stamp_s + 70.4) << speed;  // ours drifts, perhaps
+            ASSERT_LE(result.time_s, stamp_s + 70.4) << speed;  // our clock may drift
         }
     }
 }
 
-TEST(ClockOffset, FullQueueIsOld) {
+TEST(ClockOffset, MessagesOfFullQueueAreOld) {
     for (const bool after_outage : {false, true}) {
         ClockOffset clock;
         for (int i = 0; i < 5000; ++i) {
@@ -134,7 +134,7 @@ TEST(ClockOffset, FullQueueIsOld) {
             double arrival_s = stamp_s + 70;
             if (stamp_s > 10) arrival_s += std::min(0.5 * (stamp_s - 10), 2.0);
             if (after_outage && stamp_s > 10) {
-                // What is kept of the outage comes first; then it is late by 2 s.
+                // First the messages kept during the outage arrive, then all messages are 2 s late.
                 if (stamp_s > 10.5 && stamp_s <= 38) continue;
                 arrival_s = std::max(stamp_s + 72, 110 + 0.001 * (stamp_s - 10));
             }
@@ -144,12 +144,12 @@ TEST(ClockOffset, FullQueueIsOld) {
 }
 
 TEST(ClockOffset, DelayedMessagesAreOld) {
-    // 50 per second, but whatever is stamped within some time arrives at its end, at once.
+    // At 50 Hz, but all messages stamped during an interval arrive together at its end.
     for (const double wait_s : {1.2, 4.0, 30.0}) {
         ClockOffset clock;
         const double free_at_s = 10 + wait_s;
         for (int i = 0; i < 4000; ++i) {
-            // As of two kinds of message, of which one is stamped a little earlier.
+            // Two message types, one of them stamped slightly earlier.
             const double stamp_s = 0.02 * i - (i % 2 == 0 ? 0.03 : 0.0);
             const bool waits = stamp_s > 10 && stamp_s < free_at_s;
             const double arrival_s = 70.005 + (waits ? free_at_s : stamp_s);
@@ -160,7 +160,7 @@ TEST(ClockOffset, DelayedMessagesAreOld) {
     }
 }
 
-/// It looks the same as a link that was blocked and stays late.
+/// A paused simulation looks like a link that was blocked and stays late.
 TEST(ClockOffset, FollowsPausedSimulation) {
     for (const bool is_simulated : {false, true}) {
         ClockOffset clock(is_simulated);

@@ -25,7 +25,7 @@ struct Pole {
     double top_m = 1e9;  ///< above the vehicle's start
 };
 
-/// A LiDAR on a vehicle that moves among poles without end. All that it hits is RoI.
+/// A LiDAR on a vehicle that moves among infinitely high poles. All returns are RoI.
 class Flight {
  public:
     std::vector<Pole> poles;
@@ -38,12 +38,12 @@ class Flight {
     SectorDistances::PoseAt poses() const {
         return [this](double time_s) { return motion.at(time_s); };
     }
-    /// Flies on, up to this time.
+    /// Continues the flight until this time.
     void fly(double until_s, SectorDistances& distances) {
         for (; packet_ * kTurn_s / kPacketsPerTurn < until_s; ++packet_) {
             const double time_s = packet_ * kTurn_s / kPacketsPerTurn;
             const Vehicle vehicle = vehicleAt(time_s);
-            if (packet_ % 14 == 0) {  // about 50 times per second
+            if (packet_ % 14 == 0) {  // at about 50 Hz
                 if (has_attitude) motion.take(vehicle.attitude(time_s), time_s);
                 if (has_place) motion.take(vehicle.place(time_s), time_s);
             }
@@ -78,7 +78,7 @@ class Flight {
     double rangeOf(const Vehicle& vehicle, const Eigen::Vector3d& ray) const {
         double nearest_m = 1e9;
         for (const Pole& pole : poles) {
-            // A line and a circle, from above.
+            // Intersects a line and a circle, seen from above.
             const Eigen::Vector2d from =
                 vehicle.ned_m.head<2>() - Eigen::Vector2d(pole.north_m, pole.east_m);
             const Eigen::Vector2d way = ray.head<2>();
@@ -112,7 +112,7 @@ class Flight {
 
 class DirectionsInFlight : public testing::Test {
  protected:
-    /// Compares with where the poles are by geometry; returns how many were compared.
+    /// Compares directions with true positions of poles; returns the number of compared poles.
     int compare(const Flight& flight, const SectorDistances& distances, double now_s,
                 bool all_is_seen = true) {
         const Vehicle vehicle = flight.vehicleAt(now_s);
@@ -195,13 +195,13 @@ TEST_F(DirectionsInFlight, PolesStayInPlaceInFlight) {
     SectorDistances distances(sensor_, aheadFirst());
     int compared = 0;
     for (double now_s = 0.25; now_s < 1; now_s += 0.013) {
-        flight.fly(now_s - 0.01, distances);  // labels take a while
+        flight.fly(now_s - 0.01, distances);  // labels are delayed
         compared += compare(flight, distances, now_s);
     }
     EXPECT_GT(compared, 200);
 }
 
-TEST_F(DirectionsInFlight, MountUpsideDownChangesNothing) {
+TEST_F(DirectionsInFlight, UpsideDownMountDoesNotAffectDirections) {
     using Eigen::AngleAxisd;
     using Eigen::Vector3d;
     for (const double roll_deg : {0.0, 180.0}) {
@@ -217,7 +217,7 @@ TEST_F(DirectionsInFlight, MountUpsideDownChangesNothing) {
     }
 }
 
-TEST_F(DirectionsInFlight, NothingFreeWithoutBeamAtHorizon) {
+TEST_F(DirectionsInFlight, IsUnknownWithoutBeamAtHorizon) {
     Flight flight;
     flight.poles = around();
     flight.vehicleAt = [](double) {
@@ -231,7 +231,7 @@ TEST_F(DirectionsInFlight, NothingFreeWithoutBeamAtHorizon) {
     const Directions at = distances.at(0.3, flight.poses());
     EXPECT_EQ(at[1].state, State::SeenNothing);  // ahead and behind
     EXPECT_EQ(at[38].state, State::SeenNothing);
-    EXPECT_EQ(at[20].state, State::Unknown);  // on the sides it looks up and down
+    EXPECT_EQ(at[20].state, State::Unknown);  // on the sides, the sensor looks up and down
     EXPECT_EQ(at[52].state, State::Unknown);
 }
 
@@ -270,7 +270,7 @@ TEST_F(DirectionsInFlight, ObstacleBelowHorizonStays) {
     EXPECT_GT(compared, 3000);
 }
 
-/// The horizon above it is swept each turn, the packet that would see it is lost each turn.
+/// Each turn, the horizon above the obstacle is swept, but the packet that would hit it is lost.
 TEST_F(DirectionsInFlight, LostPacketsOfTiltedSensorAreNotFree) {
     Vehicle vehicle;
     vehicle.pitch_rad = radians(-20);
@@ -304,7 +304,7 @@ TEST_F(DirectionsInFlight, LostPacketsOfTiltedSensorAreNotFree) {
 
 TEST_F(DirectionsInFlight, LostDirectionBecomesUnknown) {
     Flight flight;
-    // One packet of each turn from the third on, in the middle of a sector.
+    // From the third turn on, one packet per turn is lost in the middle of a sector.
     flight.isLost = [](int packet) {
         return packet >= 2 * kPacketsPerTurn && packet % kPacketsPerTurn == 42;
     };
@@ -314,12 +314,12 @@ TEST_F(DirectionsInFlight, LostDirectionBecomesUnknown) {
     flight.fly(0.7, distances);
     const Directions at = distances.at(0.7, flight.poses());
     for (std::size_t k = 0; k < 72; ++k) {
-        // The packet is half in each of two directions.
+        // The packet spans two directions.
         EXPECT_EQ(at[k].state, k == 42 || k == 43 ? State::Unknown : State::SeenNothing) << k;
     }
 }
 
-/// A beam that is 4 degrees behind the head has not passed what the head has.
+/// A beam 4 degrees behind the head passes obstacles later than the head.
 TEST_F(DirectionsInFlight, ObstacleStaysUntilAllBeamsPassed) {
     SectorDistances distances(sensorModel("VLP-32C"), aheadFirst());
     const SegmentationResult result;
@@ -337,14 +337,14 @@ TEST_F(DirectionsInFlight, ObstacleStaysUntilAllBeamsPassed) {
     };
     take(wire, 0, 180, 1);
     take(none, 180, 360, 1.05);
-    take(none, 360, 374.4, 1.1);  // 10.5, the end of its degree, and 4
+    take(none, 360, 374.4, 1.1);  // less than 10.5 (the end of its degree) plus 4
     EXPECT_EQ(distances.at(1.11)[2].state, State::Obstacle);
     take(none, 374.4, 374.6, 1.104);
     EXPECT_EQ(distances.at(1.11)[2].state, State::SeenNothing);
 }
 
-/// However far the head is: a late packet is of the turn in which it was measured.
-TEST_F(DirectionsInFlight, OnlyNextTurnPassesObstacle) {
+/// An obstacle at the end of a sector is passed only by the next turn.
+TEST_F(DirectionsInFlight, ObstacleStaysForOneTurn) {
     const auto stateAfter = [&](double turned_rad) {
         SectorDistances distances(sensor_, aheadFirst());
         Scan scan;
@@ -367,7 +367,7 @@ TEST_F(DirectionsInFlight, OnlyNextTurnPassesObstacle) {
         return distances.at(1.15)[0].state;
     };
     EXPECT_EQ(stateAfter(kPi), State::Obstacle);
-    EXPECT_EQ(stateAfter(radians(360)), State::Obstacle);  // within its degree
+    EXPECT_EQ(stateAfter(radians(360)), State::Obstacle);  // within the obstacle's degree
     EXPECT_EQ(stateAfter(radians(361)), State::SeenNothing);
 }
 

@@ -15,7 +15,7 @@ std::uint16_t checksumOf(const std::string& text) {
 }
 
 TEST(Checksum, HasPublishedCheckValues) {
-    // CRC-16/MCRF4XX; CRC-16/IBM-SDLC (X.25) is the same, inverted: 0x906e.
+    // CRC-16/MCRF4XX, the inverse of CRC-16/IBM-SDLC (X.25), 0x906e.
     EXPECT_EQ(checksumOf("123456789"), 0x6f91);
     EXPECT_EQ(checksumOf("123456789") ^ 0xffff, 0x906e);
     EXPECT_EQ(checksumOf(""), 0xffff);
@@ -27,7 +27,7 @@ TEST(Checksum, ContinuesFromEarlierBytes) {
 }
 
 TEST(CrcExtra, MatchesDefinitions) {
-    // As generated headers of MAVLink's own library have them.
+    // From the generated headers of the MAVLink C library.
     EXPECT_EQ(crcExtra(0), 50);
     EXPECT_EQ(crcExtra(30), 39);
     EXPECT_EQ(crcExtra(132), 85);
@@ -37,7 +37,7 @@ TEST(CrcExtra, MatchesDefinitions) {
     EXPECT_EQ(crcExtra(0xffffff), std::nullopt);
 }
 
-TEST(Encode, HeartbeatMatchesOtherLibrary) {
+TEST(Encode, HeartbeatMatchesNodeMavlink) {
     Heartbeat heartbeat;
     heartbeat.custom_mode = 0x01020304;
     heartbeat.type = kTypeOnboardController;
@@ -57,7 +57,7 @@ TEST(Encode, HeartbeatMatchesOtherLibrary) {
 TEST(Encode, TruncatesTrailingZeros) {
     Attitude attitude;
     attitude.time_boot_ms = 0x00020001;
-    EXPECT_EQ(encode(frameOf(attitude), Attitude::kBytes)[1], 3);  // the fourth byte is 0, too
+    EXPECT_EQ(encode(frameOf(attitude), Attitude::kBytes)[1], 3);  // the fourth byte is also 0
     attitude.yawspeed = 1;
     EXPECT_EQ(encode(frameOf(attitude), Attitude::kBytes)[1], Attitude::kBytes);
     // One byte remains.

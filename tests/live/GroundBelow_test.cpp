@@ -11,7 +11,7 @@
 namespace hagen::live {
 namespace {
 
-/// The scan of a sensor that is turned by `level_from_sensor`.
+/// The scan of a sensor rotated by `level_from_sensor`.
 Scan tilted(const Scan& level, const Eigen::Matrix3f& level_from_sensor) {
     Scan scan;
     for (std::size_t i = 0; i < level.size(); ++i) {
@@ -52,7 +52,7 @@ TEST_F(GroundBelowTest, TiltedVehicleMeasuresAlongItsAxis) {
     const auto distance_m = below({}, 2, roll);
     ASSERT_TRUE(distance_m);
     EXPECT_NEAR(*distance_m, 2 / std::cos(0.2), 0.06);
-    // The vehicle is level: its sensor is mounted so.
+    // The vehicle is level; its sensor is mounted with a tilt.
     EXPECT_NEAR(*below({}, 2, roll, roll), 2, 0.06);
 }
 

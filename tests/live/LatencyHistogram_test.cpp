@@ -29,7 +29,7 @@ TEST(LatencyHistogram, QuantilesWithinTwoPercent) {
     EXPECT_EQ(histogram.count(), all_s.size());
 }
 
-TEST(LatencyHistogram, TakesAnyTime) {
+TEST(LatencyHistogram, AcceptsAnyTime) {
     LatencyHistogram histogram;
     EXPECT_TRUE(std::isnan(histogram.quantile_s(0.5)));
     EXPECT_EQ(histogram.max_s(), 0);

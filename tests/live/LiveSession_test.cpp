@@ -25,7 +25,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A source of given packets, without pauses but those asked for.
+/// A source of given packets, with explicit pauses only.
 class GivenPackets : public PacketSource {
  public:
     GivenPackets& add(const std::string& bytes, std::uint32_t from_ip = 0x0a000064) {
@@ -54,8 +54,8 @@ class GivenPackets : public PacketSource {
         packets_.push_back(packet);
         return *this;
     }
-    /// As a pause for the packets that follow, for which nobody waits. The others then come at
-    /// once, however busy the machine is.
+    /// A simulated pause before the following packets: arrival times change, but nothing waits. So
+    /// the timing does not depend on the load of the machine.
     GivenPackets& later(double seconds) {
         later_s_ += seconds;
         return *this;
@@ -73,7 +73,7 @@ class GivenPackets : public PacketSource {
         return Next::Packet;
     }
     bool isLive() const override { return is_live_; }
-    /// A sensor does not wait for what it sends to be labelled.
+    /// Like a sensor, does not wait for labels.
     GivenPackets& asSensor() {
         is_live_ = true;
         return *this;
@@ -161,7 +161,7 @@ TEST_F(LiveSessionTest, ReportsOtherOusterMode) {
     EXPECT_EQ(remarks_[3], remarks_[1]);
 }
 
-/// Both send, though nothing of it is of use: neither is silent, so none takes the other's place.
+/// Both sensors send unusable packets: neither is silent, so neither replaces the other.
 TEST_F(LiveSessionTest, SensorInOtherModeIsNotSilent) {
     const test::TemporaryFolder folder;
     options_.model = "";
@@ -206,7 +206,7 @@ TEST_F(LiveSessionTest, CountsEachPacketOnce) {
     GivenPackets source;
     source.addAll(packets);
     source.add(std::string(512, 'p'));                // a position packet
-    source.add("hello").add(std::string(1206, 'x'));  // something else
+    source.add("hello").add(std::string(1206, 'x'));  // noise
     source.add(turnsOf(1, 0, "HDL-32E")[0]);          // another model
     source.add(turnsOf(1, 9000000)[0], 0x0a000065);   // another VLP-16
     const LiveReport report = run(source);
@@ -225,15 +225,15 @@ TEST_F(LiveSessionTest, CountsEachPacketOnce) {
     const int sector = (360 - 21) / 5;
     EXPECT_NEAR(report.nearest_m[sector], 8.35, 0.3);
     EXPECT_TRUE(std::isinf(report.nearest_m[(sector + 36) % 72]));
-    // On a machine that gave it no processor for a while, this is stale, the sensor was silent or
-    // turned slowly, and the other VLP-16 may be taken for it, rightly.
+    // Starved of CPU time, the session correctly sees stale data, a silent or slow sensor, and may
+    // switch to the other VLP-16.
     if (report.seconds > 0.25) GTEST_SKIP() << "this machine is too slow at the moment";
     EXPECT_EQ(report.other_sensor, 2u);
     EXPECT_EQ(report.latest[sector].state, SectorDistances::State::Obstacle);
     EXPECT_THAT(remarks_, IsEmpty());
 }
 
-TEST_F(LiveSessionTest, ReportsSilenceAndReturn) {
+TEST_F(LiveSessionTest, ReportsStartAndEndOfSilence) {
     GivenPackets source;
     auto turn = turnsOf(1);
     turn.resize(74);  // not a whole number of sectors
@@ -289,14 +289,14 @@ TEST_F(LiveSessionTest, ForeignPacketsDoNotDelayLabels) {
 }
 
 /// After a backlog, the newest packets are labelled first.
-TEST_F(LiveSessionTest, DropsPacketsThatWaitedTooLong) {
+TEST_F(LiveSessionTest, DropsPacketsOfOldBacklog) {
     GivenPackets source;
     source.addAll(turnsOf(20)).pause(0.7).addAll(turnsOf(1, 4000000)).asSensor();
     first_sector_takes_ = std::chrono::milliseconds(500);
     const LiveReport report = run(source);
     EXPECT_EQ(report.packets + report.dropped, 21u * 76);
     EXPECT_GT(report.dropped, 19u * 76);
-    EXPECT_GE(report.packets, 20u);  // all that the first sector had are four
+    EXPECT_GE(report.packets, 20u);  // the first sector had only 4
     EXPECT_EQ(report.silences, 0u);
     EXPECT_THAT(remarks_, testing::ElementsAre(HasSubstr("dropping packets that waited")));
 }
@@ -305,7 +305,7 @@ TEST_F(LiveSessionTest, ReportsOverloadWithoutRateChange) {
     std::vector<std::vector<std::string>> turns;
     for (std::uint32_t k = 0; k < 22; ++k) turns.push_back(turnsOf(1, 1000000 + 100000 * k));
     GivenPackets source;
-    source.later(0.3);  // a busy machine may be late by so much
+    source.later(0.3);  // tolerated delay on a busy machine
     for (const auto& turn : turns) source.addAll(turn).later(0.1).pause(0.1);
     source.asSensor();
     LiveListener listener;
@@ -364,7 +364,7 @@ TEST_F(LiveSessionTest, CountsPacketsWaitingAtEnd) {
     EXPECT_LT(report.datagrams, packets.size());
 }
 
-/// The datagrams of a capture: payload, and everything else as text.
+/// The datagrams of a capture: payload, and all metadata as text.
 std::vector<std::pair<std::string, std::string>> datagramsIn(const std::filesystem::path& file) {
     std::vector<std::pair<std::string, std::string>> all;
     sensors::CaptureFile capture(file);
@@ -403,7 +403,7 @@ TEST_F(LiveRecordingTest, RecordsEveryDatagramAsReceived) {
     }
 }
 
-TEST_F(LiveRecordingTest, CountsDatagramsThatTheDiskMissed) {
+TEST_F(LiveRecordingTest, CountsDatagramsDroppedBySlowDisk) {
     options_.recording.queue = 1;
     GivenPackets source;
     source.addAll(turnsOf(20)).asSensor();
@@ -415,7 +415,7 @@ TEST_F(LiveRecordingTest, CountsDatagramsThatTheDiskMissed) {
     EXPECT_THAT(remarks_, Contains(HasSubstr("the disk is too slow")));
 }
 
-TEST_F(LiveRecordingTest, ReplayWaitsForTheDisk) {
+TEST_F(LiveRecordingTest, ReplayWaitsForDisk) {
     options_.recording.queue = 1;
     GivenPackets source;
     EXPECT_EQ(run(source.addAll(turnsOf(20))).recorded.packets, 20u * 76);
@@ -435,8 +435,8 @@ TEST_F(LiveRecordingTest, KeepsExistingFiles) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "b.pcap"));
 }
 
-/// Of a vehicle that is rolled by 0.2, with a sensor that is pitched by 0.3 on it.
-TEST_F(LiveRecordingTest, WritesPosesInPacketTime) {
+/// The vehicle is rolled by 0.2; its sensor is mounted with a pitch of 0.3.
+TEST_F(LiveRecordingTest, StampsPosesWithPacketTimes) {
     options_.settings.mount.pitch_rad = 0.3f;
     const Eigen::Quaterniond rolled(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()));
     LiveListener listener;

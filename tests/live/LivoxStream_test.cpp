@@ -46,7 +46,7 @@ class LivoxStreamTest : public testing::Test {
         }};
 };
 
-TEST_F(LivoxStreamTest, FramesAreTwentyMilliseconds) {
+TEST_F(LivoxStreamTest, FramesLastTwentyMilliseconds) {
     for (int i = 0; i < 420; ++i) {
         EXPECT_EQ(add(packetOf(i, 1000000000 + kPacket_ns * i), 1e-9 * kPacket_ns * i), Taken::Yes);
     }
@@ -68,20 +68,19 @@ TEST_F(LivoxStreamTest, CountsLossesDuplicatesAndJumps) {
     };
     double time_s = 0;
     for (const int i : {0, 1, 1, 2, 5, 6, 8, 7, 9}) add(packet(i), time_s += 5e-4);
-    for (const int i : {10, 11, 12, 13}) {  // the clock was set
+    for (const int i : {10, 11, 12, 13}) {  // the clock was stepped
         add(packet(i, -4000000000), time_s += 5e-4);
     }
     const auto& counts = stream_.counts();
     EXPECT_EQ(counts.duplicate, 1u);
     EXPECT_EQ(counts.lost, 2u);
-    EXPECT_EQ(counts.late, 4u);  // three before the set clock is known
+    EXPECT_EQ(counts.late, 4u);  // three before the clock step is detected
     EXPECT_EQ(counts.interruptions, 1u);
     EXPECT_EQ(counts.packets, 9u);
 }
 
-/// As PTP does. The packets that follow are as new as before: neither are they late, nor do they
-/// wait for a clock that has stood here already.
-TEST_F(LivoxStreamTest, ClockSetBackDelaysNothing) {
+/// As by PTP. Later packets are neither late nor held back until the clock has caught up.
+TEST_F(LivoxStreamTest, ClockStepBackDoesNotDelayPackets) {
     for (const std::int64_t back_ns : {20000000, 200000000, 900000000, 2000000000}) {
         frames_.clear();
         LidarStream stream(sensors::makeDriver("Mid-360"), {},
@@ -108,8 +107,8 @@ TEST_F(LivoxStreamTest, ClockSetBackDelaysNothing) {
     }
 }
 
-/// Each packet arrives twice, as over a second network: at once, or after the next ones.
-TEST_F(LivoxStreamTest, ClockSetBackWithDuplicatesDelaysNothing) {
+/// Each packet arrives twice, as over a second network: immediately or after the next ones.
+TEST_F(LivoxStreamTest, ClockStepBackToleratesDuplicates) {
     for (const std::int64_t back_ns : {20000000, 200000000, 2000000000}) {
         for (const int later : {0, 1, 3}) {
             LidarStream stream(sensors::makeDriver("Mid-360"), {}, [](const LabelledSector&) {});
@@ -124,7 +123,7 @@ TEST_F(LivoxStreamTest, ClockSetBackWithDuplicatesDelaysNothing) {
                 EXPECT_EQ(addTo(i - later, i), Taken::Duplicate);
             }
             EXPECT_EQ(stream.counts().interruptions, 1u) << back_ns << " " << later;
-            // Copies of before come between the first ones.
+            // Copies from before the step arrive between the first packets after it.
             const auto too_late = static_cast<std::size_t>(3 + later);
             EXPECT_EQ(stream.counts().too_late, too_late) << back_ns << " " << later;
             EXPECT_EQ(stream.counts().packets, 1000 - too_late) << back_ns << " " << later;
@@ -132,7 +131,7 @@ TEST_F(LivoxStreamTest, ClockSetBackWithDuplicatesDelaysNothing) {
     }
 }
 
-/// Packets that were delayed by a network are older than those that arrive with them.
+/// Packets delayed by a network are older than those arriving with them.
 TEST_F(LivoxStreamTest, DropsPacketsFarTooLate) {
     const auto packet = [](int i) { return packetOf(i, 5000000000 + kPacket_ns * i); };
     double time_s = 0;
@@ -154,8 +153,8 @@ TEST_F(LivoxStreamTest, DropsPacketsFarTooLate) {
     EXPECT_EQ(stream_.counts().interruptions, 0u);
 }
 
-/// A frame in progress does not wait for what comes after a silence.
-TEST_F(LivoxStreamTest, FrameBeforeSilenceStaysOld) {
+/// A frame in progress does not extend beyond a silence.
+TEST_F(LivoxStreamTest, FrameEndsAtSilence) {
     SectorDistances distances(sensorModel("Mid-360"));
     LidarStream stream(sensors::makeDriver("Mid-360"), {}, [&](const LabelledSector& sector) {
         frames_.push_back({sector.returns.size(), 0, 0, sector.first_time_s, sector.last_time_s,
@@ -180,13 +179,13 @@ TEST_F(LivoxStreamTest, FrameBeforeSilenceStaysOld) {
     for (const auto& sector : distances.at(now_s)) {
         EXPECT_EQ(sector.state, SectorDistances::State::Unknown);
     }
-    // A frame is as old as its first packet.
+    // A frame spans its first to its last packet.
     for (std::size_t i = 0; i < before; ++i) {
         EXPECT_NEAR(frames_[i].last_s - frames_[i].first_s, 0.0197, 0.001);
     }
 }
 
-/// Of ten packets six are lost and four arrive twice: four tenths were measured.
+/// Of ten packets, six are lost and four arrive twice: 40 % was measured.
 TEST_F(LivoxStreamTest, DuplicatesDoNotReplaceLostPackets) {
     double measured_s = 0;
     SectorDistances distances(sensorModel("Mid-360"));
@@ -218,8 +217,8 @@ TEST_F(LivoxStreamTest, DuplicatesDoNotReplaceLostPackets) {
     }
 }
 
-/// What is near may be an obstacle, as long as little is known around.
-TEST_F(LivoxStreamTest, MostPacketsLostMeansNoGround) {
+/// With few returns around it, a near return may be an obstacle.
+TEST_F(LivoxStreamTest, HeavyPacketLossMakesSectorsDoubtful) {
     double measured_s = 0;
     std::size_t sectors = 0, doubtful = 0;
     const auto fly = [&](int every) {

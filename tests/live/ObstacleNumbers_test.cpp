@@ -28,7 +28,7 @@ Directions directionsOf(const std::vector<Seen>& all) {
 
 TEST(ObstacleNumbers, MergesNeighboursWithinOneMetre) {
     ObstacleNumbers numbers;
-    // One across straight ahead, one at 90 degrees, two neighbours 3 m apart.
+    // One obstacle around 0 degrees, one at 90 degrees, two neighbours 3 m apart.
     const auto found = numbers.nearest(
         directionsOf({{71, 5.2}, {0, 5}, {1, 5.1}, {18, 8}, {40, 6}, {41, 9}}), 10, {});
     ASSERT_EQ(found.size(), 4u);
@@ -39,7 +39,7 @@ TEST(ObstacleNumbers, MergesNeighboursWithinOneMetre) {
     EXPECT_NEAR(found[3].at_m.norm(), std::hypot(9, 0.5), 1e-4);
 }
 
-TEST(ObstacleNumbers, RoomIsOneObstacle) {
+TEST(ObstacleNumbers, RoomIsSingleObstacle) {
     std::vector<Seen> all;
     for (std::size_t k = 0; k < 72; ++k) all.push_back({k, k == 50 ? 3.8 : 4.0});
     ObstacleNumbers numbers;
@@ -51,13 +51,13 @@ TEST(ObstacleNumbers, RoomIsOneObstacle) {
 TEST(ObstacleNumbers, NumberFollowsSlowObstacle) {
     ObstacleNumbers numbers;
     const auto first = numbers.nearest(directionsOf({{0, 5}, {18, 8}, {40, 6}}), 10, {});
-    // They come nearer, and the order changes.
+    // They approach, and their order changes.
     const auto second = numbers.nearest(directionsOf({{0, 7.0 - 1}, {18, 6.6}, {40, 5.5}}), 10, {});
     ASSERT_EQ(second.size(), 3u);
     EXPECT_EQ(second[0].number, first[1].number);
     EXPECT_EQ(second[1].number, first[0].number);
     EXPECT_EQ(second[2].number, first[2].number);
-    // Another one at another place.
+    // Another obstacle at another position.
     const auto third = numbers.nearest(directionsOf({{60, 5}}), 10, {});
     for (const Obstacle& obstacle : second) EXPECT_NE(third[0].number, obstacle.number);
 }
@@ -66,7 +66,7 @@ TEST(ObstacleNumbers, TurningVehicleKeepsNumbers) {
     ObstacleNumbers numbers;
     VehiclePose pose;
     const auto first = numbers.nearest(directionsOf({{0, 8}, {6, 8}}), 10, pose);
-    // It turns clockwise by 30 degrees: what was on the right is ahead now.
+    // The vehicle turns clockwise by 30 degrees: obstacles on the right are now ahead.
     pose.map_from_vehicle = Eigen::AngleAxisd(radians(-30), Eigen::Vector3d::UnitZ());
     const auto second = numbers.nearest(directionsOf({{66, 8}, {0, 8.1}}), 10, pose);
     ASSERT_EQ(second.size(), 2u);

@@ -32,7 +32,7 @@ Settings settingsOfFourBeams() {
 
 class OusterStreamTest : public testing::Test {
  protected:
-    /// Frame `id`, packet by packet; they are of 16 columns of 64.
+    /// The packets of frame `id`, with 16 of its 64 columns each.
     std::vector<std::string> packetsOf(std::uint16_t id) {
         frames_.push_back(test::randomFrame(sensor_, id));
         return test::packetsOf(sensor_, frames_.back());
@@ -89,7 +89,7 @@ TEST_F(OusterStreamTest, SectorsHaveBeamOffsets) {
     EXPECT_NEAR(degrees(offsets.ahead_rad), 3, 1e-9);
 }
 
-/// The returns of a packet are where its sweep is.
+/// The returns of a packet lie within its sweep.
 TEST_F(OusterStreamTest, SweepMatchesReturns) {
     bool is_checked = false;
     LidarStream stream(
@@ -117,7 +117,7 @@ TEST_F(OusterStreamTest, CountsLossesDuplicatesAndLatePackets) {
     const auto second = packetsOf(2);
     add(second[0]);
     EXPECT_EQ(add(second[0]), Taken::Duplicate);
-    add(second[2]);  // number 1 comes later
+    add(second[2]);  // number 1 arrives later
     EXPECT_EQ(add(second[1]), Taken::Yes);
     // Number 3 is lost.
     for (int id = 3; id < 6; ++id) {
@@ -126,11 +126,11 @@ TEST_F(OusterStreamTest, CountsLossesDuplicatesAndLatePackets) {
     EXPECT_EQ(stream_.counts().duplicate, 1u);
     EXPECT_EQ(stream_.counts().late, 1u);
     EXPECT_EQ(stream_.counts().lost, 1u);
-    EXPECT_EQ(add(second[3]), Taken::TooLate);  // its turn is complete
+    EXPECT_EQ(add(second[3]), Taken::TooLate);  // its frame is complete
     EXPECT_EQ(stream_.counts().too_late, 1u);
 }
 
-/// Where the sensor says that a column is invalid, it has not looked: that is no part of a sweep.
+/// Columns marked as invalid by the sensor were not measured and are not part of a sweep.
 TEST_F(OusterStreamTest, InvalidColumnsAreNotSwept) {
     frames_.push_back(test::randomFrame(sensor_, 1));
     OusterFrame& frame = frames_.back();
@@ -153,7 +153,7 @@ TEST_F(OusterStreamTest, InvalidColumnsAreNotSwept) {
     EXPECT_EQ(stream_.counts().unsound, 1u);
 }
 
-TEST_F(OusterStreamTest, LabelsAgainAfterRestart) {
+TEST_F(OusterStreamTest, ResumesAfterRestart) {
     for (int id = 300; id < 310; ++id) {
         for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) add(packet);
     }
@@ -203,7 +203,7 @@ TEST_F(OusterStreamTest, RejectsOtherDatagrams) {
     EXPECT_EQ(stream_.segmenter().sectors(), 0u);
 }
 
-/// Its columns would be placed in wrong directions: nothing is known of any.
+/// Columns would be placed in wrong directions, so all directions are unknown.
 TEST(OusterStreams, DropsOtherModeInFlight) {
     for (const test::OusterMode& mode : {test::OusterMode{2048, 10}, test::OusterMode{512, 10}}) {
         const OusterSensor sensor = sensors::ousterSensorOf(test::ousterJsonOf({1024, 10}), "test");
@@ -248,7 +248,7 @@ TEST(OusterStreams, DropsOtherModeInFlight) {
 
 TEST(OusterStreams, RealCaptureLabelsMatchWholeTurns) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA is not a folder of captures";
     const OusterSensor sensor = sensors::readOusterSensor(folder / "OS-1-128_v2.3.0_1024x10.json");
     std::vector<Label> labels;
     LidarStream stream(makeOusterDriver(sensor), {}, [&](const LabelledSector& sector) {
@@ -271,7 +271,7 @@ TEST(OusterStreams, RealCaptureLabelsMatchWholeTurns) {
         const std::vector<Label> whole = filter.segment(scan).returns.label;
         ASSERT_LE(at + whole.size(), labels.size());
         for (std::size_t i = 0; i < whole.size(); ++i, ++at) {
-            if (turn == 0) continue;  // before half a turn is known, all is RoI
+            if (turn == 0) continue;  // all returns are RoI until half a turn is known
             ++compared;
             same += labels[at] == whole[i];
             const bool is_near = whole[i] == Label::Roi && scan.range_m[i] < 5;

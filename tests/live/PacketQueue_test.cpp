@@ -46,7 +46,7 @@ TEST(PacketQueue, AllocatesForWaitingPacketsOnly) {
         }
         for (int i = 0; i < 3; ++i) ASSERT_EQ(queue.pop(taken, kSoon), Popped::Packet);
     }
-    EXPECT_LE(memory.size(), 5u);  // three that wait, and one on either side
+    EXPECT_LE(memory.size(), 5u);  // three waiting packets, and one on either side
 }
 
 TEST(PacketQueue, DrainsAfterClose) {
@@ -62,7 +62,7 @@ TEST(PacketQueue, DrainsAfterClose) {
     EXPECT_EQ(queue.pop(packet, kSoon), Popped::Closed);
 }
 
-TEST(PacketQueue, LosesNothingBetweenThreads) {
+TEST(PacketQueue, LosesNoPacketBetweenThreads) {
     PacketQueue queue(4);
     std::thread sender([&] {
         for (int i = 0; i < 5000; ++i) {

@@ -18,7 +18,7 @@ namespace {
 using Next = PacketSource::Next;
 using testing::HasSubstr;
 
-/// A socket that sends to a port of this machine.
+/// A socket that sends to a local port.
 class Sender {
  public:
     Sender() : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {}
@@ -63,11 +63,11 @@ TEST(Address, ReadsOrRejectsText) {
     }
 }
 
-/// A second of an HDL-64E, or as much as the system gives; Linux adds as much for itself.
+/// One second of an HDL-64E, or the system's maximum; Linux doubles the size for its own use.
 TEST(UdpSource, RequestsLargeBuffer) {
     int most = 0;
     std::ifstream("/proc/sys/net/core/rmem_max") >> most;
-    if (most == 0) GTEST_SKIP() << "the system does not report the maximum size of buffers";
+    if (most == 0) GTEST_SKIP() << "the system does not report the maximum buffer size";
     const UdpSource source({0x7f000001, freePort()});
     EXPECT_GE(source.bufferBytes(), 2 * std::min(most, 8 << 20));
 }
@@ -98,12 +98,12 @@ TEST(UdpSource, ReceivesDatagrams) {
     EXPECT_EQ(packet.bytes.size(), 9000u);
 }
 
-/// A process that was stopped: what is in the buffer is old.
+/// After a stop of the process, packets in the buffer are old.
 TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
     const std::uint16_t port = test::freePort();
     UdpSource source({0x7f000001, port});
     const test::LocalUdp sender;
-    // The kernel begins to note times of arrival a moment after the first socket asks for them.
+    // The kernel enables arrival times shortly after the first socket requests them.
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     sender.send(std::string("abc"), test::localAddress(port));
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
@@ -116,7 +116,7 @@ TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
     EXPECT_GE(second.arrival_s - first.arrival_s, 0.59);
 }
 
-TEST(UdpSource, NamesUnusableAddress) {
+TEST(UdpSource, ReportsUnusableAddress) {
     const std::uint16_t port = test::freePort();
     const UdpSource source({0x7f000001, port});
     EXPECT_THAT(test::messageOf([&] {
@@ -144,7 +144,7 @@ TEST(ReplaySource, ReplaysAtRecordedPace) {
         int count = 0;
         for (Next next = source.next(packet); next != Next::End; next = source.next(packet)) {
             if (next == Next::Nothing) continue;
-            // Not earlier; later by what a busy machine takes.
+            // Never early; a busy machine may be late.
             EXPECT_GE(steadyNow_s() - start_s, 0.1 * count / speed - 0.001);
             EXPECT_EQ(packet.bytes[0], 'a' + count);
             EXPECT_NEAR(1e-9 * static_cast<double>(packet.time_ns), 1700000000 + 0.1 * count, 1e-4);
@@ -154,7 +154,7 @@ TEST(ReplaySource, ReplaysAtRecordedPace) {
     }
 }
 
-/// A reader must be able to stop within a long run of frames without datagrams.
+/// A reader must be able to stop during a long run of frames without datagrams.
 TEST(ReplaySource, LongSearchContinuesInNextCall) {
     const test::TemporaryFolder folder;
     const auto file = test::CaptureWriter().write(folder / "a.pcap");
@@ -168,7 +168,7 @@ TEST(ReplaySource, LongSearchContinuesInNextCall) {
     }
 }
 
-/// A clock that is set is no pause, nor are hours without a sensor.
+/// Clock steps and hours without a sensor are not replayed as pauses.
 TEST(ReplaySource, SkipsLongPauses) {
     const test::TemporaryFolder folder;
     test::CaptureWriter writer;

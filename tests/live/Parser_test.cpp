@@ -57,7 +57,7 @@ TEST_F(ParserTest, TruncatedFieldsAreZero) {
     EXPECT_EQ(messageOf<Attitude>(frames_[1])->roll, 0);
 }
 
-TEST_F(ParserTest, WrongByteLosesOneMessage) {
+TEST_F(ParserTest, WrongByteDropsOneMessage) {
     const Bytes sound = attitude(1);
     for (std::size_t i = 0; i < sound.size(); ++i) {
         for (const int flip : {0x01, 0x80, 0xff}) {
@@ -82,7 +82,7 @@ TEST_F(ParserTest, SkipsGarbage) {
         for (int k = 0; k < 8; ++k) {
             const std::size_t noise = random() % 40;
             for (std::size_t i = 0; i < noise; ++i) {
-                // Many starts of messages among them.
+                // Many noise bytes look like the start of a message.
                 bytes.push_back(static_cast<std::uint8_t>(random() % 4 == 0 ? 0xfd : random()));
             }
             const Bytes message = attitude(static_cast<std::uint8_t>(k));
@@ -112,7 +112,7 @@ TEST_F(ParserTest, RejectsRandomBytes) {
     Bytes bytes(200000);
     for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
     add(bytes);
-    // One in 65536 of what begins like a message has a right checksum by chance.
+    // By chance, 1 in 65536 message-like sequences has a correct checksum.
     EXPECT_LE(frames_.size(), 1u);
     add(attitude(0));
     parser_.end(take_);
@@ -122,7 +122,7 @@ TEST_F(ParserTest, RejectsRandomBytes) {
 
 TEST_F(ParserTest, SkipsSignature) {
     Bytes bytes = attitude(0);
-    bytes[2] = 1;  // signed: the checksum is another one
+    bytes[2] = 1;  // signed, which changes the checksum
     bytes.resize(bytes.size() - 2);
     const std::uint8_t extra = Attitude::kCrcExtra;
     const std::uint16_t crc = checksum(&extra, 1, checksum(&bytes[1], bytes.size() - 1));

@@ -26,7 +26,7 @@ namespace {
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
-TEST(ParsePeer, ReadsBothKinds) {
+TEST(ParsePeer, ReadsUdpAndSerialPeers) {
     const PeerAddress udp = parsePeer("udp:192.168.1.10:14550");
     EXPECT_EQ(udp.kind, PeerAddress::Kind::Udp);
     EXPECT_EQ(udp.host, "192.168.1.10");
@@ -57,7 +57,7 @@ TEST(ParsePeer, ReportsErrors) {
     EXPECT_THAT(messageOf("serial:/dev/ttyS0:57600"), HasSubstr("at least 115200 baud"));
 }
 
-TEST(PeerOpen, NamesMissingPeer) {
+TEST(PeerOpen, ReportsMissingPeer) {
     EXPECT_THAT(test::messageOf([] { Peer::open(parsePeer("serial:/dev/none:115200")); }),
                 HasSubstr("/dev/none: cannot be used: No such file"));
     EXPECT_THAT(test::messageOf([] { Peer::open(parsePeer("serial:/dev/null:115200")); }),
@@ -108,7 +108,7 @@ TEST(UdpPeer, SendsAndReceives) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
-/// 0.0.0.0 is this machine, which answers from 127.0.0.1. Datagrams of others are ignored.
+/// 0.0.0.0 is this machine, which replies from 127.0.0.1. Datagrams of other senders are ignored.
 TEST(UdpPeer, IgnoresOtherSenders) {
     UdpEnd other;
     const auto peer = Peer::open(parsePeer("udp:0.0.0.0:" + std::to_string(other.port())));
@@ -120,7 +120,7 @@ TEST(UdpPeer, IgnoresOtherSenders) {
     EXPECT_EQ(received(*peer), Bytes{2});
 }
 
-/// After two seconds it looks for another way to the peer, and is the same to it.
+/// After 2 s, the peer is reconnected from the same port.
 TEST(UdpPeer, ReconnectsFromSamePort) {
     UdpEnd other;
     const auto peer = peerAt(other.port());
@@ -155,7 +155,7 @@ TEST(UdpPeer, SurvivesRefusedConnection) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
-/// A time that has just passed is waited for as none, not without an end.
+/// A negative timeout means no wait rather than an infinite one.
 void expectNoWait(Peer& peer) {
     for (const double longest_s : {0.0, -0.0005, -0.002, -1e300, std::nan("")}) {
         std::array<std::uint8_t, 16> buffer{};
@@ -165,8 +165,8 @@ void expectNoWait(Peer& peer) {
             [&] { received.set_value(peer.receive(buffer.data(), buffer.size(), longest_s)); });
         const bool has_ended = size.wait_for(std::chrono::seconds(5)) == std::future_status::ready;
         if (!has_ended) {
-            ADD_FAILURE() << "waits for ever: " << longest_s;
-            std::exit(1);  // nothing ends that thread
+            ADD_FAILURE() << "waits forever: " << longest_s;
+            std::exit(1);  // the thread cannot be stopped
         }
         waits.join();
         EXPECT_EQ(size.get(), 0u);
@@ -178,7 +178,7 @@ TEST(UdpPeer, ReturnsAtOncePastDeadline) {
     expectNoWait(*peerAt(other.port()));
 }
 
-/// A serial line whose other end is this test.
+/// A serial line connected to this test.
 class Line {
  public:
     explicit Line(const std::filesystem::path& name)
@@ -219,7 +219,7 @@ class SerialPeerTest : public testing::Test {
 TEST_F(SerialPeerTest, SurvivesUnpluggedLine) {
     const auto peer = open();
     EXPECT_FALSE(peer->hasDatagrams());
-    // Those that a terminal would translate or obey.
+    // Bytes that a terminal would translate or interpret.
     const Bytes special{0x03, 0x04, '\n', '\r', 0x11, 0x13, 0x7f, 0xfd, 0xff, 0x00};
     EXPECT_TRUE(peer->send(special));
     EXPECT_EQ(line_->receive(64), special);
@@ -247,10 +247,10 @@ TEST_F(SerialPeerTest, ReturnsAtOncePastDeadline) {
     expectNoWait(*peer);
 }
 
-/// A service may be started without standard input: the line then has the descriptor 0.
+/// If a service starts without standard input, the line gets descriptor 0.
 TEST_F(SerialPeerTest, WorksAsFileDescriptorZero) {
     const int input = dup(0);
-    if (input < 0) GTEST_SKIP() << "there is none";
+    if (input < 0) GTEST_SKIP() << "standard input is closed";
     close(0);
     {
         const auto peer = open();
@@ -276,7 +276,7 @@ TEST_F(SerialPeerTest, SendsWholeMessagesOnly) {
     for (int i = 0; i < 400 && all.size() < (sent + 1u) * size; ++i) {
         const Bytes part = line_->receive(4096);
         all.insert(all.end(), part.begin(), part.end());
-        // The rest of one that has begun goes first.
+        // The rest of a started message is sent first.
         if (peer->send(Bytes(size, sent))) break;
     }
     while (all.size() < (sent + 1u) * size) {
@@ -308,7 +308,7 @@ TEST_F(SerialPeerTest, ReportsBlockedLineAndDropsBacklog) {
         ASSERT_FALSE(part.empty());
         all.insert(all.end(), part.begin(), part.end());
     }
-    // The other end of a pseudoterminal keeps what it has taken over.
+    // The other end of a pseudoterminal keeps the bytes it has accepted.
     EXPECT_LT(all.size(), sent * kSize / 2);
     EXPECT_EQ(std::count(all.begin(), all.end(), 4), static_cast<std::ptrdiff_t>(kSize));
     for (int i = 0; i < 40 && !peer->trouble().empty(); ++i) {

@@ -12,8 +12,7 @@ struct Scheduling {
     int policy, priority;
 };
 
-/// The priority of a thread after lowerPriority(); policy -1 where the
-/// system allows none that is real-time.
+/// Priority of a thread after lowerPriority(); policy -1 if real-time priority is not permitted.
 Scheduling after(Scheduling before) {
     Scheduling result{-1, 0};
     std::thread([&] {
@@ -29,11 +28,11 @@ Scheduling after(Scheduling before) {
 
 TEST(Priority, LowersRealTimePriority) {
     const Scheduling fifo = after({SCHED_FIFO, 10});
-    if (fifo.policy < 0) GTEST_SKIP() << "no real-time priority is allowed here";
+    if (fifo.policy < 0) GTEST_SKIP() << "real-time priorities are not permitted";
     EXPECT_EQ(fifo.policy, SCHED_FIFO);
     EXPECT_EQ(fifo.priority, 9);
     EXPECT_EQ(after({SCHED_RR, 2}).priority, 1);
-    EXPECT_EQ(after({SCHED_RR, 1}).priority, 1);  // there is none below
+    EXPECT_EQ(after({SCHED_RR, 1}).priority, 1);  // already the minimum
 }
 
 TEST(Priority, KeepsOtherThreads) {

@@ -16,7 +16,7 @@ constexpr double kTurn_rad = 2 * kPi;
 double turned_deg(double rad) { return rad < 0 ? degrees(rad) + 360 : degrees(rad); }
 
 struct Point {
-    double azimuth_deg, distance_m;  ///< clockwise from ahead; horizontal
+    double azimuth_deg, distance_m;  ///< clockwise from ahead; horizontal distance
     Label label = Label::Roi;
     float z_m = 0;
 };
@@ -70,8 +70,8 @@ TEST_F(SectorDistancesTest, LostPacketIsUnknown) {
     EXPECT_EQ(distances.at(1.1)[2].state, State::SeenNothing);
 }
 
-/// A packet of a degree, as of an HDL-32E with two returns per firing.
-TEST_F(SectorDistancesTest, NarrowLostPacketIsNotPassed) {
+/// A packet of 1 degree, as from an HDL-32E with dual returns.
+TEST_F(SectorDistancesTest, NarrowLostPacketKeepsObstacle) {
     for (const double lost_deg : {12.0, 12.2, 12.5, 12.9}) {
         SectorDistances distances(sensor_);
         turn(0, 0.1, {{lost_deg + 0.5, 5}}, distances);
@@ -95,8 +95,8 @@ TEST_F(SectorDistancesTest, KeepsObstacleOfPacketLostTwice) {
     EXPECT_NEAR(distances.at(0.15)[2].distance_m, 4, 1e-4);
 }
 
-/// Packets of an Ouster with 512 columns, 11 degrees wide: 16 of them are half a turn.
-TEST_F(SectorDistancesTest, LatePacketDoesNotPassItsTurn) {
+/// Packets of an Ouster with 512 columns are 11 degrees wide: 16 packets are half a turn.
+TEST_F(SectorDistancesTest, LatePacketDoesNotRemoveObstacle) {
     const auto sweepOf = [](int k) { return Sweep{radians(11.25 * k), radians(11.25 * (k + 1))}; };
     for (const int late : {1, 14, 15, 16}) {
         SectorDistances distances(sensor_);
@@ -146,14 +146,14 @@ TEST_F(SectorDistancesTest, SectorsAreClockwiseFromAhead) {
     }
 }
 
-TEST_F(SectorDistancesTest, StaleIsNeverFree) {
+TEST_F(SectorDistancesTest, StaleDirectionsAreNotFree) {
     SectorDistances distances(sensor_);
     turn(0, 0.1, {{32, 5}}, distances);
     EXPECT_EQ(distances.at(0.29)[0].state, State::SeenNothing);
     EXPECT_EQ(distances.at(0.31)[0].state, State::Unknown);
     EXPECT_EQ(distances.at(0.29)[6].state, State::Obstacle);
     EXPECT_EQ(distances.at(0.5)[6].state, State::Unknown);
-    // A clock that goes back: the future is not fresh.
+    // If the clock steps back, future data are not fresh.
     EXPECT_EQ(distances.at(-1)[6].state, State::Unknown);
     EXPECT_EQ(distances.at(-1)[0].state, State::Unknown);
 }
@@ -170,20 +170,20 @@ TEST_F(SectorDistancesTest, ForgetsTurnsBeforeClockJump) {
     }
 }
 
-TEST_F(SectorDistancesTest, PartOfSectorIsNotFree) {
+TEST_F(SectorDistancesTest, PartlySweptDirectionIsNotFree) {
     SectorDistances distances(sensor_);
     take(0, 13, 1, {{11, 4}}, distances);
     const auto at = distances.at(1);
     EXPECT_EQ(at[0].state, State::SeenNothing);
     EXPECT_EQ(at[1].state, State::SeenNothing);
-    EXPECT_EQ(at[2].state, State::Obstacle);  // what is known of it
+    EXPECT_EQ(at[2].state, State::Obstacle);  // seen in the swept part
     EXPECT_EQ(at[3].state, State::Unknown);
     SectorDistances others(sensor_);
     take(0, 13, 1, {}, others);
     EXPECT_EQ(others.at(1)[2].state, State::Unknown);
     take(13, 20, 1.01, {}, others);
     EXPECT_EQ(others.at(1.01)[2].state, State::SeenNothing);
-    EXPECT_EQ(others.at(1.01)[2].time_s, 1);  // of the older part
+    EXPECT_EQ(others.at(1.01)[2].time_s, 1);  // time of the older part
 }
 
 TEST_F(SectorDistancesTest, ObstacleAtSweepBorderStays) {
@@ -196,24 +196,24 @@ TEST_F(SectorDistancesTest, ObstacleAtSweepBorderStays) {
 }
 
 TEST_F(SectorDistancesTest, NextTurnReplacesLast) {
-    for (const double turn_s : {0.05, 0.1, 0.2}) {  // 20, 10 and 5 times per second
+    for (const double turn_s : {0.05, 0.1, 0.2}) {  // 20, 10 and 5 Hz
         SectorDistances distances(sensor_);
         turn(0, turn_s, {{47, 4}, {100, 3}}, distances);
         turn(1, turn_s, {{47, 8}}, distances);
         const auto at = distances.at(2 * turn_s);
-        EXPECT_NEAR(at[9].distance_m, 8, 1e-4) << turn_s;       // it went away
+        EXPECT_NEAR(at[9].distance_m, 8, 1e-4) << turn_s;       // it moved away
         EXPECT_EQ(at[20].state, State::SeenNothing) << turn_s;  // it is gone
     }
 }
 
 TEST_F(SectorDistancesTest, DistancesAreRelativeToBody) {
     SectorDistances::Settings settings;
-    // The sensor looks to the right of the body, half a metre ahead of its origin.
+    // The sensor faces right, 0.5 m ahead of the body's origin.
     settings.body_from_sensor =
         Eigen::Translation3d(0.5, 0, 0) * Eigen::AngleAxisd(-kPi / 2, Eigen::Vector3d::UnitZ());
     SectorDistances distances(sensor_, settings);
     take(0, 20, 1, {}, distances);             // right of the body
-    take(260, 280, 1, {{271, 4}}, distances);  // ahead of it
+    take(260, 280, 1, {{271, 4}}, distances);  // ahead of the body
     const auto at = distances.at(1);
     EXPECT_EQ(at[19].state, State::SeenNothing);
     EXPECT_EQ(at[1].state, State::SeenNothing);
@@ -245,7 +245,7 @@ TEST_F(SectorDistancesTest, TiltedSensorLeavesHorizonUnknown) {
     EXPECT_EQ(at[18].state, State::SeenNothing);  // beside, they are level
 }
 
-/// The packet ends within the degree of the obstacle, which it has not reached yet.
+/// The packet ends within the obstacle's degree, before the obstacle.
 TEST_F(SectorDistancesTest, ObstacleStaysUntilPassed) {
     for (const double end_deg : {11.0, 11.25, 11.6, 11.9}) {
         SectorDistances distances(sensor_);
@@ -258,8 +258,8 @@ TEST_F(SectorDistancesTest, ObstacleStaysUntilPassed) {
     }
 }
 
-/// The sensor is 1 m ahead of the body: what it sees behind itself can be ahead of the body, whose
-/// direction the head passes up to half a turn later.
+/// The sensor is 1 m ahead of the body: an obstacle behind the sensor can be ahead of the body, a
+/// direction passed up to half a turn later.
 TEST_F(SectorDistancesTest, NearObstacleStaysForOffsetSensor) {
     for (const auto& [x_m, y_m] : {std::pair{0.3, 0.6}, {0.3, -0.6}, {0.6, 0.2}, {-0.5, 0.1}}) {
         SectorDistances::Settings settings;
@@ -269,10 +269,11 @@ TEST_F(SectorDistancesTest, NearObstacleStaysForOffsetSensor) {
         const Point near{azimuth_deg, std::hypot(x_m - 1, y_m)};
         const int bin = static_cast<int>(turned_deg(-std::atan2(y_m, x_m)) / 5);
         for (int k = 0; k < 72; ++k) {  // sectors of 20 degrees
-            const bool has_it = azimuth_deg >= 20 * (k % 18) && azimuth_deg < 20 * (k % 18 + 1);
+            const bool has_obstacle =
+                azimuth_deg >= 20 * (k % 18) && azimuth_deg < 20 * (k % 18 + 1);
             const double time_s = 0.1 * k / 18;
             take(20.0 * k, 20.0 * (k + 1), time_s,
-                 has_it ? std::vector{near} : std::vector<Point>{}, distances);
+                 has_obstacle ? std::vector{near} : std::vector<Point>{}, distances);
             if (k < 18) continue;
             EXPECT_EQ(distances.at(time_s + 0.005)[bin].state, State::Obstacle) << x_m << " " << k;
         }
@@ -286,12 +287,13 @@ TEST_F(SectorDistancesTest, OffsetSensorKeepsObstacleOfLostPacket) {
         SectorDistances distances(sensor_, settings);
         const double azimuth_deg = turned_deg(-std::atan2(y_m, x_m - 1));
         const int sector = static_cast<int>(turned_deg(-std::atan2(y_m, x_m)) / 5);
-        for (int k = 0; k < 54; ++k) {  // of 20 degrees
-            const bool has_it = azimuth_deg >= 20 * (k % 18) && azimuth_deg < 20 * (k % 18 + 1);
-            if (has_it && k >= 18) continue;
+        for (int k = 0; k < 54; ++k) {  // sectors of 20 degrees
+            const bool has_obstacle =
+                azimuth_deg >= 20 * (k % 18) && azimuth_deg < 20 * (k % 18 + 1);
+            if (has_obstacle && k >= 18) continue;
             const double time_s = 0.1 * k / 18;
             std::vector<Point> points;
-            if (has_it) points.push_back({azimuth_deg, std::hypot(x_m - 1, y_m)});
+            if (has_obstacle) points.push_back({azimuth_deg, std::hypot(x_m - 1, y_m)});
             take(20.0 * k, 20.0 * (k + 1), time_s, points, distances);
             if (k < 18) continue;
             EXPECT_NE(distances.at(time_s + 0.005)[sector].state, State::SeenNothing)
@@ -300,7 +302,7 @@ TEST_F(SectorDistancesTest, OffsetSensorKeepsObstacleOfLostPacket) {
     }
 }
 
-/// Nose down by 20 degrees, it looks at the low obstacle at 268 degrees at 272.3 of its own.
+/// Nose down by 20 degrees, the sensor sees the low obstacle at 268 degrees at its own 272.3.
 TEST_F(SectorDistancesTest, ObstacleBelowHorizonStays) {
     SectorDistances::Settings settings;
     settings.body_from_sensor = Eigen::AngleAxisd(radians(20.0), Eigen::Vector3d::UnitY());
@@ -314,15 +316,15 @@ TEST_F(SectorDistancesTest, ObstacleBelowHorizonStays) {
     int steps = 0;
     for (double from_deg = 0; from_deg < 1080; from_deg += 3, ++steps) {
         const double time_s = 0.1 * from_deg / 360;
-        const bool has_it =
+        const bool has_obstacle =
             std::fmod(from_deg, 360) <= azimuth_deg && azimuth_deg < std::fmod(from_deg, 360) + 3;
-        take(from_deg, from_deg + 3, time_s, has_it ? std::vector{low} : std::vector<Point>{},
+        take(from_deg, from_deg + 3, time_s, has_obstacle ? std::vector{low} : std::vector<Point>{},
              distances);
         if (from_deg < 360) continue;
         EXPECT_EQ(distances.at(time_s)[53].state, State::Obstacle) << from_deg;
     }
     EXPECT_EQ(steps, 360);
-    // A turn later it is gone.
+    // The next turn removes it.
     take(1080, 1440, 0.4, {}, distances);
     EXPECT_EQ(distances.at(0.41)[53].state, State::SeenNothing);
 }
@@ -342,7 +344,7 @@ TEST_F(SectorDistancesTest, FramesWithLossesAreUnknown) {
         takeFrames(measured_s, frames, distances);
         return distances.at(1 + 0.02 * frames)[9].state;
     };
-    EXPECT_EQ(stateAfter(0.02, 3), State::Unknown);  // not all around yet
+    EXPECT_EQ(stateAfter(0.02, 3), State::Unknown);  // not yet a full view
     EXPECT_EQ(stateAfter(0.02, 5), State::SeenNothing);
     EXPECT_EQ(stateAfter(0.018, 50), State::SeenNothing);
     EXPECT_EQ(stateAfter(0.012, 50), State::Unknown);
@@ -350,17 +352,16 @@ TEST_F(SectorDistancesTest, FramesWithLossesAreUnknown) {
     EXPECT_EQ(stateAfter(0, 50), State::Unknown);
 }
 
-/// A quarter of the packets of 0.3 s arrive together, after the network was
-/// blocked.
+/// A quarter of the packets of 0.3 s arrive together after a network outage.
 TEST_F(SectorDistancesTest, BurstOfFramesIsNotFullView) {
     const Scan scan;
     const std::vector<Label> labels;
     const auto stateAfter = [&](double measured_s) {
         SectorDistances distances(sensorModel("Mid-360"));
         for (int k = 0; k < 16; ++k) {
-            const double came_s = 1.3 + 1e-4 * k;
-            distances.take({scan, labels, std::nullopt, came_s, came_s, true, false, false, result_,
-                            nullptr, measured_s, BeamOffsets(), 0.02 * k});
+            const double arrival_s = 1.3 + 1e-4 * k;
+            distances.take({scan, labels, std::nullopt, arrival_s, arrival_s, true, false, false,
+                            result_, nullptr, measured_s, BeamOffsets(), 0.02 * k});
         }
         return distances.at(1.31)[9].state;
     };
@@ -368,15 +369,15 @@ TEST_F(SectorDistancesTest, BurstOfFramesIsNotFullView) {
     EXPECT_EQ(stateAfter(0.019), State::SeenNothing);
 }
 
-/// Freedom rests on a look all around that began after the obstacle was seen, however packets stop.
+/// A direction is free only after a full view that began after the obstacle was seen.
 TEST_F(SectorDistancesTest, FrameObstacleStaysUntilSecondLook) {
     Scan pole, nothing;
     pole.x_m = {5};
     pole.y_m = {-0.1f};
     pole.z_m = {0};
-    // Of the frames from 0 to 5 or 7: once with a period that outlives the pole.
+    // Frames 0 to 5 or 7; once, the period is longer than the pole is kept.
     for (const auto& [last_with_pole, last] : {std::pair{1, 5}, {5, 5}, {1, 7}}) {
-        for (const double lost_s : {0.0, 5e-4}) {  // silence, or a packet of 42 after that
+        for (const double lost_s : {0.0, 5e-4}) {  // then silence, or one packet of 42
             SectorDistances distances(sensorModel("Mid-360"));
             for (int k = 0; k < 25; ++k) {
                 const double time_s = 1 + 0.02 * k;
@@ -395,14 +396,14 @@ TEST_F(SectorDistancesTest, FrameObstacleStaysUntilSecondLook) {
     }
 }
 
-TEST_F(SectorDistancesTest, FrameObstacleHoldsTenthOfSecond) {
+TEST_F(SectorDistancesTest, FrameObstacleLastsTenthOfSecond) {
     SectorDistances distances(sensorModel("Mid-360"));
     take(std::nullopt, 1.00, {{2, 4}}, distances);
     for (int k = 1; k < 5; ++k) take(std::nullopt, 1 + 0.02 * k, {{2, 5}}, distances);
     EXPECT_NEAR(distances.at(1.09)[0].distance_m, 4, 1e-4);
     EXPECT_EQ(distances.at(1.09)[9].state, State::SeenNothing);
     for (int k = 5; k < 16; ++k) take(std::nullopt, 1 + 0.02 * k, {{2, 5}}, distances);
-    EXPECT_NEAR(distances.at(1.31)[0].distance_m, 5, 1e-4);  // it does not stay for ever
+    EXPECT_NEAR(distances.at(1.31)[0].distance_m, 5, 1e-4);  // it expires
     EXPECT_EQ(distances.at(1.7)[0].state, State::Unknown);
     for (int k = 0; k < 15; ++k) take(std::nullopt, 2 + 0.02 * k, {}, distances);
     EXPECT_EQ(distances.at(2.29)[0].state, State::SeenNothing);

@@ -77,7 +77,7 @@ TEST(SectorPackets, LostSweepIsNotFree) {
     EXPECT_EQ(at[5].state, State::Unknown);
 }
 
-/// The labels of a second turn with a known tilt, after a turn with this pose or without.
+/// The labels of a second turn with a known tilt, after a turn with or without a pose.
 std::vector<Label> labelsAfter(const std::optional<Eigen::Isometry3d>& first) {
     const SensorModel sensor = sensorModel("VLP-16");
     const auto packets = packetsOfATurn(sensor);
@@ -99,7 +99,7 @@ std::vector<Label> labelsAfter(const std::optional<Eigen::Isometry3d>& first) {
     return labels;
 }
 
-TEST(SectorMotion, LostPositionMovesNothing) {
+TEST(SectorMotion, LostPositionCausesNoMotion) {
     Eigen::Isometry3d far_away = Eigen::Isometry3d::Identity();
     far_away.translation() = Eigen::Vector3d(100, -20, 5);
     far_away.linear() = Eigen::AngleAxisd(2, Eigen::Vector3d::UnitZ()).toRotationMatrix();

@@ -28,7 +28,7 @@ TEST(SensorAddress, OtherSensorNeverReplacesOurs) {
 TEST(SensorAddress, ReturnsToEarlierAddress) {
     expectTaken({{1, 10, true},
                  {2, 11.5, true},
-                 {1, 11.6, true},  // so these are two sensors
+                 {1, 11.6, true},  // so there are two sensors
                  {2, 11.7, false},
                  {2, 13.2, false},
                  {1, 13.3, true}});

@@ -28,7 +28,7 @@ test::SimpleScene sceneWithPole() {
     return scene;
 }
 
-/// The returns of each packet of a turn, from behind and clockwise, as a sensor sends them.
+/// The returns of each packet of a turn, clockwise from behind, like from a sensor.
 std::vector<Scan> packetsOf(const test::LabelledScan& turn, std::vector<Label>* truth = nullptr) {
     std::vector<Scan> packets(kPackets);
     std::vector<std::vector<Label>> labels(kPackets);
@@ -91,7 +91,7 @@ class StreamingSegmenterTest : public testing::Test {
     std::vector<Taken> taken_;
 };
 
-TEST_F(StreamingSegmenterTest, StillSensorMatchesWholeScan) {
+TEST_F(StreamingSegmenterTest, StaticSensorMatchesWholeScan) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     std::vector<Label> truth;
     const std::vector<Scan> packets = packetsOf(turn, &truth);
@@ -168,7 +168,7 @@ TEST_F(StreamingSegmenterTest, FullContextHasEachReturnOnce) {
     };
     StreamingSegmenter segmenter(sensor_, {}, check, options);
     for (int k = 0; k < 2; ++k) addTurn(k, packets, segmenter);
-    // By rounding, the packet ahead may be taken for one that is overwritten.
+    // Due to rounding, the packet ahead may count as overwritten.
     EXPECT_GT(2 * with_all, sectors);
     EXPECT_GT(sectors, 10u);
 }
@@ -219,7 +219,7 @@ TEST_F(StreamingSegmenterTest, NoGroundBeforeHalfTurn) {
         const auto roi = std::count(sector.label.begin(), sector.label.end(), Label::Roi);
         if (known_rad < kPi - 0.02) {
             EXPECT_GT(roi, 50) << known_rad;
-            EXPECT_LT(rou, roi) << known_rad;  // those beyond the zone
+            EXPECT_LT(rou, roi) << known_rad;  // returns beyond the zone
         } else {
             EXPECT_EQ(roi, 0) << known_rad;
         }
@@ -265,7 +265,7 @@ TEST_F(StreamingSegmenterTest, ReplacesOldReturns) {
     EXPECT_EQ(roiOfTurn(2, second), 0u);
 }
 
-TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
+TEST_F(StreamingSegmenterTest, ContextFollowsTilt) {
     // The nose goes down by 3 degrees between two turns.
     const test::SimpleScene scene = sceneWithPole();
     const auto level = test::scanScene(scene, sensor_, kColumns, {0, 0, 2});
@@ -290,7 +290,7 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
     tilted.scan.intensity.resize(tilted.scan.size());
     locateBeams(sensor_, tilted.scan);
     std::optional<Attitude> mount;
-    const auto errorsWith = [&](bool tells, double skip_ahead_rad,
+    const auto errorsWith = [&](bool knows_tilt, double skip_ahead_rad,
                                 bool motion_from_ground = false) {
         taken_.clear();
         StreamingOptions options;
@@ -298,11 +298,11 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
         options.estimate_motion_from_ground = motion_from_ground;
         StreamingSegmenter segmenter(sensor_, {}, take(), options);
         segmenter.setMount(mount);
-        if (tells) segmenter.setAttitude(Attitude{});
+        if (knows_tilt) segmenter.setAttitude(Attitude{});
         addTurn(0, packetsOf(level), segmenter);
         segmenter.flush();
         taken_.clear();
-        if (tells) segmenter.setAttitude(tilt);
+        if (knows_tilt) segmenter.setAttitude(tilt);
         std::vector<Label> truth;
         addTurn(1, packetsOf(tilted, &truth), segmenter);
         segmenter.flush();
@@ -314,21 +314,21 @@ TEST_F(StreamingSegmenterTest, ContextMovesWithTheTilt) {
         }
         return wrong;
     };
-    const std::size_t told = errorsWith(true, 0), not_told = errorsWith(false, 0);
-    EXPECT_GT(not_told, 50u);
-    EXPECT_LT(4 * told, not_told);
-    // Without the oldest returns beside the sector, not knowing the tilt costs less.
-    EXPECT_LT(errorsWith(false, radians(30.0)), not_told);
+    const std::size_t with_tilt = errorsWith(true, 0), without_tilt = errorsWith(false, 0);
+    EXPECT_GT(without_tilt, 50u);
+    EXPECT_LT(4 * with_tilt, without_tilt);
+    // Without the oldest returns beside the sector, an unknown tilt causes fewer errors.
+    EXPECT_LT(errorsWith(false, radians(30.0)), without_tilt);
     // Motion is estimated from the first sectors of ground.
-    EXPECT_LT(4 * errorsWith(false, 0, true), not_told);
-    // A mount is a tilt, but does not imply that the sensor stands still.
+    EXPECT_LT(4 * errorsWith(false, 0, true), without_tilt);
+    // A mount is a tilt, but does not imply that the sensor is static.
     mount = Attitude{};
     EXPECT_GT(errorsWith(false, 0), 50u);
     EXPECT_LT(2 * errorsWith(false, radians(30.0)), errorsWith(false, 0));
 }
 
-TEST_F(StreamingSegmenterTest, RestartForgetsEverything) {
-    // The ground seems to fall by 0.2 m per turn, and then no longer.
+TEST_F(StreamingSegmenterTest, RestartClearsState) {
+    // The ground apparently falls by 0.2 m per turn, then stays.
     const test::SimpleScene scene = sceneWithPole();
     const auto packetsAt = [&](double height_m) {
         return packetsOf(test::scanScene(scene, sensor_, kColumns, {0, 0, height_m}));
@@ -403,7 +403,7 @@ TEST_F(StreamingSegmenterTest, NonFiniteMotionIsUnknown) {
               }));
 }
 
-/// Context that no float can hold has no place, in any posture.
+/// In any posture, context with coordinates beyond float is dropped.
 TEST_F(StreamingSegmenterTest, HugeMotionLosesNoReturn) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
@@ -423,7 +423,7 @@ TEST_F(StreamingSegmenterTest, HugeMotionLosesNoReturn) {
     }
 }
 
-/// Late packets: of many turns before.
+/// Packets that are many turns late.
 TEST_F(StreamingSegmenterTest, LabelsSectorOfManyTurns) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
@@ -434,7 +434,7 @@ TEST_F(StreamingSegmenterTest, LabelsSectorOfManyTurns) {
     EXPECT_EQ(labels().size(), turn.scan.size() + packets[0].size());
 }
 
-/// Thin plants, of which one column in five shows few tops: a sector knows how high they were.
+/// Thin plants: one column in five hits few tops, but sectors keep the earlier heights.
 TEST_F(StreamingSegmenterTest, CropsAreCanopyInSectors) {
     test::SimpleScene crops;
     for (int i = -14; i <= 14; ++i) {
@@ -458,7 +458,7 @@ TEST_F(StreamingSegmenterTest, CropsAreCanopyInSectors) {
     EXPECT_EQ(roiOf(labels()), 0);
 }
 
-TEST_F(StreamingSegmenterTest, SilenceEndsTheContext) {
+TEST_F(StreamingSegmenterTest, SilenceEndsContext) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingSegmenter segmenter(sensor_, {}, take());
@@ -471,7 +471,7 @@ TEST_F(StreamingSegmenterTest, SilenceEndsTheContext) {
     EXPECT_TRUE(taken_.back().is_cut);
 }
 
-TEST_F(StreamingSegmenterTest, LabelsStandingSensor) {
+TEST_F(StreamingSegmenterTest, LabelsStalledSensor) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const Scan packet = packetsOf(turn)[3];
     StreamingSegmenter segmenter(sensor_, {}, take());
@@ -485,7 +485,7 @@ TEST_F(StreamingSegmenterTest, FramesUseEarlierFrames) {
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingSegmenter segmenter(sensor_, {}, take());
     for (int k = 0; k < 5; ++k) {
-        // Every fifth packet: a frame that looks everywhere.
+        // Every fifth packet: a frame in all directions.
         Scan frame;
         for (int p = k; p < kPackets; p += 5) {
             const Scan& part = packets[p];

@@ -30,7 +30,7 @@ void add(int column, int row, float range_m, float z_m, Scan& scan) {
     scan.row.push_back(static_cast<std::uint8_t>(row));
 }
 
-/// What the class says, with maps.
+/// The class's definition, implemented with maps.
 std::set<std::size_t> thinnedByHand(const Scan& scan, int every) {
     using Pixel = std::pair<int, int>;
     std::map<Pixel, std::vector<std::size_t>> own, group;
@@ -72,7 +72,7 @@ TEST(Thinning, MatchesDefinition) {
     }
 }
 
-/// maskAirframe() leaves them without a range.
+/// maskAirframe() leaves masked returns without a range.
 TEST(Thinning, IgnoresMaskedReturns) {
     Scan scan;
     add(10, 3, kNoValue, 0, scan);
@@ -114,7 +114,7 @@ TEST(Thinning, IgnoresReturnsWithoutCoordinates) {
     EXPECT_THAT(thinning.of(scan), ElementsAre(0));
 }
 
-TEST(Thinning, KeepsNothingOfNoColumns) {
+TEST(Thinning, KeepsNothingWithoutColumns) {
     Thinning thinning(kRows, kColumns, 0);
     Scan scan;
     add(0, 3, 4, -1, scan);

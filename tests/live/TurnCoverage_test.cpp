@@ -9,8 +9,8 @@ namespace {
 
 class TurnCoverageTest : public testing::Test {
  protected:
-    /// Adds packets as a sector, from and to these degrees; returns the degrees of the first turn
-    /// that these have completed, by their middles.
+    /// Adds packets with these ranges of degrees as a sector; returns the centres of the degrees
+    /// of the first turn completed so far.
     std::vector<double> add(const std::vector<std::pair<double, double>>& packets_deg,
                             double head_deg) {
         std::vector<Sweep> packets;
@@ -47,7 +47,7 @@ using Degrees = std::vector<double>;
 
 TEST_F(TurnCoverageTest, DegreeCompleteWhenFullySwept) {
     EXPECT_EQ(add(10, 12.4), (Degrees{10.5, 11.5}));
-    EXPECT_EQ(add(12.4, 13.7), (Degrees{10.5, 11.5, 12.5}));         // so are those just behind
+    EXPECT_EQ(add(12.4, 13.7), (Degrees{10.5, 11.5, 12.5}));         // also the degrees just behind
     EXPECT_EQ(add(13.71, 14.5), (Degrees{10.5, 11.5, 12.5, 13.5}));  // azimuths are rounded
 }
 
@@ -72,21 +72,21 @@ TEST_F(TurnCoverageTest, RequiresAllBeams) {
     EXPECT_EQ(add(113, 130),
               (Degrees{116.5, 117.5, 118.5, 119.5, 120.5, 121.5, 122.5, 123.5, 124.5}));
     add(130, 140);
-    // The lost packet, late.
+    // The lost packet arrives late.
     const Degrees late = add({{112, 113}}, 140);
     EXPECT_EQ(late.front(), 104.5);
     EXPECT_EQ(late.back(), 117.5);
     EXPECT_EQ(late.size(), 14u);
 }
 
-TEST_F(TurnCoverageTest, NextTurnSweepsAgain) {
+TEST_F(TurnCoverageTest, NextTurnIsSweptAgain) {
     add(350, 362.5);
     EXPECT_EQ(add(362.5, 364.5), (Degrees{0.5, 1.5, 2.5, 3.5, 359.5}));
     EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700)}, {0, radians(5)}), radians(725));
 }
 
 /// Earlier sweeps are not joined to the current one, even where their angles are adjacent.
-TEST_F(TurnCoverageTest, AnglesContinueAfterRestart) {
+TEST_F(TurnCoverageTest, RestartDoesNotJoinEarlierSweeps) {
     add(350, 370.5);
     EXPECT_EQ(add(10.5, 13), (Degrees{11.5, 12.5}));
     EXPECT_NEAR(degrees(coverage_.head_rad()), 13 + 720, 1e-9);

@@ -15,12 +15,12 @@ namespace {
 constexpr double kTurn_rad = 2 * kPi;
 constexpr int kColumns = 870, kSectors = 24;
 
-/// A sensor that moves by the same step from turn to turn, above a plane.
+/// A sensor above a plane that moves by the same step in each turn.
 struct Flight {
     Eigen::Isometry3d plane_from_sensor = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 2.5));
-    Eigen::Isometry3d then_from_now = Eigen::Isometry3d::Identity();  ///< a turn apart
+    Eigen::Isometry3d then_from_now = Eigen::Isometry3d::Identity();  ///< one turn apart
     double noise_m = 0;
-    double strangers = 0;  ///< share of the returns that are 0.5 to 2 m nearer
+    double outliers = 0;  ///< share of the returns that are 0.5 to 2 m nearer
 };
 
 Eigen::Isometry3d stepOf(double roll_deg, double pitch_deg, double rise_m) {
@@ -30,7 +30,7 @@ Eigen::Isometry3d stepOf(double roll_deg, double pitch_deg, double rise_m) {
     return step;
 }
 
-/// `step` a part of a turn.
+/// `step` scaled to a number of turns.
 Eigen::Isometry3d part(const Eigen::Isometry3d& step, double turns) {
     const Eigen::AngleAxisd turn(step.linear());
     Eigen::Isometry3d motion(Eigen::AngleAxisd(turns * turn.angle(), turn.axis()));
@@ -40,7 +40,7 @@ Eigen::Isometry3d part(const Eigen::Isometry3d& step, double turns) {
 
 class TurnMotionTest : public testing::Test {
  protected:
-    /// The sector's returns of the plane, all ROU, each from where the sensor is by then.
+    /// The sector's returns of the plane, all ROU, each from the sensor's position at its time.
     Scan sweep(const Flight& flight, int sector) {
         Scan scan;
         for (int k = 0; k < kColumns / kSectors; ++k) {
@@ -56,7 +56,7 @@ class TurnMotionTest : public testing::Test {
                 double range_m = -pose.translation().z() / fall;
                 if (!(fall < 0) || range_m > 50) continue;
                 range_m += flight.noise_m * static_cast<double>(random_.real(-1, 1));
-                if (random_.chance(flight.strangers)) {
+                if (random_.chance(flight.outliers)) {
                     range_m -= static_cast<double>(random_.real(0.5F, 2));
                 }
                 scan.x_m.push_back(static_cast<float>(range_m * ray.x()));
@@ -78,11 +78,10 @@ class TurnMotionTest : public testing::Test {
         }
     }
 
-    /// How far the told motion moves a place of the ground up or down against the true one, at most
-    /// up to 10 m away.
+    /// Maximum height error of ground points 10 m away, moved by the estimated motion.
     double worstHeight_m(const Flight& flight, double turns) const {
-        const auto told = motion_.since(turns);
-        if (!told) return std::nan("");
+        const auto estimated = motion_.since(turns);
+        if (!estimated) return std::nan("");
         const Eigen::Isometry3d truth = part(flight.then_from_now, -turns);
         const Eigen::Isometry3d now =
             flight.plane_from_sensor * part(flight.then_from_now, double(swept_) / kSectors);
@@ -91,7 +90,7 @@ class TurnMotionTest : public testing::Test {
             const double azimuth_rad = k * kTurn_rad / 12;
             const Eigen::Vector3d place_m =
                 10 * test::directionOf(azimuth_rad, std::atan2(-2.5, 10.0));
-            const Eigen::Vector3d apart_m = now.linear() * (*told * place_m - truth * place_m);
+            const Eigen::Vector3d apart_m = now.linear() * (*estimated * place_m - truth * place_m);
             worst_m = std::max(worst_m, std::abs(apart_m.z()));
         }
         return worst_m;
@@ -124,7 +123,7 @@ TEST_F(TurnMotionTest, FindsTiltAndRise) {
                                       static_cast<double>(random_.real(-3, 3)),
                                       static_cast<double>(random_.real(-0.1F, 0.1F)));
         fly(flight, 3 * kSectors);
-        // Of up to 0.8 m: 4 degrees, 10 m away.
+        // The motion is up to 0.8 m: 4 degrees, 10 m away.
         EXPECT_LT(worstHeight_m(flight, 1), 0.1);
         EXPECT_LT(worstHeight_m(flight, 0.5), 0.05);
     }
@@ -134,7 +133,7 @@ TEST_F(TurnMotionTest, DownweightsOutliers) {
     Flight flight;
     flight.then_from_now = stepOf(1, -2, 0.05);
     fly(flight, 2 * kSectors);
-    flight.strangers = 0.2;
+    flight.outliers = 0.2;
     fly(flight, kSectors);
     EXPECT_LT(worstHeight_m(flight, 1), 0.1);
 }
@@ -151,7 +150,7 @@ TEST_F(TurnMotionTest, SlopeIsNotTilt) {
     EXPECT_LT(worstHeight_m(flight, 1), 0.1);
 }
 
-TEST_F(TurnMotionTest, WorksLookingDown) {
+TEST_F(TurnMotionTest, FindsMotionLookingDown) {
     Flight flight;
     flight.plane_from_sensor.linear() =
         levelFromSensor({0, static_cast<float>(radians(40.0))}).cast<double>();
@@ -183,7 +182,7 @@ TEST_F(TurnMotionTest, ForgetsWithoutGround) {
     EXPECT_TRUE(motion_.since(1));
     fly({}, kSectors, Label::Roi);
     EXPECT_FALSE(motion_.since(1));
-    // Earlier turns are not compared.
+    // Earlier turns are not used.
     fly({}, kSectors);
     EXPECT_FALSE(motion_.since(1));
 }

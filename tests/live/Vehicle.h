@@ -1,6 +1,6 @@
 #pragma once
-// A simulated vehicle, and its messages: by the formulas of the aeronautical convention (rotations
-// about down, right and forward), not by the code that is tested.
+// A simulated vehicle and its messages, by the formulas of the aeronautical convention (rotations
+// about down, right and forward) instead of the tested code.
 #include <Eigen/Geometry>
 #include "live/autopilot/Messages.h"
 #include "live/mavlink/Frame.h"
@@ -25,7 +25,7 @@ struct Vehicle {
             -sp, sr * cp, cr * cp;
         return m;
     }
-    /// Where the vehicle's sensor sees a place: x forward, y left, z up.
+    /// A point in the frame of the vehicle's sensor: x forward, y left, z up.
     Eigen::Vector3d seen(const Eigen::Vector3d& place_ned_m) const {
         const Eigen::Vector3d frd = nedFromFrd().transpose() * (place_ned_m - ned_m);
         return {frd.x(), -frd.y(), -frd.z()};

@@ -12,9 +12,9 @@ namespace {
 
 using Taken = VehicleMotion::Taken;
 
-constexpr double kBehind_s = 50;  // the vehicle's clock
+constexpr double kBehind_s = 50;  // delay of the vehicle's clock
 
-/// The same rotation in our frames.
+/// The rotation in our frames.
 Eigen::Matrix3d ours(const Eigen::Matrix3d& ned_from_frd) {
     const Eigen::Vector3d flip(1, -1, -1);
     return flip.asDiagonal() * ned_from_frd * flip.asDiagonal();
@@ -71,18 +71,18 @@ TEST(VehicleMotion, InterpolatesAndExtrapolates) {
     const auto yawAt = [&](double t) { return -motion.at(t + kBehind_s)->heading_rad(); };
     EXPECT_NEAR(yawAt(0.55), 0.55, 1e-4);
     EXPECT_NEAR(yawAt(1.08), 1.08, 1e-4);
-    EXPECT_NEAR(yawAt(1.4), 1.1, 1e-4);  // no farther
+    EXPECT_NEAR(yawAt(1.4), 1.1, 1e-4);  // limit of extrapolation
     EXPECT_TRUE(
         motion.at(0.25 + kBehind_s)->place_m->isApprox(Eigen::Vector3d(1, 0.5, -0.25), 1e-4));
     EXPECT_TRUE(
         motion.at(1.15 + kBehind_s)->place_m->isApprox(1.15 * Eigen::Vector3d(4, 2, -1), 1e-4));
-    // Neither is known beyond half a second.
+    // Position and attitude are unknown after 0.5 s.
     EXPECT_TRUE(motion.at(1.49 + kBehind_s));
     EXPECT_FALSE(motion.at(1.51 + kBehind_s));
     EXPECT_FALSE(motion.at(kBehind_s - 0.01));
 }
 
-TEST(VehicleMotion, PositionJumpMovesNothing) {
+TEST(VehicleMotion, PositionJumpCausesNoMotion) {
     VehicleMotion motion;
     Vehicle vehicle;
     vehicle.speed_m_s = {5, 0, 0};
@@ -101,8 +101,8 @@ TEST(VehicleMotion, PositionJumpMovesNothing) {
     }
 }
 
-/// The estimate may have jumped within a gap, so earlier positions do not compare.
-TEST(VehicleMotion, JumpInGapMovesNothing) {
+/// The estimate may have jumped within a gap, so earlier positions are not comparable.
+TEST(VehicleMotion, JumpInGapCausesNoMotion) {
     VehicleMotion motion;
     Vehicle vehicle;
     for (int i = 0; i < 200; ++i) {
@@ -161,7 +161,7 @@ TEST(VehicleMotion, RestartClearsHistory) {
     motion.take(vehicle.attitude(100), 100);
     vehicle.yaw_rad = 1;
     motion.take(vehicle.attitude(1), 104);
-    EXPECT_EQ(motion.restarts(), 0u);  // it may be a message that went a longer way
+    EXPECT_EQ(motion.restarts(), 0u);  // may be a message on a slower path
     EXPECT_FALSE(motion.at(104.01));
     motion.take(vehicle.attitude(1.5), 104.5);
     EXPECT_EQ(motion.restarts(), 1u);

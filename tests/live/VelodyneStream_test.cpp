@@ -31,7 +31,7 @@ using sensors::velodyneModel;
 using test::ByteString;
 
 constexpr double kTurn_s = 0.1;
-constexpr std::size_t kPackets = 76;  // of a turn; the last one is not full
+constexpr std::size_t kPackets = 76;  // per turn; the last one is incomplete
 
 struct Labelled {
     std::vector<Label> label;
@@ -50,7 +50,7 @@ StreamingSegmenter::Take into(Labelled& all) {
     };
 }
 
-/// Packets of a VLP-16 that stands 2 m above flat ground with a pole and a wall, turn after turn.
+/// Packets of several turns of a static VLP-16 2 m above flat ground with a pole and a wall.
 std::vector<ByteString> turnsOf(int turns, std::uint32_t first_us = 1000000, bool is_dual = false,
                                 const char* name = "VLP-16") {
     test::SimpleScene scene;
@@ -86,7 +86,7 @@ class VelodyneStreamTest : public testing::Test {
     LidarStream stream_{sensors::makeDriver("VLP-16"), {}, into(all_)};
 };
 
-/// The share of the labels that are those of whole scans, where enough of a turn was known.
+/// Share of labels that match whole scans, where enough of a turn was known.
 double sameShare(const std::string& recording, const Settings& settings, std::size_t& near_missed) {
     const auto source = recordings::openRecording(recording);
     source->usePoses({});
@@ -118,7 +118,7 @@ double sameShare(const std::string& recording, const Settings& settings, std::si
         for (const auto& raw : packets->scan_packets) {
             time_s += kTurn_s / static_cast<double>(packets->scan_packets.size());
             ByteString packet = test::bytesOf(raw);
-            // Some recordings repeat a turn, with its times.
+            // Some recordings repeat one turn with its times.
             const auto time_us = static_cast<std::uint32_t>(std::lround(1e6 * time_s));
             std::memcpy(packet.data() + sensors::kVelodyneTimeAt, &time_us, sizeof time_us);
             add(packet, time_s, *stream);
@@ -140,11 +140,11 @@ double sameShare(const std::string& recording, const Settings& settings, std::si
 TEST(StreamedRecordings, LabelsMatchWholeScans) {
     const std::string folder = std::string(HAGEN_SOURCE_DIR) + "/rawlogs/";
     std::size_t near_missed = 0;
-    // Every other turn is missing, and each pose is that of its turn's beginning: the figures of
-    // docs/live.md are of flights without gaps.
+    // Every other turn is missing, and poses are only known at the start of a turn: the figures in
+    // docs/live.md are for flights without gaps.
     EXPECT_GT(sameShare(folder + "orchard.rawlog", {}, near_missed), 0.97);
     EXPECT_LT(near_missed, 300u);  // of 229 000
-    // A turn per second: no context but that of the turn itself.
+    // One turn per second: no context but the turn itself.
     sameShare(folder + "poles_and_wall.rawlog", {}, near_missed);
     EXPECT_EQ(near_missed, 0u);
 }
@@ -155,11 +155,11 @@ TEST(StreamedRecordings, RealCaptureLabelsMatchWholeScans) {
     for (const char* name : {"sample_velodyne_vlp16_gps", "sample_velodyne_hdl32"}) {
         std::size_t near_missed = 0;
         EXPECT_GT(sameShare(folder / (std::string(name) + ".pcap"), {}, near_missed), 0.99) << name;
-        EXPECT_LT(near_missed, 40u) << name;  // of 33 000 and more
+        EXPECT_LT(near_missed, 40u) << name;  // of at least 33 000
     }
 }
 
-TEST_F(VelodyneStreamTest, LabelsEachReturnSoon) {
+TEST_F(VelodyneStreamTest, LabelsSectorEveryThreePackets) {
     const auto packets = turnsOf(3);
     addAll(packets, stream_);
     EXPECT_EQ(stream_.counts().packets, packets.size());
@@ -221,7 +221,7 @@ TEST_F(VelodyneStreamTest, ClockWrapsEveryHour) {
     EXPECT_GT(stream_.segmenter().sectors(), 55u);
 }
 
-TEST_F(VelodyneStreamTest, SetClockIsInterruption) {
+TEST_F(VelodyneStreamTest, ClockStepIsInterruption) {
     addAll(turnsOf(2, 500000000), stream_);
     addAll(turnsOf(2, 1000000), stream_, 0.2);
     EXPECT_EQ(stream_.counts().interruptions, 1u);
@@ -229,7 +229,7 @@ TEST_F(VelodyneStreamTest, SetClockIsInterruption) {
     EXPECT_EQ(stream_.counts().lost, 0u);
 }
 
-/// A packet that was delayed by more than a turn does not replace newer directions.
+/// A packet delayed by more than a turn does not replace newer directions.
 TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
     SectorDistances distances(sensorModel("VLP-16"));
     const auto countFree = [&](double now_s) {
@@ -261,7 +261,7 @@ TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
     EXPECT_EQ(stream.counts().packets, 5 * kPackets - 15);
 }
 
-/// As by a second path that is slower, in a burst: no clock was set, and nothing new was seen.
+/// As a burst from a second, slower path: no clock step, no new data.
 TEST_F(VelodyneStreamTest, DropsDuplicatesOfEarlierTurn) {
     const std::vector<ByteString> packets = turnsOf(5);
     addAll(packets, stream_);
@@ -277,8 +277,8 @@ TEST_F(VelodyneStreamTest, DropsDuplicatesOfEarlierTurn) {
     EXPECT_EQ(stream_.counts().packets, 6 * kPackets);
 }
 
-/// Its packets are taken once it is certain that they are not late.
-TEST_F(VelodyneStreamTest, SixteenLatePacketsMeanSetClock) {
+/// Packets are accepted once it is certain that they are not late.
+TEST_F(VelodyneStreamTest, SixteenLatePacketsMeanClockStep) {
     addAll(turnsOf(2), stream_);
     const auto again = turnsOf(1, 500000);
     for (std::size_t i = 0; i < 20; ++i) {
@@ -309,7 +309,7 @@ TEST_F(VelodyneStreamTest, CountsModeChanges) {
     EXPECT_EQ(stream_.counts().mode_changes, 2u);
     EXPECT_EQ(stream_.counts().lost, 0u);
     EXPECT_EQ(stream_.counts().interruptions, 0u);
-    EXPECT_GT(all_.label.size(), 3 * single);  // 2 turns, 2 with both returns, 1: 3.5 times
+    EXPECT_GT(all_.label.size(), 3 * single);  // 2 single, 2 dual and 1 single turn: 3.5 times
 }
 
 TEST_F(VelodyneStreamTest, RejectsForeignDatagrams) {
@@ -334,9 +334,8 @@ TEST_F(VelodyneStreamTest, RejectsForeignDatagrams) {
     EXPECT_EQ(counts.duplicate, 1u);
 }
 
-/// Two sound blocks that are far apart: as the rate of the whole packet, it would sweep more than
-/// a turn.
-TEST_F(VelodyneStreamTest, TakesPacketWithImplausibleSweep) {
+/// Two sound blocks are far apart: at their rate, the whole packet would sweep more than a turn.
+TEST_F(VelodyneStreamTest, AcceptsPacketWithImplausibleSweep) {
     ByteString packet = turnsOf(1)[0];
     const auto setAzimuth = [&](int block, unsigned centidegrees) {
         packet[100 * block + 2] = static_cast<char>(centidegrees & 0xff);
@@ -402,7 +401,7 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     for (int k = 0; k < 3000; ++k) {
         ByteString packet = packets[random() % packets.size()];
         for (auto changes = random() % 20; changes > 0; --changes) {
-            // All but the model: others are refused.
+            // Not the model, as other models are rejected.
             packet[random() % 1205] = static_cast<char>(random());
         }
         add(packet, 1e-3 * k, stream_);
@@ -416,7 +415,7 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     EXPECT_GT(counts.packets, 500u);  // in any order: many are too late
 }
 
-/// Directions of a single beam: laser 9 of a VLP-32C looks 4.2 degrees behind the head.
+/// A single beam: laser 9 of a VLP-32C points 4.2 degrees behind the head.
 TEST(VelodyneStreams, ObstacleOfLaggingBeamStays) {
     const auto& model = velodyneModel("VLP-32C");
     observations::Firings firings = test::fireAt({}, model, {0, 0, 2});

@@ -23,7 +23,7 @@ void add(const Eigen::Vector3d& point_m, Scan& scan) {
     scan.intensity.push_back(0.5f);
 }
 
-/// The inside of a sphere, seen by these beams.
+/// Returns of these beams inside a sphere.
 Scan scanOf(const std::vector<double>& beams_deg, int columns = 400) {
     Scan scan;
     for (int column = 0; column < columns; ++column) {

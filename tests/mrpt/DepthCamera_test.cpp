@@ -93,9 +93,9 @@ TEST(DepthCamera, RemovesLensDistortion) {
     observation->cameraParams.setDistortionPlumbBob(-0.12, 0.05, 0.002, -0.001, 0.01);
     Scan scan;
     readDepthScan(*observation, scan);
-    // Another inversion than MRPT's, which stops after a few steps.
+    // Unlike MRPT's inversion, ours does not stop after a few steps.
     expectSame(unprojected(*observation), scan, 2e-3f);
-    // A return is seen where the published formula puts it.
+    // A return projects to its pixel by the published formula.
     const auto& camera = observation->cameraParams;
     std::size_t i = 0;
     for (int r = 0; r < kRows; ++r) {
@@ -215,7 +215,7 @@ Seen groundAndPole(double down_deg) {
     return seen;
 }
 
-// docs/without-rings.md has figures of other sizes, too.
+// docs/without-rings.md has results for other sizes.
 TEST(DepthCamera, SeparatesPoleFromGround) {
     for (const double down_deg : {0.0, 15.0, 30.0}) {
         const Seen seen = groundAndPole(down_deg);

@@ -1,4 +1,4 @@
-// Packets of an HDL-64E and its calibration file, both made here.
+// Synthetic packets and calibration file of an HDL-64E.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mrpt/ObservationScan.h>
@@ -25,7 +25,7 @@ using mrpt::obs::VelodyneCalibration;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A file of this process alone: tests run side by side.
+/// A file of this process, as tests run in parallel.
 std::filesystem::path fileOf(const std::string& content) {
     static const test::TemporaryFolder folder;
     return test::writeBytes(folder / "calibration.xml", content);

@@ -128,7 +128,7 @@ TEST(Horizon, IgnoresInvalidImu) {
     imu.set(mrpt::obs::IMU_ROLL, NAN);
     EXPECT_TRUE(isIgnored());
     imu.set(mrpt::obs::IMU_ROLL, 0.2);
-    const unsigned char corrupt = 89;  // as a fuzzer's rawlog had it
+    const unsigned char corrupt = 89;  // found by a fuzzer
     std::memcpy(&imu.dataIsPresent.at(mrpt::obs::IMU_ROLL), &corrupt, sizeof(corrupt));
     EXPECT_TRUE(isIgnored());
 
@@ -159,7 +159,7 @@ TEST(Horizon, ReachesSegmenterOutput) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     ASSERT_TRUE(segmenter.process(*cloud, out));
-    ASSERT_TRUE(out.pose.attitude);  // as on a level vehicle
+    ASSERT_TRUE(out.pose.attitude);  // like on a level vehicle
     EXPECT_NEAR(out.pose.attitude->pitch_rad, 0.2, 1e-5);
 
     EXPECT_FALSE(segmenter.process(poseOf({0, 0, 5, 1.0, -0.05, 0.1}), out));
@@ -169,7 +169,7 @@ TEST(Horizon, ReachesSegmenterOutput) {
     EXPECT_NEAR(out.pose.attitude->pitch_rad, expected.pitch(), 1e-5);
     EXPECT_NEAR(out.pose.attitude->roll_rad, expected.roll(), 1e-5);
 
-    segmenter.initialize({});  // forgets the attitude
+    segmenter.initialize({});  // clears the attitude
     ASSERT_TRUE(segmenter.process(*cloud, out));
     ASSERT_TRUE(out.pose.attitude);
     EXPECT_NEAR(out.pose.attitude->pitch_rad, 0.2, 1e-5);

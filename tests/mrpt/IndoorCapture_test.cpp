@@ -1,4 +1,4 @@
-// A recording of a room: nothing but its floor may be ROU.
+// In a recording of a room, only the floor may be ROU.
 #include <gtest/gtest.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -18,7 +18,7 @@ using mrpt::obs::CObservationVelodyneScan;
 constexpr std::size_t kPacketBytes = 1206;
 
 double azimuthOf(const CObservationVelodyneScan::TVelodyneRawPacket& packet) {
-    std::uint16_t hundredths_deg;  // of the first block, after its header
+    std::uint16_t hundredths_deg;  // azimuth of the first block, after its header
     std::memcpy(&hundredths_deg, reinterpret_cast<const char*>(&packet) + 2, 2);
     return 0.01 * hundredths_deg;
 }
@@ -39,14 +39,14 @@ std::vector<CObservationVelodyneScan::Ptr> scansOf(const std::filesystem::path& 
         scans.back()->scan_packets.push_back(packet);
     }
     if (scans.size() < 3) return {};
-    return {scans.begin() + 1, scans.end() - 1};  // the first and the last are parts
+    return {scans.begin() + 1, scans.end() - 1};  // the first and the last are incomplete
 }
 
-// Marked by geometry: the floor is 1.02 to 1.15 m below the sensor, which stands on a desk, and
-// nothing is lower. All else is walls, ceiling, furniture and people.
+// Ground truth by height: the floor is 1.02 to 1.15 m below the sensor, which stands on a desk.
+// Higher returns are walls, ceiling, furniture and people.
 TEST(IndoorCapture, LabelsAllButFloorRoi) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA is not a folder of captures";
     const auto scans = scansOf(folder / "vlp16_packets_1206.bin");
     ASSERT_GE(scans.size(), 11u);
     ObservationSegmenter segmenter;

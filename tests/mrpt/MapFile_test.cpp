@@ -39,7 +39,7 @@ class MapFile : public testing::Test {
         return {std::istreambuf_iterator<char>(in), {}};
     }
 
-    /// Every voxel of both is the same: unknown, free or occupied.
+    /// Expects every voxel of both maps to be equal: unknown, free or occupied.
     void expectSameVoxels(const octomap::OcTree& read) const {
         const octomap::OcTree& tree = map_.tree();
         EXPECT_EQ(tree.getResolution(), read.getResolution());
@@ -64,7 +64,7 @@ class MapFile : public testing::Test {
         return count;
     }
 
-    test::TemporaryFolder folder_;  // of its own: tests run side by side
+    test::TemporaryFolder folder_;  // own folder, as tests run in parallel
     ScanMap map_{{MapContent::Full, 0.2, 20}};
 };
 

@@ -33,7 +33,7 @@ TEST(Mount, UsesRecordedTiltWithoutPose) {
     expectTilt(tiltOf({}, CPose3D(0, 0, 0, 0, radians(20), 0), tilt(90, 0)), tilt(0, 20));
 }
 
-// ScanPose::attitude is already that of the sensor on the vehicle.
+// ScanPose::attitude already includes the mount.
 TEST(Mount, AppliesRecordedMountOnce) {
     ScanPose pose;
     pose.attitude = tilt(175, 4);
@@ -48,7 +48,7 @@ TEST(Mount, UsesSettingsForLevelRecording) {
     // Nose down by 8 degrees, then turned about its own forward axis.
     vehicle.attitude = tilt(0, 8);
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(90, 8));
-    vehicle.is_of_sensor = true;  // its pose, but not its attitude
+    vehicle.is_of_sensor = true;  // the pose, but not the attitude
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(90, 8));
     vehicle.attitude_is_of_sensor = true;
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(0, 8));
@@ -77,7 +77,7 @@ TEST(Mount, SettingsAndRecordingAreEquivalent) {
         (by_settings.sensor_pose->asVectorVal() - by_recording.sensor_pose->asVectorVal()).norm(),
         1e-6);
     EXPECT_LT((by_settings.sensor_on_vehicle.asVectorVal() - turned.asVectorVal()).norm(), 1e-6);
-    // Poses of the sensor itself, and a mount that is recorded, are not turned.
+    // Sensor poses and recorded mounts are not rotated.
     level.is_of_sensor = true;
     EXPECT_EQ(*mountedPose(level, place, mount).sensor_pose, *level.sensor_pose);
     EXPECT_EQ(*mountedPose(recorded, turned, mount).sensor_pose, *recorded.sensor_pose);

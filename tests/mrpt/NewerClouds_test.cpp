@@ -1,4 +1,4 @@
-// Clouds as MRPT 2.15 to 3 write them. Their bytes are made here, by hand or from those of the
+// Clouds in the formats of MRPT 2.15 to 3. Their bytes are written by hand or derived from the
 // installed MRPT.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ std::string rawText(const std::string& text) {
     return raw(static_cast<std::uint32_t>(text.size())) + text;
 }
 
-/// The options that follow the fields: insertion without `disableDeletion`, likelihood.
+/// The options after the fields: insertion without `disableDeletion`, likelihood.
 std::string options() {
     return raw(std::int8_t{1}) + raw(0.02f) + std::string("\x01\0\0\0", 4) + raw(0.001f) +
            raw(2.0f) + std::string("\0", 1) + raw(std::int8_t{0}) + raw(0.0025) + raw(1.0) +
@@ -96,7 +96,7 @@ void expectTwoPoints(const mrpt::serialization::CSerializable& object) {
     EXPECT_THAT(cloud->getPointsBufferRef_z(), ElementsAre(5, 6));
 }
 
-/// A cloud of version 2, whose vectors MRPT itself writes.
+/// A cloud of version 2 with vectors written by MRPT.
 std::string cloudWithVectors() {
     const auto vector = [](const auto& values) {
         mrpt::io::CMemoryStream stream;
@@ -150,7 +150,7 @@ TEST(NewerClouds, ReadsAllGenericVersions) {
     }
 }
 
-/// A table with a field of each type that the class has, and two of others.
+/// A table with a field of each type of the class, and fields of two other types.
 PointTable tableOfAllTypes() {
     PointTable table;
     table.points = 2;
@@ -264,7 +264,7 @@ TEST(NewerClouds, ScalesIntensitiesOfAnyType) {
     EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));
 }
 
-/// A simple cloud in the bytes of the installed MRPT, and in those of one since 2.15.3.
+/// A simple cloud in the formats of the installed MRPT and of MRPT 2.15.3 or newer.
 std::pair<std::string, std::string> simpleClouds() {
     PortableCloud cloud;
     test::Random random(3);
@@ -336,13 +336,13 @@ TEST(NewerClouds, LimitsMemoryForValueCounts) {
     const std::string whole = cloudWithVectors();
     for (const std::string before : {"double", "uint16_t", "gps_time", "ring"}) {
         std::string bytes = whole;
-        // Behind the name of a type is the number of values; behind that of a field, of letters.
+        // After a type name is the number of values; after a field name, the number of characters.
         bytes.replace(bytes.find(before) + before.size(), 4, raw(std::uint32_t{0xffffffff}));
         try {
             read(bytes);
             FAIL() << before;
         } catch (const std::bad_alloc&) {
-            FAIL() << before << ": asks for all memory";
+            FAIL() << before << ": tries to allocate a huge vector";
         } catch (const std::exception&) {
         }
     }

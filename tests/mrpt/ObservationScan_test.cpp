@@ -124,7 +124,7 @@ TEST(ObservationScan, UsesRecoveredBeamsForUnnamedSensors) {
     EXPECT_EQ(observed.sensor.max_range_m, 2.0f);
     recovered.sensor = customSensorModel({-5, 5});
     EXPECT_EQ(rowsWith(settings, std::make_shared<const RecoveredBeams>(recovered)), 2);
-    readObservation(*velodyneScan(), settings, observed, beams);  // packets know their sensor
+    readObservation(*velodyneScan(), settings, observed, beams);  // packets specify their sensor
     EXPECT_EQ(observed.sensor.name, "HDL-32E");
     EXPECT_EQ(observed.recovered, nullptr);
 }

@@ -25,7 +25,7 @@ CObservationVelodyneScan::Ptr scanFrom(double x_m, const char* label = "front") 
     return scan;
 }
 
-/// A vehicle that stands still, between two times in seconds after the scans' time.
+/// A static vehicle between two times, in seconds after the scans' time.
 Trajectory standingAt(const mrpt::poses::CPose3D& pose, double from_s, double to_s) {
     Trajectory vehicle;
     for (double s = from_s; s <= to_s; s += 0.1) {
@@ -142,7 +142,7 @@ Settings withMaskedPole() {
     return settings;
 }
 
-TEST_F(ObservationSegmenterTest, MasksTheAirframe) {
+TEST_F(ObservationSegmenterTest, MasksAirframe) {
     segmenter_.process(*scanFrom(0), out_);
     const std::size_t pole = out_.roi->pointcloud->size(), returns = out_.scan->size();
     ASSERT_GT(pole, 30u);
@@ -192,7 +192,7 @@ mrpt::obs::CObservationPointCloud::Ptr cloudFrom(const SensorModel& sensor, int 
                          mrpt::Clock::fromDouble(100));
 }
 
-TEST_F(ObservationSegmenterTest, RecoversTheSensorOfClouds) {
+TEST_F(ObservationSegmenterTest, RecoversSensorOfClouds) {
     const auto cloud = cloudFrom(sensorModel("HDL-64E"), 600);
     for (int i = 0; i < 3; ++i) {
         const SegmentationResult* before = out_.result;
@@ -203,7 +203,7 @@ TEST_F(ObservationSegmenterTest, RecoversTheSensorOfClouds) {
         EXPECT_EQ(out_.options->columns, 600);
         ASSERT_TRUE(out_.recovered);
         EXPECT_FALSE(out_.is_sensor_assumed);
-        EXPECT_TRUE(i == 0 || out_.result == before);  // of the same filter
+        EXPECT_TRUE(i == 0 || out_.result == before);  // by the same filter
     }
     EXPECT_GT(out_.roi->pointcloud->size(), 50u);
 }
@@ -268,7 +268,7 @@ TEST_F(ObservationSegmenterTest, RejectsWindowBeyondRecoveredRows) {
     EXPECT_LE(out_.options->window_size, 4);
 }
 
-TEST_F(ObservationSegmenterTest, RejectsOptionsBeyondTheSensor) {
+TEST_F(ObservationSegmenterTest, RejectsOptionsUnfitForSensor) {
     Settings settings;
     settings.options.window_size = 20;
     EXPECT_NO_THROW(segmenter_.initialize(settings));
@@ -320,7 +320,7 @@ TEST_F(ObservationSegmenterTest, ProfilesOnRequest) {
     segmenter_.process(*scanFrom(0), out_);
     EXPECT_GT(segmenter_.profiler.getMeanTime("process"), 0.0);
     EXPECT_GT(segmenter_.profiler.getMeanTime("process.segment"), 0.0);
-    segmenter_.profiler.clear(true);  // otherwise it prints when destroyed
+    segmenter_.profiler.clear(true);  // otherwise the profiler prints when destroyed
 }
 
 }  // namespace

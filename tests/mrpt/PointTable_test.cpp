@@ -35,7 +35,7 @@ TEST(PointTable, AcceptsZeroPoints) {
     table.points = 0;
     table.bytes = {};
     EXPECT_NO_THROW(check(table));
-    EXPECT_THAT(columnOf(table, table.fields[1]), ElementsAre());  // the sanitizers watch
+    EXPECT_THAT(columnOf(table, table.fields[1]), ElementsAre());  // checked by sanitizers
 }
 
 TEST(PointTable, SwapsBigEndianNumbers) {

@@ -1,4 +1,4 @@
-// Scans are made by the installed MRPT; bytes of newer ones by hand.
+// Scans of the installed MRPT; bytes of newer versions are written by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mrpt/MrptCompat.h>
@@ -168,7 +168,7 @@ TEST(RotatingScan, ReadsAllRangesOfPixels) {
     EXPECT_THAT(observed.remark, HasSubstr("1 of its ranges have no point"));
 }
 
-TEST(RotatingScan, TakesElevationsFromModel) {
+TEST(RotatingScan, UsesElevationsOfModel) {
     CObservationRotatingScan scan = smallScan();
     scan.rowCount = 64;
     scan.rangeImage.setZero(64, 4);
@@ -247,7 +247,7 @@ TEST(RotatingScan, ReadsBothLayouts) {
         EXPECT_EQ(read->rangeOtherLayers.at("LAST")(2, 3), 9);
         EXPECT_EQ(test::bytesOf(*read), test::bytesOf(scan));
     }
-    // Sizes whose bytes look alike.
+    // Sizes with similar bytes.
     for (const int columns : {256, 257, 1024, 4096}) {
         for (const int rows : {4, 16, 256}) {
             CObservationRotatingScan wide;
@@ -268,7 +268,7 @@ TEST(RotatingScan, RejectsTruncatedAndExternalScans) {
     for (std::size_t size = 1; size < bytes.size(); size += 3) {
         EXPECT_THROW(test::objectOf(bytes.substr(0, size)), std::exception) << size;
     }
-    // Its images begin after the header; these say that there are 65535 x 65535 points.
+    // The images begin after the header; this header claims 65535 x 65535 points.
     std::string huge = bytes;
     huge.replace(huge.size() - 1 - 36 * 4 - 4, 4, "\xff\xff\xff\xff");
     EXPECT_THROW(test::objectOf(huge), std::exception);
@@ -278,7 +278,7 @@ TEST(RotatingScan, RejectsTruncatedAndExternalScans) {
         older.substr(0, images) + '\1' + std::string("\x08\0\0\0", 4) + "scan.bin" + '\x88';
     try {
         test::objectOf(outside);
-        ADD_FAILURE() << "read";
+        ADD_FAILURE() << "the external scan is read";
     } catch (const std::exception& e) {
         EXPECT_THAT(e.what(), HasSubstr("'scan.bin'"));
     }

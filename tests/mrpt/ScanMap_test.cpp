@@ -30,8 +30,7 @@ Eigen::Vector3d middleOf(const Voxel& v, double edge_m) {
                      Eigen::Vector3d::Constant(0.5));
 }
 
-/// How far a segment runs through a voxel widened by a margin (by slabs): the definition, a voxel
-/// at a time.
+/// Length of a segment inside a voxel widened by a margin (slab method).
 double lengthIn(const Voxel& v, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                 double edge_m, double margin_m = 0) {
     double first = 0, last = 1;
@@ -75,8 +74,7 @@ MappedScan randomScan(simulation::Random& random, int points) {
     return scan;
 }
 
-/// Every voxel near the scan, one by one, against what hits and rays say of it. Voxels that rays
-/// barely touch may go either way.
+/// Compares voxels near the scan with hits and rays. Voxels barely touched may have either state.
 void expectAsDefined(const ScanMapOptions& options, const MappedScan& scan) {
     ScanMap map(options);
     map.insert(scan);
@@ -106,7 +104,7 @@ void expectAsDefined(const ScanMapOptions& options, const MappedScan& scan) {
                     const Eigen::Vector3d at = middleOf(voxel, edge);
                     ASSERT_EQ(map.tree().getProbHitLog(),
                               map.tree().search(at.x(), at.y(), at.z())->getLogOdds())
-                        << "hit once, and not cleared";
+                        << "must be hit once and not cleared";
                     continue;
                 }
                 double longest = 0, longest_about = 0;
@@ -136,7 +134,7 @@ TEST(ScanMap, MatchesBruteForce) {
     }
 }
 
-TEST(ScanMap, ClearsUpToAWall) {
+TEST(ScanMap, ClearsUpToWall) {
     std::vector<Eigen::Vector3f> wall;
     for (float y = -2; y <= 2; y += 0.05f) {
         for (float z = -1; z <= 1; z += 0.05f) wall.emplace_back(5.1f, y, z);
@@ -236,7 +234,7 @@ TEST(ScanMap, UsesGivenProbabilities) {
     EXPECT_NEAR(at(1.1f), 0.25, 1e-6);
 }
 
-/// OctoMap's insertion is a second implementation of the same.
+/// OctoMap's insertion is a second implementation.
 TEST(ScanMap, MatchesOctoMapInsertion) {
     simulation::Random random(12);
     const MappedScan scan = randomScan(random, 400);
@@ -254,7 +252,7 @@ TEST(ScanMap, MatchesOctoMapInsertion) {
             for (double z = -2.1; z < 2.2; z += 0.2) {
                 const State state = stateAt(own, {x, y, z});
                 EXPECT_EQ(state, stateAt(discrete, {x, y, z}));
-                const bool is_occupied = state == State::Occupied;  // rays go to points
+                const bool is_occupied = state == State::Occupied;  // OctoMap's rays end at points
                 EXPECT_EQ(is_occupied, stateAt(rays, {x, y, z}) == State::Occupied);
                 free += state == State::Free;
                 occupied += is_occupied;

@@ -121,7 +121,7 @@ TEST(TableCloud, ReportsInvalidRings) {
     }
 }
 
-TEST(TableCloud, WarnsOfMaps) {
+TEST(TableCloud, WarnsAboutMaps) {
     EXPECT_THAT(cloudOf(tableAt({5e5, 5e5 + 1, 3})).remarks(), ElementsAre(HasSubstr("map")));
     EXPECT_THAT(cloudOf(tableAt({5e5, 2, 3})).remarks(), IsEmpty());
 }
@@ -134,7 +134,7 @@ TEST(TableCloud, RejectsTablesWithoutCoordinates) {
     EXPECT_THROW(cloudOf(table), std::runtime_error);
 }
 
-/// The inside of a sphere, seen by these beams; with the number that `ringOf` gives to each.
+/// Returns of these beams inside a sphere, with ring numbers by `ringOf`.
 template <class RingOf>
 PointTable sphereOf(const std::vector<double>& beams_deg, const RingOf& ringOf) {
     Numbers x, y, z, rings;
@@ -174,7 +174,7 @@ ObservedScan readBack(const PointTable& table, const Settings& settings = {}) {
     return observed;
 }
 
-/// The same from a log of a newer MRPT, which holds the table as a CGenericPointsMap.
+/// The same from a log of a newer MRPT with the table as a CGenericPointsMap.
 ObservedScan readFromLog(const PointTable& table) {
     registerMrptClasses();
     registerNewerClouds();
@@ -216,7 +216,7 @@ TEST(TableCloud, PrefersRingOverElevation) {
     }
     EXPECT_EQ(readBack(moved).scan.row[5], 5);
     Settings named;
-    named.sensor.model = "VLP-16";  // whose beams are those of the settings
+    named.sensor.model = "VLP-16";  // beams from the settings
     EXPECT_EQ(readBack(moved, named).scan.row[5], 8);
 }
 
@@ -232,7 +232,7 @@ TEST(TableCloud, KeepsRowsAndTimesInLogs) {
     EXPECT_EQ(of_log.scan.time_s.size(), table.points);
     EXPECT_EQ(of_log.remark, "");
 
-    times[7] = 100;  // no scan is that long
+    times[7] = 100;  // too long for a scan
     PointTable strange = sphereOf(vlp16_deg(), [](int, int column) { return column; });
     addColumn("gps_time", NumberType::Float64, times, strange);
     const ObservedScan observed = readFromLog(strange);
@@ -253,7 +253,7 @@ TEST(TableCloud, SeparatesCloseBeamsByRings) {
 }
 
 TEST(TableCloud, IgnoresContradictingRings) {
-    // Laser numbers of a VLP-16 in the order of firing, and lines that overlap as a Livox's do.
+    // Laser numbers of a VLP-16 in firing order, and overlapping lines as of a Livox.
     const auto interleaved = readBack(
         sphereOf(vlp16_deg(), [](int beam, int) { return beam < 8 ? 2 * beam : 2 * beam - 15; }));
     const auto overlapping =

@@ -31,7 +31,7 @@ TEST(Trajectory, ReturnsExactPoses) {
     EXPECT_NEAR(trajectory.at(at(5.0)).value().x(), 2.0, 1e-9);
 }
 
-TEST(Trajectory, EndsAtItsEndsAndGaps) {
+TEST(Trajectory, IsUndefinedOutsideAndInGaps) {
     EXPECT_FALSE(Trajectory().at(at(0)));
     Trajectory trajectory;
     trajectory.add(at(0.0), CPose3D());

@@ -1,4 +1,4 @@
-// The bug of MRPT in docs/mrpt-half-scan.md.
+// The MRPT bug described in docs/mrpt-half-scan.md.
 #include <gtest/gtest.h>
 #include <hagen/sensors/VelodyneModel.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -12,10 +12,10 @@ namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
 
-constexpr const char* kMended =
+constexpr const char* kFixedUpstream =
     "MRPT now decodes whole blocks: delete docs/mrpt-half-scan.md and this test";
 
-/// Readings other than zero in the first `readings` of each block of 32.
+/// Number of non-zero readings among the first `readings` of each block of 32.
 std::size_t readingsIn(const CObservationVelodyneScan& scan, int readings) {
     std::size_t count = 0;
     for (const auto& packet : scan.scan_packets) {
@@ -28,7 +28,7 @@ std::size_t readingsIn(const CObservationVelodyneScan& scan, int readings) {
 
 TEST(UpstreamHalfScan, MrptDecodesHalfOfEachBlock) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("HDL-32E");
-    // From 2 m up, lasers on both sides of the horizon see the ground or a wall.
+    // From 2 m, lasers above and below the horizon hit a wall or the ground.
     test::SimpleScene scene;
     scene.boxes.push_back({{12, -10, 0}, {13, 10, 20}});
     const auto scan = encodeScan(model, test::fireAt(scene, model, {0, 0, 2}));
@@ -36,7 +36,7 @@ TEST(UpstreamHalfScan, MrptDecodesHalfOfEachBlock) {
     ASSERT_GT(all, first_half + 1000);
     scan->generatePointCloud();
     EXPECT_GT(scan->point_cloud.size(), 0u);
-    EXPECT_LE(scan->point_cloud.size(), first_half) << kMended;
+    EXPECT_LE(scan->point_cloud.size(), first_half) << kFixedUpstream;
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ Firings firingsAt(float range_m, int lasers, int count) {
 }
 
 // VelodyneDecoder_test.cpp tests that decoding reverses encoding; this tests the raw bytes.
-TEST(VelodyneEncoder, MatchesTheManual) {
+TEST(VelodyneEncoder, MatchesManual) {
     Firings firings = firingsAt(10.0f, 16, 24);
     firings.first_azimuth_deg = 359.9;
     firings.first_time_us = 1234567;
@@ -24,7 +24,7 @@ TEST(VelodyneEncoder, MatchesTheManual) {
     ASSERT_EQ(packets.size(), 1u);
     EXPECT_EQ(packets[0].blocks[0].header(), 0xeeff);
     EXPECT_EQ(packets[0].blocks[0].rotation(), 35990);
-    EXPECT_EQ(packets[0].blocks[1].rotation(), 30);  // two firings on, around north
+    EXPECT_EQ(packets[0].blocks[1].rotation(), 30);  // two firings later, across north
     EXPECT_EQ(packets[0].blocks[3].laser_returns[7].distance(), 5000);
     EXPECT_EQ(packets[0].blocks[3].laser_returns[7].intensity(), 255);
     EXPECT_EQ(packets[0].gps_timestamp(), 1234567u);

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 using mrpt::obs::CObservationVelodyneScan;
 
-/// MRPT decodes the first 16 returns of each block; these are the same returns among ours.
+/// Our returns that MRPT also decodes: the first 16 of each block.
 std::vector<std::size_t> returnsInFirstHalfOfBlocks(const CObservationVelodyneScan& observation) {
     std::vector<std::size_t> indices;
     std::size_t index = 0;
@@ -52,7 +52,7 @@ void expectMrptAgrees(CObservationVelodyneScan observation) {
         const double distance_m =
             std::hypot(scan.x_m[shared[i]] - cloud.x[i], scan.y_m[shared[i]] - cloud.y[i],
                        scan.z_m[shared[i]] - cloud.z[i]);
-        ASSERT_LT(distance_m, 0.01) << "return " << i << " of MRPT's";
+        ASSERT_LT(distance_m, 0.01) << "MRPT's return " << i;
         ASSERT_EQ(static_cast<int>(std::lround(255 * scan.intensity[shared[i]])),
                   cloud.intensity[i]);
     }
@@ -69,7 +69,7 @@ TEST(VelodyneObservation, DecodesAllReturnsOfRealScan) {
 
 TEST(VelodyneObservation, MatchesMrptOnCaptures) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA is not a folder of captures";
     for (const auto& [file, calibration] : {std::pair{"sample_velodyne_vlp16_gps.pcap", "VLP16"},
                                             {"sample_velodyne_hdl32.pcap", "HDL32"}}) {
         const auto observation = test::readCapture(folder / file, calibration);
@@ -166,7 +166,7 @@ TEST(VelodyneObservation, DecodesDualReturns) {
     }
 }
 
-TEST(VelodyneObservation, TimesIncreaseOverTheHour) {
+TEST(VelodyneObservation, TimesIncreaseAcrossHour) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     Firings firings = randomFirings(56, model, 240, 0.0);
     firings.first_time_us = 3599995000u;
@@ -290,7 +290,7 @@ TEST(VelodyneObservation, IsEqualOnAllInstructionSets) {
     }
 }
 
-/// A motor that hardly turns has readings that go back by 0.01 degrees.
+/// Azimuths of a slow motor may step back by 0.01 degrees.
 TEST(VelodyneObservation, ToleratesBackwardReadings) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(66, model, 24, 0.0));
@@ -330,7 +330,7 @@ TEST(VelodyneObservation, RejectsOtherModels) {
     }
 }
 
-/// Finite as doubles, but no floats: their differences would be no coordinates.
+/// Finite as doubles but not as floats: coordinates would be undefined.
 TEST(VelodyneObservation, RejectsImplausibleCorrections) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(64, model, 24, 0.0));
@@ -383,7 +383,7 @@ const mrpt::obs::VelodyneCalibration& ofMrpt(const char* model) {
     return mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model);
 }
 
-/// Each number, to the last bit.
+/// Expects each number to be bitwise equal.
 void expectEqual(const mrpt::obs::VelodyneCalibration& found,
                  const mrpt::obs::VelodyneCalibration& expected) {
     ASSERT_EQ(found.laser_corrections.size(), expected.laser_corrections.size());
@@ -396,7 +396,7 @@ void expectEqual(const mrpt::obs::VelodyneCalibration& found,
               &Laser::sinVertCorrection, &Laser::cosVertCorrection, &Laser::sinVertOffsetCorrection,
               &Laser::cosVertOffsetCorrection}) {
             EXPECT_EQ(a.*number, b.*number) << i;
-            EXPECT_EQ(std::signbit(a.*number), std::signbit(b.*number)) << i;  // recorded, too
+            EXPECT_EQ(std::signbit(a.*number), std::signbit(b.*number)) << i;  // is recorded
         }
     }
 }

@@ -14,7 +14,7 @@ namespace {
 
 const SensorModel kSensor = sensorModel("VLP-16");
 
-/// `count` points from `from_m` upwards, one to a voxel of 0.2 m.
+/// `count` points from `from_m` upwards, one per voxel of 0.2 m.
 void addPost(const Eigen::Vector3f& from_m, int count, std::vector<Eigen::Vector3f>& points_m) {
     for (int i = 0; i < count; ++i) {
         points_m.push_back(from_m + 0.4f * static_cast<float>(i) * Eigen::Vector3f::UnitZ());
@@ -44,7 +44,7 @@ TEST(PclEuclidean, SeparatesObstaclesFromFlatGround) {
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const float height_m = labelled.scan.z_m[i] + 1.5f;
         const bool is_near = labelled.scan.range_m[i] <= 20.0f;
-        if (!is_near || std::abs(height_m - 0.2f) < 0.15f) continue;  // a voxel's half, and tilt
+        if (!is_near || std::abs(height_m - 0.2f) < 0.15f) continue;  // half a voxel, and tilt
         EXPECT_EQ(labels[i], height_m > 0.2f ? Label::Roi : Label::Rou) << "at height " << height_m;
     }
 }
@@ -87,7 +87,7 @@ TEST(PclEuclidean, LabelsReturnsByVoxel) {
 }
 
 TEST(PclEuclidean, RejectsWallsAsGround) {
-    std::vector<Eigen::Vector3f> points_m;  // nothing but a wall
+    std::vector<Eigen::Vector3f> points_m;  // only a wall
     for (int y = -20; y <= 20; ++y)
         addPost({6.0f, 0.3f * static_cast<float>(y), -1.0f}, 8, points_m);
     EXPECT_EQ(roiCount(points_m, {}), static_cast<int>(points_m.size()));
@@ -97,7 +97,7 @@ TEST(PclEuclidean, RejectsInvalidOptions) {
     PclEuclideanOptions options;
     options.leaf_m = 0.0f;
     EXPECT_THROW(pclEuclideanLabels({}, kSensor, options), std::invalid_argument);
-    options.leaf_m = 0.01f;  // 4000 voxels to a side
+    options.leaf_m = 0.01f;  // 4000 voxels per side
     EXPECT_THROW(pclEuclideanLabels({}, kSensor, options), std::invalid_argument);
     options = {};
     options.min_cluster_points = 0;

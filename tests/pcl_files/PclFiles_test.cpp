@@ -1,4 +1,4 @@
-// The Point Cloud Library as a second reader and writer of the same files.
+// The Point Cloud Library (PCL) as an independent reader and writer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>

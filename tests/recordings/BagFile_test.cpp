@@ -75,13 +75,13 @@ class BagFileTest : public testing::Test {
     Read readBytes(const ByteString& bytes) const {
         return readAll(test::writeBytes(folder_ / "file", bytes));
     }
-    /// Expects a break that names the file, with these words.
+    /// Expects an error with the file name and these words.
     void expectBroken(const ByteString& bytes, const std::string& words) const {
         const std::string why = readBytes(bytes).broken_because;
         EXPECT_THAT(why, HasSubstr((folder_ / "file").string() + ": "));
         EXPECT_THAT(why, HasSubstr(words));
     }
-    /// Replaces the messages of a database by some without data.
+    /// Replaces the messages of a database by messages without data.
     static void writeMessagesTable(const fs::path& file, const std::string& columns,
                                    int messages = 1) {
         test::writeDb3(file, someMessages());
@@ -120,7 +120,7 @@ TEST_F(BagFileTest, ReadsEveryFormat) {
     EXPECT_EQ(read.fraction, 1.0);
 }
 
-/// Files of other programs: tests/recordings/data, see its README.
+/// Files of other programs in tests/recordings/data; see the README there.
 TEST_F(BagFileTest, ReadsFilesOfOtherPrograms) {
     const fs::path data = fs::path(HAGEN_SOURCE_DIR) / "tests/recordings/data";
     const Read ros2 = readAll(data / "flight_zstd.mcap");
@@ -129,7 +129,7 @@ TEST_F(BagFileTest, ReadsFilesOfOtherPrograms) {
     EXPECT_THAT(ros2.messages[0],
                 HasSubstr("/tf_static tf2_msgs/TFMessage cdr 1700000000000000000 "));
     EXPECT_THAT(ros2.messages.back(), HasSubstr("of something else"));
-    // Messages of ROS 1: by rosbag in bags, by another serialiser in the MCAP.
+    // ROS 1 messages: written by rosbag in bags, by another serialiser in the MCAP.
     const Read ros1 = readAll(data / "flight_ros1.mcap");
     EXPECT_EQ(ros1.messages.size(), 33u);
     for (const char* file : {"flight_bz2.bag", "flight_lz4.bag"}) {
@@ -159,7 +159,7 @@ TEST_F(BagFileTest, ReadsUpToAnyTruncation) {
             EXPECT_TRUE(std::equal(read.messages.begin(), read.messages.end(), all.begin()));
         }
     }
-    // What is before the cut is not lost, of a database neither.
+    // Messages before the cut are kept, also in a database.
     std::vector<test::SentMessage> large;
     for (int i = 0; i < 10; ++i) {
         large.push_back(test::stringMessage("/a", i, std::string(20000, 'a')));
@@ -193,7 +193,7 @@ TEST_F(BagFileTest, DetectsChangedDataByCrc) {
     mcap = test::mcapOf(someMessages());
     mcap[mcap.find("statistics")] = 'x';
     expectBroken(mcap, "the CRC of the summary is wrong");
-    EXPECT_EQ(readBytes(mcap).messages, expected(false));  // they were sound
+    EXPECT_EQ(readBytes(mcap).messages, expected(false));  // the messages were intact
 }
 
 TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
@@ -285,7 +285,7 @@ TEST_F(BagFileTest, RejectsDatabaseWithHotJournal) {
     const auto run = [&](const std::string& sql) {
         EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
     };
-    // More than fits into memory is in the file before the transaction ends.
+    // The transaction exceeds the cache, so part of it is in the file before it ends.
     run("PRAGMA cache_size = 5; BEGIN; UPDATE messages SET timestamp = 7;"
         "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 500) "
         "INSERT INTO messages (topic_id, timestamp, data) SELECT 1, i, zeroblob(4000) FROM n");
@@ -297,12 +297,12 @@ TEST_F(BagFileTest, RejectsDatabaseWithHotJournal) {
     EXPECT_EQ(read.messages.size(), 0u);
     EXPECT_THAT(read.broken_because,
                 HasSubstr("interrupted: " + journal.string() + " undoes what is not complete"));
-    // As the message says: a query of who may write undoes it.
+    // As the message suggests, a query by a process that may write undoes the transaction.
     sqlite3_open(copy.c_str(), &database);
     run("SELECT count(*) FROM messages");
     sqlite3_close(database);
     EXPECT_EQ(readAll(copy).messages, expected(false));
-    // A journal may stay when the transaction has ended.
+    // A journal may remain after the transaction.
     test::writeBytes(journal, ByteString(512, '\0'));
     EXPECT_EQ(readAll(copy).messages, expected(false));
 }
@@ -358,7 +358,7 @@ TEST_F(BagFolderTest, RejectsWrongMetadata) {
                 HasSubstr("metadata.yaml: lists no files"));
     writeMetadata("  compression_mode: FILE\n  compression_format: zstd\n");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("packed whole (zstd)"));
-    // None points outside the folder.
+    // Listed files cannot be outside the folder.
     writeMetadata("", "[../../etc/passwd]");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("lists 'passwd', which is not"));
     writeMetadata("", "{a: b}");
@@ -395,7 +395,7 @@ TEST_F(BagFileTest, RejectsComputedColumns) {
     }
 }
 
-/// Counts the calls of a check, and ends the reading by its own exception after some.
+/// Counts the calls of a check and ends reading by an exception after some calls.
 struct Ending {
     struct Ended : std::runtime_error {
         using std::runtime_error::runtime_error;
@@ -424,7 +424,7 @@ TEST_F(BagFileTest, InterruptsBetweenMessages) {
     for (int i = 0; i < 50; ++i) schemas += test::mcapRecord(3, ByteString(14, '\0'));
     const ByteString chunk = ByteString(16, '\0') + little64(schemas.size()) + ByteString(8, '\0') +
                              little64(schemas.size()) + schemas;
-    // Records of a file and of a chunk, an attachment, and sections of a bag of ROS 1.
+    // Records of a file and of a chunk, an attachment, and sections of a ROS 1 bag.
     const fs::path attachment =
         test::writeBytes(folder_ / "a", magic + '\x09' + little64(4000000000u));
     fs::resize_file(attachment, 4000000017u);  // sparse

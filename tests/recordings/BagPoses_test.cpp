@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 constexpr double kStart_s = test::kBagStart_s;
 
-/// Poses of the vehicle, and where its sensors are mounted.
+/// Poses of the vehicle and mounts of its sensors.
 using BagPosesTest = test::BagTest;
 
 /// A transform on /tf.
@@ -33,8 +33,8 @@ SentMessage moved(double since_s, const std::string& parent, const std::string& 
                              });
 }
 
-/// A vehicle that flies along x at 10 m/s, turned to the left, and rises at 1 m/s: its height is
-/// that of another frame, and 2 m ahead of that is base_link, which sways.
+/// A vehicle that flies along x at 10 m/s, turned to the left, and rises at 1 m/s. Its height is in
+/// a separate frame; 2 m ahead of that frame is base_link, which rotates.
 std::vector<SentMessage> climbingVehicle(const std::vector<SentMessage>& others) {
     std::vector<SentMessage> messages = others;
     for (const double since_s : {0.0, 0.1, 0.2}) {
@@ -44,8 +44,8 @@ std::vector<SentMessage> climbingVehicle(const std::vector<SentMessage>& others)
     return messages;
 }
 
-/// The place of that vehicle's base_link at all times that are known of all of its frames.
-/// Times are interpolated as double seconds since 1970, to a microsecond.
+/// Expects base_link's poses at all times at which all of the vehicle's frames are known. Times are
+/// interpolated as double seconds since 1970, with microsecond accuracy.
 void expectClimb(const PoseSeries& series) {
     ASSERT_EQ(series.poses.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -74,7 +74,7 @@ TEST_F(BagPosesTest, PrefersOdometryToTransforms) {
     EXPECT_EQ(moved.scans->plan().poses->poses.at(1).x_m, 2);
     EXPECT_NEAR(CPose3D(moved.of("points")[0]->sensorPose()).x(), 5, 1e-9);
     EXPECT_FALSE(read({cloud("/points")}).scans->plan().poses);
-    // A pose now and then places no scans: a goal, or the corrections of a map.
+    // Rare poses (a goal, or map corrections) do not place scans.
     const auto seldom = [&](double since_s) {
         return test::sentMessage("/goal", "geometry_msgs/PoseStamped", kStart_s + since_s,
                                  [&](test::MessageBytes& bytes) {
@@ -87,7 +87,7 @@ TEST_F(BagPosesTest, PrefersOdometryToTransforms) {
 }
 
 TEST_F(BagPosesTest, FollowsMountThroughFrames) {
-    // The odometry is of the IMU, which is beside the LiDAR on the vehicle.
+    // Odometry of the IMU, which is mounted beside the LiDAR.
     const ReadBag bag = read({transform("/tf_static", "base_link", "lidar", 5),
                               transform("/tf_static", "base_link", "imu", 2), odometry(0, 0, "imu"),
                               odometry(0.1, 0, "imu"), cloud("/points")});
@@ -97,7 +97,7 @@ TEST_F(BagPosesTest, FollowsMountThroughFrames) {
                                 transform("/tf", "base_link", "lidar", 4, 0.1), odometry(0, 0),
                                 odometry(0.1, 1), cloud("/points")});
     EXPECT_NEAR(CPose3D(still.of("points")[0]->sensorPose()).x(), 4, 1e-9);
-    // Frames in a circle end somewhere.
+    // Circular frames do not cause an endless loop.
     const ReadBag circle =
         read({transform("/tf_static", "a", "lidar", 1), transform("/tf_static", "lidar", "a", 1),
               odometry(0, 0), cloud("/points")});
@@ -115,14 +115,14 @@ TEST_F(BagPosesTest, TreatsConstantTransformsAsStatic) {
     ASSERT_TRUE(bag.scans->plan().poses);
     EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base_footprint");
     EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5.5, 1e-9);
-    // Whatever the vehicle's frame is called.
+    // The name of the vehicle's frame does not matter.
     const ReadBag body =
         read({cloud("/points"), transform("/tf", "body", "lidar", 3),
               transform("/tf", "body", "lidar", 3, 0.1), transform("/tf", "earth", "body", 1),
               transform("/tf", "earth", "body", 2, 0.1)});
     EXPECT_EQ(body.scans->plan().poses->source, "transforms from earth to body");
     EXPECT_NEAR(CPose3D(body.of("points")[0]->sensorPose()).x(), 3, 1e-9);
-    // Nothing moves: the vehicle stands still.
+    // No frame moves: the vehicle is parked.
     const ReadBag parked =
         read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
               transform("/tf", "odom", "lidar", 1, 0.1), transform("/tf", "map", "odom", 1)});
@@ -140,7 +140,7 @@ TEST_F(BagPosesTest, ComposesMovingTransforms) {
     expectClimb(*bag.scans->plan().poses);
     EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5, 1e-9);
     EXPECT_THAT(bag.scans->plan().remarks, testing::IsEmpty());
-    // Constant transforms between them are a part, too.
+    // Constant transforms in between are also applied.
     const ReadBag still =
         read({cloud("/points"), moved(0, "base_link", "lidar", 0, 0, 1),
               moved(0.1, "base_link", "lidar", 0, 0, 2), transform("/tf", "odom", "base_link", 7)});
@@ -169,7 +169,7 @@ TEST_F(BagPosesTest, ComposesOdometryWithTransforms) {
     expectClimb(*bag.scans->plan().poses);
     EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5, 1e-9);
     EXPECT_THAT(bag.scans->plan().remarks, testing::IsEmpty());
-    // Another LiDAR hangs on the frame of the odometry: its poses stay.
+    // Another LiDAR is attached to the odometry frame: its poses are kept.
     std::vector<SentMessage> with_other = messages;
     with_other.push_back(cloud("/down", 0, "base_footprint"));
     const ReadBag two = read(with_other);
@@ -223,7 +223,7 @@ TEST_F(BagPosesTest, ReportsSensorOnOtherFrame) {
     std::vector<SentMessage> messages{cloud("/points"), imu,
                                       transform("/tf_static", "os_sensor", "lidar", 5),
                                       transform("/tf_static", "imu_case", "imu", 5)};
-    // Without poses, any frame will do.
+    // Without poses, any frame is accepted.
     const ReadBag alone = read(messages);
     EXPECT_NEAR(CPose3D(alone.of("points")[0]->sensorPose()).x(), 5, 1e-9);
     EXPECT_EQ(alone.scans->plan().imu_topic, "/imu");
@@ -284,7 +284,7 @@ TEST_F(BagPosesTest, CountsExcessFrames) {
         return test::sentMessage(topic, "tf2_msgs/TFMessage", kStart_s, write);
     };
     const ReadBag bag = read({cloud("/points"), transforms("/tf", kMaxMovingFrames + 2),
-                              // A frame that is known already is no further one.
+                              // A known frame is not counted again.
                               transform("/tf", "base_link", "f0", 2, 0.1),
                               transforms("/tf_static", FrameTree::kMaxFrames + 2)});
     EXPECT_EQ(bag.survey.transforms.size(), kMaxMovingFrames);
@@ -297,7 +297,7 @@ TEST_F(BagPosesTest, CountsExcessFrames) {
                 Contains(HasSubstr("/tf_static: 2 transforms of frames beyond the first 1000")));
 }
 
-TEST_F(BagPosesTest, ReportsFrameOnItself) {
+TEST_F(BagPosesTest, ReportsFrameAttachedToItself) {
     const ReadBag bag = read({cloud("/points"), transform("/tf_static", "lidar", "lidar", 1)});
     EXPECT_THAT(bag.scans->remarks(),
                 Contains(HasSubstr("/tf_static: 1 transform that could not be read, left out; the "
@@ -315,7 +315,7 @@ TEST_F(BagPosesTest, ReportsUnreadablePoses) {
                                    "message 1 (recorded at 1700000000.100 s): it ends ")));
 }
 
-TEST_F(BagPosesTest, SeparatesParentsOfAFrame) {
+TEST_F(BagPosesTest, SeparatesParentsOfFrame) {
     const ReadBag bag = read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
                               transform("/tf", "map", "lidar", 100, 0.05),
                               transform("/tf", "odom", "lidar", 2, 0.1),

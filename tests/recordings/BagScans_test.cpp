@@ -50,7 +50,7 @@ void expectPoints(const CObservation::Ptr& scan) {
     }
 }
 
-/// Files that other programs made of the same messages.
+/// Files made from the same messages by other programs.
 class Fixture : public testing::TestWithParam<const char*> {
  protected:
     static fs::path file() {
@@ -150,7 +150,7 @@ TEST_P(Fixture, ReadsPosesFramesAndAttitudes) {
     EXPECT_EQ(plan.poses->poses[3].z_m, 5);
     EXPECT_EQ(plan.poses->poses[3].qw, 1);
     EXPECT_EQ(plan.poses->poses[3].time_ns, 1700000000300000000);
-    // On a mast that stands on the vehicle.
+    // Via a mast on the vehicle.
     const CPose3D on_vehicle(read.of("cloud")[0]->sensorPose());
     EXPECT_NEAR(on_vehicle.x(), 1, 1e-9);
     EXPECT_NEAR(on_vehicle.z(), 2, 1e-9);
@@ -220,7 +220,7 @@ TEST_F(BagScansTest, PrefersPacketsToClouds) {
     EXPECT_EQ(test::bytesOf(turn->scan_packets[3]), test::bytesOf(scan->scan_packets[3]));
     EXPECT_THAT(read(messages, {{"/velodyne_points"}, {}}).labels(),
                 ElementsAre("velodyne_points"));
-    // Packets of a sensor that is not known give way.
+    // Clouds are preferred to packets of an unknown sensor.
     auto unknown = *scan;
     for (auto& packet : unknown.scan_packets) reinterpret_cast<char*>(&packet)[1205] = '\x61';
     const ReadBag clouds =
@@ -268,7 +268,7 @@ TEST_F(BagScansTest, IgnoresCloudsInFixedFrames) {
 TEST_F(BagScansTest, ReportsUnreadableMessages) {
     SentMessage cut = cloud("/points", 0.1), lying = cloud("/points", 0.2);
     cut.ros1.resize(cut.ros1.size() - 10);
-    // Its width: after the sequence number, the time, the frame and the height.
+    // The width follows the sequence number, the time, the frame and the height.
     const std::size_t width_at = 4 + 8 + 4 + 5 + 4;
     lying.ros1.replace(width_at, 4, "\xff\xff\xff\xff");
     SentMessage text = test::stringMessage("/points", kStart_s, "no cloud at all");
@@ -346,7 +346,7 @@ TEST_F(BagScansTest, ReadsOusterMetadataOfBag) {
                 HasSubstr("Is it another sensor's metadata?"));
 }
 
-TEST_F(BagScansTest, KeepsTurnBeforeBreak) {
+TEST_F(BagScansTest, KeepsTurnBeforeTruncation) {
     const auto scan = test::poleScanFrom(1, "lidar");
     std::vector<SentMessage> messages;
     for (int i = 0; i < 3; ++i) {

@@ -93,7 +93,7 @@ TEST_F(BagSourceTest, KeepsMountInLidarPoses) {
     };
     EXPECT_TRUE(poseOf("lidar").is_of_sensor);
     EXPECT_TRUE(poseOf("lidar").attitude_is_of_sensor);
-    // Nothing says where the LiDAR is on it.
+    // The mount of the LiDAR is unknown.
     EXPECT_TRUE(poseOf("base_link").is_of_sensor);
     EXPECT_TRUE(poseOf("base_link").attitude_is_of_sensor);
 }
@@ -134,7 +134,7 @@ TEST_F(BagSourceTest, ReadsSelectedEntriesLabelsAndTopics) {
     EXPECT_THAT(test::messageOf([&] { open(options); }), HasSubstr("has no topic '/none'"));
 }
 
-TEST_F(BagSourceTest, ReportsBreakAfterScans) {
+TEST_F(BagSourceTest, ReportsTruncationAfterScans) {
     fs::resize_file(bag_, fs::file_size(bag_) - 10);
     const auto source = open();
     for (int i = 0; i < 6; ++i) EXPECT_TRUE(source->nextScan());
@@ -149,7 +149,7 @@ TEST_F(BagSourceTest, ReportsLookAheadErrors) {
         test::writeBytes(bag, whole.substr(0, whole.size() / 2));
         SourceOptions options;
         options.last_entry = last;
-        options.keep_going = [&] {  // it reads the file that is replaced now
+        options.keep_going = [&] {  // replaces the file being read
             fs::remove(bag);
             test::writeBytes(bag, whole);
             return true;

@@ -26,7 +26,7 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 constexpr double kStart_s = 1700000000;
 
-/// A capture of three turns, 0.1 s apart, each of which sees a pole from elsewhere.
+/// A capture of three turns, 0.1 s apart, which see a pole from different positions.
 class CaptureSourceTest : public testing::Test {
  protected:
     CaptureSourceTest() {
@@ -38,7 +38,7 @@ class CaptureSourceTest : public testing::Test {
             observations::Firings firings = test::fireAt(scene, model, {1.0 * i, 0, 2});
             firings.first_time_us = static_cast<std::uint32_t>(100000 * i);
             scans_.push_back(encodeScan(model, firings));
-            // The last packet is not full: the next turn follows at once.
+            // The last packet is not full: the next turn follows immediately.
             scans_.back()->scan_packets.pop_back();
             writer.packets(*scans_.back(), kStart_s + 0.1 * i, 1.327e-3);
         }
@@ -231,7 +231,7 @@ TEST_F(CaptureSourceTest, ReportsLookAheadErrors) {
     for (const std::size_t last : {0u, 2u, 100u}) {
         SourceOptions options;
         options.last_entry = last;
-        const auto source = open(options);  // of the file that is replaced now
+        const auto source = open(options);  // of the file replaced below
         fs::remove(capture_);
         std::ofstream(capture_, std::ios::binary) << bytes.substr(0, bytes.size() / 2);
         EXPECT_EQ(source->scanTimes().at("velodyne").size(), 2u);

@@ -80,8 +80,8 @@ TEST_F(CloudFileSourceTest, ReadsFilesByNumber) {
                                    testing::DoubleNear(1.1, 1e-6)));
 }
 
-/// A mark before a number belongs to it only behind another number.
-TEST_F(CloudFileSourceTest, AcceptsMarksBeforeNumbers) {
+/// A separator belongs to the next number only after another number.
+TEST_F(CloudFileSourceTest, AcceptsSeparatorsBeforeNumbers) {
     for (const std::string before : {"scan.", "_", "left_"}) {
         SCOPED_TRACE(before);
         const fs::path folder = folderOf({before + "10.bin", before + "9.bin"});
@@ -128,9 +128,9 @@ TEST_F(CloudFileSourceTest, AssumesPeriodWithoutTimes) {
                 ElementsAre(0.0, testing::DoubleNear(0.1, 1e-6)));
 }
 
-TEST_F(CloudFileSourceTest, TakesPaddedNumbersAsCounters) {
+TEST_F(CloudFileSourceTest, ReadsPaddedNumbersAsCounters) {
     const std::vector<std::vector<std::string>> kNames{
-        {"0000000000.bin", "0000000001.bin"},  // as KITTI's raw recordings have them
+        {"0000000000.bin", "0000000001.bin"},  // as in KITTI's raw recordings
         {"0000000000000.bin", "0000000000001.bin"},
         {"vlp16.000001.bin", "vlp16.000002.bin"},
         {"hdl_64.000001.bin", "hdl_64.000002.bin"},
@@ -169,7 +169,7 @@ TEST_F(CloudFileSourceTest, ReadsNuScenes) {
     EXPECT_EQ(rings[3], 3);
 }
 
-TEST_F(CloudFileSourceTest, KeepsEndingsOfEqualNames) {
+TEST_F(CloudFileSourceTest, KeepsExtensionsOfEqualNames) {
     EXPECT_THAT(scansOf(folderOf({"1.bin", "1.pcd"})).first, ElementsAre("1.bin", "1.pcd"));
 }
 
@@ -177,13 +177,13 @@ TEST_F(CloudFileSourceTest, PrefersScanFolder) {
     const fs::path folder = folderOf({"1.bin"});
     write("clouds/velodyne/000000.bin", test::bin(filePoints()));
     EXPECT_EQ(openRecording(folder)->nextScan()->observation->sensorLabel, kFolderLabel);
-    // Its subfolder alone is a folder of clouds.
+    // The subfolder itself is a folder of clouds.
     EXPECT_EQ(openRecording(folder / "velodyne")->nextScan()->observation->sensorLabel, "lidar");
 }
 
 TEST_F(CloudFileSourceTest, ReadsSelectedEntries) {
     const fs::path folder = folderOf({"1.bin", "2.bin", "3.bin", "4.bin"});
-    write("clouds/1.bin", "x");  // broken, but not asked for
+    write("clouds/1.bin", "x");  // broken, but not selected
     SourceOptions options;
     options.first_entry = 1;
     options.last_entry = 2;
@@ -208,7 +208,7 @@ TEST_F(CloudFileSourceTest, ReportsBrokenFile) {
     }
 }
 
-/// As of a drive that is not there.
+/// As to a missing drive.
 TEST_F(CloudFileSourceTest, ReportsDanglingLink) {
     const fs::path folder = folderOf({"1.bin", "3.bin"});
     fs::create_symlink("nowhere", folder / "2.bin");

@@ -33,7 +33,7 @@ class CloudFileTest : public testing::Test {
     CloudFile read(const std::string& name, const std::string& text) const {
         return readCloud(write(name, text));
     }
-    /// The message of a file that cannot be read; empty if it can be.
+    /// The error message for a file; empty if the file can be read.
     std::string complaint(const std::string& name, const std::string& text) const {
         try {
             read(name, text);
@@ -91,7 +91,7 @@ TEST_F(CloudFileTest, RejectsTooLargeFile) {
     }
 }
 
-/// A map is refused before it takes memory beside its file.
+/// A map is rejected before memory is allocated for its points.
 TEST_F(CloudFileTest, RejectsTooManyPoints) {
     const std::string count = "16777217";
     const std::string npy =
@@ -134,14 +134,14 @@ TEST_F(CloudFileTest, IgnoresFileName) {
     EXPECT_FALSE(hasCloudName("a/times.txt"));
 }
 
-/// Cut anywhere, a file is refused, except after its last number.
+/// A file cut anywhere except after its last number is rejected.
 TEST_F(CloudFileTest, RejectsTruncatedFile) {
     for (const auto& [name, text] : test::cloudFiles()) {
         for (std::size_t k = 0; k < 50; ++k) {
             const std::size_t size = k * (text.size() - 1) / 49;
             const std::string cut = text.substr(0, size);
             const bool is_shorter_bin = name == "points.bin" && size % 16 == 0;
-            // Bytes after the vertices are not read; a number's last digits may be cut.
+            // Bytes after the vertices are not read; the last digits of a number may be cut.
             const std::size_t unread = name == "ascii.ply" ? 6 : name == "ascii.pcd" ? 7 : 5;
             const bool may_be_whole = name.find(".ply") != std::string::npos || name == "ascii.pcd"
                                           ? size + unread >= text.size()
@@ -152,7 +152,7 @@ TEST_F(CloudFileTest, RejectsTruncatedFile) {
     }
 }
 
-/// Any byte of the header or data may be wrong: a file is read or refused, nothing else.
+/// With any wrong byte in header or data, a file is either read or rejected.
 TEST_F(CloudFileTest, SurvivesWrongBytes) {
     for (const auto& [name, text] : test::cloudFiles(filePoints(3))) {
         for (std::size_t at = 0; at < text.size(); at += 4) {
@@ -191,7 +191,7 @@ TEST_F(CloudFileTest, RejectsAbsurdPointCounts) {
     }
 }
 
-/// Without points, no byte has to be there: the fields themselves are limited.
+/// Fields are limited also without points, when the file needs no data.
 TEST_F(CloudFileTest, RejectsAbsurdFields) {
     EXPECT_THAT(complaint("a.pcd",
                           "FIELDS x y z a\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 4000000000\n"
@@ -236,7 +236,7 @@ TEST_F(CloudFileTest, PcdReportsViewpointAndRest) {
     EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("4 bytes after")));
 }
 
-TEST_F(CloudFileTest, PcdErrorsNameTheLine) {
+TEST_F(CloudFileTest, PcdErrorsIncludeLine) {
     const std::string text = test::asciiPcd(filePoints());
     const auto complaintOn = [&](const std::string& what, const std::string& with) {
         return complaint("a.pcd", replaced(text, what, with));
@@ -295,7 +295,7 @@ TEST_F(CloudFileTest, PlySkipsBinaryLists) {
     EXPECT_THAT(complaint("a.ply", header + packed.text), HasSubstr("but 0 are there"));
 }
 
-TEST_F(CloudFileTest, PlyErrorsNameTheLine) {
+TEST_F(CloudFileTest, PlyErrorsIncludeLine) {
     const std::string text = test::asciiPly(filePoints());
     const auto complaintOn = [&](const std::string& what, const std::string& with) {
         return complaint("a.ply", replaced(text, what, with));
@@ -469,12 +469,12 @@ TEST_F(CloudFileTest, BinAcceptsEmptyRejectsTruncated) {
     EXPECT_THAT(complaint("a.bin", std::string(16, '\xee')),
                 HasSubstr("no point cloud: its first numbers are no points that a LiDAR sees"));
     EXPECT_THAT(complaint("a.bin", std::string(16, 'x')), HasSubstr("it seems to be text. Known"));
-    // A picture is no cut .bin, whatever its size.
+    // A picture of any size is not a truncated .bin.
     EXPECT_THAT(complaint("a.bin", "\xff\xd8\xff\xe0" + std::string(13, '\xee')),
                 HasSubstr("it seems to be a JPEG picture"));
 }
 
-/// Rows of sky before the first return, or no return at all.
+/// Rows of sky before the first return, or no returns.
 TEST_F(CloudFileTest, BinAcceptsLeadingZeros) {
     const std::vector<FilePoint> points = filePoints(400);
     for (const int zeros : {300, 1000}) {
@@ -500,7 +500,7 @@ TEST_F(CloudFileTest, BinAcceptsLeadingZeros) {
 }
 
 TEST_F(CloudFileTest, BinReadsRings) {
-    for (const int count : {20, 21, 400}) {  // of 20 points, the size is a multiple of 16, too
+    for (const int count : {20, 21, 400}) {  // the size of 20 points is also a multiple of 16
         SCOPED_TRACE(count);
         const std::vector<FilePoint> points = filePoints(count);
         const PointTable table = read("a.pcd.bin", test::binWithRings(points)).table;
@@ -515,7 +515,7 @@ TEST_F(CloudFileTest, BinReadsRings) {
     EXPECT_THAT(complaint("cut.bin", cut), HasSubstr("not a multiple of 20-byte points"));
 }
 
-/// The fifth numbers are 0 at first, as rings may be, and then times; intensities are up to 65535.
+/// The fifth numbers are first 0, like rings, and then times; intensities are up to 65535.
 TEST_F(CloudFileTest, BinRejectsOtherFifthNumbers) {
     std::string text;
     const auto add = [&](float number) {

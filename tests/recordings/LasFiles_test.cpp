@@ -1,4 +1,4 @@
-// The package copc of npm as a second reader of LAS files.
+// The npm package copc as an independent reader of LAS files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include "recordings/clouds/CloudFile.h"
@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr int kPoints = 40;
 
-/// Point data record formats with their bytes per point and the place of the GPS time (0: none).
+/// Point data record formats with their bytes per point and the offset of the GPS time (0: none).
 struct Format {
     int number;
     std::size_t bytes, gps_time;
 };
 void PrintTo(const Format& format, std::ostream* out) { *out << format.number; }
 
-/// A file whose records are random but for the times.
+/// A file of records that are random except for the times.
 std::string randomLas(const Format& format, unsigned seed) {
     test::Random random(seed);
     const bool is_new = format.number >= 6;
@@ -58,9 +58,9 @@ std::string randomLas(const Format& format, unsigned seed) {
 
 class LasFiles : public testing::TestWithParam<Format> {};
 
-TEST_P(LasFiles, AgreesWithOtherReader) {
+TEST_P(LasFiles, AgreesWithIndependentReader) {
     const fs::path modules = test::dataFolder("HAGEN_NODE_MODULES");
-    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES names no folder with copc";
+    if (modules.empty()) GTEST_SKIP() << "HAGEN_NODE_MODULES is not a folder with copc";
     const test::TemporaryFolder folder;
     const fs::path file =
         folder.write("random.las", randomLas(GetParam(), static_cast<unsigned>(GetParam().number)));
@@ -68,7 +68,7 @@ TEST_P(LasFiles, AgreesWithOtherReader) {
         "/usr/bin/env", {"-C", modules.string(), "node",
                          std::string(HAGEN_SOURCE_DIR) + "/tests/recordings/read_las.mjs", file});
     if (read.exit_code == 127 || read.exit_code == 77) {
-        GTEST_SKIP() << "node or a package is not there: " << read.err;
+        GTEST_SKIP() << "node or a package is missing: " << read.err;
     }
     ASSERT_EQ(read.exit_code, 0) << read.err;
     const observations::PointTable table = readCloud(file).table;

@@ -41,7 +41,7 @@ class LivoxCaptureTest : public testing::Test {
         }
         return writer;
     }
-    /// `count` packets of 480 us with a point each, whose x is the number of the packet.
+    /// `count` packets of 480 us with one point each; x is the packet's number.
     static std::vector<std::string> packets(int count, std::int64_t first_ns = 5000) {
         std::vector<std::string> all;
         for (int i = 0; i < count; ++i) {
@@ -92,7 +92,7 @@ TEST_F(LivoxCaptureTest, ReadsBothDataTypes) {
         const auto observed = observedOf(*scans[0]);
         EXPECT_EQ(observed.sensor.name, "Mid-360");
         EXPECT_FALSE(observed.sensor.has_rings);
-        const Scan& scan = observed.scan;  // without the point that has no range
+        const Scan& scan = observed.scan;  // without the point without range
         EXPECT_THAT(scan.x_m,
                     ElementsAre(FloatNear(1500 * unit_m, 1e-4f), FloatNear(-3000 * unit_m, 1e-4f)));
         EXPECT_THAT(scan.y_m,
@@ -136,7 +136,7 @@ TEST_F(LivoxCaptureTest, CountsImuPackets) {
                           "UDP datagram"));
 }
 
-TEST_F(LivoxCaptureTest, ScansAreTenthOfSecond) {
+TEST_F(LivoxCaptureTest, ScansLastTenthOfSecond) {
     const Scans scans = read(captureOf(packets(500)).bytes());
     ASSERT_EQ(scans.size(), 3u);
     std::size_t points = 0;
@@ -165,7 +165,7 @@ TEST_F(LivoxCaptureTest, DropsAndCountsDuplicates) {
     EXPECT_THAT(remarks_[0], HasSubstr("100 packets in 1 scan, 1 duplicate packet dropped"));
 }
 
-TEST_F(LivoxCaptureTest, LateDuplicatesHideNoLoss) {
+TEST_F(LivoxCaptureTest, LateDuplicatesDoNotHideLosses) {
     const auto sent = packets(300);
     auto all = sent;
     all.erase(all.begin() + 50, all.begin() + 53);

@@ -114,8 +114,8 @@ TEST_F(OusterCaptureTest, ReadsFramesOfAllProfiles) {
     }
 }
 
-/// Where a pixel's return is, by rotations of the sensor's parts instead of the manual's formula:
-/// the beam leaves a head that has turned clockwise, at a distance from the axis.
+/// The position of a pixel's return, by rotations of the sensor's parts instead of the manual's
+/// formula: the beam starts on the clockwise turning head, at a distance from the axis.
 Eigen::Vector3d expectedPoint(const sensors::OusterSensor& sensor, std::size_t pixel,
                               std::size_t column, double range_m) {
     const double turned_rad =
@@ -171,7 +171,7 @@ TEST_F(OusterCaptureTest, ReturnsMatchGeometry) {
     }
 }
 
-TEST_F(OusterCaptureTest, NamesOtherFusaSensor) {
+TEST_F(OusterCaptureTest, ReportsOtherFusaSensor) {
     const sensors::OusterSensor sensor = sensorOf("FUSA_RNG15_RFL8_NIR8_DUAL");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("FUSA_RNG15_RFL8_NIR8_DUAL", "123"));
@@ -180,7 +180,7 @@ TEST_F(OusterCaptureTest, NamesOtherFusaSensor) {
 }
 
 TEST_F(OusterCaptureTest, FirstColumnLooksForward) {
-    // Column 0 looks along the lidar's x axis, which is the sensor's back.
+    // Column 0 points along the lidar's x axis, to the back of the sensor.
     const sensors::OusterSensor sensor = sensorOf("LEGACY");
     sensors::OusterFrame frame = test::randomFrame(sensor, 1);
     std::fill(frame.range.begin(), frame.range.end(), 0);
@@ -211,7 +211,7 @@ TEST_F(OusterCaptureTest, CountsLostDuplicateAndLatePackets) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 6);
     const Scans whole = read(captureOf(packets).bytes());
-    // Two of a frame in the other order, one late by half a turn, one repeated.
+    // Two packets of a frame are swapped, one is late by half a turn, one is duplicated.
     std::swap(packets[0], packets[1]);
     std::rotate(packets.begin() + 5, packets.begin() + 6, packets.begin() + 8);
     packets.insert(packets.begin() + 9, packets[8]);
@@ -234,7 +234,7 @@ TEST_F(OusterCaptureTest, CountsLostDuplicateAndLatePackets) {
                 HasSubstr("2 turns lost, 16 columns missing, 1 packet more than a turn"));
 }
 
-TEST_F(OusterCaptureTest, RestartLosesNothing) {
+TEST_F(OusterCaptureTest, RestartLosesNoPackets) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 3, 5000);
     const auto again = packetsOfFrames(sensor, 3, 0);
@@ -244,7 +244,7 @@ TEST_F(OusterCaptureTest, RestartLosesNothing) {
     EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
 }
 
-/// Its ids may be near to those of before: packets that are late in a row are not late.
+/// Frame IDs may be close to the earlier ones: many consecutive late packets mean a restart.
 TEST_F(OusterCaptureTest, EarlyRestartLosesSixteenPackets) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 20, 300);
@@ -255,7 +255,7 @@ TEST_F(OusterCaptureTest, EarlyRestartLosesSixteenPackets) {
     EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
 }
 
-TEST_F(OusterCaptureTest, CountsEverythingElse) {
+TEST_F(OusterCaptureTest, CountsIgnoredDatagrams) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 1);
     packets.push_back(std::string(48, '\0'));
@@ -274,7 +274,7 @@ TEST_F(OusterCaptureTest, CountsEverythingElse) {
               "992137000143, 1 other UDP datagram (most: 1 of 5 bytes to port 7502)");
 }
 
-TEST_F(OusterCaptureTest, NamesMetadataOfOtherSensor) {
+TEST_F(OusterCaptureTest, ReportsMetadataOfOtherSensor) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("RNG19_RFL8_SIG16_NIR16", "123"));
@@ -343,7 +343,7 @@ TEST_F(OusterCaptureTest, SurvivesCorruptData) {
     }
 }
 
-/// The MD5 sum of numbers, by the program of that name.
+/// The MD5 sum of numbers, by md5sum.
 template <class Number>
 std::string md5Of(const std::vector<Number>& numbers, const test::TemporaryFolder& folder) {
     const std::string bytes(reinterpret_cast<const char*>(numbers.data()),
@@ -355,7 +355,7 @@ std::string md5Of(const std::vector<Number>& numbers, const test::TemporaryFolde
 
 TEST_F(OusterCaptureTest, MatchesDigestsOfRealCapture) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA is not a folder of captures";
     const sensors::OusterSensor sensor =
         sensors::readOusterSensor(folder / "OS-0-32-U1_v2.2.0_1024x10.json");
     sensors::CaptureFile capture(folder / "OS-0-32-U1_v2.2.0_1024x10.pcap");
@@ -381,7 +381,7 @@ TEST_F(OusterCaptureTest, MatchesDigestsOfRealCapture) {
 
 TEST_F(OusterCaptureTest, ReadsRealCapture) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA names no folder of captures";
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA is not a folder of captures";
     const auto capture = openCapture(folder / "OS-1-128_v2.3.0_1024x10_lb_n3.pcap",
                                      folder / "OS-1-128_v2.3.0_1024x10.json");
     for (int i = 0; i < 3; ++i) {
@@ -392,7 +392,7 @@ TEST_F(OusterCaptureTest, ReadsRealCapture) {
         EXPECT_EQ(observed.sensor.rows(), 128);
         EXPECT_GT(observed.scan.size(), 30000u);
         EXPECT_NEAR(observed.scan.time_s.back(), 0.1, 0.01);
-        // Returns lie on the beams that they are said to be of, but for the offset of the origin.
+        // Returns lie on their beams, except for the offset of the origin.
         for (std::size_t k = 0; k < observed.scan.size(); ++k) {
             const float elevation_rad = std::asin(observed.scan.z_m[k] / observed.scan.range_m[k]);
             const float of_beam_rad = observed.sensor.elevations_rad[observed.scan.row[k]];

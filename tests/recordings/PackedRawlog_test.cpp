@@ -1,4 +1,4 @@
-// Rawlogs as different MRPT versions pack them: not at all, with gzip, with zstd.
+// Rawlogs in the compressions of different MRPT versions: none, gzip, zstd.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mrpt/NewerClouds.h>
@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-/// The entries of a log: comments with random text, together some 600 KB.
+/// The entries of a log: comments with random text, about 600 KB in total.
 std::string plainLog(int entries) {
     mrpt::io::CMemoryStream stream;
     auto archive = mrpt::serialization::archiveFrom(stream);
@@ -58,7 +58,7 @@ TEST(PackedRawlog, ReadsEveryCompression) {
     EXPECT_EQ(readLog(folder.write("plain", plain)), all);
     EXPECT_EQ(readLog(folder.write("zstd", packed)), all);
     EXPECT_EQ(readLog(folder.write("checked", zstdOf(plain, true))), all);
-    // Frames that end anywhere, one after the other.
+    // Consecutive frames that end anywhere.
     EXPECT_EQ(readLog(folder.write("frames", zstdOf(plain.substr(0, 70000)) + zstdOf("") +
                                                  zstdOf(plain.substr(70000)))),
               all);
@@ -88,7 +88,7 @@ TEST(PackedRawlog, ReportsDamagedZstdLog) {
     EXPECT_THAT(readLog(folder.write("behind", zstdOf(plainLog(2)) + "something else")).second,
                 HasSubstr("the compressed data is corrupt"));
     EXPECT_NE(readLog(folder.write("magic", "\x28\xb5\x2f\xfd")).second, "");
-    // A frame with a window of 256 MiB, and its last block, which is empty.
+    // A frame with a window of 256 MiB and an empty last block.
     const std::string long_window("\x28\xb5\x2f\xfd\x00\x90\x01\x00\x00", 9);
     EXPECT_THAT(readLog(folder.write("long", long_window)).second,
                 HasSubstr("a window of more than 128 MiB; decompress it first"));
@@ -96,7 +96,7 @@ TEST(PackedRawlog, ReportsDamagedZstdLog) {
 
 TEST(PackedRawlog, ReadsLogsOfMrpt3) {
     const auto folder = test::dataFolder("HAGEN_MRPT3_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA names no folder of logs of MRPT 3";
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not a folder of MRPT 3 logs";
     for (const char* name :
          {"sample_mrpt3.rawlog", "sample_mrpt3_gzip.rawlog", "sample_mrpt3_simple_gzip.rawlog"}) {
         SCOPED_TRACE(name);
@@ -107,7 +107,7 @@ TEST(PackedRawlog, ReadsLogsOfMrpt3) {
         EXPECT_FALSE(source->nextScan());
         EXPECT_EQ(source->entriesKnown(), 5u);
         EXPECT_EQ(cloud->observation->sensorLabel, "cloud");
-        // The cloud was made of the packets by MRPT.
+        // MRPT made the cloud from the packets.
         auto scan = *std::dynamic_pointer_cast<const mrpt::obs::CObservationVelodyneScan>(
             packets->observation);
         scan.generatePointCloud();
@@ -116,7 +116,7 @@ TEST(PackedRawlog, ReadsLogsOfMrpt3) {
         EXPECT_THAT(points.x_m, testing::ElementsAreArray(scan.point_cloud.x));
         EXPECT_THAT(points.y_m, testing::ElementsAreArray(scan.point_cloud.y));
         EXPECT_THAT(points.z_m, testing::ElementsAreArray(scan.point_cloud.z));
-        // What is written can be read again.
+        // The written log can be read again.
         const test::TemporaryFolder out;
         convert::RawlogWriter writer(out / "a.rawlog", false);
         writer.write(*cloud->observation);

@@ -132,7 +132,7 @@ TEST_F(PoseFile, RejectsKittiPosesAtEqualTimes) {
                 HasSubstr("poses.txt: scans 0 and 1 have different poses, but the same time"));
     folder_.write("poses.txt", "1 0 0 4 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
     EXPECT_TRUE(posesOfRawlog(survey, file).are_of_sensor);
-    // Without times they have no poses, so there is nothing to tell apart.
+    // Without times, scans have no poses, so there is no conflict.
     folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
     for (auto& scan : survey.scans["lidar"]) scan.time = INVALID_TIMESTAMP;
     EXPECT_EQ(test::messageOf([&] { posesOfRawlog(survey, file); }), "");

@@ -138,7 +138,7 @@ TEST_F(RawlogSurveyTest, PrefersSourceOverCount) {
     EXPECT_NEAR(odometry_alone.trajectory.at(at(0.1)).value().x(), 6.0, 1e-6);
 }
 
-TEST_F(RawlogSurveyTest, FindsNoPoses) {
+TEST_F(RawlogSurveyTest, ReturnsNoPosesWithoutSource) {
     const auto found = survey({cloud(0.0, "lidar"), frameOf(cloud(0.1, "lidar"))});
     EXPECT_EQ(found.source, "");
     EXPECT_EQ(found.trajectory.size(), 0u);
@@ -154,7 +154,7 @@ TEST_F(RawlogSurveyTest, ListsScansBySensorLabel) {
     EXPECT_NEAR(found.scans.at("rear")[0].sensor_on_vehicle.z(), 0.25, 1e-6);
 }
 
-TEST_F(RawlogSurveyTest, KeepsPosesBeforeBreak) {
+TEST_F(RawlogSurveyTest, KeepsPosesBeforeTruncation) {
     std::vector<mrpt::serialization::CSerializable::Ptr> poses;
     for (int i = 0; i < 20; ++i) poses.push_back(pose(0.1 * i, i));
     survey(poses);

@@ -1,4 +1,4 @@
-// The child process that reads ahead, where it waits for a lock that nobody releases.
+// The child process that reads ahead, when it waits for a lock that is never released.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ mrpt::obs::CObservationComment comment(const std::string& text) {
     return observation;
 }
 
-/// An object that takes longer to read than the patience, computing.
+/// An object whose reading uses CPU time for longer than the idle timeout.
 class SlowObject : public mrpt::serialization::CSerializable {
     DEFINE_SERIALIZABLE(SlowObject, hagen::recordings)
 };
@@ -46,8 +46,8 @@ void SlowObject::serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) {
     }
 }
 
-/// An object whose reading waits for what nobody does, as for a lock that another thread of the
-/// program held when its process was copied: once for each file in `locks`.
+/// An object whose reading blocks forever, as for a lock held by another thread at the time of
+/// fork(): once for each file in `locks`.
 class LockedObject : public mrpt::serialization::CSerializable {
     DEFINE_SERIALIZABLE(LockedObject, hagen::recordings)
 };
@@ -77,7 +77,7 @@ class RawlogTrialTest : public testing::Test {
         writer.commit();
     }
 
-    /// The entries if the reader waits `times` times.
+    /// The entries if the reader blocks `times` times.
     std::vector<EntryVerdict> verdicts(int times) {
         for (int i = 0; i < times; ++i) std::ofstream(locks / std::to_string(i)) << 'x';
         const int file = open((folder_ / "a.rawlog").c_str(), O_RDONLY | O_CLOEXEC);
@@ -98,11 +98,11 @@ TEST_F(RawlogTrialTest, RestartsIdleProcess) {
     const auto expected = verdicts(0);
     ASSERT_EQ(expected.size(), 5u);
     for (const int times : {1, 2}) {
-        const auto told = verdicts(times);
-        ASSERT_EQ(told.size(), 5u);
+        const auto found = verdicts(times);
+        ASSERT_EQ(found.size(), 5u);
         for (std::size_t entry = 0; entry < 5; ++entry) {
-            EXPECT_EQ(told[entry].kind, expected[entry].kind);
-            EXPECT_EQ(told[entry].end, expected[entry].end);
+            EXPECT_EQ(found[entry].kind, expected[entry].kind);
+            EXPECT_EQ(found[entry].end, expected[entry].end);
         }
         EXPECT_TRUE(fs::is_empty(locks));
     }
@@ -113,12 +113,12 @@ TEST_F(RawlogTrialTest, WaitsForSlowReader) {
     convert::RawlogWriter writer(folder_ / "a.rawlog", true);
     for (int i = 0; i < 2; ++i) writer.write(SlowObject());
     writer.commit();
-    const auto told = verdicts(0);
-    EXPECT_EQ(told.size(), 3u);
-    EXPECT_EQ(told.back().kind, EntryVerdict::Kind::End);
+    const auto found = verdicts(0);
+    EXPECT_EQ(found.size(), 3u);
+    EXPECT_EQ(found.back().kind, EntryVerdict::Kind::End);
 }
 
-/// With an interval timer, whose signals end system calls early.
+/// Signals of an interval timer interrupt system calls.
 TEST_F(RawlogTrialTest, IgnoresSignalsWhileWaiting) {
     struct sigaction none {
     }, before{};
@@ -126,20 +126,20 @@ TEST_F(RawlogTrialTest, IgnoresSignalsWhileWaiting) {
     sigaction(SIGALRM, &none, &before);
     const itimerval often{{0, 10000}, {0, 10000}}, never{};
     setitimer(ITIMER_REAL, &often, nullptr);
-    const auto told = verdicts(1);
+    const auto found = verdicts(1);
     setitimer(ITIMER_REAL, &never, nullptr);
     sigaction(SIGALRM, &before, nullptr);
-    EXPECT_EQ(told.size(), 5u);
+    EXPECT_EQ(found.size(), 5u);
     EXPECT_TRUE(fs::is_empty(locks));
 }
 
-TEST_F(RawlogTrialTest, GivesUpAfterThreeStarts) {
-    const auto told = verdicts(10);
-    ASSERT_EQ(told.size(), 3u);
-    EXPECT_EQ(told[2].kind, EntryVerdict::Kind::Broken);
-    EXPECT_EQ(told[2].end, told[1].end);
-    EXPECT_THAT(told[2].why,
-                AllOf(HasSubstr("a.rawlog: entry 2 at byte " + std::to_string(told[1].end)),
+TEST_F(RawlogTrialTest, FailsAfterThreeStarts) {
+    const auto found = verdicts(10);
+    ASSERT_EQ(found.size(), 3u);
+    EXPECT_EQ(found[2].kind, EntryVerdict::Kind::Broken);
+    EXPECT_EQ(found[2].end, found[1].end);
+    EXPECT_THAT(found[2].why,
+                AllOf(HasSubstr("a.rawlog: entry 2 at byte " + std::to_string(found[1].end)),
                       HasSubstr("MRPT's reader hangs at it")));
     EXPECT_EQ(std::distance(fs::directory_iterator(locks), {}), 10 - RawlogTrial::kMaxStarts);
 }

@@ -1,4 +1,4 @@
-// Tests RawlogReader and RawlogWriter against each other and against MRPT's CRawlog.
+// Compares RawlogReader and RawlogWriter with each other and with MRPT's CRawlog.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/recordings/RawlogReader.h>
@@ -31,7 +31,7 @@ CObservationComment comment(const std::string& text) {
     return observation;
 }
 
-/// A log of comments "0", "1", ... with enough random text that it does not compress.
+/// A log of comments "0", "1", ... with incompressible random text.
 void writeLog(const fs::path& file, int entries) {
     convert::RawlogWriter writer(file, true);
     for (int i = 0; i < entries; ++i) {
@@ -113,7 +113,7 @@ TEST_F(Rawlog, ReadsConcatenatedMembers) {
     EXPECT_EQ(readLog(folder_.write("twice.rawlog", bytes + bytes)).first, 6u);
 }
 
-/// A log in which each entry fills a member, and the file size after each.
+/// A log with one entry per member, and the file size after each.
 std::vector<std::size_t> writeLargeEntries(const fs::path& file, int entries) {
     convert::RawlogWriter writer(file, true);
     std::vector<std::size_t> ends;
@@ -132,7 +132,7 @@ std::vector<std::size_t> writeLargeEntries(const fs::path& file, int entries) {
     return ends;
 }
 
-/// As on a tape, or from a file system that had allocated more. gzip(1) ignores them, too.
+/// As from a tape or from preallocation. gzip(1) also ignores them.
 TEST_F(Rawlog, IgnoresTrailingZeros) {
     writeLog(folder_ / "a.rawlog", 20);
     const std::string log = test::readFile(folder_ / "a.rawlog");
@@ -234,7 +234,7 @@ TEST_F(Rawlog, RejectsOtherFiles) {
     const auto packed = folder_.write("log.bz2", "BZh91AY&SY");
     EXPECT_THAT(readLog(packed).second,
                 HasSubstr("is not a recording: it seems to be packed by bzip2: unpack it first"));
-    // Behind an entry, it is a recording.
+    // After an entry, the file is a recording.
     convert::Bytes entry;
     convert::serialise(comment("first"), entry);
     const std::string bytes(entry.begin(), entry.end());
@@ -243,7 +243,7 @@ TEST_F(Rawlog, RejectsOtherFiles) {
                           " (uncompressed) cannot be read: it is not an MRPT object"));
 }
 
-/// An object whose reading ends the process, as that of some of MRPT's does on corrupt data.
+/// An object whose reading ends the process, like some of MRPT's on corrupt data.
 class CrashingObject : public mrpt::serialization::CSerializable {
     DEFINE_SERIALIZABLE(CrashingObject, hagen::recordings)
 };
@@ -265,7 +265,7 @@ TEST_F(Rawlog, SurvivesCrashingEntry) {
     EXPECT_THAT(why, AllOf(HasSubstr("a.rawlog: entry 1 at byte "), HasSubstr("Aborted")));
 }
 
-/// The count of a text, 4 bytes before it, made larger than the file.
+/// The length of a text, in the 4 bytes before it, exceeds the file.
 TEST_F(Rawlog, RejectsCountBeyondFile) {
     convert::Bytes bytes;
     convert::serialise(comment("first"), bytes);
@@ -278,7 +278,7 @@ TEST_F(Rawlog, RejectsCountBeyondFile) {
         const auto [entries, why] = readLog(folder_.write("a.rawlog", text));
         EXPECT_EQ(entries, 1u);
         EXPECT_THAT(why, HasSubstr("entry 1 at byte " + std::to_string(second)));
-#ifndef __SANITIZE_ADDRESS__  // whose shadow memory no limit can tell from the reader's
+#ifndef __SANITIZE_ADDRESS__  // shadow memory counts towards the limit
         EXPECT_THAT(why, HasSubstr("asks for more memory at byte " + std::to_string(count + 4)));
 #endif
     }

@@ -89,9 +89,8 @@ TEST_F(ScanFolderTest, ReadsNuScenesWithoutRings) {
                 HasSubstr("cut.pcd.bin: 804 bytes are not a multiple of 20-byte points"));
 }
 
-/// Among zeros, a return at any place looks like a point of five numbers to who only looks at every
-/// fifth.
-TEST_F(ScanFolderTest, TakesZerosAsFourNumbers) {
+/// Among zeros, returns may look like points of five numbers if only every fifth number is checked.
+TEST_F(ScanFolderTest, ReadsZerosAsFourNumbers) {
     Scan scan;
     for (std::vector<float>* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity}) {
         values->resize(4000);
@@ -112,7 +111,7 @@ TEST_F(ScanFolderTest, TakesZerosAsFourNumbers) {
     EXPECT_EQ(again.x_m, scan.x_m);
 }
 
-/// The first 4096 bytes are of one beam, or of fewer than 16 returns.
+/// The first 4096 bytes contain one beam, or fewer than 16 returns.
 TEST_F(ScanFolderTest, DetectsFifthNumberByWholeFile) {
     const auto numbersOf = [&](auto isReturn, auto fifth) {
         test::Random random(7);
@@ -155,7 +154,7 @@ TEST_F(ScanFolderTest, RejectsOtherFiles) {
     const auto picture = folder_.write("a.bin", "\xff\xd8\xff\xe0" + std::string(28, '\xee'));
     EXPECT_THAT(test::messageOf([&] { readScan(picture, scan); }),
                 HasSubstr("a.bin: has no points: it seems to be a JPEG picture"));
-    // Farther than a LiDAR sees, and yet points.
+    // Valid points beyond the range of a LiDAR.
     Scan far;
     for (auto* numbers : {&far.x_m, &far.y_m, &far.z_m, &far.intensity}) *numbers = {1e5f, 2e5f};
     writeScan(folder_ / "far.bin", far);

@@ -107,7 +107,7 @@ TEST_F(ScanSourceTest, ReadsScansInOrder) {
     EXPECT_EQ(source->entriesKnown(), 5u);
 }
 
-/// A cloud of these beams, some of which see the sky in front.
+/// A cloud of this model's beams, some of which point into the sky.
 mrpt::obs::CObservationPointCloud::Ptr spin(double seconds, const std::string& label,
                                             const std::string& model, int columns = 500) {
     const test::SimpleScene scene{{{{-30, -30, -9}, {30, 30, 30}}}, {}, {}, true};
@@ -140,7 +140,7 @@ TEST_F(ScanSourceTest, RecoversSameBeamsForEveryPart) {
     const fs::path rawlog =
         rawlogOf({spin(1, "a", "VLP-16", 900), spin(2, "a", "HDL-32E"), spin(3, "a", "HDL-32E"),
                   spin(4, "a", "VLP-16"), spin(5, "a", "VLP-16"), spin(6, "a", "HDL-64E", 900)});
-    // The fullest of the first five; the sixth comes too late.
+    // The fullest of the first five is used; the sixth is too late.
     const auto whole = openRecording(rawlog);
     const int most_columns = whole->beamsOf("a")->most_columns;
     EXPECT_EQ(whole->beamsOf("a")->sensor.name, "HDL-32E");
@@ -156,7 +156,7 @@ TEST_F(ScanSourceTest, RecoversSameBeamsForEveryPart) {
     }
 }
 
-TEST_F(ScanSourceTest, RecoversNothingForNamedSensor) {
+TEST_F(ScanSourceTest, SkipsRecoveryForNamedSensor) {
     const fs::path rawlog = rawlogOf({spin(1, "a", "VLP-16")});
     Settings settings;
     settings.sensor.model = "VLP-16";
@@ -186,7 +186,7 @@ TEST_F(ScanSourceTest, RecoversBeamsOfScanFolder) {
                 ElementsAre("0:velodyne:-", "1:velodyne:-", "2:velodyne:-"));
 }
 
-TEST_F(ScanSourceTest, ReportsBreakAfterRecovery) {
+TEST_F(ScanSourceTest, ReportsTruncationAfterRecovery) {
     const fs::path rawlog = rawlogOf({spin(1, "a", "VLP-16"), spin(2, "a", "VLP-16")});
     const std::string bytes = test::readFile(rawlog);
     std::ofstream(rawlog, std::ios::binary) << bytes.substr(0, bytes.size() - 100);
@@ -275,7 +275,7 @@ TEST_F(ScanSourceTest, AssumesTenScansPerSecond) {
     }
 }
 
-TEST_F(ScanSourceTest, MakesObjectsOfFolderScans) {
+TEST_F(ScanSourceTest, ConvertsFolderScansToObjects) {
     SourceOptions options;
     options.folder_objects = observations::CloudClass::Simple;
     const auto entry = openRecording(scanFolderOf(1), options)->nextEntry();
@@ -365,7 +365,7 @@ TEST_F(ScanSourceTest, ScanTimesDoNotDependOnPoses) {
     EXPECT_EQ(source->poses().source, "CObservationRobotPose");
 }
 
-TEST_F(ScanSourceTest, MergesSensorOfFolder) {
+TEST_F(ScanSourceTest, UsesSensorOfFolder) {
     const fs::path folder = scanFolderOf(1);
     std::ofstream(folder / "sensor.yaml") << "sensor:\n  model: HDL-32E\n";
     EXPECT_EQ(openRecording(folder)->settingsFor({}).sensor.model, "HDL-32E");
@@ -400,7 +400,7 @@ TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfRawlog) {
         std::ofstream(rawlog, std::ios::binary) << bytes;
         SourceOptions options;
         options.last_entry = last;
-        const auto source = openRecording(rawlog, options);  // of the file that is replaced now
+        const auto source = openRecording(rawlog, options);  // of the file replaced below
         fs::remove(rawlog);
         std::ofstream(rawlog, std::ios::binary) << bytes.substr(0, bytes.size() - 10);
         source->scanTimes();
@@ -421,7 +421,7 @@ TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfFolder) {
         int asked = 0;
         SourceOptions options;
         options.first_entry = first;
-        options.keep_going = [&] {  // before each file; clouds of one return settle nothing
+        options.keep_going = [&] {  // before each file; single returns settle no beams
             ++asked;
             const int shown = asked - static_cast<int>(first) - 1;
             if (shown == 2) fs::resize_file(file, 10);
@@ -432,13 +432,13 @@ TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfFolder) {
         source->useSettings({});
         for (std::size_t i = first; i < 3; ++i) EXPECT_TRUE(source->nextScan());
         const std::string message = test::messageOf([&] { source->nextScan(); });
-        const bool is_needed = first == 0;  // otherwise, the user has left it out
+        const bool is_needed = first == 0;  // otherwise, the broken scan is not selected
         EXPECT_THAT(message, HasSubstr(is_needed ? "000001.bin: 10 bytes" : ""));
         EXPECT_EQ(message.empty(), !is_needed) << message;
     }
 }
 
-TEST_F(ScanSourceTest, AsksForOneRecordingOfFolder) {
+TEST_F(ScanSourceTest, SuggestsRecordingsInFolder) {
     const std::string capture("\xd4\xc3\xb2\xa1", 4);
     folder_.write("flights/notes.txt", "two flights");
     folder_.write("flights/b.pcap", capture);
@@ -452,7 +452,7 @@ TEST_F(ScanSourceTest, AsksForOneRecordingOfFolder) {
     EXPECT_THAT(messageOf(),
                 HasSubstr("flights: is a folder with 3 recordings; pass one of them: " +
                           (folder_ / "flights/a.bag").string()));
-    // Clouds beside them are read.
+    // Clouds beside the recordings are read.
     folder_.write("flights/1.bin", "");
     EXPECT_TRUE(openRecording(folder_ / "flights"));
 }
@@ -500,7 +500,7 @@ TEST_F(ScanSourceTest, DistinguishesSensorAndVehiclePoses) {
     const auto sensor = openRecording(log);
     sensor->usePoses(folder_ / "kitti.txt");
     EXPECT_TRUE(sensor->nextScan()->pose.is_of_sensor);
-    // The attitude of an IMU or a robot pose is the vehicle's, whatever the poses are of.
+    // An IMU or robot pose gives the vehicle's attitude, even with poses of the sensor.
     const auto both = openRecording(rawlogOf({pose(0.95, 0, 0.1), cloud(1, "front")}));
     both->usePoses(folder_ / "kitti.txt");
     const auto scan = both->nextScan();
@@ -517,7 +517,7 @@ TEST_F(ScanSourceTest, SuggestsDeeperFolder) {
                 HasSubstr("; there are scans in " + (folder_ / "data/samples/LIDAR_TOP").string()));
 }
 
-TEST_F(ScanSourceTest, ReportsWhatCannotBeOpened) {
+TEST_F(ScanSourceTest, ReportsUnreadableInputs) {
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "none.rawlog"); }),
                 HasSubstr("none.rawlog: no such file or folder"));
     fs::create_directories(folder_ / "empty");

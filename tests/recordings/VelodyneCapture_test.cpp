@@ -31,7 +31,7 @@ using testing::Not;
 using Packets = std::vector<ByteString>;
 using Turns = std::vector<CObservationVelodyneScan::Ptr>;
 
-/// Packets of a sensor that turns ten times per second, from this azimuth on.
+/// Packets of a sensor that turns at 10 Hz, from this azimuth on.
 Packets packetsOf(const std::string& model_name, int firings, double first_azimuth_deg = 0,
                   std::uint32_t first_time_us = 1000000, bool is_dual = false) {
     const sensors::VelodyneModel& model = sensors::velodyneModel(model_name);
@@ -105,7 +105,7 @@ TEST_F(VelodyneCaptureTest, TurnEndsWhereAzimuthWraps) {
         const double period_us = sensors::velodyneModel(model).firing_period_us;
         const Packets packets = packetsOf(model, static_cast<int>(310e3 / period_us), 200.0);
         const Turns turns = read(captureOf(packets).bytes());
-        ASSERT_EQ(turns.size(), 4u);  // 160 degrees, two whole turns, the rest
+        ASSERT_EQ(turns.size(), 4u);  // 160 degrees, two whole turns, the remainder
         EXPECT_EQ(packetsOf(turns), packets);
         for (std::size_t i = 0; i < turns.size(); ++i) {
             const Packets of_turn = packetsOf({turns[i]});
@@ -146,7 +146,7 @@ TEST_F(VelodyneCaptureTest, CountsLostPackets) {
 }
 
 TEST_F(VelodyneCaptureTest, LostTurnDoesNotJoinNeighbours) {
-    Packets packets = packetsOf("VLP-16", 24 * 200);  // 75.4 packets a turn
+    Packets packets = packetsOf("VLP-16", 24 * 200);  // 75.4 packets per turn
     packets.erase(packets.begin() + 10, packets.begin() + 110);
     const Turns turns = read(captureOf(packets).bytes());
     ASSERT_EQ(turns.size(), 3u);
@@ -173,7 +173,7 @@ TEST_F(VelodyneCaptureTest, DropsDuplicates) {
     EXPECT_THAT(remarks_[0], HasSubstr(", 100 duplicate packets dropped"));
 }
 
-/// As over a slower path: every tenth packet is repeated 30 ms later, and one arrives only then.
+/// As via a slower path: every tenth packet is duplicated 30 ms later, and one arrives only then.
 TEST_F(VelodyneCaptureTest, DropsPacketsFarTooLate) {
     const Packets packets = packetsOf("VLP-16", 24 * 200);
     Packets with_copies, without_one;
@@ -193,8 +193,8 @@ TEST_F(VelodyneCaptureTest, DropsPacketsFarTooLate) {
     EXPECT_EQ(remarks_[0].find("interruption"), std::string::npos) << remarks_[0];
 }
 
-/// By little more than sixteen packets, so that later ones could be late ones of before.
-TEST_F(VelodyneCaptureTest, ClockSetBackByLittleLosesNothing) {
+/// By slightly more than 16 packets, so that new packets could be mistaken for late ones.
+TEST_F(VelodyneCaptureTest, SmallClockStepBackLosesNoPackets) {
     for (const std::uint32_t back_us : {23000u, 30000u, 42000u}) {
         Packets packets = packetsOf("VLP-16", 24 * 100, 0.0, 900000000u);
         const auto end_us = static_cast<std::uint32_t>(900000000 + 100 * 1327);
@@ -205,8 +205,8 @@ TEST_F(VelodyneCaptureTest, ClockSetBackByLittleLosesNothing) {
     }
 }
 
-/// The few packets after it say no less.
-TEST_F(VelodyneCaptureTest, ClockSetBeforeEndLosesNothing) {
+/// Few packets after a clock step are sufficient.
+TEST_F(VelodyneCaptureTest, ClockStepBeforeEndLosesNoPackets) {
     Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 900000000u);
     for (const std::uint32_t time_us : {100000000u, 50000000u}) {
         const Packets later = packetsOf("VLP-16", 24 * 5, 200.0, time_us);
@@ -216,7 +216,7 @@ TEST_F(VelodyneCaptureTest, ClockSetBeforeEndLosesNothing) {
     EXPECT_THAT(remarks_[0], HasSubstr(", 2 interruptions (gap or clock jump)"));
 }
 
-TEST_F(VelodyneCaptureTest, HourOfClockIsNotInterruption) {
+TEST_F(VelodyneCaptureTest, ClockWrapIsNotInterruption) {
     const Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 3599980000u);
     const Turns turns = read(captureOf(packets).bytes());
     ASSERT_EQ(turns.size(), 1u);
@@ -225,7 +225,7 @@ TEST_F(VelodyneCaptureTest, HourOfClockIsNotInterruption) {
     EXPECT_EQ(remarks_[0].find("interruption"), std::string::npos) << remarks_[0];
 }
 
-TEST_F(VelodyneCaptureTest, SetClockEndsTurn) {
+TEST_F(VelodyneCaptureTest, ClockStepEndsTurn) {
     Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 900000000u);
     const Packets later = packetsOf("VLP-16", 24 * 30, 200.0, 100000000u);
     packets.insert(packets.end(), later.begin(), later.end());
@@ -239,7 +239,7 @@ TEST_F(VelodyneCaptureTest, SetClockEndsTurn) {
     EXPECT_THAT(remarks_[0], HasSubstr(", 2 interruptions (gap or clock jump)"));
 }
 
-TEST_F(VelodyneCaptureTest, StandingSensorHasBoundedScans) {
+TEST_F(VelodyneCaptureTest, StalledSensorHasBoundedScans) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     observations::Firings firings;
     firings.range_m.setConstant(16, 24 * 1000, 5.0f);
@@ -288,7 +288,7 @@ TEST_F(VelodyneCaptureTest, SeparatesSensors) {
                 HasSubstr("velodyne_3 (HDL-32E at 10.0.0.101, port 2368): 40 packets"));
 }
 
-TEST_F(VelodyneCaptureTest, CountsEverythingElse) {
+TEST_F(VelodyneCaptureTest, CountsIgnoredDatagrams) {
     CaptureWriter writer = captureOf(packetsOf("VLP-16", 24 * 5));
     SentDatagram position = sent(ByteString(512, '\0'));
     position.to_port = 8308;
@@ -352,7 +352,7 @@ TEST_F(VelodyneCaptureTest, ReadsTruncatedCapture) {
 
 TEST_F(VelodyneCaptureTest, ReadsRealCaptures) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA is not a folder of captures";
     for (const auto& [file, calibration, count] :
          {std::tuple{"sample_velodyne_vlp16_gps.pcap", "VLP16", 5u},
           {"sample_velodyne_hdl32.pcap", "HDL32", 4u}}) {
@@ -362,11 +362,11 @@ TEST_F(VelodyneCaptureTest, ReadsRealCaptures) {
         EXPECT_EQ(broken_, "");
         EXPECT_EQ(turns.size(), count);
         EXPECT_EQ(packetsOf(turns), packetsOf({expected}));
-        // A turn is less than a whole one and a packet more.
+        // A scan is shorter than a whole turn plus one packet.
         for (const auto& turn : turns) {
             Scan scan;
             EXPECT_EQ(decodePackets(*turn, scan), 0u);
-            EXPECT_LT(scan.time_s.back(), 0.112f);  // nine turns per second and a packet
+            EXPECT_LT(scan.time_s.back(), 0.112f);  // 9 Hz plus one packet
         }
         EXPECT_EQ(remarks_[0].find("lost"), std::string::npos) << remarks_[0];
     }
@@ -374,8 +374,8 @@ TEST_F(VelodyneCaptureTest, ReadsRealCaptures) {
 
 TEST_F(VelodyneCaptureTest, MatchesMrpt) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
-    // MRPT decodes the first half of each block: of an HDL-32E, half of the lasers.
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA is not a folder of captures";
+    // MRPT decodes the first half of each block, for an HDL-32E half of the lasers.
     for (const auto& turn : readFile(folder / "sample_velodyne_vlp16_gps.pcap")) {
         turn->minRange = 0;
         turn->maxRange = 1000;
@@ -394,7 +394,7 @@ TEST_F(VelodyneCaptureTest, MatchesMrpt) {
                               scan.z_m[next] - cloud.z[i]) > 0.01f) {
                 ++next;
             }
-            ASSERT_LT(next, scan.size()) << "return " << i << " of MRPT's";
+            ASSERT_LT(next, scan.size()) << "MRPT's return " << i;
             ++next;
         }
     }
@@ -402,7 +402,7 @@ TEST_F(VelodyneCaptureTest, MatchesMrpt) {
 
 TEST_F(VelodyneCaptureTest, ReadsRawPackets) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
-    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA names no folder of captures";
+    if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA is not a folder of captures";
     const ByteString raw = test::readFile(folder / "vlp16_packets_1206.bin");
     Packets packets;
     for (std::size_t at = 0; at + 1206 <= raw.size(); at += 1206)
@@ -410,10 +410,10 @@ TEST_F(VelodyneCaptureTest, ReadsRawPackets) {
     ASSERT_EQ(packets.size(), 1000u);
     const Turns turns = read(captureOf(packets).bytes());
     EXPECT_EQ(packetsOf(turns), packets);
-    EXPECT_EQ(turns.size(), 14u);  // 12 whole ones
+    EXPECT_EQ(turns.size(), 14u);  // 12 whole turns
 }
 
-/// A capture of an HDL-64E that sees something 5 m away all around.
+/// A capture of an HDL-64E with all returns at 5 m.
 CaptureWriter hdl64Capture(int firings) {
     CaptureWriter capture;
     double time_s = 1700000000;

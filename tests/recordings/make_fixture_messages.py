@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the messages of the fixtures in tests/recordings/data, one of each kind that is read: make_fixture_messages.py OUT.jsonl
+"""Writes the messages of the fixtures in tests/recordings/data, one of each supported type: make_fixture_messages.py OUT.jsonl
 
 A cloud has the points (i, 2 i, -i / 2), ring i % 16 and time i ms, i from 1 to 20; other numbers are listed below.
 """
@@ -34,11 +34,11 @@ def pose(x, y, z):
     return {"position": {"x": x, "y": y, "z": z}, "orientation": {"x": 0, "y": 0, "z": 0, "w": 1}}
 
 
-# The LiDAR stands 2 m above base_link, 1 m ahead.
+# The LiDAR is 2 m above and 1 m ahead of base_link.
 add("/tf_static", "tf2_msgs/TFMessage", 0,
     transforms=[transform("base_link", "mast", 0, 1, 0, 1.5), transform("mast", "lidar", 0, 0, 0, 0.5)])
 for i in range(6):
-    # The vehicle moves at 10 m/s along x; tf says the same of its y axis.
+    # The vehicle moves at 10 m/s along x, but along y according to tf.
     t = 0.1 * i
     add("/odom", "nav_msgs/Odometry", t, header=header(t, "odom"), child_frame_id="base_link",
         pose={"pose": pose(i, 0, 5), "covariance": [0.0] * 36},
@@ -59,7 +59,7 @@ add("/cloud", "sensor_msgs/PointCloud2", 0.2, header=header(0.2, "lidar"), heigh
             [("x", 0, FLOAT32), ("y", 4, FLOAT32), ("z", 8, FLOAT32), ("intensity", 12, FLOAT32),
              ("ring", 16, UINT16), ("t", 20, UINT32)]],
     is_bigendian=False, point_step=24, row_step=480, data=raw(points), is_dense=True)
-# Big-endian, in two rows with 4 bytes of padding, in another order and as doubles.
+# Big-endian doubles in two rows with 4 bytes of padding and reordered fields.
 rows = b"".join(b"".join(struct.pack(">ddd", -i / 2, i, 2 * i) for i in range(10 * row + 1, 10 * row + 11)) + b"\xff" * 4
                 for row in range(2))
 add("/organised", "sensor_msgs/PointCloud2", 0.25, header=header(0.25, "other"), height=2, width=10,

@@ -1,6 +1,6 @@
-// Reads a LAS file by the package copc and prints a line of numbers per point: node read_las.mjs IN.las
+// Reads a LAS file with the package copc and prints a line of numbers per point: node read_las.mjs IN.las
 //
-// Modules are found from the working directory (npm install copc). Exit code 77: it is not there.
+// Modules are found from the working directory (npm install copc). Exit code 77: the module is missing.
 import fs from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
@@ -23,7 +23,7 @@ const isLegacy = header.pointDataRecordFormat < 6;
 const value = (name, i) => (name in view.dimensions ? view.getter(name)(i) : 0);
 for (let i = 0; i < view.pointCount; ++i) {
   const overlap = value("Overlap", i);
-  // The package makes the class 12 of older formats a flag.
+  // The package converts class 12 of older formats to a flag.
   const classification = isLegacy && overlap ? 12 : value("Classification", i);
   const flags = value("Synthetic", i) + 2 * value("KeyPoint", i) + 4 * value("Withheld", i);
   const channel = value("ScanChannel", i) + value("ScannerChannel", i);

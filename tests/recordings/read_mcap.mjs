@@ -1,9 +1,9 @@
-// Reads an MCAP by @mcap/core, its indexed and its streaming reader, and its messages by the schemas in the file with
-// @foxglove/rosmsg2-serialization. Prints a line of JSON per message, in the order of the file, then one with the
-// summary: node read_mcap.mjs IN.mcap
+// Reads an MCAP with the indexed and the streaming reader of @mcap/core, and decodes its messages by the schemas in the
+// file with @foxglove/rosmsg2-serialization. Prints a line of JSON per message in file order, then one with the summary:
+// node read_mcap.mjs IN.mcap
 //
 // Modules are found from the working directory (npm install @mcap/core @foxglove/rosmsg
-// @foxglove/rosmsg2-serialization). zstd is the program of that name. Exit code 77: something of this is not there.
+// @foxglove/rosmsg2-serialization). zstd is the command-line program. Exit code 77: one of them is missing.
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import { createRequire } from "node:module";
@@ -25,16 +25,16 @@ const bytes = fs.readFileSync(process.argv[2]);
 const unpack = (packed) => new Uint8Array(execFileSync("zstd", ["-dq"], { input: packed, maxBuffer: 1 << 30 }));
 const decompressHandlers = { zstd: unpack };
 
-// As it streams: every CRC is checked.
+// Streaming reader: checks every CRC.
 const streamed = [];
 const stream = new core.McapStreamReader({ decompressHandlers, validateCrcs: true });
 stream.append(bytes);
 for (let record; (record = stream.nextRecord()); ) {
   if (record.type === "Message") streamed.push(record);
 }
-if (!stream.done()) throw new Error("the file does not end where it should");
+if (!stream.done()) throw new Error("the file has an unexpected end");
 
-// By its index.
+// Indexed reader.
 const readable = {
   size: async () => BigInt(bytes.length),
   read: async (offset, size) => new Uint8Array(bytes.subarray(Number(offset), Number(offset + size))),
@@ -44,7 +44,7 @@ let found = 0;
 for await (const message of indexed.readMessages({ validateCrcs: true })) {
   const same = streamed.find((one) => one.channelId === message.channelId && one.sequence === message.sequence);
   if (!same || same.logTime !== message.logTime || Buffer.compare(same.data, message.data) !== 0) {
-    throw new Error(`the index leads to another message (${message.channelId}, ${message.sequence})`);
+    throw new Error(`the index points to another message (${message.channelId}, ${message.sequence})`);
   }
   ++found;
 }

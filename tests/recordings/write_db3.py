@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the database of a ROS 2 bag, as rosbag2 does: write_db3.py IN.jsonl OUT.db3; IN is by write_ros2_bag.mjs."""
+"""Writes the database of a ROS 2 bag like rosbag2: write_db3.py IN.jsonl OUT.db3, with IN from write_ros2_bag.mjs."""
 import base64
 import json
 import sqlite3

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Writes messages as a ROS 1 bag by Debian's python3-rosbag: write_ros1_bag.py IN.jsonl OUT.bag [none|bz2|lz4]
 
-Each line of IN is a message: {"topic", "type", "time_ns", "fields"}. Bytes are {"base64"}, times {"time_ns"}.
+Each line of IN is a message: {"topic", "type", "time_ns", "fields"}. Bytes are {"base64"}, times are {"time_ns"}.
 """
 import base64
 import json
@@ -72,7 +72,7 @@ def main():
         for line in lines:
             one = json.loads(line)
             kind = CLASSES.setdefault(one["type"], class_of(one["type"]))
-            kind._full_text = "# " + one["type"]  # the definition, with all comments, is larger than a small bag
+            kind._full_text = "# " + one["type"]  # the full definition is larger than a small bag
             bag.write(one["topic"], fill(kind(), one["fields"]), time_of(one["time_ns"]))
 
 

@@ -1,9 +1,9 @@
-// Writes messages as an MCAP by @mcap/core, or as lines for write_db3.py; @foxglove/rosmsg2-serialization makes the
-// CDR: node write_ros2_bag.mjs IN.jsonl OUT.mcap|OUT.jsonl [none|zstd|lz4|plain|ros1]
+// Writes messages as an MCAP with @mcap/core, or as lines for write_db3.py; serialises by @foxglove/rosmsg2-serialization:
+// node write_ros2_bag.mjs IN.jsonl OUT.mcap|OUT.jsonl [none|zstd|lz4|plain|ros1]
 //
-// IN is as for write_ros1_bag.py. Modules are found from the working directory (npm install @mcap/core
+// IN is in the format of write_ros1_bag.py. Modules are found from the working directory (npm install @mcap/core
 // @foxglove/rosmsg @foxglove/rosmsg-msgs-common @foxglove/rosmsg2-serialization @foxglove/rosmsg-serialization).
-// zstd and lz4 come from the programs of that name. `plain` writes no chunks, `ros1` ROS 1 messages in chunks packed by zstd.
+// zstd and lz4 use the command-line programs. `plain` writes no chunks, `ros1` ROS 1 messages in chunks packed by zstd.
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import { createRequire } from "node:module";
@@ -22,7 +22,7 @@ const isRos1 = kind === "ros1";
 const here = path.dirname(fileURLToPath(import.meta.url));
 const custom = JSON.parse(fs.readFileSync(path.join(here, "definitions.json"), "utf-8"));
 
-// The definition of a type and of all that it holds.
+// The definition of a type and of all its nested types.
 const header = isRos1
   ? "MSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id"
   : "MSG: std_msgs/Header\ntime stamp\nstring frame_id";

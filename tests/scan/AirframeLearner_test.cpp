@@ -30,7 +30,7 @@ LearnedAirframe learnedFrom(int scans, const std::function<void(int, Scan&)>& fi
     return learner.learn();
 }
 
-/// The masked range in a direction; 0: none.
+/// The masked range in a direction; 0 if not masked.
 float rangeAt(const LearnedAirframe& learned, double azimuth_deg, double elevation_deg) {
     const auto row = static_cast<Eigen::Index>((elevation_deg + 90) / 2);
     const auto column = static_cast<Eigen::Index>((azimuth_deg + 180) / 2);
@@ -42,7 +42,7 @@ TEST(AirframeLearner, LearnsConstantNearRanges) {
     const LearnedAirframe learned = learnedFrom(40, [&](int number, Scan& scan) {
         addReturn(31, 11, 0.5 + 0.001 * (number % 10), scan);  // a leg
         if (number % 2 == 0) addReturn(71, 11, 0.7, scan);     // in half of the scans
-        if (number % 5 < 2) addReturn(111, 11, 0.7, scan);     // in less
+        if (number % 5 < 2) addReturn(111, 11, 0.7, scan);     // in fewer
         addReturn(-91, 11, random.real(0.3f, 1.4f), scan);     // passes by
         addReturn(-131, 11, 1.6, scan);                        // too far
         addReturn(-171, -31, 8, scan);                         // the ground

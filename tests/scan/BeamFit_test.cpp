@@ -11,7 +11,7 @@
 namespace hagen {
 namespace {
 
-/// A turn of these beams at random ranges, each return's elevation off by up to `jitter_deg`.
+/// A turn of these beams at random ranges, with elevation errors up to `jitter_deg`.
 Scan scanOf(const std::vector<double>& beams_deg, float jitter_deg = 0.0f, unsigned seed = 1) {
     test::Random random(seed);
     Scan scan;
@@ -58,14 +58,14 @@ TEST(BeamFit, KnownModelsFitThemselves) {
 }
 
 TEST(BeamFit, FewerBeamsLeaveRowsEmpty) {
-    // Sixteen blurred beams, taken for 64 between which nothing is farther than the tolerance.
+    // 16 blurred beams, compared with 64 beams so dense that every return is within tolerance.
     const auto beams_deg = beamsEvery(2, -15, 15);
     const auto fit =
         fitBeams(scanOf(beams_deg, 1.0f), customSensorModel(beamsEvery(0.5, -16, 16.5)), 600);
     ASSERT_TRUE(fit);
     EXPECT_GT(fit->share(), 0.99f);
     EXPECT_NEAR(fit->filled, 0.25, 0.05);  // a return every fourth row
-    // With the beams that it has, no row lacks returns.
+    // With the true beams, no row lacks returns.
     EXPECT_GT(fitBeams(scanOf(beams_deg, 0.5f), sensorModel("VLP-16"), 600)->filled, 0.99f);
 }
 
@@ -85,7 +85,7 @@ TEST(BeamFit, ShiftedBeamsDoNotFit) {
     EXPECT_EQ(fit->share(), 0.0f);
 }
 
-TEST(BeamFit, WrongBeamCountShows) {
+TEST(BeamFit, ReportsWrongBeamCount) {
     const std::vector<double> half_deg = beamsEvery(4, -15, 15);
     const auto fewer = fitBeams(scanOf(half_deg), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fewer);

@@ -82,7 +82,7 @@ TEST(CheckLocated, RejectsRowsOfAnotherSensor) {
     EXPECT_THAT(objection(locatedWith(sensorModel("VLP-16")), sensorModel("HDL-64E")),
                 AllOf(HasSubstr("16 beams from -15 to 15 degrees"), HasSubstr("HDL-64E"),
                       HasSubstr("64 beams"), HasSubstr("call locateBeams()")));
-    // as many beams, elsewhere
+    // equally many beams at other angles
     EXPECT_NE(objection(locatedWith(sensorModel("VLP-16")), sensorModel("Puck Hi-Res")), "");
     EXPECT_NE(objection(locatedWith(sensorModel("HDL-32E")), sensorModel("VLP-32C")), "");
 }
@@ -130,7 +130,7 @@ TEST(CheckLocated, RejectsRangeWithoutPosition) {
     }
 }
 
-TEST(CheckLocated, ProjectionChecksItsScan) {
+TEST(CheckLocated, ProjectionChecksScan) {
     RangeImage image;
     ProjectionWorkspace work;
     const SensorModel sensor = sensorModel("VLP-16");

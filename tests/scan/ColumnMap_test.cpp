@@ -27,8 +27,8 @@ TEST(ColumnMap, WindowAtSeamIsContiguous) {
     EXPECT_THAT(map.to_turn, ElementsAre(8, 12, 13, 14, 15, 0, 1, 2, 3, 4));
 }
 
-/// Whatever the window: the image has the same size, each column of the turn has a place, the first
-/// ones of groups are apart, and neighbours stay in order.
+/// For any window, the image has the same size, each column of the turn is mapped, the first
+/// columns of groups do not collide, and neighbours stay in order.
 TEST(ColumnMap, EveryColumnMapsToItsGroup) {
     for (const int columns : {870, 1024, 19}) {
         for (const int group : {1, 2, 3, 4, 6}) {

@@ -21,7 +21,7 @@ std::vector<std::string> visited() {
     return names;
 }
 
-TEST(InstructionSets, EndAtTheLimit) {
+TEST(InstructionSets, EndAtLimit) {
     const auto all = instructionSets();
     ASSERT_FALSE(all.empty());
     for (std::size_t best = 0; best < all.size(); ++best) {
@@ -60,19 +60,19 @@ TEST(InstructionSets, RejectUnknownNames) {
     EXPECT_EQ(instructionSets(), all);
 }
 
-/// Run by the test below, in a process of its own.
-TEST(InstructionSets, DISABLED_OfTheEnvironment) {
+/// Run by the next test in a separate process.
+TEST(InstructionSets, DISABLED_LimitMatchesEnvironment) {
     const char* const wanted = std::getenv("HAGEN_SIMD");
     ASSERT_NE(wanted, nullptr);
     EXPECT_EQ(instructionSets().front(), wanted);
 }
 
-TEST(InstructionSets, FollowTheEnvironment) {
+TEST(InstructionSets, FollowEnvironmentVariable) {
     const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
     const auto start = [&](const std::string& name) {
         return test::run("/usr/bin/env",
                          {"HAGEN_SIMD=" + name, self, "--gtest_also_run_disabled_tests",
-                          "--gtest_filter=*DISABLED_OfTheEnvironment"});
+                          "--gtest_filter=*DISABLED_LimitMatchesEnvironment"});
     };
     for (const std::string& name : instructionSets()) {
         const test::Outcome outcome = start(name);
@@ -80,7 +80,7 @@ TEST(InstructionSets, FollowTheEnvironment) {
         EXPECT_EQ(outcome.err, "");
     }
     const test::Outcome unknown = start("mmx");
-    EXPECT_EQ(unknown.exit_code, 1);  // it is not the first one
+    EXPECT_EQ(unknown.exit_code, 1);  // not the first set
     EXPECT_THAT(unknown.err,
                 HasSubstr("HAGEN_SIMD has no effect: 'mmx' is not an instruction set"));
 }

@@ -15,9 +15,9 @@ namespace hagen {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
-ProjectionWorkspace work;  // one for all tests, as a filter has one for all scans
+ProjectionWorkspace work;  // reused by all tests, as by a filter for all scans
 
-/// A scan known by its beams alone, all that the projection looks at.
+/// A scan with only the data used by the projection.
 Scan randomScan(unsigned seed, int returns) {
     test::Random random(seed);
     Scan scan;
@@ -78,14 +78,14 @@ void expectSameImage(const RangeImage& a, const RangeImage& b) {
     EXPECT_EQ(a.depth_mapper, b.depth_mapper);
 }
 
-/// A sensor of so many beams.
+/// A sensor with `rows` beams.
 SensorModel sensorOfRows(int rows) {
     std::vector<double> elevations_deg(rows);
     for (int row = 0; row < rows; ++row) elevations_deg[row] = -30.0 + 40.0 * row / rows;
     return customSensorModel(elevations_deg);
 }
 
-/// Azimuths over the whole turn and up to both of its ends, many ranges equal, some no numbers.
+/// Azimuths over the whole turn including both ends, many equal ranges, some NaN.
 Scan scanWithTies(test::Random& random, int rows, int returns) {
     Scan scan;
     for (int i = 0; i < returns; ++i) {
@@ -103,7 +103,7 @@ Scan scanWithTies(test::Random& random, int rows, int returns) {
 
 TEST(RangeImage, MatchesDefinition) {
     test::Random random(8);
-    RangeImage plain, image;  // used again, as from scan to scan
+    RangeImage plain, image;  // reused, as between scans
     for (int round = 0; round < 150; ++round) {
         const int rows = random.whole(2, 128);
         SensorModel sensor = sensorOfRows(rows);
@@ -118,7 +118,7 @@ TEST(RangeImage, MatchesDefinition) {
     }
 }
 
-TEST(RangeImage, ReturnsByPixelHoldsEachOnce) {
+TEST(RangeImage, ReturnsByPixelContainsEachOnce) {
     const Scan scan = randomScan(7, 5000);
     RangeImage image;
     projectScan(scan, sensorModel("VLP-16"), 50, kFar, image, work);

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What happens to the returns of a spinning sensor.
+/// Disturbances of the returns of a spinning sensor.
 struct Spin {
     int columns = 900;
     double jitter_deg = 0, rounding_m = 0, tilt_deg = 0;
@@ -78,7 +78,7 @@ std::vector<std::string> spinningModels() {
     return names;
 }
 
-/// Beams that are no known model's: uneven, at least `least_step_deg` apart.
+/// Beams of no known model: uneven, at least `least_step_deg` apart.
 std::vector<double> randomBeams(test::Random& random, int count, double least_step_deg) {
     std::vector<double> beams_deg{static_cast<double>(random.real(-40, -20))};
     for (int beam = 1; beam < count; ++beam) {
@@ -151,13 +151,13 @@ TEST(RecoverBeams, SurvivesJitterRoundingStraysAndDropouts) {
     }
 }
 
-TEST(RecoverBeams, UsesModelForUnseenBeams) {
+TEST(RecoverBeams, AddsUnseenBeamsOfModel) {
     for (const std::string& name : spinningModels()) {
         SCOPED_TRACE(name);
         const SensorModel truth = sensorModel(name);
         Spin spin;
         for (int beam = truth.rows() / 2 + 1; beam < truth.rows(); ++beam) {
-            spin.dead_beams.insert(beam);  // those that look into the sky
+            spin.dead_beams.insert(beam);  // beams into the sky
         }
         spin.dead_beams.insert(2);
         const auto found = recoverBeams(scanOf(beamsOf(truth), spin));
@@ -197,7 +197,7 @@ TEST(RecoverBeams, FindsRandomBeams) {
 TEST(RecoverBeams, CountsSparseBeams) {
     const SensorModel truth = sensorModel("Puck Hi-Res");
     std::vector<double> beams_deg = beamsOf(truth);
-    beams_deg[5] += 0.3;  // of no known model
+    beams_deg[5] += 0.3;  // not a known model
     Scan scan = scanOf(beams_deg, {});
     const Scan all = scan;
     scan.clear();
@@ -230,7 +230,7 @@ TEST(RecoverBeams, NeedsEnoughReturns) {
     EXPECT_TRUE(recoverBeams(scanOf({-10, -5, 0, 5}, {100})));
 }
 
-TEST(RecoverBeams, TiltedOrBlurredCloudHasNone) {
+TEST(RecoverBeams, TiltedOrBlurredCloudHasNoRings) {
     Spin tilted, blurred;
     tilted.columns = blurred.columns = 300;
     tilted.tilt_deg = 3;
@@ -246,7 +246,7 @@ TEST(RecoverBeams, TiltedOrBlurredCloudHasNone) {
     }
 }
 
-TEST(RecoverBeams, RandomCloudHasNone) {
+TEST(RecoverBeams, RandomCloudHasNoRings) {
     for (unsigned seed = 1; seed <= 40; ++seed) {
         SCOPED_TRACE(seed);
         test::Random random(seed);
@@ -268,7 +268,7 @@ TEST(RecoverBeams, BandsAndFewRingsAreNotBeams) {
     };
     const Scan bands = joined(randomScan(1, 5000, -20, -10), randomScan(2, 5000, 10, 20));
     EXPECT_FALSE(recoverBeams(bands)->sensor.has_rings);
-    // A fifth of the returns is on rings.
+    // A fifth of the returns are on rings.
     const Scan few = joined(randomScan(1, 5000, -20, 20), scanOf({-15, -5, 5, 15}, {1250 / 4}));
     EXPECT_FALSE(recoverBeams(few)->sensor.has_rings);
 }
@@ -278,7 +278,7 @@ TEST(RecoverBeams, VirtualRowsAreEven) {
     ASSERT_TRUE(found);
     const std::vector<double> rows_deg = beamsOf(found->sensor);
     EXPECT_FALSE(found->sensor.has_rings);
-    // As of the preset for a Mid-360: 24 rows, 360 columns.
+    // Like the Mid-360 preset: 24 rows, 360 columns.
     EXPECT_GE(rows_deg.size(), 22u);
     EXPECT_LE(rows_deg.size(), 25u);
     EXPECT_NEAR(found->most_columns, 360, 10);
@@ -312,7 +312,7 @@ TEST(RecoverBeams, BlurredRingsGetFewRows) {
     EXPECT_LE(found->sensor.rows(), 26);
 }
 
-TEST(RecoverBeams, OneElevationGivesASensor) {
+TEST(RecoverBeams, OneElevationGivesSensor) {
     Scan scan;
     for (int i = 0; i < 500; ++i) add({1.0 + i, 0, 0}, scan);
     for (const double height_m : {0.0, 1.0}) {
@@ -325,7 +325,7 @@ TEST(RecoverBeams, OneElevationGivesASensor) {
     }
 }
 
-/// The first scan of each folder of a set of real recordings.
+/// The first scan of each folder of real recordings.
 std::vector<Scan> realScans(const std::string& set) {
     std::vector<Scan> scans;
     const char* const data = std::getenv("HAGEN_LABELLED_DATA");
@@ -366,7 +366,7 @@ TEST(RecoverBeams, DeskewedRealScansHaveNoRings) {
 
 // Rings
 
-/// The rings of scanOf() without dropouts: beams by turns.
+/// The rings of scanOf() without dropouts: all beams in turn.
 std::vector<std::int32_t> ringsOf(const Scan& scan, int beams) {
     std::vector<std::int32_t> rings;
     for (std::size_t i = 0; i < scan.size(); ++i) {

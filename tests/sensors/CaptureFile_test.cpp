@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 class CaptureFileTest : public testing::Test {
  protected:
-    /// The contents of all datagrams of these bytes, and what was counted.
+    /// The contents of all datagrams of these bytes, and the counters.
     std::vector<ByteString> read(const ByteString& bytes) {
         CaptureFile capture(test::writeBytes(folder_ / "a.pcap", bytes));
         std::vector<ByteString> contents;
@@ -39,7 +39,7 @@ class CaptureFileTest : public testing::Test {
         counts_ = capture.counts();
         return contents;
     }
-    /// Every frame is in one count.
+    /// Every frame is counted once.
     void expectBalance() const {
         EXPECT_EQ(counts_.frames, counts_.datagrams + counts_.fragments + counts_.other_traffic +
                                       counts_.cut_frames);
@@ -170,7 +170,7 @@ TEST_F(CaptureFileTest, CountsOtherTrafficAndCutFrames) {
     const ByteString ip = test::ipOf(sent(ByteString(500, 'x')));
     ByteString tcp = ip;
     tcp[9] = '\x06';
-    ByteString longer = ip;  // says that it is longer than the frame
+    ByteString longer = ip;  // claims to be longer than the frame
     longer[2] = '\x7f';
     ByteString udp_longer = ip;
     udp_longer[24] = '\x7f';
@@ -194,7 +194,7 @@ TEST_F(CaptureFileTest, CountsOtherTrafficAndCutFrames) {
     expectBalance();
 }
 
-TEST_F(CaptureFileTest, TruncatedFileNamesPosition) {
+TEST_F(CaptureFileTest, ReportsPositionOfTruncation) {
     CaptureWriter writer;
     for (int i = 0; i < 5; ++i) writer.datagram(sent(ByteString(60, 'x')));
     std::vector<ByteString> frames(5, ethernet(test::ipOf(sent(ByteString(60, 'x')))));
@@ -214,7 +214,7 @@ TEST_F(CaptureFileTest, TruncatedFileNamesPosition) {
                 EXPECT_THAT(why, HasSubstr("frame " + std::to_string(datagrams) + " at byte "));
             }
         }
-        EXPECT_GT(broken, 100u);  // everywhere but between two frames
+        EXPECT_GT(broken, 100u);  // everywhere except between two frames
         EXPECT_EQ(read(whole).size(), 5u);
     }
 }
@@ -228,7 +228,7 @@ TEST_F(CaptureFileTest, SurvivesCorruptData) {
     for (int round = 0; round < 200; ++round) {
         ByteString bytes = writer.bytes();
         for (int i = random.whole(1, 8); i > 0; --i) {
-            // The headers, mostly.
+            // Mostly the headers.
             const int at = random.chance(0.8) ? random.whole(24, 24 + 16 + 60)
                                               : random.whole(0, static_cast<int>(bytes.size()) - 1);
             bytes[static_cast<std::size_t>(at)] = static_cast<char>(random.whole(0, 255));
@@ -246,7 +246,7 @@ TEST_F(CaptureFileTest, DetectsCaptureByContent) {
     EXPECT_FALSE(isCapture(folder_ / "none.pcap"));
 }
 
-TEST_F(CaptureFileTest, NamesUnreadableFile) {
+TEST_F(CaptureFileTest, ReportsUnreadableFile) {
     EXPECT_THAT(test::messageOf([&] { read(CaptureWriter(105).bytes()); }),
                 HasSubstr("a.pcap: was captured on a link of type IEEE802_11, which is not"));
     EXPECT_THAT(test::messageOf([&] { read(CaptureWriter().bytes().substr(0, 10)); }),

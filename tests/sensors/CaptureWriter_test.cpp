@@ -22,7 +22,7 @@ Datagram datagramOf(const std::string& bytes) {
     return datagram;
 }
 
-TEST(CaptureWriter, WritesWhatCaptureFileReads) {
+TEST(CaptureWriter, WritesFilesReadableByCaptureFile) {
     const test::TemporaryFolder folder;
     const std::vector<std::string> contents{"", "a", std::string(1206, 'v'),
                                             std::string(65507, 'x')};
@@ -44,7 +44,7 @@ TEST(CaptureWriter, WritesWhatCaptureFileReads) {
     EXPECT_FALSE(capture.next(read));
 }
 
-/// As a receiver checks it: the words of the header, with the checksum, add up to ffff.
+/// Like a receiver: the words of the header, including the checksum, sum to ffff.
 TEST(CaptureWriter, WritesValidIpChecksums) {
     const test::TemporaryFolder folder;
     CaptureWriter writer(folder / "a.pcap");

@@ -16,7 +16,7 @@ const OusterMode kOthers[] = {{512, 10}, {2048, 10}, {512, 20}, {4096, 5}};
 
 class OusterColumnsTest : public testing::Test {
  protected:
-    /// How many of the packets of some turns have certain columns.
+    /// Number of packets with certain columns in some turns.
     std::size_t certain(const OusterMode& mode, int turns) {
         std::size_t count = 0;
         for (int k = 0; k < turns; ++k) {
@@ -35,13 +35,13 @@ class OusterColumnsTest : public testing::Test {
 TEST_F(OusterColumnsTest, MetadataColumnsAreCertain) {
     EXPECT_EQ(certain(kMode, 5), 5 * 64u);
     ouster_.setClock(5000000000000);
-    EXPECT_EQ(certain(kMode, 3), 3 * 64u);  // a clock that was set
+    EXPECT_EQ(certain(kMode, 3), 3 * 64u);  // a clock step
     ouster_.setClock(0);
     EXPECT_EQ(certain(kMode, 3), 3 * 64u);
     EXPECT_EQ(columns_.restarts(), 0u);
 }
 
-TEST_F(OusterColumnsTest, DetectsOtherModeAtOnce) {
+TEST_F(OusterColumnsTest, DetectsOtherModeImmediately) {
     for (const OusterMode& mode : {kOthers[0], kOthers[1]}) {
         TurningOuster ouster;
         OusterColumns columns(sensor_);
@@ -60,8 +60,8 @@ TEST_F(OusterColumnsTest, DetectsOtherModeAtOnce) {
     }
 }
 
-/// Where columns follow each other as fast as before, the initialization number decides.
-TEST_F(OusterColumnsTest, RestartedSensorMustShowColumns) {
+/// If the column rate is unchanged, the initialization number decides.
+TEST_F(OusterColumnsTest, RestartRequiresProofOfColumns) {
     for (const OusterMode& mode : kOthers) {
         certain(kMode, 3);
         ++ouster_.initialization;
@@ -72,8 +72,8 @@ TEST_F(OusterColumnsTest, RestartedSensorMustShowColumns) {
     EXPECT_EQ(columns_.restarts(), 8u);
 }
 
-/// It costs a turn: in the first one, no time from turn to turn is known.
-TEST_F(OusterColumnsTest, OtherSpeedIsSameMode) {
+/// One turn is lost: in the first turn, the turn's duration is unknown.
+TEST_F(OusterColumnsTest, SpeedDoesNotChangeMode) {
     certain(kMode, 3);
     EXPECT_EQ(certain({1024, 20}, 3), 2 * 64u);
 }
@@ -102,7 +102,7 @@ TEST_F(OusterColumnsTest, LegacyPacketsUseEncoder) {
     }
 }
 
-/// With an unknown mode, numbers beyond the columns spoil the turn.
+/// With an unknown mode, excessive column numbers invalidate the turn.
 TEST_F(OusterColumnsTest, LargeColumnNumbersMeanOtherMode) {
     OusterSensor sensor = sensor_;
     sensor.turn_s = 0;

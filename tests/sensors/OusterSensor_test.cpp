@@ -20,7 +20,7 @@ class OusterSensorTest : public testing::Test {
     OusterSensor read(const std::string& json) const {
         return readOusterSensor(folder_.write("sensor.json", json));
     }
-    /// The message about metadata in which `from` is replaced.
+    /// The error for metadata with `from` replaced.
     std::string messageWith(const std::string& from, const std::string& to) const {
         std::string json = test::ousterJson();
         const std::size_t at = json.find(from);
@@ -39,7 +39,7 @@ TEST_F(OusterSensorTest, ReadsPacketHeader) {
                           frameIdOf(bytes, sensor));
     };
     EXPECT_EQ(headerOf("RNG19_RFL8_SIG16_NIR16"), std::tuple(true, 992137000142u, 4321));
-    EXPECT_EQ(headerOf("LEGACY"), std::tuple(true, 0u, 4321));  // it has none
+    EXPECT_EQ(headerOf("LEGACY"), std::tuple(true, 0u, 4321));  // has no serial number
 }
 
 TEST_F(OusterSensorTest, ReadsBeamsAndFormat) {
@@ -50,7 +50,7 @@ TEST_F(OusterSensorTest, ReadsBeamsAndFormat) {
     EXPECT_EQ(sensor.columns_per_frame, 64u);
     EXPECT_EQ(sensor.windowColumns(), 64u);
     EXPECT_EQ(sensor.packetBytes(), 16u * (12 + 4 * 12) + 64);
-    EXPECT_THAT(sensor.row, ElementsAre(3, 2, 1, 0));  // pixels are from the top
+    EXPECT_THAT(sensor.row, ElementsAre(3, 2, 1, 0));  // pixels start at the top
     EXPECT_NEAR(sensor.azimuth_rad[0], radians(-3.0), 1e-12);
     EXPECT_NEAR(sensor.beam_origin_m, 0.02767, 1e-12);
     EXPECT_NEAR(sensor.lidar_to_sensor.translation().z(), 0.03618, 1e-12);
@@ -71,7 +71,7 @@ TEST_F(OusterSensorTest, PacketSizesMatchManual) {
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16", 128), 24832u);
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16_DUAL", 128), 33024u);
     EXPECT_EQ(bytesOf("RNG15_RFL8_NIR8", 128), 8448u);
-    // Of the SDK: 32 bytes before and behind 16 columns of 12 bytes and these per pixel.
+    // From the SDK: 32 bytes before and after 16 columns of 12 bytes plus these per pixel.
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16_ZONE16", 128), 64u + 16 * (12 + 128 * 12));
     EXPECT_EQ(bytesOf("RNG15_RFL8_WIN8", 128), 64u + 16 * (12 + 128 * 4));
     EXPECT_EQ(bytesOf("RNG15_RFL8_NIR8_ZONE16", 128), 64u + 16 * (12 + 128 * 8));

@@ -41,7 +41,7 @@ TEST(VelodyneModel, FiringTimesMatchManuals) {
     EXPECT_EQ(velodyneModel("VLP-16").firing_period_us, 55.296);
     EXPECT_EQ(velodyneModel("HDL-32E").laser_period_us, 1.152);
     EXPECT_EQ(velodyneModel("HDL-32E").firing_period_us, 46.080);
-    // A VLP-32C fires two lasers at once: the last pair 15 periods after the first.
+    // A VLP-32C fires two lasers at once, the last pair 15 periods after the first.
     EXPECT_EQ(velodyneModel("VLP-32C").delayUs(1), 0.0);
     EXPECT_DOUBLE_EQ(velodyneModel("VLP-32C").delayUs(31), 15 * 2.304);
     EXPECT_DOUBLE_EQ(velodyneModel("VLP-16").packetPeriodUs(false), 1327.104);

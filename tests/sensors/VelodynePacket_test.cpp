@@ -54,7 +54,7 @@ TEST(VelodynePacket, LowerBlocksIdentifyHdl64) {
     EXPECT_FALSE(isOfHdl64(packetOf(0xeeff).bytes.data()));
 }
 
-TEST(VelodynePacket, DataHaveSizeAndHeaders) {
+TEST(VelodynePacket, DataPacketsHaveSizeAndHeaders) {
     const VelodynePacket packet = packetOf(0xeeff);
     EXPECT_TRUE(isVelodyneData(packet.bytes.data(), 1206));
     EXPECT_FALSE(isVelodyneData(packet.bytes.data(), 1205));

@@ -47,7 +47,7 @@ class SettingsTest : public testing::Test {
             EXPECT_THAT(e.what(), HasSubstr("refused.yaml"));
             return e.what();
         }
-        ADD_FAILURE() << "taken: " << text;
+        ADD_FAILURE() << "accepted: " << text;
         return "";
     }
     static bool says(const std::string& message, const std::string& words) {
@@ -108,7 +108,7 @@ TEST_F(SettingsTest, PresetsDifferOnlyWhereDocumented) {
     }
 }
 
-TEST_F(SettingsTest, PresetsFitTheirSensors) {
+TEST_F(SettingsTest, PresetsFitSensors) {
     for (const auto& [file, name, beams, columns] : {std::tuple{"vlp16.yaml", "VLP-16", 16, 870},
                                                      {"hdl32e.yaml", "HDL-32E", 32, 870},
                                                      {"hdl64e.yaml", "HDL-64E", 64, 870},
@@ -246,7 +246,7 @@ TEST_F(SettingsTest, RejectsInvalidYaml) {
     EXPECT_TRUE(says(refusalOf("- 1\n- 2\n"), "key: value"));
     EXPECT_TRUE(says(refusalOf("just words"), "key: value"));
     EXPECT_TRUE(says(refusalOf("zone_m: 20\n---\nzone: 30\n"), "several documents"));
-    // yaml-cpp finds documents without end in these.
+    // yaml-cpp finds infinitely many documents in these.
     EXPECT_TRUE(says(refusalOf(","), "invalid YAML"));
     EXPECT_TRUE(says(refusalOf(std::string(",nclude: (\0\0\0\0\0\0\0\1", 18)), "invalid YAML"));
     Settings settings;
@@ -254,7 +254,7 @@ TEST_F(SettingsTest, RejectsInvalidYaml) {
     EXPECT_THROW(mergeSettings(folder_.path(), settings), SettingsError);
 }
 
-TEST_F(SettingsTest, EmptyFileChangesNothing) {
+TEST_F(SettingsTest, EmptyFileKeepsSettings) {
     EXPECT_NO_THROW(settingsOf(""));
     EXPECT_NO_THROW(settingsOf("# nothing but words\n"));
 }
@@ -308,7 +308,7 @@ std::vector<int> fitted(const Settings& settings, int rows, int most_columns) {
 
 TEST_F(SettingsTest, UnsetOptionsAdaptToRecoveredSensor) {
     const Settings none = settingsOf("zone_m: 10");
-    EXPECT_EQ(fitted(none, 16, 1800), (std::vector{870, 8, 5}));  // as the presets
+    EXPECT_EQ(fitted(none, 16, 1800), (std::vector{870, 8, 5}));  // like the presets
     EXPECT_EQ(fitted(none, 128, 512), (std::vector{512, 8, 5}));
     EXPECT_EQ(fitted(none, 8, 100), (std::vector{100, 4, 3}));
     EXPECT_EQ(fitted(none, 3, 0), (std::vector{8, 2, 1}));
@@ -386,7 +386,7 @@ TEST_F(SettingsTest, ReadsAirframeParts) {
                   "- sphere: {centre_m: [0, 0, -0.3], radius_m: 0.2}\n"
                   "- learned: legs.yaml\n");
     const Settings settings = settingsOf("include: drone/drone.yaml");
-    EXPECT_EQ(settings.files.back(), folder / "legs.yaml");  // so no output replaces it
+    EXPECT_EQ(settings.files.back(), folder / "legs.yaml");  // so that no output replaces it
     const auto& airframe = settings.airframe;
     ASSERT_EQ(airframe.parts.boxes.size(), 1u);
     EXPECT_EQ(airframe.parts.boxes[0].low_m, Eigen::Vector3f(-1, -0.5f, 0));
@@ -549,7 +549,7 @@ TEST(Settings, DumpRoundTrips) {
     mergeSettings(folder.write("none.yaml", dumpSettings(Settings())), again = Settings());
     EXPECT_FALSE(again.sensor.model);
     EXPECT_TRUE(again.given.count("zone_m"));
-    EXPECT_FALSE(again.given.count("columns"));  // it would no longer be fitted to the sensor
+    EXPECT_FALSE(again.given.count("columns"));  // columns would no longer adapt to the sensor
     EXPECT_THAT(dumpSettings(Settings()), HasSubstr("model: recovered"));
     EXPECT_TRUE(again.airframe.parts.isEmpty());
 }
@@ -577,7 +577,7 @@ TEST(Settings, TableListsEveryKey) {
     EXPECT_EQ(keys[0].range, "0.1 ... 1000");
 }
 
-/// The page is the second statement of each limit.
+/// The page repeats each limit.
 TEST(Settings, RangesMatchDocumentation) {
     std::ifstream page(std::filesystem::path(HAGEN_SOURCE_DIR) / "docs/settings.md");
     std::map<std::string, std::string> ranges;

@@ -18,13 +18,13 @@ Terrain rolling() {
 struct Tilt {
     double roll, pitch;
 };
-/// Of an attitude that turns about z, then y, then x.
+/// Roll and pitch of an attitude that rotates about z, then y, then x.
 Tilt tiltOf(const SensorPose& pose) {
     const Eigen::Matrix3d r = pose.attitude.toRotationMatrix();
     return {std::atan2(r(2, 1), r(2, 2)), -std::asin(r(2, 0))};
 }
 
-TEST(FlightTest, KeepsItsAltitude) {
+TEST(FlightTest, KeepsAltitude) {
     const Terrain terrain = rolling();
     for (const double altitude_m : {1.0, 4.0, 15.0}) {
         FlightSettings settings;
@@ -42,8 +42,7 @@ TEST(FlightTest, KeepsItsAltitude) {
     }
 }
 
-/// The same flight over level ground is lower by the mean height of the ground from 3 m behind to 3
-/// m ahead.
+/// Over level ground, the flight is lower by the mean ground height from 3 m behind to 3 m ahead.
 TEST(FlightTest, FollowsMeanGroundHeight) {
     TerrainParameters form;
     form.max_slope_rad = form.bump_m = 0;
@@ -72,7 +71,7 @@ TEST(FlightTest, TiltHasGivenDeviation) {
     for (const double sd_deg : {1.0, 4.0, 15.0}) {
         FlightSettings settings;
         settings.tilt_sd_rad = radians(sd_deg);
-        settings.speed_m_s = 2;  // no turn is leant into by more than its 1.1 degrees
+        settings.speed_m_s = 2;  // at this speed, turns add less than 1.1 degrees
         const Flight flight(rolling(), {1e4, 12}, settings, 3);
         constexpr int kCount = 4000;
         double roll = 0, roll2 = 0, pitch = 0, pitch2 = 0;

@@ -75,7 +75,7 @@ TEST_P(EachSensor, ExactReturnsLieOnGround) {
     const SimulatedScan scan = setup.scan(7.3, noFaults());
     ASSERT_GT(scan.size(), 5000u);
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        // Rays start with their firing, lasers a little later.
+        // Rays start at their firing, lasers slightly later.
         const double range_m = static_cast<double>(scan.scan.range_m[i]);
         ASSERT_NEAR(setup.inMap(scan, i, 7.3).z(), 0, 1e-3 + 1e-4 * range_m) << i;
         ASSERT_EQ(scan.kind[i], ObjectClass::Terrain);
@@ -183,9 +183,9 @@ TEST(LidarTest, LosesWeakReturnsFirst) {
     EXPECT_LT(count(some, 7), 0.5 * count(all, 7));   // 115 m away, at 1 degree
 }
 
-/// Where a horizontal wire of 24 mm runs round the sensor, at the height of the beam at 1 degree:
-/// the share of that beam's firings that meet it.
-double shareThatMeetsWire(double distance_m) {
+/// Share of firings of the beam at 1 degree that hit a horizontal wire of 24 mm around the sensor
+/// at the height of that beam.
+double shareHittingWire(double distance_m) {
     const FlightSettings hover = flightAt(3, 1e-3, 0);
     const SceneContent empty = emptyContent();
     const Eigen::Vector3d from = Flight(empty.terrain, empty.path, hover, 5).at(0).position_m;
@@ -207,9 +207,9 @@ double shareThatMeetsWire(double distance_m) {
 }
 
 TEST(LidarTest, WireHitsMatchCoverage) {
-    EXPECT_GT(shareThatMeetsWire(4), 0.99);
-    EXPECT_NEAR(shareThatMeetsWire(12), 0.024 / (12 * 0.003), 0.05);
-    EXPECT_NEAR(shareThatMeetsWire(24), 0.024 / (24 * 0.003), 0.05);
+    EXPECT_GT(shareHittingWire(4), 0.99);
+    EXPECT_NEAR(shareHittingWire(12), 0.024 / (12 * 0.003), 0.05);
+    EXPECT_NEAR(shareHittingWire(24), 0.024 / (24 * 0.003), 0.05);
 }
 
 TEST(LidarTest, BeamsPassWires) {
@@ -311,7 +311,7 @@ Eigen::Quaterniond mountedAt(double roll_deg, double pitch_deg) {
            Eigen::AngleAxisd(radians(roll_deg), Eigen::Vector3d::UnitX());
 }
 
-TEST(LidarTest, AppliesTheMount) {
+TEST(LidarTest, AppliesMount) {
     const Simulation setup(level(), flightAt(3, 8, 10));
     for (const auto& [roll_deg, pitch_deg] : {std::pair{180.0, 0.0}, {0.0, 90.0}, {-35.0, 20.0}}) {
         const Eigen::Quaterniond mount = mountedAt(roll_deg, pitch_deg);
@@ -333,7 +333,7 @@ TEST(LidarTest, AppliesTheMount) {
 }
 
 TEST(LidarTest, AirframeStaysWithVehicle) {
-    // Azimuth and range of the four legs, which are below the vehicle's horizon.
+    // Azimuth and range of the four legs, below the vehicle's horizon.
     const std::vector<std::pair<double, double>> legs{
         {0.80, 0.42}, {2.35, 0.44}, {-0.78, 0.41}, {-2.38, 0.45}};
     SensorErrorModel faults = noFaults();
@@ -366,7 +366,7 @@ TEST(LidarTest, AirframeStaysWithVehicle) {
     }
 }
 
-/// The inside of a building, which returns every beam of a Mid-360.
+/// A Mid-360 inside a building, where every beam has a return.
 Simulation livoxIndoors() {
     const FlightSettings hover = flightAt(3, 1e-3, 0);
     const SceneContent empty = emptyContent();
@@ -384,7 +384,7 @@ double elevationOf(const SimulatedScan& scan, std::size_t i) {
     return degrees(std::asin(at.z() / at.norm()));
 }
 
-TEST(Mid360, FillsItsFieldOfView) {
+TEST(Mid360, FillsFieldOfView) {
     const Simulation setup = livoxIndoors();
     const SimulatedScan scan = setup.scan(1.7, noFaults());
     ASSERT_EQ(scan.size(), 20000u);

@@ -15,7 +15,7 @@ TEST(PathTest, IsClosed) {
     EXPECT_NEAR((path.at(-5) - Eigen::Vector2d(-5, -10)).norm(), 0, 1e-9);
 }
 
-TEST(PathTest, FollowsItsHeading) {
+TEST(PathTest, FollowsHeading) {
     const Path path{12, 7};
     constexpr double kStep_m = 1e-4;
     for (double way_m = 0.05; way_m < 2 * path.length_m(); way_m += 0.37) {

@@ -8,7 +8,7 @@
 namespace hagen::simulation {
 namespace {
 
-/// Share of level rays across a shape, at some height and within a half width, that pass it.
+/// Share of level rays at a height and within a half width that pass through a shape.
 double shareThatPasses(Shape shape, float z_m, float half_width_m) {
     const Scene scene = test::sceneOf(ObjectClass::Tree, 1, std::move(shape));
     std::vector<Ray> rays;
@@ -50,7 +50,7 @@ TEST(PlantsTest, TreesMatchParameters) {
     }
     EXPECT_NEAR(top, 6, 1.2);
     EXPECT_LT(widest, 1.7f * static_cast<float>(form.crown_radius_m));
-    EXPECT_GT(area, form.leaf_area_m2);  // and its wood
+    EXPECT_GT(area, form.leaf_area_m2);  // plus its wood
 }
 
 TEST(PlantsTest, CropShowsGround) {

@@ -22,7 +22,7 @@ Moments momentsOf(const std::function<double()>& draw) {
 }
 
 TEST(RandomTest, MatchesMersenneTwister) {
-    Random random(42);  // a Mersenne twister's first output for this seed, 53 bits of it
+    Random random(42);  // the first 53 bits of a Mersenne twister with this seed
     EXPECT_DOUBLE_EQ(random.uniform(), static_cast<double>(13930160852258120406u >> 11) * 0x1p-53);
 }
 

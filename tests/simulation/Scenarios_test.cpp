@@ -61,7 +61,7 @@ TEST_P(EachScenario, HasClassesAndObjectNumbers) {
     EXPECT_EQ(numbers.count(0), 0u);
 }
 
-/// Balls of half a metre, all along the way, at all altitudes that one can fly at.
+/// No obstacle within 0.5 m of the path at any altitude of flight.
 TEST_P(EachScenario, PathIsFree) {
     const Scene scene = makeScene(GetParam(), 2);
     std::vector<Ray> rays;
@@ -125,10 +125,10 @@ TEST(ScenariosTest, DenseForestsHaveMoreTrees) {
     EXPECT_GT(trees("forest-0.10"), 1.6 * trees("forest-0.05"));
 }
 
-/// Both sides of a trap begin at the ends of its back, and lead the same way.
+/// Both sides of a trap start at the ends of its back and have the same direction.
 TEST(ScenariosTest, TrapsAreOpenOnOneSide) {
     const Scene scene = makeScene("u-trap", 1);
-    std::vector<Eigen::Vector2d> middles_m;  // of the walls: back, one side, the other side ...
+    std::vector<Eigen::Vector2d> middles_m;  // walls: back, one side, the other side ...
     for (const SceneObject& object : scene.content().objects) {
         if (object.kind != ObjectClass::Wall) continue;
         const std::vector<Eigen::Vector3f>& vertices_m =
@@ -142,8 +142,8 @@ TEST(ScenariosTest, TrapsAreOpenOnOneSide) {
     for (std::size_t back = 0; back < middles_m.size(); back += 3) {
         const Eigen::Vector2d one_m = middles_m[back + 1] - middles_m[back],
                               other_m = middles_m[back + 2] - middles_m[back];
-        EXPECT_GT((one_m + other_m).norm(), 3);  // their length
-        EXPECT_GT((one_m - other_m).norm(), 5);  // that of the back
+        EXPECT_GT((one_m + other_m).norm(), 3);  // length of the sides
+        EXPECT_GT((one_m - other_m).norm(), 5);  // length of the back
         EXPECT_NEAR((one_m + other_m).dot(one_m - other_m), 0, 1e-3);
     }
 }

@@ -27,7 +27,7 @@ double leastOf(const Function& function) {
     return function(0.5 * (low + high));
 }
 
-/// By search over all places of the triangle.
+/// By search over all points of the triangle.
 double plainToTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                        const Eigen::Vector3d& c) {
     return leastOf([&](double u) {
@@ -44,7 +44,7 @@ double plainToRod(const Eigen::Vector3d& p, const Eigen::Vector4d& from,
                     }));
 }
 
-/// By all surfaces of all that stands.
+/// Distance to all surfaces of standing objects.
 double plainDistance(const SceneContent& content, const Eigen::Vector3d& p, double reach_m) {
     double nearest = reach_m;
     for (const SceneObject& object : content.objects) {
@@ -79,7 +79,7 @@ TEST(SceneDistanceTest, MatchesGeometry) {
     Shape wall, pole, ball;
     wall.addBox({5, -4, 0}, {5.3f, 4, 6});
     pole.addRod({{0, 4, -1, 0.2f}, {0, 4, 5, 0.1f}});
-    ball.addRod({{-4, 0, 2, 0.5f}, {-4, 0, 2, 0.3f}});  // the smaller within the larger
+    ball.addRod({{-4, 0, 2, 0.5f}, {-4, 0, 2, 0.3f}});  // the smaller ball within the larger
     put(content, ObjectClass::Wall, 1, wall);
     put(content, ObjectClass::Pole, 2, pole);
     put(content, ObjectClass::Mover, 3, ball);
@@ -87,7 +87,7 @@ TEST(SceneDistanceTest, MatchesGeometry) {
     EXPECT_NEAR(distance.at({3, 0, 2}, 0), 2, 1e-5);
     EXPECT_NEAR(distance.at({5.15f, 0, 7}, 0), 1, 1e-5);
     EXPECT_NEAR(distance.at({4, 5, 2}, 0), std::sqrt(2.0), 1e-5);                 // an edge
-    EXPECT_NEAR(distance.at({0, 3, 5.2f}, 0), std::hypot(1.0, 0.2) - 0.1, 1e-3);  // its upper ball
+    EXPECT_NEAR(distance.at({0, 3, 5.2f}, 0), std::hypot(1.0, 0.2) - 0.1, 1e-3);  // upper ball
     EXPECT_EQ(distance.at({0, 4.05f, 2}, 0), 0);
     EXPECT_NEAR(distance.at({-4, 0, 4}, 0), 1.5, 1e-5);
     EXPECT_EQ(distance.at({-2, -7, 2}, 0), 3.0f);

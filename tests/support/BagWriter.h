@@ -30,7 +30,7 @@ class MessageBytes {
         if (is_cdr_) bytes_ += '\0';
         return *this;
     }
-    /// Bytes whose number is fixed; with a count before them otherwise.
+    /// Bytes of a fixed number, or preceded by a count.
     MessageBytes& raw(const ByteString& bytes) {
         bytes_ += bytes;
         return *this;
@@ -41,7 +41,7 @@ class MessageBytes {
     MessageBytes& time(double time_s);
     /// std_msgs/Header.
     MessageBytes& header(double time_s, const std::string& frame);
-    /// A position, and a rotation about z.
+    /// A position and a rotation about z.
     MessageBytes& pose(double x, double y, double z, double yaw_rad = 0);
     const ByteString& bytes() const { return bytes_; }
 
@@ -53,11 +53,11 @@ class MessageBytes {
 /// A message to write, in both serialisations.
 struct SentMessage {
     std::string topic, type;  ///< "sensor_msgs/PointCloud2"
-    double time_s = 0;        ///< when it was recorded
+    double time_s = 0;        ///< time of recording
     ByteString ros1, cdr;
 };
 
-/// Serialises a message both ways: `write` gets the MessageBytes to write to.
+/// Serialises a message both ways; `write` receives the MessageBytes.
 template <class Write>
 SentMessage sentMessage(const std::string& topic, const std::string& type, double time_s,
                         const Write& write) {
@@ -83,22 +83,22 @@ SentMessage transformMessage(const std::string& topic, double time_s, const std:
                              const std::string& child, double x, double y, double z);
 SentMessage stringMessage(const std::string& topic, double time_s, const std::string& text);
 
-/// How a bag is written; sizes and CRCs are right.
+/// How a bag is written; sizes and CRCs are correct.
 struct BagShape {
-    std::string compression = "none";    ///< "none", "bz2", "lz4", "zstd", or a wrong one
-    std::size_t messages_per_chunk = 4;  ///< of an MCAP: 0: no chunks
-    bool is_closed = true;               ///< of a ROS 1 bag: it has an index
+    std::string compression = "none";    ///< "none", "bz2", "lz4", "zstd", or invalid
+    std::size_t messages_per_chunk = 4;  ///< of an MCAP; 0: no chunks
+    bool is_closed = true;               ///< a ROS 1 bag has an index
 };
 
-/// A bag of ROS 1, an MCAP of ROS 2 (or with messages of ROS 1).
+/// A ROS 1 bag, and an MCAP with ROS 2 (or ROS 1) messages.
 ByteString ros1BagOf(const std::vector<SentMessage>& messages, const BagShape& shape = {});
 ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shape = {},
                   bool is_ros1 = false);
-/// Writes a database of ROS 2.
+/// Writes a ROS 2 database.
 std::filesystem::path writeDb3(const std::filesystem::path& file,
                                const std::vector<SentMessage>& messages);
 
-/// Bytes packed by "bz2", "lz4" or "zstd"; by anything else: as they are.
+/// Bytes compressed by "bz2", "lz4" or "zstd"; unchanged for anything else.
 ByteString packed(const ByteString& plain, const std::string& compression);
 
 /// A record of a ROS 1 bag, and of an MCAP.

@@ -22,12 +22,12 @@ struct SentDatagram {
     std::uint16_t id = 0;  ///< of IP
 };
 
-/// "\x12\x34": a number in network order.
+/// "\x12\x34", a number in network order.
 ByteString big16(unsigned value);
 ByteString big32(std::uint32_t value);
 ByteString little32(std::uint32_t value);
 
-/// The IP packet of a datagram, with a right header but no checksums.
+/// The IP packet of a datagram, with a valid header but no checksums.
 ByteString ipOf(const SentDatagram& datagram);
 /// The IP packets of its fragments, with at most `most` bytes each.
 std::vector<ByteString> fragmentsOf(const SentDatagram& datagram, std::size_t most);

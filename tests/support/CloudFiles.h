@@ -1,5 +1,5 @@
 #pragma once
-// Files of points, laid out byte by byte as their formats are described.
+// Point cloud files, written byte by byte as specified by their formats.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace hagen::test {
 
-/// Bytes of numbers, one after the other.
+/// The bytes of consecutive numbers.
 class Packed {
  public:
     template <class Number>
@@ -21,7 +21,7 @@ class Packed {
         text.append(bytes, sizeof number);
         return *this;
     }
-    /// With the highest byte first.
+    /// Big-endian.
     template <class Number>
     Packed& addBig(Number number) {
         const std::size_t start = text.size();
@@ -34,7 +34,7 @@ class Packed {
     std::string text;
 };
 
-/// A point of the files here.
+/// A point of these files.
 struct FilePoint {
     float x_m, y_m, z_m;
     std::uint16_t ring;
@@ -179,7 +179,7 @@ inline std::string las(const std::vector<FilePoint>& points, bool is_new = false
     put(24, std::uint8_t{1});
     put(25, static_cast<std::uint8_t>(is_new ? 4 : 2));
     put(94, static_cast<std::uint16_t>(header_size));
-    put(96, static_cast<std::uint32_t>(header_size + 3));  // after three bytes of others
+    put(96, static_cast<std::uint32_t>(header_size + 3));  // after three other bytes
     put(104, static_cast<std::uint8_t>(is_new ? 6 : 1));
     put(105, static_cast<std::uint16_t>(record));
     put(107, static_cast<std::uint32_t>(is_new ? 0 : points.size()));
@@ -216,7 +216,7 @@ inline std::string bin(const std::vector<FilePoint>& points) {
     return packed.text;
 }
 
-/// With rings, as of nuScenes.
+/// With rings, like nuScenes.
 inline std::string binWithRings(const std::vector<FilePoint>& points) {
     Packed packed;
     for (const FilePoint& point : points) {
@@ -226,7 +226,7 @@ inline std::string binWithRings(const std::vector<FilePoint>& points) {
     return packed.text;
 }
 
-/// One of each, with the extension that it has.
+/// One file of each format, with its name.
 inline std::vector<std::pair<std::string, std::string>> cloudFiles(
     const std::vector<FilePoint>& points = filePoints()) {
     return {{"ascii.pcd", asciiPcd(points)},

@@ -94,7 +94,7 @@ std::vector<ByteString> hdl64Packets(int firings, const Hdl64Range& range_m) {
             }
         }
         packet += little32(static_cast<std::uint32_t>(1000000 + first * 48));
-        packet += "9W";  // a status, which a smaller sensor would have for dual returns
+        packet += "9W";  // a status byte that means dual returns for smaller sensors
         packets.push_back(packet);
     }
     return packets;

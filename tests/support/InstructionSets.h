@@ -4,9 +4,8 @@
 
 namespace hagen {
 
-/// Runs `visit` once with every instruction set that this machine has and the libraries were built
-/// for, from the simplest to the widest, then restores the widest. Names are Highway's: "SSE2",
-/// "AVX2", "NEON".
+/// Runs `visit` once with every instruction set supported by this machine and the libraries, from
+/// the simplest to the widest, then restores the widest. Names as in Highway: "SSE2", "AVX2".
 void forEachInstructionSet(const std::function<void(const std::string& name)>& visit);
 
 }  // namespace hagen

@@ -18,7 +18,7 @@ std::string livoxPacket(const std::vector<LivoxPoint>& points, std::int64_t time
 /// A packet of points all around, 2 m above flat ground with a wall at x = 6 m.
 std::string livoxPacketOfWall(int number, std::int64_t time_ns);
 
-/// From one such packet to the next: 96 points, 200 000 per second.
+/// Period of such packets: 96 points at 200 kHz.
 constexpr std::int64_t kLivoxPacket_ns = 480000;
 constexpr int kLivoxPoints = 96;
 

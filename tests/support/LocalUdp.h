@@ -1,5 +1,5 @@
 #pragma once
-// UDP on this machine, for tests of programs that send and receive.
+// Local UDP, for tests of programs that send and receive.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 
 namespace hagen::test {
 
-/// Seconds of a clock that does not jump: that of hagen::live.
+/// Seconds of the steady clock, as used by hagen::live.
 inline double steadyNow_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
@@ -75,7 +75,7 @@ class LocalUdp {
     std::uint16_t port_ = 0;
 };
 
-/// A port of this machine without a listener.
+/// A local port without a listener.
 inline std::uint16_t freePort() { return LocalUdp().port(); }
 
 }  // namespace hagen::test

@@ -9,7 +9,7 @@
 
 namespace hagen::test {
 
-/// A mode of an Ouster: "1024x10".
+/// An Ouster mode such as "1024x10".
 struct OusterMode {
     std::size_t columns = 1024;
     int turns_per_s = 10;
@@ -30,7 +30,7 @@ inline std::string ousterJsonOf(const OusterMode& mode,
     return json;
 }
 
-/// An Ouster that turns, in one mode after the other.
+/// A turning Ouster with changing modes.
 class TurningOuster {
  public:
     explicit TurningOuster(const std::string& profile = "RNG19_RFL8_SIG16_NIR16")

@@ -31,14 +31,14 @@ void putPixel(std::string& bytes, const sensors::OusterProfile& profile,
         put(pixel, frame.second_range[at] | flags, 3);
         put(pixel, frame.second_reflectivity[at], 1);
         put(pixel, 0x123456789abcdef0, 8);
-    } else if (profile.name == "FIVE_WORD_PIXEL") {  // 19 bits of range, 5 of flags, 8, and again
+    } else if (profile.name == "FIVE_WORD_PIXEL") {  // 19 bits of range, 5 of flags, 8, twice
         put(pixel, frame.range[at] | flags, 3);
         put(pixel, frame.reflectivity[at], 1);
         put(pixel, frame.second_range[at] | flags, 3);
         put(pixel, frame.second_reflectivity[at], 1);
         put(pixel, 0x123456789abcdef0, 8);
         put(pixel, 0xffffffff, 4);
-    } else {  // RNG15_RFL8_NIR8 and what begins like it: 15 bits of range, 1 of flags, 8, 8
+    } else {  // RNG15_RFL8_NIR8 and extensions: 15 bits of range, 1 of flags, 8, 8
         put(pixel, frame.range[at] | 0x8000, 2);
         put(pixel, frame.reflectivity[at], 1);
         put(pixel, 0x77, 1);

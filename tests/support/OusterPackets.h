@@ -11,8 +11,7 @@ namespace hagen::test {
 std::string ousterJson(const std::string& profile = "RNG19_RFL8_SIG16_NIR16",
                        const std::string& serial = "992137000142");
 
-/// The packets of a frame, by the maker's manual and SDK; each holds what the frame has in its
-/// columns. The serial number is that of `sensor`.
+/// The packets of a frame, by Ouster's manual and SDK, with the serial number of `sensor`.
 std::vector<std::string> packetsOf(const sensors::OusterSensor& sensor,
                                    const sensors::OusterFrame& frame);
 

@@ -94,8 +94,8 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
     return of_model;
 }
 
-/// Rotation of the sensor from one firing's block to the next, in 0.01 degrees: the median over the
-/// scan, so that neither rounded azimuths nor a broken block shift returns.
+/// Rotation of the sensor between the blocks of consecutive firings, in 0.01 degrees: the median
+/// over the scan, so that neither rounded azimuths nor a broken block shift returns.
 int turnOfBlocks(const CObservationVelodyneScan& observation) {
     std::vector<int> turns;
     for (const auto& raw : observation.scan_packets) {
@@ -113,7 +113,7 @@ int turnOfBlocks(const CObservationVelodyneScan& observation) {
     return std::max(0, *middle);
 }
 
-/// A laser's calibration, as the decoder needs it.
+/// A laser's calibration for the decoder.
 struct Laser {
     float sine, cosine;                  ///< of its elevation
     float distance_m, up_m, sideways_m;  ///< added to the measurement

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of outputs of a conversion share.
+// Common parts of the tests of conversion outputs.
 #include <gtest/gtest.h>
 #include <hagen/convert/Conversion.h>
 #include <hagen/mrpt/ObservationScan.h>
@@ -16,7 +16,7 @@
 
 namespace hagen::test {
 
-/// A conversion with a VLP-16 named, and the returns of a scan of a pole for its input.
+/// A conversion with the sensor VLP-16, and the returns of a scan of a pole for its input.
 class PoleConversion {
  protected:
     PoleConversion() {

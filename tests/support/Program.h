@@ -47,7 +47,7 @@ Outcome run(const std::string& program, const std::vector<std::string>& argument
 /// A file of Debian's mrpt-common: an outdoor VLP-16 scan. Empty if it is not installed.
 std::filesystem::path realScan();
 
-/// The folder named by this environment variable; empty if it is not set. Tests are then skipped.
+/// The folder in this environment variable; empty if it is not set. Tests are then skipped.
 std::filesystem::path dataFolder(const char* variable);
 
 }  // namespace hagen::test

@@ -14,7 +14,7 @@ namespace hagen::test {
 
 using Arguments = std::vector<std::string>;
 
-/// Tests that run a built program, which writes into a temporary folder.
+/// Tests that run a built program with outputs in a temporary folder.
 class ProgramTest : public testing::Test {
  protected:
     using Arguments = test::Arguments;
@@ -41,7 +41,7 @@ class ProgramTest : public testing::Test {
         EXPECT_EQ(files(), before) << words;
     }
 
-    /// The same for several cases: arguments after the common ones, and words of the message.
+    /// The same for several cases: additional arguments, and words of the message.
     void expectFailures(const Arguments& common, int exit_code,
                         const std::vector<std::pair<Arguments, std::string>>& cases) const {
         for (const auto& [arguments, words] : cases) {

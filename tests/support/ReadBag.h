@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of reading bags share.
+// Common parts of the tests of bag readers.
 #include <gtest/gtest.h>
 #include "recordings/bags/BagScans.h"
 
@@ -15,7 +15,7 @@ namespace hagen::test {
 
 constexpr double kBagStart_s = 1700000000;
 
-/// All that is read of a bag.
+/// The content of a bag.
 struct ReadBag {
     recordings::BagSurvey survey;
     std::unique_ptr<recordings::BagScans> scans;

@@ -37,7 +37,7 @@ mrpt::serialization::CSerializable::Ptr objectOf(const std::string& bytes) {
 std::string newerBytesOf(const mrpt::obs::CObservationRotatingScan& scan,
                          const std::vector<float>& points) {
     std::string bytes = bytesOf(scan);
-    // From the size of the range image to the end, as libs/maps of MRPT 2.5.8 writes it.
+    // From the size of the range image to the end, as written by libs/maps of MRPT 2.5.8.
     std::size_t images = 4 + 2 * scan.rangeImage.size() + 4 + scan.intensityImage.size() + 2;
     for (const auto& [name, layer] : scan.rangeOtherLayers) {
         images += 4 + name.size() + 2 * layer.size();

@@ -11,7 +11,7 @@ namespace hagen::test {
 
 /// How a VLP-16's scan is laid out as a CObservationRotatingScan.
 struct RotatingLayout {
-    bool has_points = false;        ///< as MRPT 3 stores them
+    bool has_points = false;        ///< as in MRPT 3
     bool is_highest_first = false;  ///< row 0 is the highest beam, otherwise the lowest
 };
 

@@ -6,7 +6,7 @@
 namespace hagen::test {
 
 /// The measurements of a level Velodyne in a full revolution of 0.1 s, starting at `position_m` and
-/// moving at `velocity_m_s`; no returns from `range_limit_m` on.
+/// moving at `velocity_m_s`, without returns beyond `range_limit_m`.
 observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneModel& model,
                              const Eigen::Vector3d& position_m,
                              const Eigen::Vector3d& velocity_m_s = Eigen::Vector3d::Zero(),

@@ -32,7 +32,7 @@ struct SmallFlightResult {
 };
 
 /// Plans at 10 Hz for the state at which the command takes effect, moves at 50 Hz. Ends within 1 m
-/// of the goal, or at the time limit.
+/// of the goal or at the time limit.
 inline SmallFlightResult fly(const SolidWorld& world, const SmallFlight& flight) {
     const auto planner = avoidance::makePlanner(flight.planner);
     const auto guidance = avoidance::makeGuidance(flight.guidance);

@@ -5,7 +5,7 @@
 
 namespace hagen::test {
 
-/// A world of simple solids with exact distances: a model with perfect knowledge.
+/// A perfect model of a world of simple solids with exact distances.
 class SolidWorld : public avoidance::WorldModel {
  public:
     SolidWorld& sphere(const Eigen::Vector3f& middle_m, float radius_m) {

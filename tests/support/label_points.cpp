@@ -1,6 +1,6 @@
-// Labels scans with the filter alone, so that processors can be compared: label-points MODEL REPEAT
-// FILE.bin... Files are float32 x, y, z, intensity. Prints per file: returns, RoI, and a checksum
-// of all labels and numbers of obstacles. Each scan is segmented REPEAT times, by one filter.
+// Labels scans with only the filter, to compare processors: label-points MODEL REPEAT FILE.bin...
+// Files are float32 x, y, z, intensity. Prints per file: returns, RoI, and a checksum of all labels
+// and obstacle numbers. One filter segments each scan REPEAT times.
 #include <hagen/filter/HagenFilter.h>
 
 #include <array>
@@ -28,7 +28,7 @@ hagen::Scan readScan(const std::string& name) {
     return scan;
 }
 
-/// FNV-1a.
+/// An FNV-1a checksum.
 class Checksum {
  public:
     void add(std::uint32_t value) {

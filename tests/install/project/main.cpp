@@ -1,4 +1,4 @@
-// Segments a scan whose labels are known: flat ground 1.5 m below a VLP-16, and a pillar 8 m away.
+// Segments a scan with known labels: flat ground 1.5 m below a VLP-16, and a pillar 8 m away.
 #include <hagen/filter/HagenFilter.h>
 
 #include <algorithm>

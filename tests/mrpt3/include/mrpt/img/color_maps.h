@@ -1,5 +1,5 @@
 #pragma once
-// Colour maps give a TColorf in version 3.
+// Colour maps return a TColorf in version 3.
 #include_next <mrpt/img/color_maps.h>
 
 namespace mrpt::img {

@@ -1,5 +1,5 @@
 #pragma once
-// A class that stands for that of version 3.
+// A substitute for the class of version 3.
 #include <mrpt/maps/CSimplePointsMap.h>
 
 namespace mrpt::maps {
