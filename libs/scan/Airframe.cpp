@@ -7,10 +7,11 @@
 namespace hagen {
 namespace {
 
-/// The beams of some models do not start at the origin: ranges differ from the coordinates' norm.
+/// Slack for models whose beams do not start at the origin: ranges differ from the coordinates'
+/// norm.
 constexpr float kMaxOffset_m = 0.25f;
 
-/// No return of a longer range is the airframe's.
+/// Returns beyond this range are not from the airframe.
 float reachOf(const Airframe& airframe) {
     float reach_m = 0;
     for (const AirframeBox& box : airframe.boxes) {
@@ -70,7 +71,8 @@ std::size_t maskAirframe(const Airframe& airframe, Scan& scan) {
         if (end == begin + kBlock && isBlockFarther(&scan.range_m[begin], reach_m)) continue;
         for (std::size_t i = begin; i < end; ++i) {
             float& range_m = scan.range_m[i];
-            if (!(range_m > 0 && range_m <= reach_m)) continue;  // also without a range
+            if (!(range_m > 0 && range_m <= reach_m))
+                continue;  // also skips returns without a range
             if (!contains(airframe, {scan.x_m[i], scan.y_m[i], scan.z_m[i]}, range_m)) continue;
             range_m = kNoValue;
             ++masked;

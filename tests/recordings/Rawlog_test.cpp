@@ -233,7 +233,7 @@ TEST_F(Rawlog, RejectsOtherFiles) {
         AllOf(HasSubstr("text.rawlog: is not a recording: "), HasSubstr("Known are rawlogs")));
     const auto packed = folder_.write("log.bz2", "BZh91AY&SY");
     EXPECT_THAT(readLog(packed).second,
-                HasSubstr("is not a recording: it seems to be packed by bzip2: unpack it first"));
+                HasSubstr("is not a recording: it seems to be bzip2-compressed: unpack it first"));
     // Behind an entry, it is a recording.
     convert::Bytes entry;
     convert::serialise(comment("first"), entry);
