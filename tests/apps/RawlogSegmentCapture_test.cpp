@@ -80,7 +80,7 @@ TEST_F(RawlogSegmentCapture, OusterRequiresMetadata) {
     const std::string other = folder_.write("other.json", test::ousterJson("LEGACY"));
     expectFailures({"-i", capture, "-o", path("other.rawlog")}, 1,
                    {{{}, "--sensor-json FILE"},
-                    {{"--sensor-json", cut}, "cut.json: not metadata of an Ouster"},
+                    {{"--sensor-json", cut}, "cut.json: not Ouster metadata"},
                     {{"--sensor-json", other}, "Is it another sensor's metadata?"}});
     expectFailure({"-i", capture, "--sensor-json", path("none.json"), "-o", path("other.rawlog")},
                   2, "--sensor-json");

@@ -166,9 +166,9 @@ TEST_P(Fixture, ReadsPosesFramesAndAttitudes) {
 
 TEST_P(Fixture, RejectsWrongOusterMetadata) {
     const ReadBag read = readBag(file());
-    EXPECT_THAT(read.failed_because,
-                HasSubstr(std::string(GetParam()) + ": topic /ouster/metadata: not metadata of an "
-                                                    "Ouster: the key 'beam_altitude_angles'"));
+    EXPECT_THAT(read.failed_because, HasSubstr(std::string(GetParam()) +
+                                               ": topic /ouster/metadata: not Ouster metadata: "
+                                               "the key 'beam_altitude_angles'"));
 }
 
 using BagScansTest = test::BagTest;
