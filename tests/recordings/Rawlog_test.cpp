@@ -279,7 +279,7 @@ TEST_F(Rawlog, RejectsCountBeyondFile) {
         EXPECT_EQ(entries, 1u);
         EXPECT_THAT(why, HasSubstr("entry 1 at byte " + std::to_string(second)));
 #ifndef __SANITIZE_ADDRESS__  // whose shadow memory no limit can tell from the reader's
-        EXPECT_THAT(why, HasSubstr("asks for more memory at byte " + std::to_string(count + 4)));
+        EXPECT_THAT(why, HasSubstr("requests more memory at byte " + std::to_string(count + 4)));
 #endif
     }
 }

@@ -123,12 +123,12 @@ TEST_F(OusterSensorTest, ReadsMetadataWithoutFormat) {
 TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
     EXPECT_THAT(test::messageOf([&] { readOusterSensor(folder_ / "none.json"); }),
                 HasSubstr("none.json: cannot be read"));
-    EXPECT_THAT(test::messageOf([&] { read(""); }), HasSubstr("sensor.json: not metadata"));
+    EXPECT_THAT(test::messageOf([&] { read(""); }), HasSubstr("sensor.json: not Ouster metadata"));
     EXPECT_THAT(test::messageOf([&] { read(""); }), HasSubstr("is empty"));
     EXPECT_THAT(test::messageOf([&] { read("{}"); }),
                 HasSubstr("'beam_altitude_angles' is missing"));
     EXPECT_THAT(test::messageOf([&] { read("[1, 2]"); }),
-                HasSubstr("is this file Ouster metadata?"));
+                HasSubstr("is this file Ouster metadata"));
     EXPECT_THAT(test::messageOf([&] { read(std::string(2000000, ' ')); }),
                 HasSubstr("larger than 1 MB"));
     EXPECT_THAT(test::messageOf([&] { read(std::string(500000, '[')); }),
@@ -146,7 +146,7 @@ TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
     EXPECT_THAT(messageWith("\"pixels_per_column\": 4", "\"pixels_per_column\": 4000000000"),
                 HasSubstr("'pixels_per_column' is 4000000000, not 3 ... 256"));
     EXPECT_THAT(messageWith("\"columns_per_frame\": 64", "\"columns_per_frame\": 1e9"),
-                HasSubstr("sensor.json: not metadata"));
+                HasSubstr("sensor.json: not Ouster metadata"));
     EXPECT_THAT(messageWith("\"columns_per_packet\": 16", "\"columns_per_packet\": 0"),
                 HasSubstr("'columns_per_packet' is 0"));
     EXPECT_THAT(messageWith("\"columns_per_frame\": 64", "\"columns_per_frame\": 8"),
