@@ -16,7 +16,7 @@ class CaptureSource : public ScanSource {
     std::vector<std::string> remarks() const override;
 
  protected:
-    /// Captures have no poses of their own.
+    /// Captures contain no poses.
     LogPoses readPoses(const std::filesystem::path& file) override;
     /// Packets identify their sensor.
     bool showClouds(observations::CloudSensors&) override { return false; }

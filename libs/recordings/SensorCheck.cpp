@@ -8,8 +8,8 @@
 namespace hagen::recordings {
 namespace {
 
-// With motion compensation, 76 to 88 % of real turns of 16 beams fit their own sensor, and 31 to 44
-// % fit another sensor.
+// Real motion-compensated turns have a fit of 76 to 88 % with their own 16 beams, and of 31 to 44 %
+// with another sensor's.
 constexpr float kRemarkBelow = 0.75f;
 constexpr float kErrorBelow = 0.5f;
 // At least 0.92 on real scans of 16 and 64 beams, 0.29 to 0.37 if 16 beams are taken for 64.

@@ -71,8 +71,7 @@ std::size_t maskAirframe(const Airframe& airframe, Scan& scan) {
         if (end == begin + kBlock && isBlockFarther(&scan.range_m[begin], reach_m)) continue;
         for (std::size_t i = begin; i < end; ++i) {
             float& range_m = scan.range_m[i];
-            if (!(range_m > 0 && range_m <= reach_m))
-                continue;  // also skips returns without a range
+            if (!(range_m > 0 && range_m <= reach_m)) continue;  // also without a range
             if (!contains(airframe, {scan.x_m[i], scan.y_m[i], scan.z_m[i]}, range_m)) continue;
             range_m = kNoValue;
             ++masked;

@@ -6,12 +6,11 @@ namespace hagen {
 
 /// Finds the airframe: near returns at the same range in most scans.
 struct AirframeRules {
-    int rows = 90;             ///< rows of bins: 2 degrees each
-    float near_m = 1.5f;       ///< farther returns are never airframe
-    double least_share = 0.5;  ///< min. share of scans with near returns in the bin
-    float most_spread_m =
-        0.15f;              ///< max. difference of the 10th and 90th percentile of their ranges
-    float margin_m = 0.1f;  ///< mask this far beyond the 90th percentile
+    int rows = 90;                ///< rows of bins: 2 degrees each
+    float near_m = 1.5f;          ///< farther returns are never airframe
+    double least_share = 0.5;     ///< min. share of scans with near returns in the bin
+    float most_spread_m = 0.15f;  ///< range spread, 10th to 90th percentile
+    float margin_m = 0.1f;        ///< mask this far beyond the 90th percentile
     int least_scans = 10;
 };
 

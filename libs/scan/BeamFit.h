@@ -14,8 +14,7 @@ struct BeamFit {
     /// Beams of the sensor between the lowest and the highest that the cloud shows, and the number
     /// of those that it shows. 0: no beams are visible, because they are too close or blurred.
     std::size_t beams = 0, beams_seen = 0;
-    std::size_t beams_shown =
-        0;  ///< beams that the cloud shows, whether or not the sensor has them
+    std::size_t beams_shown = 0;  ///< all beams that the cloud shows
     /// Share of the columns with a return, in the row that a quarter of the rows exceed: about 1
     /// where the sensor sees ground or walls, low if the cloud's sensor has fewer beams.
     float filled = 0.0f;

@@ -69,8 +69,8 @@ void checkRows(const Scan& scan, const SensorModel& sensor) {
     }
     for (const std::size_t size : {scan.range_m.size(), scan.azimuth_rad.size(), scan.row.size()}) {
         if (size == scan.size()) continue;
-        refuse("the scan has " + std::to_string(scan.size()) +
-               " returns, but ranges, azimuths or rows of " + std::to_string(size));
+        refuse("the scan has " + std::to_string(scan.size()) + " returns, but " +
+               std::to_string(size) + " ranges, azimuths or rows");
     }
     if (scan.beams.rows > 0 && !areAlike(scan.beams, beamSpan(sensor))) {
         refuseRows("rows of " + textOf(scan.beams), sensor);

@@ -102,7 +102,7 @@ V azimuthOf(V x, V y) {
     V angle = arcTangent(ratio);
     angle =
         hn::IfThenElse(hn::Gt(across, along), hn::Sub(hn::Set(d, 1.57079632679f), angle), angle);
-    const hn::RebindToSigned<decltype(d)> d_int;  // for the sign of zeros, too
+    const hn::RebindToSigned<decltype(d)> d_int;  // also handles the sign of zeros
     const auto is_behind = hn::RebindMask(d, hn::Lt(hn::BitCast(d_int, x), hn::Zero(d_int)));
     angle = hn::IfThenElse(is_behind, hn::Sub(hn::Set(d, 3.14159265359f), angle), angle);
     return hn::CopySignToAbs(angle, y);

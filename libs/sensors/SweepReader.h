@@ -21,9 +21,8 @@ struct LidarSweep {
     std::string label;         ///< sensor label: "velodyne", "velodyne_2"
     std::int64_t time_ns = 0;  ///< recording time of the first packet
     std::shared_ptr<const SensorModel> sensor;
-    Eigen::Vector3d origin_m =
-        Eigen::Vector3d::Zero();  ///< origin of the beams relative to the sensor's base
-    Scan returns;                 ///< empty if `packets` contain them
+    Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  ///< of the beams, from the base
+    Scan returns;                                        ///< empty if `packets` contain them
     bool has_tags = false;
     std::vector<std::uint8_t> tags;  ///< Livox only: one per return
     /// Velodyne only: packets of kVelodynePacketBytes each, and their calibration.

@@ -156,7 +156,7 @@ TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
     for (const char* other :
          {"[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 36", "[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36"}) {
         EXPECT_THAT(messageWith("[-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36", other),
-                    HasSubstr("'lidar_to_sensor_transform' does more than turn about z"));
+                    HasSubstr("'lidar_to_sensor_transform' rotates about other axes than z"));
     }
     EXPECT_THAT(messageWith("[40.0", "[\"up\""),
                 HasSubstr("sensor.json: not Ouster metadata: 'beam_altitude_angles': "

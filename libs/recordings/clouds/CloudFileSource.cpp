@@ -147,7 +147,7 @@ class CloudFileSource : public FileListSource {
         return objectOf(observation, options_.folder_objects);
     }
 
-    /// Cloud files have no poses of their own.
+    /// Cloud files contain no poses.
     LogPoses readPoses(const fs::path& file) override {
         RawlogSurvey survey;
         for (std::size_t i = 0; i < files_.size(); ++i) {

@@ -40,8 +40,7 @@ std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram) {
 }
 
 bool isLivoxImu(const Datagram& datagram) {
-    constexpr std::size_t kSize =
-        kHeader + 24;  // three angular rates and three accelerations, float32
+    constexpr std::size_t kSize = kHeader + 24;  // angular rates and accelerations, float32
     constexpr int kImu = 0;
     const std::uint8_t* const bytes = datagram.bytes;
     return datagram.size == kSize && bytes[0] == 0 && little<std::uint16_t>(bytes + 1) == kSize &&

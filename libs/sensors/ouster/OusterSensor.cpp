@@ -199,7 +199,8 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
     };
     sensor.altitude_rad = in_radians("beam_altitude_angles", 90);
     sensor.azimuth_rad = in_radians("beam_azimuth_angles", 360);
-    for (double& azimuth_rad : sensor.azimuth_rad) azimuth_rad = -azimuth_rad;  // clockwise there
+    for (double& azimuth_rad : sensor.azimuth_rad)
+        azimuth_rad = -azimuth_rad;  // clockwise in metadata
     if (metadata.find("beam_to_lidar_transform") != nullptr) {
         const std::vector<double> to_lidar = metadata.numbers("beam_to_lidar_transform", 16, 1000);
         sensor.beam_origin_m = 1e-3 * to_lidar[3];
@@ -226,7 +227,7 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
     }
     // Rows and the sweep direction would change. The mount belongs in the settings.
     if (!(rotation(2, 2) > 0.999) || !(rotation.determinant() > 0)) {
-        throw std::runtime_error("'lidar_to_sensor_transform' does more than turn about z");
+        throw std::runtime_error("'lidar_to_sensor_transform' rotates about other axes than z");
     }
 }
 

@@ -56,7 +56,7 @@ class OutputPath {
 /// temporary files of processes that have ended. Empty for an empty path.
 std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& output);
 
-/// Replaces temporary names in a message by the names of the outputs.
+/// Replaces temporary names in a message with the names of the outputs.
 std::string withOutputNames(const std::string& message);
 
 /// A message that lists partialOutputs() of several outputs; "" if there are none.
