@@ -216,7 +216,7 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
     expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "lz4"), "cannot be decompressed: ");
     expectBroken(chunk(ByteString("\5\0\0\0\0\0\0\0", 8), ""), "it has 4 bytes, but claims 5");
     expectBroken(magic + test::mcapRecord(5, ByteString(22, '\3')),
-                 "of channel 771, which is not defined");
+                 "to channel 771, which is not defined");
     expectBroken(magic + test::mcapRecord(5, "a"), "a message is too short");
 
     const ByteString ros1 = "#ROSBAG V2.0\n";
@@ -226,7 +226,7 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
                  "'op' in its header has 2 bytes, not 1");
     expectBroken(
         ros1 + test::ros1Record({{"op", "\x02"}, {"conn", "abcd"}, {"time", "12345678"}}, ""),
-        "of connection 1684234849, which is not defined");
+        "to connection 1684234849, which is not defined");
     expectBroken(
         ros1 + test::ros1Record(
                    {{"op", "\x05"}, {"compression", "lz4"}, {"size", "\xff\xff\xff\x7f"}}, "abcd"),
