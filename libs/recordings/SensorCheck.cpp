@@ -2,6 +2,7 @@
 
 #include <hagen/mrpt/ObservationScan.h>
 #include "base/NumberText.h"
+#include "recordings/Remarks.h"
 
 #include <stdexcept>
 
@@ -35,7 +36,7 @@ std::string SensorCheck::judge(const std::string& title, const Seen& seen) const
         text += ", and of " + std::to_string(fit.beams) + " beams in view, the cloud shows " +
                 std::to_string(fit.beams_seen);
         const std::size_t others = fit.beams_shown - fit.beams_seen;
-        if (others > 0) text += ", besides " + std::to_string(others) + " other beams";
+        if (others > 0) text += ", besides " + counted(others, "other beam");
     }
     if (share >= kErrorBelow) return text + ". Is it this sensor?";
     throw std::runtime_error(
