@@ -27,44 +27,44 @@ constexpr Magic kMagics[] = {
     {0, "7z\xbc\xaf\x27\x1c"sv, "a 7z archive", kUnpack},
     {0, "Rar!"sv, "a RAR archive", kUnpack},
     {257, "ustar"sv, "a tar archive", kUnpack},
-    {0, "\x1f\x8b"sv, "packed by gzip", kUnpack},
-    {0, "\x28\xb5\x2f\xfd"sv, "packed by zstd", kUnpack},
+    {0, "\x1f\x8b"sv, "gzip-compressed", kUnpack},
+    {0, "\x28\xb5\x2f\xfd"sv, "zstd-compressed", kUnpack},
     {0,
      "\xfd"
      "7zXZ"sv,
-     "packed by xz", kUnpack},
-    {0, "BZh"sv, "packed by bzip2", kUnpack},
+     "xz-compressed", kUnpack},
+    {0, "BZh"sv, "bzip2-compressed", kUnpack},
     {0, "\x89HDF"sv, "an HDF5 file", kConvert},
-    {0, "ASTM-E57"sv, "point clouds in E57", kConvert},
-    {0, "livox_tech"sv, "a recording of Livox Viewer (LVX)",
-     "record a network capture or a bag instead, or convert it"},
-    {0, "ULog\1"sv, "a flight log of PX4 (ULog), which has no LiDAR scans", ""},
+    {0, "ASTM-E57"sv, "an E57 point cloud file", kConvert},
+    {0, "livox_tech"sv, "a Livox Viewer recording (LVX)",
+     "record a network capture or a bag instead, or convert this file"},
+    {0, "ULog\1"sv, "a PX4 flight log (ULog), which has no LiDAR scans", ""},
     {0, "SQLite format 3\0"sv, "an SQLite database", ""},
-    {0, "#ROSBAG"sv, "a bag of ROS 1", "pass it with -i"},
-    {0, "\x89MCAP"sv, "an MCAP", "pass it with -i"},
+    {0, "#ROSBAG"sv, "a ROS 1 bag", "pass it with -i"},
+    {0, "\x89MCAP"sv, "an MCAP file", "pass it with -i"},
     {0, "\xd4\xc3\xb2\xa1"sv, "a network capture", "pass it with -i"},
     {0, "\x4d\x3c\xb2\xa1"sv, "a network capture", "pass it with -i"},
     {0, "\x0a\x0d\x0d\x0a"sv, "a network capture", "pass it with -i"},
 };
 
-/// Texts, by their start after white space.
+/// Text formats, by their first characters after white space.
 constexpr Magic kTexts[] = {
-    {0, "version https://git-lfs"sv, "a pointer of Git LFS, not the file itself",
+    {0, "version https://git-lfs"sv, "a Git LFS pointer, not the file itself",
      "fetch it with 'git lfs pull'"},
     {0, "<!DOCTYPE"sv, "a web page (HTML)", "did its download fail?"},
     {0, "<!doctype"sv, "a web page (HTML)", "did its download fail?"},
     {0, "<html"sv, "a web page (HTML)", "did its download fail?"},
     {0, "<?xml"sv, "XML", ""},
     {0, "{"sv, "text (JSON)",
-     "if it is the metadata of an Ouster, pass the capture with -i and this with --sensor-json"},
-    {0, "%YAML"sv, "text (YAML)", "pass settings with -c, and the folder of a bag with -i"},
+     "if it is Ouster metadata, pass it with --sensor-json and the capture with -i"},
+    {0, "%YAML"sv, "text (YAML)", "pass settings with -c, and a bag's folder with -i"},
 };
 
 bool hasAt(std::string_view bytes, std::size_t at, std::string_view part) {
     return bytes.size() >= at + part.size() && bytes.substr(at, part.size()) == part;
 }
 
-/// True for Velodyne data packets one after the other.
+/// True for concatenated Velodyne data packets.
 bool areVelodynePackets(std::string_view bytes) {
     constexpr std::size_t kPacket = 1206, kBlock = 100, kBlocks = 12;
     if (bytes.size() < kPacket) return false;
@@ -78,8 +78,8 @@ bool areVelodynePackets(std::string_view bytes) {
     return true;
 }
 
-/// Length of the UTF-8 character that starts with this byte; 0 if there is none, or for control
-/// characters.
+/// Length of the UTF-8 character that starts with this byte; 0 for control characters and bytes
+/// that start no character.
 std::size_t bytesOfCharacter(char first) {
     const auto code = static_cast<unsigned char>(first);
     if (code < 0x20) return "\n\r\t\f"sv.find(first) == std::string_view::npos ? 0 : 1;
@@ -132,8 +132,8 @@ FileKind kindOfBytes(std::string_view start) {
         if (hasAt(start, kind.at, kind.bytes)) return {kind.what, kind.advice};
     }
     if (areVelodynePackets(start)) {
-        return {"data packets of a Velodyne without the headers of a capture",
-                "record them with Wireshark or tcpdump as .pcap, and pass that"};
+        return {"Velodyne data packets without capture headers",
+                "record a .pcap with Wireshark or tcpdump instead"};
     }
     return isText(start) ? kindOfText(start) : FileKind();
 }

@@ -14,13 +14,13 @@ struct FileKind {
     std::string text() const;
 };
 
-constexpr std::size_t kFileKindBytes = 4096;  ///< enough for each kind
+constexpr std::size_t kFileKindBytes = 4096;  ///< enough to detect any kind
 
-/// True for UTF-8 text without control characters other than white space. Its last character may be
-/// cut.
+/// True for UTF-8 text without control characters other than white space. The last character may be
+/// truncated.
 bool isText(std::string_view bytes);
 
-/// From the first kFileKindBytes of a file, or all of a shorter one.
+/// `start`: the first kFileKindBytes of a file, or all bytes if it is shorter.
 FileKind kindOfBytes(std::string_view start);
 /// The same for a file; unknown if it cannot be read.
 FileKind kindOfFile(const std::filesystem::path& file);

@@ -1,4 +1,4 @@
-// By POSIX calls: std::filesystem's iterators end the program if memory runs out between entries.
+// Uses POSIX calls: std::filesystem's iterators terminate the program if memory runs out.
 #include <dirent.h>
 #include <ftw.h>
 

@@ -8,11 +8,12 @@ namespace hagen::base {
 /// The paths of a folder's entries, sorted. Throws std::filesystem::filesystem_error if the folder
 /// cannot be read.
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder);
-/// Those that can be read; `error` says why the others cannot.
+/// Returns the readable entries; `error` is why the others could not be read.
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder,
                                              std::error_code& error);
 
-/// Removes a file, or a folder and all in it; does not follow links. A missing path is no error.
+/// Removes a file, or a folder with its contents, without following links. A missing path is not an
+/// error.
 std::error_code removeAll(const std::filesystem::path& path) noexcept;
 
 }  // namespace hagen::base

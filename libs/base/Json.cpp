@@ -15,7 +15,7 @@ nlohmann::json parseJson(const std::string& text) {
         return nlohmann::json::parse(text, checkDepth);
     } catch (const nlohmann::json::exception& e) {
         const std::string reason = e.what();     // "[json.exception...] reason"
-        constexpr std::size_t kMaxLength = 300;  // it quotes the text
+        constexpr std::size_t kMaxLength = 300;  // the reason quotes the text
         throw std::runtime_error("is not valid JSON: " +
                                  reason.substr(reason.find("] ") + 2, kMaxLength));
     }

@@ -12,8 +12,8 @@ namespace hagen::base {
 std::string shortestText(double value);
 std::string shortestText(float value);
 
-/// Returns the number with this many decimals, with '.' independent of the locale, and without a
-/// minus sign if all digits are zero.
+/// Returns the number with this many decimals, independent of the locale, and without a minus sign
+/// if all digits are zero.
 std::string fixedText(double value, int decimals);
 
 /// "99.9 %" for a share from 0 to 1, rounded down: 100.0 % means all.

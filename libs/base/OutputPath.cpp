@@ -28,7 +28,7 @@ fs::path parentOf(const fs::path& path) {
     return fs::absolute(path).lexically_normal().parent_path();
 }
 
-/// True if `inner` is `outer` or lies in it.
+/// True if `inner` is `outer` or is inside it.
 bool isWithin(const fs::path& inner, const fs::path& outer) {
     const fs::path below = withoutSlash(fs::weakly_canonical(fs::absolute(inner)));
     const fs::path above = withoutSlash(fs::weakly_canonical(fs::absolute(outer)));
@@ -36,7 +36,7 @@ bool isWithin(const fs::path& inner, const fs::path& outer) {
            above.end();
 }
 
-/// The first file in a folder that does not belong to such an output, searching `depth` folders
+/// The first file in a folder that is not part of an output of this kind, searching `depth` folders
 /// deep; empty if there is none.
 fs::path foreignPart(const fs::path& folder, const fs::path& output, const OutputKind& kind,
                      int depth) {
@@ -50,7 +50,7 @@ fs::path foreignPart(const fs::path& folder, const fs::path& output, const Outpu
     return {};
 }
 
-/// A mount point, as of a container, cannot be renamed.
+/// Mount points, such as a container's volumes, cannot be renamed.
 bool isMountPoint(const fs::path& path) {
     struct statx own {};
     return statx(AT_FDCWD, path.c_str(), AT_SYMLINK_NOFOLLOW, 0, &own) == 0 &&
@@ -92,11 +92,11 @@ fs::path secretName(const fs::path& path, const std::string& mark) {
     return path.string() + mark + std::to_string(getpid()) + bits;
 }
 
-/// Flushes a file or a folder with all its files to the disk, so that a power failure cannot leave
-/// less than there was before. File systems that cannot do so (EINVAL) are accepted.
+/// Flushes a file, or a folder with all its files, to the disk, so that a power failure cannot lose
+/// data that existed before. Accepts file systems that cannot flush (EINVAL).
 void flushToDisk(const fs::path& path, const fs::path& named) {
     const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0 && errno == EACCES) return;  // not readable for its owner
+    if (descriptor < 0 && errno == EACCES) return;  // its owner may not read it
     if (descriptor < 0) throwWriteError(named, errno);
     const int result = fs::is_directory(path) ? syncfs(descriptor) : fsync(descriptor);
     const int error = result == 0 ? 0 : errno;
@@ -108,7 +108,7 @@ bool isNumber(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// What is between the start and the end of a name; empty if it has others.
+/// The part of a name between `start` and `end`; empty if the name does not match.
 std::string between(const std::string& start, const std::string& name, const std::string& end) {
     const bool is_such = name.size() > start.size() + end.size() && name.rfind(start, 0) == 0 &&
                          name.compare(name.size() - end.size(), end.size(), end) == 0;
@@ -120,7 +120,7 @@ bool isLeftBehind(const fs::path& file, const std::string& output) {
     const std::string rest = between(output + kTemporaryMark, file.filename().string(), "");
     const std::string process = rest.substr(0, rest.find('-'));
     if (!isNumber(process) || process.size() > 9) return false;
-    // In a container, each run may have the same number.
+    // In a container, each run may have the same process ID.
     const int number = std::stoi(process);
     return number == getpid() || (kill(number, 0) != 0 && errno == ESRCH);
 }
@@ -155,35 +155,37 @@ bool OutputPath::renameToFreeName(const fs::path& name) const {
         return true;
     }
     if (errno == EEXIST || fs::exists(fs::symlink_status(name))) return false;
-    fs::rename(temporary_, name);  // some file systems do not know that flag
+    fs::rename(temporary_, name);  // for file systems without this flag
     return true;
 }
 
 void OutputPath::commit() {
     flushToDisk(temporary_, path_);
-    std::string taken;  // since the start
+    std::string taken;  // by another program
     try {
         checkFree();
-        if (!overwrites_ && !renameToFreeName(path_)) taken = path_.string() + " exists now";
+        if (!overwrites_ && !renameToFreeName(path_))
+            taken = path_.string() + " was created in the meantime";
     } catch (const fs::filesystem_error&) {
         throw;
     } catch (const std::runtime_error& e) {
         taken = e.what();
     }
     if (!taken.empty()) {
-        throw std::runtime_error(taken + "; this run's output is " + keepPartial().string());
+        throw std::runtime_error(taken + "; this run's output was saved as " +
+                                 keepPartial().string());
     }
     const fs::path old = overwrites_ ? replace() : fs::path();
     kept_ = path_;
     flushToDisk(parentOf(path_), path_);
     if (old.empty()) return;
     if (const std::error_code error = removeAll(old)) {
-        failAt(path_,
-               "is complete, but the older one beside it cannot be removed: " + error.message());
+        failAt(path_, "is complete, but the previous output beside it cannot be removed: " +
+                          error.message());
     }
 }
 
-/// Gives the output its name. Returns where an older folder is now, if there was one.
+/// Renames the output into place. Returns the path that the replaced folder was moved to, if any.
 fs::path OutputPath::replace() const {
     if (!fs::is_directory(temporary_) || !fs::is_directory(path_)) {
         std::error_code error;
@@ -192,11 +194,11 @@ fs::path OutputPath::replace() const {
             failAt(path_, "cannot be replaced: " + error.message() + "; choose another name");
         return {};
     }
-    // rename() does not replace a non-empty folder. An exchange leaves no moment without a folder.
+    // rename() does not replace a non-empty folder. An exchange is atomic.
     if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0) {
         return temporary_;
     }
-    // Some file systems cannot exchange.
+    // Some file systems do not support exchange.
     const fs::path old = secretName(path_, ".old-");
     fs::rename(path_, old);
     try {
@@ -231,7 +233,7 @@ std::vector<fs::path> partialOutputs(const fs::path& output) {
     if (output.empty()) return found;
     const fs::path path = withoutSlash(output);
     const bool is_folder = fs::is_directory(path);
-    // As keepPartial() names them.
+    // The names that keepPartial() chooses.
     const std::string stem = (is_folder ? path.filename() : path.stem()).string();
     const std::string extension = is_folder ? "" : path.extension().string();
     std::error_code unreadable;
@@ -268,7 +270,7 @@ void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path
             }
             if (fs::exists(*output) && isWithin(*output, input)) {
                 failAt(*output, "is in " + role + " " + input.string() +
-                                    " and may be a part of it, so it is not replaced; choose "
+                                    " and may be part of it, so it is not replaced; choose "
                                     "another output");
             }
         }

@@ -8,11 +8,11 @@
 
 namespace hagen::base {
 
-/// The outputs of one run. If one fails, its error is kept, and the others continue.
+/// The outputs of one run. If one fails, its error is kept and the others continue.
 class OutputSet {
  public:
     void add(OutputPath& output) { add(output, output); }
-    /// Any other output that has a commit(), by its place. Outputs must outlive the set.
+    /// Adds an object with a commit() that writes to `place`. Outputs must outlive the set.
     template <class Output>
     void add(const OutputPath& place, Output& output) {
         members_.push_back({place.path(), [&output] { output.commit(); }});
@@ -27,8 +27,8 @@ class OutputSet {
     /// The errors of failed outputs; "" if there are none.
     const std::string& failures() const { return failures_; }
 
-    /// Commits the other outputs in the order in which they were added. Throws std::runtime_error
-    /// with all errors if any output has failed.
+    /// Commits the remaining outputs in the order in which they were added. Throws
+    /// std::runtime_error with all errors if any output has failed.
     void commit();
 
  private:
@@ -38,7 +38,7 @@ class OutputSet {
         bool is_given_up = false;
     };
 
-    /// Messages name the output, not its temporary place.
+    /// Error messages name the output, not its temporary file.
     void attempt(Member& member, const std::function<void()>& step);
 
     std::deque<Member> members_;

@@ -3,13 +3,14 @@
 
 namespace hagen::base {
 
-/// Returns the quantile of a fraction (0 to 1), interpolated between ranks; NaN without values.
+/// Returns the quantile at a fraction (0 to 1), interpolated between ranks; NaN if there are no
+/// values.
 double quantile(std::vector<double> values, double share);
-/// The same for values in ascending order, at least one.
+/// The same for a non-empty series in ascending order.
 double quantileOfSorted(const std::vector<double>& ascending, double share);
 
-/// Returns the smallest value that a fraction (0 to 1) of the values does not exceed (nearest
-/// rank); values in ascending order, at least one.
+/// Returns the nearest-rank quantile at a fraction (0 to 1) of a non-empty series in ascending
+/// order.
 double nearestRankOfSorted(const std::vector<double>& ascending, double share);
 
 }  // namespace hagen::base

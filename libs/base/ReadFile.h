@@ -6,17 +6,17 @@
 
 namespace hagen::base {
 
-/// Throws std::runtime_error with a message about a path.
+/// Throws std::runtime_error with the message "path: what".
 [[noreturn]] void failAt(const std::filesystem::path& path, const std::string& what);
 
 /// Throws std::runtime_error for a folder, a pipe or a device: opening a pipe may block, and a
 /// device may be endless. Missing files pass.
 void checkIsFile(const std::filesystem::path& file);
 
-/// Opens a file. Throws like checkIsFile(), and if it cannot be read.
+/// Opens a file. Throws like checkIsFile(), and if the file cannot be read.
 std::ifstream openToRead(const std::filesystem::path& file);
 
-/// Limit for whole texts: parsers need several times their memory.
+/// Size limit for whole texts: parsers need several times as much memory.
 constexpr std::size_t kMaxTextBytes = 256 << 20;
 
 /// Reads a whole file. Throws std::runtime_error naming it if it cannot be read to its end, or is

@@ -6,7 +6,7 @@
 
 namespace hagen::base {
 
-/// The words of a container in one text, with a separator after all but the last.
+/// Joins the words of a container with a separator.
 template <class Words>
 std::string joined(const Words& words, const std::string& separator = ", ") {
     std::string text;
@@ -14,15 +14,15 @@ std::string joined(const Words& words, const std::string& separator = ", ") {
     return text;
 }
 
-/// The parts of a text between separators. Parts may be empty; there is at least one.
+/// Splits a text at a separator. Parts may be empty; there is at least one.
 inline std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
-    std::istringstream stream(text + separator);  // an empty part at the end counts
+    std::istringstream stream(text + separator);  // keeps an empty last part
     for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
     return parts;
 }
 
-/// ASCII letters in lower case.
+/// Converts ASCII letters to lower case.
 inline std::string lowerCase(std::string text) {
     for (char& letter : text) {
         letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));

@@ -8,7 +8,7 @@
 
 namespace hagen::base {
 
-/// Throws std::runtime_error: `file` cannot be written, with the reason in `error_number` (an
+/// Throws std::runtime_error: `file` cannot be written, with the reason of `error_number` (an
 /// errno).
 [[noreturn]] inline void throwWriteError(const std::filesystem::path& file, int error_number) {
     throw std::runtime_error(file.string() + ": cannot be written" +
@@ -31,7 +31,7 @@ inline std::ofstream openToWrite(const std::filesystem::path& place,
 inline void closeWritten(std::ofstream& out, const std::filesystem::path& file) {
     const bool is_whole = static_cast<bool>(out);
     out.clear();
-    // Retries an earlier failure, because errno may have changed since.
+    // Repeats the failed write, because errno may have changed since.
     if (!is_whole) out << '\n';
     errno = 0;
     out.close();

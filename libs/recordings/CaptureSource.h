@@ -5,7 +5,7 @@
 
 namespace hagen::recordings {
 
-/// A capture of a LiDAR's packets as a source of scans: each turn of a sensor is an entry.
+/// A capture of LiDAR packets as a source of scans: each turn of a sensor is an entry.
 class CaptureSource : public ScanSource {
  public:
     CaptureSource(const std::filesystem::path& capture, const SourceOptions& options);
@@ -16,13 +16,13 @@ class CaptureSource : public ScanSource {
     std::vector<std::string> remarks() const override;
 
  protected:
-    /// Captures have no poses of their own.
+    /// Captures contain no poses.
     LogPoses readPoses(const std::filesystem::path& file) override;
-    /// Packets know their sensor.
+    /// Packets identify their sensor.
     bool showClouds(observations::CloudSensors&) override { return false; }
 
  private:
-    /// Reads the capture in advance, up to where it breaks off.
+    /// Reads the capture in advance, up to the point where it is truncated.
     RawlogSurvey survey();
 
     std::filesystem::path file_;

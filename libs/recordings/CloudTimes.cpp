@@ -23,7 +23,7 @@ std::size_t digitsAtEnd(std::string_view text) {
     return digits;
 }
 
-/// A name's number: two groups of digits with a mark between them, or one.
+/// The number in a name: one group of digits, or two groups separated by a mark.
 struct NameNumber {
     std::string_view whole, part;
     char mark = '\0';
@@ -32,7 +32,7 @@ struct NameNumber {
 
 constexpr std::size_t kDigitsOfSeconds = 10, kDigitsOfNanoseconds = 9;
 
-/// Whether these are seconds of today: 10 digits, of which a padded frame number has zeros first.
+/// True for current Unix times: 10 digits without leading zeros, unlike padded frame numbers.
 bool areUnixSeconds(std::string_view digits) {
     return digits.size() == kDigitsOfSeconds && digits[0] != '0';
 }
@@ -49,15 +49,14 @@ NameNumber numberIn(std::string_view name) {
     name.remove_suffix(1);
     const std::string_view first = name.substr(name.size() - digitsAtEnd(name));
     const std::size_t digits = number.whole.size();
-    const bool are_nanoseconds =
-        digits == kDigitsOfNanoseconds
-            ? first.size() >= kDigitsOfNanoseconds
-            : digits < kDigitsOfNanoseconds && areUnixSeconds(first);  // without leading zeros
+    const bool are_nanoseconds = digits == kDigitsOfNanoseconds
+                                     ? first.size() >= kDigitsOfNanoseconds
+                                     : digits < kDigitsOfNanoseconds && areUnixSeconds(first);
     if (first.empty() || (mark == '_' && !are_nanoseconds)) return number;
     return {first, number.whole, mark, first.size() == name.size()};
 }
 
-/// Both groups as one number.
+/// Combines both groups into one number.
 double valueOf(const NameNumber& number) {
     const double whole = base::numberFrom<double>(number.whole).value_or(-1.0);
     if (number.mark == '\0') return whole;
@@ -67,12 +66,12 @@ double valueOf(const NameNumber& number) {
     return whole + base::numberFrom<double>("0." + std::string(number.part)).value_or(0.0);
 }
 
-/// The time that a number is; none if it is a mere number.
+/// The time that a number encodes; nullopt if it is not a time.
 std::optional<double> timeIn(const NameNumber& number) {
     if (number.whole.empty()) return std::nullopt;
     const double value = valueOf(number);
     if (number.mark == '_') {
-        // Padded to fewer than nine digits, the second group is no nanoseconds.
+        // If padded to fewer than nine digits, the second group is not nanoseconds.
         const bool is_padded = number.part.size() > 1 && number.part[0] == '0';
         if (is_padded && number.part.size() < kDigitsOfNanoseconds) return std::nullopt;
         return value;
@@ -82,7 +81,7 @@ std::optional<double> timeIn(const NameNumber& number) {
         if (number.is_whole_name || areUnixSeconds(number.whole)) return value;
         return std::nullopt;
     }
-    if (number.whole[0] == '0') return std::nullopt;  // padded, as no time of today
+    if (number.whole[0] == '0') return std::nullopt;  // padded, unlike a current time
     switch (number.whole.size()) {
         case kDigitsOfSeconds:
             return value;
@@ -109,7 +108,7 @@ std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return names[a] < names[b]; });
-    // A counter that gets a 13th digit is no time in milliseconds from there on.
+    // A counter that reaches 13 digits does not become a time in milliseconds.
     const bool are_times = std::all_of(names.begin(), names.end(), [](const std::string& name) {
         return timeIn(numberIn(name)).has_value();
     });
@@ -135,7 +134,7 @@ CloudTimes timesOfNames(const std::vector<std::string>& names) {
         if (time_s && observations::isTime(*time_s)) times.times_s.push_back(*time_s);
     }
     if (times.times_s.size() == names.size() && ascend(times.times_s)) {
-        times.how = "the times of its clouds are those in the names of the files";
+        times.how = "the times of its clouds are from the file names";
         return times;
     }
     constexpr double kMaxNumber = 1e9;
@@ -149,14 +148,14 @@ CloudTimes timesOfNames(const std::vector<std::string>& names) {
     }
     if (are_numbers && ascend(times.times_s)) {
         times.how =
-            "its clouds have no times: they are taken to be 0.1 s apart, by the numbers in their "
+            "its clouds have no times: assuming 0.1 s per number in their "
             "names";
         return times;
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
         times.times_s[i] = kPeriod_s * static_cast<double>(i);
     }
-    times.how = "its clouds have no times: they are taken to be 0.1 s apart";
+    times.how = "its clouds have no times: assuming 0.1 s between them";
     return times;
 }
 

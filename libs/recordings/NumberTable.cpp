@@ -12,14 +12,14 @@ namespace hagen::recordings {
 namespace {
 
 constexpr std::string_view kSpaces = " \t\r\v\f";
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets begin a file with it
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // written by spreadsheets
 
 [[noreturn]] void failNumber(const std::filesystem::path& file, std::size_t line,
                              const std::string& why) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + why);
 }
 
-/// The next word of a line, which it is taken from; empty at the end.
+/// Removes the next word from a line; empty at the end.
 std::string_view takeWord(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(kSpaces), line.size()));
     const std::string_view word = line.substr(0, line.find_first_of(kSpaces));
@@ -41,7 +41,7 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file, std::
         for (auto word = takeWord(words); !word.empty(); word = takeWord(words)) {
             if (entry.numbers.empty() && word[0] == '#') break;
             if (word.find('\0') != std::string::npos) {
-                failNumber(file, line, "there is a NUL byte, so this is no text file");
+                failNumber(file, line, "contains a NUL byte, so this is not a text file");
             }
             const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
             const auto number = base::numberFrom<double>(word.substr(has_plus ? 1 : 0));
@@ -52,7 +52,7 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file, std::
         }
         if (!entry.numbers.empty()) table.push_back(std::move(entry));
     }
-    if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read further");
+    if (in.bad()) throw std::runtime_error(file.string() + ": read error");
     return table;
 }
 

@@ -13,9 +13,9 @@ struct NumberLine {
     std::vector<double> numbers;
 };
 
-/// Reads a text file of numbers, up to so many lines with some. Skips empty lines and lines that
-/// start with '#'. Throws std::runtime_error naming file and line if the file cannot be read or a
-/// line has anything but finite numbers.
+/// Reads a text file of numbers, up to a number of lines. Skips empty lines and lines that start
+/// with '#'. Throws std::runtime_error naming file and line if the file cannot be read or a line
+/// contains anything but finite numbers.
 std::vector<NumberLine> readNumberTable(
     const std::filesystem::path& file,
     std::size_t most_lines = std::numeric_limits<std::size_t>::max());

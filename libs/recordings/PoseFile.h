@@ -6,8 +6,8 @@
 
 namespace hagen::recordings {
 
-/// Text files with one pose per line. Empty lines and lines that start with '#' are skipped.
-/// Functions throw std::runtime_error naming file and line.
+/// Text files with one pose per line. Functions skip empty lines and lines that start with '#', and
+/// throw std::runtime_error naming file and line.
 enum class PoseFileKind {
     Tum,   ///< time [s], x y z [m], quaternion x y z w: vehicle pose in the map at that time
     Kitti  ///< 3x4 matrix, row-major: sensor pose at scan n in the sensor frame of scan 0
@@ -24,12 +24,12 @@ std::vector<TimedPose> readTumPoses(const std::filesystem::path& file);
 void writeTumPoses(const std::filesystem::path& file, const std::vector<TimedPose>& poses);
 
 std::vector<mrpt::poses::CPose3D> readKittiPoses(const std::filesystem::path& file);
-/// Writes sensor poses given in any map frame, relative to the first one.
+/// Writes sensor poses, given in any map frame, relative to the first pose.
 void writeKittiPoses(const std::filesystem::path& file,
                      const std::vector<mrpt::poses::CPose3D>& sensor_poses);
 
 /// Reads the `Tr:` matrix of a KITTI odometry calib.txt: the LiDAR pose in the camera frame. With
-/// such a file, the poses of poses.txt are those of the camera.
+/// such a file, poses.txt contains camera poses.
 mrpt::poses::CPose3D readKittiCalibration(const std::filesystem::path& file);
 
 }  // namespace hagen::recordings

@@ -7,8 +7,8 @@
 
 namespace hagen::recordings {
 
-/// The form of a scan of a capture, a bag or a live sensor in an output rawlog: packets as they
-/// are, a cloud of the class asked for; null if none is asked for.
+/// Converts a scan of a capture, a bag or a live sensor to an object of an output rawlog: packets
+/// unchanged, clouds in the requested class; null if no class is requested.
 mrpt::serialization::CSerializable::Ptr objectOf(
     const mrpt::obs::CObservation::Ptr& scan,
     const std::optional<observations::CloudClass>& cloud_class);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Recordings in a folder, in the order of their names.
+/// Recordings in a folder, sorted by name.
 std::vector<fs::path> recordingsIn(const fs::path& folder) {
     std::vector<fs::path> found;
     for (const fs::path& path : base::entriesOf(folder)) {
@@ -42,8 +42,8 @@ bool hasClouds(const fs::path& folder) {
     });
 }
 
-/// The first folder with scans in a folder, up to two levels deep; empty if there is none. Folders
-/// without read permission are skipped.
+/// The first folder with scans inside a folder, up to two levels deep; empty if there is none.
+/// Skips folders without read permission.
 fs::path scansWithin(const fs::path& folder, int depth = 2) {
     std::error_code unreadable;
     for (const fs::path& within : base::entriesOf(folder, unreadable)) {
@@ -56,7 +56,7 @@ fs::path scansWithin(const fs::path& folder, int depth = 2) {
     return {};
 }
 
-/// Why a folder is not a recording, and what to pass instead.
+/// The reason why a folder is not a recording, and a hint what to pass instead.
 std::string whyNoRecording(const fs::path& folder) {
     const std::vector<fs::path> recordings = recordingsIn(folder);
     if (!recordings.empty()) {
@@ -66,7 +66,8 @@ std::string whyNoRecording(const fs::path& folder) {
                recordings[0].string();
     }
     const fs::path scans = scansWithin(folder);
-    return "not a scan folder (no subfolder 'velodyne' with .bin files), no folder of point clouds "
+    return "not a scan folder (no subfolder 'velodyne' with .bin files), not a folder of point "
+           "clouds "
            "(.pcd, .ply, .las, .npy, .bin), and without recordings (.rawlog, .pcap, .bag, .mcap, "
            ".db3)" +
            (scans.empty() ? "" : "; there are scans in " + scans.string());
@@ -74,7 +75,7 @@ std::string whyNoRecording(const fs::path& folder) {
 
 RecordingKind kindOfFolder(const fs::path& folder) {
     const bool has_clouds = hasClouds(folder);
-    // A bag beside clouds is one of their other files, unless it has metadata.
+    // A bag beside clouds is ignored, unless it has metadata.
     if (isBag(folder) && (!has_clouds || fs::exists(folder / "metadata.yaml"))) {
         return RecordingKind::Bag;
     }

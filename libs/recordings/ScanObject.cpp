@@ -17,7 +17,7 @@ using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
 
-/// All that is known of the returns of a cloud.
+/// All fields of a cloud's returns.
 PointTable tableOfReturns(const mrpt::maps::CPointsMap& cloud) {
     if (const auto* const table = dynamic_cast<const observations::TableCloud*>(&cloud)) {
         return pointsOf(inNativeOrder(table->table()), table->pointOfReturn());

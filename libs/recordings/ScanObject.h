@@ -8,16 +8,16 @@
 
 namespace hagen::recordings {
 
-/// The observations of a rawlog's entry, which is an observation or a sensory frame; none for any
-/// other entry. Null objects of a frame are skipped.
+/// The observations of a rawlog entry: an observation or those of a sensory frame, without null
+/// objects; empty for any other entry.
 std::vector<mrpt::obs::CObservation::Ptr> observationsOf(
     const mrpt::serialization::CSerializable::Ptr& entry);
 
-/// Takes the null objects out of a sensory frame: MRPT reads such frames, but cannot write them.
-/// Returns their number.
+/// Removes the null objects from a sensory frame, which MRPT can read but not write. Returns their
+/// number.
 std::size_t takeOutNulls(const mrpt::serialization::CSerializable::Ptr& entry);
 
-/// Has the clouds of an entry that were read as CGenericPointsMap written as such, with all fields.
+/// Keeps clouds that were read as CGenericPointsMap in that class, so that all fields are written.
 void keepFields(const mrpt::serialization::CSerializable::Ptr& entry);
 
 }  // namespace hagen::recordings

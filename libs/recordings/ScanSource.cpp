@@ -94,7 +94,7 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
     if (labels_.size() > kMaxLabels) {
         throw BrokenRecording(recording_.string() + ": entry " + std::to_string(entry.number) +
                               ": the recording has more than " + std::to_string(kMaxLabels) +
-                              " LiDARs by their labels; convert some of them (--sensor-label)");
+                              " LiDAR labels; select some of them (--sensor-label)");
     }
     const bool are_of_sensor =
         poses_.are_of_sensor || poses_.of_sensors.count(observation->sensorLabel) > 0;
@@ -113,14 +113,14 @@ namespace {
 void checkOptions(const std::string& recording, RecordingKind kind, const SourceOptions& options) {
     const bool is_capture = kind == RecordingKind::Capture, is_bag = kind == RecordingKind::Bag;
     if (!options.calibration.empty() && !is_capture) {
-        throw std::runtime_error(recording + ": is no capture (.pcap, .pcapng), so " +
+        throw std::runtime_error(recording + ": is not a capture (.pcap, .pcapng), so " +
                                  options.calibration.string() +
                                  " is not used; rawlogs have their calibration, and packets of an "
                                  "HDL-64E in bags are not supported");
     }
     if (!options.topics.empty() && !is_bag) {
         throw std::runtime_error(recording +
-                                 ": is no ROS recording (.bag, .mcap, .db3 or its "
+                                 ": is not a ROS recording (.bag, .mcap, .db3 or its "
                                  "folder), so it has no topic '" +
                                  options.topics.front() + "'");
     }
@@ -128,10 +128,10 @@ void checkOptions(const std::string& recording, RecordingKind kind, const Source
         const bool are_exchanged = sensors::isCapture(options.sensor_json);
         throw std::runtime_error(
             recording +
-            ": is no capture (.pcap, .pcapng) and no ROS recording, so there is no "
-            "sensor that " +
-            options.sensor_json.string() + " could describe" +
-            (are_exchanged ? ", which is a capture itself: are the two files exchanged?" : ""));
+            ": is neither a capture (.pcap, .pcapng) nor a ROS recording, so there is no "
+            "sensor for the metadata " +
+            options.sensor_json.string() +
+            (are_exchanged ? ", which is a capture: are the two files swapped?" : ""));
     }
 }
 

@@ -2,17 +2,18 @@
 
 #include <hagen/mrpt/ObservationScan.h>
 #include "base/NumberText.h"
+#include "recordings/Remarks.h"
 
 #include <stdexcept>
 
 namespace hagen::recordings {
 namespace {
 
-// Real turns whose motion was compensated keep 76 to 88 % on 16 beams, and 31 to 44 % on those of
-// another sensor.
+// Real motion-compensated turns have a fit of 76 to 88 % with their own 16 beams, and of 31 to 44 %
+// with another sensor's.
 constexpr float kRemarkBelow = 0.75f;
 constexpr float kErrorBelow = 0.5f;
-// 0.92 and more on real scans of 16 and 64 beams, 0.29 to 0.37 if 16 beams are taken for 64.
+// At least 0.92 on real scans of 16 and 64 beams, 0.29 to 0.37 if 16 beams are taken for 64.
 constexpr float kFilledBelow = 0.5f;
 
 }  // namespace
@@ -35,13 +36,14 @@ std::string SensorCheck::judge(const std::string& title, const Seen& seen) const
         text += ", and of " + std::to_string(fit.beams) + " beams in view, the cloud shows " +
                 std::to_string(fit.beams_seen);
         const std::size_t others = fit.beams_shown - fit.beams_seen;
-        if (others > 0) text += ", besides " + std::to_string(others) + " others";
+        if (others > 0) text += ", besides " + counted(others, "other beam");
     }
     if (share >= kErrorBelow) return text + ". Is it this sensor?";
-    throw std::runtime_error(recording_ + ": " + title + ": only " + text +
-                             ". It is another sensor, its points are not in the sensor's frame, or "
-                             "its elevations are not in degrees. Name the right sensor, or add "
-                             "'sensor: {model: recovered}' in a later settings file");
+    throw std::runtime_error(
+        recording_ + ": " + title + ": only " + text +
+        ". The cloud is from another sensor, its points are not in the sensor frame, or "
+        "its elevations are not in degrees. Name the right sensor, or add "
+        "'sensor: {model: recovered}' in a later settings file");
 }
 
 std::string SensorCheck::see(const RecordedScan& recorded,

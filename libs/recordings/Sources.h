@@ -3,14 +3,14 @@
 
 namespace hagen::recordings {
 
-// The sources of openRecording(), by kind. CaptureSource.h has that of a capture.
+// The sources of openRecording(). See CaptureSource.h for captures.
 
-/// Each object of the rawlog is an entry; a sensory frame may hold several scans.
+/// Each object of the rawlog is an entry; a sensory frame may contain several scans.
 std::unique_ptr<ScanSource> openRawlog(const std::filesystem::path& rawlog,
                                        const SourceOptions& options);
 
-/// Each scan is an entry. The bag is read in advance once, for what may come after the first scan:
-/// poses, frames, metadata.
+/// Each scan is an entry. The bag is read in advance once for poses, frames and metadata, which may
+/// come after the first scan.
 std::unique_ptr<ScanSource> openBagScans(const std::filesystem::path& bag,
                                          const SourceOptions& options);
 
@@ -18,8 +18,8 @@ std::unique_ptr<ScanSource> openBagScans(const std::filesystem::path& bag,
 std::unique_ptr<ScanSource> openScanFolder(const std::filesystem::path& folder,
                                            const SourceOptions& options);
 
-/// Each file is an entry, in the order of the names. Times are those of the names, if they are
-/// times (CloudTimes.h).
+/// Each file is an entry, in the order of the names. Times are derived from the names
+/// (CloudTimes.h).
 std::unique_ptr<ScanSource> openClouds(const std::filesystem::path& file_or_folder,
                                        const SourceOptions& options);
 

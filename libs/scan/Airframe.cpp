@@ -7,10 +7,11 @@
 namespace hagen {
 namespace {
 
-/// The beams of some models do not start at the origin: ranges differ from the coordinates' norm.
+/// Slack for models whose beams do not start at the origin: ranges differ from the coordinates'
+/// norm.
 constexpr float kMaxOffset_m = 0.25f;
 
-/// No return of a longer range is the airframe's.
+/// Returns beyond this range are not from the airframe.
 float reachOf(const Airframe& airframe) {
     float reach_m = 0;
     for (const AirframeBox& box : airframe.boxes) {

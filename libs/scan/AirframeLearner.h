@@ -6,35 +6,35 @@ namespace hagen {
 
 /// Finds the airframe: near returns at the same range in most scans.
 struct AirframeRules {
-    int rows = 90;                ///< of the bins: 2 degrees each
-    float near_m = 1.5f;          ///< farther returns are never the airframe's
-    double least_share = 0.5;     ///< of the scans have near returns in the bin
-    float most_spread_m = 0.15f;  ///< between the 10th and the 90th percentile of their ranges
-    float margin_m = 0.1f;        ///< masked beyond the 90th percentile
+    int rows = 90;                ///< rows of bins: 2 degrees each
+    float near_m = 1.5f;          ///< farther returns are never airframe
+    double least_share = 0.5;     ///< min. share of scans with near returns in the bin
+    float most_spread_m = 0.15f;  ///< range spread, 10th to 90th percentile
+    float margin_m = 0.1f;        ///< mask this far beyond the 90th percentile
     int least_scans = 10;
 };
 
 struct LearnedAirframe {
     Image<float> bin_range_m;    ///< as in Airframe
-    int bins = 0;                ///< masked ones
+    int bins = 0;                ///< masked bins
     double share_of_sphere = 0;  ///< solid angle of the masked bins
-    double share_of_seen = 0;    ///< the same, of that of all bins with a return
+    double share_of_seen = 0;    ///< the same, relative to all bins with a return
 };
 
-/// Learns from scans which directions the airframe occludes, and up to which range. The range
-/// of anything that moves relative to the vehicle changes, so it is not learned. A wall beside a
-/// standing vehicle is.
+/// Learns from scans which directions the airframe occludes, and up to which range. Objects that
+/// move relative to the vehicle change their range and are not learned, but a wall beside a
+/// stationary vehicle is.
 class AirframeLearner {
  public:
     explicit AirframeLearner(const AirframeRules& rules = {});
 
-    /// Takes a scan with ranges.
+    /// Adds a scan with ranges.
     void add(const Scan& scan);
     int scans() const { return scans_; }
 
-    /// A bin is masked if it fulfils the rules. So is a bin beside a masked one, up to the same
-    /// range, if it has returns within that range in at least 2 scans and 2 % of them: the edge of
-    /// a part fills its bin seldom. Throws std::invalid_argument after fewer scans than
+    /// Masks each bin that fulfils the rules. Also masks a bin beside a masked one, up to the same
+    /// range, if at least 2 scans and 2 % of the scans have returns within that range: the edge of
+    /// a part rarely fills its bin. Throws std::invalid_argument after fewer scans than
     /// `least_scans`.
     LearnedAirframe learn() const;
 

@@ -11,7 +11,7 @@ namespace {
 
 const float kTolerance_rad = static_cast<float>(radians(kBeamFitTolerance_deg));
 
-/// Of the row that a quarter of the rows exceed. Image: row * columns + column.
+/// The fill of the row that a quarter of the rows exceed. Image: row * columns + column.
 float filledOf(const std::vector<bool>& has_return, std::size_t rows, std::size_t columns) {
     std::vector<std::ptrdiff_t> filled(rows);
     for (std::size_t row = 0; row < rows; ++row) {
@@ -22,8 +22,7 @@ float filledOf(const std::vector<bool>& has_return, std::size_t rows, std::size_
     return static_cast<float>(filled[3 * (rows - 1) / 4]) / static_cast<float>(columns);
 }
 
-/// How many of the beams shown are beams of the sensor, each of which stands for one at most. Both
-/// are ascending.
+/// The number of shown beams that match a beam of the sensor, one to one. Both lists are ascending.
 std::size_t countCommon(const std::vector<float>& shown_rad, const std::vector<float>& beams_rad) {
     std::size_t common = 0, beam = 0;
     for (const float shown : shown_rad) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kSameBeam_rad = static_cast<float>(radians(1));
 
-/// Whether both may be the same sensor, allowing for small differences in calibration.
+/// True if both may be the same sensor, allowing for small differences in calibration.
 bool areAlike(const BeamSpan& a, const BeamSpan& b) {
     return a.rows == b.rows && std::abs(a.lowest_rad - b.lowest_rad) <= kSameBeam_rad &&
            std::abs(a.highest_rad - b.highest_rad) <= kSameBeam_rad;
@@ -37,7 +37,7 @@ std::string textOf(const BeamSpan& beams) {
            textOf(beamSpan(sensor)));
 }
 
-/// Whether each return with a range has coordinates.
+/// True if each return with a range has finite coordinates.
 bool havePlaces(const Scan& scan) {
     const float* const x_m = scan.x_m.data();
     const float* const y_m = scan.y_m.data();
@@ -69,8 +69,8 @@ void checkRows(const Scan& scan, const SensorModel& sensor) {
     }
     for (const std::size_t size : {scan.range_m.size(), scan.azimuth_rad.size(), scan.row.size()}) {
         if (size == scan.size()) continue;
-        refuse("the scan has " + std::to_string(scan.size()) +
-               " returns, but ranges, azimuths or rows of " + std::to_string(size));
+        refuse("the scan has " + std::to_string(scan.size()) + " returns, but " +
+               std::to_string(size) + " ranges, azimuths or rows");
     }
     if (scan.beams.rows > 0 && !areAlike(scan.beams, beamSpan(sensor))) {
         refuseRows("rows of " + textOf(scan.beams), sensor);

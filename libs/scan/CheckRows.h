@@ -3,7 +3,7 @@
 
 namespace hagen {
 
-/// checkLocated() but for the coordinates, which a range image does not need.
+/// checkLocated() without the check of coordinates, which a range image does not need.
 void checkRows(const Scan& scan, const SensorModel& sensor);
 
 }  // namespace hagen

@@ -13,7 +13,7 @@ void mapColumns(int columns, int group, int first, int count, ColumnMap& map) {
     map.to_image.resize(static_cast<std::size_t>(columns));
     map.to_turn.clear();
     map.even.clear();
-    // The image begins opposite to the window, so that what is left over is not beside it.
+    // The image begins opposite to the window, so that unused columns are not beside the window.
     const int opposite = (first + count + (groups - count) / 2) % groups;
     for (int k = opposite; k < opposite + groups; ++k) {
         const int g = k % groups, begin = g * group, end = std::min(begin + group, columns);

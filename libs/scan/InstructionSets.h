@@ -4,24 +4,23 @@
 
 namespace hagen {
 
-/// The instruction sets among which the vectorised loops choose, as names for HAGEN_SIMD: those
-/// that this machine has, best first, such as "avx3" (AVX-512), "avx2", "sse4", "scalar". The last
-/// one is what every such machine has; plain C++ is "scalar" or "emu128", by the compiler, and
-/// known by both names.
+/// The instruction sets of this machine that the vectorised loops can use, as names for HAGEN_SIMD,
+/// best first, such as "avx3" (AVX-512), "avx2", "sse4", "scalar". The last one is the
+/// architecture's baseline. Plain C++ is "scalar" or "emu128", depending on the compiler; both
+/// names are accepted.
 std::vector<std::string> instructionSets();
 
-/// From now on, loops use this instruction set or a simpler one, in all threads. Results are the
-/// same bits on all of them; run times are not. For reports of faults, and for sanitizers. Upper
-/// and lower case are the same; empty: no limit. A set that is known but better than what this
-/// machine has limits nothing. "plain" is more: the ground stages run as they are defined
-/// (libs/filter/ground), all others with the simplest set. Throws std::invalid_argument, listing
-/// the names, for an unknown one.
+/// Restricts the loops of all threads to this instruction set or a simpler one, for debugging and
+/// sanitizers. Results are bit-identical on all sets; only run times differ. Case-insensitive;
+/// empty: no limit. A known set that is better than this machine's has no effect. "plain" also runs
+/// the ground stages by their reference definition (libs/filter/ground), and all others with the
+/// simplest set. Throws std::invalid_argument listing the names for an unknown name.
 ///
 /// The environment variable HAGEN_SIMD does the same when a program starts. An unknown name there
-/// limits nothing and is reported on standard error.
+/// has no effect except a warning on standard error.
 void limitInstructionSets(const std::string& best);
 
-/// Whether the last limit was "plain".
+/// True if the last limit was "plain".
 bool usesPlainStages();
 
 }  // namespace hagen

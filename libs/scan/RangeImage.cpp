@@ -24,32 +24,32 @@ namespace {
 /// Turns per radian of azimuth.
 constexpr float kTurnsPerRadian = static_cast<float>(0.5 / kPi);
 
-/// The number of returns that are projected together.
+/// The number of returns projected at a time.
 constexpr std::size_t kTogether = 128;
 
-/// The size of the image, and the ranges that enter it.
+/// The size of the image, and the range limits.
 struct Projection {
     int rows, columns;  ///< columns of the whole turn
     float least_m, most_m;
-    const std::int32_t* to_image;  ///< of a column of the turn, that of the image; null: the same
+    const std::int32_t* to_image;  ///< image column of each column of the turn; null: the same
 };
 
-/// Returns of a scan, and where their pixels go.
+/// Returns of a scan, and the output for their pixels.
 struct Returns {
     const float *range_m, *azimuth_rad;
     const std::uint8_t* row;
     std::int32_t* depth_mapper;
 };
 
-/// A return as one number: the bits of its range above those of its index, read as a double. Such
-/// numbers order like their bits: the minimum is the closest return, the first of equally close
-/// ones. (A minimum of doubles needs no branch, and which return is the closest is unpredictable.)
+/// Packs a return into one number: the bits of its range above those of its index, read as a
+/// double. Such numbers sort like their bits: the minimum is the closest return, or the first of
+/// equally close returns. (A minimum of doubles avoids an unpredictable branch.)
 using RangeAndIndex = double;
 
-/// No return, in both halves: as a double it is a number greater than those of all returns.
+/// No return, in both halves: as a double, greater than the number of any return.
 constexpr std::int32_t kNoValueBits = 0x7fc00000;
 
-/// Returns that were projected together, for keepClosest().
+/// A batch of projected returns, for keepClosest().
 struct Projected {
     std::int32_t pixel[kTogether];  ///< within the image, even for dropped returns
     RangeAndIndex found[kTogether];
@@ -76,7 +76,7 @@ auto nearestColumns(V azimuth_rad, int columns) {
     auto column = hn::ConvertTo(d_int, columns_before);
     column = hn::Add(column, hn::IfThenElseZero(hn::Lt(column, zero), turn_columns));
     column = hn::Sub(column, hn::IfThenElseZero(hn::Gt(column, last), turn_columns));
-    return hn::Min(hn::Max(column, zero), last);  // in the image for any azimuth
+    return hn::Min(hn::Max(column, zero), last);  // clamped to the image for any azimuth
 }
 
 void projectTogether(Projection to, Returns returns, std::int32_t first_index,
@@ -167,8 +167,8 @@ void projectReturns(const Scan& scan, const Projection& to, std::int32_t* depth_
     std::copy_n(pixel, rest, depth_mapper + first);
 }
 
-// Fast because pixels are found for a vector of returns at a time, and the closest returns without
-// a branch.
+// Fast because it computes pixels for a vector of returns at a time, and finds the closest returns
+// without branches.
 void project(const Scan& scan, const SensorModel& sensor, const Projection& to, int image_columns,
              RangeImage& image, ProjectionWorkspace& work) {
     checkRows(scan, sensor);

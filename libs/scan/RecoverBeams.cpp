@@ -10,11 +10,11 @@
 namespace hagen {
 namespace {
 
-constexpr float kFarthest_m = 1000.0f;  // of any sensor, and of the settings
+constexpr float kFarthest_m = 1000.0f;  // of any sensor, and the maximum of the settings
 constexpr int kMaxBeams = 256;
 constexpr double kMinShare = 0.85;
 
-// Densities of elevations are histograms with this bin, smoothed.
+// Densities of elevations are smoothed histograms with this bin width.
 constexpr double kBin_deg = 0.01;
 constexpr int kBins = 18001;
 
@@ -57,21 +57,21 @@ std::vector<int> countsWithin(const std::vector<int>& histogram, int half) {
     return counts;
 }
 
-/// Whether a peak is higher than the valley beside it by more than chance.
+/// True if a peak is significantly higher than the valley beside it.
 bool standsOut(int peak, int valley) {
     return valley < 0.5 * peak && peak - valley > 4.0 * std::sqrt(static_cast<double>(peak));
 }
 
-/// The peaks that stand out from the valleys on both sides, as bins, ascending.
+/// The bins of peaks that stand out from the valleys on both sides, ascending.
 std::vector<int> peaksOf(const std::vector<int>& counts) {
     std::vector<int> peaks;
     int top = 0, valley = 0;  // the highest bin since the last valley, and the lowest since the top
-    bool is_rising = true;    // since a valley that the top stands out from
+    bool is_rising = true;    // since a significant valley
     for (int bin = 0; bin < kBins; ++bin) {
         if (is_rising) {
             if (counts[bin] > counts[top]) top = bin;
             if (standsOut(counts[top], counts[bin])) {
-                int last = top;  // of a flat top
+                int last = top;  // last bin of a flat top
                 while (counts[last + 1] == counts[top]) ++last;
                 peaks.push_back((top + last) / 2);
                 is_rising = false;
@@ -90,7 +90,7 @@ std::vector<int> peaksOf(const std::vector<int>& counts) {
 
 // Beams from peaks.
 
-/// How far from each beam a return lies on it.
+/// The reach of each beam: a return within it lies on the beam.
 std::vector<double> reachesOf(const std::vector<double>& beams_deg) {
     std::vector<double> reaches_deg(beams_deg.size(), 0.25);
     for (std::size_t beam = 1; beam < beams_deg.size(); ++beam) {
@@ -101,7 +101,7 @@ std::vector<double> reachesOf(const std::vector<double>& beams_deg) {
     return reaches_deg;
 }
 
-/// The returns on each beam: from and to which rank of the ascending elevations.
+/// The returns on each beam, as ranges of ranks among the ascending elevations.
 struct Ranks {
     std::ptrdiff_t from, to;
 };
@@ -135,7 +135,7 @@ struct Beams {
     double share = 0;
 };
 
-/// The beams with the highest share, if there are any.
+/// The beams with the highest share, if any.
 Beams bestBeams(const std::vector<double>& ascending_deg) {
     std::vector<int> histogram(kBins, 0);
     for (const double elevation_deg : ascending_deg) ++histogram[binOf(elevation_deg)];
@@ -147,19 +147,19 @@ Beams bestBeams(const std::vector<double>& ascending_deg) {
         }
         const std::size_t count = beams.elevations_deg.size();
         if (count < 2 || count > kMaxBeams) continue;
-        // The peak of a narrow beam is as wide as the bandwidth; the beam may be anywhere in it.
+        // The peak of a narrow beam is as wide as the bandwidth; the beam may be anywhere within.
         centre(std::vector<double>(count, (half + 0.5) * kBin_deg), ascending_deg,
                beams.elevations_deg);
         centre(reachesOf(beams.elevations_deg), ascending_deg, beams.elevations_deg);
         beams.share = shareOn(beams.elevations_deg, ascending_deg);
-        // Narrower bandwidths split what is one beam, so they must be clearly better.
+        // Narrower bandwidths split single beams, so they must be clearly better.
         if (beams.share > best.share + 0.005) best = std::move(beams);
     }
     return best;
 }
 
-/// The known model with all of these beams, if they are enough of its own: five and 30 %, and three
-/// quarters of those from the lowest to the highest of them.
+/// The known model that has all of these beams, if they are at least five, 30 % of the model's
+/// beams, and three quarters of those between the lowest and the highest found.
 std::optional<SensorModel> modelWith(const std::vector<double>& beams_deg) {
     const int beams = static_cast<int>(beams_deg.size());
     std::optional<SensorModel> model;
@@ -182,7 +182,7 @@ std::optional<SensorModel> modelWith(const std::vector<double>& beams_deg) {
     return model;
 }
 
-/// A sensor of these beams, of any range.
+/// A sensor with these beams and unlimited range.
 SensorModel sensorOf(const std::vector<double>& beams_deg) {
     SensorModel sensor = customSensorModel(beams_deg);
     sensor.name = kRecoveredName;
@@ -191,7 +191,7 @@ SensorModel sensorOf(const std::vector<double>& beams_deg) {
     return sensor;
 }
 
-/// The number of firings per revolution: the nearest returns of a beam are one firing apart.
+/// The number of firings per revolution: neighbouring returns of a beam are one firing apart.
 int firingsOn(const std::vector<double>& beams_deg, const Directions& directions) {
     std::vector<std::vector<double>> azimuths_deg(beams_deg.size());
     for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -211,7 +211,7 @@ int firingsOn(const std::vector<double>& beams_deg, const Directions& directions
     std::vector<double> steps_deg;
     for (std::size_t i = 1; i < most.size(); ++i) {
         const double step_deg = most[i] - most[i - 1];
-        if (step_deg > 0.02) steps_deg.push_back(step_deg);  // not the other return of a firing
+        if (step_deg > 0.02) steps_deg.push_back(step_deg);  // excludes dual returns of a firing
     }
     if (steps_deg.empty()) return 0;
     const auto third = steps_deg.begin() + static_cast<std::ptrdiff_t>(steps_deg.size() / 3);
@@ -249,8 +249,8 @@ struct Span {
     double lowest_deg, size_deg;
 };
 
-/// The share of the pixels between the lowest and the highest of their column that have returns.
-/// Long gaps do not count: there is sky between two objects.
+/// The share of pixels with returns, between the lowest and the highest return of each column. Long
+/// gaps do not count: they are sky between objects.
 double filledShare(const Directions& directions, const Span& span, int rows, int columns) {
     constexpr int kMaxGap = 4;
     std::vector<bool> has_return(static_cast<std::size_t>(rows) * columns);
@@ -264,7 +264,7 @@ double filledShare(const Directions& directions, const Span& span, int rows, int
     }
     long filled = 0, gaps = 0;
     for (int column = 0; column < columns; ++column) {
-        int last_row = rows;  // with a return; none yet
+        int last_row = rows;  // the last row with a return; none yet
         for (int row = 0; row < rows; ++row) {
             if (!has_return[static_cast<std::size_t>(column) * rows + row]) continue;
             ++filled;
@@ -327,7 +327,7 @@ OnRings elevationsOnRings(const Directions& directions, const std::vector<std::i
     return on_rings;
 }
 
-/// How many returns are closest to their own beam, of beams that rise.
+/// The number of returns that are closest to their own beam; beams are ascending.
 std::size_t closestToOwn(const std::vector<double>& beams_deg,
                          const std::vector<const std::vector<double>*>& elevations_deg) {
     std::ptrdiff_t closest = 0;

@@ -22,10 +22,10 @@
 namespace hagen {
 namespace {
 
-/// Finds the row of the closest beam from the sine of the elevation, z / range, which saves the arc
-/// sine. Sines increase with their angles, so the row is the number of midpoints between
-/// neighbouring beams that lie below. A table over the sine has all of these except those within
-/// the same bin: usually none, at most one even for the narrow beams of a 64-beam sensor.
+/// Finds the row of the closest beam from the sine of the elevation, z / range, which avoids an arc
+/// sine. Sines increase with their angles, so the row is the number of lower midpoints between
+/// neighbouring beams. A table over the sine counts all midpoints except those within the same bin:
+/// usually 0, and at most 1 even for a 64-beam sensor.
 struct RowTable {
     static constexpr int kBins = 1024;
     static constexpr float kBinsPerSine = kBins / 2;
@@ -37,7 +37,7 @@ struct RowTable {
             if (row + 1 >= midpoint_sine.size() || !std::isfinite(sensor.elevations_rad[row]) ||
                 !std::isfinite(sensor.elevations_rad[row + 1])) {
                 throw std::invalid_argument("sensor " + sensor.name +
-                                            ": needs up to 256 beams with finite elevations");
+                                            ": needs at most 256 beams with finite elevations");
             }
             const double lower_rad = static_cast<double>(sensor.elevations_rad[row]);
             const double upper_rad = static_cast<double>(sensor.elevations_rad[row + 1]);
@@ -62,7 +62,7 @@ struct RowTable {
     int most_midpoints_in_bin = 0;
 };
 
-/// The points, and where their beams are written.
+/// The points, and the output for their beams.
 struct Beams {
     const float *x_m, *y_m, *z_m;
     float *range_m, *azimuth_rad;
@@ -102,7 +102,7 @@ V azimuthOf(V x, V y) {
     V angle = arcTangent(ratio);
     angle =
         hn::IfThenElse(hn::Gt(across, along), hn::Sub(hn::Set(d, 1.57079632679f), angle), angle);
-    const hn::RebindToSigned<decltype(d)> d_int;  // for the sign of zeros, too
+    const hn::RebindToSigned<decltype(d)> d_int;  // also handles the sign of zeros
     const auto is_behind = hn::RebindMask(d, hn::Lt(hn::BitCast(d_int, x), hn::Zero(d_int)));
     angle = hn::IfThenElse(is_behind, hn::Sub(hn::Set(d, 3.14159265359f), angle), angle);
     return hn::CopySignToAbs(angle, y);
@@ -126,7 +126,7 @@ auto rowOf(V sine, const RowTable& table) {
     return row;
 }
 
-/// As many points as a vector has lanes.
+/// Processes one vector of points.
 template <class D>
 HWY_INLINE void locateVector(D d, const RowTable& table, const Beams& at) {
     const auto x = hn::LoadU(d, at.x_m), y = hn::LoadU(d, at.y_m), z = hn::LoadU(d, at.z_m);
@@ -196,8 +196,8 @@ void Scan::reserve(std::size_t returns) {
     row.reserve(returns);
 }
 
-// Fast because it processes a vector of points at a time: the row needs no angle (RowTable), the
-// azimuth is a polynomial.
+// Fast because it processes a vector of points at a time: rows need no angle (RowTable), and
+// azimuths are polynomials.
 void locateBeams(const SensorModel& sensor, Scan& scan) {
     scan.range_m.resize(scan.size());
     scan.azimuth_rad.resize(scan.size());

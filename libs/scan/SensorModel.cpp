@@ -42,7 +42,7 @@ const std::vector<KnownSensor>& knownSensors() {
          200.0f},
         {"OS0-128", evenly(128, -45.0, 90.0 / 127), 0.5f, 100.0f},
         {"OS1-64", evenly(64, -21.2, 42.4 / 63), 0.5f, 200.0f},
-        {"Mid-360", evenly(24, -6.5, 2.5), 0.1f, 70.0f, false}};  // the middle of each 2.5 degrees
+        {"Mid-360", evenly(24, -6.5, 2.5), 0.1f, 70.0f, false}};  // centres of 2.5-degree bands
     return sensors;
 }
 

@@ -4,9 +4,9 @@
 
 namespace hagen {
 
-/// For each byte: the indices of its set bits, lowest first (then zeros), and their number. Used to
-/// move selected lanes to the front of a vector: Highway 1.0's Compress() copies its table to the
-/// stack on every call when GCC 12 compiles it for AVX2.
+/// For each byte: the indices of its set bits, lowest first (padded with zeros), and their number.
+/// Used to move selected lanes to the front of a vector, because GCC 12 for AVX2 copies the table
+/// of Highway 1.0's Compress() to the stack on every call.
 struct SetBits {
     std::array<std::array<std::uint8_t, 8>, 256> place{};
     std::array<std::uint8_t, 256> count{};

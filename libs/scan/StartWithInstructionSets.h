@@ -2,8 +2,8 @@
 
 namespace hagen {
 
-/// Does what HAGEN_SIMD says (InstructionSets.h). Scan.cpp calls it when a program starts, for
-/// every program that has a loop to choose for has that file; a linker leaves out others.
+/// Applies HAGEN_SIMD (InstructionSets.h). Scan.cpp calls this at program start, because every
+/// program with vectorised loops links that file; a linker may drop others.
 bool startWithInstructionSets();
 
 }  // namespace hagen

@@ -23,10 +23,11 @@ std::string driverModels(const std::string& separator) {
 void checkDriver(const std::string& model, const std::filesystem::path& sensor_json,
                  const std::filesystem::path& calibration) {
     if (!sensor_json.empty() && !model.empty()) {
-        throw std::runtime_error("an Ouster's metadata name its model: leave out --model");
+        throw std::runtime_error("Ouster metadata contain the model: omit --model");
     }
     if (!calibration.empty() && !isHdl64(model)) {
-        throw std::runtime_error(calibration.string() + ": only an HDL-64E has one");
+        throw std::runtime_error(calibration.string() +
+                                 ": only an HDL-64E uses a calibration file");
     }
     if (!sensor_json.empty() || model == kLivox) return;
     if (isHdl64(model)) {
@@ -36,8 +37,8 @@ void checkDriver(const std::string& model, const std::filesystem::path& sensor_j
     for (const VelodyneModel& known : velodyneModels()) {
         if (known.name == model) return;
     }
-    throw std::runtime_error("'" + model + "' cannot be labelled live; supported are " +
-                             driverModels() + ". An Ouster needs its metadata: --sensor-json FILE");
+    throw std::runtime_error("'" + model + "' is not supported live; supported: " + driverModels() +
+                             ". An Ouster needs its metadata: --sensor-json FILE");
 }
 
 std::unique_ptr<LidarDriver> makeDriver(const std::string& model,

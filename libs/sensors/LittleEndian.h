@@ -4,7 +4,7 @@
 
 namespace hagen::sensors {
 
-/// A number as a packet holds it: lowest byte first, at any address.
+/// Reads a little-endian number at any address.
 template <class Number>
 Number little(const std::uint8_t* at) {
     Number value = 0;

@@ -6,8 +6,8 @@
 
 namespace hagen::sensors {
 
-/// The sensors of a recording in the order in which they appear, at most sixteen: packets of more
-/// are other traffic. The first one has the label NAME, the others NAME_2 and so on.
+/// The sensors of a recording in order of appearance, at most 16; packets of further sensors are
+/// only counted. Labels are NAME, NAME_2 and so on.
 template <class Key, class Sensor>
 class SensorTable {
  public:
@@ -19,7 +19,8 @@ class SensorTable {
 
     explicit SensorTable(std::string name) : name_(std::move(name)) {}
 
-    /// The sensor with this key, made on its first packet; null and counted if there are too many.
+    /// The sensor with this key, created on its first packet; if there are too many, counts the
+    /// packet and returns null.
     template <class Make>
     Sensor* find(const Key& key, Make make) {
         constexpr std::size_t kMaxSensors = 16;
@@ -36,7 +37,7 @@ class SensorTable {
     }
     std::list<Entry>& entries() { return entries_; }
     const std::list<Entry>& entries() const { return entries_; }
-    /// Packets of further sensors.
+    /// The number of packets from further sensors.
     std::size_t further() const { return further_; }
 
  private:

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double kMinBin_deg = 0.5, kMaxBin_deg = 30, kMaxBinRange_m = 20;
 
-/// The number of the bin that starts at an angle.
+/// The index of the bin that starts at an angle.
 int parseStart(const YAML::Node& node, const std::string& key, double least_deg, double bin_deg,
                int bins) {
     const auto start_deg = parseNumber<double>(node, key, least_deg, -least_deg);

@@ -17,7 +17,7 @@ const std::string kForms =
     "{box: {low_m: [x, y, z], high_m: [x, y, z]}}, {sphere: {centre_m: [x, y, z], radius_m: r}} or "
     "{learned: FILE.yaml}";
 
-/// The values of a map with exactly these two keys.
+/// The values of a map that has exactly these two keys.
 std::pair<YAML::Node, YAML::Node> valuesOf(const YAML::Node& part, const std::string& name,
                                            const std::vector<std::string>& keys) {
     const std::string both = keys[0] + " and " + keys[1];
@@ -87,7 +87,7 @@ void parsePart(const fs::path& file, const YAML::Node& part, SettingsOrigin orig
         if (origin == SettingsOrigin::Recording && fs::path(value.Scalar()).has_parent_path()) {
             throw SettingsError(
                 "airframe.learned is '" + value.Scalar() +
-                "'; settings of a recording may name only files of their own folder");
+                "'; settings that come with a recording may name only files of their own folder");
         }
         mask.learned = fs::absolute(file.parent_path() / value.Scalar()).lexically_normal();
         mask.parts.bin_range_m = readAirframeBins(mask.learned);
@@ -124,9 +124,9 @@ Settings::AirframeMask parseAirframe(const fs::path& file, const YAML::Node& sec
 }
 
 std::string airframeText(const Settings::AirframeMask& mask) {
-    if (mask.parts.isEmpty() && mask.learned.empty()) return "# airframe: nothing is masked\n";
+    if (mask.parts.isEmpty() && mask.learned.empty()) return "# airframe: no returns are masked\n";
     base::TextStream text;
-    text << "airframe:  # parts of the vehicle in the sensor frame: their returns are "
+    text << "airframe:  # parts of the vehicle in the sensor frame; their returns are "
             "unclassified\n";
     for (const AirframeBox& box : mask.parts.boxes) {
         text << "  - box: {low_m: " << textOf(box.low_m) << ", high_m: " << textOf(box.high_m)

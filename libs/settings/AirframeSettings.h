@@ -8,9 +8,9 @@
 
 namespace hagen {
 
-/// Reads the list of parts, and the file of learned bins that it names, relative to `file`; that of
-/// a recording's settings must be in their own folder. Throws SettingsError naming file, line, key
-/// and what is allowed.
+/// Reads the list of parts and the file of learned bins that it names, relative to `file`; for a
+/// recording's settings, it must be in the same folder. Throws SettingsError naming the file, line,
+/// key and allowed values.
 Settings::AirframeMask parseAirframe(const std::filesystem::path& file, const YAML::Node& section,
                                      SettingsOrigin origin);
 

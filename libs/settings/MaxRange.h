@@ -2,7 +2,7 @@
 
 namespace hagen {
 
-/// The longest range of a sensor that settings can name.
+/// The highest range limit that settings may give a sensor.
 inline constexpr double kMaxRange_m = 1000;
 
 }  // namespace hagen

@@ -21,7 +21,7 @@ namespace hagen {
 namespace {
 
 namespace fs = std::filesystem;
-// Limits of settings files, which may come with a recording of somebody else.
+// Limits of settings files, which may come with an untrusted recording.
 constexpr int kMaxIncludeDepth = 8, kMaxIncludes = 32;
 constexpr std::size_t kMaxFileBytes = 1 << 20;
 
@@ -53,7 +53,7 @@ void parseOption(const OptionKey& key, const YAML::Node& node, Options& options)
     }
 }
 
-// The minimum of optionKeys().
+// The minimum in optionKeys().
 constexpr int kMinColumns = 8, kMinWindow = 2;
 
 /// The keys of the section `sensor:`.
@@ -61,17 +61,17 @@ const std::vector<SettingsKey>& sensorKeys() {
     static const std::vector<SettingsKey> keys{
         {"model", "", kRecoveredName,
          base::joined(knownSensorModels(), ", ") + ", custom, " + kRecoveredName,
-         "the sensor of point clouds; packets identify their own", ""},
+         "sensor of point clouds; packets identify their own sensor", ""},
         {"elevations_deg", "deg", "", "-90 ... 90, ascending, 2 to 256 of them",
-         "the beams of a custom sensor, lowest first", ""},
+         "beams of a custom sensor, lowest first", ""},
         {"min_range_m", "m", "the model's", "0 ... " + base::shortestText(kMaxRange_m),
-         "nearer returns are RoI, unjudged", ""},
+         "nearer returns are RoI without a test", ""},
         {"max_range_m", "m", "the model's", "0 ... " + base::shortestText(kMaxRange_m),
-         "farther returns are RoI in the zone, unjudged; beyond it ROU", ""},
+         "farther returns are RoI within the zone, without a test; ROU beyond", ""},
         {"mount_roll_deg", "deg", "0", "-180 ... 180",
-         "the sensor's roll on the level vehicle, if its log does not say", ""},
+         "roll of the sensor on a level vehicle, if the log lacks it", ""},
         {"mount_pitch_deg", "deg", "0", "-90 ... 90",
-         "the sensor's pitch on the level vehicle, if its log does not say", ""}};
+         "pitch of the sensor on a level vehicle, if the log lacks it", ""}};
     return keys;
 }
 
@@ -88,10 +88,10 @@ const OptionKey* findOption(const std::string& name) {
     return nullptr;
 }
 
-/// A key of earlier versions. With the value 1 it changes nothing; old files have it.
+/// A key of earlier versions. The value 1 has no effect and is accepted for old files.
 constexpr const char* kRemovedKey = "window_scans";
 
-/// The message for a key that is no option, or no longer one.
+/// The message for an unknown or removed option.
 std::string refusalOf(const std::string& key, const std::vector<std::string>& known) {
     if (key != kRemovedKey) return unknownKey(key, known);
     return "window_scans was removed: each scan is segmented alone, because windows of several "
@@ -100,12 +100,13 @@ std::string refusalOf(const std::string& key, const std::vector<std::string>& kn
 
 constexpr const char* kPaper = "paper";
 
-/// Sets an option and marks it as given. `seen`: the options that this file gave already.
+/// Sets an option and marks it as given. `seen`: the options that this file already gave.
 void mergeOption(const fs::path& file, const OptionKey& key, const YAML::Node& value,
                  std::set<std::string>& seen, Settings& settings) {
     if (!seen.insert(key.name).second) {
-        throw SettingsError(at(file, value) + "'" + key.name + "' is a key of the file and of '" +
-                            key.section + "'; keep one of them");
+        throw SettingsError(at(file, value) + "'" + key.name +
+                            "' is both a top-level key and a key of '" + key.section +
+                            "'; keep only one");
     }
     try {
         parseOption(key, value, settings.options);
@@ -136,13 +137,13 @@ float parseAngle(const YAML::Node& node, const std::string& key, double most_deg
     return static_cast<float>(radians(parseNumber<double>(node, key, -most_deg, most_deg)));
 }
 
-/// Throws std::invalid_argument unless a sensor has this name.
+/// Throws std::invalid_argument for an unknown sensor name.
 void checkModel(const std::string& name) {
     try {
         hagen::sensorModel(name);
     } catch (const std::invalid_argument& e) {
         throw std::invalid_argument(std::string(e.what()) + "; '" + kRecoveredName +
-                                    "' recovers its beams from the clouds");
+                                    "' recovers the beams from the clouds");
     }
 }
 
@@ -194,7 +195,7 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings& sett
     }
 }
 
-/// Whether an option is adapted to a recovered sensor.
+/// True if an option is adapted to a recovered sensor.
 bool isAdapted(const std::string& name, const Settings& settings) {
     if (settings.sensor.model || settings.given.count(name) > 0) return false;
     if (name != "columns" && name != "window_size" && name != "principal_components") return false;
@@ -202,7 +203,7 @@ bool isAdapted(const std::string& name, const Settings& settings) {
     return textOf(key, settings.options) == textOf(key, Options());
 }
 
-/// The files that are included so far, and how deep the current one is.
+/// The number of files included so far, and the depth of the current one.
 struct Includes {
     SettingsOrigin origin;
     int depth = 0, files = 0;
@@ -223,9 +224,9 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
     }
     const auto merge = [&](const std::string& name) {
         if (includes.origin == SettingsOrigin::Recording && fs::path(name).has_parent_path()) {
-            throw SettingsError(
-                at(file, node) + "includes '" + name +
-                "'; settings of a recording may include only files of their own folder");
+            throw SettingsError(at(file, node) + "includes '" + name +
+                                "'; settings that come with a recording may include only files of "
+                                "their own folder");
         }
         if (name.empty() || name.size() > kMaxNameLength || name.find('\0') != std::string::npos) {
             throw SettingsError(at(file, node) + "an entry of 'include' is not a file name");
@@ -261,7 +262,7 @@ void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
     settings.files.push_back(file);
     if (document.IsNull()) return;  // empty or comments only: all defaults
     if (!document.IsMap()) {
-        throw SettingsError(file.string() + ": not settings: 'key: value' lines are expected");
+        throw SettingsError(file.string() + ": not a settings file: expected 'key: value' lines");
     }
     if (document["include"]) mergeIncludes(file, document["include"], includes, settings);
 
@@ -374,7 +375,7 @@ std::string dumpSettings(const Settings& settings) {
     const auto options = [&](const std::string& section, const std::string& indent) {
         for (const OptionKey& key : optionKeys()) {
             if (key.section != section) continue;
-            // Given in a file, it would hold as it is.
+            // An option given in a file is not adapted.
             const std::string comment = isAdapted(key.name, settings) ? "# " : "";
             line(indent + comment + key.name, textOf(key, settings.options),
                  {key.name, key.unit, "", "", key.what, key.symbol});
@@ -421,7 +422,7 @@ std::vector<SettingsKey> settingsKeys() {
         keys.push_back(key);
     }
     keys.push_back({"airframe", "", "", "a list of box, sphere, learned",
-                    "parts of the vehicle: their returns are unclassified", ""});
+                    "parts of the vehicle; their returns are unclassified", ""});
     keys.push_back({"include", "", "", "a file, or a list", "files merged before this one", ""});
     return keys;
 }

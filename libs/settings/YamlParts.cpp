@@ -11,7 +11,6 @@ namespace hagen {
 
 namespace fs = std::filesystem;
 
-/// The place of a value in a file, for messages.
 std::string at(const fs::path& file, const YAML::Node& node) {
     const YAML::Mark mark = node.Mark();
     return file.string() + (mark.is_null() ? "" : ":" + std::to_string(mark.line + 1)) + ": ";
@@ -34,7 +33,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-/// Ignores the content of a document.
+/// A handler that ignores the content of a document.
 struct NoNodes : YAML::EventHandler {
     void OnDocumentStart(const YAML::Mark&) override {}
     void OnDocumentEnd() override {}
@@ -50,7 +49,7 @@ struct NoNodes : YAML::EventHandler {
     void OnMapEnd() override {}
 };
 
-/// Whether a second document follows. YAML::LoadAll() never ends for a file such as ",".
+/// True if a second document follows. YAML::LoadAll() never returns for a file such as ",".
 bool hasSeveralDocuments(const std::string& text) {
     std::istringstream in(text);
     YAML::Parser parser(in);

@@ -1,4 +1,4 @@
-// Parts of settings files: YAML that says where it is wrong.
+// YAML parsing for settings files, with file and line in error messages.
 #pragma once
 #include <yaml-cpp/yaml.h>
 
@@ -17,14 +17,14 @@ namespace hagen {
 /// The place of a value in a file, for messages.
 std::string at(const std::filesystem::path& file, const YAML::Node& node);
 
-/// The known word that is most similar to `word`. There is at least one.
+/// The known word most similar to `word`; `known` must not be empty.
 std::string nearestOf(const std::string& word, const std::vector<std::string>& known);
 
-/// The message for an unknown key, with the nearest of the known ones.
+/// The message for an unknown key, with the most similar known key.
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known);
 
 /// Calls visit(key, value, place of the key for messages) for each entry of a map. Throws
-/// SettingsError if it is not a map (with `example`), or if a key occurs twice.
+/// SettingsError if `map` is not a map (quoting `example`), or if a key occurs twice.
 template <class Visit>
 void forEachKey(const std::filesystem::path& file, const YAML::Node& map,
                 const std::string& section, const std::string& example, Visit visit) {
@@ -43,7 +43,7 @@ void forEachKey(const std::filesystem::path& file, const YAML::Node& map,
     }
 }
 
-/// Reads a file of one YAML document. Throws SettingsError naming file and line.
+/// Reads a file with one YAML document. Throws SettingsError naming the file and line.
 YAML::Node parseFile(const std::filesystem::path& file,
                      std::size_t most_bytes = base::kMaxTextBytes);
 

@@ -372,7 +372,7 @@ TEST_F(LiveSegment, RejectsWrongFlags) {
     expectFailure({"--replay", file, "--listen", "1.2.3.4:5", "--model", "VLP-16"}, 2,
                   "one of --listen and --replay is required");
     expectFailure({"--replay", file}, 2, "is required; models: VLP-16");
-    expectFailure({"--replay", file, "--model", "OS1-64"}, 2, "supported are VLP-16");
+    expectFailure({"--replay", file, "--model", "OS1-64"}, 2, "supported: VLP-16");
     expectFailure({"--replay", file, "--model", "HDL-64E"}, 2, "--calibration FILE");
     expectFailure({"--listen", "here", "--model", "VLP-16"}, 2, "'here' is not an IPv4 address");
     expectFailure({"--listen", "0.0.0.0:2368", "--speed", "2", "--model", "VLP-16"}, 2, "--speed");

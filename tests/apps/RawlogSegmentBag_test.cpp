@@ -141,20 +141,21 @@ TEST_F(RawlogSegmentBag, ReportsWrongTopics) {
         path("flight.bag"), test::ros1BagOf({test::stringMessage("/text", 1700000000, "a")}));
     const Arguments output{"-o", path("out.rawlog")};
     expectFailures(with(output, {"-i", bag}), 1,
-                   {{{}, "flight.bag: has no topic of a LiDAR (sensor_msgs/PointCloud2, "},
+                   {{{}, "flight.bag: has no LiDAR topic (sensor_msgs/PointCloud2, "},
                     {{"--topic", "/points"},
                      "has no topic '/points'; it has: /text (std_msgs/String, 1 message)"},
-                    {{"--topic", "/text"}, "not of a LiDAR"}});
+                    {{"--topic", "/text"}, "not a LiDAR type"}});
     expectFailure(with(output, {"-i", bag, "--topic"}), 2, "--topic");
     const std::string text = test::writeBytes(path("flight.mcap"), "no recording at all");
     const std::string cloud = test::writeBytes(
         path("few.bag"),
         test::ros1BagOf({test::cloudMessage("/points", 1700000000, "lidar", {1, 2, 3, 4})}));
-    expectFailures(output, 1,
-                   {{{"-i", recording(), "--topic", "/points"},
-                     "is no ROS recording (.bag, .mcap, .db3 or its folder), so it has no topic"},
-                    {{"-i", text}, "flight.mcap"},
-                    {{"-i", cloud, "--octomap", path("a.bt")}, "has no poses"}});
+    expectFailures(
+        output, 1,
+        {{{"-i", recording(), "--topic", "/points"},
+          "is not a ROS recording (.bag, .mcap, .db3 or its folder), so it has no topic"},
+         {{"-i", text}, "flight.mcap"},
+         {{"-i", cloud, "--octomap", path("a.bt")}, "has no poses"}});
 }
 
 /// Bags written by other programs, if they are installed.

@@ -80,12 +80,12 @@ TEST_F(RawlogSegmentCapture, OusterRequiresMetadata) {
     const std::string other = folder_.write("other.json", test::ousterJson("LEGACY"));
     expectFailures({"-i", capture, "-o", path("other.rawlog")}, 1,
                    {{{}, "--sensor-json FILE"},
-                    {{"--sensor-json", cut}, "cut.json: not metadata of an Ouster"},
+                    {{"--sensor-json", cut}, "cut.json: not Ouster metadata"},
                     {{"--sensor-json", other}, "Is it another sensor's metadata?"}});
     expectFailure({"-i", capture, "--sensor-json", path("none.json"), "-o", path("other.rawlog")},
                   2, "--sensor-json");
     expectFailure({"-i", recording(), "--sensor-json", json, "-o", path("other.rawlog")}, 1,
-                  "is no capture");
+                  "is not a capture");
 }
 
 TEST_F(RawlogSegmentCapture, RejectsUnsupportedCaptures) {

@@ -143,7 +143,7 @@ TEST_F(RawlogSegmentMcap, KeepsReadablePartOfCutInput) {
     fs::resize_file(path("in.mcap"), fs::file_size(path("in.mcap")) * 2 / 3);
     const auto outcome = run({"-i", path("in.mcap"), "--mcap", path("out.mcap")});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("in.mcap: "), HasSubstr("is cut off"),
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("in.mcap: "), HasSubstr("is truncated"),
                                    HasSubstr("out.partial.mcap")));
     EXPECT_FALSE(fs::exists(path("out.mcap")));
     expectSuccess({"-i", path("out.partial.mcap"), "--stats", path("out.json")});

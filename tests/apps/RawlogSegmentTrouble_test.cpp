@@ -293,7 +293,7 @@ TEST_F(RawlogSegmentTrouble, IgnoresImplausibleTimes) {
     for (const char* const line : {"9e18 0 0 0 0 0 0 1\n", "-1e300 0 0 0 0 0 0 1\n"}) {
         expectFailure(
             {"-i", log, "-o", path("again.rawlog"), "--poses", folder_.write("bad.tum", line)}, 1,
-            "bad.tum:1: the first number is no time");
+            "bad.tum:1: the first number is not a time");
     }
 }
 

@@ -202,8 +202,9 @@ TEST_F(RawlogSegment, ComparesCloudsWithNamedSensor) {
                   "sensor: {model: custom, elevations_deg: [-15, -13, -10, -9, -7, -4, -3, -1, 2, "
                   "3, 5, 8, 9, 11, 14, 15]}\n");
     const auto partly = expectSuccess(flags);
-    EXPECT_THAT(partly.err, HasSubstr("of 16 beams in view, the cloud shows 11, besides 5 others. "
-                                      "Is it this sensor?"));
+    EXPECT_THAT(partly.err,
+                HasSubstr("of 16 beams in view, the cloud shows 11, besides 5 other beams. "
+                          "Is it this sensor?"));
     fs::remove_all(path("labels"));
 
     folder_.write("scans/sensor.yaml",  // in radians
@@ -406,7 +407,7 @@ TEST_F(RawlogSegment, RejectsUnreadableInputs) {
           "text.rawlog: is not a recording: it seems to be text. Known are rawlogs, captures");
     fails(folder_.write("a.rawlog", "\x89PNG\r\n\x1a\n" + std::string(99, '\x81')),
           "it seems to be a PNG picture");
-    fails(folder_.write("b.rawlog", std::string(99, '\x81')), "first bytes are of no known kind");
+    fails(folder_.write("b.rawlog", std::string(99, '\x81')), "its format is unknown");
     folder_.write("scans/velodyne/000000.bin", "123");
     fails(path("scans"), "000000.bin");
     const auto poses = folder_.write("poses.tum", "1 2 3\n");

@@ -37,7 +37,7 @@ TEST(FileKind, RecognisesRawVelodynePackets) {
     std::string packet(1206, '\x21');
     for (std::size_t block = 0; block < 12; ++block) packet.replace(100 * block, 2, "\xff\xee");
     EXPECT_THAT(kindOfBytes(packet + packet + packet.substr(0, 700)).text(),
-                HasSubstr("data packets of a Velodyne"));
+                HasSubstr("Velodyne data packets"));
     std::string other = packet + packet;
     other[1206 + 300] = '\0';
     EXPECT_EQ(kindOfBytes(other).what, "");

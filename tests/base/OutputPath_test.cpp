@@ -145,8 +145,8 @@ TEST_F(OutputPathTest, RefusesOutputsInInputs) {
     const auto refusal = [&](const std::string& output) {
         return test::messageOf([&] { checkApart({folder_ / output}, {folder_ / "in"}); });
     };
-    EXPECT_THAT(refusal("in/velodyne/000000.bin"), HasSubstr("may be a part of it"));
-    EXPECT_THAT(refusal("in/velodyne"), HasSubstr("may be a part of it"));
+    EXPECT_THAT(refusal("in/velodyne/000000.bin"), HasSubstr("may be part of it"));
+    EXPECT_THAT(refusal("in/velodyne"), HasSubstr("may be part of it"));
     EXPECT_THAT(refusal("in"), HasSubstr("is or contains the input"));
     EXPECT_EQ(refusal("in/scores.json"), "");
     EXPECT_EQ(refusal("inside"), "");

@@ -55,7 +55,7 @@ TEST_F(OutputSetTest, TakenNameDoesNotAffectOthers) {
     for (const OutputPath* const output : {&first_, &second_, &third_}) write(*output);
     folder_.write("a", "theirs");
     EXPECT_THAT(test::messageOf([&] { set_.commit(); }),
-                AllOf(HasSubstr("a exists"), HasSubstr("this run's output is"),
+                AllOf(HasSubstr("a exists"), HasSubstr("this run's output was saved as"),
                       Not(HasSubstr(second_.path().string()))));
     EXPECT_EQ(test::readFile(folder_ / "a"), "theirs");
     EXPECT_EQ(test::readFile(folder_ / "a.partial"), "new");

@@ -105,7 +105,7 @@ TEST(Hdl64, UsesCalibrationOfScan) {
     EXPECT_EQ(observed.scan.size(), 64u * 12);
     observation.calibration.laser_corrections.resize(32);
     EXPECT_THAT(test::messageOf([&] { readObservation(observation, {}, observed); }),
-                HasSubstr("need its calibration"));
+                HasSubstr("require a calibration"));
 }
 
 TEST(Hdl64, SkipsInvalidBlocks) {
@@ -145,7 +145,7 @@ TEST(Hdl64, ReportsInvalidCalibration) {
     EXPECT_THAT(errorOf(""), reports("has no lasers"));
     EXPECT_THAT(errorOf("{\"json\": 1}"), reports("has no lasers"));
     EXPECT_THAT(errorOf("<a>"), reports("ends within a"));
-    EXPECT_THAT(errorOf("<a></b>"), reports("</b> closes nothing"));
+    EXPECT_THAT(errorOf("<a></b>"), reports("</b> has no opening tag"));
     EXPECT_THAT(errorOf("<>"), reports("empty tag"));
     std::string deep;
     for (int i = 0; i < 100000; ++i) deep += "<a>";
@@ -155,20 +155,19 @@ TEST(Hdl64, ReportsInvalidCalibration) {
     std::string within;
     for (int i = 0; i < 250000; ++i) within += "<b/>";
     const std::string error = errorOf("<" + name + ">" + within);
-    EXPECT_THAT(error, reports("aaa...' of an element has more than 64 letters"));
+    EXPECT_THAT(error, reports("aaa...' of an element has more than 64 characters"));
     EXPECT_LT(error.size(), 400u);
-    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>8</id_>")),
-                reports("laser 8 is there twice"));
+    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>8</id_>")), reports("laser 8 occurs twice"));
     EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_/>")), reports("no id_"));
-    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>-1e300</id_>")), reports("the id_"));
+    EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>-1e300</id_>")), reports("the invalid id_"));
     EXPECT_THAT(errorOf(replaced("<id_>63</id_>", "<id_>64</id_>")),
                 reports("laser 63 is missing"));
     EXPECT_THAT(errorOf(replaced("<item>1</item>", "<item>0</item>")), reports("63 lasers"));
-    EXPECT_THAT(errorOf(replaced("<item>1</item>", "<item/>")), reports("no number"));
+    EXPECT_THAT(errorOf(replaced("<item>1</item>", "<item/>")), reports("not a number"));
     EXPECT_THAT(errorOf(replaced("distCorrection_>90.000000", "distCorrection_>9e9")),
                 reports("laser 0: distCorrection_"));
     EXPECT_THAT(errorOf(replaced("distCorrection_>90.000000", "distCorrection_>nan")),
-                reports("no number"));
+                reports("not a number"));
     EXPECT_THAT(errorOf(replaced("<vertOffsetCorrection_>20.000000</vertOffsetCorrection_>", "")),
                 reports("vertOffsetCorrection_ is missing"));
     auto lasers = test::hdl64Lasers();

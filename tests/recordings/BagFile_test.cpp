@@ -199,24 +199,24 @@ TEST_F(BagFileTest, DetectsChangedDataByCrc) {
 TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
     const ByteString magic("\x89MCAP0\r\n", 8), far = ByteString(7, '\xff') + '\x7f';
     expectBroken(magic + '\x05' + far, "claims 9223372036854775807 bytes");
-    expectBroken(magic + '\x0b' + far, "is cut off: 9223372036854775807 bytes are due, 0 are left");
+    expectBroken(magic + '\x0b' + far, "is truncated: expected 9223372036854775807 bytes, found 0");
     expectBroken(magic + '\x06' + ByteString("\0\0\0\x10\0\0\0\0", 8),
-                 "a chunk at byte 17: is cut off");
+                 "a chunk at byte 17: is truncated");
     const auto chunk = [&](const ByteString& size, const ByteString& name) {
         return magic +
                test::mcapRecord(6, ByteString(16, '\0') + size + ByteString(4, '\0') +
                                        test::little32(static_cast<std::uint32_t>(name.size())) +
                                        name + ByteString("\4\0\0\0\0\0\0\0abcd", 12));
     };
-    expectBroken(chunk(far, "zstd"), "it claims to hold 9223372036854775807 bytes, more than");
+    expectBroken(chunk(far, "zstd"), "it claims a size of 9223372036854775807 bytes, more than");
     expectBroken(
         chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "brotli"),
-        "a record at byte 8: cannot be unpacked: its compression 'brotli' is not supported");
-    expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "zstd"), "cannot be unpacked: ");
-    expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "lz4"), "cannot be unpacked: ");
-    expectBroken(chunk(ByteString("\5\0\0\0\0\0\0\0", 8), ""), "it holds 4 bytes and claims 5");
+        "a record at byte 8: cannot be decompressed: its compression 'brotli' is not supported");
+    expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "zstd"), "cannot be decompressed: ");
+    expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "lz4"), "cannot be decompressed: ");
+    expectBroken(chunk(ByteString("\5\0\0\0\0\0\0\0", 8), ""), "it has 4 bytes, but claims 5");
     expectBroken(magic + test::mcapRecord(5, ByteString(22, '\3')),
-                 "of channel 771, which is not described");
+                 "to channel 771, which is not defined");
     expectBroken(magic + test::mcapRecord(5, "a"), "a message is too short");
 
     const ByteString ros1 = "#ROSBAG V2.0\n";
@@ -226,11 +226,11 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
                  "'op' in its header has 2 bytes, not 1");
     expectBroken(
         ros1 + test::ros1Record({{"op", "\x02"}, {"conn", "abcd"}, {"time", "12345678"}}, ""),
-        "of connection 1684234849, which is not described");
+        "to connection 1684234849, which is not defined");
     expectBroken(
         ros1 + test::ros1Record(
                    {{"op", "\x05"}, {"compression", "lz4"}, {"size", "\xff\xff\xff\x7f"}}, "abcd"),
-        "it claims to hold 2147483647 bytes");
+        "it claims a size of 2147483647 bytes");
     expectBroken(test::ros1BagOf(someMessages(), {"xz"}), "its compression 'xz' is not supported");
 }
 
@@ -243,7 +243,7 @@ TEST_F(BagFileTest, ReadsUnclosedRos1Bag) {
 }
 
 TEST_F(BagFileTest, RejectsOtherVersionsAndEncryption) {
-    expectBroken("#ROSBAG V1.2\nabcd", "is '#ROSBAG V1.2'; only format 2.0 can be read");
+    expectBroken("#ROSBAG V1.2\nabcd", "is '#ROSBAG V1.2'; only format 2.0 is supported");
     expectBroken(
         "#ROSBAG V2.0\n" +
             test::ros1Record({{"op", "\x03"}, {"encryptor", "rosbag/AesCbcEncryptor"}}, ""),
@@ -295,8 +295,8 @@ TEST_F(BagFileTest, RejectsDatabaseWithHotJournal) {
     sqlite3_close(database);
     const Read read = readAll(copy);
     EXPECT_EQ(read.messages.size(), 0u);
-    EXPECT_THAT(read.broken_because,
-                HasSubstr("interrupted: " + journal.string() + " undoes what is not complete"));
+    EXPECT_THAT(read.broken_because, HasSubstr("interrupted: " + journal.string() +
+                                               " contains an unfinished transaction"));
     // As the message suggests, a query by a process that may write undoes the transaction.
     sqlite3_open(copy.c_str(), &database);
     run("SELECT count(*) FROM messages");
@@ -357,7 +357,7 @@ TEST_F(BagFolderTest, RejectsWrongMetadata) {
     EXPECT_THAT(readAll(folder_ / "bag").broken_because,
                 HasSubstr("metadata.yaml: lists no files"));
     writeMetadata("  compression_mode: FILE\n  compression_format: zstd\n");
-    EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("packed whole (zstd)"));
+    EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("compressed as a whole (zstd)"));
     // Listed files cannot be outside the folder.
     writeMetadata("", "[../../etc/passwd]");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("lists 'passwd', which is not"));
@@ -390,8 +390,9 @@ TEST_F(BagFileTest, RejectsComputedColumns) {
             file, "id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, " + column);
         const Read read = readAll(file);
         EXPECT_EQ(read.messages.size(), 0u);
-        EXPECT_THAT(read.broken_because, HasSubstr("at its start: the column 'data' of the table "
-                                                   "'messages' is computed, which bags have not"));
+        EXPECT_THAT(read.broken_because,
+                    HasSubstr("at its start: the column 'data' of the table "
+                              "'messages' is computed, which is not allowed in bags"));
     }
 }
 
@@ -453,7 +454,7 @@ TEST_F(BagFileTest, RejectsChunkOfZeros) {
     const ByteString chunk = ByteString(16, '\0') + little64(900) + ByteString(8, '\0') +
                              little64(900) + ByteString(900, '\0');
     expectBroken(ByteString("\x89MCAP0\r\n", 8) + test::mcapRecord(6, chunk),
-                 "the chunk at byte 8: its kind is 0");
+                 "the chunk at byte 8: it contains a record of the invalid kind 0");
 }
 
 TEST_F(BagFolderTest, ReportsIgnoredMetadata) {
@@ -492,7 +493,7 @@ TEST_F(BagFolderTest, ReportsOtherRecordings) {
     fs::rename(folder_ / "bag/bag_10.mcap", folder_ / "bag/bag_10.MCAP");
     EXPECT_EQ(readAll(folder_ / "bag").messages, expected(false));
     EXPECT_THAT(openBag(folder_ / "bag")->remarks(),
-                testing::ElementsAre("the folder has other files, which are ignored: 'a.rawlog', "
+                testing::ElementsAre("ignored other files in the folder: 'a.rawlog', "
                                      "'b.bag', 'c.pcap'"));
 }
 

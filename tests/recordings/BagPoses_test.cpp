@@ -174,10 +174,11 @@ TEST_F(BagPosesTest, ComposesOdometryWithTransforms) {
     with_other.push_back(cloud("/down", 0, "base_footprint"));
     const ReadBag two = read(with_other);
     EXPECT_EQ(two.scans->plan().poses->source, "nav_msgs/Odometry on /odom");
-    EXPECT_THAT(two.scans->plan().remarks,
-                ElementsAre(HasSubstr("no static transform leads from the frame 'lidar' of /points "
-                                      "to 'base_footprint': the poses of nav_msgs/Odometry on "
-                                      "/odom are taken for those of the sensor")));
+    EXPECT_THAT(
+        two.scans->plan().remarks,
+        ElementsAre(HasSubstr("no static transform leads from the frame 'lidar' of /points "
+                              "to 'base_footprint': using the poses of nav_msgs/Odometry on "
+                              "/odom as sensor poses")));
 }
 
 TEST_F(BagPosesTest, IgnoresTransformsWithinVehicle) {
@@ -186,22 +187,23 @@ TEST_F(BagPosesTest, IgnoresTransformsWithinVehicle) {
                                  transform("/tf", "base_footprint", "base_link", 2, 0.1)});
     EXPECT_FALSE(within.scans->plan().poses);
     EXPECT_THAT(within.scans->plan().remarks,
-                ElementsAre("the transforms from 'base_footprint' to 'base_link' say nothing of "
-                            "where 'base_footprint' is: they give no poses"));
+                ElementsAre("the transforms from 'base_footprint' to 'base_link' do not locate "
+                            "'base_footprint', so they provide no poses"));
     const ReadBag apart = read({cloud("/points"), transform("/tf", "base_link", "lidar", 1),
                                 transform("/tf", "base_link", "lidar", 2, 0.1),
                                 transform("/tf", "odom", "base_link", 1, 5),
                                 transform("/tf", "odom", "base_link", 2, 5.1)});
     EXPECT_FALSE(apart.scans->plan().poses);
-    EXPECT_THAT(apart.scans->plan().remarks,
-                ElementsAre("the transforms from 'odom' to 'lidar' have no times in common: they "
-                            "give no poses"));
+    EXPECT_THAT(
+        apart.scans->plan().remarks,
+        ElementsAre("the transforms from 'odom' to 'lidar' have no times in common, so they "
+                    "provide no poses"));
     const ReadBag circle =
         read({cloud("/points"), transform("/tf", "a", "lidar", 1),
               transform("/tf", "a", "lidar", 2, 0.1), transform("/tf", "lidar", "a", 1),
               transform("/tf", "lidar", "a", 2, 0.1)});
     EXPECT_FALSE(circle.scans->plan().poses);
-    EXPECT_THAT(circle.scans->plan().remarks, ElementsAre(HasSubstr("go round in a circle")));
+    EXPECT_THAT(circle.scans->plan().remarks, ElementsAre(HasSubstr("form a cycle")));
 }
 
 TEST_F(BagPosesTest, IgnoresTransformsOfMap) {
@@ -302,7 +304,7 @@ TEST_F(BagPosesTest, ReportsFrameAttachedToItself) {
     EXPECT_THAT(bag.scans->remarks(),
                 Contains(HasSubstr("/tf_static: 1 transform that could not be read, left out; the "
                                    "first: message 0 (recorded at 1700000000.000 s): from 'lidar' "
-                                   "to 'lidar': a frame cannot hang on itself")));
+                                   "to 'lidar': a frame cannot be its own parent")));
 }
 
 TEST_F(BagPosesTest, ReportsUnreadablePoses) {
@@ -312,7 +314,7 @@ TEST_F(BagPosesTest, ReportsUnreadablePoses) {
     EXPECT_EQ(bag.scans->plan().poses->poses.size(), 2u);
     EXPECT_THAT(bag.scans->remarks(),
                 Contains(HasSubstr("/odom: 2 messages that could not be read, left out; the first: "
-                                   "message 1 (recorded at 1700000000.100 s): it ends ")));
+                                   "message 1 (recorded at 1700000000.100 s): it is ")));
 }
 
 TEST_F(BagPosesTest, SeparatesParentsOfFrame) {

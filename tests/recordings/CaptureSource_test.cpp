@@ -206,13 +206,13 @@ TEST_F(OusterSourceTest, RejectsMetadataWithoutCapture) {
     writer.write(mrpt::obs::CObservationPointCloud());
     writer.commit();
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "a.rawlog", options_); }),
-                HasSubstr("a.rawlog: is no capture (.pcap, .pcapng) and no ROS recording, so there "
-                          "is no sensor "));
+                HasSubstr("a.rawlog: is neither a capture (.pcap, .pcapng) nor a ROS recording, so "
+                          "there is no sensor "));
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_.path(), options_); }),
                 HasSubstr("is a folder with 2 recordings"));
     options_.sensor_json = capture_;
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "a.rawlog", options_); }),
-                HasSubstr("are the two files exchanged?"));
+                HasSubstr("are the two files swapped?"));
     options_.sensor_json = folder_ / "none.json";
     EXPECT_THAT(test::messageOf([&] { openRecording(capture_, options_); }),
                 HasSubstr("none.json: cannot be read"));

@@ -19,7 +19,6 @@ using test::column;
 using test::FilePoint;
 using test::filePoints;
 using testing::AllOf;
-using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -104,8 +103,8 @@ TEST_F(CloudFileTest, RejectsTooManyPoints) {
         const fs::path file = write("map", header);
         fs::resize_file(file, header.size() + 3 * 16777217);
         EXPECT_THAT(test::messageOf([&] { readCloud(file); }),
-                    HasSubstr("map: has 16777217 points, more than the 16777216 that a scan may "
-                              "have; is it a map of many scans?"))
+                    HasSubstr("map: has 16777217 points; a scan may have at most 16777216; "
+                              "is it a map of many scans?"))
             << header;
     }
 }
@@ -186,8 +185,7 @@ TEST_F(CloudFileTest, RejectsAbsurdPointCounts) {
         } else {
             continue;  // has no header
         }
-        EXPECT_THAT(complaint(name, absurd),
-                    AnyOf(HasSubstr("bytes are there"), HasSubstr("are there; is it truncated")));
+        EXPECT_THAT(complaint(name, absurd), HasSubstr("; is it truncated"));
     }
 }
 
@@ -245,15 +243,17 @@ TEST_F(CloudFileTest, PcdErrorsIncludeLine) {
                 AllOf(HasSubstr("line 11"), HasSubstr("binary_zip")));
     EXPECT_THAT(complaintOn("SIZE 4 4", "SIZE 4"), HasSubstr("line 4: 5 values for 6 fields"));
     EXPECT_THAT(complaintOn("SIZE 4", "SIZE 3"), HasSubstr("TYPE F and SIZE 3"));
-    EXPECT_THAT(complaintOn("COUNT 1", "COUNT x"), HasSubstr("'x' is no COUNT"));
+    EXPECT_THAT(complaintOn("COUNT 1", "COUNT x"), HasSubstr("'x' is not a valid COUNT"));
     EXPECT_THAT(complaintOn("WIDTH 12", "WIDTH 13"), HasSubstr("WIDTH times HEIGHT is 13"));
     EXPECT_THAT(complaintOn("HEIGHT 1", "HEIGHTS 1"), HasSubstr("line 8: 'HEIGHTS'"));
-    EXPECT_THAT(complaintOn("HEIGHT 1", "WIDTH 1"), HasSubstr("line 8: WIDTH is there twice"));
-    EXPECT_THAT(complaintOn("1.500000 ", "1.5x "), HasSubstr("line 12: '1.5x' is no float32"));
-    EXPECT_THAT(complaintOn(" 70000\n", " 7e10\n"), HasSubstr("line 13: '7e10' is no uint32"));
+    EXPECT_THAT(complaintOn("HEIGHT 1", "WIDTH 1"), HasSubstr("line 8: WIDTH occurs twice"));
+    EXPECT_THAT(complaintOn("1.500000 ", "1.5x "),
+                HasSubstr("line 12: '1.5x' is not a valid float32"));
+    EXPECT_THAT(complaintOn(" 70000\n", " 7e10\n"),
+                HasSubstr("line 13: '7e10' is not a valid uint32"));
     EXPECT_THAT(complaintOn(" 70000\n", "\n"), HasSubstr("line 13: 8 numbers instead of 9"));
     EXPECT_THAT(complaintOn("x y z", "x x z"), HasSubstr("'x' occurs twice"));
-    EXPECT_THAT(complaintOn("COUNT 1", "COUNT 4294967295"), HasSubstr("bytes are there"));
+    EXPECT_THAT(complaintOn("COUNT 1", "COUNT 4294967295"), HasSubstr("bytes are left"));
 }
 
 TEST_F(CloudFileTest, PcdChecksCompressedSizes) {
@@ -264,9 +264,10 @@ TEST_F(CloudFileTest, PcdChecksCompressedSizes) {
         return complaint("a.pcd", changed.replace(sizes + at, bytes.size(), bytes));
     };
     EXPECT_THAT(with(0, "\xff\xff\xff\xff"), HasSubstr("is it truncated"));
-    EXPECT_THAT(with(4, "\xff\xff\xff\xff"), HasSubstr("cannot become 4294967295"));
-    EXPECT_THAT(with(4, std::string("\x10\0\0\0", 4)), HasSubstr("bytes are there"));
-    EXPECT_THAT(with(4, std::string("\x10\x7f\0\0", 4)), HasSubstr("but the header says 12 of 22"));
+    EXPECT_THAT(with(4, "\xff\xff\xff\xff"), HasSubstr("cannot expand to 4294967295"));
+    EXPECT_THAT(with(4, std::string("\x10\0\0\0", 4)), HasSubstr("bytes are left"));
+    EXPECT_THAT(with(4, std::string("\x10\x7f\0\0", 4)),
+                HasSubstr("but the header claims 12 of 22"));
     EXPECT_THAT(with(8, "\xff\xff"), HasSubstr("cannot be decompressed"));
 }
 
@@ -304,14 +305,14 @@ TEST_F(CloudFileTest, PlyErrorsIncludeLine) {
                 AllOf(HasSubstr("line 2"), HasSubstr("zip")));
     EXPECT_THAT(complaintOn("format ascii 1.0\n", ""), HasSubstr("no format"));
     EXPECT_THAT(complaintOn("property float x", "property half x"),
-                HasSubstr("line 7: 'half' is no type"));
+                HasSubstr("line 7: 'half' is not a PLY type"));
     EXPECT_THAT(complaintOn("list uchar float", "list float float"),
                 HasSubstr("line 5: the length of a list"));
     EXPECT_THAT(complaintOn("element vertex", "element points"), HasSubstr("no 'vertex'"));
     EXPECT_THAT(complaintOn("element camera", "elements camera"), HasSubstr("line 4: 'elements'"));
     EXPECT_THAT(complaintOn(" 70000\n", "\n"), HasSubstr("line 17: 4 numbers, which do not fit"));
     EXPECT_THAT(complaintOn(" 70000\n", " 1 2\n"), HasSubstr("line 17: 6 numbers"));
-    EXPECT_THAT(complaintOn(" 70000\n", " -1\n"), HasSubstr("'-1' is no uint32"));
+    EXPECT_THAT(complaintOn(" 70000\n", " -1\n"), HasSubstr("'-1' is not a valid uint32"));
     EXPECT_THAT(complaintOn("2 1 2\n", "99 1 2\n"), HasSubstr("line 15"));
 }
 
@@ -434,11 +435,11 @@ TEST_F(CloudFileTest, NpyChecksHeader) {
                 HasSubstr("2 numbers per point"));
     EXPECT_THAT(
         complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "9999999999, 9999999999, 3")),
-        HasSubstr("absurd"));
+        HasSubstr("too large"));
     EXPECT_THAT(complaintOn("{'descr': [('x', '<f4'), ('y', '>f4')]" + rest),
                 HasSubstr("both byte orders"));
     EXPECT_THAT(complaintOn("{'descr': [('x', '<f4', (9999999999, 9999999999))]" + rest),
-                HasSubstr("absurd"));
+                HasSubstr("too large"));
     EXPECT_THAT(complaintOn("{'shape': (5, 3)}"), HasSubstr("'descr'"));
     EXPECT_THAT(complaintOn("{'descr': '<f4"), HasSubstr("not a valid dictionary"));
     EXPECT_THAT(complaintOn("{'descr': " + std::string(60, '(')),
@@ -467,7 +468,7 @@ TEST_F(CloudFileTest, BinAcceptsEmptyRejectsTruncated) {
     EXPECT_THAT(complaint("a", ""), HasSubstr("is empty"));
     EXPECT_THAT(complaint("a.bin", std::string(15, '\0')), HasSubstr("15 bytes"));
     EXPECT_THAT(complaint("a.bin", std::string(16, '\xee')),
-                HasSubstr("no point cloud: its first numbers are no points that a LiDAR sees"));
+                HasSubstr("not a point cloud: its first numbers are not points of a LiDAR"));
     EXPECT_THAT(complaint("a.bin", std::string(16, 'x')), HasSubstr("it seems to be text. Known"));
     // A picture of any size is not a truncated .bin.
     EXPECT_THAT(complaint("a.bin", "\xff\xd8\xff\xe0" + std::string(13, '\xee')),
@@ -495,8 +496,8 @@ TEST_F(CloudFileTest, BinAcceptsLeadingZeros) {
         EXPECT_EQ(column(five, "ring")[without + 7], points[7].ring);
     }
     EXPECT_THAT(complaint("a.bin", std::string(8000, '\0') + std::string(1600, '\xee')),
-                HasSubstr("no point cloud: its first numbers are no points that a LiDAR sees"));
-    EXPECT_THAT(complaint("a", std::string(8000, '\0')), HasSubstr("no point cloud"));
+                HasSubstr("not a point cloud: its first numbers are not points of a LiDAR"));
+    EXPECT_THAT(complaint("a", std::string(8000, '\0')), HasSubstr("not a point cloud"));
 }
 
 TEST_F(CloudFileTest, BinReadsRings) {
@@ -526,7 +527,8 @@ TEST_F(CloudFileTest, BinRejectsOtherFifthNumbers) {
         for (const float of_point : {0.3f + number, 2.5f, 1.2f, 30000 + number}) add(of_point);
         add(i < 300 ? 0 : 1e-4f * number);
     }
-    EXPECT_THAT(complaint("a.bin", text), HasSubstr("no point cloud: its first numbers are no "));
+    EXPECT_THAT(complaint("a.bin", text),
+                HasSubstr("not a point cloud: its first numbers are not "));
 }
 
 TEST_F(CloudFileTest, BinDetectsPointsWithoutRings) {

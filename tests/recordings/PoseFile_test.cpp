@@ -94,7 +94,7 @@ TEST_F(PoseFile, RejectsMalformedLines) {
     expectRefused("0 0 0 0 0 0 0 2\n", ":1: the quaternion is not normalized");
     expectRefused("0 0 nan 0 0 0 0 1\n", ":1: 'nan' is not a finite number");
     expectRefused("0 0 1e999 0 0 0 0 1\n", "is not a finite number");
-    expectRefused(std::string("0 0 0 0 0 0 0 1\0002\n", 18), ":1: there is a NUL byte");
+    expectRefused(std::string("0 0 0 0 0 0 0 1\0002\n", 18), ":1: contains a NUL byte");
     expectRefused("1 0 0 0 0 2 0 0 0 0 1 0\n", ":1: the matrix is not a rigid");
     expectRefused("1 0 0 0 0 1 0 0 0 0 -1 0\n", ":1: the matrix is not a rigid");
     expectRefused("1e200 -1e200 0 100 1e200 1e200 0 50 0 0 1 5\n", ":1: the matrix is not a rigid");

@@ -464,7 +464,7 @@ TEST_F(ScanSourceTest, ReadsCloudsBesideRecording) {
     const auto source = openRecording(folder_ / "clouds");
     EXPECT_EQ(source->entriesKnown(), 1u);
     EXPECT_THAT(source->remarks(),
-                testing::Contains(HasSubstr("1 file of the folder with another ending")));
+                testing::Contains(HasSubstr("1 file in the folder with an extension")));
     EXPECT_THAT(source->remarks(), testing::Contains("1 folder in the folder: ignored"));
 }
 

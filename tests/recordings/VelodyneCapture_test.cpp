@@ -304,11 +304,12 @@ TEST_F(VelodyneCaptureTest, CountsIgnoredDatagrams) {
     writer.datagram(sent(hdl64)).datagram(sent(hdl64));
     writer.frame("arp");
     EXPECT_EQ(read(writer.bytes()).size(), 1u);
-    EXPECT_EQ(remarks_[1],
-              "12 frames; ignored: 2 position packets (GPS), 2 packets of an HDL-64E, which need "
-              "its calibration: --calibration FILE, 1 packet of an unknown Velodyne (model id "
-              "0xa1), 1 other UDP datagram "
-              "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
+    EXPECT_EQ(
+        remarks_[1],
+        "12 frames; ignored: 2 position packets (GPS), 2 packets of an HDL-64E, which "
+        "require its calibration: --calibration FILE, 1 packet of an unknown Velodyne (model id "
+        "0xa1), 1 other UDP datagram "
+        "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
 }
 
 TEST_F(VelodyneCaptureTest, LimitsNumberOfSensors) {

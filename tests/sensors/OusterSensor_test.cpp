@@ -123,11 +123,12 @@ TEST_F(OusterSensorTest, ReadsMetadataWithoutFormat) {
 TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
     EXPECT_THAT(test::messageOf([&] { readOusterSensor(folder_ / "none.json"); }),
                 HasSubstr("none.json: cannot be read"));
-    EXPECT_THAT(test::messageOf([&] { read(""); }), HasSubstr("sensor.json: not metadata"));
+    EXPECT_THAT(test::messageOf([&] { read(""); }), HasSubstr("sensor.json: not Ouster metadata"));
     EXPECT_THAT(test::messageOf([&] { read(""); }), HasSubstr("is empty"));
     EXPECT_THAT(test::messageOf([&] { read("{}"); }),
                 HasSubstr("'beam_altitude_angles' is missing"));
-    EXPECT_THAT(test::messageOf([&] { read("[1, 2]"); }), HasSubstr("is it an Ouster's"));
+    EXPECT_THAT(test::messageOf([&] { read("[1, 2]"); }),
+                HasSubstr("is this file Ouster metadata"));
     EXPECT_THAT(test::messageOf([&] { read(std::string(2000000, ' ')); }),
                 HasSubstr("larger than 1 MB"));
     EXPECT_THAT(test::messageOf([&] { read(std::string(500000, '[')); }),
@@ -145,7 +146,7 @@ TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
     EXPECT_THAT(messageWith("\"pixels_per_column\": 4", "\"pixels_per_column\": 4000000000"),
                 HasSubstr("'pixels_per_column' is 4000000000, not 3 ... 256"));
     EXPECT_THAT(messageWith("\"columns_per_frame\": 64", "\"columns_per_frame\": 1e9"),
-                HasSubstr("sensor.json: not metadata"));
+                HasSubstr("sensor.json: not Ouster metadata"));
     EXPECT_THAT(messageWith("\"columns_per_packet\": 16", "\"columns_per_packet\": 0"),
                 HasSubstr("'columns_per_packet' is 0"));
     EXPECT_THAT(messageWith("\"columns_per_frame\": 64", "\"columns_per_frame\": 8"),
@@ -155,10 +156,10 @@ TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
     for (const char* other :
          {"[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 36", "[1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36"}) {
         EXPECT_THAT(messageWith("[-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36", other),
-                    HasSubstr("'lidar_to_sensor_transform' does more than turn about z"));
+                    HasSubstr("'lidar_to_sensor_transform' rotates about other axes than z"));
     }
     EXPECT_THAT(messageWith("[40.0", "[\"up\""),
-                HasSubstr("sensor.json: not metadata of an Ouster: 'beam_altitude_angles': "
+                HasSubstr("sensor.json: not Ouster metadata: 'beam_altitude_angles': "
                           "expected numbers, not: \"up\""));
     EXPECT_THAT(messageWith("\"OS-0-32-U1\"", "7"),
                 HasSubstr("'prod_line': expected text, not: 7"));
@@ -167,10 +168,10 @@ TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
     EXPECT_THAT(messageWith("27.67", "\"far\""),
                 HasSubstr("'lidar_origin_to_beam_origin_mm': expected a number"));
     EXPECT_THAT(messageWith("\"prod_sn\"", "prod_sn"),
-                HasSubstr("sensor.json: not metadata of an Ouster: is not valid JSON: "
+                HasSubstr("sensor.json: not Ouster metadata: is not valid JSON: "
                           "parse error at line 1, column 29: "));
     EXPECT_THAT(test::messageOf([&] { read("\xff\xd8\xff\xe0"); }),
-                HasSubstr("not metadata of an Ouster: it seems to be a JPEG picture"));
+                HasSubstr("not Ouster metadata: it seems to be a JPEG picture"));
     EXPECT_THAT(messageWith("[40.0", "[140.0"), HasSubstr("outside +-90"));
     EXPECT_THAT(messageWith("[-1, 0, 0, 0,", "[-2, 0, 0, 0,"), HasSubstr("not a rigid"));
     EXPECT_THAT(messageWith("27.67", "1e300"), HasSubstr("not within a metre"));

@@ -179,7 +179,7 @@ TEST_F(SettingsTest, ReadsPaperSectionOrTopLevel) {
     EXPECT_TRUE(settingsOf("paper: {seeds: every}").given.count("seeds"));
     EXPECT_TRUE(settingsOf("gaps_are_level: true").options.gaps_are_level);
     EXPECT_THAT(refusalOf("seeds: every\npaper:\n  seeds: every"),
-                HasSubstr("refused.yaml:3: 'seeds' is a key of the file and of 'paper'"));
+                HasSubstr("refused.yaml:3: 'seeds' is both a top-level key and a key of 'paper'"));
     EXPECT_THAT(refusalOf("paper: {zone_m: 3}"), HasSubstr("(in 'paper')"));
     EXPECT_THAT(refusalOf("paper: 3"), HasSubstr("paper must contain keys"));
     Settings settings = settingsOf("paper: {seeds: every}");

@@ -21,10 +21,10 @@ class BackgroundPrinter {
 
     /// Thread-safe; never blocks.
     void print(To to, std::string text);
-    /// The same, but drops the text if another one waits: for a status that a later one replaces.
+    /// The same, but drops the text if another one is waiting: for periodic status lines.
     void printIfIdle(To to, std::string text);
-    /// Waits until all texts are printed or the time is over; returns false if some are left. Later
-    /// texts are dropped.
+    /// Waits until all texts are printed or the timeout expires; returns false if some are left.
+    /// Drops later texts.
     bool finish(std::chrono::milliseconds longest = std::chrono::seconds(2));
     /// After finish(): true if all texts of To::Output were printed.
     bool isOutputPrinted() const;

@@ -29,15 +29,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kHelpWidth = 80, kHelpColumn = 30;
-constexpr const char* kNotEmpty = "not empty";  // a check's name
+constexpr const char* kNotEmpty = "not empty";  // name of the check
 
-/// Breaks a line of --help between words. Continuations are indented like descriptions.
+/// Wraps a line of --help. Continuation lines are indented like descriptions.
 std::string wrapped(std::string line) {
     std::string lines;
     while (line.size() > kHelpWidth) {
         const std::size_t end = line.rfind(' ', kHelpWidth);
         const bool has_word = line.find_first_not_of(' ') < end && end != std::string::npos;
-        // A word that is longer than a line stays whole.
+        // A word longer than a line is not split.
         const std::size_t cut = has_word ? end : line.find(' ', kHelpWidth);
         if (cut == std::string::npos) break;
         const std::size_t rest = line.find_first_not_of(' ', cut);
@@ -141,7 +141,7 @@ bool Flag::isGiven() const { return option_->count() > 0; }
 
 namespace {
 
-/// The number in a value, as in std::optional<float> and std::vector<double>; otherwise the value.
+/// The number type within std::optional<float> and std::vector<double>; otherwise the type itself.
 template <class Value>
 struct NumberIn {
     using Type = Value;
@@ -156,7 +156,7 @@ struct NumberIn<std::vector<Number>> {
 };
 
 /// The error in the text of a number; "" if there is none. CLI11 accepts nan, which passes its
-/// range checks, and turns -1 and 99999999999999999999 into other unsigned numbers.
+/// range checks, and wraps -1 and 99999999999999999999 to other unsigned numbers.
 template <class Number>
 std::string errorOfNumber(const std::string& text) {
     const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
@@ -244,7 +244,7 @@ std::string subcommandsOf(const CLI::App& app, const std::string& program) {
     const std::vector<std::string> unknown = app.remaining();
     std::string text =
         unknown.empty() ? "no command given" : "'" + unknown[0] + "' is not a command";
-    const char* before = "; there are ";
+    const char* before = "; commands: ";
     for (const CLI::App* command : app.get_subcommands(nullptr)) {
         text += before + command->get_name();
         before = ", ";
@@ -255,7 +255,7 @@ std::string subcommandsOf(const CLI::App& app, const std::string& program) {
 }  // namespace
 
 int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept {
-    std::signal(SIGCHLD, SIG_DFL);  // if it is ignored, children cannot be waited for
+    std::signal(SIGCHLD, SIG_DFL);  // if ignored, waiting for children fails
     try {
         return program(argc, argv);
     } catch (const std::bad_alloc&) {
@@ -270,12 +270,12 @@ int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexce
 
 namespace {
 
-/// Opens /dev/null in place of a closed standard stream. Otherwise the next file that the program
-/// opens would get its number, and messages would be written into that file.
+/// Opens /dev/null in place of a closed standard stream. Otherwise the next opened file would get
+/// its descriptor, and messages would be written into that file.
 void reserveStandardStreams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(stream, F_GETFD) != -1) continue;
-        [[maybe_unused]] const int lowest = open("/dev/null", O_RDWR);  // is this number
+        [[maybe_unused]] const int lowest = open("/dev/null", O_RDWR);  // gets this descriptor
     }
 }
 

@@ -13,19 +13,19 @@ class App;
 class Option;
 }  // namespace CLI
 
-/// Command lines of the programs, parsed by CLI11. Only CommandLine.cpp includes it, because it is
-/// slow to compile.
+/// Command lines of the programs, parsed by CLI11. Only CommandLine.cpp includes CLI11, because it
+/// is slow to compile.
 namespace hagen::base {
 
 /// Exit codes of all programs.
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
 
-/// Returns the exit code of `program`. If it throws, as out of memory outside of Program::run(),
-/// prints the error and returns kFailed.
+/// Returns the exit code of `program`. If it throws outside of Program::run(), prints the error and
+/// returns kFailed.
 int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept;
 
-/// Wrong usage that is detected after parsing. Programs print the message and how to get help, and
-/// exit with kWrongUsage.
+/// Wrong usage detected after parsing. Programs print the message with a hint at --help, and exit
+/// with kWrongUsage.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
     UsageError(const std::string& flag, const std::string& message)
@@ -50,7 +50,7 @@ class Flag {
     Flag& existingFile();
     Flag& existingFolder();
     Flag& existingPath();
-    /// `errorOf` returns the error in a value, or ""; `type` is shown by --help.
+    /// `errorOf` returns the error in a value, or ""; --help shows `type`.
     Flag& check(std::function<std::string(const std::string&)> errorOf, const std::string& type);
     Flag& mayBeEmpty();  ///< by default, texts may not be empty
     /// Rewrites values before they are checked.
@@ -66,7 +66,7 @@ class Flag {
     CLI::Option* option_;
 };
 
-/// A program, or one of its subcommands: flags that set variables. The variables must outlive it.
+/// A program or subcommand, with flags that set variables. The variables must outlive it.
 class Command {
  public:
     /// `names` as in "-o,--output", or "DIR" for a positional argument. Value: std::string,
@@ -75,7 +75,7 @@ class Command {
     template <class Value>
     Flag option(const std::string& names, Value& value, const std::string& help);
     Flag flag(const std::string& names, bool& value, const std::string& help);
-    /// A choice of words, each for a value.
+    /// A choice of words, each of which stands for a value.
     template <class Value>
     Flag choice(const std::string& names, Value& value,
                 const std::vector<std::pair<std::string, Value>>& meanings,
@@ -88,7 +88,7 @@ class Command {
     /// A flag that prints something and exits.
     Flag printer(const std::string& names, std::function<void()> print, const std::string& help);
 
-    /// Sets the work of a subcommand, which returns the exit code. Signals are caught
+    /// Sets the function that runs a subcommand and returns the exit code. Catches signals
     /// (Interrupt.h).
     void does(std::function<int()> work);
 
@@ -112,12 +112,12 @@ class Program : public Command {
     void footer(const std::string& text);
     void version(const std::string& version);  ///< --version
     Command subcommand(const std::string& name, const std::string& help);
-    /// Parses the command line and runs `work`, or by default that of the subcommand; either
-    /// returns the exit code. Prints errors, and returns the program's exit code.
+    /// Parses the command line and runs `work`, by default the subcommand's. Prints errors and
+    /// returns the exit code.
     int run(int argc, char** argv, const std::function<int()>& work = nullptr);
-    /// Prints a message after the program's name; returns the exit code.
+    /// Prints the program's name and a message; returns the exit code.
     int fail(int exit_code, const std::string& message) const;
-    /// The message of run() for an exception.
+    /// The message that run() prints for an exception.
     static std::string messageOf(const std::exception& e);
 
  private:
@@ -130,7 +130,7 @@ class Program : public Command {
     double memory_gb_ = 0;
 };
 
-/// Prints what earlier runs left of these outputs (leftBehind()) on standard error.
+/// Lists the leftovers of these outputs from earlier runs (leftBehind()) on standard error.
 void tellLeftBehind(const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace hagen::base

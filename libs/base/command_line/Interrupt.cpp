@@ -8,19 +8,19 @@
 namespace hagen::base {
 namespace {
 
-// Signals may arrive on any thread, and any thread may ask.
+// Signals may arrive on any thread, and any thread may call isInterrupted().
 std::atomic<bool> is_interrupted{false};
 std::atomic<std::time_t> interrupted_at{0};
 static_assert(std::atomic<bool>::is_always_lock_free &&
               std::atomic<std::time_t>::is_always_lock_free);
 
-/// Shells and timeout(1) may send a signal twice: only a later one ends the program at once.
+/// Shells and timeout(1) may send a signal twice in a row: only a later signal kills the program.
 void interrupt(int signal) {
     const std::time_t now = std::time(nullptr);
     std::time_t before = 0;
     if (interrupted_at.compare_exchange_strong(before, now)) {
         is_interrupted = true;
-    } else if (now > before + 1 && signal != SIGXCPU) {  // sent every second
+    } else if (now > before + 1 && signal != SIGXCPU) {  // repeated every second
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }

@@ -3,11 +3,11 @@
 namespace hagen::base {
 
 /// For a clean shutdown: after SIGINT, SIGTERM, SIGHUP, SIGXCPU (CPU time limit) or another signal
-/// that would end the program, isInterrupted() returns true. Ignored signals stay ignored. A signal
-/// more than a second later ends the program.
+/// that would terminate the program, isInterrupted() returns true. Ignored signals stay ignored. A
+/// second signal more than a second later terminates the program.
 void catchSignals();
 
-/// Ignores SIGPIPE and SIGXFSZ, so that the failed write reports the error.
+/// Ignores SIGPIPE and SIGXFSZ, so that write calls return errors instead.
 void ignoreWriteSignals();
 
 bool isInterrupted();

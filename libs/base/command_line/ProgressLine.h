@@ -5,12 +5,12 @@
 
 namespace hagen::base {
 
-/// Reports the progress of a long command on standard error. On a terminal, updates one line,
-/// which vanishes when all is done; otherwise, as in a cluster job's log, prints a line at the
-/// start, after every tenth of the work and at least every minute.
+/// Reports the progress of a long command on standard error. On a terminal, updates one line and
+/// erases it at the end; otherwise, as in a cluster job's log, prints a line at the start, after
+/// every tenth of the work and at least every minute.
 class ProgressLine {
  public:
-    /// `thing`: the unit that is counted, such as "run".
+    /// `thing`: the counted unit, such as "run".
     explicit ProgressLine(std::string thing);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;

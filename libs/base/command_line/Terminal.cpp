@@ -9,7 +9,7 @@
 namespace hagen::base {
 namespace {
 
-/// Bytes of the UTF-8 character at the start of a text; 1 if there is none.
+/// Length of the UTF-8 character at this position; 1 if the bytes are not valid UTF-8.
 std::size_t bytesOfCharacter(const std::string& text, std::size_t at) {
     const auto first = static_cast<unsigned char>(text[at]);
     const std::size_t bytes = first < 0xc2 || first > 0xf4 ? 1
@@ -22,8 +22,8 @@ std::size_t bytesOfCharacter(const std::string& text, std::size_t at) {
     return bytes;
 }
 
-/// Control characters send commands to a terminal, and marks of the writing direction disguise
-/// messages. A single byte from 0x80 on is not UTF-8, and a control character of some terminals.
+/// Control characters send commands to a terminal, and bidirectional marks can disguise messages. A
+/// single byte from 0x80 up is not UTF-8, but a control character on some terminals.
 bool isHarmful(const std::string& text, std::size_t at, std::size_t bytes) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
     if (bytes == 1) {
@@ -45,7 +45,7 @@ std::string printable(std::string text) {
     return text;
 }
 
-/// Passes text on to the buffer of a standard stream.
+/// Filters text for the buffer of a standard stream.
 class PrintableBuffer : public std::streambuf {
  public:
     explicit PrintableBuffer(std::streambuf* stream) : stream_(stream) {}

@@ -43,13 +43,14 @@ std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag)
     try {
         if (bag["compression_mode"] && bag["compression_format"] &&
             bag["compression_mode"].as<std::string>() == "FILE") {
-            throw std::runtime_error("its files are packed whole (" +
+            throw std::runtime_error("its files are compressed as a whole (" +
                                      bag["compression_format"].as<std::string>() +
-                                     "): unpack them, such as by 'zstd -d', and set "
-                                     "compression_mode to NONE and the file names to theirs");
+                                     "): decompress them, for example with 'zstd -d', and set "
+                                     "compression_mode to NONE and the new file names");
         }
         for (const YAML::Node& name : bag["relative_file_paths"]) {
-            // Old versions prepend the folder's own name. No name leads out of the folder.
+            // Old versions prepend the folder's own name. Ignoring folders keeps names within the
+            // folder.
             files.push_back(folder / fs::path(name.as<std::string>()).filename());
         }
     } catch (const std::exception& e) {
@@ -69,7 +70,7 @@ bool isOfBag(const fs::path& file) {
     return ending == ".mcap" || ending == ".db3";
 }
 
-/// Whether a file of a bag's folder may be a recording, too, and is not text.
+/// True if a file of a bag's folder may also be a recording, and is not text.
 bool mayBeRecording(const fs::path& file) {
     static const std::set<std::string> kTexts{".yaml", ".yml", ".json", ".txt",    ".md", ".csv",
                                               ".tum",  ".log", ".xml",  ".launch", ".sh", ".rviz"};
@@ -83,7 +84,7 @@ std::vector<fs::path> foundFiles(const fs::path& folder) {
     for (const fs::path& file : base::entriesOf(folder)) {
         if (!fs::is_directory(file) && isOfBag(file)) files.push_back(file);
     }
-    // flight_2 comes before flight_10.
+    // Puts flight_2 before flight_10.
     std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
         return a.filename().string().size() < b.filename().string().size();
     });
@@ -123,8 +124,7 @@ class BagFolder : public BagFile {
                                     [](const fs::path& file) { return !mayBeRecording(file); }),
                      others.end());
         if (!others.empty()) {
-            remarks_.push_back("the folder has other files, which are ignored: " +
-                               textOfNames(others));
+            remarks_.push_back("ignored other files in the folder: " + textOfNames(others));
         }
         for (const fs::path& file : files_) {
             bytes_before_.push_back(bytes_);
@@ -161,7 +161,7 @@ class BagFolder : public BagFile {
     std::vector<std::string> remarks() const override { return remarks_; }
 
  private:
-    /// Takes each listed file once, and reports duplicates and files that are not listed.
+    /// Uses each listed file once, and reports duplicates and unlisted files.
     void useList(const fs::path& folder, const std::vector<fs::path>& listed) {
         std::set<fs::path> known;
         std::vector<fs::path> repeated, unlisted;
@@ -178,7 +178,7 @@ class BagFolder : public BagFile {
         if (!unlisted.empty()) {
             remarks_.push_back(std::string(kMetadata) +
                                " does not list files of the folder: " + textOfNames(unlisted) +
-                               "; they are ignored ('ros2 bag reindex' makes a new list)");
+                               "; they are ignored ('ros2 bag reindex' creates a new list)");
         }
     }
 
@@ -193,7 +193,7 @@ class BagFolder : public BagFile {
     std::vector<double> bytes_before_;  ///< by file
     double bytes_ = 0;
     std::size_t file_ = 0;
-    std::unique_ptr<BagFile> open_;      ///< null: none left
+    std::unique_ptr<BagFile> open_;      ///< null: no files left
     std::vector<std::size_t> topic_of_;  ///< by the index in the open file
     TopicList topics_;
 };
@@ -203,7 +203,7 @@ class BagFolder : public BagFile {
 bool isBagFolder(const fs::path& folder) {
     std::error_code none;
     if (metadataOf(folder).bag) return true;
-    // Otherwise the files decide.
+    // Without metadata, the files decide.
     return !fs::exists(folder / "velodyne", none) && !foundFiles(folder).empty();
 }
 

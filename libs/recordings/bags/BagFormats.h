@@ -5,24 +5,24 @@
 
 namespace hagen::recordings {
 
-// The formats of bags; see openBag(). Those of files are detected by their first 16 bytes.
+// The formats of bags; see openBag(). File formats are detected by their first 16 bytes.
 
-/// A bag of ROS 1, format 2.0 (http://wiki.ros.org/Bags/Format/2.0). Its index is not used, except
-/// that its presence shows that the bag was closed.
+/// A ROS 1 bag, format 2.0 (http://wiki.ros.org/Bags/Format/2.0). The index is only used to detect
+/// bags that were not closed.
 bool isRos1Bag(const std::string& start);
 std::unique_ptr<BagFile> openRos1Bag(const std::filesystem::path& file);
 
-/// An MCAP file (https://mcap.dev/spec). Its summary is not used. CRCs are checked if present: of
-/// each chunk before its messages are returned, of the data and of the summary at their ends.
+/// An MCAP file (https://mcap.dev/spec). Its summary is not used. Checks CRCs if present: of each
+/// chunk before returning its messages, and of the data and the summary at their ends.
 bool isMcap(const std::string& start);
 std::unique_ptr<BagFile> openMcap(const std::filesystem::path& file);
 
-/// A database of a ROS 2 bag (.db3). Messages that are compressed one by one (zstd) are unpacked by
-/// fieldsOf().
+/// A database of a ROS 2 bag (.db3). fieldsOf() decompresses individually compressed messages
+/// (zstd).
 bool isSqliteBag(const std::string& start);
 std::unique_ptr<BagFile> openSqliteBag(const std::filesystem::path& file);
 
-/// A folder of a ROS 2 bag: the files that metadata.yaml lists, one after the other; without valid
+/// A folder of a ROS 2 bag: reads the files listed in metadata.yaml in order, or, without valid
 /// metadata, its .mcap or .db3 files in the order of their numbers.
 bool isBagFolder(const std::filesystem::path& folder);
 std::unique_ptr<BagFile> openBagFolder(const std::filesystem::path& folder);

@@ -15,9 +15,9 @@ namespace {
 using Topic = BagSurvey::Topic;
 using mrpt::poses::CPose3D;
 
-constexpr double kMinCovered = 0.5;                // of the time of the poses
-constexpr int kMaxFrameDepth = 64;                 // frames on frames
-constexpr const char* kOusterFrame = "os_sensor";  // of the maker's driver, whose packets name none
+constexpr double kMinCovered = 0.5;                // min. share of the poses' time
+constexpr int kMaxFrameDepth = 64;                 // nested frames
+constexpr const char* kOusterFrame = "os_sensor";  // of the vendor's driver; packets name no frame
 
 std::string withSlash(const std::string& topic) {
     return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
@@ -30,7 +30,7 @@ std::string namespaceOf(const std::string& topic) {
 
 bool isPackets(LidarKind kind) { return kind != LidarKind::None && kind != LidarKind::Cloud; }
 
-/// A label that no other topic has, and that no result of segmentation has.
+/// A label that differs from those of other topics and of segmentation results.
 std::string labelOf(const std::string& topic, std::set<std::string>& taken) {
     std::string label = topic.substr(!topic.empty() && topic.front() == '/');
     std::replace(label.begin(), label.end(), '/', '_');
@@ -41,7 +41,7 @@ std::string labelOf(const std::string& topic, std::set<std::string>& taken) {
     return unique;
 }
 
-/// Whether a frame moves with no vehicle, by the words of its name: "odom", "robot1/odom_combined".
+/// True if a frame's name is that of a world frame: "odom", "robot1/odom_combined".
 bool isWorld(const std::string& frame) {
     for (std::size_t at = 0; at < frame.size();) {
         const std::size_t end = std::min(frame.find_first_of("/_", at), frame.size());
@@ -52,7 +52,7 @@ bool isWorld(const std::string& frame) {
     return false;
 }
 
-/// Whether a frame is one of the vehicle, by the end of its name: "base_link", "robot1/base".
+/// True if a frame's name ends like that of a vehicle frame: "base_link", "robot1/base".
 bool isOfVehicle(const std::string& frame) {
     const std::string name = frame.substr(frame.rfind('/') + 1);
     return name == "base" || name.compare(0, 5, "base_") == 0;
@@ -79,26 +79,24 @@ class Planner {
  private:
     [[noreturn]] void fail(const std::string& why) const {
         const std::string& broken = survey_.broken_because;
-        throw std::runtime_error(
-            file_.string() + ": " + why +
-            (broken.empty() ? "" : "; it can be read only in part: " + broken));
+        throw std::runtime_error(file_.string() + ": " + why +
+                                 (broken.empty() ? "" : "; it is only partly readable: " + broken));
     }
 
     // Topics.
 
-    /// Each is compared with the others.
     void checkNumberOfLidars() const {
         const auto lidars = std::count_if(
             survey_.topics.begin(), survey_.topics.end(),
             [](const Topic& topic) { return topic.kind != LidarKind::None && topic.messages > 0; });
         if (static_cast<std::size_t>(lidars) <= kMaxLidarTopics) return;
-        fail("has " + std::to_string(lidars) + " topics of LiDARs, more than " +
-             std::to_string(kMaxLidarTopics) + "; name those to read with --topic");
+        fail("has " + std::to_string(lidars) + " LiDAR topics, more than " +
+             std::to_string(kMaxLidarTopics) + "; select topics with --topic");
     }
 
     static std::string textOfKnownTypes() {
-        return "sensor_msgs/PointCloud2, velodyne_msgs/VelodyneScan, PacketMsg of an Ouster, "
-               "CustomMsg of a Livox";
+        return "sensor_msgs/PointCloud2, velodyne_msgs/VelodyneScan, Ouster PacketMsg, "
+               "Livox CustomMsg";
     }
 
     void chooseNamed() {
@@ -112,8 +110,8 @@ class Planner {
                 fail("has no topic '" + name + "'; it has: " + textOfTopics(survey_));
             }
             if (found->kind == LidarKind::None) {
-                fail("the topic '" + name + "' is of the type " + found->topic.type +
-                     ", not of a LiDAR (" + textOfKnownTypes() +
+                fail("the topic '" + name + "' has the type " + found->topic.type +
+                     ", not a LiDAR type (" + textOfKnownTypes() +
                      "); the bag has: " + textOfTopics(survey_));
             }
             if (found->kind == LidarKind::Ouster && !findOuster(*found)) failOuster(*found);
@@ -135,40 +133,39 @@ class Planner {
                 add(*topic);
             } else {
                 plan_.remarks.push_back(topic->topic.name + " is not read: " + why +
-                                        "; to read it, name it with --topic");
+                                        "; select it with --topic to read it");
             }
         }
         checkJson();
         if (without_metadata != nullptr) {
             if (plan_.sensors.empty()) failOuster(*without_metadata);
             plan_.remarks.push_back(without_metadata->topic.name +
-                                    " is not read: packets of an Ouster need its metadata, which "
-                                    "the bag has not: --sensor-json FILE");
+                                    " is not read: Ouster packets require metadata, which "
+                                    "the bag lacks: --sensor-json FILE");
         }
         if (!plan_.sensors.empty()) return;
         if (!lidars.empty()) {
             plan_.remarks.clear();
-            fail("its LiDAR topics have no scans of a sensor (" + lidars.front()->topic.name +
-                 ": " + whyNot(*lidars.front(), lidars) +
-                 "); name one with --topic to read it nevertheless");
+            fail("its LiDAR topics have no sensor scans (" + lidars.front()->topic.name + ": " +
+                 whyNot(*lidars.front(), lidars) + "); select one with --topic to read it anyway");
         }
-        // A bag that is cut off says so when it is read.
+        // Reading a truncated bag reports the truncation.
         if (survey_.is_whole) {
-            fail("has no topic of a LiDAR (" + textOfKnownTypes() +
+            fail("has no LiDAR topic (" + textOfKnownTypes() +
                  "); it has: " + textOfTopics(survey_));
         }
     }
 
-    /// Why a topic is not read unless it is named; empty: it is read.
+    /// The reason why a topic is not read unless it is selected; empty: it is read.
     std::string whyNot(const Topic& topic, const std::vector<const Topic*>& lidars) const {
         if (topic.kind == LidarKind::Velodyne && !isReadable(topic)) {
-            return "its packets are not of a known Velodyne (" +
+            return "its packets are not from a known Velodyne (" +
                    sensors::knownVelodynes().substr(1) + ")";
         }
         if (topic.kind != LidarKind::Cloud) return "";
         for (const Topic* other : lidars) {
             if (isPackets(other->kind) && isReadable(*other) && isSameSensor(topic, *other)) {
-                return "its clouds are of the sensor whose packets are on " + other->topic.name;
+                return "its clouds are from the sensor with packets on " + other->topic.name;
             }
         }
         if (isFixed(topic.frame)) {
@@ -183,7 +180,7 @@ class Planner {
         return topic.kind != LidarKind::Velodyne || findVelodyne(topic) != nullptr;
     }
 
-    /// The model of most packets; null: none is known.
+    /// The model of most packets; null: unknown.
     static const sensors::VelodyneModel* findVelodyne(const Topic& topic) {
         const sensors::VelodyneModel* most = nullptr;
         std::size_t most_packets = 0;
@@ -223,7 +220,7 @@ class Planner {
         frame_of_[topic.topic.name] = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
     }
 
-    // Metadata of Ousters.
+    // Ouster metadata.
 
     std::shared_ptr<const sensors::OusterSensor> findOuster(const Topic& topic) const {
         std::string text_of = options_.sensor_json.string();
@@ -248,7 +245,7 @@ class Planner {
 
     [[noreturn]] void failOuster(const Topic& topic) const {
         fail("the packets on " + topic.topic.name +
-             " need the metadata of their Ouster, and the bag has no topic '" +
+             " require Ouster metadata, but the bag has no topic '" +
              namespaceOf(topic.topic.name) + "/metadata' (std_msgs/String): --sensor-json FILE");
     }
 
@@ -257,8 +254,8 @@ class Planner {
         for (const auto& [topic, sensor] : plan_.sensors) {
             if (sensor.kind == LidarKind::Ouster) return;
         }
-        fail("no topic that is read has packets of an Ouster, which " +
-             options_.sensor_json.string() + " could describe");
+        fail("no selected topic has Ouster packets for the metadata " +
+             options_.sensor_json.string());
     }
 
     // Poses.
@@ -273,7 +270,7 @@ class Planner {
         }
     }
 
-    /// Whether a topic may be read: poses are chosen before the topics.
+    /// True if a topic may be read: poses are chosen before the topics.
     bool mayBeRead(const Topic& topic) const {
         if (topic.kind == LidarKind::None) return false;
         if (options_.topics.empty()) return !isFixed(topic.frame);
@@ -299,15 +296,15 @@ class Planner {
 
     /// The path from a frame up the tree.
     struct Climb {
-        Way still;                       ///< transforms that never change, before the first moving
-        std::vector<MovingStep> moving;  ///< from the first that moves on
-        std::string top;                 ///< the frame where it ends
-        CPose3D in_top;                  ///< of the last step's parent
+        Way still;                       ///< constant transforms before the first moving transform
+        std::vector<MovingStep> moving;  ///< transforms from the first moving transform on
+        std::string top;                 ///< the last frame
+        CPose3D in_top;                  ///< pose of the last step's parent in `top`
         bool is_at_goal = false, is_circle = false;
     };
 
-    /// Up to `goal`, or to what hangs on it without moving; without a goal up to a frame that moves
-    /// with no vehicle, or has no parent.
+    /// Climbs to `goal` or to a frame rigidly attached to it; without a goal, to a world frame or a
+    /// frame without parent.
     Climb climb(const std::string& frame, const std::string& goal = "") const {
         Climb climb;
         climb.top = frame;
@@ -323,7 +320,7 @@ class Planner {
                 return !climb.moving.empty() && isWorld(end);
             };
             const std::string root = frames_.rootOf(at);
-            const auto in_root = frames_.poseIn(at, root);  // none: static frames in a circle
+            const auto in_root = frames_.poseIn(at, root);  // none: static frames form a cycle
             if (ends_at(at) || !in_root) return climb;
             climb.top = root;
             climb.in_top = *in_root + climb.in_top;
@@ -341,7 +338,7 @@ class Planner {
                 std::any_of(climb.moving.begin(), climb.moving.end(),
                             [&](const MovingStep& step) { return step.series == &series; });
             if (climb.is_circle) return climb;
-            // The poses are those of the first step's child itself.
+            // The composed poses are those of the first step's child.
             climb.moving.push_back({climb.moving.empty() ? CPose3D() : climb.in_top, &series});
             climb.in_top = CPose3D();
         }
@@ -355,7 +352,7 @@ class Planner {
         }
     }
 
-    /// False, and nothing is taken, for steps that have no times in common.
+    /// False without effect if the steps have no times in common.
     bool takeComposed(const std::vector<MovingStep>& steps, const std::string& top,
                       const CPose3D& in_top) {
         auto poses = std::make_shared<PoseSeries>(composed(steps, top, in_top));
@@ -365,14 +362,14 @@ class Planner {
         return true;
     }
 
-    /// The transforms that move the frame on which a LiDAR hangs. Only if nothing moves they are
-    /// some that never change: the vehicle stands still.
+    /// Uses the transforms that move the frame to which a LiDAR is attached. If nothing moves, uses
+    /// constant transforms: the vehicle is stationary.
     void takeTransforms() {
         if (plan_.poses != nullptr) return;
         std::vector<std::string> frames = framesOfLidars();
         frames.insert(frames.end(), {"base_link", "base_footprint"});
         std::optional<Climb> moving;
-        Way still;  // up to one that is no frame of the vehicle in another
+        Way still;  // up to the first with a parent that is not a vehicle frame
         for (const std::string& frame : frames) {
             const Climb found = climb(frame);
             const auto outside =
@@ -398,14 +395,14 @@ class Planner {
     void takeMoving(const Climb& climb) {
         const PoseSeries& first = *climb.moving.front().series;
         const std::string& parent = climb.moving.back().series->parent;
-        // What never changes above the last that moves matters only within the vehicle.
+        // Constant transforms above the last moving transform matter only within the vehicle.
         const bool is_within = isOfVehicle(parent);
         const std::string& top = is_within ? climb.top : parent;
         std::string why;
         if (climb.is_circle) {
-            why = "go round in a circle";
+            why = "form a cycle";
         } else if (isOfVehicle(top)) {
-            why = "say nothing of where '" + top + "' is";
+            why = "do not locate '" + top + "'";
         } else if (climb.moving.size() == 1 && !is_within) {
             plan_.poses = &first;
         } else if (!takeComposed(climb.moving, top, is_within ? climb.in_top : CPose3D())) {
@@ -413,11 +410,11 @@ class Planner {
         }
         if (why.empty()) return;
         plan_.remarks.push_back("the transforms from '" + top + "' to '" + first.child + "' " +
-                                why + ": they give no poses");
+                                why + ", so they provide no poses");
     }
 
-    /// Poses of a frame against which the LiDARs move are not theirs: transforms lead to the frame
-    /// on which the first of them hangs.
+    /// If the LiDARs move relative to the frame of the poses, adds the transforms to the frame to
+    /// which the first of these LiDARs is attached.
     void carryPosesToLidars() {
         if (plan_.poses == nullptr || plan_.poses->child.empty()) return;
         const std::string& child = plan_.poses->child;
@@ -425,7 +422,7 @@ class Planner {
         for (const std::string& frame : framesOfLidars()) {
             const Climb found = climb(frame, child);
             if (!found.is_at_goal) continue;
-            if (found.moving.empty()) return;  // one hangs on it
+            if (found.moving.empty()) return;  // one is attached to it
             if (!way) way = found;
         }
         if (!way) return;
@@ -456,8 +453,8 @@ class Planner {
         carryPosesToLidars();
     }
 
-    /// In ROS 1, transforms that never change are often repeated on tf. They count as static if
-    /// they lead from a LiDAR to the vehicle.
+    /// In ROS 1, constant transforms are often repeated on tf. They count as static if they lead
+    /// from a LiDAR to the vehicle.
     void addStillTransforms() {
         std::set<std::string> vehicles{"base_link", "base_footprint"};
         for (const auto& [topic, series] : survey_.odometry) vehicles.insert(series.child);
@@ -481,15 +478,15 @@ class Planner {
 
     // Mounts.
 
-    /// The pose of a frame on the vehicle; none if the bag does not say it.
+    /// The pose of a frame on the vehicle; nullopt if unknown.
     std::optional<CPose3D> onVehicle(const std::string& frame) const {
         std::vector<std::string> vehicles{"base_link", "base_footprint"};
-        // These may move against the frame that the poses are of.
+        // These may move relative to the frame of the poses.
         if (plan_.poses != nullptr && !plan_.poses->child.empty()) vehicles = {plan_.poses->child};
         for (const std::string& vehicle : vehicles) {
             if (const auto pose = frames_.poseIn(frame, vehicle)) return pose;
         }
-        // Poses of another frame say nothing about the one that it hangs on in the end.
+        // Poses of another frame do not locate this frame's root.
         if (plan_.poses != nullptr || !frames_.has(frame)) return std::nullopt;
         return frames_.poseIn(frame, frames_.rootOf(frame));
     }
@@ -508,7 +505,7 @@ class Planner {
                 "no static transform leads from the frame " +
                 (frame.empty() ? "of " + topic : "'" + frame + "' of " + topic) + " to " +
                 (plan_.poses->child.empty() ? "base_link" : "'" + plan_.poses->child + "'") +
-                ": the poses of " + plan_.poses->source + " are taken for those of the sensor");
+                ": using the poses of " + plan_.poses->source + " as sensor poses");
         }
     }
 

@@ -30,24 +30,24 @@ using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
 
-/// The messages of a topic.
+/// State and counts of a topic.
 struct TopicState {
     std::string name;
     const BagSensor* sensor = nullptr;
     std::size_t messages = 0, scans = 0, unreadable = 0;
-    std::string first_unreadable;          ///< which, and why
-    std::size_t points_without_range = 0;  ///< of a Livox
-    // Of tables of points:
+    std::string first_unreadable;          ///< message and reason
+    std::size_t points_without_range = 0;  ///< Livox only
+    // For tables of points:
     std::size_t points_not_finite = 0;
     std::map<std::string, std::size_t> clouds_with;  ///< by remark
-    // Of packets:
+    // For packets:
     std::optional<sensors::VelodyneTurns> turns;
     std::unique_ptr<sensors::OusterFrames> frames;
     std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
     std::map<unsigned, std::size_t> unknown_ids;
 };
 
-/// Takes over what a table has that is not used.
+/// Notes the parts of a table that are not used.
 void note(const CObservation& scan, TopicState& state) {
     const observations::TableCloud* const cloud = observations::tableCloudOf(scan);
     if (cloud == nullptr) return;
@@ -86,8 +86,8 @@ PointTable livoxTableOf(const std::vector<LivoxPoint>& points) {
     return table;
 }
 
-/// Gives memory back to the system. glibc keeps what was freed, for each thread apart; large clouds
-/// that one thread makes and another one frees would add up.
+/// Returns memory to the system. glibc keeps freed memory per thread, so large clouds that one
+/// thread allocates and another frees would add up.
 void trimHeap() {
 #ifdef __GLIBC__
     malloc_trim(0);
@@ -102,7 +102,7 @@ struct BagScans::Reader {
     BagPlan plan;
     std::unique_ptr<BagFile> bag;
     std::map<std::string, TopicState> states;  ///< by topic
-    std::vector<TopicState*> state_of;         ///< by index in the bag; null: not of a LiDAR
+    std::vector<TopicState*> state_of;         ///< by index in the bag; null: not a LiDAR topic
     std::vector<std::uint8_t> unpacked;
     std::deque<CObservation::Ptr> complete;
     std::shared_ptr<const SensorModel> mid360 =
@@ -273,7 +273,7 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
     constexpr std::size_t kImuBytes = 48;
     const sensors::OusterSensor& sensor = *state.sensor->ouster;
     ByteView packet = readPacket(fields);
-    // The driver of ROS 1 sends a byte more than the packet has.
+    // The ROS 1 driver sends one byte more than the packet.
     if (packet.size == sensor.packetBytes() + 1) --packet.size;
     if (packet.size != sensor.packetBytes()) {
         if (packet.size == kImuBytes || packet.size == kImuBytes + 1) {
@@ -281,7 +281,7 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
             return;
         }
         throw std::runtime_error("its packet has " + std::to_string(packet.size) +
-                                 " bytes; those of the sensor have " +
+                                 " bytes, but the sensor's packets have " +
                                  std::to_string(sensor.packetBytes()) + " (profile " +
                                  sensor.profile.name + "). Is it another sensor's metadata?");
     }
@@ -292,15 +292,15 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
     if (!sensor.profile.is_legacy && !sensor.serial.empty()) {
         const std::string serial = std::to_string(sensors::serialOf(packet.data, sensor));
         if (serial != sensor.serial) {
-            throw std::runtime_error("its packet is of the sensor with serial number " + serial +
-                                     ", the metadata are of " + sensor.serial);
+            throw std::runtime_error("its packet is from the sensor with serial number " + serial +
+                                     ", but the metadata are from " + sensor.serial);
         }
     }
     state.frames->add(packet.data, recorded_ns);
     addComplete(state);
 }
 
-/// Takes the turns that are complete.
+/// Adds the complete turns.
 void BagScans::Reader::addComplete(TopicState& state) {
     if (state.turns) {
         for (const sensors::LidarSweep& turn : state.turns->complete()) {
@@ -340,7 +340,7 @@ void BagScans::Reader::takeImu(const BagMessage& message, const BagTopic& topic)
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {
-        // The survey counted it.
+        // Counted by the survey.
     }
 }
 
@@ -370,7 +370,7 @@ std::string BagScans::Reader::describe(const TopicState& state) {
                  text);
     }
     addCount(state.imu_packets, "IMU packet", "left out", text);
-    addCount(state.other_packets, "packet", "of something else, left out", text);
+    addCount(state.other_packets, "packet", "of another kind, left out", text);
     addCount(state.points_without_range, "point", "without a range, left out", text);
     addCount(state.points_not_finite, "point",
              "with a coordinate that is not finite, left out of the scans (--clouds writes them, "
@@ -457,14 +457,14 @@ std::vector<std::string> BagScans::remarks() const {
                " of frames beyond the first " + std::to_string(kMaxMovingFrames) +
                    " (of tf_static " + std::to_string(FrameTree::kMaxFrames) + ")");
     }
-    BagSurvey others;  // that nothing is read of
+    BagSurvey others;  // unused topics
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",
                                 "geometry_msgs/PoseWithCovarianceStamped", "tf2_msgs/TFMessage",
                                 "tf/tfMessage"};
     for (const BagSurvey::Topic& topic : r.survey.topics) {
         const std::string& name = topic.topic.name;
         const std::string& type = topic.topic.type;
-        const auto state = r.states.find(name);  // a name may have several types
+        const auto state = r.states.find(name);  // a topic may have several types
         const bool is_scans = state != r.states.end() && topic.kind == state->second.sensor->kind;
         const bool is_imu = name == r.plan.imu_topic && type == "sensor_msgs/Imu";
         const bool is_used =

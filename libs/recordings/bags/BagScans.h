@@ -13,21 +13,22 @@ namespace hagen::recordings {
 
 /// The scans of a bag, and the attitudes of its IMU.
 ///
-/// A cloud becomes a CObservationPointCloud with its header's time. Packets of a Velodyne are
-/// grouped into turns, those of an Ouster into frames, as in captures: a turn may have packets of
-/// two messages. A Livox message is a scan; those of livox_ros_driver2 are read as of a Mid-360.
+/// A cloud becomes a CObservationPointCloud with its header's time. Velodyne packets are grouped
+/// into turns and Ouster packets into frames, as in captures; a turn may span two messages. A Livox
+/// message is a scan; messages of livox_ros_driver2 are read as from a Mid-360.
 class BagScans {
  public:
-    /// Throws BrokenRecording naming the file that cannot be opened. `survey` must outlive it.
+    /// Throws BrokenRecording naming a file that cannot be opened. `survey` must outlive this
+    /// object.
     BagScans(const std::filesystem::path& file, const BagSurvey& survey, const BagOptions& options);
     ~BagScans();
 
-    /// The next scan, or a CObservationIMU with an orientation; null at the end. Where the bag
-    /// breaks off, the turns in progress come first. Throws BrokenRecording there, and at the end
-    /// if not one scan could be read.
+    /// The next scan, or a CObservationIMU with an orientation; null at the end. If the bag is
+    /// broken, returns the turns in progress and then throws BrokenRecording. Also throws at the
+    /// end if no scan could be read.
     mrpt::obs::CObservation::Ptr next();
 
-    /// Like BagFile::checkWhileReading(): what `check` throws ends next().
+    /// Like BagFile::checkWhileReading().
     void checkWhileReading(const std::function<void()>& check);
 
     const BagPlan& plan() const;

@@ -20,7 +20,7 @@ class BagSource : public ScanSource {
             const auto observation = scans_->next();
             is_read_to_end_ = observation == nullptr;
             if (!observation) return endAfter(scans_->messagesRead() + 1);
-            if (++seen_ > shown_) ahead_.reset();  // it is rarely needed again, and holds a chunk
+            if (++seen_ > shown_) ahead_.reset();  // rarely needed again, and holds a chunk
             see(*observation);
             if (!observations::isLidarScan(*observation)) continue;
             RecordedEntry entry;
@@ -66,7 +66,7 @@ class BagSource : public ScanSource {
         return scans;
     }
 
-    /// The times of all scans, up to where the bag breaks off.
+    /// The times of all scans, up to the point where the bag is broken.
     RawlogSurvey surveyScans() {
         RawlogSurvey survey;
         const auto ahead = openScans();
@@ -91,7 +91,7 @@ class BagSource : public ScanSource {
         return posesOfRawlog(withScansOf(surveyScans(), isKept), file);
     }
 
-    /// Frames of ROS have the z axis up (REP 103).
+    /// ROS frames have the z axis up (REP 103).
     LogPoses ownPoses() const {
         LogPoses poses;
         const BagPlan& plan = scans_->plan();
@@ -128,7 +128,7 @@ class BagSource : public ScanSource {
     std::filesystem::path file_;
     BagSurvey survey_;
     std::unique_ptr<BagScans> scans_;
-    std::unique_ptr<BagScans> ahead_;   ///< of showClouds(); while it is ahead
+    std::unique_ptr<BagScans> ahead_;   ///< for showClouds(), while ahead of scans_
     std::size_t shown_ = 0, seen_ = 0;  ///< observations read by ahead_, and by scans_
     std::size_t scans_read_ = 0;
     bool is_read_to_end_ = false;

@@ -12,14 +12,14 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr std::size_t kMaxExamined = 20;  // messages of a Velodyne: turns
+constexpr std::size_t kMaxExamined = 20;  // Velodyne messages, one turn each
 constexpr std::size_t kMaxOusterMetadata = 1 << 20;
 
 void addPose(const PoseMessage& message, std::int64_t recorded_ns, PoseSeries& series) {
     const auto pose = message.pose();
     if (!pose) throw std::runtime_error("its pose is not finite or has no rotation");
     const std::int64_t time_ns = message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
-    // As doubles: times of a broken file may be too far apart for integers.
+    // As doubles, because times of a broken file may overflow integers.
     const auto apart_ns = [&] {
         return std::abs(static_cast<double>(time_ns) -
                         static_cast<double>(series.poses.back().time_ns));
@@ -42,7 +42,7 @@ class BagSurveyor {
         } catch (const std::bad_alloc&) {
             throw;
         } catch (const std::exception& e) {
-            // Those of LiDARs are counted by BagScans.
+            // BagScans counts LiDAR messages.
             if (topic.kind != LidarKind::None) return;
             count(survey_.left_out[topic.topic.name].messages, message, topic, e.what());
         }
@@ -89,9 +89,10 @@ class BagSurveyor {
         }
     }
 
-    /// Looks at the first messages of a LiDAR. A Velodyne's first packet may be another's.
+    /// Examines the first messages of a LiDAR. The first packet of a Velodyne topic may be from
+    /// another sensor.
     void look(const BagMessage& message, BagSurvey::Topic& topic) {
-        if (topic.kind == LidarKind::Ouster) return;  // it has no header
+        if (topic.kind == LidarKind::Ouster) return;  // without a header
         FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
         if (topic.kind != LidarKind::Velodyne) {
             topic.frame = readHeader(fields).frame;
@@ -138,7 +139,7 @@ class BagSurveyor {
                 if (survey_.frames.add(parent, transform.child, *pose)) continue;
                 if (parent == transform.child) {
                     count(survey_.left_out[topic.topic.name].transforms, message, topic,
-                          which + ": a frame cannot hang on itself");
+                          which + ": a frame cannot be its own parent");
                 } else {
                     count(survey_.left_out[topic.topic.name].further, message, topic, which);
                 }
@@ -155,7 +156,7 @@ class BagSurveyor {
                 series.child = transform.child;
                 series.source = "transforms from " + series.parent + " to " + series.child;
             }
-            // Two publishers contradict each other; mixed, their poses would jump.
+            // Poses would jump if two publishers were mixed.
             if (series.parent != parent) {
                 count(survey_.left_out[topic.topic.name].other_parents, message, topic,
                       which + ", before from '" + series.parent + "'");
@@ -202,7 +203,7 @@ BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool(
     } catch (const Ended&) {
         is_whole = false;
     } catch (const BrokenRecording& e) {
-        is_whole = false;  // BagScans reports the break
+        is_whole = false;  // BagScans reports the error
         broken_because = e.what();
     }
     BagSurvey survey = std::move(surveyor).survey();

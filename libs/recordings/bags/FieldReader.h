@@ -14,21 +14,21 @@ struct ByteView {
     std::size_t size = 0;
 };
 
-/// Fewer bytes than the fields need.
+/// Too few bytes for the fields.
 struct TooShort : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Reads fields of a message or a record one after the other: packed and little-endian, as in ROS 1
-/// and in the records of bags, or as CDR (aligned; a NUL ends a text; either byte order). No read
-/// passes the end: TooShort is thrown instead. Sizes are checked before anything is allocated.
+/// Reads the fields of a message or a record in order: packed and little-endian, as in ROS 1 and in
+/// the records of bags, or as CDR (aligned; NUL-terminated texts; either byte order). Throws
+/// TooShort instead of reading beyond the end. Checks sizes before allocating.
 class FieldReader {
  public:
     /// Packed fields.
     explicit FieldReader(ByteView bytes) : bytes_(bytes) {}
 
-    /// The fields of a CDR message, which begins with four bytes that name its byte order. Throws
-    /// std::runtime_error if it is another kind of CDR (parameter lists, XCDR2).
+    /// The fields of a CDR message, which starts with a four-byte header with the byte order.
+    /// Throws std::runtime_error for other kinds of CDR (parameter lists, XCDR2).
     static FieldReader ofCdr(ByteView bytes);
 
     bool isCdr() const { return is_cdr_; }
@@ -48,7 +48,7 @@ class FieldReader {
         return value;
     }
 
-    /// The number of elements that follow, each of which takes at least so many bytes.
+    /// Reads the number of elements that follow, each of at least this size.
     std::size_t count(std::size_t least_bytes) {
         const auto elements = number<std::uint32_t>();
         if (elements > left() / least_bytes) {
@@ -64,10 +64,10 @@ class FieldReader {
         return {reinterpret_cast<const char*>(chars.data), chars.size};
     }
 
-    /// The next bytes as they are.
+    /// The next bytes, unparsed.
     ByteView take(std::size_t size) {
         if (size > left()) {
-            throw TooShort("it ends " + std::to_string(size - left()) + " bytes too early");
+            throw TooShort("it is " + std::to_string(size - left()) + " bytes too short");
         }
         const ByteView taken{bytes_.data + at_, size};
         at_ += size;
@@ -91,7 +91,7 @@ inline FieldReader FieldReader::ofCdr(ByteView bytes) {
     FieldReader reader(bytes);
     const ByteView header = reader.take(4);
     if (header.data[0] != 0 || header.data[1] > 1) {
-        throw std::runtime_error("it is no plain CDR (its header is " +
+        throw std::runtime_error("it is not plain CDR (its header is " +
                                  std::to_string(header.data[0]) + " " +
                                  std::to_string(header.data[1]) + ")");
     }

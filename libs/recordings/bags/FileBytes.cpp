@@ -30,8 +30,8 @@ void FileBytes::fail(const std::string& what, std::uint64_t byte, const std::str
 void FileBytes::checkLeft(std::uint64_t count, const std::string& what) const {
     if (count <= left()) return;
     fail(what, position_,
-         "is cut off: " + std::to_string(count) + " bytes are due, " + std::to_string(left()) +
-             " are left");
+         "is truncated: expected " + std::to_string(count) + " bytes, found " +
+             std::to_string(left()));
 }
 
 void FileBytes::readInto(std::uint8_t* bytes, std::size_t count, const std::string& what) {
@@ -46,7 +46,7 @@ void FileBytes::read(std::uint64_t count, const std::string& what,
                      std::vector<std::uint8_t>& bytes) {
     checkLeft(count, what);
     const auto size = static_cast<std::size_t>(count);
-    if (bytes.capacity() < size) {  // chunks differ a little: not one allocation for each
+    if (bytes.capacity() < size) {  // avoids an allocation per chunk, as sizes vary slightly
         bytes = {};
         bytes.reserve(size + size / 4);
     }

@@ -9,7 +9,7 @@
 
 namespace hagen::recordings {
 
-/// Reads a file from its start to its end, with a running CRC on request.
+/// Reads a file sequentially, with an optional running CRC.
 class FileBytes {
  public:
     /// Throws BrokenRecording naming the file if it cannot be opened.
@@ -19,11 +19,11 @@ class FileBytes {
     std::uint64_t left() const { return size_ > position_ ? size_ - position_ : 0; }
     double fractionRead() const;
 
-    /// Reads exactly so many bytes; nothing is allocated if the file has fewer. `what` is being
-    /// read, for BrokenRecording: "a chunk".
+    /// Reads exactly `count` bytes; does not allocate if the file has fewer. `what` names the data
+    /// in BrokenRecording: "a chunk".
     void read(std::uint64_t count, const std::string& what, std::vector<std::uint8_t>& bytes);
     /// Skips bytes in parts, so that reading can be interrupted: call skipSome() while
-    /// isSkipping(). They are read nevertheless, for the CRC.
+    /// isSkipping(). Reads the skipped bytes for the CRC.
     void beginSkip(std::uint64_t count, const std::string& what);
     bool isSkipping() const { return to_skip_ > 0; }
     void skipSome();
@@ -46,7 +46,7 @@ class FileBytes {
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, Close> file_;
     std::uint64_t size_ = 0, position_ = 0, to_skip_ = 0;
-    std::string skipped_;  ///< what is being skipped
+    std::string skipped_;  ///< name of the skipped data
     bool has_crc_;
     std::uint32_t crc_ = 0;
 };

@@ -8,20 +8,19 @@
 
 namespace hagen::recordings {
 
-/// Frames that do not move against each other, by tf_static.
+/// Rigidly connected frames, from tf_static.
 class FrameTree {
  public:
     static constexpr std::size_t kMaxFrames = 10000;
 
-    /// The pose of `child` in `parent`. A later one replaces it. False, and nothing is added, for a
-    /// frame on itself, and if there are kMaxFrames others.
+    /// Adds or replaces the pose of `child` in `parent`. False without effect if both are the same
+    /// frame, or if there are kMaxFrames others.
     bool add(const std::string& parent, const std::string& child, const mrpt::poses::CPose3D& pose);
 
     bool has(const std::string& frame) const;
-    /// The frame that this one hangs on in the end; itself if on none. Ends where frames go round
-    /// in a circle.
+    /// The root of a frame, which may be the frame itself. Stops at a cycle.
     std::string rootOf(const std::string& frame) const;
-    /// The pose of a frame in another one; none if they do not hang together.
+    /// The pose of a frame in another frame; nullopt if they are not connected.
     std::optional<mrpt::poses::CPose3D> poseIn(const std::string& frame,
                                                const std::string& in) const;
 

@@ -10,7 +10,7 @@ namespace hagen::recordings {
 namespace {
 
 constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
-constexpr std::uint64_t kMaxFooter = 1 << 16;  // it has 20 bytes; later versions may add some
+constexpr std::uint64_t kMaxFooter = 1 << 16;  // 20 bytes; later versions may add fields
 enum McapOp : std::uint8_t {
     kMcapFooter = 0x02,
     kMcapSchema = 0x03,
@@ -30,14 +30,14 @@ std::string mcapRecordName(std::uint8_t op) {
 }
 
 void checkCrc(std::uint32_t due, std::uint32_t found, const std::string& of) {
-    if (due == 0 || due == found) return;  // 0: there is none
+    if (due == 0 || due == found) return;  // 0: no CRC
     throw std::runtime_error("the CRC of " + of + " is wrong: the file was changed or damaged");
 }
 
 class McapFile : public RecordFile {
  public:
     explicit McapFile(const std::filesystem::path& file) : RecordFile(file, true) {
-        file_.read(kMcapMagic.size(), "the format's name", head_);
+        file_.read(kMcapMagic.size(), "the magic bytes", head_);
     }
 
  private:
@@ -50,7 +50,7 @@ class McapFile : public RecordFile {
         if (op == 0) failKind();
         if (op == kMcapFooter) return readFooter(size);
         if (is_data_ended_ && (op == kMcapMessage || op == kMcapChunk)) {
-            throw std::runtime_error(mcapRecordName(op) + " comes after the end of the data");
+            throw std::runtime_error(mcapRecordName(op) + " follows the end of the data");
         }
         const bool is_read = op >= kMcapSchema && op <= kMcapChunk;
         if (is_data_ended_ || (!is_read && op != kMcapDataEnd)) {
@@ -74,17 +74,17 @@ class McapFile : public RecordFile {
     bool readInChunk(BagMessage& message) override {
         const auto op = in_chunk_.number<std::uint8_t>();
         if (op == 0) failKind();
-        if (op == kMcapChunk) throw std::runtime_error("a chunk is within it");
+        if (op == kMcapChunk) throw std::runtime_error("it contains a chunk");
         const auto size = in_chunk_.number<std::uint64_t>();
         if (size > in_chunk_.left()) {
             throw TooShort(mcapRecordName(op) + " in it claims " + std::to_string(size) +
-                           " bytes, " + std::to_string(in_chunk_.left()) + " are left");
+                           " bytes, but only " + std::to_string(in_chunk_.left()) + " are left");
         }
         return takeRecord(op, in_chunk_.take(static_cast<std::size_t>(size)), message);
     }
 
     [[noreturn]] static void failKind() {
-        throw std::runtime_error("its kind is 0, which does not exist");
+        throw std::runtime_error("it contains a record of the invalid kind 0");
     }
 
     bool takeRecord(std::uint8_t op, ByteView content, BagMessage& message) {
@@ -101,7 +101,7 @@ class McapFile : public RecordFile {
                 const auto channel = fields.number<std::uint16_t>();
                 fields.take(4);  // sequence number
                 const auto time_ns = static_cast<std::int64_t>(fields.number<std::uint64_t>());
-                fields.take(8);  // when it was published
+                fields.take(8);  // publication time
                 return take("channel", channel, time_ns, fields.take(fields.left()), message);
             }
         } catch (const TooShort& e) {
@@ -111,7 +111,7 @@ class McapFile : public RecordFile {
     }
 
     void takeChunk(FieldReader fields) {
-        fields.take(16);  // its times
+        fields.take(16);  // times
         const auto size = fields.number<std::uint64_t>();
         const auto crc = fields.number<std::uint32_t>();
         const std::string compression = fields.text();
@@ -143,7 +143,7 @@ class McapFile : public RecordFile {
             throw std::runtime_error("the footer claims " + std::to_string(size) + " bytes");
         }
         if (!is_data_ended_) {
-            throw std::runtime_error("the footer comes before the end of the data");
+            throw std::runtime_error("the footer precedes the end of the data");
         }
         file_.read(16, "the footer", content_);
         const std::uint32_t crc = file_.crc();
@@ -153,13 +153,13 @@ class McapFile : public RecordFile {
         // Without a summary, the CRC starts with the footer and does not cover messages.
         if (summary_at == summary_at_) checkCrc(due, crc, "the summary");
         file_.read(size - 20, "the footer", content_);
-        file_.read(kMcapMagic.size(), "the format's name at the end", content_);
+        file_.read(kMcapMagic.size(), "the magic bytes at the end", content_);
         if (std::string(content_.begin(), content_.end()) != kMcapMagic) {
-            throw std::runtime_error("the format's name is missing at the end");
+            throw std::runtime_error("the magic bytes at the end are missing");
         }
         if (file_.left() > 0) {
             throw std::runtime_error("the file has " + std::to_string(file_.left()) +
-                                     " more bytes after its end; was another one appended?");
+                                     " more bytes after its end; was another file appended?");
         }
         is_at_end_ = true;
         return false;

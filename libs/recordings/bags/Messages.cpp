@@ -25,7 +25,7 @@ bool isZstd(const BagMessage& message) {
     return message.size > 4 && at[0] == 0x28 && at[1] == 0xb5 && at[2] == 0x2f && at[3] == 0xfd;
 }
 
-/// Seconds and nanoseconds; those of ROS 2 are signed.
+/// Seconds and nanoseconds; seconds are signed in ROS 2.
 std::int64_t readTime(FieldReader& fields) {
     const auto seconds = fields.number<std::uint32_t>();
     const auto nanoseconds = fields.number<std::uint32_t>();
@@ -42,7 +42,7 @@ std::string withoutSlash(std::string frame) {
 NumberType pointFieldType(std::uint8_t datatype) {
     if (datatype >= 1 && datatype <= kPointFieldTypes.size()) return kPointFieldTypes[datatype - 1];
     throw std::runtime_error("a field of its points has the type " + std::to_string(datatype) +
-                             ", which there is not");
+                             ", which does not exist");
 }
 
 template <std::size_t N>
@@ -52,13 +52,13 @@ std::array<double, N> readDoubles(FieldReader& fields) {
     return numbers;
 }
 
-/// A rotation as x, y, z, w.
+/// A quaternion as x, y, z, w.
 std::array<double, 4> readRotation(FieldReader& fields) {
     const auto xyzw = readDoubles<4>(fields);
     return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
 }
 
-/// Joins the rows of a cloud whose rows have padding.
+/// Removes the padding between the rows of a cloud.
 std::vector<std::uint8_t> joinRows(ByteView data, std::size_t rows, std::size_t row_bytes,
                                    std::size_t row_step) {
     std::vector<std::uint8_t> joined;
@@ -70,20 +70,20 @@ std::vector<std::uint8_t> joinRows(ByteView data, std::size_t rows, std::size_t 
     return joined;
 }
 
-/// Takes the points of an image of width x height points.
+/// Extracts the points of an image of width x height points.
 void takeImage(ByteView data, std::uint64_t width, std::uint64_t height, std::uint64_t row_step,
                PointTable& table) {
     table.points = 0;
     if (width == 0 || height == 0) return;
-    const std::uint64_t row_bytes = width * table.bytes_per_point;  // of 32-bit numbers
+    const std::uint64_t row_bytes = width * table.bytes_per_point;  // product of 32-bit numbers
     const bool is_joined = height == 1 || row_step == 0 || row_step == row_bytes;
     if (!is_joined && row_step < row_bytes) {
-        throw std::runtime_error("its rows are said to have " + std::to_string(row_step) +
+        throw std::runtime_error("its header claims rows of " + std::to_string(row_step) +
                                  " bytes, too few for " + std::to_string(width) + " points of " +
                                  std::to_string(table.bytes_per_point));
     }
     const std::uint64_t step = is_joined ? row_bytes : row_step;
-    // The last row may come without its padding. No product below can overflow.
+    // The last row may lack its padding. No product below can overflow.
     if (step == 0 || row_bytes > data.size || (data.size - row_bytes) / step < height - 1) {
         throw std::runtime_error("it claims " + std::to_string(width) + " x " +
                                  std::to_string(height) + " points of " +
@@ -143,9 +143,9 @@ PointCloud2 readPointCloud2(FieldReader& fields) {
         field.name = fields.text();
         field.offset = fields.number<std::uint32_t>();
         field.type = pointFieldType(fields.number<std::uint8_t>());
-        // Some drivers leave it 0.
+        // Some drivers set it to 0.
         field.count = std::max<std::uint32_t>(1, fields.number<std::uint32_t>());
-        // Padding has no name, or one that repeats.
+        // Padding has no name or a duplicate name.
         if (!field.name.empty() && field.name != "_") table.fields.push_back(field);
     }
     table.is_big_endian = fields.number<std::uint8_t>() != 0;
@@ -172,9 +172,9 @@ ByteView readPacket(FieldReader& fields) { return fields.take(fields.count(1)); 
 LivoxMessage readLivox(FieldReader& fields) {
     LivoxMessage message;
     message.header = readHeader(fields);
-    fields.number<std::uint64_t>();  // time of the first point, by the sensor's clock
+    fields.number<std::uint64_t>();  // sensor time of the first point
     const auto claimed = fields.number<std::uint32_t>();
-    fields.take(4);  // number of the sensor, and three reserved bytes
+    fields.take(4);  // sensor number, and three reserved bytes
     constexpr std::size_t kMinPoint = 19;
     message.points.resize(fields.count(kMinPoint));
     if (message.points.size() != claimed) {
@@ -234,7 +234,7 @@ ImuMessage readImu(FieldReader& fields) {
     message.header = readHeader(fields);
     const auto rotation = readRotation(fields);
     const auto covariance = readDoubles<9>(fields);
-    // -1: there is none, as sensor_msgs/Imu says; many drivers leave it zero instead.
+    // -1 means no orientation, as documented in sensor_msgs/Imu; many drivers set zeros instead.
     const bool is_zero = rotation == std::array<double, 4>{};
     if (covariance[0] != -1 && !is_zero) message.rotation_wxyz = rotation;
     return message;

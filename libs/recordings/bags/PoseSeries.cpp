@@ -64,14 +64,14 @@ PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top
         }
     }
     std::sort(times_ns.begin(), times_ns.end());
-    // Most often it is this one that has no pose.
+    // This series is the most likely to have no pose.
     const auto isSparser = [](const MovingStep& a, const MovingStep& b) {
         return a.series->poses.size() < b.series->poses.size();
     };
     const observations::Trajectory& sparsest = trajectories[static_cast<std::size_t>(
         std::min_element(steps.begin(), steps.end(), isSparser) - steps.begin())];
     for (const std::int64_t time_ns : times_ns) {
-        // As doubles: times of a broken file may be too far apart for integers.
+        // As doubles, because times of a broken file may overflow integers.
         if (!whole.poses.empty() &&
             static_cast<double>(time_ns) - static_cast<double>(whole.poses.back().time_ns) <
                 kMinApart_ns) {

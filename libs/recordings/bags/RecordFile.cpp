@@ -27,8 +27,8 @@ bool RecordFile::take(const char* channel_name, std::uint32_t channel, std::int6
                       ByteView data, BagMessage& message) const {
     const auto topic = topic_of_.find(channel);
     if (topic == topic_of_.end()) {
-        throw std::runtime_error(std::string("a message is of ") + channel_name + " " +
-                                 std::to_string(channel) + ", which is not described before it");
+        throw std::runtime_error(std::string("a message belongs to ") + channel_name + " " +
+                                 std::to_string(channel) + ", which is not defined before it");
     }
     message = {topic->second, time_ns, data.data, data.size};
     return true;

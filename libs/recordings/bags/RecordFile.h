@@ -9,7 +9,7 @@
 
 namespace hagen::recordings {
 
-/// A bag of records, some of which are chunks of records, read one by one.
+/// A bag of records, some of which are chunks of records.
 class RecordFile : public BagFile {
  public:
     bool next(BagMessage& message) final;
@@ -20,20 +20,20 @@ class RecordFile : public BagFile {
     RecordFile(const std::filesystem::path& file, bool has_crc) : file_(file, has_crc) {}
 
     /// Reads the next record of the file, or of in_chunk_; true if it is a message. Throws
-    /// std::runtime_error saying what is wrong.
+    /// std::runtime_error with the reason.
     virtual bool readRecord(BagMessage& message) = 0;
     virtual bool readInChunk(BagMessage& message) = 0;
 
-    /// Fills a message; true. Throws if its channel is not in topic_of_.
+    /// Fills a message and returns true. Throws if its channel is not in topic_of_.
     bool take(const char* channel_name, std::uint32_t channel, std::int64_t time_ns, ByteView data,
               BagMessage& message) const;
 
     FileBytes file_;
     TopicList topics_;
     std::map<std::uint32_t, std::size_t> topic_of_;  ///< by channel or connection
-    std::uint64_t record_at_ = 0;                    ///< byte of the record, or of its chunk
+    std::uint64_t record_at_ = 0;                    ///< byte offset of the record or its chunk
     std::vector<std::uint8_t> head_, content_, chunk_;
-    FieldReader in_chunk_{ByteView()};  ///< what is left of the chunk, in the buffers above
+    FieldReader in_chunk_{ByteView()};  ///< the rest of the chunk, in the buffers above
     bool is_at_end_ = false;
 };
 

@@ -27,7 +27,7 @@ std::string ros1RecordName(std::uint8_t op) {
     return name == kNames.end() ? "a record" : name->second;
 }
 
-/// The "name=value" fields of a record's header, each after its size.
+/// The "name=value" fields of a record's header, each preceded by its size.
 class RecordHeader {
  public:
     explicit RecordHeader(ByteView header) {
@@ -67,12 +67,12 @@ class RecordHeader {
 class Ros1Bag : public RecordFile {
  public:
     explicit Ros1Bag(const std::filesystem::path& file) : RecordFile(file, false) {
-        file_.read(kRos1Magic.size(), "the format's name", head_);
+        file_.read(kRos1Magic.size(), "the format line", head_);
         const std::string magic(head_.begin(), head_.end());
         if (magic == kRos1Magic) return;
-        file_.fail("the format's name", 0,
+        file_.fail("the format line", 0,
                    "is '" + magic.substr(0, magic.find('\n')) +
-                       "'; only format 2.0 can be read: migrate it by 'rosbag fix'");
+                       "'; only format 2.0 is supported: migrate the bag with 'rosbag fix'");
     }
 
  private:
@@ -122,14 +122,14 @@ class Ros1Bag : public RecordFile {
         if (header.has("encryptor") && !header.at("encryptor").empty()) {
             throw std::runtime_error("the bag is encrypted (" +
                                      header.at("encryptor").substr(0, 64) +
-                                     "); decrypt it by 'rosbag decrypt'");
+                                     "); decrypt it with 'rosbag decrypt'");
         }
         has_header_ = true;
         index_at_ = header.number<std::uint64_t>("index_pos");
         chunks_due_ = header.number<std::uint32_t>("chunk_count");
     }
 
-    /// A connection or a message; true if it is a message.
+    /// Reads a connection or a message; true if it is a message.
     bool takeRecord(const RecordHeader& header, ByteView data, BagMessage& message) {
         const std::uint8_t op = header.op();
         if (op == kRos1Connection) {

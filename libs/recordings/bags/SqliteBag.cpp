@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
-/// "file:///a%20b.db3": characters with a meaning in such names are written as codes. Without an
-/// empty authority, that of a path from "//" on would be its first folder.
+/// "file:///a%20b.db3": percent-encodes special characters. Without an empty authority, the first
+/// folder of a path that starts with "//" would be the authority.
 std::string uriOf(const fs::path& file) {
     std::string uri = "file://";
     for (const char c : fs::absolute(file).string()) {
@@ -32,12 +32,12 @@ std::string uriOf(const fs::path& file) {
     return uri;
 }
 
-/// Why a database lacks pages at its end; empty if it does not, or does not say how many there are.
+/// The error if a database lacks pages at its end; empty if it is complete or its size is unknown.
 std::string whyCut(const fs::path& file) {
     std::array<unsigned char, 100> header{};
     std::ifstream stream = base::openToRead(file);
     if (!stream.read(reinterpret_cast<char*>(header.data()), header.size())) {
-        return "its header is cut off";
+        return "its header is truncated";
     }
     const auto big32 = [&](std::size_t at) {
         std::uint64_t value = 0;
@@ -48,12 +48,12 @@ std::string whyCut(const fs::path& file) {
     const std::uint64_t due = big32(28) * (page == 1 ? 65536 : page);
     const bool is_known = big32(24) == big32(92);
     if (!is_known || fs::file_size(file) >= due) return "";
-    return "it is cut off: it has " + std::to_string(fs::file_size(file)) + " of " +
+    return "it is truncated: it has " + std::to_string(fs::file_size(file)) + " of " +
            std::to_string(due) + " bytes";
 }
 
-/// Whether the journal of a transaction that did not end waits beside a database. One that ended
-/// may stay, with zeros at its start.
+/// True if there is a journal of an unfinished transaction. Journals of finished transactions may
+/// remain, with zeros at their start.
 bool hasHotJournal(const fs::path& journal) {
     constexpr std::string_view kJournal{"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8};
     std::array<char, kJournal.size()> start{};
@@ -74,16 +74,16 @@ class SqliteBag : public BagFile {
         checkTables();
         checkColumns();
         readTopics();
-        // Each by itself: both in one query read all messages.
+        // Separate subqueries, because one query for both would read all messages.
         const Query range =
             prepare("SELECT (SELECT min(id) FROM messages), (SELECT max(id) FROM messages)");
-        if (sqlite3_step(range.get()) == SQLITE_ROW) {  // not if the end is cut off
+        if (sqlite3_step(range.get()) == SQLITE_ROW) {  // fails if the end is missing
             first_row_ = sqlite3_column_int64(range.get(), 0);
             last_row_ = sqlite3_column_int64(range.get(), 1);
         }
-        // By id, as they were recorded: this needs no index and no sorting.
+        // By id, which is the order of recording and requires neither an index nor sorting.
         messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
-        // A step may sort all messages, or look through damaged ones.
+        // A step may sort all messages, or search damaged pages.
         constexpr int kInstructionsPerCheck = 100000;
         sqlite3_progress_handler(database_.get(), kInstructionsPerCheck, checkDuringQuery, this);
     }
@@ -101,14 +101,15 @@ class SqliteBag : public BagFile {
         const std::int64_t topic_id = sqlite3_column_int64(row, 1);
         const auto topic = topic_of_.find(topic_id);
         if (topic == topic_of_.end()) {
-            fail("this message is of topic " + std::to_string(topic_id) + ", which there is not");
+            fail("this message is of topic " + std::to_string(topic_id) + ", which does not exist");
         }
         message.topic = topic->second;
         message.time_ns = sqlite3_column_int64(row, 2);
         message.bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(row, 3));
         const int size = sqlite3_column_bytes(row, 3);
         message.size = message.bytes == nullptr ? 0 : static_cast<std::size_t>(size);
-        if (sqlite3_errcode(database_.get()) == SQLITE_NOMEM) fail("no memory for this message");
+        if (sqlite3_errcode(database_.get()) == SQLITE_NOMEM)
+            fail("out of memory for this message");
         ++rows_;
         return true;
     }
@@ -133,16 +134,17 @@ class SqliteBag : public BagFile {
     using Query = std::unique_ptr<sqlite3_stmt, Close>;
 
     void open() {
-        // Undoing the changes takes write permission; otherwise old and new pages are mixed.
+        // Rolling back the journal requires write permission; otherwise old and new pages are
+        // mixed.
         const std::string journal = file_.string() + "-journal";
         if (hasHotJournal(journal)) {
             fail("it is being written, or its writer was interrupted: " + journal +
-                 " undoes what is not complete. Wait, or copy both into a folder that may be "
-                 "written, "
-                 "and there run: sqlite3 " +
+                 " contains an unfinished transaction. Wait, or copy both into a writable "
+                 "folder "
+                 "and run there: sqlite3 " +
                  file_.filename().string() + " 'SELECT count(*) FROM messages'");
         }
-        // Without changes that wait beside it, nothing needs to be written to read it.
+        // Without pending changes, reading requires no write access.
         std::error_code none;
         const fs::path log = file_.string() + "-wal";
         const bool has_log = fs::exists(log, none) && fs::file_size(log, none) > 0;
@@ -151,14 +153,14 @@ class SqliteBag : public BagFile {
         const int state =
             sqlite3_open_v2(uri.c_str(), &raw, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
         database_.reset(raw);
-        if (state != SQLITE_OK) fail(raw == nullptr ? "no memory" : sqlite3_errmsg(raw));
-        // The schema comes with the file: it must not run anything.
+        if (state != SQLITE_OK) fail(raw == nullptr ? "out of memory" : sqlite3_errmsg(raw));
+        // The schema is untrusted and must not run code.
         sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
         sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
         sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
-        // A few bytes of a schema can stand for a blob of any size.
+        // A few bytes of a schema can define a blob of any size.
         sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMaxUnpackedBytes));
-        // Otherwise SQLite refuses a file that is shorter than it says.
+        // Otherwise SQLite rejects a truncated file.
         if (!cut_because_.empty()) {
             sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
         }
@@ -169,9 +171,9 @@ class SqliteBag : public BagFile {
         const int state = sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &raw, nullptr);
         Query query(raw);
         if ((state & 0xff) == SQLITE_CANTOPEN) {
-            // With a log of changes, SQLite writes an index of these beside it.
+            // With a write-ahead log, SQLite writes an index file beside it.
             fail(std::string(sqlite3_errmsg(database_.get())) + "; copy it and " + file_.string() +
-                 "-wal into a folder that may be written");
+                 "-wal into a writable folder");
         }
         if (state != SQLITE_OK) fail(sqlite3_errmsg(database_.get()));
         return query;
@@ -193,20 +195,20 @@ class SqliteBag : public BagFile {
             "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('topics', "
             "'messages') AND sql NOT LIKE 'CREATE VIRTUAL%'");
         if (step(tables) && sqlite3_column_int(tables.get(), 0) == 2) return;
-        fail("it has no tables 'topics' and 'messages': is it a database of something else?");
+        fail("it has no tables 'topics' and 'messages': is it a ROS 2 bag?");
     }
 
-    /// Columns that are computed run what the file says, for each message, as long as it likes.
+    /// Rejects computed columns, which could run arbitrarily long expressions for each message.
     void checkColumns() const {
         const Query computed = prepare(
             "SELECT m.name, c.name FROM sqlite_schema m, pragma_table_xinfo(m.name) c "
             "WHERE m.type = 'table' AND m.name IN ('topics', 'messages') AND c.hidden > 0");
         if (!step(computed)) return;
         fail("the column '" + textAt(computed.get(), 1) + "' of the table '" +
-             textAt(computed.get(), 0) + "' is computed, which bags have not");
+             textAt(computed.get(), 0) + "' is computed, which is not allowed in bags");
     }
 
-    /// Exceptions must not pass through SQLite.
+    /// Exceptions must not propagate through SQLite.
     static int checkDuringQuery(void* bag) {
         auto* const self = static_cast<SqliteBag*>(bag);
         try {
@@ -244,7 +246,7 @@ class SqliteBag : public BagFile {
     std::map<std::int64_t, std::size_t> topic_of_;  ///< by the topic's id
     std::size_t rows_ = 0;
     std::int64_t row_ = 0, first_row_ = 0, last_row_ = 0;
-    std::string cut_because_;  ///< empty: the file is as long as it says
+    std::string cut_because_;  ///< empty: the file has its full length
 };
 
 }  // namespace

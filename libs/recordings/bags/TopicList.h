@@ -9,10 +9,10 @@
 
 namespace hagen::recordings {
 
-/// The topics of a recording, each once however many publishers it has.
+/// The topics of a recording, each listed once regardless of its number of publishers.
 class TopicList {
  public:
-    /// Throws std::runtime_error if there are absurdly many.
+    /// Throws std::runtime_error if there are too many topics.
     std::size_t indexOf(const BagTopic& topic) {
         const auto key = std::tie(topic.name, topic.type, topic.encoding);
         const auto known = indices_.find(Key(key));

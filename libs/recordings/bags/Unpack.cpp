@@ -12,7 +12,7 @@
 namespace hagen::recordings {
 namespace {
 
-/// A place to unpack to, which grows as bytes come, up to a limit.
+/// An output buffer that grows up to a limit.
 class Growing {
  public:
     Growing(std::vector<std::uint8_t>& plain, std::uint64_t most) : plain_(plain), most_(most) {
@@ -38,9 +38,9 @@ class Growing {
 };
 
 [[noreturn]] void failPacked(const std::string& why) {
-    throw std::runtime_error("cannot be unpacked: " + why);
+    throw std::runtime_error("cannot be decompressed: " + why);
 }
-[[noreturn]] void failLarge() { failPacked("it holds more than it claims"); }
+[[noreturn]] void failLarge() { failPacked("it is larger than it claims"); }
 
 void unpackZstd(ByteView packed, Growing& plain) {
     const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
@@ -57,7 +57,7 @@ void unpackZstd(ByteView packed, Growing& plain) {
         plain.add(out.pos);
         if (due == 0 || out.pos > 0 || in.pos > before) continue;
         if (!has_room) failLarge();
-        failPacked("it is cut off");
+        failPacked("it is truncated");
     }
 }
 
@@ -78,7 +78,7 @@ void unpackLz4(ByteView packed, Growing& plain) {
         at += in;
         if (due == 0 || out > 0 || in > 0) continue;
         if (!has_room) failLarge();
-        failPacked("it is cut off");
+        failPacked("it is truncated");
     }
 }
 
@@ -106,9 +106,9 @@ void unpackBz2(ByteView packed, Growing& plain) {
         plain.add(out);
         if (state == BZ_STREAM_END || out > 0 || stream.avail_in < in) continue;
         if (!has_room) failLarge();
-        failPacked("it is cut off");
+        failPacked("it is truncated");
     }
-    if (stream.avail_in > 0) failPacked("something follows its bzip2 data");
+    if (stream.avail_in > 0) failPacked("extra data after its bzip2 data");
 }
 
 }  // namespace
@@ -116,12 +116,12 @@ void unpackBz2(ByteView packed, Growing& plain) {
 ByteView unpack(const std::string& compression, ByteView packed, std::uint64_t size,
                 std::vector<std::uint8_t>& plain) {
     if (size > kMaxUnpackedBytes) {
-        failPacked("it claims to hold " + std::to_string(size) + " bytes, more than " +
+        failPacked("it claims a size of " + std::to_string(size) + " bytes, more than " +
                    std::to_string(kMaxUnpackedBytes));
     }
     const auto checkSize = [&](std::size_t found) {
         if (found == size) return;
-        failPacked("it holds " + std::to_string(found) + " bytes and claims " +
+        failPacked("it has " + std::to_string(found) + " bytes, but claims " +
                    std::to_string(size));
     };
     if (compression.empty() || compression == "none") {

@@ -7,17 +7,16 @@
 
 namespace hagen::recordings {
 
-/// The most bytes that a chunk or message may unpack to.
+/// Maximum decompressed size of a chunk or message.
 constexpr std::uint64_t kMaxUnpackedBytes = std::uint64_t{1} << 29;
 
-/// Unpacks a chunk into `plain`; one that is not packed is returned as it is. Compression is "" or
-/// "none", "zstd", "lz4" (frames) or "bz2". `size` is what it claims to unpack to; memory grows
-/// with what really comes. Throws std::runtime_error saying what is wrong, also if the sizes
-/// differ.
+/// Decompresses a chunk into `plain`; returns an uncompressed chunk unchanged. Compression is "" or
+/// "none", "zstd", "lz4" (frames) or "bz2". `size` is the claimed size; memory grows with the
+/// actual output. Throws std::runtime_error with the reason, also if the sizes differ.
 ByteView unpack(const std::string& compression, ByteView packed, std::uint64_t size,
                 std::vector<std::uint8_t>& plain);
 
-/// Unpacks a zstd frame of unknown size.
+/// Decompresses a zstd frame of unknown size.
 void unpackZstd(ByteView packed, std::vector<std::uint8_t>& plain);
 
 }  // namespace hagen::recordings

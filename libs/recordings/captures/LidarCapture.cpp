@@ -8,19 +8,19 @@
 namespace hagen::recordings {
 namespace {
 
-/// The frames that did not become datagrams; "" if there are none.
+/// Counts of frames that did not become datagrams; "" if there are none.
 std::string textOfLosses(const sensors::FrameCounts& counts) {
     std::string text;
     addCount(counts.other_traffic, "frame", "of other traffic", text);
-    addCount(counts.cut_frames, "frame", "cut short by the capture", text);
+    addCount(counts.cut_frames, "frame", "truncated by the capture", text);
     addCount(counts.fragments_lost, "IP fragment", "of incomplete datagrams", text);
     return text;
 }
 
-/// Whether the first datagrams have points of a Livox. Read errors are reported later.
+/// True if the first datagrams contain Livox points. Read errors are reported later.
 bool isOfLivox(const std::filesystem::path& file, const std::function<void()>& check) {
     constexpr int kDatagrams = 1000;
-    constexpr std::size_t kMaxFrames = 1000000;  // a file may have no datagram at all
+    constexpr std::size_t kMaxFrames = 1000000;  // a file may have no datagrams
     struct TooManyFrames {};
     sensors::CaptureFile capture(file);
     capture.checkWhileReading([&] {
@@ -46,7 +46,8 @@ std::unique_ptr<sensors::SweepReader> readerFor(const std::filesystem::path& fil
     if (!calibration.empty() && !is_velodyne) {
         throw std::runtime_error(file.string() + ": is read as a capture of " +
                                  (sensor_json.empty() ? "a Livox" : "an Ouster") + ", which " +
-                                 calibration.string() + " cannot describe: it is of an HDL-64E");
+                                 calibration.string() +
+                                 " cannot describe, because it is an HDL-64E calibration");
     }
     if (!sensor_json.empty()) return sensors::makeOusterSweeps(sensor_json);
     if (!is_velodyne) return sensors::makeLivoxSweeps();

@@ -11,23 +11,22 @@
 
 namespace hagen::recordings {
 
-/// A sweep as an observation: packets of a Velodyne as a CObservationVelodyneScan, other returns as
-/// a LocatedCloud in a CObservationPointCloud. Its pose is that of the beams' origin on the
-/// sensor's base.
+/// Converts a sweep to an observation: Velodyne packets to a CObservationVelodyneScan, other
+/// returns to a LocatedCloud in a CObservationPointCloud. Its pose is the beams' origin relative to
+/// the sensor's base.
 mrpt::obs::CObservation::Ptr observationOf(const sensors::LidarSweep& sweep);
 
-/// The scans of a capture, in the order in which they end. The first and the last one may be
-/// partial.
+/// The scans of a capture, in the order of their ends. The first and the last scan may be partial.
 class LidarCapture {
  public:
-    /// `reader`: of the vendor. Throws BrokenCapture naming the file if it cannot be opened.
+    /// `reader`: the vendor's. Throws BrokenCapture naming the file if it cannot be opened.
     LidarCapture(const std::filesystem::path& file, std::unique_ptr<sensors::SweepReader> reader);
 
-    /// The next scan; null at the end. Where the capture breaks off, the scans in progress come
-    /// first. Throws BrokenCapture there, and at the end if there was no packet.
+    /// The next scan; null at the end. If the capture is broken, returns the scans in progress and
+    /// then throws BrokenCapture. Also throws at the end if there were no packets.
     mrpt::obs::CObservation::Ptr nextScan();
 
-    /// Like CaptureFile::checkWhileReading(): an exception of `check` ends nextScan().
+    /// Like CaptureFile::checkWhileReading().
     void checkWhileReading(const std::function<void()>& check) {
         capture_.checkWhileReading(check);
     }
@@ -35,8 +34,7 @@ class LidarCapture {
     /// Fraction of the file read so far, 0 ... 1.
     double fractionRead() const { return capture_.fractionRead(); }
 
-    /// Counts of each sensor, of the frames, and of all that was lost or ignored. Complete at the
-    /// end.
+    /// Counts per sensor, of frames, and of lost or ignored data. Complete at the end.
     std::vector<std::string> remarks() const;
 
  private:
@@ -49,10 +47,10 @@ class LidarCapture {
     std::string broken_because_;
 };
 
-/// Opens a capture of Velodyne or Livox sensors, recognised by their first packets, or of the
-/// Ouster of a metadata file. `calibration`: of an HDL-64E. Throws std::runtime_error naming the
-/// file that cannot be opened, and if a calibration is given for another kind of sensor. The
-/// capture calls `check` as by checkWhileReading(), also while it is opened.
+/// Opens a capture of Velodyne or Livox sensors, detected by their first packets, or of the Ouster
+/// of a metadata file. `calibration`: of an HDL-64E. Throws std::runtime_error naming a file that
+/// cannot be opened, or if a calibration is given for another kind of sensor. Calls `check` as set
+/// by checkWhileReading(), also during opening.
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
                                           const std::filesystem::path& sensor_json = {},
                                           const std::filesystem::path& calibration = {},

@@ -22,7 +22,7 @@ template <class Number>
 bool put(std::string_view word, std::uint8_t* to) {
     std::optional<Number> number = base::numberFrom<Number>(word);
     if constexpr (std::is_integral_v<Number>) {
-        // "7.0" and "1e3" are integers, too.
+        // "7.0" and "1e3" are also integers.
         const auto real = number ? std::nullopt : base::numberFrom<double>(word);
         const double beyond = std::ldexp(1.0, std::numeric_limits<Number>::digits);
         if (real && *real == std::floor(*real) && *real < beyond &&
@@ -30,7 +30,7 @@ bool put(std::string_view word, std::uint8_t* to) {
             number = static_cast<Number>(*real);
         }
     } else if (!number) {
-        // Out of range: too small is 0, too large is infinite, as other readers have it.
+        // Underflow gives 0 and overflow infinity, as in other readers.
         const auto real = base::numberFrom<double>(word);
         if (real) number = static_cast<Number>(*real);
     }
@@ -41,7 +41,7 @@ bool put(std::string_view word, std::uint8_t* to) {
 
 }  // namespace
 
-// 128 bytes for each of the points that a scan may have (kMaxReturns).
+// 128 bytes per point of a scan with kMaxReturns points.
 constexpr std::size_t kMaxFileBytes = std::size_t{2} << 30;
 
 Bytes readBytes(const std::filesystem::path& file) {
@@ -60,13 +60,13 @@ Bytes readBytes(const std::filesystem::path& file) {
     Bytes bytes(size);
     in.seekg(0);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!in) throw BrokenRecording(file.string() + ": cannot be read completely");
+    if (!in) throw BrokenRecording(file.string() + ": read error");
     return bytes;
 }
 
 void failAt(const std::filesystem::path& file, const std::string& place, const std::string& what) {
     std::string text = file.string() + ": " + place + ": " + what;
-    std::replace(text.begin(), text.end(), '\0', '?');  // what() would end there
+    std::replace(text.begin(), text.end(), '\0', '?');  // a NUL would end what()
     throw BrokenRecording(text);
 }
 
@@ -105,17 +105,17 @@ bool putNumber(std::string_view word, NumberType type, std::uint8_t* to) {
 void checkNumber(const std::filesystem::path& file, std::size_t points) {
     if (points <= kMaxReturns) return;
     throw BrokenRecording(file.string() + ": has " + std::to_string(points) +
-                          " points, more than the " + std::to_string(kMaxReturns) +
-                          " that a scan may have; is it a map of many scans?");
+                          " points; a scan may have at most " + std::to_string(kMaxReturns) +
+                          "; is it a map of many scans?");
 }
 
 void checkRoom(const std::filesystem::path& file, std::size_t points, std::size_t bytes_per_point,
                std::size_t there) {
     if (points == 0) return;
     if (bytes_per_point > 0 && points <= there / bytes_per_point) return checkNumber(file, points);
-    throw BrokenRecording(file.string() + ": the header says " + std::to_string(points) +
+    throw BrokenRecording(file.string() + ": the header claims " + std::to_string(points) +
                           " points of " + std::to_string(bytes_per_point) + " bytes, but " +
-                          std::to_string(there) + " bytes are there; is it truncated?");
+                          std::to_string(there) + " bytes are left; is it truncated?");
 }
 
 std::vector<std::string> remarkOnRest(std::size_t bytes) {

@@ -17,7 +17,7 @@ bool startsWith(const Bytes& bytes, std::string_view text) {
            });
 }
 
-/// The first line that is no comment begins like those of a PCD header.
+/// True if the first line that is not a comment starts like a PCD header.
 bool isPcd(const Bytes& bytes) {
     TextLines lines(bytes);
     while (const auto line = lines.next()) {
@@ -31,7 +31,7 @@ bool isPcd(const Bytes& bytes) {
     return false;
 }
 
-/// The format by the first bytes of a file; a .bin needs all, which `read_all` returns.
+/// Detects the format by the first bytes of a file; .bin requires all bytes, from `read_all`.
 template <class ReadAll>
 std::optional<CloudFormat> formatOf(const Bytes& start, const ReadAll& read_all) {
     if (startsWith(start, "ply\n") || startsWith(start, "ply\r")) return CloudFormat::Ply;
@@ -59,7 +59,8 @@ CloudFile readUnchecked(const std::filesystem::path& file) {
                       bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
     const auto format = formatOf(start, [&]() -> const Bytes& { return bytes; });
     if (!format) {
-        // An empty .bin, or of zeros, is a scan without returns, and one that was cut still a .bin.
+        // A .bin that is empty or all zeros is a scan without returns; a truncated .bin is still a
+        // .bin.
         const bool may_be_bin = bytes.size() % 16 != 0 || isAllZero(start);
         const bool is_bin =
             bytes.empty() || mayBeBin(start) || (may_be_bin && otherKindOf(start).empty());
@@ -93,8 +94,8 @@ std::string otherKindOf(const Bytes& bytes) {
 std::string whyNoCloud(const Bytes& start) {
     if (start.empty()) return "is empty";
     const std::string known = otherKindOf(start);
-    return "is no point cloud: " +
-           (known.empty() ? "its first numbers are no points that a LiDAR sees" : known) +
+    return "is not a point cloud: " +
+           (known.empty() ? "its first numbers are not points of a LiDAR" : known) +
            ". Known are PCD, PLY, LAS, NPY, and .bin of float32 x, y, z, intensity (KITTI), or "
            "also ring (nuScenes)";
 }

@@ -11,51 +11,50 @@
 
 namespace hagen::recordings {
 
-/// Formats of files with one cloud each.
+/// Formats of single-cloud files.
 enum class CloudFormat {
     Pcd,  ///< Point Cloud Library, 0.6 and 0.7: ascii, binary, binary_compressed
     Ply,  ///< Stanford polygon file: ascii, binary little and big endian; its vertices
-    Las,  ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10, not compressed
-    Npy,  ///< NumPy array: N x 3 or more floats, or a structured one with fields
+    Las,  ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10, uncompressed
+    Npy,  ///< NumPy array: N x 3 or more floats, or structured with fields
     Bin   ///< float32 x, y, z, intensity (KITTI), or also ring (nuScenes); no header
 };
 
-/// A cloud as a file holds it.
+/// A cloud as stored in a file.
 struct CloudFile {
     observations::PointTable table;  ///< checked, in the byte order of this machine
-    /// The sensor's position and orientation (w, x, y, z) of a PCD, if it is another than the
-    /// origin.
+    /// The sensor's position and orientation (w, x, y, z) in a PCD, unless it is the origin.
     std::string viewpoint;
-    /// What is in the file but not in the table, for the user.
+    /// Remarks for the user on content that is not in the table.
     std::vector<std::string> remarks;
 };
 
-/// The format of a file by its content; none if it is of another format or cannot be read. A .bin
-/// has no magic: its size is a multiple of 16 or 20, and the first 4096 bytes are points that a
-/// LiDAR can see: within 1 km or not finite, and not all zero. Its points have a ring if every
-/// fifth number is an integer up to 255, not all coordinates are integers, and there are at least
-/// 16 returns: in the first 4096 bytes, of two rings or more, or else in the whole file.
+/// Detects the format of a file by its content; nullopt if the format is unknown or the file cannot
+/// be read. A .bin has no magic: its size must be a multiple of 16 or 20, and the first 4096 bytes
+/// must be plausible LiDAR points: within 1 km or not finite, and not all zero. Its points have a
+/// ring if every fifth number is an integer up to 255, not all coordinates are integers, and there
+/// are at least 16 returns: from two or more rings in the first 4096 bytes, or else in the whole
+/// file.
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 
-/// Whether a name ends like those of cloud files: .pcd, .ply, .las, .laz, .npy, .bin.
+/// True if a name has a cloud file's extension: .pcd, .ply, .las, .laz, .npy, .bin.
 bool hasCloudName(const std::filesystem::path& file);
 
-/// Reads a cloud file; its format is detected by its content. Nothing larger than the file, as
-/// unpacked by a factor of 256 at most, is ever allocated. Throws BrokenRecording, also for more
-/// points than a scan may have (kMaxReturns).
+/// Reads a cloud file; detects its format by its content. Allocates at most 256 times the file
+/// size. Throws BrokenRecording, also for more than kMaxReturns points.
 ///
-/// - BIN: by its name also one without points, or whose first 4096 bytes are zero: rows without
-///   returns. The bytes from the first return on then show the layout of its points.
-/// - PCD: fields named "_" are padding and left out.
-/// - PLY: elements other than `vertex`, and lists, are left out and named in the remarks.
-/// - LAS: x, y, z are float64, as scaled and moved by the header; with the fields intensity
+/// - BIN: a file named .bin may also be empty or start with 4096 zero bytes, which are rows without
+///   returns. The bytes from the first return on then determine the layout of the points.
+/// - PCD: fields named "_" are padding and are omitted.
+/// - PLY: elements other than `vertex`, and lists, are omitted and listed in the remarks.
+/// - LAS: x, y, z are float64, scaled and shifted by the header; with the fields intensity
 ///   (uint16), return_number, number_of_returns, classification, user_data, classification_flags
 ///   (1: synthetic, 2: key-point, 4: withheld, 8: overlap), scan_direction (0, 1),
 ///   edge_of_flight_line (0, 1) (uint8), scan_angle [degrees] (float32), point_source_id (uint16),
-///   and as the point format has them scanner_channel (uint8), gps_time (float64), red, green,
-///   blue, nir (uint16). Extra bytes and variable length records are named in the remarks.
-/// - NPY: columns of a plain array are x, y, z, intensity, and field_4 and so on. Fields of a
-///   structured array keep their names; those that are not plain numbers are left out and named.
+///   and, depending on the point format, scanner_channel (uint8), gps_time (float64), red, green,
+///   blue, nir (uint16). Extra bytes and variable length records are listed in the remarks.
+/// - NPY: columns of a plain array are x, y, z, intensity, field_4 and so on. Fields of a
+///   structured array keep their names; fields that are not plain numbers are omitted and listed.
 CloudFile readCloud(const std::filesystem::path& file);
 
 /// Marks a folder of labelled clouds as an output of this project.

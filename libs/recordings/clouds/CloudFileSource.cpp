@@ -20,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 using observations::PointTable;
 
-constexpr const char* kCloudLabel = "lidar";  // of all clouds in files
+constexpr const char* kCloudLabel = "lidar";  // label of all clouds in files
 
-/// The fields that a class of clouds in a rawlog does not hold; empty if there are none.
+/// The fields that a rawlog's cloud class cannot store; empty if there are none.
 std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass cloud_class) {
     if (cloud_class == observations::CloudClass::Generic) return "";
     std::vector<const observations::PointField*> kept;
@@ -38,7 +38,7 @@ std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass 
     return names;
 }
 
-/// A name without its ending: "a" for a.ply, and for a.pcd.bin, as nuScenes names its clouds.
+/// A name without extension: "a" for a.ply, and for a.pcd.bin (nuScenes).
 std::string stemOf(const fs::path& file) {
     const fs::path stem = file.stem();
     return (stem.extension() == ".pcd" ? stem.stem() : stem).string();
@@ -75,9 +75,10 @@ class CloudFileSource : public FileListSource {
                               ": left out of the scans (--clouds writes them, with the label 0)");
         }
         if (other_files_ > 0) {
-            remarks.push_back(counted(other_files_, "file") +
-                              " of the folder with another ending than .pcd, .ply, .las, .npy and "
-                              ".bin: ignored");
+            remarks.push_back(
+                counted(other_files_, "file") +
+                " in the folder with an extension other than .pcd, .ply, .las, .npy and "
+                ".bin: ignored");
         }
         if (folders_ > 0)
             remarks.push_back(counted(folders_, "folder") + " in the folder: ignored");
@@ -127,14 +128,14 @@ class CloudFileSource : public FileListSource {
         remarks.insert(remarks.end(), cloud.remarks().begin(), cloud.remarks().end());
         if (!file_.viewpoint.empty()) {
             remarks.push_back(
-                "its VIEWPOINT is ignored: points are taken to be in the sensor's frame");
+                "its VIEWPOINT is ignored: points are assumed to be in the sensor frame");
         }
         const std::string lost = options_.folder_objects
                                      ? fieldsNotInRawlog(cloud.table(), *options_.folder_objects)
                                      : "";
         if (!lost.empty()) {
             remarks.push_back(
-                "fields that the output rawlog does not hold (--cloud generic and --clouds do): " +
+                "fields that the output rawlog cannot store (--cloud generic and --clouds can): " +
                 lost);
         }
         for (const std::string& remark : remarks) {
@@ -146,7 +147,7 @@ class CloudFileSource : public FileListSource {
         return objectOf(observation, options_.folder_objects);
     }
 
-    /// Cloud files have no poses of their own.
+    /// Cloud files contain no poses.
     LogPoses readPoses(const fs::path& file) override {
         RawlogSurvey survey;
         for (std::size_t i = 0; i < files_.size(); ++i) {
@@ -159,8 +160,8 @@ class CloudFileSource : public FileListSource {
 
     std::vector<fs::path> files_;
     std::string time_remark_;
-    std::size_t other_files_ = 0, folders_ = 0;  ///< beside them
-    CloudFile file_;                             ///< read last
+    std::size_t other_files_ = 0, folders_ = 0;  ///< beside the clouds
+    CloudFile file_;                             ///< last file read
     std::size_t clouds_ = 0, points_not_finite_ = 0, clouds_not_finite_ = 0;
     std::vector<std::string> remarks_;                ///< in the order of appearance
     std::map<std::string, std::size_t> with_remark_;  ///< number of clouds

@@ -12,7 +12,7 @@ using observations::PointField;
 
 using Words = std::vector<std::string_view>;
 
-/// A line of the header: its words after the key, and where it is.
+/// A line of the header: the words after the key, and the line's place.
 struct PcdLine {
     Words values;
     std::string place;
@@ -30,7 +30,7 @@ NumberType pcdTypeOf(const std::filesystem::path& file, const PcdLine& at, std::
     if (known != kTypes.end()) return known->second;
     failAt(file, at.place,
            "a field of TYPE " + std::string(type) + " and SIZE " + std::string(size) +
-               " is no number known here (I, U of 1, 2, 4, 8 bytes, F of 4, 8)");
+               " is not supported (I, U of 1, 2, 4, 8 bytes, F of 4, 8)");
 }
 
 const PcdLine& neededLine(const std::filesystem::path& file, const PcdLines& entries,
@@ -45,7 +45,7 @@ const PcdLine& neededLine(const std::filesystem::path& file, const PcdLines& ent
 std::size_t pcdCountOf(const std::filesystem::path& file, const PcdLine& entry, const char* key) {
     const auto count =
         entry.values.size() == 1 ? base::numberFrom<std::uint64_t>(entry.values[0]) : std::nullopt;
-    if (!count) failAt(file, entry.place, std::string(key) + " is not one number");
+    if (!count) failAt(file, entry.place, std::string(key) + " is not a single number");
     return static_cast<std::size_t>(*count);
 }
 
@@ -72,7 +72,7 @@ void takePcdFields(const std::filesystem::path& file, const PcdLines& entries, P
             const auto count = base::numberFrom<std::uint32_t>(counts->second.values[i]);
             if (!count) {
                 failAt(file, counts->second.place,
-                       "'" + std::string(counts->second.values[i]) + "' is no COUNT");
+                       "'" + std::string(counts->second.values[i]) + "' is not a valid COUNT");
             }
             field.count = *count;
         }
@@ -88,7 +88,7 @@ void takePcdPoints(const std::filesystem::path& file, const PcdLines& entries, P
         const std::size_t height =
             entries.count("HEIGHT") > 0 ? pcdCountOf(file, entries.at("HEIGHT"), "HEIGHT") : 1;
         if (__builtin_mul_overflow(width, height, &product.emplace())) {
-            failAt(file, entries.at("WIDTH").place, "WIDTH times HEIGHT is absurd");
+            failAt(file, entries.at("WIDTH").place, "WIDTH times HEIGHT is too large");
         }
     }
     if (entries.count("POINTS") > 0) {
@@ -138,11 +138,11 @@ PcdHeader readPcdHeader(const std::filesystem::path& file, const Bytes& bytes) {
         for (const std::string_view known : kKeys) is_known = is_known || key == known;
         if (!is_known) {
             failAt(file, lines.place(),
-                   "'" + std::string(key.substr(0, 40)) + "' is no line of a PCD header");
+                   "'" + std::string(key.substr(0, 40)) + "' is not a line of a PCD header");
         }
         words.erase(words.begin());
         if (!entries.emplace(std::string(key), PcdLine{std::move(words), lines.place()}).second) {
-            failAt(file, lines.place(), std::string(key) + " is there twice");
+            failAt(file, lines.place(), std::string(key) + " occurs twice");
         }
     }
     takePcdFields(file, entries, header);

@@ -3,17 +3,17 @@
 
 namespace hagen::recordings {
 
-/// The header of a PCD, checked in itself but not against the data.
+/// The header of a PCD, checked for consistency but not against the data.
 struct PcdHeader {
     enum class Data { Ascii, Binary, Compressed };
-    /// All fields with those named "_", laid out one after the other.
+    /// All fields, including those named "_", in order.
     std::vector<observations::PointField> fields;
     std::size_t bytes_per_point = 0;
     std::size_t points = 0;
     Data data = Data::Ascii;
-    std::string viewpoint;  ///< if it is not the origin
+    std::string viewpoint;  ///< empty if at the origin
     std::size_t size = 0;   ///< bytes of the header
-    std::size_t lines = 0;  ///< of the header
+    std::size_t lines = 0;  ///< lines of the header
 };
 
 /// Throws BrokenRecording naming file and line.

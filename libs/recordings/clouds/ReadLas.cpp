@@ -8,13 +8,13 @@ namespace {
 using observations::NumberType;
 using observations::PointTable;
 
-// Places in the public header block (ASPRS LAS 1.4 R15, table 3).
+// Offsets in the public header block (ASPRS LAS 1.4 R15, table 3).
 constexpr std::size_t kMinorVersion = 25, kHeaderSize = 94, kPointsStart = 96, kFormat = 104,
                       kRecords = 100, kRecordLength = 105, kLegacyPoints = 107, kScales = 131,
                       kOffsets = 155, kExtendedRecords = 243, kPoints = 247;
 constexpr std::size_t kMinHeader = 227, kHeaderOf14 = 375;
 
-/// A point data record format (tables 7 to 17): where its optional numbers are; 0: nowhere.
+/// A point data record format (tables 7 to 17): offsets of optional numbers; 0: absent.
 struct LasFormat {
     std::size_t size;
     bool is_new;  ///< 6 and above
@@ -27,14 +27,14 @@ constexpr LasFormat kLasFormats[] = {
     {30, true, 22, 0, 0, false},   {36, true, 22, 30, 0, false}, {38, true, 22, 30, 36, false},
     {59, true, 22, 0, 0, true},    {67, true, 22, 30, 36, true}};
 
-/// Numbers of a table that are appended point by point.
+/// A table that is filled point by point.
 class LasColumns {
  public:
     LasColumns(std::size_t points, std::size_t most_bytes) {
         table.points = points;
         table.bytes.reserve(points * most_bytes);
     }
-    /// The same fields must be added for each point, in the same order.
+    /// Add the same fields for each point, in the same order.
     template <class Number>
     void add(const char* name, NumberType type, Number number) {
         if (is_first_) {
@@ -115,7 +115,7 @@ void addLasPoint(const Bytes& bytes, std::size_t at, const LasFormat& format,
     columns.endPoint();
 }
 
-/// What is there besides points: records before and after them.
+/// Remarks on records before and after the points.
 std::vector<std::string> remarksOnRecords(const Bytes& bytes, bool is_of_14, std::size_t rest) {
     std::vector<std::string> remarks;
     const auto records = numberAt<std::uint32_t>(bytes, kRecords);
@@ -143,7 +143,7 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
     if (bytes[kMinorVersion - 1] != 1 || minor > 4) {
         failAt(file, "byte 24",
                "LAS " + std::to_string(bytes[kMinorVersion - 1]) + "." + std::to_string(minor) +
-                   " is not known: 1.0 to 1.4 are read");
+                   " is not supported (1.0 to 1.4)");
     }
     const std::size_t header_size = numberAt<std::uint16_t>(bytes, kHeaderSize);
     const std::size_t start = numberAt<std::uint32_t>(bytes, kPointsStart);
@@ -152,12 +152,12 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
     if ((number & 0xc0) != 0) {
         throw BrokenRecording(
             file.string() +
-            ": is compressed (LAZ), which is not read: unpack it first, for example "
+            ": is compressed (LAZ), which is not supported: decompress it first, for example "
             "with 'las2las' or 'pdal translate'");
     }
     if (number >= std::size(kLasFormats)) {
         failAt(file, "byte 104",
-               "point format " + std::to_string(number) + " is not known: 0 to 10 are read");
+               "point format " + std::to_string(number) + " is not supported (0 to 10)");
     }
     const LasFormat& format = kLasFormats[number];
     if (record < format.size) {
@@ -196,7 +196,7 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
     CloudFile cloud;
     cloud.table = std::move(columns.table);
     if (points == 0) {
-        // Without a point, no field was seen.
+        // Without points, no fields were added.
         LasColumns one(1, kMaxBytes);
         addLasPoint(Bytes(record, 0), 0, format, scaling, one);
         cloud.table = std::move(one.table);

@@ -14,7 +14,7 @@ using observations::PointField;
 
 constexpr std::size_t kMaxNpyHeader = 1 << 20;
 
-/// The header, a Python dictionary, as YAML: tuples are written as lists.
+/// Parses the header, a Python dictionary, as YAML, with tuples as lists.
 YAML::Node npyHeaderOf(const std::filesystem::path& file, std::string text) {
     char quote = '\0';
     for (char& c : text) {
@@ -40,7 +40,7 @@ YAML::Node npyValueOf(const std::filesystem::path& file, const YAML::Node& heade
     throw BrokenRecording(file.string() + ": its NPY header has no '" + key + "'");
 }
 
-/// Texts are in quotes, numbers are not; that of an old Python may end in L.
+/// Texts are in quotes, numbers are not; numbers of old Python versions may end in L.
 bool isQuoted(const YAML::Node& node) { return node.IsScalar() && node.Tag() == "!"; }
 
 std::optional<std::uint64_t> sizeIn(const YAML::Node& node) {
@@ -52,7 +52,7 @@ std::optional<std::uint64_t> sizeIn(const YAML::Node& node) {
 
 /// A type such as "<f4".
 struct ItemType {
-    std::optional<NumberType> type;  ///< none: no plain number
+    std::optional<NumberType> type;  ///< nullopt: not a plain number
     std::size_t bytes = 0;
     char order = '|';
 };
@@ -74,34 +74,34 @@ ItemType itemTypeOf(const std::filesystem::path& file, const std::string& text) 
         if (item.bytes == 1) item.order = '|';
         return item;
     }
-    // A type that is left out: its size follows its letter. M8[ns] has 8 bytes, U5 has 5 letters.
+    // For a skipped type, the size follows the letter: M8[ns] has 8 bytes, U5 has 5 letters.
     const std::size_t end = std::min(name.find('['), name.size());
     const auto size =
         end > 1 ? base::numberFrom<std::uint32_t>(std::string_view(name).substr(1, end - 1))
                 : std::nullopt;
     if (!size || name[0] == 'O') {
         throw BrokenRecording(file.string() + ": the type '" + text.substr(0, 40) +
-                              "' of its numbers is not known");
+                              "' of its numbers is unknown");
     }
     item.bytes = name[0] == 'U' ? std::size_t{4} * *size : *size;
     item.order = '|';
     return item;
 }
 
-/// The product of a tuple of sizes, or one size, from the `first` on up to the `last`.
+/// The product of the sizes from `first` to `last` in a tuple, or of a single size.
 std::size_t productOf(const std::filesystem::path& file, const YAML::Node& sizes, std::size_t first,
                       std::size_t last) {
     std::size_t product = 1;
     for (std::size_t i = first; i < last; ++i) {
         const auto size = sizeIn(sizes.IsSequence() ? sizes[i] : sizes);
         if (!size || __builtin_mul_overflow(product, *size, &product)) {
-            throw BrokenRecording(file.string() + ": the shape in its NPY header is absurd");
+            throw BrokenRecording(file.string() + ": the shape in its NPY header is too large");
         }
     }
     return product;
 }
 
-/// Notes the byte order of numbers; they must have the same.
+/// Notes the byte order of numbers, which must be the same for all.
 void takeOrder(const std::filesystem::path& file, char order, char& all) {
     if (order == '|') return;
     if (all != '|' && all != order) {
@@ -118,7 +118,7 @@ void takeNpyFields(const std::filesystem::path& file, const YAML::Node& descr, C
         if (!field.IsSequence() || field.size() < 2) {
             throw BrokenRecording(file.string() + ": its NPY header has an invalid 'descr'");
         }
-        // A field with a title is named by a pair.
+        // A pair names a field with a title.
         const YAML::Node named =
             field[0].IsSequence() && field[0].size() == 2 ? field[0][1] : field[0];
         const std::string name = named.IsScalar() ? named.Scalar() : "";
@@ -129,7 +129,7 @@ void takeNpyFields(const std::filesystem::path& file, const YAML::Node& descr, C
         }
         if (!isQuoted(field[1])) {
             throw BrokenRecording(file.string() + ": its field '" + name +
-                                  "' has fields of its own, which are not supported");
+                                  "' has nested fields, which are not supported");
         }
         const ItemType item = itemTypeOf(file, field[1].Scalar());
         if (item.type && !name.empty() && count > 0) {
@@ -143,7 +143,7 @@ void takeNpyFields(const std::filesystem::path& file, const YAML::Node& descr, C
             __builtin_add_overflow(cloud.table.bytes_per_point, size,
                                    &cloud.table.bytes_per_point)) {
             throw BrokenRecording(file.string() + ": the size of its field '" + name +
-                                  "' is absurd");
+                                  "' is too large");
         }
     }
     if (!left_out.empty()) {
@@ -174,7 +174,7 @@ void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
     cloud.table.bytes_per_point = columns * item.bytes;
 }
 
-/// Points as records, of an array that has one column after the other.
+/// Converts an array stored by columns to point records.
 Bytes transposed(const Bytes& bytes, std::size_t points, std::size_t columns, std::size_t size) {
     Bytes records(bytes.size());
     for (std::size_t column = 0; column < columns; ++column) {
@@ -199,7 +199,8 @@ CloudFile readNpy(const std::filesystem::path& file, Bytes bytes) {
     if (length > bytes.size() - text_start) {
         throw BrokenRecording(file.string() + ": ends within its NPY header");
     }
-    if (length > kMaxNpyHeader) throw BrokenRecording(file.string() + ": its NPY header is absurd");
+    if (length > kMaxNpyHeader)
+        throw BrokenRecording(file.string() + ": its NPY header is too large");
     const std::string text(reinterpret_cast<const char*>(bytes.data()) + text_start, length);
     const YAML::Node header = npyHeaderOf(file, text);
     const YAML::Node descr = npyValueOf(file, header, "descr");

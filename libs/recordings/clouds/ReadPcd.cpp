@@ -16,7 +16,7 @@ void readAsciiPcd(const std::filesystem::path& file, const PcdHeader& header, co
     PointTable& table = cloud.table;
     std::size_t words_per_point = 0;
     for (const PointField& field : header.fields) words_per_point += field.count;
-    // A number takes two bytes of text, with its blank, and becomes eight at most.
+    // A number has at least two bytes of text, including its blank, and at most eight in memory.
     checkRoom(file, header.points, std::max<std::size_t>(2 * words_per_point, 1) - 1,
               bytes.size() - header.size + 1);
     table.bytes.resize(header.points * header.bytes_per_point);
@@ -27,9 +27,9 @@ void readAsciiPcd(const std::filesystem::path& file, const PcdHeader& header, co
         while (words.empty()) {
             const auto line = lines.next();
             if (!line) {
-                throw BrokenRecording(file.string() + ": the header says " +
+                throw BrokenRecording(file.string() + ": the header claims " +
                                       std::to_string(header.points) + " points, but " +
-                                      std::to_string(i) + " are there; is it truncated?");
+                                      std::to_string(i) + " are present; is it truncated?");
             }
             words = wordsOf(*line);
         }
@@ -44,7 +44,7 @@ void readAsciiPcd(const std::filesystem::path& file, const PcdHeader& header, co
             for (std::size_t k = 0; k < field.count; ++k, ++word, to += bytesOf(field.type)) {
                 if (putNumber(words[word], field.type, to)) continue;
                 failAt(file, lines.place(),
-                       "'" + std::string(words[word].substr(0, 40)) + "' is no " +
+                       "'" + std::string(words[word].substr(0, 40)) + "' is not a valid " +
                            nameOf(field.type) + " for the field '" + field.name + "'");
             }
         }
@@ -62,10 +62,10 @@ void readBinaryPcd(const std::filesystem::path& file, const PcdHeader& header, B
     cloud.table.bytes = std::move(bytes);
 }
 
-/// All numbers of a field, then those of the next, packed by LZF.
+/// Field by field, compressed with LZF.
 void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& header,
                        const Bytes& bytes, CloudFile& cloud) {
-    constexpr std::size_t kMaxPerByte = 256;  // a reference of 3 bytes stands for 264 at most
+    constexpr std::size_t kMaxPerByte = 256;  // a 3-byte reference expands to at most 264 bytes
     const std::size_t sizes = 2 * sizeof(std::uint32_t);
     if (bytes.size() - header.size < sizes) {
         if (header.points == 0) return;
@@ -75,18 +75,18 @@ void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& heade
     const auto unpacked = numberAt<std::uint32_t>(bytes, header.size + sizeof(std::uint32_t));
     const std::size_t start = header.size + sizes, there = bytes.size() - start;
     if (packed > there) {
-        throw BrokenRecording(file.string() + ": the header says " + std::to_string(packed) +
+        throw BrokenRecording(file.string() + ": the header claims " + std::to_string(packed) +
                               " compressed bytes, but " + std::to_string(there) +
-                              " are there; is it truncated?");
+                              " are left; is it truncated?");
     }
     if (unpacked / kMaxPerByte > packed) {
         throw BrokenRecording(file.string() + ": " + std::to_string(packed) +
-                              " compressed bytes cannot become " + std::to_string(unpacked));
+                              " compressed bytes cannot expand to " + std::to_string(unpacked));
     }
     checkRoom(file, header.points, header.bytes_per_point, unpacked);
     if (header.points * header.bytes_per_point != unpacked) {
         throw BrokenRecording(file.string() + ": its points have " + std::to_string(unpacked) +
-                              " bytes, but the header says " + std::to_string(header.points) +
+                              " bytes, but the header claims " + std::to_string(header.points) +
                               " of " + std::to_string(header.bytes_per_point));
     }
     cloud.remarks = remarkOnRest(there - packed);

@@ -16,7 +16,7 @@ using observations::PointTable;
 struct PlyProperty {
     std::string name;
     NumberType type = NumberType::Float32;
-    std::optional<NumberType> length;  ///< of a list: the type of its length
+    std::optional<NumberType> length;  ///< length type of a list
 };
 
 struct PlyElement {
@@ -28,7 +28,7 @@ struct PlyElement {
         return std::any_of(properties.begin(), properties.end(),
                            [](const PlyProperty& property) { return property.length.has_value(); });
     }
-    /// Bytes per row without its lists.
+    /// Bytes per row without lists.
     std::size_t size() const {
         std::size_t bytes = 0;
         for (const PlyProperty& property : properties) {
@@ -58,7 +58,7 @@ NumberType plyTypeOf(const std::filesystem::path& file, const TextLines& lines,
         {"double", NumberType::Float64}, {"float64", NumberType::Float64}};
     const auto known = kTypes.find(name);
     if (known == kTypes.end()) {
-        failAt(file, lines.place(), "'" + std::string(name.substr(0, 40)) + "' is no type of PLY");
+        failAt(file, lines.place(), "'" + std::string(name.substr(0, 40)) + "' is not a PLY type");
     }
     return known->second;
 }
@@ -67,14 +67,14 @@ void takeProperty(const std::filesystem::path& file, const TextLines& lines,
                   const std::vector<std::string_view>& words, PlyHeader& header) {
     if (header.elements.empty()) failAt(file, lines.place(), "a property before any element");
     const bool is_list = words.size() == 5 && words[1] == "list";
-    if (!is_list && words.size() != 3) failAt(file, lines.place(), "is no property of PLY");
+    if (!is_list && words.size() != 3) failAt(file, lines.place(), "is not a valid PLY property");
     PlyProperty property;
     property.name = std::string(words.back());
     property.type = plyTypeOf(file, lines, words[words.size() - 2]);
     if (is_list) {
         property.length = plyTypeOf(file, lines, words[2]);
         if (*property.length == NumberType::Float32 || *property.length == NumberType::Float64) {
-            failAt(file, lines.place(), "the length of a list is no integer");
+            failAt(file, lines.place(), "the length of a list is not an integer");
         }
     }
     header.elements.back().properties.push_back(property);
@@ -101,17 +101,17 @@ PlyHeader readPlyHeader(const std::filesystem::path& file, const Bytes& bytes) {
                 header.data = PlyHeader::Data::Big;
             } else {
                 failAt(file, lines.place(),
-                       "format '" + std::string(words[1].substr(0, 40)) + "' is not known");
+                       "format '" + std::string(words[1].substr(0, 40)) + "' is not supported");
             }
         } else if (words[0] == "element" && words.size() == 3) {
             const auto count = base::numberFrom<std::uint64_t>(words[2]);
-            if (!count) failAt(file, lines.place(), "is no number of elements");
+            if (!count) failAt(file, lines.place(), "is not a valid number of elements");
             header.elements.push_back({std::string(words[1]), *count, {}});
         } else if (words[0] == "property") {
             takeProperty(file, lines, words, header);
         } else {
             failAt(file, lines.place(),
-                   "'" + std::string(words[0].substr(0, 40)) + "' is no line of a PLY header");
+                   "'" + std::string(words[0].substr(0, 40)) + "' is not a line of a PLY header");
         }
     }
     if (!has_format) throw BrokenRecording(file.string() + ": its PLY header has no format");
@@ -120,7 +120,7 @@ PlyHeader readPlyHeader(const std::filesystem::path& file, const Bytes& bytes) {
     return header;
 }
 
-/// The vertices' fields that are no lists, one after the other.
+/// The fields of the vertices without lists, in order.
 PointTable vertexTableOf(const PlyElement& vertices) {
     PointTable table;
     table.points = vertices.count;
@@ -134,9 +134,9 @@ PointTable vertexTableOf(const PlyElement& vertices) {
 
 [[noreturn]] void failCut(const std::filesystem::path& file, const PlyElement& element,
                           std::size_t row) {
-    throw BrokenRecording(file.string() + ": the header says " + std::to_string(element.count) +
+    throw BrokenRecording(file.string() + ": the header claims " + std::to_string(element.count) +
                           " '" + element.name + "', but " + std::to_string(row) +
-                          " are there; is it truncated?");
+                          " are present; is it truncated?");
 }
 
 /// The rows of a binary file.
@@ -150,7 +150,7 @@ class BinaryRows {
 
     std::size_t left() const { return bytes_.size() - at_; }
 
-    /// Reads the rows of an element. Those of the table are copied.
+    /// Reads the rows of an element and copies those of the table.
     void read(const PlyElement& element, PointTable* table) {
         if (element.properties.empty()) return;
         if (!element.hasLists()) {
@@ -164,7 +164,7 @@ class BinaryRows {
             at_ += element.count * size;
             return;
         }
-        // With more rows than bytes it is cut.
+        // More rows than bytes means a truncated file.
         if (table != nullptr && element.count <= left()) checkNumber(file_, element.count);
         for (std::size_t row = 0; row < element.count; ++row) {
             for (const PlyProperty& property : element.properties) {
@@ -205,7 +205,7 @@ class BinaryRows {
     bool is_big_endian_;
 };
 
-/// The rows of an ascii file: a line each.
+/// The rows of an ASCII file, one per line.
 class AsciiRows {
  public:
     AsciiRows(const std::filesystem::path& file, const Bytes& bytes, const PlyHeader& header)
@@ -219,7 +219,7 @@ class AsciiRows {
         if (table != nullptr) {
             if (element.count > left()) failCut(file_, element, 0);
             checkNumber(file_, element.count);
-            // Two bytes of text make a number of at most eight.
+            // Two bytes of text become a number of at most eight bytes.
             table->bytes.reserve(std::min(element.count * table->bytes_per_point, 4 * left() + 8));
         }
         for (std::size_t row = 0; row < element.count; ++row) {
@@ -255,7 +255,7 @@ class AsciiRows {
         std::array<std::uint8_t, 8> number{};
         if (!putNumber(words[word], property.type, number.data())) {
             failAt(file_, lines_.place(),
-                   "'" + std::string(words[word].substr(0, 40)) + "' is no " +
+                   "'" + std::string(words[word].substr(0, 40)) + "' is not a valid " +
                        nameOf(property.type) + " for the property '" + property.name + "'");
         }
         ++word;
@@ -286,7 +286,8 @@ void readRows(const std::filesystem::path& file, const PlyHeader& header, Rows r
         cloud.table = vertexTableOf(element);
         for (const PlyProperty& property : element.properties) {
             if (!property.length) continue;
-            cloud.remarks.push_back("lists of its vertices are not read: " + property.name);
+            cloud.remarks.push_back("list properties of its vertices are not read: " +
+                                    property.name);
         }
         rows.read(element, &cloud.table);
     }

@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The formats are little-endian, like every machine MRPT is packaged for except s390x.
+// The formats are little-endian, like all platforms with MRPT packages except s390x.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "label and scan files need byte swapping");
 
-/// The number of points in a file of so many bytes. Throws BrokenRecording.
+/// The number of points in a file of this size. Throws BrokenRecording.
 std::size_t checkedCount(const fs::path& file, std::size_t bytes, std::size_t bytes_per_point) {
     if (bytes % bytes_per_point != 0) {
         throw BrokenRecording(file.string() + ": " + std::to_string(bytes) +
@@ -31,8 +31,8 @@ std::size_t checkedCount(const fs::path& file, std::size_t bytes, std::size_t by
                               "-byte points; is it truncated?");
     }
     if (bytes / bytes_per_point > kMaxReturns) {
-        throw BrokenRecording(file.string() + ": has more than the " + std::to_string(kMaxReturns) +
-                              " points that a scan may have");
+        throw BrokenRecording(file.string() + ": has more than " + std::to_string(kMaxReturns) +
+                              " points, the maximum of a scan");
     }
     return bytes / bytes_per_point;
 }
@@ -80,7 +80,7 @@ const base::OutputKind kScanFolders{
                kFiles.count(within.filename().string()) > 0;
     },
     nullptr,
-    // Of each sensor a folder, or of the only one. Users have labelled folders, too.
+    // One folder per sensor, or a single folder. Users also have labelled folders.
     [](const fs::path& folder) {
         const auto isMade = [](const fs::path& of_sensor) {
             return fs::exists(of_sensor / ScanFolder::kMadeBy) ||
@@ -129,7 +129,7 @@ std::vector<double> ScanFolder::times() const {
     for (const double time_s : times_s) {
         if (observations::isTime(time_s) || time_s == observations::kNoTime_s) continue;
         throw std::runtime_error(file.string() + ": " + std::to_string(time_s) +
-                                 " s is no time that a recording can have");
+                                 " s is not a plausible time");
     }
     return times_s;
 }
@@ -151,7 +151,7 @@ std::size_t readScan(const fs::path& file, Scan& scan) {
         std::size_t numbers = binNumbersPerPoint(bytes);
         if (numbers == 0) {
             std::string other_kind = otherKindOf(bytes);
-            if (mayBeBin(bytes)) other_kind = "its points have a fifth number that is no ring";
+            if (mayBeBin(bytes)) other_kind = "its points have a fifth number that is not a ring";
             if (!other_kind.empty()) {
                 throw BrokenRecording(file.string() + ": has no points: " + other_kind);
             }
@@ -162,7 +162,7 @@ std::size_t readScan(const fs::path& file, Scan& scan) {
         if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
         float most = 0;
         for (std::size_t i = 3; i < values.size(); i += numbers) most = std::max(most, values[i]);
-        const float scale = numbers > 4 && most > 1 ? 255.0f : 1.0f;  // those with rings
+        const float scale = numbers > 4 && most > 1 ? 255.0f : 1.0f;  // only with rings
         scan.clear();
         scan.reserve(points);
         for (std::size_t i = 0; i < values.size(); i += numbers) {

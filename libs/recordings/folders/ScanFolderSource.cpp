@@ -24,8 +24,8 @@ class ScanFolderSource : public FileListSource {
         std::vector<std::string> remarks;
         const std::string scans = (folder_.path() / "velodyne").string();
         if (has_rings_) {
-            remarks.push_back("the rings of its points (nuScenes) are ignored; they are used if " +
-                              scans + " is read as a folder of point clouds");
+            remarks.push_back("the rings of its points (nuScenes) are ignored; to use them, pass " +
+                              scans + " as a folder of point clouds");
         }
         const std::vector<std::string>& others = folder_.otherFiles();
         if (!others.empty()) {
@@ -60,7 +60,7 @@ class ScanFolderSource : public FileListSource {
     }
 
     ScanFolder folder_;
-    Scan scan_;  ///< read last
+    Scan scan_;  ///< last scan read
     std::size_t floats_per_point_ = 4;
     bool has_rings_ = false;
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kNoObject = "it is not an MRPT object";
 
-/// Derives from MRPT's message why an entry cannot be read.
+/// Derives the reason for an unreadable entry from MRPT's message.
 std::string reasonOf(const std::exception& exception) {
     const std::string text = observations::messageOf(exception);
     if (text.find("(EOF?)") != std::string::npos) return "the file ends within it";
@@ -20,19 +20,19 @@ std::string reasonOf(const std::exception& exception) {
         return text + " (this program supports the classes of mrpt-obs and mrpt-maps)";
     }
     if (text.find("ersion") != std::string::npos) return text + " (written by a newer MRPT?)";
-    // A rotating scan of MRPT 3: a sound object that is stored elsewhere.
+    // A rotating scan of MRPT 3: a valid object stored elsewhere.
     if (text.find("is not in the log") != std::string::npos) return text;
     return kNoObject;
 }
 
-/// What is said of a file that is neither a rawlog nor, by its content, another recording.
+/// The message for a file that is neither a rawlog nor, by its content, another recording.
 std::string whyNone(const std::filesystem::path& file) {
     const base::FileKind kind = base::kindOfFile(file);
     const std::string known = kind.text();
-    // PackedInput has unpacked these.
-    const bool is_packed = kind.what == "packed by gzip" || kind.what == "packed by zstd";
-    if (is_packed) return "it is " + kind.what + ", and inside is no rawlog; " + kind.advice;
-    return (known.empty() ? "its first bytes are of no known kind" : known) +
+    // PackedInput has decompressed these.
+    const bool is_packed = kind.what == "gzip-compressed" || kind.what == "zstd-compressed";
+    if (is_packed) return "it is " + kind.what + ", but contains no rawlog; " + kind.advice;
+    return (known.empty() ? "its format is unknown" : known) +
            ". Known are rawlogs, captures (.pcap, .pcapng), ROS recordings (.bag, .mcap, .db3) and "
            "point clouds (.pcd, .ply, .las, .npy, .bin)";
 }
@@ -63,8 +63,8 @@ mrpt::serialization::CSerializable::Ptr EntryReader::next() {
     } catch (const std::bad_alloc&) {
         if (!stream_.fault().empty()) throw broken("");
         throw AsksTooMuch(
-            broken("it asks for more memory at byte " + std::to_string(stream_.getPosition()) +
-                   " than an entry there can need: a count is wrong, or the entry exceeds " +
+            broken("it requests more memory at byte " + std::to_string(stream_.getPosition()) +
+                   " than the entry can need: a count is wrong, or the entry exceeds " +
                    std::to_string(kMaxEntryBytes >> 20) + " MiB")
                 .what());
     } catch (const std::exception& e) {

@@ -33,20 +33,20 @@ observations::Trajectory trajectoryOfKitti(const fs::path& file,
     trajectory.has_horizon = false;  // relative to the first scan, which may be tilted
     std::map<mrpt::Clock::time_point, std::size_t> scan_at;
     for (std::size_t i = 0; i < scans.size(); ++i) {
-        if (!observations::isTime(scans[i].time)) continue;  // has no pose
+        if (!observations::isTime(scans[i].time)) continue;  // without a pose
         const auto [earlier, is_new] = scan_at.try_emplace(scans[i].time, i);
         if (!is_new && sensor_poses[i] != sensor_poses[earlier->second]) {
             throw std::runtime_error(file.string() + ": scans " + std::to_string(earlier->second) +
                                      " and " + std::to_string(i) +
-                                     " have different poses, but the same time; their times must "
-                                     "tell them apart");
+                                     " have different poses, but the same time; scan times must "
+                                     "differ");
         }
         trajectory.add(scans[i].time, sensor_poses[i] + (-scans[i].sensor_on_vehicle));
     }
     return trajectory;
 }
 
-/// The poses of a file of either kind.
+/// Reads a pose file of either kind.
 observations::Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& scans,
                                       bool are_all_scans) {
     return kindOfPoseFile(file) == PoseFileKind::Tum
@@ -54,7 +54,7 @@ observations::Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& sc
                : trajectoryOfKitti(file, readKittiPoses(file), scans, are_all_scans);
 }
 
-/// poses.txt of a scan folder. With a calib.txt they are camera poses, as in KITTI.
+/// Reads poses.txt of a scan folder. With a calib.txt, its poses are camera poses, as in KITTI.
 std::vector<CPose3D> ownKittiPoses(const ScanFolder& folder) {
     std::vector<CPose3D> poses = readKittiPoses(folder.kittiPosesFile());
     if (!fs::exists(folder.calibrationFile())) return poses;

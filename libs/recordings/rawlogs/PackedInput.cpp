@@ -20,16 +20,16 @@ struct CloseFile {
 
 }  // namespace
 
-/// The file and its buffers. zlib's gzread() silently ends at anything after a member that does not
-/// look like another member, which would lose the rest of a damaged log.
+/// The file and its buffers. Does not use zlib's gzread(), which silently stops at data that does
+/// not look like another member, and so would lose the rest of a damaged log.
 struct PackedInput::Stream {
     std::unique_ptr<std::FILE, CloseFile> file;
     std::vector<unsigned char> packed = std::vector<unsigned char>(kPackedBytes);
     std::vector<unsigned char> unpacked = std::vector<unsigned char>(kUnpackedBytes);
     std::size_t packed_at = 0, packed_end = 0;
     std::size_t unpacked_at = 0, unpacked_end = 0;
-    std::uint64_t size = 0;      ///< of the file [bytes]
-    std::uint64_t taken = 0;     ///< bytes of the file
+    std::uint64_t size = 0;      ///< file size [bytes]
+    std::uint64_t taken = 0;     ///< bytes consumed
     bool may_hold_more = false;  ///< the last block was full: the unpacker may have output left
     std::string fault;
     std::unique_ptr<Unpacker> unpacker;
@@ -45,12 +45,12 @@ struct PackedInput::Stream {
     bool fill() {
         packed_at = 0;
         packed_end = std::fread(packed.data(), 1, packed.size(), file.get());
-        if (std::ferror(file.get()) != 0) fault = "the file cannot be read further";
+        if (std::ferror(file.get()) != 0) fault = "the file has a read error";
         taken += packed_end;
         return packed_end > 0;
     }
 
-    /// Unpacks the next block; false at the end and on a fault.
+    /// Decompresses the next block; false at the end and on an error.
     bool unpack() {
         unpacked_at = unpacked_end = 0;
         while (unpacked_end < unpacked.size() && fault.empty()) {
@@ -115,7 +115,7 @@ std::uint64_t PackedInput::mostBytesLeft() const {
 int PackedInput::descriptor() const { return fileno(stream_->file.get()); }
 
 std::string PackedInput::fault() const {
-    // Data unpacked before the fault is delivered first.
+    // Data decompressed before the error is delivered first.
     return stream_->unpacked_at == stream_->unpacked_end ? stream_->fault : "";
 }
 

@@ -6,32 +6,33 @@
 
 namespace hagen::recordings {
 
-/// Reads a file that is uncompressed or consists of one or more gzip members or zstd frames, by
-/// its content, and detects truncation. MRPT's own stream takes a truncated gzip file for
-/// a complete one, and before MRPT 3 knows no zstd.
+/// Reads a file that is uncompressed or consists of gzip members or zstd frames, as detected by
+/// content, and detects truncation. MRPT's own stream accepts truncated gzip files, and lacks zstd
+/// before MRPT 3.
 class PackedInput : public mrpt::io::CStream {
  public:
     /// Throws std::runtime_error naming the file if it cannot be opened.
     explicit PackedInput(const std::filesystem::path& file);
     ~PackedInput() override;
 
-    /// Reads up to `count` bytes; fewer at the end of the file or at a fault. Returns their number.
+    /// Reads up to `count` bytes; fewer at the end of the file or at an error. Returns their
+    /// number.
     std::size_t Read(void* buffer, std::size_t count) override;
     /// Uncompressed bytes read so far.
     std::uint64_t getPosition() const override { return position_; }
     /// Bytes of the file consumed so far.
     std::uint64_t packedPosition() const;
-    /// Bytes of the file when it was opened; it may have been renamed or removed since.
+    /// File size at opening; the file may have been renamed or removed since.
     std::uint64_t packedBytes() const;
 
-    /// The most bytes (uncompressed) that can follow: of compressed data, what its format can hold
-    /// in the rest of the file.
+    /// The maximum number of uncompressed bytes that can follow, for compressed data by the maximum
+    /// compression ratio of its format.
     std::uint64_t mostBytesLeft() const;
     /// The open file.
     int descriptor() const;
 
-    /// Why reading stopped: the file is truncated or corrupt. Empty while there is data left, and
-    /// after a regular end.
+    /// The error that stopped reading: the file is truncated or corrupt. Empty while data is left,
+    /// and after a regular end.
     std::string fault() const;
 
     // Not supported: the input is read once, from start to end.

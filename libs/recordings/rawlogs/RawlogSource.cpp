@@ -92,12 +92,12 @@ class RawlogSource : public ScanSource {
     }
 
     LogPoses readPoses(const std::filesystem::path& file) override {
-        // Poses with times do not depend on the log, which need not be read in advance.
+        // Poses with times do not require reading the log in advance.
         if (!file.empty() && kindOfPoseFile(file) == PoseFileKind::Tum) {
             return posesOfRawlog(RawlogSurvey(), file);
         }
         poses_not_finite_ = survey().not_finite;
-        RawlogSurvey all = std::move(*survey_);  // a long trajectory is not kept twice
+        RawlogSurvey all = std::move(*survey_);  // avoids a copy of a long trajectory
         survey_.reset();
         const auto isKept = [this](const std::string& label) { return isSelected(label); };
         return posesOfRawlog(withScansOf(std::move(all), isKept), file);
@@ -118,9 +118,9 @@ class RawlogSource : public ScanSource {
 
     std::filesystem::path rawlog_;
     RawlogReader reader_;
-    std::unique_ptr<RawlogReader> ahead_;  ///< of showClouds(); made on demand
-    std::optional<RawlogSurvey> survey_;   ///< made on demand
-    // Of the selected entries:
+    std::unique_ptr<RawlogReader> ahead_;  ///< for showClouds(); created on demand
+    std::optional<RawlogSurvey> survey_;
+    // Counts of the selected entries:
     std::size_t null_objects_ = 0, poses_not_finite_ = 0;
     bool has_scans_ = false;
     std::map<std::string, std::size_t> has_;  ///< number of objects by class

@@ -22,7 +22,7 @@ using mrpt::obs::CActionRobotMovement3D;
 using mrpt::obs::CObservation;
 using mrpt::poses::CPose3D;
 
-/// A trajectory that sums the pose increments of actions.
+/// Sums the pose increments of actions to a trajectory.
 class SummedMovement {
  public:
     void move(mrpt::Clock::time_point time, const CPose3D& increment) {
@@ -35,7 +35,7 @@ class SummedMovement {
         has_moved_ = true;
         if (is_placed_) trajectory_.add(time, pose_);
     }
-    /// A sensory frame with this time: where the actions before it have led.
+    /// Adds the pose after the previous actions, at the time of a sensory frame.
     void arrive(mrpt::Clock::time_point time) {
         if (!is_placed_) trajectory_.add(time, pose_);
         is_placed_ = true;
@@ -80,7 +80,7 @@ class RawlogSurveyor {
         const std::string& label = observation.sensorLabel;
         if (const auto* pose =
                 dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
-            // The pose sensor may be mounted away from the vehicle's origin.
+            // The pose sensor may be offset from the vehicle's origin.
             robot_poses_[label].add(pose->timestamp, pose->pose.mean + (-pose->sensorPose));
         } else if (const auto* odometry =
                        dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
@@ -144,7 +144,7 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
             }
         }
     } catch (const BrokenRecording& e) {
-        // The conversion reports the break; the entries before it are valid.
+        // The conversion reports the error; the entries before it are valid.
         is_whole = false;
         why = e.what();
     }

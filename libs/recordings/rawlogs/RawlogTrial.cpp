@@ -19,7 +19,7 @@
 namespace hagen::recordings {
 namespace {
 
-/// What is sent through the pipe, followed by `text` bytes of the reason.
+/// The message header in the pipe, followed by `text` bytes of the reason.
 struct VerdictHeader {
     EntryVerdict::Kind kind;
     std::uint64_t end;
@@ -27,8 +27,8 @@ struct VerdictHeader {
 };
 constexpr std::size_t kMaxTextLength = 4096;
 
-/// MRPT's objects take more memory than their bytes in a rawlog: an empty pointer or text has 4
-/// bytes there and up to 32 in memory, and vectors double while they grow.
+/// MRPT's objects need more memory than their bytes in a rawlog: an empty pointer or text has 4
+/// bytes in the file and up to 32 in memory, and vectors double while they grow.
 constexpr std::uint64_t kMemoryPerByte = 32, kMemoryBesides = 64 << 20;
 
 /// Calls read() or write() until all bytes are transferred; false at the end of the pipe.
@@ -63,7 +63,7 @@ std::uint64_t dataBytes() {
     return is_read ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
-/// Whether a pipe has something to read, or an end, within this time. Signals do not prolong it.
+/// Waits until a pipe has data or is closed; false at the timeout, which signals do not extend.
 bool isReadable(int pipe, std::chrono::milliseconds max_idle) {
     using Clock = std::chrono::steady_clock;
     for (const auto end = Clock::now() + max_idle;;) {
@@ -75,10 +75,10 @@ bool isReadable(int pipe, std::chrono::milliseconds max_idle) {
     }
 }
 
-/// Limits the memory for the next entry to what the rest of the file can need. Returns whether the
+/// Limits the memory for the next entry to what the rest of the file can need. Returns true if the
 /// program's own limit is lower.
 bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
-    constexpr std::uint64_t kShadow = std::uint64_t{1} << 40;  // of a sanitizer
+    constexpr std::uint64_t kShadow = std::uint64_t{1} << 40;  // shadow memory of a sanitizer
     const std::uint64_t now = dataBytes();
     if (now == 0 || now > kShadow) return false;
     const std::uint64_t left = std::min(stream.mostBytesLeft(), kMaxEntryBytes);
@@ -107,8 +107,7 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
             send(pipe, EntryVerdict::Kind::Sound, end);
         }
     } catch (const AsksTooMuch& e) {
-        const char* const limit =
-            is_limit_of_program ? ", or more than --memory-limit leaves for it" : "";
+        const char* const limit = is_limit_of_program ? ", or more than --memory-limit allows" : "";
         send(pipe, EntryVerdict::Kind::Broken, 0, std::string(e.what()) + limit);
     } catch (const std::exception& e) {
         send(pipe, EntryVerdict::Kind::Broken, 0, e.what());
@@ -116,15 +115,15 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     _exit(0);
 }
 
-/// The child process; of the program's descriptors it keeps the rawlog and the pipe.
+/// Runs in the child process, which keeps only the descriptors of the rawlog and the pipe.
 [[noreturn]] void runTrial(const std::filesystem::path& file, int descriptor, int pipe) {
     setpgid(0, 0);
-    // The program ends the process; it needs no core file.
+    // The program kills the process; avoid a core file.
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
     for (const int number : {SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) signal(number, SIG_DFL);
     const rlimit none{0, 0};
     setrlimit(RLIMIT_CORE, &none);
-    // MRPT's warnings are printed by the program's own reading.
+    // The program itself prints MRPT's warnings later.
     const int silence = open("/dev/null", O_RDWR);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(silence, stream);
     constexpr int kRawlog = 3, kPipe = 4;
@@ -132,8 +131,8 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     dup2(high_rawlog, kRawlog);
     dup2(high_pipe, kPipe);
     close_range(kPipe + 1, ~0U, 0);
-    // Opened again, because the program's own reading moves the position, and by descriptor,
-    // because the name may be another file's by now.
+    // Reopened, because the program's own reading moves the position, and by descriptor, because
+    // the name may refer to another file by now.
     tryAll(file, "/proc/self/fd/" + std::to_string(kRawlog), kPipe);
 }
 
@@ -150,8 +149,8 @@ RawlogTrial::~RawlogTrial() { stop(); }
 void RawlogTrial::start() {
     int pipe[2];
     if (pipe2(pipe, O_CLOEXEC) != 0) {
-        throw std::runtime_error(file_.string() +
-                                 ": cannot be read: no pipe can be made: " + std::strerror(errno));
+        throw std::runtime_error(
+            file_.string() + ": cannot be read: creating a pipe failed: " + std::strerror(errno));
     }
     process_ = fork();
     if (process_ == 0) runTrial(file_, descriptor_, pipe[1]);
@@ -160,7 +159,7 @@ void RawlogTrial::start() {
     if (process_ < 0) {
         close(pipe[0]);
         throw std::runtime_error(file_.string() +
-                                 ": cannot be read: no process can be started to try its entries "
+                                 ": cannot be read: starting a process to check its entries failed "
                                  "(ulimit -u?): " +
                                  std::strerror(error));
     }
@@ -179,7 +178,7 @@ void RawlogTrial::stop() {
     process_ = -1;
 }
 
-/// Waits until the process sends something or ends (false), or is idle for too long (true).
+/// Waits until the process sends data or exits (false), or is idle for too long (true).
 bool RawlogTrial::isStuck() const {
     for (;;) {
         const auto before = base::cpuTimeOf(process_);
@@ -199,12 +198,12 @@ std::string RawlogTrial::whyItEnded() {
     while ((ended = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
     }
     process_ = -1;
-    // Its status is lost, for example if the program ignores SIGCHLD.
-    if (ended < 0) return cannotBeRead("MRPT's reader crashes on it, or ends at it");
+    // The status is lost, for example if the program ignores SIGCHLD.
+    if (ended < 0) return cannotBeRead("MRPT's reader crashed or exited");
     return cannotBeRead("MRPT's reader " +
                         (WIFSIGNALED(status)
-                             ? std::string("crashes on it (") + strsignal(WTERMSIG(status)) + ")"
-                             : "ends at it"));
+                             ? std::string("crashed (") + strsignal(WTERMSIG(status)) + ")"
+                             : "exited"));
 }
 
 EntryVerdict RawlogTrial::receiveVerdict() {
@@ -229,7 +228,7 @@ EntryVerdict RawlogTrial::next() {
         if (isStuck()) {
             stop();
             if (starts_ == kMaxStarts) {
-                return broken(cannotBeRead("MRPT's reader hangs at it"));
+                return broken(cannotBeRead("MRPT's reader hangs"));
             }
             try {
                 start();

@@ -12,9 +12,9 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr std::uint64_t kMaxZeros = 256 << 20;  // more are no filling, and take their time
+constexpr std::uint64_t kMaxZeros = 256 << 20;  // more is not padding, and takes time
 
-/// Gzip members, one after the other.
+/// Concatenated gzip members.
 class GzipUnpacker : public Unpacker {
  public:
     GzipUnpacker() {
@@ -26,7 +26,7 @@ class GzipUnpacker : public Unpacker {
     GzipUnpacker& operator=(const GzipUnpacker&) = delete;
 
     bool unpack(UnpackStep& step) override {
-        // Zeros may fill up a file after its last member, as on a tape; gzip ignores them, too.
+        // Zeros may pad a file after its last member, as on tapes; gzip also ignores them.
         if (!is_in_member_ && has_member_) {
             while (step.in_size > 0 && *step.in == 0) {
                 ++step.in;
@@ -36,7 +36,7 @@ class GzipUnpacker : public Unpacker {
             if (step.in_size == 0) return true;
         }
         is_in_member_ = has_member_ = true;
-        inflater_.next_in = const_cast<unsigned char*>(step.in);  // is only read
+        inflater_.next_in = const_cast<unsigned char*>(step.in);  // not modified
         inflater_.avail_in = static_cast<unsigned>(step.in_size);
         inflater_.next_out = step.out;
         inflater_.avail_out = static_cast<unsigned>(step.out_size);
@@ -47,12 +47,12 @@ class GzipUnpacker : public Unpacker {
             inflateReset(&inflater_);
             return true;
         }
-        return code == Z_OK || code == Z_BUF_ERROR;  // the latter: there was nothing to do
+        return code == Z_OK || code == Z_BUF_ERROR;  // Z_BUF_ERROR: no progress possible
     }
 
     std::uint64_t mostOutOf(std::uint64_t packed) const override {
-        constexpr std::uint64_t kDeflatesBest = 1032;  // 258 bytes by two bits
-        constexpr std::uint64_t kHeld = 1 << 16;       // of what zlib has taken already
+        constexpr std::uint64_t kDeflatesBest = 1032;  // 258 bytes from two bits
+        constexpr std::uint64_t kHeld = 1 << 16;       // buffered by zlib
         return kDeflatesBest * std::min(packed, std::uint64_t{1} << 48) + kHeld;
     }
 
@@ -62,7 +62,7 @@ class GzipUnpacker : public Unpacker {
     std::uint64_t zeros_ = 0;  ///< after members
 };
 
-/// Zstandard frames, one after the other.
+/// Concatenated Zstandard frames.
 class ZstdUnpacker : public Unpacker {
  public:
     ZstdUnpacker() : context_(ZSTD_createDCtx()) {

@@ -5,7 +5,7 @@
 
 namespace hagen::recordings {
 
-/// The next bytes of a file, and room for what they unpack to. Both shrink from the front.
+/// The next bytes of a file, and room for their output. Both shrink from the front.
 struct UnpackStep {
     const unsigned char* in;
     std::size_t in_size;
@@ -13,24 +13,24 @@ struct UnpackStep {
     std::size_t out_size;
 };
 
-/// A format of compression, read block by block.
+/// A compression format, read block by block.
 class Unpacker {
  public:
     virtual ~Unpacker() = default;
-    /// Unpacks until the input or the room is used up, or a member ends. False: it cannot
+    /// Decompresses until the input or the room is used up, or a member ends. False on an error
     /// (fault()).
     virtual bool unpack(UnpackStep& step) = 0;
     virtual const char* fault() const { return "the compressed data is corrupt"; }
-    /// The most bytes that so many bytes of input can unpack to.
+    /// The maximum output size for an input size.
     virtual std::uint64_t mostOutOf(std::uint64_t packed) const = 0;
-    /// Whether the input may not end here: a member has begun.
+    /// True within a member, where the input must not end.
     bool isInMember() const { return is_in_member_; }
 
  protected:
     bool is_in_member_ = false;
 };
 
-/// The unpacker of a file that begins with these bytes: gzip, zstd, or none for anything else.
+/// The unpacker for a file that starts with these bytes: gzip, zstd, or none.
 std::unique_ptr<Unpacker> unpackerFor(const unsigned char* start, std::size_t size);
 
 }  // namespace hagen::recordings

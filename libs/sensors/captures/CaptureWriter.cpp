@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kBlockBytes = 1 << 16;
 constexpr std::size_t kEthernetHeader = 14, kIpHeader = 20;
 
-// pcap in the byte order of files of x86 and ARM; network headers in network order.
+// pcap in little-endian byte order; network headers in network order.
 void append16(std::string& bytes, unsigned value) {
     bytes += static_cast<char>(value >> 8 & 0xff);
     bytes += static_cast<char>(value & 0xff);
@@ -26,13 +26,13 @@ void appendLittle32(std::string& bytes, std::uint64_t value) {
     }
 }
 
-/// A locally administered address: IP addresses distinguish the hosts.
+/// A locally administered MAC address; IP addresses distinguish the hosts.
 void appendMac(std::string& bytes, std::uint32_t ip) {
     append16(bytes, 0x0200);
     append32(bytes, ip);
 }
 
-/// IPv4: the complemented sum of the 16-bit words.
+/// The IPv4 checksum: the complemented sum of the 16-bit words.
 unsigned checksumOf(const std::string& bytes, std::size_t from, std::size_t size) {
     unsigned sum = 0;
     for (std::size_t i = from; i < from + size; i += 2) {
@@ -74,7 +74,7 @@ CaptureWriter::CaptureWriter(const std::filesystem::path& file)
     appendLittle32(block_, 0x00040002);  // version 2.4
     appendLittle32(block_, 0);
     appendLittle32(block_, 0);
-    appendLittle32(block_, 1 << 18);  // the longest frame
+    appendLittle32(block_, 1 << 18);  // snap length
     appendLittle32(block_, 1);        // Ethernet
     flush();
 }
@@ -84,8 +84,8 @@ bool CaptureWriter::add(const Datagram& datagram) {
     const std::uint64_t frame_bytes = kEthernetHeader + kIpHeader + kUdpHeader + datagram.size;
     appendLittle32(block_, time_ns / 1000000000);
     appendLittle32(block_, time_ns % 1000000000);
-    appendLittle32(block_, frame_bytes);  // kept
-    appendLittle32(block_, frame_bytes);  // sent
+    appendLittle32(block_, frame_bytes);  // captured length
+    appendLittle32(block_, frame_bytes);  // original length
     appendFrame(block_, datagram);
     if (block_.size() < kBlockBytes) return false;
     flush();

@@ -9,18 +9,18 @@
 
 namespace hagen::sensors {
 
-/// Writes UDP datagrams to a capture (.pcap with nanoseconds), each as one Ethernet frame. Frames
-/// reach the file whole, in blocks: a killed process leaves a capture that can be read.
+/// Writes UDP datagrams to a capture (.pcap with nanoseconds), each as one Ethernet frame. Writes
+/// whole frames in blocks, so that the capture stays readable if the process is killed.
 class CaptureWriter {
  public:
-    /// Creates the file. Throws std::runtime_error naming it and the reason.
+    /// Creates the file. Throws std::runtime_error naming the file and the reason.
     explicit CaptureWriter(const std::filesystem::path& file);
 
-    /// Adds a datagram. Returns whether that completed a block, which is then in the file. Throws
-    /// std::runtime_error naming the file if it cannot be written; it then ends with the block
-    /// before.
+    /// Adds a datagram. Returns true if that completed a block and wrote it to the file. Throws
+    /// std::runtime_error naming the file if writing fails; the file then ends with the previous
+    /// block.
     bool add(const Datagram& datagram);
-    /// Writes what was added since the last block. Throws like add().
+    /// Writes the datagrams added since the last block. Throws like add().
     void flush();
 
  private:

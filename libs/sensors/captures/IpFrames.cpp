@@ -13,7 +13,7 @@ constexpr int kAnyDevice2 = 276;
 
 bool isVlanTag(unsigned type) { return type == 0x8100 || type == 0x88a8 || type == 0x9100; }
 
-/// The IP packet in an Ethernet frame whose type is at `at`; none if it holds something else.
+/// The IP packet in an Ethernet frame whose type is at `at`; empty if it contains another protocol.
 Bytes behindType(Bytes frame, std::size_t at, bool& is_tagged) {
     while (at + 2 <= frame.size && isVlanTag(frame.at16(at))) {
         is_tagged = true;
@@ -22,7 +22,6 @@ Bytes behindType(Bytes frame, std::size_t at, bool& is_tagged) {
     return at + 2 <= frame.size && frame.at16(at) == kIpv4 ? frame.from(at + 2) : Bytes{};
 }
 
-/// The IP packet in a frame.
 Bytes ipOf(int link_type, Bytes frame, bool& is_tagged) {
     switch (link_type) {
         case DLT_EN10MB:
@@ -58,7 +57,7 @@ IpPacket readFrame(int link_type, Bytes frame) {
     if (ip.size >= 10 && ip.at8(9) != kUdp) return packet;
     packet.kind = IpPacket::Kind::Cut;
     if (header < kMinHeader || ip.size < header) return packet;
-    // 0: the network card cut the packet up after the capture saw it.
+    // 0: the network card segmented the packet after the capture (TSO).
     const std::size_t total = ip.at16(2) == 0 ? ip.size : ip.at16(2);
     if (total < header || total > ip.size) return packet;
     packet.kind = IpPacket::Kind::Udp;

@@ -19,7 +19,7 @@ void addCount(std::size_t number, const std::string& one, const std::string& mor
 /// Two lists joined by ", "; either may be empty.
 std::string joined(const std::string& first, const std::string& second);
 
-/// Datagrams that no driver takes, by port and size.
+/// Datagrams that no driver accepts, by port and size.
 class OtherDatagrams {
  public:
     void add(const Datagram& datagram);

@@ -11,9 +11,9 @@ namespace hagen::sensors {
 namespace {
 
 constexpr double kFrame_s = 0.02;
-constexpr double kMaxFrame = 2;                 // times as long as usual, by arrival
-constexpr double kPointInterval_s = 5e-6;       // of a Mid-360, if a packet does not contain it
-constexpr std::size_t kMaxFramePackets = 1000;  // per frame, whatever the clock; usual are 42
+constexpr double kMaxFrame = 2;                 // max. duration by arrival, in nominal durations
+constexpr double kPointInterval_s = 5e-6;       // Mid-360 default, if a packet lacks it
+constexpr std::size_t kMaxFramePackets = 1000;  // per frame, regardless of the clock; normally 42
 constexpr std::size_t kFramesOfScan = 5;
 
 /// Reads the packets of one Livox Mid-360 (Livox SDK 2, Cartesian data) in frames of 20 ms.
@@ -25,7 +25,7 @@ class LivoxDriver : public LidarDriver {
         return livoxPacketOf(datagram).has_value();
     }
     Taken add(const Datagram& datagram, double arrival_s, ReturnSink& sink) override {
-        // After a silence, returns that waited for the end of the frame must not look new.
+        // After a pause, returns of the unfinished frame must not appear recent.
         if (is_begun_ && arrival_s - frame_.first_arrival_s > kMaxFrame * kFrame_s) flush(sink);
         if (isLivoxImu(datagram)) {
             ++counts_.auxiliary;
@@ -80,7 +80,7 @@ class LivoxDriver : public LidarDriver {
     const SensorModel model_ = sensor();
     LivoxSequence sequence_{true};
     bool is_begun_ = false;
-    std::uint64_t start_ns_ = 0;  ///< of the frame, by the sensor's clock
+    std::uint64_t start_ns_ = 0;  ///< sensor time at which the frame starts
     std::size_t packets_of_frame_ = 0, frames_ = 0;
     ReturnSink::Frame frame_{};
     Scan returns_;  ///< of the frame

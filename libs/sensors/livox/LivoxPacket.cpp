@@ -6,7 +6,7 @@ namespace hagen::sensors {
 namespace {
 
 constexpr std::size_t kHeader = 36;
-constexpr int kMillimetres = 1, kCentimetres = 2;  // kinds of data
+constexpr int kMillimetres = 1, kCentimetres = 2;  // data types
 
 /// A signed coordinate of 2 or 4 bytes.
 float coordinate(const std::uint8_t* at, bool is_fine, float unit_m) {
@@ -30,7 +30,7 @@ std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram) {
     const bool fits = packet.point_bytes > 0 && packet.count > 0 &&
                       kHeader + packet.count * packet.point_bytes == datagram.size;
     if (!fits) return std::nullopt;
-    // The interval in the header is that of the whole packet, in 0.1 us.
+    // The interval in the header covers the whole packet, in 0.1 us.
     packet.point_interval_s = 1e-7 * static_cast<double>(little<std::uint16_t>(bytes + 3)) /
                               static_cast<double>(packet.count);
     packet.number = little<std::uint16_t>(bytes + 7);
@@ -40,7 +40,7 @@ std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram) {
 }
 
 bool isLivoxImu(const Datagram& datagram) {
-    constexpr std::size_t kSize = kHeader + 24;  // three rates, three accelerations, as float32
+    constexpr std::size_t kSize = kHeader + 24;  // angular rates and accelerations, float32
     constexpr int kImu = 0;
     const std::uint8_t* const bytes = datagram.bytes;
     return datagram.size == kSize && bytes[0] == 0 && little<std::uint16_t>(bytes + 1) == kSize &&

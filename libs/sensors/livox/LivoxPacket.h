@@ -15,18 +15,18 @@ struct LivoxPacket {
     std::size_t count = 0;
     std::size_t point_bytes = 0;  ///< 14: millimetres; 8: centimetres
     double point_interval_s = 0;  ///< from one point to the next
-    std::uint16_t number = 0;     ///< of the packet; it wraps
-    std::uint64_t time_ns = 0;    ///< of its first point, by the sensor's clock
+    std::uint16_t number = 0;     ///< sequence number, wraps
+    std::uint64_t time_ns = 0;    ///< sensor time of the first point
 };
 
-/// The packet in a datagram, if it is one with Cartesian points.
+/// Parses a packet with Cartesian points; nullopt for other datagrams.
 std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram);
 
-/// Whether a datagram is an IMU packet (rates and accelerations).
+/// True if a datagram is an IMU packet (rates and accelerations).
 bool isLivoxImu(const Datagram& datagram);
 
-/// Appends its points with times since `start_ns`, and the tag (confidence) of each. Skips points
-/// without a range, which are at the origin. Does not locate beams.
+/// Appends the points of a packet with times since `start_ns` and tags (confidence). Skips points
+/// at the origin, which have no range. Does not locate beams.
 void appendPoints(const LivoxPacket& packet, std::uint64_t start_ns, Scan& scan,
                   std::vector<std::uint8_t>& tags);
 

@@ -12,8 +12,8 @@ constexpr std::size_t kLateOfSetClock = 4;          // packets in a row
 
 }  // namespace
 
-/// A single late packet was delayed by the network. Several late packets in a row, shortly after
-/// one another, mean that the clock was set back.
+/// The network may delay a single packet; several late packets in quick succession mean that the
+/// clock was set back.
 bool LivoxSequence::wentBack(std::uint64_t time_ns) {
     const bool follows =
         too_late_in_a_row_ > 0 && time_ns > too_late_ns_ && time_ns - too_late_ns_ <= kMaxLate_ns;
@@ -44,7 +44,7 @@ LivoxSequence::Step LivoxSequence::stepTo(const LivoxPacket& packet, PacketCount
         if (step < 0 && counts.lost > 0) --counts.lost;
         return Step::Late;
     }
-    // Some firmware restarts the numbers with each frame.
+    // Some firmware restarts the sequence numbers with each frame.
     if (step > 1) counts.lost += static_cast<std::size_t>(step - 1);
     return Step::Next;
 }
@@ -53,7 +53,7 @@ LivoxSequence::Step LivoxSequence::add(const LivoxPacket& packet, double arrival
                                        PacketCounts& counts) {
     const std::uint64_t key = packet.time_ns << 16 | packet.number;
     if (recent_.has(key, arrival_s)) {
-        // If all packets are sent twice, so are those of a clock that was set back.
+        // If the network duplicates all packets, it also does so after the clock was set back.
         const std::uint64_t apart_ns =
             std::max(packet.time_ns, too_late_ns_) - std::min(packet.time_ns, too_late_ns_);
         if (apart_ns > kMaxLate_ns) too_late_in_a_row_ = 0;

@@ -9,17 +9,17 @@
 
 namespace hagen::sensors {
 
-/// Order of the packets of a Livox: counts duplicates, losses and late packets.
+/// Tracks the order of Livox packets: counts duplicates, losses and late packets.
 class LivoxSequence {
  public:
     enum class Step { Next, Late, Duplicate, TooLate, Interruption };
 
-    /// `drops_late`: packets more than sixteen late are TooLate, unless four in a row show that the
-    /// clock was set back. Otherwise these are Late, too.
+    /// `drops_late`: packets more than 16 packets late are TooLate, unless four in a row show that
+    /// the clock was set back. If false, these are Late, too.
     explicit LivoxSequence(bool drops_late) : drops_late_(drops_late) {}
 
     Step add(const LivoxPacket& packet, double arrival_s, PacketCounts& counts);
-    /// By the sensor's clock, of the latest packet.
+    /// Sensor time of the latest packet.
     std::uint64_t last_ns() const { return last_ns_; }
 
  private:
@@ -30,8 +30,8 @@ class LivoxSequence {
     bool has_last_ = false;
     std::uint64_t last_ns_ = 0;
     std::uint16_t last_number_ = 0;
-    std::uint64_t too_late_ns_ = 0;      ///< of the latest packet that was too late
-    std::size_t too_late_in_a_row_ = 0;  ///< up to now
+    std::uint64_t too_late_ns_ = 0;  ///< time of the latest TooLate packet
+    std::size_t too_late_in_a_row_ = 0;
     RecentPackets recent_;
 };
 

@@ -14,11 +14,9 @@ namespace hagen::sensors {
 namespace {
 
 constexpr std::uint64_t kSweep_ns = 100000000;
-constexpr std::size_t kMaxPackets = 10000;  // per sweep, whatever the clock; usual are 210
+constexpr std::size_t kMaxPackets = 10000;  // per sweep, regardless of the clock; normally 210
 
-/// The Livox Mid-360 sensors of a recording (Livox SDK 2, Cartesian data), by address. A sweep is
-/// the points of a tenth of a second by the sensor's clock, with the time of its first packet. Late
-/// packets join the sweep in progress.
+/// See makeLivoxSweeps(). A sweep has the time of its first packet.
 class LivoxSweeps : public SweepReader {
  public:
     void add(const Datagram& datagram) override {
@@ -71,8 +69,8 @@ class LivoxSweeps : public SweepReader {
         PacketCounts counts;
         LivoxSequence sequence{false};
         bool is_begun = false;
-        std::uint64_t start_ns = 0;  ///< of the sweep in progress, by the sensor's clock
-        std::size_t packets = 0;     ///< likewise
+        std::uint64_t start_ns = 0;  ///< sensor time at which the sweep in progress starts
+        std::size_t packets = 0;     ///< in the sweep in progress
         LidarSweep sweep;
     };
     void add(const LivoxPacket& packet, const Datagram& datagram, Sensor& sensor) {

@@ -8,29 +8,29 @@
 
 namespace hagen::sensors {
 
-/// Checks that a sensor's turns have as many columns as its metadata. Packets do not contain the
-/// mode, and in another one, columns would be placed in wrong directions.
+/// Checks that a sensor's turns have the number of columns in the metadata. Packets do not contain
+/// the mode, and columns of another mode would get wrong directions.
 ///
-/// The time from a column to the same one of the next turn is as many times that from column to
-/// column as the turn has columns. Those of LEGACY packets have the head's angle. Only what fits
-/// another mode (2, 4 or 8 times as many columns, or as few) counts against the metadata: clocks
-/// may be set. The first turn is trusted unless its time contradicts `lidar_mode`. After a restart
-/// of the sensor, which a change of the mode requires, a turn must confirm the columns.
+/// The number of columns is the duration of a turn divided by the time between columns, or follows
+/// from the head's angle in LEGACY packets. Only evidence for another mode (2, 4 or 8 times as many
+/// or as few columns) counts against the metadata, because clocks may be set. The first turn is
+/// trusted unless its duration contradicts `lidar_mode`. After a restart of the sensor, which a
+/// mode change requires, a turn must confirm the columns.
 class OusterColumns {
  public:
     explicit OusterColumns(const OusterSensor& sensor) : sensor_(sensor) {}
 
-    /// Takes a packet of OusterSensor::packetBytes(). Returns whether its columns are certain.
+    /// Adds a packet of OusterSensor::packetBytes(). Returns true if its columns are certain.
     bool take(const std::uint8_t* packet);
-    /// Restarts of the sensor: changes of the initialization number.
+    /// Number of sensor restarts: changes of the initialization id.
     std::size_t restarts() const { return restarts_; }
 
  private:
     struct Column {
         std::uint16_t frame = 0, number = 0;
         std::uint64_t time_ns = 0;
-        std::uint32_t encoder = 0;  ///< of LEGACY: how far the head has turned
-        double all_ns = 0;          ///< so long all columns of a turn would take
+        std::uint32_t encoder = 0;  ///< LEGACY only: angle of the head
+        double all_ns = 0;          ///< extrapolated duration of a turn
     };
     enum class Evidence { None, Same, Other };
 
@@ -42,12 +42,12 @@ class OusterColumns {
 
     const OusterSensor& sensor_;
     bool is_certain_ = true;
-    bool has_compared_ = false;  ///< two turns, since the sensor was started
+    bool has_compared_ = false;  ///< two turns, since the sensor's start
     std::optional<std::uint32_t> initialization_;
     std::size_t restarts_ = 0;
-    std::optional<Column> first_, last_;          ///< valid ones, of the packet
-    std::optional<Column> before_;                ///< the last one of the packet before
-    std::vector<std::optional<Column>> of_turn_;  ///< by number: the latest
+    std::optional<Column> first_, last_;          ///< first and last valid column of the packet
+    std::optional<Column> before_;                ///< last column of the previous packet
+    std::vector<std::optional<Column>> of_turn_;  ///< latest column by number
 };
 
 }  // namespace hagen::sensors

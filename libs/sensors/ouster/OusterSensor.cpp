@@ -44,13 +44,13 @@ void checkType(bool is_expected, const std::string& key, const char* expected, c
     throw std::runtime_error("'" + key + "': expected " + expected + ", not: " + found.dump());
 }
 
-/// nullptr if this is not an object, or does not have the key.
+/// nullptr if this is not an object or lacks the key.
 const json* member(const json& object, const std::string& key) {
     const auto found = object.find(key);
     return found == object.end() ? nullptr : &*found;
 }
 
-/// Metadata as read: keys are at the top or, since firmware 3, in sections.
+/// Parsed metadata: keys are at the top level or, since firmware 3, in sections.
 class Metadata {
  public:
     explicit Metadata(const json& root) : root_(root) {}
@@ -133,7 +133,7 @@ std::size_t columnsOfMode(const std::string& mode) {
     throw std::runtime_error("'lidar_mode' is '" + mode + "', not like '1024x10'");
 }
 
-/// From a mode like "1024x10": turns per second; 0 for other texts.
+/// Turns per second from a mode like "1024x10"; 0 for other texts.
 double turnTimeOfMode(const Metadata& metadata) {
     const json* const found = metadata.find("lidar_mode");
     if (found == nullptr || !found->is_string()) return 0;
@@ -155,7 +155,7 @@ const OusterProfile& profileNamed(const std::string& name) {
                              ". Set one of these in the sensor's configuration and record again");
 }
 
-/// Metadata before firmware 3.2 do not name the header: then the profile decides.
+/// Metadata before firmware 3.2 lack the header type: the profile then determines it.
 bool hasFusaHeader(const Metadata& metadata, const OusterProfile& profile) {
     if (profile.is_legacy) return false;
     const std::string header = metadata.text("header_type");
@@ -199,7 +199,8 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
     };
     sensor.altitude_rad = in_radians("beam_altitude_angles", 90);
     sensor.azimuth_rad = in_radians("beam_azimuth_angles", 360);
-    for (double& azimuth_rad : sensor.azimuth_rad) azimuth_rad = -azimuth_rad;  // clockwise there
+    for (double& azimuth_rad : sensor.azimuth_rad)
+        azimuth_rad = -azimuth_rad;  // clockwise in metadata
     if (metadata.find("beam_to_lidar_transform") != nullptr) {
         const std::vector<double> to_lidar = metadata.numbers("beam_to_lidar_transform", 16, 1000);
         sensor.beam_origin_m = 1e-3 * to_lidar[3];
@@ -211,7 +212,7 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
         }
         sensor.beam_origin_m = 1e-3 * origin_mm;
     }
-    // As all sensors have it, unless the metadata say otherwise.
+    // The same for all sensors, unless the metadata override it.
     std::vector<double> to_sensor{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36.18, 0, 0, 0, 1};
     if (metadata.find("lidar_to_sensor_transform") != nullptr) {
         to_sensor = metadata.numbers("lidar_to_sensor_transform", 16, 1000);
@@ -224,13 +225,13 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
     if (!(rotation * rotation.transpose()).isIdentity(1e-3)) {
         throw std::runtime_error("'lidar_to_sensor_transform' is not a rigid transformation");
     }
-    // Rows and the direction of the sweep would be others. A mount belongs into the settings.
+    // Rows and the sweep direction would change. The mount belongs in the settings.
     if (!(rotation(2, 2) > 0.999) || !(rotation.determinant() > 0)) {
-        throw std::runtime_error("'lidar_to_sensor_transform' does more than turn about z");
+        throw std::runtime_error("'lidar_to_sensor_transform' rotates about other axes than z");
     }
 }
 
-/// The rows of the pixels, and the beams as a sensor.
+/// Sets the rows of the pixels, and the sensor model with the beams.
 void sortBeams(OusterSensor& sensor) {
     std::vector<std::size_t> by_altitude(sensor.pixels);
     std::iota(by_altitude.begin(), by_altitude.end(), std::size_t{0});
@@ -344,7 +345,7 @@ OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) 
         const Metadata metadata(root);
         if (metadata.find("beam_altitude_angles") == nullptr) {
             throw std::runtime_error(
-                "the key 'beam_altitude_angles' is missing; is it an Ouster's metadata?");
+                "the key 'beam_altitude_angles' is missing; is this file Ouster metadata?");
         }
         OusterSensor sensor;
         sensor.name = metadata.text("prod_line");
@@ -355,7 +356,7 @@ OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) 
         sortBeams(sensor);
         return sensor;
     } catch (const std::exception& e) {
-        throw std::runtime_error(origin + ": not metadata of an Ouster: " + e.what());
+        throw std::runtime_error(origin + ": not Ouster metadata: " + e.what());
     }
 }
 

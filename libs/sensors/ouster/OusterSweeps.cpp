@@ -13,10 +13,9 @@
 namespace hagen::sensors {
 namespace {
 
-/// The frames of one Ouster in a recording, by its metadata.
+/// The frames of one Ouster in a recording.
 class OusterSweeps : public SweepReader {
  public:
-    /// Throws std::runtime_error naming metadata that cannot be used.
     explicit OusterSweeps(const std::filesystem::path& sensor_json)
         : json_(sensor_json), sensor_(readOusterSensor(sensor_json)) {}
 
@@ -73,7 +72,7 @@ class OusterSweeps : public SweepReader {
         if (frames_.counts().frames > 0) return "";
         if (frames_.counts().packets > 0) {
             return "its turns do not have the " + std::to_string(sensor_.columns_per_frame) +
-                   " columns of " + json_.string() + ". Are the metadata of another mode?";
+                   " columns in " + json_.string() + ". Are the metadata from another mode?";
         }
         const std::string found = joined(ignored(), losses);
         return "has no packets of the " + sensor_.name +
@@ -94,7 +93,7 @@ class OusterSweeps : public SweepReader {
     std::filesystem::path json_;
     OusterSensor sensor_;
     OusterFrames frames_{sensor_};
-    std::optional<std::uint32_t> from_ip_;  ///< of the sensor, once known
+    std::optional<std::uint32_t> from_ip_;  ///< the sensor's address, once known
     std::size_t imu_packets_ = 0, other_sources_ = 0;
     std::map<std::uint64_t, std::size_t> other_serials_;
 };

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 4 << 20;
 constexpr std::size_t kMaxDepth = 32;
-constexpr std::size_t kMaxNameBytes = 64;  // letters; a path is made of them for each element
+constexpr std::size_t kMaxNameBytes = 64;  // characters; limits the cost of building paths
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r\n";
@@ -30,13 +30,13 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-/// Walks through the elements of an XML text, without attributes and entities.
+/// Iterates over the elements of an XML text, ignoring attributes and entities.
 class Elements {
  public:
     explicit Elements(std::string_view xml) : rest_(xml) {}
 
-    /// Goes to the end of the next element; its path, such as "/DB/points_", and its text if it has
-    /// no elements. False at the end of the text.
+    /// Advances to the end of the next element. Returns its path, such as "/DB/points_", and its
+    /// text if it has no child elements. False at the end of the text.
     bool next(std::string& path, std::string_view& text) {
         while (true) {
             const std::size_t open = rest_.find('<');
@@ -55,7 +55,7 @@ class Elements {
             if (tag[1] == '/') {
                 const std::string name(trimmed(tag.substr(2, tag.size() - 3)));
                 if (names_.empty() || names_.back() != name) {
-                    throw std::runtime_error("</" + name.substr(0, 40) + "> closes nothing");
+                    throw std::runtime_error("</" + name.substr(0, 40) + "> has no opening tag");
                 }
                 path = pathOf();
                 names_.pop_back();
@@ -65,7 +65,7 @@ class Elements {
             if (name.size() > kMaxNameBytes) {
                 throw std::runtime_error("the name '" + std::string(name.substr(0, 40)) +
                                          "...' of an element has more than " +
-                                         std::to_string(kMaxNameBytes) + " letters");
+                                         std::to_string(kMaxNameBytes) + " characters");
             }
             names_.emplace_back(name);
             if (names_.size() > kMaxDepth) throw std::runtime_error("it is nested too deeply");
@@ -103,7 +103,7 @@ double numberOf(std::string_view text, const std::string& what) {
     if (error == std::errc() && end == text.data() + text.size() && std::isfinite(number)) {
         return number;
     }
-    throw std::runtime_error(what + " is '" + std::string(text.substr(0, 40)) + "', no number");
+    throw std::runtime_error(what + " is '" + std::string(text.substr(0, 40)) + "', not a number");
 }
 
 using Laser = std::map<std::string, double>;
@@ -113,7 +113,7 @@ double correctionOf(const Laser& laser, int id, const std::string& name, double 
     const std::string what = "laser " + std::to_string(id) + ": " + name;
     if (found == laser.end()) throw std::runtime_error(what + " is missing");
     if (std::abs(found->second) <= most) return found->second;
-    throw std::runtime_error(what + " is " + std::to_string(found->second) + ", beyond +-" +
+    throw std::runtime_error(what + " is " + std::to_string(found->second) + ", outside +-" +
                              std::to_string(static_cast<int>(most)));
 }
 
@@ -152,11 +152,12 @@ VelodyneCalibration calibrationOf(std::string_view xml) {
             const auto id = laser.find("id_");
             if (id == laser.end()) throw std::runtime_error("a laser has no id_");
             if (!(id->second >= 0 && id->second < 1000)) {
-                throw std::runtime_error("a laser has the id_ " + std::to_string(id->second));
+                throw std::runtime_error("a laser has the invalid id_ " +
+                                         std::to_string(id->second));
             }
             if (!lasers.emplace(static_cast<int>(id->second), laser).second) {
                 throw std::runtime_error("laser " + std::to_string(static_cast<int>(id->second)) +
-                                         " is there twice");
+                                         " occurs twice");
             }
             laser.clear();
         }
@@ -165,7 +166,7 @@ VelodyneCalibration calibrationOf(std::string_view xml) {
         throw std::runtime_error("it has no lasers (boost_serialization, DB, points_)");
     const int count = enabled.value_or(static_cast<int>(lasers.size()));
     if (count != hdl64Model().lasers) {
-        throw std::runtime_error("it is of a sensor with " + std::to_string(count) +
+        throw std::runtime_error("it describes a sensor with " + std::to_string(count) +
                                  " lasers; an HDL-64E has 64");
     }
     VelodyneCalibration calibration;
@@ -194,7 +195,7 @@ VelodyneCalibration readVelodyneCalibration(const std::filesystem::path& file) {
         return calibrationOf(xml);
     } catch (const std::runtime_error& e) {
         throw std::runtime_error(
-            file.string() + ": is no calibration of an HDL-64E (Velodyne's db.xml): " + e.what());
+            file.string() + ": is not an HDL-64E calibration (Velodyne's db.xml): " + e.what());
     }
 }
 

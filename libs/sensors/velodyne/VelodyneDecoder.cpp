@@ -18,9 +18,9 @@ namespace hagen::sensors {
 namespace {
 
 constexpr int kTurn = kReadingsOfTurn;   // 0.01 degrees
-constexpr double kMaxAzimuth_deg = 1e6;  // far beyond, what is left of a turn is not exact
+constexpr double kMaxAzimuth_deg = 1e6;  // beyond, the remainder of a turn is inexact
 
-/// A packet, read byte by byte.
+/// A data packet.
 class Packet {
  public:
     explicit Packet(const std::uint8_t* bytes) : bytes_(bytes) {}
@@ -49,7 +49,7 @@ struct SineCosine {
 };
 
 /// Directions of all azimuth readings, from tables of whole degrees and of hundredths, which fit in
-/// the first-level cache.
+/// the L1 cache.
 class ReadingDirections {
  public:
     ReadingDirections() {
@@ -80,8 +80,8 @@ std::string hex(unsigned value) {
 
 bool areOfHdl64(const VelodynePackets& packets) { return isOfHdl64(packets.at(0)); }
 
-/// Returns a scan's own calibration. Throws std::runtime_error if it is invalid: a laser that
-/// points nowhere, or far offsets, would place returns nowhere.
+/// Returns a scan's own calibration. Throws std::runtime_error if a laser has no direction or
+/// implausible offsets.
 const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
     const auto& lasers = calibration.lasers;
     for (std::size_t i = 0; i < lasers.size(); ++i) {
@@ -106,8 +106,8 @@ const VelodyneCalibration& checkedOfHdl64(const VelodyneCalibration& calibration
     const auto lasers = static_cast<std::size_t>(hdl64Model().lasers);
     if (calibration.lasers.size() == lasers) return checked(calibration);
     throw std::runtime_error(
-        "packets of an HDL-64E need its calibration, with 64 lasers, which the "
-        "scan does not have");
+        "HDL-64E packets require a calibration with 64 lasers, which the "
+        "scan lacks");
 }
 
 const VelodyneModel& modelOf(const VelodynePackets& packets, std::size_t packet) {
@@ -130,9 +130,9 @@ const VelodyneCalibration& calibrationOf(const VelodyneModel& model,
     return has_own ? checked(own) : defaultCalibration(model);
 }
 
-/// Returns the rotation of the sensor from one firing's block to the next, in 0.01 degrees: the
-/// median over the scan, so that neither rounded azimuths nor a broken block shift returns. It does
-/// not turn back: a motor that hardly turns has readings that do.
+/// Returns the rotation of the sensor between the blocks of consecutive firings, in 0.01 degrees:
+/// the median over the scan, so that neither rounded azimuths nor a broken block shift returns.
+/// Never negative, although readings of a nearly stationary motor may go backwards.
 int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
     turns.clear();
     for (std::size_t p = 0; p < packets.count; ++p) {
@@ -152,7 +152,7 @@ int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
     return std::max(*middle, 0);
 }
 
-/// Sets what a laser's calibration says; `turn_reading`: of the sensor since the block's first
+/// Sets the offsets from a laser's calibration; `turn_reading`: rotation since the block's first
 /// firing, in 0.01 degrees.
 void setLaser(const VelodyneCalibration& calibration, std::size_t laser, double turn_reading,
               std::size_t i, BlockOffsets& places) {
@@ -193,7 +193,7 @@ BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const Velody
     return places;
 }
 
-/// The lasers of an upper or lower block of an HDL-64E, which count as fired at once.
+/// The lasers of an upper or lower block of an HDL-64E, treated as fired at once.
 BlockOffsets hdl64Offsets(const VelodyneCalibration& calibration, bool is_lower) {
     BlockOffsets places{};
     places.distance_unit_m = hdl64Model().distance_unit_m;
@@ -233,7 +233,7 @@ std::size_t collectBlocks(const VelodynePackets& packets, const VelodyneModel& m
     return packets.count * kVelodyneBlocks - blocks.size();
 }
 
-/// Equals beamSpan() of the sensor that sensorOf() returns, without its memory.
+/// Equals beamSpan() of sensorOf()'s result, without allocation.
 BeamSpan beamSpan(const VelodyneCalibration& calibration) {
     const auto isLower = [](const auto& a, const auto& b) {
         return a.elevation_sine < b.elevation_sine;
@@ -261,7 +261,7 @@ ReturnArrays arraysFrom(std::size_t first, Scan& scan) {
             scan.time_s.data() + first,  scan.row.data() + first};
 }
 
-/// Decodes packets of an HDL-64E, a block after the other.
+/// Decodes HDL-64E packets block by block.
 std::size_t decodeHdl64(const VelodynePackets& packets, const VelodyneCalibration& own, Scan& scan,
                         DecoderWorkspace& work) {
     static const ReadingDirections directions;
@@ -283,7 +283,7 @@ std::size_t decodeHdl64(const VelodynePackets& packets, const VelodyneCalibratio
                 continue;
             }
             block.returns = packet.returns(b);
-            const int firing = b / 2;  // of two blocks, upper and lower
+            const int firing = b / 2;  // two blocks, upper and lower
             block.time_s = static_cast<float>(1e-6 * (packet_us + firing * firing_us));
             directions.setDirection(packet.azimuth(b), block);
             locateReturns(work.blocks, packet.isLower(b) ? lower : upper,
@@ -312,8 +312,8 @@ void beamsOf(const VelodynePackets& packets, const VelodyneCalibration& calibrat
 }
 
 // Fast because the lasers of all blocks fire in the same pattern: blocks differ only in their first
-// direction. It is looked up in a table, and the pattern is rotated by it, one SIMD vector of
-// returns at a time (locateReturns).
+// direction. It is looked up in a table and rotates the pattern, one SIMD vector of returns at a
+// time (locateReturns).
 std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibration& own,
                           Scan& scan, DecoderWorkspace& work) {
     if (packets.count == 0) {
@@ -332,7 +332,7 @@ std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibrat
     const BlockOffsets places =
         blockOffsetsOf(calibration, model, turnOfBlocks(packets, work.turns));
 
-    // Count first: growing arrays would be filled with zeros, which takes time.
+    // Counts first, because growing arrays would spend time on zero-filling.
     const std::size_t returns = countReturns(blocks);
     resize(returns + kPaddingReturns, scan);
     locateReturns(blocks, places, arraysFrom(0, scan));

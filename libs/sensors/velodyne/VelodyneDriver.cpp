@@ -21,18 +21,18 @@ namespace {
 
 constexpr int kMaxLate = 16;
 constexpr double kInterruptionUs = 50e3;
-constexpr double kForgottenUs = 250e3;  // returns from before such a gap are no context
-constexpr double kOverlap_rad = 0.2;    // of packets that are not full
+constexpr double kForgottenUs = 250e3;  // beyond, earlier returns are not used as context
+constexpr double kOverlap_rad = 0.2;    // tolerated overlap of packets
 constexpr double kNearest_m = 0.5;
 constexpr int kReadings = kReadingsOfTurn;
-// In 0.01 degrees: of azimuths of a motor that hardly turns, and of one within a packet.
+// In 0.01 degrees: azimuth jitter of a nearly stationary motor, and max. deviation within a packet.
 constexpr double kJitter = 10, kMaxOff = 100;
 
 int blocksPerFiring(const VelodynePacket& packet) {
     return packet.isDual() || isOfHdl64(packet.bytes.data()) ? 2 : 1;
 }
 
-/// -1: one of its blocks is unsound.
+/// -1: one of its blocks is invalid.
 int azimuthOfFiring(const VelodynePacket& packet, int firing) {
     const int step = blocksPerFiring(packet);
     for (int b = firing * step; b < (firing + 1) * step; ++b) {
@@ -41,7 +41,7 @@ int azimuthOfFiring(const VelodynePacket& packet, int firing) {
     return packet.azimuthOf(firing * step);
 }
 
-/// How many returns the decoder finds in the first blocks.
+/// The number of returns that the decoder finds in the first blocks.
 std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
     std::size_t returns = 0;
     for (int b = 0; b < blocks; ++b) {
@@ -55,23 +55,20 @@ std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
     return returns;
 }
 
-/// Its bytes, with the time by the sensor's clock.
+/// Hash of the bytes, which include the sensor's time.
 std::uint64_t keyOf(const VelodynePacket& packet) {
     const auto* const bytes = reinterpret_cast<const char*>(packet.bytes.data());
     return std::hash<std::string_view>()({bytes, packet.bytes.size()});
 }
 
-/// Reads the packets of one Velodyne. Interruptions are gaps of more than 50 ms, and jumps of the
-/// clock.
+/// Reads the packets of one Velodyne. Interruptions are gaps of more than 50 ms and clock jumps.
 class VelodyneDriver : public LidarDriver {
  public:
-    /// `calibration`: of an HDL-64E; null: that of the model. Throws std::invalid_argument for an
-    /// HDL-64E without calibration.
     explicit VelodyneDriver(const VelodyneModel& model, const VelodyneCalibration* calibration)
         : model_(model),
           calibration_(calibration != nullptr ? *calibration : defaultCalibration(model)) {
         if (&model == &hdl64Model() && calibration == nullptr) {
-            throw std::invalid_argument("packets of an HDL-64E need its calibration");
+            throw std::invalid_argument("HDL-64E packets require a calibration");
         }
     }
 
@@ -83,8 +80,8 @@ class VelodyneDriver : public LidarDriver {
         return sensor;
     }
 
-    /// By the corrections of the lasers. A laser beside the axis sees near objects in another
-    /// direction than that of its beam.
+    /// From the lasers' corrections. A laser beside the axis sees near objects in a direction other
+    /// than its beam's.
     BeamOffsets beamOffsets(double min_range_m) const override {
         BeamOffsets offsets;
         for (const VelodyneLaser& laser : calibration_.lasers) {
@@ -122,7 +119,7 @@ class VelodyneDriver : public LidarDriver {
     }
 
  private:
-    /// Consecutive sound firings of a packet.
+    /// Consecutive valid firings of a packet.
     struct Run {
         int first, end;
     };
@@ -134,11 +131,11 @@ class VelodyneDriver : public LidarDriver {
 
     Taken addPacket(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
         if (recent_.has(keyOf(packet), arrival_s)) {
-            held_.clear();  // late packets arrive by another path
+            held_.clear();  // late packets arrive on another path
             ++counts_.duplicate;
             return Taken::Duplicate;
         }
-        // From the packet before to this one: as long as the one before lasted.
+        // The previous packet's mode determines the time from that packet to this packet.
         const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : packet.isDual());
         const bool is_too_late =
             has_last_ && elapsedUs(last_us_, packet.sensorTimeUs()) < -kMaxLate * period_us;
@@ -147,7 +144,7 @@ class VelodyneDriver : public LidarDriver {
         return take(packet, arrival_s, sink);
     }
 
-    /// A packet that is a turn late does not show the present. So many in a row are not late: the
+    /// A packet that is a turn late is stale, but kMaxLate late packets in a row mean that the
     /// sensor's clock was set.
     Taken hold(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
         held_.push_back({packet, arrival_s});
@@ -214,11 +211,11 @@ class VelodyneDriver : public LidarDriver {
         return Taken::Yes;
     }
 
-    /// The firings whose blocks are all sound, in runs that turn on as a sensor does. What an
-    /// unsound block would have seen is not known, so that no sweep goes over it.
+    /// Finds runs of firings with only valid blocks and steady rotation. The view of an invalid
+    /// block is unknown, so no sweep covers it.
     void findRuns(const VelodynePacket& packet) {
         runs_.clear();
-        int before = -1;  // azimuth of the firing before, if that is sound
+        int before = -1;  // azimuth of the previous firing, if valid
         for (int f = 0; f < kVelodyneBlocks / blocksPerFiring(packet); ++f) {
             const int azimuth = azimuthOfFiring(packet, f);
             const double step = std::remainder(azimuth - before, kReadings);
@@ -233,14 +230,14 @@ class VelodyneDriver : public LidarDriver {
         }
     }
 
-    /// What a packet swept, as if all of its blocks were sound; the packets since the one before
-    /// may be lost. Leaves those runs that are where the sensor is by the longest one: others are
-    /// broken readings. Returns false if the packet has no sound block.
+    /// Finds the azimuth range of a packet, as if all of its blocks were valid; packets before it
+    /// may be lost. Keeps only runs consistent with the longest run: others are broken readings.
+    /// Returns false if the packet has no valid block.
     bool readSweep(const VelodynePacket& packet, double elapsed_us, Sweep& sweep) {
         findRuns(packet);
         const int step = blocksPerFiring(packet), all_firings = kVelodyneBlocks / step;
         double from = -1, per_firing = 0;
-        if (runs_.empty()) {  // halves of firings at most
+        if (runs_.empty()) {  // at most half firings
             for (int b = kVelodyneBlocks - 1; b >= 0; --b) {
                 if (packet.azimuthOf(b) >= 0) from = packet.azimuthOf(b);
             }
@@ -267,7 +264,7 @@ class VelodyneDriver : public LidarDriver {
         const double swept_rad = radians(0.01 * per_firing * all_firings);
         sweep.from_rad = radians(0.01 * from);
         if (has_last_) {
-            // Whole turns that are missing do not count: what was seen before is not overwritten.
+            // Ignores whole missing turns, so that earlier returns are not overwritten.
             const double period_us = model_.packetPeriodUs(packet.isDual());
             double turned_rad = std::remainder(elapsed_us / period_us * swept_rad, kTurn_rad);
             if (elapsed_us > 0 && turned_rad < -kOverlap_rad) turned_rad += kTurn_rad;
@@ -279,7 +276,8 @@ class VelodyneDriver : public LidarDriver {
         return true;
     }
 
-    /// Each run is a sweep. Returns of other blocks have labels, too: they go with the run before.
+    /// Each run is a sweep. Returns of other blocks also need labels, so they join the previous
+    /// run.
     void addRuns(const VelodynePacket& packet, const Sweep& sweep, double arrival_s,
                  ReturnSink& sink) {
         const int step = blocksPerFiring(packet);
@@ -313,10 +311,10 @@ class VelodyneDriver : public LidarDriver {
     Scan returns_, part_;
     std::vector<Run> runs_;  ///< of the latest packet
     RecentPackets recent_;
-    std::vector<Held> held_;  ///< too late, in a row
+    std::vector<Held> held_;  ///< consecutive late packets
     bool has_last_ = false, is_dual_ = false;
-    double last_us_ = 0;  ///< by the sensor's clock, of the latest packet
-    Sweep last_sweep_{};  ///< likewise
+    double last_us_ = 0;  ///< sensor time of the latest packet
+    Sweep last_sweep_{};  ///< of the latest packet
 };
 
 }  // namespace

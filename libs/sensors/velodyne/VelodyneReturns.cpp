@@ -13,7 +13,7 @@
 namespace hagen::sensors {
 namespace {
 
-/// True if readings of the block may cross the ends of a revolution, both of which are behind.
+/// True if readings of the block may cross the end of a revolution, which is behind the sensor.
 bool crossesZeroAzimuth(const VelodyneBlock& block, const BlockOffsets& places) {
     return block.reading_from_behind + places.most_turn_reading >= kReadingsOfTurn - 0.5f ||
            block.reading_from_behind + places.least_turn_reading < -0.5f;
@@ -58,7 +58,7 @@ std::size_t count(const VelodyneBlock* blocks, std::size_t block_count) {
     return returns;
 }
 
-/// For integers up to 255 the same as division by 255, which is slow: the first product is exact.
+/// Equals the slower division by 255 for integers up to 255, because the first product is exact.
 HWY_INLINE hn::Vec<Floats> share(hn::Vec<Floats> of_255) {
     const Floats d;
     constexpr float kUpper = 257.0f / 65536.0f;
@@ -68,11 +68,11 @@ HWY_INLINE hn::Vec<Floats> share(hn::Vec<Floats> of_255) {
 
 /// A direction in the plane.
 struct Direction {
-    hn::Vec<Floats> sine, cosine;  ///< of the angle clockwise from x
+    hn::Vec<Floats> sine, cosine;  ///< clockwise from x
     hn::Vec<Floats> azimuth_rad;   ///< counter-clockwise
 };
 
-/// Returns the directions of a block's returns from `i` on: the block's direction rotated by the
+/// Returns the directions of a block's returns from `i` on: the block's direction rotated by
 /// offsets.
 HWY_INLINE Direction rotateBy(const VelodyneBlock& block, const BlockOffsets& places,
                               std::size_t i) {
@@ -139,7 +139,7 @@ void locate(const VelodyneBlock* blocks, std::size_t block_count, const BlockOff
             const auto intensity = share(hn::ConvertTo(d, raw.intensity));
             const auto time_s = hn::Add(hn::Set(d, block->time_s), hn::LoadU(d, places.time_s + i));
 
-            // Returns are compacted; the lanes written behind them are overwritten later.
+            // Returns are compacted; excess lanes are overwritten later.
             const auto came_back = hn::Ne(raw.distance, hn::Zero(d_int));
             const auto byte_lanes = lanesOf(came_back);
             const auto lanes = hn::IndicesFromVec(d, hn::PromoteTo(d_int, byte_lanes));

@@ -8,13 +8,13 @@
 
 namespace hagen::sensors {
 
-/// A turn has one reading more than a full circle, see azimuthOfReadingDeg().
+/// A turn has one reading more than a full circle; see azimuthOfReadingDeg().
 constexpr double kRadiansPerReading = 2.0 * kPi / (kReadingsOfTurn - 1);
 
-/// Offsets of a return from the first return of its block: one entry per place in the block, the
-/// same for all blocks of a scan.
+/// Offsets of returns from the first return of their block: one entry per position in the block,
+/// the same for all blocks of a scan.
 struct BlockOffsets {
-    float distance_unit_m;  ///< of the distances in packets
+    float distance_unit_m;  ///< unit of distances in packets
     float turn_sine[kReturnsOfBlock], turn_cosine[kReturnsOfBlock];  ///< clockwise
     float turn_rad[kReturnsOfBlock];                                 ///< clockwise
     float turn_reading[kReturnsOfBlock];                             ///< 0.01 degrees clockwise
@@ -22,8 +22,8 @@ struct BlockOffsets {
     float time_s[kReturnsOfBlock];
     float elevation_sine[kReturnsOfBlock], elevation_cosine[kReturnsOfBlock];
     float distance_m[kReturnsOfBlock];  ///< distance offset of the laser
-    /// Offset from the sensor's centre: upwards, towards the return due to the vertical offset, and
-    /// sideways.
+    /// Offsets from the sensor's centre: upwards, towards the return (due to the vertical offset),
+    /// and sideways.
     float up_m[kReturnsOfBlock], forward_m[kReturnsOfBlock], sideways_m[kReturnsOfBlock];
     std::uint8_t row[kReturnsOfBlock];
 };
@@ -37,7 +37,7 @@ struct ReturnArrays {
 /// Counts the returns of these blocks whose distance is not 0.
 std::size_t countReturns(const std::vector<VelodyneBlock>& blocks);
 
-/// Writes them in the order of the blocks. May write up to kPaddingReturns entries beyond the last.
+/// Writes these returns in block order. May write up to kPaddingReturns entries beyond the last.
 constexpr std::size_t kPaddingReturns = 8;
 void locateReturns(const std::vector<VelodyneBlock>& blocks, const BlockOffsets& places,
                    const ReturnArrays& returns);

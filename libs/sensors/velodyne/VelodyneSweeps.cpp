@@ -22,12 +22,9 @@ namespace {
 
 constexpr std::uint16_t kPositionPort = 8308;
 
-/// The Velodyne sensors of a recording, by address, port and model: VLP-16, Puck Hi-Res, HDL-32E
-/// and VLP-32C by the id in their packets, HDL-64E by their blocks.
+/// See makeVelodyneSweeps().
 class VelodyneSweeps : public SweepReader {
  public:
-    /// `calibration`: of the HDL-64E (readVelodyneCalibration()); empty: its packets are ignored.
-    /// Throws std::runtime_error naming a wrong calibration.
     explicit VelodyneSweeps(const std::filesystem::path& calibration)
         : calibration_file_(calibration) {
         if (!calibration.empty()) calibration_ = readVelodyneCalibration(calibration);
@@ -65,7 +62,7 @@ class VelodyneSweeps : public SweepReader {
         }
         if (calibration_ && hdl64_packets_ == 0) {
             remarks.push_back(calibration_file_.string() +
-                              " is not used: there are no packets of an HDL-64E");
+                              " is not used: there are no HDL-64E packets");
         }
         return remarks;
     }
@@ -82,7 +79,7 @@ class VelodyneSweeps : public SweepReader {
         addCount(position_packets_, "position packet", "", found);
         return "has no data packets of a known Velodyne (" + knownVelodynes().substr(1) +
                "); it has " + (found.empty() ? "no frames" : found) +
-               ". Packets of an Ouster need its metadata: --sensor-json FILE";
+               ". Ouster packets require metadata: --sensor-json FILE";
     }
 
  private:
@@ -107,12 +104,12 @@ class VelodyneSweeps : public SweepReader {
         turns.complete().clear();
     }
 
-    /// Datagrams that are not of a known Velodyne.
+    /// Counts of datagrams that are not from a known Velodyne.
     std::string unknown() const {
         std::string text;
         if (!calibration_) {
             addCount(hdl64_packets_, "packet",
-                     "of an HDL-64E, which need its calibration: --calibration FILE", text);
+                     "of an HDL-64E, which require its calibration: --calibration FILE", text);
         }
         for (const auto& [id, count] : unknown_ids_) {
             char hex[8];

@@ -13,9 +13,9 @@ constexpr std::size_t kMaxWaiting = 16, kOfSetClock = 16;
 constexpr double kFollows = 2.5;  // periods
 constexpr double kSecondUs = 1e6;
 constexpr double kEndOfTurnUs = 50e3;          // without packets
-constexpr double kMaxTurnUs = 250e3;           // the slowest sensors turn five times per second
+constexpr double kMaxTurnUs = 250e3;           // the slowest sensors turn at 5 Hz
 constexpr std::size_t kMaxTurnPackets = 2000;  // more than any sensor sends in that time
-constexpr int kMinWrap = 100;  // 0.01 degrees; less is jitter of a sensor that stands
+constexpr int kMinWrap = 100;                  // 0.01 degrees; less is jitter of a stationary motor
 
 }  // namespace
 
@@ -79,12 +79,12 @@ void VelodyneTurns::flush() {
 }
 
 void VelodyneTurns::finish() {
-    while (!held_.empty()) setClock();  // each leaves fewer
+    while (!held_.empty()) setClock();  // each call shrinks held_
     flush();
     endTurn();
 }
 
-/// Counts what is missing before a packet, and ends the turn if that is much.
+/// Counts the packets missing before a packet, and ends the turn after a long gap.
 void VelodyneTurns::checkGap(const VelodynePacket& packet) {
     if (!has_last_) return;
     const double gap_us = elapsedUs(last_us_, packet.sensorTimeUs());

@@ -14,12 +14,12 @@
 
 namespace hagen::sensors {
 
-/// Groups the packets of one sensor into turns: one ends where the azimuth wraps.
+/// Groups the packets of one sensor into turns. A turn ends where the azimuth wraps.
 ///
-/// Packets up to sixteen late are reordered by the sensor's clock. Later ones are dropped, unless
-/// sixteen come in a row or at the end: then the clock was set. A turn also ends at a gap of more
-/// than 50 ms (a turn at the highest speed), after 250 ms (a standing sensor never wraps) and after
-/// 2000 packets (whatever the clock), which bounds memory.
+/// Packets up to 16 packets late are reordered by the sensor's clock. Older packets are dropped,
+/// unless 16 arrive in a row or at the end, which means that the clock was set. A turn also ends at
+/// a gap of more than 50 ms (a turn at the highest speed), after 250 ms (a stationary sensor never
+/// wraps) and, to limit memory, after 2000 packets.
 class VelodyneTurns {
  public:
     /// `late`: reordered.
@@ -27,7 +27,7 @@ class VelodyneTurns {
         std::size_t dual = 0;  ///< packets with two returns per firing
     };
 
-    /// `calibration`: of the sensor; null: that of the model.
+    /// `calibration`: of the sensor; null: the model's default.
     VelodyneTurns(const VelodyneModel& model, std::string label,
                   const VelodyneCalibration* calibration = nullptr);
 
@@ -35,7 +35,7 @@ class VelodyneTurns {
     /// Completes the last turn.
     void finish();
 
-    /// The complete turns, oldest first. The caller takes them out.
+    /// The complete turns, oldest first. The caller removes them.
     std::deque<LidarSweep>& complete() { return complete_; }
     const Counts& counts() const { return counts_; }
     const VelodyneModel& model() const { return model_; }
@@ -50,15 +50,15 @@ class VelodyneTurns {
 
     const VelodyneModel& model_;
     std::string label_;
-    std::shared_ptr<const SensorModel> sensor_;  ///< the limits of its ranges
+    std::shared_ptr<const SensorModel> sensor_;  ///< for the range limits
     VelodyneCalibration calibration_;
-    std::deque<VelodynePacket> waiting_;  ///< by the sensor's clock
-    std::vector<VelodynePacket> held_;    ///< too late, in a row
+    std::deque<VelodynePacket> waiting_;  ///< sorted by sensor time
+    std::vector<VelodynePacket> held_;    ///< consecutive late packets
     LidarSweep turn_;                     ///< in progress, unless it has no packets
     double turn_start_us_ = 0;
     bool has_last_ = false;
-    double last_us_ = 0;     ///< of the last packet appended
-    int last_azimuth_ = -1;  ///< likewise
+    double last_us_ = 0;     ///< sensor time of the last packet appended
+    int last_azimuth_ = -1;  ///< of the last packet appended
     std::deque<LidarSweep> complete_;
     Counts counts_;
 };

@@ -5,26 +5,25 @@
 
 namespace hagen::base {
 
-/// The type of an output. An existing output is replaced only by one of the same type; anything
-/// else in its place belongs to the user.
+/// The type of an output. An output replaces only an existing output of the same type; anything
+/// else at that path belongs to the user.
 struct OutputKind {
     const char* what;  ///< "a scan folder", for messages
-    /// True if a file belongs to such a folder, by its path within the folder; null if the output
-    /// is a file.
+    /// True if a path within the folder is part of such an output; null if the output is a file.
     bool (*holds)(const std::filesystem::path& within);
-    const char* marker = nullptr;  ///< a file that each such folder has; null: none
-    /// True if a folder was made by an earlier run; null if `marker` decides.
+    const char* marker = nullptr;  ///< a file in every such folder; null: none
+    /// True if an earlier run created a folder; null if `marker` decides.
     bool (*is_made)(const std::filesystem::path& folder) = nullptr;
 };
 constexpr OutputKind kFile{"a file", nullptr};
 
-/// A file or folder that is written next to its destination under a temporary name and renamed when
+/// A file or folder written next to its destination under a temporary name and renamed when
 /// complete.
 class OutputPath {
  public:
     /// Throws std::runtime_error if the path exists and `overwrite` is not set, or if its parent
-    /// folder is missing. Never replaces a mount point or anything of another type: a folder for a
-    /// file, a device, a folder with other files. The message names the path.
+    /// folder is missing. Never replaces a mount point or anything of another type, such as a
+    /// device or a folder with other files. The message names the path.
     OutputPath(std::filesystem::path path, const OutputKind& kind, bool overwrite);
     /// Removes the temporary file unless commit() or keepPartial() was called.
     ~OutputPath();
@@ -32,12 +31,11 @@ class OutputPath {
     OutputPath& operator=(const OutputPath&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    /// Where to write: an unpredictable name next to path(), on the same file system.
+    /// The path to write to: an unpredictable name next to path(), on the same file system.
     const std::filesystem::path& temporary() const { return temporary_; }
 
-    /// Flushes the output to the disk, renames it into place and replaces an older one. If
-    /// something that must not be replaced has appeared there, keeps the output as a partial one
-    /// and throws std::runtime_error.
+    /// Flushes the output to the disk and renames it into place, replacing a previous output. If
+    /// something else has appeared there, calls keepPartial() and throws std::runtime_error.
     void commit();
     /// Keeps the output under a partial name: "x.rawlog" becomes "x.partial.rawlog", or
     /// "x.partial-2.rawlog" if that is taken. Returns the name.
@@ -49,7 +47,7 @@ class OutputPath {
     std::filesystem::path replace() const;
 
     std::filesystem::path path_, temporary_;
-    std::filesystem::path kept_;  ///< its name, once it has one
+    std::filesystem::path kept_;  ///< its final name, once renamed
     OutputKind kind_;
     bool overwrites_;
 };
@@ -58,15 +56,15 @@ class OutputPath {
 /// temporary files of processes that have ended. Empty for an empty path.
 std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& output);
 
-/// A message with the names of outputs in place of their temporary ones.
+/// Replaces temporary names in a message with the names of the outputs.
 std::string withOutputNames(const std::string& message);
 
-/// partialOutputs() of several outputs as a sentence for the user; "" if there are none.
+/// A message that lists partialOutputs() of several outputs; "" if there are none.
 std::string leftBehind(const std::vector<std::filesystem::path>& outputs);
 
-/// Throws std::runtime_error if an output is an input, contains an input, exists within an input,
-/// or lies in another output; the message names both. Empty paths are ignored. `role`: what the
-/// inputs are.
+/// Throws std::runtime_error if an output is an input, contains one, exists within one, or is
+/// inside another output; the message names both. Ignores empty paths. `role`: describes the
+/// inputs.
 void checkApart(const std::vector<std::filesystem::path>& outputs,
                 const std::vector<std::filesystem::path>& inputs,
                 const std::string& role = "the input");

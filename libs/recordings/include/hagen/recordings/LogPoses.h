@@ -14,19 +14,19 @@ namespace hagen::recordings {
 struct LogPoses {
     observations::Trajectory vehicle;
     std::string source;  ///< such as "flight.tum"; empty: no poses
-    /// They are those of the sensor, so they contain its mount; or are so for the scans with these
+    /// The poses are sensor poses, which include the mount, for all scans or for those with these
     /// labels.
     bool are_of_sensor = false;
     std::set<std::string> of_sensors = {};
-    std::set<std::string> vehicles = {};  ///< LiDARs, by label, that are the vehicle themselves
+    std::set<std::string> vehicles = {};  ///< labels of LiDARs whose frame is the vehicle frame
 };
 
 /// The poses of a rawlog: from `file` if given, otherwise from the log. A KITTI file must have one
 /// line per scan of the log's only LiDAR. Throws std::runtime_error naming the file.
 LogPoses posesOfRawlog(const RawlogSurvey& survey, const std::filesystem::path& file);
 
-/// The poses of a scan folder whose scans were taken at `times_s`: from `file` if given, otherwise
-/// from its poses.tum or its poses.txt. They are sensor poses.
+/// The sensor poses of a scan folder with scans at `times_s`: from `file` if given, otherwise from
+/// its poses.tum or poses.txt.
 LogPoses posesOfScanFolder(const ScanFolder& folder, const std::vector<double>& times_s,
                            const std::filesystem::path& file);
 

@@ -10,15 +10,15 @@
 
 namespace hagen::recordings {
 
-/// Reads a rawlog entry by entry and holds one in memory: uncompressed, gzip or zstd, as MRPT
-/// before and since version 3 writes it. An entry is an object of the file: an observation, an
-/// action collection, a sensory frame (whose observations may be null), or any other. Each entry is
-/// first read by a process of its own: what MRPT's reader does with corrupt data (crash, take all
-/// memory) is an entry that cannot be read, as any other.
+/// Reads a rawlog (uncompressed, gzip or zstd, of MRPT before or since version 3) and holds one
+/// entry in memory. An entry is an object of the file: an observation, an action collection, a
+/// sensory frame (whose observations may be null), or any other. A separate process reads each
+/// entry first, so that a crash or excessive allocation of MRPT's reader on corrupt data is
+/// reported as an unreadable entry.
 class RawlogReader {
  public:
-    /// Throws std::runtime_error naming the file if it cannot be opened or is empty, or if no
-    /// process can be started.
+    /// Throws std::runtime_error naming the file if it cannot be opened or is empty, or if the
+    /// process cannot be started.
     explicit RawlogReader(const std::filesystem::path& file);
     ~RawlogReader();
     RawlogReader(const RawlogReader&) = delete;

@@ -12,15 +12,15 @@
 
 namespace hagen::recordings {
 
-/// Facts about a rawlog that are needed before its first scan is segmented. A pose may come after
-/// the scan that needs it.
+/// Facts about a rawlog that are needed before its first scan is segmented, because poses may come
+/// after the scans that need them.
 struct RawlogSurvey {
     /// Vehicle poses from the best available source: CObservationRobotPose, then summed
     /// CActionRobotMovement3D, then CObservationOdometry, then summed CActionRobotMovement2D.
-    /// Sources are not mixed, as each has its own map frame. Among several sensor labels, the one
-    /// with the most poses wins.
+    /// Sources are not mixed, as each has its own map frame. Of several sensor labels, the one with
+    /// the most poses is used.
     observations::Trajectory trajectory;
-    std::size_t not_finite = 0;  ///< poses of all sources that were left out
+    std::size_t not_finite = 0;  ///< skipped poses of all sources
     std::string source;          ///< such as "CObservationRobotPose 'gps'"; empty: no poses
 
     /// Time and sensor pose on the vehicle of each LiDAR scan, by sensor label.
@@ -29,16 +29,16 @@ struct RawlogSurvey {
         mrpt::poses::CPose3D sensor_on_vehicle;
     };
     std::map<std::string, std::vector<ScanPlace>> scans;
-    std::size_t entries = 0;  ///< read
+    std::size_t entries = 0;  ///< number of entries read
     bool is_whole = true;     ///< the log was read to its end
-    std::string break_found;  ///< why the log could not be read to its end; empty: it could
+    std::string break_found;  ///< the error that ended reading; empty: none
 };
 
-/// Reads a rawlog to its end or until `keep_going` returns false. Stops silently where the log
-/// breaks off; the conversion reports that. Throws std::runtime_error naming the file if it cannot
-/// be opened.
+/// Reads a rawlog to its end or until `keep_going` returns false. Stops silently at an unreadable
+/// entry, which the conversion reports. Throws std::runtime_error naming the file if it cannot be
+/// opened.
 ///
-/// An action without a time gets the time of the next sensory frame.
+/// Actions without a time get the time of the next sensory frame.
 RawlogSurvey surveyRawlog(
     const std::filesystem::path& rawlog,
     const std::function<bool()>& keep_going = [] { return true; });
@@ -46,7 +46,7 @@ RawlogSurvey surveyRawlog(
 /// The times of all scans, by sensor label.
 std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimesOf(const RawlogSurvey& survey);
 
-/// The survey without the scans of LiDARs that are not kept.
+/// Removes the scans of LiDARs that are not kept.
 RawlogSurvey withScansOf(RawlogSurvey survey,
                          const std::function<bool(const std::string& sensor_label)>& isKept);
 

@@ -31,15 +31,15 @@ extern const base::OutputKind kScanFolders;
 ///     sensor.yaml            optional: beams of this recording, and the sensor's mount on the
 ///                            vehicle
 ///
-/// All numbers are little-endian. Poses are those of the sensor, so they include its mount.
-/// Functions throw std::runtime_error naming the file.
+/// All numbers are little-endian. Poses are sensor poses, which include the mount. Functions throw
+/// std::runtime_error naming the file.
 class ScanFolder {
  public:
     static constexpr const char* kMadeBy = "labels/made_by.txt";
-    static constexpr const char* kSimulatedBy = "simulated_by.txt";  ///< its labels are the truth
+    static constexpr const char* kSimulatedBy = "simulated_by.txt";  ///< with true labels
 
-    /// Lists velodyne/*.bin in the order of their names: by number if they differ in nothing else,
-    /// so that 10 comes after 9. Throws if there are none.
+    /// Lists velodyne/*.bin by name, or by number if names differ only in their numbers, so that 10
+    /// comes after 9. Throws if there are no files.
     explicit ScanFolder(std::filesystem::path folder);
 
     const std::filesystem::path& path() const { return folder_; }
@@ -50,7 +50,7 @@ class ScanFolder {
     const std::vector<std::string>& otherFiles() const { return others_; }
     std::filesystem::path scanFile(std::size_t scan) const;
     std::filesystem::path labelFile(std::size_t scan) const;
-    /// Optional files of this folder.
+    /// Paths of optional files.
     std::filesystem::path kindFile(std::size_t scan) const;
     std::filesystem::path kindNamesFile() const { return folder_ / "kinds.yaml"; }
     std::filesystem::path sensorFile() const { return folder_ / "sensor.yaml"; }
@@ -58,14 +58,14 @@ class ScanFolder {
     std::filesystem::path kittiPosesFile() const { return folder_ / "poses.txt"; }
     std::filesystem::path calibrationFile() const { return folder_ / "calib.txt"; }
 
-    /// Whether the labels are marked as predictions (markAsPredictions()).
+    /// True if the labels are marked as predictions (markAsPredictions()).
     bool hasPredictions() const { return std::filesystem::exists(folder_ / kMadeBy); }
 
-    /// times.txt, one element per scan, of which those without a time have kNoTime_s
-    /// (TimeStamp.h); empty if the file does not exist. Throws if the number of lines differs from
-    /// the number of scans.
+    /// The times in times.txt, one per scan, kNoTime_s (TimeStamp.h) for scans without a time;
+    /// empty if the file does not exist. Throws if the number of lines differs from the number of
+    /// scans.
     std::vector<double> times() const;
-    /// altitudes.txt, likewise.
+    /// The same for altitudes.txt.
     std::vector<double> altitudes() const;
 
  private:
@@ -76,14 +76,14 @@ class ScanFolder {
 /// Marks the labels of a scan folder as predictions of rawlog-segment.
 void markAsPredictions(const std::filesystem::path& folder);
 
-/// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. Of
-/// points with a ring (nuScenes), the ring is ignored and intensities
-/// are scaled to 0..1. Returns how many numbers a point has, 4 or 5. Throws BrokenRecording, also
-/// if the file is known to be something else.
+/// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. For
+/// points with a ring (nuScenes), ignores the ring and scales intensities to 0..1. Returns the
+/// number of values per point, 4 or 5. Throws BrokenRecording, also for a file of another known
+/// format.
 std::size_t readScan(const std::filesystem::path& file, Scan& scan);
 void writeScan(const std::filesystem::path& file, const Scan& scan);
 
-/// The highest component number that a label file can store; higher ones are stored as this one.
+/// The highest component number in a label file; higher numbers are clamped.
 constexpr std::int32_t kMaxFileComponent = 65535;
 
 /// Reads a .label file: entire entries, or the low 16 bits of each.

@@ -26,8 +26,8 @@ namespace hagen::recordings {
 struct RecordedScan {
     mrpt::obs::CObservation::ConstPtr observation;  ///< with sensor label, time and mounting pose
     observations::ScanPose pose;
-    std::size_t entry = 0;  ///< index of its entry in the recording
-    std::string name;       ///< of its file, without extension; empty for rawlogs and captures
+    std::size_t entry = 0;  ///< index of the scan's entry in the recording
+    std::string name;       ///< file name without extension; empty for rawlogs and captures
     /// The recovered beams of a cloud from an unnamed sensor; null otherwise (useSettings()).
     observations::SharedBeams beams;
 };
@@ -39,7 +39,7 @@ struct RecordedEntry {
     /// The rawlog's object, the packets of a capture or bag, or a cloud of the requested class.
     mrpt::serialization::CSerializable::Ptr object;
     std::vector<RecordedScan> scans;  ///< scans of the selected LiDARs
-    double fraction_read = 0;         ///< of the recording, this entry included: 0 ... 1
+    double fraction_read = 0;         ///< of the recording, including this entry: 0 ... 1
 };
 
 /// The options of a source.
@@ -48,28 +48,27 @@ struct SourceOptions {
     std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
     std::size_t last_entry = std::numeric_limits<std::size_t>::max();
     /// Class of the clouds in RecordedEntry::object; none: no objects for clouds. Rawlogs and
-    /// packets of a Velodyne are kept as they are.
+    /// Velodyne packets are kept unchanged.
     std::optional<observations::CloudClass> folder_objects;
-    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag; empty: none
-    std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
-    std::vector<std::string> topics;    ///< LiDAR topics to read of a bag; empty: all
-    /// Called before each entry is read, also in advance; false ends reading with Interrupted.
+    std::filesystem::path sensor_json;  ///< Ouster metadata for a capture or bag; empty: none
+    std::filesystem::path calibration;  ///< HDL-64E calibration for a capture; empty: none
+    std::vector<std::string> topics;    ///< LiDAR topics to read from a bag; empty: all
+    /// Called before each entry is read, also in advance; false stops reading with Interrupted.
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// Reading was ended by SourceOptions::keep_going.
+/// SourceOptions::keep_going stopped reading.
 struct Interrupted : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Maximum number of LiDARs, by label, of a recording; each takes memory.
+/// Maximum number of LiDAR labels in a recording; each requires memory.
 constexpr std::size_t kMaxLabels = 100;
 
 /// The sensor label of all scans in a scan folder.
 constexpr const char* kFolderLabel = "velodyne";
 
-/// A recording from which scans are pulled one by one. Conversion, open loop and evaluation all
-/// read recordings with it:
+/// A recording that provides scans one by one, for conversion, open loop and evaluation:
 ///
 ///     const auto source = openRecording("flight.rawlog");
 ///     source->usePoses("flight.tum");
@@ -84,30 +83,30 @@ class ScanSource {
     /// sensors::BrokenCapture naming file and entry, and Interrupted.
     virtual std::optional<RecordedEntry> nextEntry() = 0;
 
-    /// The next scan of any entry; none at the end. Throws like nextEntry(). Use one of the two:
-    /// scans of an entry that nextScan() has begun come only from nextScan().
+    /// The next scan of any entry; none at the end. Throws like nextEntry(). Use only one of the
+    /// two: only nextScan() returns the remaining scans of an entry that it has begun.
     std::optional<RecordedScan> nextScan();
 
-    /// Takes poses from this file (TUM, KITTI), or from the recording itself if the name is empty;
-    /// without this call, no poses are known. Call it before the first entry is read. Throws
+    /// Uses poses from this file (TUM, KITTI), or from the recording itself if the name is empty;
+    /// without this call, scans have no poses. Call it before the first entry is read. Throws
     /// std::runtime_error naming the file if it cannot be read, and Interrupted.
     void usePoses(const std::filesystem::path& file);
     const LogPoses& poses() const { return poses_; }
 
-    /// The times of all scans of all LiDARs, by sensor label. A rawlog is read in advance for this;
-    /// a call before usePoses() saves it another reading. Throws Interrupted.
+    /// The times of all scans of all LiDARs, by sensor label. Reads a rawlog in advance; call this
+    /// before usePoses() to avoid a second pass. Throws Interrupted.
     virtual std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() = 0;
 
-    /// Returns settingsFor(settings). If these name no sensor, each cloud comes with the beams that
+    /// Returns settingsFor(settings). If these name no sensor, each cloud has the beams that
     /// beamsOf() recovers. Call it before the first entry is read.
     Settings useSettings(const Settings& settings);
 
-    /// The beams of a LiDAR's clouds, recovered from the first ones in the recording, selected or
+    /// The beams of a LiDAR's clouds, recovered from the first clouds in the recording, selected or
     /// not (CloudSensors). Null if none of its clouds has enough returns. Reads ahead as far as
-    /// necessary. Throws Interrupted; where the recording breaks off, nextEntry() throws.
+    /// necessary. Throws Interrupted; nextEntry() reports read errors.
     const observations::SharedBeams& beamsOf(const std::string& sensor_label);
 
-    /// The settings, with those of the recording's own sensor merged in.
+    /// The settings, merged with those of the recording's own sensor.
     virtual Settings settingsFor(const Settings& settings) const;
 
     /// Entries read so far, including skipped ones. For a scan folder: all entries.
@@ -116,7 +115,8 @@ class ScanSource {
     /// last entry.
     virtual std::vector<std::string> remarks() const { return {}; }
 
-    std::size_t entriesSkipped() const { return entries_skipped_; }  ///< before the first selected
+    /// Entries before the first selected entry.
+    std::size_t entriesSkipped() const { return entries_skipped_; }
     /// Sensor labels of LiDAR scans read so far that are not selected.
     const std::set<std::string>& otherLabels() const { return other_labels_; }
 
@@ -125,22 +125,23 @@ class ScanSource {
 
     virtual LogPoses readPoses(const std::filesystem::path& file) = 0;
 
-    /// Shows `sensors` the next clouds, from the start of the recording on. Returns false at the
-    /// end and where the recording breaks off.
+    /// Passes the next clouds to `sensors`, from the start of the recording on. Returns false at
+    /// the end or at a read error.
     virtual bool showClouds(observations::CloudSensors& sensors) = 0;
 
-    /// Notes that reading ahead, for poses, times or beams, broke off after `entries` entries (or
-    /// other parts of the recording), and why.
+    /// Notes the error that stopped reading ahead for poses, times or beams after `entries` entries
+    /// (or other parts of the recording).
     void brokeOffAhead(std::size_t entries, const std::string& why);
-    /// Why reading ahead broke off before `entries` entries, which this reading reached: poses or
-    /// beams are missing. Empty: it did not.
+    /// The error that stopped reading ahead before `entries` entries, which this pass reached, so
+    /// that poses or beams are missing. Empty: none.
     std::string missedAhead(std::size_t entries) const;
-    /// The end of the recording after `entries` entries. Throws BrokenRecording if missedAhead().
+    /// Handles the end of the recording after `entries` entries. Throws BrokenRecording if
+    /// missedAhead().
     std::optional<RecordedEntry> endAfter(std::size_t entries) const;
 
     /// Call it before reading an entry. Throws Interrupted.
     void checkInterruption() const;
-    /// True, and counts it, if an entry is before the first selected one.
+    /// True if an entry is before the first selected entry; counts such entries.
     bool skips(std::size_t entry);
     bool isSelected(const std::string& sensor_label) const;
     /// Takes the attitude from an observation, unless a pose file provides it.
@@ -159,21 +160,21 @@ class ScanSource {
     LogPoses poses_;
     bool is_levelled_by_file_ = false;  ///< a pose file overrides the recording's attitude
     observations::Horizon horizon_;
-    std::string break_ahead_;  ///< the first one met by reading ahead; empty: none
+    std::string break_ahead_;  ///< the first error of reading ahead; empty: none
     std::size_t break_ahead_at_ = 0;
     std::size_t entries_skipped_ = 0;
     std::set<std::string> labels_, other_labels_;
     bool recovers_beams_ = false;
-    observations::CloudSensors sensors_;  ///< of the clouds read in advance
+    observations::CloudSensors sensors_;  ///< from clouds read in advance
     std::map<std::string, observations::SharedBeams> beams_;
-    std::deque<RecordedScan> waiting_;  ///< scans of the entry that nextScan() read last
+    std::deque<RecordedScan> waiting_;  ///< remaining scans of nextScan()'s last entry
 };
 
 /// Opens a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
-/// scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
-/// are detected by their content. Throws std::runtime_error naming it if it does not exist or
-/// cannot be opened, or if an option does not apply to its kind: sensor_json (captures, bags),
-/// calibration (captures), topics (bags).
+/// scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. File
+/// formats are detected by content. Throws std::runtime_error naming the recording if it does not
+/// exist or cannot be opened, or if an option does not apply to its kind: sensor_json (captures,
+/// bags), calibration (captures), topics (bags).
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});
 

@@ -7,7 +7,7 @@
 
 namespace hagen {
 
-/// A box along the axes of the sensor frame; each component of low_m is below that of high_m.
+/// A box aligned with the axes of the sensor frame; low_m is less than high_m in each component.
 struct AirframeBox {
     Eigen::Vector3f low_m, high_m;
 };
@@ -16,15 +16,15 @@ struct AirframeSphere {
     float radius_m;
 };
 
-/// The vehicle that carries the sensor, as far as the sensor sees it: legs, rotors, other payload.
-/// In the frame of the sensor itself, however it is mounted. Empty by default.
+/// The parts of the vehicle that the sensor sees: legs, rotors, other payload. In the sensor's own
+/// frame, regardless of its mount. Empty by default.
 struct Airframe {
     std::vector<AirframeBox> boxes;
     std::vector<AirframeSphere> spheres;
-    /// The range up to which returns are the airframe's, by direction; 0: none. Bins are squares in
-    /// azimuth and elevation of 180 degrees / rows. Row 0 starts at elevation -90 degrees; column 0
-    /// starts at azimuth -180 degrees, and columns run counter-clockwise. Twice as many columns as
-    /// rows, or empty.
+    /// The range within which returns belong to the airframe, by direction; 0: none. Bins are
+    /// squares of 180 degrees / rows in azimuth and elevation. Row 0 starts at elevation -90
+    /// degrees; column 0 starts at azimuth -180 degrees, and columns run counter-clockwise. Twice
+    /// as many columns as rows, or empty.
     Image<float> bin_range_m;
 
     bool isEmpty() const { return boxes.empty() && spheres.empty() && bin_range_m.size() == 0; }
@@ -34,14 +34,14 @@ struct Airframe {
 struct AirframeBin {
     int row, column;
 };
-/// Requires a point with finite coordinates other than the origin.
+/// Requires finite coordinates other than the origin.
 AirframeBin airframeBinOf(const Eigen::Vector3f& point_m, int rows);
 
-/// Gives each return in a box, in a sphere or within the range of its bin (borders included) the
-/// range NaN, "no range": every later stage ignores it, and its label is Unclassified. Its
-/// coordinates stay. Returns how many were masked; those without a range before do not count.
-/// Requires ranges. Costs nothing for an empty airframe; otherwise one comparison of the range of
-/// each return, and more only for those nearer than the farthest part of the airframe.
+/// Sets the range of each return in a box, in a sphere or within the range of its bin (borders
+/// included) to NaN, "no range": all later stages ignore the return, and its label is Unclassified.
+/// Coordinates are kept. Returns the number of returns masked, without those that had no range
+/// before. Requires ranges. An empty airframe costs no time; otherwise only returns nearer than the
+/// farthest part of the airframe take more than one comparison.
 std::size_t maskAirframe(const Airframe& airframe, Scan& scan);
 
 }  // namespace hagen

@@ -7,15 +7,15 @@ namespace hagen {
 
 /// An image of a rotating LiDAR's scan: one row per beam (row 0 is the lowest), one column per
 /// azimuth. Stored column by column, so that the returns of a firing are contiguous. Columns wrap
-/// around (the last is a neighbour of the first), rows do not.
+/// around (the last is a neighbour of the first); rows do not.
 template <class T>
 using Image = Eigen::Array<T, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// The value of an empty pixel, in every image of floats.
+/// The value of an empty pixel in float images.
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 inline bool hasValue(float pixel) { return !std::isnan(pixel); }
 
-/// Wraps a column that is at most one past the image's ends.
+/// Wraps a column that is at most one beyond either end of the image.
 inline int wrapColumn(int column, int columns) {
     return column < 0 ? column + columns : column >= columns ? column - columns : column;
 }

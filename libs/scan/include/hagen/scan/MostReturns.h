@@ -5,17 +5,16 @@
 
 namespace hagen {
 
-/// Returns of a scan, at most: some 60 times those of the largest LiDARs. A map of many scans is no
-/// scan. checkLocated(), and so the filter, refuses more.
+/// Maximum number of returns in a scan, about 60 times that of the largest LiDARs: a map of many
+/// scans is not a scan. checkLocated(), and so the filter, rejects larger scans.
 constexpr std::size_t kMaxReturns = 16'777'216;
 
 /// Throws std::runtime_error if an observation has more returns than a scan may have. Call it
-/// before they are read, which takes memory.
+/// before reading the returns into memory.
 inline void checkReturns(std::size_t returns) {
     if (returns <= kMaxReturns) return;
     throw std::runtime_error("it has up to " + std::to_string(returns) +
-                             " returns, more than the " + std::to_string(kMaxReturns) +
-                             " that a scan may have");
+                             " returns; a scan may have at most " + std::to_string(kMaxReturns));
 }
 
 }  // namespace hagen

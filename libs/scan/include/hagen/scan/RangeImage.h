@@ -14,37 +14,38 @@ struct RangeImage {
     /// I_h x I_w: the index of that closest return (the first of equally close ones); kNoReturn if
     /// there is none.
     Image<std::int32_t> closest_return;
-    /// The inverse of the paper's depth_mapper: for each return of the scan its pixel (column * I_h
-    /// + row), or kNoPixel if it is beyond the context or out of the sensor's range. A pixel may
-    /// have several returns; see returnsByPixel().
+    /// The inverse of the paper's depth_mapper: the pixel of each return (column * I_h + row), or
+    /// kNoPixel if the return is beyond the context or outside the sensor's range limits. A pixel
+    /// may have several returns; see returnsByPixel().
     std::vector<std::int32_t> depth_mapper;
 
     static constexpr std::int32_t kNoPixel = -1;
     static constexpr std::int32_t kNoReturn = -1;
 };
 
-/// Workspace of projectScan(). Reuse it between scans to avoid allocations; it has no state.
+/// Workspace of projectScan(). Stateless; reuse it between scans to avoid allocations.
 struct ProjectionWorkspace {
     /// The closest return of each pixel so far: its range and its index, packed into one number.
     std::vector<double> closest;
 };
 
-/// Stage 1, the depth image: each return goes to the row of its beam and the closest of `columns`
-/// azimuths; a pixel keeps its closest return. Column 0 looks backwards, the middle one along x;
-/// columns run clockwise, so left in the image is left of the sensor. Returns out of the sensor's
-/// range, or farther than `context_m`, are dropped. Throws std::invalid_argument if the scan was
-/// not located with this sensor (checkLocated() in Scan.h). Reuses the memory of `image`.
+/// Stage 1, the depth image: projects each return to the row of its beam and the closest of
+/// `columns` azimuths; a pixel keeps its closest return. Column 0 faces backwards, the middle
+/// column along x; columns run clockwise, so left in the image is left of the sensor. Drops returns
+/// outside the sensor's range limits or farther than `context_m`. Throws std::invalid_argument if
+/// the scan was not located with this sensor (checkLocated() in Scan.h). Reuses the memory of
+/// `image`.
 void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                  RangeImage& image, ProjectionWorkspace& work);
 
-/// The column of `columns` whose centre is closest to this azimuth.
+/// The column whose centre is closest to this azimuth, of `columns` columns.
 int nearestColumn(float azimuth_rad, int columns);
 
 /// The azimuth in (-pi, pi] at the centre of a column.
 float columnAzimuth(int column, int columns);
 
-/// The paper's depth_mapper, pixel -> returns: those of pixel p are returns[first[p]] ...
-/// returns[first[p + 1] - 1], in the scan's order.
+/// The paper's depth_mapper, pixel -> returns: pixel p has returns[first[p]] ... returns[first[p +
+/// 1] - 1], in the scan's order.
 struct ReturnsByPixel {
     std::vector<std::int32_t> first;    ///< pixels + 1 entries
     std::vector<std::int32_t> returns;  ///< indices into the scan

@@ -6,7 +6,7 @@
 
 namespace hagen {
 
-/// Summary of a sensor's beams, to detect rows that were computed for another sensor.
+/// Summary of a sensor's beams, to detect rows computed for another sensor.
 struct BeamSpan {
     int rows = 0;                           ///< number of beams; 0: unknown
     float lowest_rad = 0, highest_rad = 0;  ///< elevation of the lowest and of the highest beam
@@ -14,7 +14,7 @@ struct BeamSpan {
 BeamSpan beamSpan(const SensorModel& sensor);
 
 /// The returns of one scan in the sensor frame (x forward, y left, z up), one array per quantity.
-/// All arrays have the same size; optional ones may be empty.
+/// All arrays have the same size; optional arrays may be empty.
 struct Scan {
     std::vector<float> x_m, y_m, z_m;
     std::vector<float> intensity;  ///< 0..1
@@ -35,10 +35,10 @@ struct Scan {
 /// A return at the origin, or with a coordinate that is not finite, gets range NaN.
 void locateBeams(const SensorModel& sensor, Scan& scan);
 
-/// Throws std::invalid_argument, saying what to call, unless every return has a range, an azimuth
-/// and a row of this sensor, and finite coordinates unless its range is NaN. Rows of another sensor
-/// are detected by `scan.beams` (a different number of beams, or a span that differs by more than
-/// 1 degree), and by rows that this sensor does not have.
+/// Throws std::invalid_argument, naming the function to call, unless every return has a range, an
+/// azimuth and a row of this sensor, and finite coordinates unless its range is NaN. Detects rows
+/// of another sensor by `scan.beams` (a different number of beams, or a span that differs by more
+/// than 1 degree), and by rows that this sensor does not have.
 void checkLocated(const Scan& scan, const SensorModel& sensor);
 
 }  // namespace hagen

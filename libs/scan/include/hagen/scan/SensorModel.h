@@ -10,37 +10,37 @@ struct SensorModel {
     /// Elevation of each beam above the sensor's xy plane, strictly increasing: element r belongs
     /// to image row r; row 0 is the lowest beam.
     std::vector<float> elevations_rad;
-    /// Returns outside these limits do not enter the image: in the zone they are RoI unjudged.
+    /// Returns outside these limits are not in the image; in the zone they are RoI without a test.
     float min_range_m = 0.5f;
     float max_range_m = 130.0f;
-    /// Whether the beams above are those of the sensor. False for a sensor that scans without
-    /// rings: its beams are virtual, and a return belongs to the nearest one.
+    /// True if the beams above are the sensor's real beams. A sensor that scans without rings has
+    /// virtual beams; a return belongs to the nearest one.
     bool has_rings = true;
 
-    /// Whether a range is within the sensor's limits; false for NaN.
+    /// True if a range is within the sensor's limits; false for NaN.
     bool sees(float range_m) const { return range_m >= min_range_m && range_m <= max_range_m; }
 
     int rows() const { return static_cast<int>(elevations_rad.size()); }
 
-    /// The row of the beam closest in elevation (the lower of two equally close ones).
+    /// The row of the beam closest in elevation (the lower row of a tie).
     int nearestRow(float elevation_rad) const;
 };
 
-/// A known sensor by its name in settings files: "VLP-16", "HDL-32E", "HDL-64E", "Puck Hi-Res",
-/// "VLP-32C", "OS0-128", "OS1-64", "Mid-360". Elevations and range limits are from the
-/// manufacturer's data sheets. Throws std::invalid_argument for any other name, listing the known
-/// ones.
+/// Returns a known sensor by its name in settings files: "VLP-16", "HDL-32E", "HDL-64E", "Puck
+/// Hi-Res", "VLP-32C", "OS0-128", "OS1-64", "Mid-360". Elevations and range limits are from the
+/// manufacturer's data sheets. Throws std::invalid_argument listing the known names for any other
+/// name.
 ///
 /// - OS0-128 and OS1-64: data sheets of revision 7. Beams are evenly spaced over +-45 and +-21.2
-///   degrees, ranges 0.5 to 100 m and 0.5 to 200 m. (0.5 m is the default; the sensors can be set
-///   to report nearer returns, and an OS0 before revision 7 measured from 0.3 m.) A sensor's own
-///   beams, from its metadata, differ by a few tenths of a degree: customSensorModel().
+///   degrees, ranges 0.5 to 100 m and 0.5 to 200 m. (0.5 m is the default; the sensors can be
+///   configured to report nearer returns, and an OS0 before revision 7 measured from 0.3 m.) The
+///   real beams in a sensor's metadata differ by a few tenths of a degree: use customSensorModel().
 /// - Mid-360: Livox Mid-360 User Manual (2023), specifications: 0.1 m (blind zone) to 70 m (80 %
 ///   reflectivity), -7 to 52 degrees. It has no rings; 24 virtual beams, 2.5 degrees apart, cover
 ///   that field of view. Elevations are relative to the sensor's own axes, upside down or not.
 SensorModel sensorModel(const std::string& name);
 
-/// The names that sensorModel() knows.
+/// The names that sensorModel() accepts.
 std::vector<std::string> knownSensorModels();
 
 /// A sensor with these beams, from lowest to highest.

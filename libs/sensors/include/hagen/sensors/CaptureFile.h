@@ -12,8 +12,8 @@
 
 namespace hagen::sensors {
 
-/// A capture that is truncated, or has a frame that cannot be read. The message names the file, the
-/// frame and its byte offset.
+/// A capture that is truncated or has an unreadable frame. The message names the file, the frame
+/// and its byte offset.
 struct BrokenCapture : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -24,17 +24,17 @@ struct FrameCounts {
     std::size_t frames = 0;          ///< all
     std::size_t datagrams = 0;       ///< complete UDP datagrams
     std::size_t fragments = 0;       ///< frames with a part of a datagram
-    std::size_t fragments_lost = 0;  ///< of these: of incomplete datagrams
+    std::size_t fragments_lost = 0;  ///< of these, in incomplete datagrams
     std::size_t other_traffic = 0;   ///< frames that are not UDP over IPv4
     std::size_t cut_frames = 0;      ///< truncated by the capture's snap length
     std::size_t tagged = 0;          ///< frames with a VLAN tag
 };
 
-/// Whether a file begins like a capture (.pcap or .pcapng), whatever its name.
+/// True if a file starts like a capture (.pcap or .pcapng), regardless of its name.
 bool isCapture(const std::filesystem::path& file);
 
 /// Reads the UDP datagrams of a capture one by one: Ethernet (with VLAN tags), Linux "any" device
-/// and raw IP. Memory does not grow with the file.
+/// and raw IP. Memory use does not grow with the file.
 class CaptureFile {
  public:
     /// Throws BrokenCapture naming the file if it is not a readable capture.
@@ -44,12 +44,12 @@ class CaptureFile {
     /// Reads the next datagram; false at the end. Throws BrokenCapture.
     bool next(Datagram& datagram);
 
-    /// Calls `check` after every kFramesPerCheck frames. An exception from it ends next(), which
-    /// may search a whole file for a datagram and can be called again.
+    /// Calls `check` after every kFramesPerCheck frames. Its exceptions leave next(), which may
+    /// search a whole file for a datagram and can be called again.
     void checkWhileReading(const std::function<void()>& check);
     static constexpr std::size_t kFramesPerCheck = 1024;
 
-    /// Complete once next() returned false or threw.
+    /// Complete after next() has returned false or thrown.
     const FrameCounts& counts() const;
     /// Fraction of the file read so far, 0 ... 1.
     double fractionRead() const;

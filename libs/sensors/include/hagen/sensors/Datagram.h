@@ -7,14 +7,14 @@ namespace hagen::sensors {
 
 /// A UDP datagram.
 struct Datagram {
-    std::int64_t time_ns = 0;              ///< when it was received, since 1970
+    std::int64_t time_ns = 0;              ///< reception time since 1970
     std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4
     std::uint16_t from_port = 0, to_port = 0;
     const std::uint8_t* bytes = nullptr;  ///< not owned
     std::size_t size = 0;
 };
 
-/// "10.0.0.101".
+/// Dotted notation: "10.0.0.101".
 std::string ipText(std::uint32_t ip);
 
 }  // namespace hagen::sensors

@@ -1,14 +1,14 @@
 #pragma once
 namespace hagen::sensors {
 
-/// The azimuths that the head of a rotating sensor passed, clockwise from x, at most one turn.
-/// Angles accumulate: one turn later they are 2 pi larger.
+/// The azimuth range that the head of a rotating sensor swept, clockwise from x, at most one turn.
+/// Angles accumulate: they increase by 2 pi per turn.
 struct Sweep {
     double from_rad, to_rad;
 };
 
-/// How far the beams of a rotating sensor point behind its head and ahead of it. An object in a
-/// single beam (a wire) is seen when that beam passes it.
+/// The maximum angles of beams behind and ahead of a rotating sensor's head. An object in a single
+/// beam (a wire) is seen when that beam passes it.
 struct BeamOffsets {
     double behind_rad = 0, ahead_rad = 0;  ///< not negative
 };

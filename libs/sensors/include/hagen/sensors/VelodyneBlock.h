@@ -5,8 +5,8 @@ namespace hagen::sensors {
 
 /// A block of a packet, described by its first firing.
 struct VelodyneBlock {
-    const std::uint8_t* returns;  ///< 32 times distance (two bytes, little-endian) and intensity
-    float sine, cosine;           ///< of the block's direction, clockwise from x
+    const std::uint8_t* returns;  ///< 32 pairs of distance (two bytes, little-endian) and intensity
+    float sine, cosine;           ///< direction of the block, clockwise from x
     float azimuth_rad;            ///< the same direction, counter-clockwise from x
     float reading_from_behind;    ///< the same in 0.01 degrees clockwise from behind, 0...35999
     float time_s;

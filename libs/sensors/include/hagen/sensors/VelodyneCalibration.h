@@ -9,31 +9,30 @@
 
 namespace hagen::sensors {
 
-/// Of a laser's range, and of where its light leaves the sensor. With more, a calibration is
-/// corrupt.
+/// Limit for a laser's range correction and offsets. A calibration with larger values is corrupt.
 inline constexpr double kMaxCorrection_m = 10;
 
-/// Where a laser of a Velodyne points, and what is added to its ranges.
+/// The direction and corrections of a Velodyne laser.
 struct VelodyneLaser {
-    double azimuth_deg = 0;  ///< is subtracted from the packet's azimuth
+    double azimuth_deg = 0;  ///< subtracted from the packet's azimuth
     double elevation_deg = 0;
-    /// The decoder uses these: they are right in every calibration, the angle's unit differs.
+    /// The decoder uses these, because the unit of the angle differs between calibrations.
     double elevation_sine = 0, elevation_cosine = 1;
     double distance_m = 0;
-    /// Of where the light leaves the sensor, perpendicular to the beam.
+    /// Offset of the light's exit point, perpendicular to the beam.
     double vertical_offset_m = 0, horizontal_offset_m = 0;
 };
 
-/// The lasers of a Velodyne in the order in which a packet has them.
+/// The lasers of a Velodyne in packet order.
 struct VelodyneCalibration {
     std::vector<VelodyneLaser> lasers;
 };
 
-/// Returns a laser that looks up by an angle, without any other correction.
+/// Returns a laser at this elevation, without other corrections.
 VelodyneLaser laserAt(double elevation_deg);
 
-/// Returns the calibration that holds for each sensor of a model, by its manual. Empty for an
-/// HDL-64E, of which each sensor has its own.
+/// Returns the default calibration of a model, from its manual. Empty for the HDL-64E, where each
+/// sensor has its own.
 const VelodyneCalibration& defaultCalibration(const VelodyneModel& model);
 
 /// Returns the image row of a laser, and of each laser (row 0: lowest beam), by the calibration's
