@@ -6,20 +6,20 @@
 
 namespace hagen {
 
-/// A settings key of an option, by its name in reports and sweeps. Parsing, range checks, sweeps
-/// and `rawlog-segment --config-keys` all use this table.
+/// An option's settings key. Parsing, range checks, sweeps and `rawlog-segment --config-keys` all
+/// use this table.
 struct OptionKey {
     std::string name, unit;
     double least, most;        ///< allowed range, both inclusive
     std::string what, symbol;  ///< one-line description; the paper's symbol, if any
     std::variant<float Options::*, int Options::*, bool Options::*, Seeds Options::*> field;
-    std::string section;  ///< of settings files; "paper" for readings of the paper
+    std::string section;  ///< in settings files; "paper": interpretation of the paper
 };
 const std::vector<OptionKey>& optionKeys();
 
-/// The name with the section, as the table of keys lists it: "paper.seeds".
+/// The name with the section: "paper.seeds".
 std::string nameInFiles(const OptionKey& key);
-/// The value of an option as in a settings file: "20", "true", "lowest".
+/// The value of an option in settings-file syntax: "20", "true", "lowest".
 std::string textOf(const OptionKey& key, const Options& options);
 /// The allowed values in a settings file: "0.1 ... 1000", "lowest, top_and_nearest".
 std::string rangeOf(const OptionKey& key);
