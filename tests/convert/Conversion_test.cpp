@@ -548,7 +548,7 @@ TEST_P(ConversionTest, ReportsScanWithInvalidLimits) {
         const ConversionReport report = convert(again, listener);
         EXPECT_EQ(report.unreadable_scans, 1u);
         EXPECT_EQ(report.scans, 2u);
-        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): its range limits are invalid"));
+        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): invalid range limits"));
     }
 }
 

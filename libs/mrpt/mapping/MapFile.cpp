@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws with the reason in errno, which must be 0 before the operation.
+/// Throws with the reason from errno, which must be 0 before the operation.
 [[noreturn]] void throwWriteError(const fs::path& file) {
     throw std::runtime_error(
-        file.string() + ": the map cannot be written" +
+        file.string() + ": cannot write the map" +
         (errno == 0 ? "; is the disk full?" : std::string(": ") + std::strerror(errno)));
 }
 
@@ -94,9 +94,10 @@ bool isMapFile(const fs::path& file) {
 
 void checkMapFile(const fs::path& file) {
     if (isMapFile(file)) return;
-    throw std::runtime_error(file.string() +
-                             ": a map is written as .bt (occupied or free), .ot (probabilities) or "
-                             ".3Dscene (for SceneViewer3D); use one of these endings");
+    throw std::runtime_error(
+        file.string() +
+        ": unknown map format; use .bt (occupied or free), .ot (probabilities) "
+        "or .3Dscene (for SceneViewer3D)");
 }
 
 void saveMap(const octomap::OcTree& tree, const fs::path& file) {
