@@ -116,7 +116,7 @@ TEST_F(AirframeMask, StatisticsCountMaskedReturns) {
             {"-i", recording(), "--stats", path("stats.json"), "--overwrite", "-c", mask});
     };
     EXPECT_THAT(masked("centre_m: [0, 0, 5], radius_m: 0.2").err,
-                HasSubstr("the log: the airframe of the settings masks none"));
+                HasSubstr("the log: the settings' airframe masks no returns"));
     const auto outcome = masked("centre_m: [10, 0, 0], radius_m: 9");
     EXPECT_THAT(outcome.out, HasSubstr("of these: the airframe"));
     EXPECT_EQ(outcome.err, "");

@@ -182,7 +182,7 @@ TEST(RotatingScan, TakesElevationsFromModel) {
     Settings settings;
     settings.sensor.model = "OS1-64";
     EXPECT_EQ(readWith(scan, settings).sensor.name, "HDL-64E");
-    EXPECT_THAT(readWith(scan, settings).remark, HasSubstr("instead of the settings'"));
+    EXPECT_THAT(readWith(scan, settings).remark, HasSubstr("override the settings'"));
     scan.lidarModel = "UNKNOWN_SCANNER";
     EXPECT_EQ(readWith(scan, settings).sensor.name, "OS1-64");
     EXPECT_FALSE(isCloud(scan));

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 /// Throws with the reason from errno, which must be 0 before the operation.
 [[noreturn]] void throwWriteError(const fs::path& file) {
     throw std::runtime_error(
-        file.string() + ": cannot write the map" +
+        file.string() + ": cannot be written" +
         (errno == 0 ? "; is the disk full?" : std::string(": ") + std::strerror(errno)));
 }
 
