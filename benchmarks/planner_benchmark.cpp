@@ -1,5 +1,5 @@
-// Flies planners in closed loop through random forests of which they know every tree: success,
-// minimum distance, cost of a plan. The forests: trunks of 0.15 m radius, 40 m from start to goal.
+// Flies planners in closed loop through random forests with every tree known: success, minimum
+// distance, planning cost. Trunks have a radius of 0.15 m; the goal is 40 m from the start.
 #include <ctime>
 
 #include <algorithm>

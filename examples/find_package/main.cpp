@@ -1,4 +1,4 @@
-// A project of your own: segments one scan of an installed Hagen's choice of sensor.
+// An external project that segments one scan with an installed Hagen.
 #include <hagen/mrpt/ObservationSegmenter.h>
 
 #include <cstdio>
