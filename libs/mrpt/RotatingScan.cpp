@@ -227,7 +227,7 @@ struct Geometry {
     int columns = 0;             ///< used columns
     double first_rad = 0;        ///< azimuth of the first column, counter-clockwise
     double step_rad = 0;         ///< to the next column
-    double columns_of_turn = 0;  ///< per turn
+    double columns_of_turn = 0;  ///< of a full turn
     double resolution_m = 0;
     bool is_dual_by_blocks = false;  ///< two columns have the same azimuth
 };

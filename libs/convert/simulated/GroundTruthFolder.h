@@ -19,8 +19,8 @@ struct GroundTruthLabels {
 ///     labels/NNNNNN.label     the label, and the object's number
 ///     semantic/NNNNNN.label   the number of the object class, and the object's
 ///     kinds.yaml              names and labels of the classes
-///     simulated_by.txt        marks the folder as replaceable altitudes.txt           height of
-///     the sensor above the ground [m], one line per scan
+///     simulated_by.txt        marks the folder as replaceable
+///     altitudes.txt           height of the sensor above the ground [m], one line per scan
 class GroundTruthFolder {
  public:
     /// `mount`: the sensor's tilt on the level vehicle. Throws std::runtime_error if the folder

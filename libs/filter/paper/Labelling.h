@@ -25,9 +25,10 @@ struct LabellingWorkspace {
 /// Seeds::Lowest: the lowest pixel of each column is a seed, its region ROU, the rest RoI.
 /// Seeds::TopAndNearest: the highest and the nearest pixel of each column are seeds, their regions
 /// RoI, the rest ROU.
-/// Seeds::Every: every pixel is a seed and ROU, no regions; for ablations. A pixel with a depth but
-/// no angle is always RoI, to be safe. If it is the lowest of its column, neither it nor the pixel
-/// above the gap is a seed.
+/// Seeds::Every: every pixel is a seed and ROU, no regions; for ablations.
+///
+/// A pixel with a depth but no angle is always RoI, to be safe. If it is the lowest of its column,
+/// neither it nor the pixel above the gap is a seed.
 ///
 /// `depth_m` and `pixel_angle_rad` have the same size, NaN for no value; empty pixels are
 /// Unclassified and never seeds, even if they have an angle (levelGaps()). The lowest pixels are

@@ -134,7 +134,7 @@ HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* 
 }
 
 /// The envelope is the highest surface below `cleaned_m` that is nowhere too steep: kSteepest in
-/// cells with a height, kSteepestUnseen in others. Cells above it lose their height.
+/// cells with a height, kSteepestUnseen in others. Cells above it become empty.
 template <int kSide>
 void removeObstacles(GroundFit<kSide>& fit) {
     std::copy(fit.cleaned_m.begin(), fit.cleaned_m.end(), fit.envelope_m.begin());

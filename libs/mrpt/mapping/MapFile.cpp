@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
         (errno == 0 ? "; is the disk full?" : std::string(": ") + std::strerror(errno)));
 }
 
-/// Returns the occupied voxels in MRPT's drawing, coloured by height from blue (lowest) to red.
+/// Returns the occupied voxels as an MRPT object, coloured by height from blue (lowest) to red.
 observations::viz::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
     auto voxels = observations::viz::COctoMapVoxels::Create();
     voxels->resizeVoxelSets(1);
@@ -108,7 +108,7 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file) {
 void saveMapInPlace(octomap::OcTree& whole, const fs::path& file, const fs::path& named) {
     checkMapFile(named);
     if (named.extension() == ".3Dscene") return saveScene(whole, file, named);
-    whole.updateInnerOccupancy();  // out of date in a map under construction
+    whole.updateInnerOccupancy();  // stale while a map is being built
     errno = 0;
     std::ofstream out(file, std::ios::binary);
     if (!out) throwWriteError(named);

@@ -41,7 +41,7 @@ struct ExtractionWorkspace {
 
 /// Stage 9, extraction: a return takes the label and component of its pixel (depth_mapper), unless
 /// it has its own label. In the zone, a return without a pixel is RoI without a component: it is
-/// outside the sensor's range limits, so its position is doubtful, but something reflected. Only
+/// outside the sensor's range limits, so its position is doubtful, but something is there. Only
 /// returns without range (0, not finite) are Unclassified. Components keep their order and are
 /// numbered 1, 2, ... without gaps. Requires `image` and `own_labels` of this scan.
 void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabels& own_labels,

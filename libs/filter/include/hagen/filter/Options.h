@@ -61,7 +61,7 @@ struct Options {
     /// Extend obstacles down to their feet; remove isolated specks.
     bool grow_feet = true;
     bool remove_specks = true;
-    /// Ground less than this below the sensor is RoI; 0: never.
+    /// Ground closer than this below the sensor is RoI; 0: never.
     float ground_is_roi_below_m = 0.0f;
     /// Adjacent RoI pixels belong to one component if their depths differ by less.
     float component_gap_m = 1.0f;
