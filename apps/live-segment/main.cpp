@@ -256,7 +256,7 @@ int command(int argc, char** argv) {
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --record flight.pcap\n"
         "  live-segment --replay flight.pcap --model HDL-32E -c hdl32e --stats flight.json\n"
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --mavlink udp:192.168.1.10:14550\n"
-        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
+        "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;
     declare(program, flags);
     return program.run(argc, argv, [&] { return run(program, flags); });

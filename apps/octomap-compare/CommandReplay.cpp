@@ -82,7 +82,7 @@ void addReplay(Program& program) {
         "replay", "repeat one run; writes replay-RUN.html and replay-RUN.3Dscene");
     sub.option("DIR", flags->folder, "folder of `closedloop`").required();
     sub.option("--seed", wanted.seed, "seed of the run").required();
-    sub.option("--scenario", wanted.scenario, "required if several have that seed");
+    sub.option("--scenario", wanted.scenario, "required if several runs have that seed");
     sub.option("--model", wanted.model, "world model; required if several flew the course")
         .transform(avoidance::worldModelFrom);
     sub.option("--guidance", wanted.guidance, "straight or astar");

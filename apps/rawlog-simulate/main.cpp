@@ -133,7 +133,7 @@ int command(int argc, char** argv) {
         "    -o flight.rawlog\n"
         "  rawlog-simulate --scenario wires --scans 12 --every-s 2 --altitude 4 --seed 7\n"
         "    --kitti wires\n"
-        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
+        "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     convert::SimulatedLog log;
     bool is_quiet = false;
     declare(program, log, is_quiet);

@@ -54,7 +54,7 @@ void addFlags(Command& app, Flags& flags) {
              "also score degraded copies of all scans: dead beams, rain, tilt, ...");
     app.option("--degrade", flags.degradations,
                "SPEC: also score one such copy, as in dropout=20; may be repeated; an invalid SPEC "
-               "lists all")
+               "lists all SPECs")
         .once();
     app.option("--max-range-m", flags.max_range_m, "score returns up to this range")
         .showDefault()

@@ -170,8 +170,7 @@ void measure(convert::Conversion conversion, bool copies_through, int repetition
         appendTo(json_lines, times);
     }
     line("conversion", converting);
-    std::printf("  %-28s %8.3f s, summed over jobs\n", "thereof packets to labels",
-                median(labelled_s));
+    std::printf("  %-28s %8.3f s, summed over jobs\n", "packets to labels", median(labelled_s));
     std::printf("  %-28s %8.1f x\n", "real time", flight_s / median(converting.seconds));
     std::printf("  %-28s %8.0f MB\n", "peak memory", peak_megabytes);
     if (!copies_through) return;

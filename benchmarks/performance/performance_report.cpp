@@ -79,7 +79,7 @@ int run(const Flags& flags) {
 
 int main(int argc, char** argv) {
     Program program("performance-report", "Times entire flights and writes performance.md.");
-    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    program.footer("Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;
     addFlags(program, flags);
     return program.run(argc, argv, [&] { return run(flags); });

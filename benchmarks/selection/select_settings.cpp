@@ -195,7 +195,7 @@ int main(int argc, char** argv) {
                     "Chooses the filter's settings on real drives and simulated flights, holding "
                     "out one drive at a time, and scores each drive with the settings chosen "
                     "without it.");
-    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    program.footer("Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;
     addFlags(program, flags);
     return program.run(argc, argv, [&] { return run(flags); });

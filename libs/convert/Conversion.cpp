@@ -134,7 +134,7 @@ class Converter {
                                                " of " + std::to_string(threads) + " threads");
         }
         report_.left_out_before = source_->entriesSkipped();
-        if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: each failed
+        if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: all failed
         if (end.why) savePartialOutputs(end.why);
         return finish();
     }

@@ -42,7 +42,7 @@ struct AirframeListener {
         [](const auto&, const auto&) {};
     /// Called with remarks about the recording, such as ignored content.
     std::function<void(const std::string& what)> remark = [](const auto&) {};
-    /// Called before each entry is read. False ends with Interrupted; nothing is written.
+    /// Called before reading each entry. False ends with Interrupted, without output.
     std::function<bool()> keep_going = [] { return true; };
 };
 

@@ -72,7 +72,7 @@ std::string sanitizedTitle(const std::string& title) {
     return tidy;
 }
 
-/// Writes the data blocks one after the other.
+/// Writes all data blocks.
 class DataBlockWriter {
  public:
     explicit DataBlockWriter(const StageView& view)

@@ -47,7 +47,7 @@ class PoseOutput {
     std::vector<recordings::TimedPose> poses_;
 };
 
-/// The requested outputs. A failed one does not affect the others.
+/// The requested outputs. A failed output does not affect the others.
 class SimulatedOutputs {
  public:
     SimulatedOutputs(const SimulatedLog& log, const Attitude& mount) {
