@@ -207,7 +207,7 @@ int run(const Program& program, Flags& flags) {
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
         std::unique_ptr<live::AutopilotLink> link;
-        std::string failure, left;  // outputs of earlier runs
+        std::string failure, left;  // left: outputs of earlier runs
         try {
             left = base::leftBehind(
                 {flags.live.recording.file, flags.live.recording.posesFile(), flags.live.stats});

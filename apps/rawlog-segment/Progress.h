@@ -29,7 +29,7 @@ class Progress {
     };
     struct Kind {
         std::size_t printed = 0, suppressed = 0;
-        std::string last;  ///< not yet printed
+        std::string last;  ///< last suppressed remark
     };
     std::map<std::string, Remark> remarks_;  ///< by text
     std::map<std::string, Kind> kinds_;      ///< remarks that differ only in numbers and names

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int32_t kBeside = 5;     // columns added on both sides of a sector, for its regions
 constexpr std::int32_t kTogether = 16;  // columns; gives most sectors the same image size
-constexpr std::size_t kPlaneEvery = 2;  // every 2nd of the columns outside the sector
+constexpr std::size_t kPlaneEvery = 2;  // use every 2nd of the evenly spread columns
 
 struct Columns {
     Eigen::Index first = 0, count = 0;
