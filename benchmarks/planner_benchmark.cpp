@@ -1,5 +1,5 @@
-// Flies planners in closed loop through random forests of which they know every tree: success,
-// minimum distance, cost of a plan. The forests: trunks of 0.15 m radius, 40 m from start to goal.
+// Flies planners in closed loop through random forests with every tree known: success, minimum
+// distance, planning cost. Trunks have a radius of 0.15 m; the goal is 40 m from the start.
 #include <ctime>
 
 #include <algorithm>
@@ -53,8 +53,8 @@ Sum flyForests(test::SmallFlight flight, double density_per_m2, int seeds) {
 int main(int arguments, char** argument) {
     const int seeds = arguments > 1 ? std::atoi(argument[1]) : 100;
     std::printf(
-        "planner    guidance trees/m2  m/s  arrived  collided  least m  time s  path m  "
-        "emergencies/km  questions/plan  us/plan\n");
+        "planner    guidance trees/m2  m/s  arrived  collided    min m  time s  path m  "
+        "emergencies/km    queries/plan  us/plan\n");
     for (const std::string& planner : avoidance::plannerNames()) {
         for (const std::string& guidance : avoidance::guidanceNames()) {
             for (double density_per_m2 : {0.02, 0.05, 0.1}) {

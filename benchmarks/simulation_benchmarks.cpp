@@ -1,5 +1,5 @@
-// Times a simulated scan: in every scene, in scenes of at least 150 000 triangles, and along
-// courses; also the generation of courses, and exact distances in them.
+// Times simulated scans in every scene, in scenes of at least 150 000 triangles, and along courses;
+// also course generation and exact distances.
 #include <benchmark/benchmark.h>
 #include <hagen/avoidance/Course.h>
 #include <hagen/simulation/Lidar.h>
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// The scene with ground that is finely meshed farther out.
+/// The scene with a finer ground mesh at long range.
 hagen::simulation::Scene withWideGround(const hagen::simulation::Scene& scene) {
     constexpr double kFineLength_m = 85, kFineWidth_m = 65, kReach_m = 140;
     hagen::simulation::SceneContent content = scene.content();

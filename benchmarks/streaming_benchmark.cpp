@@ -1,5 +1,4 @@
-// Cost of labelling sectors, and differences from labels of whole scans: the table of
-// docs/live.md.
+// Cost of labelling sectors, and differences from whole-scan labels, for the table in docs/live.md.
 #include <hagen/live/LidarStream.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
@@ -29,7 +28,7 @@ using mrpt::obs::CObservationVelodyneScan;
 
 constexpr float kNear_m = 5;
 
-/// A turn of a recording, and its labels by the whole scan.
+/// A turn of a recording and its whole-scan labels.
 struct Turn {
     CObservationVelodyneScan::ConstPtr packets;
     std::optional<Attitude> attitude;
@@ -39,8 +38,8 @@ struct Turn {
     std::vector<std::uint16_t> place;  ///< degree and row of each return
 };
 
-/// How high a return is above the nearest one of the ground, by ground truth; infinite: there is
-/// none within 2 m.
+/// Height of a return above the nearest ground return (ground truth); infinite if none is within 2
+/// m.
 double heightAboveGround(const Turn& turn, std::size_t i) {
     constexpr double kNearest_m = 2;
     const Eigen::Matrix3d level = turn.pose.value_or(Eigen::Isometry3d::Identity()).linear();
@@ -129,9 +128,9 @@ Recording read(const std::string& file, const std::string& preset, bool levels) 
     return recording;
 }
 
-/// Near returns that whole scans find and sectors do not.
+/// Near RoI returns of whole scans that sectors miss.
 struct Misses {
-    std::size_t all = 0, missed = 0, missed_long = 0;  ///< long: in the turn before, too
+    std::size_t all = 0, missed = 0, missed_long = 0;  ///< long: also in the previous turn
     std::vector<bool> now, before;                     ///< by degree and row
 
     void nextTurn() {
@@ -139,7 +138,7 @@ struct Misses {
         now.assign(360 * 128, false);
         before.resize(now.size());
     }
-    /// Returns whether it is missed, and something was in the turn before.
+    /// Returns whether the return is missed here and in the previous turn.
     bool add(std::uint16_t place, bool is_missed) {
         ++all;
         if (!is_missed) return false;
@@ -152,17 +151,17 @@ struct Misses {
 
 struct Figures {
     std::size_t same = 0, different = 0;
-    std::size_t judged = 0, right = 0;  ///< of the different: with ground truth, and as it says
-    std::size_t whole_right = 0, both_right = 0;  ///< with ground truth: whole scans are; both are
-    Misses near, obstacles;                       ///< obstacles: those that are, by ground truth
-    Misses by_whole;  ///< of the obstacles that sectors find: those that whole scans miss
-    double highest_missed_m = 0;  ///< of these, above the ground: of those in two turns
+    std::size_t judged = 0, right = 0;            ///< different labels: with ground truth, correct
+    std::size_t whole_right = 0, both_right = 0;  ///< correct in whole scans; in both
+    Misses near, obstacles;                       ///< obstacles: by ground truth
+    Misses by_whole;              ///< obstacles found by sectors, missed by whole scans
+    double highest_missed_m = 0;  ///< height of obstacles missed in two turns
     Confusion whole, streamed;
     std::vector<double> sector_us;
     double turn_us = 0;
 };
 
-/// The motion of the sensor, if it is known.
+/// The known motion of the sensor.
 enum class Known { Nothing, Attitude, Pose };
 
 Attitude attitudeOf(const Eigen::Isometry3d& pose) {
@@ -316,9 +315,9 @@ int run(int argc, char** argv) {
                     recordings.back().turns.size(), recordings.back().whole_us);
     }
     std::printf(
-        "| sector | window | every | equal %% | worst %% | different ones right %% | of those that "
-        "are right in whole scans, equal %% | RoI < 5 m missed | in two turns | obstacles < 5 m "
-        "missed | in two turns | these are up to, m above ground | missed by whole scans only | in "
+        "| sector | window | every | equal %% | worst %% | different labels correct %% | equal if "
+        "whole scan correct %% | RoI < 5 m missed | in two turns | obstacles < 5 m "
+        "missed | in two turns | maximum height of these [m] | missed only by whole scans | in "
         "two "
         "turns | F1 whole | F1 | of the worst "
         "flight: F1 whole | F1 | ms/turn | sector us p50 | p99 | p99.9 |\n"

@@ -1,4 +1,4 @@
-// Measures each world model on a simulated flight: time of an update and of a query, memory.
+// Measures each world model on a simulated flight: update time, query time, memory.
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/settings/Settings.h>
@@ -77,8 +77,7 @@ void measure(const std::string& name, const std::vector<observations::MappedScan
         model->update(scan);
         const double updated = cpu_ms();
         constexpr int kQueries = 2000;
-        for (int i = 0; i < kQueries;
-             ++i) {  // like a planner's queries: around and ahead of the vehicle
+        for (int i = 0; i < kQueries; ++i) {  // like a planner: around and ahead of the vehicle
             const double x = random.uniform(-6, 6);
             const double y = random.uniform(-6, 6);
             const double z = random.uniform(-1, 1);

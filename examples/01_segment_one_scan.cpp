@@ -1,4 +1,4 @@
-// The filter alone, without MRPT: points in, obstacles out.
+// Uses the filter without MRPT: points in, obstacles out.
 #include <hagen/filter/HagenFilter.h>
 
 #include <algorithm>

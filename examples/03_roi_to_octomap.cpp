@@ -13,7 +13,7 @@ int main(int argc, char** argv) try {
         return 2;
     }
     const auto log = hagen::recordings::openRecording(argv[1]);
-    log->usePoses(argc > 3 ? argv[3] : "");  // all at once: one may come after its scan
+    log->usePoses(argc > 3 ? argv[3] : "");  // reads all: a pose may follow its scan
     const hagen::observations::Trajectory& vehicle = log->poses().vehicle;
 
     hagen::observations::ObservationSegmenter segmenter;
@@ -23,7 +23,7 @@ int main(int argc, char** argv) try {
     while (const auto scan = log->nextScan()) {
         hagen::observations::ObservationSegmenter::Output out;
         if (!segmenter.process(*scan->observation, out, scan->pose, scan->beams)) continue;
-        // Places each return with the pose at its own time; none without a pose.
+        // Places each return with the pose at its own time; nullopt without a pose.
         const auto placed = hagen::convert::placeInMap(out, *scan->observation, vehicle);
         if (!placed) continue;
         map.insert(placed->mapped);

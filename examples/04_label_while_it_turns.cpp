@@ -9,12 +9,12 @@
 int main(int argc, char** argv) {
     using namespace hagen;
     try {
-        // What is done with each sector, a few milliseconds after its last packet.
+        // Called for each sector, a few milliseconds after its last packet.
         live::SectorDistances distances(sensorModel("VLP-16"));
         live::LidarStream stream(
             sensors::makeDriver("VLP-16"), {},
             [&](const live::LabelledSector& sector) { distances.take(sector); });
-        // With an IMU, if there is one: stream.move() before each packet.
+        // With an IMU: call stream.move() before each packet.
 
         live::UdpSource source(live::parseAddress(argc > 1 ? argv[1] : "0.0.0.0:2368"));
         live::Packet packet;

@@ -13,8 +13,8 @@ using base::UsageError;
 
 namespace {
 
-/// Of a serial line for all messages plus 10 %: directions at 20 Hz, each obstacle and the ground
-/// at 10 Hz. A byte takes ten bits.
+/// Serial baud rate for all messages plus 10 %: directions at 20 Hz, each obstacle and the ground
+/// at 10 Hz. A byte takes 10 bits.
 int neededBaud(int obstacles) {
     constexpr int kBytes_s = 3900, kBytesOfObstacle_s = 400;
     return 11 * (kBytes_s + kBytesOfObstacle_s * obstacles);
@@ -25,7 +25,7 @@ int neededBaud(int obstacles) {
 void declareAutopilot(base::Program& app, AutopilotFlags& flags) {
     const Flag peer =
         app.option("--mavlink", flags.peer,
-                   "autopilot that gets obstacles and sends attitude and position: "
+                   "autopilot that receives obstacles and sends attitude and position: "
                    "udp:HOST:PORT[:OUR_PORT] or serial:DEVICE:BAUD (docs/autopilot.md)")
             .valueName("PEER")
             .group("Autopilot");
@@ -74,10 +74,10 @@ void checkAutopilot(const AutopilotFlags& flags) {
     }
     const int needed = neededBaud(flags.nearest);
     if (peer.kind == mavlink::PeerAddress::Kind::Serial && peer.baud < needed) {
-        throw UsageError("--obstacles", std::to_string(flags.nearest) + " obstacles need " +
-                                            std::to_string(needed) + " baud; --mavlink has " +
+        throw UsageError("--obstacles", std::to_string(flags.nearest) + " obstacles require " +
+                                            std::to_string(needed) + " baud; --mavlink specifies " +
                                             std::to_string(peer.baud) +
-                                            ": exceeds the bandwidth of the serial link");
+                                            " (exceeds the bandwidth of the serial link)");
     }
 }
 
@@ -119,7 +119,7 @@ std::string summaryOf(const live::AutopilotLink& link) {
         n["obstacle_distance"] + n["obstacle_distance_3d"] + n["distance_sensor"] + n["heartbeat"];
     return "MAVLink: " + std::to_string(sent) + " messages sent (" +
            std::to_string(n["obstacle_distance"]) + " OBSTACLE_DISTANCE, " +
-           std::to_string(n["all_unknown"]) + " of them unknown in all directions), " +
+           std::to_string(n["all_unknown"]) + " with all directions unknown), " +
            std::to_string(n["not_sent"]) + " not sent; " + std::to_string(n["received"]) +
            " received, " + std::to_string(n["refused"] + n["bad_checksum"] + n["incompatible"]) +
            " refused\n";

@@ -11,9 +11,9 @@
 
 namespace hagen {
 
-/// The flags of a link to an autopilot.
+/// The flags for the autopilot link.
 struct AutopilotFlags {
-    std::string peer;  ///< empty: none
+    std::string peer;  ///< empty: no link
     int system = 1, nearest = 5;
     double sensor_yaw_deg = 0;
     std::optional<float> height_m;
@@ -24,8 +24,8 @@ void declareAutopilot(base::Program& app, AutopilotFlags& flags);
 /// Throws UsageError for an invalid peer.
 void checkAutopilot(const AutopilotFlags& flags);
 
-/// Opens the link and has the listener of a session feed it; null without --mavlink. It tells by
-/// `listener.remark`, from a thread of its own. Throws std::runtime_error naming the peer.
+/// Opens the link and connects it to a session's listener; null without --mavlink. Calls
+/// `listener.remark` from its own thread. Throws std::runtime_error naming the peer.
 std::unique_ptr<live::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
                                                    const Settings& settings,
                                                    live::LiveListener& listener);

@@ -53,7 +53,7 @@ void declare(Program& app, Flags& flags) {
         .valueName(sensors::driverModels("|"))
         .group("Input");
     app.option("--calibration", flags.live.calibration,
-               "calibration of an HDL-64E (Velodyne's db.xml)")
+               "HDL-64E calibration file (Velodyne's db.xml)")
         .existingFile()
         .group("Input");
     app.option("--sensor-json", flags.live.sensor_json,
@@ -106,7 +106,7 @@ void check(Flags& flags) {
 
 using To = BackgroundPrinter::To;
 
-/// The status, on one line of the terminal.
+/// The status as one terminal line.
 class StatusLine {
  public:
     explicit StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
@@ -124,7 +124,7 @@ class StatusLine {
                       static_cast<double>(status.nearest_m), status.is_silent ? ", silent" : "");
         printer.printIfIdle(To::ErrorsInPlace, text);
     }
-    /// Where to print what replaces the status.
+    /// The target for output that replaces the status line.
     To instead() const { return is_shown_ ? To::ErrorsInPlace : To::Errors; }
 
  private:
@@ -135,10 +135,10 @@ std::string summaryOf(const live::LiveReport& r) {
     base::TextStream text;
     text << r.packets << " packets in " << r.scans << " turns, " << r.lost << " lost, " << r.late
          << " late, " << r.duplicate << " duplicate, " << r.dropped
-         << " dropped\nignored: " << r.wrong_size << " datagrams of other size, " << r.other_sensor
-         << " of other sensors, " << r.auxiliary << " position or IMU, " << r.unsound
+         << " dropped\nignored: " << r.wrong_size << " datagrams of wrong size, " << r.other_sensor
+         << " from other sensors, " << r.auxiliary << " position or IMU, " << r.unsound
          << " without valid data, " << r.too_late << " too late, " << r.uncertain
-         << " of uncertain mode\n"
+         << " with unknown mode\n"
          << r.sectors << " sectors, " << r.returns << " returns, " << r.roi << " RoI\n";
     if (r.latency.count() > 0) {
         const auto ms = [](double time_s) { return base::fixedText(1e3 * time_s, 2); };
@@ -150,12 +150,12 @@ std::string summaryOf(const live::LiveReport& r) {
     return text.str();
 }
 
-/// The failures of a session; empty without any.
+/// The failures of a session; empty if none occurred.
 std::string failureOf(const live::LiveReport& report, const live::LiveOptions& options) {
     std::string failure = report.recorded.failure;
     if (report.recorded.left_out > 0) {
         failure += (failure.empty() ? "" : "; ") + options.recording.file.string() + ": " +
-                   std::to_string(report.recorded.left_out) + " datagrams are missing" +
+                   std::to_string(report.recorded.left_out) + " datagrams missing" +
                    (failure.empty() ? ": the disk was too slow" : "");
     }
     if (!report.stats_failure.empty()) {
@@ -169,7 +169,7 @@ std::string failureOf(const live::LiveReport& report, const live::LiveOptions& o
     }
     if (report.uncertain > 0) {
         problem += ", but " + std::to_string(report.uncertain) +
-                   " of turns that do not have the columns of the metadata. Is the sensor in "
+                   " from turns without the metadata's columns. Is the sensor in "
                    "another mode?";
     }
     return problem;
@@ -196,18 +196,18 @@ int run(const Program& program, Flags& flags) {
             if (!flags.is_quiet) std::cerr << "listening on " << flags.listen << "\n";
         }
         catchSignals();
-        BackgroundPrinter printer;  // a stopped terminal must not stop labelling
+        BackgroundPrinter printer;  // a suspended terminal must not stop labelling
         const StatusLine line(flags.is_quiet);
         live::LiveListener listener;
         listener.keep_going = [] { return !isInterrupted(); };
         listener.status = [&](const auto& report, const auto& status) {
             line.show(report, status, printer);
         };
-        listener.remark = [&](const std::string& remark) {  // also from the autopilot's thread
+        listener.remark = [&](const std::string& remark) {  // also on the autopilot's thread
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
         std::unique_ptr<live::AutopilotLink> link;
-        std::string failure, left;  // by earlier runs
+        std::string failure, left;  // left: outputs of earlier runs
         try {
             left = base::leftBehind(
                 {flags.live.recording.file, flags.live.recording.posesFile(), flags.live.stats});
@@ -235,7 +235,7 @@ int run(const Program& program, Flags& flags) {
         if (!flags.is_quiet && !left.empty()) printer.print(To::Errors, left + "\n");
         if (!failure.empty()) printer.print(To::Errors, "live-segment: " + failure + "\n");
         if (!printer.finish()) {
-            // The terminal is blocked. All files are complete; exit() would print the rest.
+            // The terminal is blocked. All files are complete; exit() would still flush stdout.
             link.reset();
             const bool is_done = failure.empty() && printer.isOutputPrinted();
             std::_Exit(is_done ? kDone : failure.empty() ? kFailed : failed);
@@ -256,7 +256,7 @@ int command(int argc, char** argv) {
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --record flight.pcap\n"
         "  live-segment --replay flight.pcap --model HDL-32E -c hdl32e --stats flight.json\n"
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --mavlink udp:192.168.1.10:14550\n"
-        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
+        "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;
     declare(program, flags);
     return program.run(argc, argv, [&] { return run(program, flags); });

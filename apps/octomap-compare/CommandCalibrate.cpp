@@ -55,7 +55,7 @@ int run(const Flags& flags, bool has_output) {
     if (!flags.memory.empty()) {
         memory_file.emplace(flags.memory, base::kFile, flags.overwrites);
     }
-    base::OutputSet outputs;  // each gets its name when it is complete: measuring takes minutes
+    base::OutputSet outputs;  // renamed into place when complete
     if (profile_file) outputs.add(*profile_file);
     if (memory_file) outputs.add(*memory_file);
     warnIfBusy();
@@ -67,7 +67,7 @@ int run(const Flags& flags, bool has_output) {
             std::cerr << "measuring latencies: " << avoidance::displayName(model) << "\n";
         };
         options.continuing = [] {
-            if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
+            if (isInterrupted()) throw std::runtime_error("interrupted; no output was written");
         };
         const avoidance::LatencyProfile profile = avoidance::calibrate(options);
         printProfile(profile);
@@ -102,9 +102,9 @@ void addCalibrate(Program& program) {
     const auto flags = std::make_shared<Flags>();
     Command sub = program.subcommand(
         "calibrate", "measure the latency of each stage on this machine, which should be idle");
-    const Flag file = sub.option("-o,--output", flags->file, "file for the latency profile (JSON)");
+    const Flag file = sub.option("-o,--output", flags->file, "latency profile (JSON)");
     const Flag memory =
-        sub.option("--memory", flags->memory, "CSV file for the heap of each model along a flight");
+        sub.option("--memory", flags->memory, "CSV file: heap usage of each model along a flight");
     takesWorldModels(
         sub.option("--models", flags->models, "world models (default: all)").delimiter(','),
         {"all"});

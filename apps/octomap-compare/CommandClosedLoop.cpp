@@ -140,8 +140,7 @@ void addFlags(Command& app, Flags& flags) {
     avoidance::CampaignPlan& plan = flags.plan;
     list("--scenario", plan.scenarios, "courses, or all: " + base::joined(avoidance::courseNames()))
         .required();
-    app.option("--seeds", flags.seeds,
-               "seeds of the courses, A-B; the same seeds make the same runs")
+    app.option("--seeds", flags.seeds, "course seeds, A-B; the same seeds give the same runs")
         .required();
     app.option("--speed", plan.speeds_m_s, "maximum speeds in m/s (default: 4)").delimiter(',');
     takesWorldModels(list("--models", plan.models,
@@ -150,35 +149,34 @@ void addFlags(Command& app, Flags& flags) {
     list("--guidance", plan.guidances, "straight, astar or all");
     list("--planner", plan.planners, "primitives, 3dvfh or all");
     list("--pose-error", flags.pose_errors,
-         "errors of the estimated pose: none, noise (5 cm, 0.5 deg), drift (1 %)")
+         "pose estimation error: none, noise (5 cm, 0.5 deg), drift (1 %)")
         .oneOf({"none", "noise", "drift"});
     app.option("--latency-scale", plan.latency_scales,
-               "factors on the latencies of the profile (default: 1); 4: an embedded computer")
+               "scale factors for the profile's latencies (default: 1); 4: an embedded computer")
         .delimiter(',');
     app.option("--unknown", flags.unknown,
-               "space that was never observed; optimistic: counts as free; brake-known: braking "
+               "unobserved space; optimistic: counts as free; brake-known: braking "
                "must end in observed space")
         .oneOf({"optimistic", "brake-known"})
         .showDefault();
     list("--air", flags.airs,
-         "what the LiDAR meets: dusty (dust, mixed ranges at edges, the vehicle's masked legs), "
+         "air: dusty (dust, mixed ranges at edges, the vehicle's masked legs), "
          "clear, or all")
         .oneOf({"dusty", "clear", "all"});
     list("--distance", flags.distances,
-         "distances of the world models: unbiased (less their measured bias), as-stored, or all")
+         "world model distances: unbiased (measured bias subtracted), as-stored, or all")
         .oneOf({"unbiased", "as-stored", "all"});
     list("--updates", flags.updates,
-         "what reaches the world model: scans (10 Hz), sectors (of 15 degrees, planner at 50 Hz), "
+         "world model updates: scans (10 Hz), sectors (15 degrees, planner at 50 Hz), "
          "or all")
         .oneOf({"scans", "sectors", "all"});
     app.option("--profile", flags.profile,
-               "latency profile made by `calibrate` (default: the one built into the program)");
-    app.option("--shard", flags.shard, "fly part i of n, for several machines or processes")
-        .showDefault();
+               "latency profile from `calibrate` (default: built-in profile)");
+    app.option("--shard", flags.shard, "fly part i of n, to distribute a campaign").showDefault();
     app.option("--jobs", flags.jobs, "parallel flights (default: one per core)").between(1, 1024);
     app.option("-o,--output", flags.folder,
-               "folder of the campaign; the same command resumes an interrupted campaign, another "
-               "command adds to it")
+               "campaign folder; the same command resumes an interrupted campaign, a different "
+               "one adds to it")
         .required();
     app.flag("--overwrite", flags.overwrites, "start the folder from scratch");
     app.flag("-q,--quiet", flags.is_quiet, "print errors only");

@@ -25,7 +25,7 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-/// All models but those with motion, as open loop asks for clearances at the time of a scan only;
+/// All models except those with motion, because open loop queries clearances only at scan times;
 /// the oracle only if the scene is known.
 std::vector<std::string> standardModels(bool has_scene) {
     std::vector<std::string> models = avoidance::worldModelNames();
@@ -40,11 +40,11 @@ void print(std::size_t count, const std::string& what) {
     if (count > 0) std::cerr << "octomap-compare: " << count << " " << oneLine(what) << "\n";
 }
 
-/// Prints which scans the figures leave out.
+/// Prints the skipped scans.
 void printLosses(const avoidance::OpenLoopResult& result) {
-    print(result.scans_without_pose, "scans have no pose within 0.2 s and were skipped");
+    print(result.scans_without_pose, "scans skipped: no pose within 0.2 s");
     print(result.unreadable_scans,
-          "scans could not be read and were skipped, the first: " + result.why_unreadable);
+          "scans skipped: unreadable; the first: " + result.why_unreadable);
     for (const std::string& remark : result.remarks) {
         std::cerr << "octomap-compare: " << oneLine(remark) << "\n";
     }
@@ -53,14 +53,13 @@ void printLosses(const avoidance::OpenLoopResult& result) {
 /// Prints the limitations of the figures.
 void printLimits(const avoidance::OpenLoopResult& result) {
     print(result.scans_placed_by_one_pose,
-          "scans were placed by one pose each, because their returns have no times or the poses do "
-          "not "
-          "cover the whole scan");
+          "scans were placed with one pose each, because their returns have no times or the "
+          "poses do not cover the whole scan");
     print(result.model_resets,
-          "resets of all models, because the flight is longer than the box of the maps");
+          "resets of all models, because the flight exceeds the size of the maps");
     if (!result.poses_have_horizon) {
-        std::cerr << "octomap-compare: the poses are relative to the first scan, and so are level "
-                     "directions\n";
+        std::cerr << "octomap-compare: poses and level directions are relative to the first "
+                     "scan\n";
     }
 }
 
@@ -93,21 +92,21 @@ int run(Flags flags) {
     };
     try {
         const avoidance::OpenLoopResult result = avoidance::runOpenLoop(open_loop, listener);
-        show(result);  // before the files, which may fail
+        show(result);  // before writing files, which may fail
         files.commit(open_loop, result);
         tellLeftBehind(files.paths());
         return 0;
     } catch (const avoidance::OpenLoopEnded& ended) {
         show(ended.result);
         const std::string failures = files.keepPartial(open_loop, ended.result);
-        throw std::runtime_error(std::string(ended.what()) + "; figures of the " +
-                                 std::to_string(ended.result.scans) + " scans before that are in " +
+        throw std::runtime_error(std::string(ended.what()) + "; results of the " +
+                                 std::to_string(ended.result.scans) + " preceding scans are in " +
                                  flags.folder + "/*.partial*" +
-                                 (failures.empty() ? "" : "; but " + failures));
+                                 (failures.empty() ? "" : "; " + failures));
     }
 }
 
-/// Reports wrong settings and names as wrong usage.
+/// Reports invalid settings and names as wrong usage.
 int runChecked(const Flags& flags) {
     try {
         return run(flags);
@@ -133,21 +132,20 @@ void addOpenLoop(Program& program) {
     sub.option("--sensor-json", source.sensor_json, "Ouster metadata file (JSON)").existingFile();
     sub.option("--topic", source.topics, "read only this LiDAR topic of a ROS recording").once();
     sub.option("--poses", source.poses,
-               "poses of the vehicle (TUM) or of the sensor, one per scan (KITTI); overrides the "
+               "vehicle poses (TUM) or sensor poses, one per scan (KITTI); overrides the "
                "poses in the log")
         .existingFile();
     sub.option("--sensor-label", source.sensor_label, "use only this LiDAR");
     sub.option("--own-reach-m", source.own_reach_m,
-               "nearer returns [m] are the vehicle's own and are skipped")
+               "skip returns nearer than this [m] as the vehicle's own")
         .between(0.0, 5.0)
         .showDefault();
     takesWorldModels(sub.option("--models", flags->open_loop.models,
                                 "world models, such as W-RoI or \"RoI window\" (default: all)")
                          .delimiter(','));
-    const Flag scenario =
-        sub.option("--truth-scenario", flags->scenario,
-                   "scenario of rawlog-simulate that the log was made in, used as "
-                   "ground truth (default: raw points of later scans)");
+    const Flag scenario = sub.option("--truth-scenario", flags->scenario,
+                                     "rawlog-simulate scenario of the log, used as "
+                                     "ground truth (default: raw points of later scans)");
     sub.option("--truth-seed", flags->seed, "seed of that scenario").needs(scenario).showDefault();
     sub.option("-c,--config", flags->configs,
                "settings file, or the name of a preset such as hdl32e; repeatable, later ones "

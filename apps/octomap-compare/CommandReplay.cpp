@@ -1,4 +1,4 @@
-// octomap-compare replay: flies a run again and shows it in 3D.
+// octomap-compare replay: repeats a run and shows it in 3D.
 #include <hagen/avoidance/WorldModel.h>
 #include <iostream>
 #include <memory>
@@ -34,7 +34,7 @@ avoidance::Run chosen(const fs::path& folder, const avoidance::RunWanted& wanted
 }
 
 void endIfInterrupted() {
-    if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
+    if (isInterrupted()) throw std::runtime_error("interrupted; no output was written");
 }
 
 int run(const Flags& flags) {
@@ -68,8 +68,8 @@ int run(const Flags& flags) {
               << scene.path().string() << "\n";
     tellLeftBehind({page.path(), scene.path()});
     if (recording.is_same) return 0;
-    std::cerr << "octomap-compare: the result differs from the table (this is version "
-              << HAGEN_VERSION << ", the table was made by " << wanted.version << ")\n";
+    std::cerr << "octomap-compare: the result differs from the table (program version "
+              << HAGEN_VERSION << ", table version " << wanted.version << ")\n";
     return 1;
 }
 
@@ -79,18 +79,18 @@ void addReplay(Program& program) {
     const auto flags = std::make_shared<Flags>();
     avoidance::RunWanted& wanted = flags->wanted;
     Command sub = program.subcommand(
-        "replay", "fly one run again; writes replay-RUN.html and replay-RUN.3Dscene");
+        "replay", "repeat one run; writes replay-RUN.html and replay-RUN.3Dscene");
     sub.option("DIR", flags->folder, "folder of `closedloop`").required();
     sub.option("--seed", wanted.seed, "seed of the run").required();
-    sub.option("--scenario", wanted.scenario, "needed if several have that seed");
-    sub.option("--model", wanted.model, "world model; needed if several flew the course")
+    sub.option("--scenario", wanted.scenario, "required if several runs have that seed");
+    sub.option("--model", wanted.model, "world model; required if several flew the course")
         .transform(avoidance::worldModelFrom);
     sub.option("--guidance", wanted.guidance, "straight or astar");
     sub.option("--speed", wanted.speed_m_s, "m/s");
     sub.option("--planner", wanted.planner, "primitives or 3dvfh");
     sub.option("--pose-error", wanted.pose_error, "none, noise or drift");
-    sub.option("--latency-scale", wanted.latency_scale, "factor on the latencies");
-    sub.option("--unknown", wanted.unknown, "unobserved space, as for `closedloop`")
+    sub.option("--latency-scale", wanted.latency_scale, "latency scale factor");
+    sub.option("--unknown", wanted.unknown, "unobserved space, see `closedloop`")
         .transform([](const std::string& name) {
             return name == "brake_known" ? "brake-known" : name;  // as in runs.csv
         })

@@ -10,11 +10,11 @@ namespace hagen {
 
 using namespace base;  // Program, Command, Flag, UsageError
 
-/// Lets a flag take world models by name or by displayed name, such as W-RoI and "RoI window".
-/// Rejects any other text except those in `also`, and lists the names.
+/// Lets a flag accept world models by name or by displayed name, such as W-RoI and "RoI window".
+/// Rejects any other text not in `also`, and lists the names.
 void takesWorldModels(Flag flag, const std::vector<std::string>& also = {});
 
-/// Throws UsageError for duplicates, which would be flown or measured twice.
+/// Throws UsageError for duplicates.
 template <class Value>
 void requireOnce(const std::string& flag, const std::vector<Value>& values) {
     for (auto value = values.begin(); value != values.end(); ++value) {
@@ -24,8 +24,8 @@ void requireOnce(const std::string& flag, const std::vector<Value>& values) {
         throw UsageError(flag, text.str() + " is given twice");
     }
 }
-/// The names, or those that "all" stands for. Throws UsageError for names given twice, and for
-/// others beside "all".
+/// The names, with "all" expanded. Throws UsageError for duplicates, and for other names besides
+/// "all".
 std::vector<std::string> namesFrom(const std::string& flag, const std::vector<std::string>& names,
                                    const std::vector<std::string>& all);
 

@@ -21,7 +21,7 @@ std::vector<std::string> namesFrom(const std::string& flag, const std::vector<st
                                    const std::vector<std::string>& all) {
     if (names == std::vector<std::string>{"all"}) return all;
     if (std::find(names.begin(), names.end(), "all") != names.end()) {
-        throw UsageError(flag, "all is given beside other values");
+        throw UsageError(flag, "all cannot be combined with other values");
     }
     requireOnce(flag, names);
     return names;

@@ -12,7 +12,7 @@ int command(int argc, char** argv) {
         "  octomap-compare closedloop --scenario gap --seeds 1000-1019 --models all -o runs\n"
         "  octomap-compare openloop -i flight.rawlog --poses flight.tum -o models\n"
         "  octomap-compare COMMAND --help\n"
-        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
+        "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     program.version(HAGEN_VERSION);
     hagen::addClosedLoop(program);
     hagen::addCalibrate(program);

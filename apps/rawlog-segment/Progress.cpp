@@ -10,7 +10,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::size_t kMaxRemarks = 10;  // of a kind; one per scan would hide everything else
+constexpr std::size_t kMaxRemarks = 10;  // per kind; one per scan would hide all others
 constexpr Seconds kBetweenLines{0.1}, kBeforeRate{1.0};
 
 std::string clockOf(double seconds) {
@@ -25,7 +25,7 @@ std::string clockOf(double seconds) {
     return text;
 }
 
-/// The common text of remarks that differ in numbers and names.
+/// The common text of remarks that differ only in numbers and names.
 std::string kindOf(const std::string& remark) {
     std::string kind;
     bool is_quoted = false;

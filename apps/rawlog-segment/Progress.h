@@ -9,11 +9,11 @@ class Progress {
  public:
     Progress(std::string input, bool quiet);
 
-    /// Returns the listener of a conversion; it keeps a reference to this object.
+    /// Returns the listener of a conversion, which keeps a reference to this object.
     hagen::convert::ConversionListener listener();
 
-    /// Clears the line and reports the pending warnings: a warning that many scans share is printed
-    /// at its first occurrence and counted afterwards.
+    /// Clears the line and reports the pending warnings. A repeated warning is printed once and
+    /// then counted.
     void finish();
 
  private:
@@ -29,9 +29,9 @@ class Progress {
     };
     struct Kind {
         std::size_t printed = 0, suppressed = 0;
-        std::string last;  ///< that was not printed
+        std::string last;  ///< last suppressed remark
     };
-    std::map<std::string, Remark> remarks_;  ///< by their texts
-    std::map<std::string, Kind> kinds_;      ///< of remarks that differ in numbers and names only
+    std::map<std::string, Remark> remarks_;  ///< by text
+    std::map<std::string, Kind> kinds_;      ///< remarks that differ only in numbers and names
     std::chrono::steady_clock::time_point start_, shown_;
 };

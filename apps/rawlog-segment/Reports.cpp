@@ -14,8 +14,8 @@
 #include <limits>
 #include <string>
 
-// Labels, frames and names are from the recording: they go to std::cout, which keepTerminalSafe()
-// guards, never to printf().
+// Labels, frames and names are untrusted: print them to std::cout, which keepTerminalSafe() guards,
+// never with printf().
 namespace {
 
 using hagen::convert::Conversion;
@@ -25,8 +25,7 @@ std::string counted(std::size_t number, const std::string& one, const std::strin
     return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
-/// Bytes of a file or of all files in a folder; without those that another program takes away
-/// meanwhile.
+/// Bytes of a file or of all files in a folder. Ignores files removed concurrently.
 double bytesOf(const std::filesystem::path& path) {
     namespace fs = std::filesystem;
     std::error_code unreadable;
@@ -55,13 +54,13 @@ std::string sizeText(const std::filesystem::path& path) {
 
 void printEntries(const Conversion& conversion, const ConversionReport& report) {
     const std::size_t last = report.left_out_before + report.entries - 1;
-    // A recording that ends before --to has no entries behind it.
+    // A recording that ends before --to has no later entries.
     const bool is_cut = report.left_out_before > 0 || last == conversion.to;
     std::cout << counted(report.scans, "LiDAR scan", "LiDAR scans") << " in "
               << counted(report.entries, "entry", "entries");
     if (is_cut) {
         std::cout << " (" << report.left_out_before << " to " << last
-                  << " of the input; others are skipped)";
+                  << " of the input; the rest was skipped)";
     }
     std::cout << ", " << report.returns << " returns:\n";
 }
@@ -74,7 +73,7 @@ std::string whyNotAll(const ConversionReport& report) {
            (others > 0 ? " and " + std::to_string(others) + " more" : "") +
            (report.is_attitude_of_poses
                 ? ": before or after the poses, or in a gap of more than 0.2 s between them)"
-                : ": the log has no attitude in the 0.2 s before)");
+                : ": the log has no attitude in the preceding 0.2 s)");
 }
 
 }  // namespace
@@ -94,11 +93,11 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     line(report.rou, std::string("region of uninterest: ground, or farther than ") + zone + " m");
     line(report.unclassified, "unclassified: no range, or the vehicle's own airframe");
     if (report.returns_masked > 0) {
-        line(report.returns_masked, "  of these: the airframe, masked as the settings say");
+        line(report.returns_masked, "  of these: the settings' airframe, masked");
     }
     if (report.unreadable_scans > 0) {
         std::cout << counted(report.unreadable_scans, "scan", "scans")
-                  << " could not be read, kept unchanged\n";
+                  << " unreadable, kept unchanged\n";
     }
     if (report.results_replaced > 0) {
         std::cout << counted(report.results_replaced, "result", "results")
@@ -152,21 +151,20 @@ void printAirframe(const hagen::convert::AirframeLearning& learning,
               << " masked: " << percent(report.share_of_sphere) << " of the sphere, "
               << percent(report.share_of_seen) << " of the directions with returns\n";
     if (report.unreadable_scans > 0) {
-        std::cout << counted(report.unreadable_scans, "scan", "scans")
-                  << " could not be read and left out\n";
+        std::cout << counted(report.unreadable_scans, "scan", "scans") << " unreadable, skipped\n";
     }
     std::cout << "airframe: " << learning.file.string() << "\npicture: " << report.picture.string()
               << "\n"
               << std::flush;
     const std::string input = learning.input.string();
     if (report.bins == 0) {
-        std::cerr << input << ": nothing near the sensor stays at its place: no mask is needed\n";
+        std::cerr << input << ": no fixed object near the sensor; no mask is needed\n";
     }
     if (report.isSuspicious()) {
         std::cerr << input
-                  << ": WARNING: more than 20 % is masked. A wall beside a standing vehicle looks "
-                     "like this: fly or turn, or skip the time on the ground with --from. Look at "
-                  << report.picture.string() << " before you use it\n";
+                  << ": WARNING: more than 20 % is masked, as near a wall while stationary. "
+                     "Fly or turn, or skip the time on the ground with --from. Check "
+                  << report.picture.string() << " before using the mask\n";
     }
 }
 

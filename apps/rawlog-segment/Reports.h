@@ -6,7 +6,7 @@
 void printSummary(const hagen::convert::Conversion& conversion,
                   const hagen::convert::ConversionReport& report);
 
-/// Prints what was learned to standard output, and to standard error a warning if it is too much.
+/// Prints the learned airframe, and a warning on standard error if it is implausibly large.
 void printAirframe(const hagen::convert::AirframeLearning& learning,
                    const hagen::convert::AirframeReport& report);
 

@@ -37,7 +37,7 @@ convert::ConversionReport convertAloud(const convert::Conversion& conversion, bo
     }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()
-                  << ": ignored: only --kitti, --mcap and --octomap need it; angles are "
+                  << ": ignored: only --kitti, --mcap and --octomap use poses; angles are "
                      "gravity-aligned only with timed poses (TUM)\n";
     }
     return report;
@@ -69,12 +69,11 @@ void declare(Program& app, Flags& flags) {
                ".npy, .bin) or a folder of them")
         .existingPath()
         .group("Input");
-    app.option("--sensor-json", conversion.sensor_json,
-               "metadata of the Ouster whose packets a capture or bag has")
+    app.option("--sensor-json", conversion.sensor_json, "Ouster metadata file (JSON)")
         .existingFile()
         .group("Input");
     app.option("--calibration", conversion.calibration,
-               "calibration of the HDL-64E whose packets a capture has (Velodyne's db.xml)")
+               "HDL-64E calibration file (Velodyne's db.xml)")
         .existingFile()
         .group("Input");
     app.option("--topic", conversion.topics,
@@ -82,17 +81,17 @@ void declare(Program& app, Flags& flags) {
         .once()
         .group("Input");
     app.option("--from", conversion.from,
-               "first entry to convert, from 0; of a folder or bag: scan; of a capture: turn")
+               "first entry to convert, counted from 0 (folder or bag: scan; capture: turn)")
         .notNegative()
         .group("Input");
     app.option("--to", conversion.to, "last entry to convert").notNegative().group("Input");
     app.option("--sensor-label", conversion.sensor_labels,
                "segment only this LiDAR; may be repeated")
         .once()
-        .mayBeEmpty()  // a label may be
+        .mayBeEmpty()  // labels may be empty
         .group("Input");
     app.option("--poses", conversion.poses,
-               "vehicle trajectory (TUM), or sensor pose per scan (KITTI); overrides the "
+               "vehicle trajectory (TUM), or one sensor pose per scan (KITTI); overrides the "
                "log's own")
         .existingFile()
         .group("Input");
@@ -114,13 +113,13 @@ void declare(Program& app, Flags& flags) {
         .needs(rawlog)
         .group("Output");
     app.option("--kitti", conversion.folder,
-               "scan folder: velodyne/*.bin, labels/*.label; one subfolder per LiDAR if there "
-               "are several")
+               "scan folder: velodyne/*.bin, labels/*.label; one subfolder per LiDAR if there are "
+               "several")
         .group("Output");
     const Flag labelled_clouds =
         app.option("--clouds", conversion.clouds,
                    "folder of labelled clouds, one file per scan: all fields of the input, label "
-                   "(0, 1 ROU, 2 RoI) and obstacle; one subfolder per LiDAR if there are several")
+                   "(0, 1 ROU, 2 RoI) and obstacle; one subfolder per LiDAR if the log has several")
             .group("Output");
     app.choice<convert::OutputFormat>(
            "--cloud-format", conversion.cloud_format,
@@ -130,8 +129,8 @@ void declare(Program& app, Flags& flags) {
         .needs(labelled_clouds)
         .group("Output");
     app.option("--mcap", conversion.mcap,
-               "MCAP for Foxglove and ROS 2: clouds with all fields, label and obstacle, boxes of "
-               "the obstacles, and poses if they are known")
+               "MCAP for Foxglove and ROS 2: clouds with all fields, label and obstacle, obstacle "
+               "boxes, and poses if known")
         .check(
             [](const std::string& name) {
                 return std::filesystem::path(name).extension() == ".mcap"
@@ -140,13 +139,12 @@ void declare(Program& app, Flags& flags) {
             },
             "PATH")
         .group("Output");
-    const Flag pictures =
-        app.option("--pictures", conversion.pictures,
-                   "folder of PNGs, one subfolder per scan: the result of each stage")
-            .group("Output");
+    const Flag pictures = app.option("--pictures", conversion.pictures,
+                                     "folder of PNGs of each stage, one subfolder per scan")
+                              .group("Output");
     app.option("--picture-azimuth", conversion.picture_azimuth_deg,
                "column whose principal components are drawn: degrees left of straight ahead "
-               "(default: that of the nearest obstacle)")
+               "(default: column of the nearest obstacle)")
         .between(-360.0, 360.0)
         .needs(pictures)
         .group("Output");
@@ -183,8 +181,8 @@ void declare(Program& app, Flags& flags) {
         .group("Output");
     const Flag learn =
         app.option("--learn-airframe", flags.learned_airframe,
-                   "learn from a flight which returns are the vehicle's own, for 'airframe:' in "
-                   "settings: FILE.yaml and a picture beside it; no other output")
+                   "learn the vehicle's own returns from a flight, for 'airframe:' in "
+                   "settings: writes FILE.yaml and a picture, no other output")
             .check(
                 [](const std::string& name) {
                     return std::filesystem::path(name).extension() == ".yaml"
@@ -194,7 +192,7 @@ void declare(Program& app, Flags& flags) {
                 "PATH")
             .group("Output");
     app.option("--learn-seconds", flags.learn_seconds,
-               "learn from the first seconds after --from (default: 10)")
+               "duration to learn from, after --from [s] (default: 10)")
         .between(0.1, 1e6)
         .valueName("S")
         .needs(learn)
@@ -219,7 +217,7 @@ void declare(Program& app, Flags& flags) {
     app.version(HAGEN_VERSION);
 }
 
-/// Checks flags in combination.
+/// Checks combinations of flags.
 void check(const Flags& flags) {
     const convert::Conversion& conversion = flags.conversion;
     if (flags.dumps_settings) return;
@@ -235,11 +233,11 @@ void check(const Flags& flags) {
     }
     if (has_output && !flags.learned_airframe.empty()) {
         throw UsageError("--learn-airframe",
-                         "has no other output; learn first, then segment with the file in the "
+                         "excludes other outputs; learn first, then segment with the file in the "
                          "settings");
     }
     if (!conversion.poses.empty() && !flags.learned_airframe.empty()) {
-        throw UsageError("--learn-airframe", "needs no poses: leave out --poses");
+        throw UsageError("--learn-airframe", "does not use poses: omit --poses");
     }
     if (!(flags.learn_seconds > 0)) throw UsageError("--learn-seconds", "must be positive");
     if (!(conversion.octomap.resolution_m > 0)) {  // NaN passes any range check
@@ -268,7 +266,7 @@ void learn(const Flags& flags) {
     convert::AirframeListener listener;
     listener.keep_going = [] { return !isInterrupted(); };
     listener.unreadable = [&](const std::string& entry, const std::string& why) {
-        std::cerr << oneLine(conversion.input.string() + ": " + entry + ": left out: " + why)
+        std::cerr << oneLine(conversion.input.string() + ": " + entry + ": skipped: " + why)
                   << "\n";
     };
     listener.remark = [&](const std::string& what) {
@@ -299,7 +297,7 @@ int run(const Program& program, Flags& flags) {
         const convert::ConversionReport report = convertAloud(flags.conversion, flags.is_quiet);
         if (!flags.is_quiet) printSummary(flags.conversion, report);
         if (report.scans > 0 || report.unreadable_scans == 0) return kDone;
-        return program.fail(kFailed, "none of the LiDAR scans could be read");
+        return program.fail(kFailed, "no LiDAR scan could be read");
     } catch (const SettingsError& e) {
         return program.fail(kWrongUsage, e.what());
     }
@@ -308,7 +306,7 @@ int run(const Program& program, Flags& flags) {
 int command(int argc, char** argv) {
     Program program(
         "rawlog-segment",
-        "Separates near obstacles (RoI) from ground and far returns (ROU) in the LiDAR scans of a "
+        "Segments LiDAR scans into near obstacles (RoI) and ground or distant returns (ROU) in a "
         "log.");
     program.footer(
         "Examples:\n"
@@ -323,7 +321,7 @@ int command(int argc, char** argv) {
         "  rawlog-segment -i ouster.pcap --sensor-json ouster.json -o segmented.rawlog\n"
         "  rawlog-segment -i flight.bag --topic /velodyne_points -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog --learn-airframe airframe.yaml\n"
-        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
+        "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;
     declare(program, flags);
     return program.run(argc, argv, [&] { return run(program, flags); });

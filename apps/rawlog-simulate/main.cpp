@@ -44,19 +44,18 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
     app.option("--seed", log.seed, "the same seed gives the same scene, flight and scans")
         .required()
         .group("Flight");
-    app.option("--speed-m-s", log.speed_m_s,
-               "on straights; turns are flown more slowly if necessary")
+    app.option("--speed-m-s", log.speed_m_s, "speed on straights; turns may be slower")
         .between(0.1, 20.0)
         .showDefault()
         .group("Flight");
     app.option("--tilt-sd-deg", log.tilt_sd_deg,
-               "standard deviation of roll and of pitch; 0: level flight")
+               "standard deviation of roll and pitch; 0: level flight")
         .between(0.0, 15.0)
         .showDefault()
         .group("Flight");
     app.flag("--clear-air", log.clear_air, "no dust, and no returns of the vehicle itself")
         .group("Flight");
-    app.option("--every-s", log.every_s, "from the start of one scan to the next")
+    app.option("--every-s", log.every_s, "time between scan starts")
         .between(0.1, 3600.0)
         .showDefault()
         .group("Flight");
@@ -70,13 +69,12 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
         .showDefault()
         .group("Flight");
     app.option("--mount-pitch-deg", log.mount_pitch_deg,
-               "the sensor's pitch on the vehicle; positive: tilted forward, down")
+               "the sensor's pitch on the vehicle; positive: tilted forward and down")
         .between(-90.0, 90.0)
         .showDefault()
         .group("Flight");
 
-    app.option("-o,--output", log.rawlog,
-               "rawlog with the packets (Mid-360: cloud) of each scan and poses")
+    app.option("-o,--output", log.rawlog, "rawlog with packets (Mid-360: clouds) and poses")
         .group("Output");
     app.option("--kitti", log.folder,
                "scan folder with ground truth: labels/, semantic/, kinds.yaml, altitudes.txt")
@@ -87,7 +85,7 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
     app.version(HAGEN_VERSION);
 }
 
-/// Checks flags in combination.
+/// Checks combinations of flags.
 void check(const convert::SimulatedLog& log) {
     if (log.rawlog.empty() && log.folder.empty() && log.poses.empty()) {
         throw UsageError("an output (-o, --kitti or --poses) is required");
@@ -135,7 +133,7 @@ int command(int argc, char** argv) {
         "    -o flight.rawlog\n"
         "  rawlog-simulate --scenario wires --scans 12 --every-s 2 --altitude 4 --seed 7\n"
         "    --kitti wires\n"
-        "Exit codes: 0 success, 1 failed while running, 2 wrong usage.");
+        "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     convert::SimulatedLog log;
     bool is_quiet = false;
     declare(program, log, is_quiet);

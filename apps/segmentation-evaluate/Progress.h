@@ -10,13 +10,13 @@ namespace hagen {
 /// terminal.
 class Progress {
  public:
-    /// `times`: how often all scans are processed.
+    /// `times`: number of passes over all scans.
     explicit Progress(const evaluation::LabelledScanSources& sources, std::size_t times = 1);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// `what`: shown before the number of the scan.
+    /// `what`: shown before the scan number.
     void show(const evaluation::MethodOutput& view, const std::string& what = "");
 
  private:

@@ -24,7 +24,7 @@ std::string format(const char* pattern, ...) {
     return text;
 }
 
-/// Pads text on the right, and on the left.
+/// Pads text on the right or left.
 std::string left(const std::string& text, std::size_t width) {
     return text + std::string(width - std::min(width, text.size()), ' ');
 }
@@ -107,9 +107,9 @@ std::string droneTable(const Summary& summary) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text =
         "\nWhat matters to a drone\n" + left("", width) +
-        "  obstacle returns above 0.5 m  obstacles of which     RoI on bare ground,\n" +
+        "  obstacle returns above 0.5 m  obstacles              RoI on bare ground,\n" +
         left("method", width) +
-        "    missed        of         %  nothing is found  of   returns per scan\n";
+        "    missed        of         %  not detected      of   returns per scan\n";
     for (const MethodTotals& method : summary.methods) {
         const DroneScores& all = method.drone.all;
         const bool are_numbered = all.obstacles.all > 0;
@@ -128,7 +128,7 @@ std::string change(double degraded, double recorded) {
     return std::isnan(points) ? "-" : format("%+.2f", points);
 }
 
-/// `recorded`: null for the scans as recorded, which have no change.
+/// `recorded`: null for the original scans, which have no change.
 std::string hardSetLine(const std::string& name, std::size_t width, const Scores& scores,
                         const Scores* recorded, const Missed& tall) {
     const auto changeOf = [&](ClassScore Scores::*c) {
@@ -200,8 +200,8 @@ std::string partTable(const PartName& part, const std::vector<GroupTotals>& grou
     return text;
 }
 
-/// Returns the label of a class: RoI or ROU, or both if ground-truth labels do not follow the
-/// classes.
+/// Returns the label of a class: RoI or ROU, or both if ground-truth labels differ within the
+/// class.
 std::string labelOf(const Scores& scores) {
     const bool is_roi = scores.roi.hits + scores.roi.misses > 0;
     const bool is_rou = scores.rou.hits + scores.rou.misses > 0;
@@ -223,7 +223,7 @@ std::string kindTable(const std::vector<GroupTotals>& kinds) {
     return text;
 }
 
-/// Names of the methods that fit into a column; if their beginnings are the same, their ends.
+/// Method names shortened to column width: the beginnings, or the ends if these are ambiguous.
 std::vector<std::string> headsOf(const Summary& summary, std::size_t width) {
     std::vector<std::string> begins, ends;
     for (const MethodTotals& method : summary.methods) {
@@ -298,7 +298,7 @@ std::string partsOf(const ScoreTotals& scores) {
     return text;
 }
 
-/// Recovered sensors, and options changed by recordings, a line per folder.
+/// Recovered sensors and options changed by recordings, one line per folder.
 std::string sensorsOf(const Summary& summary) {
     std::string text;
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {
@@ -333,7 +333,7 @@ std::string reportOf(const Summary& summary) {
                        static_cast<long long>(summary.methods.front().pixels.all.scores.returns()));
         text += scoreTable(summary, &MethodTotals::pixels);
     }
-    text += "\nRun time of the segmentation alone, ms per scan\n" + latencyTable(summary);
+    text += "\nRun time of segmentation only, ms per scan\n" + latencyTable(summary);
     text += droneTable(summary) + hardSetTables(summary);
     const std::size_t methods = summary.methods.size();
     if (methods == 1) return text + missedParts(summary) + partsOf(summary.methods.front().returns);

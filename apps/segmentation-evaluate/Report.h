@@ -1,4 +1,4 @@
-// The tables for people.
+// Human-readable tables.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace hagen {
 
-/// Tables of at most 100 columns: scores and run times of each method; the parts of its scores if
-/// there is only one method, otherwise F1 of each method by part.
+/// Tables up to 100 columns wide: scores and run times of each method; the breakdown of its scores
+/// if there is only one method, otherwise each method's F1 by part.
 std::string reportOf(const evaluation::Summary& summary);
 
 }  // namespace hagen

@@ -46,29 +46,28 @@ void addFlags(Command& app, Flags& flags) {
     app.option("--sweep", flags.sweeps,
                "KEY=VALUE,VALUE,...: one row per value; sweeps are independent");
     app.flag("--baselines", flags.with_baselines,
-             "add rows of published segmenters, as published and as tuned");
+             "add rows of published segmenters, original and tuned");
     app.option("--labels", flags.labels,
                "NAME=DIR: also score the label files of another program; may be repeated")
         .once();
     app.flag("--hard-sets", flags.with_hard_sets,
              "also score degraded copies of all scans: dead beams, rain, tilt, ...");
     app.option("--degrade", flags.degradations,
-               "SPEC: also score one such copy, such as dropout=20; may be repeated; a wrong SPEC "
-               "lists all")
+               "SPEC: also score one such copy, as in dropout=20; may be repeated; an invalid SPEC "
+               "lists all SPECs")
         .once();
     app.option("--max-range-m", flags.max_range_m, "score returns up to this range")
         .showDefault()
         .between(0.1, 1000.0);
-    app.option(
-        "--label-map", flags.label_map,
-        "YAML file or preset: which classes of semantic/ (otherwise labels/) are RoI and ROU");
+    app.option("--label-map", flags.label_map,
+               "YAML file or preset: maps the classes of semantic/ (or labels/) to RoI and ROU");
     const Flag camera =
         app.option("--camera", flags.camera,
-                   "YAML file or preset of a camera: also score its pixels, as the paper does");
+                   "camera (YAML file or preset): also score its pixels, as in the paper");
     app.option("--overlay", flags.overlay,
                "folder for one PNG per scan in the camera's view: hits, misses, false alarms")
         .needs(camera);
-    app.option("--json", flags.json, "file for all scores, counts and intervals");
+    app.option("--json", flags.json, "JSON file: scores, counts and intervals");
     app.option("--charts", flags.charts, "folder for SVG charts");
     app.option("--bootstrap", flags.resamples, "bootstrap resamples for intervals; 0: no intervals")
         .showDefault()
@@ -76,8 +75,8 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace existing outputs");
 }
 
-/// Reads a file or preset named by a flag, and adds it to those that were read. A file that cannot
-/// be used is wrong usage.
+/// Reads a file or preset named by a flag, and adds it to the list of read files. Reports an
+/// unusable file as wrong usage.
 template <class Read>
 auto fromFlag(const std::string& name, Read read, std::vector<fs::path>& files)
     -> std::optional<decltype(read(name))> {
@@ -98,16 +97,16 @@ auto fromFlag(const std::string& name, Read read, std::vector<fs::path>& files)
     }
 }
 
-/// Pictures of several rows have a folder by each row's name, within that of --overlay.
+/// With several rows, each has a picture subfolder of --overlay.
 void checkNames(const std::vector<evaluation::LabelRow>& rows) {
     for (const evaluation::LabelRow& row : rows) {
         if (row.name != "." && row.name != "..") continue;
         throw SettingsError("--labels: '" + row.name +
-                            "' cannot be the name of a row; choose another name");
+                            "' is not a valid row name; choose another name");
     }
 }
 
-/// The outputs. None appears before the end; one that fails does not cost the others.
+/// The outputs, renamed into place at the end. A failed output does not affect the others.
 struct Outputs {
     Outputs(const Flags& flags, const evaluation::MethodSet& rows, std::vector<fs::path> inputs) {
         inputs.insert(inputs.end(), flags.folders.begin(), flags.folders.end());
@@ -124,7 +123,7 @@ struct Outputs {
         open(flags.charts, evaluation::kCharts, charts);
         open(flags.overlay, evaluation::kOverlays, overlay);
     }
-    /// Writes an output, or a part of it, if it was asked for.
+    /// Writes an output, or a part of it, if requested.
     void write(const std::optional<base::OutputPath>& output,
                const std::function<void(const fs::path&)>& step) {
         if (output) all.write(*output, [&] { step(output->temporary()); });
@@ -135,7 +134,7 @@ struct Outputs {
 };
 
 void endIfInterrupted() {
-    if (isInterrupted()) throw std::runtime_error("interrupted; nothing was written");
+    if (isInterrupted()) throw std::runtime_error("interrupted; no output was written");
 }
 
 int run(const Flags& flags, evaluation::Summary summary) {

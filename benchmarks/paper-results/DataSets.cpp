@@ -10,8 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kEvery_s =
-    6;  // interval long enough that a flight's few scans cover its entire path
+constexpr double kEvery_s = 6;  // s; a flight's few scans must cover its entire path
 
 std::string text(double value) {
     std::ostringstream stream;
@@ -19,7 +18,7 @@ std::string text(double value) {
     return stream.str();
 }
 
-/// Content of a flight's stamp: the command that simulates it.
+/// Content of a flight's stamp: the simulation command.
 std::string commandOf(const convert::SimulatedLog& flight) {
     return "rawlog-simulate --scenario " + flight.scenario + " --sensor " + flight.sensor +
            " --seed " + std::to_string(flight.seed) + " --scans " + std::to_string(flight.scans) +
@@ -43,10 +42,10 @@ DataSet recording(const fs::path& labelled, const std::string& beams, const std:
             set.folder +
             ": no such folder; set HAGEN_LABELLED_DATA to its parent folder, or leave it unset");
     }
-    set.label_map = "semantic_kitti.yaml";  // the labels of labels/, and classes
+    set.label_map = "semantic_kitti.yaml";  // maps labels/ and classes
     set.is_timed = true;
     set.is_degraded = true;
-    scanFolders(set);  // throws now instead of after minutes of simulation
+    scanFolders(set);  // fail before minutes of simulation
     return set;
 }
 
@@ -113,7 +112,7 @@ std::vector<DataSet> dataSets(const fs::path& labelled, const fs::path& data,
         DataSet set =
             flights("simulated, " + text(altitude_m) + " m",
                     data / ("altitude-" + text(altitude_m)), places, {altitude_m}, "VLP-16", size);
-        // From 7 m up, the lowest beam meets level ground 27 m away: nothing but air is nearer.
+        // At 7 m, the lowest beam meets level ground at 27 m, beyond the default zone.
         if (altitude_m > 5) {
             set.zone_m = set.max_range_m = 40;
             set.about += "; zone and score up to 40 m";
@@ -142,7 +141,7 @@ void makeFlights(const DataSet& set, const std::string& tag) {
         const fs::path stamp = flight.folder.string() + ".stamp";
         const std::string made_by = commandOf(flight) + "\nsimulation " + tag + "\n";
         if (fs::is_directory(flight.folder) && contentOf(stamp) == made_by) continue;
-        fs::remove(stamp);  // outdated from here on
+        fs::remove(stamp);  // outdated from now on
         flight.overwrite = true;
         convert::simulateLog(flight, [] { return true; });
         std::ofstream out(stamp);

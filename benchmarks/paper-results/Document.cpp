@@ -37,7 +37,7 @@ std::string dataSection(const std::vector<Measured>& all, const Provenance& prov
            " (tuning used seeds 1 and 2), roll and pitch with a standard deviation of 4 degrees, "
            "and one scan every 6 s. Only `default` uses the attitude.\n\n" +
            (those(all, [](const DataSet& set) { return set.flights.empty(); }).empty()
-                ? "Without real scans: `HAGEN_LABELLED_DATA` was not set.\n\n"
+                ? "Real scans are missing: `HAGEN_LABELLED_DATA` was not set.\n\n"
                 : "");
 }
 
@@ -119,7 +119,7 @@ std::string pclNote(const std::vector<Measured>& all) {
     for (const std::string& name : headlineNames(all)) {
         if (name.rfind("pcl", 0) == 0) return "";
     }
-    return "Without the rows of the Point Cloud Library, which was not installed.\n\n";
+    return "The rows of the Point Cloud Library are missing; it was not installed.\n\n";
 }
 
 std::string headlineSection(const std::vector<Measured>& all) {
@@ -137,7 +137,7 @@ std::string headlineSection(const std::vector<Measured>& all) {
 
 // ---- the paper's tables
 
-/// The data of the paper's tables: real scans with 16 beams, and simulated ones.
+/// The data of the paper's tables: real scans with 16 beams, and simulated scans.
 std::vector<std::pair<std::string, Sets>> paperColumns(const std::vector<Measured>& all) {
     const Sets real = those(all, [](const DataSet& set) {
         return set.flights.empty() && set.has_all_rows && set.preset == "vlp16.yaml";
@@ -250,7 +250,7 @@ struct Pair {
     double first, second;
 };
 
-/// F1 of RoI and ROU; on wires the recall of RoI and of wires, because misses matter there.
+/// F1 of RoI and ROU; on wires the recall of RoI and wires, because misses matter there.
 Pair ablationPair(const Measured& set, const std::string& row) {
     const evaluation::Scores scores = sumOf({&set}, row);
     if (isWires(set)) return {scores.roi.recall(), recallOfKind(set, row, "wire")};

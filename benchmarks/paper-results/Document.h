@@ -15,14 +15,14 @@ struct Provenance {
     std::string revision;  ///< of the project
     std::vector<std::uint64_t> seeds;
     bool is_quick = false;
-    std::optional<selection::Record> selection;  ///< of scripts/select-settings, if there is one
+    std::optional<selection::Record> selection;  ///< of scripts/select-settings, if available
 };
 
-/// Returns the Markdown of docs/results.md. The charts' files are named as by drawResults().
+/// Returns the Markdown of docs/results.md, with the chart names of drawResults().
 std::string documentOf(const std::vector<Measured>& scores, const std::vector<Measured>& times,
                        const Provenance& provenance);
 
-/// Returns the tables that the document links to, by their names in results/.
+/// Returns the linked tables, by file name in results/.
 CsvTables tablesOf(const std::vector<Measured>& scores, const std::vector<Measured>& times,
                    const Provenance& provenance);
 

@@ -97,7 +97,7 @@ Table countTable(const Data& data, const std::vector<std::string>& methods) {
 std::string droneSection(const std::vector<Measured>& all) {
     return "## Missed obstacles and false alarms\n\n"
            "Cells ([definitions](evaluation.md#what-matters-to-a-drone)): missed obstacle returns "
-           "more than 0.5 m above the ground [%] / obstacles without a single RoI return [%] / "
+           "more than 0.5 m above the ground [%] / undetected obstacles [%] / "
            "returns per scan labelled RoI on bare ground. On real scans, `default` and the "
            "`tuned` methods are in-sample.\n\n" +
            shareTable(mainData(all), headlineNames(all)) +

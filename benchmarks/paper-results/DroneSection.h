@@ -8,7 +8,7 @@
 
 namespace hagen {
 
-/// The shares of missed returns and obstacles, and the false alarms, of all methods.
+/// The fractions of missed returns and obstacles, and the false alarms, of all methods.
 std::string droneSection(const std::vector<Measured>& all);
 /// The counts of all methods, and the missed returns of `default` by range and by class.
 CsvTables droneTables(const std::vector<Measured>& all);

@@ -20,7 +20,7 @@ struct Line {
     std::vector<Point> points;
 };
 
-// Colour-blind safe palette (Okabe and Ito), and points of different shapes.
+// Colour-blind safe palette (Okabe and Ito) and point shapes.
 constexpr std::array<const char*, 6> kColours{"#D55E00", "#0072B2", "#009E73",
                                               "#CC79A7", "#E69F00", "#333333"};
 constexpr std::array<int, 6> kShapes{7, 5, 9, 11, 13, 4};
@@ -47,7 +47,7 @@ std::string number(double value) {
     return text.str();
 }
 
-/// Data blocks and the plot of them.
+/// Data blocks and their plot command.
 std::string plot(const std::vector<Line>& lines, const std::string& style) {
     std::ostringstream data, command;
     data.imbue(std::locale::classic());

@@ -21,7 +21,7 @@ struct Degraded {
     double roi_points = NAN, rou_points = NAN;  ///< change of F1
 };
 
-/// The sets whose scans were degraded, by name: simulated ones as one.
+/// The degraded sets by name; the simulated sets are merged.
 std::vector<std::pair<std::string, Sets>> degradedData(const std::vector<Measured>& all) {
     std::vector<std::pair<std::string, Sets>> data;
     for (const auto& [name, sets] : mainData(all)) {
@@ -115,11 +115,11 @@ std::string hardSection(const std::vector<Measured>& all) {
     return "## Hard sets\n\n"
            "Scores of `default` on degraded copies of the scans "
            "([degradations](evaluation.md#hard-sets)). Changes in F1 are in points of 0.01.\n\n"
-           "Degradations that lower F1 of RoI by more than " +
+           "Degradations that reduce the F1 of RoI by more than " +
            cell(kCostly_points, 1) + " points:\n\n" + costlyList(data, &Degraded::roi_points) +
-           "F1 of ROU:\n\n" + costlyList(data, &Degraded::rou_points) + "The " +
+           "The F1 of ROU:\n\n" + costlyList(data, &Degraded::rou_points) + "The " +
            std::to_string(kShown) +
-           " degradations that lower F1 of RoI most ([all](results/hard.csv)):\n\n" +
+           " that reduce the F1 of RoI most ([all](results/hard.csv)):\n\n" +
            hardTable(data, kShown).text();
 }
 

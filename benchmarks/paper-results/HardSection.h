@@ -8,12 +8,12 @@
 
 namespace hagen {
 
-/// Degradations that cost more than this of F1 are marked, in points of 0.01.
+/// Degradations that reduce F1 by more than this are marked, in points of 0.01.
 constexpr double kCostly_points = 1.5;
 
-/// For each set of scans that were degraded, `default` on the costliest degradations.
+/// `default` on the worst degradations of each degraded set.
 std::string hardSection(const std::vector<Measured>& all);
-/// The same on all degradations, the costliest first.
+/// The same for all degradations, the worst first.
 CsvTables hardTables(const std::vector<Measured>& all);
 
 }  // namespace hagen

@@ -1,4 +1,4 @@
-// The first section of docs/results.md: scores that no setting was chosen on.
+// The first section of docs/results.md: held-out scores.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,9 +10,8 @@
 
 namespace hagen {
 
-/// `record` is that of scripts/select-settings; without one, the section reports that. It also
-/// reports if the filter or its presets have changed since: if the record's scores of the presets
-/// are not the measured ones.
+/// `record` is from scripts/select-settings. The section reports a missing or outdated record:
+/// outdated if its scores of the presets differ from the measured ones.
 std::string leftOutSection(const std::vector<Measured>& all,
                            const std::optional<selection::Record>& record);
 /// The chosen values and the progress of each search.

@@ -82,7 +82,7 @@ std::vector<Measured> measureScores(const std::vector<DataSet>& sets,
     for (const DataSet& set : sets) rowsFor(set, options.config);
     std::vector<Measured> all(sets.size());
     std::mutex guard;
-    // The slowest sets are started first.
+    // Starts the slowest sets first.
     std::vector<std::size_t> order(sets.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = order.size() - 1 - i;
     inParallel(sets.size(), options.jobs, [&](std::size_t i) {

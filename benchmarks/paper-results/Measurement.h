@@ -21,7 +21,7 @@ struct Measured {
 
     /// Returns the row of this name, or nullptr.
     const evaluation::MethodScores* row(const std::string& name) const;
-    /// Number of scans, and of their scored returns.
+    /// Number of scans and of scored returns.
     std::size_t scans() const { return returns.size(); }
     std::int64_t scoredReturns() const;
 };
@@ -29,19 +29,19 @@ struct Measured {
 struct MeasurementOptions {
     std::filesystem::path config;  ///< the folder of settings files, label maps and cameras
     std::string simulation_tag;    ///< see makeFlights()
-    unsigned jobs = 1;             ///< data sets, or degradations, that are scored in parallel
+    unsigned jobs = 1;             ///< data sets or degradations scored in parallel
 };
 
 /// Simulates missing sets and scores every row on each set.
 std::vector<Measured> measureScores(const std::vector<DataSet>& sets,
                                     const MeasurementOptions& options);
 
-/// Scores `default` on degraded copies of the sets that are meant for it: one task per set and
-/// standard degradation.
+/// Scores `default` on degraded copies of the sets with is_degraded: one task per set and standard
+/// degradation.
 void measureHardSets(std::vector<Measured>& all, const MeasurementOptions& options);
 
-/// Measures run times of the methods on the sets that are meant for it: one set after the other,
-/// nothing in parallel. Its scores are identical to measureScores()'s and not used.
+/// Measures run times of the methods on the sets with is_timed, strictly sequentially. The scores
+/// equal those of measureScores() and are not used.
 std::vector<Measured> measureTimes(const std::vector<DataSet>& sets,
                                    const MeasurementOptions& options);
 

@@ -11,7 +11,7 @@ namespace {
 
 std::string leftOutText(const std::optional<selection::Record>& record) {
     if (!record) return "";
-    return "Real drives, each scored with settings chosen without it, means over drives:\n\n" +
+    return "Held-out real drives (settings chosen without them), means over drives:\n\n" +
            selection::meanTable(*record);
 }
 

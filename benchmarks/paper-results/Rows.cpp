@@ -22,7 +22,7 @@ Settings settingsOf(const DataSet& set, const std::filesystem::path& file) {
     return settings;
 }
 
-/// Ensures that the row `paper` has the stages of the paper alone.
+/// Ensures that the row `paper` has only the paper's stages.
 void checkPaper(const Options& paper, const std::filesystem::path& file) {
     const bool has_no_others = !paper.ground_surface && !paper.level_by_attitude &&
                                paper.seed_gate_deg >= 90 && paper.repair_max_step_m <= 0 &&
@@ -30,7 +30,7 @@ void checkPaper(const Options& paper, const std::filesystem::path& file) {
     if (has_no_others) return;
     throw std::runtime_error(
         file.string() +
-        ": has a stage that the paper does not have; switch off ground_surface, "
+        ": has a stage beyond the paper; switch off ground_surface, "
         "level_by_attitude, the seed gate, gap repair, bridge_dead_beams and context beyond the "
         "zone");
 }

@@ -11,13 +11,13 @@
 
 namespace hagen {
 
-/// The filter with one setting changed, or several; `what` describes it in words.
+/// The filter with changed settings; `what` describes the change.
 struct Change {
     std::string what, key, value;
     std::vector<std::pair<std::string, std::string>> also = {};  ///< further keys and their values
 };
 
-/// Names of rows: the two filters, and a filter with a change, for example "paper, beta_deg=5".
+/// Names of rows: the two filters, or a filter with a change, for example "paper, beta_deg=5".
 extern const std::string kDefault, kPaper, kWithoutSurface;
 std::string nameOf(const std::string& filter, const Change& change);
 
@@ -30,10 +30,9 @@ std::vector<Change> ablationOf(StageGroup group);
 const std::vector<Change>& paperStagesUnderSurface();
 
 /// Returns the rows for a data set, with the settings files in `config`, including the baselines.
-/// Throws std::runtime_error if paper.yaml switches on a stage of ours: its scores would not be the
-/// paper's.
+/// Throws std::runtime_error if paper.yaml enables a stage that is not in the paper.
 evaluation::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config);
-/// Only the two filters and the baselines of these.
+/// Only the two filters and the baselines.
 evaluation::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config);
 
 }  // namespace hagen

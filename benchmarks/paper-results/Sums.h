@@ -11,14 +11,14 @@ namespace hagen {
 using ScoreList = std::vector<evaluation::ScanScores> evaluation::MethodScores::*;
 using Sets = std::vector<const Measured*>;
 
-/// Returns the scans of a row in several sets, concatenated; none if a set lacks the row.
+/// Returns the scans of a row in several sets, concatenated; empty if a set lacks the row.
 std::vector<evaluation::ScanScores> scansOf(const Sets& sets, const std::string& row,
                                             ScoreList list = &evaluation::MethodScores::returns);
 evaluation::Scores sumOf(const Sets& sets, const std::string& row,
                          ScoreList list = &evaluation::MethodScores::returns);
 /// Returns the sums over the scans of each folder: a drive or a flight.
 std::vector<evaluation::Scores> folderSums(const Measured& measured, const std::string& row);
-/// Returns what matters to a drone, summed; nothing if a set lacks the row.
+/// Returns the summed drone scores; nullopt if a set lacks the row.
 evaluation::DroneScores droneSumOf(const Sets& sets, const std::string& row);
 double recallOfKind(const Measured& set, const std::string& row, const std::string& kind);
 
@@ -26,8 +26,8 @@ Sets those(const std::vector<Measured>& all, bool (*choose)(const DataSet&));
 /// Returns the names of the two filters and the baselines.
 std::vector<std::string> headlineNames(const std::vector<Measured>& all);
 
-/// The data of the tables on missed obstacles, by name: each set with all rows, those of altitudes
-/// within the default zone as one.
+/// The data of the tables on missed obstacles, by name: each set with all rows; the altitude series
+/// within the default zone is merged.
 std::vector<std::pair<std::string, Sets>> mainData(const std::vector<Measured>& all);
 
 }  // namespace hagen

@@ -36,14 +36,14 @@ void addFlags(Command& app, Flags& flags) {
         .required()
         .existingFolder();
     app.option("--labelled", flags.labelled,
-               "folder with beams16/ and beams64/: labelled real scans (default: none)");
-    app.option("--selection", flags.selection, "record of scripts/select-settings (default: none)")
+               "folder with beams16/ and beams64/: labelled real scans (optional)");
+    app.option("--selection", flags.selection, "record of scripts/select-settings (optional)")
         .existingFile();
-    app.option("--readme", flags.readme, "README.md: replaces the results in it").existingFile();
+    app.option("--readme", flags.readme, "README.md whose results to replace").existingFile();
     app.option("--revision", flags.revision, "revision of the project, for the document");
     app.option("--simulation", flags.simulation,
                "version of the simulation; scans of other versions are simulated again");
-    app.flag("--quick", flags.is_quick, "one scan per flight, to check that it works");
+    app.flag("--quick", flags.is_quick, "one scan per flight, for testing");
     app.flag("--overwrite", flags.overwrite, "replace existing results");
 }
 
@@ -58,7 +58,7 @@ std::string contentOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// README.md with other results in it.
+/// README.md with new results.
 std::string readmeOf(const fs::path& file, const std::string& block) {
     try {
         return withBlock(contentOf(file), block);
@@ -73,7 +73,7 @@ int run(const Flags& flags) {
     std::optional<base::OutputPath> readme;
     if (!flags.readme.empty()) {
         readme.emplace(flags.readme, base::kFile, true);
-        readmeOf(flags.readme, "");  // throws now instead of after minutes
+        readmeOf(flags.readme, "");  // fail before minutes of work
     }
     Provenance provenance{flags.revision, {101, 102, 103, 104, 105, 106}, flags.is_quick, {}};
     if (!flags.selection.empty()) provenance.selection = selection::readRecord(flags.selection);
@@ -111,7 +111,7 @@ int run(const Flags& flags) {
 
 int main(int argc, char** argv) {
     Program program("paper-results", "Measures and writes docs/results.md.");
-    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    program.footer("Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;
     addFlags(program, flags);
     return program.run(argc, argv, [&] { return run(flags); });

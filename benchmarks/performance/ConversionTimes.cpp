@@ -45,7 +45,7 @@ std::vector<ConversionTimes> readConversionTimes(const std::filesystem::path& js
             all.push_back(t);
         }
     } catch (const nlohmann::json::exception& e) {
-        throw std::runtime_error(json_lines.string() + ": no times of conversions: " + e.what());
+        throw std::runtime_error(json_lines.string() + ": invalid conversion times: " + e.what());
     }
     return all;
 }

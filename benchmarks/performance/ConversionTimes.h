@@ -8,13 +8,13 @@
 
 namespace hagen {
 
-/// A conversion, and a copy of the same bytes beside it; medians, NaN where there was no copy.
+/// A conversion and a copy of the same bytes; medians, NaN without a copy.
 struct ConversionTimes {
     std::string settings;
     std::size_t scans = 0, jobs = 0;
     double flight_s = 0;
     double conversion_s = 0, conversion_processor_s = 0;
-    double packets_to_labels_s = 0;  ///< of it, summed over jobs
+    double packets_to_labels_s = 0;  ///< part of the conversion, summed over jobs
     double copy_s = NAN, copy_processor_s = NAN;
     double peak_megabytes = 0;
 };

@@ -1,4 +1,4 @@
-// docs/performance.md and its figure.
+// Writes docs/performance.md and its figure.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -12,14 +12,14 @@
 namespace hagen {
 
 struct Performance {
-    std::vector<TimedRow> rows;  ///< of stage-benchmarks
+    std::vector<TimedRow> rows;  ///< from stage-benchmarks
     struct PacketsToLabels {
         std::string settings;
         evaluation::Latency latency;
     };
     std::vector<PacketsToLabels> packets_to_labels;
-    FlightTimes table;               ///< the flight of the table of run times
-    std::vector<FlightTimes> chart;  ///< those of the figure
+    FlightTimes table;               ///< the flight of the run time table
+    std::vector<FlightTimes> chart;  ///< the flights of the figure
     std::vector<ConversionTimes> conversions;
     std::string revision;
     bool is_quick = false;

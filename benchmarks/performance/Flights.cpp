@@ -24,7 +24,7 @@ double millisecondsOf(Work work) {
     return took.count();
 }
 
-/// The scans of a flight, one after the other.
+/// Generates the scans of a flight in order.
 class FlyingLidar {
  public:
     FlyingLidar(const std::string& scenario, std::uint64_t seed)

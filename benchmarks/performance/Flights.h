@@ -19,12 +19,12 @@ struct FlightTimes {
 };
 
 /// Simulates a flight with a VLP-16, one scan every 0.1 s, and labels each scan with each method:
-/// the filter with our settings and with the paper's, and all published baselines. Measures the
-/// call from returns with known beam indices to labels.
+/// the filter with our settings and with the paper's, and all published baselines. Times the step
+/// from returns with known beam indices to labels.
 FlightTimes timeFlight(const std::string& scenario, std::uint64_t seed, int scans);
 
-/// Measures the filter from a VLP-16 scan's packets to labels and lists of indices, `runs` times
-/// over the scans of a simulated flight.
+/// Times the filter from a VLP-16 scan's packets to labels and index lists, `runs` times over the
+/// scans of a simulated flight.
 std::vector<double> packetsToLabels_ms(const Options& options, int runs);
 
 }  // namespace hagen

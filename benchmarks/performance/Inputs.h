@@ -13,7 +13,7 @@ struct Input {
     std::string sensor;  ///< for tables, such as "VLP-16 simulated"
     SensorModel model;
     std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> packets;
-    std::vector<Scan> points;  ///< coordinates and intensities only; empty if there are packets
+    std::vector<Scan> points;  ///< coordinates and intensities only; empty if packets exist
 
     std::size_t size() const { return packets.empty() ? points.size() : packets.size(); }
 };
@@ -22,12 +22,12 @@ struct Input {
 /// missing.
 Input realVlp16();
 
-/// Returns simulated scans, one of each of four scenes. Packets for "VLP-16" and "HDL-32E",
+/// Returns one simulated scan of each of four scenes. Packets for "VLP-16" and "HDL-32E",
 /// coordinates for "HDL-64E".
 Input simulatedScans(const std::string& sensor);
 
-/// Returns one scan of an orchard by a sensor with `beams` beams between -25 and 15 degrees that
-/// fires `columns` times per revolution: one return per pixel. Its name is "16 x 870".
+/// Returns one orchard scan by a sensor with `beams` beams between -25 and 15 degrees and `columns`
+/// firings per revolution: one return per pixel. Its name is "16 x 870".
 Input gridScan(int beams, int columns);
 
 }  // namespace hagen

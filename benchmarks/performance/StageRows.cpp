@@ -18,7 +18,7 @@
 namespace hagen {
 namespace {
 
-/// Buffers of stages that run alone: one for all scans, as in a filter.
+/// Buffers of individually timed stages, shared by all scans as in a filter.
 FilterWorkspace& work() {
     static FilterWorkspace kept;
     return kept;
@@ -26,7 +26,7 @@ FilterWorkspace& work() {
 
 float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg)); }
 
-/// Sums `bytes` bytes, eight at a time: as fast as memory can be read.
+/// Sums `bytes` bytes, eight at a time, at memory bandwidth.
 std::uint64_t readAll(const void* memory, std::size_t bytes) {
     std::uint64_t sum = 0, word;
     const auto* at = static_cast<const char*>(memory);

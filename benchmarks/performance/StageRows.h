@@ -9,8 +9,8 @@
 
 namespace hagen {
 
-/// A scan and the result of each stage, the input of the next. Stages do not write what they read,
-/// so that all runs of a stage do the same work.
+/// A scan and the result of each stage, the input of the next. Stages do not modify their input, so
+/// all runs of a stage do the same work.
 struct Case {
     Case(const Input& input, std::size_t which, const Options& with);
 
@@ -35,9 +35,9 @@ struct StageRow {
 };
 
 /// Returns all rows: "mrpt decode" (MRPT's own decoder, which reads half of each scan), "floor"
-/// (every byte of the input read once, one label per return written), "zermas ground fit"; the
-/// stages of the paper and our own; "paper pipeline" and "default pipeline", from packets (or
-/// coordinates) to labels and lists of indices.
+/// (reads every input byte once and writes one label per return), "zermas ground fit"; the stages
+/// of the paper and our own; "paper pipeline" and "default pipeline", from packets (or coordinates)
+/// to labels and index lists.
 const std::vector<StageRow>& stageRows();
 
 /// The settings of config/paper.yaml.

@@ -65,7 +65,7 @@ std::vector<TimedRow> readTimedRows(const std::filesystem::path& file) {
             rows.push_back(row);
         }
     } catch (const nlohmann::json::exception& e) {
-        throw std::runtime_error(file.string() + ": not a list of times: " + e.what());
+        throw std::runtime_error(file.string() + ": invalid list of times: " + e.what());
     }
     return rows;
 }

@@ -1,4 +1,4 @@
-// Measured times, as a table for people and as JSON for programs.
+// Measured times, as a table and as JSON.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@ namespace hagen {
 
 struct TimedRow {
     std::string sensor, what;
-    evaluation::Latency latency;  ///< per run, which is one scan
+    evaluation::Latency latency;  ///< per run (one scan)
     double allocations = 0;       ///< per run, after the first pass over the scans
 };
 
@@ -23,7 +23,7 @@ std::string tableOf(const std::vector<TimedRow>& rows);
 /// Writes a list of {"sensor", "what", "median_ms", "p95_ms", "p99_ms", "max_ms", "runs",
 /// "allocations"}; allocations are per run.
 std::string jsonOf(const std::vector<TimedRow>& rows);
-/// Reads that list. Throws std::runtime_error; the message names the file.
+/// Reads that list. Throws std::runtime_error naming the file.
 std::vector<TimedRow> readTimedRows(const std::filesystem::path& file);
 
 /// Returns the slope of the least-squares line through log(y) over log(x): 1 if y is proportional

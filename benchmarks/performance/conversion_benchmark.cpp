@@ -74,8 +74,7 @@ bool isResult(const mrpt::serialization::CSerializable& entry) {
     return false;
 }
 
-/// The content of a segmented log: for each entry of its input, the bytes of the entry and of its
-/// results.
+/// The content of a segmented log: the bytes of each input entry and its results.
 std::vector<convert::Bytes> groupsOf(const fs::path& segmented) {
     std::vector<convert::Bytes> groups;
     recordings::RawlogReader reader(segmented);
@@ -86,7 +85,7 @@ std::vector<convert::Bytes> groupsOf(const fs::path& segmented) {
     return groups;
 }
 
-/// Reads every object of a log, and writes these bytes instead.
+/// Reads every object of a log, and writes these bytes.
 void copyThrough(const fs::path& log, const std::vector<convert::Bytes>& groups,
                  const fs::path& out) {
     recordings::RawlogReader reader(log);
@@ -100,7 +99,7 @@ void copyThrough(const fs::path& log, const std::vector<convert::Bytes>& groups,
         convert::packGzipMember(member, packed);
         writer.writeMember(packed);
     }
-    if (reader.next()) throw std::runtime_error("the log has results among its own entries");
+    if (reader.next()) throw std::runtime_error("the log already contains results");
     writer.commit();
 }
 
@@ -171,8 +170,7 @@ void measure(convert::Conversion conversion, bool copies_through, int repetition
         appendTo(json_lines, times);
     }
     line("conversion", converting);
-    std::printf("  %-28s %8.3f s, summed over jobs\n", "of which packets to labels",
-                median(labelled_s));
+    std::printf("  %-28s %8.3f s, summed over jobs\n", "packets to labels", median(labelled_s));
     std::printf("  %-28s %8.1f x\n", "real time", flight_s / median(converting.seconds));
     std::printf("  %-28s %8.0f MB\n", "peak memory", peak_megabytes);
     if (!copies_through) return;
@@ -185,8 +183,7 @@ void measure(convert::Conversion conversion, bool copies_through, int repetition
 }  // namespace
 
 int main(int argc, char** argv) {
-    Program app("conversion-benchmark",
-                "Times the conversion of a rawlog, as rawlog-segment does it.");
+    Program app("conversion-benchmark", "Times the conversion of a rawlog, as in rawlog-segment.");
     convert::Conversion conversion;
     std::vector<std::string> configs;
     bool copies_through = false;
@@ -203,8 +200,8 @@ int main(int argc, char** argv) {
                "settings file; may be repeated, later files override earlier ones")
         .once();
     std::string settings = "default", json_lines;
-    app.option("--json", json_lines, "file to append one line of JSON to");
-    app.option("--name", settings, "name of the settings, for that line").showDefault();
+    app.option("--json", json_lines, "append one line of JSON to this file");
+    app.option("--name", settings, "name of the settings, for --json").showDefault();
     return app.run(argc, argv, [&] {
         for (const std::string& config : configs) {
             mergeSettings(config, conversion.settings);

@@ -21,8 +21,7 @@ struct Flags {
 };
 
 void addFlags(Command& app, Flags& flags) {
-    app.option("-o,--output", flags.output,
-               "folder for performance.md and the figure in performance/")
+    app.option("-o,--output", flags.output, "folder for performance.md and performance/")
         .required()
         .existingFolder();
     app.option("--stages", flags.stages, "output of stage-benchmarks --json")
@@ -31,7 +30,7 @@ void addFlags(Command& app, Flags& flags) {
     app.option("--conversion", flags.conversion, "output of conversion-benchmark --json")
         .existingFile();
     app.option("--revision", flags.revision, "revision of the project, for the document");
-    app.flag("--quick", flags.is_quick, "few scans, to check that it works");
+    app.flag("--quick", flags.is_quick, "few scans, for testing");
     app.flag("--overwrite", flags.overwrite, "replace existing results");
 }
 
@@ -80,7 +79,7 @@ int run(const Flags& flags) {
 
 int main(int argc, char** argv) {
     Program program("performance-report", "Times entire flights and writes performance.md.");
-    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    program.footer("Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;
     addFlags(program, flags);
     return program.run(argc, argv, [&] { return run(flags); });

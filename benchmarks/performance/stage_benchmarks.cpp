@@ -1,6 +1,5 @@
-// Times each stage and the complete filter and counts allocations; in the same run also MRPT's own
-// decoder, a published ground segmenter, and a lower bound for any method. Run by
-// scripts/benchmark.
+// Times each stage and the complete filter and counts allocations; also MRPT's own decoder, a
+// published ground segmenter, and a lower bound for any method. Run by scripts/benchmark.
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <fstream>
@@ -23,15 +22,15 @@ struct Runs {
     std::size_t allocations = 0;
 };
 
-/// The rows in the order in which they were added; filled while they run.
+/// The rows in insertion order; filled while they run.
 std::vector<std::unique_ptr<Runs>>& measured() {
     static std::vector<std::unique_ptr<Runs>> rows;
     return rows;
 }
 
-/// Runs one scan after the other, each timed separately.
+/// Runs the scans in turn, each timed separately.
 void time(benchmark::State& state, const StageRow& row, std::vector<Case>& cases, Runs& to) {
-    for (Case& one : cases) row.run(one);  // allocates all memory in advance
+    for (Case& one : cases) row.run(one);  // allocates all memory
     to.runs_ms.reserve(to.runs_ms.size() + static_cast<std::size_t>(state.max_iterations));
     std::size_t next = 0;
     for (auto _ : state) {
@@ -75,7 +74,7 @@ void addSensor(const Input& input) {
     }
 }
 
-/// Adds only the two pipelines, over the size of the image.
+/// Adds only the two pipelines, by image size.
 void addGrid(int beams, int columns) {
     const Input input = gridScan(beams, columns);
     for (const StageRow& row : stageRows()) {
@@ -104,7 +103,7 @@ std::vector<TimedRow> results() {
     return rows;
 }
 
-/// The results are in measured().
+/// Stores the results in measured().
 class Silent : public benchmark::BenchmarkReporter {
  public:
     bool ReportContext(const Context&) override { return true; }

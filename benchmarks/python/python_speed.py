@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Compares the time of hagen.Filter.segment() with that of the filter in C++ on the same scan.
+"""Compares the run time of hagen.Filter.segment() with the C++ filter on the same scan.
 
 usage: python_speed.py [RECORDING [PRESET]]     default: a simulated scan of a VLP-16
-Both take coordinates and find the beams; each is timed in turn. Medians.
+Both start from coordinates and find the beams; timed alternately. Prints medians.
 """
 import statistics
 import sys

@@ -20,7 +20,7 @@ std::int64_t excessOf(const MissedByGroup& missed, const MissedByGroup& limit) {
     return excess;
 }
 
-/// A choice as seen by the descent.
+/// The score of a choice.
 struct Seen {
     std::int64_t excess;
     double objective;

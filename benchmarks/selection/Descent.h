@@ -1,4 +1,4 @@
-// Chooses settings by leaving one drive out: the logic, without scans.
+// Leave-one-drive-out selection of settings: the logic, without scans.
 #pragma once
 #include <hagen/evaluation/DroneScores.h>
 #include <hagen/evaluation/Scores.h>
@@ -11,7 +11,7 @@
 
 namespace hagen::selection {
 
-/// A setting and the values that are tried, as texts of a settings file.
+/// A setting and its candidate values, in settings-file syntax.
 struct Setting {
     std::string key;
     std::vector<std::string> values;
@@ -20,7 +20,7 @@ struct Setting {
 /// The index of the value of each setting.
 using Choice = std::vector<std::size_t>;
 
-/// What the filter made of a set of scans.
+/// The filter's results on a set of scans.
 struct Counts {
     evaluation::Scores scores;
     evaluation::Missed missed;  ///< obstacle returns above 0.5 m
@@ -32,19 +32,19 @@ enum class Group { Real, Simulated, Hard };
 constexpr std::size_t kGroups = 3;
 const char* nameOf(Group group);
 
-/// Scans that are counted together and left out together.
+/// Scans that are counted and held out together.
 struct ScanSet {
     std::string vote;   ///< sets of one vote are summed before F1
-    std::string drive;  ///< that they are left out with; empty: never left out
+    std::string drive;  ///< held out with this drive; empty: never held out
     Group group = Group::Real;
-    /// False: the same scans as in another set, whose missed returns must not count twice.
+    /// False: the scans are also in another set; do not count missed returns twice.
     bool counts_missed = true;
 };
 
 /// Returns the counts of each set with a choice.
 using Measure = std::function<std::vector<Counts>(const Choice&)>;
 
-/// Calls another measure once per choice, so that folds share what they have in common.
+/// Caches another measure by choice, so that folds share results.
 class CachedMeasure {
  public:
     explicit CachedMeasure(Measure measure) : measure_(std::move(measure)) {}
@@ -56,43 +56,42 @@ class CachedMeasure {
     std::map<Choice, std::vector<Counts>> cache_;
 };
 
-/// The drives of these sets, sorted, each once.
+/// The drives of these sets, sorted and unique.
 std::vector<std::string> drivesOf(const std::vector<ScanSet>& sets);
 
-/// What is maximised: the mean over the votes of (F1 of RoI + F1 of ROU) / 2, without the sets of
-/// `left_out` (a drive; empty: with all). Votes without F1, because nothing belongs to a class, are
-/// skipped; NaN without votes.
+/// The objective to maximise: the mean over the votes of (F1 of RoI + F1 of ROU) / 2, without the
+/// sets of the drive `left_out` (empty: all sets). Skips votes with undefined F1; NaN without
+/// votes.
 double objectiveOf(const std::vector<ScanSet>& sets, const std::vector<Counts>& counts,
                    const std::string& left_out);
 
-/// The limit that must not get worse: missed obstacle returns above 0.5 m of each group, without
-/// the sets of `left_out`.
+/// The constraint: missed obstacle returns above 0.5 m per group, without the sets of `left_out`.
 using MissedByGroup = std::array<std::int64_t, kGroups>;
 MissedByGroup missedOf(const std::vector<ScanSet>& sets, const std::vector<Counts>& counts,
                        const std::string& left_out);
 
-/// Smaller improvements of the objective do not change a value.
+/// Minimum improvement of the objective for changing a value.
 constexpr double kMinGain = 1e-4;
 
-/// A choice, and what led to it.
+/// A choice and its descent.
 struct Descended {
     Choice choice;
     double start = 0, objective = 0;  ///< objective before and after
     MissedByGroup missed_start{}, missed{};
-    int rounds = 0;  ///< including the last one, in which nothing changed
+    int rounds = 0;  ///< including the last one, without changes
 };
 
-/// Coordinate descent from `start` over all sets but those of `left_out`: takes one setting after
-/// the other, tries all of its values, and keeps the best one. A choice that misses more than
-/// `limit` in a group is worse than any that does not; of two such, the one with the smaller excess
-/// (summed over groups) is better. Otherwise the objective decides. Ends after a round without
-/// change, or after `most_rounds`.
+/// Coordinate descent from `start` over all sets except those of `left_out`: tries all values of
+/// each setting in turn and keeps the best. A choice that misses more than `limit` in a group is
+/// worse than any within the limits; among the former, the smaller excess (summed over groups) is
+/// better. Otherwise the objective decides. Ends after a round without change, or after
+/// `most_rounds`.
 Descended descend(const std::vector<Setting>& settings, const Choice& start,
                   const MissedByGroup& limit, const std::vector<ScanSet>& sets,
                   CachedMeasure& measure, const std::string& left_out, int most_rounds);
 
-/// A mean over drives with its 95 % confidence interval, by Student's t; no interval for fewer than
-/// two values or more than 31.
+/// A mean over drives with its 95 % confidence interval (Student's t); no interval for fewer than 2
+/// or more than 31 values.
 struct MeanInterval {
     double mean, low, high;
 };

@@ -87,7 +87,7 @@ void LoadedScans::add(const ScanInputs& inputs) {
             if (i == scans_.size()) scans_.push_back({kind, {}});
             auto loaded =
                 std::make_unique<Truth>(Truth{set, inputs.max_range_m, std::move(*pulled), {}});
-            // Missed returns by class are not needed, and slow to count.
+            // Missed returns by class are not needed and slow to count.
             loaded->scan.kinds.clear();
             loaded->drone = std::make_unique<evaluation::DroneTruth>(
                 loaded->scan, evaluation::RangeBands{inputs.max_range_m});
@@ -108,7 +108,7 @@ evaluation::Method LoadedScans::methodFor(const Kind& kind, const std::vector<Se
 std::vector<Counts> LoadedScans::measure(const std::vector<Setting>& settings,
                                          const Choice& choice) const {
     using Methods = std::map<std::size_t, evaluation::Method>;  // by kind
-    tbb::enumerable_thread_specific<Methods> methods;           // a filter is for one thread
+    tbb::enumerable_thread_specific<Methods> methods;           // filters are not thread-safe
     std::vector<std::vector<Counts>> counts(scans_.size());
     tbb::parallel_for(std::size_t{0}, scans_.size(), [&](std::size_t s) {
         const LoadedScan& scan = scans_[s];

@@ -1,4 +1,4 @@
-// Labelled scans in memory, counted again and again with other settings.
+// Labelled scans in memory, for scoring many settings.
 #pragma once
 #include <hagen/evaluation/DroneScores.h>
 #include <hagen/evaluation/Evaluation.h>
@@ -13,13 +13,13 @@
 
 namespace hagen::selection {
 
-/// Scans to load: a folder, and which sets its scans count for.
+/// Scans to load: a folder and the sets of its scans.
 struct ScanInputs {
     std::string folder;
     std::filesystem::path preset;  ///< settings of its sensor
     float zone_m = 20, max_range_m = 20;
-    std::string degradation;  ///< as for `--degrade`; empty: as recorded
-    /// A set, and the label map of its ground truth; none: labels are those of labels/.
+    std::string degradation;  ///< see `--degrade`; empty: as recorded
+    /// A set and the label map of its ground truth; without a map, labels/ is used as is.
     struct Truth {
         ScanSet set;
         std::optional<evaluation::LabelMap> label_map;
@@ -32,16 +32,16 @@ class LoadedScans {
     /// Loads the scans of a folder. Throws like sourcesOf() and Degradation.
     void add(const ScanInputs& inputs);
 
-    /// The sets of all inputs so far, each once (by vote and drive).
+    /// The unique sets of all inputs so far (by vote and drive).
     const std::vector<ScanSet>& sets() const { return sets_; }
     std::size_t scans() const { return scans_.size(); }
 
-    /// Labels all scans with the filter of these settings, in several threads, and returns the
-    /// counts of each set. Throws SettingsError if settings and a sensor do not fit.
+    /// Labels all scans with these settings, in several threads, and returns the counts of each
+    /// set. Throws SettingsError if the settings do not fit a sensor.
     std::vector<Counts> measure(const std::vector<Setting>& settings, const Choice& choice) const;
 
  private:
-    /// The settings of a kind of scans: those with the same settings share filters.
+    /// The settings of a kind of scans; scans with equal settings share filters.
     struct Kind {
         std::filesystem::path preset, sensor_file;
         std::string sensor;  ///< content of `sensor_file`
@@ -56,7 +56,7 @@ class LoadedScans {
     };
     struct LoadedScan {
         std::size_t kind;
-        std::vector<std::unique_ptr<Truth>> truths;  ///< with the same returns
+        std::vector<std::unique_ptr<Truth>> truths;  ///< for the same returns
     };
 
     std::size_t kindOf(const ScanInputs& inputs, bool is_upside_down);

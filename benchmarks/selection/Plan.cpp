@@ -54,7 +54,7 @@ const OptionKey& optionKey(const std::string& name) {
                          [&](const OptionKey& key) { return key.name == name; });
 }
 
-/// The value as the filter prints it, so that 0.10 and 0.1 are one.
+/// The value in normalised form, so that 0.10 equals 0.1.
 std::string checkedValue(const std::string& key, const std::string& value) {
     Settings settings;
     setOption(key, value, settings);  // throws
@@ -98,7 +98,7 @@ std::string plainValue(const fs::path& file, const Plan& plan, const std::string
             fail(file, node, e.what());
         }
     }
-    fail(file, node, "plain: " + key + " needs one of its values under settings");
+    fail(file, node, "plain: " + key + " must have one of its values under settings");
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ Choice presentChoice(const std::vector<fs::path>& presets, Plan& plan) {
             if (!present.empty() && value != present) {
                 throw std::runtime_error(setting.key + " is " + present + " in " +
                                          presets.front().string() + ", but " + value + " in " +
-                                         preset.string() + ": it cannot be chosen for all sensors");
+                                         preset.string() + "; it cannot be chosen for all sensors");
             }
             present = value;
         }

@@ -1,4 +1,4 @@
-// The values to try and the data to try them on: config/selection.yaml.
+// The candidate values and the data to score them on: config/selection.yaml.
 #pragma once
 #include <hagen/settings/Settings.h>
 #include <filesystem>
@@ -12,9 +12,9 @@ namespace hagen::selection {
 
 struct Plan {
     int most_rounds = 3;                 ///< of the coordinate descent
-    std::vector<std::string> hard_sets;  ///< as for `--degrade`
+    std::vector<std::string> hard_sets;  ///< see `--degrade`
     std::vector<Setting> settings;
-    /// The value of a setting in the plain start, where that is not the presets'.
+    /// Values of the plain start that differ from the presets.
     std::map<std::string, std::string> plain;
 };
 
@@ -27,16 +27,16 @@ struct Plan {
 ///     plain: {ground_tolerance_m: 0.20}
 ///
 /// where `settings` is required, and `plain` has one of their values each. Throws
-/// std::runtime_error naming file, line and entry: what is no such file, unknown or repeated keys,
-/// settings and values that the filter does not know, unknown degradations.
+/// std::runtime_error naming file, line and entry for invalid files, unknown or repeated keys,
+/// unknown settings, values or degradations.
 Plan readPlan(const std::filesystem::path& file);
 
-/// The values of the settings at present, which are added to the values to try if they are not
-/// among them. Throws std::runtime_error naming the setting if the presets (files in `config`)
-/// differ in it: it is a matter of the sensor, and cannot be chosen for all.
+/// The current values of the settings, added to the candidates if missing. Throws
+/// std::runtime_error naming the setting if the presets (files in `config`) disagree: it depends on
+/// the sensor and cannot be chosen for all.
 Choice presentChoice(const std::vector<std::filesystem::path>& presets, Plan& plan);
 
-/// The plain start: the present choice with the values of Plan::plain.
+/// The plain start: the current choice with the values of Plan::plain.
 Choice plainChoice(const Plan& plan, Choice present);
 
 /// Sets the chosen values.

@@ -158,8 +158,7 @@ Record readRecord(const std::filesystem::path& file) {
         return recordOf(base::parseJson(text));
     } catch (const std::exception& e) {
         throw std::runtime_error(
-            file.string() +
-            ": is no record of scripts/select-settings, which makes it anew: " + e.what());
+            file.string() + ": invalid record; run scripts/select-settings again: " + e.what());
     }
 }
 

@@ -9,31 +9,31 @@
 
 namespace hagen::selection {
 
-/// A setting, its value at present, and the values that were tried.
+/// A setting, its current value, and the candidate values.
 struct TriedSetting {
     std::string key, present;
     std::vector<std::string> tried;
 };
 
-/// A descent in figures.
+/// Summary of a descent.
 struct Fold {
-    std::string left_out;             ///< a drive; empty: none
+    std::string left_out;             ///< held-out drive; may be empty
     std::vector<std::string> chosen;  ///< the value of each setting
     double start = 0, objective = 0;
     MissedByGroup missed_start{}, missed{}, limit{};
     int rounds = 0;
 };
 
-/// The descents from one start: the first with all drives, then one without each.
+/// The descents from one start: first with all drives, then with each drive held out.
 struct Search {
-    std::string start;  ///< in words
+    std::string start;  ///< description
     std::vector<Fold> folds;
 };
 
 /// The scores of a drive. Vectors have one element per search.
 struct DriveScores {
     std::string data, drive;       ///< "real, 16 beams", "00"
-    Counts present;                ///< with the presets, which were tuned on it
+    Counts present;                ///< with the presets, tuned on this drive
     std::vector<Counts> with_all;  ///< with settings chosen on all drives
     std::vector<Counts> left_out;  ///< with settings chosen without this drive
 };
@@ -42,20 +42,20 @@ struct Record {
     std::string revision;
     std::vector<std::uint64_t> seeds;     ///< of the simulated flights
     std::vector<std::string> hard_sets;   ///< degradations
-    std::size_t scans = 0, measured = 0;  ///< scans in memory, and choices they were scored with
+    std::size_t scans = 0, measured = 0;  ///< scans in memory, and scored choices
     std::vector<TriedSetting> settings;
     std::vector<Search> searches;
     std::vector<DriveScores> scores;
 
-    /// The kinds of data and the drives, each once; drives are sorted.
+    /// The unique kinds of data and drives; drives are sorted.
     std::vector<std::string> data() const;
     std::vector<std::string> drives() const;
-    /// The scores of a drive; nullptr if there are none.
+    /// The scores of a drive; nullptr if missing.
     const DriveScores* find(const std::string& data_name, const std::string& drive) const;
 };
 
 std::string jsonOf(const Record& record);
-/// Throws std::runtime_error naming the file: it cannot be read, or is no such record.
+/// Throws std::runtime_error naming a file that cannot be read or is not a valid record.
 Record readRecord(const std::filesystem::path& file);
 
 }  // namespace hagen::selection

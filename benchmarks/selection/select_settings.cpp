@@ -1,5 +1,5 @@
-// Chooses the filter's settings by leaving one drive out, and writes docs/selection.json. Run by
-// scripts/select-settings.
+// Chooses the filter's settings by leave-one-drive-out selection, and writes docs/selection.json.
+// Run by scripts/select-settings.
 #include <hagen/base/OutputPath.h>
 #include <hagen/evaluation/LabelMap.h>
 #include <algorithm>
@@ -22,7 +22,7 @@ using namespace hagen::base;
 using namespace hagen::selection;
 namespace fs = std::filesystem;
 
-/// Flights without published results. The stages were developed on some of them.
+/// Flights without published results, partly used to develop the stages.
 const std::vector<std::uint64_t> kSeeds{1, 2};
 constexpr int kScansPerFlight = 3;
 const std::string kHardFlights = "simulated, 2.5 m";
@@ -33,8 +33,7 @@ struct Flags {
 };
 
 void addFlags(Command& app, Flags& flags) {
-    app.option("-o,--output", flags.output, "JSON file of the outcome, docs/selection.json")
-        .required();
+    app.option("-o,--output", flags.output, "result file (JSON), docs/selection.json").required();
     app.option("--labelled", flags.labelled,
                "folder with beams16/ and beams64/: labelled real scans, one folder per drive")
         .required()
@@ -45,11 +44,11 @@ void addFlags(Command& app, Flags& flags) {
         .required()
         .existingFolder();
     app.option("--plan", flags.plan,
-               "what to try, see config/selection.yaml (default: that of --config)");
+               "candidate values, see config/selection.yaml (default: selection.yaml of --config)");
     app.option("--revision", flags.revision, "revision of the project, for the record");
     app.option("--simulation", flags.simulation,
                "version of the simulation; scans of other versions are simulated again");
-    app.flag("--quick", flags.is_quick, "one scan per flight, to check that it works");
+    app.flag("--quick", flags.is_quick, "one scan per flight, for testing");
     app.flag("--overwrite", flags.overwrite, "replace an existing file");
 }
 
@@ -86,7 +85,7 @@ void addFlights(const DataSet& set, const fs::path& config, const Plan& plan, Lo
     }
 }
 
-/// The data set of the scores: the name of a set of real scans, by the vote of a drive.
+/// The data set of a drive's vote.
 using DataOfVotes = std::map<std::string, std::string>;
 
 LoadedScans load(const Flags& flags, const Plan& plan, DataOfVotes& data) {
@@ -114,10 +113,10 @@ LoadedScans load(const Flags& flags, const Plan& plan, DataOfVotes& data) {
     return scans;
 }
 
-/// Descents from one start, with all drives and without each: their choices and the record of them.
+/// Descents from one start, with all drives and with each held out: choices and record.
 struct Searched {
     Search record;
-    std::map<std::string, Choice> choices;  ///< by the drive that was left out
+    std::map<std::string, Choice> choices;  ///< by held-out drive
 };
 
 Searched search(const std::string& start_name, const Choice& start, const Choice& present,
@@ -152,7 +151,7 @@ int run(const Flags& flags) {
     const std::vector<ScanSet>& sets = scans.sets();
     if (drivesOf(sets).size() < 2) {
         throw std::runtime_error(flags.labelled +
-                                 ": has a single drive; leaving one out needs at least two");
+                                 ": has a single drive; leaving one out requires at least 2");
     }
     std::cerr << scans.scans() << " scans in memory, in " << sets.size() << " sets\n";
 
@@ -193,10 +192,10 @@ int run(const Flags& flags) {
 
 int main(int argc, char** argv) {
     Program program("select-settings",
-                    "Chooses the filter's settings on real drives and simulated flights, leaving "
-                    "one drive out at a time, and scores each drive with the settings chosen "
+                    "Chooses the filter's settings on real drives and simulated flights, holding "
+                    "out one drive at a time, and scores each drive with the settings chosen "
                     "without it.");
-    program.footer("Exit codes: 0 done, 1 failed while running, 2 wrong usage.");
+    program.footer("Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;
     addFlags(program, flags);
     return program.run(argc, argv, [&] { return run(flags); });

@@ -3,7 +3,7 @@
 
 namespace hagen {
 
-/// Number of heap allocations of this program so far, all threads together: malloc() and related
+/// Number of heap allocations of this program so far, in all threads: malloc() and related
 /// functions, which operator new and Eigen use. Always 0 if a sanitizer has replaced malloc(); see
 /// countsAllocations().
 std::size_t allocations();

@@ -1,4 +1,4 @@
-// Tables as Markdown or CSV, and numbers as their cells.
+// Tables as Markdown or CSV, and number formatting.
 #pragma once
 #include <hagen/evaluation/DroneScores.h>
 #include <map>
@@ -11,11 +11,11 @@ namespace hagen {
 class Table {
  public:
     explicit Table(std::vector<std::string> heads) : lines_{std::move(heads)} {}
-    /// Adds a row with as many cells as the head.
+    /// Adds a row; it must have as many cells as the head.
     void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
     /// Returns the table with aligned columns, followed by a blank line.
     std::string text() const;
-    /// Returns the table as CSV, without the bold and code marks of Markdown.
+    /// Returns the table as CSV, without Markdown's bold and code marks.
     std::string csv() const;
 
  private:
@@ -29,10 +29,10 @@ using CsvTables = std::map<std::string, std::string>;
 std::string cell(double value, int digits = 3);
 /// "0.951 to 0.964".
 std::string cell(const evaluation::Interval& interval);
-/// "0.958 / 0.977"; values that equal `best` as printed are bold.
+/// "0.958 / 0.977"; values that equal `best` when rounded are bold.
 std::string pairCell(double roi, double rou, double best_roi, double best_rou);
 std::string pairCell(double roi, double rou);
-/// "0.958"; bold if above `other` as printed.
+/// "0.958"; bold if above `other` when rounded.
 std::string boldAbove(double value, double other);
 
 /// "12 of 3456 (0.35 %)"; a dash if there is nothing to miss.

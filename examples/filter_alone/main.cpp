@@ -1,4 +1,4 @@
-// The filter alone: points in, labels out.
+// Uses only the filter: points in, labels out.
 #include <hagen/filter/HagenFilter.h>
 
 #include <algorithm>

@@ -14,7 +14,7 @@ import hagen
 
 
 def draw(recording, folder=None):
-    # The fullest of three: the first turn of a capture may be a part of one.
+    # The largest of three: the first turn of a capture may be incomplete.
     scan = max(itertools.islice(hagen.open(recording), 3), key=len, default=None)
     if scan is None:
         raise RuntimeError(f"{recording}: has no LiDAR scan")
@@ -36,7 +36,7 @@ def draw(recording, folder=None):
     )  # fmt: skip
     if folder is None:
         if plt.get_backend().lower() == "agg":
-            raise RuntimeError("there is no display for a window: name a FOLDER for the picture")
+            raise RuntimeError("no display available; pass a FOLDER for the picture")
         plt.show()
     else:
         pathlib.Path(folder).mkdir(parents=True, exist_ok=True)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Walks through the stages of the filter on one scan. Cells begin with # %% and can be run one by one
-in editors that know them; as a program it draws all of them.
+"""Walks through the stages of the filter on one scan. Cells begin with # %% for editors
+that support them; run as a program, it draws all of them.
 
 usage: walk_through.py RECORDING [FOLDER]     without a folder, in windows
 """
-# %% A scan, and the filter for its sensor.
+# %% A scan and the filter for its sensor.
 import pathlib
 import sys
 
@@ -16,7 +16,7 @@ import hagen
 if not 2 <= len(sys.argv) <= 3:
     sys.exit(__doc__)
 if len(sys.argv) == 2 and plt.get_backend().lower() == "agg":
-    sys.exit("there is no display for windows: name a FOLDER for the pictures")
+    sys.exit("no display available; pass a FOLDER for the pictures")
 try:
     scan = next(hagen.open(sys.argv[1]))
 except (OSError, RuntimeError) as error:
@@ -44,7 +44,7 @@ def draw(axes, name, title, scale=1.0, **options):
     axes.figure.colorbar(image, ax=axes, pad=0.01)
 
 
-# %% From depth to angles: near is bright in the proximity, and its maxima are moved nearer.
+# %% From depth to angles: proximity is bright for near pixels, and its maxima are moved nearer.
 figure, axes = plt.subplots(5, figsize=(12, 10), layout="constrained", sharex=True)
 draw(axes[0], "depth_m", "1: depth [m]", vmax=40)
 draw(axes[1], "proximity_m", "3: proximity, zone - depth [m]")
@@ -53,16 +53,16 @@ draw(axes[3], "range_angle_rad", "6: angle from each beam to the one above [deg]
 draw(axes[4], "smoothed_rad", "7: the same, smoothed along columns [deg]", np.degrees(1))
 show("1_angles", figure)
 
-# %% From angles to labels: flat regions from the lowest pixels are ground, and what is above it RoI.
+# %% From angles to labels: flat regions from the lowest pixels are ground; all above is RoI.
 figure, axes = plt.subplots(4, figsize=(12, 8), layout="constrained", sharex=True)
 draw(axes[0], "pixel_angle_rad", "8: the angle of each pixel [deg]", np.degrees(1))
 if "height_m" in stages:
     draw(axes[1], "height_m", "height above the ground surface [m]", vmin=-0.5, vmax=3)
-    draw(axes[2], "tolerance_m", "up to this height it is ground [m]", vmin=0, vmax=0.5)
-draw(axes[3], "labels", "labels: 0 nothing, 1 ROU, 2 RoI", vmin=0, vmax=2)
+    draw(axes[2], "tolerance_m", "maximum height of ground [m]", vmin=0, vmax=0.5)
+draw(axes[3], "labels", "labels: 0 unclassified, 1 ROU, 2 RoI", vmin=0, vmax=2)
 show("2_labels", figure)
 
-# %% What the labels mean for each return: its height, and the obstacle that it belongs to.
+# %% The labels of the returns: height and obstacle.
 figure, axes = plt.subplots(figsize=(8, 5), layout="constrained")
 distance = np.linalg.norm(scan.xyz, axis=1)
 for label, color, name in ((hagen.ROU, "0.7", "ROU"), (hagen.ROI, "tab:red", "RoI")):

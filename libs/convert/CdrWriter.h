@@ -11,8 +11,8 @@
 
 namespace hagen::convert {
 
-/// Writes the fields of a message as little-endian CDR, as FieldReader::ofCdr() reads them: four
-/// bytes that name the byte order, then the fields, numbers aligned to their size.
+/// Writes the fields of a message as little-endian CDR, as FieldReader::ofCdr() reads them: a
+/// four-byte header, then the fields, numbers aligned to their size.
 class CdrWriter {
  public:
     CdrWriter() : bytes_{0, 1, 0, 0} {}
@@ -31,7 +31,7 @@ class CdrWriter {
         return *this;
     }
 
-    /// The number of elements that follow. Throws std::runtime_error if 32 bits cannot hold it.
+    /// Writes the number of elements that follow. Throws std::runtime_error if it exceeds 32 bits.
     CdrWriter& count(std::size_t elements) {
         if (elements > std::numeric_limits<std::uint32_t>::max()) {
             throw std::runtime_error("a message cannot hold " + std::to_string(elements) +
@@ -47,7 +47,7 @@ class CdrWriter {
         return *this;
     }
 
-    /// Bytes with their number before them.
+    /// Writes a length prefix, then the bytes.
     CdrWriter& counted(const std::vector<std::uint8_t>& bytes) {
         count(bytes.size());
         bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());

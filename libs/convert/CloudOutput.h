@@ -19,7 +19,7 @@ class CloudChanges {
  public:
     /// The changes in one cloud.
     void add(const std::vector<std::string>& changes);
-    /// For the user, with the number of clouds if these are not all.
+    /// For the user, with the number of affected clouds unless all.
     std::vector<std::string> texts(std::size_t all_clouds) const;
 
  private:

@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
 
-/// The same listener for several threads: one call at a time.
+/// Serialises a listener's calls from several threads.
 ConversionListener oneAtATime(const ConversionListener& listener, std::mutex& mutex) {
     const auto locked = [&mutex](const auto& call) {
         return [&mutex, &call](const auto&... arguments) {
@@ -46,8 +46,8 @@ ConversionListener oneAtATime(const ConversionListener& listener, std::mutex& mu
     return safe;
 }
 
-/// Poses of a rawlog are read only if an output needs them, as that may take another pass. TUM
-/// poses are cheap to read; those of a bag are known already, and provide the attitude.
+/// Reads the poses of a rawlog only if an output needs them, because that may take another pass.
+/// TUM poses are cheap to read; poses of a bag are already known and provide the attitude.
 bool needsPoses(const Conversion& conversion) {
     const bool is_tum = !conversion.poses.empty() && recordings::kindOfPoseFile(conversion.poses) ==
                                                          recordings::PoseFileKind::Tum;
@@ -130,11 +130,11 @@ class Converter {
         const std::size_t threads = wantedThreads();
         const PipelineEnd end = runPipeline(steps, threads);
         if (end.threads < threads) {
-            listener_.remark("the machine", "could start only " + std::to_string(end.threads) +
-                                                " of " + std::to_string(threads) + " threads");
+            listener_.remark("the system", "could start only " + std::to_string(end.threads) +
+                                               " of " + std::to_string(threads) + " threads");
         }
         report_.left_out_before = source_->entriesSkipped();
-        if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: each failed
+        if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: all failed
         if (end.why) savePartialOutputs(end.why);
         return finish();
     }
@@ -159,12 +159,12 @@ class Converter {
         report_.is_attitude_of_poses = source_->poses().vehicle.has_horizon;
         if (outputs_.wantsMap() && report_.poses.empty()) {
             throw std::runtime_error(conversion_.input.string() +
-                                     ": has no poses, but a map needs them; add --poses "
+                                     ": has no poses, but a map requires them; add --poses "
                                      "FILE.tum (lines 'time x y z qx qy qz qw')");
         }
     }
 
-    /// Pictures take a second each and are drawn one by one: more threads would only read ahead,
+    /// Pictures take about 1 s each and are drawn sequentially: more threads would only read ahead
     /// and delay an interruption.
     std::size_t wantedThreads() const {
         if (!conversion_.pictures.empty()) return 1;
@@ -186,8 +186,8 @@ class Converter {
     }
 
     void writeResults(ConvertedEntry& entry) {
-        // Inserting into a map takes seconds: without this, entries that were read ahead would
-        // delay an interruption.
+        // Inserting into a map takes seconds: otherwise entries read ahead would delay an
+        // interruption.
         if (outputs_.wantsMap() && !listener_.keep_going()) {
             throw recordings::Interrupted("interrupted");
         }
@@ -209,7 +209,7 @@ class Converter {
         listener_.progress(report_);
     }
 
-    /// Whether an entry is a result of an earlier run whose scan, before it, was segmented again.
+    /// Whether an entry is a result of an earlier run whose scan has just been segmented again.
     bool isReplaced(const mrpt::serialization::CSerializable::Ptr& entry) const {
         const auto observation = std::dynamic_pointer_cast<CObservation>(entry);
         if (!observation || !observations::isResult(*observation)) return false;
@@ -237,16 +237,16 @@ class Converter {
     void remarkOn(const ConvertedScan& scan, const std::string& title) const {
         if (!scan.segmented.remark.empty()) listener_.remark(title, scan.segmented.remark);
         if (!observations::isTime(scan.recorded.observation->timestamp)) {
-            listener_.remark(title, "it has no valid time");
+            listener_.remark(title, "no valid time");
         } else if (!conversion_.folder.empty() && !report_.poses.empty() &&
                    !scan.recorded.pose.sensor_pose) {
             listener_.remark(
                 title,
                 source_->poses().vehicle.has_horizon
-                    ? "no pose near its time: it is missing from poses.tum, and poses.txt is "
+                    ? "no pose near this time: missing from poses.tum, and poses.txt is "
                       "not written"
-                    : "no pose near its time: no file of poses is written, because poses "
-                      "without a horizon go into poses.txt, which needs one for each scan");
+                    : "no pose near this time: no pose file is written, because poses "
+                      "without a horizon require poses.txt, which needs a pose for each scan");
         }
     }
 
@@ -254,25 +254,25 @@ class Converter {
         const auto placed =
             placeInMap(scan.segmented, *scan.recorded.observation, source_->poses().vehicle);
         if (!placed) {
-            listener_.remark(title, "no pose near its time: it is not in the map");
+            listener_.remark(title, "no pose near this time: not inserted into the map");
             return;
         }
         const bool has_times = !scan.segmented.scan->time_s.empty();
         if (placed->is_by_one_pose && has_times && scan.segmented.scan->size() > 0) {
             listener_.remark(title,
-                             "the poses end before it does or have a gap in it, or the timestamps "
-                             "of its returns span more than one scan: in the map, all are placed "
+                             "the poses end before the scan or have a gap, or the timestamps "
+                             "span more than one scan: all returns are placed in the map "
                              "with one pose");
         }
         try {
             outputs_.insertIntoMap(placed->mapped);
             ++report_.scans_in_map;
         } catch (const std::runtime_error& e) {
-            listener_.remark(title, std::string(e.what()) + ": it is not in the map");
+            listener_.remark(title, std::string(e.what()) + ": not inserted into the map");
         }
     }
 
-    /// Commits the outputs of a recording that was read to its end.
+    /// Commits the outputs of a completely read recording.
     ConversionReport finish() {
         if (report_.entries == 0) {
             throw std::runtime_error(
@@ -285,13 +285,13 @@ class Converter {
         remarkOnLabels();
         remarkOnRecording();
         outputs_.commit(report_);
-        // Partial outputs of earlier runs have names of their own, and are not replaced.
+        // Partial outputs of earlier runs have other names and are not replaced.
         const std::string left = base::leftBehind(outputsOf(conversion_));
         if (!left.empty()) listener_.remark("the outputs", left);
         return std::move(report_);
     }
 
-    /// A requested label without scans may be a typo. It is an error only if nothing was segmented.
+    /// A requested label without scans may be a typo. It is an error only if no scan was segmented.
     void checkLabels() const {
         for (const std::string& label : conversion_.sensor_labels) {
             if (report_.sensors.count(label) > 0 || report_.unreadable_scans > 0) continue;
@@ -312,9 +312,8 @@ class Converter {
         const Settings::Sensor &wanted = conversion_.settings.sensor, &used = settings_.sensor;
         if (wanted.model &&
             (wanted.model != used.model || wanted.elevations_deg != used.elevations_deg)) {
-            listener_.remark(
-                "the log",
-                "its sensor.yaml is used instead of the settings' sensor.model " + *wanted.model);
+            listener_.remark("the log",
+                             "sensor.yaml overrides the settings' sensor.model " + *wanted.model);
         }
         for (const auto& [label, remark] : sensor_check_.finish()) {
             listener_.remark("sensor " + label, remark);
@@ -331,26 +330,26 @@ class Converter {
             std::to_string(report_.scans) + " scans of " + conversion_.input.string();
         outputs_.giveUpMap(report_.scans_with_pose == 0
                                ? report_.poses + ": has no pose near any of the " + scans +
-                                     "; are its times from another clock? No map is written"
-                               : report_.poses + ": its poses place none of the " + scans +
-                                     " within an OctoMap; no map is written");
+                                     "; do the times come from another clock? No map is written"
+                               : report_.poses + ": all poses place the " + scans +
+                                     " outside an OctoMap; no map is written");
     }
 
-    /// Labels that are all equal look as if nothing happened.
+    /// Reports suspicious labels.
     void remarkOnLabels() const {
         if (!settings_.airframe.parts.isEmpty() && report_.scans > 0 &&
             report_.returns_masked == 0) {
             listener_.remark("the log",
-                             "the airframe of the settings masks none of its returns; is it that "
-                             "of this vehicle, in the frame of the sensor?");
+                             "the settings' airframe masks no returns; does it belong to "
+                             "this vehicle, in the sensor frame?");
         }
         if (report_.returns == 0 || report_.roi > 0) return;
         listener_.remark("the log",
                          report_.rou == 0
                              ? "no return has a range: all are unclassified"
-                             : "no return is RoI. If there should be obstacles: are the "
-                               "coordinates metres, relative to the sensor (x forward, z up), not "
-                               "to a map?");
+                             : "no return is RoI. If obstacles are expected: are the "
+                               "coordinates in metres, relative to the sensor (x forward, z up) "
+                               "and not to a map?");
     }
 
     void remarkOnRecording() {
@@ -369,8 +368,8 @@ class Converter {
         }
     }
 
-    /// Keeps what was converted before the recording or the conversion ended early, and adds its
-    /// location to the error. Errors of usage, and those before the first entry, keep nothing.
+    /// Keeps partial outputs when the recording or the conversion ends early, and adds their
+    /// location to the error. Usage errors, and errors before the first entry, keep nothing.
     [[noreturn]] void savePartialOutputs(const std::exception_ptr& end) {
         std::string why;
         bool is_interruption = false;
@@ -392,20 +391,20 @@ class Converter {
         } catch (const std::exception& e) {
             listener_.remark("the recording", e.what());
         }
-        why += "; the " + std::to_string(report_.entries) +
-               (fs::is_directory(conversion_.input) ? " scans" : " entries") + " before it are in" +
+        why += "; the " + std::to_string(report_.entries) + " preceding" +
+               (fs::is_directory(conversion_.input) ? " scans" : " entries") + " are in" +
                outputs_.keepPartial(report_);
         if (is_interruption) throw recordings::Interrupted(why);
         throw recordings::BrokenRecording(why);
     }
 
     const Conversion& conversion_;
-    std::mutex listening_;  ///< the listener is also called while reading, on another thread
+    std::mutex listening_;  ///< another thread calls the listener while reading
     const ConversionListener listener_;
     std::unique_ptr<recordings::ScanSource> source_;
-    const Settings settings_;  ///< with those of the recording's own sensor
+    const Settings settings_;  ///< merged with the recording's own sensor
     ConversionOutputs outputs_;
-    /// Time of the last scan that was segmented, by sensor label.
+    /// Time of the last segmented scan, by sensor label.
     std::map<std::string, mrpt::Clock::time_point> last_segmented_;
     recordings::SensorCheck sensor_check_;
     ConversionReport report_;
@@ -419,14 +418,13 @@ fs::path externalsOf(const fs::path& rawlog) {
     return folder;
 }
 
-/// Passes MRPT the folder of the input's external files, and the user the one where the output
-/// expects them.
+/// Sets MRPT's folder for the input's external files, and reports where the output expects them.
 void useExternals(const fs::path& folder, const Conversion& conversion,
                   const ConversionListener& listener) {
     mrpt::io::setLazyLoadPathBase(folder.string() + "/");
     mrpt::img::CImage::setImagesPathBase(folder.string() + "/");
     if (conversion.rawlog.empty() || externalsOf(conversion.rawlog) == folder) return;
-    listener.remark("the log", "stores data in files in " + folder.string() +
+    listener.remark("the log", "stores data in external files in " + folder.string() +
                                    "; link or copy that folder as " +
                                    externalsOf(conversion.rawlog).string());
 }
@@ -441,7 +439,7 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     inputs.insert(inputs.end(), {conversion.input, conversion.poses, conversion.sensor_json,
                                  conversion.calibration});
     const fs::path externals = externalsOf(conversion.input);
-    std::error_code no_such;  // a name with the ending may be too long
+    std::error_code no_such;  // a name with the extension may be too long
     const bool has_externals = fs::is_directory(externals, no_such);
     if (has_externals) inputs.push_back(externals);
     base::checkApart(outputsOf(conversion), inputs);

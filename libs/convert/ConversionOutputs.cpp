@@ -26,7 +26,7 @@ Attitude mountOf(const mrpt::obs::CObservation& scan, const Settings& settings) 
         settings.mount);
 }
 
-/// Also of "folder/".
+/// Also for "folder/".
 std::string lastNameOf(const fs::path& input) {
     return (input.has_filename() ? input : input.parent_path()).filename().string();
 }
@@ -73,8 +73,8 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion)
     }
 }
 
-// Members are packed on several threads; all other steps of a part run on one at a time. The flag
-// is seen by the next.
+// Members are packed on several threads; all other steps of a part run on one thread at a time.
+// Later steps see the flag.
 template <class Step>
 void ConversionOutputs::attempt(Part part, Step step) {
     if (is_given_up_[part]) return;
@@ -87,7 +87,7 @@ void ConversionOutputs::attempt(Part part, Step step) {
     }
 }
 
-/// The first reason is kept; null, or no memory for its text: out of memory.
+/// Keeps the first reason; null, or no memory for its text: out of memory.
 void ConversionOutputs::giveUp(Part part, const char* why) noexcept {
     const std::lock_guard lock(why_mutex_);
     if (is_given_up_[part]) return;
@@ -100,7 +100,7 @@ void ConversionOutputs::giveUp(Part part, const char* why) noexcept {
     }
 }
 
-/// Calls act(part, output) for the outputs that there are.
+/// Calls act(part, output) for each requested output.
 template <class Do>
 void ConversionOutputs::forEach(Do act) {
     if (rawlog_) act(kRawlog, *rawlog_);
@@ -177,17 +177,17 @@ std::string ConversionOutputs::writeScan(
     return own_name;
 }
 
-/// Into a folder named by the entry, so that --from finds it again.
+/// The folder is named by the entry, for use with --from.
 void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::Output& segmented,
                                      const recordings::RecordedScan& recorded) {
     const std::string& label = recorded.observation->sensorLabel;
     const bool is_named = !recorded.name.empty();
     const std::string name = is_named ? recorded.name : scanName(recorded.entry);
     fs::path folder = pictures_->folderOf(label) / name;
-    while (!fs::create_directory(folder)) folder += "_";  // a second scan in a sensory frame
+    while (!fs::create_directory(folder)) folder += "_";  // further scan of a sensory frame
     const std::string title =
         lastNameOf(conversion_.input) + ", " + label + (is_named ? ", scan " : ", entry ") + name;
-    // As the filter sees a sensor that is not upright: its images have other rows than the sensor.
+    // As the filter processes a sensor that is not upright: image rows differ from the sensor's.
     const std::optional<Attitude>& attitude = segmented.pose.attitude;
     const Posture posture = postureOf(attitude);
     const SensorModel sensor = sensorIn(posture, *segmented.sensor);
@@ -245,9 +245,9 @@ std::string ConversionOutputs::whatFailed() {
         if (!hasWholeParts(part)) return;
         try {
             if (part == kFolders) finishFolders();
-            text += "; what was written before is in " + textOfNames(output.keepPartial());
+            text += "; the completed part is in " + textOfNames(output.keepPartial());
         } catch (const std::exception&) {
-            text += "; nothing of it is kept";
+            text += "; no part is kept";
         }
     });
     return text;

@@ -21,8 +21,8 @@ namespace hagen::convert {
 /// The paths of the requested outputs.
 std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
 
-/// The requested outputs of a conversion. If one of them fails (a full disk, a full map, a missing
-/// gnuplot), it is abandoned and commit() names it; the others are not affected.
+/// The requested outputs of a conversion. If one fails (full disk, full map, missing gnuplot), it
+/// is aborted and commit() reports it; the others are not affected.
 class ConversionOutputs {
  public:
     /// Throws std::runtime_error naming an output that cannot be written.
@@ -37,11 +37,11 @@ class ConversionOutputs {
     void writeMember(const Bytes& packed);
 
     /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, and to the MCAP. An
-    /// empty name stands for the next number. Returns the name used.
+    /// empty name means the next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const recordings::RecordedScan& recorded, const Settings& settings);
 
-    /// Null if they are not requested.
+    /// Null if not requested.
     const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }
     const McapOutput* mcap() const { return mcap_ ? &*mcap_ : nullptr; }
 
@@ -50,18 +50,18 @@ class ConversionOutputs {
     void insertIntoMap(const observations::MappedScan& scan);
     void giveUpMap(const std::string& why) { giveUp(kMap, why.c_str()); }
 
-    /// False once all requested outputs are given up. On any thread.
+    /// False once all requested outputs have failed. Thread-safe.
     bool hasAny() const;
 
-    /// Gives the outputs their names. Throws std::runtime_error naming each failed output,
-    /// why, and what is left of it, once the others are in place.
+    /// Renames the outputs into place. Then throws std::runtime_error naming each failed output,
+    /// the reason, and its partial file.
     void commit(const ConversionReport& report);
-    /// Keeps the incomplete outputs under partial names; returns these names, and what failed.
+    /// Keeps the incomplete outputs under partial names; returns these names and the failures.
     std::string keepPartial(const ConversionReport& report);
 
  private:
     enum Part { kRawlog, kFolders, kClouds, kMcap, kPictures, kMap, kStats, kParts };
-    /// Does a step of an output; if it fails, gives the output up.
+    /// Runs a step of an output; if it fails, marks the output as failed.
     template <class Step>
     void attempt(Part part, Step step);
     void giveUp(Part part, const char* why) noexcept;
@@ -79,7 +79,7 @@ class ConversionOutputs {
     std::string whatFailed();
 
     const Conversion& conversion_;
-    const std::array<std::filesystem::path, kParts> paths_;  ///< empty: not asked for
+    const std::array<std::filesystem::path, kParts> paths_;  ///< empty: not requested
     std::optional<RawlogWriter> rawlog_;
     std::optional<SensorFolders> folders_, pictures_;
     std::optional<CloudOutput> clouds_;

@@ -22,9 +22,9 @@ namespace hagen::convert {
 ///                 "rou": n, "unclassified": n, "returns_masked": n, "obstacles": n,
 ///                 "nearest_roi_m": x or null, "latency_ms": ...}, ...]}
 ///
-/// Latency is the time from the complete observation in memory to its labels; making the clouds is
-/// not included. Scans segmented concurrently (see Conversion::jobs) slow each other down a little.
-/// Everything but the latencies is reproducible. Throws std::runtime_error naming the file.
+/// Latency is the time from the complete observation in memory to its labels, without creating the
+/// clouds. Scans segmented concurrently (see Conversion::jobs) slow each other down slightly.
+/// Everything except latencies is reproducible. Throws std::runtime_error naming the file.
 void writeConversionStatistics(const std::filesystem::path& file, const Conversion& conversion,
                                const ConversionReport& report);
 

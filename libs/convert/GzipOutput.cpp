@@ -27,7 +27,7 @@ struct FreeCompressor {
 }  // namespace
 
 void packGzipMember(const Bytes& plain, Bytes& packed) {
-    // None is kept per thread: a thread that ends needs memory for that, without which glibc
+    // No thread_local compressor: destroying it at thread exit needs memory, without which glibc
     // aborts.
     const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
         libdeflate_alloc_compressor(kGzipLevel));
@@ -54,7 +54,7 @@ void GzipOutput::write(const Bytes& member) {
         return;
     }
     const int error = errno;
-    // Readers take a member that is cut off for damage.
+    // Readers report a truncated member as damage.
     const bool is_cut = ftruncate(fileno(file_.get()), whole_) == 0;
     errno = is_cut ? error : errno;
     failWrite(path_);

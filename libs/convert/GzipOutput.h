@@ -21,7 +21,7 @@ class GzipOutput {
     explicit GzipOutput(const std::filesystem::path& file);
 
     /// Appends a compressed member. Throws std::runtime_error with the system's error message; the
-    /// file then ends with its last whole member, and nothing more is written.
+    /// file then ends with its last whole member. Do not write afterwards.
     void write(const Bytes& member);
     /// Closes the file. Throws like write().
     void close();
@@ -32,7 +32,7 @@ class GzipOutput {
     };
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, Close> file_;
-    long whole_ = 0;  ///< bytes of the members written
+    long whole_ = 0;  ///< bytes of the complete members
 };
 
 }  // namespace hagen::convert

@@ -30,13 +30,13 @@ struct Unlabelled {
     std::vector<std::uint32_t> point_of_return;
 };
 
-/// Fields that a scan does not have: those of a rawlog of MRPT 3, and the tags of a Livox.
+/// Fields missing from a scan: from a rawlog of MRPT 3, and the tags of a Livox.
 const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud) {
     const auto* const located = dynamic_cast<const observations::LocatedCloud*>(&cloud);
     return located != nullptr ? &located->otherFields() : observations::otherFieldsOf(cloud);
 }
 
-/// The fields of a scan and the observation's others, whose times are those of the scan.
+/// The fields of a scan and the observation's other fields, with the scan's times.
 PointTable withOtherFields(const Scan& scan, const mrpt::obs::CObservation& observation) {
     const auto* const cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
     const PointTable* const others =
@@ -69,8 +69,7 @@ Unlabelled unlabelled(const observations::ObservationSegmenter::Output& segmente
     return points;
 }
 
-/// Renames fields of the input whose names are `taken` to some that no other field has; the new
-/// names.
+/// Renames input fields whose names are `taken` to unique names; returns the new names.
 std::vector<std::string> renameTaken(const std::vector<std::string>& taken, PointTable& table) {
     const auto isTaken = [&](const observations::PointField& field) {
         return std::find(taken.begin(), taken.end(), field.name) != taken.end();
@@ -138,7 +137,7 @@ LabelledTable labelledTable(const observations::ObservationSegmenter::Output& se
 std::vector<std::string> LabelledTable::remarks() const {
     std::vector<std::string> remarks;
     for (const std::string& name : renamed) {
-        remarks.push_back("a field of the input has the name of a field of labels: it is '" + name +
+        remarks.push_back("an input field conflicts with a label field and is renamed to '" + name +
                           "'");
     }
     return remarks;
@@ -154,7 +153,7 @@ void useCloudsWithFields(const mrpt::obs::CObservation& observation,
         rename("time", "t", points.table);
     }
     const std::vector<std::uint32_t> point_of_return = points.point_of_return;
-    // The class has no uint32.
+    // CGenericPointsMap has no uint32.
     const PointTable table = labelled(segmented, std::move(points), NumberType::UInt16).table;
     const auto pointsOfReturns = [&](const std::vector<std::uint32_t>& returns) {
         std::vector<std::uint32_t> of_returns;

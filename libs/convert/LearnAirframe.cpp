@@ -46,7 +46,7 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
         if (label != report.sensor_label) {
             throw std::runtime_error(learning.input.string() + ": has scans of '" +
                                      report.sensor_label + "' and of '" + label +
-                                     "'; an airframe is that of one sensor: add --sensor-label");
+                                     "'; an airframe belongs to one sensor: add --sensor-label");
         }
         try {
             observations::readObservation(*scan->observation, settings, observed, scan->beams);

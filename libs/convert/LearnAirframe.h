@@ -15,24 +15,24 @@ struct AirframeLearning {
     std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag; empty: none
     std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
-    std::filesystem::path file;         ///< ends in .yaml; the picture beside it ends in .png
+    std::filesystem::path file;         ///< FILE.yaml; the picture is FILE.png
     bool overwrite = false;             ///< replace existing outputs
-    double seconds = 10;                ///< of the recording, from the first selected scan on
+    double seconds = 10;                ///< of the recording, from the first selected scan
     std::size_t from = 0;               ///< first and last entry to read, both inclusive
     std::size_t to = std::numeric_limits<std::size_t>::max();
     std::vector<std::string> sensor_labels;  ///< the LiDAR; empty: the only one
-    Settings settings;                       ///< its sensor; an airframe in it is ignored
+    Settings settings;                       ///< for the sensor; their airframe is ignored
 };
 
 struct AirframeReport {
     std::string sensor_label;
-    std::size_t scans = 0;             ///< learned from
+    std::size_t scans = 0;             ///< used for learning
     std::size_t unreadable_scans = 0;  ///< each was reported
-    int bins = 0;                      ///< masked ones
+    int bins = 0;                      ///< masked bins
     double share_of_sphere = 0;        ///< solid angle of these bins
-    double share_of_seen = 0;          ///< the same, of that of all bins with a return
+    double share_of_seen = 0;          ///< fraction of the solid angle of all bins with a return
     std::filesystem::path picture;
-    /// So much is masked that it is probably not the airframe alone.
+    /// True if so much is masked that it is probably not only the airframe.
     bool isSuspicious() const { return share_of_sphere > 0.2 || share_of_seen > 0.2; }
 };
 
@@ -40,16 +40,16 @@ struct AirframeListener {
     /// Called with the title of a scan that could not be read and is skipped, and the reason.
     std::function<void(const std::string& entry, const std::string& why)> unreadable =
         [](const auto&, const auto&) {};
-    /// Called with remarks on the recording, such as ignored content.
+    /// Called with remarks about the recording, such as ignored content.
     std::function<void(const std::string& what)> remark = [](const auto&) {};
-    /// Called before each entry is read. False ends with Interrupted; nothing is written.
+    /// Called before reading each entry. False ends with Interrupted, without output.
     std::function<bool()> keep_going = [] { return true; };
 };
 
 /// Learns the airframe from the first seconds of a recording (AirframeLearner), and writes it as a
 /// file for `airframe: [{learned: FILE}]` with a picture. Throws std::runtime_error naming the
-/// recording if it has no scans, too few (AirframeRules::least_scans), or those of several LiDARs;
-/// naming the output if that cannot be written. Nothing is then written of it.
+/// recording if it has no scans, too few (AirframeRules::least_scans), or scans of several LiDARs;
+/// naming the output if it cannot be written. In both cases, no output is left behind.
 AirframeReport learnAirframe(const AirframeLearning& learning,
                              const AirframeListener& listener = {});
 

@@ -81,7 +81,8 @@ void MapOutput::throwFailures() const {
     if (!failures_.empty()) throw std::runtime_error(failures_);
 }
 
-/// The tree may fill the memory, so it is not copied: what changes it most is written last.
+/// The tree may fill the memory, so it is not copied: the formats that modify it most are written
+/// last.
 void MapOutput::write() {
     std::vector<const base::OutputPath*> files;
     for (const char* ending : {".3Dscene", ".ot", ".bt"}) {

@@ -24,7 +24,7 @@ std::string rosNameOf(const std::string& sensor_label) {
     std::string name;
     for (const char c : sensor_label) {
         const bool is_plain = isLetter(c) || isDigit(c);
-        // ROS 2 allows no two underscores in a row.
+        // ROS 2 does not allow two underscores in a row.
         if (!is_plain && !name.empty() && name.back() == '_') continue;
         name += is_plain ? c : '_';
     }
@@ -51,7 +51,7 @@ McapOutput::Lidar& McapOutput::lidarOf(const std::string& sensor_label) {
         .first->second;
 }
 
-/// Nanoseconds since 1970, or 0 if ROS cannot hold the time.
+/// Nanoseconds since 1970, or 0 if ROS cannot represent the time.
 std::int64_t McapOutput::stampOf(mrpt::Clock::time_point time) {
     if (!observations::isTime(time)) {
         ++untimed_;
@@ -101,12 +101,12 @@ std::vector<std::string> McapOutput::remarks() const {
     std::vector<std::string> remarks = changes_.texts(scans_);
     if (untimed_ > 0) {
         remarks.push_back(std::to_string(untimed_) + " of " + std::to_string(scans_) +
-                          " scans have no time from 1970 to 2038, as ROS needs it: theirs is 0");
+                          " scans have no time from 1970 to 2038, as ROS requires; set to 0");
     }
     for (const auto& [label, lidar] : lidars_) {
         if (lidar.name == label) continue;
-        remarks.push_back("the LiDAR '" + label + "' is called '" + lidar.name +
-                          "', a name that ROS allows");
+        remarks.push_back("the LiDAR '" + label + "' is named '" + lidar.name +
+                          "' to conform to ROS");
     }
     return remarks;
 }

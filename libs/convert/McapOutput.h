@@ -21,12 +21,12 @@ namespace hagen::convert {
 /// "world".
 std::string rosNameOf(const std::string& sensor_label);
 
-/// Writes segmented scans as an MCAP of ROS 2. Of each LiDAR, whose name is that of rosNameOf():
+/// Writes segmented scans as a ROS 2 MCAP. For each LiDAR, with the name rosNameOf():
 ///
 /// - /NAME/points, sensor_msgs/PointCloud2: labelledTable().
 /// - /NAME/obstacles, visualization_msgs/MarkerArray: boxesToDraw().
 /// - /NAME/pose, geometry_msgs/PoseStamped in the frame `map`, and the same as a transform from
-///   `map` to NAME on /tf: the pose of the sensor. Not of scans without a pose.
+///   `map` to NAME on /tf: the sensor pose, if known.
 ///
 /// Clouds and boxes are in the frame NAME. All messages have the time of their scan.
 class McapOutput {
@@ -45,9 +45,9 @@ class McapOutput {
     /// The changes, for the user.
     std::vector<std::string> remarks() const;
 
-    /// Completes the file; nothing can be written afterwards.
+    /// Completes the file. Do not write afterwards.
     void finish() { writer_.close(); }
-    /// Gives it its name, unless there were no scans.
+    /// Renames the file into place, unless there were no scans.
     void commit();
     std::filesystem::path keepPartial() { return path_.keepPartial(); }
 

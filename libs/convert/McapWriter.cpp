@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Kinds of records.
+// Record types.
 enum Op : std::uint8_t {
     kHeader = 0x01,
     kFooter = 0x02,
@@ -29,8 +29,8 @@ enum Op : std::uint8_t {
     kDataEnd = 0x0f
 };
 
-constexpr std::size_t kChunkBytes = 1 << 20;  // one scan of 16 beams fills about one
-constexpr int kZstdLevel = 1;                 // of zstd: writing keeps up with segmenting
+constexpr std::size_t kChunkBytes = 1 << 20;  // about one scan of 16 beams
+constexpr int kZstdLevel = 1;                 // fast enough to keep up with segmentation
 constexpr const char* kCompression = "zstd";
 
 Bytes magic() { return {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'}; }
@@ -103,11 +103,11 @@ void McapWriter::putRecord(std::uint8_t op, const Bytes& content) {
 
 std::uint16_t McapWriter::addTopic(const std::string& name, const RosType& type) {
     if (messages_of_.size() >= std::numeric_limits<std::uint16_t>::max()) {
-        throw std::runtime_error(file_.string() + ": there are too many topics");
+        throw std::runtime_error(file_.string() + ": too many topics");
     }
     const auto topic = static_cast<std::uint16_t>(messages_of_.size() + 1);
     messages_of_.push_back(0);
-    // Readers must know a schema and a channel before a message of it, and again from the summary.
+    // Schemas and channels must precede their messages, and are repeated in the summary.
     const auto [schema, is_new] =
         schema_of_.emplace(type.name, static_cast<std::uint16_t>(schema_of_.size() + 1));
     Bytes content;
@@ -137,7 +137,7 @@ void McapWriter::write(std::uint16_t topic, std::uint64_t time_ns, const Bytes& 
     add(std::uint64_t{2 + 4 + 8 + 8 + message.size()}, chunk_);
     add(topic, chunk_);
     add(static_cast<std::uint32_t>(sequence), chunk_);
-    add(time_ns, chunk_);  // when it was recorded, and when it was published
+    add(time_ns, chunk_);  // recording time, publishing time
     add(time_ns, chunk_);
     chunk_.insert(chunk_.end(), message.begin(), message.end());
     ++sequence;
@@ -187,7 +187,7 @@ void McapWriter::finishChunk() {
     chunk_times_ = {};
 }
 
-/// Writes the summary: groups of records, then where each group is.
+/// Writes the summary: groups of records, then the offset of each group.
 void McapWriter::putSummary() {
     Bytes statistics;
     add(std::uint64_t{messages_}, statistics);

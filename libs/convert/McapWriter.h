@@ -11,10 +11,10 @@
 
 namespace hagen::convert {
 
-/// Writes an MCAP file (https://mcap.dev/spec) of the profile "ros2". Messages are in chunks packed
-/// by zstd, each with an index; the summary at the end repeats schemas and channels and indexes the
-/// chunks, so that readers can seek. Chunks, the data and the summary have CRCs. The same messages
-/// give the same bytes.
+/// Writes an MCAP file (https://mcap.dev/spec) of the profile "ros2". Messages are in zstd chunks,
+/// each with an index; the summary at the end repeats schemas and channels and indexes the chunks,
+/// so that readers can seek. Chunks, the data and the summary have CRCs. The same messages give the
+/// same bytes.
 class McapWriter {
  public:
     /// Writes to `place`; errors name `file`. Throws std::runtime_error if it cannot be opened.
@@ -29,7 +29,7 @@ class McapWriter {
     void write(std::uint16_t topic, std::uint64_t time_ns,
                const std::vector<std::uint8_t>& message);
 
-    /// Completes the file. Throws std::runtime_error naming the file if not all could be written.
+    /// Completes the file. Throws std::runtime_error naming the file if writing failed.
     void close();
 
     std::size_t messages() const { return messages_; }
@@ -60,12 +60,12 @@ class McapWriter {
     std::uint64_t position_ = 0;
     std::uint32_t crc_ = 0;  ///< of the section
 
-    Bytes schemas_, channels_;                        ///< their records
+    Bytes schemas_, channels_;                        ///< serialised records
     std::map<std::string, std::uint16_t> schema_of_;  ///< by type
     std::vector<std::uint64_t> messages_of_;          ///< by topic
     Bytes chunk_, packed_;
     TimeSpan chunk_times_, times_;
-    std::map<std::uint16_t, std::vector<Placed>> in_chunk_;  ///< its messages, by topic
+    std::map<std::uint16_t, std::vector<Placed>> in_chunk_;  ///< messages, by topic
     std::vector<ChunkIndex> chunks_;
     std::size_t messages_ = 0;
 };

@@ -12,10 +12,10 @@
 
 namespace hagen::convert {
 
-/// The steps applied to each item of a stream. Steps marked "in order" see one item at a time, in
-/// the order of reading; the others may process several items concurrently. An exception in a step
-/// ends the stream before its item: the items before it are completed, unless packing or writing
-/// failed, and no later one is accounted for.
+/// The steps applied to each item of a stream. Steps marked "in order" process one item at a time,
+/// in the order of reading; the others may process several items concurrently. An exception in a
+/// step ends the stream before its item: earlier items are completed, unless packing or writing
+/// failed, and no later item is accounted for.
 template <class Item>
 struct PipelineSteps {
     std::function<bool(Item&)> read;  ///< in order; false: no more items
@@ -27,11 +27,11 @@ struct PipelineSteps {
 
 /// How a pipeline ended.
 struct PipelineEnd {
-    std::size_t threads;     ///< that could be started
-    std::exception_ptr why;  ///< of the first item that failed; null: there were no more items
+    std::size_t threads;     ///< number of threads started
+    std::exception_ptr why;  ///< exception of the first failed item; null: end of input
 };
 
-/// Lets items pass one by one, in the order of their numbers.
+/// Admits items one by one, in the order of their numbers.
 class Turnstile {
  public:
     template <class Step>
@@ -49,7 +49,7 @@ class Turnstile {
     std::size_t next_ = 0;
 };
 
-/// A pipeline in progress. Each thread takes one item after the other through all steps.
+/// A pipeline in progress. Each thread takes items through all steps, one by one.
 template <class Item>
 class OrderedPipeline {
  public:
@@ -99,7 +99,7 @@ class OrderedPipeline {
         return true;
     }
 
-    /// False, and the pipeline ends, if a step throws. The first exception is kept.
+    /// False, and ends the pipeline, if a step throws. Keeps the first exception.
     template <class Step>
     bool attempt(const Step& step) {
         try {
@@ -116,15 +116,15 @@ class OrderedPipeline {
     const PipelineSteps<Item>& steps_;
     std::mutex reading_, failing_;
     std::size_t read_ = 0;
-    std::atomic<bool> has_ended_{false};   ///< nothing more is read
-    std::atomic<bool> has_failed_{false};  ///< nothing more is accounted for
-    bool is_cut_ = false;                  ///< nothing more is written
+    std::atomic<bool> has_ended_{false};   ///< stop reading
+    std::atomic<bool> has_failed_{false};  ///< stop accounting
+    bool is_cut_ = false;                  ///< stop writing
     std::exception_ptr why_;
     Turnstile accounts_, writes_;
 };
 
 /// Runs all items through the steps on up to `threads` threads, including the caller's; on fewer if
-/// the system refuses to start some. (oneTBB ends the process then.) Holds an item per thread in
+/// the system cannot start them (oneTBB would terminate the process). Holds one item per thread in
 /// memory.
 template <class Item>
 PipelineEnd runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {

@@ -7,7 +7,7 @@
 namespace hagen::convert {
 namespace {
 
-/// Members of this size compress as well as a whole file; one scan with its clouds fills one.
+/// Members of this size, about one scan with its clouds, compress as well as a whole file.
 constexpr std::size_t kMemberBytes = 1 << 18;
 
 /// A stream that appends to a buffer.

@@ -9,10 +9,10 @@ namespace hagen::convert {
 /// Appends an entry, serialised as in a rawlog.
 void serialise(const mrpt::serialization::CSerializable& entry, Bytes& bytes);
 
-/// Writes a rawlog, which gets its name when it is complete.
+/// Writes a rawlog, renamed into place when complete.
 ///
 /// Entries are compressed in gzip members of at least 256 KiB uncompressed. Members end between
-/// entries. Boundaries depend on the entries only, so the same entries give the same bytes.
+/// entries. Boundaries depend only on the entries, so the same entries give the same bytes.
 class RawlogWriter {
  public:
     /// Throws std::runtime_error naming the file; see OutputPath.
@@ -27,18 +27,18 @@ class RawlogWriter {
     /// thread. gather() and writeMember() must be called in the log's order; they may run
     /// concurrently with each other.
     ///
-    /// Adds entries that must stay in one member. If they complete a member, it is moved to
-    /// `member`, which is empty otherwise. `entries` is left in an unspecified state.
+    /// Adds entries that must stay in one member. A completed member is moved to `member`, which is
+    /// otherwise empty. Leaves `entries` in an unspecified state.
     void gather(Bytes& entries, Bytes& member);
     /// Writes a member compressed by packGzipMember().
     void writeMember(const Bytes& packed);
 
-    /// Completes the file and gives it its name.
+    /// Completes the file and renames it into place.
     void commit();
     /// Completes the file as OUT.partial.rawlog and returns that name. After a failed write it ends
-    /// with the last whole member. Throws std::runtime_error if there is none.
+    /// with the last whole member. Throws std::runtime_error if it has no member.
     std::filesystem::path keepPartial();
-    /// Whether all entries are in the file, under whatever name.
+    /// Whether all entries are in the file, under its final or partial name.
     bool isWhole() const { return is_finished_ && !has_failed_; }
 
  private:

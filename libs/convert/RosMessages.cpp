@@ -18,7 +18,7 @@ using mrpt::poses::CPose3D;
 using observations::NumberType;
 using observations::PointTable;
 
-// Fields of the types, as docs.ros.org/en/humble lists them.
+// Fields of the types, from docs.ros.org/en/humble.
 
 using Part = std::pair<const char*, const char*>;  // name and fields
 const Part kTime{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec"};
@@ -79,7 +79,7 @@ void put(const RosHeader& header, CdrWriter& to) {
     to.text(header.frame);
 }
 
-/// A position and a rotation, as geometry_msgs/Pose and Transform have them.
+/// A position and a rotation, as in geometry_msgs/Pose and Transform.
 void put(const CPose3D& pose, CdrWriter& to) {
     mrpt::math::CQuaternionDouble rotation;
     pose.getAsQuaternion(rotation);
@@ -110,10 +110,10 @@ bool isFinite(const PointTable& table) {
 
 constexpr std::int32_t kCube = 1, kAdd = 0, kDeleteAll = 3;
 
-/// A marker, whose fields for other shapes are empty.
+/// A marker; fields for other shapes are empty.
 void putMarker(const RosHeader& header, std::int32_t id, std::int32_t action,
                const Eigen::AlignedBox3f& box, CdrWriter& to) {
-    constexpr float kThinnest_m = 0.01f;  // viewers refuse boxes without a volume
+    constexpr float kThinnest_m = 0.01f;  // viewers reject boxes without volume
     put(header, to);
     to.text(action == kDeleteAll ? "" : "obstacles").number(id).number(kCube).number(action);
     const Eigen::Vector3d center = box.center().cast<double>();

@@ -20,21 +20,21 @@ const RosType& markerArrayType();
 const RosType& poseStampedType();
 const RosType& transformsType();
 
-/// When, and in which frame. Times are from 1970 to 2038, as those of ROS 2 have 32-bit seconds.
+/// Time and frame. Times are from 1970 to 2038, because ROS 2 has 32-bit seconds.
 struct RosHeader {
     std::int64_t time_ns = 0;
     std::string frame;
 };
 
-/// The messages below are CDR (little-endian). Definitions are those of ROS 2 from Humble on.
+/// The messages below are CDR (little-endian), as defined in ROS 2 Humble and later.
 
-/// sensor_msgs/msg/PointCloud2: a checked table in little-endian order without 64-bit integers, as
-/// one row. Throws std::runtime_error if it has those, or more than 4 GB.
+/// sensor_msgs/msg/PointCloud2: a checked little-endian table, as one row. Throws
+/// std::runtime_error for 64-bit integers and for more than 4 GB.
 std::vector<std::uint8_t> pointCloud2Message(const RosHeader& header,
                                              const observations::PointTable& table);
 
-/// visualization_msgs/msg/MarkerArray: a marker that deletes all earlier ones, then a cube per box
-/// with the component's number as its id.
+/// visualization_msgs/msg/MarkerArray: a marker that deletes all earlier markers, then a cube per
+/// box with the component number as id.
 std::vector<std::uint8_t> boxesMessage(const RosHeader& header, const std::vector<RoiBox>& boxes);
 
 /// geometry_msgs/msg/PoseStamped: a pose in the frame of the header.

@@ -23,7 +23,7 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
         out << "# Beams of this recording (" << sensor.name << "), lowest first\n"
             << "sensor:\n  model: custom\n  elevations_deg: [" << std::setprecision(9);
         for (int row = 0; row < sensor.rows(); ++row) {
-            // pi / 2 as float is more than 90 degrees.
+            // As float, pi / 2 exceeds 90 degrees.
             const double elevation_deg =
                 std::clamp(degrees(sensor.elevations_rad[row]), -90.0, 90.0);
             out << (row > 0 ? ", " : "") << elevation_deg;
@@ -38,7 +38,7 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
     if (least_m < most_m) {
         out << "  min_range_m: " << least_m << "\n  max_range_m: " << most_m << "\n";
     } else {
-        out << "  # Its range limits are beyond what settings allow.\n";
+        out << "  # The range limits exceed the allowed settings.\n";
     }
 }
 
@@ -50,7 +50,7 @@ void writeSensor(const fs::path& file, const SensorModel& sensor,
         writeBeams(sensor, out);
     } else {
         const bool has_keys = is_tilted || unnamed->min_range_m || unnamed->max_range_m;
-        out << "# Nobody named the sensor; its beams are recovered from the scans.\n"
+        out << "# Unnamed sensor; the beams are recovered from the scans.\n"
             << (has_keys ? "sensor:\n" : "") << std::setprecision(9);
         if (unnamed->min_range_m) out << "  min_range_m: " << *unnamed->min_range_m << "\n";
         if (unnamed->max_range_m) out << "  max_range_m: " << *unnamed->max_range_m << "\n";
@@ -87,7 +87,7 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
     try {
         recordings::writeScan(points, scan);
         recordings::writeLabels(labels, returns.label, returns.component);
-    } catch (...) {  // no half of a scan stays
+    } catch (...) {  // do not leave a partial scan
         std::error_code ignored;
         fs::remove(points, ignored);
         fs::remove(labels, ignored);
@@ -105,7 +105,7 @@ void ScanFolderWriter::finish() const {
     out << std::fixed << std::setprecision(9);
     std::vector<recordings::TimedPose> timed;
     std::vector<mrpt::poses::CPose3D> sensor_poses;
-    for (const std::size_t i : recordings::orderOfNames(names_)) {  // as they are read
+    for (const std::size_t i : recordings::orderOfNames(names_)) {  // in reading order
         out << times_s_[i] << "\n";
         if (!poses_[i]) continue;
         timed.push_back({times_s_[i], *poses_[i]});

@@ -16,7 +16,7 @@ namespace hagen::convert {
 /// File name of scan n in a scan folder, without extension: "000042".
 std::string scanName(std::size_t scan);
 
-/// Range limits that the settings give; none: the sensor's own.
+/// Range limits from the settings; nullopt: the sensor's own.
 struct GivenLimits {
     std::optional<float> min_range_m, max_range_m;
 };
@@ -26,8 +26,8 @@ struct GivenLimits {
 class ScanFolderWriter {
  public:
     /// Creates velodyne/ and labels/ in an existing folder. `mount`: the sensor's tilt on the level
-    /// vehicle, for sensor.yaml. `unnamed`: the sensor is unnamed, and sensor.yaml has these
-    /// limits only, no beams, so that a guess is not taken for a fact.
+    /// vehicle, for sensor.yaml. `unnamed`: the sensor is unnamed, and sensor.yaml contains only
+    /// these limits, not the recovered beams.
     explicit ScanFolderWriter(std::filesystem::path folder, const Attitude& mount = {},
                               const std::optional<GivenLimits>& unnamed = std::nullopt);
 
@@ -42,7 +42,7 @@ class ScanFolderWriter {
     std::size_t scans() const { return times_s_.size(); }
 
     /// Writes times.txt (seconds, by the recording's clock); poses.tum with the known poses, if all
-    /// of them have a horizon, because readers level with them; and poses.txt if all poses are
+    /// have a horizon, because readers use them for levelling; and poses.txt if all poses are
     /// known.
     void finish() const;
 
@@ -50,7 +50,7 @@ class ScanFolderWriter {
     std::filesystem::path folder_;
     Attitude mount_;
     std::optional<GivenLimits> unnamed_;
-    std::vector<std::string> names_;  ///< of the scans, and of each:
+    std::vector<std::string> names_;  ///< of the scans; per scan:
     std::vector<double> times_s_;
     std::vector<std::optional<mrpt::poses::CPose3D>> poses_;
     bool have_horizon_ = true;

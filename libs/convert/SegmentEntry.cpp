@@ -31,7 +31,7 @@ void segmentScan(const Conversion& conversion, const Settings& settings,
         throw;
     } catch (const std::exception& e) {
         scan.unreadable_because = observations::messageOf(e);
-        if (scan.unreadable_because.empty()) scan.unreadable_because = "MRPT gives no reason";
+        if (scan.unreadable_because.empty()) scan.unreadable_because = "no reason given by MRPT";
     }
     if (!scan.is_segmented || conversion.rawlog.empty()) return;
     if (conversion.cloud_class == CloudClass::Generic) {
@@ -43,8 +43,8 @@ void segmentScan(const Conversion& conversion, const Settings& settings,
     }
 }
 
-/// Removes from a sensory frame what an earlier run made of its scans. Results of other LiDARs
-/// stay, and those of scans that could not be segmented this time.
+/// Removes an earlier run's results from a sensory frame. Keeps results of other LiDARs and of
+/// scans that could not be segmented this time.
 void removeOldResults(ConvertedEntry& entry) {
     const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry.object);
     if (!frame) return;
@@ -63,7 +63,7 @@ void removeOldResults(ConvertedEntry& entry) {
     }
 }
 
-/// The object, followed by the results; those of a sensory frame are within it.
+/// The object, followed by the results; in a sensory frame, the results are inside it.
 void serialiseEntry(CloudClass cloud_class, ConvertedEntry& entry) {
     if (entry.object && cloud_class == CloudClass::Generic) recordings::keepFields(entry.object);
     std::vector<CObservation::Ptr> added;
@@ -87,7 +87,7 @@ std::unique_ptr<ObservationSegmenter> makeSegmenter(const Conversion& conversion
                                                     const Settings& settings) {
     auto segmenter = std::make_unique<ObservationSegmenter>();
     segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // remarks go to the listener
-    // Clouds with all fields need those of the observation, and are made afterwards.
+    // Clouds with all fields require the observation's fields and are created afterwards.
     const bool is_generic = conversion.cloud_class == CloudClass::Generic;
     segmenter->cloud_class = is_generic ? CloudClass::Simple : conversion.cloud_class;
     segmenter->initialize(settings);

@@ -19,12 +19,12 @@ struct ConvertedScan {
     mrpt::obs::CObservation::Ptr preview;
 };
 
-/// An entry during its conversion. It is reused for later entries.
+/// An entry during its conversion. Reused for later entries.
 struct ConvertedEntry {
     double fraction_read = 0;
-    mrpt::serialization::CSerializable::Ptr object;  ///< null: only scans are written
+    mrpt::serialization::CSerializable::Ptr object;  ///< null: write only scans
     std::vector<ConvertedScan> scans;
-    std::size_t results_replaced = 0;  ///< of an earlier run, taken out of the object
+    std::size_t results_replaced = 0;  ///< results of an earlier run removed from the object
     Bytes bytes, member, packed;       ///< buffers of the output rawlog
     std::vector<std::unique_ptr<observations::ObservationSegmenter>> segmenters;  ///< one per scan
 };
@@ -33,9 +33,9 @@ struct ConvertedEntry {
 std::unique_ptr<observations::ObservationSegmenter> makeSegmenter(const Conversion& conversion,
                                                                   const Settings& settings);
 
-/// Segments the scans of an entry and, for an output rawlog, removes the results of an earlier run
-/// from it and serialises it with the new ones. Throws SettingsError and std::bad_alloc; other
-/// errors of a scan are in `unreadable_because`.
+/// Segments the scans of an entry and, for an output rawlog, replaces an earlier run's results and
+/// serialises the entry. Throws SettingsError and std::bad_alloc; other errors of a scan are in
+/// `unreadable_because`.
 void segmentEntry(const Conversion& conversion, const Settings& settings, ConvertedEntry& entry);
 
 }  // namespace hagen::convert

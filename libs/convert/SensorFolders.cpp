@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Leaves room for suffixes of equal names, within the 255 bytes that file systems allow.
+/// Leaves room for suffixes of equal names, within the 255-byte limit of file systems.
 std::string fileName(const std::string& sensor_label) {
     constexpr std::size_t kMaxLetters = 100;
     std::string name = sensor_label.substr(0, kMaxLetters);
@@ -49,7 +49,7 @@ void SensorFolders::unwrapOnlyFolder() {
     try {
         fs::remove(path_.temporary());
         fs::rename(lifted, path_.temporary());
-    } catch (const fs::filesystem_error&) {  // as it was, for keepPartial()
+    } catch (const fs::filesystem_error&) {  // restore for keepPartial()
         std::error_code ignored;
         fs::create_directory(path_.temporary(), ignored);
         fs::rename(lifted, only, ignored);

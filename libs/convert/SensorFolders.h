@@ -7,7 +7,7 @@
 namespace hagen::convert {
 
 /// An output folder with one subfolder per sensor, DIR/LABEL/, or DIR itself if the log has only
-/// one sensor. It gets its name when it is complete.
+/// one sensor. Renamed into place when complete.
 class SensorFolders {
  public:
     /// Throws std::runtime_error naming the folder; see OutputPath.
@@ -18,7 +18,7 @@ class SensorFolders {
     /// allowed in file names become '_'.
     const std::filesystem::path& folderOf(const std::string& sensor_label);
 
-    /// Gives the folder its name, unless it is empty.
+    /// Renames the folder into place, unless it is empty.
     void commit();
     std::filesystem::path keepPartial();
 
@@ -26,7 +26,7 @@ class SensorFolders {
     void unwrapOnlyFolder();
     void writeMarker() const;
 
-    const char* marker_;  ///< of the kind; null: none
+    const char* marker_;  ///< of the kind; may be null
     base::OutputPath path_;
     std::map<std::string, std::filesystem::path> folders_;  ///< by sensor label
     bool is_unwrapped_ = false;  ///< the only sensor's folder is the output

@@ -6,13 +6,13 @@
 
 namespace hagen::recordings {
 
-/// Names for fields of which several may have the same: "a", "a_", "a__", "a_3", "a_4"...
+/// Makes duplicate field names unique: "a", "a_", "a__", "a_3", "a_4"...
 class UniqueNames {
  public:
     /// A name that was not returned before.
     std::string of(const std::string& name) {
         std::string unique = name;
-        // Where it ended before: many fields of one name would take the square of their number.
+        // Continues at the last suffix, to avoid quadratic time for many equal names.
         for (std::size_t& again = times_[name]; !names_.insert(unique).second;) {
             ++again;
             unique = name + (again <= 2 ? std::string(again, '_') : "_" + std::to_string(again));
@@ -22,7 +22,7 @@ class UniqueNames {
 
  private:
     std::set<std::string> names_;
-    std::map<std::string, std::size_t> times_;  ///< that a name was changed
+    std::map<std::string, std::size_t> times_;  ///< number of changes per name
 };
 
 }  // namespace hagen::recordings

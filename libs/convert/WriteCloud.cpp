@@ -17,15 +17,15 @@ using observations::NumberType;
 using observations::PointField;
 using observations::PointTable;
 
-constexpr double kFarForFloat_m = 8192.0;  // the next float32 is a millimetre away
+constexpr double kFarForFloat_m = 8192.0;  // float32 spacing is 1 mm
 
-/// A field as it is written.
+/// A field of the output.
 struct WrittenField {
     std::string name;
     NumberType type;
     std::size_t count;
     PointField from;
-    std::size_t element;  ///< the first one of `from`
+    std::size_t element;  ///< the first element of `from`
 };
 
 /// The limits of a format.
@@ -39,7 +39,7 @@ Limits limitsOf(OutputFormat format) {
 }
 constexpr Limits kPointCloud2{"PointCloud2", false, true};
 
-/// Headers are made of words.
+/// Header names must not contain blanks.
 std::string asWord(std::string name) {
     std::replace_if(
         name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
@@ -183,7 +183,7 @@ std::vector<std::string> changesWithin(const Limits& limits, const PointTable& t
         });
         if (!is_rounded) continue;
         changes.push_back("the field '" + field.name + "' is " + nameOf(field.from.type) +
-                          ", which " + limits.format + " does not know: it is rounded to float64");
+                          ", which " + limits.format + " does not support: rounded to float64");
     }
     return changes;
 }

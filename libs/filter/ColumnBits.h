@@ -5,7 +5,7 @@
 namespace hagen {
 
 /// One bit per pixel, in separate words for each column: row 0 is the lowest bit of a column's
-/// first word; bits above the last row are 0. A whole column is processed at once.
+/// first word; bits above the last row are 0. Columns are processed as a whole.
 using ColumnBits = std::vector<std::uint64_t>;
 
 constexpr int kWordRows = 64;

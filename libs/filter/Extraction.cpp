@@ -18,8 +18,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Appends `first` + n for each set bit n. A table has eight entries per byte; those beyond the
-/// byte's set bits are overwritten, or lie past the end.
+/// Appends `first` + n for each set bit n. Copies eight table entries per byte; the next byte
+/// overwrites surplus entries, or they lie past the end.
 HWY_INLINE std::uint32_t* AppendWord(std::uint64_t bits, std::uint32_t first,
                                      std::uint32_t* HWY_RESTRICT list) {
     const hn::CappedTag<std::uint32_t, 8> d;
@@ -35,8 +35,8 @@ HWY_INLINE std::uint32_t* AppendWord(std::uint64_t bits, std::uint32_t first,
     return list;
 }
 
-/// Labels whole words of returns, starting at return `first`. Labels are unpredictable, so there
-/// is no branch on them.
+/// Labels whole words of returns, starting at return `first`. Does not branch on labels, because
+/// they are unpredictable.
 template <bool kHasOwnLabel>
 HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput& in,
                              std::uint32_t first, std::size_t words, std::uint64_t last_word_mask,
@@ -115,8 +115,8 @@ namespace {
 
 HWY_EXPORT(LabelWords);
 
-/// 2 * component + 1 if ROU, per pixel, so that a return needs one look-up. Without a pixel: RoI,
-/// of no component.
+/// 2 * component + 1 if ROU, per pixel, so that a return needs one look-up. No pixel: RoI without
+/// component.
 void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& components,
                   std::vector<std::int32_t>& verdict) {
     verdict.resize(static_cast<std::size_t>(labels.size()) + 1);
@@ -128,8 +128,7 @@ void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& compone
     }
 }
 
-/// Takes returns with a label of their own out of their pixel's component if they are far behind
-/// it.
+/// Removes returns with their own label from their pixel's component if they are far behind it.
 void leaveComponents(const std::vector<std::int32_t>& own_labelled, const Scan& scan,
                      const RangeImage& image, float component_gap_m,
                      std::vector<std::int32_t>& component) {
@@ -140,19 +139,19 @@ void leaveComponents(const std::vector<std::int32_t>& own_labelled, const Scan& 
     }
 }
 
-/// Renumbers components 1, 2, ... in order, skipping those without returns because all their pixels
-/// were repaired. `most`: no number is greater. Only RoI returns belong to components.
+/// Renumbers components 1, 2, ... in order, skipping components without returns (all their pixels
+/// were repaired). `most`: the highest number. Only RoI returns belong to components.
 void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int32_t>& number) {
     std::vector<std::int32_t>& component = returns.component;
     number.assign(static_cast<std::size_t>(most) + 1, 0);
     for (const std::uint32_t i : returns.roi) number[component[i]] = 1;
     number[0] = 0;
     for (std::size_t c = 1; c < number.size(); ++c) number[c] += number[c - 1];
-    if (number.back() == most) return;  // none is missing
+    if (number.back() == most) return;  // no gaps
     for (const std::uint32_t i : returns.roi) component[i] = number[component[i]];
 }
 
-/// Labels the last returns, fewer than a word, in copies as long as a word.
+/// Labels the last returns, fewer than a word, in word-sized copies.
 void labelRest(const ExtractionRules& rules, ExtractionInput in, std::size_t first,
                std::size_t rest, ExtractionOutput& out) {
     std::array<float, kReturnsPerWord> range_m{};

@@ -17,8 +17,8 @@ struct ExtractionInput {
 struct ExtractionOutput {
     std::uint8_t* label;
     std::int32_t* component;
-    std::uint32_t *roi, *rou, *unclassified;  ///< ends of the lists; up to one word more is written
-    std::int32_t most_components;             ///< the greatest number so far
+    std::uint32_t *roi, *rou, *unclassified;  ///< ends of the lists; writes may overrun by one word
+    std::int32_t most_components;             ///< highest component number so far
 };
 
 }  // namespace hagen

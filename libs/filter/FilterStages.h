@@ -1,4 +1,4 @@
-// The stages in their order, for filters that run them on a whole scan or on a sector of a turn.
+// The stages in order, for filters that process a whole scan or a sector.
 #pragma once
 #include <hagen/filter/CellArea.h>
 #include <hagen/filter/Levelling.h>
@@ -14,38 +14,39 @@
 
 namespace hagen {
 
-/// III-B to III-E: the labels that the paper gives to the pixels of `result.repaired_m`.
+/// III-B to III-E: the paper's labels for the pixels of `result.repaired_m`.
 void labelByAngles(const PixelDirections& directions, float min_range_m,
                    const std::optional<Attitude>& horizon, const Options& options,
                    SegmentationResult& result, FilterWorkspace& work);
 
-// Beyond the paper: what follows uses the detected ground to find what else is ground, and what is
-// too close. `columns` of the image are fitted to; null: evenly spread ones.
+// Beyond the paper: use the detected ground to find more ground and too little clearance. The plane
+// is fitted to `columns` of the image (null: evenly spaced columns).
 
-/// Whether the options need the ground at all.
+/// Whether the options require the ground.
 bool usesGround(const Options& options);
 
-/// The ground plane, the pixels in its frame, and whether it is seen and has a surface.
+/// Finds the ground plane, the pixels in its frame, and whether ground is visible and has a
+/// surface.
 void findGroundPlane(const Scan& scan, const PixelDirections& directions,
                      const std::optional<Attitude>& horizon, const Options& options,
                      const std::vector<std::int32_t>* columns, SegmentationResult& result,
                      FilterWorkspace& work);
 
-/// The surface under the pixels that are labelled ROU, and the heights of all pixels above it.
+/// Fits the surface under the ROU pixels and computes the heights of all pixels above it.
 void findGroundSurface(const Image<Label>& labels, const Options& options,
                        const std::vector<std::int32_t>* columns, Ground& ground,
                        FilterWorkspace& work);
 
-/// Up to which height each pixel is ground. Requires `ground.tops` of the same area.
+/// Computes the maximum ground height per pixel. Requires `ground.tops` of the same area.
 void findTolerances(const Options& options, const CellArea& area, Ground& ground,
                     FilterWorkspace& work);
 
-/// Labels pixels by their height above the surface, if there is one. Without ground in sight,
-/// nothing is ROU.
+/// Labels pixels by their height above the surface, if one was fitted. If no ground is visible, no
+/// pixel is ROU.
 void relabelByGround(const Ground& ground, const Options& options, Image<Label>& labels,
                      FilterWorkspace& work);
 
-/// Ground that is too close, and returns behind the closest one of their pixel.
+/// Labels ground that is too close, and returns behind the closest return of their pixel.
 void judgeClearance(const Scan& scan, const std::optional<Attitude>& horizon,
                     const Options& options, SegmentationResult& result, FilterWorkspace& work);
 

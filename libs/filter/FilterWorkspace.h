@@ -17,12 +17,12 @@
 
 namespace hagen {
 
-/// Workspaces of all stages, each described with its stage. A filter owns one and reuses it, so
-/// that no scan allocates. They have no state: any stage may get a new one at any time. Threads
-/// must not share one.
+/// Workspaces of all stages, documented with the stages. A filter owns one and reuses it, to avoid
+/// allocations. Workspaces have no state and may be replaced at any time. Threads must not share
+/// one.
 struct FilterWorkspace {
-    Scan turned;                     // of a sensor that is not upright
-    PixelDirections directions;      // of an image that has not all columns
+    Scan turned;                     // if the sensor is not upright
+    PixelDirections directions;      // of an image with a subset of the columns
     ProjectionWorkspace projection;  // stage 1
     DeadBeamsWorkspace dead_beams;   // stage 2
     MaximaWorkspace maxima;          // stage 3
@@ -30,7 +30,7 @@ struct FilterWorkspace {
     LabellingWorkspace labelling;    // stage 8
     GroundFrameWorkspace ground_frame;
     GroundEvidenceWorkspace evidence;
-    Image<Label> candidates;  // of the ground surface
+    Image<Label> candidates;  // for the ground surface
     GroundSurfaceWorkspace ground_surface;
     ToleranceWorkspace tolerance;
     FeetWorkspace feet;

@@ -100,7 +100,7 @@ HWY_EXPORT(FindLabelled);
 /// a column, so the last columns are copied to `seam`, followed by the first one.
 template <class T, class Find>
 void findInParts(const T* image, int rows, int columns, std::vector<T>& seam, Find find) {
-    constexpr int kPast = kWordRows;  // no vector has more lanes
+    constexpr int kPast = kWordRows;  // maximum lanes of a vector
     if (rows == 0) return;
     const int last = std::min(columns, 2 + (kPast + rows - 1) / rows), rest = columns - last;
     const T* const first_of_last = image + static_cast<std::ptrdiff_t>(rest) * rows;

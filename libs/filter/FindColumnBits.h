@@ -24,8 +24,8 @@ void forEachBit(std::uint64_t bits, Visit visit) {
     }
 }
 
-/// Calls visit(words) with the number of words per column, as a compile-time constant if it is the
-/// usual one.
+/// Calls visit(words) with the number of words per column, as a compile-time constant for the
+/// common value.
 template <class Visit>
 void withWordsOf(int rows, Visit visit) {
     if (rows <= kWordRows) {

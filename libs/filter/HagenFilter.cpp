@@ -11,7 +11,7 @@
 namespace hagen {
 namespace {
 
-/// The rows and columns of the image in one posture of the sensor.
+/// The image's rows and columns for one sensor posture.
 struct View {
     SensorModel sensor;
     PixelDirections directions;
@@ -22,7 +22,7 @@ struct View {
 struct HagenFilter::State {
     SensorModel sensor;
     Options options;
-    std::map<Posture, View> views;  ///< those that were needed so far
+    std::map<Posture, View> views;  ///< created on demand
     SegmentationResult result;
     FilterWorkspace work;
 
@@ -71,7 +71,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
         return s.result;
     }
 
-    // The same, in a frame in which the rows of the image rise.
+    // The same, in a frame whose image rows are in ascending elevation.
     turnScan(scan, posture, attitude, view.sensor, s.work.turned);
     s.runStages(s.work.turned, horizonOf(attitudeIn(posture, attitude)), view);
     Eigen::Isometry3f& from_sensor = s.result.ground.from_sensor;
@@ -83,7 +83,7 @@ void HagenFilter::State::runStages(const Scan& scan, const std::optional<Attitud
                                    const View& view) {
     const Options& o = options;
     SegmentationResult& r = result;
-    r.own_labels.label.clear();  // of another filter's scan, perhaps (exchangeResult())
+    r.own_labels.label.clear();  // may be from another filter (exchangeResult())
     r.own_labels.returns.clear();
     r.ground.has_surface = r.ground.is_seen = false;
 

@@ -6,8 +6,7 @@
 
 namespace hagen {
 
-/// The part of the pipeline that a switch belongs to: the paper's stages, ours before the ground
-/// surface, and the ground surface with all that needs it.
+/// The paper's stages, ours before the ground surface, and the ground surface with its dependants.
 enum class StageGroup { Paper, Own, Surface };
 
 /// A row of the ablation: the value of a setting that switches a stage off.
@@ -17,21 +16,21 @@ struct Ablation {
     std::string what;   ///< name of the row
 };
 
-/// A settings key of an option, by its name in reports and sweeps. Parsing, range checks, sweeps,
-/// `rawlog-segment --config-keys` and the ablation all use this table.
+/// An option's settings key. Parsing, range checks, sweeps, `rawlog-segment --config-keys` and the
+/// ablation all use this table.
 struct OptionKey {
     std::string name, unit;
     double least, most;        ///< allowed range, both inclusive
     std::string what, symbol;  ///< one-line description; the paper's symbol, if any
     std::variant<float Options::*, int Options::*, bool Options::*, Seeds Options::*> field;
-    std::string section;  ///< of settings files; "paper" for readings of the paper
+    std::string section;  ///< in settings files; "paper": interpretation of the paper
     std::vector<Ablation> ablations = {};
 };
 const std::vector<OptionKey>& optionKeys();
 
-/// The name with the section, as the table of keys lists it: "paper.seeds".
+/// The name with the section: "paper.seeds".
 std::string nameInFiles(const OptionKey& key);
-/// The value of an option as in a settings file: "20", "true", "lowest".
+/// The value of an option in settings-file syntax: "20", "true", "lowest".
 std::string textOf(const OptionKey& key, const Options& options);
 /// The allowed values in a settings file: "0.1 ... 1000", "lowest, top_and_nearest".
 std::string rangeOf(const OptionKey& key);

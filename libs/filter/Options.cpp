@@ -8,7 +8,7 @@
 namespace hagen {
 namespace {
 
-/// A limit as a number of the option's type, to which settings are rounded: 0.01f is below 0.01.
+/// A limit rounded to the option's type, as settings are: 0.01f is below 0.01.
 double asOption(double limit, const OptionKey& key) {
     const bool is_float = std::holds_alternative<float Options::*>(key.field);
     return is_float ? static_cast<double>(static_cast<float>(limit)) : limit;

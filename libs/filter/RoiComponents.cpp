@@ -105,8 +105,8 @@ void joinRuns(int rows, int columns, ComponentsWorkspace* w) {
     });
 }
 
-/// Numbers the components, nearest first. Runs are in pixel order, so of two equally near ones the
-/// earlier has the smaller pixel index.
+/// Numbers the components, nearest first. Runs are in pixel order, so ties go to the smaller pixel
+/// index.
 void numberRuns(ComponentsWorkspace* w) {
     std::int32_t *const first = w->first.data(), *const number = w->number.data();
     std::uint64_t* const closest = w->closest.data();
@@ -135,8 +135,8 @@ void numberRuns(ComponentsWorkspace* w) {
 
 }  // namespace
 
-// Fast because links are found for many pixels at once; runs are joined and components sorted, not
-// pixels.
+// Fast because links are found for many pixels at once, and runs and components are joined and
+// sorted instead of pixels.
 void numberRoiComponents(const Image<float>& depth_m, const Image<Label>& labels, float max_gap_m,
                          Image<std::int32_t>& components, ComponentsWorkspace& w) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());

@@ -6,8 +6,8 @@
 
 namespace hagen {
 
-/// Columns of an image, evenly: `enough` of them or more, fewer than twice as many. All if it has
-/// no more.
+/// Evenly spaced columns of an image: at least `enough`, fewer than twice as many; all if the image
+/// has fewer.
 inline void sampleColumns(Eigen::Index columns, Eigen::Index enough,
                           std::vector<std::int32_t>& sample) {
     const Eigen::Index step = std::max<Eigen::Index>(1, columns / enough);

@@ -10,16 +10,16 @@
 namespace hagen {
 namespace {
 
-constexpr std::int32_t kBeside = 5;     // columns on both sides of a sector, for its regions
-constexpr std::int32_t kTogether = 16;  // columns; so that most sectors need images of one size
-constexpr std::size_t kPlaneEvery = 2;  // of the columns that are spread over the turn
+constexpr std::int32_t kBeside = 5;     // columns added on both sides of a sector, for its regions
+constexpr std::int32_t kTogether = 16;  // columns; gives most sectors the same image size
+constexpr std::size_t kPlaneEvery = 2;  // use every 2nd of the evenly spread columns
 
 struct Columns {
     Eigen::Index first = 0, count = 0;
 };
 
-/// Some columns of an image, and an empty one, which keeps the last from the first: they are no
-/// neighbours, though columns wrap around.
+/// Copies columns of an image and appends an empty one: columns wrap around, but the first and last
+/// copied columns are not neighbours.
 template <class Value>
 void copyColumns(const Image<Value>& from, Eigen::Index first, Eigen::Index count, Value empty,
                  Image<Value>& to) {
@@ -40,13 +40,13 @@ void copyColumns(const PixelDirections& from, Eigen::Index first, Eigen::Index c
     to.row_cosine = from.row_cosine;
     const auto copy = [&](const std::vector<float>& values, std::vector<float>& copied) {
         copied.assign(values.begin() + first, values.begin() + first + count);
-        copied.push_back(copied.back());  // of the empty column
+        copied.push_back(copied.back());  // for the empty column
     };
     copy(from.column_sine, to.column_sine);
     copy(from.column_cosine, to.column_cosine);
 }
 
-/// The context of each pixel from its closest return, unless that belongs to the sector.
+/// Looks up each pixel's context by its closest return, unless the return belongs to the sector.
 void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<Label>& labels,
                  Image<float>& known_m) {
     labels.resize(image.depth_m.rows(), image.depth_m.cols());
@@ -61,9 +61,10 @@ void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<
     }
 }
 
-/// The cells of the judged pixels in the zone, and those around that their tolerance depends on.
+/// The cells of the judged pixels in the zone, and the surrounding cells that affect their
+/// tolerance.
 CellArea areaOf(const Ground& ground, const Columns& judged, const Options& options) {
-    constexpr float kBeyond_m = 1;  // of the zone: neighbours of pixels at its edge
+    constexpr float kBeyond_m = 1;  // outside the zone: neighbours of pixels at its edge
     constexpr int kSides = 1;       // tall neighbours of a cell matter
     const float max_m = options.zone_m + kBeyond_m;
     const Eigen::Index rows = ground.cells.cell.rows();
@@ -87,14 +88,14 @@ CellArea areaOf(const Ground& ground, const Columns& judged, const Options& opti
 struct SectorFilter::State {
     SensorModel sensor;
     Options options;
-    PixelDirections turn;             ///< of all columns of a turn
-    PixelDirections directions;       ///< of the image's
-    PixelDirections near_directions;  ///< of those that are judged
+    PixelDirections turn;             ///< all columns of a turn
+    PixelDirections directions;       ///< columns of the image
+    PixelDirections near_directions;  ///< judged columns
     SegmentationResult result;
-    Columns judged;           ///< of its images
-    SegmentationResult near;  ///< images of the columns that are judged, and an empty one
+    Columns judged;           ///< in the images of `result`
+    SegmentationResult near;  ///< images of the judged columns and an empty one
     std::vector<ContextReturn> found;
-    Image<float> known_m;  ///< how high the cell of each pixel is known to be
+    Image<float> known_m;  ///< known height of each pixel's cell
     std::vector<std::int32_t> plane_columns;
     FilterWorkspace work;
 
@@ -134,7 +135,7 @@ const SegmentationResult& SectorFilter::segment(const Scan& scan,
     return s.result;
 }
 
-/// All that have returns of the sector, and some beside it.
+/// The columns with returns of the sector, and some on both sides.
 Columns SectorFilter::State::judgedColumns(const SectorOfInterest& sector) const {
     const RangeImage& image = result.range_image;
     const auto rows = static_cast<std::int32_t>(image.depth_m.rows());
@@ -173,7 +174,7 @@ void SectorFilter::State::project(const Scan& scan, const SectorOfInterest& sect
     r.repaired_m.middleCols(first, count) = near.repaired_m.leftCols(count);
 }
 
-/// Stages 3 to 8 for the columns that are judged; `result.labels` are the regions of all.
+/// Runs stages 3 to 8 on the judged columns; `result.labels` are the regions of all columns.
 void SectorFilter::State::findRegions(const SectorOfInterest& sector,
                                       const std::optional<Attitude>& horizon) {
     SegmentationResult& r = result;
@@ -188,7 +189,7 @@ void SectorFilter::State::findRegions(const SectorOfInterest& sector,
     }
 }
 
-/// Under all columns of the map.
+/// Finds the ground under all columns of the map.
 void SectorFilter::State::findGround(const Scan& scan, const SectorOfInterest& sector,
                                      const std::optional<Attitude>& horizon) {
     const std::vector<std::int32_t>& even = sector.columns.even;
@@ -204,7 +205,7 @@ void SectorFilter::State::findGround(const Scan& scan, const SectorOfInterest& s
     findTolerances(options, area, g, work);
 }
 
-/// How high the cells of the sector's returns are, now that all of its returns are in them.
+/// Stores the cell heights of the sector's returns; the cells now contain all of its returns.
 void SectorFilter::State::keepHeights() {
     const Ground& ground = result.ground;
     if (!ground.has_surface) return;
@@ -215,7 +216,7 @@ void SectorFilter::State::keepHeights() {
     }
 }
 
-/// The stages after the ground, for the judged columns, and stage 9.
+/// Runs the stages after the ground on the judged columns, then stage 9.
 void SectorFilter::State::labelSector(const SectorOfInterest& sector,
                                       const std::optional<Attitude>& horizon) {
     const Options& o = options;

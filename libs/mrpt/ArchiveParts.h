@@ -12,7 +12,7 @@
 
 namespace hagen::observations {
 
-/// Reads this many numbers in blocks, so that a corrupt count cannot exhaust memory.
+/// Reads `count` numbers in blocks, so that a corrupt count cannot exhaust memory.
 template <class Vector>
 void readNumbers(mrpt::serialization::CArchive& in, std::size_t count, Vector& values) {
     constexpr std::size_t kBlock = 1 << 16;
@@ -44,7 +44,7 @@ class SilentErrorStream {
     std::streambuf* before_;
 };
 
-/// Registers a class under the name of another.
+/// Registers a class under another class's name.
 template <class Derived, class Base>
 void registerAs(const char* name) {
     static const mrpt::rtti::TRuntimeClassId id{

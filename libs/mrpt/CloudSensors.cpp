@@ -71,13 +71,13 @@ std::string textOf(const SharedBeams& beams) {
     if (!beams) return "too few returns or beams to recover: VLP-16 assumed; set sensor.model";
     const SensorModel& sensor = beams->sensor;
     const std::string unfit =
-        beams->has_unfit_rings ? "; its ring numbers do not agree with elevations: not used" : "";
+        beams->has_unfit_rings ? "; ring numbers do not agree with elevations: not used" : "";
     if (!sensor.has_rings) {
         return "no beams found: " + std::to_string(sensor.rows()) + " virtual rows" + unfit;
     }
     const std::size_t seen = beams->seen_rad.size();
     std::string text = std::to_string(seen) + " beams " +
-                       (beams->row_of_ring.empty() ? "recovered" : "by its ring numbers");
+                       (beams->row_of_ring.empty() ? "recovered" : "by ring number");
     if (sensor.name != kRecoveredName) {
         text += " (" + sensor.name;
         const auto rows = static_cast<std::size_t>(sensor.rows());
@@ -86,7 +86,7 @@ std::string textOf(const SharedBeams& beams) {
     }
     return text + ", " + base::percentText(beams->share) +
            (beams->row_of_ring.empty() ? " of the returns lie on them"
-                                       : " of the returns are closest to their own") +
+                                       : " of the returns are closest to their own beam") +
            unfit;
 }
 

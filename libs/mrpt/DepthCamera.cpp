@@ -49,14 +49,14 @@ void checkCamera(const TCamera& camera) {
     const auto isValid = [](double pixels) { return pixels > 0 && std::isfinite(pixels); };
     if (!isValid(camera.fx()) || !isValid(camera.fy()) || !std::isfinite(camera.cx()) ||
         !std::isfinite(camera.cy())) {
-        throw std::runtime_error("the focal length or centre of its camera is invalid");
+        throw std::runtime_error("invalid focal length or principal point of the camera");
     }
     const bool is_finite = std::all_of(camera.dist.begin(), camera.dist.end(),
                                        [](double term) { return std::isfinite(term); });
     if (camera.distortion == DistortionModel::none) return;
     if (camera.distortion != DistortionModel::plumb_bob || !is_finite) {
         throw std::runtime_error(
-            "the lens distortion of its camera is not supported (none or plumb_bob); store its "
+            "unsupported lens distortion of the camera (supported: none, plumb_bob); store the "
             "points in the log");
     }
 }
@@ -73,13 +73,13 @@ void readRanges(const CObservation3DRangeScan& observation, Scan& scan) {
     const auto& ranges = observation.rangeImage;
     for (const auto& [name, layer] : observation.rangeImageOtherLayers) {
         if (layer.rows() == ranges.rows() && layer.cols() == ranges.cols()) continue;
-        throw std::runtime_error("its layer '" + name + "' has another size than its range image");
+        throw std::runtime_error("layer '" + name + "' and the range image differ in size");
     }
     const TCamera& camera = observation.cameraParams;
     checkCamera(camera);
     const auto unit_m = static_cast<double>(observation.rangeUnits);
     if (!(unit_m > 0) || !std::isfinite(unit_m)) {
-        throw std::runtime_error("the unit of its ranges is " + std::to_string(unit_m) + " m");
+        throw std::runtime_error("invalid range unit: " + std::to_string(unit_m) + " m");
     }
     for (int r = 0; r < ranges.rows(); ++r) {
         for (int c = 0; c < ranges.cols(); ++c) {
@@ -115,7 +115,7 @@ void load(const CObservation3DRangeScan& observation) {
         if (observation.rangeImage_isExternallyStored()) {
             files += " " + observation.rangeImage_getExternalStorageFileAbsolutePath("");
         }
-        throw std::runtime_error("its data cannot be read from" + files + ": " + messageOf(e));
+        throw std::runtime_error("cannot read data from" + files + ": " + messageOf(e));
     }
 }
 
@@ -136,7 +136,7 @@ void readDepthScan(const CObservation3DRangeScan& observation, Scan& scan) {
         const auto &x = observation.points3D_x, &y = observation.points3D_y,
                    &z = observation.points3D_z;
         if (y.size() != x.size() || z.size() != x.size()) {
-            throw std::runtime_error("the arrays of its points differ in size");
+            throw std::runtime_error("the point arrays differ in size");
         }
         for (std::size_t i = 0; i < x.size(); ++i) add(x[i], y[i], z[i], scan);
     } else {

@@ -5,14 +5,13 @@
 
 namespace hagen::observations {
 
-/// The observation if it is that of a depth camera with points or a range image, otherwise null.
+/// The observation if it is from a depth camera and has points or a range image, otherwise null.
 const mrpt::obs::CObservation3DRangeScan* depthScanOf(const mrpt::obs::CObservation& observation);
 
 /// Reads the returns of a depth camera in its frame (x forward, y left, z up), also from files next
-/// to the log: its points if it has some, otherwise its range image, row by row, with the further
-/// ranges of a pixel (`rangeImageOtherLayers`) after the first one and without lens distortion.
-/// Points at the origin and pixels without a range are skipped. Intensities are 0; range, azimuth
-/// and row are not set.
+/// to the log: the points if available, otherwise the undistorted range image, row by row, with the
+/// further ranges of a pixel (`rangeImageOtherLayers`) after the first. Skips points at the origin
+/// and pixels without a range. Intensities are 0; range, azimuth and row are not set.
 ///
 /// Throws std::runtime_error if a file is missing, arrays differ in size, or camera parameters are
 /// invalid or not supported.

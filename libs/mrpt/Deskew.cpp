@@ -9,7 +9,7 @@ namespace hagen::observations {
 namespace {
 
 constexpr double kKnotSpacing_s = 1e-3;
-constexpr double kMaxScan_s = 10;  // longer: corrupt times
+constexpr double kMaxScan_s = 10;  // longer: corrupt timestamps
 
 /// Returns the sensor's pose at `start` + time_s, relative to its pose at `start`.
 std::optional<Eigen::Isometry3f> motionUntil(const Trajectory& vehicle,
@@ -24,7 +24,7 @@ std::optional<Eigen::Isometry3f> motionUntil(const Trajectory& vehicle,
     const auto matrix = (*pose + sensor_on_vehicle - start_pose)
                             .getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
     const Eigen::Matrix4f motion = matrix.asEigen().cast<float>();
-    if (!motion.allFinite()) return std::nullopt;  // 1e300 m are finite as doubles
+    if (!motion.allFinite()) return std::nullopt;  // 1e300 m is finite only as double
     return Eigen::Isometry3f(motion);
 }
 
@@ -39,8 +39,8 @@ bool deskew(const Trajectory& vehicle, mrpt::Clock::time_point start,
     const double first_s = static_cast<double>(*first), last_s = static_cast<double>(*last);
     if (!(first_s > -kMaxScan_s && last_s < kMaxScan_s)) return false;
 
-    // Returns are moved by linear interpolation between poses sampled every millisecond. To
-    // interpolate the trajectory for each return would take a hundred times as long.
+    // Interpolates linearly between poses sampled every millisecond. Interpolating the trajectory
+    // for each return would take 100 times as long.
     const int knots = std::max(1, static_cast<int>(std::ceil((last_s - first_s) / kKnotSpacing_s)));
     const double spacing_s = (last_s - first_s) / knots;
     std::vector<Eigen::Isometry3f> motion;

@@ -7,9 +7,9 @@
 
 namespace hagen::observations {
 
-/// Deskews a scan taken in motion: moves each return to where the sensor would have measured it at
-/// `start`, the scan's time, using the vehicle's pose at the return's own time (start + time_s).
-/// Range, azimuth and row are recomputed.
+/// Deskews a scan: moves each return to where the sensor would have measured it at `start`, the
+/// scan's time, using the vehicle's pose at the return's own time (start + time_s). Recomputes
+/// range, azimuth and row.
 ///
 /// Requires scan.time_s. Returns false, with the scan unchanged, if the trajectory does not cover
 /// all returns.

@@ -18,8 +18,8 @@ using mrpt::poses::CPose3D;
 
 constexpr double kMaxAge_s = 0.2;
 
-/// The measurement, if the IMU has a finite one. Flags of corrupt recordings may be neither true
-/// nor false, must not be read as bool, and count as missing.
+/// The measurement, if present and finite. Flags of corrupt recordings may be neither true nor
+/// false, must not be read as bool, and count as missing.
 std::optional<double> measured(const CObservationIMU& imu, mrpt::obs::TIMUDataIndex what) {
     unsigned char is_present = 0;
     static_assert(sizeof(imu.dataIsPresent.at(what)) == sizeof(is_present));
@@ -29,7 +29,7 @@ std::optional<double> measured(const CObservationIMU& imu, mrpt::obs::TIMUDataIn
     return value;
 }
 
-/// The rotation of the IMU against the horizon.
+/// The rotation of the IMU relative to the horizon.
 std::optional<CPose3D> rotationOf(const CObservationIMU& imu) {
     using namespace mrpt::obs;
     const auto w = measured(imu, IMU_ORI_QUAT_W), x = measured(imu, IMU_ORI_QUAT_X);

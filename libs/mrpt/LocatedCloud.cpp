@@ -12,7 +12,7 @@ LocatedCloud::LocatedCloud(const Scan& scan, std::shared_ptr<const SensorModel> 
       times_s_(scan.time_s),
       other_fields_(std::move(other_fields)) {
     if (!other_fields_.fields.empty() && other_fields_.points != scan.size()) {
-        throw std::invalid_argument("the fields of a cloud have another number of points");
+        throw std::invalid_argument("the fields of a cloud differ in size");
     }
     setSize(scan.size());
     for (std::size_t i = 0; i < scan.size(); ++i) {

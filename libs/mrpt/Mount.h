@@ -5,13 +5,13 @@
 
 namespace hagen::observations {
 
-/// Applies the mount of a sensor to its pose: the `recorded` one, which `pose` already contains, or
-/// the `mount` of the settings if that is level. Poses of the sensor itself contain the mount.
-/// Without a known attitude, the vehicle is assumed level; a level sensor then has no attitude.
+/// Applies a sensor's mount to its pose: the `recorded` mount, already part of `pose`, or the
+/// settings' `mount` if the recorded one is level. Poses of the sensor itself include the mount.
+/// With unknown attitude, assumes a level vehicle; a level sensor then has no attitude.
 ScanPose mountedPose(const ScanPose& pose, const mrpt::poses::CPose3D& recorded,
                      const Attitude& mount);
 
-/// The mount of a sensor: as recorded or, if that is level (up to rounding), that of the settings.
+/// The recorded mount of a sensor or, if that is level (up to rounding), the settings' mount.
 Attitude mountOf(const Attitude& recorded, const Attitude& mount);
 
 }  // namespace hagen::observations

@@ -1,20 +1,19 @@
-/// Replaces MRPT's allocation for the vectors of its clouds, which returns an unchecked null
-/// pointer if memory is exhausted (mrpt/core/aligned_allocator.h), by one that throws
-/// std::bad_alloc.
+/// Replaces MRPT's allocation for cloud vectors, which returns an unchecked null pointer if memory
+/// is exhausted (mrpt/core/aligned_allocator.h), with one that throws std::bad_alloc.
 #include <mrpt/core/aligned_allocator.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <new>
 
-// Also in a Python module, whose symbols are hidden.
+// Visible even in a Python module with hidden symbols.
 #define HAGEN_VISIBLE __attribute__((visibility("default")))
 
 namespace mrpt {
 
 HAGEN_VISIBLE void* aligned_malloc(std::size_t size, std::size_t alignment) {
     void* memory = nullptr;
-    // Some systems have neither blocks of 0 bytes nor alignments below that of a pointer.
+    // Some systems support neither 0-byte blocks nor alignments below pointer size.
     if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment,
                        size == 0 ? 1 : size) != 0) {
         throw std::bad_alloc();

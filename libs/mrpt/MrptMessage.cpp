@@ -13,7 +13,7 @@ std::string messageOf(const std::exception& exception) {
         if (start == std::string::npos) return "";
         text = text.substr(start, text.find('\n', start) - start);
     }
-    // Exceptions that are not MRPT's follow the one that it makes of them, without a mark.
+    // MRPT appends the messages of foreign exceptions without a mark.
     const std::string original = "Original exception:\n";
     const std::string whole = exception.what();
     const std::size_t inner = whole.rfind(original);

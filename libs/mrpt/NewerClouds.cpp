@@ -29,7 +29,7 @@ using mrpt::maps::CSimplePointsMap;
 using mrpt::serialization::CArchive;
 
 /// Reads a vector of numbers other than float: two names, then the numbers. MRPT's own reader
-/// allocates as many as the file claims.
+/// trusts the count in the file.
 template <class Vector>
 void readVector(CArchive& in, Vector& values) {
     const std::string container = readText(in), type = readText(in);
@@ -49,7 +49,7 @@ constexpr NumberType typeOf() {
     return std::is_same_v<Number, std::uint8_t> ? NumberType::UInt8 : NumberType::UInt32;
 }
 
-/// The coordinates, with their number.
+/// Reads the point count and the coordinates.
 struct Coordinates {
     std::vector<float> x_m, y_m, z_m;
 
@@ -79,7 +79,7 @@ void readInsertionOptions(CArchive& in, CPointsMap::TInsertionOptions& options) 
         options.maxDistForInterpolatePoints >> options.insertInvalidPoints;
 }
 
-/// A CSimplePointsMap whose insertion options may be newer. It is written with the older ones.
+/// A CSimplePointsMap that reads older and newer insertion options and writes the older ones.
 class SimpleCloud : public CSimplePointsMap {
     static constexpr std::uint8_t kVersionWithOptions = 10;
 
@@ -112,7 +112,7 @@ class GenericCloud : public CPointsMapXYZI {
         return is_written_as_generic ? &genericClass() : CPointsMapXYZI::GetRuntimeClass();
     }
 
-    /// Takes the colour of its first point: fields of colours are not written otherwise.
+    /// Copies the colour of the first point to renderOptions, from which colour fields are written.
     void takeColor() {
         std::array<float, 3> color{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -125,7 +125,7 @@ class GenericCloud : public CPointsMapXYZI {
 
  private:
     static constexpr std::uint8_t kNewestVersion = 4;
-    /// The oldest one with fields of colours.
+    /// The first version with colour fields.
     static constexpr std::uint8_t kWrittenVersion = 3;
     static constexpr std::size_t kMaxFields = 256;
 
@@ -151,7 +151,7 @@ class GenericCloud : public CPointsMapXYZI {
         likelihoodOptions.writeToStream(out);
     }
 
-    /// The class has no other types: the rest is written as float64.
+    /// The class supports only these types; others are written as float64.
     static NumberType writtenType(NumberType type) {
         const bool is_kept =
             type == NumberType::Float32 || type == NumberType::UInt16 || type == NumberType::UInt8;
@@ -169,7 +169,7 @@ class GenericCloud : public CPointsMapXYZI {
         if (!numbers.empty()) out.WriteBufferFixEndianness(numbers.data(), numbers.size());
     }
 
-    /// All fields of one type. Each number of a field with several is a field of its own.
+    /// Writes all fields of one type. Fields with several numbers per point become several fields.
     template <class Number>
     void writeFields(CArchive& out) const {
         const bool with_intensity = std::is_same_v<Number, float> && has_intensity;
@@ -213,17 +213,17 @@ class GenericCloud : public CPointsMapXYZI {
     /// Returns why the field cannot be kept; empty: kept.
     template <class Number>
     std::string keep(const std::string& name, const std::vector<double>& values) {
-        if (name.empty()) return "it has no name";
-        if (findExactly(other_fields, name) != nullptr) return "its name is a duplicate";
+        if (name.empty()) return "no name";
+        if (findExactly(other_fields, name) != nullptr) return "duplicate name";
         if (values.size() != size()) {
-            return "it has " + std::to_string(values.size()) + " values for " +
-                   std::to_string(size()) + " points";
+            return std::to_string(values.size()) + " values for " + std::to_string(size()) +
+                   " points";
         }
         addColumn(name, typeOf<Number>(), values, other_fields);
         return "";
     }
 
-    /// The fields of one type.
+    /// Reads the fields of one type.
     template <class Number>
     void readFields(CArchive& in, std::uint8_t version) {
         for (auto fields = in.ReadAs<std::uint32_t>(); fields > 0; --fields) {
@@ -239,7 +239,7 @@ class GenericCloud : public CPointsMapXYZI {
                     throw std::runtime_error("a cloud has too many fields");
                 }
                 const std::string why = keep<Number>(name, {values.begin(), values.end()});
-                const std::string unless = " (but not this one: " + why + ")";
+                const std::string unless = " (except this one: " + why + ")";
                 fields_not_kept.push_back(why.empty() ? name : name + unless);
                 continue;
             }
@@ -282,7 +282,7 @@ CPointsMap::Ptr genericCloudOf(const PointTable& table) {
     const auto column = [&](const char* name) {
         const PointField* const field = findField(table, {name});
         if (field == nullptr) {
-            throw std::invalid_argument(std::string("a table of points has no field ") + name);
+            throw std::invalid_argument(std::string("a point table has no field ") + name);
         }
         return columnOf(table, *field);
     };
@@ -324,8 +324,7 @@ void registerNewerClouds() {}
 std::vector<std::string> fieldsNotKept(const mrpt::maps::CPointsMap&) { return {}; }
 const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap&) { return nullptr; }
 mrpt::maps::CPointsMap::Ptr genericCloudOf(const PointTable&) {
-    throw std::runtime_error(
-        "clouds with all fields are not written by a build with MRPT 2.15 or newer");
+    throw std::runtime_error("builds with MRPT 2.15 or newer cannot write clouds with all fields");
 }
 void writeAsGeneric(mrpt::maps::CPointsMap&) {}
 

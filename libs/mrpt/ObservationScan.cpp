@@ -65,7 +65,7 @@ void readPoints(const CObservationVelodyneScan& observation, Scan& scan) {
     const auto& cloud = observation.point_cloud;
     for (const std::size_t size : {cloud.y.size(), cloud.z.size(), cloud.intensity.size()}) {
         if (size == cloud.x.size()) continue;
-        throw std::runtime_error("the arrays of its point cloud differ in size");
+        throw std::runtime_error("the arrays of the point cloud differ in size");
     }
     assignPoints(cloud.x, cloud.y, cloud.z, scan);
     std::transform(cloud.intensity.begin(), cloud.intensity.end(), scan.intensity.begin(),
@@ -115,7 +115,7 @@ std::string remarkOnFields(const CObservationPointCloud& observation, const Fiel
         if (!text.empty()) remark += (remark.empty() ? "" : "; ") + text;
     };
     if (!names.empty()) {
-        add("the filter does not use these fields of its cloud; --cloud generic, --clouds and "
+        add("the filter ignores these cloud fields; --cloud generic, --clouds and "
             "--mcap keep them: " +
             names);
     }
@@ -139,15 +139,14 @@ void takeRings(const std::vector<std::int32_t>& rings, const std::vector<int>& r
     }
 }
 
-/// Applies the settings to the recording's own sensor: their range limits count, their beams do
-/// not.
+/// Applies the settings' range limits, but not their beams, to the recording's own sensor.
 void takeOwnSensor(const Settings& settings, ObservedScan& observed) {
     SensorModel& sensor = observed.sensor;
     sensor.min_range_m = settings.sensor.min_range_m.value_or(sensor.min_range_m);
     sensor.max_range_m = settings.sensor.max_range_m.value_or(sensor.max_range_m);
     if (settings.sensor.model && settings.sensor.model != sensor.name) {
-        observed.remark = "the recording is of the sensor " + sensor.name +
-                          ": its beams are used instead of the settings' sensor.model " +
+        observed.remark = "the recorded sensor is " + sensor.name +
+                          "; its beams override the settings' sensor.model " +
                           *settings.sensor.model;
     }
 }
@@ -163,7 +162,7 @@ void readLocated(const CObservationPointCloud& observation, const LocatedCloud& 
     observed.scan.time_s = cloud.times_s();
 }
 
-/// Reads a cloud whose beams are named, recovered, or given by a field.
+/// Reads a cloud whose beams are known from the settings, recovery, or a field.
 void readCloud(const CObservationPointCloud& observation, const Settings& settings,
                const SharedBeams& beams, ObservedScan& observed) {
     readPoints(observation, observed.scan);
@@ -212,7 +211,7 @@ void readPackets(const CObservationVelodyneScan& observation, const Settings& se
     if (unsound_blocks > 0) {
         observed.remark = std::to_string(unsound_blocks) + " of " +
                           std::to_string(observation.scan_packets.size() * 12) +
-                          " packet blocks have no valid header or azimuth and are skipped";
+                          " packet blocks skipped: invalid header or azimuth";
     }
 }
 
@@ -290,7 +289,7 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
                                     CloudClass cloud_class) {
     if (cloud_class == CloudClass::Generic) return genericCloudOf(pointsOf(tableOf(scan), indices));
-    // Reserve first: appending points one by one costs several times as much.
+    // Reserve first: growing point by point takes several times as long.
     const auto fill = [&](auto points, const auto& set_more) {
         points->setSize(indices.size());
         for (std::size_t k = 0; k < indices.size(); ++k) {

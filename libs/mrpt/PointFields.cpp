@@ -9,7 +9,7 @@ namespace {
 constexpr double kMaxSpan_s = 2.0;
 constexpr std::int32_t kMaxRing = 65535;
 
-/// The unit of times that are `span` apart [s].
+/// The unit [s] of times with this span.
 double timeUnit(const PointTable& table, const PointField& field, double span) {
     if (&field == findField(table, {"gps_time", "gpstime"})) return 1.0;
     const bool is_integer = field.type < NumberType::Float32;
@@ -29,8 +29,8 @@ PointFieldValues<std::int32_t> ringsOf(const PointTable& table,
     if (field == nullptr) return rings;
     for (const double ring : columnOf(table, *field, points)) {
         if (!(ring >= 0 && ring <= kMaxRing) || ring != std::floor(ring)) {
-            rings.remark = "the field '" + field->name +
-                           "' is not used: it has values that are not beam numbers";
+            rings.remark =
+                "the field '" + field->name + "' is not used: some values are not beam numbers";
             rings.values.clear();
             return rings;
         }
@@ -54,13 +54,12 @@ PointFieldValues<float> timesOf(const PointTable& table, const std::vector<std::
     const bool are_finite =
         std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); });
     if (!are_finite) {
-        found.remark =
-            "the field '" + field->name + "' is not used: it has times that are not finite";
+        found.remark = "the field '" + field->name + "' is not used: some times are not finite";
         return found;
     }
     const double unit_s = timeUnit(table, *field, *last - *first);
     if ((*last - *first) * unit_s > kMaxSpan_s) {
-        found.remark = "the field '" + field->name + "' is not used: its times span more than 2 s";
+        found.remark = "the field '" + field->name + "' is not used: the times span more than 2 s";
         return found;
     }
     const bool is_relative = std::max(std::abs(*first), std::abs(*last)) * unit_s <= kMaxSpan_s;

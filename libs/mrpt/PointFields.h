@@ -17,7 +17,7 @@ struct PointFieldValues {
 };
 
 /// Beam numbers of these points of a checked table, from the first of the fields ring, channel,
-/// line. The field is not used unless they are whole numbers from 0 to 65535.
+/// line. Ignores the field unless all values are integers from 0 to 65535.
 PointFieldValues<std::int32_t> ringsOf(const PointTable& table,
                                        const std::vector<std::uint32_t>& points);
 
@@ -25,12 +25,12 @@ PointFieldValues<std::int32_t> ringsOf(const PointTable& table,
 /// gpstime; null if there is none.
 const PointField* timeFieldOf(const PointTable& table);
 
-/// Times of these points of a checked table [s], from timeFieldOf(). The unit is guessed: integers
-/// are nanoseconds, or microseconds if the points would otherwise span less than 1 ms. Other
-/// numbers are seconds, or the largest of ms, us, ns in which they span at most 2 s; gps_time is
-/// always in seconds. Times within 2 s of 0 are relative to the scan's time; others are absolute
-/// and count from the earliest. The field is not used if a time is not finite or if they span more
-/// than 2 s.
+/// Times of these points of a checked table [s], from timeFieldOf(). Guesses the unit: integers are
+/// nanoseconds, or microseconds if the points would otherwise span less than 1 ms. Other numbers
+/// are seconds, or the largest of ms, us, ns in which they span at most 2 s; gps_time is always in
+/// seconds. Times within 2 s of 0 are relative to the scan's time; others are absolute and
+/// converted relative to the earliest. Ignores the field if a time is not finite or the times span
+/// more than 2 s.
 PointFieldValues<float> timesOf(const PointTable& table, const std::vector<std::uint32_t>& points);
 
 }  // namespace hagen::observations

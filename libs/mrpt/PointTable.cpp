@@ -44,17 +44,17 @@ void check(const PointTable& table) {
         const std::string title = "the field '" + field.name + "'";
         if (!names.insert(field.name).second) throw std::runtime_error(title + " occurs twice");
         if (field.count == 0) throw std::runtime_error(title + " has no numbers");
-        // Without points, no bytes limit the counts of a header.
+        // Without points, the data size does not limit the counts in a header.
         if (field.count > kMaxNumbersPerPoint - numbers) {
             throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
-                                     nameOf(field.type) + ") makes more than " +
+                                     nameOf(field.type) + ") exceeds the limit of " +
                                      std::to_string(kMaxNumbersPerPoint) +
                                      " numbers per point; is the header damaged?");
         }
         numbers += field.count;
         const std::size_t size = bytesOf(field.type);
         const std::size_t room = table.bytes_per_point;
-        // Products of numbers from a file could overflow.
+        // Products of untrusted numbers could overflow.
         if (field.offset > room || field.count > (room - field.offset) / size) {
             throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
                                      nameOf(field.type) + " from byte " +
@@ -63,11 +63,12 @@ void check(const PointTable& table) {
         }
     }
     if (table.points == 0) return;
-    if (table.bytes_per_point == 0) throw std::runtime_error("its points have no bytes");
+    if (table.bytes_per_point == 0) throw std::runtime_error("the points have no bytes");
     if (table.points > table.bytes.size() / table.bytes_per_point) {
-        throw std::runtime_error(
-            std::to_string(table.points) + " points of " + std::to_string(table.bytes_per_point) +
-            " bytes do not fit: only " + std::to_string(table.bytes.size()) + " bytes are there");
+        throw std::runtime_error(std::to_string(table.points) + " points of " +
+                                 std::to_string(table.bytes_per_point) +
+                                 " bytes expected, but the table has only " +
+                                 std::to_string(table.bytes.size()) + " bytes");
     }
 }
 

@@ -22,8 +22,8 @@ bool isAbout(const mrpt::img::TColorf& a, const mrpt::img::TColorf& b) {
            std::abs(a.B - b.B) < half_step;
 }
 
-/// Whether a cloud has the mark of a result. CGenericPointsMap does not keep renderOptions: it has
-/// the colour in its fields, also if it is empty.
+/// Whether a cloud has the mark of a result. CGenericPointsMap does not store renderOptions; it has
+/// colour fields, even if empty.
 bool isMarked(const mrpt::maps::CPointsMap& cloud, bool is_roi) {
     if (isAbout(cloud.renderOptions.color, mrpt::img::TColorf(colorOf(is_roi)))) return true;
     const PointTable* const others = otherFieldsOf(cloud);

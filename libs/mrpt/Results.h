@@ -8,18 +8,18 @@
 
 namespace hagen::observations {
 
-/// Colours of the results: colour-blind safe, and both distinct from a viewer's grey.
+/// Colours of the results: colour-blind safe and distinct from a viewer's grey.
 const mrpt::img::TColor kRoiColor(213, 94, 0), kNonRoiColor(150, 190, 230);
 
 constexpr const char* kRoiSuffix = "_roi";
 constexpr const char* kNonRoiSuffix = "_non_roi";
 /// Name of the object in a preview's scene. One of its parts is named after the scan, because
-/// rawlogs do not keep the label of a scene.
+/// rawlogs do not store scene labels.
 constexpr const char* kPreviewName = "hagen preview";
 constexpr std::string_view kPreviewOfPrefix = "zone of ";
 
-/// A cloud as a result of the filter, with time and pose of the scan, and its label plus a suffix.
-/// The mark of a result is the colour in its renderOptions, which rawlogs keep.
+/// A cloud as a result of the filter, with the scan's time, pose and suffixed label. The colour in
+/// its renderOptions, which rawlogs store, marks it as a result.
 mrpt::obs::CObservationPointCloud::Ptr resultOf(const mrpt::obs::CObservation& scan, bool is_roi,
                                                 const mrpt::maps::CPointsMap::Ptr& points);
 

@@ -11,7 +11,7 @@ RoiPointCloudFilter::RoiPointCloudFilter(const Settings& settings,
       settings_(settings),
       filter_(filterFor(settings.sensorModel(), settings.options)) {}
 
-/// Adapts the filter to the sensor that the clouds have shown so far.
+/// Adapts the filter to the sensor recovered from the clouds so far.
 void RoiPointCloudFilter::recoverSensor() {
     if (settings_.sensor.model) return;
     sensors_.see("", scan_);

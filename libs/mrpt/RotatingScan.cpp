@@ -24,7 +24,7 @@ namespace {
 using mrpt::obs::CObservationRotatingScan;
 using mrpt::serialization::CArchive;
 
-/// A scan with the points that newer MRPTs store. It is written as the older class.
+/// A scan with the points that newer MRPTs store. Written as the older class.
 class NewerRotatingScan : public CObservationRotatingScan {
  public:
     OrganizedPoints points;
@@ -67,8 +67,8 @@ void NewerRotatingScan::serializeFrom(CArchive& in, std::uint8_t version) {
     in >> minRange >> maxRange >> sensorPose >> originalReceivedTimestamp >>
         has_satellite_timestamp;
 
-    // The older layout continues with columns and rows, the newer one with where the scan is
-    // stored: 0 (in the log), columns, rows; or 1 or 2 (in a file), length of the file's name.
+    // Next come columns and rows (older layout), or the storage type (newer layout): 0 (in the
+    // log), columns, rows; 1 or 2 (in a file), file name length.
     std::array<std::uint8_t, 4> next{};
     in.ReadBuffer(next.data(), next.size());
     const std::uint16_t older_columns = number(next[0], next[1]);
@@ -87,7 +87,7 @@ void NewerRotatingScan::serializeFrom(CArchive& in, std::uint8_t version) {
         std::string file;
         readNumbers(in, letters, file);
         throw std::runtime_error(
-            "the scan is not in the log, but in the file '" + file +
+            "the scan is stored outside the log, in the file '" + file +
             "'; include it with 'rawlog-edit --de-externalize' of the MRPT that wrote it");
     }
     readMatrix(in, intensityImage);
@@ -122,31 +122,30 @@ std::string sizeText(std::ptrdiff_t rows, std::ptrdiff_t columns) {
     return std::to_string(rows) + " x " + std::to_string(columns);
 }
 
-/// Throws unless all images of a scan that are not empty have the same size.
+/// Throws unless all non-empty images of a scan have the same size.
 void checkSizes(const CObservationRotatingScan& scan, const OrganizedPoints* points) {
     const int rows = rowsOf(scan), columns = columnsOf(scan);
-    if (rows == 0 || columns == 0) throw std::runtime_error("it has no range image");
+    if (rows == 0 || columns == 0) throw std::runtime_error("no range image");
     checkReturns(std::size_t(rows) * std::size_t(columns));
     const auto check = [&](const std::string& what, std::ptrdiff_t its_rows,
                            std::ptrdiff_t its_columns) {
         if (its_rows == rows && its_columns == columns) return;
         throw std::runtime_error(what + " has " + sizeText(its_rows, its_columns) +
-                                 " pixels, but its range image " + sizeText(rows, columns));
+                                 " pixels, but the range image " + sizeText(rows, columns));
     };
     if (scan.intensityImage.size() > 0) {
-        check("its intensity image", scan.intensityImage.rows(), scan.intensityImage.cols());
+        check("the intensity image", scan.intensityImage.rows(), scan.intensityImage.cols());
     }
     for (const auto& [name, layer] : scan.rangeOtherLayers) {
-        check("its layer '" + name + "'", layer.rows(), layer.cols());
+        check("the layer '" + name + "'", layer.rows(), layer.cols());
     }
-    if (points != nullptr) check("the image of its points", points->rows, points->columns);
+    if (points != nullptr) check("the point image", points->rows, points->columns);
 }
 
 double resolutionOf(const CObservationRotatingScan& scan) {
     const double resolution_m = scan.rangeResolution;
     if (resolution_m > 0 && std::isfinite(resolution_m)) return resolution_m;
-    throw std::runtime_error("the resolution of its ranges is " + std::to_string(resolution_m) +
-                             " m");
+    throw std::runtime_error("invalid range resolution: " + std::to_string(resolution_m) + " m");
 }
 
 float intensityAt(const CObservationRotatingScan& scan, int row, int column) {
@@ -198,7 +197,7 @@ SensorModel sensorOfRows(const CObservationRotatingScan& observation, const Sett
     const auto own = namedSensor(observation.lidarModel);
     const std::optional<std::string>& wanted = settings.sensor.model;
     if (own && own->rows() == rows && wanted != "custom") return *own;
-    const std::string what = "its " + std::to_string(rows) +
+    const std::string what = "the " + std::to_string(rows) +
                              " rows have no elevations (lidarModel '" + observation.lidarModel +
                              "', and no points)";
     const std::string todo =
@@ -209,32 +208,32 @@ SensorModel sensorOfRows(const CObservationRotatingScan& observation, const Sett
     if (sensor.rows() != rows || !sensor.has_rings) {
         throw std::runtime_error(what + ", and the settings' sensor.model " + *wanted + " has " +
                                  std::to_string(sensor.rows()) +
-                                 (sensor.has_rings ? "" : " virtual ones") + todo);
+                                 (sensor.has_rings ? "" : " virtual rows") + todo);
     }
     return sensor;
 }
 
 /// The direction of an image row, and its beam.
 struct Row {
-    double sine, cosine;  ///< of its elevation
+    double sine, cosine;  ///< of the elevation
     std::uint8_t beam;
-    double delay = 0;        ///< of its laser, in columns
-    double azimuth_rad = 0;  ///< of its laser, added to the column's
+    double delay = 0;        ///< of the laser, in columns
+    double azimuth_rad = 0;  ///< of the laser, added to the column's
 };
 
 /// The directions of the pixels of an image without points.
 struct Geometry {
     std::vector<Row> rows;
-    int columns = 0;             ///< used ones
+    int columns = 0;             ///< used columns
     double first_rad = 0;        ///< azimuth of the first column, counter-clockwise
-    double step_rad = 0;         ///< to the next one
-    double columns_of_turn = 0;  ///< of its duration
+    double step_rad = 0;         ///< to the next column
+    double columns_of_turn = 0;  ///< of a full turn
     double resolution_m = 0;
     bool is_dual_by_blocks = false;  ///< two columns have the same azimuth
 };
 
-/// The used columns of an image made by fromVelodyne(), one per firing; nullopt for other images.
-/// It has one column per packet block and return, of which those after the firings are empty.
+/// The number of used columns of an image made by fromVelodyne(), one per firing; nullopt for other
+/// images. The image has one column per packet block and return; those after the firings are empty.
 std::optional<int> columnsFromVelodyne(const CObservationRotatingScan& scan) {
     const int rows = rowsOf(scan), columns = columnsOf(scan);
     if (columns % (12 * 32) != 0 || (rows != 16 && rows != 32 && rows != 64)) return std::nullopt;
@@ -247,7 +246,7 @@ std::optional<int> columnsFromVelodyne(const CObservationRotatingScan& scan) {
     return used;
 }
 
-/// The Velodyne model named by the scan or else by the settings; null: unknown.
+/// The Velodyne model named by the scan or, failing that, the settings; null: unknown.
 const sensors::VelodyneModel* velodyneOf(const CObservationRotatingScan& scan,
                                          const Settings& settings) {
     for (const std::string& name : {scan.lidarModel, settings.sensor.model.value_or("")}) {
@@ -269,14 +268,14 @@ Geometry geometryOfVelodyne(const CObservationRotatingScan& scan,
     geometry.columns_of_turn = is_dual ? 0.5 * columns : columns;
     geometry.first_rad = radians(-sensors::azimuthOfReadingDeg(100.0 * degrees(scan.startAzimuth)));
     geometry.step_rad = -scan.azimuthSpan / geometry.columns_of_turn;
-    geometry.resolution_m = static_cast<double>(model.distance_unit_m);  // MRPT writes 2 mm always
+    geometry.resolution_m = static_cast<double>(model.distance_unit_m);  // MRPT always writes 2 mm
     const auto& calibration = sensors::defaultCalibration(model);
     for (int laser = 0; laser < model.lasers; ++laser) {
         const auto& correction = calibration.lasers[laser];
         Row row{correction.elevation_sine, correction.elevation_cosine,
                 sensors::rowOfLaser(calibration, laser)};
         row.delay = model.delayUs(laser) / model.firing_period_us;
-        row.azimuth_rad = radians(correction.azimuth_deg);  // clockwise, is subtracted
+        row.azimuth_rad = radians(correction.azimuth_deg);  // clockwise: subtracted
         geometry.rows.push_back(row);
     }
     return geometry;
@@ -380,10 +379,10 @@ void readOrganizedPoints(const CObservationRotatingScan& observation, Scan& scan
             }
         }
     }
-    returns.remark = "its points are not in an output rawlog, which has the ranges only";
+    returns.remark = "output rawlogs contain the ranges of this scan, not the points";
     if (without_point > 0) {
         returns.remark +=
-            "; " + std::to_string(without_point) + " of its ranges have no point and are left out";
+            "; " + std::to_string(without_point) + " ranges without a point are dropped";
     }
 }
 
@@ -391,7 +390,7 @@ void readRangeImage(const CObservationRotatingScan& observation, const Settings&
                     Scan& scan, SensorModel& sensor, RotatingReturns& returns) {
     checkSizes(observation, nullptr);
     if (!std::isfinite(observation.startAzimuth) || !std::isfinite(observation.azimuthSpan)) {
-        throw std::runtime_error("its azimuths are not finite");
+        throw std::runtime_error("the azimuths are not finite");
     }
     scan.clear();
     returns.image_row.clear();
@@ -403,9 +402,8 @@ void readRangeImage(const CObservationRotatingScan& observation, const Settings&
         geometry = geometryOfVelodyne(observation, *model, *used);
         sensor = sensorOf(sensors::defaultCalibration(*model), model->name);
         returns.remark =
-            "MRPT converted it from Velodyne packets and kept only half of the returns; use the "
-            "log "
-            "with the packets if you have it";
+            "MRPT converted this scan from Velodyne packets and kept only half of the returns; "
+            "use the log with the packets if available";
     } else {
         sensor = sensorOfRows(observation, settings);
         geometry = geometryOf(observation, sensor);

@@ -47,7 +47,7 @@ mrpt::obs::CObservation3DScene::Ptr previewOf(const mrpt::obs::CObservation& obs
     sensor->setPose(mrpt::poses::CPose3D(observation.sensorPose()));
     sensor->insert(coloured(*segmented.non_roi->pointcloud, kNonRoiColor, kNonRoiPixels));
     sensor->insert(coloured(*segmented.roi->pointcloud, kRoiColor, kRoiPixels));
-    // Lines, as MRPT 3 cannot read the boxes of MRPT 2.
+    // Use lines, because MRPT 3 cannot read the boxes of MRPT 2.
     auto frames = observations::viz::CSetOfLines::Create();
     frames->setName("obstacles");
     frames->setColor_u8(kBoxColor);

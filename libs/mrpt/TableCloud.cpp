@@ -9,18 +9,17 @@
 
 namespace hagen::observations {
 
-constexpr double kMaxRange_m = 1000.0;  // of any sensor
+constexpr double kMaxRange_m = 1000.0;  // maximum of any sensor
 
 TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::move(table)) {
     check(*table_);
     if (table_->points > std::numeric_limits<std::uint32_t>::max()) {
-        throw std::runtime_error("it has more than 4294967295 points");
+        throw std::runtime_error("more than 4294967295 points");
     }
     const PointField *const x = findField(*table_, {"x"}), *const y = findField(*table_, {"y"}),
                             *const z = findField(*table_, {"z"});
     if (x == nullptr || y == nullptr || z == nullptr) {
-        throw std::runtime_error("its points have no fields x, y and z; they have: " +
-                                 namesOf(*table_));
+        throw std::runtime_error("missing fields x, y and z; fields: " + namesOf(*table_));
     }
     const std::vector<double> x_m = columnOf(*table_, *x), y_m = columnOf(*table_, *y),
                               z_m = columnOf(*table_, *z);
@@ -39,7 +38,7 @@ TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::mo
     }
     if (2 * far > point_of_return_.size()) {
         remarks_.push_back(
-            "most points are farther than 1 km from the origin: is it a map, or in millimetres? "
+            "most points are farther than 1 km from the origin (a map, or millimetres?). "
             "Coordinates must be in metres from the sensor");
     }
     takeIntensities();

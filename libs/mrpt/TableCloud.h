@@ -13,17 +13,17 @@
 
 namespace hagen::observations {
 
-/// A cloud with all fields of its input. MRPT writes it as a CPointsMapXYZI, without the others.
-/// Field names are case-insensitive:
+/// A cloud with all fields of its input. MRPT writes only those of a CPointsMapXYZI. Field names
+/// are case-insensitive:
 ///
 /// - x, y, z: coordinates in the sensor's frame [m].
-/// - the first of intensity, i, reflectivity, remission: scaled to 0..1 by the least of 1, 255,
-///   65535 that is not below its maximum, otherwise by the maximum. Not finite: 0.
+/// - the first of intensity, i, reflectivity, remission: scaled to 0..1 by the smallest of 1, 255,
+///   65535 that is at least the maximum, otherwise by the maximum. Not finite: 0.
 /// - ring, channel, line: the beam number (ringsOf()). It becomes the row only if it agrees with
 ///   the elevation (ringBeams()) and the settings name no sensor.
 /// - time, t, timestamp and others: times (timesOf()).
 ///
-/// Points with a coordinate that is not finite stay in the table, but are not in the cloud.
+/// Points with non-finite coordinates stay in the table, but are not in the cloud.
 class TableCloud : public IntensityCloud {
  public:
     /// Throws std::runtime_error with the reason if the table is invalid (check()), has no x, y or
@@ -31,14 +31,13 @@ class TableCloud : public IntensityCloud {
     explicit TableCloud(std::shared_ptr<const PointTable> table);
 
     const PointTable& table() const { return *table_; }
-    /// The point of the table of each return, ascending.
+    /// The table row of each return, ascending.
     const std::vector<std::uint32_t>& pointOfReturn() const { return point_of_return_; }
-    const std::vector<std::int32_t>& rings() const { return rings_; }  ///< empty: none
-    const std::vector<float>& times_s() const { return times_s_; }     ///< empty: none
+    const std::vector<std::int32_t>& rings() const { return rings_; }  ///< empty: unknown
+    const std::vector<float>& times_s() const { return times_s_; }     ///< empty: unknown
     std::size_t pointsNotFinite() const { return table_->points - point_of_return_.size(); }
 
-    /// Warnings about unusable fields and implausible coordinates, usually the same for all clouds
-    /// of a recording.
+    /// Warnings about unusable fields and implausible coordinates.
     const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
@@ -51,7 +50,7 @@ class TableCloud : public IntensityCloud {
     std::vector<std::string> remarks_;
 };
 
-/// An observation with a TableCloud. Throws like it.
+/// An observation with a TableCloud. Throws like the constructor of TableCloud.
 mrpt::obs::CObservationPointCloud::Ptr observationOf(std::shared_ptr<const PointTable> table,
                                                      const std::string& label,
                                                      mrpt::Clock::time_point time);
@@ -59,7 +58,7 @@ mrpt::obs::CObservationPointCloud::Ptr observationOf(std::shared_ptr<const Point
 /// The cloud of an observation if it is a TableCloud, otherwise null.
 const TableCloud* tableCloudOf(const mrpt::obs::CObservation& observation);
 
-/// A table of a scan: x, y, z, intensity (0..1), and if they are known `time` [s]; all float32.
+/// A table of a scan: x, y, z, intensity (0..1), and `time` [s] if known; all float32.
 PointTable tableOf(const Scan& scan);
 /// The same without times.
 PointTable untimedTableOf(const Scan& scan);

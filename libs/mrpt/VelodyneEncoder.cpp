@@ -64,7 +64,7 @@ void checkSizes(const sensors::VelodyneModel& model, const Firings& firings) {
     }
 }
 
-/// Returns the azimuth reading of a laser of a firing, not rounded and not wrapped to a revolution.
+/// Returns the azimuth reading of a laser in a firing, neither rounded nor wrapped.
 double readingOf(const sensors::VelodyneModel& model, const Firings& firings, int laser,
                  int firing) {
     const double turn = firing + model.delayUs(laser) / model.firing_period_us;

@@ -17,18 +17,18 @@ struct Firings {
     std::uint32_t first_time_us = 0;  ///< since the full hour
 };
 
-/// Returns the azimuth of a laser of a firing, degrees clockwise from x, as decoded (up to
+/// Returns the azimuth of a laser in a firing, degrees clockwise from x, as decoded (up to
 /// rounding). Use it to compute the range to encode.
 double firingAzimuthDeg(const sensors::VelodyneModel& model, const Firings& firings, int laser,
                         int firing);
 
 /// Encodes raw packets, the inverse of decodePackets(). Ranges are rounded to the model's unit (2
-/// or 4 mm); larger ones than a packet can represent (131.07 or 262.14 m) become missing returns.
-/// The last packet is padded. Throws std::invalid_argument if array sizes do not fit the model.
+/// or 4 mm); ranges above the packet's maximum (131.07 or 262.14 m) become missing returns. The
+/// last packet is padded. Throws std::invalid_argument if array sizes do not match the model.
 std::vector<mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket> encodePackets(
     const sensors::VelodyneModel& model, const Firings& firings);
 
-/// Returns a complete observation of these firings, with the model's default calibration.
+/// Returns an observation of these firings, with the model's default calibration.
 mrpt::obs::CObservationVelodyneScan::Ptr encodeScan(const sensors::VelodyneModel& model,
                                                     const Firings& firings);
 

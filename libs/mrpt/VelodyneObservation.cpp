@@ -64,7 +64,7 @@ void sensorOf(const CObservationVelodyneScan& observation, SensorModel& sensor,
     const bool are_sound = observation.minRange >= 0 &&
                            observation.minRange < observation.maxRange &&
                            std::isfinite(static_cast<float>(observation.maxRange));
-    if (!are_sound) throw std::runtime_error("its range limits are invalid");
+    if (!are_sound) throw std::runtime_error("invalid range limits");
     sensor.min_range_m = static_cast<float>(observation.minRange);
     sensor.max_range_m = static_cast<float>(observation.maxRange);
 }

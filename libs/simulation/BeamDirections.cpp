@@ -7,8 +7,7 @@
 namespace hagen::simulation {
 namespace {
 
-/// A laser's direction within a firing: its elevation, and the rotation since the start of the
-/// firing.
+/// A laser's direction within a firing: elevation, and rotation since the start of the firing.
 struct LaserDirection {
     float elevation_rad, sine, cosine;  ///< of the elevation
     float turn_sine, turn_cosine;
@@ -56,7 +55,7 @@ DirectionsOfFiring directionsOfRings(const SensorModel& sensor, const FiringPatt
     };
 }
 
-// The pattern of a Mid-360; see the header.
+// Mid-360 pattern; see the header.
 constexpr double kMinElevation_rad = radians(-7), kSpan_rad = radians(59);
 const double kTurns_hz = 25 * (1 + std::sqrt(5.0)), kSweeps_hz = 10 * std::sqrt(2.0);
 

@@ -11,8 +11,8 @@ struct ReleaseScene {
 using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
 /// Returns the process's device: one thread and one instruction set, so that a seed gives the same
-/// result on every machine. Errors throw std::runtime_error. It is never released: oneTBB would
-/// start its threads then, and end the process where there can be none.
+/// result on every machine. Errors throw std::runtime_error. Never released: that would make oneTBB
+/// start threads, and terminate the process if it cannot.
 RTCDevice embreeDevice();
 
 /// Attaches a geometry and transfers its ownership to the scene.

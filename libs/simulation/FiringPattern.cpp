@@ -29,10 +29,10 @@ FiringPattern firingPattern(const SensorModel& sensor) {
 SensorErrorModel sensorErrors(const SensorModel& sensor) {
     SensorErrorModel errors;
     if (sensor.name == "Mid-360") {
-        // A tenth of the returns is lost at 0.69 of the half range, which at 10 % reflectivity is
+        // 10 % of the returns are lost at 0.69 of the half range, which at 10 % reflectivity is
         // 0.58 times that of a grey wall (30 %).
         errors.half_range_m = 100;
-        errors.least_noise_m = 0.018;  // 2 cm at 10 m, where it is a tenth larger
+        errors.least_noise_m = 0.018;  // 2 cm at 10 m, including the increase by 10 %
     }
     return errors;
 }

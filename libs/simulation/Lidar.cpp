@@ -17,7 +17,7 @@ using Eigen::Vector3f;
 constexpr int kBlock = 8;  // firings whose rays are cast together
 constexpr double kPoseStep_s = 0.005;
 
-/// Reflectivity of a surface, varying by a fifth between objects.
+/// Reflectivity of a surface, varying by 20 % between objects.
 float reflectivityOf(ObjectClass kind, std::uint16_t number) {
     static const std::array<float, 12> shares{0.0f,  0.25f, 0.4f, 0.35f, 0.35f, 0.25f,
                                               0.35f, 0.3f,  0.3f, 0.3f,  0.1f,  0.1f};
@@ -25,7 +25,7 @@ float reflectivityOf(ObjectClass kind, std::uint16_t number) {
     return shares[static_cast<std::size_t>(kind)] * (1.0f + 0.4f * variation);
 }
 
-/// True for surfaces wider than any beam: their range is that of the footprint's centre.
+/// True for surfaces wider than any beam: the range is measured at the footprint's centre.
 bool isLargeSurface(ObjectClass kind) {
     return kind == ObjectClass::Terrain || kind == ObjectClass::Building ||
            kind == ObjectClass::Wall;
@@ -85,8 +85,8 @@ struct Beam : BeamDirection {
     Vector3f axis;  ///< in the map
 };
 
-/// All beams of a revolution or a part of it, and a ray at a random place in the footprint of each,
-/// ordered by block of firings, laser and firing, so that eight neighbours are adjacent.
+/// All beams of a revolution or a part of it, each with a ray at a random position in its
+/// footprint. Ordered by block of firings, laser and firing, so that eight neighbours are adjacent.
 struct Revolution {
     std::vector<Beam> beams;
     std::vector<Ray> rays;
@@ -101,10 +101,10 @@ struct Revolution {
     }
 };
 
-/// Random places in the footprints of beams.
+/// Random positions in the footprints of beams.
 struct Footprint {
     double width_rad;
-    /// Others are never near the zenith, and their footprint narrows by the cosine of the
+    /// Other sensors have no beams near the zenith; the footprint narrows by the cosine of the
     /// elevation.
     bool may_be_steep;
 
@@ -147,7 +147,7 @@ Revolution makeRevolution(const FiringPattern& pattern, const FiringRange& firin
     return turn;
 }
 
-/// Range at which the beam's axis meets the plane hit by its ray; the ray's range if they differ
+/// Range at which the beam's axis meets the plane hit by its ray; the ray's range if both differ
 /// much.
 float rangeAlongAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axis) {
     const float along = hit.normal.dot(axis);
@@ -156,8 +156,8 @@ float rangeAlongAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axi
     return std::abs(range_m - hit.range_m) < 0.1f * hit.range_m ? range_m : hit.range_m;
 }
 
-/// Casts a second ray for some beams. If it hits another surface at a similar range, the return is
-/// that of the nearer surface, at a range between both.
+/// Casts a second ray for some beams. If it hits another surface at a similar range, the return
+/// gets the nearer surface and a range between both.
 void mixEdges(const Scene::Snapshot& snapshot, const Revolution& turn, float max_range_m,
               const SensorErrorModel& faults, const Footprint& footprint, Random& random,
               std::vector<RayHit>& hits) {
@@ -209,7 +209,7 @@ class Receiver {
     Echo measure(const RayHit& hit, const Ray& ray, const Beam& beam) {
         if (faults_.airframe) {
             if (const AirframeSpot* spot = spotBefore(beam)) {
-                if (random_.chance(0.4)) return {};  // too near to be measured
+                if (random_.chance(0.4)) return {};  // below minimum range
                 return {withNoise(spot->range_m, 1.0f), 0.1f, ObjectClass::Airframe, 0};
             }
         }
@@ -240,7 +240,7 @@ class Receiver {
     }
 
  private:
-    static constexpr double kDust_m = 15.0;  // dust farther away is too faint
+    static constexpr double kDust_m = 15.0;  // farther dust is too faint
 
     /// The part of the vehicle in front of a beam, for any mount of the sensor.
     const AirframeSpot* spotBefore(const Beam& beam) const {

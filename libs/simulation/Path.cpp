@@ -6,7 +6,7 @@
 namespace hagen::simulation {
 namespace {
 
-/// The place on the path at a path length: on which segment, and how far along it.
+/// The position at a path length: the segment and the distance along it.
 struct Part {
     bool is_turn;
     bool is_back;  ///< on the second straight or the turn after it

@@ -16,7 +16,7 @@ struct TreeParameters {
     int low_branches = 2;  ///< below the crown, with few leaves
 };
 
-/// Makes a tree whose leaves are triangles in clumps, so that beams can pass between them.
+/// Makes a tree with leaves as triangles in clumps, so that beams can pass between them.
 Shape makeTree(const TreeParameters& form, Random& random);
 
 /// Makes a bush of leaves, 1 m high and wide; scale it.

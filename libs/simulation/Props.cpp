@@ -10,7 +10,7 @@ using Eigen::Vector2d;
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-constexpr float kFoot_m = -0.4f;  // objects extend into the ground so that none floats on a slope
+constexpr float kFoot_m = -0.4f;  // objects extend into the ground, to avoid gaps on slopes
 
 Eigen::Vector4f knot(double x, double y, double z, double radius) {
     return Eigen::Vector4d(x, y, z, radius).cast<float>();
@@ -38,7 +38,7 @@ Shape makeRod(double height_m, double radius_m) {
 }
 
 Shape makeCar(Random& random) {
-    const auto h = static_cast<float>(random.uniform(0.95, 1.3));  // from saloon to van
+    const auto h = static_cast<float>(random.uniform(0.95, 1.3));  // saloon to van
     Shape shape;
     shape.addPrism({{-2.1f, 0.28f},
                     {2.1f, 0.28f},

@@ -13,7 +13,7 @@ double Random::normal() {  // Box-Muller; the second number is discarded
 }
 
 double Random::approximateNormal() {
-    const std::uint64_t bits = engine_();  // four numbers of 16 bits: variance 4/12 of their range
+    const std::uint64_t bits = engine_();  // the variance of the sum of four is 4/12 range^2
     double sum = 0;
     for (int i = 0; i < 4; ++i) sum += static_cast<double>(bits >> (16 * i) & 0xffff);
     return (sum * 0x1p-16 - (2.0 - 0x1p-15)) * 1.7320508075688772;

@@ -227,7 +227,7 @@ Scene makeWires(std::uint64_t seed) {
         const Vector2d askew{random.uniform(-2, 2), random.uniform(-2, 2)};
         addWireLine(builder, from_m + aside, to_m + askew, span_m, heights_m, sideways_m);
     };
-    // Between the straights, outside of them, and across the path beyond both turns.
+    // Between the straights, outside them, and across the path beyond both turns.
     run({-28, 0}, {28, 0}, 19, {2.2, 3.2, 4.2, 5.2}, 0.25);
     run({-60, -20}, {60, -22}, 24, {4.5, 6.0, 7.0}, 0.4);
     run({-60, 20}, {60, 19}, 20, {1.6, 2.8, 4.0}, 0.05);
@@ -275,7 +275,7 @@ Scene makeStreet(std::uint64_t seed) {
     const Shapes cars = builder.addShapes(5, makeCar);
     const std::size_t lamp = builder.addShape(makeRod(6.5, 0.08));
     const std::size_t sign = builder.addShape(makeRod(2.6, 0.035));
-    for (const double lane : {-11.5, 11.5, -4.2, 4.2}) {  // kerbs, and both sides of the centre
+    for (const double lane : {-11.5, 11.5, -4.2, 4.2}) {  // kerbs, both sides of the centre
         for (double at = -70; at <= 70; at += 6.2) {
             const double x = at + random.uniform(-0.6, 0.6), y = lane + 0.15 * random.normal();
             if (random.chance(0.4) || !builder.isFree(x, y, 2.0)) continue;

@@ -97,7 +97,7 @@ class Packet {
         }
     }
 
-    /// May be called for several scenes in turn: the nearest hit is kept.
+    /// May be called for several scenes in turn; keeps the nearest hit.
     void cast(RTCScene scene, const std::vector<Instance>& instances, const Ray* rays,
               RayHit* hits) {
         RTCIntersectContext context;

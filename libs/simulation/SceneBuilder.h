@@ -4,12 +4,12 @@
 
 namespace hagen::simulation {
 
-/// Extent of the ground: finely meshed up to the half sizes, then coarser out to `reach_m`.
+/// Extent of the ground: fine mesh up to the half sizes, then coarser out to `reach_m`.
 struct GroundExtent {
     double half_length_m = 55, half_width_m = 38, reach_m = 140;
 };
 
-/// Builds a scene from shapes placed on the ground. isFree() keeps kClearance_m off the path.
+/// Builds a scene from shapes placed on the ground. isFree() keeps kClearance_m from the path.
 ///
 /// Never draw two random numbers in the arguments of one call: the order of evaluation differs
 /// between compilers.
@@ -27,17 +27,17 @@ class SceneBuilder {
     const Path& path() const { return content_.path; }
 
     std::size_t addShape(Shape shape);
-    /// Adds several variants of one shape.
+    /// Adds several variants of a shape.
     std::vector<std::size_t> addShapes(int count, const std::function<Shape(Random&)>& make);
     std::size_t randomOf(const std::vector<std::size_t>& shapes);
 
     /// True if an object of this radius may be placed there.
     bool isFree(double x_m, double y_m, double radius_m) const;
 
-    /// Puts a rotated and scaled shape on the ground. Returns its object number.
+    /// Places a rotated and scaled shape on the ground. Returns its object number.
     std::uint16_t place(ObjectClass kind, std::size_t shape, double x_m, double y_m, double yaw_rad,
                         const Eigen::Vector3d& scale = {1, 1, 1});
-    /// Puts one of these shapes there, with a random yaw.
+    /// Places one of these shapes with a random yaw.
     std::uint16_t placeRandomOf(ObjectClass kind, const std::vector<std::size_t>& shapes,
                                 double x_m, double y_m, const Eigen::Vector3d& scale = {1, 1, 1});
     /// Like place(), but sheared to follow the ground's slope.
@@ -45,11 +45,11 @@ class SceneBuilder {
                                double yaw_rad, const Eigen::Vector3d& scale);
     /// Adds a shape that is already in the map's frame.
     std::uint16_t add(ObjectClass kind, Shape shape);
-    /// Adds a moving obstacle if its circle keeps clear of the path. True if it was added.
+    /// Adds a moving obstacle unless its circle intersects the path. True if added.
     bool addMover(MovingObstacle mover, double own_radius_m);
     void addRandomMover(MovingObstacle mover);
 
-    /// Calls put(x, y) at random places with the given density.
+    /// Calls put(x, y) at random positions with the given density.
     void scatter(double per_m2, const std::function<void(double x_m, double y_m)>& put);
 
     Scene build() { return Scene(std::move(content_)); }

@@ -114,7 +114,7 @@ void setBounds(const RTCBoundsFunctionArguments* asked) {
                         box.max().x(), box.max().y(), box.max().z(), 0};
 }
 
-/// Surfaces that Embree searches. Must not move in memory: Embree keeps its address.
+/// Surfaces searched by Embree, which keeps their address: do not move.
 class SearchTree {
  public:
     SearchTree(RTCDevice device, Surfaces surfaces) : surfaces_(std::move(surfaces)) {

@@ -650,7 +650,7 @@ TEST_F(LiveSegmentMavlink, RejectsWrongPeers) {
     expectFailure(with_peer("udp:192.168.1.10:0"), 2, "1 to 65535");
     expectFailure(with_peer("serial:/dev/ttyS0:57600"), 2, "at least 115200 baud");
     expectFailure(with(with_peer("serial:/dev/ttyS0:115200"), {"--obstacles", "20"}), 2,
-                  "20 obstacles need 130900 baud");
+                  "20 obstacles require 130900 baud");
     expectFailure(with_peer("serial:" + path("none") + ":115200"), 1, "No such file");
     expectFailure({"--replay", file, "--mavlink-system", "2"}, 2, "--mavlink");
     expectFailure(with(with_peer("udp:127.0.0.1:9"), {"--mavlink-system", "0"}), 2,

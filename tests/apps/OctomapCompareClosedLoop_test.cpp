@@ -278,8 +278,8 @@ TEST(ClosedLoop, RejectsWrongUsageBeforeWriting) {
     fails({"--shard", "4294967297/4294967298"}, "shard");
     fails({"--shard", "0/2"}, "shard");
     fails({"--jobs", "0"}, "--jobs");
-    fails({"--air", "all,clear"}, "--air: all is given beside other values");
-    failsInstead("--models", "W-RoI,all", "--models: all is given beside other values");
+    fails({"--air", "all,clear"}, "--air: all cannot be combined with other values");
+    failsInstead("--models", "W-RoI,all", "--models: all cannot be combined with other values");
     failsInstead("--models", "W-RoI,RoI window", "W-RoI is given twice");
     failsInstead("--speed", "4,4.0", "--speed: 4 is given twice");
     fails({"--pose-error", "wild"}, "wild");

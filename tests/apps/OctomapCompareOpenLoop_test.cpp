@@ -89,7 +89,7 @@ TEST_F(OpenLoopCommand, LogAndScanFolderGiveSameResults) {
     }
     const auto folder = run(with({"-i", path("gap"), "-o", path("c")}, kModels));
     ASSERT_EQ(folder.exit_code, 0) << folder.err;
-    EXPECT_THAT(folder.err, HasSubstr("4 scans were placed by one pose each"));
+    EXPECT_THAT(folder.err, HasSubstr("4 scans were placed with one pose each"));
 }
 
 TEST_F(OpenLoopCommand, UsesPosesOfLog) {
@@ -109,7 +109,7 @@ TEST_F(OpenLoopCommand, CountsScansWithoutPose) {
     const std::vector<std::string> log{"-i", path("gap.rawlog"), "--models", "W-RoI"};
     const auto outcome = run(with(log, {"--poses", path("some.tum"), "-o", path("out")}));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("scans have no pose within 0.2 s"));
+    EXPECT_THAT(outcome.err, HasSubstr("scans skipped: no pose within 0.2 s"));
 
     const std::size_t comment = some.find('\n'), first_pose = some.find('\n', comment + 1);
     folder_.write("other.tum", some.substr(0, some.find('\n', first_pose + 1) + 1));
@@ -181,7 +181,7 @@ TEST_F(OpenLoopCommand, KeepsScansOfTruncatedMcap) {
     std::replace(arguments.begin(), arguments.end(), path("gap.rawlog"), path("gap.mcap"));
     const auto outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("scans before that are in"));
+    EXPECT_THAT(outcome.err, HasSubstr("preceding scans are in"));
     EXPECT_TRUE(fs::exists(path("cut/scans.partial.csv")));
 }
 
@@ -191,7 +191,7 @@ TEST_F(OpenLoopCommand, KeepsScansOfTruncatedRawlog) {
     const auto outcome = run(gap("out"));
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_THAT(outcome.err, HasSubstr("gap.rawlog: entry"));
-    EXPECT_THAT(outcome.err, HasSubstr("scans before that are in"));
+    EXPECT_THAT(outcome.err, HasSubstr("preceding scans are in"));
     EXPECT_THAT(outcome.out, HasSubstr("RoI window"));
     EXPECT_TRUE(fs::exists(path("out/openloop.partial.csv")));
     EXPECT_FALSE(fs::exists(path("out/openloop.csv")));

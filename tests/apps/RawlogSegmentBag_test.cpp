@@ -127,7 +127,7 @@ TEST_F(RawlogSegmentBag, KeepsReadablePartOfCutBag) {
         const auto outcome = run({"-i", path(name), "-o", out + ".rawlog"});
         EXPECT_EQ(outcome.exit_code, 1);
         EXPECT_THAT(outcome.err, HasSubstr(path(name) + ": "));
-        EXPECT_THAT(outcome.err, HasSubstr("before it are in " + out + ".partial.rawlog"));
+        EXPECT_THAT(outcome.err, HasSubstr("are in " + out + ".partial.rawlog"));
         EXPECT_FALSE(fs::exists(out + ".rawlog"));
         recordings::RawlogReader reader(out + ".partial.rawlog");
         while (reader.next()) {

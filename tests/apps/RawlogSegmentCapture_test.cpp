@@ -51,7 +51,7 @@ TEST_F(RawlogSegmentCapture, KeepsReadablePartOfCutCapture) {
         EXPECT_THAT(outcome.err, HasSubstr("flight.pcap: frame "));
         EXPECT_FALSE(fs::exists(path("out.rawlog")));
         if (cut != 3) continue;
-        EXPECT_THAT(outcome.err, HasSubstr("entries before it are in " + path("out.partial")));
+        EXPECT_THAT(outcome.err, HasSubstr("preceding entries are in " + path("out.partial")));
     }
     recordings::RawlogReader reader(path("out.partial.rawlog"));  // from the first cut
     while (reader.next()) {

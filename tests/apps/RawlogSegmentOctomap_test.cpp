@@ -120,7 +120,7 @@ TEST_F(RawlogSegmentOctomap, OmitsScansWithoutUsablePose) {
     const auto partial = expectSuccess({"-i", recording(), "--octomap", path("half.bt"), "--poses",
                                         folder_.write("half.tum", half)});
     EXPECT_THAT(partial.out, HasSubstr("in the OctoMap: 6 of 10 scans"));
-    EXPECT_THAT(partial.err, HasSubstr("it is not in the map"));
+    EXPECT_THAT(partial.err, HasSubstr("not inserted into the map"));
     const auto outcome =
         expectSuccess({"-i", recording(), "--octomap", path("far.bt"), "-o", path("out.rawlog"),
                        "--poses", folder_.write("far.tum", far)});
@@ -128,7 +128,7 @@ TEST_F(RawlogSegmentOctomap, OmitsScansWithoutUsablePose) {
     EXPECT_THAT(outcome.out, HasSubstr("in the OctoMap: 8 of 10 scans"));
     EXPECT_THAT(outcome.out, HasSubstr("10 LiDAR scans"));
     EXPECT_THAT(outcome.err, HasSubstr("lies outside an OctoMap"));
-    EXPECT_THAT(outcome.err, HasSubstr("it is not in the map"));
+    EXPECT_THAT(outcome.err, HasSubstr("not inserted into the map"));
     EXPECT_TRUE(fs::exists(path("out.rawlog")));
 }
 

@@ -361,7 +361,7 @@ TEST_F(RawlogSegmentTrouble, KeepsScansBeforeMissingOne) {
     const auto all = run({"-i", path("scans"), "-o", path("out.rawlog")});
     EXPECT_EQ(all.exit_code, 1);
     EXPECT_THAT(all.err, HasSubstr("000005.bin"));
-    EXPECT_THAT(all.err, HasSubstr("the 5 scans before it are in"));
+    EXPECT_THAT(all.err, HasSubstr("the 5 preceding scans are in"));
     EXPECT_TRUE(fs::exists(path("out.partial.rawlog"))) << all.err;
     // A scan that is not converted may be missing.
     expectSuccess({"-i", path("scans"), "--from", "6", "--to", "8", "-o", path("part.rawlog")});

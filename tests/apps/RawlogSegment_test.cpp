@@ -194,7 +194,7 @@ TEST_F(RawlogSegment, ComparesCloudsWithNamedSensor) {
     writeScans();
     const Arguments flags{"-i", path("scans"), "--kitti", path("labels")};
     const auto overridden = expectSuccess(with(flags, {"-c", config("hdl64e")}));
-    EXPECT_THAT(overridden.err, HasSubstr("its sensor.yaml is used instead of the settings' "
+    EXPECT_THAT(overridden.err, HasSubstr("sensor.yaml overrides the settings' "
                                           "sensor.model HDL-64E"));
     fs::remove_all(path("labels"));
     // Five of sixteen beams are a degree too high.
@@ -247,7 +247,7 @@ TEST_F(RawlogSegment, PrintsRepeatedRemarkOnce) {
     const auto elsewhen = folder_.write("elsewhen.tum", "0 0 0 0 0 0 0 1\n");
     const auto outcome =
         expectSuccess({"-i", recording(), "--kitti", path("out"), "--poses", elsewhen});
-    EXPECT_THAT(outcome.err, HasSubstr("entry 1 (lidar): no pose near its time"));
+    EXPECT_THAT(outcome.err, HasSubstr("entry 1 (lidar): no pose near this time"));
     EXPECT_THAT(outcome.err, HasSubstr("the same for 9 more"));
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 2) << outcome.err;
     const auto kitti = folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");

@@ -259,7 +259,7 @@ TEST_F(SegmentationEvaluate, KeepsFilesOnFailure) {
     const auto outcome = test::run("/bin/bash", {"-c", interrupted});
     if (outcome.exit_code == 0) GTEST_SKIP() << "scoring ended within 0.5 s";
     if (outcome.err.empty()) GTEST_SKIP() << "scoring had not begun after 0.5 s";
-    EXPECT_THAT(outcome.err, HasSubstr("interrupted; nothing was written"));
+    EXPECT_THAT(outcome.err, HasSubstr("interrupted; no output was written"));
     expectNoTemporaryFiles();
 }
 
@@ -288,7 +288,7 @@ TEST_F(SegmentationEvaluate, RejectsUnusableLabels) {
                     {{"a=" + theirs, "--labels", "a=" + theirs}, "already a row 'a'"},
                     {{"hagen=" + theirs}, "already a row 'hagen'"},
                     {{"zermas tuned=" + theirs, "--baselines"}, "already a row 'zermas tuned'"},
-                    {{"..=" + theirs}, "'..' cannot be the name of a row"}});
+                    {{"..=" + theirs}, "'..' is not a valid row name"}});
     expectFailure(with(flags, {"a=" + theirs}), 1, "theirs/000000.label: no such file");
     auto labels = recordings::readLabels(folder_ / "pole/labels/000000.label");
     labels[6] = 3;

@@ -98,7 +98,7 @@ TEST(Rows, PaperRowUsesPaperStagesOnly) {
         const std::string ours = config.write("ours.yaml", stage + std::string("\n"));
         config.write("paper.yaml", "include: [" + kConfig + "/paper.yaml, " + ours + "]\n");
         const std::string message = test::messageOf([&] { rowsFor(set, config.path()); });
-        EXPECT_THAT(message, HasSubstr("has a stage that the paper does not have")) << stage;
+        EXPECT_THAT(message, HasSubstr("has a stage beyond the paper")) << stage;
     }
 }
 
@@ -286,7 +286,7 @@ TEST_F(PaperResults, ReportsMissingSettings) {
 TEST_F(PaperResults, ReportsBrokenInputs) {
     folder_.write("selection.json", "{}");
     expectFailure({"-o", folder_.path(), "--selection", path("selection.json")}, 1,
-                  "selection.json: is no record of scripts/select-settings");
+                  "selection.json: invalid record");
     folder_.write("readme.md", "no results");
     expectFailure({"-o", folder_.path(), "--readme", path("readme.md")}, 1,
                   "readme.md: needs one line");
@@ -325,7 +325,7 @@ TEST_F(PaperResultsRun, WritesAllTablesAndFigures) {
                                     "## Comparison with other methods",
                                     "drives or flights",
                                     "## Missed obstacles and false alarms",
-                                    "obstacles without a single RoI return",
+                                    "undetected obstacles",
                                     "## Hard sets",
                                     "dead_beams",
                                     "| real, 16 beams ",

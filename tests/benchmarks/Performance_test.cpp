@@ -45,7 +45,7 @@ TEST(TimedRows, ReportBrokenFiles) {
     for (const char* text : {"", "[{", "[{\"sensor\": \"VLP-16\"}]", "[3]"}) {
         const fs::path file = folder.write("rows.json", text);
         const std::string message = test::messageOf([&] { readTimedRows(file); });
-        EXPECT_THAT(message, HasSubstr(file.string() + ": not a list of times")) << text;
+        EXPECT_THAT(message, HasSubstr(file.string() + ": invalid list of times")) << text;
     }
 }
 

@@ -266,7 +266,7 @@ TEST(Plan, ReportsFileLineAndEntry) {
     EXPECT_THAT(errorOf("turns: 1\nsettings: {beta_deg: [5]}"), HasSubstr("unknown key turns"));
     for (const char* plain : {"{beta_deg: 6}", "{zone_m: 20}", "{beta_deg: [5]}"}) {
         EXPECT_THAT(errorOf("settings: {beta_deg: [5]}\nplain: " + std::string(plain)),
-                    ContainsRegex("yaml:2: plain: .* needs one of its values"))
+                    ContainsRegex("yaml:2: plain: .* must have one of its values"))
             << plain;
     }
     EXPECT_THAT(errorOf("rounds: 1\n"), HasSubstr("has no settings"));
@@ -318,7 +318,7 @@ TEST(Record, ReportsBrokenFiles) {
     for (const char* text : {"", "{", "[]", "{\"revision\": 3}"}) {
         const fs::path file = folder.write("selection.json", text);
         EXPECT_THAT(test::messageOf([&] { readRecord(file); }),
-                    HasSubstr(file.string() + ": is no record of scripts/select-settings"))
+                    HasSubstr(file.string() + ": invalid record"))
             << text;
     }
     EXPECT_THAT(test::messageOf([&] { readRecord(folder / "none.json"); }),

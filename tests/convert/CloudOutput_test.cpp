@@ -182,7 +182,7 @@ TEST_P(CloudOutputTest, KeepsPartialOutput) {
     conversion_.input = folder_ / "clouds";
     EXPECT_THAT(test::messageOf([&] { convertCounting(); }),
                 AllOf(HasSubstr("2.ply: ends within its PLY header"),
-                      HasSubstr("the 1 scans before it are in"), HasSubstr("labelled.partial")));
+                      HasSubstr("the 1 preceding scans are in"), HasSubstr("labelled.partial")));
     EXPECT_FALSE(fs::exists(conversion_.clouds));
     EXPECT_TRUE(
         fs::exists(folder_ / "labelled.partial" / (std::string("1") + extensionOf(GetParam()))));

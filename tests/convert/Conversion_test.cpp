@@ -385,7 +385,7 @@ TEST_P(ConversionTest, ReportsScanWithoutTime) {
     to_folder.rawlog.clear();
     to_folder.folder = folder_ / "scans";
     convert(to_folder, remarksInto(remarks));
-    EXPECT_THAT(remarks, testing::ElementsAre("entry 0 (lidar): it has no valid time"));
+    EXPECT_THAT(remarks, testing::ElementsAre("entry 0 (lidar): no valid time"));
     Conversion back = nothing();
     back.input = folder_ / "scans";
     back.rawlog = folder_ / "back.rawlog";
@@ -409,8 +409,8 @@ TEST_P(ConversionTest, ReportsMissingPosesWithoutHorizon) {
     posed.folder = folder_ / "scans";
     std::vector<std::string> remarks;
     convert(posed, remarksInto(remarks));
-    EXPECT_THAT(remarks, testing::Contains(HasSubstr("(lidar): no pose near its time: no file of "
-                                                     "poses is written")));
+    EXPECT_THAT(remarks, testing::Contains(HasSubstr("(lidar): no pose near this time: no pose "
+                                                     "file is written")));
     EXPECT_FALSE(fs::exists(folder_ / "scans/poses.tum"));
     EXPECT_FALSE(fs::exists(folder_ / "scans/poses.txt"));
 }
@@ -547,7 +547,7 @@ TEST_P(ConversionTest, ReportsScanWithInvalidLimits) {
         const ConversionReport report = convert(again, listener);
         EXPECT_EQ(report.unreadable_scans, 1u);
         EXPECT_EQ(report.scans, 2u);
-        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): its range limits are invalid"));
+        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): invalid range limits"));
     }
 }
 
@@ -722,7 +722,7 @@ TEST_P(ConversionTest, KeepsPartialOutputOnInterrupt) {
         convert(conversion(), listener);
         FAIL();
     } catch (const recordings::Interrupted& e) {
-        EXPECT_THAT(e.what(), HasSubstr("the 2 entries before it are in"));
+        EXPECT_THAT(e.what(), HasSubstr("the 2 preceding entries are in"));
     }
     EXPECT_FALSE(fs::exists(folder_ / "out.rawlog"));
     EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog").size(), 4u);

@@ -188,8 +188,8 @@ TEST_F(GenericClouds, HaveUniqueFieldNames) {
     }
     EXPECT_THAT(column(result, "input_color_r_"), Each(65));
     EXPECT_THAT(column(result, "input_color_r"), Each(66));
-    EXPECT_THAT(remarks, HasSubstr("it is 'input_label_'"));
-    EXPECT_THAT(remarks, testing::Not(HasSubstr("it is 'input_label'")));
+    EXPECT_THAT(remarks, HasSubstr("renamed to 'input_label_'"));
+    EXPECT_THAT(remarks, testing::Not(HasSubstr("renamed to 'input_label'")));
 }
 
 TEST_F(GenericClouds, AreOptional) {

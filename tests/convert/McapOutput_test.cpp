@@ -113,7 +113,7 @@ TEST_F(McapOutputTest, WritesReadablePointsAndFields) {
         i += is_return;
     }
     EXPECT_GT(of_obstacles, 10u);
-    EXPECT_THAT(remarks_, Contains(HasSubstr("the MCAP: a field of the input")));
+    EXPECT_THAT(remarks_, Contains(HasSubstr("the MCAP: an input field")));
     EXPECT_THAT(remarks_, Contains(HasSubstr("'of_int64' is int64, which PointCloud2 does not")));
 }
 
@@ -168,8 +168,8 @@ TEST_F(McapOutputTest, WritesTopicsPerLidar) {
     }
     EXPECT_THAT(names, ElementsAre("/a_b/points", "/a_b_2/points", "/front/points", "/lidar/points",
                                    "/lidar_3_d/points", "/map_lidar/points"));
-    EXPECT_THAT(remarks_, Contains("the MCAP: the LiDAR 'a/b' is called 'a_b_2', a name that ROS "
-                                   "allows"));
+    EXPECT_THAT(remarks_, Contains("the MCAP: the LiDAR 'a/b' is named 'a_b_2' to conform "
+                                   "to ROS"));
 }
 
 TEST_F(McapOutputTest, ReportsTimesOutsideRosRange) {

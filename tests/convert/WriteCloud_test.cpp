@@ -194,7 +194,7 @@ TEST(TableForPointCloud2, StartsWithAlignedCoordinates) {
     EXPECT_EQ(columnOf(table, *findField(table, {"t"})), (Numbers{7, 9}));
     EXPECT_EQ(columnOf(table, *findField(table, {"label"})), (Numbers{0, 2}));
     EXPECT_THAT(changesInPointCloud2(input),
-                ElementsAre("the field 'ns' is int64, which PointCloud2 does not know: it is "
+                ElementsAre("the field 'ns' is int64, which PointCloud2 does not support: "
                             "rounded to float64"));
     PointTable flat;
     flat.points = 1;

@@ -178,8 +178,8 @@ TEST(NewerClouds, ReportsUnusableFields) {
     EXPECT_EQ(namesOf(others), "T, t");
     EXPECT_THAT(columnOf(others, others.fields[0]), ElementsAre(20, 21));
     EXPECT_THAT(fieldsNotKept(*cloud),
-                ElementsAre("T", "t", "short (but not this one: it has 1 values for 2 points)",
-                            "T (but not this one: its name is a duplicate)"));
+                ElementsAre("T", "t", "short (except this one: 1 values for 2 points)",
+                            "T (except this one: duplicate name)"));
     mrpt::obs::CObservationPointCloud observation;
     observation.pointcloud = cloud;
     ObservedScan observed;
@@ -259,7 +259,7 @@ TEST(NewerClouds, ScalesIntensitiesOfAnyType) {
         std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(read(genericCloud()));
     readObservation(observation, {}, observed);
     EXPECT_EQ(observed.remark,
-              "the filter does not use these fields of its cloud; --cloud generic, --clouds and "
+              "the filter ignores these cloud fields; --cloud generic, --clouds and "
               "--mcap keep them: gps_time, ring, color_r, rgba");
     EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));
 }

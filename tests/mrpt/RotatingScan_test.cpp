@@ -165,7 +165,7 @@ TEST(RotatingScan, ReadsAllRangesOfPixels) {
     const auto with_points = scanOf(test::newerBytesOf(scan, points));
     const ObservedScan observed = readWith(*with_points, threeBeams());
     EXPECT_THAT(observed.scan.x_m, ElementsAre(2, 4.5f));
-    EXPECT_THAT(observed.remark, HasSubstr("1 of its ranges have no point"));
+    EXPECT_THAT(observed.remark, HasSubstr("1 ranges without a point"));
 }
 
 TEST(RotatingScan, UsesElevationsOfModel) {
@@ -182,7 +182,7 @@ TEST(RotatingScan, UsesElevationsOfModel) {
     Settings settings;
     settings.sensor.model = "OS1-64";
     EXPECT_EQ(readWith(scan, settings).sensor.name, "HDL-64E");
-    EXPECT_THAT(readWith(scan, settings).remark, HasSubstr("instead of the settings'"));
+    EXPECT_THAT(readWith(scan, settings).remark, HasSubstr("override the settings'"));
     scan.lidarModel = "UNKNOWN_SCANNER";
     EXPECT_EQ(readWith(scan, settings).sensor.name, "OS1-64");
     EXPECT_FALSE(isCloud(scan));

@@ -198,7 +198,7 @@ TEST(TableCloud, UsesMonotonicRingsAsRows) {
         const auto observed = readBack(sphereOf(
             vlp16_deg(), [&](int beam, int) { return is_rising ? beam + 3 : 100 - 2 * beam; }));
         EXPECT_EQ(observed.sensor.name, "VLP-16");
-        EXPECT_THAT(textOf(observed.recovered), HasSubstr("by its ring numbers"));
+        EXPECT_THAT(textOf(observed.recovered), HasSubstr("by ring number"));
         for (std::size_t i = 0; i < observed.scan.size(); ++i) {
             ASSERT_EQ(observed.scan.row[i], i % 16);
         }
@@ -226,7 +226,7 @@ TEST(TableCloud, KeepsRowsAndTimesInLogs) {
     for (std::size_t i = 0; i < times.size(); ++i) times[i] = 0.1 / 3200 * static_cast<double>(i);
     addColumn("t", NumberType::Float32, times, table);
     const ObservedScan of_table = readBack(table), of_log = readFromLog(table);
-    EXPECT_THAT(textOf(of_log.recovered), HasSubstr("by its ring numbers"));
+    EXPECT_THAT(textOf(of_log.recovered), HasSubstr("by ring number"));
     EXPECT_EQ(of_log.scan.row, of_table.scan.row);
     EXPECT_EQ(of_log.scan.time_s, of_table.scan.time_s);
     EXPECT_EQ(of_log.scan.time_s.size(), table.points);
@@ -261,7 +261,7 @@ TEST(TableCloud, IgnoresContradictingRings) {
     for (const auto* observed : {&interleaved, &overlapping}) {
         EXPECT_EQ(observed->sensor.name, "VLP-16");  // as without rings
         EXPECT_THAT(textOf(observed->recovered), HasSubstr("do not agree"));
-        EXPECT_THAT(textOf(observed->recovered), Not(HasSubstr("by its")));
+        EXPECT_THAT(textOf(observed->recovered), Not(HasSubstr("by ring")));
         for (std::size_t i = 0; i < observed->scan.size(); ++i) {
             ASSERT_EQ(observed->scan.row[i], i % 16);
         }

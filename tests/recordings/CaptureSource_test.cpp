@@ -189,7 +189,7 @@ TEST_F(OusterSourceTest, SettingsLimitRangesNotModel) {
     observations::readObservation(*scan->observation, settings, observed);
     EXPECT_EQ(observed.sensor.rows(), 4);
     EXPECT_EQ(observed.sensor.max_range_m, 50.0f);
-    EXPECT_THAT(observed.remark, HasSubstr("the recording is of the sensor OS-0-32-U1"));
+    EXPECT_THAT(observed.remark, HasSubstr("the recorded sensor is OS-0-32-U1"));
 }
 
 TEST_F(OusterSourceTest, ReadsTimesAndPoses) {

@@ -222,7 +222,7 @@ TEST_F(CloudFileSourceTest, RejectsCloudWithoutCoordinates) {
         "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float u\nend_header\n1\n");
     const auto source = openRecording(file);
     EXPECT_THAT(test::messageOf([&] { source->nextScan(); }),
-                AllOf(HasSubstr("a.ply: "), HasSubstr("they have: u")));
+                AllOf(HasSubstr("a.ply: "), HasSubstr("fields: u")));
 }
 
 TEST_F(CloudFileSourceTest, ReportsIgnoredContent) {

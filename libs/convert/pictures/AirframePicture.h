@@ -7,8 +7,8 @@ namespace hagen::convert {
 
 /// Draws the bins of an Airframe (Airframe::bin_range_m, at least one row) as the PNG `name` in the
 /// existing `folder`: azimuth against elevation in the sensor frame, left of the sensor on the
-/// left, coloured by the range that is masked; bins without one are grey. Throws
-/// std::runtime_error like runGnuplot().
+/// left, coloured by masked range; unmasked bins are grey. Throws std::runtime_error like
+/// runGnuplot().
 void drawAirframe(const Image<float>& bin_range_m, const std::string& title,
                   const std::filesystem::path& folder, const std::string& name);
 

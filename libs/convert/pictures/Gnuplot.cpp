@@ -27,8 +27,8 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// Opens a file in memory that vanishes when closed. A file instead of a pipe avoids deadlocks:
-/// gnuplot may read and print at any pace.
+/// Opens an in-memory file that is deleted when closed. Unlike a pipe, a file cannot deadlock if
+/// gnuplot reads and prints at any pace.
 File scratchFile(const std::string& content) {
     const int memory = memfd_create("gnuplot", MFD_CLOEXEC);
     File file(memory >= 0 ? fdopen(memory, "w+") : nullptr);
@@ -41,7 +41,7 @@ File scratchFile(const std::string& content) {
     return file;
 }
 
-/// The environment without the user's terminal, which gnuplot would start with.
+/// The environment without the user's gnuplot terminal.
 std::vector<char*> withoutTerminal() {
     std::vector<char*> kept;
     for (char** word = environ; *word != nullptr; ++word) {
@@ -51,9 +51,9 @@ std::vector<char*> withoutTerminal() {
     return kept;
 }
 
-// A picture takes about a second of CPU time, and less than a megabyte.
+// A picture takes about 1 s of CPU time and less than 1 MB.
 constexpr rlim_t kMaxCpu_s = 20, kMaxFileBytes = 64 << 20;
-constexpr double kIdleTimeout_s = 5;  ///< for a start without CPU time
+constexpr double kIdleTimeout_s = 5;  ///< without CPU usage
 constexpr double kMinLoad = 0.02;
 
 double cpuTimeOf_s(pid_t process) {
@@ -61,9 +61,9 @@ double cpuTimeOf_s(pid_t process) {
     return std::chrono::duration<double>(used).count();
 }
 
-/// Waits for gnuplot, and ends it with all that it started: if it hangs, or fills the disk. It
-/// hangs if it does not use its time, for on a busy machine a picture may take many seconds.
-/// Returns its status; `complaint` says what was wrong if it was ended.
+/// Waits for gnuplot, and kills its process group if it hangs or fills the disk. "Hangs" means low
+/// CPU usage, because a picture may take many seconds on a busy machine. Returns the exit status;
+/// `complaint` is the reason if it was killed.
 int waitFor(pid_t process, std::string& complaint) {
     const rlimit cpu{kMaxCpu_s, kMaxCpu_s + 1}, file{kMaxFileBytes, kMaxFileBytes};
     prlimit(process, RLIMIT_CPU, &cpu, nullptr);
@@ -72,11 +72,11 @@ int waitFor(pid_t process, std::string& complaint) {
     int status = 0;
     while (true) {
         const pid_t ended = waitpid(process, &status, WNOHANG);
-        // Where SIGCHLD is ignored, its status is lost (ECHILD); the pictures are checked anyway.
+        // If SIGCHLD is ignored, the status is lost (ECHILD); the pictures are checked anyway.
         if (ended == process || (ended < 0 && errno != EINTR)) break;
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
         if (passed.count() > kIdleTimeout_s && cpuTimeOf_s(process) < kMinLoad * passed.count()) {
-            complaint = "it hangs";
+            complaint = "timeout";
             break;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(passed.count() < 0.1 ? 1 : 10));
@@ -88,8 +88,7 @@ int waitFor(pid_t process, std::string& complaint) {
     return status;
 }
 
-/// Returns gnuplot's last line: it repeats the command and marks the place before the error
-/// message.
+/// Returns gnuplot's last line: the lines before repeat the command and mark the position.
 std::string lastWord(std::FILE* errors) {
     std::rewind(errors);
     std::string word;
@@ -103,8 +102,7 @@ std::string lastWord(std::FILE* errors) {
     return word;
 }
 
-/// True if the file starts and ends with the right bytes; a picture truncated by a full disk does
-/// not.
+/// True if the file starts and ends with the right bytes, that is, it is not truncated.
 bool isWhole(const fs::path& picture) {
     const bool is_svg = picture.extension() == ".svg";
     const std::string start = is_svg ? "<?xml" : std::string("\x89PNG\r\n\x1a\n", 8);
@@ -135,7 +133,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder to write pictures to");
     }
-    for (const std::string& picture : pictures) {  // an old picture could pass for the new one
+    for (const std::string& picture : pictures) {  // do not mistake an old one for the new one
         std::error_code error;
         fs::remove(folder / picture, error);
         if (error) {
@@ -151,8 +149,8 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
-    // In a process group of its own: Ctrl-C in a terminal is for the program, which ends when the
-    // picture is done.
+    // In its own process group, so that Ctrl-C reaches only the program, which ends after the
+    // picture.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -168,7 +166,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     posix_spawn_file_actions_destroy(&actions);
     if (error == ENOENT) {
         throw std::runtime_error(
-            "pictures are drawn by gnuplot, which is not installed; on Debian: "
+            "pictures require gnuplot, which is not installed; on Debian: "
             "apt-get install gnuplot-nox");
     }
     if (error != 0) {

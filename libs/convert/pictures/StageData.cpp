@@ -19,8 +19,7 @@ std::size_t colourOf(std::int32_t component) {
     return static_cast<std::size_t>(std::max(component, 1) - 1) % kRoiColours.size();
 }
 
-/// Returns the longest contiguous segment of a column's angles; empty if none is as long as the
-/// window.
+/// Returns the longest contiguous segment of a column's angles; empty if shorter than the window.
 struct Run {
     int first_row = 0, rows = 0;
 };
@@ -73,7 +72,7 @@ std::string sanitizedTitle(const std::string& title) {
     return tidy;
 }
 
-/// Writes the data blocks one after the other.
+/// Writes all data blocks.
 class DataBlockWriter {
  public:
     explicit DataBlockWriter(const StageView& view)
@@ -128,7 +127,7 @@ class DataBlockWriter {
         }
     }
 
-    /// $maxima: column, row. $bars: rank, birth, death; the longest ones, oldest first.
+    /// $maxima: column, row. $bars: rank, birth, death; the longest bars, oldest first.
     void writeMaxima() {
         const auto& maxima = view_.result.maxima;
         block("$maxima", [&] {

@@ -75,7 +75,7 @@ void StagePanelWriter::angleImage(const Box& box, const std::string& block, bool
     imageAxes(box, 180, -180, has_azimuth, 0.5);  // an angle lies between two beams
     colourBar(box, kAnglePalette, 90, 30, "angle [deg]");
     if (has_mark) {
-        // from above if the axis has numbers; otherwise from below, where there is no title
+        // from above if the axis has numbers; otherwise from below, where no title is
         const double tip = has_azimuth ? box.top : box.bottom;
         const double tail = has_azimuth ? box.top + 22 : box.bottom - 12;
         text_ << "set arrow from " << data_.column << ", screen " << y(tail) << " to "
@@ -118,7 +118,7 @@ void StagePanelWriter::barcode(const Box& box) {
     beginPanel(box);
     const float zone_m = view_.options.zone_m;
     text_ << "set xrange [" << zone_m << ":0]\nset yrange [" << std::max(data_.bars, 1) + 1
-          << ":0]\nunset ytics\nset xlabel 'proximity [m]: the radius of the zone minus the "
+          << ":0]\nunset ytics\nset xlabel 'proximity [m]: zone radius minus the "
              "depth'\n"
           << "plot $bars using 2:1:($3 - $2):(0) with vectors nohead lw "
           << std::clamp(0.6 * (box.top - box.bottom) / std::max(data_.bars, 1), 1.0, 6.0)
@@ -157,7 +157,7 @@ void StagePanelWriter::components(const Box& box) {
     beginPanel(box);
     text_ << "set xrange [-0.5:" << rows_ - 0.5 << "]\nset yrange [" << -std::max(shares, 1) + 0.4
           << ":0.6]\n"
-          << "set xlabel 'elevation [deg]'\nset ylabel 'component: its fraction of variance'\n";
+          << "set xlabel 'elevation [deg]'\nset ylabel 'component: fraction of variance'\n";
     beamTics("x", 6);
     if (shares == 0) {
         text_ << "unset ytics\nunset ylabel\nset label \"no segment of "

@@ -12,7 +12,7 @@ struct Box {
     double left, right, bottom, top;
 };
 
-/// Writes a gnuplot script for pictures, panel by panel; each panel draws a block of the data.
+/// Writes a gnuplot script panel by panel; each panel draws a data block.
 class StagePanelWriter {
  public:
     static constexpr int kWidth_px = 1200;  ///< of most pictures
@@ -49,13 +49,14 @@ class StagePanelWriter {
     /// Draws a mark and a word to its right; returns the position of the next entry.
     double legendEntry(double left, double bottom, int mark, const std::string& colour,
                        const std::string& word);
-    /// Draws the colours of labels from here to the right; returns the position of the next entry.
+    /// Draws the colours of labels from `left` to the right; returns the position of the next
+    /// entry.
     double labelLegend(double left, double bottom);
-    /// Draws the axes of an image: azimuth from left to right, lowest beam at the bottom. In
-    /// columns and rows, because gnuplot is slow if it must compute the position of each pixel.
+    /// Draws the axes of an image: azimuth from left to right, lowest beam at the bottom. Uses
+    /// columns and rows, because gnuplot is slow at computing pixel positions.
     void imageAxes(const Box& box, double from_deg, double to_deg, bool has_azimuth,
                    double first_row = 0.0);
-    /// Position of an azimuth between columns, whose centres are integers.
+    /// Fractional column of an azimuth; column centres are integers.
     double columnAt(double azimuth_deg) const;
     /// Labels up to `most` beams by elevation in degrees, evenly spaced from the lowest to the
     /// highest.

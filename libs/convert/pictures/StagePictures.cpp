@@ -107,7 +107,7 @@ void drawStages(const StageView& view, const std::filesystem::path& folder) {
     if (view.result.labels.rows() != view.sensor.rows()) {
         throw std::invalid_argument(
             "drawStages: images of " + std::to_string(view.result.labels.rows()) +
-            " rows are not those of a sensor of " + std::to_string(view.sensor.rows()) + " beams");
+            " rows do not match a sensor with " + std::to_string(view.sensor.rows()) + " beams");
     }
     const StageData data = stageDataOf(view);
     StagePanelWriter panels(view, data);

@@ -14,13 +14,13 @@ namespace hagen::convert {
 /// A segmented scan to draw: input and result of one call of HagenFilter::segment(). Keeps
 /// references to the caller's objects.
 struct StageView {
-    const Scan& scan;           ///< of a sensor that is not upright: as turnScan() makes it
-    const SensorModel& sensor;  ///< of the images' rows: sensorIn() the scan's posture
+    const Scan& scan;           ///< if the sensor is not upright: from turnScan()
+    const SensorModel& sensor;  ///< sensor of the image rows: sensorIn() the scan's posture
     const Options& options;
     const SegmentationResult& result;
     std::string title;  ///< any text, for example the source of the scan
     /// Azimuth (finite, counter-clockwise from x) of the column whose principal components are
-    /// shown; the nearest column is taken. nullopt: the column of the nearest RoI pixel in a
+    /// shown (rounded to the nearest column). nullopt: the column of the nearest RoI pixel in a
     /// smoothed column; otherwise of the nearest RoI pixel; otherwise straight ahead.
     std::optional<float> azimuth_deg = std::nullopt;
 };
@@ -30,7 +30,7 @@ const std::vector<std::string>& stagePictures();
 /// A folder of these pictures, or of folders of them.
 extern const base::OutputKind kStagePictures;
 
-/// Draws the result of each stage for a scan, as PNGs of these names in the existing `folder`:
+/// Draws the result of each stage for a scan as PNGs in the existing `folder`:
 ///
 ///   1_depth.png        the depth image
 ///   2_maxima.png       its persistent maxima, and the barcode of their births and deaths
@@ -43,8 +43,8 @@ extern const base::OutputKind kStagePictures;
 ///
 /// Images show azimuths from +180 to -180 degrees, left of the sensor on the left, with the lowest
 /// beam at the bottom; pixels without a value are grey. One call runs gnuplot once. Throws
-/// std::invalid_argument if the images do not have a row per beam of the sensor, std::runtime_error
-/// like runGnuplot().
+/// std::invalid_argument if the images do not have one row per beam, std::runtime_error like
+/// runGnuplot().
 void drawStages(const StageView& view, const std::filesystem::path& folder);
 
 }  // namespace hagen::convert

@@ -19,7 +19,7 @@ struct GroundTruthLabels {
 ///     labels/NNNNNN.label     the label, and the object's number
 ///     semantic/NNNNNN.label   the number of the object class, and the object's
 ///     kinds.yaml              names and labels of the classes
-///     simulated_by.txt        says that the folder may be replaced
+///     simulated_by.txt        marks the folder as replaceable
 ///     altitudes.txt           height of the sensor above the ground [m], one line per scan
 class GroundTruthFolder {
  public:
@@ -33,7 +33,7 @@ class GroundTruthFolder {
                double time_s, const mrpt::poses::CPose3D& sensor_pose, double altitude_m);
     /// Completes the folder and renames it into place.
     void commit();
-    /// Closes it as a partial folder, and returns its name.
+    /// Keeps the folder as a partial folder and returns its name.
     std::filesystem::path keepPartial();
 
  private:

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr double kStart_s = simulation::kSimulatedLogStart_s;
 constexpr const char* kLidarLabel = "lidar";
-constexpr double kPoseStep_s = 0.05;  // much shorter than the gap over which poses are interpolated
+constexpr double kPoseStep_s = 0.05;  // much shorter than the maximum gap for interpolation
 
 /// A pose file that is renamed into place when complete.
 class PoseOutput {
@@ -47,7 +47,7 @@ class PoseOutput {
     std::vector<recordings::TimedPose> poses_;
 };
 
-/// The requested outputs. A failed one does not affect the others.
+/// The requested outputs. A failed output does not affect the others.
 class SimulatedOutputs {
  public:
     SimulatedOutputs(const SimulatedLog& log, const Attitude& mount) {
@@ -66,7 +66,7 @@ class SimulatedOutputs {
     void writePose(double time_s, const mrpt::poses::CPose3D& pose) {
         if (poses_) all_.write(poses_->place(), [&] { poses_->add(time_s, pose); });
     }
-    /// `step` is called with the folder.
+    /// Calls step(folder).
     template <class Step>
     void writeScan(const Step& step) {
         if (folder_) all_.write(folder_->place(), [&] { step(*folder_); });
@@ -74,7 +74,7 @@ class SimulatedOutputs {
 
     bool areAllGivenUp() const { return all_.areAllGivenUp(); }
     void commit() { all_.commit(); }
-    /// Says what is kept where, and what is not, and why.
+    /// Keeps partial outputs; returns their names and the failures.
     std::string keepPartial() {
         std::string names;
         const auto keep = [&](auto& output) {
@@ -111,10 +111,10 @@ bool hasPackets(const SensorModel& sensor) {
     return sensor.name == "VLP-16" || sensor.name == "HDL-32E";
 }
 
-/// Whether scans are written as clouds. (An HDL-64E has packets, but none that MRPT knows.)
+/// Whether scans are written as clouds. (MRPT does not support the packets of an HDL-64E.)
 bool hasClouds(const SensorModel& sensor) { return !sensor.has_rings; }
 
-/// Returns the scan as a folder stores it: as measured, or as decoded from its packets.
+/// Returns the scan to store in a folder: as measured, or as decoded from its packets.
 struct MeasuredScan {
     Scan scan;
     SensorModel sensor;
@@ -138,7 +138,7 @@ MeasuredScan writeScanEntry(const simulation::SimulatedScan& made, const SensorM
     observations::decodePackets(*observation, measured.scan);
     measured.sensor = observations::sensorOf(*observation);
     if (measured.scan.size() != made.size()) {
-        throw std::logic_error("the packets contain other returns than were simulated");
+        throw std::logic_error("the packets do not contain the simulated returns");
     }
     outputs.write(*observation);
     return measured;
@@ -169,7 +169,7 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
     const Eigen::Quaterniond mount = Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
                                      Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
     mrpt::poses::CPose3D sensor_on_vehicle;
-    if (roll_rad != 0 || pitch_rad != 0) {  // otherwise it would have a zero with a minus sign
+    if (roll_rad != 0 || pitch_rad != 0) {  // avoids a negative zero
         sensor_on_vehicle = mrpt::poses::CPose3D(0, 0, 0, 0, pitch_rad, roll_rad);
     }
     SimulatedOutputs outputs(log, {static_cast<float>(roll_rad), static_cast<float>(pitch_rad)});
@@ -191,8 +191,8 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
     for (int scan = 0; scan < log.scans; ++scan) {
         if (!keep_going()) {
             if (scan == 0) throw std::runtime_error("interrupted before the first scan");
-            throw std::runtime_error("interrupted; the " + std::to_string(scan) +
-                                     " scans before it are in" + outputs.keepPartial());
+            throw std::runtime_error("interrupted; the first " + std::to_string(scan) +
+                                     " scans are in" + outputs.keepPartial());
         }
         const double time_s = log.every_s * scan, next_s = log.every_s * (scan + 1);
         const simulation::SimulatedScan made =
@@ -200,7 +200,7 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
         writePose(time_s, flight.at(time_s), outputs);
         const MeasuredScan measured =
             writeScanEntry(made, sensor, sensor_on_vehicle, time_s, outputs);
-        // Poses until after the last firing, or until the next scan provides one.
+        // Writes poses until after the last firing, or until the next scan's poses begin.
         const bool is_last = scan + 1 == log.scans;
         for (int step = 1; (step - 1) * kPoseStep_s < measuring_s; ++step) {
             const double pose_s = time_s + step * kPoseStep_s;

@@ -32,16 +32,15 @@ struct SimulationReport {
 /// - a rawlog of CObservationVelodyneScan `lidar`, each at the time of its first firing, with
 ///   CObservationRobotPose `pose` of the vehicle at least every 50 ms during scans. The sensor is
 ///   at the vehicle's origin; its mount is in sensorPose. Scans of a Mid-360 are
-///   CObservationPointCloud (CPointsMapXYZI, which has no times of points),
+///   CObservationPointCloud (CPointsMapXYZI, without point times),
 /// - a scan folder with ground truth (GroundTruthFolder.h), with the returns as decoded from the
 ///   packets if the sensor has a packet format. Poses are the sensor's; its mount is in
 ///   sensor.yaml,
 /// - the vehicle's poses as a TUM file.
 ///
 /// The same seed gives the same bytes. Throws std::invalid_argument for an unknown scenario or
-/// sensor, and std::runtime_error if a file cannot be written (the message names it) or if
-/// `keep_going` returns false: the output up to then is kept in partial files, which the message
-/// names.
+/// sensor, and std::runtime_error if a file cannot be written or if `keep_going` returns false: the
+/// output is then kept in partial files. The message names the files.
 SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()>& keep_going);
 
 }  // namespace hagen::convert

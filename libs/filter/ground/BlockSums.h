@@ -1,4 +1,4 @@
-// Sums over blocks of ground cells around each block, for stages that judge a surrounding.
+// Sums over the neighbourhood of each block of ground cells.
 #pragma once
 #include <hagen/filter/CellArea.h>
 #include <hagen/filter/GroundSurface.h>
@@ -31,12 +31,12 @@ void sumAlong(const Value* blocks, int stride, Value* sums) {
     }
 }
 
-/// Blocks from `first` up to before `end`, along both sides.
+/// The blocks in [first, end) along both axes.
 struct BlockArea {
     int first_row = 0, end_row = kBlocks, first_column = 0, end_column = kBlocks;
 };
 
-/// The blocks that are in an area with all of their cells.
+/// The blocks whose cells are all inside an area.
 inline BlockArea blocksIn(const CellArea& area) {
     const auto first = [](int place) {
         return (std::max(place - 1, 0) + kBlockCells - 1) / kBlockCells;
@@ -46,8 +46,8 @@ inline BlockArea blocksIn(const CellArea& area) {
             end(area.end_column)};
 }
 
-/// Replaces the value of each block of an area by the sum over the square around it. Without the
-/// area, there is nothing.
+/// Replaces the value of each block of an area by the sum over the square around it. Blocks outside
+/// the area count as 0.
 template <int kReach, class Value>
 void sumAround(Blocks<Value>& blocks, const BlockArea& area = {}) {
     Blocks<Value> sums{};

@@ -11,12 +11,12 @@ namespace {
 
 using namespace canopy_rules;
 
-/// The cells around a block that have returns.
+/// Counts of the cells with returns around a block.
 struct Surroundings {
-    int seen = 0;                  ///< all of them
-    int tall = 0;                  ///< whose highest return is higher than plants
-    int plants = 0;                ///< whose highest return is that of a low plant
-    double sum_m = 0, sum_m2 = 0;  ///< of the plants' heights, and of their squares
+    int seen = 0;                  ///< all cells
+    int tall = 0;                  ///< highest return is above plants
+    int plants = 0;                ///< highest return is a low plant
+    double sum_m = 0, sum_m2 = 0;  ///< plant heights and their squares
 
     void addCell(float top_m) {
         if (top_m == CellTops::kNone_m) return;

@@ -14,8 +14,8 @@ void reserve(std::size_t size, FartherReturnsWorkspace& work) {
     for (auto* values : {&work.x_m, &work.y_m, &work.z_m, &work.height_m}) values->resize(size);
 }
 
-/// Lists the returns in the zone behind the closest one of their pixel; returns their number. They
-/// are few and scattered, so there is no branch.
+/// Lists the returns in the zone behind the closest return of their pixel; returns their number.
+/// Branch-free, because they are few and scattered.
 std::size_t listFarther(const Scan& scan, const RangeImage& image, float zone_m,
                         std::int32_t* list) {
     static_assert(RangeImage::kNoPixel == -1);
@@ -48,7 +48,7 @@ void locate(const Scan& scan, const Eigen::Isometry3f& ground_from_sensor, std::
     }
 }
 
-/// Whether the surface at a place is ground; true if evidence is not required.
+/// Whether the surface at a position is ground; true if evidence is not required.
 bool hasEvidence(const std::vector<std::uint8_t>& of_block, float x_m, float y_m) {
     if (of_block.empty()) return true;
     constexpr float kBlock_m = kBlockCells * GroundSurface::kCell_m, kMiddle = 0.5f * kBlocks;

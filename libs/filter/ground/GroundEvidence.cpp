@@ -14,13 +14,13 @@ namespace {
 
 using namespace evidence_rules;
 
-/// Whether two pixels of a column are a level step.
+/// Whether two pixels of a column form a level step.
 bool isStep(const PixelPoints& pixels, Eigen::Index low, Eigen::Index high) {
     const Eigen::Vector3f below = pixels.at(low);
     const auto length_m2 = [&](const Eigen::Vector3f& step) {
         return step.x() * step.x() + step.y() * step.y() + step.z() * step.z();
     };
-    for (Eigen::Index between = low + 1; between < high; ++between) {  // empty, or close
+    for (Eigen::Index between = low + 1; between < high; ++between) {  // empty or close
         if (length_m2(pixels.at(between) - below) >= kShort_m * kShort_m) return false;
     }
     const Eigen::Vector3f step = pixels.at(high) - below;
@@ -30,8 +30,8 @@ bool isStep(const PixelPoints& pixels, Eigen::Index low, Eigen::Index high) {
     return outwards > 0 && step.z() * step.z() < kSteepest * kSteepest * run_m2;
 }
 
-/// Whether most pixels around a block that are close to the surface are level. `close` and `level`
-/// count those of each block.
+/// Whether most near-surface pixels around a block are level. `close` and `level` are counts per
+/// block.
 using Counts = Eigen::Array<int, kBlocks, kBlocks>;
 bool hasEvidence(const Counts& close, const Counts& level, int i, int j) {
     const int first_i = std::max(i - kReach, 0), first_j = std::max(j - kReach, 0);

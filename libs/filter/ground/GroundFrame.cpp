@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels, const Eige
             };
             const auto cells = [&](int axis) { return (along(axis) + kReach_m) * (1 / kCell_m); };
             const float u = cells(0), v = cells(1), z_m = along(2);
-            if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;  // or empty
+            if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;  // also if empty
             Lowest& low = lowest[static_cast<int>(u) * kCells + static_cast<int>(v)];
             if (low.pixel < 0 || z_m < low.z_m) low = {pixel, z_m};
         }

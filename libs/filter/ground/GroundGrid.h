@@ -6,7 +6,7 @@
 
 namespace hagen {
 
-/// The height of a cell without one.
+/// The height of an empty cell.
 constexpr float kNoHeight = std::numeric_limits<float>::infinity();
 
 /// The grid has a border of one cell on all sides, so that every cell has eight neighbours. Cells
@@ -28,8 +28,8 @@ constexpr int gridColumn(int j) {
     return (j + 1) * kStride<kSide> + 1;
 }
 
-/// Calls visit(k) for each k below `size`, alternating between four places: neighbours in an image
-/// are often in the same cell and would stall each other.
+/// Calls visit(k) for each k below `size`, interleaving four ranges: adjacent pixels often share a
+/// cell, and consecutive updates of one cell would stall.
 template <class Visit>
 __attribute__((always_inline)) inline void visitByTurns(std::size_t size, Visit visit) {
     const std::size_t quarter = size / 4;

@@ -35,7 +35,7 @@ namespace {
 
 using namespace surface_rules;
 
-using Grid = Eigen::ArrayXXf;  // a value per cell of the square, with any number of cells per side
+using Grid = Eigen::ArrayXXf;  // one value per cell, any number of cells per side
 constexpr int kCells = GroundSurface::kCells, kCoarseCells = kCells / 2;
 
 /// A pixel that may be ground.
@@ -114,10 +114,10 @@ class Envelope {
     auto height_m() const { return height_m_.block(1, 1, cells_, cells_); }
 
  private:
-    /// A cell is reached from the column before, and from all cells before it in its own: by the
-    /// ramp, that is how high the ground may climb from the column's edge up to each cell.
+    /// Reaches a cell from the previous column and from all previous cells of its own column, using
+    /// the ramp: the maximum climb from the column's edge to each cell.
     void passColumn(int j, bool is_forward) {
-        const int before = is_forward ? j : j + 2;  // with the border
+        const int before = is_forward ? j : j + 2;  // including the border
         float low_m = kNoHeight;                    // relative to the ramp
         for (int n = 0; n < cells_; ++n) {
             const int i = is_forward ? n : cells_ - 1 - n;
@@ -134,12 +134,12 @@ class Envelope {
     }
 
     int cells_;
-    Grid side_m_;    ///< climb to a cell from one at its side
-    Grid ramp_m_;    ///< climb along a column, to before each cell
+    Grid side_m_;    ///< climb to a cell from the one beside it
+    Grid ramp_m_;    ///< climb along a column up to each cell
     Grid height_m_;  ///< with a border of one cell
 };
 
-/// Heights times their weights, and these weights, 0 to 1.
+/// Weighted heights and their weights, 0 to 1.
 struct WeightedGrid {
     Grid weighted_m, weight;
 };
@@ -147,7 +147,7 @@ struct WeightedGrid {
 /// Step 3: the means of the candidates close to `lowest_m`.
 WeightedGrid cellMeans(const Candidates& candidates, const Grid& lowest_m) {
     Grid sum_m = Grid::Zero(lowest_m.rows(), lowest_m.cols()), number = sum_m;
-    visitByTurns(candidates.size(), [&](std::size_t k) {  // in the order of simd/
+    visitByTurns(candidates.size(), [&](std::size_t k) {  // same order as simd/
         const Candidate& c = candidates[k];
         const float above_m = c.z_m - lowest_m(c.i, c.j);
         if (!(above_m >= -kBelowLowest_m && above_m <= kAboveLowest_m)) return;
@@ -205,7 +205,8 @@ Grid refined(const Grid& coarse_m) {
     return fine_m;
 }
 
-/// Pull up to a single cell; then push: a fine cell takes its missing weight from the coarse grid.
+/// Pulls up to a single cell; then pushes: a fine cell takes its missing weight from the coarse
+/// grid.
 Grid filled(const WeightedGrid& grid) {
     std::vector<WeightedGrid> levels{grid};
     while (levels.back().weight.rows() > 1) levels.push_back(pull(levels.back()));

@@ -15,7 +15,7 @@ void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const 
     for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
         const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
         if (!hasValue(x_m)) continue;
-        // A pixel beyond the grid has the adjacent cell on it.
+        // A pixel outside the grid uses the nearest cell inside.
         const int cell = cells.cell.data()[pixel];
         const int i = std::clamp(cell % kGridStride, 1, GroundSurface::kCells);
         const int j = std::clamp(cell / kGridStride, 1, GroundSurface::kCells);

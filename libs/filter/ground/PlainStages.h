@@ -1,7 +1,6 @@
-// The definitions of the ground stages, pixel by pixel and cell by cell. simd/ has the same
-// functions for many pixels at a time; HAGEN_SIMD=plain (InstructionSets.h) runs these instead. The
-// headers of the stages describe them. Floats are added in one order in both, so results are the
-// same bits, but for sums of doubles.
+// Scalar reference implementations of the ground stages. simd/ has the vectorised ones;
+// HAGEN_SIMD=plain (InstructionSets.h) selects these instead. The headers of the stages document
+// them. Both add floats in the same order, so results are bit-identical except for sums of doubles.
 #pragma once
 #include <hagen/filter/CellTops.h>
 #include <hagen/filter/GroundSurface.h>

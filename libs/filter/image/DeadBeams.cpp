@@ -5,9 +5,9 @@
 namespace hagen {
 namespace {
 
-constexpr Eigen::Index kMaxRows = 2;  // adjacent ones that are bridged
+constexpr Eigen::Index kMaxRows = 2;  // adjacent rows to bridge
 
-/// Nearly always, the first columns show that all rows are live.
+/// The first columns usually show that all rows are live.
 void findLiveRows(const Image<float>& depth_m, std::vector<std::uint8_t>& is_live) {
     constexpr Eigen::Index kTogether = 32;  // columns
     const auto rows = static_cast<std::size_t>(depth_m.rows());
@@ -28,7 +28,7 @@ float sineBetween(const PixelDirections& directions, Eigen::Index a, Eigen::Inde
            directions.row_cosine[b] * directions.row_sine[a];
 }
 
-/// Fills the row from those below and above; they are empty where those are.
+/// Fills the row from those below and above; pixels stay empty where either is empty.
 void bridgeRow(const PixelDirections& directions, Eigen::Index below, Eigen::Index row,
                Eigen::Index above, Image<float>& repaired_m) {
     const float whole = sineBetween(directions, below, above);

@@ -11,10 +11,10 @@ struct DeadBeamsWorkspace {
     std::vector<std::uint8_t> is_live;  ///< per row: whether any pixel has a value
 };
 
-/// Stage 2, for beams that are dead: rows of `depth_m` (metres, NaN empty) without any value
-/// between rows with values. Their pixels in `repaired_m` get the depth at which their beam crosses
-/// the straight line between the pixels below and above, if both have a value; so ground remains
-/// connected and as steep as it is. Up to two adjacent rows are bridged; more are left empty.
+/// Stage 2, for dead beams: rows of `depth_m` (metres, NaN empty) without any value between rows
+/// with values. Their pixels in `repaired_m` get the depth at which their beam crosses the straight
+/// line between the pixels below and above, if both have a value; this keeps the ground connected
+/// and its slope unchanged. Up to two adjacent rows are bridged; wider gaps stay empty.
 /// `repaired_m` has the size of `depth_m`.
 void bridgeDeadBeams(const Image<float>& depth_m, const PixelDirections& directions,
                      Image<float>& repaired_m, DeadBeamsWorkspace& work);

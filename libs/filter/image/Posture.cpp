@@ -36,7 +36,7 @@ SensorModel allAround(SensorModel sensor) {
     return sensor;
 }
 
-/// Half a turn about x: no rounding, and a row stays a row.
+/// A rotation by 180 degrees about x: exact, and rows stay rows.
 void turnUpsideDown(const Scan& scan, const SensorModel& rows_of, Scan& turned) {
     const std::size_t size = scan.size();
     turned.x_m = scan.x_m;
@@ -67,7 +67,7 @@ void level(const Scan& scan, const Eigen::Matrix3f& level_from_sensor, const Sen
         turned.z_m[i] = point_m.z();
     }
     locateBeams(rows_of, turned);
-    // A turn changes no range; what has none, as the airframe, gets none.
+    // Rotation preserves ranges; returns without range (such as the airframe) stay without.
     turned.range_m = scan.range_m;
 }
 
@@ -75,7 +75,7 @@ void level(const Scan& scan, const Eigen::Matrix3f& level_from_sensor, const Sen
 
 Posture postureOf(const std::optional<Attitude>& attitude) {
     if (!attitude) return Posture::Upright;
-    const float up = levelFromSensor(*attitude)(2, 2);  // of the sensor's z axis
+    const float up = levelFromSensor(*attitude)(2, 2);  // cosine of the tilt
     if (up < -kMaxTiltCosine) return Posture::UpsideDown;
     return up < kMaxTiltCosine ? Posture::OnItsSide : Posture::Upright;
 }

@@ -15,9 +15,9 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// For adjacent columns whose left (and right) neighbours all come earlier, or all later, in the
-/// image. Positive floats order like their bits, and the earlier of two equal ones is older. So a
-/// neighbour is older if its bits, plus 1 if it is earlier, are greater. There is no branch per
-/// pixel: the results of 64 pixels are one word.
+/// image. Positive floats order like their bits, and ties go to the earlier pixel. So a neighbour
+/// is older if its bits, plus 1 if it is earlier, are greater. Branch-free: the results of 64
+/// pixels are one word.
 void FindCriticalIn(int begin, int end, int stride, bool left_is_earlier, bool right_is_earlier,
                     const float* HWY_RESTRICT level, CriticalPixels& critical) {
     const hn::ScalableTag<std::int32_t> d;
@@ -102,8 +102,7 @@ namespace {
 
 HWY_EXPORT(FindCriticalIn);
 
-constexpr int kSlack =
-    2 * 64;  ///< elements that 64-pixel words and wide vectors access past an end
+constexpr int kSlack = 2 * 64;  ///< elements accessed past the ends by words and vectors
 
 }  // namespace
 
@@ -152,7 +151,7 @@ void findCriticalPixels(const FramedLevels& framed, CriticalPixels& critical) {
     findIn(0, std::min(1, last), false, false);  // the last column is left of the first
     findIn(std::min(1, last), last, true, false);
     findIn(last, last + 1, true, true);
-    for (int row = 0; row < framed.rows; ++row) {  // from the frame to the pixels it copies
+    for (int row = 0; row < framed.rows; ++row) {  // link frame pixels to the originals
         critical.ascent[framed.indexOf(row, -1)] = framed.indexOf(row, last);
         critical.ascent[framed.indexOf(row, framed.columns)] = framed.indexOf(row, 0);
     }

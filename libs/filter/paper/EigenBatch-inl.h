@@ -12,7 +12,7 @@ namespace hagen {
 template <class Real>
 constexpr double kNegligible = sizeof(Real) == sizeof(float) ? 0x1p-23 : 0x1p-44;
 
-/// The smallest divisor; its square root can still be squared.
+/// The smallest divisor; the square of its square root does not underflow.
 template <class Real>
 constexpr double kTiny = sizeof(Real) == sizeof(float) ? 1e-30 : 1e-280;
 
@@ -45,7 +45,7 @@ constexpr int kVectors = kLanes<Real> / kVectorLanes<Real>;
 
 template <class Real>
 struct Pack {
-    HWY_INLINE Pack() {}  // the implicit one is not compiled for this instruction set
+    HWY_INLINE Pack() {}  // an implicit one is not compiled for this instruction set
     hn::Vec<D<Real>> part[kVectors<Real>];
 };
 template <class Real>
@@ -73,7 +73,7 @@ HWY_INLINE Pack<Real> all(double value) {
     return r;
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): names and types cannot stand in parentheses
+// NOLINTBEGIN(bugprone-macro-parentheses): names and types cannot be parenthesised
 #define HAGEN_BINARY(name, op, Result)                                       \
     template <class Real>                                                    \
     HWY_INLINE Result<Real> name(const Pack<Real>& a, const Pack<Real>& b) { \
@@ -175,7 +175,7 @@ void tridiagonalise(int m, EigenBatch<Real>& batch) {
     if (m > 1) store(load(row(1)[0]), batch.beside[0]);
 }
 
-/// The next sweep of diagonaliseTridiagonal(): the rotations in [first, end).
+/// The next QL sweep: the rotations in [first, end).
 template <class Real>
 struct Sweep {
     int first, end;

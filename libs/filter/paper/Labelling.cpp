@@ -46,7 +46,7 @@ void gateLowest(const Image<float>& depth_m, const Image<float>& angle_rad, floa
     for (const int seed : seeds) setPixel(seed / rows, seed % rows, rows, lowest);
 }
 
-/// The highest and the nearest pixel of each column, among those with an angle.
+/// The highest and the nearest pixel with an angle in each column.
 void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_rad,
                          ColumnBits& seeds) {
     const int rows = static_cast<int>(angle_rad.rows());
@@ -67,7 +67,7 @@ void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_
 /// Extends the reached pixels of a column up and down along its links.
 template <class Words>
 void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reached) {
-    // Upwards: the carry of an addition runs along consecutive links.
+    // Upwards: the carry of an addition propagates along consecutive links.
     std::uint64_t from_below = 0;
     for (int word = 0; word < words; ++word) {
         const std::uint64_t links = above[word], from = reached[word];
@@ -75,7 +75,7 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
         reached[word] = from | (sum ^ links);
         from_below = leaving < links || sum < leaving;
     }
-    // Downwards there is no carry; instead the step length doubles each time.
+    // Downwards there is no carry; double the step length instead.
     std::uint64_t from_above = 0;
     for (int word = words - 1; word >= 0; --word) {
         std::uint64_t links = above[word], down = reached[word];
@@ -96,7 +96,7 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
 /// columns spread to their neighbours; a column that gains pixels is queued to spread itself.
 template <class Words>
 void growRegions(Words words, int columns, const ColumnLinks& links, LabellingWorkspace* w) {
-    w->waiting.resize(static_cast<std::size_t>(columns) + 1);  // each once, and a scratch entry
+    w->waiting.resize(static_cast<std::size_t>(columns) + 1);  // and a scratch entry
     w->is_waiting.assign(static_cast<std::size_t>(columns), false);
     int* const waiting = w->waiting.data();
     int* const is_waiting = w->is_waiting.data();
@@ -118,7 +118,7 @@ void growRegions(Words words, int columns, const ColumnLinks& links, LabellingWo
         is_waiting[to] |= more != 0;
     };
     for (int column = 0; column < columns; ++column) spread(column);
-    for (int column = 0; column < columns; ++column) {  // most are complete
+    for (int column = 0; column < columns; ++column) {  // most have already spread
         const int on_right = column + 1 < columns ? column + 1 : 0;
         std::uint64_t differ = 0;
         for (int word = 0; word < words; ++word) {
@@ -190,7 +190,7 @@ void writeLabels(const LabellingWorkspace& w, bool from_ground, Image<Label>* la
 
 }  // namespace
 
-// Fast because links are found for many pixels at once, and regions grow by whole columns.
+// Fast because links are found for many pixels at once and regions grow by whole columns.
 void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_rad, float beta_rad,
                   Seeds seeds, float seed_gate_rad, Image<Label>& labels, LabellingWorkspace& w) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());

@@ -25,12 +25,13 @@ struct LabellingWorkspace {
 /// Seeds::Lowest: the lowest pixel of each column is a seed, its region ROU, the rest RoI.
 /// Seeds::TopAndNearest: the highest and the nearest pixel of each column are seeds, their regions
 /// RoI, the rest ROU.
-/// Seeds::Every: every pixel is a seed and ROU, without regions; for ablations.
-/// In each case a pixel with a depth but no angle is RoI, the safe choice. If it is the lowest of
-/// its column, neither it nor the pixel above the gap is a seed.
+/// Seeds::Every: every pixel is a seed and ROU, no regions; for ablations.
 ///
-/// `depth_m` and `pixel_angle_rad` have the same size, NaN for no value; empty pixels are labelled
-/// Unclassified, and no seeds, even if they have an angle (levelGaps()). The lowest pixels are
+/// A pixel with a depth but no angle is always RoI, to be safe. If it is the lowest of its column,
+/// neither it nor the pixel above the gap is a seed.
+///
+/// `depth_m` and `pixel_angle_rad` have the same size, NaN for no value; empty pixels are
+/// Unclassified and never seeds, even if they have an angle (levelGaps()). The lowest pixels are
 /// seeds only if their angle passes `seed_gate_rad` (SeedGate.h); pi/2 or more passes all.
 void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_rad, float beta_rad,
                   Seeds seeds, float seed_gate_rad, Image<Label>& labels, LabellingWorkspace& work);

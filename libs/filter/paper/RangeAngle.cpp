@@ -23,7 +23,7 @@ void columnAngles(const float* depth_m, const float* sine, const float* cosine, 
     });
 }
 
-/// The first angles where there are some, otherwise the second ones.
+/// The first angles where present, otherwise the second.
 void columnCarried(const float* first_rad, const float* second_rad, int pixels,
                    float* pixel_angle_rad) {
     coverRows(pixels, [=](auto d, int row) HWY_ATTR {

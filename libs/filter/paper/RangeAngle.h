@@ -14,12 +14,12 @@ namespace hagen {
 void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  Image<float>& range_angle_rad);
 
-/// Sets the angles that are NaN to 0, as if the image of angles had been 0 from the beginning.
+/// Sets NaN angles to 0, as if the angle image had been initialised with 0.
 void levelGaps(Image<float>& range_angle_rad);
 
-/// The angle of each of the I_h x I_w pixels: the one to the beam above it; if there is none, the
-/// one to the beam below; NaN if there is neither. An empty pixel has none, unless levelGaps() gave
-/// it some. `to_beam_above` false: the one to the beam below, if there is one.
+/// The angle of each of the I_h x I_w pixels: to the beam above; if absent, to the beam below; NaN
+/// if both are absent. An empty pixel has no angle, unless levelGaps() set one. `to_beam_above`
+/// false: prefers the beam below.
 void carryAngles(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad,
                  bool to_beam_above = true);
 

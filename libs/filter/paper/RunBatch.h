@@ -5,8 +5,8 @@ namespace hagen {
 
 // Stage 7 smooths many runs of values at once, one per vector lane.
 
-/// The number of lanes: several vectors even for the widest instruction set, so that others proceed
-/// while one waits for a square root or division.
+/// The number of lanes: several vectors even for the widest instruction set, to hide the latency of
+/// square roots and divisions.
 template <class Real>
 constexpr int kLanes = 128 / sizeof(Real);
 
@@ -28,26 +28,26 @@ template <class Real>
 struct EigenBatch {
     using Row = std::vector<Lanes<Real>>;
     Row matrix;        ///< m x m, row-major; only the lower triangle is used
-    Row vectors;       ///< the eigenvectors found, one after the other
-    Lanes<Real> last;  ///< the eigenvalue of the last of them,
-    Lanes<Real> next;  ///< and the next eigenvalue
+    Row vectors;       ///< the eigenvectors, concatenated
+    Lanes<Real> last;  ///< the eigenvalue of the last vector
+    Lanes<Real> next;  ///< the next eigenvalue
 
     Row scale, diagonal, beside, product;
     std::vector<GivensRotation<Real>> rotations;
 };
 
-/// At most kLanes runs, and the memory to smooth them.
+/// Up to kLanes runs, and memory to smooth them.
 template <class Real>
 struct RunBatch {
     using Values = std::vector<Lanes<Real>>;
     int m = 0;            ///< the window; each run has at least 2 m - 1 values
     int values = 0;       ///< of the longest run
     Values series;        ///< the runs; shorter ones are padded with zeros
-    Values tail;          ///< the last 2 (m - 1) values of each
+    Values tail;          ///< the last 2 (m - 1) values of each run
     Lanes<Real> columns;  ///< of each trajectory matrix
 
-    Values smooth;        ///< the result except for the last m - 1 values of each run,
-    Values smooth_tail;   ///< and those
+    Values smooth;        ///< the result without the last m - 1 values of each run
+    Values smooth_tail;   ///< the last m - 1 values
     Lanes<Real> error{};  ///< bound on the rounding error of the result
 
     Lanes<Real> trace;

@@ -12,8 +12,8 @@ namespace hagen {
 /// over those of the 8 neighbours x_i (azimuth wrapped) that have a value; g_s and g_r are
 /// Gaussians of `sigma_px` pixels and `sigma_m` metres. The image I is proximity or depth. Maxima
 /// without neighbours, and pixels that are not maxima, keep their values. The paper prints I(x)
-/// under the sum; then the weights cancel, and I_f(x) = 2 I(x): `by_neighbours` false.
-/// `sharpened_m` must not be the same image as `image_m`.
+/// under the sum; then the weights cancel to I_f(x) = 2 I(x): `by_neighbours` false. `sharpened_m`
+/// must not be the same image as `image_m`.
 void sharpenMaxima(const Image<float>& image_m, const std::vector<Maximum>& maxima, float sigma_px,
                    float sigma_m, Image<float>& sharpened_m, bool by_neighbours = true);
 
@@ -24,8 +24,8 @@ void mergeMaxima(const Image<float>& depth_m, const Image<float>& proximity_m,
                  const Image<float>& sharpened_m, const std::vector<Maximum>& maxima,
                  float min_range_m, Image<float>& merged_m);
 
-/// The merge if depth was sharpened: its mean with the sharpened depth. Only maxima move, and only
-/// away. `merged_m` must not be the same image as `depth_m`.
+/// The merge if depth was sharpened: the mean of depth and sharpened depth. Only maxima move, and
+/// only away. `merged_m` must not be the same image as `depth_m`.
 void mergeDepths(const Image<float>& depth_m, const Image<float>& sharpened_m,
                  const std::vector<Maximum>& maxima, Image<float>& merged_m);
 

@@ -1,7 +1,7 @@
 // Many runs are smoothed at once, one per lane. A trajectory matrix and its transpose have the same
-// components, so the shorter side is the window. Only the smaller set of components is computed,
-// those to keep or those to remove. Projection and hankelization are one linear filter. All of this
-// is done with floats, and again with doubles for the few runs that need them.
+// components, so the shorter side is the window. Only the smaller set of components, to keep or to
+// remove, is computed. Projection and hankelization are one linear filter. Floats are used first,
+// then doubles for the few runs that need them.
 #include "filter/paper/SingularSpectrumAnalysis.h"
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,8 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The m x m products of the trajectory matrix's rows, divided by their trace. Each is computed
-/// from the previous one along the diagonal.
+/// The Gram matrix (m x m) of the trajectory matrix's rows, divided by its trace. Each entry is
+/// computed from the previous one along the diagonal.
 template <class Real>
 void rowProducts(RunBatch<Real>& batch) {
     const int m = batch.m, columns = batch.values - m + 1;
@@ -77,10 +77,10 @@ HWY_INLINE Pack<Real> weightedSum(const Lanes<Real>* weights, const Lanes<Real>*
     return sum;
 }
 
-/// The means along the antidiagonals of the trajectory matrix's projection. They are a filter of
-/// the series: the sum along each diagonal of the m x m projection is the weight of the value at
-/// that distance. Each of the first m - 1 values adds a row of the projection to the filter, each
-/// of the last removes one.
+/// The means along the antidiagonals of the trajectory matrix's projection, as a filter of the
+/// series: the sum along each diagonal of the m x m projection is the weight of the value at that
+/// distance. Each of the first m - 1 values adds a row of the projection to the filter, each of the
+/// last removes one.
 template <class Real>
 void antidiagonalMeans(RunBatch<Real>& batch) {
     const int m = batch.m;
@@ -107,7 +107,7 @@ void antidiagonalMeans(RunBatch<Real>& batch) {
     }
 }
 
-/// The series minus the computed components, if these are to be removed.
+/// Subtracts the computed components from the series, if these are to be removed.
 template <class Real>
 void subtractSmooth(RunBatch<Real>& batch) {
     const int m = batch.m;
@@ -183,7 +183,7 @@ HWY_EXPORT(smoothWithFloats);
 HWY_EXPORT(smoothWithDoubles);
 
 /// Maximum effect of rounding on a value, in its unit. On real scans it was less than a fifth of
-/// it.
+/// this.
 constexpr float kTolerance = 2e-4f;
 
 using Run = SsaWorkspace::Run;
@@ -201,7 +201,7 @@ std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t e
     return end;
 }
 
-/// Fills work.runs with the runs of at least `fewest` values, sorted by length.
+/// Fills work.runs with the runs of `fewest` or more values, sorted by length.
 void findRuns(Image<float>& image, int fewest, SsaWorkspace& work) {
     std::vector<std::uint64_t>& words = work.has_value;
     std::vector<Run>&found = work.found, &runs = work.runs;
@@ -237,7 +237,7 @@ void smooth(int principal_components, RunBatch<double>& batch) {
     HWY_DYNAMIC_DISPATCH(smoothWithDoubles)(principal_components, batch);
 }
 
-/// Reserves memory for any runs, so that later scans do not allocate.
+/// Reserves memory for all possible runs, so that later scans do not allocate.
 template <class Real>
 void reserve(int window_size, int rows, RunBatch<Real>& batch) {
     const int m = std::min(window_size, (rows + 1) / 2);
@@ -280,8 +280,8 @@ void takeLane(const RunBatch<Real>& batch, int lane, const Run& run) {
     }
 }
 
-/// Smooths runs, which are sorted by length. Those that rounding may have changed too much stay
-/// unchanged, and in `runs`.
+/// Smooths runs, which are sorted by length. Runs with too large a rounding error are not written
+/// and stay in `runs`.
 template <class Real>
 void smoothRuns(int window_size, int principal_components, RunBatch<Real>& batch,
                 std::vector<Run>& runs) {
@@ -313,7 +313,7 @@ void smoothColumns(const Image<float>& values, int window_size, int principal_co
                    Image<float>& smoothed, SsaWorkspace& work) {
     smoothed = values;
     if (principal_components == window_size) return;
-    // The trajectory matrix of a shorter run has no more components than are kept.
+    // All components of a shorter run would be kept.
     findRuns(smoothed, window_size + principal_components, work);
     reserve(window_size, static_cast<int>(values.rows()), work.floats);
     reserve(window_size, static_cast<int>(values.rows()), work.doubles);

@@ -16,7 +16,7 @@ struct SsaWorkspace {
     };
 
     std::vector<std::uint64_t> has_value;  ///< one bit per pixel
-    std::vector<Run> found, runs;          ///< in pixel order, and sorted by length
+    std::vector<Run> found, runs;          ///< in pixel order; sorted by length
     std::vector<int> next_of_length;       ///< per length, index of its next run in `runs`
     RunBatch<float> floats;
     RunBatch<double> doubles;
@@ -33,7 +33,7 @@ struct SsaWorkspace {
 void smoothColumns(const Image<float>& values, int window_size, int principal_components,
                    Image<float>& smoothed, SsaWorkspace& work);
 
-/// The components of one series of N values, as stage 7 sees them.
+/// The components of one series of N values, as in stage 7.
 struct SeriesComponents {
     /// W eigenvalues of X X^T, descending; each divided by their sum is the component's share of X.
     Eigen::VectorXd eigenvalues;

@@ -17,9 +17,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// atan2(rise, run) of non-negative numbers, without branches; 0 if both are 0, NaN if both are
-/// NaN. The polynomial is the minimax polynomial of its degree (Remez) for the arctangent in [0,
-/// 1], with an error of at most 2.5e-7 rad.
+/// Branch-free atan2(rise, run) of non-negative numbers; 0 if both are 0, NaN if both are NaN. Uses
+/// the minimax polynomial (Remez) for the arctangent in [0, 1]; maximum error 2.5e-7 rad.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V slopeAngle(D d, V rise, V run) {
     const V tiny = hn::Set(d, std::numeric_limits<float>::min());

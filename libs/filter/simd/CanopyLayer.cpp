@@ -16,11 +16,11 @@ namespace {
 constexpr int kCells = GroundSurface::kCells;
 using namespace canopy_rules;
 
-/// The cells of one or more blocks, counted.
+/// Counts of the cells of one or more blocks.
 struct Census {
     int seen = 0;    ///< with returns
-    int tall = 0;    ///< whose highest return is higher than plants
-    int plants = 0;  ///< whose highest return is that of a low plant
+    int tall = 0;    ///< highest return is above plants
+    int plants = 0;  ///< highest return is a low plant
 
     void add(const Census& other) {
         seen += other.seen;
@@ -35,8 +35,8 @@ struct Census {
     bool isCanopy() const { return canopy_rules::isCanopy(seen, tall, plants); }
 };
 
-/// The heights of the plants in the cells of one or more blocks. Sums are double, so that
-/// subtracting a block leaves hardly any rounding error.
+/// Heights of the plants in the cells of one or more blocks. Sums are doubles, to keep the rounding
+/// error of subtracted blocks small.
 struct Heights {
     double sum_m = 0;   ///< sum of the plants' heights
     double sum_m2 = 0;  ///< sum of their squares
@@ -63,7 +63,7 @@ void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blo
         const int first = column * kBlockCells;
         for (int j = first; j < first + kBlockCells; ++j) {
             const float* const top_m = columnOf(tops, j);
-            for (int i = 0; i < kCells; ++i) {  // all: so that the compiler vectorises it
+            for (int i = 0; i < kCells; ++i) {  // all cells, so that the compiler vectorises it
                 counts[i] += (top_m[i] != CellTops::kNone_m ? 1 : 0) +
                              (top_m[i] >= kTallest_m ? kTall : 0) +
                              (isPlant(top_m[i]) ? kPlants : 0);
@@ -77,7 +77,7 @@ void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blo
     }
 }
 
-/// `own`: the sums of each block. Most have no plants.
+/// `own`: the sums of each block. Most blocks have no plants.
 void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>& blocks) {
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         blocks[block] = {};
@@ -93,8 +93,8 @@ void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>
     }
 }
 
-/// Raises the tolerance of each pixel to the canopy of its block, unless something stands out of it
-/// in its cell; NaN stays NaN.
+/// Raises the tolerance of each pixel to the canopy of its block, unless something in its cell
+/// protrudes from it; NaN stays NaN.
 void raiseTolerances(const PixelCells& cells, const CellTops& tops,
                      const BlocksAndNone<float>& canopy_m, Image<float>& tolerance_m) {
     for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {

@@ -15,7 +15,7 @@ namespace {
 
 using namespace surface_rules;
 
-/// Sums up the candidates of each cell that are close to its lowest one, `ground_m`.
+/// Sums the candidates of each cell that are close to the lowest, `ground_m`.
 template <int kSide>
 void sumUpClose(GroundFit<kSide>& fit, const float* ground_m) {
     for (auto* sums : {&fit.sum_m, &fit.number}) std::fill(sums->begin(), sums->end(), 0.0f);

@@ -13,11 +13,11 @@ namespace {
 using tops_rules::kOverhead_m;
 constexpr int kTogether = 4;  // cells
 
-/// The highest of each cell, and its second highest, or the highest if it is the only one, for
-/// `cells` from a place in memory on. HWY_ATTR: GCC for ARM refuses Highway's functions without it.
+/// The highest point of each cell, and the second highest (the highest if it is the only one), for
+/// consecutive `cells`. HWY_ATTR: GCC for ARM rejects Highway's functions without it.
 HWY_ATTR void separate(const float* two_m, int cells, float* highest_m, float* top_m) {
     namespace hn = hwy::HWY_NAMESPACE;
-    const hn::CappedTag<float, 4> d;  // has no better instruction set than the rest of this file
+    const hn::CappedTag<float, 4> d;  // uses the instruction set of the rest of this file
     const auto none_m = hn::Set(d, CellTops::kNone_m);
     constexpr int kLanes = static_cast<int>(hn::MaxLanes(d));
     static_assert(kTogether % kLanes == 0);
@@ -29,8 +29,8 @@ HWY_ATTR void separate(const float* two_m, int cells, float* highest_m, float* t
     }
 }
 
-/// Calls visit(first, cells) for each stretch of cells in memory, whose number is a multiple of
-/// kTogether: up to three more than there are in a column's, which are overwritten by the next.
+/// Calls visit(first, cells) for each contiguous range of cells. Rounds up to a multiple of
+/// kTogether: the next column overwrites up to three surplus cells.
 template <class Visit>
 void forEachStretch(const CellArea& area, Visit visit) {
     static_assert(kGridSize % kTogether == 0);

@@ -1,5 +1,5 @@
-// Before the ground surface fit: lists the pixels that may be ground, with compressing stores. For
-// files that Highway compiles once per instruction set.
+// Lists the candidate pixels for the ground surface fit, with compressing stores. For files that
+// Highway compiles once per instruction set.
 #ifndef HAGEN_GROUND_CANDIDATES
 #define HAGEN_GROUND_CANDIDATES
 #include <hagen/filter/GroundFit.h>

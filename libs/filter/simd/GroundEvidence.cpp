@@ -16,7 +16,7 @@ namespace {
 
 using namespace evidence_rules;
 
-/// The marks of a pixel have a bit for each of the pixels above that a step may lead to.
+/// A pixel's marks have one bit per possible upper pixel of a step.
 constexpr std::uint8_t markOf(int above) { return static_cast<std::uint8_t>(1 << (above - 1)); }
 
 }  // namespace
@@ -39,8 +39,8 @@ HWY_INLINE void storeMask(D, hn::Mask<D> mask, std::uint8_t* HWY_RESTRICT to) {
     hn::StoreU(hn::DemoteTo(Bytes<D>(), ones), Bytes<D>(), to);
 }
 
-/// Marks of the level steps from each pixel to those that follow it in memory. At the top of a
-/// column, where these are in another column, the caller corrects it.
+/// Marks of the level steps from each pixel to the next pixels in memory. The caller corrects the
+/// top of each column, where these belong to another column.
 void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                   const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT steps) {
     const auto markSteps = [&](auto d, std::size_t pixel, int most_above) HAGEN_INLINE {
@@ -49,7 +49,7 @@ void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         const auto z = hn::LoadU(d, z_m + pixel);
         auto marks = hn::Zero(di);
-        auto is_open = hn::Not(hn::IsNaN(z));  // until a pixel is found that is far enough
+        auto is_open = hn::Not(hn::IsNaN(z));  // until a pixel is far enough
         for (int above = 1; above <= most_above && !hn::AllFalse(d, is_open); ++above) {
             const std::size_t next = pixel + static_cast<std::size_t>(above);
             const auto dx = hn::Sub(hn::LoadU(d, x_m + next), x);
@@ -77,7 +77,7 @@ void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float
     }
 }
 
-/// Marks both pixels of each step, unless their cell has something below. `steps` has kAbove more
+/// Marks both pixels of each step, unless their cell has a lower pixel. `steps` has kAbove extra
 /// values before the first.
 void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
                  const std::uint16_t* HWY_RESTRICT cell, const float* HWY_RESTRICT lowest_m,
@@ -99,7 +99,7 @@ void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
     });
 }
 
-/// For each pixel: 0 unless it is close to the surface, 1 if it is, 2 if it is level, too.
+/// For each pixel: 0 if far from the surface, 1 if close, 2 if close and level.
 void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
              const float* HWY_RESTRICT height_m, const std::uint8_t* HWY_RESTRICT is_level,
              std::uint8_t* HWY_RESTRICT close) {
@@ -142,7 +142,7 @@ HWY_EXPORT(MarkLevelIn);
 HWY_EXPORT(CloseIn);
 HWY_EXPORT(WithdrawIn);
 
-/// Pixels close to the surface, and those of them that are level.
+/// Counts of the pixels close to the surface, and of the level ones among them.
 struct Counts {
     int close = 0, level = 0;
 
@@ -153,10 +153,10 @@ struct Counts {
     }
 };
 
-/// Counts the pixels of each block, by what CloseIn() found.
+/// Counts the pixels of each block by their result of CloseIn().
 void countClose(const Image<std::uint16_t>& block, const std::uint8_t* close,
                 Blocks<Counts>& blocks) {
-    // Both counts of a block in one number.
+    // Packs both counts of a block into one number.
     constexpr std::uint64_t kClose = 1, kLevelToo = kClose + (std::uint64_t{1} << 32);
     static constexpr std::uint64_t kOfKind[] = {0, kClose, kLevelToo};
     BlocksAndNone<std::uint64_t> counts{};
@@ -179,7 +179,7 @@ void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
     const auto size = static_cast<std::size_t>(rows * columns);
     is_level.resize(rows, columns);
     if (size == 0) return;
-    // Steps from the pixels before the first: none.
+    // No steps from before the first pixel.
     work.steps.resize(size + kAbove);
     std::fill_n(work.steps.begin(), kAbove, std::uint8_t{0});
     std::uint8_t* const steps = work.steps.data() + kAbove;
@@ -187,7 +187,7 @@ void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
     (size, pixels.x_m.data(), pixels.y_m.data(), pixels.z_m.data(), steps);
     const Eigen::Index last_rows = std::min<Eigen::Index>(rows, kAbove);
     for (Eigen::Index end = rows; end <= rows * columns; end += rows) {
-        for (int above = 0; above < last_rows; ++above) {  // so many rows are above
+        for (int above = 0; above < last_rows; ++above) {  // number of rows above
             steps[end - 1 - above] &= static_cast<std::uint8_t>((1 << above) - 1);
         }
     }

@@ -13,31 +13,31 @@ struct GroundEvidenceWorkspace {
     std::vector<float> lowest_m;  ///< per cell
     /// Per pixel: whether a level step leads to the pixel above (1), the next (2), ... (4), (8).
     std::vector<std::uint8_t> steps;
-    std::vector<std::uint8_t> close;  ///< per pixel: 1 if it is close to the surface, 2: and level
+    std::vector<std::uint8_t> close;  ///< per pixel: 1: close to the surface, 2: and level
 };
 
 /// Marks the pixels that look like ground (1, otherwise 0), in the ground frame. A pixel and the
-/// one above it in its column are a level step if the upper one is farther out and the slope
-/// between them, against the plane, is less than 0.3. Walls are too steep, and ceilings come closer
-/// with elevation. Where the pixel above is empty, or less than 0.08 m away (over so short a way
-/// the noise of ranges is steep), the next one that is not makes a step as well, and so do the
-/// short ones before it: up to the fourth pixel above, if it is less than 2 m away. Both pixels of
-/// a step are level, unless another pixel of their cell (0.75 m) is more than 0.3 m below: there,
-/// they are leaves, a table or a roof.
+/// one above it in its column form a level step if the upper one is farther out and the slope
+/// between them, relative to the plane, is less than 0.3. Walls are too steep, and ceilings come
+/// closer with elevation. If the pixel above is empty or less than 0.08 m away (range noise
+/// dominates the slope over short distances), the next pixel farther away may form a step too, as
+/// may the close ones before it, up to the fourth pixel above and up to 2 m. Both pixels of a step
+/// are level, unless another pixel of their cell (0.75 m) is more than 0.3 m below: then they are
+/// leaves, a table or a roof.
 void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
                      Image<std::uint8_t>& is_level, GroundEvidenceWorkspace& work);
 
-/// The candidates of the first fit of the ground surface: ROU pixels that are level stay ROU, all
-/// others are unclassified.
+/// The candidates for the first fit of the ground surface: level ROU pixels stay ROU, all others
+/// are unclassified.
 void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
                   Image<Label>& candidates);
 
-/// Withdraws the tolerance (minus infinity: RoI at any height) where nothing shows that the surface
-/// is ground: unless at least 55 % of the pixels close to the surface (0.2 m, plus 0.005 m per
-/// metre of distance) within 9 x 9 blocks of 3 m are level. A surface that passes through walls,
-/// trees or furniture meets them at pixels that are not level. `height_m` is that of
-/// heightsAbove(); tolerances of empty pixels are NaN. `has_evidence` is the result per block
-/// (PixelCells.h), and last for places beyond the grid, which have none.
+/// Sets the tolerance to minus infinity (RoI at any height) without evidence that the surface is
+/// ground: unless at least 55 % of the pixels close to the surface (0.2 m, plus 0.005 m per metre
+/// of distance) within 9 x 9 blocks of 3 m are level. A surface that cuts through walls, trees or
+/// furniture has pixels there that are not level. `height_m` is from heightsAbove(); tolerances of
+/// empty pixels are NaN. `has_evidence` is the result per block (PixelCells.h), then false for
+/// positions beyond the grid.
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
                      Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence,

@@ -20,7 +20,7 @@ namespace {
 using namespace frame_rules;
 using Points = GroundFrameWorkspace::Points;
 
-/// Sums over points are split into this many parts, on every machine; so points are padded.
+/// Sums over points are split into this many parts on every machine, so points are padded.
 constexpr std::size_t kParts = 4;
 std::size_t paddedSize(std::size_t points) { return (points + kParts - 1) / kParts * kParts; }
 
@@ -44,7 +44,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// Cell and height of each pixel in a level frame, as integers; heights order like their floats.
-/// Pixels out of reach get the cell kCells * kCells.
+/// Pixels outside the grid get the cell kCells * kCells.
 void LevelPixelsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                    const float* HWY_RESTRICT z_m, const Eigen::Matrix3f& level,
                    std::int32_t* HWY_RESTRICT cell, std::int32_t* HWY_RESTRICT height) {
@@ -160,7 +160,7 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
         n_level += rows;
     }
 
-    // The height followed by the pixel index: the minimum is the first of the lowest pixels.
+    // The height, then the pixel index: the minimum is the first of the lowest pixels.
     constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
     work.lowest.assign(kCells * kCells + 1, kNone);
     work.occupied.resize(kCells * kCells + 1);

@@ -14,8 +14,8 @@ namespace hagen {
 /// Lists may be longer than their contents.
 struct GroundFrameWorkspace {
     std::vector<std::int32_t> columns;  ///< of the image
-    /// The points that the plane is fitted to, and their weights by distance. The last of the four
-    /// parts is padded with points of weight 0.
+    /// The points to fit the plane to, and their weights by distance. The last of the four parts is
+    /// padded with points of weight 0.
     struct Points {
         std::vector<double> x_m, y_m, z_m, nearness;
         std::size_t size = 0;
@@ -43,9 +43,9 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
                                  const std::vector<std::int32_t>* columns = nullptr);
 
 /// Whether the fitted plane may be ground: the sensor is above it, tilted by less than 45 degrees
-/// against the horizon (against the airframe if the attitude is unknown), and at least 20 pixels
-/// are labelled ROU. High up next to a tower or tree no ground is visible, and other surfaces must
-/// not be taken for it.
+/// relative to the horizon (to the airframe if the attitude is unknown), and at least 20 pixels are
+/// labelled ROU. High up next to a tower or tree no ground is visible, and other surfaces must not
+/// be mistaken for it.
 bool canBeGround(const Eigen::Isometry3f& ground_from_sensor,
                  const std::optional<Attitude>& attitude, const Image<Label>& labels);
 

@@ -1,5 +1,4 @@
-// The ground grid, for many pixels at a time. For files that Highway compiles once per instruction
-// set.
+// Vectorised access to the ground grid. For files that Highway compiles once per instruction set.
 #ifndef HAGEN_GROUND_GRID
 #define HAGEN_GROUND_GRID
 #include <cstddef>
@@ -28,7 +27,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Makes a lambda part of the loop that calls it.
+// Forces inlining of a lambda.
 #undef HAGEN_INLINE
 #define HAGEN_INLINE HWY_ATTR __attribute__((always_inline))
 

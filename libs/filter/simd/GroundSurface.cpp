@@ -13,9 +13,9 @@
 #include "filter/simd/ObstacleRemoval-inl.h"
 #include "filter/simd/PullPush-inl.h"
 
-// Why it is fast: the first fit, which only finds out what is close, is coarse. The second touches
-// a pixel in two short loops, for the minimum of its cell and for the mean; everything else works
-// on whole vectors of cells.
+// Fast because the first fit, which only selects nearby pixels, is coarse. The second visits each
+// pixel in two short loops, for the minimum of its cell and for the mean; everything else works on
+// whole vectors of cells.
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
@@ -88,7 +88,7 @@ HWY_EXPORT(FitCloseIn);
 
 constexpr int kCells = GroundSurface::kCells;
 
-/// Starts a list of candidates for this many pixels, with room for whole vectors. Allocates the
+/// Prepares the candidate list for this many pixels, with room for whole vectors. Allocates the
 /// grids on the first fit.
 template <int kSide>
 void beginFit(std::size_t pixels, GroundFit<kSide>& fit) {
@@ -114,7 +114,7 @@ PixelSpan spanOf(const PixelPoints& pixels) {
             static_cast<std::size_t>(pixels.x_m.size())};
 }
 
-/// A rough surface under the ROU, from as few columns as necessary, in work.coarse_m.
+/// Fits a coarse surface under the ROU of a few columns, in work.coarse_m.
 void fitCoarse(const PixelSpan& image, const Image<Label>& labels,
                const std::vector<std::int32_t>& columns, GroundSurfaceWorkspace& work) {
     beginFit(image.size, work.coarse);

@@ -9,28 +9,28 @@
 
 namespace hagen {
 
-/// Pixels farther below the surface show that it is not the ground.
+/// Pixels farther below the surface indicate that it is not the ground.
 constexpr float kMinGround_m = -1.5f;
 
-/// The maximum height above ground at which a return is still ground.
+/// The maximum height of ground returns above the surface.
 struct HeightTolerance {
     float near_m = 0.17f;       ///< at the sensor
     float per_m = 0.005f;       ///< increase per metre of distance
-    float beside_tall = 0.12f;  ///< decrease per metre of height of objects beside (at most 1.1 m)
+    float beside_tall = 0.12f;  ///< decrease per metre of adjacent object height (up to 1.1 m)
 };
 
 /// Workspace of toleratedHeights(). Reuse it between scans to avoid allocations; it has no state.
 struct ToleranceWorkspace {
-    /// For each cell of CellTops, the highest top among the cell and those at its sides.
+    /// For each cell of CellTops, the highest top among it and its four neighbours.
     std::vector<float> tallest_m;
 };
 
-/// The tolerance of each pixel, at least 0.04 m; NaN if it is empty. It is smaller if something
-/// tall stands in the same 0.75 m cell or in one of the four at its sides: there, a return slightly
-/// above the ground is more likely the foot of an obstacle than grass. Nearer than three times the
-/// sensor's height above the ground, this decreases to nothing: seen from above, feet are high
-/// enough to be found without it. `pixels` in the ground frame, `tops` of their heights above the
-/// surface. Those of pixels in other cells than those of `area` mean nothing.
+/// The tolerance of each pixel, at least 0.04 m; NaN if it is empty. It is smaller if the same 0.75
+/// m cell or one of its four neighbours contains a tall object: there, a return slightly above the
+/// ground is more likely the foot of an obstacle than grass. Within three times the sensor's height
+/// above the ground, this reduction decreases to zero: from above, feet are detected without it.
+/// `pixels` in the ground frame, `tops` of their heights above the surface. Results for pixels
+/// outside the cells of `area` are undefined.
 void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, float sensor_height_m,
                       Image<float>& tolerance_m, ToleranceWorkspace& work,

@@ -24,9 +24,8 @@ struct Corners {
     HWY_ALIGN float next_m[2 * kPoints];  ///< of cells (i, j + 1) and (i + 1, j + 1)
 };
 
-/// Bilinear interpolation. Heights are copied in pairs, because gather instructions are slower; and
-/// for a few hundred points before they are used, because reading a vector right after its parts
-/// were written stalls.
+/// Bilinear interpolation. Copies heights in pairs, because gather instructions are slower, and for
+/// a few hundred points in advance, because reading a vector right after writing its parts stalls.
 void HeightsAboveIn(std::size_t points, const float* HWY_RESTRICT x_m,
                     const float* HWY_RESTRICT y_m, const float* HWY_RESTRICT z_m,
                     const float* HWY_RESTRICT surface_m, float* HWY_RESTRICT height_m) {

@@ -24,7 +24,7 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 
 /// Lists, in order, the pixels that may be a foot: ROU above kFootHeight_m with a RoI pixel among
-/// the next kFootRows, even in the next column; and the last few pixels of the image.
+/// the next kFootRows in memory; and the last few pixels of the image.
 std::size_t ListFeetIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
                        const std::uint8_t* HWY_RESTRICT label, std::int32_t* HWY_RESTRICT list) {
     std::int32_t* end = list;
@@ -75,7 +75,7 @@ bool isFoot(const PixelPoints& pixels, const Image<float>& height_m, Eigen::Inde
     return is_steep && above - pixel <= kFootRows && height_m.data()[pixel] > kFootHeight_m;
 }
 
-/// Marks `pixel`, if it is a foot, and the feet below it in its column.
+/// Marks `pixel` if it is a foot, and the feet below it in its column.
 void growDown(const PixelPoints& pixels, const Image<float>& height_m, Eigen::Index pixel,
               Image<Label>& labels) {
     const Eigen::Index rows = labels.rows(), first = pixel / rows * rows, end = first + rows;

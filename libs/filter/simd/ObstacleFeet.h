@@ -9,7 +9,7 @@ namespace hagen {
 
 /// Workspace of growFeet(). Reuse it between scans to avoid allocations; it has no state.
 struct FeetWorkspace {
-    std::vector<std::int32_t> candidates;  ///< pixels that may be a foot; may be longer
+    std::vector<std::int32_t> candidates;  ///< pixels that may be a foot; may be oversized
 };
 
 /// Extends each obstacle down to its foot: a pixel below a RoI pixel becomes RoI if it is at least

@@ -81,14 +81,14 @@ HWY_INLINE VA lastOf(VA cells) {
 #endif
 }
 
-/// How high the ground may climb along a column, from before its first cell up to each cell: one
-/// step per cell with a height, a smaller one per cell without, in any order.
+/// The maximum climb of the ground along a column, from its edge to each cell: one step per cell
+/// with a height, a smaller one per cell without, in any order.
 template <int kSide>
 HWY_INLINE void findRamp(const float* HWY_RESTRICT cleaned_m, float* HWY_RESTRICT ramp_m) {
     const Along d;
     const VA seen_m = hn::Set(d, kWidth_m<kSide> * kSteepest), one = hn::Set(d, 1.0f);
     const VA unseen_m = hn::Set(d, kWidth_m<kSide> * kSteepestUnseen);
-    VA seen = hn::Zero(d);  // cells in the vectors before
+    VA seen = hn::Zero(d);  // cells in the previous vectors
     ramp_m[-1] = 0;
     for (int i = 0; i < kSide; i += static_cast<int>(hn::Lanes(d))) {
         const auto is_seen = hn::Lt(hn::LoadU(d, cleaned_m + i), hn::Set(d, kNoHeight));
@@ -102,8 +102,8 @@ HWY_INLINE void findRamp(const float* HWY_RESTRICT cleaned_m, float* HWY_RESTRIC
 }
 
 /// One column in a pass of the chamfer transform (Borgefors 1986). Along the column, a cell is
-/// reached from all cells before it. Relative to the ramp this is a minimum, which does not depend
-/// on the order.
+/// reached from all previous cells. Relative to the ramp this is a minimum, independent of the
+/// order.
 template <int kSide, bool kForward>
 HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* HWY_RESTRICT ramp_m,
                               const float* HWY_RESTRICT before_m, float* HWY_RESTRICT envelope_m) {
@@ -134,7 +134,7 @@ HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* 
 }
 
 /// The envelope is the highest surface below `cleaned_m` that is nowhere too steep: kSteepest in
-/// cells with a height, kSteepestUnseen in others. Cells above it lose their height.
+/// cells with a height, kSteepestUnseen in others. Cells above it become empty.
 template <int kSide>
 void removeObstacles(GroundFit<kSide>& fit) {
     std::copy(fit.cleaned_m.begin(), fit.cleaned_m.end(), fit.envelope_m.begin());

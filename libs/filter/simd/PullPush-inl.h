@@ -1,7 +1,6 @@
-// Step 4 of the ground surface fit: weighted 3 x 3 binomial smoothing, then cells without
-// candidates are filled from increasingly coarse grids (pull-push: Gortler et al., The Lumigraph,
-// 1996).
-// For files that Highway compiles once per instruction set.
+// Step 4 of the ground surface fit: weighted 3 x 3 binomial smoothing, then filling cells without
+// candidates from increasingly coarse grids (pull-push: Gortler et al., The Lumigraph, 1996). For
+// files that Highway compiles once per instruction set.
 #ifndef HAGEN_PULL_PUSH
 #define HAGEN_PULL_PUSH
 #include <hagen/filter/GroundFit.h>
@@ -160,7 +159,7 @@ HWY_INLINE void withVectorsFor(int cells, Visit visit) {
 }
 
 /// Pulls weighted heights up to a single cell and pushes them down again, so that every cell gets a
-/// height. Those of the finest grid go to `surface_m`, with columns `surface_stride` apart.
+/// height. Writes the finest grid to `surface_m`, with columns `surface_stride` apart.
 void fillHeights(std::vector<HeightGrid>& levels, float* HWY_RESTRICT surface_m,
                  int surface_stride) {
     for (std::size_t k = 1; k < levels.size(); ++k) {

@@ -13,7 +13,7 @@ namespace hagen {
 namespace {
 
 using namespace speck_rules;
-constexpr int kVote = 1, kVoteForRoi = 17;  // sums of 9 have both counts, RoI votes in units of 16
+constexpr int kVote = 1, kVoteForRoi = 17;  // sums of 9 hold both counts, RoI votes in units of 16
 
 }  // namespace
 }  // namespace hagen
@@ -55,7 +55,7 @@ void EnterColumnIn(std::size_t rows, const float* HWY_RESTRICT x_m, const float*
     });
 }
 
-/// The outcome per pixel: a label, or 0 to keep it. Writes whole vectors, possibly past `end`.
+/// The new label per pixel, or 0 to keep the old one. Writes whole vectors, possibly past `end`.
 void CountVotesIn(std::size_t first, std::size_t end, std::size_t stride,
                   const std::int16_t* HWY_RESTRICT distance, const std::int16_t* HWY_RESTRICT doubt,
                   const std::int16_t* HWY_RESTRICT vote, std::uint8_t* HWY_RESTRICT elected) {

@@ -6,8 +6,8 @@
 
 namespace hagen::observations {
 
-/// A set of OctoMap keys within a box, one bit per key. Much faster than OctoMap's own key set for
-/// keys that are close together.
+/// A set of OctoMap keys within a box, one bit per key. Much faster than OctoMap's key set for
+/// nearby keys.
 class KeyBitset {
  public:
     struct Corners {
@@ -24,7 +24,7 @@ class KeyBitset {
         words_.assign(bits / 64 + 1, 0);
     }
 
-    /// Inserts a key; true if it was not in the set yet. Keys must lie in the box.
+    /// Inserts a key; true if it is new. Keys must lie in the box.
     bool add(const octomap::OcTreeKey& key) {
         const std::size_t i = indexOf(key);
         const std::uint64_t bit = std::uint64_t{1} << (i % 64);

@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Throws with the reason in errno, which must be 0 before the operation.
+/// Throws with the reason from errno, which must be 0 before the operation.
 [[noreturn]] void throwWriteError(const fs::path& file) {
     throw std::runtime_error(
-        file.string() + ": the map cannot be written" +
+        file.string() + ": cannot be written" +
         (errno == 0 ? "; is the disk full?" : std::string(": ") + std::strerror(errno)));
 }
 
-/// Returns the occupied voxels in MRPT's drawing, coloured by height from blue (lowest) to red.
+/// Returns the occupied voxels as an MRPT object, coloured by height from blue (lowest) to red.
 observations::viz::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
     auto voxels = observations::viz::COctoMapVoxels::Create();
     voxels->resizeVoxelSets(1);
@@ -94,9 +94,10 @@ bool isMapFile(const fs::path& file) {
 
 void checkMapFile(const fs::path& file) {
     if (isMapFile(file)) return;
-    throw std::runtime_error(file.string() +
-                             ": a map is written as .bt (occupied or free), .ot (probabilities) or "
-                             ".3Dscene (for SceneViewer3D); use one of these endings");
+    throw std::runtime_error(
+        file.string() +
+        ": unknown map format; use .bt (occupied or free), .ot (probabilities) "
+        "or .3Dscene (for SceneViewer3D)");
 }
 
 void saveMap(const octomap::OcTree& tree, const fs::path& file) {
@@ -107,7 +108,7 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file) {
 void saveMapInPlace(octomap::OcTree& whole, const fs::path& file, const fs::path& named) {
     checkMapFile(named);
     if (named.extension() == ".3Dscene") return saveScene(whole, file, named);
-    whole.updateInnerOccupancy();  // out of date in a map under construction
+    whole.updateInnerOccupancy();  // stale while a map is being built
     errno = 0;
     std::ofstream out(file, std::ios::binary);
     if (!out) throwWriteError(named);

@@ -16,8 +16,8 @@ namespace {
 
 octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
-// Limits: memory for the voxels around the sensor, a bit each in three sets (512 MiB a set), and
-// for the map (about 3 GiB, or half of what the process may have).
+// Memory limits: for the voxels around the sensor, one bit each in three sets (512 MiB per set),
+// and for the map (about 3 GiB, or half of the process's limit).
 constexpr double kMaxVoxelsInReach = 4294967296.0;
 constexpr std::size_t kMaxNodes = 50'000'000, kBytesPerNode = 64;
 
@@ -32,10 +32,9 @@ void checkReach(const ScanMapOptions& options) {
     if (voxels <= kMaxVoxelsInReach) return;
     const double side = std::cbrt(kMaxVoxelsInReach) - 5;
     throw std::invalid_argument(
-        "an OctoMap with voxels of " + std::to_string(options.resolution_m) +
-        " m needs more than " + "4 billion of them within its range of " +
-        std::to_string(std::lround(options.max_range_m)) + " m; use voxels of at least " +
-        std::to_string(2 * options.max_range_m / side) + " m");
+        "an OctoMap with voxels of " + std::to_string(options.resolution_m) + " m has more than " +
+        "4 billion voxels within its range of " + std::to_string(std::lround(options.max_range_m)) +
+        " m; use voxels of at least " + std::to_string(2 * options.max_range_m / side) + " m");
 }
 
 /// State of a voxel after a scan. A hit overrides a ray that passes through.
@@ -67,7 +66,7 @@ class ScanMap::RayTraversal {
  public:
     void start(const octomap::OcTree& tree, const Eigen::Vector3f& origin_m, double max_range_m) {
         tree_ = &tree;
-        if (!origin_m.allFinite()) throw std::runtime_error("its pose is not finite");
+        if (!origin_m.allFinite()) throw std::runtime_error("the pose is not finite");
         origin_m_ = origin_m;
         max_range_m_ = static_cast<float>(max_range_m);
         voxels_.free.clear();
@@ -82,7 +81,7 @@ class ScanMap::RayTraversal {
                                      std::to_string(std::lround(origin_m.z())) +
                                      " m lies outside an OctoMap with voxels of " +
                                      std::to_string(tree.getResolution()) +
-                                     " m; use poses closer to their origin");
+                                     " m; use poses closer to the origin");
         }
         passed_.reset(box);
         hit_.reset(box);
@@ -90,12 +89,12 @@ class ScanMap::RayTraversal {
     }
 
     void hit(const Eigen::Vector3f& point_m) {
-        if (!((point_m - origin_m_).norm() <= max_range_m_)) return;  // nor one that is not finite
+        if (!((point_m - origin_m_).norm() <= max_range_m_)) return;  // or is not finite
         const octomap::OcTreeKey key = tree_->coordToKey(pointOf(point_m));
         if (hit_.add(key)) voxels_.occupied.push_back(key);
     }
 
-    /// Marks the voxels before the point's own as free, up to the maximum range. Rays that end in
+    /// Marks the voxels before the point's voxel as free, up to the maximum range. Rays that end in
     /// the same voxel count as one ray to its centre.
     void pass(const Eigen::Vector3f& point_m) {
         const Eigen::Vector3f ray = point_m - origin_m_;
@@ -123,17 +122,17 @@ class ScanMap::RayTraversal {
     Eigen::Vector3f origin_m_{0, 0, 0};
     float max_range_m_ = 0;
     KeyBitset passed_, hit_, ends_;
-    octomap::KeyRay ray_;  // large: reused across scans, like all members
+    octomap::KeyRay ray_;  // large: reused across scans
     ScanVoxels voxels_;
 };
 
 ScanMap::ScanMap(const ScanMapOptions& options) : options_(options) {
     check("resolution", options.resolution_m);
-    check("greatest range", options.max_range_m);
+    check("maximum range", options.max_range_m);
     checkProbabilities(options);
     checkReach(options);
     if (options.insertion != RayInsertion::OneRayPerVoxel && options.content != MapContent::Full) {
-        throw std::invalid_argument("OctoMap's own insertion needs all returns as hits");
+        throw std::invalid_argument("OctoMap's own insertion requires all returns as hits");
     }
     most_nodes_ = mostNodes();
     tree_ = std::make_unique<octomap::OcTree>(options.resolution_m);

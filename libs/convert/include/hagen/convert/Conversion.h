@@ -17,16 +17,16 @@ namespace hagen::convert {
 
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
-    std::filesystem::path input;        ///< as for openRecording()
+    std::filesystem::path input;        ///< see openRecording()
     std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag; empty: none
     std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
     std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
 
     std::filesystem::path rawlog;  ///< segmented rawlog
     std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR
-    std::filesystem::path clouds;  ///< labelled clouds with all fields, a file per scan
+    std::filesystem::path clouds;  ///< labelled clouds with all fields, one file per scan
     OutputFormat cloud_format = OutputFormat::Ply;
-    std::filesystem::path mcap;      ///< labelled clouds, boxes and poses as messages of ROS 2
+    std::filesystem::path mcap;      ///< labelled clouds, boxes and poses as ROS 2 messages
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
     std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot, .3Dscene: one map in each format
     observations::ScanMapOptions octomap;         ///< resolution and contents of the map
@@ -41,18 +41,18 @@ struct Conversion {
     std::size_t jobs = 0;  ///< threads; 0: all cores. Outputs do not depend on it
     bool preview = false;  ///< add a coloured scene after each pair of clouds
     std::optional<float>
-        picture_azimuth_deg;  ///< column to draw; none: that of the nearest obstacle
+        picture_azimuth_deg;  ///< column to draw; nullopt: column of the nearest obstacle
     Settings settings;
 };
 
 /// Results of one scan.
 struct ScanReport {
-    std::size_t entry;         ///< index of its entry in the input; in a scan folder, of the scan
+    std::size_t entry;         ///< index of the entry in the input, or of the scan in a scan folder
     std::string sensor_label;  ///< "velodyne" for a scan folder, "lidar" for cloud files
     std::string name;          ///< of its files, without extension
     double time_s;
     std::size_t returns, roi, rou, unclassified;
-    std::size_t returns_masked;  ///< of the unclassified: those of the airframe of the settings
+    std::size_t returns_masked;  ///< unclassified returns of the settings' airframe
     std::size_t obstacles;       ///< RoI components
     float nearest_roi_m;         ///< NaN if the scan has no RoI
     double latency_ms;           ///< from the observation in memory to its labels
@@ -63,14 +63,14 @@ struct ConversionReport {
     std::size_t entries = 0;  ///< entries converted; all are in the output
     std::size_t scans = 0;    ///< segmented LiDAR scans in these entries
     std::size_t returns = 0, roi = 0, rou = 0, unclassified = 0;
-    std::size_t returns_masked = 0;    ///< of the unclassified: those of the airframe
+    std::size_t returns_masked = 0;    ///< unclassified airframe returns
     std::size_t unreadable_scans = 0;  ///< kept but not segmented; each was reported
     std::size_t results_replaced = 0;  ///< clouds and previews of an earlier run, not in the output
     std::size_t left_out_before = 0;   ///< entries skipped before `from`
-    /// Description of the sensor by sensor label: "VLP-16, 16 beams", or how it was recovered
+    /// Sensor description by sensor label: "VLP-16, 16 beams", or how it was recovered
     /// (CloudSensors.h).
     std::map<std::string, std::string> sensors;
-    /// The sensors that neither log nor settings name, and the columns of their images.
+    /// Sensors named by neither log nor settings, and their image columns.
     struct Recovered {
         observations::SharedBeams beams;
         int columns = 0;
@@ -82,48 +82,49 @@ struct ConversionReport {
     struct Mcap {
         std::size_t scans = 0, points = 0, boxes = 0, messages = 0;
     };
-    Mcap mcap;                            ///< what the MCAP holds
-    std::size_t scans_in_map = 0;         ///< scans in the OctoMap: those with a pose
+    Mcap mcap;                            ///< contents of the MCAP
+    std::size_t scans_in_map = 0;         ///< scans with a pose, in the OctoMap
     std::size_t scans_with_attitude = 0;  ///< scans with known roll and pitch
-    std::string first_without_attitude;   ///< "entry 0 (lidar)"; empty: none
-    bool is_attitude_of_poses = false;    ///< interpolated; otherwise the latest in the log
+    std::string first_without_attitude;   ///< "entry 0 (lidar)"; empty: all have one
+    bool is_attitude_of_poses = false;    ///< interpolated; otherwise the latest of the log
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
-    Settings settings;    ///< those of the conversion, merged with a scan folder's sensor.yaml
+    Settings settings;    ///< of the conversion, merged with a scan folder's sensor.yaml
 };
 
-/// Callbacks of a conversion. They are called in the order of the log and never concurrently, but
-/// possibly on different threads.
+/// Callbacks of a conversion, called in log order and never concurrently, but possibly on different
+/// threads.
 struct ConversionListener {
     /// Called after each entry.
     std::function<void(const ConversionReport&)> progress = [](const auto&) {};
     /// Called with the title of an entry ("entry 12 (lidar)") and a remark for the user.
     std::function<void(const std::string& entry, const std::string& remark)> remark =
         [](const auto&, const auto&) {};
-    /// Called with the title of a scan that could not be segmented, and the reason. It is kept.
+    /// Called with the title of a scan that could not be segmented, and the reason. The scan is
+    /// kept.
     std::function<void(const std::string& entry, const std::string& why)> unreadable =
         [](const auto&, const auto&) {};
-    /// Called before each entry is read. False ends the conversion with Interrupted, once the
-    /// entries read before are converted.
+    /// Called before reading each entry. False ends the conversion with Interrupted after
+    /// converting the entries already read.
     std::function<bool()> keep_going = [] { return true; };
 };
 
 /// Segments a whole log. Holds an entry per thread in memory. Pictures are drawn on one thread.
 ///
-/// A segmented rawlog keeps every entry of the input, in order (of a capture or bag: the scans).
-/// Each LiDAR observation is followed, in the same sensory frame if it is in one, by its `_roi` and
-/// `_non_roi` clouds and the preview, if requested. They replace those of an earlier run. Scan
+/// A segmented rawlog keeps every entry of the input, in order (only scans of a capture or bag).
+/// Each LiDAR observation is followed, in the same sensory frame if any, by its `_roi` and
+/// `_non_roi` clouds and the preview, if requested. They replace results of an earlier run. Scan
 /// folders and labelled clouds keep the names of an input folder; scans of other recordings are
 /// numbered.
 ///
 /// An OctoMap needs poses. Each return is placed with the pose at its own time, if known. Scans
 /// without a pose are skipped, with a remark.
 ///
-/// Outputs get their names when they are complete. Throws recordings::BrokenRecording if the
+/// Outputs are renamed into place when complete. Throws recordings::BrokenRecording if the
 /// recording or a later step fails, and recordings::Interrupted if the listener stops the
-/// conversion: the entries before are then kept in OUT.partial.rawlog (DIR.partial), which the
+/// conversion: preceding entries are then kept in OUT.partial.rawlog (DIR.partial), which the
 /// message names. Throws SettingsError if options do not fit a sensor, and std::runtime_error if an
-/// output failed or nothing was converted.
+/// output failed or no entry was converted.
 ConversionReport convert(const Conversion& conversion, const ConversionListener& listener = {});
 
 }  // namespace hagen::convert

@@ -8,15 +8,15 @@
 
 namespace hagen {
 
-/// How high objects stand in each ground cell: the second-highest point up to 1.5 m above the
-/// surface, or the only one. One return alone may be rain, dust or a mixed pixel, and what is
-/// higher may be the crown of a tree that stands elsewhere. Indexed by PixelCells::cell.
+/// Height of the objects in each ground cell: the second-highest point up to 1.5 m above the
+/// surface, or the only one. A single return may be rain, dust or a mixed pixel, and anything
+/// higher may be an overhanging tree crown. Indexed by PixelCells::cell.
 struct CellTops {
     static constexpr float kNone_m = -std::numeric_limits<float>::infinity();
 
     Eigen::ArrayXXf top_m;      ///< height above the surface; kNone_m in cells without pixels
-    Eigen::ArrayXXf highest_m;  ///< the highest up to 1.5 m, likewise
-    std::vector<float> two_m;   ///< the highest two of each cell, side by side (workspace)
+    Eigen::ArrayXXf highest_m;  ///< highest point up to 1.5 m, likewise
+    std::vector<float> two_m;   ///< two highest points of each cell, interleaved (workspace)
     CellArea area;              ///< the cells that were computed
 };
 
@@ -24,12 +24,12 @@ struct CellTops {
 void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTops& tops,
                   const CellArea& area = {});
 
-/// Raises `highest_m` of the cell of each pixel to what is known of it from an earlier call, in
-/// which the cell had more pixels. `known_m` is per pixel, NaN where nothing is known.
+/// Raises `highest_m` of each pixel's cell to a height from an earlier call, in which the cell had
+/// more pixels. `known_m` is per pixel, NaN if unknown.
 void raiseHighest(const PixelCells& cells, const Image<float>& known_m, CellTops& tops);
 
-/// The highest of the pixels in a cell (PixelCells::cell), for a later raiseHighest(); NaN if it
-/// was not computed. What was raised does not count: else, a height could outlast what had it.
+/// The height of the highest pixel in a cell (PixelCells::cell), for a later raiseHighest(); NaN if
+/// it was not computed. Ignores raised heights, so that a height does not outlast its object.
 float highestOf(const CellTops& tops, int cell);
 
 }  // namespace hagen

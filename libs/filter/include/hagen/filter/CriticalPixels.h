@@ -7,9 +7,9 @@
 
 namespace hagen {
 
-/// An image of levels with a frame around it, as one array. The frame has a zero above each column,
-/// which is also below the next one, and on both sides a copy of the column at the other end of the
-/// turn. Each neighbour is thus at a constant offset, and no loop checks for the image's borders.
+/// An image of levels with a frame around it, as one array. The frame has a zero between columns
+/// and, on both sides, a copy of the column at the opposite edge. Each neighbour is thus at a
+/// constant offset, and loops need no border checks.
 struct FramedLevels {
     int rows = 0, columns = 0;
     std::vector<float> level;  ///< >= 0; 0 for empty pixels
@@ -30,19 +30,19 @@ std::array<int, kNeighbours> neighbourOffsets(int stride);
 /// The pixels at which components of {pixel >= level} are born or may meet as the level sinks, and
 /// a path from every pixel above 0 to a maximum. Pixels are indices into the framed levels.
 struct CriticalPixels {
-    /// For each pixel its oldest neighbour or another older one, or itself if it is a maximum. For
-    /// a pixel of the frame, the pixel it copies.
+    /// For each pixel an older neighbour, or itself if it is a maximum; for a frame pixel, the
+    /// pixel it copies.
     std::vector<std::int32_t> ascent;
-    /// For each pixel the set of its older neighbours, bit n for the n-th.
+    /// For each pixel its older neighbours as a bit set.
     std::vector<std::int32_t> older_neighbours;
-    std::size_t maxima = 0, saddles = 0;  ///< counts; the lists are longer
+    std::size_t maxima = 0, saddles = 0;  ///< counts; the lists may be longer
     std::vector<std::int32_t> maximum;    ///< pixels without an older neighbour, ascending
     /// Pixels whose older neighbours are not all adjacent to each other, ascending. Any other pixel
-    /// joins one component or none.
+    /// joins at most one component.
     std::vector<std::int32_t> saddle;
 };
 
-/// The higher pixel is older; of two equal ones, the one with the smaller index in the image.
+/// The higher pixel is older; ties go to the smaller index in the image.
 void findCriticalPixels(const FramedLevels& framed, CriticalPixels& critical);
 
 }  // namespace hagen

@@ -11,7 +11,7 @@ namespace hagen {
 /// The labels of a scan's returns, and the returns of each label.
 struct LabelledReturns {
     std::vector<Label> label;             ///< one entry per return, in the scan's order
-    std::vector<std::int32_t> component;  ///< RoI component, 1 the nearest; 0 for none
+    std::vector<std::int32_t> component;  ///< RoI component, 1: nearest, 0: not in a component
     /// Indices of the returns with each label, ascending; every return is in exactly one list.
     std::vector<std::uint32_t> roi, rou, unclassified;
 };
@@ -25,9 +25,9 @@ struct LabelledImage {
 
 /// Rules for returns that do not depend on their pixel.
 struct ExtractionRules {
-    float zone_m;  ///< returns farther away are ROU
+    float zone_m;  ///< farther returns are ROU
     /// A return with its own label belongs to its pixel's component if it is less than this behind
-    /// it: what is seen past an obstacle is not part of it.
+    /// it; farther returns are not part of the obstacle.
     float component_gap_m;
 };
 
@@ -39,11 +39,11 @@ struct ExtractionWorkspace {
     std::vector<std::uint32_t> roi, rou, unclassified;
 };
 
-/// Stage 9, extraction: a return takes the label and the component of its pixel, through the
-/// depth_mapper, unless it has its own label. In the zone, a return without a pixel is RoI, of no
-/// component: it is out of the sensor's range limits, so its position is doubtful, but something is
-/// there. Only what has no range (0, not finite) is Unclassified. Components keep their order and
-/// are numbered 1, 2, ... without gaps. Requires `image` and `own_labels` of this scan.
+/// Stage 9, extraction: a return takes the label and component of its pixel (depth_mapper), unless
+/// it has its own label. In the zone, a return without a pixel is RoI without a component: it is
+/// outside the sensor's range limits, so its position is doubtful, but something is there. Only
+/// returns without range (0, not finite) are Unclassified. Components keep their order and are
+/// numbered 1, 2, ... without gaps. Requires `image` and `own_labels` of this scan.
 void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabels& own_labels,
                     const ExtractionRules& rules, LabelledReturns& returns,
                     ExtractionWorkspace& work);

@@ -27,10 +27,10 @@ struct GroundFit {
     std::vector<std::int32_t> cell;
     std::vector<float> z_m;
 
-    // Steps 1 and 2: the lowest candidate of each cell, without outliers and obstacles; infinite if
-    // there is none.
+    // Steps 1 and 2: the lowest candidate of each cell, without outliers and obstacles; infinite
+    // without candidates.
     std::vector<float> lowest_m, cleaned_m;
-    std::vector<float> ramp_m, envelope_m;  ///< how high the ground may climb
+    std::vector<float> ramp_m, envelope_m;  ///< maximum climb of the ground
 
     // Step 3: sums over candidates, then weighted heights and their weights.
     std::vector<float> sum_m, number;

@@ -36,19 +36,18 @@ struct GroundSurfaceWorkspace {
 ///     ones protect each other);
 ///  2. remove cells whose lowest candidate is more than 0.15 m above the slopes from lower cells:
 ///     0.3 over cells with candidates, 0.15 over others (relative to the plane);
-///  3. a cell's height is the mean of its candidates close to the lowest, its weight grows with
-///     their number;
+///  3. average the candidates close to the lowest to a cell's height, weighted by their number;
 ///  4. smooth with a weighted 3 x 3 binomial, then fill cells without candidates from increasingly
 ///     coarse grids (pull-push: Gortler et al., The Lumigraph, 1996).
 /// Without candidates: the plane z = 0.
 void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate,
                       GroundSurface& surface, GroundSurfaceWorkspace& work);
 
-/// Fits the surface under a labelled image in two passes. The first is coarse, with cells twice as
-/// wide, to the ROU of 200 to 400 columns, evenly, or of `columns`. Pixels close to its height at
-/// the centre of their cell may be ground, whatever their labels; this recovers ground that the
-/// labels have cut off. The surface is then fitted to these pixels by steps 3 and 4; strays and
-/// obstacles are not among them.
+/// Fits the surface under a labelled image in two passes. The first is coarse (cells twice as wide)
+/// and uses the ROU of 200 to 400 evenly spaced columns, or of `columns`. Pixels close to its
+/// height at the centre of their cell may be ground, whatever their labels; this recovers ground
+/// that the labels have cut off. Steps 3 and 4 then fit the surface to these pixels, which exclude
+/// strays and obstacles.
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels, GroundSurface& surface,
                       GroundSurfaceWorkspace& work,
                       const std::vector<std::int32_t>* columns = nullptr);
@@ -56,7 +55,7 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels, Gro
 /// Each pixel's height above the surface; NaN if it is empty.
 void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m);
 
-/// The same for any points; height_m must have room for all of them.
+/// The same for any points; height_m must have room for all points.
 void heightsAbove(const GroundSurface& surface, std::size_t points, const float* x_m,
                   const float* y_m, const float* z_m, float* height_m);
 

@@ -5,15 +5,15 @@ namespace hagen {
 enum class Seeds {
     Lowest,         ///< the lowest pixel of a column is ground; its region is ROU
     TopAndNearest,  ///< the paper's literal text: regions of the top and nearest pixels are RoI
-    Every           ///< no labelling: every pixel is ROU, which leaves all to the ground stages
+    Every           ///< no labelling: every pixel is ROU; only the ground stages label
 };
 
-/// All settings of the filter, named as in settings files. The defaults are ours; config/paper.yaml
-/// is our reading of the paper.
+/// All settings of the filter, named as in settings files. config/paper.yaml has our interpretation
+/// of the paper; the defaults differ.
 struct Options {
-    /// Radius of the avoidance zone: returns farther away are ROU.
+    /// Radius of the avoidance zone; farther returns are ROU.
     float zone_m = 20.0f;
-    /// Returns up to this range enter the image, as context of the zone; never less than zone_m.
+    /// Returns up to this range are projected, as context of the zone; at least zone_m.
     float context_m = 48.0f;
     /// I_w, image columns per revolution; at most the sensor's firings per revolution, because a
     /// column without returns separates its neighbours.
@@ -23,7 +23,7 @@ struct Options {
     float repair_max_step_m = 1.0f;
     /// Fill the rows of dead beams (DeadBeams.h).
     bool bridge_dead_beams = true;
-    /// Minimum persistence of a proximity maximum to be sharpened; 0: every local maximum.
+    /// Minimum persistence of a proximity maximum to be sharpened; 0: sharpen every local maximum.
     float persistence_m = 0.5f;
     /// Standard deviations of the bilateral filter: spatial, in pixels, and of range, in metres.
     float sharpening_sigma_px = 1.2f;
@@ -32,9 +32,9 @@ struct Options {
     bool sharpen_by_neighbours = true;
     /// Sharpen and merge proximity, which moves maxima nearer; false: depth, which moves them away.
     bool sharpen_proximity = true;
-    /// A pixel has the angle to the beam above it, otherwise to the one below; false: vice versa.
+    /// A pixel gets the angle to the beam above it, otherwise to the one below; false: vice versa.
     bool angle_to_beam_above = true;
-    /// Angles to empty pixels are 0, so that columns have no gaps; false: there are none.
+    /// Angles to empty pixels are 0, so that columns have no gaps; false: no angle.
     bool gaps_are_level = false;
     /// W, rows of the trajectory matrix of the singular spectrum analysis.
     int window_size = 8;
@@ -44,13 +44,13 @@ struct Options {
     float beta_deg = 10.0f;
     /// The pixels that regions grow from.
     Seeds seeds = Seeds::Lowest;
-    /// A seed is ground only if its angle is below this; 90: always.
+    /// A seed is ground only if its angle is below this; 90: always ground.
     float seed_gate_deg = 30.0f;
     /// Measure angles relative to the horizon if the sensor's attitude is known.
     bool level_by_attitude = true;
     /// Relabel all pixels by their height above a surface fitted to the ROU.
     bool ground_surface = true;
-    /// Only where pixels on level steps show ground, what is close to that surface is ROU.
+    /// Near-surface pixels are ROU only where pixels on level steps indicate ground.
     bool ground_evidence = true;
     /// Maximum height of ground returns above that surface; see HeightTolerance.
     float ground_tolerance_m = 0.17f;
@@ -61,7 +61,7 @@ struct Options {
     /// Extend obstacles down to their feet; remove isolated specks.
     bool grow_feet = true;
     bool remove_specks = true;
-    /// Ground less than this below the sensor is RoI; 0: never.
+    /// Ground closer than this below the sensor is RoI; 0: never.
     float ground_is_roi_below_m = 0.0f;
     /// Adjacent RoI pixels belong to one component if their depths differ by less.
     float component_gap_m = 1.0f;

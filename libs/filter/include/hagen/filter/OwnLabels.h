@@ -5,8 +5,8 @@
 
 namespace hagen {
 
-/// The labels of returns that are labelled individually, because they lie behind the closest return
-/// of their pixel. Written by judgeFartherReturns() for each scan, read by extractReturns().
+/// Labels of individual returns that lie behind the closest return of their pixel.
+/// judgeFartherReturns() writes them for each scan, extractReturns() reads them.
 struct OwnLabels {
     /// One element per return of the scan; empty if no ground was found, in which case every return
     /// takes the label of its pixel:
@@ -15,7 +15,7 @@ struct OwnLabels {
     ///     Rou, Roi      the return's own label; overruled only outside the zone (ROU) or the
     ///                   image (RoI)
     std::vector<Label> label;
-    std::vector<std::int32_t> returns;  ///< those with a label of their own, ascending
+    std::vector<std::int32_t> returns;  ///< returns with their own label, ascending
 };
 
 }  // namespace hagen

@@ -5,8 +5,8 @@
 
 namespace hagen {
 
-/// Where each pixel is on the ground grid: the cells of GroundSurface, plus a border of one cell on
-/// all sides for all points beyond; and blocks of 4 x 4 cells, which have no border.
+/// Each pixel's position on the ground grid: the cell of GroundSurface, with a border of one cell
+/// on all sides for points outside; and the block of 4 x 4 cells, without a border.
 struct PixelCells {
     static constexpr std::uint16_t kNoBlock = 32 * 32;  ///< beyond the grid, or empty
 

@@ -15,42 +15,42 @@ namespace hagen {
 
 /// The result for a return of a sector, kept for later sectors that have it as context.
 struct ContextReturn {
-    Label region = Label::Unclassified;  ///< of its pixel, by the stages of the paper
-    /// The highest return of its ground cell, above the surface (CellTops.h); NaN: not known. Later
-    /// sectors have few of the returns of that cell.
+    Label region = Label::Unclassified;  ///< its pixel's label from the paper's stages
+    /// Height of the highest return in its ground cell (CellTops.h); NaN: unknown. Later sectors
+    /// contain only a few returns of that cell.
     float cell_height_m = kNoValue;
 };
 
-/// A sector of a turn among its context, which shows where the ground is.
+/// A sector of a turn, with context that shows where the ground is.
 struct SectorOfInterest {
-    const Scan& returns;       ///< of the sector: the first ones of the scan, which get labels
-    const ColumnMap& columns;  ///< of the image: all in and beside the sector, fewer elsewhere
-    /// Per return of the scan: what was found of it (SectorFilter::found()) when it was in a sector
-    /// itself; those of `returns` are not read.
+    const Scan& returns;       ///< to be labelled: the first returns of the scan
+    const ColumnMap& columns;  ///< of the image: dense around the sector, sparse elsewhere
+    /// Per return of the scan: SectorFilter::found() from its own sector; entries of `returns` are
+    /// not read.
     const std::vector<ContextReturn>& context;
 };
 
-/// The stages of HagenFilter for a part of a turn. Stages 3 to 8, which compare a pixel with its
-/// neighbours, run on the columns of the sector and a few beside it; other returns keep the region
-/// that they got there. The ground is found under all of them, and only the sector is labelled by
-/// it: its labels are those of a whole scan but for a few. A canopy is recognised by
-/// how high the cells of the context were in their own sectors. Obstacles are not numbered.
+/// The stages of HagenFilter for a part of a turn. Stages 3 to 8, which compare neighbouring
+/// pixels, run on the columns of the sector and a few on both sides; other returns keep the region
+/// from their own sector. The ground is fitted under all columns, but only the sector is
+/// relabelled: nearly all labels equal those of a whole scan. A canopy is detected from the cell
+/// heights of the context in its own sectors. Obstacles are not numbered.
 class SectorFilter {
  public:
-    /// As HagenFilter.
+    /// Like HagenFilter.
     SectorFilter(const SensorModel& sensor, const Options& options);
     SectorFilter(SectorFilter&& other) noexcept;
     SectorFilter& operator=(SectorFilter&& other) noexcept;
     ~SectorFilter();
 
-    /// Labels the sector's returns. For a sensor that is upright (postureOf()). The images of the
-    /// result have the columns of the map, and labels in those of the sector; what stages 3 to 7
-    /// found is not in it. The result is valid until the next call. Throws std::invalid_argument as
+    /// Labels the sector's returns. Requires an upright sensor (postureOf()). The result's images
+    /// have the columns of the map, with labels in the sector; results of stages 3 to 7 are not
+    /// included. The result is valid until the next call. Throws std::invalid_argument like
     /// HagenFilter::segment().
     const SegmentationResult& segment(const Scan& scan, const std::optional<Attitude>& attitude,
                                       const SectorOfInterest& sector);
 
-    /// Per return of the sector, what `SectorOfInterest::context` needs once it is context.
+    /// Per return of the sector, its future entry in `SectorOfInterest::context`.
     const std::vector<ContextReturn>& found() const;
 
  private:

@@ -17,13 +17,13 @@ using SharedBeams = std::shared_ptr<const RecoveredBeams>;
 
 /// Recovers the unnamed sensors of clouds, one per sensor label.
 ///
-/// The beams of a label are those of the fullest of its first five clouds with enough returns
-/// (kMinReturnsForBeams); of equal ones, the first. After these five, they do not change.
+/// A label's beams come from the cloud with the most returns among its first five with at least
+/// kMinReturnsForBeams returns (ties: the first). After five, they do not change.
 class CloudSensors {
  public:
     static constexpr int kClouds = 5;
 
-    /// Uses an observation if it is a readable cloud (not packets) and the label is not settled.
+    /// Uses an observation if it is a readable cloud (not packets) and the label is not complete.
     void see(const mrpt::obs::CObservation& observation);
     /// The same for the coordinates of a cloud. Rings of its returns, if given, define the beams if
     /// they agree with the elevations (ringBeams()).
@@ -33,14 +33,14 @@ class CloudSensors {
     /// Whether further clouds of this label are ignored.
     bool isSettled(const std::string& label) const;
 
-    /// The beams of this label so far; null before a cloud with enough returns and three beams.
+    /// The beams of this label so far; null until a cloud has enough returns and three beams.
     SharedBeams beamsOf(const std::string& label) const;
 
  private:
     struct Seen {
         int clouds = 0;           ///< with enough returns
-        std::size_t returns = 0;  ///< of the cloud with the most
-        SharedBeams beams;        ///< of that cloud
+        std::size_t returns = 0;  ///< maximum of a cloud
+        SharedBeams beams;        ///< from that cloud
     };
     std::map<std::string, Seen> seen_;
     Scan scan_;

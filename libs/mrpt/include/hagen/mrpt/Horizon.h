@@ -7,8 +7,8 @@
 
 namespace hagen::observations {
 
-/// The vehicle's attitude from the observations of a log: CObservationRobotPose, and
-/// CObservationIMU with an orientation (quaternion, otherwise roll and pitch).
+/// The vehicle's attitude from log observations: CObservationRobotPose, and CObservationIMU with an
+/// orientation (quaternion, otherwise roll and pitch).
 class Horizon {
  public:
     /// Stores the attitude of an observation. Ignores other classes and invalid times.
@@ -16,8 +16,8 @@ class Horizon {
 
     void forget() { vehicle_.reset(); }
 
-    /// The latest rotation against the horizon if it is within 0.2 s of `time`. Position and
-    /// heading are undefined.
+    /// The latest rotation relative to the horizon if within 0.2 s of `time`. Position and heading
+    /// are undefined.
     std::optional<mrpt::poses::CPose3D> at(mrpt::Clock::time_point time) const;
 
  private:

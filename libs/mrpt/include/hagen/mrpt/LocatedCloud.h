@@ -10,12 +10,12 @@
 
 namespace hagen::observations {
 
-/// A cloud whose sensor, beams and times are known, as from Ouster packets. MRPT writes it as a
-/// CPointsMapXYZI, without these.
+/// A cloud with known sensor, beams and times, such as from Ouster packets. MRPT writes it as a
+/// CPointsMapXYZI, without them.
 class LocatedCloud : public IntensityCloud {
  public:
-    /// Takes coordinates, intensities, rows and times of a scan, and further fields. Throws
-    /// std::invalid_argument if these have another number of points.
+    /// Copies coordinates, intensities, rows and times of a scan, and further fields. Throws
+    /// std::invalid_argument if their sizes differ.
     LocatedCloud(const Scan& scan, std::shared_ptr<const SensorModel> sensor,
                  PointTable other_fields = {});
 

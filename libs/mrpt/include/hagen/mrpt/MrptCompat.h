@@ -25,7 +25,7 @@ namespace hagen::observations {
 /// Registers every class of mrpt-obs and mrpt-maps so that it can be read from a rawlog. Linking
 /// the libraries is not enough: the linker drops a library without referenced symbols.
 inline void registerMrptClasses() {
-    // Once: a later call, for another rawlog, must not touch the registry while threads use it.
+    // Once only: later calls must not modify the registry while threads use it.
     static const bool is_done = [] {
         mrpt::obs::registerAllClasses_mrpt_obs();
         mrpt::maps::registerAllClasses_mrpt_maps();
@@ -36,10 +36,10 @@ inline void registerMrptClasses() {
     static_cast<void>(is_done);
 }
 
-/// The cloud class that every MRPT from 2.5 to 3 can read.
+/// The cloud class readable by every MRPT from 2.5 to 3.
 using PortableCloud = mrpt::maps::CSimplePointsMap;
-/// The cloud class with intensities: CPointsMapXYZI, and from 2.15 on the class that can have any
-/// fields, since version 3 reads no other.
+/// The cloud class with intensities: CPointsMapXYZI; from 2.15 on, the generic class, because MRPT
+/// 3 reads no other.
 #if MRPT_VERSION < 0x020f00
 using IntensityCloud = mrpt::maps::CPointsMapXYZI;
 #else
@@ -52,7 +52,7 @@ class IntensityCloud : public mrpt::maps::CGenericPointsMap {
 };
 #endif
 
-/// The intensity of each point; null if the cloud has none.
+/// The intensity of each point; null if unknown.
 inline const mrpt::aligned_std_vector<float>* intensitiesOf(const mrpt::maps::CPointsMap& cloud) {
 #if MRPT_VERSION < 0x020f00
     const auto* const with_intensity = dynamic_cast<const IntensityCloud*>(&cloud);

@@ -8,29 +8,29 @@
 
 namespace hagen::observations {
 
-/// Lets older MRPTs read the CGenericPointsMap and the CSimplePointsMap of MRPT 2.15 to 3, as
-/// CPointsMapXYZI and CSimplePointsMap. They are written as these, too, unless writeAsGeneric() is
-/// called. Does nothing with newer MRPTs. Call once, after MRPT's own classes are registered
+/// Lets older MRPTs read the CGenericPointsMap and CSimplePointsMap of MRPT 2.15 to 3 as
+/// CPointsMapXYZI and CSimplePointsMap, and writes them as such unless writeAsGeneric() is called.
+/// Does nothing with newer MRPTs. Call once, after registering MRPT's own classes
 /// (registerMrptClasses()).
 void registerNewerClouds();
 
-/// The fields other than coordinates and intensity of a cloud that was read as a CGenericPointsMap.
-/// They are lost when it is written.
+/// The fields of a cloud read as CGenericPointsMap, except coordinates and intensity. Writing the
+/// cloud loses them.
 std::vector<std::string> fieldsNotKept(const mrpt::maps::CPointsMap& cloud);
-/// The same fields with their numbers, one point of the table per point of the cloud, without those
-/// that have another number of values. Null if it was read as another class.
+/// The same fields as a table, one row per point of the cloud, without fields of other sizes. Null
+/// if the cloud was read as another class.
 const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud);
 
 /// Fields (uint8) that RawLogViewer shows as the colours of points, from MRPT 2.15 on.
 constexpr std::array<const char*, 3> kColorFields{"color_r", "color_g", "color_b"};
 
 /// A cloud that is written as a CGenericPointsMap (version 3; readable from MRPT 2.15 on) with all
-/// fields of a checked table in little-endian order: uint8, uint16, float32 and float64 as they
-/// are, other numbers as float64, several numbers per point as fields NAME_0, NAME_1. Throws
+/// fields of a checked table in little-endian order: uint8, uint16, float32 and float64 unchanged,
+/// other numbers as float64, several numbers per point as fields NAME_0, NAME_1. Throws
 /// std::invalid_argument if x, y or z is missing. renderOptions have the colour of the first point.
 mrpt::maps::CPointsMap::Ptr genericCloudOf(const PointTable& table);
 
-/// Writes a cloud that was read as a CGenericPointsMap as one again. Others do not change.
+/// Makes a cloud that was read as CGenericPointsMap be written as one. Ignores other clouds.
 void writeAsGeneric(mrpt::maps::CPointsMap& cloud);
 
 }  // namespace hagen::observations

@@ -22,7 +22,7 @@ namespace hagen::observations {
 /// not a result of the filter (isResult()).
 bool isLidarScan(const mrpt::obs::CObservation& observation);
 
-/// True if it is such a scan that does not identify its sensor: without packets, not a
+/// True if it is a LiDAR scan that does not identify its sensor: without packets, not a
 /// LocatedCloud, and not a rotating scan without points.
 bool isCloud(const mrpt::obs::CObservation& observation);
 
@@ -40,7 +40,7 @@ struct ObservedScan {
     struct Workspace {
         ObservationWorkspace decoder;
         RotatingReturns rotating;
-        /// The sensor of these settings and beams; rebuilt only if they change.
+        /// The sensor for these settings and beams; rebuilt only if they change.
         std::optional<Settings::Sensor> settings;
         SharedBeams beams;
         SensorModel sensor_of_settings;
@@ -48,15 +48,15 @@ struct ObservedScan {
     Workspace work;
 };
 
-/// Reads a scan in its sensor's frame. The sensor is that of the recording (packets), otherwise of
-/// the settings, otherwise the one with the recovered `beams`, otherwise a VLP-16. A Velodyne scan
-/// without packets returns its stored cloud. Throws std::runtime_error with the reason if packets
-/// cannot be decoded or the cloud is missing. Reuses the memory of `observed`.
+/// Reads a scan in its sensor's frame. The sensor comes from the recording (packets), the settings,
+/// or the recovered `beams`, in this order; the fallback is a VLP-16. A Velodyne scan without
+/// packets returns its stored cloud. Throws std::runtime_error if packets cannot be decoded or the
+/// cloud is missing. Reuses the memory of `observed`.
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
                      ObservedScan& observed, const SharedBeams& beams = nullptr);
 
-/// Reads the coordinates and intensities of a cloud, and the ring numbers of its returns, empty if
-/// it has none. Returns false unless isCloud(). Throws like readObservation().
+/// Reads the coordinates and intensities of a cloud, and its ring numbers, if any. Returns false
+/// unless isCloud(). Throws like readObservation().
 bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan,
                      std::vector<std::int32_t>* rings = nullptr);
 
@@ -67,7 +67,7 @@ enum class CloudClass {
     Generic  ///< CGenericPointsMap: all fields; readable by MRPT from 2.15 on (NewerClouds.h)
 };
 
-/// Returns all returns, or those with these indices, as an MRPT cloud.
+/// Converts all returns, or those with these indices, to an MRPT cloud.
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, CloudClass cloud_class);
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
                                     CloudClass cloud_class);

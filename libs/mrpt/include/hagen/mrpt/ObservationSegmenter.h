@@ -26,27 +26,27 @@ namespace hagen::observations {
 ///     hagen::observations::ObservationSegmenter::Output out;
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
-/// Accepts the LiDAR scans of a log, also of several sensors: each sensor label has its own filter.
-/// No result depends on previous scans, except that the beams of a sensor that neither the
-/// recording nor the settings name are recovered from its first clouds (CloudSensors.h).
+/// Accepts the LiDAR scans of a log from any number of sensors: each sensor label has its own
+/// filter. Results do not depend on previous scans, except that the beams of a sensor named by
+/// neither the recording nor the settings are recovered from its first clouds (CloudSensors.h).
 class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
     DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen::observations)
 
  public:
     struct Output {
-        /// RoI and ROU of the scan, with its time stamp and sensor pose, and its label plus `_roi`
-        /// and `_non_roi`. Points as measured, in the sensor frame. Every return with a range is in
-        /// one of the clouds, except those of the settings' airframe.
+        /// RoI and ROU of the scan, with its time stamp, sensor pose, and label plus `_roi` or
+        /// `_non_roi`. Points as measured, in the sensor frame. Every return with a range is in one
+        /// of the clouds, except returns of the settings' airframe.
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
         /// The scan's returns, and the result of each stage; valid until the next process().
         const Scan* scan = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
-        std::size_t returns_masked = 0;    ///< of the airframe: without a range in `scan`
-        const Options* options = nullptr;  ///< of the filter: those of the settings, fitted to it
-        /// The beams of `sensor` if neither the recording nor the settings name it; if they are
-        /// unknown, it is assumed to be a VLP-16.
+        std::size_t returns_masked = 0;    ///< airframe returns: without a range in `scan`
+        const Options* options = nullptr;  ///< of the filter: the settings' options, adapted to it
+        /// The beams of `sensor` if neither the recording nor the settings name it; if null, a
+        /// VLP-16 is assumed.
         SharedBeams recovered;
         bool is_sensor_assumed = false;
         /// Pose of the sensor. If its attitude is known, angles are relative to the horizon.
@@ -55,7 +55,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         /// Warning about this scan, also logged; may be empty.
         std::string remark;
 
-        /// Time from the call of process() to the labels, before the clouds are made.
+        /// Time from the call of process() to the labels, before creating the clouds.
         std::chrono::steady_clock::duration time_to_labels{};
         /// CPU time of this thread in the filter only.
         std::chrono::nanoseconds filter_cpu_time{};
@@ -68,26 +68,26 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     void initialize(const Settings& settings);
 
     /// Segments one observation. Returns false and leaves `out` unchanged if it is not a LiDAR
-    /// scan. Its pose and attitude are those of scanPoseOf(), with the mount of mountedPose().
-    /// Throws std::runtime_error with the reason if a scan cannot be read, and SettingsError if the
-    /// options do not fit its sensor.
+    /// scan. Pose and attitude come from scanPoseOf(), with the mount of mountedPose(). Throws
+    /// std::runtime_error if a scan cannot be read, and SettingsError if the options do not fit its
+    /// sensor.
     bool process(const mrpt::obs::CObservation& observation, Output& out,
                  const Trajectory& vehicle = Trajectory());
 
     /// The same for a scan with a known pose and, for a cloud of an unnamed sensor, known `beams`
-    /// (null: none were found; not given: recovers them). Such scans can be segmented in any order
-    /// and by several segmenters concurrently.
+    /// (null: not found; omitted: recovers them). Such scans can be segmented in any order and by
+    /// several segmenters concurrently.
     bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose,
                  const std::optional<SharedBeams>& beams = std::nullopt);
 
     /// Stores the vehicle's attitude if an observation provides it (Horizon.h). process() does this
-    /// for observations that are not scans; call it for others of the scan's sensory frame.
+    /// for observations other than scans; call it for the rest of the scan's sensory frame.
     void see(const mrpt::obs::CObservation& observation) { horizon_.see(observation); }
 
     /// Class of the output clouds.
     CloudClass cloud_class = CloudClass::Simple;
 
-    /// Times of each part of process(). Disabled by default; prints its report when destroyed.
+    /// Times of each part of process(). Disabled by default; prints a report on destruction.
     mrpt::system::CTimeLogger profiler = idleProfiler();
 
  private:
@@ -103,7 +103,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 };
 
 /// Registers this project's classes with mrpt::rtti::classFactory(). Automatic in programs that use
-/// any of them.
+/// one of them.
 void registerHagenClasses();
 
 }  // namespace hagen::observations

@@ -28,7 +28,7 @@ struct PointField {
     std::string name;
     NumberType type = NumberType::Float32;
     std::size_t offset = 0;  ///< bytes from the start of a point
-    std::size_t count = 1;   ///< numbers per point, one after the other
+    std::size_t count = 1;   ///< consecutive numbers per point
 };
 
 /// Points as records of named numbers, as in sensor_msgs/PointCloud2: point i begins at byte
@@ -41,21 +41,21 @@ struct PointTable {
     std::vector<std::uint8_t> bytes;
 };
 
-/// The most numbers of a point, over all fields.
+/// Maximum numbers per point, over all fields.
 constexpr std::size_t kMaxNumbersPerPoint = 65536;
 
-/// Checks a table from a file, before anything else reads it. Throws std::runtime_error, naming the
-/// field, for fields without name or numbers, duplicate names, fields that do not fit into a point,
-/// more than kMaxNumbersPerPoint, and points that do not fit into the bytes.
+/// Checks a table from a file; call it before any other access. Throws std::runtime_error, naming
+/// the field, for fields without name or numbers, duplicate names, fields that exceed a point, more
+/// than kMaxNumbersPerPoint, and points that exceed the data.
 void check(const PointTable& table);
 
-/// The field of exactly this name; null if there is none.
+/// The field with exactly this name; null if not found.
 const PointField* findExactly(const PointTable& table, const std::string& name);
-/// The field of the first of these names that matches, exactly or else case-insensitively. Null if
-/// there is none.
+/// The field with the first matching name, exact match preferred to case-insensitive. Null if not
+/// found.
 const PointField* findField(const PointTable& table, const std::vector<std::string>& names);
 
-/// The numbers of a field of a checked table, one per point: those at `element` of its count.
+/// The numbers of a field of a checked table, one per point, at index `element` of its count.
 std::vector<double> columnOf(const PointTable& table, const PointField& field,
                              std::size_t element = 0);
 
@@ -64,7 +64,7 @@ std::vector<double> columnOf(const PointTable& table, const PointField& field,
                              const std::vector<std::uint32_t>& points);
 
 /// Appends a field with these numbers, one per point, to a checked table in little-endian order.
-/// Numbers must be in the type's range.
+/// Numbers must be representable in the type.
 void addColumn(const std::string& name, NumberType type, const std::vector<double>& numbers,
                PointTable& table);
 

@@ -14,13 +14,13 @@ namespace hagen::observations {
 /// The points of a range image's pixels, row by row.
 struct OrganizedPoints {
     int rows = 0, columns = 0;
-    std::vector<float> x_m, y_m, z_m;  ///< in the sensor's frame; 0, 0, 0 or not finite: none
+    std::vector<float> x_m, y_m, z_m;  ///< in the sensor's frame; 0, 0, 0 or not finite: no point
 };
 
 /// Lets older MRPTs read the CObservationRotatingScan of MRPT 2.9 to 3, whose layout differs under
-/// the same version 0. The layouts are distinguished by the place of the image size; an image
-/// without pixels counts as the older layout. Scans are written in the older layout, without their
-/// points. Call once, after MRPT's own classes are registered (registerMrptClasses()).
+/// the same version 0. The position of the image size distinguishes the layouts; an image without
+/// pixels counts as the older layout. Scans are written in the older layout, without their points.
+/// Call once, after registering MRPT's own classes (registerMrptClasses()).
 ///
 /// Reading throws std::runtime_error, naming the file, for a scan that is stored outside the log.
 void registerNewerScans();
@@ -30,7 +30,7 @@ void registerNewerScans();
 const mrpt::obs::CObservationRotatingScan* rotatingScanOf(
     const mrpt::obs::CObservation& observation);
 
-/// The points of the scan's pixels, which newer MRPTs can store; null without.
+/// The points of the scan's pixels, which newer MRPTs can store; null if missing.
 const OrganizedPoints* organizedPointsOf(const mrpt::obs::CObservationRotatingScan& observation);
 
 /// Further results of reading a rotating scan.
@@ -48,23 +48,23 @@ void readOrganizedPoints(const mrpt::obs::CObservationRotatingScan& observation,
 
 /// Reads the returns of a scan without points, column by column, with ranges, azimuths and rows.
 ///
-/// The elevations of the rows are those of the sensor named by the scan (`lidarModel`), or of the
-/// settings if that is unknown or they list elevations. Row 0 is the lowest beam, but the highest
-/// of an Ouster. Columns are evenly spaced from the first azimuth to the last, both inclusive,
+/// The row elevations come from the sensor named by the scan (`lidarModel`), or from the settings
+/// if that is unknown or if they list elevations. Row 0 is the lowest beam, or the highest for an
+/// Ouster. Columns are evenly spaced from the first azimuth to the last, both inclusive,
 /// counter-clockwise if `azimuthSpan` is positive.
 ///
 /// An image that MRPT converted from Velodyne packets (fromVelodyne()) is recognized by its unused
 /// columns. Its rows are lasers in firing order, its azimuths are clockwise and differ by laser,
 /// and half of the returns are missing.
 ///
-/// `sensor` gets those beams and the range limits of the observation. Throws std::runtime_error if
-/// no sensor with these rows is named, if the resolution or azimuths are not finite, or if images
-/// differ in size.
+/// `sensor` gets these beams and the observation's range limits. Throws std::runtime_error if no
+/// sensor with this number of rows is named, if the resolution or azimuths are not finite, or if
+/// images differ in size.
 void readRangeImage(const mrpt::obs::CObservationRotatingScan& observation,
                     const Settings& settings, Scan& scan, SensorModel& sensor,
                     RotatingReturns& returns);
 
-/// Takes the range limits of the observation if they are valid.
+/// Copies the range limits of the observation if valid.
 void takeLimits(const mrpt::obs::CObservationRotatingScan& observation, SensorModel& sensor);
 
 }  // namespace hagen::observations

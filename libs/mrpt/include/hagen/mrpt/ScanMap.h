@@ -14,7 +14,7 @@ enum class MapContent {
     RoiAndRays  ///< RoI returns are hits, the rays of all returns clear (O-RoI+rays)
 };
 
-/// How rays are inserted. All mark a voxel once per scan and never clear one with a hit.
+/// How rays are inserted. All update a voxel once per scan and never clear a voxel with a hit.
 enum class RayInsertion {
     OneRayPerVoxel,   ///< own traversal with bit sets; one ray per end voxel
     OctoMap,          ///< OctoMap's insertPointCloud()
@@ -25,9 +25,9 @@ struct ScanMapOptions {
     MapContent content = MapContent::RoiAndRays;
     double resolution_m = 0.2;  ///< edge of a voxel; > 0
     double max_range_m = 20;    ///< farther returns clear up to here and are not hits
-    // OctoMap's own values.
+    // OctoMap's defaults.
     double hit_probability = 0.7, miss_probability = 0.4;
-    double least_probability = 0.1192, greatest_probability = 0.971;  ///< clamped to these
+    double least_probability = 0.1192, greatest_probability = 0.971;  ///< clamping limits
     RayInsertion insertion = RayInsertion::OneRayPerVoxel;  ///< others require MapContent::Full
 };
 
@@ -40,8 +40,8 @@ struct MapFull : std::runtime_error {
 class ScanMap {
  public:
     /// Throws std::invalid_argument unless resolution and range are positive, and the probabilities
-    /// are in the order 0 < least < miss < 0.5 < hit < greatest < 1, or if there are more than
-    /// 2^32 voxels within the range.
+    /// are in the order 0 < least < miss < 0.5 < hit < greatest < 1, or if more than 2^32 voxels
+    /// are within the range.
     explicit ScanMap(const ScanMapOptions& options);
 
     ~ScanMap();
@@ -52,7 +52,7 @@ class ScanMap {
     /// otherwise free if a ray passes through; a ray does not clear the voxel in which it ends.
     /// Updates leaves only; inner nodes are updated when the map is saved. Voxels outside the
     /// tree's bounding box (OctoMap's setBBXMin() etc.), if any, are not updated. Throws
-    /// std::runtime_error, naming the place, for a scan beyond the extent of an OctoMap (32768
+    /// std::runtime_error, naming the position, for a scan outside the extent of an OctoMap (32768
     /// voxels from the origin). Throws MapFull.
     void insert(const MappedScan& scan);
 

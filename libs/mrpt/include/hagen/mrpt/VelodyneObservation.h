@@ -10,7 +10,7 @@
 
 namespace hagen::observations {
 
-/// Converts an observation's calibration without checks into `calibration`, whose memory is reused.
+/// Converts an observation's calibration without checks into `calibration`, reusing its memory.
 void readCalibration(const mrpt::obs::VelodyneCalibration& of_observation,
                      sensors::VelodyneCalibration& calibration);
 /// The inverse.
@@ -20,14 +20,14 @@ mrpt::obs::VelodyneCalibration mrptCalibration(const sensors::VelodyneCalibratio
 /// carries over.
 struct ObservationWorkspace {
     sensors::DecoderWorkspace packets;
-    sensors::VelodyneCalibration calibration;  ///< that of the observation
+    sensors::VelodyneCalibration calibration;  ///< of the observation
 };
 
-/// Returns the sensor that took these packets: its calibration's beams (those of the model's
-/// default calibration if the observation has none) and the observation's range limits. Throws
-/// std::runtime_error for an unknown model, and for an HDL-64E without calibration.
+/// Returns the sensor of these packets: the beams of the calibration (default: the model's) and the
+/// observation's range limits. Throws std::runtime_error for an unknown model, and for an HDL-64E
+/// without calibration.
 SensorModel sensorOf(const mrpt::obs::CObservationVelodyneScan& observation);
-/// The same, into `sensor`, whose memory is reused.
+/// The same, into `sensor`, reusing its memory.
 void sensorOf(const mrpt::obs::CObservationVelodyneScan& observation, SensorModel& sensor,
               ObservationWorkspace& work);
 

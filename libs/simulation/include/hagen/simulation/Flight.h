@@ -20,7 +20,7 @@ struct FlightSettings {
 };
 
 /// A multirotor's flight along a path above rolling ground. Roll, pitch and yaw are sums of slow
-/// waves; the vehicle banks into turns (up to 4 degrees) and pitches with its airspeed.
+/// waves; the vehicle banks into turns (up to 4 degrees) and pitches with airspeed.
 class Flight {
  public:
     Flight(const Terrain& terrain, const Path& path, const FlightSettings& settings,
@@ -44,7 +44,7 @@ class Flight {
     FlightSettings settings_;
     double lean_;  ///< scale of the tilt due to speed and turns
     std::vector<Sway> roll_, pitch_, yaw_, climb_;
-    std::vector<double> lap_s_;  ///< time at each metre of a lap
+    std::vector<double> lap_s_;  ///< time at each metre of the lap
 };
 
 }  // namespace hagen::simulation

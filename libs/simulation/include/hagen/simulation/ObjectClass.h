@@ -6,11 +6,11 @@
 
 namespace hagen::simulation {
 
-/// The object class of a simulated return. The numbers are those of semantic/*.label.
+/// The object class of a simulated return, numbered as in semantic/*.label.
 enum class ObjectClass : std::uint8_t {
     None = 0,  ///< no return
     Terrain = 1,
-    Canopy = 2,  ///< vegetation that is flown over: crop, tufts of grass
+    Canopy = 2,  ///< low vegetation to fly over: crop, tufts of grass
     Tree = 3,    ///< trunk, crown and shrubs
     Pole = 4,
     Wire = 5,
@@ -22,7 +22,7 @@ enum class ObjectClass : std::uint8_t {
     Airframe = 11  ///< the vehicle that carries the sensor
 };
 
-/// All classes that a return can have, in the order of their numbers.
+/// All classes of returns, in numerical order.
 const std::vector<ObjectClass>& allKinds();
 
 std::string nameOf(ObjectClass kind);

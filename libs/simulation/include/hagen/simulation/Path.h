@@ -4,8 +4,8 @@
 namespace hagen::simulation {
 
 /// The closed path of a flight over a scene, in top view: two straights along x, joined by half
-/// circles, flown counter-clockwise from the centre of the southern straight. Scenes keep solid
-/// objects off it.
+/// circles, flown counter-clockwise from the centre of the southern straight. Scenes keep it free
+/// of solid objects.
 struct Path {
     double half_straight_m = 30;
     double radius_m = 11.25;

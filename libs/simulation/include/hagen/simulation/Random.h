@@ -4,8 +4,8 @@
 
 namespace hagen::simulation {
 
-/// Random numbers that are identical on every machine: a Mersenne twister with own distributions,
-/// because those of the standard library differ between implementations.
+/// Random numbers that are identical on every machine: a Mersenne twister with custom
+/// distributions, because the standard library's differ between implementations.
 class Random {
  public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -18,7 +18,8 @@ class Random {
     int uniformInt(int count) { return static_cast<int>(uniform() * count); }
     bool chance(double probability) { return uniform() < probability; }
     double normal();  ///< mean 0, standard deviation 1
-    /// The same moments, within 3.5: a sum of four uniform numbers, several times as fast.
+    /// Same mean and deviation, bounded by 3.5: a sum of four uniform numbers, several times
+    /// faster.
     double approximateNormal();
     double exponential(double mean);
     int poisson(double mean);

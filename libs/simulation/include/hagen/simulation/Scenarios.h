@@ -8,16 +8,16 @@ namespace hagen::simulation {
 
 /// Names of all scenarios:
 ///
-///     orchard      fruit trees in rows, flown between two rows; weeds around the trunks
+///     orchard      rows of fruit trees, flight between two rows; weeds around the trunks
 ///     field        crop 0.3 to 0.9 m high, with trees, poles and a hedge in and around it
-///     forest-0.02  random trees (this many per square metre), bushes, fern
+///     forest-0.02  random trees (number per square metre), bushes, fern
 ///     forest-0.05, forest-0.10
 ///     wires        poles and wires of 24 mm along and across the path
-///     gap          walls with gaps that the path leads through
+///     gap          walls; the path passes through gaps
 ///     street       parked cars, houses, lamps, trees
 ///     terrain      slopes up to 15 degrees with rocks and trees
 ///     u-trap       U-shaped walls, open towards the path
-///     movers       people, cars and drones that move among trees
+///     movers       people, cars and drones moving among trees
 std::vector<std::string> scenarioNames();
 
 /// Returns the scene of a scenario; the same seed gives the same scene on every machine. Throws

@@ -14,7 +14,7 @@ namespace hagen::simulation {
 /// A static object placed in a scene.
 struct SceneObject {
     ObjectClass kind;
-    std::uint16_t number;  ///< of the object, from 1; 0: part of the ground
+    std::uint16_t number;  ///< object number from 1; 0: part of the ground
     std::size_t shape;     ///< index in SceneContent::shapes
     Eigen::Affine3f pose;  ///< from the shape's frame to the map
 };
@@ -36,14 +36,13 @@ Eigen::Affine3f poseOf(const MovingObstacle& mover, const Terrain& terrain, doub
 /// All objects of a scene.
 struct SceneContent {
     Terrain terrain;
-    Path path;  ///< the closed path that is free to fly
+    Path path;  ///< the obstacle-free closed path
     std::vector<Shape> shapes;
     std::vector<SceneObject> objects;
     std::vector<MovingObstacle> movers;
 };
 
-/// A ray in the map. `time` is relative to the snapshot that it is cast into: 0 its start, 1 its
-/// end.
+/// A ray in the map. `time` is relative to the snapshot: 0: start, 1: end.
 struct Ray {
     Eigen::Vector3f origin_m;
     Eigen::Vector3f direction;  ///< of length 1
@@ -58,8 +57,8 @@ struct RayHit {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of length 1, towards the ray's origin
 };
 
-/// A scene for ray casting with Embree. Copies share their content; const functions may be called
-/// from several threads at once.
+/// A scene for ray casting with Embree. Copies share their content; const functions are
+/// thread-safe.
 class Scene {
  public:
     explicit Scene(SceneContent content);
@@ -67,7 +66,7 @@ class Scene {
     const SceneContent& content() const;
     const Terrain& terrain() const { return content().terrain; }
     const Path& path() const { return content().path; }
-    /// Returns the scene over a short time interval, in which moving obstacles move straight.
+    /// Returns the scene over a short time interval, with linear motion of moving obstacles.
     class Snapshot;
     Snapshot snapshotOver(double start_s, double duration_s) const;
 

@@ -10,8 +10,7 @@ namespace hagen::simulation {
 /// Exact distances from points to the nearest surface of a scene (Embree point queries).
 class SceneDistance {
  public:
-    /// Prepares the part of the scene within `bounds_m`, extended by the maximum distance
-    /// `reach_m`.
+    /// Prepares the scene within `bounds_m`, extended by the maximum distance `reach_m`.
     SceneDistance(const Scene& scene, const Eigen::AlignedBox3d& bounds_m, double reach_m);
 
     /// Returns the distance to the nearest surface at `time_s`, at most the maximum distance. 0

@@ -11,7 +11,7 @@ struct Shape {
     std::vector<Eigen::Vector3f> vertices_m;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<Eigen::Vector4f> polyline_m;  ///< of chains of cylinders: x, y, z, radius
-    /// First point of each cylinder, which leads to the next point and ends in a ball.
+    /// First point of each cylinder, which ends at the next point with a ball.
     std::vector<std::uint32_t> segments;
 
     void addTriangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c);
@@ -23,7 +23,7 @@ struct Shape {
     void addPrism(const std::vector<Eigen::Vector2f>& outline_m, float least_y_m, float most_y_m);
     /// Adds cylinders along a polyline. `knots`: x, y, z and radius [m].
     void addRod(const std::vector<Eigen::Vector4f>& knots);
-    /// Adds the same as triangles with open ends: faster to cast in large numbers.
+    /// Like addRod(), but as triangles with open ends: faster for large numbers.
     void addTube(const std::vector<Eigen::Vector4f>& knots, int sides);
     /// Adds another shape, transformed. Radii of cylinders do not change.
     void append(const Shape& other, const Eigen::Affine3f& pose);

@@ -11,16 +11,16 @@ struct TerrainParameters {
     double bump_m = 0.03;           ///< amplitude of bumps and ruts a few metres long
     double roughness_m = 0.02;      ///< standard deviation of the soil height from vertex to vertex
     double grass_m = 0.1;           ///< height of the tallest grass; grass is patchy
-    double paved_half_width_m = 0;  ///< half width of a band along x that is even and free of grass
+    double paved_half_width_m = 0;  ///< half width of a smooth, grass-free band along x
 };
 
-/// Rolling ground: a sum of waves, whose height is known in closed form everywhere.
+/// Rolling ground: a sum of waves with closed-form height.
 class Terrain {
  public:
     Terrain(const TerrainParameters& form, Random& random);
 
     double height_m(double x_m, double y_m) const;
-    /// Returns the maximum height of the grass at this place.
+    /// Returns the maximum height of the grass at a position.
     double grassHeight_m(double x_m, double y_m) const;
     /// Returns the ground as a rough mesh, finer in the centre (GroundExtent).
     Shape mesh(double half_length_m, double half_width_m, double reach_m, Random& random) const;
