@@ -85,7 +85,7 @@ TEST_F(RawlogSegmentCapture, OusterRequiresMetadata) {
     expectFailure({"-i", capture, "--sensor-json", path("none.json"), "-o", path("other.rawlog")},
                   2, "--sensor-json");
     expectFailure({"-i", recording(), "--sensor-json", json, "-o", path("other.rawlog")}, 1,
-                  "is not a capture");
+                  "is neither a capture");
 }
 
 TEST_F(RawlogSegmentCapture, RejectsUnsupportedCaptures) {

@@ -38,9 +38,9 @@ TEST_F(ReplayCommand, ReportsMissingTable) {
 }
 
 TEST_F(ReplayCommand, UnknownCommandListsCommands) {
-    const std::string there_are = "there are closedloop, calibrate, openloop, replay";
-    expectFailure({"fly"}, 2, "'fly' is not a command; " + there_are);
-    expectFailure({}, 2, "no command given; " + there_are);
+    const std::string commands = "commands: closedloop, calibrate, openloop, replay";
+    expectFailure({"fly"}, 2, "'fly' is not a command; " + commands);
+    expectFailure({}, 2, "no command given; " + commands);
 }
 
 TEST_F(ReplayCommand, SelectsRunByListedLine) {

@@ -486,7 +486,7 @@ TEST_P(ConversionTest, SegmentsRangeImages) {
     EXPECT_EQ(report.scans, 3u);
     EXPECT_EQ(report.unreadable_scans, 1u);
     EXPECT_EQ(report.returns, 2 * scan.size() + 500);
-    EXPECT_EQ(remarks.rfind("entry 2 (unknown): its 5 rows have no elevations", 0), 0u) << remarks;
+    EXPECT_EQ(remarks.rfind("entry 2 (unknown): the 5 rows have no elevations", 0), 0u) << remarks;
     EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
               (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi", "lidar", "lidar_roi",
                                         "lidar_non_roi", "unknown", "camera", "camera_roi",

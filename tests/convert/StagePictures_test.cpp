@@ -384,7 +384,7 @@ TEST(StagePictures, MatchRecordedScript) {
     HagenFilter filter(sensorModel("VLP-16"));
     const SegmentationResult& result = filter.segment(scan);
     expectHash(
-        0x775a552ae08cc14b, commandsOf([&] {
+        0x4180830b147a9d9d, commandsOf([&] {
             drawStages({scan, filter.sensor(), filter.options(), result, "a pole"}, folder.path());
         }));
 }

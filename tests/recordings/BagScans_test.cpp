@@ -196,7 +196,7 @@ TEST_F(BagScansTest, RejectsMissingTopics) {
     EXPECT_THAT(read(messages, {{"/text"}, {}}).failed_because,
                 HasSubstr("the topic '/text' has the type std_msgs/String, not a LiDAR type"));
     EXPECT_THAT(read({messages[1]}).failed_because,
-                HasSubstr("has no topic of a LiDAR (sensor_msgs/PointCloud2, "));
+                HasSubstr("has no LiDAR topic (sensor_msgs/PointCloud2, "));
     EXPECT_THAT(read({}).failed_because, HasSubstr("it has: none"));
     EXPECT_THAT(read(messages, {{}, folder_ / "none.json"}).failed_because,
                 HasSubstr("no selected topic has Ouster packets"));

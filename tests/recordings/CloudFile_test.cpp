@@ -293,7 +293,7 @@ TEST_F(CloudFileTest, PlySkipsBinaryLists) {
     EXPECT_THAT(column(cloud.table, "x"), ElementsAre(1));
     EXPECT_THAT(column(cloud.table, "z"), ElementsAre(3));
     packed.text[4] = '\x7f';  // a list of 32514
-    EXPECT_THAT(complaint("a.ply", header + packed.text), HasSubstr("but 0 are there"));
+    EXPECT_THAT(complaint("a.ply", header + packed.text), HasSubstr("but 0 are present"));
 }
 
 TEST_F(CloudFileTest, PlyErrorsIncludeLine) {

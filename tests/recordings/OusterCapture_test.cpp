@@ -308,7 +308,7 @@ TEST_F(OusterCaptureTest, DropsTurnsOfOtherMode) {
                 HasSubstr("2 turns dropped: their columns may not match the metadata"));
     json_ = folder_.write("other.json", test::ousterJsonOf({512, 10}));
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 0u);
-    EXPECT_THAT(broken_, HasSubstr("a.pcap: its turns do not have the 512 columns of "));
+    EXPECT_THAT(broken_, HasSubstr("a.pcap: its turns do not have the 512 columns in "));
 }
 
 TEST_F(OusterCaptureTest, ReadsTruncatedCapture) {

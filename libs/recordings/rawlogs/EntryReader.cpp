@@ -21,7 +21,7 @@ std::string reasonOf(const std::exception& exception) {
     }
     if (text.find("ersion") != std::string::npos) return text + " (written by a newer MRPT?)";
     // A rotating scan of MRPT 3: a valid object stored elsewhere.
-    if (text.find("is not in the log") != std::string::npos) return text;
+    if (text.find("--de-externalize") != std::string::npos) return text;
     return kNoObject;
 }
 
