@@ -39,7 +39,7 @@ void addFlags(Command& app, Flags& flags) {
                "folder with beams16/ and beams64/: labelled real scans (optional)");
     app.option("--selection", flags.selection, "record of scripts/select-settings (optional)")
         .existingFile();
-    app.option("--readme", flags.readme, "README.md whose results to replace").existingFile();
+    app.option("--readme", flags.readme, "README.md whose results are replaced").existingFile();
     app.option("--revision", flags.revision, "revision of the project, for the document");
     app.option("--simulation", flags.simulation,
                "version of the simulation; scans of other versions are simulated again");

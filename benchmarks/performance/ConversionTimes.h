@@ -8,7 +8,7 @@
 
 namespace hagen {
 
-/// A conversion and a copy of the same bytes; medians, NaN without a copy.
+/// Median times of a conversion, and of copying the same bytes (NaN if not measured).
 struct ConversionTimes {
     std::string settings;
     std::size_t scans = 0, jobs = 0;

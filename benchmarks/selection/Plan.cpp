@@ -23,10 +23,10 @@ namespace fs = std::filesystem;
 using Entry = std::function<void(const std::string& key, const YAML::Node& value)>;
 
 void forEachEntry(const fs::path& file, const YAML::Node& map, const Entry& entry) {
-    if (!map.IsMap()) fail(file, map, "a map of keys is expected");
+    if (!map.IsMap()) fail(file, map, "expected a map of keys and values");
     std::set<std::string> keys;
     for (const auto& item : map) {
-        if (!item.first.IsScalar()) fail(file, item.first, "a key is expected");
+        if (!item.first.IsScalar()) fail(file, item.first, "expected a key");
         const std::string key = item.first.Scalar();
         if (!keys.insert(key).second) fail(file, item.first, key + " occurs twice");
         entry(key, item.second);
@@ -35,10 +35,10 @@ void forEachEntry(const fs::path& file, const YAML::Node& map, const Entry& entr
 
 std::vector<std::string> textsOf(const fs::path& file, const std::string& key,
                                  const YAML::Node& list) {
-    if (!list.IsSequence() || list.size() == 0) fail(file, list, key + ": a list is expected");
+    if (!list.IsSequence() || list.size() == 0) fail(file, list, key + ": expected a list");
     std::vector<std::string> texts;
     for (const YAML::Node& item : list) {
-        if (!item.IsScalar()) fail(file, item, key + ": a list of values is expected");
+        if (!item.IsScalar()) fail(file, item, key + ": expected a list of values");
         texts.push_back(item.Scalar());
     }
     return texts;

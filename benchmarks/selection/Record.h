@@ -47,7 +47,7 @@ struct Record {
     std::vector<Search> searches;
     std::vector<DriveScores> scores;
 
-    /// The unique kinds of data and drives; drives are sorted.
+    /// The names of the data sets and of the drives, without duplicates; drives are sorted.
     std::vector<std::string> data() const;
     std::vector<std::string> drives() const;
     /// The scores of a drive; nullptr if missing.

@@ -18,7 +18,7 @@ std::uint16_t kindNumber(const std::string& text) {
 SemanticClass classOf(const YAML::Node& node) {
     if (!node.IsMap() || node.size() != 2 || !node["name"] || !node["label"] ||
         !node["name"].IsScalar() || !node["label"].IsScalar() || node["name"].Scalar().empty()) {
-        throw std::invalid_argument(std::string("name and label are expected, as in '") + kExample +
+        throw std::invalid_argument(std::string("expected name and label, as in '") + kExample +
                                     "'");
     }
     const std::string label = node["label"].Scalar();

@@ -27,7 +27,7 @@ void forEachYamlEntry(
         throw std::runtime_error(file.string() + ": cannot be read");
     }
     if (!document.IsMap()) {
-        throw std::runtime_error(file.string() + ": lines such as '" + example + "' are expected");
+        throw std::runtime_error(file.string() + ": expected lines such as '" + example + "'");
     }
     std::set<std::string> seen;
     for (const auto& pair : document) {

@@ -11,7 +11,8 @@ namespace {
 
 const float kTolerance_rad = static_cast<float>(radians(kBeamFitTolerance_deg));
 
-/// The fill of the row that a quarter of the rows exceed. Image: row * columns + column.
+/// The third quartile, over the rows, of the share of pixels with a return. Pixel index:
+/// row * columns + column.
 float filledOf(const std::vector<bool>& has_return, std::size_t rows, std::size_t columns) {
     std::vector<std::ptrdiff_t> filled(rows);
     for (std::size_t row = 0; row < rows; ++row) {

@@ -60,7 +60,7 @@ class Filter {
 
     mutable std::mutex mutex_;  ///< guards all members below
     std::vector<HagenFilter> idle_;
-    int generation_ = 0;  ///< of the sensor of the idle filters
+    int generation_ = 0;  ///< number of sensor changes; filters of earlier sensors are dropped
     observations::CloudSensors sensors_;
     observations::SharedBeams beams_;
 

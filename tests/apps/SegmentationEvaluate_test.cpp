@@ -554,7 +554,7 @@ TEST_F(SegmentationEvaluate, ReportsUnnamedClasses) {
     folder_.write("pole/kinds.yaml", "1: {name: terrain, label: 1}\n");
     expectFailure({"-i", pole}, 1, "class 4 has no name in the label map");
     folder_.write("pole/kinds.yaml", "1: terrain\n");
-    expectFailure({"-i", pole}, 1, "kinds.yaml:1: name and label are expected");
+    expectFailure({"-i", pole}, 1, "kinds.yaml:1: expected name and label");
     fs::remove(folder_ / "pole/kinds.yaml");
     folder_.write("pole/altitudes.txt", "1\n2\n");
     expectFailure({"-i", pole}, 1, "altitudes.txt: has 2 lines for 1 scans");

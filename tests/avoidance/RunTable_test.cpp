@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-using Row = hagen::avoidance::Run;  // a test has a Run() of its own
+using Row = hagen::avoidance::Run;  // testing::Test has a member Run()
 
 Row someRun() {
     Row run{};

@@ -258,7 +258,7 @@ TEST(Plan, ReportsFileLineAndEntry) {
     EXPECT_THAT(errorOf("rounds: 2\nsettings:\n  beta: [5]\n"), ContainsRegex("yaml:3: .*beta"));
     EXPECT_THAT(errorOf("settings: {beta_deg: [5, 500]}"), ContainsRegex("yaml:1: .*beta_deg"));
     EXPECT_THAT(errorOf("settings: {beta_deg: [5, 5.0]}"), HasSubstr("a value occurs twice"));
-    EXPECT_THAT(errorOf("settings: {beta_deg: 5}"), HasSubstr("beta_deg: a list is expected"));
+    EXPECT_THAT(errorOf("settings: {beta_deg: 5}"), HasSubstr("beta_deg: expected a list"));
     EXPECT_THAT(errorOf("settings: {beta_deg: [5], beta_deg: [6]}"), HasSubstr("occurs twice"));
     EXPECT_THAT(errorOf("hard_sets: [hail=3]\nsettings: {beta_deg: [5]}"),
                 ContainsRegex("yaml:1: hard_sets: .*hail"));

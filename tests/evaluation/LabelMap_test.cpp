@@ -53,8 +53,8 @@ TEST_F(LabelMapFile, ShippedMapsDifferInVegetation) {
 }
 
 TEST_F(LabelMapFile, RejectsInvalidFiles) {
-    expectRefused("70: vegetation", "map.yaml:1: name and label are expected");
-    expectRefused("70: {name: vegetation}", "name and label are expected");
+    expectRefused("70: vegetation", "map.yaml:1: expected name and label");
+    expectRefused("70: {name: vegetation}", "expected name and label");
     expectRefused("70: {name: vegetation, label: 2, colour: green}", "name and label");
     expectRefused("40: {name: road, label: 1}\n70: {name: tree, label: 3}",
                   "map.yaml:2: label '3' is not 0");
@@ -62,8 +62,8 @@ TEST_F(LabelMapFile, RejectsInvalidFiles) {
     expectRefused("70000: {name: tree, label: 2}", "'70000' is not a class number");
     expectRefused("7: {name: a, label: 2}\n7: {name: b, label: 1}", "map.yaml:2: '7' occurs twice");
     expectRefused("7: {name: a, label: 2}\n8: {name: a, label: 1}", "two classes are called 'a'");
-    expectRefused("[1, 2]", "lines such as '70: {name: vegetation, label: 2}' are expected");
-    expectRefused("", "are expected");
+    expectRefused("[1, 2]", "expected lines such as '70: {name: vegetation, label: 2}'");
+    expectRefused("", "expected lines such as");
     expectRefused("7: {name", "not YAML");
     EXPECT_THAT(test::messageOf([] { readLabelMap("none.yaml"); }),
                 HasSubstr("none.yaml: no such file"));

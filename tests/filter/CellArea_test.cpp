@@ -117,7 +117,7 @@ TEST(CellTops, RaisesCellsKnownToBeHigher) {
     int raised = 0;
     for (Eigen::Index k = 0; k < known_m.size(); ++k) {
         const int cell = thin.cells.cell.data()[k];
-        if (cell == 0) continue;  // of empty pixels
+        if (cell == 0) continue;  // empty pixel
         // The maximum of the known heights of this cell and of its own pixels.
         float expected_m = before.highest_m.data()[cell];
         for (Eigen::Index other = 0; other < known_m.size(); ++other) {

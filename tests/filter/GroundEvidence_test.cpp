@@ -106,7 +106,7 @@ TEST(FindLevelPixels, StepSlopeIsBelowThreeTenths) {
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, 0.301f}}), (std::vector{0, 0}));
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, -0.299f}}), (std::vector{1, 1}));
     EXPECT_EQ(levelInColumn({{5, 0, 0}, {6, 0, -0.301f}}), (std::vector{0, 0}));
-    // 5 m out and 12 m aside: 0.3 of 13 m is 3.9 m.
+    // The steps are 13 m long (5 m in x, 12 m in y) and may rise by 0.3 * 13 m = 3.9 m.
     EXPECT_EQ(levelInColumn({{5, -12, 0}, {10, -24, 3.89f}}), (std::vector{1, 1}));
     EXPECT_EQ(levelInColumn({{5, -12, 0}, {10, -24, 3.91f}}), (std::vector{0, 0}));
 }

@@ -142,7 +142,7 @@ TEST(SectorFilter, RejectsUnlocatedReturns) {
     EXPECT_THROW(SectorFilter(sensor, options), std::invalid_argument);
 }
 
-/// Thin plants in rows. One column in six hits few of their tops.
+/// Thin plants in rows. If only every sixth column is kept, it hits few of their tops.
 SimpleScene sceneWithCrops() {
     SimpleScene scene;
     for (int i = -14; i <= 14; ++i) {
@@ -153,7 +153,7 @@ SimpleScene sceneWithCrops() {
     return scene;
 }
 
-/// The returns of the sector and, elsewhere, of one column in six.
+/// The returns of the sector and, elsewhere, of every sixth column.
 Turn thinned(const Turn& turn, std::vector<std::size_t>& kept) {
     Turn thin;
     thin.sector = turn.sector;

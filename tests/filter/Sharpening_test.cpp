@@ -20,7 +20,7 @@ TEST(Sharpening, FollowsEquation) {
     EXPECT_NEAR(sharpened_m(1, 2), 6 + (5 * beside + 4 * diagonal) / (beside + diagonal), 1e-5);
 }
 
-TEST(Sharpening, OwnValueUnderSumDoubles) {
+TEST(Sharpening, OwnValueDoublesMaximum) {
     test::Random random(14);
     for (int round = 0; round < 20; ++round) {
         Image<float> image_m = random.image(3, 5, 0.5f, 3.0f, 0.3);

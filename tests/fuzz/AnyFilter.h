@@ -20,7 +20,7 @@ void setOptions(Parts& parts, Options& options);
 /// Throws std::invalid_argument if there are too few beams.
 SensorModel anySensor(Parts& parts);
 
-/// No attitude, or any numbers.
+/// An attitude of arbitrary numbers, or none.
 std::optional<Attitude> anyTilt(Parts& parts);
 std::optional<Eigen::Isometry3d> anyPose(Parts& parts);
 

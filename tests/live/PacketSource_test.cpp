@@ -144,7 +144,7 @@ TEST(ReplaySource, ReplaysAtRecordedPace) {
         int count = 0;
         for (Next next = source.next(packet); next != Next::End; next = source.next(packet)) {
             if (next == Next::Nothing) continue;
-            // Never early; a busy machine may be late.
+            // Packets are never early, but may be late on a busy machine.
             EXPECT_GE(steadyNow_s() - start_s, 0.1 * count / speed - 0.001);
             EXPECT_EQ(packet.bytes[0], 'a' + count);
             EXPECT_NEAR(1e-9 * static_cast<double>(packet.time_ns), 1700000000 + 0.1 * count, 1e-4);

@@ -189,7 +189,7 @@ TEST_F(CloudFileTest, RejectsAbsurdPointCounts) {
     }
 }
 
-/// Fields are limited also without points, when the file needs no data.
+/// The size of fields is limited even if there are no points, so that the file needs no data.
 TEST_F(CloudFileTest, RejectsAbsurdFields) {
     EXPECT_THAT(complaint("a.pcd",
                           "FIELDS x y z a\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 4000000000\n"

@@ -1,4 +1,4 @@
-// The child process that reads ahead, when it waits for a lock that is never released.
+// Tests of the read-ahead child process when it is blocked by a lock that is never released.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -290,7 +290,7 @@ TEST(RecoverBeams, VirtualRowsAreEven) {
     }
 }
 
-TEST(RecoverBeams, HalfTurnHasHalfTheColumns) {
+TEST(RecoverBeams, HalfTurnKeepsResolution) {
     const Scan whole = randomScan(1, 20000, -7, 52);
     Scan half;
     for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -403,7 +403,7 @@ TEST(RingBeams, RejectsRingsOfOtherFields) {
         one[i] = 0;
         two[i] = rings[i] / 3;
         if (rings[i] == 1 || rings[i] == 2) swapped[i] = 3 - rings[i];
-        if (i % 5 == 0 && i % 2 == 0) blurred[i] = 4;           // a tenth: still rings
+        if (i % 5 == 0 && i % 2 == 0) blurred[i] = 4;           // 10 % is tolerated
         if (i % 11 == 0) rare[i] = 1000 + static_cast<int>(i);  // rings of one return
     }
     EXPECT_FALSE(ringBeams(scan, one));

@@ -72,7 +72,7 @@ TEST_F(OusterColumnsTest, RestartRequiresProofOfColumns) {
     EXPECT_EQ(columns_.restarts(), 8u);
 }
 
-/// One turn is lost: in the first turn, the turn's duration is unknown.
+/// The first turn is lost, because its duration is still unknown.
 TEST_F(OusterColumnsTest, SpeedDoesNotChangeMode) {
     certain(kMode, 3);
     EXPECT_EQ(certain({1024, 20}, 3), 2 * 64u);

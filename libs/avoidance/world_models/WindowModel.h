@@ -15,7 +15,7 @@ namespace hagen::avoidance {
 /// a turn are first collected in a separate tree. Without thinning, a nearby wall would fill a scan
 /// with points much denser than the measurement noise.
 ///
-/// An isolated return may be dust or rain, or the first of something thin. It counts once another
+/// An isolated return may be dust or rain, or the first of a thin object. It counts once another
 /// return is within 5 % of its range (at least 15 cm): in its own scan, in an earlier one of the
 /// window or in a later one. (Like dynamic radius outlier removal within a scan: Charron et al.,
 /// "De-noising of Lidar Point Clouds Corrupted by Snowfall", CRV 2018.)

@@ -38,8 +38,8 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows);
 /// Returns the filter's and baselines' methods for a recording, including PCL's if built with it.
 /// Settings in `sensor_file`, if it exists, are merged into those of each row. If none name a
 /// sensor, the recovered `beams` (ScanSource::beamsOf()) are used. The filter first masks the
-/// airframe, which must be in the scan's sensor frame: turned scans (tilted, upside down) have it
-/// elsewhere. Throws SettingsError if settings and sensor are inconsistent.
+/// airframe, which must be given in the scan's sensor frame: in rotated scans (tilted, upside
+/// down), it is elsewhere. Throws SettingsError if settings and sensor are inconsistent.
 std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::path& sensor_file,
                                const observations::SharedBeams& beams = nullptr);
 

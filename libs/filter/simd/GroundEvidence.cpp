@@ -179,7 +179,7 @@ void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
     const auto size = static_cast<std::size_t>(rows * columns);
     is_level.resize(rows, columns);
     if (size == 0) return;
-    // No steps from before the first pixel.
+    // Pads with zeros, because no steps start before the first pixel.
     work.steps.resize(size + kAbove);
     std::fill_n(work.steps.begin(), kAbove, std::uint8_t{0});
     std::uint8_t* const steps = work.steps.data() + kAbove;

@@ -49,8 +49,8 @@ class LidarCapture {
 
 /// Opens a capture of Velodyne or Livox sensors, detected by their first packets, or of the Ouster
 /// of a metadata file. `calibration`: of an HDL-64E. Throws std::runtime_error naming a file that
-/// cannot be opened, or if a calibration is given for another kind of sensor. Calls `check` as set
-/// by checkWhileReading(), also during opening.
+/// cannot be opened, or if a calibration is given for another kind of sensor. Calls `check`
+/// like checkWhileReading(), and also while opening.
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
                                           const std::filesystem::path& sensor_json = {},
                                           const std::filesystem::path& calibration = {},

@@ -62,7 +62,7 @@ mrpt::serialization::CSerializable::Ptr EntryReader::next() {
         return nullptr;
     } catch (const std::bad_alloc&) {
         if (!stream_.fault().empty()) throw broken("");
-        throw AsksTooMuch(
+        throw OutOfMemory(
             broken("it requests more memory at byte " + std::to_string(stream_.getPosition()) +
                    " than the entry can need: a count is wrong, or the entry exceeds " +
                    std::to_string(kMaxEntryBytes >> 20) + " MiB")

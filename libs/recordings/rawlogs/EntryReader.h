@@ -7,8 +7,8 @@ namespace hagen::recordings {
 /// Maximum memory for reading a rawlog entry: a scan of 20 million returns with all fields.
 constexpr std::uint64_t kMaxEntryBytes = std::uint64_t{1} << 30;
 
-/// Out of memory: a count is wrong, or the limit is too low.
-struct AsksTooMuch : BrokenRecording {
+/// A rawlog entry does not fit into memory: a count is wrong, or the limit is too low.
+struct OutOfMemory : BrokenRecording {
     using BrokenRecording::BrokenRecording;
 };
 
@@ -19,8 +19,8 @@ class EntryReader {
     /// @param file for messages. @param opened the path to open: the file, by this or another name.
     EntryReader(const std::filesystem::path& file, const std::filesystem::path& opened);
 
-    /// The next entry, or nullptr at the end. Throws BrokenRecording, or AsksTooMuch if memory is
-    /// the only problem.
+    /// The next entry, or nullptr at the end. Throws BrokenRecording, or its subclass OutOfMemory
+    /// if memory runs out and the file has no other fault.
     mrpt::serialization::CSerializable::Ptr next();
 
     std::size_t entries() const { return entries_; }

@@ -106,7 +106,7 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
             }
             send(pipe, EntryVerdict::Kind::Sound, end);
         }
-    } catch (const AsksTooMuch& e) {
+    } catch (const OutOfMemory& e) {
         const char* const limit = is_limit_of_program ? ", or more than --memory-limit allows" : "";
         send(pipe, EntryVerdict::Kind::Broken, 0, std::string(e.what()) + limit);
     } catch (const std::exception& e) {

@@ -42,7 +42,7 @@ class OusterColumns {
 
     const OusterSensor& sensor_;
     bool is_certain_ = true;
-    bool has_compared_ = false;  ///< two turns, since the sensor's start
+    bool has_compared_ = false;  ///< consecutive turns, since the sensor started
     std::optional<std::uint32_t> initialization_;
     std::size_t restarts_ = 0;
     std::optional<Column> first_, last_;          ///< first and last valid column of the packet

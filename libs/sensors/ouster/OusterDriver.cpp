@@ -16,7 +16,7 @@ namespace hagen::sensors {
 namespace {
 
 constexpr long long kMaxLatePackets = 16;  // packets
-constexpr int kMaxTurns = 2;               // max. gap; beyond: the sensor was restarted
+constexpr int kMaxTurns = 2;               // a longer gap is an interruption
 
 /// Reads the packets of one Ouster. Returns are relative to the origin of its beams (its lidar
 /// frame, with the axes of the sensor). Counts packets missing in complete turns after the first as

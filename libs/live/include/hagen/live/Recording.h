@@ -24,7 +24,7 @@ struct Recorded {
     std::size_t packets = 0, poses = 0;        ///< written
     std::size_t left_out = 0;                  ///< datagrams dropped because the disk was too slow
     std::vector<std::filesystem::path> files;  ///< completed files
-    /// Why recording stopped early, with the file and its partial copy; empty: it did not.
+    /// Why recording stopped early, with the file and its partial copy; empty otherwise.
     std::string failure;
 };
 
