@@ -43,7 +43,7 @@ observations::ScanMapOptions optionsFrom(const std::string& text) {
                                 : key == "range"    ? &options.max_range_m
                                 : key == "hit"      ? &options.hit_probability
                                 : key == "miss"     ? &options.miss_probability
-                                : key == "least"    ? &options.least_probability
+                                : key == "least"    ? &options.min_probability
                                 : key == "greatest" ? &options.greatest_probability
                                                     : nullptr;
         char* end = nullptr;

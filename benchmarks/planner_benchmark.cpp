@@ -22,7 +22,7 @@ double cpu_us() {
 
 struct Sum {
     int arrived = 0, collided = 0, plans = 0, emergencies = 0;
-    double time_s = 0, path_m = 0, least_m = 1000, cpu_us = 0;
+    double time_s = 0, path_m = 0, min_m = 1000, cpu_us = 0;
     long asked = 0;
 };
 
@@ -34,12 +34,12 @@ Sum flyForests(test::SmallFlight flight, double density_per_m2, int seeds) {
         const double before_us = cpu_us();
         const test::SmallFlightResult flown = test::fly(world, flight);
         sum.cpu_us += cpu_us() - before_us;
-        const bool collided = flown.least_m < avoidance::VehicleLimits{}.collision_m;
+        const bool collided = flown.min_m < avoidance::VehicleLimits{}.collision_m;
         sum.collided += collided;
         sum.plans += flown.plans;
         sum.emergencies += flown.emergencies;
         sum.asked += flown.asked;
-        sum.least_m = std::min(sum.least_m, flown.least_m);
+        sum.min_m = std::min(sum.min_m, flown.min_m);
         if (collided || !flown.arrived) continue;
         ++sum.arrived;
         sum.time_s += flown.time_s;
@@ -68,7 +68,7 @@ int main(int arguments, char** argument) {
                     std::printf(
                         "%-10s %-8s %8.2f %4.0f %8d %9d %8.2f %7.1f %7.1f %15.1f %15.0f %8.0f\n",
                         planner.c_str(), guidance.c_str(), density_per_m2, speed_m_s, sum.arrived,
-                        sum.collided, sum.least_m, sum.time_s / arrived, sum.path_m / arrived,
+                        sum.collided, sum.min_m, sum.time_s / arrived, sum.path_m / arrived,
                         1000.0 * sum.emergencies / std::max(1.0, sum.path_m),
                         static_cast<double>(sum.asked) / sum.plans, sum.cpu_us / sum.plans);
                     std::fflush(stdout);

@@ -327,7 +327,7 @@ int run(int argc, char** argv) {
         Figures sum;
         double worst = 100;
         Confusion whole_of_worst, streamed_of_worst;  // where sectors lose most
-        double most_lost = -100;
+        double max_lost = -100;
         for (const Recording& recording : recordings) {
             const std::size_t same = sum.same, different = sum.different;
             const Confusion whole = sum.whole, streamed = sum.streamed;
@@ -338,8 +338,8 @@ int run(int argc, char** argv) {
             const Confusion its_whole = sum.whole.without(whole);
             const Confusion its_streamed = sum.streamed.without(streamed);
             const double lost = its_whole.f1() - its_streamed.f1();
-            if (lost > most_lost) {
-                most_lost = lost;
+            if (lost > max_lost) {
+                max_lost = lost;
                 whole_of_worst = its_whole;
                 streamed_of_worst = its_streamed;
             }

@@ -85,10 +85,10 @@ std::string scanPanel(const Measured& measured) {
         }
         lines.push_back(line);
     }
-    double least = 0.8;
+    double min = 0.8;
     for (const Line& line : lines) {
         for (const Point& point : line.points) {
-            if (point.y < least) least = std::floor(point.y * 10) / 10;  // false for NaN
+            if (point.y < min) min = std::floor(point.y * 10) / 10;  // false for NaN
         }
     }
     std::string tics, last;
@@ -101,7 +101,7 @@ std::string scanPanel(const Measured& measured) {
         tics += (tics.empty() ? "" : ", ") + convert::gnuplotString(name) + " " + std::to_string(s);
     }
     return "set title " + convert::gnuplotString(measured.set.name) +
-           " noenhanced\nset xtics noenhanced (" + tics + ")\nset yrange [" + number(least) +
+           " noenhanced\nset xtics noenhanced (" + tics + ")\nset yrange [" + number(min) +
            ":1]\nset xrange [-1:" + std::to_string(scans.size()) + "]\n" +
            plot(lines, "linespoints lw 1 ps 0.4");
 }
@@ -139,16 +139,16 @@ void drawTimes(const std::filesystem::path& folder, const std::vector<Measured>&
         }
         lines.push_back(line);
     }
-    double least = INFINITY, most = 0;
+    double min = INFINITY, max = 0;
     for (const Point& point : lines.front().points) {
-        least = std::min(least, point.x);
-        most = std::max(most, point.x);
+        min = std::min(min, point.x);
+        max = std::max(max, point.x);
     }
     const std::string file = "by_returns.svg";
     convert::runGnuplot(
         header(file, 1100, 480) +
             "set logscale xy\nset xtics (5, 10, 20, 30, 50, 70, 100, 150, 200)\nset xrange [" +
-            number(0.9 * least) + ":" + number(1.1 * most) + "]\n" +
+            number(0.9 * min) + ":" + number(1.1 * max) + "]\n" +
             "set xlabel 'returns of the scan, in thousands'\n"
             "set ylabel 'run time [ms]'\n"
             "set key outside right top noenhanced samplen 1.5\n" +

@@ -25,9 +25,9 @@ struct Seen {
     std::int64_t excess;
     double objective;
 
-    bool isBetterThan(const Seen& other, double least_gain) const {
+    bool isBetterThan(const Seen& other, double min_gain) const {
         if (excess != other.excess) return excess < other.excess;
-        return objective > other.objective + least_gain;
+        return objective > other.objective + min_gain;
     }
 };
 
@@ -86,7 +86,7 @@ MissedByGroup missedOf(const std::vector<ScanSet>& sets, const std::vector<Count
 
 Descended descend(const std::vector<Setting>& settings, const Choice& start,
                   const MissedByGroup& limit, const std::vector<ScanSet>& sets,
-                  CachedMeasure& measure, const std::string& left_out, int most_rounds) {
+                  CachedMeasure& measure, const std::string& left_out, int max_rounds) {
     const auto see = [&](const Choice& choice) {
         const std::vector<Counts>& counts = measure(choice);
         return Seen{excessOf(missedOf(sets, counts, left_out), limit),
@@ -98,7 +98,7 @@ Descended descend(const std::vector<Setting>& settings, const Choice& start,
     d.start = best.objective;
     d.missed_start = missedOf(sets, measure(start), left_out);
     bool has_changed = true;
-    while (has_changed && d.rounds < most_rounds) {
+    while (has_changed && d.rounds < max_rounds) {
         has_changed = false;
         ++d.rounds;
         for (std::size_t s = 0; s < settings.size(); ++s) {

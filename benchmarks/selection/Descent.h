@@ -85,10 +85,10 @@ struct Descended {
 /// each setting in turn and keeps the best. A choice that misses more than `limit` in a group is
 /// worse than any within the limits; among the former, the smaller excess (summed over groups) is
 /// better. Otherwise the objective decides. Ends after a round without change, or after
-/// `most_rounds`.
+/// `max_rounds`.
 Descended descend(const std::vector<Setting>& settings, const Choice& start,
                   const MissedByGroup& limit, const std::vector<ScanSet>& sets,
-                  CachedMeasure& measure, const std::string& left_out, int most_rounds);
+                  CachedMeasure& measure, const std::string& left_out, int max_rounds);
 
 /// A mean over drives with its 95 % confidence interval (Student's t); no interval for fewer than 2
 /// or more than 31 values.

@@ -119,7 +119,7 @@ Plan readPlan(const fs::path& file) {
             const auto rounds =
                 value.IsScalar() ? base::numberFrom<int>(value.Scalar()) : std::optional<int>();
             if (!rounds || *rounds < 1) fail(file, value, "rounds: a number of at least 1");
-            plan.most_rounds = *rounds;
+            plan.max_rounds = *rounds;
         } else if (key == "hard_sets") {
             plan.hard_sets = hardSetsOf(file, value);
         } else if (key == "settings") {

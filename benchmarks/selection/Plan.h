@@ -11,7 +11,7 @@
 namespace hagen::selection {
 
 struct Plan {
-    int most_rounds = 3;                 ///< of the coordinate descent
+    int max_rounds = 3;                  ///< of the coordinate descent
     std::vector<std::string> hard_sets;  ///< see `--degrade`
     std::vector<Setting> settings;
     /// Values of the plain start that differ from the presets.

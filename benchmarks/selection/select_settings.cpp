@@ -127,7 +127,7 @@ Searched search(const std::string& start_name, const Choice& start, const Choice
     for (const std::string& drive : left_out) {
         const MissedByGroup limit = missedOf(sets, measure(present), drive);
         const Descended d =
-            descend(plan.settings, start, limit, sets, measure, drive, plan.most_rounds);
+            descend(plan.settings, start, limit, sets, measure, drive, plan.max_rounds);
         Fold fold{drive, {}, d.start, d.objective, d.missed_start, d.missed, limit, d.rounds};
         for (std::size_t s = 0; s < plan.settings.size(); ++s)
             fold.chosen.push_back(plan.settings[s].values[d.choice[s]]);

@@ -35,14 +35,14 @@ std::ifstream openToRead(const std::filesystem::path& file) {
     return in;
 }
 
-std::string readText(const std::filesystem::path& file, std::size_t most_bytes) {
+std::string readText(const std::filesystem::path& file, std::size_t max_bytes) {
     std::ifstream in = openToRead(file);
     std::string text;
     char block[4096];
     while (in.read(block, sizeof block) || in.gcount() > 0) {
         text.append(block, static_cast<std::size_t>(in.gcount()));
-        if (text.size() > most_bytes) {
-            failAt(file, "is larger than " + std::to_string(most_bytes >> 20) +
+        if (text.size() > max_bytes) {
+            failAt(file, "is larger than " + std::to_string(max_bytes >> 20) +
                              " MiB, too large for a text");
         }
     }

@@ -20,8 +20,8 @@ std::ifstream openToRead(const std::filesystem::path& file);
 constexpr std::size_t kMaxTextBytes = 256 << 20;
 
 /// Reads a whole file. Throws std::runtime_error naming it if it cannot be read to its end, or is
-/// larger than `most_bytes`.
-std::string readText(const std::filesystem::path& file, std::size_t most_bytes = kMaxTextBytes);
+/// larger than `max_bytes`.
+std::string readText(const std::filesystem::path& file, std::size_t max_bytes = kMaxTextBytes);
 
 /// Reads the next line, like std::getline(); false at the end. Throws std::runtime_error naming the
 /// file if the line is longer than 1 MiB, as in binary files.

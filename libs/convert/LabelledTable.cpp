@@ -93,14 +93,14 @@ LabelledTable labelled(const observations::ObservationSegmenter::Output& segment
     LabelledTable labelled;
     labelled.renamed = renameTaken({kLabel, kObstacle}, points.table);
     const LabelledReturns& returns = segmented.result->returns;
-    const std::int32_t most = obstacle_type == NumberType::UInt16
-                                  ? recordings::kMaxFileComponent
-                                  : std::numeric_limits<std::int32_t>::max();
+    const std::int32_t max = obstacle_type == NumberType::UInt16
+                                 ? recordings::kMaxFileComponent
+                                 : std::numeric_limits<std::int32_t>::max();
     std::vector<double> labels(points.table.points, 0), obstacles(points.table.points, 0);
     for (std::size_t k = 0; k < points.point_of_return.size(); ++k) {
         const std::uint32_t i = points.point_of_return[k];
         labels[i] = static_cast<double>(returns.label[k]);
-        obstacles[i] = std::clamp(returns.component[k], 0, most);
+        obstacles[i] = std::clamp(returns.component[k], 0, max);
     }
     addColumn(kLabel, NumberType::UInt8, labels, points.table);
     addColumn(kObstacle, obstacle_type, obstacles, points.table);

@@ -48,7 +48,7 @@ struct AirframeListener {
 
 /// Learns the airframe from the first seconds of a recording (AirframeLearner), and writes it as a
 /// file for `airframe: [{learned: FILE}]` with a picture. Throws std::runtime_error naming the
-/// recording if it has no scans, too few (AirframeRules::least_scans), or scans of several LiDARs;
+/// recording if it has no scans, too few (AirframeRules::min_scans), or scans of several LiDARs;
 /// naming the output if it cannot be written. In both cases, no output is left behind.
 AirframeReport learnAirframe(const AirframeLearning& learning,
                              const AirframeListener& listener = {});

@@ -34,9 +34,9 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
     }
     // A recording may exceed the limits of settings.
     const auto limit_m = [](float range_m) { return std::clamp<double>(range_m, 0, kMaxRange_m); };
-    const double least_m = limit_m(sensor.min_range_m), most_m = limit_m(sensor.max_range_m);
-    if (least_m < most_m) {
-        out << "  min_range_m: " << least_m << "\n  max_range_m: " << most_m << "\n";
+    const double min_m = limit_m(sensor.min_range_m), max_m = limit_m(sensor.max_range_m);
+    if (min_m < max_m) {
+        out << "  min_range_m: " << min_m << "\n  max_range_m: " << max_m << "\n";
     } else {
         out << "  # The range limits exceed the allowed settings.\n";
     }

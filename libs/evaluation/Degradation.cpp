@@ -216,7 +216,7 @@ float azimuthStep(const Scan& scan, const std::vector<std::vector<std::size_t>>&
 GroundTruthScan dualReturn(const GroundTruthScan& scan, const SensorModel& sensor, Random& random) {
     const Scan& returns = scan.input.scan;
     const auto rows = rowsByAzimuth(returns, sensor.rows());
-    const float most_rad = kSteps * azimuthStep(returns, rows);
+    const float max_rad = kSteps * azimuthStep(returns, rows);
     std::vector<std::pair<std::size_t, std::size_t>> seconds;  // ray, and neighbour behind it
     for (const std::vector<std::size_t>& row : rows) {
         for (std::size_t k = 0; row.size() > 1 && k < row.size(); ++k) {
@@ -229,7 +229,7 @@ GroundTruthScan dualReturn(const GroundTruthScan& scan, const SensorModel& senso
                                                 static_cast<double>(returns.azimuth_rad[ray]),
                                             2 * kPi));
                 const bool is_behind = returns.range_m[other] > returns.range_m[ray] + kDualStep_m;
-                if (!is_behind || between_rad > static_cast<double>(most_rad)) continue;
+                if (!is_behind || between_rad > static_cast<double>(max_rad)) continue;
                 if (nearest == ray || returns.range_m[other] < returns.range_m[nearest])
                     nearest = other;
             }
@@ -284,11 +284,11 @@ Function atRate(double rate_hz) {
 }
 
 /// The value of "key=value" as a number within limits.
-double numberOf(const std::string& text, const std::string& value, double least, double most) {
+double numberOf(const std::string& text, const std::string& value, double min, double max) {
     const auto number = base::numberFrom<double>(value);
-    if (number && *number >= least && *number <= most) return *number;
-    fail(text, "'" + value + "' is not a number from " + base::shortestText(least) + " to " +
-                   base::shortestText(most));
+    if (number && *number >= min && *number <= max) return *number;
+    fail(text, "'" + value + "' is not a number from " + base::shortestText(min) + " to " +
+                   base::shortestText(max));
 }
 
 std::vector<int> rowsOf(const std::string& text, const std::string& values) {
@@ -330,9 +330,7 @@ Degradation::Degradation(const std::string& text) : name_(text) {
     const std::size_t equals = std::min(text.find('='), text.size());
     const std::string key = text.substr(0, equals);
     std::string value = equals < text.size() ? text.substr(equals + 1) : "";
-    const auto number = [&](double least, double most) {
-        return numberOf(text, value, least, most);
-    };
+    const auto number = [&](double min, double max) { return numberOf(text, value, min, max); };
     if (equals == text.size()) {
         if (key == "upside_down") {
             function_ = upsideDown;

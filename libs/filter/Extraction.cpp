@@ -55,7 +55,7 @@ HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput
     std::uint8_t* HWY_RESTRICT labels = out.label;
     std::int32_t* HWY_RESTRICT components = out.component;
     std::uint32_t *roi = out.roi, *rou = out.rou, *unclassified = out.unclassified;
-    auto most = zero;
+    auto max = zero;
 
     for (std::size_t word = 0; word < words; ++word) {
         std::uint64_t seen_bits = 0, roi_bits = 0;
@@ -77,7 +77,7 @@ HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput
             const auto label = hn::IfThenElseZero(seen, hn::IfThenElse(is_roi, two, one));
             hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
             const auto component = hn::IfThenElseZero(is_roi, hn::ShiftRight<1>(verdict));
-            most = hn::Max(most, component);
+            max = hn::Max(max, component);
             hn::StoreU(component, d, components + i);
             seen_bits |= BitsOf(d, seen) << n;
             roi_bits |= BitsOf(d, is_roi) << n;
@@ -91,7 +91,7 @@ HWY_INLINE void LabelWordsOf(const ExtractionRules& rules, const ExtractionInput
     out.roi = roi;
     out.rou = rou;
     out.unclassified = unclassified;
-    out.most_components = std::max(out.most_components, hn::GetLane(hn::MaxOfLanes(d, most)));
+    out.max_components = std::max(out.max_components, hn::GetLane(hn::MaxOfLanes(d, max)));
 }
 
 void LabelWords(const ExtractionRules& rules, const ExtractionInput& in, std::uint32_t first,
@@ -141,13 +141,13 @@ void leaveComponents(const std::vector<std::int32_t>& own_labelled, const Scan& 
 
 /// Renumbers components 1, 2, ... in order, skipping components without returns (all their pixels
 /// were repaired). `most`: the highest number. Only RoI returns belong to components.
-void renumber(std::int32_t most, LabelledReturns& returns, std::vector<std::int32_t>& number) {
+void renumber(std::int32_t max, LabelledReturns& returns, std::vector<std::int32_t>& number) {
     std::vector<std::int32_t>& component = returns.component;
-    number.assign(static_cast<std::size_t>(most) + 1, 0);
+    number.assign(static_cast<std::size_t>(max) + 1, 0);
     for (const std::uint32_t i : returns.roi) number[component[i]] = 1;
     number[0] = 0;
     for (std::size_t c = 1; c < number.size(); ++c) number[c] += number[c - 1];
-    if (number.back() == most) return;  // no gaps
+    if (number.back() == max) return;  // no gaps
     for (const std::uint32_t i : returns.roi) component[i] = number[component[i]];
 }
 
@@ -212,7 +212,7 @@ void extractReturns(const Scan& scan, const LabelledImage& image, const OwnLabel
     returns.unclassified.assign(work.unclassified.data(), out.unclassified);
     leaveComponents(own_labels.returns, scan, image.range_image, rules.component_gap_m,
                     returns.component);
-    renumber(out.most_components, returns, work.number);
+    renumber(out.max_components, returns, work.number);
 }
 
 }  // namespace hagen

@@ -18,7 +18,7 @@ struct ExtractionOutput {
     std::uint8_t* label;
     std::int32_t* component;
     std::uint32_t *roi, *rou, *unclassified;  ///< ends of the lists; writes may overrun by one word
-    std::int32_t most_components;             ///< highest component number so far
+    std::int32_t max_components;              ///< highest component number so far
 };
 
 }  // namespace hagen

@@ -132,9 +132,9 @@ std::string rangeOf(const OptionKey& key) {
     if (std::holds_alternative<Seeds Options::*>(key.field))
         return "lowest, top_and_nearest, every";
     if (std::holds_alternative<bool Options::*>(key.field)) return "true, false";
-    const bool is_open = std::isinf(key.most);
-    return shortest(static_cast<float>(key.least)) + " ... " +
-           (is_open ? "inf" : shortest(static_cast<float>(key.most)));
+    const bool is_open = std::isinf(key.max);
+    return shortest(static_cast<float>(key.min)) + " ... " +
+           (is_open ? "inf" : shortest(static_cast<float>(key.max)));
 }
 
 }  // namespace hagen

@@ -20,7 +20,7 @@ struct Ablation {
 /// ablation all use this table.
 struct OptionKey {
     std::string name, unit;
-    double least, most;        ///< allowed range, both inclusive
+    double min, max;           ///< allowed range, both inclusive
     std::string what, symbol;  ///< one-line description; the paper's symbol, if any
     std::variant<float Options::*, int Options::*, bool Options::*, Seeds Options::*> field;
     std::string section;  ///< in settings files; "paper": interpretation of the paper

@@ -20,10 +20,10 @@ void checkOptions(const Options& options, int beams) {
     for (const OptionKey& key : optionKeys()) {
         const double value =
             std::visit([&](auto field) { return static_cast<double>(options.*field); }, key.field);
-        if (!(value >= asOption(key.least, key) && value <= asOption(key.most, key))) {  // NaN too
+        if (!(value >= asOption(key.min, key) && value <= asOption(key.max, key))) {  // NaN too
             std::ostringstream message;
-            message << key.name << " is " << value << ", but must lie within " << key.least
-                    << " and " << key.most;
+            message << key.name << " is " << value << ", but must lie within " << key.min << " and "
+                    << key.max;
             throw std::invalid_argument(message.str());
         }
     }

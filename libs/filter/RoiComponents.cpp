@@ -56,7 +56,7 @@ void forEachWord(int rows, int columns, Visit visit) {
 void findRuns(const float* depth_m, int rows, int columns, ComponentsWorkspace* w) {
     std::uint32_t* const nearest = w->nearest.data();
     std::ptrdiff_t run = -1;
-    std::uint32_t least = 0;
+    std::uint32_t min = 0;
     forEachWord(rows, columns, [&](int first, int word) {
         const float* const depths_m = depth_m + first;
         std::int32_t* const runs = w->run.data() + first;
@@ -66,8 +66,8 @@ void findRuns(const float* depth_m, int rows, int columns, ComponentsWorkspace* 
             std::uint32_t depth;
             std::memcpy(&depth, depths_m + bit, sizeof depth);
             run += is_lowest;
-            least = std::min(least | static_cast<std::uint32_t>(-is_lowest), depth);
-            nearest[run] = least;  // from the lowest pixel upwards
+            min = std::min(min | static_cast<std::uint32_t>(-is_lowest), depth);
+            nearest[run] = min;  // from the lowest pixel upwards
             runs[bit] = static_cast<std::int32_t>(run);
         });
     });

@@ -9,7 +9,7 @@ double steadyNow_s() {
         .count();
 }
 
-PacketQueue::PacketQueue(std::size_t most) : ring_(most) {}
+PacketQueue::PacketQueue(std::size_t max) : ring_(max) {}
 
 void PacketQueue::put(Packet& packet) {
     ring_[(first_ + size_) % ring_.size()] = std::move(packet);

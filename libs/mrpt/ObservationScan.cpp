@@ -35,8 +35,8 @@ void assignPoints(const Coordinates& x, const Coordinates& y, const Coordinates&
 /// Scales intensities to 0..1 if the cloud's range is 0..255, as with many drivers.
 template <class Intensities>
 void assignIntensities(const Intensities& intensities, Scan& scan) {
-    const auto most = std::max_element(intensities.begin(), intensities.end());
-    const float full = most != intensities.end() && *most > 1.0f ? 255.0f : 1.0f;
+    const auto max = std::max_element(intensities.begin(), intensities.end());
+    const float full = max != intensities.end() && *max > 1.0f ? 255.0f : 1.0f;
     scan.intensity.resize(intensities.size());
     std::transform(intensities.begin(), intensities.end(), scan.intensity.begin(),
                    [&](float intensity) { return std::clamp(intensity / full, 0.0f, 1.0f); });

@@ -29,11 +29,11 @@ std::string_view takeWord(std::string_view& line) {
 
 }  // namespace
 
-std::vector<NumberLine> readNumberTable(const std::filesystem::path& file, std::size_t most_lines) {
+std::vector<NumberLine> readNumberTable(const std::filesystem::path& file, std::size_t max_lines) {
     std::ifstream in = base::openToRead(file);
     std::vector<NumberLine> table;
     std::size_t line = 0;
-    for (std::string text; table.size() < most_lines && base::nextLine(in, text, file);) {
+    for (std::string text; table.size() < max_lines && base::nextLine(in, text, file);) {
         ++line;
         if (line == 1 && text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
         std::string_view words(text);

@@ -18,7 +18,7 @@ struct NumberLine {
 /// contains anything but finite numbers.
 std::vector<NumberLine> readNumberTable(
     const std::filesystem::path& file,
-    std::size_t most_lines = std::numeric_limits<std::size_t>::max());
+    std::size_t max_lines = std::numeric_limits<std::size_t>::max());
 
 /// Throws std::runtime_error naming file and line if the line does not have `columns` numbers.
 void checkColumns(const std::filesystem::path& file, const NumberLine& line, std::size_t columns,

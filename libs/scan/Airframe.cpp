@@ -55,8 +55,8 @@ AirframeBin airframeBinOf(const Eigen::Vector3f& point_m, int rows) {
     const float elevation_rad = std::atan2(point_m.z(), std::hypot(point_m.x(), point_m.y()));
     const float azimuth_rad = std::atan2(point_m.y(), point_m.x());
     const double bins_per_rad = rows / kPi;
-    const auto bin = [&](float angle_rad, double least_rad, int bins) {
-        const double from_least_rad = static_cast<double>(angle_rad) - least_rad;
+    const auto bin = [&](float angle_rad, double min_rad, int bins) {
+        const double from_least_rad = static_cast<double>(angle_rad) - min_rad;
         return std::clamp(static_cast<int>(from_least_rad * bins_per_rad), 0, bins - 1);
     };
     return {bin(elevation_rad, -0.5 * kPi, rows), bin(azimuth_rad, -kPi, 2 * rows)};

@@ -43,10 +43,10 @@ void AirframeLearner::add(const Scan& scan) {
 }
 
 LearnedAirframe AirframeLearner::learn() const {
-    if (scans_ < rules_.least_scans) {
+    if (scans_ < rules_.min_scans) {
         throw std::invalid_argument(
             "has " + std::to_string(scans_) + (scans_ == 1 ? " scan" : " scans") + "; at least " +
-            std::to_string(rules_.least_scans) + " are needed to learn the airframe");
+            std::to_string(rules_.min_scans) + " are needed to learn the airframe");
     }
     const int rows = rules_.rows, columns = 2 * rows;
     const auto nearOf = [&](int row, int column) -> const std::vector<NearReturn>& {
@@ -69,12 +69,12 @@ LearnedAirframe AirframeLearner::learn() const {
     for (int column = 0; column < columns; ++column) {
         for (int row = 0; row < rows; ++row) {
             const std::vector<NearReturn>& returns = nearOf(row, column);
-            if (scansWithin(returns, rules_.near_m) < rules_.least_share * scans_) continue;
+            if (scansWithin(returns, rules_.near_m) < rules_.min_share * scans_) continue;
             std::vector<float> ranges_m;
             for (const NearReturn& near : returns) ranges_m.push_back(near.range_m);
             std::sort(ranges_m.begin(), ranges_m.end());
             const float farthest_m = ranked(ranges_m, 0.9);
-            if (farthest_m - ranked(ranges_m, 0.1) > rules_.most_spread_m) continue;
+            if (farthest_m - ranked(ranges_m, 0.1) > rules_.max_spread_m) continue;
             learned.bin_range_m(row, column) = farthest_m + rules_.margin_m;
             edges.push_back({row, column});
         }

@@ -6,12 +6,12 @@ namespace hagen {
 
 /// Finds the airframe: near returns at the same range in most scans.
 struct AirframeRules {
-    int rows = 90;                ///< rows of bins: 2 degrees each
-    float near_m = 1.5f;          ///< farther returns are never airframe
-    double least_share = 0.5;     ///< min. share of scans with near returns in the bin
-    float most_spread_m = 0.15f;  ///< range spread, 10th to 90th percentile
-    float margin_m = 0.1f;        ///< mask this far beyond the 90th percentile
-    int least_scans = 10;
+    int rows = 90;               ///< rows of bins: 2 degrees each
+    float near_m = 1.5f;         ///< farther returns are never airframe
+    double min_share = 0.5;      ///< min. share of scans with near returns in the bin
+    float max_spread_m = 0.15f;  ///< range spread, 10th to 90th percentile
+    float margin_m = 0.1f;       ///< mask this far beyond the 90th percentile
+    int min_scans = 10;
 };
 
 struct LearnedAirframe {
@@ -35,7 +35,7 @@ class AirframeLearner {
     /// Masks each bin that fulfils the rules. Also masks a bin beside a masked one, up to the same
     /// range, if at least 2 scans and 2 % of the scans have returns within that range: the edge of
     /// a part rarely fills its bin. Throws std::invalid_argument after fewer scans than
-    /// `least_scans`.
+    /// `min_scans`.
     LearnedAirframe learn() const;
 
  private:

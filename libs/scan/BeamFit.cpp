@@ -39,9 +39,9 @@ std::size_t countCommon(const std::vector<float>& shown_rad, const std::vector<f
 }  // namespace
 
 float BeamFit::share() const {
-    const std::size_t most = std::max(beams, beams_shown);
-    if (most == 0) return returns_share;
-    return std::min(returns_share, static_cast<float>(beams_seen) / static_cast<float>(most));
+    const std::size_t max = std::max(beams, beams_shown);
+    if (max == 0) return returns_share;
+    return std::min(returns_share, static_cast<float>(beams_seen) / static_cast<float>(max));
 }
 
 std::optional<BeamFit> fitBeams(const Scan& scan, const SensorModel& sensor, int columns) {

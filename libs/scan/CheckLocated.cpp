@@ -75,10 +75,10 @@ void checkRows(const Scan& scan, const SensorModel& sensor) {
     if (scan.beams.rows > 0 && !areAlike(scan.beams, beamSpan(sensor))) {
         refuseRows("rows of " + textOf(scan.beams), sensor);
     }
-    std::uint8_t most = 0;
-    for (const std::uint8_t row : scan.row) most = std::max(most, row);
-    if (scan.size() > 0 && most >= sensor.rows()) {
-        refuseRows("a return in row " + std::to_string(most), sensor);
+    std::uint8_t max = 0;
+    for (const std::uint8_t row : scan.row) max = std::max(max, row);
+    if (scan.size() > 0 && max >= sensor.rows()) {
+        refuseRows("a return in row " + std::to_string(max), sensor);
     }
 }
 

@@ -30,7 +30,7 @@ constexpr std::size_t kTogether = 128;
 /// The size of the image, and the range limits.
 struct Projection {
     int rows, columns;  ///< columns of the whole turn
-    float least_m, most_m;
+    float min_m, max_m;
     const std::int32_t* to_image;  ///< image column of each column of the turn; null: the same
 };
 
@@ -93,8 +93,8 @@ void projectTogether(Projection to, Returns returns, std::int32_t first_index,
         hn::StoreU(pixel, d_int, projected.pixel + i);
 
         const auto range_m = hn::LoadU(d, returns.range_m + i);
-        const auto is_in = hn::RebindMask(d_int, hn::And(hn::Ge(range_m, hn::Set(d, to.least_m)),
-                                                         hn::Le(range_m, hn::Set(d, to.most_m))));
+        const auto is_in = hn::RebindMask(d_int, hn::And(hn::Ge(range_m, hn::Set(d, to.min_m)),
+                                                         hn::Le(range_m, hn::Set(d, to.max_m))));
         hn::StoreU(hn::IfThenElse(is_in, pixel, hn::Set(d_int, RangeImage::kNoPixel)), d_int,
                    returns.depth_mapper + i);
         const auto index = hn::Add(in_order, hn::Set(d_int, static_cast<std::int32_t>(i)));
@@ -185,16 +185,16 @@ void project(const Scan& scan, const SensorModel& sensor, const Projection& to, 
 
 void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                  RangeImage& image, ProjectionWorkspace& work) {
-    const float most_m = std::min(sensor.max_range_m, context_m);
-    project(scan, sensor, {sensor.rows(), columns, sensor.min_range_m, most_m, nullptr}, columns,
+    const float max_m = std::min(sensor.max_range_m, context_m);
+    project(scan, sensor, {sensor.rows(), columns, sensor.min_range_m, max_m, nullptr}, columns,
             image, work);
 }
 
 void projectScan(const Scan& scan, const SensorModel& sensor, const ColumnMap& map, float context_m,
                  RangeImage& image, ProjectionWorkspace& work) {
-    const float most_m = std::min(sensor.max_range_m, context_m);
+    const float max_m = std::min(sensor.max_range_m, context_m);
     project(scan, sensor,
-            {sensor.rows(), map.columns(), sensor.min_range_m, most_m, map.to_image.data()},
+            {sensor.rows(), map.columns(), sensor.min_range_m, max_m, map.to_image.data()},
             static_cast<int>(map.to_turn.size()), image, work);
 }
 

@@ -205,12 +205,12 @@ int firingsOn(const std::vector<double>& beams_deg, const Directions& directions
         }
         azimuths_deg[beam].push_back(directions.azimuth_deg[i]);
     }
-    auto& most = *std::max_element(azimuths_deg.begin(), azimuths_deg.end(),
-                                   [](auto& a, auto& b) { return a.size() < b.size(); });
-    std::sort(most.begin(), most.end());
+    auto& max = *std::max_element(azimuths_deg.begin(), azimuths_deg.end(),
+                                  [](auto& a, auto& b) { return a.size() < b.size(); });
+    std::sort(max.begin(), max.end());
     std::vector<double> steps_deg;
-    for (std::size_t i = 1; i < most.size(); ++i) {
-        const double step_deg = most[i] - most[i - 1];
+    for (std::size_t i = 1; i < max.size(); ++i) {
+        const double step_deg = max[i] - max[i - 1];
         if (step_deg > 0.02) steps_deg.push_back(step_deg);  // excludes dual returns of a firing
     }
     if (steps_deg.empty()) return 0;
@@ -228,7 +228,7 @@ RecoveredBeams withBeams(const std::vector<double>& beams_deg, const Directions&
         recovered.sensor.min_range_m = 0.0f;
         recovered.sensor.max_range_m = kFarthest_m;
     }
-    recovered.most_columns = firingsOn(beams_deg, directions);
+    recovered.max_columns = firingsOn(beams_deg, directions);
     return recovered;
 }
 
@@ -294,10 +294,10 @@ RecoveredBeams virtualRows(const Directions& directions, const std::vector<doubl
     int rows =
         std::clamp(static_cast<int>(std::lround(span.size_deg / row_deg)), kMinRows, kMaxBeams);
     RecoveredBeams recovered;
-    recovered.most_columns =
+    recovered.max_columns =
         std::max(kMinColumns, static_cast<int>(std::lround(pixels / rows * 360.0 / seen_deg)));
     while (rows > kMinRows &&
-           filledShare(directions, span, rows, recovered.most_columns) < kMinFilled) {
+           filledShare(directions, span, rows, recovered.max_columns) < kMinFilled) {
         rows -= std::max(1, rows / 20);
     }
     std::vector<double> elevations_deg(rows);

@@ -48,7 +48,7 @@ struct RowTable {
         for (int bin = 0; bin < kBins; ++bin) {
             lowest_row[bin] = row;
             row += midpoints_in_bin[bin];
-            most_midpoints_in_bin = std::max(most_midpoints_in_bin, midpoints_in_bin[bin]);
+            max_midpoints_in_bin = std::max(max_midpoints_in_bin, midpoints_in_bin[bin]);
         }
     }
 
@@ -59,7 +59,7 @@ struct RowTable {
 
     std::array<float, 256> midpoint_sine;  ///< entry r: between rows r and r + 1; else infinite
     std::array<std::int32_t, kBins> lowest_row;
-    int most_midpoints_in_bin = 0;
+    int max_midpoints_in_bin = 0;
 };
 
 /// The points, and the output for their beams.
@@ -118,7 +118,7 @@ auto rowOf(V sine, const RowTable& table) {
     const auto bin = hn::ConvertTo(
         d_int, hn::Min(hn::Max(from_lowest, hn::Zero(d)), hn::Set(d, RowTable::kBins - 1.0f)));
     auto row = hn::GatherIndex(d_int, table.lowest_row.data(), bin);
-    for (int i = 0; i < table.most_midpoints_in_bin; ++i) {
+    for (int i = 0; i < table.max_midpoints_in_bin; ++i) {
         const V midpoint = hn::GatherIndex(d, table.midpoint_sine.data(), row);
         const auto is_above = hn::VecFromMask(d, hn::Gt(sine, midpoint));  // -1 or 0
         row = hn::Sub(row, hn::BitCast(d_int, is_above));

@@ -13,14 +13,14 @@ namespace fs = std::filesystem;
 constexpr double kMinBin_deg = 0.5, kMaxBin_deg = 30, kMaxBinRange_m = 20;
 
 /// The index of the bin that starts at an angle.
-int parseStart(const YAML::Node& node, const std::string& key, double least_deg, double bin_deg,
+int parseStart(const YAML::Node& node, const std::string& key, double min_deg, double bin_deg,
                int bins) {
-    const auto start_deg = parseNumber<double>(node, key, least_deg, -least_deg);
-    const double number = (start_deg - least_deg) / bin_deg;
+    const auto start_deg = parseNumber<double>(node, key, min_deg, -min_deg);
+    const double number = (start_deg - min_deg) / bin_deg;
     if (std::abs(number - std::round(number)) > 1e-3 || std::lround(number) >= bins) {
         throw SettingsError(key + " is " + node.Scalar() + ", but must be a multiple of bin_deg (" +
                             base::shortestText(bin_deg) + ") below " +
-                            base::shortestText(-least_deg));
+                            base::shortestText(-min_deg));
     }
     return static_cast<int>(std::lround(number));
 }

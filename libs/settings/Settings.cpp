@@ -43,9 +43,9 @@ bool parseSwitch(const YAML::Node& node, const std::string& key) {
 
 void parseOption(const OptionKey& key, const YAML::Node& node, Options& options) {
     if (const auto* real = std::get_if<float Options::*>(&key.field)) {
-        options.*(*real) = parseNumber<float>(node, key.name, key.least, key.most);
+        options.*(*real) = parseNumber<float>(node, key.name, key.min, key.max);
     } else if (const auto* whole = std::get_if<int Options::*>(&key.field)) {
-        options.*(*whole) = parseNumber<int>(node, key.name, key.least, key.most);
+        options.*(*whole) = parseNumber<int>(node, key.name, key.min, key.max);
     } else if (const auto* yes = std::get_if<bool Options::*>(&key.field)) {
         options.*(*yes) = parseSwitch(node, key.name);
     } else {
@@ -133,8 +133,8 @@ void parseReadings(const fs::path& file, const YAML::Node& section, std::set<std
                });
 }
 
-float parseAngle(const YAML::Node& node, const std::string& key, double most_deg) {
-    return static_cast<float>(radians(parseNumber<double>(node, key, -most_deg, most_deg)));
+float parseAngle(const YAML::Node& node, const std::string& key, double max_deg) {
+    return static_cast<float>(radians(parseNumber<double>(node, key, -max_deg, max_deg)));
 }
 
 /// Throws std::invalid_argument for an unknown sensor name.
@@ -320,7 +320,7 @@ Options Settings::optionsFor(const RecoveredBeams* recovered) const {
     const Options standard;
     Options fitting = options;
     if (isAdapted("columns", *this)) {
-        fitting.columns = std::clamp(recovered->most_columns, kMinColumns, options.columns);
+        fitting.columns = std::clamp(recovered->max_columns, kMinColumns, options.columns);
     }
     if (isAdapted("window_size", *this)) {
         const int half = recovered->sensor.rows() / 2;

@@ -69,10 +69,10 @@ std::string unknownKey(const std::string& key, const std::vector<std::string>& k
     return "unknown key '" + key + "'; did you mean '" + nearestOf(key, known) + "'?";
 }
 
-YAML::Node parseFile(const fs::path& file, std::size_t most_bytes) {
+YAML::Node parseFile(const fs::path& file, std::size_t max_bytes) {
     if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
     try {
-        const std::string text = base::readText(file, most_bytes);
+        const std::string text = base::readText(file, max_bytes);
         if (hasSeveralDocuments(text)) {
             throw SettingsError(file.string() +
                                 ": contains several documents (---) or invalid YAML; only one "

@@ -45,11 +45,11 @@ void forEachKey(const std::filesystem::path& file, const YAML::Node& map,
 
 /// Reads a file with one YAML document. Throws SettingsError naming the file and line.
 YAML::Node parseFile(const std::filesystem::path& file,
-                     std::size_t most_bytes = base::kMaxTextBytes);
+                     std::size_t max_bytes = base::kMaxTextBytes);
 
 /// Reads a number within [least, most]; otherwise throws SettingsError with the allowed range.
 template <class Number>
-Number parseNumber(const YAML::Node& node, const std::string& key, double least, double most) {
+Number parseNumber(const YAML::Node& node, const std::string& key, double min, double max) {
     // Integers are also read as real numbers, because YAML parses 010 as octal.
     double value = 0;
     const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
@@ -57,9 +57,9 @@ Number parseNumber(const YAML::Node& node, const std::string& key, double least,
         throw SettingsError(key + " must be a " + (std::is_integral_v<Number> ? "whole " : "") +
                             "number" + (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
     }
-    if (!(value >= least && value <= most)) {  // also for NaN
+    if (!(value >= min && value <= max)) {  // also for NaN
         throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " +
-                            base::shortestText(least) + " and " + base::shortestText(most));
+                            base::shortestText(min) + " and " + base::shortestText(max));
     }
     return static_cast<Number>(value);
 }

@@ -32,7 +32,7 @@ SensorErrorModel sensorErrors(const SensorModel& sensor) {
         // 10 % of the returns are lost at 0.69 of the half range, which at 10 % reflectivity is
         // 0.58 times that of a grey wall (30 %).
         errors.half_range_m = 100;
-        errors.least_noise_m = 0.018;  // 2 cm at 10 m, including the increase by 10 %
+        errors.min_noise_m = 0.018;  // 2 cm at 10 m, including the increase by 10 %
     }
     return errors;
 }

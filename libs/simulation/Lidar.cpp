@@ -252,7 +252,7 @@ class Receiver {
 
     float withNoise(float range_m, float times) {
         return range_m +
-               static_cast<float>(faults_.least_noise_m * random_.approximateNormal()) * times;
+               static_cast<float>(faults_.min_noise_m * random_.approximateNormal()) * times;
     }
 
     /// Distance along the beam from a return of the grass to the soil.

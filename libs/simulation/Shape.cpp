@@ -20,25 +20,24 @@ void Shape::addQuad(const Vector3f& a, const Vector3f& b, const Vector3f& c, con
     triangles.push_back({first, first + 2, first + 3});
 }
 
-void Shape::addBox(const Vector3f& least_m, const Vector3f& most_m) {
-    addPrism({{least_m.x(), least_m.z()},
-              {most_m.x(), least_m.z()},
-              {most_m.x(), most_m.z()},
-              {least_m.x(), most_m.z()}},
-             least_m.y(), most_m.y());
+void Shape::addBox(const Vector3f& min_m, const Vector3f& max_m) {
+    addPrism({{min_m.x(), min_m.z()},
+              {max_m.x(), min_m.z()},
+              {max_m.x(), max_m.z()},
+              {min_m.x(), max_m.z()}},
+             min_m.y(), max_m.y());
 }
 
-void Shape::addPrism(const std::vector<Eigen::Vector2f>& outline_m, float least_y_m,
-                     float most_y_m) {
+void Shape::addPrism(const std::vector<Eigen::Vector2f>& outline_m, float min_y_m, float max_y_m) {
     const auto at = [](const Eigen::Vector2f& p, float y) { return Vector3f(p.x(), y, p.y()); };
     Eigen::Vector2f middle = Eigen::Vector2f::Zero();
     for (const Eigen::Vector2f& corner : outline_m) middle += corner;
     middle /= static_cast<float>(outline_m.size());
     for (std::size_t i = 0; i < outline_m.size(); ++i) {
         const Eigen::Vector2f &p = outline_m[i], &q = outline_m[(i + 1) % outline_m.size()];
-        addQuad(at(p, least_y_m), at(q, least_y_m), at(q, most_y_m), at(p, most_y_m));
-        addTriangle(at(p, least_y_m), at(q, least_y_m), at(middle, least_y_m));
-        addTriangle(at(p, most_y_m), at(q, most_y_m), at(middle, most_y_m));
+        addQuad(at(p, min_y_m), at(q, min_y_m), at(q, max_y_m), at(p, max_y_m));
+        addTriangle(at(p, min_y_m), at(q, min_y_m), at(middle, min_y_m));
+        addTriangle(at(p, max_y_m), at(q, max_y_m), at(middle, max_y_m));
     }
 }
 

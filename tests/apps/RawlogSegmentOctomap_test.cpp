@@ -39,12 +39,12 @@ std::vector<octomap::point3d> occupiedOf(const octomap::OcTree& tree) {
 
 /// Distance to the axis of the nearest pole of the recording (tests/support/PolesAndWall.cpp).
 double distanceToPole(const octomap::point3d& p) {
-    double least = 1e9;
+    double min = 1e9;
     for (int i = -3; i <= 4; ++i) {
-        least = std::min(least, std::hypot(p.x() - 5.0 * i, p.y() - 6.0));
-        least = std::min(least, std::hypot(p.x() - (5.0 * i + 2.5), p.y() + 7.0));
+        min = std::min(min, std::hypot(p.x() - 5.0 * i, p.y() - 6.0));
+        min = std::min(min, std::hypot(p.x() - (5.0 * i + 2.5), p.y() + 7.0));
     }
-    return least;
+    return min;
 }
 
 bool isAtWall(const octomap::point3d& p) {

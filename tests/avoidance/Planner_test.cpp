@@ -76,13 +76,13 @@ TEST_P(Planners, KeepAltitudeLimits) {
     const SmallFlightResult flown = fly(world, over);
     EXPECT_FALSE(flown.arrived);
     EXPECT_LT(flown.end.position_m.z(), 4.7);
-    EXPECT_GT(flown.least_m, 0.45);
+    EXPECT_GT(flown.min_m, 0.45);
 }
 
 TEST_P(Planners, FlyAroundTrunk) {
     const SmallFlightResult flown = fly(SolidWorld().trunk({15, 0.1f}, 0.3f), flight());
     EXPECT_TRUE(flown.arrived);
-    EXPECT_GT(flown.least_m, 0.6);
+    EXPECT_GT(flown.min_m, 0.6);
     EXPECT_LT(flown.path_m, 42);
     EXPECT_EQ(flown.emergencies, 0);
 }
@@ -99,12 +99,12 @@ TEST_P(Planners, PassOnlyWideGaps) {
     through.guidance = "astar";
     const SmallFlightResult wide = fly(wallWithGap(1.6f), through);
     EXPECT_TRUE(wide.arrived);
-    EXPECT_GT(wide.least_m, 0.6);
+    EXPECT_GT(wide.min_m, 0.6);
     through.longest_s = 8;
     const SmallFlightResult narrow = fly(wallWithGap(1.25f), through);
     EXPECT_FALSE(narrow.arrived);
     EXPECT_LT(narrow.end.position_m.x(), 20);
-    EXPECT_GT(narrow.least_m, 0.6);
+    EXPECT_GT(narrow.min_m, 0.6);
 }
 
 TEST_P(Planners, MoveAwayFromNearObstacle) {
@@ -159,7 +159,7 @@ TEST_P(Planners, AvoidCrossingObstacle) {
         };
         const SmallFlightResult flown = fly(world, crossing);
         EXPECT_TRUE(flown.arrived);
-        EXPECT_GT(flown.least_m, 0.3) << ball_m_s;
+        EXPECT_GT(flown.min_m, 0.3) << ball_m_s;
     }
 }
 
@@ -177,12 +177,12 @@ TEST_P(Planners, LeaveTrapAlongPath) {
     trapped.longest_s = 15;
     const SmallFlightResult straight = fly(trap(), trapped);
     EXPECT_FALSE(straight.arrived);
-    EXPECT_GT(straight.least_m, 0.6);
+    EXPECT_GT(straight.min_m, 0.6);
     trapped.guidance = "astar";
     trapped.longest_s = 60;
     const SmallFlightResult led = fly(trap(), trapped);
     EXPECT_TRUE(led.arrived);
-    EXPECT_GT(led.least_m, 0.6);
+    EXPECT_GT(led.min_m, 0.6);
 }
 
 TEST_P(Planners, NeverCollideWithPerfectKnowledge) {
@@ -200,7 +200,7 @@ TEST_P(Planners, NeverCollideWithPerfectKnowledge) {
             world.sphere({x, y, z}, random.real(0.05f, 0.8f));
         }
         const SmallFlightResult flown = fly(world, among);
-        EXPECT_GT(flown.least_m, VehicleLimits{}.radius_m) << "seed " << seed;
+        EXPECT_GT(flown.min_m, VehicleLimits{}.radius_m) << "seed " << seed;
     }
 }
 

@@ -45,13 +45,13 @@ std::vector<Eigen::Vector3f> randomPoints(simulation::Random& random, const Eige
 
 /// Distance to the nearest voxel face, by brute force.
 float bruteForce(const WorldModel::Obstacles& voxels, const Eigen::Vector3f& at) {
-    float least = WorldModel::kReach_m;
+    float min = WorldModel::kReach_m;
     for (const Eigen::Vector3f& centre : voxels.centre_m) {
         const Eigen::Array3f beyond =
             ((at - centre).array().abs() - voxels.edge_m / 2).max(Eigen::Array3f::Zero());
-        least = std::min(least, beyond.matrix().norm());
+        min = std::min(min, beyond.matrix().norm());
     }
-    return least;
+    return min;
 }
 
 TEST(RollingModels, ClearanceMatchesVoxelsWhileMoving) {

@@ -84,9 +84,9 @@ std::vector<Eigen::Vector3f> twice(std::vector<Eigen::Vector3f> points) {
 }
 
 float nearestOf(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& at) {
-    float least = WorldModel::kReach_m;
-    for (const auto& point : points) least = std::min(least, (point - at).norm());
-    return least;
+    float min = WorldModel::kReach_m;
+    for (const auto& point : points) min = std::min(min, (point - at).norm());
+    return min;
 }
 
 TEST(WorldModel, ClearanceMatchesBruteForce) {

@@ -60,12 +60,12 @@ const MissedByGroup kAny{kReturns, kReturns, kReturns};
 /// The best choice, by exhaustive search.
 Choice bruteForce(const std::string& left_out) {
     Choice best;
-    double most = -INFINITY;
+    double max = -INFINITY;
     for (std::size_t a = 0; a < 5; ++a) {
         for (std::size_t b = 0; b < 5; ++b) {
             const double objective = objectiveOf(kDrives, bowls({a, b}), left_out);
-            if (objective <= most) continue;
-            most = objective;
+            if (objective <= max) continue;
+            max = objective;
             best = {a, b};
         }
     }

@@ -105,9 +105,9 @@ TEST(ScanFolderWriter, KeepsSensorWithoutRings) {
 TEST(ScanFolderWriter, ClampsSensorToSettingsLimits) {
     SensorModel sensor = customSensorModel({-90.0, 0.0, 90.0});
     const float usual_m = sensor.max_range_m;
-    for (const float least_m : {0.5f, 2000.0f}) {
+    for (const float min_m : {0.5f, 2000.0f}) {
         const test::TemporaryFolder folder;
-        sensor.min_range_m = least_m;
+        sensor.min_range_m = min_m;
         sensor.max_range_m = 5000;
         ScanFolderWriter writer(folder.path());
         writer.write("000000", threePoints(), labels(), sensor, 50.0);
@@ -115,7 +115,7 @@ TEST(ScanFolderWriter, ClampsSensorToSettingsLimits) {
         Settings settings;
         mergeSettings(recordings::ScanFolder(folder.path()).sensorFile(), settings);
         EXPECT_EQ(settings.sensorModel().elevations_rad, sensor.elevations_rad);
-        EXPECT_EQ(settings.sensorModel().max_range_m, least_m < 1000 ? 1000.0f : usual_m);
+        EXPECT_EQ(settings.sensorModel().max_range_m, min_m < 1000 ? 1000.0f : usual_m);
     }
 }
 

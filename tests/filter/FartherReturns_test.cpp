@@ -26,13 +26,13 @@ struct TwoMetresUp {
     }
 
     std::vector<Label> judged(const std::vector<Eigen::Vector3f>& points_m,
-                              float least_clearance_m = 0) const {
+                              float min_clearance_m = 0) const {
         static FilterWorkspace work;  // reused by all tests, as by a filter for all scans
         const Scan scan = test::scanOf(sensor, points_m);
         RangeImage image;
         projectScan(scan, sensor, 870, 48.0f, image, work.projection);
         OwnLabels own_labels{std::vector<Label>(99, Label::Roi), {7, 8}};  // from an earlier scan
-        judgeFartherReturns(scan, image, ground, {Eigen::Vector3f::UnitZ(), least_clearance_m},
+        judgeFartherReturns(scan, image, ground, {Eigen::Vector3f::UnitZ(), min_clearance_m},
                             kZone_m, own_labels, work.farther_returns);
         std::vector<std::int32_t> labelled;
         for (std::size_t i = 0; i < own_labels.label.size(); ++i) {

@@ -13,8 +13,8 @@ namespace {
 using test::pixelsAt;
 
 Attitude randomAttitude(test::Random& random) {
-    const float most_rad = static_cast<float>(radians(15));
-    return {random.real(-most_rad, most_rad), random.real(-most_rad, most_rad)};
+    const float max_rad = static_cast<float>(radians(15));
+    return {random.real(-max_rad, max_rad), random.real(-max_rad, max_rad)};
 }
 
 /// Rings of points on a plane `below_m` under the sensor, in the frame of a sensor with `attitude`

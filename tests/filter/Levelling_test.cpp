@@ -16,8 +16,8 @@ namespace {
 constexpr int kColumns = 90;
 
 Attitude randomAttitude(test::Random& random) {
-    const float most_rad = static_cast<float>(radians(15));
-    return {random.real(-most_rad, most_rad), random.real(-most_rad, most_rad)};
+    const float max_rad = static_cast<float>(radians(15));
+    return {random.real(-max_rad, max_rad), random.real(-max_rad, max_rad)};
 }
 
 Image<float> levelAngles(const Image<float>& depth_m, const SensorModel& sensor,

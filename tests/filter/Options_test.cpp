@@ -21,7 +21,7 @@ TEST(Options, ChecksEveryRange) {
         std::visit(
             [&](auto field) {
                 using Value = std::decay_t<decltype(options.*field)>;
-                options.*field = static_cast<Value>(key.least - 1.0);
+                options.*field = static_cast<Value>(key.min - 1.0);
             },
             key.field);
         try {
@@ -35,7 +35,7 @@ TEST(Options, ChecksEveryRange) {
 
 TEST(Options, AcceptsEndsOfRanges) {
     for (const OptionKey& key : optionKeys()) {
-        for (const double end : {key.least, key.most}) {
+        for (const double end : {key.min, key.max}) {
             Options options;
             options.window_size = 64;          // so that the most components fit
             options.principal_components = 1;  // and the smallest window does

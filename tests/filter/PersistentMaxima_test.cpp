@@ -130,9 +130,9 @@ TEST(PersistentMaxima, MatchBruteForce) {
         Image<float> proximity_m =
             random.image(random.whole(1, 5), random.whole(3, 8), -2.0f, 8.0f, 0.15).max(0.0f);
         if (round % 2 == 0) proximity_m = proximity_m.round();  // ties
-        const float least = random.chance(0.5) ? 0.0f : 1.0f;
-        expectIdentical(sortedByPixel(maximaOf(proximity_m, least)),
-                        bruteForceMaxima(proximity_m, least));
+        const float min = random.chance(0.5) ? 0.0f : 1.0f;
+        expectIdentical(sortedByPixel(maximaOf(proximity_m, min)),
+                        bruteForceMaxima(proximity_m, min));
     }
 }
 
@@ -149,11 +149,11 @@ TEST(PersistentMaxima, MatchPlainSweepOnEveryInstructionSet) {
                 proximity_m.col(column) += static_cast<float>(20 * column);
             }
         }
-        const float least = random.chance(0.5) ? 0.0f : 1.0f;
-        const auto expected = sweptMaxima(proximity_m, least);
+        const float min = random.chance(0.5) ? 0.0f : 1.0f;
+        const auto expected = sweptMaxima(proximity_m, min);
         forEachInstructionSet([&](const std::string& name) {
             SCOPED_TRACE(name + " " + std::to_string(rows) + " x " + std::to_string(columns));
-            expectIdentical(maximaOf(proximity_m, least), expected);
+            expectIdentical(maximaOf(proximity_m, min), expected);
         });
         if (HasFatalFailure()) return;
     }

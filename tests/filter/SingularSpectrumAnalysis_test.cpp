@@ -159,8 +159,8 @@ TEST(Ssa, StaysFiniteForExtremeValues) {
     // With few distinct values, eigenvalues coincide and matrices decompose into blocks.
     for (int round = 0; round < 50; ++round) {
         Image<float> values = random.image(random.whole(9, 40), 40, 0, 1, 0.02);
-        const float least = 0.1f * static_cast<float>(round % 7);
-        for (float& value : values.reshaped()) value = value < least ? 0.0f : value;
+        const float min = 0.1f * static_cast<float>(round % 7);
+        for (float& value : values.reshaped()) value = value < min ? 0.0f : value;
         if (round % 2) values = values.isNaN().select(values, values.round());
         const Image<float> found = smoothed(values, 8, random.whole(1, 7));
         ASSERT_TRUE((found.isNaN() == values.isNaN()).all());

@@ -35,7 +35,7 @@ void setOptions(Parts& parts, Options& options) {
         const auto& keys = optionKeys();
         const OptionKey& key = keys[parts.below(keys.size())];
         const double share = parts.number<std::uint8_t>() / 255.0;
-        const double value = key.least + share * share * (key.most - key.least);
+        const double value = key.min + share * share * (key.max - key.min);
         std::visit(
             [&](auto field) {
                 using Field = std::decay_t<decltype(options.*field)>;

@@ -69,10 +69,10 @@ TEST_P(Seeds, MutationsAreReadOrRejected) {
     if (!target().is_bounded) GTEST_SKIP() << "may exhaust memory: " << target().name;
     std::mt19937 random(numberFrom("HAGEN_FUZZ_SEED", 1));
     const auto seeds = target().seeds();
-    const std::size_t least = seeds.size() * (1 + 200 / seeds.size());
+    const std::size_t min = seeds.size() * (1 + 200 / seeds.size());
     const auto end = Clock::now() + std::chrono::seconds(numberFrom("HAGEN_FUZZ_SECONDS", 0));
     std::size_t inputs = 0;
-    for (; inputs < least || Clock::now() < end; ++inputs) {
+    for (; inputs < min || Clock::now() < end; ++inputs) {
         if (HasFailure()) break;
         run(mutated(seeds[inputs % seeds.size()], random));
     }

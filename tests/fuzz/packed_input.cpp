@@ -18,9 +18,9 @@ std::string readInSteps(const std::filesystem::path& file, unsigned seed) {
     std::string all, step;
     for (;;) {
         step.resize(1 + random() % (random() % 8 == 0 ? 1 << 20 : 64));
-        const std::uint64_t most = input.mostBytesLeft();
+        const std::uint64_t max = input.mostBytesLeft();
         const std::size_t got = input.Read(step.data(), step.size());
-        require(got <= most, "more bytes than can follow");
+        require(got <= max, "more bytes than can follow");
         all.append(step, 0, got);
         require(input.getPosition() == all.size(), "the position is wrong");
         require(input.packedPosition() <= input.packedBytes(), "more is read than there is");

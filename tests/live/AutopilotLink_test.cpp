@@ -50,8 +50,8 @@ class Autopilot {
     }
     /// The first of the next `most` messages that satisfies `is`.
     template <class Message, class Is>
-    std::optional<Message> receiveUntil(const Is& is, int most = 400) {
-        for (int i = 0; i < most; ++i) {
+    std::optional<Message> receiveUntil(const Is& is, int max = 400) {
+        for (int i = 0; i < max; ++i) {
             const auto message = mavlink::messageOf<Message>(receive());
             if (message && is(*message)) return message;
         }

@@ -65,11 +65,11 @@ TEST(Address, ReadsOrRejectsText) {
 
 /// One second of an HDL-64E, or the system's maximum; Linux doubles the size for its own use.
 TEST(UdpSource, RequestsLargeBuffer) {
-    int most = 0;
-    std::ifstream("/proc/sys/net/core/rmem_max") >> most;
-    if (most == 0) GTEST_SKIP() << "the system does not report the maximum buffer size";
+    int max = 0;
+    std::ifstream("/proc/sys/net/core/rmem_max") >> max;
+    if (max == 0) GTEST_SKIP() << "the system does not report the maximum buffer size";
     const UdpSource source({0x7f000001, freePort()});
-    EXPECT_GE(source.bufferBytes(), 2 * std::min(most, 8 << 20));
+    EXPECT_GE(source.bufferBytes(), 2 * std::min(max, 8 << 20));
 }
 
 TEST(UdpSource, ReceivesDatagrams) {

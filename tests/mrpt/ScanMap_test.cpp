@@ -196,9 +196,9 @@ TEST(ScanMap, RejectsInvalidResolutionAndRange) {
 }
 
 TEST(ScanMap, RejectsInconsistentProbabilities) {
-    const auto make = [](double least, double miss, double hit, double greatest) {
+    const auto make = [](double min, double miss, double hit, double greatest) {
         ScanMapOptions options;
-        options.least_probability = least;
+        options.min_probability = min;
         options.miss_probability = miss;
         options.hit_probability = hit;
         options.greatest_probability = greatest;
@@ -222,7 +222,7 @@ TEST(ScanMap, UsesGivenProbabilities) {
     options.content = MapContent::Full;
     options.hit_probability = 0.9;
     options.miss_probability = 0.3;
-    options.least_probability = 0.25;
+    options.min_probability = 0.25;
     options.greatest_probability = 0.95;
     ScanMap map(options);
     const auto at = [&](float x) { return map.tree().search(x, 0.1f, 0.1f)->getOccupancy(); };

@@ -250,8 +250,8 @@ CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
     const auto observation = encodeScan(model, firings);
     if (random.chance(0.5)) return observation;
     for (auto& laser : observation->calibration.laser_corrections) {
-        const float most_deg = random.chance(0.1) ? 500.0f : 6.0f;
-        laser.azimuthCorrection = static_cast<double>(random.real(-most_deg, most_deg));
+        const float max_deg = random.chance(0.1) ? 500.0f : 6.0f;
+        laser.azimuthCorrection = static_cast<double>(random.real(-max_deg, max_deg));
         laser.distanceCorrection = static_cast<double>(random.real(-0.2f, 0.2f));
         laser.verticalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
         laser.horizontalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));

@@ -403,10 +403,10 @@ struct Ending {
     };
     int calls = 0;
 
-    bool ends(const fs::path& file, int most_calls) {
+    bool ends(const fs::path& file, int max_calls) {
         const auto bag = openBag(file);
         bag->checkWhileReading([&] {
-            if (++calls > most_calls) throw Ended("ended");
+            if (++calls > max_calls) throw Ended("ended");
         });
         BagMessage message;
         try {

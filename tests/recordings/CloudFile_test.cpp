@@ -167,18 +167,18 @@ TEST_F(CloudFileTest, SurvivesWrongBytes) {
 }
 
 TEST_F(CloudFileTest, RejectsAbsurdPointCounts) {
-    const std::string most = "18446744073709551615";
+    const std::string max = "18446744073709551615";
     for (const auto& [name, text] : test::cloudFiles()) {
         SCOPED_TRACE(name);
         std::string absurd = text;
         if (name.find(".pcd") != std::string::npos) {
-            absurd = replaced(replaced(text, "WIDTH 12", "WIDTH " + most), "POINTS 12",
-                              "POINTS " + most);
+            absurd =
+                replaced(replaced(text, "WIDTH 12", "WIDTH " + max), "POINTS 12", "POINTS " + max);
         } else if (name.find(".ply") != std::string::npos) {
-            absurd = replaced(text, "vertex 12", "vertex " + most);
+            absurd = replaced(text, "vertex 12", "vertex " + max);
         } else if (name.find(".npy") != std::string::npos) {
-            absurd = replaced(text, "(12,)", "(" + most + ",)");
-            absurd = replaced(absurd, std::string(most.size() - 2, ' '), "");
+            absurd = replaced(text, "(12,)", "(" + max + ",)");
+            absurd = replaced(absurd, std::string(max.size() - 2, ' '), "");
         } else if (name.find(".las") != std::string::npos) {
             absurd.replace(107, 4, "\xff\xff\xff\xff");
             if (name == "new.las") absurd.replace(247, 8, std::string(8, '\xff'));

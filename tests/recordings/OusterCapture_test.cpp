@@ -315,15 +315,15 @@ TEST_F(OusterCaptureTest, ReadsTruncatedCapture) {
     const sensors::OusterSensor sensor = sensorOf("RNG15_RFL8_NIR8");
     const auto packets = packetsOfFrames(sensor, 4);
     const std::string whole = captureOf(packets).bytes();
-    std::size_t most = 0;
+    std::size_t max = 0;
     for (std::size_t cut = 1; cut <= 50; ++cut) {
         const std::size_t size = whole.size() * cut / 51;
         const Scans scans = read(whole.substr(0, size));
         EXPECT_THAT(broken_, HasSubstr("a.pcap: ")) << size;
-        EXPECT_GE(scans.size(), most);
-        most = scans.size();
+        EXPECT_GE(scans.size(), max);
+        max = scans.size();
     }
-    EXPECT_EQ(most, 4u);
+    EXPECT_EQ(max, 4u);
 }
 
 TEST_F(OusterCaptureTest, SurvivesCorruptData) {

@@ -68,16 +68,16 @@ TEST(PackedRawlog, ReadsEveryCompression) {
 TEST(PackedRawlog, ReadsTruncatedZstdLog) {
     const test::TemporaryFolder folder;
     const std::string packed = zstdOf(plainLog(20));
-    std::size_t most = 0;
+    std::size_t max = 0;
     for (std::size_t cut = 0; cut < 50; ++cut) {
         const std::size_t size = 4 + cut * (packed.size() - 5) / 49;
         const auto [entries, broken] = readLog(folder.write("cut", packed.substr(0, size)));
         EXPECT_THAT(broken, HasSubstr("cut: entry " + std::to_string(entries) + " at byte "));
         EXPECT_THAT(broken, HasSubstr("the file is truncated"));
-        EXPECT_GE(entries, most);
-        most = entries;
+        EXPECT_GE(entries, max);
+        max = entries;
     }
-    EXPECT_GE(most, 15u);
+    EXPECT_GE(max, 15u);
 }
 
 TEST(PackedRawlog, ReportsDamagedZstdLog) {

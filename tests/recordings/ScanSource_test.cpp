@@ -142,7 +142,7 @@ TEST_F(ScanSourceTest, RecoversSameBeamsForEveryPart) {
                   spin(4, "a", "VLP-16"), spin(5, "a", "VLP-16"), spin(6, "a", "HDL-64E", 900)});
     // The fullest of the first five is used; the sixth is too late.
     const auto whole = openRecording(rawlog);
-    const int most_columns = whole->beamsOf("a")->most_columns;
+    const int max_columns = whole->beamsOf("a")->max_columns;
     EXPECT_EQ(whole->beamsOf("a")->sensor.name, "HDL-32E");
     for (const std::size_t first : {0, 4, 5}) {
         SourceOptions options;
@@ -152,7 +152,7 @@ TEST_F(ScanSourceTest, RecoversSameBeamsForEveryPart) {
         const auto scan = part->nextScan();
         ASSERT_TRUE(scan && scan->beams);
         EXPECT_EQ(scan->beams->sensor.name, "HDL-32E");
-        EXPECT_EQ(scan->beams->most_columns, most_columns);
+        EXPECT_EQ(scan->beams->max_columns, max_columns);
     }
 }
 

@@ -15,9 +15,8 @@ namespace {
 const SensorModel kSensor = sensorModel("VLP-16");
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-Eigen::Vector3f randomPoint(test::Random& random, float most_m) {
-    return {random.real(-most_m, most_m), random.real(-most_m, most_m),
-            random.real(-most_m, most_m)};
+Eigen::Vector3f randomPoint(test::Random& random, float max_m) {
+    return {random.real(-max_m, max_m), random.real(-max_m, max_m), random.real(-max_m, max_m)};
 }
 
 Airframe randomAirframe(test::Random& random) {

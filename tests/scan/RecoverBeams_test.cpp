@@ -78,11 +78,11 @@ std::vector<std::string> spinningModels() {
     return names;
 }
 
-/// Beams of no known model: uneven, at least `least_step_deg` apart.
-std::vector<double> randomBeams(test::Random& random, int count, double least_step_deg) {
+/// Beams of no known model: uneven, at least `min_step_deg` apart.
+std::vector<double> randomBeams(test::Random& random, int count, double min_step_deg) {
     std::vector<double> beams_deg{static_cast<double>(random.real(-40, -20))};
     for (int beam = 1; beam < count; ++beam) {
-        const double step_deg = least_step_deg * static_cast<double>(random.real(1, 2.5));
+        const double step_deg = min_step_deg * static_cast<double>(random.real(1, 2.5));
         beams_deg.push_back(beams_deg.back() + step_deg);
     }
     return beams_deg;
@@ -122,7 +122,7 @@ TEST(RecoverBeams, FindsEveryKnownModel) {
         EXPECT_EQ(found->sensor.elevations_rad, truth.elevations_rad);
         EXPECT_EQ(found->seen_rad.size(), truth.elevations_rad.size());
         EXPECT_GT(found->share, 0.99f);
-        EXPECT_NEAR(found->most_columns, 900, 1);
+        EXPECT_NEAR(found->max_columns, 900, 1);
     }
 }
 
@@ -281,7 +281,7 @@ TEST(RecoverBeams, VirtualRowsAreEven) {
     // Like the Mid-360 preset: 24 rows, 360 columns.
     EXPECT_GE(rows_deg.size(), 22u);
     EXPECT_LE(rows_deg.size(), 25u);
-    EXPECT_NEAR(found->most_columns, 360, 10);
+    EXPECT_NEAR(found->max_columns, 360, 10);
     const double step_deg = rows_deg[1] - rows_deg[0];
     EXPECT_NEAR(rows_deg.front() - 0.5 * step_deg, -7, 0.2);
     EXPECT_NEAR(rows_deg.back() + 0.5 * step_deg, 52, 0.2);
@@ -297,7 +297,7 @@ TEST(RecoverBeams, HalfTurnKeepsResolution) {
         if (whole.y_m[i] > 0) add({whole.x_m[i], whole.y_m[i], whole.z_m[i]}, half);
     }
     const auto of_whole = recoverBeams(whole), of_half = recoverBeams(half);
-    EXPECT_NEAR(of_half->most_columns, of_whole->most_columns, 15);
+    EXPECT_NEAR(of_half->max_columns, of_whole->max_columns, 15);
     EXPECT_NEAR(of_half->sensor.rows(), of_whole->sensor.rows(), 3);
 }
 
@@ -390,7 +390,7 @@ TEST(RingBeams, BeamIsMedianOfRing) {
         EXPECT_EQ(found->row_of_ring[row], static_cast<int>(row));
     }
     EXPECT_EQ(found->sensor.name, kRecoveredName);
-    EXPECT_NEAR(found->most_columns, 200, 2);
+    EXPECT_NEAR(found->max_columns, 200, 2);
     EXPECT_GT(found->share, 0.99f);
 }
 

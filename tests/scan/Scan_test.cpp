@@ -35,8 +35,8 @@ std::vector<SensorModel> allSensors() {
 Scan pointsAround(test::Random& random, int count) {
     const float specials[] = {0.0f,   -0.0f, 1.0f,     -1.0f,
                               1e-30f, 1e30f, kNoValue, std::numeric_limits<float>::infinity()};
-    const auto coordinate = [&](float most) {
-        return random.chance(0.05) ? specials[random.whole(0, 7)] : random.real(-most, most);
+    const auto coordinate = [&](float max) {
+        return random.chance(0.05) ? specials[random.whole(0, 7)] : random.real(-max, max);
     };
     Scan scan;
     for (int i = 0; i < count; ++i) {

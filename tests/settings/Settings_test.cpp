@@ -127,15 +127,15 @@ TEST_F(SettingsTest, PresetsFitSensors) {
 TEST_F(SettingsTest, ReadsAndChecksEveryKey) {
     for (const OptionKey& key : optionKeys()) {
         if (key.name == "seeds" || std::holds_alternative<bool Options::*>(key.field)) continue;
-        std::ostringstream least, below;
-        least << key.name << ": " << key.least;
-        below << key.name << ": " << key.least - 1;
-        EXPECT_NO_THROW(settingsOf(least.str())) << key.name;
+        std::ostringstream min, below;
+        min << key.name << ": " << key.min;
+        below << key.name << ": " << key.min - 1;
+        EXPECT_NO_THROW(settingsOf(min.str())) << key.name;
         EXPECT_TRUE(says(refusalOf(below.str()), "must lie within")) << key.name;
         refusalOf(key.name + ": soon");
         refusalOf(key.name + ": [1, 2]");
         refusalOf(key.name + ": .nan");
-        if (std::isfinite(key.most)) refusalOf(key.name + ": 1000000000");
+        if (std::isfinite(key.max)) refusalOf(key.name + ": 1000000000");
     }
 }
 
@@ -298,10 +298,10 @@ TEST_F(SettingsTest, RecoveredSensorReplacesModel) {
 }
 
 /// Columns, window size and components for a sensor with this number of rows.
-std::vector<int> fitted(const Settings& settings, int rows, int most_columns) {
+std::vector<int> fitted(const Settings& settings, int rows, int max_columns) {
     RecoveredBeams recovered;
     recovered.sensor.elevations_rad.assign(rows, 0.0f);
-    recovered.most_columns = most_columns;
+    recovered.max_columns = max_columns;
     const Options options = settings.optionsFor(&recovered);
     return {options.columns, options.window_size, options.principal_components};
 }

@@ -22,7 +22,7 @@ using test::put;
 
 SensorErrorModel noFaults() {
     SensorErrorModel none;
-    none.footprint_rad = none.least_noise_m = none.lost = none.mixed = none.dust_per_m = 0;
+    none.footprint_rad = none.min_noise_m = none.lost = none.mixed = none.dust_per_m = 0;
     none.half_range_m = 1e6;
     none.airframe = false;
     return none;
@@ -161,7 +161,7 @@ TEST(LidarTest, StartsBehindAndTurnsClockwise) {
 /// Expects ranges with this standard deviation.
 void expectNoise(const Simulation& setup, double noise_m) {
     SensorErrorModel faults = noFaults();
-    faults.least_noise_m = noise_m;
+    faults.min_noise_m = noise_m;
     const SimulatedScan exact = setup.scan(0, noFaults()), noisy = setup.scan(0, faults);
     ASSERT_EQ(exact.size(), noisy.size());
     double squares = 0;
@@ -272,14 +272,14 @@ TEST(LidarTest, GrassReturnsAboveSoil) {
     content.terrain = Terrain(form, random);
     const Simulation setup(std::move(content), flightAt(3, 4, 0));
     const SimulatedScan scan = setup.scan(0, noFaults());
-    double sum = 0, most = 0;
+    double sum = 0, max = 0;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const double z = setup.inMap(scan, i, 0).z();
         ASSERT_GT(z, -5e-3);
-        most = std::max(most, z);
+        max = std::max(max, z);
         sum += z;
     }
-    EXPECT_LE(most, 0.205);
+    EXPECT_LE(max, 0.205);
     EXPECT_GT(sum / static_cast<double>(scan.size()), 0.01);
 }
 
@@ -442,8 +442,8 @@ TEST(Mid360, HasErrorsOfManual) {
     EXPECT_EQ(errors.footprint_rad, SensorErrorModel().footprint_rad);
     EXPECT_LT(errors.half_range_m, SensorErrorModel().half_range_m);
     EXPECT_EQ(sensorErrors(sensorModel("VLP-16")).half_range_m, SensorErrorModel().half_range_m);
-    EXPECT_EQ(errors.least_noise_m, 0.018);
-    expectNoise(livoxIndoors(), errors.least_noise_m);  // walls at 25 m and more
+    EXPECT_EQ(errors.min_noise_m, 0.018);
+    expectNoise(livoxIndoors(), errors.min_noise_m);  // walls at 25 m and more
 }
 
 TEST(LidarTest, DependsOnSeedAndScene) {

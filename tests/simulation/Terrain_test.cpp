@@ -49,14 +49,14 @@ TEST(TerrainTest, GrassIsPatchyAndLimited) {
     form.grass_m = 0.2;
     Random random(5);
     const Terrain terrain(form, random);
-    double least = 1, most = 0;
+    double min = 1, max = 0;
     for (double x = -100; x < 100; x += 3) {
-        least = std::min(least, terrain.grassHeight_m(x, 0.4 * x));
-        most = std::max(most, terrain.grassHeight_m(x, 0.4 * x));
+        min = std::min(min, terrain.grassHeight_m(x, 0.4 * x));
+        max = std::max(max, terrain.grassHeight_m(x, 0.4 * x));
     }
-    EXPECT_LT(least, 0.05);
-    EXPECT_GT(most, 0.15);
-    EXPECT_LE(most, 0.2 + 1e-6);
+    EXPECT_LT(min, 0.05);
+    EXPECT_GT(max, 0.15);
+    EXPECT_LE(max, 0.2 + 1e-6);
     EXPECT_EQ(terrain.grassHeight_m(1e6, 0), 0);
     EXPECT_EQ(terrain.grassHeight_m(NAN, 0), 0);
 }

@@ -39,13 +39,13 @@ ByteString ipWith(const SentDatagram& datagram, const ByteString& content, unsig
 
 ByteString ipOf(const SentDatagram& datagram) { return ipWith(datagram, udpOf(datagram), 0x4000); }
 
-std::vector<ByteString> fragmentsOf(const SentDatagram& datagram, std::size_t most) {
+std::vector<ByteString> fragmentsOf(const SentDatagram& datagram, std::size_t max) {
     const ByteString whole = udpOf(datagram);
     std::vector<ByteString> packets;
-    for (std::size_t at = 0; at < whole.size(); at += most) {
-        const unsigned more = at + most < whole.size() ? 0x2000 : 0;
+    for (std::size_t at = 0; at < whole.size(); at += max) {
+        const unsigned more = at + max < whole.size() ? 0x2000 : 0;
         packets.push_back(
-            ipWith(datagram, whole.substr(at, most), more | static_cast<unsigned>(at / 8)));
+            ipWith(datagram, whole.substr(at, max), more | static_cast<unsigned>(at / 8)));
     }
     return packets;
 }

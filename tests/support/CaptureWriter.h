@@ -30,7 +30,7 @@ ByteString little32(std::uint32_t value);
 /// The IP packet of a datagram, with a valid header but no checksums.
 ByteString ipOf(const SentDatagram& datagram);
 /// The IP packets of its fragments, with at most `most` bytes each.
-std::vector<ByteString> fragmentsOf(const SentDatagram& datagram, std::size_t most);
+std::vector<ByteString> fragmentsOf(const SentDatagram& datagram, std::size_t max);
 /// An Ethernet frame; each tag adds a VLAN header.
 ByteString ethernet(const ByteString& ip, int vlan_tags = 0, unsigned type = 0x0800);
 

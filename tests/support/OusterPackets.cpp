@@ -116,13 +116,13 @@ sensors::OusterFrame randomFrame(const sensors::OusterSensor& sensor, std::uint1
         frame.column_time_ns.push_back(1000000000ull * id + 1000000 * c);
     }
     for (std::size_t i = 0; i < sensor.pixels * frame.columns; ++i) {
-        const int most = static_cast<int>(sensor.profile.range_mask) / 4;
+        const int max = static_cast<int>(sensor.profile.range_mask) / 4;
         frame.range.push_back(
-            random.chance(0.2) ? 0 : static_cast<std::uint32_t>(random.whole(1, most)));
+            random.chance(0.2) ? 0 : static_cast<std::uint32_t>(random.whole(1, max)));
         frame.reflectivity.push_back(static_cast<std::uint8_t>(random.whole(0, 255)));
         if (sensor.profile.second_at == 0) continue;
         frame.second_range.push_back(
-            random.chance(0.8) ? 0 : static_cast<std::uint32_t>(random.whole(1, most)));
+            random.chance(0.8) ? 0 : static_cast<std::uint32_t>(random.whole(1, max)));
         frame.second_reflectivity.push_back(static_cast<std::uint8_t>(random.whole(0, 255)));
     }
     return frame;

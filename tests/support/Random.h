@@ -10,19 +10,17 @@ class Random {
  public:
     explicit Random(unsigned seed) : engine_(seed) {}
 
-    float real(float least, float most) {
-        return std::uniform_real_distribution<float>(least, most)(engine_);
+    float real(float min, float max) {
+        return std::uniform_real_distribution<float>(min, max)(engine_);
     }
-    int whole(int least, int most) {
-        return std::uniform_int_distribution<int>(least, most)(engine_);
-    }
+    int whole(int min, int max) { return std::uniform_int_distribution<int>(min, max)(engine_); }
     bool chance(double probability) { return std::bernoulli_distribution(probability)(engine_); }
 
     /// An image of values within [least, most], with a fraction of missing values.
-    Image<float> image(int rows, int columns, float least, float most, double missing) {
+    Image<float> image(int rows, int columns, float min, float max, double missing) {
         Image<float> image(rows, columns);
         for (float& pixel : image.reshaped()) {
-            pixel = chance(missing) ? kNoValue : real(least, most);
+            pixel = chance(missing) ? kNoValue : real(min, max);
         }
         return image;
     }

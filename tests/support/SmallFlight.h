@@ -25,7 +25,7 @@ struct SmallFlight {
 
 struct SmallFlightResult {
     bool arrived = false;
-    double least_m = 1000, time_s = 0, path_m = 0;
+    double min_m = 1000, time_s = 0, path_m = 0;
     int plans = 0, emergencies = 0;
     long asked = 0;
     avoidance::VehicleState end;
@@ -71,8 +71,8 @@ inline SmallFlightResult fly(const SolidWorld& world, const SmallFlight& flight)
         pending.pop_front();
         result.path_m += (next.position_m - state.position_m).norm();
         state = next;
-        result.least_m =
-            std::min<double>(result.least_m, world.distance_m(state.position_m.cast<float>()));
+        result.min_m =
+            std::min<double>(result.min_m, world.distance_m(state.position_m.cast<float>()));
         if ((state.position_m - flight.goal_m).norm() < 1) {
             result.arrived = true;
             break;

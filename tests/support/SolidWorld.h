@@ -17,8 +17,8 @@ class SolidWorld : public avoidance::WorldModel {
         trunks_.push_back({{middle_m.x(), middle_m.y(), 0}, radius_m});
         return *this;
     }
-    SolidWorld& box(const Eigen::Vector3f& least_m, const Eigen::Vector3f& most_m) {
-        boxes_.push_back({least_m, most_m});
+    SolidWorld& box(const Eigen::Vector3f& min_m, const Eigen::Vector3f& max_m) {
+        boxes_.push_back({min_m, max_m});
         return *this;
     }
     SolidWorld& ground(float height_m) {
@@ -45,18 +45,17 @@ class SolidWorld : public avoidance::WorldModel {
 
     /// Distance to the nearest surface, at any range; 0 inside.
     float distance_m(const Eigen::Vector3f& point_m) const {
-        float least_m = point_m.z() - ground_m_;
+        float min_m = point_m.z() - ground_m_;
         for (const Ball& ball : spheres_) {
-            least_m = std::min(least_m, (point_m - ball.middle_m).norm() - ball.radius_m);
+            min_m = std::min(min_m, (point_m - ball.middle_m).norm() - ball.radius_m);
         }
         for (const Ball& trunk : trunks_) {
-            least_m =
-                std::min(least_m, (point_m - trunk.middle_m).head<2>().norm() - trunk.radius_m);
+            min_m = std::min(min_m, (point_m - trunk.middle_m).head<2>().norm() - trunk.radius_m);
         }
         for (const Eigen::AlignedBox3f& box_m : boxes_) {
-            least_m = std::min(least_m, box_m.exteriorDistance(point_m));
+            min_m = std::min(min_m, box_m.exteriorDistance(point_m));
         }
-        return std::max(0.0f, least_m);
+        return std::max(0.0f, min_m);
     }
 
     mutable long asked = 0;

@@ -217,17 +217,16 @@ constexpr double kMaxMoverLength_m = 2.3;  // half a car's length
 
 /// Adds movers whose circles cross the path, but not near its ends.
 template <class ShapeOf>
-void addMovers(simulation::SceneBuilder& builder, int count,
-               const simulation::MovingObstacle& least, const simulation::MovingObstacle& most,
-               const ShapeOf& shapeOf) {
+void addMovers(simulation::SceneBuilder& builder, int count, const simulation::MovingObstacle& min,
+               const simulation::MovingObstacle& max, const ShapeOf& shapeOf) {
     simulation::Random& r = builder.random();
     for (int made = 0; made < count;) {
         simulation::MovingObstacle mover;
         const double x_m = r.uniform(2, 38), y_m = r.uniform(-4, 4);
         mover.middle_m = {x_m, y_m};
-        mover.radius_m = r.uniform(least.radius_m, most.radius_m);
-        mover.speed_m_s = r.uniform(least.speed_m_s, most.speed_m_s) * anySign(r);
-        mover.above_ground_m = r.uniform(least.above_ground_m, most.above_ground_m);
+        mover.radius_m = r.uniform(min.radius_m, max.radius_m);
+        mover.speed_m_s = r.uniform(min.speed_m_s, max.speed_m_s) * anySign(r);
+        mover.above_ground_m = r.uniform(min.above_ground_m, max.above_ground_m);
         mover.phase_rad = anyYaw(r);
         mover.shape = shapeOf();
         const auto comesNear = [&](const Vector2d& end_m) {

@@ -19,7 +19,7 @@ HagenFilter standardFilter(float zone_m) {
 
 simulation::SensorErrorModel trialErrorModel(Air air) {
     simulation::SensorErrorModel faults;
-    faults.least_noise_m = 0.02;
+    faults.min_noise_m = 0.02;
     faults.lost = 0.01;
     if (air == Air::Dusty) return faults;
     faults.mixed = 0;

@@ -101,7 +101,7 @@ class Search {
     const Clearance& clearance_m_;
     const Eigen::Vector3d start_m_, goal_m_;
     const PathSearchOptions& options_;
-    Eigen::Vector3i least_, size_;  ///< of the grid, in cells from the anchor
+    Eigen::Vector3i min_, size_;  ///< of the grid, in cells from the anchor
     int start_ = 0, goal_ = 0;
     std::uint32_t number_ = 0;
     Cost heuristic_permille_;
@@ -148,13 +148,13 @@ Search::Search(const Clearance& clearance_m, const Eigen::Vector3d& start_m,
     if (!((count.array() >= 1).all() && count.prod() <= double(kMaxCellsOfGrid))) {
         throw std::invalid_argument("path search: the bounds contain no cells, or too many");
     }
-    least_ = first.cast<int>();
+    min_ = first.cast<int>();
     size_ = count.cast<int>();
-    start_ = indexOf(nearest(start_m).cast<int>() - least_);
+    start_ = indexOf(nearest(start_m).cast<int>() - min_);
     const Eigen::Vector3d goal = nearest(goal_m);
     const bool has_goal = (goal.array() >= first.array()).all() &&
                           (goal.array() <= last.array()).all() && options.bounds_m.contains(goal_m);
-    goal_ = has_goal ? indexOf(goal.cast<int>() - least_) : -1;
+    goal_ = has_goal ? indexOf(goal.cast<int>() - min_) : -1;
 
     const auto cells = static_cast<std::size_t>(size_.prod());
     Memory& kept = memory();
@@ -201,7 +201,7 @@ Eigen::Vector3d Search::pointOf(int index, int place) const {
     if (index == start_) return start_m_;
     if (index == goal_) return goal_m_;
     const Eigen::Vector3d centre_m =
-        options_.anchor_m + options_.cell_m * (placeOf(index) + least_).cast<double>();
+        options_.anchor_m + options_.cell_m * (placeOf(index) + min_).cast<double>();
     if (place == 0) return centre_m;
     const double beside_m = options_.cell_m / 4;
     return centre_m +
@@ -263,10 +263,10 @@ Cost Search::minCostToGoal(int x, int y, int z) const {
     x = std::abs(x - goal_place_.x());
     y = std::abs(y - goal_place_.y());
     z = std::abs(z - goal_place_.z());
-    const int least = std::min({x, y, z}), most = std::max({x, y, z});
-    const int middle = x + y + z - least - most;
+    const int min = std::min({x, y, z}), max = std::max({x, y, z});
+    const int middle = x + y + z - min - max;
     const Cost way =
-        lengths_[3] * least + lengths_[2] * (middle - least) + lengths_[1] * (most - middle);
+        lengths_[3] * min + lengths_[2] * (middle - min) + lengths_[1] * (max - middle);
     return way * heuristic_permille_ / 1000;
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 /// Every n-th item, at most `most` in total.
 template <class Item>
-std::vector<Item> sampled(const std::vector<Item>& all, std::size_t most) {
-    const std::size_t every = (all.size() + most - 1) / std::max<std::size_t>(most, 1);
+std::vector<Item> sampled(const std::vector<Item>& all, std::size_t max) {
+    const std::size_t every = (all.size() + max - 1) / std::max<std::size_t>(max, 1);
     std::vector<Item> kept;
     for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(every, 1)) {
         kept.push_back(all[i]);
@@ -100,7 +100,7 @@ RecordedStep recorded(const TrialStep& step, const WorldModel::Obstacles& obstac
 void thinLongRun(const FlightRecordingLimits& limits, FlightRecording& recording) {
     const std::size_t steps = recording.steps.size();
     if (steps <= limits.full_steps) return;
-    const auto share = [&](std::size_t most) { return most * limits.full_steps / steps; };
+    const auto share = [&](std::size_t max) { return max * limits.full_steps / steps; };
     for (RecordedStep& step : recording.steps) {
         step.roi_m = sampled(step.roi_m, share(limits.points));
         step.rou_m = sampled(step.rou_m, share(limits.points));

@@ -37,16 +37,16 @@ GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float ma
       obstacles_(edge_m) {
     // Corners on whole cells, because MRPT rounds others. One more cell on each side, because MRPT
     // assigns points less than a cell outside to the first cell.
-    const Eigen::Array3f least = ((bounds_m.min().array() - kMapMargin_m) / edge_m).floor() - 1;
-    const Eigen::Array3f most = ((bounds_m.max().array() + kMapMargin_m) / edge_m).ceil() + 1;
-    corner_m_ = least * edge_m;
-    const float farthest_m = corner_m_.abs().max((most * edge_m).abs()).maxCoeff();
+    const Eigen::Array3f min = ((bounds_m.min().array() - kMapMargin_m) / edge_m).floor() - 1;
+    const Eigen::Array3f max = ((bounds_m.max().array() + kMapMargin_m) / edge_m).ceil() + 1;
+    corner_m_ = min * edge_m;
+    const float farthest_m = corner_m_.abs().max((max * edge_m).abs()).maxCoeff();
     if (!(farthest_m <= kMaxPlaceInCells * edge_m)) {
         throw std::runtime_error("a grid with cells of " + std::to_string(edge_m) +
                                  " m cannot cover positions up to " + std::to_string(farthest_m) +
                                  " m; shift the origin of the coordinates towards the path");
     }
-    map_->setSize(pointOf(corner_m_), pointOf(most * edge_m), edge_m);
+    map_->setSize(pointOf(corner_m_), pointOf(max * edge_m), edge_m);
     const auto& grid = map_->m_grid;  // rounded by MRPT
     size_ = {static_cast<int>(grid.getSizeX()), static_cast<int>(grid.getSizeY()),
              static_cast<int>(grid.getSizeZ())};

@@ -17,7 +17,7 @@ using PointTree =
 /// starts with a limit, so that searches beyond it end early.
 class Nearest {
  public:
-    explicit Nearest(float limit_m) : least_m2_(limit_m * limit_m) {}
+    explicit Nearest(float limit_m) : min_m2_(limit_m * limit_m) {}
 
     /// Restricts the next tree to its first `points` points without hidden ones (not 0; null: none
     /// are hidden).
@@ -27,17 +27,17 @@ class Nearest {
     }
 
     bool addPoint(float distance_m2, std::uint32_t point) {
-        if (point < counting_ && distance_m2 < least_m2_ && !(is_hidden_ && is_hidden_[point])) {
-            least_m2_ = distance_m2;
+        if (point < counting_ && distance_m2 < min_m2_ && !(is_hidden_ && is_hidden_[point])) {
+            min_m2_ = distance_m2;
         }
         return true;
     }
-    float worstDist() const { return least_m2_; }
+    float worstDist() const { return min_m2_; }
     static std::size_t size() { return 1; }
     static bool full() { return true; }
 
  private:
-    float least_m2_;
+    float min_m2_;
     const std::uint8_t* is_hidden_ = nullptr;
     std::size_t counting_ = std::numeric_limits<std::size_t>::max();
 };

@@ -255,9 +255,9 @@ void ObstacleTracks::update(const observations::MappedScan& scan,
     views_.push_front(std::move(view));
     while (views_.front()->time_s - views_.back()->time_s > kRemembered_s) views_.pop_back();
     std::vector<Seen> all = seenIn(scan, farthest_m_);
-    std::int32_t most = 0;
-    for (const Seen& seen : all) most = std::max(most, seen.obstacle);
-    track_of_obstacle_.assign(static_cast<std::size_t>(most) + 1, 0);
+    std::int32_t max = 0;
+    for (const Seen& seen : all) max = std::max(max, seen.obstacle);
+    track_of_obstacle_.assign(static_cast<std::size_t>(max) + 1, 0);
 
     std::vector<bool> is_track_taken(tracks_.size()), is_seen_taken(all.size());
     for (const Match& match : possibleMatches(tracks_, all)) {

@@ -12,10 +12,10 @@ OctoMapModel::OctoMapModel(const observations::ScanMapOptions& options,
                            const Eigen::AlignedBox3f& bounds_m)
     : map_(options), obstacles_(static_cast<float>(options.resolution_m)) {
     const Eigen::Vector3f margin = Eigen::Vector3f::Constant(kMapMargin_m);
-    octomap::point3d least = octomapPoint(bounds_m.min() - margin);
-    octomap::point3d most = octomapPoint(bounds_m.max() + margin);
-    map_.tree().setBBXMin(least);
-    map_.tree().setBBXMax(most);
+    octomap::point3d min = octomapPoint(bounds_m.min() - margin);
+    octomap::point3d max = octomapPoint(bounds_m.max() + margin);
+    map_.tree().setBBXMin(min);
+    map_.tree().setBBXMax(max);
     map_.tree().useBBXLimit(true);
     map_.tree().enableChangeDetection(true);
 }

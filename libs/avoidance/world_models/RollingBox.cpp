@@ -39,7 +39,7 @@ void RollingBox::fillParts() {
         auto& parts = parts_[static_cast<std::size_t>(axis)];
         parts.resize(static_cast<std::size_t>(size_[axis]) + 2);
         for (int place = 0; place < size_[axis]; ++place) {
-            const auto at = static_cast<std::uint32_t>(wrap(least_[axis] + place, size_[axis]));
+            const auto at = static_cast<std::uint32_t>(wrap(min_[axis] + place, size_[axis]));
             parts[static_cast<std::size_t>(place) + 1] = at / kGroup * stride +
                                                          ((at / kBlock % 4) << (6 + 2 * axis)) +
                                                          ((at % kBlock) << (2 * axis));
@@ -52,10 +52,10 @@ void RollingBox::fillParts() {
 
 const std::vector<std::uint32_t>& RollingBox::moveTo(const Eigen::Vector3f& vehicle_m) {
     left_.clear();
-    const Eigen::Array3i was = least_;
+    const Eigen::Array3i was = min_;
     const Eigen::Array3f block = vehicle_m.array() * per_edge_ / kBlock;
-    least_ = (block - (size_ / kBlock).cast<float>() / 2).round().cast<int>() * kBlock;
-    if (is_placed_ && (least_ == was).all()) return left_;
+    min_ = (block - (size_ / kBlock).cast<float>() / 2).round().cast<int>() * kBlock;
+    if (is_placed_ && (min_ == was).all()) return left_;
     const bool is_first = !is_placed_;
     is_placed_ = true;
     fillParts();
@@ -63,7 +63,7 @@ const std::vector<std::uint32_t>& RollingBox::moveTo(const Eigen::Vector3f& vehi
     // Positions along an axis that are new in the box.
     std::array<std::array<int, 2>, 3> entered;
     for (int axis = 0; axis < 3; ++axis) {
-        const int moved = std::clamp(least_[axis] - was[axis], -size_[axis], size_[axis]);
+        const int moved = std::clamp(min_[axis] - was[axis], -size_[axis], size_[axis]);
         auto& [from, to] = entered[static_cast<std::size_t>(axis)];
         from = moved > 0 ? size_[axis] - moved : 0;
         to = moved > 0 ? size_[axis] : -moved;
@@ -97,7 +97,7 @@ Eigen::Array3i RollingBox::placeOf(std::uint32_t block) const {
         kGroup * of_group + kBlock * Eigen::Array3i(within % 4, within / 4 % 4, within / 16);
     Eigen::Array3i place;
     for (int axis = 0; axis < 3; ++axis) {
-        place[axis] = wrap(stored[axis] - least_[axis], size_[axis]);
+        place[axis] = wrap(stored[axis] - min_[axis], size_[axis]);
     }
     return place;
 }

@@ -31,22 +31,22 @@ class RollingBox {
     const std::vector<std::uint32_t>& moveTo(const Eigen::Vector3f& vehicle_m);
 
     float edge_m() const { return edge_m_; }
-    const Eigen::Array3i& size() const { return size_; }    ///< in voxels
-    const Eigen::Array3i& least() const { return least_; }  ///< voxel at the minimum corner
+    const Eigen::Array3i& size() const { return size_; }  ///< in voxels
+    const Eigen::Array3i& min() const { return min_; }    ///< voxel at the minimum corner
     std::size_t voxels() const { return blocks() * 64; }
     std::size_t blocks() const { return groups() * 64; }
     std::size_t groups() const { return static_cast<std::size_t>(groups_.prod()); }
 
     /// A point in voxels from the minimum corner. Voxel (0, 0, 0) is [0, 1).
     Eigen::Array3f inVoxels(const Eigen::Vector3f& point_m) const {
-        return point_m.array() * per_edge_ - least_.cast<float>();
+        return point_m.array() * per_edge_ - min_.cast<float>();
     }
     bool holds(const Eigen::Array3f& in_voxels) const {
         return (in_voxels >= 0).all() && (in_voxels < size_.cast<float>()).all();
     }
     /// The centre of a voxel, given by its position from the minimum corner.
     Eigen::Vector3f centre_m(const Eigen::Array3i& place) const {
-        return ((place + least_).cast<float>() + 0.5f) * edge_m_;
+        return ((place + min_).cast<float>() + 0.5f) * edge_m_;
     }
 
     /// Index of a voxel of the box: the sum over its axes.
@@ -68,7 +68,7 @@ class RollingBox {
     void fillParts();
 
     float edge_m_, per_edge_;
-    Eigen::Array3i groups_, size_, least_{0, 0, 0};
+    Eigen::Array3i groups_, size_, min_{0, 0, 0};
     bool is_placed_ = false;
     std::array<std::vector<std::uint32_t>, 3> parts_;
     std::vector<std::uint32_t> left_;

@@ -7,8 +7,8 @@ namespace hagen::avoidance {
 
 SeenDirections::Cell SeenDirections::cellOf(const Eigen::Vector3f& direction) {
     Eigen::Index axis;
-    const float most = direction.cwiseAbs().maxCoeff(&axis);
-    const float scale = most > 0 ? 0.5f * kCellsAcross / most : 0;
+    const float max = direction.cwiseAbs().maxCoeff(&axis);
+    const float scale = max > 0 ? 0.5f * kCellsAcross / max : 0;
     const auto across = [&](Eigen::Index other) {
         const float at = direction[(axis + other) % 3] * scale + 0.5f * kCellsAcross;
         return std::clamp(static_cast<int>(at), 0, kCellsAcross - 1);

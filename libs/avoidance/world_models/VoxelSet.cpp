@@ -50,14 +50,14 @@ int floorDiv(int value, int by) { return value >= 0 ? value / by : -((by - 1 - v
 
 Columns columnsNear(const RollingBox& box, int axis, float at, float reach) {
     Columns columns;
-    const int size = box.size()[axis], least = box.least()[axis];
+    const int size = box.size()[axis], min = box.min()[axis];
     const int low = std::max(0, static_cast<int>(std::floor(at - reach)));
     const int high = std::min(size - 1, static_cast<int>(std::floor(at + reach)));
-    const int first = floorDiv(least + low, RollingBox::kGroup);
-    const int last = floorDiv(least + high, RollingBox::kGroup);
+    const int first = floorDiv(min + low, RollingBox::kGroup);
+    const int last = floorDiv(min + high, RollingBox::kGroup);
     for (int group = first; group <= last; ++group) {
         Column column;
-        const int begin = group * RollingBox::kGroup - least;
+        const int begin = group * RollingBox::kGroup - min;
         unsigned four = 0;
         for (int i = 0; i < 4; ++i) {
             const int block = begin + i * RollingBox::kBlock;

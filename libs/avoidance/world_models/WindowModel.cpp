@@ -100,8 +100,8 @@ void WindowModel::update(const observations::MappedScan& scan, std::shared_ptr<c
 /// Adds the newest points to a tree: a whole scan to a tree of three scans, sectors to a tree of
 /// one turn, which is merged with two others when full.
 void WindowModel::gather(std::unique_ptr<PastScans> newest) {
-    const auto fits = [](const PastScans& older, double turns, double most) {
-        return older.turns + turns <= most + kRounding_turns;
+    const auto fits = [](const PastScans& older, double turns, double max) {
+        return older.turns + turns <= max + kRounding_turns;
     };
     const bool is_sector = newest->turns < 1 - kRounding_turns;
     if (!past_.empty() && fits(*past_.front(), newest->turns, is_sector ? 1 : kTurnsPerTree)) {

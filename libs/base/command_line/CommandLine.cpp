@@ -81,12 +81,12 @@ Flag& Flag::needs(const Flag& other) {
     option_->needs(other.option_);
     return *this;
 }
-Flag& Flag::between(int least, int most) {
-    option_->check(CLI::Range(least, most));
+Flag& Flag::between(int min, int max) {
+    option_->check(CLI::Range(min, max));
     return *this;
 }
-Flag& Flag::between(double least, double most) {
-    option_->check(CLI::Range(least, most));
+Flag& Flag::between(double min, double max) {
+    option_->check(CLI::Range(min, max));
     return *this;
 }
 Flag& Flag::positive() {

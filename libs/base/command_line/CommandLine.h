@@ -42,8 +42,8 @@ class Flag {
     Flag& once();                ///< one value per occurrence; may be repeated
     Flag& delimiter(char mark);  ///< splits one argument into values
     Flag& needs(const Flag& other);
-    Flag& between(int least, int most);
-    Flag& between(double least, double most);
+    Flag& between(int min, int max);
+    Flag& between(double min, double max);
     Flag& positive();
     Flag& notNegative();
     Flag& oneOf(const std::vector<std::string>& words);

@@ -180,9 +180,9 @@ class DataBlockWriter {
         block("$elementary", [&] {
             for (int c = 0; c < components; ++c) {
                 data_.component_share.push_back(std::max(0.0, found.eigenvalues(c)) / all);
-                const double most = found.elementary.col(c).cwiseAbs().maxCoeff();
+                const double max = found.elementary.col(c).cwiseAbs().maxCoeff();
                 for (int i = 0; i < run.rows; ++i) {
-                    const double value = found.elementary(i, c) / std::max(most, 1e-12);
+                    const double value = found.elementary(i, c) / std::max(max, 1e-12);
                     text_ << run.first_row + i + 0.5 << " " << 0.4 * value - c << "\n";
                 }
                 text_ << "\n\n";

@@ -129,15 +129,15 @@ void StagePanelWriter::series(const Box& box) {
     panelTitle(columnName());
     beginPanel(box);
     // Smoothing may exceed the range 0 to 90.
-    float least_deg = 0.0f, most_deg = 90.0f;
+    float min_deg = 0.0f, max_deg = 90.0f;
     for (const float angle_rad : view_.result.smoothed_rad.col(data_.column)) {
         if (!hasValue(angle_rad)) continue;
         const auto angle_deg = static_cast<float>(degrees(static_cast<double>(angle_rad)));
-        least_deg = std::min(least_deg, angle_deg);
-        most_deg = std::max(most_deg, angle_deg);
+        min_deg = std::min(min_deg, angle_deg);
+        max_deg = std::max(max_deg, angle_deg);
     }
-    text_ << "set xrange [-0.5:" << rows_ - 0.5 << "]\nset yrange [" << least_deg - 5 << ":"
-          << most_deg + 5 << "]\nset ytics 30\n"
+    text_ << "set xrange [-0.5:" << rows_ - 0.5 << "]\nset yrange [" << min_deg - 5 << ":"
+          << max_deg + 5 << "]\nset ytics 30\n"
           << "set xlabel 'elevation [deg]'\nset ylabel 'range angle [deg]'\n"
           << "set grid ytics lc rgb '#DDDDDD' lt 1\n"
           << "set key at graph 1, graph 1.01 right bottom horizontal samplen 1.5\n";
@@ -269,8 +269,8 @@ double StagePanelWriter::columnAt(double azimuth_deg) const {
     return columns_ * (0.5 - azimuth_deg / 360.0) - 0.5;
 }
 
-void StagePanelWriter::beamTics(const char* axis, int most, double first_row) {
-    int step = (rows_ - 1 + most - 2) / (most - 1);
+void StagePanelWriter::beamTics(const char* axis, int max, double first_row) {
+    int step = (rows_ - 1 + max - 2) / (max - 1);
     const int last = rows_ - 1;
     for (int even = step; even <= last / 2;
          ++even) {  // also for the highest beam, if the step allows it
@@ -288,9 +288,9 @@ void StagePanelWriter::beamTics(const char* axis, int most, double first_row) {
     text_ << ")\n";
 }
 
-void StagePanelWriter::colourBar(const Box& box, const char* palette, float most, float step,
+void StagePanelWriter::colourBar(const Box& box, const char* palette, float max, float step,
                                  const std::string& what) {
-    text_ << "set palette " << palette << "\nset cbrange [0:" << most << "]\nset cbtics " << step
+    text_ << "set palette " << palette << "\nset cbrange [0:" << max << "]\nset cbtics " << step
           << "\nset cblabel '" << what << "'\nset colorbox user origin screen " << x(box.right + 12)
           << ", screen " << y(box.bottom) << " size screen " << x(16) << ", screen "
           << y(box.top - box.bottom) << " noborder\n";

@@ -60,8 +60,8 @@ class StagePanelWriter {
     double columnAt(double azimuth_deg) const;
     /// Labels up to `most` beams by elevation in degrees, evenly spaced from the lowest to the
     /// highest.
-    void beamTics(const char* axis, int most, double first_row = 0.0);
-    void colourBar(const Box& box, const char* palette, float most, float step,
+    void beamTics(const char* axis, int max, double first_row = 0.0);
+    void colourBar(const Box& box, const char* palette, float max, float step,
                    const std::string& what);
     static std::string imageOf(const std::string& block);
     void depthScale(const Box& box);

@@ -58,16 +58,16 @@ bool isInZone(const Scan& scan, const SensorModel& sensor, std::size_t i, float 
 std::vector<Indices> alongX(const Scan& scan, const SensorModel& sensor,
                             const ZermasOptions& options) {
     Indices in_zone;
-    float least_m = std::numeric_limits<float>::infinity(), most_m = -least_m;
+    float min_m = std::numeric_limits<float>::infinity(), max_m = -min_m;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (!isInZone(scan, sensor, i, options.zone_m)) continue;
         in_zone.push_back(static_cast<std::int32_t>(i));
-        least_m = std::min(least_m, scan.x_m[i]);
-        most_m = std::max(most_m, scan.x_m[i]);
+        min_m = std::min(min_m, scan.x_m[i]);
+        max_m = std::max(max_m, scan.x_m[i]);
     }
     std::vector<Indices> stretches(options.segments);
     for (const std::int32_t i : in_zone) {
-        const float share = most_m > least_m ? (scan.x_m[i] - least_m) / (most_m - least_m) : 0.0f;
+        const float share = max_m > min_m ? (scan.x_m[i] - min_m) / (max_m - min_m) : 0.0f;
         const int stretch = static_cast<int>(share * static_cast<float>(options.segments));
         stretches[std::min(stretch, options.segments - 1)].push_back(
             i);  // the foremost return belongs to the last stretch

@@ -30,7 +30,7 @@ struct Line {
 struct Panel {
     std::string title, x_title, y_title;
     std::vector<Line> lines;
-    double least_y;
+    double min_y;
     bool has_labels = true;  ///< the x axis shows value labels instead of numbers
     bool has_lines = true;   ///< values are connected
 };
@@ -38,13 +38,13 @@ struct Panel {
 /// The minimum value, rounded down, shared by adjacent panels. Intervals may extend below the axis:
 /// wide ones of few obstacles would compress all values into a line.
 double leastOf(const std::vector<Line>& lines) {
-    double least = 0.8;
+    double min = 0.8;
     for (const Line& line : lines) {
         for (const Value& value : line.values) {
-            if (value.y < least) least = std::floor(value.y * 10) / 10;  // false for NaN
+            if (value.y < min) min = std::floor(value.y * 10) / 10;  // false for NaN
         }
     }
-    return least;
+    return min;
 }
 
 class Chart {
@@ -68,7 +68,7 @@ class Chart {
               << convert::gnuplotString(panel.y_title)
               << "\nset grid y lc rgb '#DDDDDD' lw 1 lt 1\nset tics nomirror out scale 0.5\n"
               << "set border 3 lc rgb '#333333'\nset offsets graph 0.06, graph 0.06, 0, 0\n"
-              << "set yrange [" << panel.least_y << ":1]\n"
+              << "set yrange [" << panel.min_y << ":1]\n"
               << "set key at screen 0.995, screen 0.88 right top vertical Left reverse noenhanced "
                  "samplen 1.5 width -2\n";
         if (!has_legend_ || panel_ > 0) text_ << "unset key\n";  // one for all panels
@@ -183,10 +183,10 @@ void drawPart(const std::filesystem::path& folder, const Summary& summary, const
     if ((summary.methods.front().returns.*part).empty()) return;
     const std::vector<Line> roi = linesOf(summary, part, roiF1);
     const std::vector<Line> rou = linesOf(summary, part, rouF1);
-    const double least = std::min(leastOf(roi), leastOf(rou));
+    const double min = std::min(leastOf(roi), leastOf(rou));
     Chart chart(name, kWidth_px, 2, 0.2, roi.size() > 1);
-    chart.add({"Region of interest", x_title, "F1", roi, least});
-    chart.add({"Region of uninterest", x_title, "F1", rou, least});
+    chart.add({"Region of interest", x_title, "F1", roi, min});
+    chart.add({"Region of uninterest", x_title, "F1", rou, min});
     chart.draw(folder);
 }
 
@@ -229,7 +229,7 @@ void drawSweep(const std::filesystem::path& folder, const std::string& key,
         std::sort(line.values.begin(), line.values.end(),
                   [](const Value& a, const Value& b) { return a.x < b.x; });
     }
-    panel.least_y = leastOf(panel.lines);
+    panel.min_y = leastOf(panel.lines);
     Chart chart("sweep_" + key + ".svg", kWidth_px / 2, 1, 0.2, true);
     chart.add(panel);
     chart.draw(folder);

@@ -8,7 +8,7 @@ Eigen::Vector3f upwards(const Ground& ground, const std::optional<Attitude>& att
 }
 
 void alarmLowGround(const Ground& ground, const Clearance& clearance, Image<Label>& labels) {
-    if (clearance.least_m <= 0) return;
+    if (clearance.min_m <= 0) return;
     for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
         if (labels.data()[pixel] == Label::Rou &&
             clearance.isViolatedBy(ground, ground.pixels.at(pixel))) {

@@ -10,11 +10,11 @@ namespace hagen {
 /// The minimum height of the sensor above the ground.
 struct Clearance {
     Eigen::Vector3f up;  ///< against gravity, in the ground frame; a unit vector
-    float least_m = 0;   ///< 0: no minimum
+    float min_m = 0;     ///< 0: no minimum
 
     /// Whether a point in the ground frame is too close.
     bool isViolatedBy(const Ground& ground, const Eigen::Vector3f& point_m) const {
-        return least_m > 0 && up.dot(ground.from_sensor.translation() - point_m) < least_m;
+        return min_m > 0 && up.dot(ground.from_sensor.translation() - point_m) < min_m;
     }
 };
 

@@ -74,7 +74,7 @@ void judgeFartherReturns(const Scan& scan, const RangeImage& image, const Ground
     locate(scan, ground.from_sensor, n, work);
     heightsAbove(ground.surface, n, work.x_m.data(), work.y_m.data(), work.z_m.data(),
                  work.height_m.data());
-    const bool needs_clearance = clearance.least_m > 0;
+    const bool needs_clearance = clearance.min_m > 0;
     for (std::size_t k = 0; k < n; ++k) {
         const float tolerance_m = ground.tolerance_m.data()[image.depth_mapper[list[k]]];
         const bool is_high = work.height_m[k] > tolerance_m;

@@ -89,11 +89,11 @@ HWY_NOINLINE void listClose(const PixelSpan& pixels, const float* HWY_RESTRICT c
             const auto z = hn::LoadU(d, pixels.z_m + pixel);
             const auto h_m = hn::Sub(z, hn::GatherIndex(d, coarse_m, cell));
             const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-            const auto least_m =
+            const auto min_m =
                 hn::Sub(hn::Set(d, -kClose_m), hn::Mul(hn::Set(d, kCloseBelow_per_m), distance_m));
-            const auto most_m =
+            const auto max_m =
                 hn::Add(hn::Set(d, kClose_m), hn::Mul(hn::Set(d, kCloseAbove_per_m), distance_m));
-            return hn::And(hn::Gt(h_m, least_m), hn::Lt(h_m, most_m));
+            return hn::And(hn::Gt(h_m, min_m), hn::Lt(h_m, max_m));
         });
 }
 

@@ -43,14 +43,14 @@ HWY_INLINE void storeMask(D, hn::Mask<D> mask, std::uint8_t* HWY_RESTRICT to) {
 /// top of each column, where these belong to another column.
 void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                   const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT steps) {
-    const auto markSteps = [&](auto d, std::size_t pixel, int most_above) HAGEN_INLINE {
+    const auto markSteps = [&](auto d, std::size_t pixel, int max_above) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
         const Bytes<decltype(d)> d8;
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         const auto z = hn::LoadU(d, z_m + pixel);
         auto marks = hn::Zero(di);
         auto is_open = hn::Not(hn::IsNaN(z));  // until a pixel is far enough
-        for (int above = 1; above <= most_above && !hn::AllFalse(d, is_open); ++above) {
+        for (int above = 1; above <= max_above && !hn::AllFalse(d, is_open); ++above) {
             const std::size_t next = pixel + static_cast<std::size_t>(above);
             const auto dx = hn::Sub(hn::LoadU(d, x_m + next), x);
             const auto dy = hn::Sub(hn::LoadU(d, y_m + next), y);
@@ -107,9 +107,9 @@ void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY
         const hn::RebindToSigned<decltype(d)> di;
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-        const auto most_m =
+        const auto max_m =
             hn::Add(hn::Set(d, kClose_m), hn::Mul(hn::Set(d, kClose_per_m), distance_m));
-        const auto is_close = hn::Lt(hn::Abs(hn::LoadU(d, height_m + pixel)), most_m);
+        const auto is_close = hn::Lt(hn::Abs(hn::LoadU(d, height_m + pixel)), max_m);
         const Bytes<decltype(d)> d8;
         const auto level = hn::PromoteTo(di, hn::LoadU(d8, is_level + pixel));
         const auto kind = hn::Add(level, hn::Set(di, 1));
@@ -118,13 +118,13 @@ void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY
     });
 }
 
-/// Lowers the tolerance of each pixel to `least_m` of its block, if that is minus infinity.
+/// Lowers the tolerance of each pixel to `min_m` of its block, if that is minus infinity.
 void WithdrawIn(std::size_t pixels, const std::uint16_t* HWY_RESTRICT block,
-                const float* HWY_RESTRICT least_m, float* HWY_RESTRICT tolerance_m) {
+                const float* HWY_RESTRICT min_m, float* HWY_RESTRICT tolerance_m) {
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const auto least = gatherAt(d, least_m, block + pixel);
+        const auto min = gatherAt(d, min_m, block + pixel);
         // NaN stays NaN.
-        hn::StoreU(hn::Add(hn::LoadU(d, tolerance_m + pixel), least), d, tolerance_m + pixel);
+        hn::StoreU(hn::Add(hn::LoadU(d, tolerance_m + pixel), min), d, tolerance_m + pixel);
     });
 }
 
@@ -223,14 +223,14 @@ void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
     sumAround<kReach>(blocks);
 
     constexpr float kNothing = -std::numeric_limits<float>::infinity();
-    BlocksAndNone<float> least_m;
-    has_evidence.assign(least_m.size(), 0);
+    BlocksAndNone<float> min_m;
+    has_evidence.assign(min_m.size(), 0);
     for (std::size_t k = 0; k < blocks.size(); ++k) has_evidence[k] = blocks[k].isGround();
-    for (std::size_t k = 0; k < least_m.size(); ++k) {
-        least_m[k] = has_evidence[k] != 0 ? 0.0f : kNothing;
+    for (std::size_t k = 0; k < min_m.size(); ++k) {
+        min_m[k] = has_evidence[k] != 0 ? 0.0f : kNothing;
     }
     HWY_DYNAMIC_DISPATCH(WithdrawIn)
-    (size, cells.block.data(), least_m.data(), tolerance_m.data());
+    (size, cells.block.data(), min_m.data(), tolerance_m.data());
 }
 
 }  // namespace hagen

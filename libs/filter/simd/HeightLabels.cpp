@@ -66,9 +66,9 @@ void ToleratedHeightsIn(std::size_t pixels, const float* HWY_RESTRICT x_m,
         const auto tolerated_m = hn::Sub(
             hn::Add(hn::Set(d, tolerance.near_m), hn::Mul(hn::Set(d, tolerance.per_m), distance_m)),
             hn::Mul(hn::Mul(hn::Set(d, tolerance.beside_tall), shallow), tall_m));
-        const auto least_m = hn::Set(d, kMinTolerance_m);
-        const auto is_less = hn::Lt(tolerated_m, least_m);  // false for NaN
-        hn::StoreU(hn::IfThenElse(is_less, least_m, tolerated_m), d, tolerance_m + pixel);
+        const auto min_m = hn::Set(d, kMinTolerance_m);
+        const auto is_less = hn::Lt(tolerated_m, min_m);  // false for NaN
+        hn::StoreU(hn::IfThenElse(is_less, min_m, tolerated_m), d, tolerance_m + pixel);
     });
 }
 

@@ -158,10 +158,9 @@ void removeObstacles(GroundFit<kSide>& fit) {
         for (int i = 0; i < kSide; i += static_cast<int>(hn::Lanes(d))) {
             float* HWY_RESTRICT cell = cleaned + gridColumn<kSide>(j) + i;
             const V low_m = hn::LoadU(d, cell);
-            const V most_m =
+            const V max_m =
                 hn::Add(hn::LoadU(d, e + gridColumn<kSide>(j) + i), hn::Set(d, kEnvelope_m));
-            hn::StoreU(hn::IfThenElse(hn::Le(low_m, most_m), low_m, hn::Set(d, kNoHeight)), d,
-                       cell);
+            hn::StoreU(hn::IfThenElse(hn::Le(low_m, max_m), low_m, hn::Set(d, kNoHeight)), d, cell);
         }
     }
 }

@@ -15,8 +15,8 @@ constexpr std::uint8_t kMavlinkVersion = 3;
 constexpr std::uint8_t kUnknownVariance = 255;
 
 /// Rounds down, which is the safe side.
-std::uint16_t centimetres(float metres, float least_cm, float most_cm) {
-    return static_cast<std::uint16_t>(std::clamp(std::floor(100 * metres), least_cm, most_cm));
+std::uint16_t centimetres(float metres, float min_cm, float max_cm) {
+    return static_cast<std::uint16_t>(std::clamp(std::floor(100 * metres), min_cm, max_cm));
 }
 
 std::uint32_t milliseconds(double time_s) {

@@ -43,7 +43,7 @@ std::vector<Obstacle> obstaclesOf(const Directions& directions) {
 
 }  // namespace
 
-std::vector<Obstacle> ObstacleNumbers::nearest(const Directions& directions, std::size_t most,
+std::vector<Obstacle> ObstacleNumbers::nearest(const Directions& directions, std::size_t max,
                                                const std::optional<VehiclePose>& pose) {
     std::vector<Obstacle> obstacles = obstaclesOf(directions);
     if (last_pose_ && pose) {
@@ -67,7 +67,7 @@ std::vector<Obstacle> ObstacleNumbers::nearest(const Directions& directions, std
     }
     last_ = obstacles;
     last_pose_ = pose;
-    obstacles.resize(std::min(obstacles.size(), most));
+    obstacles.resize(std::min(obstacles.size(), max));
     return obstacles;
 }
 

@@ -22,7 +22,7 @@ struct Obstacle {
 class ObstacleNumbers {
  public:
     /// Returns up to `most` obstacles, nearest first.
-    std::vector<Obstacle> nearest(const Directions& directions, std::size_t most,
+    std::vector<Obstacle> nearest(const Directions& directions, std::size_t max,
                                   const std::optional<VehiclePose>& pose);
 
  private:

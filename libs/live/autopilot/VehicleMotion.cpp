@@ -30,8 +30,8 @@ constexpr double kMaxCoordinate_m = 1e7, kMaxSpeed_m_s = 100;
 
 /// False for NaN.
 template <class... Value>
-bool areWithin(double most, Value... values) {
-    return ((std::abs(static_cast<double>(values)) <= most) && ...);
+bool areWithin(double max, Value... values) {
+    return ((std::abs(static_cast<double>(values)) <= max) && ...);
 }
 
 template <class Sample>

@@ -126,8 +126,8 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
           "skip_ahead_moved_rad must be at least 0 and less than half a turn");
     check(streaming.keep_every >= 0, "keep_every must not be negative");
     check(streaming.context_s > 0, "context_s must be positive");
-    check(streaming.least_known_rad >= 0 && streaming.least_known_rad <= kTurn_rad,
-          "least_known_rad must be at least 0 and at most a turn");
+    check(streaming.min_known_rad >= 0 && streaming.min_known_rad <= kTurn_rad,
+          "min_known_rad must be at least 0 and at most a turn");
     check(streaming.longest_sector_s > 0, "longest_sector_s must be positive");
     check(take_ != nullptr, "no callback for sectors");
 }
@@ -380,7 +380,7 @@ bool StreamingSegmenter::knowsEnough() const {
             std::min(measured_s, packets_.back().time_s - packets_.front().time_s);
         known_rad = kTurn_rad * known_s / streaming_.context_s;
     }
-    return known_rad >= streaming_.least_known_rad - kPacketEnd_rad;
+    return known_rad >= streaming_.min_known_rad - kPacketEnd_rad;
 }
 
 /// Selects the image columns: all in and beside the sector, and a fraction elsewhere. All sectors

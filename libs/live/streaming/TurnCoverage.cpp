@@ -71,8 +71,8 @@ void TurnCoverage::add(const Sweep& sweep, const BeamOffsets& offsets) {
 }
 
 std::optional<double> endOfArc(const TurnCoverage::Swept& swept, const TurnCoverage::Arc& arc) {
-    const double most_rad = swept.to_rad + kRounding_rad;
-    const double turns = std::floor((most_rad - arc.begin_rad - arc.width_rad) / kTurn_rad);
+    const double max_rad = swept.to_rad + kRounding_rad;
+    const double turns = std::floor((max_rad - arc.begin_rad - arc.width_rad) / kTurn_rad);
     const double begin_rad = arc.begin_rad + kTurn_rad * turns;
     const double end_rad = begin_rad + arc.width_rad;
     const bool is_swept =

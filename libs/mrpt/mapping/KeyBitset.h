@@ -11,14 +11,14 @@ namespace hagen::observations {
 class KeyBitset {
  public:
     struct Corners {
-        octomap::OcTreeKey least, most;  ///< inclusive
+        octomap::OcTreeKey min, max;  ///< inclusive
     };
 
     void reset(const Corners& box) {
-        least_ = box.least;
+        min_ = box.min;
         std::size_t bits = 1;
         for (unsigned i = 0; i < 3; ++i) {
-            size_[i] = static_cast<std::size_t>(box.most[i] - box.least[i]) + 1;
+            size_[i] = static_cast<std::size_t>(box.max[i] - box.min[i]) + 1;
             bits *= size_[i];
         }
         words_.assign(bits / 64 + 1, 0);
@@ -41,13 +41,13 @@ class KeyBitset {
 
  private:
     std::size_t indexOf(const octomap::OcTreeKey& key) const {
-        return (static_cast<std::size_t>(key[2] - least_[2]) * size_[1] +
-                static_cast<std::size_t>(key[1] - least_[1])) *
+        return (static_cast<std::size_t>(key[2] - min_[2]) * size_[1] +
+                static_cast<std::size_t>(key[1] - min_[1])) *
                    size_[0] +
-               static_cast<std::size_t>(key[0] - least_[0]);
+               static_cast<std::size_t>(key[0] - min_[0]);
     }
 
-    octomap::OcTreeKey least_;
+    octomap::OcTreeKey min_;
     std::size_t size_[3] = {0, 0, 0};
     std::vector<std::uint64_t> words_;
 };

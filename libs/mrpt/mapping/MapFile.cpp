@@ -30,16 +30,16 @@ observations::viz::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
     voxels->resizeVoxelSets(1);
     voxels->enableLights(true);
     voxels->enableCubeTransparency(false);
-    double least[3] = {0, 0, 0}, most[3] = {1, 1, 1};
+    double min[3] = {0, 0, 0}, max[3] = {1, 1, 1};
     if (tree.size() > 0) {
-        tree.getMetricMin(least[0], least[1], least[2]);
-        tree.getMetricMax(most[0], most[1], most[2]);
+        tree.getMetricMin(min[0], min[1], min[2]);
+        tree.getMetricMax(max[0], max[1], max[2]);
     }
-    voxels->setBoundingBox({least[0], least[1], least[2]}, {most[0], most[1], most[2]});
+    voxels->setBoundingBox({min[0], min[1], min[2]}, {max[0], max[1], max[2]});
     for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
         if (!tree.isNodeOccupied(*leaf)) continue;
         const octomap::point3d at = leaf.getCoordinate();
-        const double height = (static_cast<double>(at.z()) - least[2]) / (most[2] - least[2]);
+        const double height = (static_cast<double>(at.z()) - min[2]) / (max[2] - min[2]);
         const mrpt::img::TColor color = observations::colorOf(mrpt::img::colormap(
             mrpt::img::cmJET, static_cast<float>(std::clamp(height, 0.0, 1.0))));
         voxels->push_back_Voxel(

@@ -49,14 +49,14 @@ void check(const char* what, double value) {
 }
 
 void checkProbabilities(const ScanMapOptions& options) {
-    const double least = options.least_probability, most = options.greatest_probability;
+    const double min = options.min_probability, max = options.greatest_probability;
     const double hit = options.hit_probability, miss = options.miss_probability;
-    if (0 < least && least < miss && miss < 0.5 && 0.5 < hit && hit < most && most < 1) return;
+    if (0 < min && min < miss && miss < 0.5 && 0.5 < hit && hit < max && max < 1) return;
     throw std::invalid_argument(
         "the probabilities of an OctoMap must be in the order 0 < least < miss < 0.5 < hit < "
         "greatest < 1, but are " +
-        std::to_string(least) + ", " + std::to_string(miss) + ", " + std::to_string(hit) + ", " +
-        std::to_string(most));
+        std::to_string(min) + ", " + std::to_string(miss) + ", " + std::to_string(hit) + ", " +
+        std::to_string(max));
 }
 
 }  // namespace
@@ -74,8 +74,8 @@ class ScanMap::RayTraversal {
         const auto reach = static_cast<float>(max_range_m + 2 * tree.getResolution());
         const Eigen::Vector3f corner = Eigen::Vector3f::Constant(reach);
         KeyBitset::Corners box;
-        if (!tree.coordToKeyChecked(pointOf(origin_m - corner), box.least) ||
-            !tree.coordToKeyChecked(pointOf(origin_m + corner), box.most)) {
+        if (!tree.coordToKeyChecked(pointOf(origin_m - corner), box.min) ||
+            !tree.coordToKeyChecked(pointOf(origin_m + corner), box.max)) {
             throw std::runtime_error("a scan at " + std::to_string(std::lround(origin_m.x())) +
                                      ", " + std::to_string(std::lround(origin_m.y())) + ", " +
                                      std::to_string(std::lround(origin_m.z())) +
@@ -134,11 +134,11 @@ ScanMap::ScanMap(const ScanMapOptions& options) : options_(options) {
     if (options.insertion != RayInsertion::OneRayPerVoxel && options.content != MapContent::Full) {
         throw std::invalid_argument("OctoMap's own insertion requires all returns as hits");
     }
-    most_nodes_ = mostNodes();
+    max_nodes_ = mostNodes();
     tree_ = std::make_unique<octomap::OcTree>(options.resolution_m);
     tree_->setProbHit(options.hit_probability);
     tree_->setProbMiss(options.miss_probability);
-    tree_->setClampingThresMin(options.least_probability);
+    tree_->setClampingThresMin(options.min_probability);
     tree_->setClampingThresMax(options.greatest_probability);
     walk_ = std::make_unique<RayTraversal>();
 }
@@ -149,12 +149,12 @@ ScanMap& ScanMap::operator=(ScanMap&&) noexcept = default;
 std::size_t ScanMap::bytes() const { return tree_->memoryUsage() + walk_->bytes(); }
 
 void ScanMap::insert(const MappedScan& scan) {
-    if (tree_->size() > most_nodes_) {
+    if (tree_->size() > max_nodes_) {
         std::ostringstream millions;
-        millions << std::setprecision(3) << 1e-6 * static_cast<double>(most_nodes_);
+        millions << std::setprecision(3) << 1e-6 * static_cast<double>(max_nodes_);
         throw MapFull("the map has more than " + millions.str() +
                       " million nodes; use larger voxels" +
-                      (most_nodes_ < kMaxNodes ? ", or a higher --memory-limit" : ""));
+                      (max_nodes_ < kMaxNodes ? ", or a higher --memory-limit" : ""));
     }
     const MapContent content = options_.content;
     const auto is_hit = [&](std::size_t i) {

@@ -183,12 +183,12 @@ class Planner {
     /// The model of most packets; null: unknown.
     static const sensors::VelodyneModel* findVelodyne(const Topic& topic) {
         const sensors::VelodyneModel* most = nullptr;
-        std::size_t most_packets = 0;
+        std::size_t max_packets = 0;
         for (const auto& [id, count] : topic.velodyne_ids) {
             const sensors::VelodyneModel* const model = sensors::findVelodyneModel(id);
-            if (model == nullptr || count <= most_packets) continue;
+            if (model == nullptr || count <= max_packets) continue;
             most = model;
-            most_packets = count;
+            max_packets = count;
         }
         return most;
     }

@@ -217,17 +217,17 @@ BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool(
     return survey;
 }
 
-std::string textOfTopics(const BagSurvey& survey, std::size_t most) {
+std::string textOfTopics(const BagSurvey& survey, std::size_t max) {
     std::string text;
     std::size_t listed = 0;
     for (const BagSurvey::Topic& topic : survey.topics) {
-        if (listed++ == most) break;
+        if (listed++ == max) break;
         text += (text.empty() ? "" : ", ") + topic.topic.name + " (" +
                 (topic.topic.type.empty() ? "unknown type" : topic.topic.type) + ", " +
                 counted(topic.messages, "message") + ")";
     }
-    if (survey.topics.size() > most) {
-        text += " and " + std::to_string(survey.topics.size() - most) + " more";
+    if (survey.topics.size() > max) {
+        text += " and " + std::to_string(survey.topics.size() - max) + " more";
     }
     return text.empty() ? "none" : text;
 }

@@ -86,6 +86,6 @@ BagSurvey surveyBag(
     const std::function<bool()>& keep_going = [] { return true; });
 
 /// "/points (sensor_msgs/PointCloud2, 20 messages), ...", at most `most` of them.
-std::string textOfTopics(const BagSurvey& survey, std::size_t most = 30);
+std::string textOfTopics(const BagSurvey& survey, std::size_t max = 30);
 
 }  // namespace hagen::recordings

@@ -49,9 +49,9 @@ class FieldReader {
     }
 
     /// Reads the number of elements that follow, each of at least this size.
-    std::size_t count(std::size_t least_bytes) {
+    std::size_t count(std::size_t min_bytes) {
         const auto elements = number<std::uint32_t>();
-        if (elements > left() / least_bytes) {
+        if (elements > left() / min_bytes) {
             throw TooShort("it claims " + std::to_string(elements) + " elements, but has only " +
                            std::to_string(left()) + " more bytes");
         }

@@ -15,8 +15,8 @@ namespace {
 /// An output buffer that grows up to a limit.
 class Growing {
  public:
-    Growing(std::vector<std::uint8_t>& plain, std::uint64_t most) : plain_(plain), most_(most) {
-        plain_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(most, 1 << 16)));
+    Growing(std::vector<std::uint8_t>& plain, std::uint64_t max) : plain_(plain), max_(max) {
+        plain_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(max, 1 << 16)));
     }
     std::uint8_t* end() { return plain_.data() + used_; }
     std::size_t room() const { return plain_.size() - used_; }
@@ -25,15 +25,15 @@ class Growing {
     /// Makes room; false at the limit.
     bool grow() {
         if (room() > 0) return true;
-        if (used_ >= most_) return false;
-        plain_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(most_, 2 * plain_.size())));
+        if (used_ >= max_) return false;
+        plain_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(max_, 2 * plain_.size())));
         return true;
     }
     void finish() { plain_.resize(used_); }
 
  private:
     std::vector<std::uint8_t>& plain_;
-    std::uint64_t most_;
+    std::uint64_t max_;
     std::size_t used_ = 0;
 };
 

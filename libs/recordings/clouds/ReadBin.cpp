@@ -27,8 +27,8 @@ bool arePoints(const Bytes& bytes, std::size_t numbers_per_point) {
     bool is_all_zero = true;
     for (std::size_t i = 0; i < numbers; ++i) {
         const auto number = numberAt<float>(bytes, sizeof(float) * i);
-        const float most = i % numbers_per_point < 3 ? kFarthest_m : kMaxIntensity;
-        if (std::isfinite(number) && std::abs(number) > most) return false;
+        const float max = i % numbers_per_point < 3 ? kFarthest_m : kMaxIntensity;
+        if (std::isfinite(number) && std::abs(number) > max) return false;
         if (std::fpclassify(number) == FP_SUBNORMAL) return false;  // from text or integers
         is_all_zero = is_all_zero && number == 0.0f;
     }

@@ -30,9 +30,9 @@ constexpr LasFormat kLasFormats[] = {
 /// A table that is filled point by point.
 class LasColumns {
  public:
-    LasColumns(std::size_t points, std::size_t most_bytes) {
+    LasColumns(std::size_t points, std::size_t max_bytes) {
         table.points = points;
-        table.bytes.reserve(points * most_bytes);
+        table.bytes.reserve(points * max_bytes);
     }
     /// Add the same fields for each point, in the same order.
     template <class Number>

@@ -160,9 +160,9 @@ std::size_t readScan(const fs::path& file, Scan& scan) {
         const std::size_t points = checkedCount(file, bytes.size(), sizeof(float) * numbers);
         std::vector<float> values(points * numbers);
         if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
-        float most = 0;
-        for (std::size_t i = 3; i < values.size(); i += numbers) most = std::max(most, values[i]);
-        const float scale = numbers > 4 && most > 1 ? 255.0f : 1.0f;  // only with rings
+        float max = 0;
+        for (std::size_t i = 3; i < values.size(); i += numbers) max = std::max(max, values[i]);
+        const float scale = numbers > 4 && max > 1 ? 255.0f : 1.0f;  // only with rings
         scan.clear();
         scan.reserve(points);
         for (std::size_t i = 0; i < values.size(); i += numbers) {

@@ -105,11 +105,11 @@ std::uint64_t PackedInput::mostBytesLeft() const {
     const Stream& s = *stream_;
     const std::uint64_t unread = s.size > s.taken ? s.size - s.taken : 0;
     const std::uint64_t packed = unread + (s.packed_end - s.packed_at);
-    const std::uint64_t most = s.unpacker->mostOutOf(packed);
+    const std::uint64_t max = s.unpacker->mostOutOf(packed);
     const std::uint64_t ready = s.unpacked_end - s.unpacked_at;
-    return most > std::numeric_limits<std::uint64_t>::max() - ready
+    return max > std::numeric_limits<std::uint64_t>::max() - ready
                ? std::numeric_limits<std::uint64_t>::max()
-               : most + ready;
+               : max + ready;
 }
 
 int PackedInput::descriptor() const { return fileno(stream_->file.get()); }

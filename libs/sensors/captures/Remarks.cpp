@@ -27,13 +27,12 @@ void OtherDatagrams::add(const Datagram& datagram) {
 
 void OtherDatagrams::describe(std::string& text) const {
     if (all_ == 0) return;
-    const auto most =
+    const auto max =
         std::max_element(kinds_.begin(), kinds_.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
     addCount(all_, "other UDP datagram",
-             "(most: " + std::to_string(most->second) + " of " +
-                 std::to_string(most->first.second) + " bytes to port " +
-                 std::to_string(most->first.first) + ")",
+             "(most: " + std::to_string(max->second) + " of " + std::to_string(max->first.second) +
+                 " bytes to port " + std::to_string(max->first.first) + ")",
              text);
 }
 

@@ -90,18 +90,18 @@ class Metadata {
         return found.size();
     }
     /// An integer within limits.
-    std::size_t count(const std::string& key, std::size_t least, std::size_t most) const {
+    std::size_t count(const std::string& key, std::size_t min, std::size_t max) const {
         const json& found = at(key);
         checkType(found.is_number_unsigned(), key, "an integer of at least 0", found);
         const std::uint64_t value = found;
-        if (value < least || value > most) {
+        if (value < min || value > max) {
             throw std::runtime_error("'" + key + "' is " + std::to_string(value) + ", not " +
-                                     std::to_string(least) + " ... " + std::to_string(most));
+                                     std::to_string(min) + " ... " + std::to_string(max));
         }
         return static_cast<std::size_t>(value);
     }
     /// Numbers, all within +-`most`.
-    std::vector<double> numbers(const std::string& key, std::size_t count, double most) const {
+    std::vector<double> numbers(const std::string& key, std::size_t count, double max) const {
         const json& found = at(key);
         checkType(found.is_array(), key, "an array", found);
         std::vector<double> values;
@@ -114,9 +114,9 @@ class Metadata {
                                      " numbers, not " + std::to_string(count));
         }
         for (const double value : values) {
-            if (std::abs(value) <= most) continue;  // false for NaN
+            if (std::abs(value) <= max) continue;  // false for NaN
             throw std::runtime_error("'" + key + "' has a number outside +-" +
-                                     std::to_string(static_cast<int>(most)));
+                                     std::to_string(static_cast<int>(max)));
         }
         return values;
     }
@@ -176,9 +176,9 @@ void readFormat(const Metadata& metadata, OusterSensor& sensor) {
     sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMaxFrameColumns)
                                           : columnsOfMode(metadata.requiredText("lidar_mode"));
     sensor.turn_s = turnTimeOfMode(metadata);
-    const std::size_t most_of_packet = std::min<std::size_t>(64, sensor.columns_per_frame);
+    const std::size_t max_of_packet = std::min<std::size_t>(64, sensor.columns_per_frame);
     sensor.columns_per_packet =
-        has_format ? metadata.count("columns_per_packet", 1, most_of_packet) : 16;
+        has_format ? metadata.count("columns_per_packet", 1, max_of_packet) : 16;
     const std::string profile = metadata.text("udp_profile_lidar");
     sensor.profile = profileNamed(profile.empty() ? "LEGACY" : profile);
     sensor.has_fusa_header = hasFusaHeader(metadata, sensor.profile);
@@ -192,8 +192,8 @@ void readFormat(const Metadata& metadata, OusterSensor& sensor) {
 }
 
 void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
-    const auto in_radians = [&](const std::string& key, double most_deg) {
-        std::vector<double> angles = metadata.numbers(key, sensor.pixels, most_deg);
+    const auto in_radians = [&](const std::string& key, double max_deg) {
+        std::vector<double> angles = metadata.numbers(key, sensor.pixels, max_deg);
         for (double& angle : angles) angle = radians(angle);
         return angles;
     };

@@ -108,13 +108,13 @@ double numberOf(std::string_view text, const std::string& what) {
 
 using Laser = std::map<std::string, double>;
 
-double correctionOf(const Laser& laser, int id, const std::string& name, double most) {
+double correctionOf(const Laser& laser, int id, const std::string& name, double max) {
     const auto found = laser.find(name);
     const std::string what = "laser " + std::to_string(id) + ": " + name;
     if (found == laser.end()) throw std::runtime_error(what + " is missing");
-    if (std::abs(found->second) <= most) return found->second;
+    if (std::abs(found->second) <= max) return found->second;
     throw std::runtime_error(what + " is " + std::to_string(found->second) + ", outside +-" +
-                             std::to_string(static_cast<int>(most)));
+                             std::to_string(static_cast<int>(max)));
 }
 
 VelodyneLaser laserOf(const Laser& laser, int id) {

@@ -171,10 +171,10 @@ void setLaser(const VelodyneCalibration& calibration, std::size_t laser, double 
 }
 
 void setTurnLimits(BlockOffsets& places) {
-    const auto [least, most] =
+    const auto [min, max] =
         std::minmax_element(std::begin(places.turn_reading), std::end(places.turn_reading));
-    places.least_turn_reading = *least;
-    places.most_turn_reading = *most;
+    places.min_turn_reading = *min;
+    places.max_turn_reading = *max;
 }
 
 BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const VelodyneModel& model,

@@ -15,8 +15,8 @@ namespace {
 
 /// True if readings of the block may cross the end of a revolution, which is behind the sensor.
 bool crossesZeroAzimuth(const VelodyneBlock& block, const BlockOffsets& places) {
-    return block.reading_from_behind + places.most_turn_reading >= kReadingsOfTurn - 0.5f ||
-           block.reading_from_behind + places.least_turn_reading < -0.5f;
+    return block.reading_from_behind + places.max_turn_reading >= kReadingsOfTurn - 0.5f ||
+           block.reading_from_behind + places.min_turn_reading < -0.5f;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct BlockOffsets {
     float turn_sine[kReturnsOfBlock], turn_cosine[kReturnsOfBlock];  ///< clockwise
     float turn_rad[kReturnsOfBlock];                                 ///< clockwise
     float turn_reading[kReturnsOfBlock];                             ///< 0.01 degrees clockwise
-    float least_turn_reading, most_turn_reading;
+    float min_turn_reading, max_turn_reading;
     float time_s[kReturnsOfBlock];
     float elevation_sine[kReturnsOfBlock], elevation_cosine[kReturnsOfBlock];
     float distance_m[kReturnsOfBlock];  ///< distance offset of the laser

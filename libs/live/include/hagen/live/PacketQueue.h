@@ -31,7 +31,7 @@ double steadyNow_s();
 /// memory grows only to the maximum number of waiting packets.
 class PacketQueue {
  public:
-    explicit PacketQueue(std::size_t most);
+    explicit PacketQueue(std::size_t max);
 
     /// Adds a packet by swapping its buffer with a used one. Returns false if the queue is full and
     /// the packet was dropped.

@@ -41,7 +41,7 @@ struct StreamingOptions {
     /// Until the latest returns cover this angle, nothing in the zone is ROU, because too little
     /// ground is visible (docs/live.md). Without a rotating head, the angle's share of a turn
     /// applies to `context_s`.
-    double least_known_rad = 3.141592653589793;
+    double min_known_rad = 3.141592653589793;
     /// Maximum duration of a sector, however slowly the sensor turns.
     double longest_sector_s = 0.05;
 };

@@ -27,7 +27,7 @@ struct ScanMapOptions {
     double max_range_m = 20;    ///< farther returns clear up to here and are not hits
     // OctoMap's defaults.
     double hit_probability = 0.7, miss_probability = 0.4;
-    double least_probability = 0.1192, greatest_probability = 0.971;  ///< clamping limits
+    double min_probability = 0.1192, greatest_probability = 0.971;  ///< clamping limits
     RayInsertion insertion = RayInsertion::OneRayPerVoxel;  ///< others require MapContent::Full
 };
 
@@ -65,7 +65,7 @@ class ScanMap {
 
  private:
     ScanMapOptions options_;
-    std::size_t most_nodes_ = 0;
+    std::size_t max_nodes_ = 0;
     class RayTraversal;
     std::unique_ptr<octomap::OcTree> tree_;
     std::unique_ptr<RayTraversal> walk_;  ///< buffers, reused across scans

@@ -20,7 +20,7 @@ struct RecoveredBeams {
     /// The beams with returns, ascending; empty without rings. A known model may have more beams.
     std::vector<float> seen_rad;
     /// The maximum number of columns per revolution that the returns fill.
-    int most_columns = 0;
+    int max_columns = 0;
     /// The row of each ring, by ring number; -1: too few returns. Empty if the returns have no ring
     /// numbers, or if the numbers are not those of beams (ringBeams()).
     std::vector<int> row_of_ring;
@@ -52,7 +52,7 @@ constexpr std::size_t kMinReturnsForBeams = 400;
 ///
 /// Virtual rows are evenly spaced over the elevations of all but the lowest and highest 0.1 % of
 /// the returns. As in the preset for a Mid-360, pixels are 2.5 times as high as wide, with 0.43
-/// pixels per return, which determines `most_columns` and the initial number of rows (at most 256).
+/// pixels per return, which determines `max_columns` and the initial number of rows (at most 256).
 /// Rows are then reduced to no fewer than 16, until three quarters of the pixels between others of
 /// their column have returns (gaps of more than four pixels count as sky): returns of blurred rings
 /// are much denser in azimuth than in elevation.

@@ -30,7 +30,7 @@ FiringPattern firingPattern(const SensorModel& sensor);
 /// Error sources of a real sensor.
 struct SensorErrorModel {
     double footprint_rad = 0.003;  ///< width of the beam's (square) footprint
-    double least_noise_m = 0.015;  ///< standard deviation at near range; doubled if weak
+    double min_noise_m = 0.015;    ///< standard deviation at near range; doubled if weak
     double half_range_m = 150;     ///< half of a grey wall's returns are lost here
     double lost = 0.005;           ///< fraction of returns lost at random
     /// One beam in 1 + 1 / mixed has a range between both surfaces at an edge.

@@ -18,9 +18,9 @@ struct Shape {
     /// Adds a quadrilateral, corners in order.
     void addQuad(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c,
                  const Eigen::Vector3f& d);
-    void addBox(const Eigen::Vector3f& least_m, const Eigen::Vector3f& most_m);
+    void addBox(const Eigen::Vector3f& min_m, const Eigen::Vector3f& max_m);
     /// Adds a polygon in the xz plane, star-shaped about the mean of its corners, extruded along y.
-    void addPrism(const std::vector<Eigen::Vector2f>& outline_m, float least_y_m, float most_y_m);
+    void addPrism(const std::vector<Eigen::Vector2f>& outline_m, float min_y_m, float max_y_m);
     /// Adds cylinders along a polyline. `knots`: x, y, z and radius [m].
     void addRod(const std::vector<Eigen::Vector4f>& knots);
     /// Like addRod(), but as triangles with open ends: faster for large numbers.
