@@ -1,5 +1,6 @@
 #include <hagen/sensors/LidarDriver.h>
 #include <hagen/sensors/VelodyneModel.h>
+#include "sensors/LidarFamily.h"
 #include "sensors/ouster/OusterSensor.h"
 #include "sensors/velodyne/VelodyneCalibrationFile.h"
 
@@ -8,7 +9,13 @@
 namespace hagen::sensors {
 namespace {
 
-constexpr const char* kLivox = "Mid-360";
+/// Null: a Velodyne, or unknown.
+const LidarFamily* familyOf(const std::string& model) {
+    for (const LidarFamily& family : lidarFamilies()) {
+        if (family.model == model) return &family;
+    }
+    return nullptr;
+}
 
 bool isHdl64(const std::string& model) { return model == hdl64Model().name; }
 
@@ -17,7 +24,9 @@ bool isHdl64(const std::string& model) { return model == hdl64Model().name; }
 std::string driverModels(const std::string& separator) {
     std::string names;
     for (const VelodyneModel& model : velodyneModels()) names += model.name + separator;
-    return names + hdl64Model().name + separator + kLivox;
+    names += hdl64Model().name;
+    for (const LidarFamily& family : lidarFamilies()) names += separator + family.model;
+    return names;
 }
 
 void checkDriver(const std::string& model, const std::filesystem::path& sensor_json,
@@ -29,7 +38,7 @@ void checkDriver(const std::string& model, const std::filesystem::path& sensor_j
         throw std::runtime_error(calibration.string() +
                                  ": only an HDL-64E uses a calibration file");
     }
-    if (!sensor_json.empty() || model == kLivox) return;
+    if (!sensor_json.empty() || familyOf(model) != nullptr) return;
     if (isHdl64(model)) {
         if (!calibration.empty()) return;
         throw std::runtime_error("an HDL-64E needs its calibration: --calibration FILE");
@@ -46,7 +55,7 @@ std::unique_ptr<LidarDriver> makeDriver(const std::string& model,
                                         const std::filesystem::path& calibration) {
     checkDriver(model, sensor_json, calibration);
     if (!sensor_json.empty()) return makeOusterDriver(readOusterSensor(sensor_json));
-    if (model == kLivox) return makeLivoxDriver();
+    if (const LidarFamily* const family = familyOf(model)) return family->makeDriver();
     if (!isHdl64(model)) return makeVelodyneDriver(velodyneModel(model));
     const VelodyneCalibration of_hdl64 = readVelodyneCalibration(calibration);
     return makeVelodyneDriver(hdl64Model(), &of_hdl64);

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "filter/OptionKeys.h"
 #include "support/Allocations.h"
 #include "support/PaperOptions.h"
 #include "support/SimpleFirings.h"
@@ -67,7 +68,10 @@ TEST_P(ZeroAllocations, DefaultPipeline) { expectNoAllocations(GetParam(), Optio
 
 TEST_P(ZeroAllocations, KnownAttitudeAndAllOptions) {
     Options options;
-    options.ground_is_roi_below_m = 1.5f;
+    for (const OptionKey& key : optionKeys()) {  // stages that are off by default
+        const auto* const real = std::get_if<float Options::*>(&key.field);
+        if (real != nullptr && options.*(*real) == 0 && key.min == 0) options.*(*real) = 1;
+    }
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
     options.seeds = Seeds::TopAndNearest;
     options.persistence_m = 0;

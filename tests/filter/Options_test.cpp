@@ -14,6 +14,14 @@ TEST(Options, RejectsMoreComponentsThanWindow) {
     EXPECT_THROW(checkOptions(options, 16), std::invalid_argument);
 }
 
+TEST(Options, AblationsDifferFromDefaults) {
+    for (const OptionKey& key : optionKeys()) {
+        for (const Ablation& off : key.ablations) {
+            EXPECT_NE(off.value, textOf(key, Options())) << key.name;
+        }
+    }
+}
+
 TEST(Options, ChecksEveryRange) {
     for (const OptionKey& key : optionKeys()) {
         if (std::holds_alternative<bool Options::*>(key.field)) continue;  // no invalid values

@@ -592,7 +592,8 @@ TEST(Settings, RangesMatchDocumentation) {
         if (cells.size() > 4) ranges[cells[1]] = cells[4];
     }
     for (const SettingsKey& key : settingsKeys())
-        EXPECT_EQ(ranges[key.name], key.range) << key.name;
+        EXPECT_EQ(ranges[key.name], key.range)
+            << key.name << ": compare docs/settings.md with rawlog-segment --config-keys";
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "recordings/captures/LidarCapture.h"
 #include "recordings/Remarks.h"
-#include "sensors/livox/LivoxPacket.h"
+#include "sensors/LidarFamily.h"
 
 #include <stdexcept>
 #include <utility>
@@ -17,8 +17,9 @@ std::string textOfLosses(const sensors::FrameCounts& counts) {
     return text;
 }
 
-/// True if the first datagrams contain Livox points. Read errors are reported later.
-bool isOfLivox(const std::filesystem::path& file, const std::function<void()>& check) {
+/// The family of the first datagrams; null: Velodyne. Read errors are reported later.
+const sensors::LidarFamily* familyOf(const std::filesystem::path& file,
+                                     const std::function<void()>& check) {
     constexpr int kDatagrams = 1000;
     constexpr std::size_t kMaxFrames = 1000000;  // a file may have no datagrams
     struct TooManyFrames {};
@@ -30,27 +31,30 @@ bool isOfLivox(const std::filesystem::path& file, const std::function<void()>& c
     sensors::Datagram datagram;
     try {
         for (int i = 0; i < kDatagrams && capture.next(datagram); ++i) {
-            if (sensors::livoxPacketOf(datagram)) return true;
+            for (const sensors::LidarFamily& family : sensors::lidarFamilies()) {
+                if (family.isData(datagram)) return &family;
+            }
         }
     } catch (const sensors::BrokenCapture&) {
     } catch (const TooManyFrames&) {
     }
-    return false;
+    return nullptr;
 }
 
 std::unique_ptr<sensors::SweepReader> readerFor(const std::filesystem::path& file,
                                                 const std::filesystem::path& sensor_json,
                                                 const std::filesystem::path& calibration,
                                                 const std::function<void()>& check) {
-    const bool is_velodyne = sensor_json.empty() && !isOfLivox(file, check);
-    if (!calibration.empty() && !is_velodyne) {
+    const bool is_ouster = !sensor_json.empty();
+    const sensors::LidarFamily* const family = is_ouster ? nullptr : familyOf(file, check);
+    if (!calibration.empty() && (is_ouster || family != nullptr)) {
         throw std::runtime_error(file.string() + ": is read as a capture of " +
-                                 (sensor_json.empty() ? "a Livox" : "an Ouster") + ", which " +
+                                 (is_ouster ? "an Ouster" : family->called) + ", which " +
                                  calibration.string() +
                                  " cannot describe, because it is an HDL-64E calibration");
     }
-    if (!sensor_json.empty()) return sensors::makeOusterSweeps(sensor_json);
-    if (!is_velodyne) return sensors::makeLivoxSweeps();
+    if (is_ouster) return sensors::makeOusterSweeps(sensor_json);
+    if (family != nullptr) return family->makeSweeps();
     return sensors::makeVelodyneSweeps(calibration);
 }
 
