@@ -7,9 +7,9 @@
 namespace hagen::simulation {
 namespace {
 
-/// A laser's direction within a firing: elevation, and rotation since the start of the firing.
+/// A laser's direction within a firing: its elevation, and the rotation since the firing started.
 struct LaserDirection {
-    float elevation_rad, sine, cosine;  ///< of the elevation
+    float elevation_rad, sine, cosine;  ///< sine and cosine of the elevation
     float turn_sine, turn_cosine;
     float turn_rad;
     std::uint8_t row;

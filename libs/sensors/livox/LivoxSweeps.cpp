@@ -14,9 +14,9 @@ namespace hagen::sensors {
 namespace {
 
 constexpr std::uint64_t kSweep_ns = 100000000;
-constexpr std::size_t kMaxPackets = 10000;  // per sweep, regardless of the clock; normally 210
+constexpr std::size_t kMaxPackets = 10000;  // max. size of a sweep; normally 210
 
-/// See makeLivoxSweeps(). A sweep has the time of its first packet.
+/// Sweep reader of makeLivoxSweeps(). A sweep has the time of its first packet.
 class LivoxSweeps : public SweepReader {
  public:
     void add(const Datagram& datagram) override {
