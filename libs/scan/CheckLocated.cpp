@@ -45,8 +45,7 @@ bool havePlaces(const Scan& scan) {
     const float* const range_m = scan.range_m.data();
     std::uint32_t misplaced = 0;  // avoids branches, for speed
     for (std::size_t i = 0, size = scan.size(); i < size; ++i) {
-        const float zero =
-            0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN if a coordinate is not finite
+        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN if any is not finite
         misplaced |= static_cast<std::uint32_t>(std::isnan(zero)) &
                      static_cast<std::uint32_t>(!std::isnan(range_m[i]));
     }

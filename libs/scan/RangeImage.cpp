@@ -125,8 +125,7 @@ RangeAndIndex emptyPixel() {
 void keepClosest(const Projected& projected, std::size_t count, RangeAndIndex* closest) {
     for (std::size_t i = 0; i < count; ++i) {
         const RangeAndIndex found = projected.found[i], so_far = closest[projected.pixel[i]];
-        closest[projected.pixel[i]] =
-            found < so_far ? found : so_far;  // compiles to one instruction
+        closest[projected.pixel[i]] = found < so_far ? found : so_far;  // one instruction
     }
 }
 
@@ -200,8 +199,7 @@ void projectScan(const Scan& scan, const SensorModel& sensor, const ColumnMap& m
 }
 
 int nearestColumn(float azimuth_rad, int columns) {
-    const float turn =
-        0.5f - azimuth_rad * kTurnsPerRadian;  // clockwise, from the backward direction
+    const float turn = 0.5f - azimuth_rad * kTurnsPerRadian;  // clockwise from behind
     const int column = static_cast<int>(std::floor(turn * static_cast<float>(columns)));
     return wrapColumn(column, columns);
 }

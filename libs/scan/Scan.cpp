@@ -57,8 +57,7 @@ struct RowTable {
         return static_cast<int>(std::min((sine + 1.0f) * kBinsPerSine, kBins - 1.0f));
     }
 
-    std::array<float, 256>
-        midpoint_sine;  ///< entry r: between rows r and r + 1; infinite if unused
+    std::array<float, 256> midpoint_sine;  ///< between rows r and r + 1; infinite if unused
     std::array<std::int32_t, kBins> lowest_row;
     int max_midpoints_in_bin = 0;
 };

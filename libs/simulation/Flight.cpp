@@ -80,8 +80,7 @@ SensorPose Flight::at(double time_s) const {
     const Eigen::Vector2d place = path_.at(way_m);
     const double heading = path_.heading_rad(way_m);
 
-    // Flies above the average ground nearby, ignoring single bumps, and well above its highest
-    // point.
+    // Follows the average ground nearby, not single bumps, and stays well above its peaks.
     double ground_m = 0, highest_m = -1e9;
     for (int i = -3; i <= 3; ++i) {
         const Eigen::Vector2d near =

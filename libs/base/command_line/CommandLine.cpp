@@ -275,8 +275,7 @@ namespace {
 void reserveStandardStreams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(stream, F_GETFD) != -1) continue;
-        [[maybe_unused]] const int lowest =
-            open("/dev/null", O_RDWR);  // open() returns the lowest free descriptor
+        [[maybe_unused]] const int lowest = open("/dev/null", O_RDWR);  // lowest free descriptor
     }
 }
 

@@ -17,7 +17,7 @@ std::string textOfLosses(const sensors::FrameCounts& counts) {
     return text;
 }
 
-/// True if the first datagrams contain Livox points. Read errors are reported later.
+/// True if the first datagrams contain Livox points. Ignores read errors, which are reported later.
 bool isOfLivox(const std::filesystem::path& file, const std::function<void()>& check) {
     constexpr int kDatagrams = 1000;
     constexpr std::size_t kMaxFrames = 1000000;  // a file may have no datagrams

@@ -7,7 +7,7 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr double kDefaultScanPeriod_s = 0.1;  // for folders without times.txt
+constexpr double kDefaultScanPeriod_s = 0.1;  // if there is no times.txt
 
 class ScanFolderSource : public FileListSource {
  public:

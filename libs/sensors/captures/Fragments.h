@@ -17,8 +17,7 @@ class Fragments {
     /// next call; otherwise returns nothing.
     Bytes add(const IpPacket& fragment);
 
-    /// The number of fragments of evicted datagrams. giveUpAll() adds those of incomplete
-    /// datagrams.
+    /// The number of invalid or evicted fragments. giveUpAll() adds those of incomplete datagrams.
     std::size_t lost() const { return lost_; }
     void giveUpAll();
 

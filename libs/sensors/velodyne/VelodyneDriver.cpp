@@ -131,7 +131,7 @@ class VelodyneDriver : public LidarDriver {
 
     Taken addPacket(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
         if (recent_.has(keyOf(packet), arrival_s)) {
-            held_.clear();  // late packets come from another network path
+            held_.clear();  // late packets take another network path
             ++counts_.duplicate;
             return Taken::Duplicate;
         }

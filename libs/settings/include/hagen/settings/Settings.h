@@ -48,8 +48,7 @@ struct Settings {
     /// section.
     struct AirframeMask {
         Airframe parts;
-        std::filesystem::path
-            learned;  ///< absolute path of the file of `bin_range_m`; may be empty
+        std::filesystem::path learned;  ///< absolute path of the file of `bin_range_m`, if any
     };
     AirframeMask airframe;
 

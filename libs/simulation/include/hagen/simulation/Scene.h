@@ -47,8 +47,7 @@ struct Ray {
     Eigen::Vector3f origin_m;
     Eigen::Vector3f direction;  ///< unit vector
     float time = 0;
-    float reach_m =
-        std::numeric_limits<float>::infinity();  ///< surfaces beyond this range are ignored
+    float reach_m = std::numeric_limits<float>::infinity();  ///< maximum range
 };
 
 struct RayHit {
