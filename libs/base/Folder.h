@@ -8,8 +8,7 @@ namespace hagen::base {
 /// The paths of a folder's entries, sorted. Throws std::filesystem::filesystem_error if the folder
 /// cannot be read.
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder);
-/// Like entriesOf(folder), but returns the entries read so far and sets `error` instead of
-/// throwing.
+/// Like entriesOf(folder), but sets `error` instead of throwing, and returns the readable entries.
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder,
                                              std::error_code& error);
 

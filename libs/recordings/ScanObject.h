@@ -13,12 +13,11 @@ namespace hagen::recordings {
 std::vector<mrpt::obs::CObservation::Ptr> observationsOf(
     const mrpt::serialization::CSerializable::Ptr& entry);
 
-/// Removes null objects from a sensory frame, because MRPT can read but not write them. Returns
-/// their number.
+/// Removes null objects, which MRPT can read but not write, from a sensory frame. Returns their
+/// number.
 std::size_t takeOutNulls(const mrpt::serialization::CSerializable::Ptr& entry);
 
-/// Keeps clouds in the class CGenericPointsMap if they were read in it, so that all fields are
-/// written.
+/// Keeps the class of clouds read as CGenericPointsMap, so that all fields are written.
 void keepFields(const mrpt::serialization::CSerializable::Ptr& entry);
 
 }  // namespace hagen::recordings

@@ -12,8 +12,7 @@ struct BeamFit {
     /// Share of the returns whose elevation is within kBeamFitTolerance_deg of a beam.
     float returns_share = 0.0f;
     /// The number of sensor beams between the lowest and the highest beam of the cloud, and how
-    /// many of them the cloud has. 0 if no beams are visible, because they are too close or
-    /// blurred.
+    /// many of them the cloud has. 0 if no beams can be distinguished in the cloud.
     std::size_t beams = 0, beams_seen = 0;
     std::size_t beams_shown = 0;  ///< number of beams visible in the cloud
     /// The third quartile, over the rows, of the share of columns with a return: about 1 if the

@@ -147,8 +147,8 @@ Beams bestBeams(const std::vector<double>& ascending_deg) {
         }
         const std::size_t count = beams.elevations_deg.size();
         if (count < 2 || count > kMaxBeams) continue;
-        // The peak of a narrow beam is as wide as the bandwidth, and the beam may be anywhere in
-        // it.
+        // The peak of a narrow beam is as wide as the bandwidth, and the beam may be off its
+        // centre.
         centre(std::vector<double>(count, (half + 0.5) * kBin_deg), ascending_deg,
                beams.elevations_deg);
         centre(reachesOf(beams.elevations_deg), ascending_deg, beams.elevations_deg);

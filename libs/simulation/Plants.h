@@ -7,7 +7,7 @@ namespace hagen::simulation {
 /// Parameters of a tree. The origin is the base of the trunk, which extends slightly below it.
 struct TreeParameters {
     double height_m = 4;
-    double crown_base_m = 0.8;  ///< height of the lowest crown branches
+    double crown_base_m = 0.8;  ///< height at which the crown begins
     double crown_radius_m = 1.2;
     double trunk_radius_m = 0.08;
     double leaf_area_m2 = 10;  ///< total leaf area (one side)

@@ -16,8 +16,7 @@ Shape makeDrone();
 /// Adds a wall along a line, in short pieces that follow the ground.
 void addWall(SceneBuilder& builder, const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
              double height_m, double thickness_m);
-/// Adds three walls around a space that is open in the direction `yaw_rad`. `back_m`: middle of the
-/// back wall.
+/// Adds three walls, open in the direction `yaw_rad`. `back_m`: middle of the back wall.
 void addTrap(SceneBuilder& builder, const Eigen::Vector2d& back_m, double yaw_rad, double width_m,
              double depth_m, double height_m);
 constexpr double kWireRadius_m = 0.012;

@@ -14,8 +14,8 @@ std::atomic<std::time_t> interrupted_at{0};
 static_assert(std::atomic<bool>::is_always_lock_free &&
               std::atomic<std::time_t>::is_always_lock_free);
 
-/// Kills the program at the second signal, but not within a second of the first: shells and
-/// timeout(1) may send a signal twice in a row.
+/// The second signal kills the program, unless it arrives within a second of the first, because
+/// shells and timeout(1) may send a signal twice in a row.
 void interrupt(int signal) {
     const std::time_t now = std::time(nullptr);
     std::time_t before = 0;

@@ -16,12 +16,10 @@ namespace hagen::recordings {
 /// relative to the sensor's base.
 mrpt::obs::CObservation::Ptr observationOf(const sensors::LidarSweep& sweep);
 
-/// Reads the scans of a capture, in the order of their ends. The first and the last scan may be
-/// partial.
+/// Reads the scans of a capture, ordered by end. The first and the last scan may be partial.
 class LidarCapture {
  public:
-    /// `reader`: the vendor's sweep reader. Throws BrokenCapture naming the file if it cannot be
-    /// opened.
+    /// `reader`: the vendor's. Throws BrokenCapture naming the file if it cannot be opened.
     LidarCapture(const std::filesystem::path& file, std::unique_ptr<sensors::SweepReader> reader);
 
     /// Returns the next scan; null at the end. If the capture is broken, returns the scans in

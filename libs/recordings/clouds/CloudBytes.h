@@ -54,8 +54,7 @@ std::vector<std::string_view> wordsOf(std::string_view line);
 /// Parses `word` as a number of this type and writes it. Returns false if it is not such a number.
 bool putNumber(std::string_view word, observations::NumberType type, std::uint8_t* to);
 
-/// Throws BrokenRecording if there are more than kMaxReturns points. Call it before allocating a
-/// table.
+/// Throws BrokenRecording if `points` exceeds kMaxReturns. Call it before allocating a table.
 void checkNumber(const std::filesystem::path& file, std::size_t points);
 
 /// Throws BrokenRecording if checkNumber() does, or unless `points` records of `bytes_per_point`

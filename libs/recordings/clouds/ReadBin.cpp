@@ -69,16 +69,15 @@ FifthNumbers fifthsOf(const Bytes& bytes) {
     return fifths;
 }
 
-/// True if the fifth numbers are rings. If points had four numbers, every fifth number would be an
-/// x, y, z or intensity in turn, or 0 without a return, and not all of many would be integers. (An
-/// exception is points on a grid.)
+/// True if the fifth numbers look like rings. If points had four numbers, every fifth number would
+/// be an x, y, z or intensity in turn, or 0 without a return, and rarely an integer. (Points on a
+/// grid are an exception.)
 bool areRings(const FifthNumbers& fifths) {
     constexpr std::size_t kMinReturns = 16;
     return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kMinReturns;
 }
 
-/// Returns the first bytes of a file or, if these are zero (rows of sky), those from the first
-/// return on.
+/// Returns the first bytes or, if these are zero (rows of sky), those from the first return on.
 Bytes startOfReturns(const Bytes& bytes) {
     constexpr std::size_t kBothPoints = 80;  // a multiple of 16 and of 20 bytes
     const auto first =
@@ -107,7 +106,7 @@ std::size_t binNumbersPerPoint(const Bytes& bytes) {
     const FifthNumbers fifths = fifthsOf(start);
     if (!fifths.are_whole) return without_rings;
     if (areRings(fifths) && fifths.of_returns.size() > 1) return 5;
-    // If there is one beam or there are few returns, check all points.
+    // If there is only one ring or there are few returns, check all points.
     const bool may_have_rings = without_rings > 0 || start.size() >= kStart;
     return may_have_rings && areRings(fifthsOf(bytes)) ? 5 : without_rings;
 }

@@ -26,8 +26,7 @@ class GzipUnpacker : public Unpacker {
     GzipUnpacker& operator=(const GzipUnpacker&) = delete;
 
     bool unpack(UnpackStep& step) override {
-        // A file may be padded with zeros after its last member, as on tapes; gzip ignores them
-        // too.
+        // Skips zero padding after the last member, as on tapes; gzip does the same.
         if (!is_in_member_ && has_member_) {
             while (step.in_size > 0 && *step.in == 0) {
                 ++step.in;

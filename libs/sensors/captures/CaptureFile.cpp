@@ -115,8 +115,7 @@ struct CaptureFile::Reader {
         if (whole.size < kUdpHeader) return false;
         const std::size_t size = whole.at16(4);
         if (size < kUdpHeader || size > whole.size) return false;
-        // Malicious files may have arbitrary times. Unsigned arithmetic wraps without undefined
-        // behaviour.
+        // Malicious files may have arbitrary times. Unsigned arithmetic has defined overflow.
         datagram.time_ns =
             static_cast<std::int64_t>(static_cast<std::uint64_t>(header.ts.tv_sec) * 1000000000u +
                                       static_cast<std::uint64_t>(header.ts.tv_usec));

@@ -20,8 +20,7 @@ class OusterColumns {
  public:
     explicit OusterColumns(const OusterSensor& sensor) : sensor_(sensor) {}
 
-    /// Adds a packet of OusterSensor::packetBytes(). Returns true if the number of columns is
-    /// certain.
+    /// Adds a packet of packetBytes() bytes. Returns true if the number of columns is certain.
     bool take(const std::uint8_t* packet);
     /// The number of sensor restarts: changes of the initialization ID.
     std::size_t restarts() const { return restarts_; }

@@ -9,8 +9,7 @@ namespace hagen::base {
 /// at that path belongs to the user.
 struct OutputKind {
     const char* what;  ///< name for messages, such as "a scan folder"
-    /// True if a path within the folder belongs to an output of this type; null if the output is a
-    /// file.
+    /// True if a path within the folder is part of such an output; null if the output is a file.
     bool (*holds)(const std::filesystem::path& within);
     const char* marker = nullptr;  ///< a file in every folder of this type; null if there is none
     /// True if an earlier run created the folder; null if `marker` decides.

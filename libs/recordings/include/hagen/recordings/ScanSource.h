@@ -53,8 +53,7 @@ struct SourceOptions {
     std::filesystem::path sensor_json;  ///< Ouster metadata for a capture or bag
     std::filesystem::path calibration;  ///< HDL-64E calibration for a capture
     std::vector<std::string> topics;    ///< LiDAR topics to read from a bag; all if empty
-    /// Called before each entry is read, even in advance. If it returns false, Interrupted is
-    /// thrown.
+    /// Called before each entry is read, even in advance. Returning false throws Interrupted.
     std::function<bool()> keep_going = [] { return true; };
 };
 
@@ -113,8 +112,7 @@ class ScanSource {
 
     /// Number of entries read so far, including skipped entries. For a scan folder, the total.
     virtual std::size_t entriesKnown() const = 0;
-    /// Remarks for the user on the entire recording, such as lost packets. Complete after the last
-    /// entry.
+    /// Remarks for the user, such as lost packets. Complete after the last entry.
     virtual std::vector<std::string> remarks() const { return {}; }
 
     /// Number of entries before the first selected entry.

@@ -11,8 +11,7 @@ namespace hagen {
 struct RangeImage {
     /// I_h x I_w: range of the closest return in each pixel, metres; NaN if there is none.
     Image<float> depth_m;
-    /// I_h x I_w: index of the closest return (the first if equally close); kNoReturn if there is
-    /// none.
+    /// I_h x I_w: index of the closest return (the first of equally close returns), or kNoReturn.
     Image<std::int32_t> closest_return;
     /// The inverse of the paper's depth_mapper: the pixel of each return (column * I_h + row), or
     /// kNoPixel if the return is beyond the context or outside the sensor's range limits. A pixel

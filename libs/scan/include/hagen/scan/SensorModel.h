@@ -10,8 +10,7 @@ struct SensorModel {
     /// Elevation of each beam above the sensor's xy plane, strictly increasing: element r belongs
     /// to image row r; row 0 is the lowest beam.
     std::vector<float> elevations_rad;
-    /// Returns outside these limits are not in the image; within the zone, they are RoI without a
-    /// test.
+    /// Returns outside these limits are not in the image. Within the zone, they are RoI untested.
     float min_range_m = 0.5f;
     float max_range_m = 130.0f;
     /// True if the beams above are real. A sensor that scans without rings has virtual beams, and a

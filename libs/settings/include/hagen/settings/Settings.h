@@ -43,9 +43,8 @@ struct Settings {
     /// The sensor's tilt on a level vehicle, from its mount; nullopt if the sensor is level.
     std::optional<Attitude> tiltOnLevelVehicle() const;
 
-    /// The section `airframe:` of a settings file: the vehicle's parts in the sensor frame. Applies
-    /// to every LiDAR segmented with these settings. Replaced entirely if a later file has this
-    /// section.
+    /// The section `airframe:` of a settings file: the vehicle's parts in the sensor frame, for
+    /// every LiDAR segmented with these settings. A later file with this section replaces it.
     struct AirframeMask {
         Airframe parts;
         std::filesystem::path learned;  ///< absolute path of the file of `bin_range_m`, if any

@@ -70,10 +70,10 @@ constexpr double kPosesBeyondTurn_s = 0.015;
 
 /// Simulates the revolution that begins at `time_s`, with the sensor at the vehicle's origin.
 ///
-/// Each beam is one ray at a random position in its footprint, so that thin objects are hit with
-/// the probability of the fraction of the footprint that they cover. On large surfaces, the range
-/// is measured along the beam's axis. Weak returns (due to range, incidence or reflectivity) are
-/// lost more often. On grass, ranges end up to the grass height above the soil.
+/// Each beam is one ray at a random position in its footprint, so that the probability of hitting a
+/// thin object is the fraction of the footprint that it covers. On large surfaces, the range is
+/// measured along the beam's axis. Weak returns (due to range, incidence or reflectivity) are lost
+/// more often. On grass, ranges end up to the grass height above the soil.
 ///
 /// `mount` rotates from the sensor frame to the vehicle frame (x forward, z up). Legs and rotors
 /// are fixed to the vehicle. The directions of a sensor without rings (Mid-360) depend on `time_s`.
