@@ -93,7 +93,7 @@ fs::path secretName(const fs::path& path, const std::string& mark) {
 }
 
 /// Flushes a file, or a folder with all its files, to the disk, so that a power failure cannot lose
-/// replaced data. Accepts file systems that cannot flush (EINVAL).
+/// both the old and the new data. Accepts file systems that cannot flush (EINVAL).
 void flushToDisk(const fs::path& path, const fs::path& named) {
     const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0 && errno == EACCES) return;  // a file without read permission is not flushed

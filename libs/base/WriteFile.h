@@ -8,7 +8,7 @@
 
 namespace hagen::base {
 
-/// Throws std::runtime_error that `file` cannot be written, with the reason for this errno.
+/// Throws std::runtime_error that names `file` and the reason (an errno) for a failed write.
 [[noreturn]] inline void throwWriteError(const std::filesystem::path& file, int error_number) {
     throw std::runtime_error(file.string() + ": cannot be written" +
                              (error_number == 0 ? "; is the disk full?"

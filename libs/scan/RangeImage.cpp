@@ -46,7 +46,7 @@ struct Returns {
 /// doubles avoids an unpredictable branch.)
 using RangeAndIndex = double;
 
-/// Marks an empty pixel in both halves; as a double, greater than any return.
+/// Range and index bits of an empty pixel. Read as a double, greater than any return.
 constexpr std::int32_t kNoValueBits = 0x7fc00000;
 
 /// A batch of projected returns, for keepClosest().

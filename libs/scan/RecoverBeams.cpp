@@ -90,7 +90,7 @@ std::vector<int> peaksOf(const std::vector<int>& counts) {
 
 // Finding beams from peaks.
 
-/// Half-widths of the beams: closer returns lie on the beam.
+/// Half-widths of the beams. Returns within the half-width lie on the beam.
 std::vector<double> reachesOf(const std::vector<double>& beams_deg) {
     std::vector<double> reaches_deg(beams_deg.size(), 0.25);
     for (std::size_t beam = 1; beam < beams_deg.size(); ++beam) {

@@ -45,7 +45,8 @@ class SweepReader {
     virtual std::vector<std::string> remarks() const = 0;
     /// Counts of ignored datagrams, separated by ", "; "" if there are none.
     virtual std::string ignored() const = 0;
-    /// Why there are no sweeps; "" if that is not an error. `losses`: losses of the capture.
+    /// Why there are no sweeps; "" if that is not an error. `losses`: describes the capture's
+    /// losses.
     virtual std::string whyEmpty(const std::string& /*losses*/) const { return ""; }
 
  protected:

@@ -50,7 +50,7 @@ YAML::Node parseFile(const std::filesystem::path& file,
 /// Reads a number within [min, max]. Throws SettingsError with the allowed range otherwise.
 template <class Number>
 Number parseNumber(const YAML::Node& node, const std::string& key, double min, double max) {
-    // Parses integers as real numbers too, because YAML reads 010 as octal.
+    // Parses integers as real numbers, because YAML reads 010 as octal.
     double value = 0;
     const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
     if (!is_number || (std::is_integral_v<Number> && value != std::floor(value))) {

@@ -49,7 +49,8 @@ std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag)
                                      "compression_mode to NONE and the new file names");
         }
         for (const YAML::Node& name : bag["relative_file_paths"]) {
-            // Old versions prepend the folder's own name. Other folders would be outside the bag.
+            // Old versions prepend the folder's own name. Ignoring folders keeps files within the
+            // bag.
             files.push_back(folder / fs::path(name.as<std::string>()).filename());
         }
     } catch (const std::exception& e) {

@@ -17,7 +17,7 @@ using mrpt::poses::CPose3D;
 
 constexpr double kMinCovered = 0.5;                // min. share of the time covered by poses
 constexpr int kMaxFrameDepth = 64;                 // max. nesting of frames
-constexpr const char* kOusterFrame = "os_sensor";  // of the vendor\'s driver
+constexpr const char* kOusterFrame = "os_sensor";  // of the vendor's driver
 
 std::string withSlash(const std::string& topic) {
     return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
@@ -486,7 +486,7 @@ class Planner {
         for (const std::string& vehicle : vehicles) {
             if (const auto pose = frames_.poseIn(frame, vehicle)) return pose;
         }
-        // The poses are those of another frame than this frame's root.
+        // Without a transform to the vehicle, the poses do not apply to this frame.
         if (plan_.poses != nullptr || !frames_.has(frame)) return std::nullopt;
         return frames_.poseIn(frame, frames_.rootOf(frame));
     }

@@ -340,7 +340,7 @@ void BagScans::Reader::takeImu(const BagMessage& message, const BagTopic& topic)
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {
-        // Counted by the survey.
+        // The survey counts unreadable messages.
     }
 }
 

@@ -19,7 +19,7 @@ mrpt::obs::CObservation::Ptr observationOf(const sensors::LidarSweep& sweep);
 /// Reads the scans of a capture, ordered by end. The first and the last scan may be partial.
 class LidarCapture {
  public:
-    /// `reader`: the vendor's. Throws BrokenCapture naming the file if it cannot be opened.
+    /// `reader`: parses packets. Throws BrokenCapture naming the file if it cannot be opened.
     LidarCapture(const std::filesystem::path& file, std::unique_ptr<sensors::SweepReader> reader);
 
     /// Returns the next scan; null at the end. If the capture is broken, returns the scans in
@@ -48,9 +48,9 @@ class LidarCapture {
 };
 
 /// Opens a capture of Velodyne or Livox sensors (detected by their first packets), or of the Ouster
-/// of a metadata file. `calibration`: HDL-64E calibration. Throws std::runtime_error naming the
-/// file if it cannot be opened, or if a calibration is given for another kind of sensor. Calls
-/// `check` like checkWhileReading(), and also while opening.
+/// described by a metadata file. `calibration`: HDL-64E calibration. Throws std::runtime_error
+/// naming the file if it cannot be opened, or if a calibration is given for another kind of sensor.
+/// Calls `check` like checkWhileReading(), and also while opening.
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
                                           const std::filesystem::path& sensor_json = {},
                                           const std::filesystem::path& calibration = {},

@@ -53,7 +53,7 @@ LivoxSequence::Step LivoxSequence::add(const LivoxPacket& packet, double arrival
                                        PacketCounts& counts) {
     const std::uint64_t key = packet.time_ns << 16 | packet.number;
     if (recent_.has(key, arrival_s)) {
-        // A network that duplicates all packets still does so after the clock was set back.
+        // Duplicates of packets other than the late ones show that the clock was not set back.
         const std::uint64_t apart_ns =
             std::max(packet.time_ns, too_late_ns_) - std::min(packet.time_ns, too_late_ns_);
         if (apart_ns > kMaxLate_ns) too_late_in_a_row_ = 0;

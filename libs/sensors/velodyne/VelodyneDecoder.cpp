@@ -311,9 +311,8 @@ void beamsOf(const VelodynePackets& packets, const VelodyneCalibration& calibrat
     }
 }
 
-// All blocks have the same firing pattern and differ only in their first direction, so a table
-// lookup per block and a rotation of the pattern, one SIMD vector at a time, suffice
-// (locateReturns).
+// Blocks have the same firing pattern and differ only in their first direction. For each block,
+// looks up this direction and rotates the pattern, one SIMD vector at a time (locateReturns).
 std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibration& own,
                           Scan& scan, DecoderWorkspace& work) {
     if (packets.count == 0) {

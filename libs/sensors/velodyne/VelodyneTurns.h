@@ -54,7 +54,7 @@ class VelodyneTurns {
     VelodyneCalibration calibration_;
     std::deque<VelodynePacket> waiting_;  ///< sorted by sensor time
     std::vector<VelodynePacket> held_;    ///< consecutive late packets
-    LidarSweep turn_;                     ///< turn in progress; no packets: none
+    LidarSweep turn_;                     ///< turn in progress, if it has packets
     double turn_start_us_ = 0;
     bool has_last_ = false;
     double last_us_ = 0;     ///< sensor time of the last appended packet

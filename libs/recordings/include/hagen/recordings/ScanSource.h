@@ -139,7 +139,7 @@ class ScanSource {
     /// missedAhead() is empty.
     std::optional<RecordedEntry> endAfter(std::size_t entries) const;
 
-    /// Throws Interrupted if requested. Call it before reading an entry.
+    /// Throws Interrupted if keep_going returns false. Call it before reading an entry.
     void checkInterruption() const;
     /// True if an entry is before the first selected entry. Counts skipped entries.
     bool skips(std::size_t entry);

@@ -43,8 +43,8 @@ constexpr std::size_t kMinReturnsForBeams = 400;
 /// The scan has rings if at least 85 % of its returns lie on beams (RecoveredBeams::share); random
 /// elevations reach at most 55 %. The margin tolerates jitter, rounding, dropouts and a few percent
 /// of stray returns. A cloud from a sensor without rings, or with rings blurred by deskewing or
-/// tilting, has none. In doubt, no rings are assumed, because virtual rows only blur surfaces, but
-/// wrong beams tear them apart.
+/// tilting, has none. If in doubt, no rings are assumed, because virtual rows only blur surfaces,
+/// but wrong beams tear them apart.
 ///
 /// If all beams match a known model within 0.1 degrees, the sensor gets all beams of that model,
 /// because some may have hit only sky. At least five beams, 30 % of the model's beams, and three

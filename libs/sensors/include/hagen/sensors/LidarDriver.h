@@ -105,11 +105,11 @@ std::unique_ptr<LidarDriver> makeLivoxDriver();
 std::string driverModels(const std::string& separator = ", ");
 
 /// Throws std::runtime_error with the reason if there is no driver for this model, or for the
-/// Ouster of a metadata file. An HDL-64E requires `calibration`.
+/// Ouster described by a metadata file. An HDL-64E requires `calibration`.
 void checkDriver(const std::string& model, const std::filesystem::path& sensor_json = {},
                  const std::filesystem::path& calibration = {});
 
-/// Creates a driver. Throws like checkDriver(), and if a file is unusable (naming it).
+/// Creates a driver. Throws std::runtime_error like checkDriver(), or naming an unusable file.
 std::unique_ptr<LidarDriver> makeDriver(const std::string& model,
                                         const std::filesystem::path& sensor_json = {},
                                         const std::filesystem::path& calibration = {});

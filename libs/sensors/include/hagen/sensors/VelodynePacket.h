@@ -31,7 +31,7 @@ struct VelodynePacket {
     bool isDual() const;
     /// Azimuth of a block in 0.01 degrees; -1 if invalid.
     int azimuthOf(int block) const;
-    /// Azimuth of the first valid block that is not of lower lasers; -1 if there is none.
+    /// Azimuth of the first valid block, ignoring blocks of lower lasers; -1 if there is none.
     int azimuth() const;
 };
 

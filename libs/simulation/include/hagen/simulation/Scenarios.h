@@ -20,7 +20,7 @@ namespace hagen::simulation {
 ///     movers       people, cars and drones moving among trees
 std::vector<std::string> scenarioNames();
 
-/// Returns the scene of a scenario; a seed has the same scene on every machine. Throws
+/// Returns the scene of a scenario, identical for a seed on every machine. Throws
 /// std::invalid_argument listing the valid names if the name is unknown.
 Scene makeScene(const std::string& scenario, std::uint64_t seed);
 
