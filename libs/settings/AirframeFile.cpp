@@ -42,7 +42,7 @@ Image<float> readAirframeBins(const fs::path& file) {
     const YAML::Node document = parseFile(file);
     if (!document.IsMap() || !document["bin_deg"] || !document["bins"]) {
         throw SettingsError(file.string() +
-                            ": not a learned airframe: bin_deg and bins are expected; "
+                            ": not a learned airframe: expected bin_deg and bins; "
                             "'rawlog-segment --learn-airframe' writes such files");
     }
     forEachKey(file, document, "", "", [&](const auto& key, const auto&, const auto& place) {

@@ -52,7 +52,7 @@ AirframeBox parseBox(const YAML::Node& node) {
     const AirframeBox box{parsePoint(low, "airframe.box.low_m"),
                           parsePoint(high, "airframe.box.high_m")};
     if (!(box.low_m.array() < box.high_m.array()).all()) {
-        throw SettingsError("each of airframe.box.low_m must be below that of high_m");
+        throw SettingsError("each value of airframe.box.low_m must be below that of high_m");
     }
     return box;
 }

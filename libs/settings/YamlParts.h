@@ -58,7 +58,7 @@ Number parseNumber(const YAML::Node& node, const std::string& key, double min, d
                             "number" + (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
     }
     if (!(value >= min && value <= max)) {  // true for NaN
-        throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " +
+        throw SettingsError(key + " is " + node.Scalar() + ", but must lie between " +
                             base::shortestText(min) + " and " + base::shortestText(max));
     }
     return static_cast<Number>(value);
