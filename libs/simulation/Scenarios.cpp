@@ -275,7 +275,7 @@ Scene makeStreet(std::uint64_t seed) {
     const Shapes cars = builder.addShapes(5, makeCar);
     const std::size_t lamp = builder.addShape(makeRod(6.5, 0.08));
     const std::size_t sign = builder.addShape(makeRod(2.6, 0.035));
-    for (const double lane : {-11.5, 11.5, -4.2, 4.2}) {  // kerbs on both sides of each carriageway
+    for (const double lane : {-11.5, 11.5, -4.2, 4.2}) {  // parked cars at kerbs and centre
         for (double at = -70; at <= 70; at += 6.2) {
             const double x = at + random.uniform(-0.6, 0.6), y = lane + 0.15 * random.normal();
             if (random.chance(0.4) || !builder.isFree(x, y, 2.0)) continue;
