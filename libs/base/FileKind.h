@@ -14,7 +14,7 @@ struct FileKind {
     std::string text() const;
 };
 
-constexpr std::size_t kFileKindBytes = 4096;  ///< enough to detect any kind
+constexpr std::size_t kFileKindBytes = 4096;
 
 /// True for UTF-8 text without control characters other than white space. The last character may be
 /// truncated.

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path withoutSlash(const fs::path& path) {  // "folder/" becomes "folder"
+fs::path withoutSlash(const fs::path& path) {
     return path.has_filename() ? path : path.parent_path();
 }
 

@@ -16,7 +16,6 @@ class CaptureSource : public ScanSource {
     std::vector<std::string> remarks() const override;
 
  protected:
-    /// Captures contain no poses.
     LogPoses readPoses(const std::filesystem::path& file) override;
     /// Does nothing, because packets identify their sensor.
     bool showClouds(observations::CloudSensors&) override { return false; }

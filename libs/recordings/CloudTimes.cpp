@@ -56,7 +56,6 @@ NameNumber numberIn(std::string_view name) {
     return {first, number.whole, mark, first.size() == name.size()};
 }
 
-/// Combines both groups of digits into one number.
 double valueOf(const NameNumber& number) {
     const double whole = base::numberFrom<double>(number.whole).value_or(-1.0);
     if (number.mark == '\0') return whole;

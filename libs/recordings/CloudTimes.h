@@ -5,7 +5,6 @@
 
 namespace hagen::recordings {
 
-/// The times of clouds, derived from their file names.
 struct CloudTimes {
     std::vector<double> times_s;  ///< one per name
     std::string how;              ///< how the times were derived, for messages

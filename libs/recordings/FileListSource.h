@@ -31,7 +31,7 @@ class FileListSource : public ScanSource {
     }
 
     const char* const label_;
-    std::vector<std::string> names_;  ///< scan names, one per file
+    std::vector<std::string> names_;
     std::vector<double> times_s_;
 
  private:

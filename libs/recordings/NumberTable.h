@@ -7,7 +7,6 @@
 
 namespace hagen::recordings {
 
-/// The numbers on a line of a text file.
 struct NumberLine {
     std::size_t line;  ///< 1-based
     std::vector<double> numbers;

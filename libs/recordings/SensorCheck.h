@@ -16,7 +16,7 @@ class SensorCheck {
     /// `recording`: name used in messages.
     explicit SensorCheck(std::string recording) : recording_(std::move(recording)) {}
 
-    static constexpr int kClouds = 5;  ///< number of clouds to check; only the best fit matters
+    static constexpr int kClouds = 5;  ///< clouds to check; only the best fit matters
 
     /// Checks a segmented scan. At the last cloud to check, returns a remark for the user, or "",
     /// or throws std::runtime_error if less than half of the cloud fits.
@@ -34,8 +34,8 @@ class SensorCheck {
     struct Seen {
         int clouds = 0;
         BeamFit best;
-        std::string sensor;  ///< sensor name
-        int rows = 0;        ///< number of beams
+        std::string sensor;
+        int rows = 0;
     };
     /// Returns a remark or "". Throws std::runtime_error if the cloud does not fit.
     std::string judge(const std::string& title, const Seen& seen) const;

@@ -52,7 +52,7 @@ LearnedAirframe AirframeLearner::learn() const {
     const auto nearOf = [&](int row, int column) -> const std::vector<NearReturn>& {
         return near_[static_cast<std::size_t>(column * rows + row)];
     };
-    /// The number of scans with near returns up to this range; returns are ordered by scan.
+    /// Number of scans with near returns up to this range; returns are ordered by scan.
     const auto scansWithin = [](const std::vector<NearReturn>& returns, float range_m) {
         int scans = 0, last = -1;
         for (const NearReturn& near : returns) {

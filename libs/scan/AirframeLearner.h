@@ -16,7 +16,7 @@ struct AirframeRules {
 
 struct LearnedAirframe {
     Image<float> bin_range_m;    ///< as in Airframe
-    int bins = 0;                ///< number of masked bins
+    int bins = 0;                ///< masked bins
     double share_of_sphere = 0;  ///< share of the sphere covered by masked bins
     double share_of_seen = 0;    ///< share of the solid angle with returns covered by masked bins
 };

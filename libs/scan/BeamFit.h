@@ -11,10 +11,10 @@ struct BeamFit {
     std::size_t returns = 0;  ///< number of returns with a range
     /// Share of the returns whose elevation is within kBeamFitTolerance_deg of a beam.
     float returns_share = 0.0f;
-    /// The number of sensor beams between the lowest and the highest beam of the cloud, and how
+    /// Number of sensor beams between the lowest and the highest beam of the cloud, and how
     /// many of them the cloud has. 0 if no beams can be distinguished in the cloud.
     std::size_t beams = 0, beams_seen = 0;
-    std::size_t beams_shown = 0;  ///< number of beams visible in the cloud
+    std::size_t beams_shown = 0;  ///< beams visible in the cloud
     /// The third quartile, over the rows, of the share of columns with a return: about 1 if the
     /// sensor sees ground or walls, low if the cloud's sensor has fewer beams.
     float filled = 0.0f;

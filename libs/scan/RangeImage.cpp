@@ -24,10 +24,9 @@ namespace {
 /// Converts an azimuth in radians to turns.
 constexpr float kTurnsPerRadian = static_cast<float>(0.5 / kPi);
 
-/// The number of returns projected at a time.
+/// Number of returns projected at a time.
 constexpr std::size_t kTogether = 128;
 
-/// Image size and range limits.
 struct Projection {
     int rows, columns;  ///< number of columns of the whole turn
     float min_m, max_m;

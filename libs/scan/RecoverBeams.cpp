@@ -21,7 +21,7 @@ constexpr int kBins = 18001;
 /// Directions of the returns with a range, in degrees.
 struct Directions {
     std::vector<double> elevation_deg, azimuth_deg;
-    std::vector<std::size_t> index;  ///< index in the scan
+    std::vector<std::size_t> index;
     std::size_t size() const { return elevation_deg.size(); }
 };
 
@@ -45,7 +45,7 @@ Directions directionsOf(const Scan& scan) {
 
 int binOf(double elevation_deg) { return static_cast<int>((elevation_deg + 90.0) / kBin_deg); }
 
-/// The number of returns within `half` bins on either side, for each bin.
+/// Number of returns within `half` bins on either side, for each bin.
 std::vector<int> countsWithin(const std::vector<int>& histogram, int half) {
     std::vector<int> counts(kBins, 0);
     int sum = 0;
@@ -192,7 +192,7 @@ SensorModel sensorOf(const std::vector<double>& beams_deg) {
     return sensor;
 }
 
-/// The number of firings per revolution, from the azimuth steps between neighbouring returns.
+/// Number of firings per revolution, from the azimuth steps between neighbouring returns.
 int firingsOn(const std::vector<double>& beams_deg, const Directions& directions) {
     std::vector<std::vector<double>> azimuths_deg(beams_deg.size());
     for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -328,7 +328,7 @@ OnRings elevationsOnRings(const Directions& directions, const std::vector<std::i
     return on_rings;
 }
 
-/// The number of returns that are closer to their own beam than to others; beams are ascending.
+/// Number of returns that are closer to their own beam than to others; beams are ascending.
 std::size_t closestToOwn(const std::vector<double>& beams_deg,
                          const std::vector<const std::vector<double>*>& elevations_deg) {
     std::ptrdiff_t closest = 0;

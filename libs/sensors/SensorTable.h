@@ -37,7 +37,7 @@ class SensorTable {
     }
     std::list<Entry>& entries() { return entries_; }
     const std::list<Entry>& entries() const { return entries_; }
-    /// The number of packets from sensors beyond the maximum.
+    /// Number of packets from sensors beyond the maximum.
     std::size_t further() const { return further_; }
 
  private:

@@ -47,7 +47,6 @@ std::string searchedFolders() {
     return base::joined(folders);
 }
 
-/// The folders added by addPresetFolder().
 struct AddedFolders {
     std::mutex mutex;
     std::vector<fs::path> folders;

@@ -116,7 +116,6 @@ void mergeOption(const fs::path& file, const OptionKey& key, const YAML::Node& v
     }
 }
 
-/// Parses the section `paper:`.
 void parseReadings(const fs::path& file, const YAML::Node& section, std::set<std::string>& seen,
                    Settings& settings) {
     std::vector<std::string> known;
@@ -203,7 +202,7 @@ bool isAdapted(const std::string& name, const Settings& settings) {
     return textOf(key, settings.options) == textOf(key, Options());
 }
 
-/// The number of files included so far, and the current depth.
+/// Number of files included so far, and the current depth.
 struct Includes {
     SettingsOrigin origin;
     int depth = 0, files = 0;
@@ -268,7 +267,7 @@ void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
 
     std::vector<std::string> known{"include", "sensor", "airframe", kPaper};
     for (const OptionKey& key : optionKeys()) known.push_back(key.name);
-    std::set<std::string> seen;  // options in this file
+    std::set<std::string> seen;
     const auto read = [&](const std::string& name, const YAML::Node& value,
                           const std::string& place) {
         if (name == "include") return;

@@ -86,7 +86,7 @@ YAML::Node parseFile(const fs::path& file, std::size_t max_bytes) {
                             ": not YAML: " + e.msg);
     } catch (const YAML::Exception&) {
         throw SettingsError(file.string() + ": cannot be read");
-    } catch (const std::runtime_error& e) {  // message names the file
+    } catch (const std::runtime_error& e) {
         throw SettingsError(e.what());
     }
 }

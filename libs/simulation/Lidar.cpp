@@ -55,9 +55,7 @@ const AirframeSpot* airframeAt(float azimuth_rad, float elevation_rad) {
     return nullptr;
 }
 
-bool isTilted(const Eigen::Quaterniond& mount) {
-    return std::abs(mount.w()) < 1.0;  // mount is not the identity
-}
+bool isTilted(const Eigen::Quaterniond& mount) { return std::abs(mount.w()) < 1.0; }
 
 /// The sensor's poses during a revolution, interpolated linearly between a few samples.
 class RevolutionPoses {
@@ -80,7 +78,6 @@ class RevolutionPoses {
     std::vector<SensorPose> poses_;
 };
 
-/// A beam of a revolution.
 struct Beam : BeamDirection {
     Vector3f axis;  ///< direction in the map
 };
@@ -188,7 +185,6 @@ void mixEdges(const Scene::Snapshot& snapshot, const Revolution& turn, float max
     }
 }
 
-/// The measurement of a beam.
 struct Echo {
     float range_m = kNoValue;
     float intensity = 0;

@@ -44,7 +44,7 @@ class Trunk {
         return share * std::sin(phase_ * share) * bend_ + Vector3d(0, 0, z_m);
     }
     double radius_m(double z_m) const {
-        const double flare = z_m < 0.25 ? 0.6 * (0.25 - z_m) / 0.25 : 0.0;  // above the roots
+        const double flare = z_m < 0.25 ? 0.6 * (0.25 - z_m) / 0.25 : 0.0;
         const double taper = 1.0 - 0.8 * std::max(z_m, 0.0) / form_.height_m;
         return form_.trunk_radius_m * (taper + std::min(flare, 0.6));
     }

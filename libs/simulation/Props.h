@@ -4,8 +4,8 @@
 namespace hagen::simulation {
 
 // The origin of these shapes is on the ground.
-Shape makeRod(double height_m, double radius_m);  ///< a pole
-Shape makeCar(Random& random);                    ///< x forward
+Shape makeRod(double height_m, double radius_m);
+Shape makeCar(Random& random);  ///< x forward
 Shape makeHouse(double length_m, double width_m, double wall_m, Random& random);
 Shape makeRock(Random& random);  ///< about 1 m across
 Shape makePerson();

@@ -18,7 +18,6 @@ class SceneBuilder {
     static constexpr double kHalfLength_m = 75, kHalfWidth_m = 55;  ///< area of scatter()
 
     SceneBuilder(const TerrainParameters& form, const Path& path, std::uint64_t seed);
-    /// Starts a scene without a path.
     SceneBuilder(const TerrainParameters& form, const GroundExtent& extent, const Random& random);
 
     Random& random() { return random_; }

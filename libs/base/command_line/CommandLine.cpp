@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kHelpWidth = 80, kHelpColumn = 30;
-constexpr const char* kNotEmpty = "not empty";  // name of the check for empty texts
+constexpr const char* kNotEmpty = "not empty";
 
 /// Wraps a line of --help. Continuation lines are aligned with the descriptions.
 std::string wrapped(std::string line) {

@@ -17,7 +17,6 @@ class Option;
 /// is slow to compile.
 namespace hagen::base {
 
-/// Exit codes of all programs.
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
 
 /// Returns the exit code of `program`. If `program` throws, prints the error and returns kFailed.

@@ -11,7 +11,6 @@
 
 namespace hagen::recordings {
 
-/// A topic of a bag.
 struct BagTopic {
     std::string name;      ///< such as "/velodyne_points"
     std::string type;      ///< in ROS 1 style even for ROS 2: "sensor_msgs/PointCloud2"
@@ -22,7 +21,6 @@ struct BagTopic {
     }
 };
 
-/// A serialised message.
 struct BagMessage {
     std::size_t topic = 0;                ///< index in BagFile::topics()
     std::int64_t time_ns = 0;             ///< recording time since 1970

@@ -18,7 +18,6 @@ constexpr const char* kMetadata = "metadata.yaml";
 constexpr const char* kSection = "rosbag2_bagfile_information";
 constexpr std::size_t kMaxMetadata = 2 << 20;
 
-/// The content of a bag's metadata.yaml.
 struct Metadata {
     std::optional<YAML::Node> bag;
     std::string why_none;  ///< why `files` cannot be used; empty if the file is missing
@@ -190,7 +189,7 @@ class BagFolder : public BagFile {
 
     std::vector<fs::path> files_;
     std::vector<std::string> remarks_;
-    std::vector<double> bytes_before_;  ///< bytes before each file
+    std::vector<double> bytes_before_;
     double bytes_ = 0;
     std::size_t file_ = 0;
     std::unique_ptr<BagFile> open_;      ///< null if no files are left

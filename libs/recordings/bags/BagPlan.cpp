@@ -83,8 +83,6 @@ class Planner {
                                  (broken.empty() ? "" : "; it is only partly readable: " + broken));
     }
 
-    // Topics.
-
     void checkNumberOfLidars() const {
         const auto lidars = std::count_if(
             survey_.topics.begin(), survey_.topics.end(),
@@ -220,8 +218,6 @@ class Planner {
         frame_of_[topic.topic.name] = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
     }
 
-    // Ouster metadata.
-
     std::shared_ptr<const sensors::OusterSensor> findOuster(const Topic& topic) const {
         std::string text_of = options_.sensor_json.string();
         if (text_of.empty()) {
@@ -257,8 +253,6 @@ class Planner {
         fail("no selected topic has Ouster packets for the metadata " +
              options_.sensor_json.string());
     }
-
-    // Poses.
 
     void takeMost(const std::map<std::string, PoseSeries>& all, bool is_dense) {
         if (plan_.poses != nullptr) return;
@@ -475,8 +469,6 @@ class Planner {
             if (vehicles.count(at) > 0) addAsStatic(way);
         }
     }
-
-    // Mounts.
 
     /// The pose of a frame on the vehicle; nullopt if unknown.
     std::optional<CPose3D> onVehicle(const std::string& frame) const {

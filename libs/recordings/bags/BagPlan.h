@@ -19,7 +19,6 @@ struct BagOptions {
     std::filesystem::path sensor_json;  ///< Ouster metadata file; if empty, from the bag
 };
 
-/// A LiDAR topic to read.
 struct BagSensor {
     LidarKind kind = LidarKind::None;
     std::string label;                ///< sensor label of the topic's scans
@@ -30,7 +29,6 @@ struct BagSensor {
     const sensors::VelodyneModel* velodyne = nullptr;     ///< set for Velodyne packets
 };
 
-/// What to read from a bag.
 struct BagPlan {
     std::map<std::string, BagSensor> sensors;    ///< by topic
     const PoseSeries* poses = nullptr;           ///< vehicle poses; null: no poses

@@ -30,7 +30,6 @@ using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
 
-/// State and message counts of a topic.
 struct TopicState {
     std::string name;
     const BagSensor* sensor = nullptr;
@@ -39,7 +38,7 @@ struct TopicState {
     std::size_t points_without_range = 0;  ///< only for Livox messages
     // Only for tables of points:
     std::size_t points_not_finite = 0;
-    std::map<std::string, std::size_t> clouds_with;  ///< number of clouds with each remark
+    std::map<std::string, std::size_t> clouds_with;  ///< clouds with each remark
     // Only for packets:
     std::optional<sensors::VelodyneTurns> turns;
     std::unique_ptr<sensors::OusterFrames> frames;
@@ -300,7 +299,6 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
     addComplete(state);
 }
 
-/// Adds all complete turns.
 void BagScans::Reader::addComplete(TopicState& state) {
     if (state.turns) {
         for (const sensors::LidarSweep& turn : state.turns->complete()) {

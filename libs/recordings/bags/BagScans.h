@@ -34,7 +34,6 @@ class BagScans {
     const BagPlan& plan() const;
     /// Number of messages read so far, of all topics.
     std::size_t messagesRead() const;
-    /// Fraction of the bag read so far, 0 ... 1.
     double fractionRead() const;
     /// Remarks on topics and skipped messages. Complete at the end.
     std::vector<std::string> remarks() const;

@@ -209,7 +209,7 @@ BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool(
     BagSurvey survey = std::move(surveyor).survey();
     survey.broken_because = broken_because;
     for (std::size_t i = survey.topics.size(); i < bag->topics().size(); ++i) {
-        auto& topic = survey.topics.emplace_back();  // topic without messages
+        auto& topic = survey.topics.emplace_back();
         topic.topic = bag->topics()[i];
         topic.kind = lidarKindOf(topic.topic);
     }

@@ -42,7 +42,7 @@ struct LeftOut {
         std::size_t number = 0;
         std::string first;  ///< first skipped message and the reason
     };
-    Kind messages;       ///< unreadable messages
+    Kind messages;
     Kind transforms;     ///< transforms without a valid pose in readable messages
     Kind other_parents;  ///< transforms of a frame that had another parent before
     Kind further;        ///< transforms of frames beyond the maximum number

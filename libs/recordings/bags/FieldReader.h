@@ -24,7 +24,6 @@ struct TooShort : std::runtime_error {
 /// instead of reading beyond the end. Checks sizes before allocating.
 class FieldReader {
  public:
-    /// Reads packed fields.
     explicit FieldReader(ByteView bytes) : bytes_(bytes) {}
 
     /// Reads a CDR message, which starts with a four-byte header with the byte order. Throws

@@ -46,7 +46,7 @@ class FileBytes {
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, Close> file_;
     std::uint64_t size_ = 0, position_ = 0, to_skip_ = 0;
-    std::string skipped_;  ///< name of the skipped data
+    std::string skipped_;
     bool has_crc_;
     std::uint32_t crc_ = 0;
 };

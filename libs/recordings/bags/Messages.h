@@ -68,7 +68,7 @@ LivoxMessage readLivox(FieldReader& fields);
 /// A pose with its time and frames, from nav_msgs/Odometry, geometry_msgs/PoseStamped or
 /// PoseWithCovarianceStamped, or one transform of tf2_msgs/TFMessage.
 struct PoseMessage {
-    Header header;      ///< contains the parent frame
+    Header header;
     std::string child;  ///< child frame; empty if unknown
     std::array<double, 3> position_m;
     std::array<double, 4> rotation_wxyz;  ///< as recorded, may not be normalized
@@ -86,7 +86,6 @@ struct ImuMessage {
 };
 ImuMessage readImu(FieldReader& fields);
 
-/// std_msgs/String.
 std::string readString(FieldReader& fields);
 
 }  // namespace hagen::recordings

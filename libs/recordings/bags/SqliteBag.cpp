@@ -242,7 +242,7 @@ class SqliteBag : public BagFile {
     std::filesystem::path file_;
     std::unique_ptr<sqlite3, Close> database_;
     Query messages_;
-    mutable std::exception_ptr interruption_;  ///< exception thrown by the check during a query
+    mutable std::exception_ptr interruption_;
     TopicList topics_;
     std::map<std::int64_t, std::size_t> topic_of_;  ///< topic index by the topic's ID
     std::size_t rows_ = 0;

@@ -31,7 +31,6 @@ class LidarCapture {
         capture_.checkWhileReading(check);
     }
 
-    /// Fraction of the file read so far, 0 ... 1.
     double fractionRead() const { return capture_.fractionRead(); }
 
     /// Counts of packets per sensor, of frames, and of lost or ignored data. Complete at the end.

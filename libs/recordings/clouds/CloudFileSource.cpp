@@ -147,7 +147,6 @@ class CloudFileSource : public FileListSource {
         return objectOf(observation, options_.folder_objects);
     }
 
-    /// Cloud files contain no poses.
     LogPoses readPoses(const fs::path& file) override {
         RawlogSurvey survey;
         for (std::size_t i = 0; i < files_.size(); ++i) {
@@ -161,10 +160,10 @@ class CloudFileSource : public FileListSource {
     std::vector<fs::path> files_;
     std::string time_remark_;
     std::size_t other_files_ = 0, folders_ = 0;  ///< files and folders beside the clouds
-    CloudFile file_;                             ///< last file read
+    CloudFile file_;
     std::size_t clouds_ = 0, points_not_finite_ = 0, clouds_not_finite_ = 0;
-    std::vector<std::string> remarks_;                ///< in order of appearance
-    std::map<std::string, std::size_t> with_remark_;  ///< number of clouds with each remark
+    std::vector<std::string> remarks_;
+    std::map<std::string, std::size_t> with_remark_;  ///< clouds with each remark
 };
 
 }  // namespace

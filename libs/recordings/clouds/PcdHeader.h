@@ -12,8 +12,8 @@ struct PcdHeader {
     std::size_t points = 0;
     Data data = Data::Ascii;
     std::string viewpoint;  ///< empty if the sensor is at the origin
-    std::size_t size = 0;   ///< size of the header in bytes
-    std::size_t lines = 0;  ///< number of header lines
+    std::size_t size = 0;
+    std::size_t lines = 0;
 };
 
 /// Throws BrokenRecording naming file and line.

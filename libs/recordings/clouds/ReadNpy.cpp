@@ -110,7 +110,6 @@ void takeOrder(const std::filesystem::path& file, char order, char& all) {
     all = order;
 }
 
-/// Reads the fields of a structured array.
 void takeNpyFields(const std::filesystem::path& file, const YAML::Node& descr, CloudFile& cloud,
                    char& order) {
     std::string left_out;

@@ -16,7 +16,7 @@ using observations::PointTable;
 struct PlyProperty {
     std::string name;
     NumberType type = NumberType::Float32;
-    std::optional<NumberType> length;  ///< type of a list's length
+    std::optional<NumberType> length;
 };
 
 struct PlyElement {
@@ -139,7 +139,6 @@ PointTable vertexTableOf(const PlyElement& vertices) {
                           " are present; is it truncated?");
 }
 
-/// Reads the rows of a binary file.
 class BinaryRows {
  public:
     BinaryRows(const std::filesystem::path& file, const Bytes& bytes, const PlyHeader& header)
@@ -205,7 +204,6 @@ class BinaryRows {
     bool is_big_endian_;
 };
 
-/// Reads the rows of an ASCII file, one per line.
 class AsciiRows {
  public:
     AsciiRows(const std::filesystem::path& file, const Bytes& bytes, const PlyHeader& header)

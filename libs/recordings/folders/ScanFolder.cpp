@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // The formats are little-endian, like all platforms of MRPT packages except s390x.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "label and scan files need byte swapping");
 
-/// The number of points in a file of this size. Throws BrokenRecording if it is not an integer.
+/// Number of points in a file of this size. Throws BrokenRecording if it is not an integer.
 std::size_t checkedCount(const fs::path& file, std::size_t bytes, std::size_t bytes_per_point) {
     if (bytes % bytes_per_point != 0) {
         throw BrokenRecording(file.string() + ": " + std::to_string(bytes) +

@@ -60,7 +60,7 @@ class ScanFolderSource : public FileListSource {
     }
 
     ScanFolder folder_;
-    Scan scan_;  ///< last scan read
+    Scan scan_;
     std::size_t floats_per_point_ = 4;
     bool has_rings_ = false;
 };

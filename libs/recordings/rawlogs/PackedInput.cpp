@@ -28,8 +28,8 @@ struct PackedInput::Stream {
     std::vector<unsigned char> unpacked = std::vector<unsigned char>(kUnpackedBytes);
     std::size_t packed_at = 0, packed_end = 0;
     std::size_t unpacked_at = 0, unpacked_end = 0;
-    std::uint64_t size = 0;      ///< file size [bytes]
-    std::uint64_t taken = 0;     ///< bytes consumed
+    std::uint64_t size = 0;  ///< file size [bytes]
+    std::uint64_t taken = 0;
     bool may_hold_more = false;  ///< last block was full, so that more output may follow
     std::string fault;
     std::unique_ptr<Unpacker> unpacker;

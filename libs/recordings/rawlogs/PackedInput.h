@@ -28,7 +28,6 @@ class PackedInput : public mrpt::io::CStream {
     /// The maximum number of uncompressed bytes that can follow, from the maximum compression ratio
     /// of the format.
     std::uint64_t mostBytesLeft() const;
-    /// The file descriptor.
     int descriptor() const;
 
     /// The error that stopped reading: the file is truncated or corrupt. Empty while data is left,

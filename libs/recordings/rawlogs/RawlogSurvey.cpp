@@ -55,7 +55,6 @@ class SummedMovement {
     observations::Trajectory trajectory_;
 };
 
-/// Collects poses from all sources.
 class RawlogSurveyor {
  public:
     void see(const CActionCollection& actions) {

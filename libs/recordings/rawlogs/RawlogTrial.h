@@ -8,7 +8,6 @@
 
 namespace hagen::recordings {
 
-/// The result of reading an entry.
 struct EntryVerdict {
     enum class Kind : std::uint8_t { Sound, End, Broken };
     Kind kind;
@@ -54,7 +53,7 @@ class RawlogTrial {
     int verdicts_ = -1;
     int starts_ = 0;
     std::size_t received_ = 0;  ///< number of verdicts from the current process
-    std::size_t entries_ = 0;   ///< number of verdicts returned
+    std::size_t entries_ = 0;
     EntryVerdict last_{EntryVerdict::Kind::Sound, 0, ""};
 };
 

@@ -63,7 +63,7 @@ struct CaptureFile::Reader {
     int link_type;
     FrameCounts counts;
     Fragments fragments;
-    std::function<void()> check;  ///< set by checkWhileReading()
+    std::function<void()> check;
 
     explicit Reader(const std::filesystem::path& name)
         : file(name),

@@ -17,7 +17,7 @@ class Fragments {
     /// next call; otherwise returns nothing.
     Bytes add(const IpPacket& fragment);
 
-    /// The number of invalid or evicted fragments. giveUpAll() adds those of incomplete datagrams.
+    /// Number of invalid or evicted fragments. giveUpAll() adds those of incomplete datagrams.
     std::size_t lost() const { return lost_; }
     void giveUpAll();
 
@@ -29,8 +29,8 @@ class Fragments {
         std::uint16_t id;
         std::vector<std::uint8_t> bytes;
         std::bitset<65536 / kUnit> has_unit;
-        std::size_t size = 0;       ///< size of the datagram; 0 until its last fragment arrives
-        std::size_t fragments = 0;  ///< number of fragments so far
+        std::size_t size = 0;  ///< size of the datagram; 0 until its last fragment arrives
+        std::size_t fragments = 0;
     };
     std::list<Open>::iterator find(const IpPacket& fragment);
     static bool isComplete(const Open& open);

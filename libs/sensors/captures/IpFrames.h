@@ -19,7 +19,6 @@ struct Bytes {
     Bytes first(std::size_t count) const { return {data, count < size ? count : size}; }
 };
 
-/// An IPv4 packet.
 struct IpPacket {
     enum class Kind {
         Udp,    ///< `content` is a UDP datagram or a fragment of a datagram
@@ -31,7 +30,7 @@ struct IpPacket {
     std::uint32_t from_ip = 0, to_ip = 0;
     std::uint16_t id = 0;    ///< shared by all fragments of a datagram
     std::size_t offset = 0;  ///< position of the content in the datagram, bytes
-    bool has_more = false;   ///< more fragments follow
+    bool has_more = false;
     Bytes content;
 
     bool isFragment() const { return has_more || offset > 0; }

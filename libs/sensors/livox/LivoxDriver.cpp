@@ -83,7 +83,7 @@ class LivoxDriver : public LidarDriver {
     std::uint64_t start_ns_ = 0;  ///< sensor time at which the frame starts
     std::size_t packets_of_frame_ = 0, frames_ = 0;
     ReturnSink::Frame frame_{};
-    Scan returns_;  ///< returns of the frame
+    Scan returns_;
     std::vector<std::uint8_t> tags_;
 };
 

@@ -70,7 +70,7 @@ class LivoxSweeps : public SweepReader {
         LivoxSequence sequence{false};
         bool is_begun = false;
         std::uint64_t start_ns = 0;  ///< sensor time at which the sweep in progress starts
-        std::size_t packets = 0;     ///< in the sweep in progress
+        std::size_t packets = 0;
         LidarSweep sweep;
     };
     void add(const LivoxPacket& packet, const Datagram& datagram, Sensor& sensor) {

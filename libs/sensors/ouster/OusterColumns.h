@@ -22,7 +22,7 @@ class OusterColumns {
 
     /// Adds a packet of packetBytes() bytes. Returns true if the number of columns is certain.
     bool take(const std::uint8_t* packet);
-    /// The number of sensor restarts: changes of the initialization ID.
+    /// Number of sensor restarts: changes of the initialization ID.
     std::size_t restarts() const { return restarts_; }
 
  private:

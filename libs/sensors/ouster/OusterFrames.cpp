@@ -125,7 +125,6 @@ void OusterFrames::finish() {
     while (!open_.empty()) completeFirst();
 }
 
-/// Handles a restart of the sensor.
 void OusterFrames::restart() {
     finish();
     has_last_ = false;

@@ -45,8 +45,8 @@ class OusterFrames {
         std::size_t invalid_columns = 0;
         std::size_t wrong_columns = 0;  ///< columns with an invalid measurement ID
         std::size_t repeated_columns = 0;
-        std::size_t late_packets = 0;      ///< dropped packets of frames that are already complete
-        std::size_t lost_frames = 0;       ///< frames without packets
+        std::size_t late_packets = 0;  ///< dropped packets of frames that are already complete
+        std::size_t lost_frames = 0;
         std::size_t uncertain_frames = 0;  ///< dropped frames whose number of columns is uncertain
     };
 
@@ -63,7 +63,7 @@ class OusterFrames {
     /// Complete frames, oldest first. The caller removes them.
     std::deque<OusterFrame>& complete() { return complete_; }
     const Counts& counts() const { return counts_; }
-    /// The number of sensor restarts detected in packets.
+    /// Number of sensor restarts detected in packets.
     std::size_t restarts() const { return columns_.restarts(); }
 
     /// The signed difference of two frame IDs, which wrap.

@@ -8,7 +8,6 @@
 namespace hagen::sensors {
 namespace {
 
-/// Direction and time of a column.
 struct ColumnPlace {
     double encoder_rad;  ///< encoder angle, counter-clockwise
     float time_s;

@@ -125,7 +125,7 @@ class Metadata {
     const json& root_;
 };
 
-/// The number of columns in a mode such as "1024x10".
+/// Number of columns in a mode such as "1024x10".
 std::size_t columnsOfMode(const std::string& mode) {
     for (const std::size_t columns : {512, 1024, 2048, 4096}) {
         if (mode.rfind(std::to_string(columns) + "x", 0) == 0) return columns;

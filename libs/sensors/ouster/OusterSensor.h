@@ -17,8 +17,8 @@ namespace hagen::sensors {
 /// The pixel layout of Ouster packets ("profile" in the firmware manual).
 struct OusterProfile {
     std::string name;
-    bool is_legacy;            ///< packets without header, but with a footer per column
-    std::size_t pixel_bytes;   ///< size of a pixel
+    bool is_legacy;  ///< packets without header, but with a footer per column
+    std::size_t pixel_bytes;
     std::uint32_t range_mask;  ///< bits of the range in a pixel's first little-endian number
     float range_unit_m;
     std::size_t reflectivity_at;
@@ -37,8 +37,8 @@ struct OusterSensor {
     std::size_t first_column = 0, last_column = 0;  ///< azimuth window; may wrap around
     std::vector<double> altitude_rad, azimuth_rad;  ///< per pixel; azimuth counter-clockwise
     std::vector<std::uint8_t> row;                  ///< per pixel; 0 is the lowest beam
-    double beam_origin_m = 0;     ///< horizontal offset of the beams from the axis
-    double beam_origin_up_m = 0;  ///< vertical offset
+    double beam_origin_m = 0;  ///< horizontal offset of the beams from the axis
+    double beam_origin_up_m = 0;
     Eigen::Isometry3d lidar_to_sensor = Eigen::Isometry3d::Identity();
     std::shared_ptr<const SensorModel> model;  ///< beams, lowest first
 

@@ -20,7 +20,6 @@ namespace {
 constexpr int kTurn = kReadingsOfTurn;   // 0.01 degrees
 constexpr double kMaxAzimuth_deg = 1e6;  // larger angles make the remainder inexact
 
-/// A data packet.
 class Packet {
  public:
     explicit Packet(const std::uint8_t* bytes) : bytes_(bytes) {}
@@ -40,7 +39,6 @@ class Packet {
     const std::uint8_t* bytes_;
 };
 
-/// The sine and cosine of an angle.
 struct SineCosine {
     double sine, cosine;
 
@@ -57,7 +55,6 @@ class ReadingDirections {
         for (int i = 0; i < 100; ++i) hundredths_.emplace_back(i * kRadiansPerReading);
     }
 
-    /// Sets a block's direction from its azimuth reading.
     void setDirection(int reading, VelodyneBlock& block) const {
         const int from_behind = reading < kTurn / 2 ? reading + kTurn / 2 : reading - kTurn / 2;
         const SineCosine& a = degrees_[from_behind / 100];

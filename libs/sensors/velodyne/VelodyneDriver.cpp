@@ -41,7 +41,7 @@ int azimuthOfFiring(const VelodynePacket& packet, int firing) {
     return packet.azimuthOf(firing * step);
 }
 
-/// The number of returns decoded from the first `blocks` blocks.
+/// Number of returns decoded from the first `blocks` blocks.
 std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
     std::size_t returns = 0;
     for (int b = 0; b < blocks; ++b) {
@@ -309,12 +309,12 @@ class VelodyneDriver : public LidarDriver {
     VelodyneCalibration calibration_;
     DecoderWorkspace decoder_;
     Scan returns_, part_;
-    std::vector<Run> runs_;  ///< runs of the latest packet
+    std::vector<Run> runs_;
     RecentPackets recent_;
     std::vector<Held> held_;  ///< consecutive late packets
     bool has_last_ = false, is_dual_ = false;
     double last_us_ = 0;  ///< sensor time of the latest packet
-    Sweep last_sweep_{};  ///< sweep of the latest packet
+    Sweep last_sweep_{};
 };
 
 }  // namespace

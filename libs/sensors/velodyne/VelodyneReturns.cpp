@@ -66,7 +66,6 @@ HWY_INLINE hn::Vec<Floats> share(hn::Vec<Floats> of_255) {
     return hn::Add(hn::Mul(of_255, hn::Set(d, kUpper)), hn::Mul(of_255, hn::Set(d, kRest)));
 }
 
-/// Direction in the xy plane.
 struct Direction {
     hn::Vec<Floats> sine, cosine;  ///< clockwise from x
     hn::Vec<Floats> azimuth_rad;   ///< counter-clockwise

@@ -14,7 +14,7 @@ constexpr double kRadiansPerReading = 2.0 * kPi / (kReadingsOfTurn - 1);
 /// Offsets of returns from the first return of their block: one entry per position in a block,
 /// shared by all blocks of a scan.
 struct BlockOffsets {
-    float distance_unit_m;  ///< unit of distances in packets
+    float distance_unit_m;
     float turn_sine[kReturnsOfBlock], turn_cosine[kReturnsOfBlock];  ///< clockwise
     float turn_rad[kReturnsOfBlock];                                 ///< clockwise
     float turn_reading[kReturnsOfBlock];                             ///< 0.01 degrees clockwise

@@ -57,8 +57,8 @@ class VelodyneTurns {
     LidarSweep turn_;                     ///< turn in progress, if it has packets
     double turn_start_us_ = 0;
     bool has_last_ = false;
-    double last_us_ = 0;     ///< sensor time of the last appended packet
-    int last_azimuth_ = -1;  ///< azimuth of the last appended packet
+    double last_us_ = 0;  ///< sensor time of the last appended packet
+    int last_azimuth_ = -1;
     std::deque<LidarSweep> complete_;
     Counts counts_;
 };

@@ -29,7 +29,7 @@ struct RawlogSurvey {
         mrpt::poses::CPose3D sensor_on_vehicle;
     };
     std::map<std::string, std::vector<ScanPlace>> scans;
-    std::size_t entries = 0;  ///< number of entries read
+    std::size_t entries = 0;
     bool is_whole = true;     ///< whether the log was read to its end
     std::string break_found;  ///< error that ended reading; may be empty
 };

@@ -8,7 +8,7 @@ namespace hagen {
 
 /// Summary of a sensor's beams, to detect rows that belong to another sensor.
 struct BeamSpan {
-    int rows = 0;                           ///< number of beams; 0: unknown
+    int rows = 0;                           ///< beams; 0: unknown
     float lowest_rad = 0, highest_rad = 0;  ///< elevations of the lowest and the highest beam
 };
 BeamSpan beamSpan(const SensorModel& sensor);

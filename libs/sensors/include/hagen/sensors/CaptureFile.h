@@ -21,7 +21,7 @@ struct BrokenCapture : std::runtime_error {
 /// Counts of the frames in a capture. Each frame is counted once, except fragments of complete
 /// datagrams.
 struct FrameCounts {
-    std::size_t frames = 0;          ///< all frames
+    std::size_t frames = 0;
     std::size_t datagrams = 0;       ///< complete UDP datagrams
     std::size_t fragments = 0;       ///< frames with a fragment of a datagram
     std::size_t fragments_lost = 0;  ///< fragments of incomplete datagrams

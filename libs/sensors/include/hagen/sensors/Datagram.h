@@ -5,7 +5,6 @@
 
 namespace hagen::sensors {
 
-/// A UDP datagram.
 struct Datagram {
     std::int64_t time_ns = 0;              ///< reception time since 1970
     std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4

@@ -28,7 +28,7 @@ enum class Taken {
 };
 
 struct PacketCounts {
-    std::size_t packets = 0;  ///< number of decoded packets
+    std::size_t packets = 0;
     std::size_t wrong_size = 0, other_sensor = 0, auxiliary = 0, duplicate = 0, unsound = 0,
                 uncertain = 0;
     std::size_t unsound_blocks = 0;  ///< invalid blocks in decoded packets

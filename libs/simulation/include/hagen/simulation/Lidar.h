@@ -49,7 +49,7 @@ SensorErrorModel sensorErrors(const SensorModel& sensor);
 /// order and, as in a real sensor, relative to the sensor's pose at each firing.
 struct SimulatedScan {
     Scan scan;
-    std::vector<ObjectClass> kind;      ///< one entry per return
+    std::vector<ObjectClass> kind;
     std::vector<std::uint16_t> object;  ///< scene object of each return; 0: no object
     std::vector<std::int32_t> firing;
     std::vector<std::uint8_t> laser;

@@ -8,7 +8,7 @@ namespace hagen::simulation {
 
 /// The object class of a simulated return, numbered as in semantic/*.label.
 enum class ObjectClass : std::uint8_t {
-    None = 0,  ///< no return
+    None = 0,
     Terrain = 1,
     Canopy = 2,  ///< low vegetation to fly over, such as crop and grass
     Tree = 3,    ///< trunks, crowns and shrubs

@@ -33,7 +33,6 @@ Eigen::Vector2d placeOf(const MovingObstacle& mover, double time_s);
 /// Returns the transform from a moving obstacle's own frame to the map at this time.
 Eigen::Affine3f poseOf(const MovingObstacle& mover, const Terrain& terrain, double time_s);
 
-/// All objects of a scene.
 struct SceneContent {
     Terrain terrain;
     Path path;  ///< closed path free of obstacles
