@@ -47,7 +47,7 @@ constexpr Magic kMagics[] = {
     {0, "\x0a\x0d\x0d\x0a"sv, "a network capture", "pass it with -i"},
 };
 
-/// Text formats, by their first characters after white space.
+/// Text formats, detected by their first characters after white space.
 constexpr Magic kTexts[] = {
     {0, "version https://git-lfs"sv, "a Git LFS pointer, not the file itself",
      "fetch it with 'git lfs pull'"},
@@ -64,13 +64,13 @@ bool hasAt(std::string_view bytes, std::size_t at, std::string_view part) {
     return bytes.size() >= at + part.size() && bytes.substr(at, part.size()) == part;
 }
 
-/// True for concatenated Velodyne data packets.
+/// True if the bytes are concatenated Velodyne data packets.
 bool areVelodynePackets(std::string_view bytes) {
     constexpr std::size_t kPacket = 1206, kBlock = 100, kBlocks = 12;
     if (bytes.size() < kPacket) return false;
     for (std::size_t packet = 0; packet + kPacket <= bytes.size(); packet += kPacket) {
         for (std::size_t block = 0; block < kBlocks; ++block) {
-            // 0xddff: the lower lasers of an HDL-64E.
+            // 0xddff marks the lower lasers of an HDL-64E.
             const std::string_view flag = bytes.substr(packet + block * kBlock, 2);
             if (flag != "\xff\xee"sv && flag != "\xff\xdd"sv) return false;
         }
@@ -78,8 +78,8 @@ bool areVelodynePackets(std::string_view bytes) {
     return true;
 }
 
-/// Length of the UTF-8 character that starts with this byte; 0 for control characters and bytes
-/// that start no character.
+/// Length of the UTF-8 character that starts with this byte; 0 if the byte is a control character
+/// or cannot start a character.
 std::size_t bytesOfCharacter(char first) {
     const auto code = static_cast<unsigned char>(first);
     if (code < 0x20) return "\n\r\t\f"sv.find(first) == std::string_view::npos ? 0 : 1;
@@ -94,7 +94,7 @@ bool areNumbers(std::string_view text) {
 }
 
 FileKind kindOfText(std::string_view text) {
-    if (hasAt(text, 0, "\xef\xbb\xbf"sv)) text.remove_prefix(3);  // of Windows' editors
+    if (hasAt(text, 0, "\xef\xbb\xbf"sv)) text.remove_prefix(3);  // byte-order mark
     text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\r\n")));
     for (const Magic& kind : kTexts) {
         if (hasAt(text, 0, kind.bytes)) return {kind.what, kind.advice};

@@ -1,4 +1,4 @@
-// Uses POSIX calls: std::filesystem's iterators terminate the program if memory runs out.
+// Uses POSIX calls because std::filesystem's iterators terminate the program if memory runs out.
 #include <dirent.h>
 #include <ftw.h>
 

@@ -8,7 +8,7 @@ namespace hagen::base {
 /// The paths of a folder's entries, sorted. Throws std::filesystem::filesystem_error if the folder
 /// cannot be read.
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder);
-/// Returns the readable entries; `error` is why the others could not be read.
+/// Like entriesOf(folder), but sets `error` instead of throwing, and returns the readable entries.
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder,
                                              std::error_code& error);
 

@@ -14,7 +14,7 @@ nlohmann::json parseJson(const std::string& text) {
     try {
         return nlohmann::json::parse(text, checkDepth);
     } catch (const nlohmann::json::exception& e) {
-        const std::string reason = e.what();     // "[json.exception...] reason"
+        const std::string reason = e.what();     // such as "[json.exception...] reason"
         constexpr std::size_t kMaxLength = 300;  // the reason quotes the text
         throw std::runtime_error("is not valid JSON: " +
                                  reason.substr(reason.find("] ") + 2, kMaxLength));

@@ -10,7 +10,7 @@
 namespace hagen::base {
 namespace {
 
-std::atomic<std::uint64_t> limit_bytes = 0;  // 0: none
+std::atomic<std::uint64_t> limit_bytes = 0;  // 0: no limit
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void limitMemory(std::uint64_t bytes) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     rlimit limit{};
     if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
-    limit_bytes = bytes < limit.rlim_cur ? bytes : 0;  // a lower limit applies
+    limit_bytes = bytes < limit.rlim_cur ? bytes : 0;  // 0 if a lower limit is already set
     limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_cur);
     setrlimit(RLIMIT_DATA, &limit);
 #else

@@ -8,7 +8,7 @@
 
 namespace hagen::base {
 
-/// Returns the shortest representation that round-trips, independent of the locale.
+/// Returns the shortest text that converts back to the same number, independent of the locale.
 std::string shortestText(double value);
 std::string shortestText(float value);
 
@@ -16,7 +16,7 @@ std::string shortestText(float value);
 /// if all digits are zero.
 std::string fixedText(double value, int decimals);
 
-/// "99.9 %" for a share from 0 to 1, rounded down: 100.0 % means all.
+/// Formats a share from 0 to 1 as "99.9 %". Rounds down, so that 100.0 % means all.
 std::string percentText(float share);
 
 /// Parses the entire text as a number, independent of the locale; nullopt for anything else.

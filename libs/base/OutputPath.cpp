@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path withoutSlash(const fs::path& path) {  // "folder/"
+fs::path withoutSlash(const fs::path& path) {
     return path.has_filename() ? path : path.parent_path();
 }
 
@@ -50,7 +50,7 @@ fs::path foreignPart(const fs::path& folder, const fs::path& output, const Outpu
     return {};
 }
 
-/// Mount points, such as a container's volumes, cannot be renamed.
+/// True if the path is a mount point, such as a container's volume. Mount points cannot be renamed.
 bool isMountPoint(const fs::path& path) {
     struct statx own {};
     return statx(AT_FDCWD, path.c_str(), AT_SYMLINK_NOFOLLOW, 0, &own) == 0 &&
@@ -62,7 +62,7 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
         failAt(path, what + ", so it is not replaced; choose another name");
     };
     const bool is_file = kind.holds == nullptr;
-    if (fs::is_symlink(path)) refuse("is a symbolic link");  // such as /dev/stdout
+    if (fs::is_symlink(path)) refuse("is a symbolic link");  // for example /dev/stdout
     if (is_file && !fs::is_regular_file(path)) refuse("not a file");
     if (!is_file && !fs::is_directory(path)) refuse("not a folder");
     if (isMountPoint(path)) refuse("is a mount point");
@@ -83,8 +83,8 @@ void checkReplaceable(const fs::path& path, const OutputKind& kind) {
 
 constexpr const char* kTemporaryMark = ".tmp-";
 
-/// A name next to `path` with the number of this process and 64 random bits. In a folder that
-/// others may write to, a predictable name could be a link that somebody placed there.
+/// A hidden name beside `path` with the process ID and 64 random bits. In a folder that others may
+/// write to, an attacker could place a link at a predictable name.
 fs::path secretName(const fs::path& path, const std::string& mark) {
     std::random_device random;
     char bits[20];
@@ -93,10 +93,10 @@ fs::path secretName(const fs::path& path, const std::string& mark) {
 }
 
 /// Flushes a file, or a folder with all its files, to the disk, so that a power failure cannot lose
-/// data that existed before. Accepts file systems that cannot flush (EINVAL).
+/// both the old and the new data. Accepts file systems that cannot flush (EINVAL).
 void flushToDisk(const fs::path& path, const fs::path& named) {
     const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0 && errno == EACCES) return;  // its owner may not read it
+    if (descriptor < 0 && errno == EACCES) return;  // a file without read permission is not flushed
     if (descriptor < 0) throwWriteError(named, errno);
     const int result = fs::is_directory(path) ? syncfs(descriptor) : fsync(descriptor);
     const int error = result == 0 ? 0 : errno;
@@ -108,7 +108,7 @@ bool isNumber(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// The part of a name between `start` and `end`; empty if the name does not match.
+/// Returns the part of a name between `start` and `end`; empty if the name does not match.
 std::string between(const std::string& start, const std::string& name, const std::string& end) {
     const bool is_such = name.size() > start.size() + end.size() && name.rfind(start, 0) == 0 &&
                          name.compare(name.size() - end.size(), end.size(), end) == 0;
@@ -120,7 +120,7 @@ bool isLeftBehind(const fs::path& file, const std::string& output) {
     const std::string rest = between(output + kTemporaryMark, file.filename().string(), "");
     const std::string process = rest.substr(0, rest.find('-'));
     if (!isNumber(process) || process.size() > 9) return false;
-    // In a container, each run may have the same process ID.
+    // Runs in containers may all have the same process ID.
     const int number = std::stoi(process);
     return number == getpid() || (kill(number, 0) != 0 && errno == ESRCH);
 }
@@ -149,19 +149,19 @@ void OutputPath::checkFree() const {
     checkReplaceable(path_, kind_);
 }
 
-/// False if the name is taken, perhaps since it was checked.
+/// Returns false if the name is already taken.
 bool OutputPath::renameToFreeName(const fs::path& name) const {
     if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE) == 0) {
         return true;
     }
     if (errno == EEXIST || fs::exists(fs::symlink_status(name))) return false;
-    fs::rename(temporary_, name);  // for file systems without this flag
+    fs::rename(temporary_, name);  // the file system does not support RENAME_NOREPLACE
     return true;
 }
 
 void OutputPath::commit() {
     flushToDisk(temporary_, path_);
-    std::string taken;  // by another program
+    std::string taken;  // why the path is not free
     try {
         checkFree();
         if (!overwrites_ && !renameToFreeName(path_))
@@ -185,7 +185,7 @@ void OutputPath::commit() {
     }
 }
 
-/// Renames the output into place. Returns the path that the replaced folder was moved to, if any.
+/// Renames the output into place. Returns the new path of the replaced folder; empty if none.
 fs::path OutputPath::replace() const {
     if (!fs::is_directory(temporary_) || !fs::is_directory(path_)) {
         std::error_code error;
@@ -194,7 +194,7 @@ fs::path OutputPath::replace() const {
             failAt(path_, "cannot be replaced: " + error.message() + "; choose another name");
         return {};
     }
-    // rename() does not replace a non-empty folder. An exchange is atomic.
+    // rename() cannot replace a non-empty folder, but an exchange is atomic.
     if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE) == 0) {
         return temporary_;
     }
@@ -233,7 +233,7 @@ std::vector<fs::path> partialOutputs(const fs::path& output) {
     if (output.empty()) return found;
     const fs::path path = withoutSlash(output);
     const bool is_folder = fs::is_directory(path);
-    // The names that keepPartial() chooses.
+    // Names chosen by keepPartial().
     const std::string stem = (is_folder ? path.filename() : path.stem()).string();
     const std::string extension = is_folder ? "" : path.extension().string();
     std::error_code unreadable;

@@ -8,11 +8,11 @@
 
 namespace hagen::base {
 
-/// The outputs of one run. If one fails, its error is kept and the others continue.
+/// The outputs of one run. If an output fails, its error is kept and the others continue.
 class OutputSet {
  public:
     void add(OutputPath& output) { add(output, output); }
-    /// Adds an object with a commit() that writes to `place`. Outputs must outlive the set.
+    /// Adds an object whose commit() completes the output at `place`. Outputs must outlive the set.
     template <class Output>
     void add(const OutputPath& place, Output& output) {
         members_.push_back({place.path(), [&output] { output.commit(); }});
@@ -38,7 +38,7 @@ class OutputSet {
         bool is_given_up = false;
     };
 
-    /// Error messages name the output, not its temporary file.
+    /// Replaces temporary file names in error messages with the output's name.
     void attempt(Member& member, const std::function<void()>& step);
 
     std::deque<Member> members_;

@@ -10,7 +10,7 @@ namespace hagen::base {
 std::chrono::nanoseconds threadCpuTime();
 double threadCpuTime_ms();
 
-/// CPU time of all threads of a process; nullopt if it does not exist.
+/// CPU time of all threads of a process; nullopt if the process does not exist.
 std::optional<std::chrono::nanoseconds> cpuTimeOf(pid_t process);
 
 /// Heap memory in use by this process [bytes].

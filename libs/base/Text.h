@@ -6,7 +6,7 @@
 
 namespace hagen::base {
 
-/// Joins the words of a container with a separator.
+/// Joins words with a separator.
 template <class Words>
 std::string joined(const Words& words, const std::string& separator = ", ") {
     std::string text;
@@ -14,7 +14,7 @@ std::string joined(const Words& words, const std::string& separator = ", ") {
     return text;
 }
 
-/// Splits a text at a separator. Parts may be empty; there is at least one.
+/// Splits a text at a separator. Returns at least one part; parts may be empty.
 inline std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
     std::istringstream stream(text + separator);  // keeps an empty last part
@@ -30,7 +30,7 @@ inline std::string lowerCase(std::string text) {
     return text;
 }
 
-/// Whether a text has this ending.
+/// True if the text has this ending.
 inline bool endsWith(const std::string& text, const std::string& ending) {
     return text.size() >= ending.size() &&
            text.compare(text.size() - ending.size(), ending.size(), ending) == 0;

@@ -5,7 +5,7 @@
 
 namespace hagen::base {
 
-/// A locale-independent std::ostringstream that throws std::bad_alloc if memory runs out, instead
+/// A locale-independent std::ostringstream that throws std::bad_alloc when memory runs out instead
 /// of truncating the text.
 class TextStream : public std::ostringstream {
  public:

@@ -8,8 +8,7 @@
 
 namespace hagen::base {
 
-/// Throws std::runtime_error: `file` cannot be written, with the reason of `error_number` (an
-/// errno).
+/// Throws std::runtime_error that names `file` and the reason (an errno) for a failed write.
 [[noreturn]] inline void throwWriteError(const std::filesystem::path& file, int error_number) {
     throw std::runtime_error(file.string() + ": cannot be written" +
                              (error_number == 0 ? "; is the disk full?"
@@ -31,7 +30,7 @@ inline std::ofstream openToWrite(const std::filesystem::path& place,
 inline void closeWritten(std::ofstream& out, const std::filesystem::path& file) {
     const bool is_whole = static_cast<bool>(out);
     out.clear();
-    // Repeats the failed write, because errno may have changed since.
+    // Write again, because errno may have changed since the failure.
     if (!is_whole) out << '\n';
     errno = 0;
     out.close();

@@ -22,8 +22,8 @@ void checkOptions(const Options& options, int beams) {
             std::visit([&](auto field) { return static_cast<double>(options.*field); }, key.field);
         if (!(value >= asOption(key.min, key) && value <= asOption(key.max, key))) {  // NaN too
             std::ostringstream message;
-            message << key.name << " is " << value << ", but must lie within " << key.min << " and "
-                    << key.max;
+            message << key.name << " is " << value << ", but must lie between " << key.min
+                    << " and " << key.max;
             throw std::invalid_argument(message.str());
         }
     }

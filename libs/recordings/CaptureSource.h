@@ -5,7 +5,7 @@
 
 namespace hagen::recordings {
 
-/// A capture of LiDAR packets as a source of scans: each turn of a sensor is an entry.
+/// A capture of LiDAR packets as a source of scans. Each turn of a sensor is an entry.
 class CaptureSource : public ScanSource {
  public:
     CaptureSource(const std::filesystem::path& capture, const SourceOptions& options);
@@ -16,13 +16,12 @@ class CaptureSource : public ScanSource {
     std::vector<std::string> remarks() const override;
 
  protected:
-    /// Captures contain no poses.
     LogPoses readPoses(const std::filesystem::path& file) override;
-    /// Packets identify their sensor.
+    /// Does nothing, because packets identify their sensor.
     bool showClouds(observations::CloudSensors&) override { return false; }
 
  private:
-    /// Reads the capture in advance, up to the point where it is truncated.
+    /// Reads the capture in advance, as far as it is readable.
     RawlogSurvey survey();
 
     std::filesystem::path file_;

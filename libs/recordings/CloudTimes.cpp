@@ -23,7 +23,7 @@ std::size_t digitsAtEnd(std::string_view text) {
     return digits;
 }
 
-/// The number in a name: one group of digits, or two groups separated by a mark.
+/// The number in a name: one group of digits, or two groups separated by a '.' or '_'.
 struct NameNumber {
     std::string_view whole, part;
     char mark = '\0';
@@ -56,7 +56,6 @@ NameNumber numberIn(std::string_view name) {
     return {first, number.whole, mark, first.size() == name.size()};
 }
 
-/// Combines both groups into one number.
 double valueOf(const NameNumber& number) {
     const double whole = base::numberFrom<double>(number.whole).value_or(-1.0);
     if (number.mark == '\0') return whole;
@@ -71,17 +70,17 @@ std::optional<double> timeIn(const NameNumber& number) {
     if (number.whole.empty()) return std::nullopt;
     const double value = valueOf(number);
     if (number.mark == '_') {
-        // If padded to fewer than nine digits, the second group is not nanoseconds.
+        // A padded second group with fewer than nine digits does not contain nanoseconds.
         const bool is_padded = number.part.size() > 1 && number.part[0] == '0';
         if (is_padded && number.part.size() < kDigitsOfNanoseconds) return std::nullopt;
         return value;
     }
     if (number.mark == '.') {
-        // "vlp16.000001" is the first cloud of a VLP-16.
+        // For example, "vlp16.000001" is the first cloud of a VLP-16.
         if (number.is_whole_name || areUnixSeconds(number.whole)) return value;
         return std::nullopt;
     }
-    if (number.whole[0] == '0') return std::nullopt;  // padded, unlike a current time
+    if (number.whole[0] == '0') return std::nullopt;  // padded numbers are not current times
     switch (number.whole.size()) {
         case kDigitsOfSeconds:
             return value;
@@ -108,7 +107,7 @@ std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return names[a] < names[b]; });
-    // A counter that reaches 13 digits does not become a time in milliseconds.
+    // If a counter reaches 13 digits, its numbers are still not times in milliseconds.
     const bool are_times = std::all_of(names.begin(), names.end(), [](const std::string& name) {
         return timeIn(numberIn(name)).has_value();
     });

@@ -7,7 +7,7 @@
 
 namespace hagen::recordings {
 
-/// Cloud files as a source of scans: each file is an entry.
+/// Cloud files as a source of scans. Each file is an entry.
 class FileListSource : public ScanSource {
  public:
     std::optional<RecordedEntry> nextEntry() override;
@@ -20,9 +20,9 @@ class FileListSource : public ScanSource {
     FileListSource(const SourceOptions& options, const char* sensor_label)
         : ScanSource(options), label_(sensor_label) {}
 
-    /// Reads the cloud of a file, also in advance. Throws BrokenRecording naming the file.
+    /// Reads the cloud of a file; may be called in advance. Throws BrokenRecording naming the file.
     virtual Cloud read(std::size_t file) = 0;
-    /// Called for each entry with the cloud read last. Returns the entry's object.
+    /// Called for each entry with its cloud. Returns the entry's object.
     virtual mrpt::serialization::CSerializable::Ptr take(const Cloud& cloud) = 0;
     bool showClouds(observations::CloudSensors& sensors) override;
 
@@ -31,7 +31,7 @@ class FileListSource : public ScanSource {
     }
 
     const char* const label_;
-    std::vector<std::string> names_;  ///< scan names, one per file
+    std::vector<std::string> names_;
     std::vector<double> times_s_;
 
  private:

@@ -19,7 +19,7 @@ constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // written by sprea
     throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + why);
 }
 
-/// Removes the next word from a line; empty at the end.
+/// Removes the first word from a line and returns it; empty at the end.
 std::string_view takeWord(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(kSpaces), line.size()));
     const std::string_view word = line.substr(0, line.find_first_of(kSpaces));

@@ -20,7 +20,7 @@ using mrpt::poses::CPose3D;
 
 const std::string kTumColumns = "time x y z qx qy qz qw";
 const std::string kKittiColumns = "a 3x4 matrix, row by row";
-constexpr double kRotationTolerance = 1e-3;  // files have at least six digits
+constexpr double kRotationTolerance = 1e-3;  // files have six digits or more
 
 [[noreturn]] void failPose(const fs::path& file, const NumberLine& line, const std::string& why) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line.line) + ": " + why);
@@ -32,7 +32,7 @@ CPose3D poseOfMatrix(const fs::path& file, const NumberLine& line) {
     for (int i = 0; i < 12; ++i) matrix(i / 4, i % 4) = line.numbers[i];
     const auto rotation = matrix.asEigen().topLeftCorner<3, 3>();
     const double skew = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
-    if (!(skew <= kRotationTolerance) || !(rotation.determinant() > 0)) {  // also true for NaN
+    if (!(skew <= kRotationTolerance) || !(rotation.determinant() > 0)) {  // true for NaN
         failPose(file, line, "the matrix is not a rigid transformation");
     }
     return CPose3D(matrix);

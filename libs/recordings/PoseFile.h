@@ -6,14 +6,14 @@
 
 namespace hagen::recordings {
 
-/// Text files with one pose per line. Functions skip empty lines and lines that start with '#', and
-/// throw std::runtime_error naming file and line.
+/// Formats of text files with one pose per line. The functions below skip empty lines and lines
+/// that start with '#', and throw std::runtime_error naming file and line.
 enum class PoseFileKind {
-    Tum,   ///< time [s], x y z [m], quaternion x y z w: vehicle pose in the map at that time
-    Kitti  ///< 3x4 matrix, row-major: sensor pose at scan n in the sensor frame of scan 0
+    Tum,   ///< time [s], x y z [m], quaternion x y z w: vehicle pose in the map
+    Kitti  ///< 3x4 matrix, row-major: sensor pose at scan n, relative to scan 0
 };
 
-/// Detects the kind by the number of columns in the first line: 8 or 12.
+/// Detects the format by the number of columns in the first line: 8 or 12.
 PoseFileKind kindOfPoseFile(const std::filesystem::path& file);
 
 struct TimedPose {
@@ -24,12 +24,12 @@ std::vector<TimedPose> readTumPoses(const std::filesystem::path& file);
 void writeTumPoses(const std::filesystem::path& file, const std::vector<TimedPose>& poses);
 
 std::vector<mrpt::poses::CPose3D> readKittiPoses(const std::filesystem::path& file);
-/// Writes sensor poses, given in any map frame, relative to the first pose.
+/// Writes sensor poses relative to the first pose. They may be given in any map frame.
 void writeKittiPoses(const std::filesystem::path& file,
                      const std::vector<mrpt::poses::CPose3D>& sensor_poses);
 
-/// Reads the `Tr:` matrix of a KITTI odometry calib.txt: the LiDAR pose in the camera frame. With
-/// such a file, poses.txt contains camera poses.
+/// Reads the `Tr:` matrix of a KITTI odometry calib.txt: the LiDAR pose in the camera frame. If
+/// this file exists, poses.txt contains camera poses.
 mrpt::poses::CPose3D readKittiCalibration(const std::filesystem::path& file);
 
 }  // namespace hagen::recordings

@@ -7,8 +7,8 @@
 
 namespace hagen::recordings {
 
-/// Converts a scan of a capture, a bag or a live sensor to an object of an output rawlog: packets
-/// unchanged, clouds in the requested class; null if no class is requested.
+/// Converts a scan of a capture, a bag or a live sensor to an object of an output rawlog. Packets
+/// stay unchanged; clouds get the requested class, or become null if no class is requested.
 mrpt::serialization::CSerializable::Ptr objectOf(
     const mrpt::obs::CObservation::Ptr& scan,
     const std::optional<observations::CloudClass>& cloud_class);

@@ -42,8 +42,8 @@ bool hasClouds(const fs::path& folder) {
     });
 }
 
-/// The first folder with scans inside a folder, up to two levels deep; empty if there is none.
-/// Skips folders without read permission.
+/// The first subfolder with scans, up to two levels deep; empty if there is none. Skips folders
+/// without read permission.
 fs::path scansWithin(const fs::path& folder, int depth = 2) {
     std::error_code unreadable;
     for (const fs::path& within : base::entriesOf(folder, unreadable)) {
@@ -56,7 +56,7 @@ fs::path scansWithin(const fs::path& folder, int depth = 2) {
     return {};
 }
 
-/// The reason why a folder is not a recording, and a hint what to pass instead.
+/// Why a folder is not a recording, with a hint on what to pass instead.
 std::string whyNoRecording(const fs::path& folder) {
     const std::vector<fs::path> recordings = recordingsIn(folder);
     if (!recordings.empty()) {
@@ -75,7 +75,7 @@ std::string whyNoRecording(const fs::path& folder) {
 
 RecordingKind kindOfFolder(const fs::path& folder) {
     const bool has_clouds = hasClouds(folder);
-    // A bag beside clouds is ignored, unless it has metadata.
+    // Ignore a bag beside clouds, unless it has metadata.
     if (isBag(folder) && (!has_clouds || fs::exists(folder / "metadata.yaml"))) {
         return RecordingKind::Bag;
     }

@@ -17,7 +17,7 @@ using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
 
-/// All fields of a cloud's returns.
+/// Converts a cloud's returns to a table with all of their fields.
 PointTable tableOfReturns(const mrpt::maps::CPointsMap& cloud) {
     if (const auto* const table = dynamic_cast<const observations::TableCloud*>(&cloud)) {
         return pointsOf(inNativeOrder(table->table()), table->pointOfReturn());

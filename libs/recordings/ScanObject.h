@@ -8,16 +8,16 @@
 
 namespace hagen::recordings {
 
-/// The observations of a rawlog entry: an observation or those of a sensory frame, without null
-/// objects; empty for any other entry.
+/// The observations of a rawlog entry: the entry itself, or the observations of a sensory frame
+/// without null objects; empty for other entries.
 std::vector<mrpt::obs::CObservation::Ptr> observationsOf(
     const mrpt::serialization::CSerializable::Ptr& entry);
 
-/// Removes the null objects from a sensory frame, which MRPT can read but not write. Returns their
+/// Removes null objects, which MRPT can read but not write, from a sensory frame. Returns their
 /// number.
 std::size_t takeOutNulls(const mrpt::serialization::CSerializable::Ptr& entry);
 
-/// Keeps clouds that were read as CGenericPointsMap in that class, so that all fields are written.
+/// Keeps the class of clouds read as CGenericPointsMap, so that all fields are written.
 void keepFields(const mrpt::serialization::CSerializable::Ptr& entry);
 
 }  // namespace hagen::recordings

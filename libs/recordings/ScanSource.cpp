@@ -109,7 +109,7 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
 
 namespace {
 
-/// Throws unless all options apply to this kind of recording.
+/// Throws std::runtime_error if an option does not apply to this kind of recording.
 void checkOptions(const std::string& recording, RecordingKind kind, const SourceOptions& options) {
     const bool is_capture = kind == RecordingKind::Capture, is_bag = kind == RecordingKind::Bag;
     if (!options.calibration.empty() && !is_capture) {

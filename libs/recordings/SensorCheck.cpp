@@ -9,11 +9,11 @@
 namespace hagen::recordings {
 namespace {
 
-// Real motion-compensated turns have a fit of 76 to 88 % with their own 16 beams, and of 31 to 44 %
+// The fit of real motion-compensated turns is 76 to 88 % with their own 16 beams, and 31 to 44 %
 // with another sensor's.
 constexpr float kRemarkBelow = 0.75f;
 constexpr float kErrorBelow = 0.5f;
-// At least 0.92 on real scans of 16 and 64 beams, 0.29 to 0.37 if 16 beams are taken for 64.
+// Real scans of 16 and 64 beams have at least 0.92; 16 beams taken for 64 have 0.29 to 0.37.
 constexpr float kFilledBelow = 0.5f;
 
 }  // namespace

@@ -3,23 +3,23 @@
 
 namespace hagen::recordings {
 
-// The sources of openRecording(). See CaptureSource.h for captures.
+// The sources of openRecording(), except captures (CaptureSource.h).
 
-/// Each object of the rawlog is an entry; a sensory frame may contain several scans.
+/// Opens a rawlog. Each object is an entry; a sensory frame may contain several scans.
 std::unique_ptr<ScanSource> openRawlog(const std::filesystem::path& rawlog,
                                        const SourceOptions& options);
 
-/// Each scan is an entry. The bag is read in advance once for poses, frames and metadata, which may
-/// come after the first scan.
+/// Opens a bag. Each scan is an entry. Reads the bag once in advance for poses, frames and
+/// metadata, which may be stored after the first scan.
 std::unique_ptr<ScanSource> openBagScans(const std::filesystem::path& bag,
                                          const SourceOptions& options);
 
-/// Each scan is an entry.
+/// Opens a scan folder. Each scan is an entry.
 std::unique_ptr<ScanSource> openScanFolder(const std::filesystem::path& folder,
                                            const SourceOptions& options);
 
-/// Each file is an entry, in the order of the names. Times are derived from the names
-/// (CloudTimes.h).
+/// Opens a cloud file or a folder of them. Each file is an entry, in the order of names. Times are
+/// derived from names (CloudTimes.h).
 std::unique_ptr<ScanSource> openClouds(const std::filesystem::path& file_or_folder,
                                        const SourceOptions& options);
 

@@ -7,11 +7,11 @@
 namespace hagen {
 namespace {
 
-/// Slack for models whose beams do not start at the origin: ranges differ from the coordinates'
-/// norm.
+/// Tolerance for sensors whose beams do not start at the origin: their ranges differ from the norms
+/// of the coordinates.
 constexpr float kMaxOffset_m = 0.25f;
 
-/// Returns beyond this range are not from the airframe.
+/// The range beyond which no return belongs to the airframe.
 float reachOf(const Airframe& airframe) {
     float reach_m = 0;
     for (const AirframeBox& box : airframe.boxes) {
@@ -71,7 +71,7 @@ std::size_t maskAirframe(const Airframe& airframe, Scan& scan) {
         if (end == begin + kBlock && isBlockFarther(&scan.range_m[begin], reach_m)) continue;
         for (std::size_t i = begin; i < end; ++i) {
             float& range_m = scan.range_m[i];
-            if (!(range_m > 0 && range_m <= reach_m)) continue;  // also without a range
+            if (!(range_m > 0 && range_m <= reach_m)) continue;  // also skips NaN
             if (!contains(airframe, {scan.x_m[i], scan.y_m[i], scan.z_m[i]}, range_m)) continue;
             range_m = kNoValue;
             ++masked;

@@ -17,7 +17,7 @@ float ranked(const std::vector<float>& ascending, double share) {
     return ascending[static_cast<std::size_t>(share * static_cast<double>(ascending.size() - 1))];
 }
 
-/// A bin's share of the sphere.
+/// The share of the sphere that a bin covers.
 double solidShareOf(int row, int rows) {
     const double step_rad = kPi / rows, low_rad = -0.5 * kPi + row * step_rad;
     return (std::sin(low_rad + step_rad) - std::sin(low_rad)) / (4.0 * rows);
@@ -52,7 +52,7 @@ LearnedAirframe AirframeLearner::learn() const {
     const auto nearOf = [&](int row, int column) -> const std::vector<NearReturn>& {
         return near_[static_cast<std::size_t>(column * rows + row)];
     };
-    /// The number of scans with near returns up to this range; returns are ordered by scan.
+    /// Number of scans with near returns up to this range; returns are ordered by scan.
     const auto scansWithin = [](const std::vector<NearReturn>& returns, float range_m) {
         int scans = 0, last = -1;
         for (const NearReturn& near : returns) {

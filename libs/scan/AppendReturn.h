@@ -4,8 +4,8 @@
 
 namespace hagen {
 
-/// Appends return `i` of a scan to another: coordinates, intensity, range, azimuth and row, which
-/// `from` must all have. Inline because it is called for each return.
+/// Appends return `i` of a scan to another: coordinates, intensity, range, azimuth and row. `from`
+/// must have all of these arrays. Inline because it is called for each return.
 inline void appendReturn(const Scan& from, std::size_t i, Scan& to) {
     to.x_m.push_back(from.x_m[i]);
     to.y_m.push_back(from.y_m[i]);

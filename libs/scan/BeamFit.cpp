@@ -23,7 +23,7 @@ float filledOf(const std::vector<bool>& has_return, std::size_t rows, std::size_
     return static_cast<float>(filled[3 * (rows - 1) / 4]) / static_cast<float>(columns);
 }
 
-/// The number of shown beams that match a beam of the sensor, one to one. Both lists are ascending.
+/// Number of the cloud's beams that match a sensor beam, one to one. Both lists are ascending.
 std::size_t countCommon(const std::vector<float>& shown_rad, const std::vector<float>& beams_rad) {
     std::size_t common = 0, beam = 0;
     for (const float shown : shown_rad) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kSameBeam_rad = static_cast<float>(radians(1));
 
-/// True if both may be the same sensor, allowing for small differences in calibration.
+/// True if both may belong to the same sensor, allowing for calibration differences.
 bool areAlike(const BeamSpan& a, const BeamSpan& b) {
     return a.rows == b.rows && std::abs(a.lowest_rad - b.lowest_rad) <= kSameBeam_rad &&
            std::abs(a.highest_rad - b.highest_rad) <= kSameBeam_rad;
@@ -43,9 +43,9 @@ bool havePlaces(const Scan& scan) {
     const float* const y_m = scan.y_m.data();
     const float* const z_m = scan.z_m.data();
     const float* const range_m = scan.range_m.data();
-    std::uint32_t misplaced = 0;  // no branch, for speed
+    std::uint32_t misplaced = 0;  // avoids branches, for speed
     for (std::size_t i = 0, size = scan.size(); i < size; ++i) {
-        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN if one is not finite
+        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN if any is not finite
         misplaced |= static_cast<std::uint32_t>(std::isnan(zero)) &
                      static_cast<std::uint32_t>(!std::isnan(range_m[i]));
     }

@@ -3,7 +3,7 @@
 
 namespace hagen {
 
-/// checkLocated() without the check of coordinates, which a range image does not need.
+/// Like checkLocated(), but does not check coordinates, which a range image does not need.
 void checkRows(const Scan& scan, const SensorModel& sensor);
 
 }  // namespace hagen

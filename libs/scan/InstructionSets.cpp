@@ -19,7 +19,7 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
-/// Names of the instruction sets that the loops were compiled for. A better set has a lower bit.
+/// Instruction sets that the loops were compiled for, as bits. A better set has a lower bit.
 std::vector<std::int64_t> compiledSets() {
     std::vector<std::int64_t> sets;
     for (std::int64_t rest = HWY_TARGETS; rest != 0; rest &= rest - 1) sets.push_back(rest & -rest);
@@ -30,7 +30,7 @@ std::string nameOf(std::int64_t set) { return lowerCase(hwy::TargetName(set)); }
 
 constexpr const char* kPlain = "plain";
 
-/// Plain C++: Highway chooses one of two names, depending on the compiler.
+/// True for plain C++, which Highway names differently depending on the compiler.
 bool isScalar(const std::string& name) { return name == "scalar" || name == "emu128"; }
 
 std::atomic<bool> uses_plain_stages = false;

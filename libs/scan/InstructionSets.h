@@ -5,19 +5,19 @@
 namespace hagen {
 
 /// The instruction sets of this machine that the vectorised loops can use, as names for HAGEN_SIMD,
-/// best first, such as "avx3" (AVX-512), "avx2", "sse4", "scalar". The last one is the
-/// architecture's baseline. Plain C++ is "scalar" or "emu128", depending on the compiler; both
-/// names are accepted.
+/// best first, such as "avx3" (AVX-512), "avx2", "sse4", "scalar". The last is the architecture's
+/// baseline. Plain C++ is called "scalar" or "emu128", depending on the compiler; both names are
+/// accepted.
 std::vector<std::string> instructionSets();
 
-/// Restricts the loops of all threads to this instruction set or a simpler one, for debugging and
-/// sanitizers. Results are bit-identical on all sets; only run times differ. Case-insensitive;
-/// empty: no limit. A known set that is better than this machine's has no effect. "plain" also runs
-/// the ground stages by their reference definition (libs/filter/ground), and all others with the
-/// simplest set. Throws std::invalid_argument listing the names for an unknown name.
+/// Limits all threads' loops to this instruction set or a simpler one, for debugging and
+/// sanitizers. Results are bit-identical on all sets; only run times differ. Case-insensitive; an
+/// empty name removes the limit. A known set that this machine lacks has no effect. "plain" uses
+/// the simplest set, and the reference definition (libs/filter/ground) of the ground stages. Throws
+/// std::invalid_argument listing the names if the name is unknown.
 ///
-/// The environment variable HAGEN_SIMD does the same when a program starts. An unknown name there
-/// has no effect except a warning on standard error.
+/// The environment variable HAGEN_SIMD sets the limit at program start. An unknown name there only
+/// prints a warning on standard error.
 void limitInstructionSets(const std::string& best);
 
 /// True if the last limit was "plain".

@@ -13,7 +13,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scan/RangeImage.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must follow foreach_target.h.
 #include <hwy/highway.h>
 
 #ifndef HAGEN_RANGE_IMAGE_RANGE_IMAGE_ONCE
@@ -21,32 +21,31 @@
 namespace hagen {
 namespace {
 
-/// Turns per radian of azimuth.
+/// Converts an azimuth in radians to turns.
 constexpr float kTurnsPerRadian = static_cast<float>(0.5 / kPi);
 
-/// The number of returns projected at a time.
+/// Number of returns projected at a time.
 constexpr std::size_t kTogether = 128;
 
-/// The size of the image, and the range limits.
 struct Projection {
-    int rows, columns;  ///< columns of the whole turn
+    int rows, columns;  ///< number of columns of the whole turn
     float min_m, max_m;
-    const std::int32_t* to_image;  ///< image column of each column of the turn; null: the same
+    const std::int32_t* to_image;  ///< maps columns of the turn to the image; null: identity
 };
 
-/// Returns of a scan, and the output for their pixels.
+/// Arrays of a scan's returns, and their pixels (output).
 struct Returns {
     const float *range_m, *azimuth_rad;
     const std::uint8_t* row;
     std::int32_t* depth_mapper;
 };
 
-/// Packs a return into one number: the bits of its range above those of its index, read as a
-/// double. Such numbers sort like their bits: the minimum is the closest return, or the first of
-/// equally close returns. (A minimum of doubles avoids an unpredictable branch.)
+/// A return packed into one number: the bits of its range above those of its index, read as a
+/// double. The minimum of two is the closer return, or the first if equally close. (A minimum of
+/// doubles avoids an unpredictable branch.)
 using RangeAndIndex = double;
 
-/// No return, in both halves: as a double, greater than the number of any return.
+/// Range and index bits of an empty pixel. Read as a double, greater than any return.
 constexpr std::int32_t kNoValueBits = 0x7fc00000;
 
 /// A batch of projected returns, for keepClosest().
@@ -64,7 +63,7 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// nearestColumn() for a vector of azimuths.
+/// nearestColumn() of a vector of azimuths.
 template <class V>
 auto nearestColumns(V azimuth_rad, int columns) {
     const hn::DFromV<V> d;
@@ -76,7 +75,7 @@ auto nearestColumns(V azimuth_rad, int columns) {
     auto column = hn::ConvertTo(d_int, columns_before);
     column = hn::Add(column, hn::IfThenElseZero(hn::Lt(column, zero), turn_columns));
     column = hn::Sub(column, hn::IfThenElseZero(hn::Gt(column, last), turn_columns));
-    return hn::Min(hn::Max(column, zero), last);  // clamped to the image for any azimuth
+    return hn::Min(hn::Max(column, zero), last);  // within the image even for NaN
 }
 
 void projectTogether(Projection to, Returns returns, std::int32_t first_index,
@@ -140,7 +139,7 @@ void split(const RangeAndIndex* closest, std::size_t pixels, float* depth_m,
     }
 }
 
-/// Projects a scan, `kTogether` returns at a time.
+/// Projects a scan in batches of `kTogether` returns.
 void projectReturns(const Scan& scan, const Projection& to, std::int32_t* depth_mapper,
                     RangeAndIndex* closest) {
     Projected projected;
@@ -153,7 +152,7 @@ void projectReturns(const Scan& scan, const Projection& to, std::int32_t* depth_
          static_cast<std::int32_t>(first), projected);
         keepClosest(projected, kTogether, closest);
     }
-    // The last few, padded.
+    // The last batch is padded.
     const std::size_t rest = scan.size() - first;
     float range_m[kTogether] = {}, azimuth_rad[kTogether] = {};
     std::uint8_t row[kTogether] = {};
@@ -167,8 +166,8 @@ void projectReturns(const Scan& scan, const Projection& to, std::int32_t* depth_
     std::copy_n(pixel, rest, depth_mapper + first);
 }
 
-// Fast because it computes pixels for a vector of returns at a time, and finds the closest returns
-// without branches.
+// Computes the pixels of a vector of returns at a time and finds the closest returns without
+// branches.
 void project(const Scan& scan, const SensorModel& sensor, const Projection& to, int image_columns,
              RangeImage& image, ProjectionWorkspace& work) {
     checkRows(scan, sensor);

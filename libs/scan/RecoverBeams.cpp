@@ -10,18 +10,18 @@
 namespace hagen {
 namespace {
 
-constexpr float kFarthest_m = 1000.0f;  // of any sensor, and the maximum of the settings
+constexpr float kFarthest_m = 1000.0f;  // max. range in settings; exceeds all sensors
 constexpr int kMaxBeams = 256;
 constexpr double kMinShare = 0.85;
 
-// Densities of elevations are smoothed histograms with this bin width.
+// Bin width of the histograms of elevations.
 constexpr double kBin_deg = 0.01;
 constexpr int kBins = 18001;
 
-/// Elevations and azimuths of the returns with a range, degrees.
+/// Directions of the returns with a range, in degrees.
 struct Directions {
     std::vector<double> elevation_deg, azimuth_deg;
-    std::vector<std::size_t> index;  ///< in the scan
+    std::vector<std::size_t> index;
     std::size_t size() const { return elevation_deg.size(); }
 };
 
@@ -45,7 +45,7 @@ Directions directionsOf(const Scan& scan) {
 
 int binOf(double elevation_deg) { return static_cast<int>((elevation_deg + 90.0) / kBin_deg); }
 
-/// The number of returns within `half` bins on either side, for each bin.
+/// Number of returns within `half` bins on either side, for each bin.
 std::vector<int> countsWithin(const std::vector<int>& histogram, int half) {
     std::vector<int> counts(kBins, 0);
     int sum = 0;
@@ -62,7 +62,7 @@ bool standsOut(int peak, int valley) {
     return valley < 0.5 * peak && peak - valley > 4.0 * std::sqrt(static_cast<double>(peak));
 }
 
-/// The bins of peaks that stand out from the valleys on both sides, ascending.
+/// The bins of significant peaks, ascending.
 std::vector<int> peaksOf(const std::vector<int>& counts) {
     std::vector<int> peaks;
     int top = 0, valley = 0;  // the highest bin since the last valley, and the lowest since the top
@@ -88,9 +88,9 @@ std::vector<int> peaksOf(const std::vector<int>& counts) {
     return peaks;
 }
 
-// Beams from peaks.
+// Finding beams from peaks.
 
-/// The reach of each beam: a return within it lies on the beam.
+/// Half-widths of the beams. Returns within the half-width lie on the beam.
 std::vector<double> reachesOf(const std::vector<double>& beams_deg) {
     std::vector<double> reaches_deg(beams_deg.size(), 0.25);
     for (std::size_t beam = 1; beam < beams_deg.size(); ++beam) {
@@ -101,7 +101,7 @@ std::vector<double> reachesOf(const std::vector<double>& beams_deg) {
     return reaches_deg;
 }
 
-/// The returns on each beam, as ranges of ranks among the ascending elevations.
+/// The returns on each beam, as index ranges in the ascending elevations.
 struct Ranks {
     std::ptrdiff_t from, to;
 };
@@ -135,7 +135,7 @@ struct Beams {
     double share = 0;
 };
 
-/// The beams with the highest share, if any.
+/// Returns the beams with the highest share; no beams if none were found.
 Beams bestBeams(const std::vector<double>& ascending_deg) {
     std::vector<int> histogram(kBins, 0);
     for (const double elevation_deg : ascending_deg) ++histogram[binOf(elevation_deg)];
@@ -147,19 +147,20 @@ Beams bestBeams(const std::vector<double>& ascending_deg) {
         }
         const std::size_t count = beams.elevations_deg.size();
         if (count < 2 || count > kMaxBeams) continue;
-        // The peak of a narrow beam is as wide as the bandwidth; the beam may be anywhere within.
+        // The peak of a narrow beam is as wide as the bandwidth, and the beam may be off its
+        // centre.
         centre(std::vector<double>(count, (half + 0.5) * kBin_deg), ascending_deg,
                beams.elevations_deg);
         centre(reachesOf(beams.elevations_deg), ascending_deg, beams.elevations_deg);
         beams.share = shareOn(beams.elevations_deg, ascending_deg);
-        // Narrower bandwidths split single beams, so they must be clearly better.
+        // Narrower bandwidths may split a beam, so they must be clearly better.
         if (beams.share > best.share + 0.005) best = std::move(beams);
     }
     return best;
 }
 
-/// The known model that has all of these beams, if they are at least five, 30 % of the model's
-/// beams, and three quarters of those between the lowest and the highest found.
+/// Returns the known model that has all of these beams, if there are at least five, 30 % of the
+/// model's beams, and three quarters of those between the lowest and the highest found.
 std::optional<SensorModel> modelWith(const std::vector<double>& beams_deg) {
     const int beams = static_cast<int>(beams_deg.size());
     std::optional<SensorModel> model;
@@ -191,7 +192,7 @@ SensorModel sensorOf(const std::vector<double>& beams_deg) {
     return sensor;
 }
 
-/// The number of firings per revolution: neighbouring returns of a beam are one firing apart.
+/// Number of firings per revolution, from the azimuth steps between neighbouring returns.
 int firingsOn(const std::vector<double>& beams_deg, const Directions& directions) {
     std::vector<std::vector<double>> azimuths_deg(beams_deg.size());
     for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -211,7 +212,7 @@ int firingsOn(const std::vector<double>& beams_deg, const Directions& directions
     std::vector<double> steps_deg;
     for (std::size_t i = 1; i < max.size(); ++i) {
         const double step_deg = max[i] - max[i - 1];
-        if (step_deg > 0.02) steps_deg.push_back(step_deg);  // excludes dual returns of a firing
+        if (step_deg > 0.02) steps_deg.push_back(step_deg);  // excludes dual returns
     }
     if (steps_deg.empty()) return 0;
     const auto third = steps_deg.begin() + static_cast<std::ptrdiff_t>(steps_deg.size() / 3);
@@ -234,7 +235,7 @@ RecoveredBeams withBeams(const std::vector<double>& beams_deg, const Directions&
 
 // Virtual rows.
 
-/// The width of all 5-degree sectors with returns.
+/// Total width of the 5-degree sectors with returns.
 double seenAzimuth(const Directions& directions) {
     std::array<bool, 73> has_returns{};
     for (const double azimuth_deg : directions.azimuth_deg) {
@@ -244,13 +245,13 @@ double seenAzimuth(const Directions& directions) {
         360.0, 5.0 * static_cast<double>(std::count(has_returns.begin(), has_returns.end(), true)));
 }
 
-/// The elevations that virtual rows cover.
+/// The elevations covered by virtual rows.
 struct Span {
     double lowest_deg, size_deg;
 };
 
-/// The share of pixels with returns, between the lowest and the highest return of each column. Long
-/// gaps do not count: they are sky between objects.
+/// The share of pixels with returns, between the lowest and the highest return of each column.
+/// Ignores long gaps, which are sky between objects.
 double filledShare(const Directions& directions, const Span& span, int rows, int columns) {
     constexpr int kMaxGap = 4;
     std::vector<bool> has_return(static_cast<std::size_t>(rows) * columns);
@@ -264,7 +265,7 @@ double filledShare(const Directions& directions, const Span& span, int rows, int
     }
     long filled = 0, gaps = 0;
     for (int column = 0; column < columns; ++column) {
-        int last_row = rows;  // the last row with a return; none yet
+        int last_row = rows;  // last row with a return; `rows` if none yet
         for (int row = 0; row < rows; ++row) {
             if (!has_return[static_cast<std::size_t>(column) * rows + row]) continue;
             ++filled;
@@ -327,7 +328,7 @@ OnRings elevationsOnRings(const Directions& directions, const std::vector<std::i
     return on_rings;
 }
 
-/// The number of returns that are closest to their own beam; beams are ascending.
+/// Number of returns that are closer to their own beam than to others; beams are ascending.
 std::size_t closestToOwn(const std::vector<double>& beams_deg,
                          const std::vector<const std::vector<double>*>& elevations_deg) {
     std::ptrdiff_t closest = 0;

@@ -14,7 +14,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scan/Scan.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must follow foreach_target.h.
 #include <hwy/highway.h>
 
 #ifndef HAGEN_RANGE_IMAGE_SCAN_ONCE
@@ -23,9 +23,9 @@ namespace hagen {
 namespace {
 
 /// Finds the row of the closest beam from the sine of the elevation, z / range, which avoids an arc
-/// sine. Sines increase with their angles, so the row is the number of lower midpoints between
-/// neighbouring beams. A table over the sine counts all midpoints except those within the same bin:
-/// usually 0, and at most 1 even for a 64-beam sensor.
+/// sine. The row is the number of midpoints between neighbouring beams below the sine. A table over
+/// the sine counts the midpoints in lower bins; the midpoints in the same bin (usually none, at
+/// most 1 even for 64 beams) are compared.
 struct RowTable {
     static constexpr int kBins = 1024;
     static constexpr float kBinsPerSine = kBins / 2;
@@ -52,17 +52,17 @@ struct RowTable {
         }
     }
 
-    /// The same arithmetic as in rowOf() below.
+    /// Uses the same arithmetic as rowOf() below.
     static int binOf(float sine) {
         return static_cast<int>(std::min((sine + 1.0f) * kBinsPerSine, kBins - 1.0f));
     }
 
-    std::array<float, 256> midpoint_sine;  ///< entry r: between rows r and r + 1; else infinite
+    std::array<float, 256> midpoint_sine;  ///< between rows r and r + 1; infinite if unused
     std::array<std::int32_t, kBins> lowest_row;
     int max_midpoints_in_bin = 0;
 };
 
-/// The points, and the output for their beams.
+/// Arrays of points, and their ranges, azimuths and rows (output).
 struct Beams {
     const float *x_m, *y_m, *z_m;
     float *range_m, *azimuth_rad;
@@ -92,7 +92,7 @@ V arcTangent(V ratio) {
     return hn::Mul(sum, ratio);
 }
 
-/// atan2(y, x), within 5e-7; treats zeros and signs as std::atan2 does.
+/// atan2(y, x), within 5e-7; treats zeros and signs like std::atan2.
 template <class V>
 V azimuthOf(V x, V y) {
     const hn::DFromV<V> d;
@@ -102,7 +102,7 @@ V azimuthOf(V x, V y) {
     V angle = arcTangent(ratio);
     angle =
         hn::IfThenElse(hn::Gt(across, along), hn::Sub(hn::Set(d, 1.57079632679f), angle), angle);
-    const hn::RebindToSigned<decltype(d)> d_int;  // also handles the sign of zeros
+    const hn::RebindToSigned<decltype(d)> d_int;  // sign bits, also of zeros
     const auto is_behind = hn::RebindMask(d, hn::Lt(hn::BitCast(d_int, x), hn::Zero(d_int)));
     angle = hn::IfThenElse(is_behind, hn::Sub(hn::Set(d, 3.14159265359f), angle), angle);
     return hn::CopySignToAbs(angle, y);
@@ -155,7 +155,7 @@ void locateAll(const RowTable& table, Beams beams, std::size_t count) {
                       beams.azimuth_rad + i, beams.row + i});
     }
     if (i == count) return;
-    float x_m[kMax] = {}, y_m[kMax] = {}, z_m[kMax] = {};  // the last few, padded
+    float x_m[kMax] = {}, y_m[kMax] = {}, z_m[kMax] = {};  // the last vector is padded
     float range_m[kMax], azimuth_rad[kMax];
     std::uint8_t row[kMax];
     std::copy(beams.x_m + i, beams.x_m + count, x_m);
@@ -196,8 +196,8 @@ void Scan::reserve(std::size_t returns) {
     row.reserve(returns);
 }
 
-// Fast because it processes a vector of points at a time: rows need no angle (RowTable), and
-// azimuths are polynomials.
+// Processes a vector of points at a time: rows need no angle (RowTable), and azimuths are
+// polynomials.
 void locateBeams(const SensorModel& sensor, Scan& scan) {
     scan.range_m.resize(scan.size());
     scan.azimuth_rad.resize(scan.size());

@@ -7,7 +7,7 @@
 namespace hagen {
 namespace {
 
-/// `count` elevations from `lowest_deg` upwards, `step_deg` apart.
+/// `count` evenly spaced elevations from `lowest_deg` upwards.
 std::vector<double> evenly(int count, double lowest_deg, double step_deg) {
     std::vector<double> elevations_deg(count);
     for (int beam = 0; beam < count; ++beam) elevations_deg[beam] = lowest_deg + beam * step_deg;

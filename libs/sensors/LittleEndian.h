@@ -4,7 +4,7 @@
 
 namespace hagen::sensors {
 
-/// Reads a little-endian number at any address.
+/// Reads a little-endian number at an arbitrary address.
 template <class Number>
 Number little(const std::uint8_t* at) {
     Number value = 0;

@@ -7,8 +7,8 @@
 
 namespace hagen::sensors {
 
-/// The 64-bit keys of the packets of the last 0.3 s, to detect duplicates, such as from a second
-/// network path. Packets of a recording played again are not duplicates.
+/// Detects duplicate packets, such as from a second network path, by the 64-bit keys of the packets
+/// of the last 0.3 s. Packets of a repeated recording are not duplicates.
 class RecentPackets {
  public:
     RecentPackets() : places_(kPlaces) {}
@@ -20,7 +20,7 @@ class RecentPackets {
         return false;
     }
 
-    /// Drops the oldest of the four packets in the same slot.
+    /// Replaces the oldest of the four packets in the slot.
     void add(std::uint64_t key, double now_s) {
         Place& place = places_[key % kPlaces];
         for (std::size_t i = place.size() - 1; i > 0; --i) place[i] = place[i - 1];
@@ -29,7 +29,7 @@ class RecentPackets {
 
  private:
     static constexpr double kRemembered_s = 0.3;
-    static constexpr std::size_t kPlaces = 1021;  // prime, because keys may have a pattern
+    static constexpr std::size_t kPlaces = 1021;  // a prime, because keys may have a pattern
     struct Packet {
         std::uint64_t key = 0;
         double time_s = -std::numeric_limits<double>::infinity();

@@ -6,7 +6,7 @@
 
 namespace hagen::sensors {
 
-/// The sensors of a recording in order of appearance, at most 16; packets of further sensors are
+/// The sensors of a recording in order of appearance, at most 16; packets from more sensors are
 /// only counted. Labels are NAME, NAME_2 and so on.
 template <class Key, class Sensor>
 class SensorTable {
@@ -19,8 +19,8 @@ class SensorTable {
 
     explicit SensorTable(std::string name) : name_(std::move(name)) {}
 
-    /// The sensor with this key, created on its first packet; if there are too many, counts the
-    /// packet and returns null.
+    /// Returns the sensor with this key, and creates it on its first packet. If the table is full,
+    /// counts the packet and returns null.
     template <class Make>
     Sensor* find(const Key& key, Make make) {
         constexpr std::size_t kMaxSensors = 16;
@@ -37,7 +37,7 @@ class SensorTable {
     }
     std::list<Entry>& entries() { return entries_; }
     const std::list<Entry>& entries() const { return entries_; }
-    /// The number of packets from further sensors.
+    /// Number of packets from sensors beyond the maximum.
     std::size_t further() const { return further_; }
 
  private:

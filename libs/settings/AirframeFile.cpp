@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double kMinBin_deg = 0.5, kMaxBin_deg = 30, kMaxBinRange_m = 20;
 
-/// The index of the bin that starts at an angle.
+/// Parses an angle at which a bin starts; returns the index of the bin.
 int parseStart(const YAML::Node& node, const std::string& key, double min_deg, double bin_deg,
                int bins) {
     const auto start_deg = parseNumber<double>(node, key, min_deg, -min_deg);
@@ -42,7 +42,7 @@ Image<float> readAirframeBins(const fs::path& file) {
     const YAML::Node document = parseFile(file);
     if (!document.IsMap() || !document["bin_deg"] || !document["bins"]) {
         throw SettingsError(file.string() +
-                            ": not a learned airframe: bin_deg and bins are expected; "
+                            ": not a learned airframe: expected bin_deg and bins; "
                             "'rawlog-segment --learn-airframe' writes such files");
     }
     forEachKey(file, document, "", "", [&](const auto& key, const auto&, const auto& place) {
@@ -75,7 +75,7 @@ Image<float> readAirframeBins(const fs::path& file) {
 }
 
 std::string airframeBinsText(const Image<float>& bin_range_m, const std::string& origin) {
-    std::string comment = origin;  // file names may contain line breaks
+    std::string comment = origin;  // file names may contain control characters
     for (char& c : comment) {
         if (static_cast<unsigned char>(c) < 0x20) c = ' ';
     }

@@ -8,14 +8,14 @@ namespace hagen {
 /// Reads a file of learned bins into Airframe::bin_range_m:
 ///
 ///     bin_deg: 2               # [deg] divides 180; 0.5 ... 30
-///     bins:                    # azimuth and elevation where a bin starts [deg], its range [m]
+///     bins:                    # azimuth and elevation of a bin's lower edges [deg], its range [m]
 ///     - [-180, -16, 0.531]
 ///
-/// A bin starts at a multiple of bin_deg; bins that are not in the file have range 0. Throws
+/// Bins start at multiples of bin_deg; bins missing from the file have range 0. Throws
 /// SettingsError naming the file, line, key and allowed values.
 Image<float> readAirframeBins(const std::filesystem::path& file);
 
-/// Returns the bins as the text of such a file. A comment names their `origin`.
+/// Returns the bins in this file format, with a comment that names their `origin`.
 std::string airframeBinsText(const Image<float>& bin_range_m, const std::string& origin);
 
 }  // namespace hagen

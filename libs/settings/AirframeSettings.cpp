@@ -17,7 +17,7 @@ const std::string kForms =
     "{box: {low_m: [x, y, z], high_m: [x, y, z]}}, {sphere: {centre_m: [x, y, z], radius_m: r}} or "
     "{learned: FILE.yaml}";
 
-/// The values of a map that has exactly these two keys.
+/// Returns the values of a map with exactly these two keys.
 std::pair<YAML::Node, YAML::Node> valuesOf(const YAML::Node& part, const std::string& name,
                                            const std::vector<std::string>& keys) {
     const std::string both = keys[0] + " and " + keys[1];
@@ -52,7 +52,7 @@ AirframeBox parseBox(const YAML::Node& node) {
     const AirframeBox box{parsePoint(low, "airframe.box.low_m"),
                           parsePoint(high, "airframe.box.high_m")};
     if (!(box.low_m.array() < box.high_m.array()).all()) {
-        throw SettingsError("each of airframe.box.low_m must be below that of high_m");
+        throw SettingsError("each value of airframe.box.low_m must be below that of high_m");
     }
     return box;
 }

@@ -20,8 +20,8 @@ namespace {
 
 const char* const kVariable = "HAGEN_CONFIG_PATH";
 
-/// The folder `../share/hagen/config` relative to the running program: for moved installations, and
-/// for builds, which link it to the sources' config/. Empty if the program's path is unknown.
+/// The folder `../share/hagen/config` relative to the running program, for relocated installations
+/// and for builds (which link it to config/). Empty if the program's path is unknown.
 fs::path folderOfProgram() {
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -29,7 +29,7 @@ fs::path folderOfProgram() {
     return program.parent_path().parent_path() / "share/hagen/config";
 }
 
-/// True if a name may be a preset's: it is not a path.
+/// True if a name has no folder, so that it may be a preset's name.
 bool isPlain(const fs::path& name) { return !name.has_parent_path() && !name.stem().empty(); }
 
 /// The name of a preset, without the file extension.
@@ -47,7 +47,6 @@ std::string searchedFolders() {
     return base::joined(folders);
 }
 
-/// The folders of addPresetFolder().
 struct AddedFolders {
     std::mutex mutex;
     std::vector<fs::path> folders;
@@ -92,7 +91,7 @@ std::vector<std::string> presetNames(const std::function<bool(const fs::path&)>&
         std::error_code error;
         for (const fs::path& file : base::entriesOf(folder, error)) {
             if (file.extension() != ".yaml" || !fs::is_regular_file(file, error)) continue;
-            // A file of the same name in an earlier folder takes precedence.
+            // Files in earlier folders take precedence over files of the same name.
             const std::string name = file.stem().string();
             if (seen.insert(name).second && isUsable(file)) names.insert(name);
         }
@@ -123,12 +122,12 @@ fs::path findPreset(const std::string& name) {
 fs::path presetFile(const std::string& name, const std::function<bool(const fs::path&)>& isUsable) {
     std::error_code error;
     const bool exists = fs::exists(name, error);
-    // A folder with the name of a preset is not a settings file.
+    // Prefer a preset to a folder of the same name.
     if (exists && !fs::is_directory(name, error)) return name;
     if (const fs::path preset = findPreset(name); !preset.empty()) return preset;
     if (exists) return name;
     const std::string preset = presetName(fs::path(name).filename());
-    if (!findPreset(preset).empty()) {  // a path from a guide, used in another folder
+    if (!findPreset(preset).empty()) {  // probably a path from a guide
         throw SettingsError(name + ": no such file; the preset's name is '" + preset + "'");
     }
     if (!isPlain(name)) throw SettingsError(name + ": no such file");

@@ -21,7 +21,7 @@ namespace hagen {
 namespace {
 
 namespace fs = std::filesystem;
-// Limits of settings files, which may come with an untrusted recording.
+// Limits of settings files, which may come from untrusted recordings.
 constexpr int kMaxIncludeDepth = 8, kMaxIncludes = 32;
 constexpr std::size_t kMaxFileBytes = 1 << 20;
 
@@ -53,7 +53,7 @@ void parseOption(const OptionKey& key, const YAML::Node& node, Options& options)
     }
 }
 
-// The minimum in optionKeys().
+// Minimum values in optionKeys().
 constexpr int kMinColumns = 8, kMinWindow = 2;
 
 /// The keys of the section `sensor:`.
@@ -88,10 +88,10 @@ const OptionKey* findOption(const std::string& name) {
     return nullptr;
 }
 
-/// A key of earlier versions. The value 1 has no effect and is accepted for old files.
+/// A removed option. Its value 1 has no effect and is accepted for old files.
 constexpr const char* kRemovedKey = "window_scans";
 
-/// The message for an unknown or removed option.
+/// The error message for an unknown or removed option.
 std::string refusalOf(const std::string& key, const std::vector<std::string>& known) {
     if (key != kRemovedKey) return unknownKey(key, known);
     return "window_scans was removed: each scan is segmented alone, because windows of several "
@@ -100,7 +100,7 @@ std::string refusalOf(const std::string& key, const std::vector<std::string>& kn
 
 constexpr const char* kPaper = "paper";
 
-/// Sets an option and marks it as given. `seen`: the options that this file already gave.
+/// Sets an option and marks it as given. `seen`: options given so far in this file.
 void mergeOption(const fs::path& file, const OptionKey& key, const YAML::Node& value,
                  std::set<std::string>& seen, Settings& settings) {
     if (!seen.insert(key.name).second) {
@@ -116,7 +116,6 @@ void mergeOption(const fs::path& file, const OptionKey& key, const YAML::Node& v
     }
 }
 
-/// The section `paper:`.
 void parseReadings(const fs::path& file, const YAML::Node& section, std::set<std::string>& seen,
                    Settings& settings) {
     std::vector<std::string> known;
@@ -137,7 +136,7 @@ float parseAngle(const YAML::Node& node, const std::string& key, double max_deg)
     return static_cast<float>(radians(parseNumber<double>(node, key, -max_deg, max_deg)));
 }
 
-/// Throws std::invalid_argument for an unknown sensor name.
+/// Throws std::invalid_argument if the sensor name is unknown.
 void checkModel(const std::string& name) {
     try {
         hagen::sensorModel(name);
@@ -149,7 +148,7 @@ void checkModel(const std::string& name) {
 
 void parseSensor(const fs::path& file, const YAML::Node& section, Settings& settings) {
     Settings::Sensor& sensor = settings.sensor;
-    // A new model discards the settings of the previous sensor.
+    // A new model replaces all settings of the previous sensor.
     if (section.IsMap() && section["model"]) sensor = {};
     forEachKey(
         file, section, "sensor", "'model: VLP-16'",
@@ -195,7 +194,7 @@ void parseSensor(const fs::path& file, const YAML::Node& section, Settings& sett
     }
 }
 
-/// True if an option is adapted to a recovered sensor.
+/// True if the option is adapted when the sensor is recovered.
 bool isAdapted(const std::string& name, const Settings& settings) {
     if (settings.sensor.model || settings.given.count(name) > 0) return false;
     if (name != "columns" && name != "window_size" && name != "principal_components") return false;
@@ -203,7 +202,7 @@ bool isAdapted(const std::string& name, const Settings& settings) {
     return textOf(key, settings.options) == textOf(key, Options());
 }
 
-/// The number of files included so far, and the depth of the current one.
+/// Number of files included so far, and the current depth.
 struct Includes {
     SettingsOrigin origin;
     int depth = 0, files = 0;
@@ -260,7 +259,7 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
 void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
     const YAML::Node document = parseFile(file, kMaxFileBytes);
     settings.files.push_back(file);
-    if (document.IsNull()) return;  // empty or comments only: all defaults
+    if (document.IsNull()) return;  // empty, or only comments
     if (!document.IsMap()) {
         throw SettingsError(file.string() + ": not a settings file: expected 'key: value' lines");
     }
@@ -268,7 +267,7 @@ void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
 
     std::vector<std::string> known{"include", "sensor", "airframe", kPaper};
     for (const OptionKey& key : optionKeys()) known.push_back(key.name);
-    std::set<std::string> seen;  // options
+    std::set<std::string> seen;
     const auto read = [&](const std::string& name, const YAML::Node& value,
                           const std::string& place) {
         if (name == "include") return;
@@ -375,7 +374,7 @@ std::string dumpSettings(const Settings& settings) {
     const auto options = [&](const std::string& section, const std::string& indent) {
         for (const OptionKey& key : optionKeys()) {
             if (key.section != section) continue;
-            // An option given in a file is not adapted.
+            // Options given in a file are not adapted.
             const std::string comment = isAdapted(key.name, settings) ? "# " : "";
             line(indent + comment + key.name, textOf(key, settings.options),
                  {key.name, key.unit, "", "", key.what, key.symbol});

@@ -19,7 +19,7 @@ Json option(const OptionKey& key, const Options& options) {
     return is_word || is_infinite ? Json(text) : Json::parse(text);
 }
 
-/// With the digits of a settings file.
+/// A limit with as many digits as in settings files.
 Json limit(const std::optional<float>& value) {
     return value ? Json::parse(base::shortestText(*value)) : Json();
 }

@@ -5,9 +5,8 @@
 
 namespace hagen {
 
-/// Settings for the programs' reports: each option by its key, then the sensor's model, limits and
-/// mount, and the number of airframe parts. Infinity becomes the text ".inf", and unset values
-/// null.
+/// Settings for reports: each option by its key, then the sensor's model, limits and mount, and the
+/// number of airframe parts. Infinity becomes the text ".inf", and an unset value null.
 nlohmann::ordered_json jsonOf(const Settings& settings);
 
 }  // namespace hagen

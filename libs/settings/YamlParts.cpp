@@ -33,7 +33,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-/// A handler that ignores the content of a document.
+/// Ignores the content of a document.
 struct NoNodes : YAML::EventHandler {
     void OnDocumentStart(const YAML::Mark&) override {}
     void OnDocumentEnd() override {}
@@ -49,7 +49,7 @@ struct NoNodes : YAML::EventHandler {
     void OnMapEnd() override {}
 };
 
-/// True if a second document follows. YAML::LoadAll() never returns for a file such as ",".
+/// True if a second document follows. (YAML::LoadAll() hangs on a file such as ",".)
 bool hasSeveralDocuments(const std::string& text) {
     std::istringstream in(text);
     YAML::Parser parser(in);
@@ -86,7 +86,7 @@ YAML::Node parseFile(const fs::path& file, std::size_t max_bytes) {
                             ": not YAML: " + e.msg);
     } catch (const YAML::Exception&) {
         throw SettingsError(file.string() + ": cannot be read");
-    } catch (const std::runtime_error& e) {  // readText() names the file
+    } catch (const std::runtime_error& e) {
         throw SettingsError(e.what());
     }
 }

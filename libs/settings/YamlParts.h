@@ -14,7 +14,7 @@
 
 namespace hagen {
 
-/// The place of a value in a file, for messages.
+/// The location of a value in a file, for messages.
 std::string at(const std::filesystem::path& file, const YAML::Node& node);
 
 /// The known word most similar to `word`; `known` must not be empty.
@@ -23,8 +23,8 @@ std::string nearestOf(const std::string& word, const std::vector<std::string>& k
 /// The message for an unknown key, with the most similar known key.
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known);
 
-/// Calls visit(key, value, place of the key for messages) for each entry of a map. Throws
-/// SettingsError if `map` is not a map (quoting `example`), or if a key occurs twice.
+/// Calls visit(key, value, location of the key for messages) for each entry of a map. Throws
+/// SettingsError if `map` is not a map (quoting `example`) or if a key occurs twice.
 template <class Visit>
 void forEachKey(const std::filesystem::path& file, const YAML::Node& map,
                 const std::string& section, const std::string& example, Visit visit) {
@@ -47,18 +47,18 @@ void forEachKey(const std::filesystem::path& file, const YAML::Node& map,
 YAML::Node parseFile(const std::filesystem::path& file,
                      std::size_t max_bytes = base::kMaxTextBytes);
 
-/// Reads a number within [least, most]; otherwise throws SettingsError with the allowed range.
+/// Reads a number within [min, max]. Throws SettingsError with the allowed range otherwise.
 template <class Number>
 Number parseNumber(const YAML::Node& node, const std::string& key, double min, double max) {
-    // Integers are also read as real numbers, because YAML parses 010 as octal.
+    // Parses integers as real numbers, because YAML reads 010 as octal.
     double value = 0;
     const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
     if (!is_number || (std::is_integral_v<Number> && value != std::floor(value))) {
         throw SettingsError(key + " must be a " + (std::is_integral_v<Number> ? "whole " : "") +
                             "number" + (node.IsScalar() ? ", not '" + node.Scalar() + "'" : ""));
     }
-    if (!(value >= min && value <= max)) {  // also for NaN
-        throw SettingsError(key + " is " + node.Scalar() + ", but must lie within " +
+    if (!(value >= min && value <= max)) {  // true for NaN
+        throw SettingsError(key + " is " + node.Scalar() + ", but must lie between " +
                             base::shortestText(min) + " and " + base::shortestText(max));
     }
     return static_cast<Number>(value);

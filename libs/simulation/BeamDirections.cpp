@@ -7,9 +7,9 @@
 namespace hagen::simulation {
 namespace {
 
-/// A laser's direction within a firing: elevation, and rotation since the start of the firing.
+/// A laser's direction within a firing: its elevation, and the rotation since the firing started.
 struct LaserDirection {
-    float elevation_rad, sine, cosine;  ///< of the elevation
+    float elevation_rad, sine, cosine;
     float turn_sine, turn_cosine;
     float turn_rad;
     std::uint8_t row;
@@ -55,7 +55,6 @@ DirectionsOfFiring directionsOfRings(const SensorModel& sensor, const FiringPatt
     };
 }
 
-// Mid-360 pattern; see the header.
 constexpr double kMinElevation_rad = radians(-7), kSpan_rad = radians(59);
 const double kTurns_hz = 25 * (1 + std::sqrt(5.0)), kSweeps_hz = 10 * std::sqrt(2.0);
 

@@ -8,33 +8,33 @@
 
 namespace hagen::simulation {
 
-/// Where a laser points, in the sensor's frame.
+/// The direction of a laser in the sensor frame.
 struct BeamDirection {
     Eigen::Vector3f direction;
     float azimuth_rad;    ///< within +-pi
     float elevation_rad;  ///< above the sensor's xy plane
-    std::uint8_t row;     ///< of the nearest beam of the sensor model
+    std::uint8_t row;     ///< row of the nearest beam in the sensor model
 };
 
-/// Writes the directions of a firing's lasers, in firing order, to a vector of that size.
+/// Writes the directions of a firing's lasers, in firing order, to a vector of matching size.
 using DirectionsOfFiring =
     std::function<void(int firing, std::vector<BeamDirection>& directions_of_lasers)>;
 
-/// Returns the directions of the scan that begins `time_s` (>= 0) after the sensor's start.
+/// Returns the directions of the scan that begins `time_s` (>= 0) after the sensor started.
 ///
 /// A sensor with rings fires all beams in each firing, and every revolution is the same.
 ///
-/// A Mid-360 is simulated with our own pattern, because the real one is not published. It matches
-/// the published figures: four lines, 200 000 points per second, 360 degrees, elevations from -7 to
-/// 52 degrees, non-repeating. All four lines rotate clockwise together at 81 Hz. Each sweeps up and
-/// down a quarter of the elevations at constant speed (triangle wave) at 14.1 Hz. With t the time
-/// since the sensor's start, and l the line, 0 to 3:
+/// A Mid-360 is simulated with our own pattern, because the real pattern is not published. It
+/// matches the published figures: four lines, 200 000 points per second, 360 degrees, elevations
+/// from -7 to 52 degrees, non-repeating. All four lines rotate clockwise together at 81 Hz. Each
+/// line sweeps up and down a quarter of the elevations at constant speed (triangle wave) at 14.1
+/// Hz. For time t since the sensor started and line l (0 to 3):
 ///
 ///     azimuth   = 180 deg - 360 deg * frac(25 (1 + sqrt(5)) t / s)
 ///     elevation = -7 deg + 59 deg / 4 * (l + 1 - |2 frac(10 sqrt(2) t / s) - 1|)
 ///
-/// The ratio of both frequencies is irrational: the pattern does not repeat, and over time it is
-/// uniform in azimuth and elevation. A frame of 0.1 s covers 63 to 67 % of 1 x 1.5 degree cells,
+/// The ratio of both frequencies is irrational, so that the pattern does not repeat and, over time,
+/// is uniform in azimuth and elevation. A frame of 0.1 s covers 63 to 67 % of 1 x 1.5 degree cells,
 /// two frames 96 %, three 100 %.
 DirectionsOfFiring directionsOfScan(const SensorModel& sensor, const FiringPattern& pattern,
                                     double time_s);

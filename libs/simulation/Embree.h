@@ -10,9 +10,9 @@ struct ReleaseScene {
 };
 using ScenePtr = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
-/// Returns the process's device: one thread and one instruction set, so that a seed gives the same
-/// result on every machine. Errors throw std::runtime_error. Never released: that would make oneTBB
-/// start threads, and terminate the process if it cannot.
+/// Returns the device of this process: one thread and one instruction set, so that results for a
+/// seed are identical on all machines. Errors throw std::runtime_error. Never released, because
+/// oneTBB would start threads, and terminate the process on failure.
 RTCDevice embreeDevice();
 
 /// Attaches a geometry and transfers its ownership to the scene.

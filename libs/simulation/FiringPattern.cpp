@@ -18,7 +18,7 @@ FiringPattern firingPattern(const SensorModel& sensor) {
         throw std::invalid_argument("the sensor '" + sensor.name + "' cannot be simulated; " +
                                     "use VLP-16, HDL-32E, HDL-64E or Mid-360");
     }
-    // Lasers of the lower and of the upper half fire alternately.
+    // Lasers of the lower and the upper half alternate.
     for (std::uint8_t row = 0; row < rows / 2; ++row) {
         pattern.row_of_laser.push_back(row);
         pattern.row_of_laser.push_back(static_cast<std::uint8_t>(row + rows / 2));
@@ -29,10 +29,10 @@ FiringPattern firingPattern(const SensorModel& sensor) {
 SensorErrorModel sensorErrors(const SensorModel& sensor) {
     SensorErrorModel errors;
     if (sensor.name == "Mid-360") {
-        // 10 % of the returns are lost at 0.69 of the half range, which at 10 % reflectivity is
-        // 0.58 times that of a grey wall (30 %).
+        // 10 % of the returns are lost at 0.69 of the half range. At 10 % reflectivity, the half
+        // range is 0.58 times that of a grey wall (30 %).
         errors.half_range_m = 100;
-        errors.min_noise_m = 0.018;  // 2 cm at 10 m, including the increase by 10 %
+        errors.min_noise_m = 0.018;  // 2 cm at 10 m, where noise is 10 % higher
     }
     return errors;
 }

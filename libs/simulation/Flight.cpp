@@ -9,7 +9,7 @@ namespace {
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kMaxLateral_m_s2 = 0.68;  // a bank of 4 degrees
 constexpr double kWayStep_m = 0.25;
-constexpr double kLeanPerSpeed_rad = 0.008;  // pitch against drag, rad per m/s
+constexpr double kLeanPerSpeed_rad = 0.008;  // pitch due to drag, rad per m/s
 
 }  // namespace
 
@@ -34,7 +34,7 @@ std::vector<Flight::Sway> Flight::sways(double sd, double slowest_hz, double fas
                                         Random& random) {
     constexpr int kCount = 6;
     std::vector<Sway> made;
-    for (int i = 0; i < kCount; ++i) {  // a wave's variance is half its squared amplitude
+    for (int i = 0; i < kCount; ++i) {  // a sine's variance is half its squared amplitude
         const double hz = random.uniform(slowest_hz, fastest_hz);
         made.push_back({2 * kPi * hz, random.uniform(0, 2 * kPi), sd * std::sqrt(2.0 / kCount)});
     }
@@ -49,7 +49,7 @@ double Flight::valueOf(const std::vector<Sway>& sways, double time_s) {
     return value;
 }
 
-/// Returns the flown curvature: turns begin early and end late, without jerk.
+/// Returns the curvature as flown: smoothed, so that turns begin early and end late.
 double Flight::curvatureAt(double way_m) const {
     double curvature = 0;
     constexpr int kNear = 8;
@@ -71,7 +71,7 @@ double Flight::arcLengthAt(double time_s) const {
     const auto next = std::upper_bound(lap_s_.begin() + 1, lap_s_.end() - 1, rest_s);
     const double share = (rest_s - *(next - 1)) / (*next - *(next - 1));
     const double step = static_cast<double>(next - 1 - lap_s_.begin()) + share;
-    // The last step may extend beyond the lap's end; laps are stretched accordingly.
+    // The last step may end beyond the lap, so distances are scaled to the lap's length.
     return path_.length_m() * (laps + kWayStep_m * step / lap_m);
 }
 
@@ -80,7 +80,7 @@ SensorPose Flight::at(double time_s) const {
     const Eigen::Vector2d place = path_.at(way_m);
     const double heading = path_.heading_rad(way_m);
 
-    // The pilot follows the slope of the ground, not each bump, and never flies below it.
+    // Follows the average ground nearby, not single bumps, and stays well above its peaks.
     double ground_m = 0, highest_m = -1e9;
     for (int i = -3; i <= 3; ++i) {
         const Eigen::Vector2d near =

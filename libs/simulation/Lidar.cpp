@@ -14,10 +14,10 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kBlock = 8;  // firings whose rays are cast together
+constexpr int kBlock = 8;  // number of firings whose rays are cast together
 constexpr double kPoseStep_s = 0.005;
 
-/// Reflectivity of a surface, varying by 20 % between objects.
+/// Reflectivity of a surface; varies by 20 % between objects.
 float reflectivityOf(ObjectClass kind, std::uint16_t number) {
     static const std::array<float, 12> shares{0.0f,  0.25f, 0.4f, 0.35f, 0.35f, 0.25f,
                                               0.35f, 0.3f,  0.3f, 0.3f,  0.1f,  0.1f};
@@ -25,18 +25,18 @@ float reflectivityOf(ObjectClass kind, std::uint16_t number) {
     return shares[static_cast<std::size_t>(kind)] * (1.0f + 0.4f * variation);
 }
 
-/// True for surfaces wider than any beam: the range is measured at the footprint's centre.
+/// True for surfaces wider than a beam, where the range is measured at the footprint's centre.
 bool isLargeSurface(ObjectClass kind) {
     return kind == ObjectClass::Terrain || kind == ObjectClass::Building ||
            kind == ObjectClass::Wall;
 }
 
-/// A part of the vehicle that occludes some beams.
+/// A part of the vehicle that occludes beams.
 struct AirframeSpot {
     float azimuth_rad, half_width_rad, lowest_rad, highest_rad, range_m;
 };
 
-/// Four legs and other parts of the vehicle.
+/// The parts of the vehicle: four legs and others.
 const std::vector<AirframeSpot>& airframeOccluders() {
     static const std::vector<AirframeSpot> spots{
         {0.80f, 0.045f, -1.0f, -0.15f, 0.42f},  {2.35f, 0.045f, -1.0f, -0.15f, 0.44f},
@@ -55,11 +55,9 @@ const AirframeSpot* airframeAt(float azimuth_rad, float elevation_rad) {
     return nullptr;
 }
 
-bool isTilted(const Eigen::Quaterniond& mount) {
-    return std::abs(mount.w()) < 1.0;  // otherwise the identity
-}
+bool isTilted(const Eigen::Quaterniond& mount) { return std::abs(mount.w()) < 1.0; }
 
-/// The sensor's pose during a revolution: linear between a few sampled poses.
+/// The sensor's poses during a revolution, interpolated linearly between a few samples.
 class RevolutionPoses {
  public:
     RevolutionPoses(const PoseAt& pose_at, double start_s, double duration_s) {
@@ -80,13 +78,13 @@ class RevolutionPoses {
     std::vector<SensorPose> poses_;
 };
 
-/// A beam of the revolution.
 struct Beam : BeamDirection {
-    Vector3f axis;  ///< in the map
+    Vector3f axis;  ///< direction in the map
 };
 
 /// All beams of a revolution or a part of it, each with a ray at a random position in its
-/// footprint. Ordered by block of firings, laser and firing, so that eight neighbours are adjacent.
+/// footprint. Sorted by block of firings, then laser, then firing, so that eight similar rays are
+/// adjacent.
 struct Revolution {
     std::vector<Beam> beams;
     std::vector<Ray> rays;
@@ -101,11 +99,11 @@ struct Revolution {
     }
 };
 
-/// Random positions in the footprints of beams.
+/// Draws random positions in the footprints of beams.
 struct Footprint {
     double width_rad;
-    /// Other sensors have no beams near the zenith; the footprint narrows by the cosine of the
-    /// elevation.
+    /// True if beams may be near the zenith, where the simpler footprint would shrink with the
+    /// cosine of the elevation.
     bool may_be_steep;
 
     Vector3f random(const Vector3f& axis, Random& random) const {
@@ -147,8 +145,8 @@ Revolution makeRevolution(const FiringPattern& pattern, const FiringRange& firin
     return turn;
 }
 
-/// Range at which the beam's axis meets the plane hit by its ray; the ray's range if both differ
-/// much.
+/// Range at which the beam's axis intersects the plane that its ray hit; the ray's range if both
+/// differ much.
 float rangeAlongAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axis) {
     const float along = hit.normal.dot(axis);
     if (along > -0.01f) return hit.range_m;
@@ -157,11 +155,11 @@ float rangeAlongAxis(const RayHit& hit, const Vector3f& ray, const Vector3f& axi
 }
 
 /// Casts a second ray for some beams. If it hits another surface at a similar range, the return
-/// gets the nearer surface and a range between both.
+/// gets the nearer surface and a range between the two.
 void mixEdges(const Scene::Snapshot& snapshot, const Revolution& turn, float max_range_m,
               const SensorErrorModel& faults, const Footprint& footprint, Random& random,
               std::vector<RayHit>& hits) {
-    constexpr float kMinApart_m = 0.2f, kPulse_m = 1.2f;  // farther apart: separate pulses
+    constexpr float kMinApart_m = 0.2f, kPulse_m = 1.2f;  // farther surfaces return separate pulses
     std::vector<std::size_t> chosen;
     std::vector<Ray> rays;
     const double gap = std::max(1e-9, faults.mixed);
@@ -187,7 +185,6 @@ void mixEdges(const Scene::Snapshot& snapshot, const Revolution& turn, float max
     }
 }
 
-/// The sensor's measurement for a beam.
 struct Echo {
     float range_m = kNoValue;
     float intensity = 0;
@@ -209,12 +206,12 @@ class Receiver {
     Echo measure(const RayHit& hit, const Ray& ray, const Beam& beam) {
         if (faults_.airframe) {
             if (const AirframeSpot* spot = spotBefore(beam)) {
-                if (random_.chance(0.4)) return {};  // below minimum range
+                if (random_.chance(0.4)) return {};  // below the minimum range
                 return {withNoise(spot->range_m, 1.0f), 0.1f, ObjectClass::Airframe, 0};
             }
         }
         const bool is_hit = hit.kind != ObjectClass::None;
-        if (random_.chance(kDust_m * faults_.dust_per_m)) {  // anywhere along the beam
+        if (random_.chance(kDust_m * faults_.dust_per_m)) {  // dust may be anywhere along the beam
             const auto speck_m = static_cast<float>(random_.uniform(0.5, kDust_m));
             if (!is_hit || speck_m < hit.range_m) return {speck_m, 0.02f, ObjectClass::Dust, 0};
         }
@@ -240,9 +237,9 @@ class Receiver {
     }
 
  private:
-    static constexpr double kDust_m = 15.0;  // farther dust is too faint
+    static constexpr double kDust_m = 15.0;  // dust beyond this range is too faint
 
-    /// The part of the vehicle in front of a beam, for any mount of the sensor.
+    /// The part of the vehicle in front of a beam, for an arbitrary mount.
     const AirframeSpot* spotBefore(const Beam& beam) const {
         if (!is_tilted_) return airframeAt(beam.azimuth_rad, beam.elevation_rad);
         const Vector3f way = vehicle_from_sensor_ * beam.direction;
@@ -255,14 +252,14 @@ class Receiver {
                static_cast<float>(faults_.min_noise_m * random_.approximateNormal()) * times;
     }
 
-    /// Distance along the beam from a return of the grass to the soil.
+    /// Length of the beam between the grass and the soil behind it.
     float grass_m(const Ray& ray, float range_m, float incidence) {
         const Vector3f at = ray.origin_m + range_m * ray.direction;
         const double tallest_m = scene_.terrain().grassHeight_m(static_cast<double>(at.x()),
                                                                 static_cast<double>(at.y()));
         if (tallest_m <= 0) return 0;
         const double share = random_.uniform();
-        const double blade_m = tallest_m * share * share;  // few blades are as tall as the tallest
+        const double blade_m = tallest_m * share * share;  // few blades have the full height
         return std::min(static_cast<float>(blade_m) / std::max(incidence, 0.05f), 0.2f * range_m);
     }
 

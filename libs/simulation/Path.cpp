@@ -6,10 +6,10 @@
 namespace hagen::simulation {
 namespace {
 
-/// The position at a path length: the segment and the distance along it.
+/// A position on the path: the segment and the distance along it.
 struct Part {
     bool is_turn;
-    bool is_back;  ///< on the second straight or the turn after it
+    bool is_back;  ///< on the second straight or the following turn
     double way_m;
 };
 

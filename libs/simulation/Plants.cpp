@@ -31,7 +31,7 @@ Eigen::Vector4f knot(const Vector3d& at, double radius_m) {
             static_cast<float>(radius_m)};
 }
 
-/// The centre of the trunk at a height: it bends slightly.
+/// The centre line of a trunk, which bends slightly.
 class Trunk {
  public:
     Trunk(const TreeParameters& form, Random& random) : form_(form) {
@@ -44,7 +44,7 @@ class Trunk {
         return share * std::sin(phase_ * share) * bend_ + Vector3d(0, 0, z_m);
     }
     double radius_m(double z_m) const {
-        const double flare = z_m < 0.25 ? 0.6 * (0.25 - z_m) / 0.25 : 0.0;  // above the roots
+        const double flare = z_m < 0.25 ? 0.6 * (0.25 - z_m) / 0.25 : 0.0;
         const double taper = 1.0 - 0.8 * std::max(z_m, 0.0) / form_.height_m;
         return form_.trunk_radius_m * (taper + std::min(flare, 0.6));
     }
@@ -55,7 +55,7 @@ class Trunk {
     double phase_;
 };
 
-/// Adds a branch that rises outwards, and its leaf-bearing points to `leafy`.
+/// Adds a branch that rises outwards. Appends its points with leaves to `leafy`.
 void addBranch(const Trunk& trunk, double z_m, double length_m, double radius_m, Random& random,
                Shape& shape, std::vector<Vector3d>& leafy) {
     const double angle = random.uniform(0, 2 * kPi), rise = random.uniform(0.0, 0.7);
@@ -82,7 +82,7 @@ Shape makeTree(const TreeParameters& form, Random& random) {
     }
     shape.addTube(knots, 8);
 
-    // The crown is widest below its centre; branches end at its surface.
+    // The crown is widest below its centre. Branches end at its surface.
     std::vector<Vector3d> leafy, sparse;
     const double crown_m = form.height_m - form.crown_base_m;
     for (int i = 0; i < form.branches; ++i) {

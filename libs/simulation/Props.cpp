@@ -38,7 +38,7 @@ Shape makeRod(double height_m, double radius_m) {
 }
 
 Shape makeCar(Random& random) {
-    const auto h = static_cast<float>(random.uniform(0.95, 1.3));  // saloon to van
+    const auto h = static_cast<float>(random.uniform(0.95, 1.3));  // from saloon to van
     Shape shape;
     shape.addPrism({{-2.1f, 0.28f},
                     {2.1f, 0.28f},
@@ -63,7 +63,7 @@ Shape makeHouse(double length_m, double width_m, double wall_m, Random& random) 
     Shape shape;
     shape.addBox({-l, -w, 3 * kFoot_m}, {l, w, h});
     shape.addPrism({{-l - 0.3f, h}, {l + 0.3f, h}, {0, h + 0.45f * l}}, -w - 0.3f, w + 0.3f);
-    for (float x = -l + 1.5f; x < l - 1.0f; x += 3.0f) {  // sills, balconies, awnings
+    for (float x = -l + 1.5f; x < l - 1.0f; x += 3.0f) {  // window sills, balconies and awnings
         for (const float side : {-1.0f, 1.0f}) {
             if (random.chance(0.4)) continue;
             const auto z = static_cast<float>(random.uniform(0.9, 0.8 * wall_m));

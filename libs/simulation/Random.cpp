@@ -7,13 +7,13 @@ namespace hagen::simulation {
 Random::Random(std::uint64_t seed, std::uint64_t stream)
     : engine_(seed * 0x9e3779b97f4a7c15u + stream * 0xd1b54a32d192ed03u + 1) {}
 
-double Random::normal() {  // Box-Muller; the second number is discarded
+double Random::normal() {  // Box-Muller; discards the second number
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     return radius * std::cos(2.0 * kPi * uniform());
 }
 
 double Random::approximateNormal() {
-    const std::uint64_t bits = engine_();  // the variance of the sum of four is 4/12 range^2
+    const std::uint64_t bits = engine_();  // the sum of four has variance 4/12 range^2
     double sum = 0;
     for (int i = 0; i < 4; ++i) sum += static_cast<double>(bits >> (16 * i) & 0xffff);
     return (sum * 0x1p-16 - (2.0 - 0x1p-15)) * 1.7320508075688772;

@@ -48,7 +48,7 @@ TreeParameters forestTree(Random& random) {
     return form;
 }
 
-/// Scatters trees of several shapes; `crown_m` is their maximum radius.
+/// Scatters trees of several shapes. `crown_m`: maximum crown radius.
 void scatterTrees(SceneBuilder& builder, const Shapes& trees, double per_m2, double crown_m) {
     Random& random = builder.random();
     builder.scatter(per_m2, [&](double x, double y) {
@@ -70,7 +70,7 @@ void scatterShrubs(SceneBuilder& builder, double per_m2, double tallest_m) {
     });
 }
 
-/// Adds trees and houses 55 to 110 m away.
+/// Adds trees and houses at 55 to 110 m.
 void addBackground(SceneBuilder& builder, const Shapes& trees) {
     Random& random = builder.random();
     for (int i = 0; i < 110; ++i) {
@@ -227,7 +227,7 @@ Scene makeWires(std::uint64_t seed) {
         const Vector2d askew{random.uniform(-2, 2), random.uniform(-2, 2)};
         addWireLine(builder, from_m + aside, to_m + askew, span_m, heights_m, sideways_m);
     };
-    // Between the straights, outside them, and across the path beyond both turns.
+    // Wires between the straights, outside them, and across the path beyond both turns.
     run({-28, 0}, {28, 0}, 19, {2.2, 3.2, 4.2, 5.2}, 0.25);
     run({-60, -20}, {60, -22}, 24, {4.5, 6.0, 7.0}, 0.4);
     run({-60, 20}, {60, 19}, 20, {1.6, 2.8, 4.0}, 0.05);
@@ -254,7 +254,7 @@ Scene makeGap(std::uint64_t seed) {
                     height_m, thickness_m);
         }
     }
-    for (int i = 0; i < 8; ++i) {  // low walls, free-standing
+    for (int i = 0; i < 8; ++i) {  // low, free-standing walls
         const Vector2d from{random.uniform(-55, 55), random.uniform(22, 40) * (i % 2 ? 1 : -1)};
         const double angle = anyYaw(random);
         const Vector2d to =
@@ -275,7 +275,7 @@ Scene makeStreet(std::uint64_t seed) {
     const Shapes cars = builder.addShapes(5, makeCar);
     const std::size_t lamp = builder.addShape(makeRod(6.5, 0.08));
     const std::size_t sign = builder.addShape(makeRod(2.6, 0.035));
-    for (const double lane : {-11.5, 11.5, -4.2, 4.2}) {  // kerbs, both sides of the centre
+    for (const double lane : {-11.5, 11.5, -4.2, 4.2}) {  // parked cars at kerbs and centre
         for (double at = -70; at <= 70; at += 6.2) {
             const double x = at + random.uniform(-0.6, 0.6), y = lane + 0.15 * random.normal();
             if (random.chance(0.4) || !builder.isFree(x, y, 2.0)) continue;
@@ -327,7 +327,7 @@ Scene makeStreet(std::uint64_t seed) {
     }
     scatterShrubs(builder, 0.003, 1.0);
     const Shapes tufts = builder.addShapes(3, makeTuft);
-    builder.scatter(0.2, [&](double x, double y) {  // weeds only on the verges
+    builder.scatter(0.2, [&](double x, double y) {  // weeds grow only on the verges
         if (std::abs(y) < 13.2) return;
         builder.placeRandomOf(ObjectClass::Canopy, tufts, x, y, {1, 1, random.uniform(0.1, 0.35)});
     });
@@ -357,7 +357,7 @@ Scene makeTrap(std::uint64_t seed) {
     const Path path{26, 13};
     SceneBuilder builder(ground(3, 0.03, 0.025, 0.12), path, seed);
     Random& random = builder.random();
-    for (const double side : {-1.0, 1.0}) {  // ahead of both straights, beyond the turns
+    for (const double side : {-1.0, 1.0}) {  // beyond the turns, straight ahead of both straights
         const double size = random.uniform(0.9, 1.2), height = random.uniform(0.8, 1.3);
         addTrap(builder, {side * 51, side * -12}, side > 0 ? kPi : 0.0, 8 * size, 7 * size,
                 4 * height);

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Copies numbers into a buffer of a geometry; T is the element type that Embree reads.
+/// Copies numbers into a buffer of a geometry. T: element type of the buffer.
 template <class T, class Source, class Write>
 void fillBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
                 const std::vector<Source>& source, Write write) {
@@ -59,7 +59,7 @@ RTCGeometry instanceOf(RTCDevice device, RTCScene shape,
     return instance;
 }
 
-/// Object class and number of an instance, and the transform of its normals to the map.
+/// Object class and number of an instance, and the transform of normals to the map.
 struct Instance {
     ObjectClass kind;
     std::uint16_t number;
@@ -70,7 +70,7 @@ Instance instanceOf(ObjectClass kind, std::uint16_t number, const Eigen::Affine3
     return {kind, number, pose.linear().inverse().transpose()};
 }
 
-/// Embree's ray packets of eight rays.
+/// Number of rays in an Embree packet.
 constexpr int kPacket = 8;
 constexpr unsigned kNoHit = RTC_INVALID_GEOMETRY_ID;
 
@@ -97,7 +97,7 @@ class Packet {
         }
     }
 
-    /// May be called for several scenes in turn; keeps the nearest hit.
+    /// Can be called for several scenes in turn; keeps the nearest hit.
     void cast(RTCScene scene, const std::vector<Instance>& instances, const Ray* rays,
               RayHit* hits) {
         RTCIntersectContext context;
@@ -157,7 +157,7 @@ struct Scene::World {
     RTCDevice device;
     std::vector<ScenePtr> shapes;
     ScenePtr scene;
-    std::vector<Instance> instances;  ///< indexed by Embree's instance number
+    std::vector<Instance> instances;  ///< indexed by Embree's instance ID
 };
 
 struct Scene::Snapshot::Movers {

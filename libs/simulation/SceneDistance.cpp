@@ -16,7 +16,7 @@ struct Triangle {
     Vector3f a, b, c;
 };
 
-/// The volume swept between two balls, for example part of a wire or a pole.
+/// The convex hull of two balls, such as a part of a wire or a pole.
 struct Rod {
     Vector3f from, to;
     float from_radius, to_radius;
@@ -37,8 +37,8 @@ float toSegment2(const Vector3f& point, const Vector3f& a, const Vector3f& b) {
     return (point - a - share * along).squaredNorm();
 }
 
-/// Squared distance: to the plane if the foot of the perpendicular lies within the edges, otherwise
-/// to the nearest edge.
+/// Squared distance to the plane if the foot of the perpendicular lies within the triangle,
+/// otherwise to the nearest edge.
 float toTriangle2(const Vector3f& point, const Triangle& t) {
     const Vector3f normal = (t.b - t.a).cross(t.c - t.a);
     const auto isInside = [&](const Vector3f& from, const Vector3f& to) {
@@ -53,13 +53,13 @@ float toTriangle2(const Vector3f& point, const Triangle& t) {
         {toSegment2(point, t.a, t.b), toSegment2(point, t.b, t.c), toSegment2(point, t.c, t.a)});
 }
 
-/// Finds the nearest of the balls whose union is the rod. With s along and h off the axis, the
-/// distance to the ball at s - u is sqrt(h^2 + u^2) - r with r linear in u. Its derivative is 0
-/// where u / sqrt(h^2 + u^2) equals the taper. Within the rod: 0.
+/// The distance to the nearest ball of the rod; 0 inside the rod. For a point at s along and h off
+/// the axis, the distance to the ball at s - u is sqrt(h^2 + u^2) - r, where r is linear in u. Its
+/// derivative is 0 where u / sqrt(h^2 + u^2) equals the taper.
 float toRod(const Vector3f& point, const Rod& rod) {
     const Vector3f axis = rod.to - rod.from;
     const float length = axis.norm(), widening = rod.to_radius - rod.from_radius;
-    float share = widening > 0 ? 1.0f : 0.0f;  // one ball may contain the other
+    float share = widening > 0 ? 1.0f : 0.0f;  // larger ball, in case it contains the other
     if (length > std::abs(widening)) {
         const float along = (point - rod.from).dot(axis) / length;
         const float aside =
@@ -114,7 +114,7 @@ void setBounds(const RTCBoundsFunctionArguments* asked) {
                         box.max().x(), box.max().y(), box.max().z(), 0};
 }
 
-/// Surfaces searched by Embree, which keeps their address: do not move.
+/// Surfaces searched by Embree, which stores the address of this object: do not move it.
 class SearchTree {
  public:
     SearchTree(RTCDevice device, Surfaces surfaces) : surfaces_(std::move(surfaces)) {
@@ -131,7 +131,7 @@ class SearchTree {
     SearchTree(const SearchTree&) = delete;
     SearchTree& operator=(const SearchTree&) = delete;
 
-    /// Returns the distance, at most `reach_m`.
+    /// Returns the distance, limited to `reach_m`.
     float distance_m(const Vector3f& point, float reach_m) const {
         Search search{&surfaces_, point, reach_m};
         RTCPointQuery query{point.x(), point.y(), point.z(), 0, reach_m};
@@ -167,7 +167,7 @@ class SearchTree {
     ScenePtr scene_;
 };
 
-/// A moving obstacle in its own frame, and its extent from its origin.
+/// A moving obstacle in its own frame, and its radius around its origin.
 struct Moving {
     MovingObstacle mover;
     std::unique_ptr<SearchTree> tree;
@@ -183,7 +183,7 @@ float radiusOf(const Surfaces& surfaces) {
     return radius_m;
 }
 
-/// True if a moving obstacle is near a point in top view; tests its circle first.
+/// True if a moving obstacle is near a point in top view. First tests the obstacle's circle.
 bool isNear(const MovingObstacle& mover, const Vector3f& point, double time_s, double near_m) {
     const Eigen::Vector2d at = point.head<2>().cast<double>();
     if (std::abs((at - mover.middle_m).norm() - mover.radius_m) >= near_m) return false;

@@ -6,11 +6,11 @@
 namespace hagen::simulation {
 namespace {
 
-constexpr double kCell_m = 0.6;  // in the mesh's fine centre
-constexpr int kGrass_m = 150;    // extent of the grass, in cells of a metre
+constexpr double kCell_m = 0.6;  // mesh width in the fine centre
+constexpr int kGrass_m = 150;    // extent of the grass in 1 m cells
 
-/// Coordinates in steps of kCell_m out to `half_m`, then in growing steps out to `reach_m`, in both
-/// directions.
+/// Coordinates from -`reach_m` to `reach_m`: in steps of kCell_m within `half_m`, then in growing
+/// steps.
 std::vector<double> gridLines(double half_m, double reach_m) {
     std::vector<double> positive;
     double at = 0, step = kCell_m;
@@ -42,7 +42,7 @@ Terrain::Terrain(const TerrainParameters& form, Random& random)
     for (const double length_m : {110.0, 80.0, 60.0, 45.0, 32.0, 24.0, 17.0}) {
         rolling_.push_back(wave(length_m * random.uniform(0.85, 1.15), std::pow(length_m, 1.2)));
     }
-    // Scales the steepest of many samples to the requested slope.
+    // Scales the steepest of many samples to the maximum slope.
     double steepest = 0;
     for (int i = 0; i < 4000; ++i) {
         const double x = random.uniform(-60, 60), y = random.uniform(-45, 45), d = 0.5;

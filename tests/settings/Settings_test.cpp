@@ -131,7 +131,7 @@ TEST_F(SettingsTest, ReadsAndChecksEveryKey) {
         min << key.name << ": " << key.min;
         below << key.name << ": " << key.min - 1;
         EXPECT_NO_THROW(settingsOf(min.str())) << key.name;
-        EXPECT_TRUE(says(refusalOf(below.str()), "must lie within")) << key.name;
+        EXPECT_TRUE(says(refusalOf(below.str()), "must lie between")) << key.name;
         refusalOf(key.name + ": soon");
         refusalOf(key.name + ": [1, 2]");
         refusalOf(key.name + ": .nan");

@@ -47,7 +47,7 @@ struct BackgroundPrinter::Waiting {
             is_printing = true;
             is_printing_output = to == To::Output;
             lock.unlock();
-            // This may block.
+            // Writing may block.
             if (to == To::ErrorsInPlace) std::cerr << clearLine;
             (to == To::Output ? std::cout : std::cerr) << text << std::flush;
             lock.lock();

@@ -9,7 +9,7 @@ namespace hagen::base {
 /// the caller. Messages beyond the queue's size are dropped and counted.
 class BackgroundPrinter {
  public:
-    static constexpr std::size_t kMaxWaiting = 1000;  ///< texts
+    static constexpr std::size_t kMaxWaiting = 1000;  ///< max. number of queued texts
     /// ErrorsInPlace replaces the current line of the terminal.
     enum class To { Output, Errors, ErrorsInPlace };
 
@@ -19,19 +19,19 @@ class BackgroundPrinter {
     BackgroundPrinter(const BackgroundPrinter&) = delete;
     BackgroundPrinter& operator=(const BackgroundPrinter&) = delete;
 
-    /// Thread-safe; never blocks.
+    /// Queues a text. Thread-safe; never blocks.
     void print(To to, std::string text);
-    /// The same, but drops the text if another one is waiting: for periodic status lines.
+    /// Like print(), but drops the text if another one is queued. For periodic status lines.
     void printIfIdle(To to, std::string text);
-    /// Waits until all texts are printed or the timeout expires; returns false if some are left.
-    /// Drops later texts.
+    /// Waits until all texts are printed or the timeout expires; returns false if texts are left.
+    /// Texts passed afterwards are dropped.
     bool finish(std::chrono::milliseconds longest = std::chrono::seconds(2));
     /// After finish(): true if all texts of To::Output were printed.
     bool isOutputPrinted() const;
 
  private:
     struct Waiting;
-    std::shared_ptr<Waiting> waiting_;  ///< the thread may outlive this
+    std::shared_ptr<Waiting> waiting_;  ///< shared, because the thread may outlive this object
 };
 
 }  // namespace hagen::base

@@ -29,15 +29,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kHelpWidth = 80, kHelpColumn = 30;
-constexpr const char* kNotEmpty = "not empty";  // name of the check
+constexpr const char* kNotEmpty = "not empty";
 
-/// Wraps a line of --help. Continuation lines are indented like descriptions.
+/// Wraps a line of --help. Continuation lines are aligned with the descriptions.
 std::string wrapped(std::string line) {
     std::string lines;
     while (line.size() > kHelpWidth) {
         const std::size_t end = line.rfind(' ', kHelpWidth);
         const bool has_word = line.find_first_not_of(' ') < end && end != std::string::npos;
-        // A word longer than a line is not split.
+        // Do not split a word that is longer than a line.
         const std::size_t cut = has_word ? end : line.find(' ', kHelpWidth);
         if (cut == std::string::npos) break;
         const std::size_t rest = line.find_first_not_of(' ', cut);
@@ -49,7 +49,7 @@ std::string wrapped(std::string line) {
     return lines + line;
 }
 
-/// CLI11's --help, wrapped at the width of a terminal.
+/// CLI11's --help, wrapped to the width of a terminal.
 class HelpText : public CLI::Formatter {
  public:
     HelpText() { column_width(kHelpColumn); }
@@ -141,7 +141,7 @@ bool Flag::isGiven() const { return option_->count() > 0; }
 
 namespace {
 
-/// The number type within std::optional<float> and std::vector<double>; otherwise the type itself.
+/// The number type in std::optional<float> or std::vector<double>; other types are unchanged.
 template <class Value>
 struct NumberIn {
     using Type = Value;
@@ -155,8 +155,8 @@ struct NumberIn<std::vector<Number>> {
     using Type = Number;
 };
 
-/// The error in the text of a number; "" if there is none. CLI11 accepts nan, which passes its
-/// range checks, and wraps -1 and 99999999999999999999 to other unsigned numbers.
+/// Returns the error in the text of a number, or "". CLI11 accepts nan, which passes its range
+/// checks, and wraps -1 and 99999999999999999999 to other unsigned numbers.
 template <class Number>
 std::string errorOfNumber(const std::string& text) {
     const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
@@ -180,7 +180,7 @@ Flag Command::option(const std::string& names, Value& value, const std::string& 
     if constexpr (std::is_arithmetic_v<Number>) {
         option->check(CLI::Validator(errorOfNumber<Number>, ""));
     } else {
-        // An unset variable of a script must not drop an output.
+        // Otherwise an unset variable in a script would silently drop an output.
         const auto errorOf = [](const std::string& text) {
             return text.empty() ? std::string("must not be empty") : std::string();
         };
@@ -255,7 +255,7 @@ std::string subcommandsOf(const CLI::App& app, const std::string& program) {
 }  // namespace
 
 int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept {
-    std::signal(SIGCHLD, SIG_DFL);  // if ignored, waiting for children fails
+    std::signal(SIGCHLD, SIG_DFL);  // waiting for children fails if SIGCHLD is ignored
     try {
         return program(argc, argv);
     } catch (const std::bad_alloc&) {
@@ -271,11 +271,11 @@ int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexce
 namespace {
 
 /// Opens /dev/null in place of a closed standard stream. Otherwise the next opened file would get
-/// its descriptor, and messages would be written into that file.
+/// the stream's descriptor, and messages would be written into that file.
 void reserveStandardStreams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(stream, F_GETFD) != -1) continue;
-        [[maybe_unused]] const int lowest = open("/dev/null", O_RDWR);  // gets this descriptor
+        [[maybe_unused]] const int lowest = open("/dev/null", O_RDWR);  // lowest free descriptor
     }
 }
 

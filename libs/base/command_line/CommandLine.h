@@ -17,23 +17,20 @@ class Option;
 /// is slow to compile.
 namespace hagen::base {
 
-/// Exit codes of all programs.
 constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
 
-/// Returns the exit code of `program`. If it throws outside of Program::run(), prints the error and
-/// returns kFailed.
+/// Returns the exit code of `program`. If `program` throws, prints the error and returns kFailed.
 int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexcept;
 
-/// Wrong usage detected after parsing. Programs print the message with a hint at --help, and exit
-/// with kWrongUsage.
+/// Wrong usage detected after parsing. The program prints the message with a hint to --help and
+/// exits with kWrongUsage.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
     UsageError(const std::string& flag, const std::string& message)
         : std::runtime_error(flag + ": " + message) {}
 };
 
-/// A flag of a command. Each function restricts its values, or changes how --help shows it, and
-/// returns the flag.
+/// A flag of a command. Each function sets a property of the flag and returns the flag.
 class Flag {
  public:
     explicit Flag(CLI::Option& option) : option_(&option) {}
@@ -50,15 +47,15 @@ class Flag {
     Flag& existingFile();
     Flag& existingFolder();
     Flag& existingPath();
-    /// `errorOf` returns the error in a value, or ""; --help shows `type`.
+    /// `errorOf` returns the error in a value, or "". --help shows `type`.
     Flag& check(std::function<std::string(const std::string&)> errorOf, const std::string& type);
-    Flag& mayBeEmpty();  ///< by default, texts may not be empty
+    Flag& mayBeEmpty();  ///< texts must not be empty by default
     /// Rewrites values before they are checked.
     Flag& transform(std::function<std::string(const std::string&)> rewrite);
 
     Flag& group(const std::string& name);      ///< heading in --help
-    Flag& valueName(const std::string& name);  ///< instead of the type that --help shows
-    Flag& showDefault();                       ///< the variable's current value
+    Flag& valueName(const std::string& name);  ///< replaces the type shown by --help
+    Flag& showDefault();                       ///< shows the variable's current value in --help
 
     bool isGiven() const;  ///< valid after parsing
 
@@ -66,7 +63,7 @@ class Flag {
     CLI::Option* option_;
 };
 
-/// A program or subcommand, with flags that set variables. The variables must outlive it.
+/// A program or subcommand with flags that set variables. The variables must outlive it.
 class Command {
  public:
     /// `names` as in "-o,--output", or "DIR" for a positional argument. Value: std::string,
@@ -75,7 +72,7 @@ class Command {
     template <class Value>
     Flag option(const std::string& names, Value& value, const std::string& help);
     Flag flag(const std::string& names, bool& value, const std::string& help);
-    /// A choice of words, each of which stands for a value.
+    /// Adds a flag that accepts one of several words, each with its value.
     template <class Value>
     Flag choice(const std::string& names, Value& value,
                 const std::vector<std::pair<std::string, Value>>& meanings,
@@ -85,7 +82,7 @@ class Command {
         return choice(names, words, help,
                       [&value, meanings](std::size_t i) { value = meanings[i].second; });
     }
-    /// A flag that prints something and exits.
+    /// Adds a flag that prints something and exits.
     Flag printer(const std::string& names, std::function<void()> print, const std::string& help);
 
     /// Sets the function that runs a subcommand and returns the exit code. Catches signals
@@ -103,21 +100,21 @@ class Command {
     std::function<int()>* chosen_;  ///< work of the selected subcommand
 };
 
-/// A program with --help.
+/// A program with a --help flag.
 class Program : public Command {
  public:
     Program(std::string name, const std::string& description);
     ~Program();
 
     void footer(const std::string& text);
-    void version(const std::string& version);  ///< --version
+    void version(const std::string& version);  ///< adds --version
     Command subcommand(const std::string& name, const std::string& help);
-    /// Parses the command line and runs `work`, by default the subcommand's. Prints errors and
-    /// returns the exit code.
+    /// Parses the command line and runs `work` (by default, the selected subcommand). Prints errors
+    /// and returns the exit code.
     int run(int argc, char** argv, const std::function<int()>& work = nullptr);
     /// Prints the program's name and a message; returns the exit code.
     int fail(int exit_code, const std::string& message) const;
-    /// The message that run() prints for an exception.
+    /// The message printed by run() for an exception.
     static std::string messageOf(const std::exception& e);
 
  private:
@@ -130,7 +127,7 @@ class Program : public Command {
     double memory_gb_ = 0;
 };
 
-/// Lists the leftovers of these outputs from earlier runs (leftBehind()) on standard error.
+/// Lists partial outputs of earlier runs (leftBehind()) on standard error.
 void tellLeftBehind(const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace hagen::base

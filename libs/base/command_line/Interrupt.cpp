@@ -14,13 +14,14 @@ std::atomic<std::time_t> interrupted_at{0};
 static_assert(std::atomic<bool>::is_always_lock_free &&
               std::atomic<std::time_t>::is_always_lock_free);
 
-/// Shells and timeout(1) may send a signal twice in a row: only a later signal kills the program.
+/// The second signal kills the program, unless it arrives within a second of the first, because
+/// shells and timeout(1) may send a signal twice in a row.
 void interrupt(int signal) {
     const std::time_t now = std::time(nullptr);
     std::time_t before = 0;
     if (interrupted_at.compare_exchange_strong(before, now)) {
         is_interrupted = true;
-    } else if (now > before + 1 && signal != SIGXCPU) {  // repeated every second
+    } else if (now > before + 1 && signal != SIGXCPU) {  // the kernel repeats SIGXCPU every second
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
@@ -37,7 +38,7 @@ void catchSignals() {
                              SIGVTALRM, SIGPWR}) {
         struct sigaction action {};
         sigaction(signal, nullptr, &action);
-        if (action.sa_handler == SIG_IGN) continue;  // set by nohup
+        if (action.sa_handler == SIG_IGN) continue;  // nohup ignores SIGHUP
         action = {};
         action.sa_handler = interrupt;
         action.sa_flags = SA_RESTART;

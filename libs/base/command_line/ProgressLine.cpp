@@ -45,7 +45,7 @@ void ProgressLine::show(std::size_t done, std::size_t all) {
     is_shown_ = true;
     last_ = done;
     last_time_ = Clock::now();
-    if (done >= all && is_on_terminal_) {  // later output must start on a clean line
+    if (done >= all && is_on_terminal_) {  // clears the line for later output
         std::cerr << clearLine << std::flush;
         return;
     }

@@ -6,11 +6,11 @@
 namespace hagen::base {
 
 /// Reports the progress of a long command on standard error. On a terminal, updates one line and
-/// erases it at the end; otherwise, as in a cluster job's log, prints a line at the start, after
-/// every tenth of the work and at least every minute.
+/// erases it at the end. Otherwise, as in a cluster job's log, prints a line at the start, after
+/// every 10 % of the work and at least every minute.
 class ProgressLine {
  public:
-    /// `thing`: the counted unit, such as "run".
+    /// `thing`: the unit of progress, such as "run".
     explicit ProgressLine(std::string thing);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;

@@ -22,8 +22,8 @@ std::size_t bytesOfCharacter(const std::string& text, std::size_t at) {
     return bytes;
 }
 
-/// Control characters send commands to a terminal, and bidirectional marks can disguise messages. A
-/// single byte from 0x80 up is not UTF-8, but a control character on some terminals.
+/// True for control characters, which send commands to a terminal (on some, even single bytes from
+/// 0x80 up), and for bidirectional marks, which can disguise messages.
 bool isHarmful(const std::string& text, std::size_t at, std::size_t bytes) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
     if (bytes == 1) {
@@ -45,7 +45,7 @@ std::string printable(std::string text) {
     return text;
 }
 
-/// Filters text for the buffer of a standard stream.
+/// Filters text before it reaches the buffer of a standard stream.
 class PrintableBuffer : public std::streambuf {
  public:
     explicit PrintableBuffer(std::streambuf* stream) : stream_(stream) {}
@@ -72,7 +72,7 @@ class PrintableBuffer : public std::streambuf {
 }  // namespace
 
 void keepTerminalSafe() {
-    // Never destroyed: messages may be printed until the process ends.
+    // Never destroyed, because messages may be printed until the process ends.
     static auto* const out = new PrintableBuffer(std::cout.rdbuf());
     static auto* const err = new PrintableBuffer(std::cerr.rdbuf());
     std::cout.rdbuf(out);

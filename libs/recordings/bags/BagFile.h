@@ -11,18 +11,16 @@
 
 namespace hagen::recordings {
 
-/// A topic of a bag.
 struct BagTopic {
-    std::string name;      ///< "/velodyne_points"
-    std::string type;      ///< ROS 1 style, also for ROS 2: "sensor_msgs/PointCloud2"
-    std::string encoding;  ///< "ros1", "cdr", or another name in the bag
+    std::string name;      ///< such as "/velodyne_points"
+    std::string type;      ///< in ROS 1 style even for ROS 2: "sensor_msgs/PointCloud2"
+    std::string encoding;  ///< "ros1", "cdr", or another name found in the bag
 
     bool operator==(const BagTopic& other) const {
         return name == other.name && type == other.type && encoding == other.encoding;
     }
 };
 
-/// A serialised message.
 struct BagMessage {
     std::size_t topic = 0;                ///< index in BagFile::topics()
     std::int64_t time_ns = 0;             ///< recording time since 1970
@@ -31,21 +29,21 @@ struct BagMessage {
 };
 
 /// Reads the messages of a ROS recording one by one, in file order. Memory use depends on the
-/// largest chunk and message, not on the file.
+/// largest chunk and message, not on the file size.
 class BagFile {
  public:
     virtual ~BagFile() = default;
 
-    /// Reads the next message; false at the end. Throws BrokenRecording.
+    /// Reads the next message; returns false at the end. Throws BrokenRecording.
     virtual bool next(BagMessage& message) = 0;
-    /// The topics seen so far; indices do not change.
+    /// The topics found so far; their indices do not change.
     virtual const std::vector<BagTopic>& topics() const = 0;
     /// Fraction of the recording read so far, 0 ... 1.
     virtual double fractionRead() const = 0;
-    /// Remarks for the user on how the bag is read.
+    /// Remarks for the user on how the bag was read.
     virtual std::vector<std::string> remarks() const { return {}; }
-    /// Calls `check` repeatedly during next(), which may read a whole file in search of a message.
-    /// Exceptions of `check` leave next(). At most one chunk is read between two calls.
+    /// Calls `check` repeatedly during next(), because next() may search the whole file for a
+    /// message. Exceptions of `check` leave next(). Reads at most one chunk between two calls.
     virtual void checkWhileReading(const std::function<void()>& check) { check_ = check; }
 
  protected:
@@ -62,7 +60,7 @@ class BagFile {
 bool isBag(const std::filesystem::path& file_or_folder);
 
 /// Opens a ROS 1 bag (format 2.0), an MCAP, a ROS 2 database (.db3), or a folder of MCAPs or
-/// databases. Throws BrokenRecording naming a file that cannot be opened or has another format.
+/// databases. Throws BrokenRecording naming the file if it cannot be opened or has another format.
 std::unique_ptr<BagFile> openBag(const std::filesystem::path& file_or_folder);
 
 }  // namespace hagen::recordings

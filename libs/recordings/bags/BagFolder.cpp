@@ -18,10 +18,9 @@ constexpr const char* kMetadata = "metadata.yaml";
 constexpr const char* kSection = "rosbag2_bagfile_information";
 constexpr std::size_t kMaxMetadata = 2 << 20;
 
-/// The content of a bag's metadata.yaml.
 struct Metadata {
     std::optional<YAML::Node> bag;
-    std::string why_none;  ///< empty: there is no such file
+    std::string why_none;  ///< why `files` cannot be used; empty if the file is missing
 };
 
 Metadata metadataOf(const fs::path& folder) {
@@ -49,8 +48,8 @@ std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag)
                                      "compression_mode to NONE and the new file names");
         }
         for (const YAML::Node& name : bag["relative_file_paths"]) {
-            // Old versions prepend the folder's own name. Ignoring folders keeps names within the
-            // folder.
+            // Old versions prepend the folder's own name. Ignoring folders keeps files within the
+            // bag.
             files.push_back(folder / fs::path(name.as<std::string>()).filename());
         }
     } catch (const std::exception& e) {
@@ -70,7 +69,7 @@ bool isOfBag(const fs::path& file) {
     return ending == ".mcap" || ending == ".db3";
 }
 
-/// True if a file of a bag's folder may also be a recording, and is not text.
+/// True if a file in a bag's folder may be a recording: it is not text.
 bool mayBeRecording(const fs::path& file) {
     static const std::set<std::string> kTexts{".yaml", ".yml", ".json", ".txt",    ".md", ".csv",
                                               ".tum",  ".log", ".xml",  ".launch", ".sh", ".rviz"};
@@ -84,14 +83,14 @@ std::vector<fs::path> foundFiles(const fs::path& folder) {
     for (const fs::path& file : base::entriesOf(folder)) {
         if (!fs::is_directory(file) && isOfBag(file)) files.push_back(file);
     }
-    // Puts flight_2 before flight_10.
+    // Sorts flight_2 before flight_10.
     std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
         return a.filename().string().size() < b.filename().string().size();
     });
     return files;
 }
 
-/// "'a_1.mcap', 'a_2.mcap' and 3 more".
+/// Such as "'a_1.mcap', 'a_2.mcap' and 3 more".
 std::string textOfNames(const std::vector<fs::path>& files) {
     constexpr std::size_t kMax = 5;
     std::string text;
@@ -161,7 +160,7 @@ class BagFolder : public BagFile {
     std::vector<std::string> remarks() const override { return remarks_; }
 
  private:
-    /// Uses each listed file once, and reports duplicates and unlisted files.
+    /// Reads each listed file once. Reports duplicates and unlisted files.
     void useList(const fs::path& folder, const std::vector<fs::path>& listed) {
         std::set<fs::path> known;
         std::vector<fs::path> repeated, unlisted;
@@ -190,11 +189,11 @@ class BagFolder : public BagFile {
 
     std::vector<fs::path> files_;
     std::vector<std::string> remarks_;
-    std::vector<double> bytes_before_;  ///< by file
+    std::vector<double> bytes_before_;
     double bytes_ = 0;
     std::size_t file_ = 0;
-    std::unique_ptr<BagFile> open_;      ///< null: no files left
-    std::vector<std::size_t> topic_of_;  ///< by the index in the open file
+    std::unique_ptr<BagFile> open_;      ///< null if no files are left
+    std::vector<std::size_t> topic_of_;  ///< topic index by index in the open file
     TopicList topics_;
 };
 
@@ -203,7 +202,7 @@ class BagFolder : public BagFile {
 bool isBagFolder(const fs::path& folder) {
     std::error_code none;
     if (metadataOf(folder).bag) return true;
-    // Without metadata, the files decide.
+    // Without metadata, the file names decide.
     return !fs::exists(folder / "velodyne", none) && !foundFiles(folder).empty();
 }
 

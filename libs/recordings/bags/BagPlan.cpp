@@ -15,15 +15,15 @@ namespace {
 using Topic = BagSurvey::Topic;
 using mrpt::poses::CPose3D;
 
-constexpr double kMinCovered = 0.5;                // min. share of the poses' time
-constexpr int kMaxFrameDepth = 64;                 // nested frames
-constexpr const char* kOusterFrame = "os_sensor";  // of the vendor's driver; packets name no frame
+constexpr double kMinCovered = 0.5;                // min. share of the time covered by poses
+constexpr int kMaxFrameDepth = 64;                 // max. nesting of frames
+constexpr const char* kOusterFrame = "os_sensor";  // of the vendor's driver
 
 std::string withSlash(const std::string& topic) {
     return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
 }
 
-/// "/ouster" of "/ouster/points".
+/// Returns "/ouster" for "/ouster/points".
 std::string namespaceOf(const std::string& topic) {
     return topic.substr(0, topic.rfind('/') == std::string::npos ? 0 : topic.rfind('/'));
 }
@@ -41,7 +41,7 @@ std::string labelOf(const std::string& topic, std::set<std::string>& taken) {
     return unique;
 }
 
-/// True if a frame's name is that of a world frame: "odom", "robot1/odom_combined".
+/// True if a frame has the name of a world frame, such as "odom" or "robot1/odom_combined".
 bool isWorld(const std::string& frame) {
     for (std::size_t at = 0; at < frame.size();) {
         const std::size_t end = std::min(frame.find_first_of("/_", at), frame.size());
@@ -52,7 +52,7 @@ bool isWorld(const std::string& frame) {
     return false;
 }
 
-/// True if a frame's name ends like that of a vehicle frame: "base_link", "robot1/base".
+/// True if the last part of a frame's name is that of a vehicle frame: "base_link", "robot1/base".
 bool isOfVehicle(const std::string& frame) {
     const std::string name = frame.substr(frame.rfind('/') + 1);
     return name == "base" || name.compare(0, 5, "base_") == 0;
@@ -82,8 +82,6 @@ class Planner {
         throw std::runtime_error(file_.string() + ": " + why +
                                  (broken.empty() ? "" : "; it is only partly readable: " + broken));
     }
-
-    // Topics.
 
     void checkNumberOfLidars() const {
         const auto lidars = std::count_if(
@@ -149,14 +147,14 @@ class Planner {
             fail("its LiDAR topics have no sensor scans (" + lidars.front()->topic.name + ": " +
                  whyNot(*lidars.front(), lidars) + "); select one with --topic to read it anyway");
         }
-        // Reading a truncated bag reports the truncation.
+        // If the bag is truncated, reading it reports the truncation instead.
         if (survey_.is_whole) {
             fail("has no LiDAR topic (" + textOfKnownTypes() +
                  "); it has: " + textOfTopics(survey_));
         }
     }
 
-    /// The reason why a topic is not read unless it is selected; empty: it is read.
+    /// Why a topic is not read unless it is selected; empty if it is read.
     std::string whyNot(const Topic& topic, const std::vector<const Topic*>& lidars) const {
         if (topic.kind == LidarKind::Velodyne && !isReadable(topic)) {
             return "its packets are not from a known Velodyne (" +
@@ -180,7 +178,7 @@ class Planner {
         return topic.kind != LidarKind::Velodyne || findVelodyne(topic) != nullptr;
     }
 
-    /// The model of most packets; null: unknown.
+    /// The model of most packets; null if unknown.
     static const sensors::VelodyneModel* findVelodyne(const Topic& topic) {
         const sensors::VelodyneModel* most = nullptr;
         std::size_t max_packets = 0;
@@ -220,8 +218,6 @@ class Planner {
         frame_of_[topic.topic.name] = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
     }
 
-    // Ouster metadata.
-
     std::shared_ptr<const sensors::OusterSensor> findOuster(const Topic& topic) const {
         std::string text_of = options_.sensor_json.string();
         if (text_of.empty()) {
@@ -258,8 +254,6 @@ class Planner {
              options_.sensor_json.string());
     }
 
-    // Poses.
-
     void takeMost(const std::map<std::string, PoseSeries>& all, bool is_dense) {
         if (plan_.poses != nullptr) return;
         for (const auto& [name, series] : all) {
@@ -270,7 +264,7 @@ class Planner {
         }
     }
 
-    /// True if a topic may be read: poses are chosen before the topics.
+    /// True if a topic may be read. Needed because poses are chosen before topics.
     bool mayBeRead(const Topic& topic) const {
         if (topic.kind == LidarKind::None) return false;
         if (options_.topics.empty()) return !isFixed(topic.frame);
@@ -280,7 +274,7 @@ class Planner {
                            });
     }
 
-    /// Frames of the LiDARs that may be read.
+    /// Frames of all LiDARs that may be read.
     std::vector<std::string> framesOfLidars() const {
         std::vector<std::string> frames;
         std::set<std::string> known;
@@ -294,17 +288,17 @@ class Planner {
 
     using Way = std::vector<const PoseSeries*>;
 
-    /// The path from a frame up the tree.
+    /// A path from a frame towards the root.
     struct Climb {
         Way still;                       ///< constant transforms before the first moving transform
         std::vector<MovingStep> moving;  ///< transforms from the first moving transform on
-        std::string top;                 ///< the last frame
-        CPose3D in_top;                  ///< pose of the last step's parent in `top`
+        std::string top;                 ///< last frame of the path
+        CPose3D in_top;                  ///< pose in `top` of the last moving step's parent
         bool is_at_goal = false, is_circle = false;
     };
 
-    /// Climbs to `goal` or to a frame rigidly attached to it; without a goal, to a world frame or a
-    /// frame without parent.
+    /// Climbs to `goal` or a frame rigidly attached to it; if `goal` is empty, to a world frame or
+    /// a frame without parent.
     Climb climb(const std::string& frame, const std::string& goal = "") const {
         Climb climb;
         climb.top = frame;
@@ -320,7 +314,7 @@ class Planner {
                 return !climb.moving.empty() && isWorld(end);
             };
             const std::string root = frames_.rootOf(at);
-            const auto in_root = frames_.poseIn(at, root);  // none: static frames form a cycle
+            const auto in_root = frames_.poseIn(at, root);  // nullopt if static frames form a cycle
             if (ends_at(at) || !in_root) return climb;
             climb.top = root;
             climb.in_top = *in_root + climb.in_top;
@@ -338,7 +332,7 @@ class Planner {
                 std::any_of(climb.moving.begin(), climb.moving.end(),
                             [&](const MovingStep& step) { return step.series == &series; });
             if (climb.is_circle) return climb;
-            // The composed poses are those of the first step's child.
+            // Composed poses are those of the first step's child.
             climb.moving.push_back({climb.moving.empty() ? CPose3D() : climb.in_top, &series});
             climb.in_top = CPose3D();
         }
@@ -352,7 +346,7 @@ class Planner {
         }
     }
 
-    /// False without effect if the steps have no times in common.
+    /// Composes the poses of the steps. Returns false if the steps have no times in common.
     bool takeComposed(const std::vector<MovingStep>& steps, const std::string& top,
                       const CPose3D& in_top) {
         auto poses = std::make_shared<PoseSeries>(composed(steps, top, in_top));
@@ -362,14 +356,14 @@ class Planner {
         return true;
     }
 
-    /// Uses the transforms that move the frame to which a LiDAR is attached. If nothing moves, uses
-    /// constant transforms: the vehicle is stationary.
+    /// Uses the transforms that move the frame to which a LiDAR is attached. If nothing moves, the
+    /// vehicle is stationary, and constant transforms are used.
     void takeTransforms() {
         if (plan_.poses != nullptr) return;
         std::vector<std::string> frames = framesOfLidars();
         frames.insert(frames.end(), {"base_link", "base_footprint"});
         std::optional<Climb> moving;
-        Way still;  // up to the first with a parent that is not a vehicle frame
+        Way still;  // up to the first parent that is not a vehicle frame
         for (const std::string& frame : frames) {
             const Climb found = climb(frame);
             const auto outside =
@@ -395,7 +389,7 @@ class Planner {
     void takeMoving(const Climb& climb) {
         const PoseSeries& first = *climb.moving.front().series;
         const std::string& parent = climb.moving.back().series->parent;
-        // Constant transforms above the last moving transform matter only within the vehicle.
+        // Constant transforms above the last moving transform are needed only within the vehicle.
         const bool is_within = isOfVehicle(parent);
         const std::string& top = is_within ? climb.top : parent;
         std::string why;
@@ -413,8 +407,8 @@ class Planner {
                                 why + ", so they provide no poses");
     }
 
-    /// If the LiDARs move relative to the frame of the poses, adds the transforms to the frame to
-    /// which the first of these LiDARs is attached.
+    /// If all LiDARs move relative to the frame of the poses, adds the transforms to the frame to
+    /// which the first of them is attached.
     void carryPosesToLidars() {
         if (plan_.poses == nullptr || plan_.poses->child.empty()) return;
         const std::string& child = plan_.poses->child;
@@ -422,7 +416,7 @@ class Planner {
         for (const std::string& frame : framesOfLidars()) {
             const Climb found = climb(frame, child);
             if (!found.is_at_goal) continue;
-            if (found.moving.empty()) return;  // one is attached to it
+            if (found.moving.empty()) return;  // a LiDAR is attached to the frame
             if (!way) way = found;
         }
         if (!way) return;
@@ -453,8 +447,8 @@ class Planner {
         carryPosesToLidars();
     }
 
-    /// In ROS 1, constant transforms are often repeated on tf. They count as static if they lead
-    /// from a LiDAR to the vehicle.
+    /// Treats constant transforms on tf from a LiDAR to the vehicle as static, because ROS 1
+    /// systems often repeat them there.
     void addStillTransforms() {
         std::set<std::string> vehicles{"base_link", "base_footprint"};
         for (const auto& [topic, series] : survey_.odometry) vehicles.insert(series.child);
@@ -476,17 +470,15 @@ class Planner {
         }
     }
 
-    // Mounts.
-
     /// The pose of a frame on the vehicle; nullopt if unknown.
     std::optional<CPose3D> onVehicle(const std::string& frame) const {
         std::vector<std::string> vehicles{"base_link", "base_footprint"};
-        // These may move relative to the frame of the poses.
+        // The default frames may move relative to the frame of the poses.
         if (plan_.poses != nullptr && !plan_.poses->child.empty()) vehicles = {plan_.poses->child};
         for (const std::string& vehicle : vehicles) {
             if (const auto pose = frames_.poseIn(frame, vehicle)) return pose;
         }
-        // Poses of another frame do not locate this frame's root.
+        // Without a transform to the vehicle, the poses do not apply to this frame.
         if (plan_.poses != nullptr || !frames_.has(frame)) return std::nullopt;
         return frames_.poseIn(frame, frames_.rootOf(frame));
     }
@@ -512,7 +504,7 @@ class Planner {
     void chooseImu() {
         std::size_t most = 0;
         for (const bool is_mounted : {true, false}) {
-            // A vehicle's pose is better than an IMU with an unknown mount.
+            // Prefer a vehicle's pose to an IMU with an unknown mount.
             if (!is_mounted && (!plan_.imu_topic.empty() || plan_.poses != nullptr)) return;
             for (const auto& [topic, imu] : survey_.imus) {
                 const auto pose = onVehicle(imu.frame);
@@ -530,7 +522,7 @@ class Planner {
     FrameTree frames_;
     BagPlan plan_;
     std::set<std::string> labels_;
-    std::map<std::string, std::string> frame_of_;  ///< by topic
+    std::map<std::string, std::string> frame_of_;  ///< frame of each topic
     mutable std::map<std::string, std::shared_ptr<const sensors::OusterSensor>> ousters_;
 };
 

@@ -30,24 +30,23 @@ using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
 
-/// State and counts of a topic.
 struct TopicState {
     std::string name;
     const BagSensor* sensor = nullptr;
     std::size_t messages = 0, scans = 0, unreadable = 0;
     std::string first_unreadable;          ///< message and reason
-    std::size_t points_without_range = 0;  ///< Livox only
-    // For tables of points:
+    std::size_t points_without_range = 0;  ///< only for Livox messages
+    // Only for tables of points:
     std::size_t points_not_finite = 0;
-    std::map<std::string, std::size_t> clouds_with;  ///< by remark
-    // For packets:
+    std::map<std::string, std::size_t> clouds_with;  ///< clouds with each remark
+    // Only for packets:
     std::optional<sensors::VelodyneTurns> turns;
     std::unique_ptr<sensors::OusterFrames> frames;
     std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
     std::map<unsigned, std::size_t> unknown_ids;
 };
 
-/// Notes the parts of a table that are not used.
+/// Records which parts of a table are not used.
 void note(const CObservation& scan, TopicState& state) {
     const observations::TableCloud* const cloud = observations::tableCloudOf(scan);
     if (cloud == nullptr) return;
@@ -86,8 +85,8 @@ PointTable livoxTableOf(const std::vector<LivoxPoint>& points) {
     return table;
 }
 
-/// Returns memory to the system. glibc keeps freed memory per thread, so large clouds that one
-/// thread allocates and another frees would add up.
+/// Returns freed memory to the system. glibc keeps it per thread, so memory use would grow with
+/// large clouds that one thread allocates and another frees.
 void trimHeap() {
 #ifdef __GLIBC__
     malloc_trim(0);
@@ -102,14 +101,14 @@ struct BagScans::Reader {
     BagPlan plan;
     std::unique_ptr<BagFile> bag;
     std::map<std::string, TopicState> states;  ///< by topic
-    std::vector<TopicState*> state_of;         ///< by index in the bag; null: not a LiDAR topic
+    std::vector<TopicState*> state_of;  ///< by topic index in the bag; null if not a LiDAR topic
     std::vector<std::uint8_t> unpacked;
     std::deque<CObservation::Ptr> complete;
     std::shared_ptr<const SensorModel> mid360 =
         std::make_shared<const SensorModel>(sensorModel("Mid-360"));
     bool is_at_end = false;
     std::size_t scans = 0, messages = 0;
-    std::size_t bytes_untrimmed = 0;  ///< of scans read since trimHeap()
+    std::size_t bytes_untrimmed = 0;  ///< size of the scans read since trimHeap()
     std::string broken_because;
 
     Reader(const std::filesystem::path& name, const BagSurvey& surveyed, const BagOptions& options)
@@ -273,7 +272,7 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
     constexpr std::size_t kImuBytes = 48;
     const sensors::OusterSensor& sensor = *state.sensor->ouster;
     ByteView packet = readPacket(fields);
-    // The ROS 1 driver sends one byte more than the packet.
+    // The ROS 1 driver appends a byte to packets.
     if (packet.size == sensor.packetBytes() + 1) --packet.size;
     if (packet.size != sensor.packetBytes()) {
         if (packet.size == kImuBytes || packet.size == kImuBytes + 1) {
@@ -300,7 +299,6 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
     addComplete(state);
 }
 
-/// Adds the complete turns.
 void BagScans::Reader::addComplete(TopicState& state) {
     if (state.turns) {
         for (const sensors::LidarSweep& turn : state.turns->complete()) {
@@ -340,7 +338,7 @@ void BagScans::Reader::takeImu(const BagMessage& message, const BagTopic& topic)
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {
-        // Counted by the survey.
+        // The survey counts unreadable messages.
     }
 }
 
@@ -457,7 +455,7 @@ std::vector<std::string> BagScans::remarks() const {
                " of frames beyond the first " + std::to_string(kMaxMovingFrames) +
                    " (of tf_static " + std::to_string(FrameTree::kMaxFrames) + ")");
     }
-    BagSurvey others;  // unused topics
+    BagSurvey others;  // messages of unused topics
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",
                                 "geometry_msgs/PoseWithCovarianceStamped", "tf2_msgs/TFMessage",
                                 "tf/tfMessage"};

@@ -20,7 +20,7 @@ class BagSource : public ScanSource {
             const auto observation = scans_->next();
             is_read_to_end_ = observation == nullptr;
             if (!observation) return endAfter(scans_->messagesRead() + 1);
-            if (++seen_ > shown_) ahead_.reset();  // rarely needed again, and holds a chunk
+            if (++seen_ > shown_) ahead_.reset();  // rarely needed again, but uses memory
             see(*observation);
             if (!observations::isLidarScan(*observation)) continue;
             RecordedEntry entry;
@@ -66,7 +66,7 @@ class BagSource : public ScanSource {
         return scans;
     }
 
-    /// The times of all scans, up to the point where the bag is broken.
+    /// Surveys all scans, as far as the bag is readable.
     RawlogSurvey surveyScans() {
         RawlogSurvey survey;
         const auto ahead = openScans();
@@ -91,7 +91,7 @@ class BagSource : public ScanSource {
         return posesOfRawlog(withScansOf(surveyScans(), isKept), file);
     }
 
-    /// ROS frames have the z axis up (REP 103).
+    /// Poses of the bag. The z axis of ROS frames points up (REP 103).
     LogPoses ownPoses() const {
         LogPoses poses;
         const BagPlan& plan = scans_->plan();
@@ -128,8 +128,8 @@ class BagSource : public ScanSource {
     std::filesystem::path file_;
     BagSurvey survey_;
     std::unique_ptr<BagScans> scans_;
-    std::unique_ptr<BagScans> ahead_;   ///< for showClouds(), while ahead of scans_
-    std::size_t shown_ = 0, seen_ = 0;  ///< observations read by ahead_, and by scans_
+    std::unique_ptr<BagScans> ahead_;   ///< reads ahead for showClouds()
+    std::size_t shown_ = 0, seen_ = 0;  ///< number of observations read by ahead_ and by scans_
     std::size_t scans_read_ = 0;
     bool is_read_to_end_ = false;
 };

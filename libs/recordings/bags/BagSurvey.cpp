@@ -12,14 +12,14 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr std::size_t kMaxExamined = 20;  // Velodyne messages, one turn each
+constexpr std::size_t kMaxExamined = 20;  // max. Velodyne messages, one turn each
 constexpr std::size_t kMaxOusterMetadata = 1 << 20;
 
 void addPose(const PoseMessage& message, std::int64_t recorded_ns, PoseSeries& series) {
     const auto pose = message.pose();
     if (!pose) throw std::runtime_error("its pose is not finite or has no rotation");
     const std::int64_t time_ns = message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
-    // As doubles, because times of a broken file may overflow integers.
+    // Uses doubles, because times in a broken file may overflow integers.
     const auto apart_ns = [&] {
         return std::abs(static_cast<double>(time_ns) -
                         static_cast<double>(series.poses.back().time_ns));
@@ -42,7 +42,7 @@ class BagSurveyor {
         } catch (const std::bad_alloc&) {
             throw;
         } catch (const std::exception& e) {
-            // BagScans counts LiDAR messages.
+            // BagScans counts unreadable LiDAR messages.
             if (topic.kind != LidarKind::None) return;
             count(survey_.left_out[topic.topic.name].messages, message, topic, e.what());
         }
@@ -89,10 +89,10 @@ class BagSurveyor {
         }
     }
 
-    /// Examines the first messages of a LiDAR. The first packet of a Velodyne topic may be from
-    /// another sensor.
+    /// Examines the first messages of a LiDAR topic. For a Velodyne, one packet is not enough,
+    /// because it may be from another sensor.
     void look(const BagMessage& message, BagSurvey::Topic& topic) {
-        if (topic.kind == LidarKind::Ouster) return;  // without a header
+        if (topic.kind == LidarKind::Ouster) return;  // no header
         FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
         if (topic.kind != LidarKind::Velodyne) {
             topic.frame = readHeader(fields).frame;
@@ -156,7 +156,7 @@ class BagSurveyor {
                 series.child = transform.child;
                 series.source = "transforms from " + series.parent + " to " + series.child;
             }
-            // Poses would jump if two publishers were mixed.
+            // Skip other parents: mixing the poses of two publishers would cause jumps.
             if (series.parent != parent) {
                 count(survey_.left_out[topic.topic.name].other_parents, message, topic,
                       which + ", before from '" + series.parent + "'");
@@ -209,7 +209,7 @@ BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool(
     BagSurvey survey = std::move(surveyor).survey();
     survey.broken_because = broken_because;
     for (std::size_t i = survey.topics.size(); i < bag->topics().size(); ++i) {
-        auto& topic = survey.topics.emplace_back();  // without messages
+        auto& topic = survey.topics.emplace_back();
         topic.topic = bag->topics()[i];
         topic.kind = lidarKindOf(topic.topic);
     }

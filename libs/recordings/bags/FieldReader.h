@@ -14,21 +14,20 @@ struct ByteView {
     std::size_t size = 0;
 };
 
-/// Too few bytes for the fields.
+/// Thrown if the bytes end within a field.
 struct TooShort : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 /// Reads the fields of a message or a record in order: packed and little-endian, as in ROS 1 and in
-/// the records of bags, or as CDR (aligned; NUL-terminated texts; either byte order). Throws
-/// TooShort instead of reading beyond the end. Checks sizes before allocating.
+/// bag records, or as CDR (aligned; NUL-terminated texts; either byte order). Throws TooShort
+/// instead of reading beyond the end. Checks sizes before allocating.
 class FieldReader {
  public:
-    /// Packed fields.
     explicit FieldReader(ByteView bytes) : bytes_(bytes) {}
 
-    /// The fields of a CDR message, which starts with a four-byte header with the byte order.
-    /// Throws std::runtime_error for other kinds of CDR (parameter lists, XCDR2).
+    /// Reads a CDR message, which starts with a four-byte header with the byte order. Throws
+    /// std::runtime_error for unsupported kinds of CDR (parameter lists, XCDR2).
     static FieldReader ofCdr(ByteView bytes);
 
     bool isCdr() const { return is_cdr_; }
@@ -48,7 +47,7 @@ class FieldReader {
         return value;
     }
 
-    /// Reads the number of elements that follow, each of at least this size.
+    /// Reads the number of elements that follow, each with at least `min_bytes` bytes.
     std::size_t count(std::size_t min_bytes) {
         const auto elements = number<std::uint32_t>();
         if (elements > left() / min_bytes) {
@@ -60,11 +59,11 @@ class FieldReader {
 
     std::string text() {
         ByteView chars = take(count(1));
-        if (is_cdr_ && chars.size > 0) --chars.size;  // the NUL
+        if (is_cdr_ && chars.size > 0) --chars.size;  // without the NUL
         return {reinterpret_cast<const char*>(chars.data), chars.size};
     }
 
-    /// The next bytes, unparsed.
+    /// Returns the next bytes unparsed.
     ByteView take(std::size_t size) {
         if (size > left()) {
             throw TooShort("it is " + std::to_string(size - left()) + " bytes too short");
@@ -83,7 +82,7 @@ class FieldReader {
 
  private:
     ByteView bytes_;
-    std::size_t at_ = 0, start_ = 0;  ///< CDR is aligned to the byte after its header
+    std::size_t at_ = 0, start_ = 0;  ///< CDR is aligned relative to the end of its header
     bool is_cdr_ = false, swaps_ = false;
 };
 

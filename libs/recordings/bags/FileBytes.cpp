@@ -46,7 +46,7 @@ void FileBytes::read(std::uint64_t count, const std::string& what,
                      std::vector<std::uint8_t>& bytes) {
     checkLeft(count, what);
     const auto size = static_cast<std::size_t>(count);
-    if (bytes.capacity() < size) {  // avoids an allocation per chunk, as sizes vary slightly
+    if (bytes.capacity() < size) {  // spare room avoids an allocation per chunk
         bytes = {};
         bytes.reserve(size + size / 4);
     }

@@ -9,7 +9,7 @@
 
 namespace hagen::recordings {
 
-/// Reads a file sequentially, with an optional running CRC.
+/// Reads a file sequentially and optionally computes its CRC.
 class FileBytes {
  public:
     /// Throws BrokenRecording naming the file if it cannot be opened.
@@ -19,20 +19,20 @@ class FileBytes {
     std::uint64_t left() const { return size_ > position_ ? size_ - position_ : 0; }
     double fractionRead() const;
 
-    /// Reads exactly `count` bytes; does not allocate if the file has fewer. `what` names the data
-    /// in BrokenRecording: "a chunk".
+    /// Reads exactly `count` bytes. Does not allocate if the file has fewer. `what` names the data
+    /// in exceptions (BrokenRecording), such as "a chunk".
     void read(std::uint64_t count, const std::string& what, std::vector<std::uint8_t>& bytes);
-    /// Skips bytes in parts, so that reading can be interrupted: call skipSome() while
-    /// isSkipping(). Reads the skipped bytes for the CRC.
+    /// Begins to skip bytes. Call skipSome() while isSkipping(), so that skipping can be
+    /// interrupted. Skipped bytes are part of the CRC.
     void beginSkip(std::uint64_t count, const std::string& what);
     bool isSkipping() const { return to_skip_ > 0; }
     void skipSome();
 
-    /// CRC-32 (as in zlib) of all bytes since the last restart.
+    /// CRC-32 (as in zlib) of all bytes since it was last restarted.
     std::uint32_t crc() const { return crc_; }
     void restartCrc() { crc_ = 0; }
 
-    /// Throws BrokenRecording "FILE: WHAT at byte N: WHY".
+    /// Throws BrokenRecording with the message "FILE: WHAT at byte N: WHY".
     [[noreturn]] void fail(const std::string& what, std::uint64_t byte,
                            const std::string& why) const;
 
@@ -46,7 +46,7 @@ class FileBytes {
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, Close> file_;
     std::uint64_t size_ = 0, position_ = 0, to_skip_ = 0;
-    std::string skipped_;  ///< name of the skipped data
+    std::string skipped_;
     bool has_crc_;
     std::uint32_t crc_ = 0;
 };

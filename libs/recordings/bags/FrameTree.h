@@ -13,14 +13,14 @@ class FrameTree {
  public:
     static constexpr std::size_t kMaxFrames = 10000;
 
-    /// Adds or replaces the pose of `child` in `parent`. False without effect if both are the same
-    /// frame, or if there are kMaxFrames others.
+    /// Adds or replaces the pose of `child` in `parent`. Returns false without effect if both are
+    /// the same frame, or if there are already kMaxFrames others.
     bool add(const std::string& parent, const std::string& child, const mrpt::poses::CPose3D& pose);
 
     bool has(const std::string& frame) const;
-    /// The root of a frame, which may be the frame itself. Stops at a cycle.
+    /// The root above a frame; the frame itself if it has no parent. Stops at a cycle.
     std::string rootOf(const std::string& frame) const;
-    /// The pose of a frame in another frame; nullopt if they are not connected.
+    /// The pose of a frame in another frame; nullopt if the frames are not connected.
     std::optional<mrpt::poses::CPose3D> poseIn(const std::string& frame,
                                                const std::string& in) const;
 
@@ -31,7 +31,7 @@ class FrameTree {
     };
     mrpt::poses::CPose3D poseInRoot(const std::string& frame) const;
 
-    std::map<std::string, Edge> edges_;  ///< by child
+    std::map<std::string, Edge> edges_;  ///< edge to the parent, by child
 };
 
 }  // namespace hagen::recordings

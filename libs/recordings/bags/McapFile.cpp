@@ -10,7 +10,7 @@ namespace hagen::recordings {
 namespace {
 
 constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
-constexpr std::uint64_t kMaxFooter = 1 << 16;  // 20 bytes; later versions may add fields
+constexpr std::uint64_t kMaxFooter = 1 << 16;  // currently 20 bytes; later versions may add fields
 enum McapOp : std::uint8_t {
     kMcapFooter = 0x02,
     kMcapSchema = 0x03,
@@ -30,7 +30,7 @@ std::string mcapRecordName(std::uint8_t op) {
 }
 
 void checkCrc(std::uint32_t due, std::uint32_t found, const std::string& of) {
-    if (due == 0 || due == found) return;  // 0: no CRC
+    if (due == 0 || due == found) return;  // 0: CRC not computed
     throw std::runtime_error("the CRC of " + of + " is wrong: the file was changed or damaged");
 }
 
@@ -150,7 +150,7 @@ class McapFile : public RecordFile {
         const auto summary_at = FieldReader({content_.data(), 8}).number<std::uint64_t>();
         file_.read(4, "the footer", content_);
         const auto due = FieldReader({content_.data(), 4}).number<std::uint32_t>();
-        // Without a summary, the CRC starts with the footer and does not cover messages.
+        // Without a summary, this CRC starts with the footer and does not cover messages.
         if (summary_at == summary_at_) checkCrc(due, crc, "the summary");
         file_.read(size - 20, "the footer", content_);
         file_.read(kMcapMagic.size(), "the magic bytes at the end", content_);

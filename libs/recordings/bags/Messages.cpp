@@ -25,7 +25,7 @@ bool isZstd(const BagMessage& message) {
     return message.size > 4 && at[0] == 0x28 && at[1] == 0xb5 && at[2] == 0x2f && at[3] == 0xfd;
 }
 
-/// Seconds and nanoseconds; seconds are signed in ROS 2.
+/// Reads seconds (signed in ROS 2) and nanoseconds.
 std::int64_t readTime(FieldReader& fields) {
     const auto seconds = fields.number<std::uint32_t>();
     const auto nanoseconds = fields.number<std::uint32_t>();
@@ -52,7 +52,7 @@ std::array<double, N> readDoubles(FieldReader& fields) {
     return numbers;
 }
 
-/// A quaternion as x, y, z, w.
+/// Reads a quaternion in the order x, y, z, w.
 std::array<double, 4> readRotation(FieldReader& fields) {
     const auto xyzw = readDoubles<4>(fields);
     return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
@@ -70,12 +70,12 @@ std::vector<std::uint8_t> joinRows(ByteView data, std::size_t rows, std::size_t 
     return joined;
 }
 
-/// Extracts the points of an image of width x height points.
+/// Extracts the points of a cloud that is stored as an image of width x height points.
 void takeImage(ByteView data, std::uint64_t width, std::uint64_t height, std::uint64_t row_step,
                PointTable& table) {
     table.points = 0;
     if (width == 0 || height == 0) return;
-    const std::uint64_t row_bytes = width * table.bytes_per_point;  // product of 32-bit numbers
+    const std::uint64_t row_bytes = width * table.bytes_per_point;  // cannot overflow: both 32-bit
     const bool is_joined = height == 1 || row_step == 0 || row_step == row_bytes;
     if (!is_joined && row_step < row_bytes) {
         throw std::runtime_error("its header claims rows of " + std::to_string(row_step) +
@@ -83,7 +83,7 @@ void takeImage(ByteView data, std::uint64_t width, std::uint64_t height, std::ui
                                  std::to_string(table.bytes_per_point));
     }
     const std::uint64_t step = is_joined ? row_bytes : row_step;
-    // The last row may lack its padding. No product below can overflow.
+    // The last row may lack its padding. These products cannot overflow.
     if (step == 0 || row_bytes > data.size || (data.size - row_bytes) / step < height - 1) {
         throw std::runtime_error("it claims " + std::to_string(width) + " x " +
                                  std::to_string(height) + " points of " +
@@ -143,9 +143,9 @@ PointCloud2 readPointCloud2(FieldReader& fields) {
         field.name = fields.text();
         field.offset = fields.number<std::uint32_t>();
         field.type = pointFieldType(fields.number<std::uint8_t>());
-        // Some drivers set it to 0.
+        // Some drivers set the count to 0.
         field.count = std::max<std::uint32_t>(1, fields.number<std::uint32_t>());
-        // Padding has no name or a duplicate name.
+        // Padding has no name or the name "_".
         if (!field.name.empty() && field.name != "_") table.fields.push_back(field);
     }
     table.is_big_endian = fields.number<std::uint8_t>() != 0;
@@ -225,7 +225,7 @@ PoseMessage readOdometry(FieldReader& fields) {
 std::vector<PoseMessage> readTransforms(FieldReader& fields) {
     constexpr std::size_t kMinTransform = 8 + 4 + 4 + 7 * 8;
     std::vector<PoseMessage> transforms(fields.count(kMinTransform));
-    for (PoseMessage& transform : transforms) transform = readOdometry(fields);  // the same fields
+    for (PoseMessage& transform : transforms) transform = readOdometry(fields);  // same fields
     return transforms;
 }
 
@@ -234,7 +234,7 @@ ImuMessage readImu(FieldReader& fields) {
     message.header = readHeader(fields);
     const auto rotation = readRotation(fields);
     const auto covariance = readDoubles<9>(fields);
-    // -1 means no orientation, as documented in sensor_msgs/Imu; many drivers set zeros instead.
+    // -1 means no orientation, as documented in sensor_msgs/Imu. Many drivers set zeros instead.
     const bool is_zero = rotation == std::array<double, 4>{};
     if (covariance[0] != -1 && !is_zero) message.rotation_wxyz = rotation;
     return message;

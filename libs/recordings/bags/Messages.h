@@ -13,26 +13,26 @@
 
 namespace hagen::recordings {
 
-/// The fields of a message in its topic's serialisation ("ros1" or "cdr"). Throws
-/// std::runtime_error for another serialisation. Decompresses an individually compressed message
+/// Returns the fields of a message in its topic's serialisation ("ros1" or "cdr"). Throws
+/// std::runtime_error for other serialisations. Decompresses individually compressed messages
 /// (zstd) into `unpacked`.
 FieldReader fieldsOf(const BagMessage& message, const std::string& encoding,
                      std::vector<std::uint8_t>& unpacked);
 
-/// "message 3 (recorded at 1700000000.100 s): ".
+/// Such as "message 3 (recorded at 1700000000.100 s): ".
 std::string nameOf(std::size_t number, std::int64_t recorded_ns);
 
-/// The readers below read the messages of that name from their first field on. All throw TooShort
-/// or another std::runtime_error with the reason, and check counts against the available bytes.
+/// The functions below read messages of these types. They throw TooShort or another
+/// std::runtime_error with the reason, and check counts against the number of available bytes.
 
 /// std_msgs/Header. The frame has no leading slash.
 struct Header {
-    std::int64_t time_ns = 0;  ///< 0: none
+    std::int64_t time_ns = 0;  ///< 0 if missing
     std::string frame;
 };
 Header readHeader(FieldReader& fields);
 
-/// sensor_msgs/PointCloud2, with padding removed.
+/// sensor_msgs/PointCloud2 without padding.
 struct PointCloud2 {
     Header header;
     observations::PointTable table;
@@ -43,19 +43,19 @@ PointCloud2 readPointCloud2(FieldReader& fields);
 struct VelodyneScanMessage {
     struct Packet {
         std::int64_t time_ns;
-        const std::uint8_t* bytes;  ///< 1206 bytes within the message
+        const std::uint8_t* bytes;  ///< 1206 bytes in the message
     };
     Header header;
     std::vector<Packet> packets;
 };
 VelodyneScanMessage readVelodyneScan(FieldReader& fields);
 
-/// The packet in a PacketMsg of ouster_ros, ouster_msgs or ouster_sensor_msgs.
+/// Reads the packet in a PacketMsg of ouster_ros, ouster_msgs or ouster_sensor_msgs.
 ByteView readPacket(FieldReader& fields);
 
 /// CustomMsg of livox_ros_driver2 or livox_ros_driver.
 struct LivoxPoint {
-    std::uint32_t since_ns;  ///< since the first point
+    std::uint32_t since_ns;  ///< time since the first point
     float x_m, y_m, z_m;
     std::uint8_t reflectivity, tag, line;
 };
@@ -65,14 +65,14 @@ struct LivoxMessage {
 };
 LivoxMessage readLivox(FieldReader& fields);
 
-/// A pose with its time and frames, from nav_msgs/Odometry, geometry_msgs/PoseStamped,
-/// geometry_msgs/PoseWithCovarianceStamped, or one transform of tf2_msgs/TFMessage.
+/// A pose with its time and frames, from nav_msgs/Odometry, geometry_msgs/PoseStamped or
+/// PoseWithCovarianceStamped, or one transform of tf2_msgs/TFMessage.
 struct PoseMessage {
-    Header header;      ///< with the parent frame
-    std::string child;  ///< child frame; empty: unknown
+    Header header;
+    std::string child;  ///< child frame; empty if unknown
     std::array<double, 3> position_m;
-    std::array<double, 4> rotation_wxyz;  ///< as recorded, perhaps not normalized
-    /// nullopt if a number is not finite, or the rotation is zero.
+    std::array<double, 4> rotation_wxyz;  ///< as recorded, may not be normalized
+    /// Returns nullopt if a number is not finite or the rotation is zero.
     std::optional<mrpt::poses::CPose3D> pose() const;
 };
 PoseMessage readOdometry(FieldReader& fields);
@@ -86,7 +86,6 @@ struct ImuMessage {
 };
 ImuMessage readImu(FieldReader& fields);
 
-/// std_msgs/String.
 std::string readString(FieldReader& fields);
 
 }  // namespace hagen::recordings

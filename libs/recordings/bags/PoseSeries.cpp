@@ -14,7 +14,7 @@ namespace {
 using mrpt::poses::CPose3D;
 
 constexpr double kFarApart_s = 0.5;
-constexpr double kMaxGap_s = 0.2;  // of Trajectory
+constexpr double kMaxGap_s = 0.2;  // maximum gap of Trajectory
 
 }  // namespace
 
@@ -64,14 +64,14 @@ PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top
         }
     }
     std::sort(times_ns.begin(), times_ns.end());
-    // This series is the most likely to have no pose.
+    // The series with the fewest poses is the most likely to lack a pose.
     const auto isSparser = [](const MovingStep& a, const MovingStep& b) {
         return a.series->poses.size() < b.series->poses.size();
     };
     const observations::Trajectory& sparsest = trajectories[static_cast<std::size_t>(
         std::min_element(steps.begin(), steps.end(), isSparser) - steps.begin())];
     for (const std::int64_t time_ns : times_ns) {
-        // As doubles, because times of a broken file may overflow integers.
+        // Uses doubles, because times in a broken file may overflow integers.
         if (!whole.poses.empty() &&
             static_cast<double>(time_ns) - static_cast<double>(whole.poses.back().time_ns) <
                 kMinApart_ns) {

@@ -8,7 +8,7 @@ namespace hagen::recordings {
 
 mrpt::poses::CPose3D poseOf(const RecordedPose& pose);
 
-constexpr double kMinApart_ns = 1e7;  ///< between stored poses
+constexpr double kMinApart_ns = 1e7;  ///< minimum time between stored poses
 
 /// True if poses are close enough in time to locate scans.
 bool isDense(const PoseSeries& series);
@@ -16,18 +16,17 @@ bool isDense(const PoseSeries& series);
 /// True if all poses are equal. The series must not be empty.
 bool isStill(const PoseSeries& series);
 
-/// The total time with poses, excluding gaps that are too long for interpolation.
+/// The total time covered by poses, excluding gaps that are too long for interpolation.
 double covered_s(const PoseSeries& series);
 
-/// One of several consecutive moving transforms, and the pose of the previous series in its child
-/// frame.
+/// A moving transform of a path, and the pose of the previous step's parent in its child frame.
 struct MovingStep {
     mrpt::poses::CPose3D in_child;
     const PoseSeries* series;
 };
 
-/// The poses of the first step's child in `top`, where `in_top` is the pose of the last step's
-/// parent. Uses the times of any step that all steps cover.
+/// Composes the poses of the first step's child in `top`. `in_top`: pose of the last step's parent
+/// in `top`. Uses the times of all steps at which every step has a pose.
 PoseSeries composed(const std::vector<MovingStep>& steps, const std::string& top,
                     const mrpt::poses::CPose3D& in_top);
 

@@ -9,7 +9,7 @@
 
 namespace hagen::recordings {
 
-/// A bag of records, some of which are chunks of records.
+/// A bag that consists of records. Some records are chunks, which contain records.
 class RecordFile : public BagFile {
  public:
     bool next(BagMessage& message) final;
@@ -19,21 +19,21 @@ class RecordFile : public BagFile {
  protected:
     RecordFile(const std::filesystem::path& file, bool has_crc) : file_(file, has_crc) {}
 
-    /// Reads the next record of the file, or of in_chunk_; true if it is a message. Throws
-    /// std::runtime_error with the reason.
+    /// Reads the next record of the file or of in_chunk_. Returns true if it is a message. Throws
+    /// std::runtime_error with the reason if it is invalid.
     virtual bool readRecord(BagMessage& message) = 0;
     virtual bool readInChunk(BagMessage& message) = 0;
 
-    /// Fills a message and returns true. Throws if its channel is not in topic_of_.
+    /// Fills a message and returns true. Throws std::runtime_error if its channel is unknown.
     bool take(const char* channel_name, std::uint32_t channel, std::int64_t time_ns, ByteView data,
               BagMessage& message) const;
 
     FileBytes file_;
     TopicList topics_;
-    std::map<std::uint32_t, std::size_t> topic_of_;  ///< by channel or connection
+    std::map<std::uint32_t, std::size_t> topic_of_;  ///< topic index by channel or connection
     std::uint64_t record_at_ = 0;                    ///< byte offset of the record or its chunk
     std::vector<std::uint8_t> head_, content_, chunk_;
-    FieldReader in_chunk_{ByteView()};  ///< the rest of the chunk, in the buffers above
+    FieldReader in_chunk_{ByteView()};  ///< rest of the chunk, which is in the buffers above
     bool is_at_end_ = false;
 };
 

@@ -27,7 +27,7 @@ std::string ros1RecordName(std::uint8_t op) {
     return name == kNames.end() ? "a record" : name->second;
 }
 
-/// The "name=value" fields of a record's header, each preceded by its size.
+/// The "name=value" fields in a record's header. Each field starts with its size.
 class RecordHeader {
  public:
     explicit RecordHeader(ByteView header) {
@@ -129,7 +129,7 @@ class Ros1Bag : public RecordFile {
         chunks_due_ = header.number<std::uint32_t>("chunk_count");
     }
 
-    /// Reads a connection or a message; true if it is a message.
+    /// Reads a connection or a message. Returns true if it is a message.
     bool takeRecord(const RecordHeader& header, ByteView data, BagMessage& message) {
         const std::uint8_t op = header.op();
         if (op == kRos1Connection) {
@@ -139,13 +139,13 @@ class Ros1Bag : public RecordFile {
         }
         if (op != kRos1Message) return false;
         const auto connection = header.number<std::uint32_t>("conn");
-        const auto time = header.number<std::uint64_t>("time");  // seconds, then nanoseconds
+        const auto time = header.number<std::uint64_t>("time");  // seconds and nanoseconds
         const std::int64_t time_ns = static_cast<std::int64_t>(time & 0xffffffff) * 1000000000 +
                                      static_cast<std::int64_t>(time >> 32);
         return take("connection", connection, time_ns, data, message);
     }
 
-    /// Throws unless the bag was closed.
+    /// Throws std::runtime_error if the bag was not closed.
     void checkEnd() const {
         if (!has_header_) {
             throw std::runtime_error("there is no bag header: the bag is truncated");

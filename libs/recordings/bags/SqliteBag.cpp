@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
-/// "file:///a%20b.db3": percent-encodes special characters. Without an empty authority, the first
-/// folder of a path that starts with "//" would be the authority.
+/// Returns a URI such as "file:///a%20b.db3". An empty authority is required, because the first
+/// folder of a path that starts with "//" would otherwise be the authority.
 std::string uriOf(const fs::path& file) {
     std::string uri = "file://";
     for (const char c : fs::absolute(file).string()) {
@@ -32,7 +32,8 @@ std::string uriOf(const fs::path& file) {
     return uri;
 }
 
-/// The error if a database lacks pages at its end; empty if it is complete or its size is unknown.
+/// Returns an error if a database lacks pages at its end; "" if it is complete or its size is
+/// unknown.
 std::string whyCut(const fs::path& file) {
     std::array<unsigned char, 100> header{};
     std::ifstream stream = base::openToRead(file);
@@ -52,7 +53,7 @@ std::string whyCut(const fs::path& file) {
            std::to_string(due) + " bytes";
 }
 
-/// True if there is a journal of an unfinished transaction. Journals of finished transactions may
+/// True if the journal belongs to an unfinished transaction. Journals of finished transactions may
 /// remain, with zeros at their start.
 bool hasHotJournal(const fs::path& journal) {
     constexpr std::string_view kJournal{"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8};
@@ -74,16 +75,16 @@ class SqliteBag : public BagFile {
         checkTables();
         checkColumns();
         readTopics();
-        // Separate subqueries, because one query for both would read all messages.
+        // Two subqueries, because a single query for both would read all messages.
         const Query range =
             prepare("SELECT (SELECT min(id) FROM messages), (SELECT max(id) FROM messages)");
-        if (sqlite3_step(range.get()) == SQLITE_ROW) {  // fails if the end is missing
+        if (sqlite3_step(range.get()) == SQLITE_ROW) {  // fails if the end of the file is missing
             first_row_ = sqlite3_column_int64(range.get(), 0);
             last_row_ = sqlite3_column_int64(range.get(), 1);
         }
-        // By id, which is the order of recording and requires neither an index nor sorting.
+        // IDs are in recording order; sorting by ID requires neither an index nor memory.
         messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
-        // A step may sort all messages, or search damaged pages.
+        // A single step may sort all messages, or search damaged pages.
         constexpr int kInstructionsPerCheck = 100000;
         sqlite3_progress_handler(database_.get(), kInstructionsPerCheck, checkDuringQuery, this);
     }
@@ -134,7 +135,7 @@ class SqliteBag : public BagFile {
     using Query = std::unique_ptr<sqlite3_stmt, Close>;
 
     void open() {
-        // Rolling back the journal requires write permission; otherwise old and new pages are
+        // Rolling back the journal requires write permission; without it, old and new pages are
         // mixed.
         const std::string journal = file_.string() + "-journal";
         if (hasHotJournal(journal)) {
@@ -144,7 +145,7 @@ class SqliteBag : public BagFile {
                  "and run there: sqlite3 " +
                  file_.filename().string() + " 'SELECT count(*) FROM messages'");
         }
-        // Without pending changes, reading requires no write access.
+        // If there are no pending changes, reading requires no write access.
         std::error_code none;
         const fs::path log = file_.string() + "-wal";
         const bool has_log = fs::exists(log, none) && fs::file_size(log, none) > 0;
@@ -154,13 +155,13 @@ class SqliteBag : public BagFile {
             sqlite3_open_v2(uri.c_str(), &raw, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
         database_.reset(raw);
         if (state != SQLITE_OK) fail(raw == nullptr ? "out of memory" : sqlite3_errmsg(raw));
-        // The schema is untrusted and must not run code.
+        // The schema is untrusted and must not execute code.
         sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
         sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
         sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
-        // A few bytes of a schema can define a blob of any size.
+        // A small schema can define a blob of any size.
         sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMaxUnpackedBytes));
-        // Otherwise SQLite rejects a truncated file.
+        // By default, SQLite rejects truncated files.
         if (!cut_because_.empty()) {
             sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
         }
@@ -171,7 +172,7 @@ class SqliteBag : public BagFile {
         const int state = sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &raw, nullptr);
         Query query(raw);
         if ((state & 0xff) == SQLITE_CANTOPEN) {
-            // With a write-ahead log, SQLite writes an index file beside it.
+            // For a write-ahead log, SQLite must write an index file beside it.
             fail(std::string(sqlite3_errmsg(database_.get())) + "; copy it and " + file_.string() +
                  "-wal into a writable folder");
         }
@@ -198,7 +199,7 @@ class SqliteBag : public BagFile {
         fail("it has no tables 'topics' and 'messages': is it a ROS 2 bag?");
     }
 
-    /// Rejects computed columns, which could run arbitrarily long expressions for each message.
+    /// Rejects computed columns, whose expressions could run arbitrarily long for each message.
     void checkColumns() const {
         const Query computed = prepare(
             "SELECT m.name, c.name FROM sqlite_schema m, pragma_table_xinfo(m.name) c "
@@ -208,7 +209,7 @@ class SqliteBag : public BagFile {
              textAt(computed.get(), 0) + "' is computed, which is not allowed in bags");
     }
 
-    /// Exceptions must not propagate through SQLite.
+    /// Stores exceptions of the check, because they must not propagate through SQLite.
     static int checkDuringQuery(void* bag) {
         auto* const self = static_cast<SqliteBag*>(bag);
         try {
@@ -241,12 +242,12 @@ class SqliteBag : public BagFile {
     std::filesystem::path file_;
     std::unique_ptr<sqlite3, Close> database_;
     Query messages_;
-    mutable std::exception_ptr interruption_;  ///< thrown by the check during a query
+    mutable std::exception_ptr interruption_;
     TopicList topics_;
-    std::map<std::int64_t, std::size_t> topic_of_;  ///< by the topic's id
+    std::map<std::int64_t, std::size_t> topic_of_;  ///< topic index by the topic's ID
     std::size_t rows_ = 0;
     std::int64_t row_ = 0, first_row_ = 0, last_row_ = 0;
-    std::string cut_because_;  ///< empty: the file has its full length
+    std::string cut_because_;  ///< empty if the file has its full length
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace hagen::recordings {
 
-/// The topics of a recording, each listed once regardless of its number of publishers.
+/// The topics of a recording. Topics with several publishers are listed once.
 class TopicList {
  public:
     /// Throws std::runtime_error if there are too many topics.

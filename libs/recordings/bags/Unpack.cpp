@@ -22,7 +22,7 @@ class Growing {
     std::size_t room() const { return plain_.size() - used_; }
     void add(std::size_t bytes) { used_ += bytes; }
     std::size_t used() const { return used_; }
-    /// Makes room; false at the limit.
+    /// Enlarges the buffer; returns false at the limit.
     bool grow() {
         if (room() > 0) return true;
         if (used_ >= max_) return false;
@@ -46,7 +46,7 @@ void unpackZstd(ByteView packed, Growing& plain) {
     const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
                                                                             &ZSTD_freeDStream);
     ZSTD_inBuffer in{packed.data, packed.size, 0};
-    std::size_t due = 1;  // 0 once a frame is complete
+    std::size_t due = 1;  // 0 if a frame is complete
     while (due != 0 || in.pos < in.size) {
         std::uint8_t none = 0;
         const bool has_room = plain.grow();
@@ -88,7 +88,7 @@ void unpackBz2(ByteView packed, Growing& plain) {
     if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) throw std::bad_alloc();
     const std::unique_ptr<bz_stream, decltype(&BZ2_bzDecompressEnd)> end(&stream,
                                                                          &BZ2_bzDecompressEnd);
-    // The library does not write to its input.
+    // The library does not modify its input.
     stream.next_in = reinterpret_cast<char*>(const_cast<std::uint8_t*>(packed.data));
     stream.avail_in = static_cast<unsigned>(packed.size);
     for (int state = BZ_OK; state != BZ_STREAM_END;) {

@@ -10,9 +10,9 @@ namespace hagen::recordings {
 /// Maximum decompressed size of a chunk or message.
 constexpr std::uint64_t kMaxUnpackedBytes = std::uint64_t{1} << 29;
 
-/// Decompresses a chunk into `plain`; returns an uncompressed chunk unchanged. Compression is "" or
-/// "none", "zstd", "lz4" (frames) or "bz2". `size` is the claimed size; memory grows with the
-/// actual output. Throws std::runtime_error with the reason, also if the sizes differ.
+/// Decompresses a chunk into `plain`, or returns an uncompressed chunk unchanged. `compression`: ""
+/// or "none", "zstd", "lz4" (frames) or "bz2". `size`: claimed size; memory grows with the actual
+/// output. Throws std::runtime_error with the reason if decompression fails or sizes differ.
 ByteView unpack(const std::string& compression, ByteView packed, std::uint64_t size,
                 std::vector<std::uint8_t>& plain);
 

@@ -12,18 +12,18 @@
 namespace hagen::recordings {
 
 /// Converts a sweep to an observation: Velodyne packets to a CObservationVelodyneScan, other
-/// returns to a LocatedCloud in a CObservationPointCloud. Its pose is the beams' origin relative to
-/// the sensor's base.
+/// returns to a LocatedCloud in a CObservationPointCloud. Its sensor pose is the beams' origin
+/// relative to the sensor's base.
 mrpt::obs::CObservation::Ptr observationOf(const sensors::LidarSweep& sweep);
 
-/// The scans of a capture, in the order of their ends. The first and the last scan may be partial.
+/// Reads the scans of a capture, ordered by end. The first and the last scan may be partial.
 class LidarCapture {
  public:
-    /// `reader`: the vendor's. Throws BrokenCapture naming the file if it cannot be opened.
+    /// `reader`: parses packets. Throws BrokenCapture naming the file if it cannot be opened.
     LidarCapture(const std::filesystem::path& file, std::unique_ptr<sensors::SweepReader> reader);
 
-    /// The next scan; null at the end. If the capture is broken, returns the scans in progress and
-    /// then throws BrokenCapture. Also throws at the end if there were no packets.
+    /// Returns the next scan; null at the end. If the capture is broken, returns the scans in
+    /// progress and then throws BrokenCapture. Throws at the end if there were no packets.
     mrpt::obs::CObservation::Ptr nextScan();
 
     /// Like CaptureFile::checkWhileReading().
@@ -31,10 +31,9 @@ class LidarCapture {
         capture_.checkWhileReading(check);
     }
 
-    /// Fraction of the file read so far, 0 ... 1.
     double fractionRead() const { return capture_.fractionRead(); }
 
-    /// Counts per sensor, of frames, and of lost or ignored data. Complete at the end.
+    /// Counts of packets per sensor, of frames, and of lost or ignored data. Complete at the end.
     std::vector<std::string> remarks() const;
 
  private:
@@ -47,10 +46,10 @@ class LidarCapture {
     std::string broken_because_;
 };
 
-/// Opens a capture of Velodyne or Livox sensors, detected by their first packets, or of the Ouster
-/// of a metadata file. `calibration`: of an HDL-64E. Throws std::runtime_error naming a file that
-/// cannot be opened, or if a calibration is given for another kind of sensor. Calls `check`
-/// like checkWhileReading(), and also while opening.
+/// Opens a capture of Velodyne or Livox sensors (detected by their first packets), or of the Ouster
+/// described by a metadata file. `calibration`: HDL-64E calibration. Throws std::runtime_error
+/// naming the file if it cannot be opened, or if a calibration is given for another kind of sensor.
+/// Calls `check` like checkWhileReading(), and also while opening.
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
                                           const std::filesystem::path& sensor_json = {},
                                           const std::filesystem::path& calibration = {},

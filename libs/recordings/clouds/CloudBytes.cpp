@@ -22,7 +22,7 @@ template <class Number>
 bool put(std::string_view word, std::uint8_t* to) {
     std::optional<Number> number = base::numberFrom<Number>(word);
     if constexpr (std::is_integral_v<Number>) {
-        // "7.0" and "1e3" are also integers.
+        // Integers may be written as "7.0" or "1e3".
         const auto real = number ? std::nullopt : base::numberFrom<double>(word);
         const double beyond = std::ldexp(1.0, std::numeric_limits<Number>::digits);
         if (real && *real == std::floor(*real) && *real < beyond &&
@@ -30,7 +30,7 @@ bool put(std::string_view word, std::uint8_t* to) {
             number = static_cast<Number>(*real);
         }
     } else if (!number) {
-        // Underflow gives 0 and overflow infinity, as in other readers.
+        // Underflow results in 0 and overflow in infinity, as in other readers.
         const auto real = base::numberFrom<double>(word);
         if (real) number = static_cast<Number>(*real);
     }
@@ -41,7 +41,7 @@ bool put(std::string_view word, std::uint8_t* to) {
 
 }  // namespace
 
-// 128 bytes per point of a scan with kMaxReturns points.
+// Allows 128 bytes per point in a scan with kMaxReturns points.
 constexpr std::size_t kMaxFileBytes = std::size_t{2} << 30;
 
 Bytes readBytes(const std::filesystem::path& file) {
@@ -66,7 +66,7 @@ Bytes readBytes(const std::filesystem::path& file) {
 
 void failAt(const std::filesystem::path& file, const std::string& place, const std::string& what) {
     std::string text = file.string() + ": " + place + ": " + what;
-    std::replace(text.begin(), text.end(), '\0', '?');  // a NUL would end what()
+    std::replace(text.begin(), text.end(), '\0', '?');  // a NUL would truncate the message
     throw BrokenRecording(text);
 }
 

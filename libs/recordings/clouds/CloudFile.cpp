@@ -31,7 +31,7 @@ bool isPcd(const Bytes& bytes) {
     return false;
 }
 
-/// Detects the format by the first bytes of a file; .bin requires all bytes, from `read_all`.
+/// Detects the format by the first bytes of a file. A .bin requires all bytes, read by `read_all`.
 template <class ReadAll>
 std::optional<CloudFormat> formatOf(const Bytes& start, const ReadAll& read_all) {
     if (startsWith(start, "ply\n") || startsWith(start, "ply\r")) return CloudFormat::Ply;
@@ -59,7 +59,7 @@ CloudFile readUnchecked(const std::filesystem::path& file) {
                       bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
     const auto format = formatOf(start, [&]() -> const Bytes& { return bytes; });
     if (!format) {
-        // A .bin that is empty or all zeros is a scan without returns; a truncated .bin is still a
+        // An empty or all-zero .bin is a scan without returns. A truncated .bin is treated as a
         // .bin.
         const bool may_be_bin = bytes.size() % 16 != 0 || isAllZero(start);
         const bool is_bin =

@@ -14,37 +14,37 @@ namespace hagen::recordings {
 /// Formats of single-cloud files.
 enum class CloudFormat {
     Pcd,  ///< Point Cloud Library, 0.6 and 0.7: ascii, binary, binary_compressed
-    Ply,  ///< Stanford polygon file: ascii, binary little and big endian; its vertices
+    Ply,  ///< vertices of a Stanford polygon file: ascii, binary little and big endian
     Las,  ///< ASPRS LAS 1.0 to 1.4, point formats 0 to 10, uncompressed
     Npy,  ///< NumPy array: N x 3 or more floats, or structured with fields
-    Bin   ///< float32 x, y, z, intensity (KITTI), or also ring (nuScenes); no header
+    Bin   ///< float32 x, y, z, intensity (KITTI), and optionally ring (nuScenes); no header
 };
 
 /// A cloud as stored in a file.
 struct CloudFile {
-    observations::PointTable table;  ///< checked, in the byte order of this machine
-    /// The sensor's position and orientation (w, x, y, z) in a PCD, unless it is the origin.
+    observations::PointTable table;  ///< validated, in the byte order of this machine
+    /// Position and orientation (w, x, y, z) of the sensor in a PCD; empty if it is at the origin.
     std::string viewpoint;
-    /// Remarks for the user on content that is not in the table.
+    /// Remarks for the user on content of the file that is not in the table.
     std::vector<std::string> remarks;
 };
 
 /// Detects the format of a file by its content; nullopt if the format is unknown or the file cannot
-/// be read. A .bin has no magic: its size must be a multiple of 16 or 20, and the first 4096 bytes
-/// must be plausible LiDAR points: within 1 km or not finite, and not all zero. Its points have a
-/// ring if every fifth number is an integer up to 255, not all coordinates are integers, and there
-/// are at least 16 returns: from two or more rings in the first 4096 bytes, or else in the whole
-/// file.
+/// be read. A .bin has no magic number: its size must be a multiple of 16 or 20, and the first 4096
+/// bytes must be plausible LiDAR points: within 1 km or not finite, and not all zero. Its points
+/// have a ring if every fifth number is an integer up to 255, not all coordinates are integers, and
+/// there are at least 16 returns, either from two or more rings in the first 4096 bytes or in the
+/// whole file.
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file);
 
-/// True if a name has a cloud file's extension: .pcd, .ply, .las, .laz, .npy, .bin.
+/// True if a file has the extension of a cloud file: .pcd, .ply, .las, .laz, .npy, .bin.
 bool hasCloudName(const std::filesystem::path& file);
 
-/// Reads a cloud file; detects its format by its content. Allocates at most 256 times the file
-/// size. Throws BrokenRecording, also for more than kMaxReturns points.
+/// Reads a cloud file. Detects its format by its content. Allocates at most 256 times the file
+/// size. Throws BrokenRecording if the file is invalid or has more than kMaxReturns points.
 ///
-/// - BIN: a file named .bin may also be empty or start with 4096 zero bytes, which are rows without
-///   returns. The bytes from the first return on then determine the layout of the points.
+/// - BIN: a file named .bin may also be empty or start with 4096 zero bytes (rows without returns).
+/// Its layout is then detected from the bytes that follow the first return.
 /// - PCD: fields named "_" are padding and are omitted.
 /// - PLY: elements other than `vertex`, and lists, are omitted and listed in the remarks.
 /// - LAS: x, y, z are float64, scaled and shifted by the header; with the fields intensity

@@ -22,7 +22,7 @@ using observations::PointTable;
 
 constexpr const char* kCloudLabel = "lidar";  // label of all clouds in files
 
-/// The fields that a rawlog's cloud class cannot store; empty if there are none.
+/// The names of fields that a rawlog's cloud class cannot store; empty if all fit.
 std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass cloud_class) {
     if (cloud_class == observations::CloudClass::Generic) return "";
     std::vector<const observations::PointField*> kept;
@@ -38,7 +38,7 @@ std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass 
     return names;
 }
 
-/// A name without extension: "a" for a.ply, and for a.pcd.bin (nuScenes).
+/// A name without extensions: "a" for a.ply, or a.pcd.bin (nuScenes).
 std::string stemOf(const fs::path& file) {
     const fs::path stem = file.stem();
     return (stem.extension() == ".pcd" ? stem.stem() : stem).string();
@@ -147,7 +147,6 @@ class CloudFileSource : public FileListSource {
         return objectOf(observation, options_.folder_objects);
     }
 
-    /// Cloud files contain no poses.
     LogPoses readPoses(const fs::path& file) override {
         RawlogSurvey survey;
         for (std::size_t i = 0; i < files_.size(); ++i) {
@@ -160,11 +159,11 @@ class CloudFileSource : public FileListSource {
 
     std::vector<fs::path> files_;
     std::string time_remark_;
-    std::size_t other_files_ = 0, folders_ = 0;  ///< beside the clouds
-    CloudFile file_;                             ///< last file read
+    std::size_t other_files_ = 0, folders_ = 0;  ///< files and folders beside the clouds
+    CloudFile file_;
     std::size_t clouds_ = 0, points_not_finite_ = 0, clouds_not_finite_ = 0;
-    std::vector<std::string> remarks_;                ///< in the order of appearance
-    std::map<std::string, std::size_t> with_remark_;  ///< number of clouds
+    std::vector<std::string> remarks_;
+    std::map<std::string, std::size_t> with_remark_;  ///< clouds with each remark
 };
 
 }  // namespace

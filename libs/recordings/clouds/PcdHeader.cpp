@@ -12,7 +12,7 @@ using observations::PointField;
 
 using Words = std::vector<std::string_view>;
 
-/// A line of the header: the words after the key, and the line's place.
+/// A header line: the words after the key, and the line number for messages.
 struct PcdLine {
     Words values;
     std::string place;

@@ -3,17 +3,17 @@
 
 namespace hagen::recordings {
 
-/// The header of a PCD, checked for consistency but not against the data.
+/// The header of a PCD, consistent in itself but not checked against the data.
 struct PcdHeader {
     enum class Data { Ascii, Binary, Compressed };
-    /// All fields, including those named "_", in order.
+    /// All fields in order, including padding (named "_").
     std::vector<observations::PointField> fields;
     std::size_t bytes_per_point = 0;
     std::size_t points = 0;
     Data data = Data::Ascii;
-    std::string viewpoint;  ///< empty if at the origin
-    std::size_t size = 0;   ///< bytes of the header
-    std::size_t lines = 0;  ///< lines of the header
+    std::string viewpoint;  ///< empty if the sensor is at the origin
+    std::size_t size = 0;
+    std::size_t lines = 0;
 };
 
 /// Throws BrokenRecording naming file and line.

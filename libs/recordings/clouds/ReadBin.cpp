@@ -19,7 +19,7 @@ bool isPacked(const Bytes& bytes) {
     return starts(kGzip) || starts(kZstd);
 }
 
-/// True for plausible LiDAR points with this number of float32: x, y, z, intensity, ....
+/// True for plausible LiDAR points with this number of float32 values: x, y, z, intensity, ...
 bool arePoints(const Bytes& bytes, std::size_t numbers_per_point) {
     constexpr float kFarthest_m = 1000.0f, kMaxIntensity = 65535.0f;
     const std::size_t numbers =
@@ -29,15 +29,15 @@ bool arePoints(const Bytes& bytes, std::size_t numbers_per_point) {
         const auto number = numberAt<float>(bytes, sizeof(float) * i);
         const float max = i % numbers_per_point < 3 ? kFarthest_m : kMaxIntensity;
         if (std::isfinite(number) && std::abs(number) > max) return false;
-        if (std::fpclassify(number) == FP_SUBNORMAL) return false;  // from text or integers
+        if (std::fpclassify(number) == FP_SUBNORMAL) return false;  // typical of text and integers
         is_all_zero = is_all_zero && number == 0.0f;
     }
     return !is_all_zero;
 }
 
-/// Properties of points, if each has five numbers.
+/// Properties of points, assuming five numbers per point.
 struct FifthNumbers {
-    bool are_whole = true;  ///< and 0 to 255, like ring numbers
+    bool are_whole = true;  ///< integers from 0 to 255, like ring numbers
     bool are_coordinates_whole = true;
     std::size_t returns = 0;  ///< points that are not at the origin
     std::set<float> of_returns;
@@ -69,14 +69,15 @@ FifthNumbers fifthsOf(const Bytes& bytes) {
     return fifths;
 }
 
-/// If points had four numbers, every fifth number would be an x, y, z or intensity in turn, or 0
-/// without a return: with enough returns, not all are whole. Points on a grid are an exception.
+/// True if the fifth numbers look like rings. If points had four numbers, every fifth number would
+/// be an x, y, z or intensity in turn, or 0 without a return, and rarely an integer. (Points on a
+/// grid are an exception.)
 bool areRings(const FifthNumbers& fifths) {
     constexpr std::size_t kMinReturns = 16;
     return fifths.are_whole && !fifths.are_coordinates_whole && fifths.returns >= kMinReturns;
 }
 
-/// The first bytes, or, if these are zero (rows of sky), the bytes from the first return on.
+/// Returns the first bytes or, if these are zero (rows of sky), those from the first return on.
 Bytes startOfReturns(const Bytes& bytes) {
     constexpr std::size_t kBothPoints = 80;  // a multiple of 16 and of 20 bytes
     const auto first =
@@ -105,7 +106,7 @@ std::size_t binNumbersPerPoint(const Bytes& bytes) {
     const FifthNumbers fifths = fifthsOf(start);
     if (!fifths.are_whole) return without_rings;
     if (areRings(fifths) && fifths.of_returns.size() > 1) return 5;
-    // With one beam or few returns, all points decide.
+    // If there is only one ring or there are few returns, check all points.
     const bool may_have_rings = without_rings > 0 || start.size() >= kStart;
     return may_have_rings && areRings(fifthsOf(bytes)) ? 5 : without_rings;
 }
@@ -113,7 +114,7 @@ std::size_t binNumbersPerPoint(const Bytes& bytes) {
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
     const Bytes start = startOfReturns(bytes);
     const std::size_t numbers = binNumbersPerPoint(bytes);
-    // A truncated file may have no complete point.
+    // A truncated file may lack complete points.
     const bool may_be_cut = bytes.size() % 16 != 0;
     if (numbers == 0 && !may_be_cut && !isAllZero(start)) {
         throw BrokenRecording(file.string() + ": " + whyNoCloud(start));

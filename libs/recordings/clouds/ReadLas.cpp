@@ -14,10 +14,10 @@ constexpr std::size_t kMinorVersion = 25, kHeaderSize = 94, kPointsStart = 96, k
                       kOffsets = 155, kExtendedRecords = 243, kPoints = 247;
 constexpr std::size_t kMinHeader = 227, kHeaderOf14 = 375;
 
-/// A point data record format (tables 7 to 17): offsets of optional numbers; 0: absent.
+/// Offsets of optional values in a point data record format (tables 7 to 17); 0: absent.
 struct LasFormat {
     std::size_t size;
-    bool is_new;  ///< 6 and above
+    bool is_new;  ///< formats 6 and above
     std::size_t gps_time, colour, near_infrared;
     bool has_waves;
 };
@@ -34,7 +34,7 @@ class LasColumns {
         table.points = points;
         table.bytes.reserve(points * max_bytes);
     }
-    /// Add the same fields for each point, in the same order.
+    /// Add the same fields in the same order for each point.
     template <class Number>
     void add(const char* name, NumberType type, Number number) {
         if (is_first_) {
@@ -115,7 +115,7 @@ void addLasPoint(const Bytes& bytes, std::size_t at, const LasFormat& format,
     columns.endPoint();
 }
 
-/// Remarks on records before and after the points.
+/// Returns remarks on records before and after the points.
 std::vector<std::string> remarksOnRecords(const Bytes& bytes, bool is_of_14, std::size_t rest) {
     std::vector<std::string> remarks;
     const auto records = numberAt<std::uint32_t>(bytes, kRecords);
@@ -196,7 +196,7 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
     CloudFile cloud;
     cloud.table = std::move(columns.table);
     if (points == 0) {
-        // Without points, no fields were added.
+        // If there are no points, no fields were added.
         LasColumns one(1, kMaxBytes);
         addLasPoint(Bytes(record, 0), 0, format, scaling, one);
         cloud.table = std::move(one.table);

@@ -14,7 +14,7 @@ using observations::PointField;
 
 constexpr std::size_t kMaxNpyHeader = 1 << 20;
 
-/// Parses the header, a Python dictionary, as YAML, with tuples as lists.
+/// Parses the header, a Python dictionary, as YAML. Converts tuples to lists.
 YAML::Node npyHeaderOf(const std::filesystem::path& file, std::string text) {
     char quote = '\0';
     for (char& c : text) {
@@ -40,7 +40,7 @@ YAML::Node npyValueOf(const std::filesystem::path& file, const YAML::Node& heade
     throw BrokenRecording(file.string() + ": its NPY header has no '" + key + "'");
 }
 
-/// Texts are in quotes, numbers are not; numbers of old Python versions may end in L.
+/// True for texts, which are quoted. Numbers are not; in old Python versions, they may end in L.
 bool isQuoted(const YAML::Node& node) { return node.IsScalar() && node.Tag() == "!"; }
 
 std::optional<std::uint64_t> sizeIn(const YAML::Node& node) {
@@ -52,7 +52,7 @@ std::optional<std::uint64_t> sizeIn(const YAML::Node& node) {
 
 /// A type such as "<f4".
 struct ItemType {
-    std::optional<NumberType> type;  ///< nullopt: not a plain number
+    std::optional<NumberType> type;  ///< nullopt if not a plain number
     std::size_t bytes = 0;
     char order = '|';
 };
@@ -74,7 +74,7 @@ ItemType itemTypeOf(const std::filesystem::path& file, const std::string& text) 
         if (item.bytes == 1) item.order = '|';
         return item;
     }
-    // For a skipped type, the size follows the letter: M8[ns] has 8 bytes, U5 has 5 letters.
+    // The size of a skipped type follows its letter: M8[ns] has 8 bytes, U5 has 5 letters.
     const std::size_t end = std::min(name.find('['), name.size());
     const auto size =
         end > 1 ? base::numberFrom<std::uint32_t>(std::string_view(name).substr(1, end - 1))
@@ -88,7 +88,7 @@ ItemType itemTypeOf(const std::filesystem::path& file, const std::string& text) 
     return item;
 }
 
-/// The product of the sizes from `first` to `last` in a tuple, or of a single size.
+/// The product of sizes `first` to `last` in a tuple, or a single size.
 std::size_t productOf(const std::filesystem::path& file, const YAML::Node& sizes, std::size_t first,
                       std::size_t last) {
     std::size_t product = 1;
@@ -101,7 +101,7 @@ std::size_t productOf(const std::filesystem::path& file, const YAML::Node& sizes
     return product;
 }
 
-/// Notes the byte order of numbers, which must be the same for all.
+/// Sets the byte order of the array. Throws BrokenRecording if numbers differ in byte order.
 void takeOrder(const std::filesystem::path& file, char order, char& all) {
     if (order == '|') return;
     if (all != '|' && all != order) {
@@ -110,7 +110,6 @@ void takeOrder(const std::filesystem::path& file, char order, char& all) {
     all = order;
 }
 
-/// The fields of a structured array.
 void takeNpyFields(const std::filesystem::path& file, const YAML::Node& descr, CloudFile& cloud,
                    char& order) {
     std::string left_out;
@@ -118,7 +117,7 @@ void takeNpyFields(const std::filesystem::path& file, const YAML::Node& descr, C
         if (!field.IsSequence() || field.size() < 2) {
             throw BrokenRecording(file.string() + ": its NPY header has an invalid 'descr'");
         }
-        // A pair names a field with a title.
+        // A field with a title has a pair instead of a name.
         const YAML::Node named =
             field[0].IsSequence() && field[0].size() == 2 ? field[0][1] : field[0];
         const std::string name = named.IsScalar() ? named.Scalar() : "";
@@ -151,7 +150,7 @@ void takeNpyFields(const std::filesystem::path& file, const YAML::Node& descr, C
     }
 }
 
-/// The columns of a plain array: x, y, z, intensity, field_4 and so on.
+/// Creates the columns of a plain array: x, y, z, intensity, field_4 and so on.
 void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
                     std::size_t columns, CloudFile& cloud, char& order) {
     constexpr std::size_t kMaxColumns = 1024;
@@ -174,7 +173,7 @@ void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
     cloud.table.bytes_per_point = columns * item.bytes;
 }
 
-/// Converts an array stored by columns to point records.
+/// Converts an array from column-major order to point records.
 Bytes transposed(const Bytes& bytes, std::size_t points, std::size_t columns, std::size_t size) {
     Bytes records(bytes.size());
     for (std::size_t column = 0; column < columns; ++column) {

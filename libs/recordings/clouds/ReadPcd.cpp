@@ -16,7 +16,7 @@ void readAsciiPcd(const std::filesystem::path& file, const PcdHeader& header, co
     PointTable& table = cloud.table;
     std::size_t words_per_point = 0;
     for (const PointField& field : header.fields) words_per_point += field.count;
-    // A number has at least two bytes of text, including its blank, and at most eight in memory.
+    // A number has at least two bytes of text (with its blank) and at most eight bytes in memory.
     checkRoom(file, header.points, std::max<std::size_t>(2 * words_per_point, 1) - 1,
               bytes.size() - header.size + 1);
     table.bytes.resize(header.points * header.bytes_per_point);
@@ -62,7 +62,7 @@ void readBinaryPcd(const std::filesystem::path& file, const PcdHeader& header, B
     cloud.table.bytes = std::move(bytes);
 }
 
-/// Field by field, compressed with LZF.
+/// Reads fields that are stored one after the other and compressed with LZF.
 void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& header,
                        const Bytes& bytes, CloudFile& cloud) {
     constexpr std::size_t kMaxPerByte = 256;  // a 3-byte reference expands to at most 264 bytes

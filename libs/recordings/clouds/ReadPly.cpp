@@ -16,7 +16,7 @@ using observations::PointTable;
 struct PlyProperty {
     std::string name;
     NumberType type = NumberType::Float32;
-    std::optional<NumberType> length;  ///< length type of a list
+    std::optional<NumberType> length;
 };
 
 struct PlyElement {
@@ -28,7 +28,7 @@ struct PlyElement {
         return std::any_of(properties.begin(), properties.end(),
                            [](const PlyProperty& property) { return property.length.has_value(); });
     }
-    /// Bytes per row without lists.
+    /// Size of a row [bytes], if it has no lists.
     std::size_t size() const {
         std::size_t bytes = 0;
         for (const PlyProperty& property : properties) {
@@ -120,7 +120,7 @@ PlyHeader readPlyHeader(const std::filesystem::path& file, const Bytes& bytes) {
     return header;
 }
 
-/// The fields of the vertices without lists, in order.
+/// Returns the table of vertices, without lists.
 PointTable vertexTableOf(const PlyElement& vertices) {
     PointTable table;
     table.points = vertices.count;
@@ -139,7 +139,6 @@ PointTable vertexTableOf(const PlyElement& vertices) {
                           " are present; is it truncated?");
 }
 
-/// The rows of a binary file.
 class BinaryRows {
  public:
     BinaryRows(const std::filesystem::path& file, const Bytes& bytes, const PlyHeader& header)
@@ -150,7 +149,7 @@ class BinaryRows {
 
     std::size_t left() const { return bytes_.size() - at_; }
 
-    /// Reads the rows of an element and copies those of the table.
+    /// Reads all rows of an element. Stores them if `table` is not null.
     void read(const PlyElement& element, PointTable* table) {
         if (element.properties.empty()) return;
         if (!element.hasLists()) {
@@ -164,7 +163,7 @@ class BinaryRows {
             at_ += element.count * size;
             return;
         }
-        // More rows than bytes means a truncated file.
+        // A file with fewer bytes than rows is truncated; reading reports it.
         if (table != nullptr && element.count <= left()) checkNumber(file_, element.count);
         for (std::size_t row = 0; row < element.count; ++row) {
             for (const PlyProperty& property : element.properties) {
@@ -205,7 +204,6 @@ class BinaryRows {
     bool is_big_endian_;
 };
 
-/// The rows of an ASCII file, one per line.
 class AsciiRows {
  public:
     AsciiRows(const std::filesystem::path& file, const Bytes& bytes, const PlyHeader& header)

@@ -3,9 +3,9 @@
 
 namespace hagen::recordings {
 
-constexpr std::size_t kStart = 4096;  ///< bytes that suffice to detect a file's format
+constexpr std::size_t kStart = 4096;  ///< number of bytes used to detect a file's format
 
-// One reader of a file's bytes per format. Readers throw BrokenRecording and do not check the
+// Readers of file contents, one per format. They throw BrokenRecording and do not validate the
 // table.
 CloudFile readPcd(const std::filesystem::path& file, Bytes bytes);
 CloudFile readPly(const std::filesystem::path& file, const Bytes& bytes);
@@ -13,17 +13,17 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes);
 CloudFile readNpy(const std::filesystem::path& file, Bytes bytes);
 CloudFile readBin(const std::filesystem::path& file, Bytes bytes);
 
-/// True if the first bytes of a file may be points of a .bin.
+/// True if a file that starts with these bytes may be a .bin.
 bool mayBeBin(const Bytes& start);
-/// Number of float32 per point of a .bin: 4 (x, y, z, intensity; KITTI), 5 (with the ring;
-/// nuScenes), or 0: not LiDAR points.
+/// Number of float32 values per point in a .bin: 4 (x, y, z, intensity; KITTI), 5 (with ring;
+/// nuScenes), or 0 if they are not LiDAR points.
 std::size_t binNumbersPerPoint(const Bytes& bytes);
 
 bool isAllZero(const Bytes& bytes);
 
-/// "it seems to be a JPEG picture", by the first bytes; empty: unknown.
+/// Such as "it seems to be a JPEG picture", from the first bytes; empty if unknown.
 std::string otherKindOf(const Bytes& bytes);
-/// The reason for rejecting a file of unknown format.
+/// Why a file of unknown format is rejected.
 std::string whyNoCloud(const Bytes& start);
 
 }  // namespace hagen::recordings

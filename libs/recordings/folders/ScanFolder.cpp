@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The formats are little-endian, like all platforms with MRPT packages except s390x.
+// The formats are little-endian, like all platforms of MRPT packages except s390x.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "label and scan files need byte swapping");
 
-/// The number of points in a file of this size. Throws BrokenRecording.
+/// Number of points in a file of this size. Throws BrokenRecording if it is not an integer.
 std::size_t checkedCount(const fs::path& file, std::size_t bytes, std::size_t bytes_per_point) {
     if (bytes % bytes_per_point != 0) {
         throw BrokenRecording(file.string() + ": " + std::to_string(bytes) +
@@ -80,7 +80,7 @@ const base::OutputKind kScanFolders{
                kFiles.count(within.filename().string()) > 0;
     },
     nullptr,
-    // One folder per sensor, or a single folder. Users also have labelled folders.
+    // True if the folder or all of its subfolders (one per sensor) have a marker file.
     [](const fs::path& folder) {
         const auto isMade = [](const fs::path& of_sensor) {
             return fs::exists(of_sensor / ScanFolder::kMadeBy) ||
@@ -162,7 +162,7 @@ std::size_t readScan(const fs::path& file, Scan& scan) {
         if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
         float max = 0;
         for (std::size_t i = 3; i < values.size(); i += numbers) max = std::max(max, values[i]);
-        const float scale = numbers > 4 && max > 1 ? 255.0f : 1.0f;  // only with rings
+        const float scale = numbers > 4 && max > 1 ? 255.0f : 1.0f;  // only files with rings
         scan.clear();
         scan.reserve(points);
         for (std::size_t i = 0; i < values.size(); i += numbers) {

@@ -7,7 +7,7 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr double kDefaultScanPeriod_s = 0.1;  // for folders without times.txt
+constexpr double kDefaultScanPeriod_s = 0.1;  // if there is no times.txt
 
 class ScanFolderSource : public FileListSource {
  public:
@@ -60,7 +60,7 @@ class ScanFolderSource : public FileListSource {
     }
 
     ScanFolder folder_;
-    Scan scan_;  ///< last scan read
+    Scan scan_;
     std::size_t floats_per_point_ = 4;
     bool has_rings_ = false;
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kNoObject = "it is not an MRPT object";
 
-/// Derives the reason for an unreadable entry from MRPT's message.
+/// Derives from MRPT's message why an entry is unreadable.
 std::string reasonOf(const std::exception& exception) {
     const std::string text = observations::messageOf(exception);
     if (text.find("(EOF?)") != std::string::npos) return "the file ends within it";
@@ -20,16 +20,16 @@ std::string reasonOf(const std::exception& exception) {
         return text + " (this program supports the classes of mrpt-obs and mrpt-maps)";
     }
     if (text.find("ersion") != std::string::npos) return text + " (written by a newer MRPT?)";
-    // A rotating scan of MRPT 3: a valid object stored elsewhere.
+    // MRPT 3 reports a rotating scan that is valid but stored in another file.
     if (text.find("--de-externalize") != std::string::npos) return text;
     return kNoObject;
 }
 
-/// The message for a file that is neither a rawlog nor, by its content, another recording.
+/// The message for a file that is not a rawlog. Names the likely format.
 std::string whyNone(const std::filesystem::path& file) {
     const base::FileKind kind = base::kindOfFile(file);
     const std::string known = kind.text();
-    // PackedInput has decompressed these.
+    // PackedInput has already decompressed these.
     const bool is_packed = kind.what == "gzip-compressed" || kind.what == "zstd-compressed";
     if (is_packed) return "it is " + kind.what + ", but contains no rawlog; " + kind.advice;
     return (known.empty() ? "its format is unknown" : known) +

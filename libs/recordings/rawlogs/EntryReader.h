@@ -4,7 +4,7 @@
 
 namespace hagen::recordings {
 
-/// Maximum memory for reading a rawlog entry: a scan of 20 million returns with all fields.
+/// Maximum memory for reading an entry: enough for 20 million returns with all fields.
 constexpr std::uint64_t kMaxEntryBytes = std::uint64_t{1} << 30;
 
 /// A rawlog entry does not fit into memory: a count is wrong, or the limit is too low.
@@ -13,14 +13,14 @@ struct OutOfMemory : BrokenRecording {
 };
 
 /// Reads a rawlog with MRPT's reader, which does not validate its input: a wrong count may exhaust
-/// memory, and a missing object may crash it. Use RawlogReader for safe reading.
+/// memory, and a missing object may crash the process. Use RawlogReader for safe reading.
 class EntryReader {
  public:
-    /// @param file for messages. @param opened the path to open: the file, by this or another name.
+    /// `file`: name in messages. `opened`: path to open, which may be another name of the file.
     EntryReader(const std::filesystem::path& file, const std::filesystem::path& opened);
 
-    /// The next entry, or nullptr at the end. Throws BrokenRecording, or its subclass OutOfMemory
-    /// if memory runs out and the file has no other fault.
+    /// Returns the next entry, or nullptr at the end. Throws BrokenRecording, or its subclass
+    /// OutOfMemory if memory runs out and the file has no other fault.
     mrpt::serialization::CSerializable::Ptr next();
 
     std::size_t entries() const { return entries_; }

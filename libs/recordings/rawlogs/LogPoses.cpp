@@ -30,10 +30,10 @@ observations::Trajectory trajectoryOfKitti(const fs::path& file,
                                  " poses for " + std::to_string(scans.size()) + " scans");
     }
     observations::Trajectory trajectory;
-    trajectory.has_horizon = false;  // relative to the first scan, which may be tilted
+    trajectory.has_horizon = false;  // poses are relative to the first scan, which may be tilted
     std::map<mrpt::Clock::time_point, std::size_t> scan_at;
     for (std::size_t i = 0; i < scans.size(); ++i) {
-        if (!observations::isTime(scans[i].time)) continue;  // without a pose
+        if (!observations::isTime(scans[i].time)) continue;  // scan without time
         const auto [earlier, is_new] = scan_at.try_emplace(scans[i].time, i);
         if (!is_new && sensor_poses[i] != sensor_poses[earlier->second]) {
             throw std::runtime_error(file.string() + ": scans " + std::to_string(earlier->second) +
@@ -46,7 +46,7 @@ observations::Trajectory trajectoryOfKitti(const fs::path& file,
     return trajectory;
 }
 
-/// Reads a pose file of either kind.
+/// Reads a pose file of either format.
 observations::Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& scans,
                                       bool are_all_scans) {
     return kindOfPoseFile(file) == PoseFileKind::Tum
@@ -54,7 +54,7 @@ observations::Trajectory trajectoryOf(const fs::path& file, const ScanPlaces& sc
                : trajectoryOfKitti(file, readKittiPoses(file), scans, are_all_scans);
 }
 
-/// Reads poses.txt of a scan folder. With a calib.txt, its poses are camera poses, as in KITTI.
+/// Reads poses.txt of a scan folder. If there is a calib.txt, poses are camera poses, as in KITTI.
 std::vector<CPose3D> ownKittiPoses(const ScanFolder& folder) {
     std::vector<CPose3D> poses = readKittiPoses(folder.kittiPosesFile());
     if (!fs::exists(folder.calibrationFile())) return poses;

@@ -21,16 +21,16 @@ struct CloseFile {
 }  // namespace
 
 /// The file and its buffers. Does not use zlib's gzread(), which silently stops at data that does
-/// not look like another member, and so would lose the rest of a damaged log.
+/// not look like another member and would thus lose the rest of a damaged log.
 struct PackedInput::Stream {
     std::unique_ptr<std::FILE, CloseFile> file;
     std::vector<unsigned char> packed = std::vector<unsigned char>(kPackedBytes);
     std::vector<unsigned char> unpacked = std::vector<unsigned char>(kUnpackedBytes);
     std::size_t packed_at = 0, packed_end = 0;
     std::size_t unpacked_at = 0, unpacked_end = 0;
-    std::uint64_t size = 0;      ///< file size [bytes]
-    std::uint64_t taken = 0;     ///< bytes consumed
-    bool may_hold_more = false;  ///< the last block was full: the unpacker may have output left
+    std::uint64_t size = 0;  ///< file size [bytes]
+    std::uint64_t taken = 0;
+    bool may_hold_more = false;  ///< last block was full, so that more output may follow
     std::string fault;
     std::unique_ptr<Unpacker> unpacker;
 
@@ -41,7 +41,7 @@ struct PackedInput::Stream {
         unpacker = unpackerFor(packed.data(), packed_end);
     }
 
-    /// Reads the next block of the file; false at its end.
+    /// Reads the next block of the file; returns false at its end.
     bool fill() {
         packed_at = 0;
         packed_end = std::fread(packed.data(), 1, packed.size(), file.get());
@@ -50,7 +50,7 @@ struct PackedInput::Stream {
         return packed_end > 0;
     }
 
-    /// Decompresses the next block; false at the end and on an error.
+    /// Decompresses the next block; returns false at the end or on an error.
     bool unpack() {
         unpacked_at = unpacked_end = 0;
         while (unpacked_end < unpacked.size() && fault.empty()) {
@@ -115,7 +115,7 @@ std::uint64_t PackedInput::mostBytesLeft() const {
 int PackedInput::descriptor() const { return fileno(stream_->file.get()); }
 
 std::string PackedInput::fault() const {
-    // Data decompressed before the error is delivered first.
+    // Return data decompressed before the error first.
     return stream_->unpacked_at == stream_->unpacked_end ? stream_->fault : "";
 }
 

@@ -50,7 +50,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     mrpt::serialization::CSerializable::Ptr object;
     try {
         object = parts_->reader.next();
-    } catch (const OutOfMemory&) {  // the trial had enough memory
+    } catch (const OutOfMemory&) {  // although the trial had enough memory
         throw std::bad_alloc();
     }
     if (!object || parts_->reader.stream().getPosition() != verdict.end) {

@@ -11,7 +11,7 @@
 namespace hagen::recordings {
 namespace {
 
-/// "CObservationImage" for mrpt::obs::CObservationImage.
+/// Class name without namespace: "CObservationImage".
 std::string classOf(const mrpt::rtti::CObject& object) {
     const std::string name = object.GetRuntimeClass()->className;
     const std::size_t colons = name.rfind("::");
@@ -32,7 +32,7 @@ class RawlogSource : public ScanSource {
             if (!entry.object) return endAfter(reader_.entries() + 1);
             const bool is_skipped = skips(entry.number);
             const std::size_t nulls = takeOutNulls(entry.object);
-            // Skipped entries may provide the attitude of the first scan.
+            // Skipped entries may contain the attitude for the first scan.
             const auto all = observationsOf(entry.object);
             for (const auto& observation : all) see(*observation);
             if (is_skipped) continue;
@@ -92,12 +92,12 @@ class RawlogSource : public ScanSource {
     }
 
     LogPoses readPoses(const std::filesystem::path& file) override {
-        // Poses with times do not require reading the log in advance.
+        // Poses with times do not require a survey.
         if (!file.empty() && kindOfPoseFile(file) == PoseFileKind::Tum) {
             return posesOfRawlog(RawlogSurvey(), file);
         }
         poses_not_finite_ = survey().not_finite;
-        RawlogSurvey all = std::move(*survey_);  // avoids a copy of a long trajectory
+        RawlogSurvey all = std::move(*survey_);  // avoids copying a long trajectory
         survey_.reset();
         const auto isKept = [this](const std::string& label) { return isSelected(label); };
         return posesOfRawlog(withScansOf(std::move(all), isKept), file);
@@ -118,9 +118,9 @@ class RawlogSource : public ScanSource {
 
     std::filesystem::path rawlog_;
     RawlogReader reader_;
-    std::unique_ptr<RawlogReader> ahead_;  ///< for showClouds(); created on demand
+    std::unique_ptr<RawlogReader> ahead_;  ///< for showClouds(), created on demand
     std::optional<RawlogSurvey> survey_;
-    // Counts of the selected entries:
+    // Counts over the selected entries:
     std::size_t null_objects_ = 0, poses_not_finite_ = 0;
     bool has_scans_ = false;
     std::map<std::string, std::size_t> has_;  ///< number of objects by class

@@ -22,7 +22,7 @@ using mrpt::obs::CActionRobotMovement3D;
 using mrpt::obs::CObservation;
 using mrpt::poses::CPose3D;
 
-/// Sums the pose increments of actions to a trajectory.
+/// Integrates the pose increments of actions into a trajectory.
 class SummedMovement {
  public:
     void move(mrpt::Clock::time_point time, const CPose3D& increment) {
@@ -35,12 +35,12 @@ class SummedMovement {
         has_moved_ = true;
         if (is_placed_) trajectory_.add(time, pose_);
     }
-    /// Adds the pose after the previous actions, at the time of a sensory frame.
+    /// Adds the pose after the previous actions, with the time of a sensory frame.
     void arrive(mrpt::Clock::time_point time) {
         if (!is_placed_) trajectory_.add(time, pose_);
         is_placed_ = true;
     }
-    /// The summed trajectory; empty without movement.
+    /// The integrated trajectory; empty without movement.
     observations::Trajectory trajectory() const {
         if (has_moved_) return trajectory_;
         observations::Trajectory none;
@@ -50,12 +50,11 @@ class SummedMovement {
 
  private:
     CPose3D pose_;
-    bool is_placed_ = false;  ///< pose_ is in the trajectory
+    bool is_placed_ = false;  ///< pose_ is already in the trajectory
     bool has_moved_ = false;
     observations::Trajectory trajectory_;
 };
 
-/// Collects poses from all sources.
 class RawlogSurveyor {
  public:
     void see(const CActionCollection& actions) {
@@ -67,7 +66,7 @@ class RawlogSurveyor {
         }
     }
 
-    /// The observations of a sensory frame.
+    /// Processes the observations of a sensory frame.
     void see(const std::vector<CObservation::Ptr>& frame) {
         if (!frame.empty()) {
             summed_3d_.arrive(frame.front()->timestamp);
@@ -80,7 +79,7 @@ class RawlogSurveyor {
         const std::string& label = observation.sensorLabel;
         if (const auto* pose =
                 dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
-            // The pose sensor may be offset from the vehicle's origin.
+            // Corrects for a pose sensor that is offset from the vehicle's origin.
             robot_poses_[label].add(pose->timestamp, pose->pose.mean + (-pose->sensorPose));
         } else if (const auto* odometry =
                        dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
@@ -144,7 +143,7 @@ RawlogSurvey surveyRawlog(const std::filesystem::path& rawlog,
             }
         }
     } catch (const BrokenRecording& e) {
-        // The conversion reports the error; the entries before it are valid.
+        // The conversion reports the error. Entries before it are valid.
         is_whole = false;
         why = e.what();
     }

@@ -19,7 +19,7 @@
 namespace hagen::recordings {
 namespace {
 
-/// The message header in the pipe, followed by `text` bytes of the reason.
+/// The header of a message in the pipe. `text` bytes with the reason follow.
 struct VerdictHeader {
     EntryVerdict::Kind kind;
     std::uint64_t end;
@@ -27,11 +27,11 @@ struct VerdictHeader {
 };
 constexpr std::size_t kMaxTextLength = 4096;
 
-/// MRPT's objects need more memory than their bytes in a rawlog: an empty pointer or text has 4
-/// bytes in the file and up to 32 in memory, and vectors double while they grow.
+/// MRPT objects need more memory than in a rawlog: an empty pointer or text has 4 bytes in the file
+/// and up to 32 in memory, and vectors double when they grow.
 constexpr std::uint64_t kMemoryPerByte = 32, kMemoryBesides = 64 << 20;
 
-/// Calls read() or write() until all bytes are transferred; false at the end of the pipe.
+/// Calls read() or write() until all bytes are transferred. Returns false at the end of the pipe.
 template <class Call, class Byte>
 bool transfer(Call call, int pipe, Byte* at, std::size_t size) {
     while (size > 0) {
@@ -63,7 +63,8 @@ std::uint64_t dataBytes() {
     return is_read ? pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
-/// Waits until a pipe has data or is closed; false at the timeout, which signals do not extend.
+/// Waits until a pipe has data or is closed. Returns false at the timeout, which signals do not
+/// extend.
 bool isReadable(int pipe, std::chrono::milliseconds max_idle) {
     using Clock = std::chrono::steady_clock;
     for (const auto end = Clock::now() + max_idle;;) {
@@ -75,7 +76,7 @@ bool isReadable(int pipe, std::chrono::milliseconds max_idle) {
     }
 }
 
-/// Limits the memory for the next entry to what the rest of the file can need. Returns true if the
+/// Limits memory to what the next entry can need, given the rest of the file. Returns true if the
 /// program's own limit is lower.
 bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     constexpr std::uint64_t kShadow = std::uint64_t{1} << 40;  // shadow memory of a sanitizer
@@ -88,7 +89,7 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     return of_program.rlim_cur < now + more;
 }
 
-/// Reads all entries and sends a verdict on each.
+/// Reads all entries and sends a verdict on each of them.
 [[noreturn]] void tryAll(const std::filesystem::path& file, const std::filesystem::path& opened,
                          int pipe) {
     bool is_limit_of_program = false;
@@ -118,12 +119,12 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
 /// Runs in the child process, which keeps only the descriptors of the rawlog and the pipe.
 [[noreturn]] void runTrial(const std::filesystem::path& file, int descriptor, int pipe) {
     setpgid(0, 0);
-    // The program kills the process; avoid a core file.
+    // The program stops this process. Crashes must not write core files.
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
     for (const int number : {SIGPIPE, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) signal(number, SIG_DFL);
     const rlimit none{0, 0};
     setrlimit(RLIMIT_CORE, &none);
-    // The program itself prints MRPT's warnings later.
+    // The program itself prints MRPT's warnings when it reads the entry.
     const int silence = open("/dev/null", O_RDWR);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(silence, stream);
     constexpr int kRawlog = 3, kPipe = 4;
@@ -131,7 +132,7 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
     dup2(high_rawlog, kRawlog);
     dup2(high_pipe, kPipe);
     close_range(kPipe + 1, ~0U, 0);
-    // Reopened, because the program's own reading moves the position, and by descriptor, because
+    // Reopened, because the program's reading moves the shared position, and by descriptor, because
     // the name may refer to another file by now.
     tryAll(file, "/proc/self/fd/" + std::to_string(kRawlog), kPipe);
 }
@@ -178,7 +179,7 @@ void RawlogTrial::stop() {
     process_ = -1;
 }
 
-/// Waits until the process sends data or exits (false), or is idle for too long (true).
+/// Returns false when the process sends data or exits, true if it is idle for too long.
 bool RawlogTrial::isStuck() const {
     for (;;) {
         const auto before = base::cpuTimeOf(process_);
@@ -198,7 +199,7 @@ std::string RawlogTrial::whyItEnded() {
     while ((ended = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
     }
     process_ = -1;
-    // The status is lost, for example if the program ignores SIGCHLD.
+    // The exit status is lost, for example because the program ignores SIGCHLD.
     if (ended < 0) return cannotBeRead("MRPT's reader crashed or exited");
     return cannotBeRead("MRPT's reader " +
                         (WIFSIGNALED(status)

@@ -12,9 +12,9 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr std::uint64_t kMaxZeros = 256 << 20;  // more is not padding, and takes time
+constexpr std::uint64_t kMaxZeros = 256 << 20;  // more zeros are not padding and take too long
 
-/// Concatenated gzip members.
+/// Decompresses concatenated gzip members.
 class GzipUnpacker : public Unpacker {
  public:
     GzipUnpacker() {
@@ -26,7 +26,7 @@ class GzipUnpacker : public Unpacker {
     GzipUnpacker& operator=(const GzipUnpacker&) = delete;
 
     bool unpack(UnpackStep& step) override {
-        // Zeros may pad a file after its last member, as on tapes; gzip also ignores them.
+        // Skips zero padding after the last member, as on tapes; gzip does the same.
         if (!is_in_member_ && has_member_) {
             while (step.in_size > 0 && *step.in == 0) {
                 ++step.in;
@@ -43,7 +43,7 @@ class GzipUnpacker : public Unpacker {
         const int code = inflate(&inflater_, Z_NO_FLUSH);
         step = {inflater_.next_in, inflater_.avail_in, inflater_.next_out, inflater_.avail_out};
         if (code == Z_STREAM_END) {
-            is_in_member_ = false;  // only another member may follow
+            is_in_member_ = false;  // the end, or another member, must follow
             inflateReset(&inflater_);
             return true;
         }
@@ -59,10 +59,10 @@ class GzipUnpacker : public Unpacker {
  private:
     z_stream inflater_{};
     bool has_member_ = false;
-    std::uint64_t zeros_ = 0;  ///< after members
+    std::uint64_t zeros_ = 0;  ///< number of zeros after members
 };
 
-/// Concatenated Zstandard frames.
+/// Decompresses concatenated Zstandard frames.
 class ZstdUnpacker : public Unpacker {
  public:
     ZstdUnpacker() : context_(ZSTD_createDCtx()) {
@@ -102,7 +102,7 @@ class ZstdUnpacker : public Unpacker {
     bool is_too_large_ = false;
 };
 
-/// An uncompressed file.
+/// Copies an uncompressed file.
 class Copier : public Unpacker {
  public:
     bool unpack(UnpackStep& step) override {

@@ -5,7 +5,7 @@
 
 namespace hagen::recordings {
 
-/// The next bytes of a file, and room for their output. Both shrink from the front.
+/// The next input bytes, and space for output. Both shrink from the front.
 struct UnpackStep {
     const unsigned char* in;
     std::size_t in_size;
@@ -13,15 +13,15 @@ struct UnpackStep {
     std::size_t out_size;
 };
 
-/// A compression format, read block by block.
+/// Decompresses one format, block by block.
 class Unpacker {
  public:
     virtual ~Unpacker() = default;
-    /// Decompresses until the input or the room is used up, or a member ends. False on an error
-    /// (fault()).
+    /// Decompresses until the input or the space is used up, or a member ends. Returns false on an
+    /// error (fault()).
     virtual bool unpack(UnpackStep& step) = 0;
     virtual const char* fault() const { return "the compressed data is corrupt"; }
-    /// The maximum output size for an input size.
+    /// The maximum output size for this input size.
     virtual std::uint64_t mostOutOf(std::uint64_t packed) const = 0;
     /// True within a member, where the input must not end.
     bool isInMember() const { return is_in_member_; }
@@ -30,7 +30,7 @@ class Unpacker {
     bool is_in_member_ = false;
 };
 
-/// The unpacker for a file that starts with these bytes: gzip, zstd, or none.
+/// Returns the unpacker for a file that starts with these bytes: gzip, zstd or uncompressed.
 std::unique_ptr<Unpacker> unpackerFor(const unsigned char* start, std::size_t size);
 
 }  // namespace hagen::recordings

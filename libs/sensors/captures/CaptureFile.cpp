@@ -45,8 +45,8 @@ bool isCapture(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream.read(reinterpret_cast<char*>(start.data()), start.size())) return false;
     using Start = std::array<unsigned char, 4>;
-    // pcap with microseconds or nanoseconds in either byte order, A. Kuznetzov's modified pcap, and
-    // pcapng.
+    // Magic numbers of pcap (microseconds or nanoseconds, either byte order), A. Kuznetzov's
+    // modified pcap, and pcapng.
     for (const Start& known : {Start{0xd4, 0xc3, 0xb2, 0xa1}, Start{0xa1, 0xb2, 0xc3, 0xd4},
                                Start{0x4d, 0x3c, 0xb2, 0xa1}, Start{0xa1, 0xb2, 0x3c, 0x4d},
                                Start{0x34, 0xcd, 0xb2, 0xa1}, Start{0xa1, 0xb2, 0xcd, 0x34},
@@ -63,7 +63,7 @@ struct CaptureFile::Reader {
     int link_type;
     FrameCounts counts;
     Fragments fragments;
-    std::function<void()> check;  ///< from checkWhileReading()
+    std::function<void()> check;
 
     explicit Reader(const std::filesystem::path& name)
         : file(name),
@@ -77,13 +77,13 @@ struct CaptureFile::Reader {
                             ", which is not supported; known: Ethernet, Linux 'any' and raw IP");
     }
 
-    /// Counts the fragments that are still open at the end.
+    /// Counts the fragments of datagrams that are still incomplete at the end.
     void end() {
         fragments.giveUpAll();
         counts.fragments_lost = fragments.lost();
     }
 
-    /// Reads the next frame; empty at the end.
+    /// Reads the next frame; empty at the end of the file.
     bool nextFrame(Bytes& frame, const pcap_pkthdr*& header) {
         const long byte = std::ftell(pcap_file(capture.get()));
         pcap_pkthdr* read = nullptr;
@@ -101,21 +101,21 @@ struct CaptureFile::Reader {
                             " cannot be read: " + pcap_geterr(capture.get()));
     }
 
-    /// The datagram that this packet completes, with its UDP header; empty if it is still
-    /// incomplete.
+    /// Returns the datagram that this packet completes, with its UDP header; empty if the datagram
+    /// is still incomplete.
     Bytes wholeOf(const IpPacket& packet) {
         if (!packet.isFragment()) return packet.content;
         ++counts.fragments;
         return fragments.add(packet);
     }
 
-    /// Parses a whole datagram; false if it is truncated.
+    /// Parses a complete datagram; returns false if it is truncated.
     static bool take(const IpPacket& packet, Bytes whole, const pcap_pkthdr& header,
                      Datagram& datagram) {
         if (whole.size < kUdpHeader) return false;
         const std::size_t size = whole.at16(4);
         if (size < kUdpHeader || size > whole.size) return false;
-        // Malicious files can have arbitrary times: unsigned arithmetic wraps around without UB.
+        // Malicious files may have arbitrary times. Unsigned arithmetic has defined overflow.
         datagram.time_ns =
             static_cast<std::int64_t>(static_cast<std::uint64_t>(header.ts.tv_sec) * 1000000000u +
                                       static_cast<std::uint64_t>(header.ts.tv_usec));

@@ -26,13 +26,13 @@ void appendLittle32(std::string& bytes, std::uint64_t value) {
     }
 }
 
-/// A locally administered MAC address; IP addresses distinguish the hosts.
+/// Appends a locally administered MAC address; hosts are distinguished by IP address.
 void appendMac(std::string& bytes, std::uint32_t ip) {
     append16(bytes, 0x0200);
     append32(bytes, ip);
 }
 
-/// The IPv4 checksum: the complemented sum of the 16-bit words.
+/// The IPv4 header checksum: the complemented sum of the 16-bit words.
 unsigned checksumOf(const std::string& bytes, std::size_t from, std::size_t size) {
     unsigned sum = 0;
     for (std::size_t i = from; i < from + size; i += 2) {
@@ -70,7 +70,7 @@ void appendFrame(std::string& bytes, const Datagram& datagram) {
 
 CaptureWriter::CaptureWriter(const std::filesystem::path& file)
     : file_(file), out_(base::openToWrite(file, file)) {
-    appendLittle32(block_, 0xa1b23c4d);  // nanoseconds
+    appendLittle32(block_, 0xa1b23c4d);  // pcap with nanoseconds
     appendLittle32(block_, 0x00040002);  // version 2.4
     appendLittle32(block_, 0);
     appendLittle32(block_, 0);

@@ -10,17 +10,17 @@
 namespace hagen::sensors {
 
 /// Writes UDP datagrams to a capture (.pcap with nanoseconds), each as one Ethernet frame. Writes
-/// whole frames in blocks, so that the capture stays readable if the process is killed.
+/// blocks of whole frames, so that the capture stays readable if the process is killed.
 class CaptureWriter {
  public:
     /// Creates the file. Throws std::runtime_error naming the file and the reason.
     explicit CaptureWriter(const std::filesystem::path& file);
 
-    /// Adds a datagram. Returns true if that completed a block and wrote it to the file. Throws
+    /// Adds a datagram. Returns true if it completed a block, which was written to the file. Throws
     /// std::runtime_error naming the file if writing fails; the file then ends with the previous
     /// block.
     bool add(const Datagram& datagram);
-    /// Writes the datagrams added since the last block. Throws like add().
+    /// Writes the unfinished block. Throws like add().
     void flush();
 
  private:

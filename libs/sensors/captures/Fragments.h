@@ -9,16 +9,15 @@
 
 namespace hagen::sensors {
 
-/// Reassembles datagrams from IP fragments in any order. Keeps a limited number of incomplete
-/// datagrams; a new one evicts the oldest.
+/// Reassembles datagrams from IP fragments in arbitrary order. Keeps a limited number of incomplete
+/// datagrams and evicts the oldest.
 class Fragments {
  public:
-    /// Adds a fragment. If that completes a datagram, returns its content, valid until the next
-    /// call; otherwise returns nothing.
+    /// Adds a fragment. If it completes a datagram, returns the content, which is valid until the
+    /// next call; otherwise returns nothing.
     Bytes add(const IpPacket& fragment);
 
-    /// The number of fragments of datagrams that were never completed. giveUpAll() adds those still
-    /// open.
+    /// Number of invalid or evicted fragments. giveUpAll() adds those of incomplete datagrams.
     std::size_t lost() const { return lost_; }
     void giveUpAll();
 
@@ -30,8 +29,8 @@ class Fragments {
         std::uint16_t id;
         std::vector<std::uint8_t> bytes;
         std::bitset<65536 / kUnit> has_unit;
-        std::size_t size = 0;       ///< of the datagram; 0 until its last fragment arrives
-        std::size_t fragments = 0;  ///< so far
+        std::size_t size = 0;  ///< size of the datagram; 0 until its last fragment arrives
+        std::size_t fragments = 0;
     };
     std::list<Open>::iterator find(const IpPacket& fragment);
     static bool isComplete(const Open& open);

@@ -8,12 +8,12 @@ namespace hagen::sensors {
 namespace {
 
 constexpr unsigned kIpv4 = 0x0800, kUdp = 17;
-constexpr int kRawIp = 101;  // LINKTYPE_RAW; DLT_RAW differs between systems
+constexpr int kRawIp = 101;  // LINKTYPE_RAW, because the value of DLT_RAW differs between systems
 constexpr int kAnyDevice2 = 276;
 
 bool isVlanTag(unsigned type) { return type == 0x8100 || type == 0x88a8 || type == 0x9100; }
 
-/// The IP packet in an Ethernet frame whose type is at `at`; empty if it contains another protocol.
+/// Returns the IP packet in an Ethernet frame whose type is at `at`; empty for other protocols.
 Bytes behindType(Bytes frame, std::size_t at, bool& is_tagged) {
     while (at + 2 <= frame.size && isVlanTag(frame.at16(at))) {
         is_tagged = true;
@@ -57,7 +57,7 @@ IpPacket readFrame(int link_type, Bytes frame) {
     if (ip.size >= 10 && ip.at8(9) != kUdp) return packet;
     packet.kind = IpPacket::Kind::Cut;
     if (header < kMinHeader || ip.size < header) return packet;
-    // 0: the network card segmented the packet after the capture (TSO).
+    // The length is 0 if the network card segmented the packet after the capture (TSO).
     const std::size_t total = ip.at16(2) == 0 ? ip.size : ip.at16(2);
     if (total < header || total > ip.size) return packet;
     packet.kind = IpPacket::Kind::Udp;

@@ -14,24 +14,23 @@ struct Bytes {
     unsigned at8(std::size_t i) const { return data[i]; }
     unsigned at16(std::size_t i) const { return at8(i) << 8 | at8(i + 1); }
     std::uint32_t at32(std::size_t i) const { return std::uint32_t{at16(i)} << 16 | at16(i + 2); }
-    /// The bytes from `i` on; empty if there are fewer.
+    /// The bytes from `i` to the end; empty if `i` is beyond the end.
     Bytes from(std::size_t i) const { return i > size ? Bytes{} : Bytes{data + i, size - i}; }
     Bytes first(std::size_t count) const { return {data, count < size ? count : size}; }
 };
 
-/// An IPv4 packet.
 struct IpPacket {
     enum class Kind {
-        Udp,    ///< `content` is a UDP datagram or a fragment
+        Udp,    ///< `content` is a UDP datagram or a fragment of a datagram
         Other,  ///< other traffic
-        Cut     ///< shorter than the length in its header
+        Cut     ///< truncated: shorter than its header says
     };
     Kind kind = Kind::Other;
     bool is_tagged = false;  ///< the frame has a VLAN tag
     std::uint32_t from_ip = 0, to_ip = 0;
-    std::uint16_t id = 0;    ///< the same for all fragments of a datagram
-    std::size_t offset = 0;  ///< of the content in the datagram, bytes
-    bool has_more = false;   ///< fragments follow
+    std::uint16_t id = 0;    ///< shared by all fragments of a datagram
+    std::size_t offset = 0;  ///< position of the content in the datagram, bytes
+    bool has_more = false;
     Bytes content;
 
     bool isFragment() const { return has_more || offset > 0; }
@@ -40,7 +39,7 @@ struct IpPacket {
 /// True if frames of this link type (DLT_* of libpcap) can be read.
 bool isKnownLink(int link_type);
 
-/// The IP packet in a frame of this link type.
+/// Returns the IP packet in a frame of this link type.
 IpPacket readFrame(int link_type, Bytes frame);
 
 }  // namespace hagen::sensors

@@ -9,17 +9,17 @@
 
 namespace hagen::sensors {
 
-/// "1 packet", "3 packets".
+/// Such as "1 packet", "3 packets".
 std::string counted(std::size_t number, const std::string& one);
 
 /// Appends ", 3 packets MORE" unless the number is 0.
 void addCount(std::size_t number, const std::string& one, const std::string& more,
               std::string& text);
 
-/// Two lists joined by ", "; either may be empty.
+/// Joins two lists by ", "; either may be empty.
 std::string joined(const std::string& first, const std::string& second);
 
-/// Datagrams that no driver accepts, by port and size.
+/// Counts datagrams that no driver accepts, by port and size.
 class OtherDatagrams {
  public:
     void add(const Datagram& datagram);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kFrame_s = 0.02;
 constexpr double kMaxFrame = 2;                 // max. duration by arrival, in nominal durations
-constexpr double kPointInterval_s = 5e-6;       // Mid-360 default, if a packet lacks it
-constexpr std::size_t kMaxFramePackets = 1000;  // per frame, regardless of the clock; normally 42
+constexpr double kPointInterval_s = 5e-6;       // default, for packets without interval
+constexpr std::size_t kMaxFramePackets = 1000;  // normally 42
 constexpr std::size_t kFramesOfScan = 5;
 
 /// Reads the packets of one Livox Mid-360 (Livox SDK 2, Cartesian data) in frames of 20 ms.
@@ -25,7 +25,7 @@ class LivoxDriver : public LidarDriver {
         return livoxPacketOf(datagram).has_value();
     }
     Taken add(const Datagram& datagram, double arrival_s, ReturnSink& sink) override {
-        // After a pause, returns of the unfinished frame must not appear recent.
+        // After a pause, stale returns must not appear in a new frame.
         if (is_begun_ && arrival_s - frame_.first_arrival_s > kMaxFrame * kFrame_s) flush(sink);
         if (isLivoxImu(datagram)) {
             ++counts_.auxiliary;
@@ -83,7 +83,7 @@ class LivoxDriver : public LidarDriver {
     std::uint64_t start_ns_ = 0;  ///< sensor time at which the frame starts
     std::size_t packets_of_frame_ = 0, frames_ = 0;
     ReturnSink::Frame frame_{};
-    Scan returns_;  ///< of the frame
+    Scan returns_;
     std::vector<std::uint8_t> tags_;
 };
 

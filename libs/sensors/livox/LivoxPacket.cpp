@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kHeader = 36;
 constexpr int kMillimetres = 1, kCentimetres = 2;  // data types
 
-/// A signed coordinate of 2 or 4 bytes.
+/// Reads a signed coordinate of 2 or 4 bytes.
 float coordinate(const std::uint8_t* at, bool is_fine, float unit_m) {
     const std::int32_t number = is_fine ? static_cast<std::int32_t>(little<std::uint32_t>(at))
                                         : static_cast<std::int16_t>(little<std::uint16_t>(at));
@@ -30,7 +30,7 @@ std::optional<LivoxPacket> livoxPacketOf(const Datagram& datagram) {
     const bool fits = packet.point_bytes > 0 && packet.count > 0 &&
                       kHeader + packet.count * packet.point_bytes == datagram.size;
     if (!fits) return std::nullopt;
-    // The interval in the header covers the whole packet, in 0.1 us.
+    // The header contains the interval of the whole packet, in 0.1 us.
     packet.point_interval_s = 1e-7 * static_cast<double>(little<std::uint16_t>(bytes + 3)) /
                               static_cast<double>(packet.count);
     packet.number = little<std::uint16_t>(bytes + 7);

@@ -7,13 +7,13 @@ namespace hagen::sensors {
 namespace {
 
 constexpr std::uint64_t kInterruption_ns = 1000000000;
-constexpr std::uint64_t kMaxLate_ns = 16 * 480000;  // sixteen packets
-constexpr std::size_t kLateOfSetClock = 4;          // packets in a row
+constexpr std::uint64_t kMaxLate_ns = 16 * 480000;  // 16 packets
+constexpr std::size_t kLateOfSetClock = 4;          // consecutive packets
 
 }  // namespace
 
-/// The network may delay a single packet; several late packets in quick succession mean that the
-/// clock was set back.
+/// True if several late packets arrive in quick succession, which means that the clock was set
+/// back; the network may delay single packets.
 bool LivoxSequence::wentBack(std::uint64_t time_ns) {
     const bool follows =
         too_late_in_a_row_ > 0 && time_ns > too_late_ns_ && time_ns - too_late_ns_ <= kMaxLate_ns;
@@ -53,7 +53,7 @@ LivoxSequence::Step LivoxSequence::add(const LivoxPacket& packet, double arrival
                                        PacketCounts& counts) {
     const std::uint64_t key = packet.time_ns << 16 | packet.number;
     if (recent_.has(key, arrival_s)) {
-        // If the network duplicates all packets, it also does so after the clock was set back.
+        // Duplicates of packets other than the late ones show that the clock was not set back.
         const std::uint64_t apart_ns =
             std::max(packet.time_ns, too_late_ns_) - std::min(packet.time_ns, too_late_ns_);
         if (apart_ns > kMaxLate_ns) too_late_in_a_row_ = 0;

@@ -14,8 +14,8 @@ class LivoxSequence {
  public:
     enum class Step { Next, Late, Duplicate, TooLate, Interruption };
 
-    /// `drops_late`: packets more than 16 packets late are TooLate, unless four in a row show that
-    /// the clock was set back. If false, these are Late, too.
+    /// `drops_late`: whether packets more than 16 packets late are TooLate (unless four in a row
+    /// show that the clock was set back) instead of Late.
     explicit LivoxSequence(bool drops_late) : drops_late_(drops_late) {}
 
     Step add(const LivoxPacket& packet, double arrival_s, PacketCounts& counts);

@@ -14,9 +14,9 @@ namespace hagen::sensors {
 namespace {
 
 constexpr std::uint64_t kSweep_ns = 100000000;
-constexpr std::size_t kMaxPackets = 10000;  // per sweep, regardless of the clock; normally 210
+constexpr std::size_t kMaxPackets = 10000;  // max. size of a sweep; normally 210
 
-/// See makeLivoxSweeps(). A sweep has the time of its first packet.
+/// Sweep reader of makeLivoxSweeps(). A sweep has the time of its first packet.
 class LivoxSweeps : public SweepReader {
  public:
     void add(const Datagram& datagram) override {
@@ -70,7 +70,7 @@ class LivoxSweeps : public SweepReader {
         LivoxSequence sequence{false};
         bool is_begun = false;
         std::uint64_t start_ns = 0;  ///< sensor time at which the sweep in progress starts
-        std::size_t packets = 0;     ///< in the sweep in progress
+        std::size_t packets = 0;
         LidarSweep sweep;
     };
     void add(const LivoxPacket& packet, const Datagram& datagram, Sensor& sensor) {

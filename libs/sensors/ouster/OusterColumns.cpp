@@ -9,15 +9,15 @@ namespace hagen::sensors {
 namespace {
 
 constexpr double kEncoderTicks = 90112;  // per turn
-constexpr double kTolerance = 0.15;      // captures deviate by 0.01
-constexpr int kMaxNumber = 64;           // max. step from a column to one of the next packet
-constexpr int kMaxLateTurns = 16;        // beyond: the sensor was restarted
+constexpr double kTolerance = 0.15;      // captures deviate by up to 0.01
+constexpr int kMaxNumber = 64;           // max. increment between consecutive packets
+constexpr int kMaxLateTurns = 16;        // max. age of a late packet; older columns mean a restart
 constexpr std::uint16_t kMaxColumns = 4096;
 
 }  // namespace
 
-/// Finds the first and last valid column of a packet. Returns false if no column has a number
-/// within the metadata's range.
+/// Finds the first and last valid column of a packet. Returns false if no column number is within
+/// the metadata's range.
 bool OusterColumns::readColumns(const std::uint8_t* packet) {
     if (last_) before_ = last_;
     first_.reset();
@@ -39,13 +39,13 @@ bool OusterColumns::readColumns(const std::uint8_t* packet) {
     return has_number;
 }
 
-/// Returns the same column of one of the two previous turns, if received.
+/// Stores a column. Returns the same column of one of the two previous turns, if received.
 std::optional<OusterColumns::Column> OusterColumns::replace(const Column& column) {
     if (of_turn_.size() <= column.number) of_turn_.resize(column.number + std::size_t{1});
     std::optional<Column>& latest = of_turn_[column.number];
     const std::optional<Column> before = latest;
     const int turns = before ? turnsBetween(*before, column) : 0;
-    const bool is_late = before && turns <= 0 && turns > -kMaxLateTurns;  // or duplicate
+    const bool is_late = before && turns <= 0 && turns > -kMaxLateTurns;  // late or duplicate
     if (!is_late) latest = column;
     return turns == 1 || turns == 2 ? before : std::nullopt;
 }
@@ -54,7 +54,7 @@ int OusterColumns::turnsBetween(const Column& from, const Column& to) {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(to.frame - from.frame));
 }
 
-/// `ratio`: apparent number of columns per turn, relative to the metadata.
+/// `ratio`: apparent number of columns per turn divided by that in the metadata.
 OusterColumns::Evidence OusterColumns::evidenceOf(double ratio) {
     const auto isNear = [&](double other) { return std::abs(ratio / other - 1) < kTolerance; };
     if (isNear(1)) return Evidence::Same;
@@ -67,7 +67,7 @@ OusterColumns::Evidence OusterColumns::evidenceOf(double ratio) {
 OusterColumns::Evidence OusterColumns::evidence() {
     if (!first_ || first_->number >= kMaxColumns) return Evidence::None;
     Column from = *first_;
-    if (from.number == last_->number && before_) from = *before_;  // a packet of one column
+    if (from.number == last_->number && before_) from = *before_;  // packets have one column
     const int columns = last_->number - from.number;
     if (from.frame != last_->frame || columns <= 0 || columns > kMaxNumber) return Evidence::None;
     const double all = static_cast<double>(sensor_.columns_per_frame) / columns;
@@ -85,11 +85,11 @@ OusterColumns::Evidence OusterColumns::evidence() {
         const int turns = turnsBetween(*before, *first_);
         const auto since_ns = static_cast<std::int64_t>(first_->time_ns - before->time_ns);
         const Evidence by_turn = evidenceOf(static_cast<double>(since_ns) / turns / first_->all_ns);
-        // A turn during a mode change may take any time.
+        // During a mode change, a turn may take an arbitrary time.
         const bool is_steady = std::abs(before->all_ns / first_->all_ns - 1) < kTolerance;
         return by_turn == Evidence::Same && !is_steady ? Evidence::None : by_turn;
     }
-    // Fewer columns of a faster turn may take the same time.
+    // A faster turn with fewer columns may have the same column interval.
     const Evidence by_mode = evidenceOf(1e9 * sensor_.turn_s / first_->all_ns);
     return has_compared_ || by_mode != Evidence::Other ? Evidence::None : Evidence::Other;
 }

@@ -9,27 +9,27 @@
 namespace hagen::sensors {
 
 /// Checks that a sensor's turns have the number of columns in the metadata. Packets do not contain
-/// the mode, and columns of another mode would get wrong directions.
+/// the mode, and columns of another mode would be decoded with wrong directions.
 ///
-/// The number of columns is the duration of a turn divided by the time between columns, or follows
-/// from the head's angle in LEGACY packets. Only evidence for another mode (2, 4 or 8 times as many
-/// or as few columns) counts against the metadata, because clocks may be set. The first turn is
-/// trusted unless its duration contradicts `lidar_mode`. After a restart of the sensor, which a
-/// mode change requires, a turn must confirm the columns.
+/// The number of columns is the duration of a turn divided by the column interval; in LEGACY
+/// packets, it follows from the encoder angle. The metadata are rejected only if the ratio matches
+/// another mode (2, 4 or 8 times as many or as few columns), because clocks may be set. The first
+/// turn is trusted unless its duration contradicts `lidar_mode`. After a restart of the sensor,
+/// which a mode change requires, a turn must confirm the number of columns.
 class OusterColumns {
  public:
     explicit OusterColumns(const OusterSensor& sensor) : sensor_(sensor) {}
 
-    /// Adds a packet of OusterSensor::packetBytes(). Returns true if its columns are certain.
+    /// Adds a packet of packetBytes() bytes. Returns true if the number of columns is certain.
     bool take(const std::uint8_t* packet);
-    /// Number of sensor restarts: changes of the initialization id.
+    /// Number of sensor restarts: changes of the initialization ID.
     std::size_t restarts() const { return restarts_; }
 
  private:
     struct Column {
         std::uint16_t frame = 0, number = 0;
         std::uint64_t time_ns = 0;
-        std::uint32_t encoder = 0;  ///< LEGACY only: angle of the head
+        std::uint32_t encoder = 0;  ///< encoder angle, LEGACY only
         double all_ns = 0;          ///< extrapolated duration of a turn
     };
     enum class Evidence { None, Same, Other };
@@ -42,12 +42,12 @@ class OusterColumns {
 
     const OusterSensor& sensor_;
     bool is_certain_ = true;
-    bool has_compared_ = false;  ///< consecutive turns, since the sensor started
+    bool has_compared_ = false;  ///< compared consecutive turns since the sensor started
     std::optional<std::uint32_t> initialization_;
     std::size_t restarts_ = 0;
     std::optional<Column> first_, last_;          ///< first and last valid column of the packet
     std::optional<Column> before_;                ///< last column of the previous packet
-    std::vector<std::optional<Column>> of_turn_;  ///< latest column by number
+    std::vector<std::optional<Column>> of_turn_;  ///< latest column with each number
 };
 
 }  // namespace hagen::sensors

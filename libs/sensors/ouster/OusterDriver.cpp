@@ -18,9 +18,9 @@ namespace {
 constexpr long long kMaxLatePackets = 16;  // packets
 constexpr int kMaxTurns = 2;               // a longer gap is an interruption
 
-/// Reads the packets of one Ouster. Returns are relative to the origin of its beams (its lidar
-/// frame, with the axes of the sensor). Counts packets missing in complete turns after the first as
-/// lost, and jumps by more than two turns as interruptions.
+/// Reads the packets of one Ouster. Returns are relative to the origin of the beams (in the lidar
+/// frame, with the axes of the sensor frame). Counts missing packets of complete turns after the
+/// first as lost, and jumps by more than two turns as interruptions.
 class OusterDriver : public LidarDriver {
  public:
     explicit OusterDriver(const OusterSensor& sensor) : sensor_(sensor) {
@@ -72,7 +72,7 @@ class OusterDriver : public LidarDriver {
         }
         counts_.restarts = frames_.restarts();
         if (frame->is_uncertain) {
-            // The directions of its columns and of previous packets are unknown.
+            // The column directions of this and the previous packets are unknown.
             if (!is_uncertain_) sink.restart();
             is_uncertain_ = true;
             has_last_ = false;
@@ -131,7 +131,8 @@ class OusterDriver : public LidarDriver {
         return Taken::Yes;
     }
 
-    /// Missing packets are known when a turn is complete. The first turn may have begun earlier.
+    /// Counts missing packets once a turn is complete, except in the first turn, which may have
+    /// begun before recording.
     void countLosses() {
         const OusterFrames::Counts& frames = frames_.counts();
         if (frames.frames == counts_.scans) return;
@@ -142,7 +143,7 @@ class OusterDriver : public LidarDriver {
                        sensor_.columns_per_packet;
     }
 
-    /// Each run of consecutive columns is a sweep.
+    /// Adds each run of consecutive columns as a sweep.
     void addRuns(const OusterFrame& frame, long long turn, double arrival_s, ReturnSink& sink) {
         const double column_rad = 2 * kPi / static_cast<double>(sensor_.columns_per_frame);
         const double turned_rad = ahead_rad_ + 2 * kPi * static_cast<double>(turn);
@@ -163,9 +164,9 @@ class OusterDriver : public LidarDriver {
     OusterFrames frames_{sensor_};
     double ahead_rad_;  ///< clockwise from the sensor's x axis to column 0
     bool has_last_ = false, is_uncertain_ = false;
-    std::uint16_t last_id_ = 0;  ///< frame id of the latest packet
+    std::uint16_t last_id_ = 0;  ///< frame ID of the latest packet
     long long turn_ = 0;         ///< accumulated turns
-    long long last_at_ = 0;      ///< accumulated columns, at its first column
+    long long last_at_ = 0;      ///< accumulated columns at the latest packet's first column
     std::size_t missing_of_first_ = 0;
     std::vector<std::size_t> columns_, run_;
     Scan returns_;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMaxOpen = 2;
 constexpr std::size_t kMaxConsecutiveLate = 16;  // packets
-constexpr int kMaxStep = 600;                    // frames: 60 s at 10 Hz; beyond: another recording
+constexpr int kMaxStep = 600;  // 60 s at 10 Hz; a larger step means another recording
 
 OusterFrame emptyFrame(const OusterSensor& sensor, std::uint16_t id, std::int64_t time_ns) {
     OusterFrame frame;
@@ -51,7 +51,7 @@ const OusterFrame* OusterFrames::add(const std::uint8_t* packet, std::int64_t ti
     return frame;
 }
 
-/// The open frame with this id, or a new frame; null if it is already complete.
+/// Returns the open or new frame with this ID; null if that frame is already complete.
 OusterFrame* OusterFrames::frameOf(std::uint16_t id, std::int64_t time_ns) {
     const std::uint16_t newest = open_.empty() ? last_id_ : open_.back().id;
     const bool has_newest = has_last_ || !open_.empty();
@@ -70,7 +70,7 @@ OusterFrame* OusterFrames::frameOf(std::uint16_t id, std::int64_t time_ns) {
     return &*open_.insert(place, emptyFrame(sensor_, id, time_ns));
 }
 
-/// Returns true if the column is new to the frame.
+/// Reads a column. Returns true if the column is new in the frame.
 bool OusterFrames::readColumn(const std::uint8_t* column, std::size_t& number, OusterFrame& frame) {
     const OusterProfile& profile = sensor_.profile;
     number = little<std::uint16_t>(column + 8);
@@ -125,7 +125,6 @@ void OusterFrames::finish() {
     while (!open_.empty()) completeFirst();
 }
 
-/// Handles a restart of the sensor.
 void OusterFrames::restart() {
     finish();
     has_last_ = false;

@@ -8,9 +8,8 @@
 namespace hagen::sensors {
 namespace {
 
-/// The direction and time of a column.
 struct ColumnPlace {
-    double encoder_rad;  ///< angle of the sensor's head, counter-clockwise
+    double encoder_rad;  ///< encoder angle, counter-clockwise
     float time_s;
 };
 
@@ -38,7 +37,7 @@ void add(const OusterSensor& sensor, std::size_t pixel, const ColumnPlace& colum
 }  // namespace
 
 Scan scanOf(const OusterFrame& frame, const OusterSensor& sensor) {
-    std::vector<std::size_t> measured;  // columns in order
+    std::vector<std::size_t> measured;  // columns in order of measurement
     for (std::size_t column = 0; column < frame.columns; ++column) {
         if (frame.state[column] == OusterFrame::Column::Valid) measured.push_back(column);
     }

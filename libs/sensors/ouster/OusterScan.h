@@ -7,19 +7,20 @@
 
 namespace hagen::sensors {
 
-/// The returns of a frame in the order of measurement, column by column, each with its beam and the
-/// time since the first column. The origin is the lidar frame's, the axes are the sensor frame's: x
-/// forward, away from the connector. Pixels without a range and invalid columns have no return.
+/// Returns a frame's returns in the order of measurement, column by column, with beam rows and
+/// times since the first column. The origin is that of the lidar frame, the axes are those of the
+/// sensor frame: x forward, away from the connector. Skips pixels without range and invalid
+/// columns.
 Scan scanOf(const OusterFrame& frame, const OusterSensor& sensor);
 
-/// The same for these columns in this order; times are relative to the first of them. Reuses the
-/// memory of `scan`.
+/// Like scanOf(), but for these columns in this order; times are relative to the first of them.
+/// Reuses the memory of `scan`.
 void scanColumns(const OusterFrame& frame, const OusterSensor& sensor,
                  const std::vector<std::size_t>& columns, Scan& scan);
 
 /// Converts a frame to a sweep with the label "ouster".
 LidarSweep sweepOf(const OusterFrame& frame, const OusterSensor& sensor);
-/// "64 packets in 2 turns, 16 columns missing".
+/// Such as "64 packets in 2 turns, 16 columns missing".
 std::string textOf(const OusterFrames::Counts& counts);
 
 }  // namespace hagen::sensors

@@ -38,19 +38,19 @@ const std::vector<OusterProfile>& profiles() {
     return known;
 }
 
-/// Throws unless a value has the expected type.
+/// Throws an exception unless a value has the expected type.
 void checkType(bool is_expected, const std::string& key, const char* expected, const json& found) {
     if (is_expected) return;
     throw std::runtime_error("'" + key + "': expected " + expected + ", not: " + found.dump());
 }
 
-/// nullptr if this is not an object or lacks the key.
+/// Returns a member; nullptr if `object` is not an object or lacks the key.
 const json* member(const json& object, const std::string& key) {
     const auto found = object.find(key);
     return found == object.end() ? nullptr : &*found;
 }
 
-/// Parsed metadata: keys are at the top level or, since firmware 3, in sections.
+/// Parsed metadata. Keys are at the top level or, since firmware 3, in sections.
 class Metadata {
  public:
     explicit Metadata(const json& root) : root_(root) {}
@@ -89,7 +89,7 @@ class Metadata {
         checkType(found.is_array(), key, "an array", found);
         return found.size();
     }
-    /// An integer within limits.
+    /// Reads an integer within limits.
     std::size_t count(const std::string& key, std::size_t min, std::size_t max) const {
         const json& found = at(key);
         checkType(found.is_number_unsigned(), key, "an integer of at least 0", found);
@@ -100,7 +100,7 @@ class Metadata {
         }
         return static_cast<std::size_t>(value);
     }
-    /// Numbers, all within +-`most`.
+    /// Reads numbers within +-`max`.
     std::vector<double> numbers(const std::string& key, std::size_t count, double max) const {
         const json& found = at(key);
         checkType(found.is_array(), key, "an array", found);
@@ -114,7 +114,7 @@ class Metadata {
                                      " numbers, not " + std::to_string(count));
         }
         for (const double value : values) {
-            if (std::abs(value) <= max) continue;  // false for NaN
+            if (std::abs(value) <= max) continue;  // false if NaN
             throw std::runtime_error("'" + key + "' has a number outside +-" +
                                      std::to_string(static_cast<int>(max)));
         }
@@ -125,7 +125,7 @@ class Metadata {
     const json& root_;
 };
 
-/// The number of columns from a mode like "1024x10".
+/// Number of columns in a mode such as "1024x10".
 std::size_t columnsOfMode(const std::string& mode) {
     for (const std::size_t columns : {512, 1024, 2048, 4096}) {
         if (mode.rfind(std::to_string(columns) + "x", 0) == 0) return columns;
@@ -133,7 +133,7 @@ std::size_t columnsOfMode(const std::string& mode) {
     throw std::runtime_error("'lidar_mode' is '" + mode + "', not like '1024x10'");
 }
 
-/// Turns per second from a mode like "1024x10"; 0 for other texts.
+/// The duration of a turn in a mode such as "1024x10"; 0 for other texts.
 double turnTimeOfMode(const Metadata& metadata) {
     const json* const found = metadata.find("lidar_mode");
     if (found == nullptr || !found->is_string()) return 0;
@@ -155,7 +155,7 @@ const OusterProfile& profileNamed(const std::string& name) {
                              ". Set one of these in the sensor's configuration and record again");
 }
 
-/// Metadata before firmware 3.2 lack the header type: the profile then determines it.
+/// Metadata before firmware 3.2 lack the header type, which then follows from the profile.
 bool hasFusaHeader(const Metadata& metadata, const OusterProfile& profile) {
     if (profile.is_legacy) return false;
     const std::string header = metadata.text("header_type");
@@ -212,7 +212,7 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
         }
         sensor.beam_origin_m = 1e-3 * origin_mm;
     }
-    // The same for all sensors, unless the metadata override it.
+    // All sensors have this transform unless the metadata override it.
     std::vector<double> to_sensor{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36.18, 0, 0, 0, 1};
     if (metadata.find("lidar_to_sensor_transform") != nullptr) {
         to_sensor = metadata.numbers("lidar_to_sensor_transform", 16, 1000);
@@ -225,13 +225,13 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
     if (!(rotation * rotation.transpose()).isIdentity(1e-3)) {
         throw std::runtime_error("'lidar_to_sensor_transform' is not a rigid transformation");
     }
-    // Rows and the sweep direction would change. The mount belongs in the settings.
+    // Other rotations would change rows and sweep direction. Mounts belong in the settings.
     if (!(rotation(2, 2) > 0.999) || !(rotation.determinant() > 0)) {
         throw std::runtime_error("'lidar_to_sensor_transform' rotates about other axes than z");
     }
 }
 
-/// Sets the rows of the pixels, and the sensor model with the beams.
+/// Assigns rows to pixels and creates the sensor model.
 void sortBeams(OusterSensor& sensor) {
     std::vector<std::size_t> by_altitude(sensor.pixels);
     std::iota(by_altitude.begin(), by_altitude.end(), std::size_t{0});
@@ -268,7 +268,7 @@ std::string readText(const std::filesystem::path& file) {
     return text;
 }
 
-/// Checks a text before it is parsed.
+/// Checks the text of metadata before parsing.
 void checkText(const std::string& text) {
     if (text.empty()) throw std::runtime_error("is empty");
     const base::FileKind kind = base::kindOfBytes(text.substr(0, base::kFileKindBytes));

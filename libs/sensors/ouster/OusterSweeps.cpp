@@ -13,7 +13,7 @@
 namespace hagen::sensors {
 namespace {
 
-/// The frames of one Ouster in a recording.
+/// Reads the frames of one Ouster in a recording.
 class OusterSweeps : public SweepReader {
  public:
     explicit OusterSweeps(const std::filesystem::path& sensor_json)
@@ -93,7 +93,7 @@ class OusterSweeps : public SweepReader {
     std::filesystem::path json_;
     OusterSensor sensor_;
     OusterFrames frames_{sensor_};
-    std::optional<std::uint32_t> from_ip_;  ///< the sensor's address, once known
+    std::optional<std::uint32_t> from_ip_;  ///< the sensor's address, if known
     std::size_t imu_packets_ = 0, other_sources_ = 0;
     std::map<std::uint64_t, std::size_t> other_serials_;
 };

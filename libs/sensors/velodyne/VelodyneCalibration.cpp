@@ -7,13 +7,13 @@
 namespace hagen::sensors {
 namespace {
 
-/// The direction of a laser, as listed in the manuals.
+/// A laser's direction, as listed in the manuals.
 struct Beam {
     double elevation_deg;
     double azimuth_offset_deg = 0;  ///< clockwise
 };
 
-/// The beams of a model in firing order.
+/// Beams of a model in firing order.
 std::vector<Beam> beamsOfManual(const std::string& name) {
     std::vector<Beam> beams;
     if (name == "VLP-16") {
@@ -29,7 +29,7 @@ std::vector<Beam> beamsOfManual(const std::string& name) {
         }
     }
     if (name == "HDL-32E") {
-        // The last digits match the calibration file in MRPT.
+        // The last digits match MRPT's calibration file.
         beams = {{-30.67}, {-9.3299999}, {-29.33}, {-8}, {-28}, {-6.6700001},
                  {-26.67}, {-5.3299999}, {-25.33}, {-4}, {-24}, {-2.6700001},
                  {-22.67}, {-1.33},      {-21.33}, {0},  {-20}, {1.33},
@@ -55,7 +55,7 @@ std::map<std::string, VelodyneCalibration> calibrationsOfManuals() {
         VelodyneCalibration& calibration = calibrations[model.name];
         for (const Beam& beam : beamsOfManual(model.name)) {
             calibration.lasers.push_back(laserAt(beam.elevation_deg));
-            // Avoids negative zero, which differs in a recording.
+            // Avoid negative zero, which is stored differently.
             if (beam.azimuth_offset_deg != 0) {
                 calibration.lasers.back().azimuth_deg = -beam.azimuth_offset_deg;
             }
@@ -67,7 +67,7 @@ std::map<std::string, VelodyneCalibration> calibrationsOfManuals() {
 }  // namespace
 
 VelodyneLaser laserAt(double elevation_deg) {
-    // Rounded like MRPT's calibration, so that recordings have the same numbers.
+    // Round like MRPT's calibration, so that recordings contain the same numbers.
     const double elevation_rad = elevation_deg * kPi / 180.0;
     VelodyneLaser laser;
     laser.elevation_deg = elevation_deg;

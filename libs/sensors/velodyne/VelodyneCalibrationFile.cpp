@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 4 << 20;
 constexpr std::size_t kMaxDepth = 32;
-constexpr std::size_t kMaxNameBytes = 64;  // characters; limits the cost of building paths
+constexpr std::size_t kMaxNameBytes = 64;  // limits the cost of building paths
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r\n";
@@ -35,8 +35,8 @@ class Elements {
  public:
     explicit Elements(std::string_view xml) : rest_(xml) {}
 
-    /// Advances to the end of the next element. Returns its path, such as "/DB/points_", and its
-    /// text if it has no child elements. False at the end of the text.
+    /// Advances to the end of the next element. Returns false at the end of the text. `path`: such
+    /// as "/DB/points_"; `text`: empty if the element has child elements.
     bool next(std::string& path, std::string_view& text) {
         while (true) {
             const std::size_t open = rest_.find('<');

@@ -18,9 +18,8 @@ namespace hagen::sensors {
 namespace {
 
 constexpr int kTurn = kReadingsOfTurn;   // 0.01 degrees
-constexpr double kMaxAzimuth_deg = 1e6;  // beyond, the remainder of a turn is inexact
+constexpr double kMaxAzimuth_deg = 1e6;  // larger angles make the remainder inexact
 
-/// A data packet.
 class Packet {
  public:
     explicit Packet(const std::uint8_t* bytes) : bytes_(bytes) {}
@@ -40,7 +39,6 @@ class Packet {
     const std::uint8_t* bytes_;
 };
 
-/// The sine and cosine of an angle.
 struct SineCosine {
     double sine, cosine;
 
@@ -48,7 +46,7 @@ struct SineCosine {
         : sine(std::sin(angle_rad)), cosine(std::cos(angle_rad)) {}
 };
 
-/// Directions of all azimuth readings, from tables of whole degrees and of hundredths, which fit in
+/// Directions of all azimuth readings, from tables of whole and hundredths of degrees that fit into
 /// the L1 cache.
 class ReadingDirections {
  public:
@@ -57,7 +55,6 @@ class ReadingDirections {
         for (int i = 0; i < 100; ++i) hundredths_.emplace_back(i * kRadiansPerReading);
     }
 
-    /// Sets a block's direction from its reading.
     void setDirection(int reading, VelodyneBlock& block) const {
         const int from_behind = reading < kTurn / 2 ? reading + kTurn / 2 : reading - kTurn / 2;
         const SineCosine& a = degrees_[from_behind / 100];
@@ -80,7 +77,7 @@ std::string hex(unsigned value) {
 
 bool areOfHdl64(const VelodynePackets& packets) { return isOfHdl64(packets.at(0)); }
 
-/// Returns a scan's own calibration. Throws std::runtime_error if a laser has no direction or
+/// Returns the calibration of a scan. Throws std::runtime_error if a laser has no direction or
 /// implausible offsets.
 const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
     const auto& lasers = calibration.lasers;
@@ -130,9 +127,9 @@ const VelodyneCalibration& calibrationOf(const VelodyneModel& model,
     return has_own ? checked(own) : defaultCalibration(model);
 }
 
-/// Returns the rotation of the sensor between the blocks of consecutive firings, in 0.01 degrees:
-/// the median over the scan, so that neither rounded azimuths nor a broken block shift returns.
-/// Never negative, although readings of a nearly stationary motor may go backwards.
+/// Returns the rotation between the blocks of consecutive firings, in 0.01 degrees: the median over
+/// the scan, which ignores rounding and broken blocks. Never negative, although readings of a
+/// nearly stationary motor may decrease.
 int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
     turns.clear();
     for (std::size_t p = 0; p < packets.count; ++p) {
@@ -152,8 +149,8 @@ int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
     return std::max(*middle, 0);
 }
 
-/// Sets the offsets from a laser's calibration; `turn_reading`: rotation since the block's first
-/// firing, in 0.01 degrees.
+/// Sets the offsets of a laser. `turn_reading`: rotation since the block's first firing, in 0.01
+/// degrees.
 void setLaser(const VelodyneCalibration& calibration, std::size_t laser, double turn_reading,
               std::size_t i, BlockOffsets& places) {
     const VelodyneLaser& correction = calibration.lasers[laser];
@@ -193,7 +190,7 @@ BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const Velody
     return places;
 }
 
-/// The lasers of an upper or lower block of an HDL-64E, treated as fired at once.
+/// Offsets of an upper or lower block of an HDL-64E. Treats its lasers as simultaneous.
 BlockOffsets hdl64Offsets(const VelodyneCalibration& calibration, bool is_lower) {
     BlockOffsets places{};
     places.distance_unit_m = hdl64Model().distance_unit_m;
@@ -209,7 +206,7 @@ BlockOffsets hdl64Offsets(const VelodyneCalibration& calibration, bool is_lower)
     return places;
 }
 
-/// Collects the valid blocks of a scan; returns the number of invalid ones.
+/// Collects the valid blocks of a scan. Returns the number of invalid blocks.
 std::size_t collectBlocks(const VelodynePackets& packets, const VelodyneModel& model,
                           std::vector<VelodyneBlock>& blocks) {
     static const ReadingDirections directions;
@@ -233,7 +230,7 @@ std::size_t collectBlocks(const VelodynePackets& packets, const VelodyneModel& m
     return packets.count * kVelodyneBlocks - blocks.size();
 }
 
-/// Equals beamSpan() of sensorOf()'s result, without allocation.
+/// Like beamSpan() of the result of sensorOf(), but without allocations.
 BeamSpan beamSpan(const VelodyneCalibration& calibration) {
     const auto isLower = [](const auto& a, const auto& b) {
         return a.elevation_sine < b.elevation_sine;
@@ -283,7 +280,7 @@ std::size_t decodeHdl64(const VelodynePackets& packets, const VelodyneCalibratio
                 continue;
             }
             block.returns = packet.returns(b);
-            const int firing = b / 2;  // two blocks, upper and lower
+            const int firing = b / 2;  // an upper and a lower block
             block.time_s = static_cast<float>(1e-6 * (packet_us + firing * firing_us));
             directions.setDirection(packet.azimuth(b), block);
             locateReturns(work.blocks, packet.isLower(b) ? lower : upper,
@@ -311,9 +308,8 @@ void beamsOf(const VelodynePackets& packets, const VelodyneCalibration& calibrat
     }
 }
 
-// Fast because the lasers of all blocks fire in the same pattern: blocks differ only in their first
-// direction. It is looked up in a table and rotates the pattern, one SIMD vector of returns at a
-// time (locateReturns).
+// Blocks have the same firing pattern and differ only in their first direction. For each block,
+// looks up this direction and rotates the pattern, one SIMD vector at a time (locateReturns).
 std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibration& own,
                           Scan& scan, DecoderWorkspace& work) {
     if (packets.count == 0) {
@@ -324,7 +320,7 @@ std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibrat
     if (areOfHdl64(packets)) return decodeHdl64(packets, own, scan, work);
     const VelodyneModel& model = modelOf(packets, 0);
     for (std::size_t p = 1; p < packets.count; ++p) {
-        modelOf(packets, p);  // throws for a packet of another model
+        modelOf(packets, p);  // throws if models differ
     }
     const VelodyneCalibration& calibration = calibrationOf(model, own);
     std::vector<VelodyneBlock>& blocks = work.blocks;
@@ -332,7 +328,7 @@ std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibrat
     const BlockOffsets places =
         blockOffsetsOf(calibration, model, turnOfBlocks(packets, work.turns));
 
-    // Counts first, because growing arrays would spend time on zero-filling.
+    // Count returns first, because growing arrays would fill them with zeros.
     const std::size_t returns = countReturns(blocks);
     resize(returns + kPaddingReturns, scan);
     locateReturns(blocks, places, arraysFrom(0, scan));

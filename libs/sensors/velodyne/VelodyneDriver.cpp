@@ -21,18 +21,18 @@ namespace {
 
 constexpr int kMaxLate = 16;
 constexpr double kInterruptionUs = 50e3;
-constexpr double kForgottenUs = 250e3;  // beyond, earlier returns are not used as context
+constexpr double kForgottenUs = 250e3;  // earlier returns are no longer used as context
 constexpr double kOverlap_rad = 0.2;    // tolerated overlap of packets
 constexpr double kNearest_m = 0.5;
 constexpr int kReadings = kReadingsOfTurn;
-// In 0.01 degrees: azimuth jitter of a nearly stationary motor, and max. deviation within a packet.
+// Azimuth jitter of a nearly stationary motor, and max. deviation within a packet, in 0.01 degrees.
 constexpr double kJitter = 10, kMaxOff = 100;
 
 int blocksPerFiring(const VelodynePacket& packet) {
     return packet.isDual() || isOfHdl64(packet.bytes.data()) ? 2 : 1;
 }
 
-/// -1: one of its blocks is invalid.
+/// Azimuth of a firing; -1 if one of its blocks is invalid.
 int azimuthOfFiring(const VelodynePacket& packet, int firing) {
     const int step = blocksPerFiring(packet);
     for (int b = firing * step; b < (firing + 1) * step; ++b) {
@@ -41,7 +41,7 @@ int azimuthOfFiring(const VelodynePacket& packet, int firing) {
     return packet.azimuthOf(firing * step);
 }
 
-/// The number of returns that the decoder finds in the first blocks.
+/// Number of returns decoded from the first `blocks` blocks.
 std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
     std::size_t returns = 0;
     for (int b = 0; b < blocks; ++b) {
@@ -55,13 +55,13 @@ std::size_t returnsBefore(const VelodynePacket& packet, int blocks) {
     return returns;
 }
 
-/// Hash of the bytes, which include the sensor's time.
+/// Hash of the packet, which includes the sensor time.
 std::uint64_t keyOf(const VelodynePacket& packet) {
     const auto* const bytes = reinterpret_cast<const char*>(packet.bytes.data());
     return std::hash<std::string_view>()({bytes, packet.bytes.size()});
 }
 
-/// Reads the packets of one Velodyne. Interruptions are gaps of more than 50 ms and clock jumps.
+/// Reads the packets of one Velodyne. Gaps of more than 50 ms and clock jumps are interruptions.
 class VelodyneDriver : public LidarDriver {
  public:
     explicit VelodyneDriver(const VelodyneModel& model, const VelodyneCalibration* calibration)
@@ -80,8 +80,8 @@ class VelodyneDriver : public LidarDriver {
         return sensor;
     }
 
-    /// From the lasers' corrections. A laser beside the axis sees near objects in a direction other
-    /// than its beam's.
+    /// From the calibration: a laser beside the axis sees near objects in another direction than
+    /// its beam's.
     BeamOffsets beamOffsets(double min_range_m) const override {
         BeamOffsets offsets;
         for (const VelodyneLaser& laser : calibration_.lasers) {
@@ -131,11 +131,11 @@ class VelodyneDriver : public LidarDriver {
 
     Taken addPacket(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
         if (recent_.has(keyOf(packet), arrival_s)) {
-            held_.clear();  // late packets arrive on another path
+            held_.clear();  // late packets take another network path
             ++counts_.duplicate;
             return Taken::Duplicate;
         }
-        // The previous packet's mode determines the time from that packet to this packet.
+        // The period depends on the previous packet's mode.
         const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : packet.isDual());
         const bool is_too_late =
             has_last_ && elapsedUs(last_us_, packet.sensorTimeUs()) < -kMaxLate * period_us;
@@ -144,8 +144,8 @@ class VelodyneDriver : public LidarDriver {
         return take(packet, arrival_s, sink);
     }
 
-    /// A packet that is a turn late is stale, but kMaxLate late packets in a row mean that the
-    /// sensor's clock was set.
+    /// Holds late packets. A packet that is a turn late is stale, but kMaxLate late packets in a
+    /// row mean that the sensor clock was set.
     Taken hold(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
         held_.push_back({packet, arrival_s});
         ++counts_.late;
@@ -211,11 +211,11 @@ class VelodyneDriver : public LidarDriver {
         return Taken::Yes;
     }
 
-    /// Finds runs of firings with only valid blocks and steady rotation. The view of an invalid
-    /// block is unknown, so no sweep covers it.
+    /// Finds runs of firings with valid blocks and steady rotation. No sweep covers an invalid
+    /// block, because its direction is unknown.
     void findRuns(const VelodynePacket& packet) {
         runs_.clear();
-        int before = -1;  // azimuth of the previous firing, if valid
+        int before = -1;  // azimuth of the previous firing; -1 if invalid
         for (int f = 0; f < kVelodyneBlocks / blocksPerFiring(packet); ++f) {
             const int azimuth = azimuthOfFiring(packet, f);
             const double step = std::remainder(azimuth - before, kReadings);
@@ -230,14 +230,14 @@ class VelodyneDriver : public LidarDriver {
         }
     }
 
-    /// Finds the azimuth range of a packet, as if all of its blocks were valid; packets before it
-    /// may be lost. Keeps only runs consistent with the longest run: others are broken readings.
+    /// Finds the azimuth range of a packet, as if all of its blocks were valid; previous packets
+    /// may be lost. Keeps the runs consistent with the longest run; others have broken readings.
     /// Returns false if the packet has no valid block.
     bool readSweep(const VelodynePacket& packet, double elapsed_us, Sweep& sweep) {
         findRuns(packet);
         const int step = blocksPerFiring(packet), all_firings = kVelodyneBlocks / step;
         double from = -1, per_firing = 0;
-        if (runs_.empty()) {  // at most half firings
+        if (runs_.empty()) {  // no complete valid firing
             for (int b = kVelodyneBlocks - 1; b >= 0; --b) {
                 if (packet.azimuthOf(b) >= 0) from = packet.azimuthOf(b);
             }
@@ -264,7 +264,7 @@ class VelodyneDriver : public LidarDriver {
         const double swept_rad = radians(0.01 * per_firing * all_firings);
         sweep.from_rad = radians(0.01 * from);
         if (has_last_) {
-            // Ignores whole missing turns, so that earlier returns are not overwritten.
+            // Ignore whole missing turns, so that earlier returns are not overwritten.
             const double period_us = model_.packetPeriodUs(packet.isDual());
             double turned_rad = std::remainder(elapsed_us / period_us * swept_rad, kTurn_rad);
             if (elapsed_us > 0 && turned_rad < -kOverlap_rad) turned_rad += kTurn_rad;
@@ -276,8 +276,8 @@ class VelodyneDriver : public LidarDriver {
         return true;
     }
 
-    /// Each run is a sweep. Returns of other blocks also need labels, so they join the previous
-    /// run.
+    /// Adds each run as a sweep. Returns of other blocks join the previous run, because they need
+    /// labels too.
     void addRuns(const VelodynePacket& packet, const Sweep& sweep, double arrival_s,
                  ReturnSink& sink) {
         const int step = blocksPerFiring(packet);
@@ -309,12 +309,12 @@ class VelodyneDriver : public LidarDriver {
     VelodyneCalibration calibration_;
     DecoderWorkspace decoder_;
     Scan returns_, part_;
-    std::vector<Run> runs_;  ///< of the latest packet
+    std::vector<Run> runs_;
     RecentPackets recent_;
     std::vector<Held> held_;  ///< consecutive late packets
     bool has_last_ = false, is_dual_ = false;
     double last_us_ = 0;  ///< sensor time of the latest packet
-    Sweep last_sweep_{};  ///< of the latest packet
+    Sweep last_sweep_{};
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sensors/velodyne/VelodyneReturns.cpp"
 #include <hwy/foreach_target.h>
-// After foreach_target.h:
+// Must follow foreach_target.h.
 #include <hwy/highway.h>
 
 #ifndef HAGEN_PACKETS_VELODYNE_RETURNS_ONCE
@@ -13,7 +13,7 @@
 namespace hagen::sensors {
 namespace {
 
-/// True if readings of the block may cross the end of a revolution, which is behind the sensor.
+/// True if readings of the block may pass 0 (behind the sensor).
 bool crossesZeroAzimuth(const VelodyneBlock& block, const BlockOffsets& places) {
     return block.reading_from_behind + places.max_turn_reading >= kReadingsOfTurn - 0.5f ||
            block.reading_from_behind + places.min_turn_reading < -0.5f;
@@ -32,7 +32,7 @@ using Floats = hn::CappedTag<float, kPaddingReturns>;
 using Ints = hn::RebindToSigned<Floats>;
 using Bytes = hn::Rebind<std::uint8_t, Floats>;
 
-/// Distances and intensities, as stored in the packet.
+/// Distances and intensities as stored in the packet.
 struct RawReturns {
     hn::Vec<Ints> distance, intensity;
 };
@@ -66,14 +66,12 @@ HWY_INLINE hn::Vec<Floats> share(hn::Vec<Floats> of_255) {
     return hn::Add(hn::Mul(of_255, hn::Set(d, kUpper)), hn::Mul(of_255, hn::Set(d, kRest)));
 }
 
-/// A direction in the plane.
 struct Direction {
     hn::Vec<Floats> sine, cosine;  ///< clockwise from x
     hn::Vec<Floats> azimuth_rad;   ///< counter-clockwise
 };
 
-/// Returns the directions of a block's returns from `i` on: the block's direction rotated by
-/// offsets.
+/// The directions of a block's returns from `i` on: the block's direction, rotated by the offsets.
 HWY_INLINE Direction rotateBy(const VelodyneBlock& block, const BlockOffsets& places,
                               std::size_t i) {
     const Floats d;
@@ -85,8 +83,8 @@ HWY_INLINE Direction rotateBy(const VelodyneBlock& block, const BlockOffsets& pl
             hn::Sub(hn::Set(d, block.azimuth_rad), hn::LoadU(d, places.turn_rad + i))};
 }
 
-/// A revolution has one reading more than a full circle. Returns of a block that cross its end,
-/// behind the sensor, continue at its start, or vice versa.
+/// Wraps readings at the end of a turn, which has one reading more than a full circle: returns past
+/// the end continue at the start, and vice versa.
 HWY_INLINE void wrap(const VelodyneBlock& block, const BlockOffsets& places, std::size_t i,
                      Direction& direction) {
     const Floats d;
@@ -104,7 +102,7 @@ HWY_INLINE void wrap(const VelodyneBlock& block, const BlockOffsets& places, std
                  hn::Sub(direction.azimuth_rad, turned_rad)};
 }
 
-/// Returns the lanes of a vector that have a return, lowest first.
+/// The lanes of a vector that have a return, lowest first.
 HWY_INLINE hn::Vec<Bytes> lanesOf(hn::Mask<Ints> came_back) {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(Ints(), came_back, bits);
@@ -139,7 +137,7 @@ void locate(const VelodyneBlock* blocks, std::size_t block_count, const BlockOff
             const auto intensity = share(hn::ConvertTo(d, raw.intensity));
             const auto time_s = hn::Add(hn::Set(d, block->time_s), hn::LoadU(d, places.time_s + i));
 
-            // Returns are compacted; excess lanes are overwritten later.
+            // Compacts returns; later returns overwrite excess lanes.
             const auto came_back = hn::Ne(raw.distance, hn::Zero(d_int));
             const auto byte_lanes = lanesOf(came_back);
             const auto lanes = hn::IndicesFromVec(d, hn::PromoteTo(d_int, byte_lanes));

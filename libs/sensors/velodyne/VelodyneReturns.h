@@ -11,10 +11,10 @@ namespace hagen::sensors {
 /// A turn has one reading more than a full circle; see azimuthOfReadingDeg().
 constexpr double kRadiansPerReading = 2.0 * kPi / (kReadingsOfTurn - 1);
 
-/// Offsets of returns from the first return of their block: one entry per position in the block,
-/// the same for all blocks of a scan.
+/// Offsets of returns from the first return of their block: one entry per position in a block,
+/// shared by all blocks of a scan.
 struct BlockOffsets {
-    float distance_unit_m;  ///< unit of distances in packets
+    float distance_unit_m;
     float turn_sine[kReturnsOfBlock], turn_cosine[kReturnsOfBlock];  ///< clockwise
     float turn_rad[kReturnsOfBlock];                                 ///< clockwise
     float turn_reading[kReturnsOfBlock];                             ///< 0.01 degrees clockwise
@@ -22,22 +22,22 @@ struct BlockOffsets {
     float time_s[kReturnsOfBlock];
     float elevation_sine[kReturnsOfBlock], elevation_cosine[kReturnsOfBlock];
     float distance_m[kReturnsOfBlock];  ///< distance offset of the laser
-    /// Offsets from the sensor's centre: upwards, towards the return (due to the vertical offset),
+    /// Offsets from the sensor's centre: upwards, towards the return (from the vertical offset),
     /// and sideways.
     float up_m[kReturnsOfBlock], forward_m[kReturnsOfBlock], sideways_m[kReturnsOfBlock];
     std::uint8_t row[kReturnsOfBlock];
 };
 
-/// Output arrays of the returns, as in Scan.
+/// Output arrays, as in Scan.
 struct ReturnArrays {
     float *x_m, *y_m, *z_m, *intensity, *range_m, *azimuth_rad, *time_s;
     std::uint8_t* row;
 };
 
-/// Counts the returns of these blocks whose distance is not 0.
+/// Counts the returns with non-zero distance.
 std::size_t countReturns(const std::vector<VelodyneBlock>& blocks);
 
-/// Writes these returns in block order. May write up to kPaddingReturns entries beyond the last.
+/// locateReturns() may write up to this many entries beyond the last return.
 constexpr std::size_t kPaddingReturns = 8;
 void locateReturns(const std::vector<VelodyneBlock>& blocks, const BlockOffsets& places,
                    const ReturnArrays& returns);

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint16_t kPositionPort = 8308;
 
-/// See makeVelodyneSweeps().
+/// Sweep reader of makeVelodyneSweeps().
 class VelodyneSweeps : public SweepReader {
  public:
     explicit VelodyneSweeps(const std::filesystem::path& calibration)
@@ -104,7 +104,7 @@ class VelodyneSweeps : public SweepReader {
         turns.complete().clear();
     }
 
-    /// Counts of datagrams that are not from a known Velodyne.
+    /// Counts of datagrams that are not from a known Velodyne model.
     std::string unknown() const {
         std::string text;
         if (!calibration_) {

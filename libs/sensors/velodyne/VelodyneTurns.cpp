@@ -10,12 +10,12 @@ namespace hagen::sensors {
 namespace {
 
 constexpr std::size_t kMaxWaiting = 16, kOfSetClock = 16;
-constexpr double kFollows = 2.5;  // periods
+constexpr double kFollows = 2.5;  // max. gap, in packet periods
 constexpr double kSecondUs = 1e6;
-constexpr double kEndOfTurnUs = 50e3;          // without packets
+constexpr double kEndOfTurnUs = 50e3;          // max. gap within a turn
 constexpr double kMaxTurnUs = 250e3;           // the slowest sensors turn at 5 Hz
-constexpr std::size_t kMaxTurnPackets = 2000;  // more than any sensor sends in that time
-constexpr int kMinWrap = 100;                  // 0.01 degrees; less is jitter of a stationary motor
+constexpr std::size_t kMaxTurnPackets = 2000;  // exceeds the rate of every sensor
+constexpr int kMinWrap = 100;                  // 0.01 degrees; smaller steps are jitter
 
 }  // namespace
 
@@ -44,8 +44,7 @@ void VelodyneTurns::add(const VelodynePacket& packet) {
     if (held_.size() >= kOfSetClock) setClock();
 }
 
-/// A single packet this old was delayed by the network or is a duplicate. Several in a row mean
-/// that the clock was set.
+/// Restarts at the held packets: several late packets in a row mean that the clock was set.
 void VelodyneTurns::setClock() {
     flush();
     endTurn();
@@ -79,7 +78,7 @@ void VelodyneTurns::flush() {
 }
 
 void VelodyneTurns::finish() {
-    while (!held_.empty()) setClock();  // each call shrinks held_
+    while (!held_.empty()) setClock();  // each call removes packets from held_
     flush();
     endTurn();
 }

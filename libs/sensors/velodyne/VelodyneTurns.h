@@ -16,26 +16,26 @@ namespace hagen::sensors {
 
 /// Groups the packets of one sensor into turns. A turn ends where the azimuth wraps.
 ///
-/// Packets up to 16 packets late are reordered by the sensor's clock. Older packets are dropped,
-/// unless 16 arrive in a row or at the end, which means that the clock was set. A turn also ends at
-/// a gap of more than 50 ms (a turn at the highest speed), after 250 ms (a stationary sensor never
-/// wraps) and, to limit memory, after 2000 packets.
+/// Packets up to 16 packets late are reordered by sensor time. Older packets are dropped, unless 16
+/// arrive in a row or at the end, which means that the clock was set. A turn also ends at a gap of
+/// more than 50 ms (a turn at maximum speed), after 250 ms (a stationary sensor never wraps) and,
+/// to limit memory, after 2000 packets.
 class VelodyneTurns {
  public:
-    /// `late`: reordered.
+    /// `late`: reordered packets.
     struct Counts : PacketCounts {
         std::size_t dual = 0;  ///< packets with two returns per firing
     };
 
-    /// `calibration`: of the sensor; null: the model's default.
+    /// `calibration`: null selects the model's default.
     VelodyneTurns(const VelodyneModel& model, std::string label,
                   const VelodyneCalibration* calibration = nullptr);
 
     void add(const VelodynePacket& packet);
-    /// Completes the last turn.
+    /// Ends the last turn.
     void finish();
 
-    /// The complete turns, oldest first. The caller removes them.
+    /// Complete turns, oldest first. The caller removes them.
     std::deque<LidarSweep>& complete() { return complete_; }
     const Counts& counts() const { return counts_; }
     const VelodyneModel& model() const { return model_; }
@@ -50,20 +50,20 @@ class VelodyneTurns {
 
     const VelodyneModel& model_;
     std::string label_;
-    std::shared_ptr<const SensorModel> sensor_;  ///< for the range limits
+    std::shared_ptr<const SensorModel> sensor_;  ///< contains the range limits
     VelodyneCalibration calibration_;
     std::deque<VelodynePacket> waiting_;  ///< sorted by sensor time
     std::vector<VelodynePacket> held_;    ///< consecutive late packets
-    LidarSweep turn_;                     ///< in progress, unless it has no packets
+    LidarSweep turn_;                     ///< turn in progress, if it has packets
     double turn_start_us_ = 0;
     bool has_last_ = false;
-    double last_us_ = 0;     ///< sensor time of the last packet appended
-    int last_azimuth_ = -1;  ///< of the last packet appended
+    double last_us_ = 0;  ///< sensor time of the last appended packet
+    int last_azimuth_ = -1;
     std::deque<LidarSweep> complete_;
     Counts counts_;
 };
 
-/// "293 packets in 5 turns, 2 packets lost".
+/// Such as "293 packets in 5 turns, 2 packets lost".
 std::string textOf(const VelodyneTurns::Counts& counts);
 
 }  // namespace hagen::sensors

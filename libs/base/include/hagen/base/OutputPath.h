@@ -5,14 +5,14 @@
 
 namespace hagen::base {
 
-/// The type of an output. An output replaces only an existing output of the same type; anything
-/// else at that path belongs to the user.
+/// The type of an output. An output replaces only an output of the same type, because anything else
+/// at that path belongs to the user.
 struct OutputKind {
-    const char* what;  ///< "a scan folder", for messages
+    const char* what;  ///< name for messages, such as "a scan folder"
     /// True if a path within the folder is part of such an output; null if the output is a file.
     bool (*holds)(const std::filesystem::path& within);
-    const char* marker = nullptr;  ///< a file in every such folder; null: none
-    /// True if an earlier run created a folder; null if `marker` decides.
+    const char* marker = nullptr;  ///< a file in every folder of this type; null if there is none
+    /// True if an earlier run created the folder; null if `marker` decides.
     bool (*is_made)(const std::filesystem::path& folder) = nullptr;
 };
 constexpr OutputKind kFile{"a file", nullptr};
@@ -47,24 +47,24 @@ class OutputPath {
     std::filesystem::path replace() const;
 
     std::filesystem::path path_, temporary_;
-    std::filesystem::path kept_;  ///< its final name, once renamed
+    std::filesystem::path kept_;  ///< final path, once renamed
     OutputKind kind_;
     bool overwrites_;
 };
 
-/// Leftovers of an output from earlier runs, sorted by name: partial outputs (keepPartial()), and
-/// temporary files of processes that have ended. Empty for an empty path.
+/// Leftovers of earlier runs, sorted by name: partial outputs (keepPartial()), and temporary files
+/// of processes that have ended. Empty if the path is empty.
 std::vector<std::filesystem::path> partialOutputs(const std::filesystem::path& output);
 
 /// Replaces temporary names in a message with the names of the outputs.
 std::string withOutputNames(const std::string& message);
 
-/// A message that lists partialOutputs() of several outputs; "" if there are none.
+/// A message that lists the partialOutputs() of several outputs; "" if there are none.
 std::string leftBehind(const std::vector<std::filesystem::path>& outputs);
 
-/// Throws std::runtime_error if an output is an input, contains one, exists within one, or is
-/// inside another output; the message names both. Ignores empty paths. `role`: describes the
-/// inputs.
+/// Throws std::runtime_error if an output is an input, contains an input, is inside an input, or is
+/// inside another output; the message names both. Ignores empty paths. `role` describes the inputs
+/// in the message.
 void checkApart(const std::vector<std::filesystem::path>& outputs,
                 const std::vector<std::filesystem::path>& inputs,
                 const std::string& role = "the input");

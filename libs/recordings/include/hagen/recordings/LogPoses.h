@@ -10,23 +10,23 @@
 
 namespace hagen::recordings {
 
-/// The vehicle's trajectory in a log, and its source as shown to the user.
+/// The vehicle's trajectory in a log, and its source.
 struct LogPoses {
     observations::Trajectory vehicle;
-    std::string source;  ///< such as "flight.tum"; empty: no poses
-    /// The poses are sensor poses, which include the mount, for all scans or for those with these
-    /// labels.
+    std::string source;  ///< for messages, such as "flight.tum"; empty if there are no poses
+    /// True if the poses are sensor poses, which include the mount, for all scans or for those with
+    /// these labels.
     bool are_of_sensor = false;
     std::set<std::string> of_sensors = {};
     std::set<std::string> vehicles = {};  ///< labels of LiDARs whose frame is the vehicle frame
 };
 
-/// The poses of a rawlog: from `file` if given, otherwise from the log. A KITTI file must have one
-/// line per scan of the log's only LiDAR. Throws std::runtime_error naming the file.
+/// The poses of a rawlog: from `file` if it is given, otherwise from the log. A KITTI file must
+/// have one line per scan, and the log only one LiDAR. Throws std::runtime_error naming the file.
 LogPoses posesOfRawlog(const RawlogSurvey& survey, const std::filesystem::path& file);
 
-/// The sensor poses of a scan folder with scans at `times_s`: from `file` if given, otherwise from
-/// its poses.tum or poses.txt.
+/// The sensor poses of a scan folder with scans at `times_s`: from `file` if it is given, otherwise
+/// from the folder's poses.tum or poses.txt.
 LogPoses posesOfScanFolder(const ScanFolder& folder, const std::vector<double>& times_s,
                            const std::filesystem::path& file);
 

@@ -10,11 +10,11 @@
 
 namespace hagen::recordings {
 
-/// Reads a rawlog (uncompressed, gzip or zstd, of MRPT before or since version 3) and holds one
-/// entry in memory. An entry is an object of the file: an observation, an action collection, a
-/// sensory frame (whose observations may be null), or any other. A separate process reads each
-/// entry first, so that a crash or excessive allocation of MRPT's reader on corrupt data is
-/// reported as an unreadable entry.
+/// Reads a rawlog (uncompressed, gzip or zstd, written by any MRPT version) and keeps one entry in
+/// memory. An entry is an object of the file: an observation, an action collection, a sensory frame
+/// (whose observations may be null), or another object. A separate process reads each entry first,
+/// so that a crash or excessive allocation of MRPT's reader on corrupt data is reported as an
+/// unreadable entry.
 class RawlogReader {
  public:
     /// Throws std::runtime_error naming the file if it cannot be opened or is empty, or if the
@@ -24,10 +24,10 @@ class RawlogReader {
     RawlogReader(const RawlogReader&) = delete;
     RawlogReader& operator=(const RawlogReader&) = delete;
 
-    /// The next entry, or nullptr at the end. Throws BrokenRecording.
+    /// Returns the next entry, or nullptr at the end. Throws BrokenRecording.
     mrpt::serialization::CSerializable::Ptr next();
 
-    /// Entries read so far.
+    /// Number of entries read so far.
     std::size_t entries() const;
     /// Fraction of the file read so far, 0 ... 1.
     double fractionRead() const;

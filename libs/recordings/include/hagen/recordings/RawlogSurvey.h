@@ -12,31 +12,31 @@
 
 namespace hagen::recordings {
 
-/// Facts about a rawlog that are needed before its first scan is segmented, because poses may come
-/// after the scans that need them.
+/// Information needed before the first scan of a rawlog is segmented. Poses may be stored after the
+/// scans that need them.
 struct RawlogSurvey {
     /// Vehicle poses from the best available source: CObservationRobotPose, then summed
     /// CActionRobotMovement3D, then CObservationOdometry, then summed CActionRobotMovement2D.
-    /// Sources are not mixed, as each has its own map frame. Of several sensor labels, the one with
-    /// the most poses is used.
+    /// Sources are not mixed, because each has its own map frame. If there are several sensor
+    /// labels, the label with the most poses is used.
     observations::Trajectory trajectory;
-    std::size_t not_finite = 0;  ///< skipped poses of all sources
-    std::string source;          ///< such as "CObservationRobotPose 'gps'"; empty: no poses
+    std::size_t not_finite = 0;  ///< number of skipped poses of all sources
+    std::string source;  ///< such as "CObservationRobotPose 'gps'"; empty if there are no poses
 
-    /// Time and sensor pose on the vehicle of each LiDAR scan, by sensor label.
+    /// Time of each LiDAR scan, and the sensor's pose on the vehicle, by sensor label.
     struct ScanPlace {
         mrpt::Clock::time_point time;
         mrpt::poses::CPose3D sensor_on_vehicle;
     };
     std::map<std::string, std::vector<ScanPlace>> scans;
-    std::size_t entries = 0;  ///< number of entries read
-    bool is_whole = true;     ///< the log was read to its end
-    std::string break_found;  ///< the error that ended reading; empty: none
+    std::size_t entries = 0;
+    bool is_whole = true;     ///< whether the log was read to its end
+    std::string break_found;  ///< error that ended reading; may be empty
 };
 
-/// Reads a rawlog to its end or until `keep_going` returns false. Stops silently at an unreadable
-/// entry, which the conversion reports. Throws std::runtime_error naming the file if it cannot be
-/// opened.
+/// Reads a rawlog to its end or until `keep_going` returns false. Stops without an error at an
+/// unreadable entry, which the conversion reports. Throws std::runtime_error naming the file if it
+/// cannot be opened.
 ///
 /// Actions without a time get the time of the next sensory frame.
 RawlogSurvey surveyRawlog(

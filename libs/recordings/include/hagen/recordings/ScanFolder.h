@@ -11,7 +11,7 @@
 
 namespace hagen::recordings {
 
-/// A scan folder, or a folder of scan folders, as an output.
+/// Scan folders, and folders of scan folders, as outputs.
 extern const base::OutputKind kScanFolders;
 
 /// A folder of scans in the KITTI layout:
@@ -36,17 +36,17 @@ extern const base::OutputKind kScanFolders;
 class ScanFolder {
  public:
     static constexpr const char* kMadeBy = "labels/made_by.txt";
-    static constexpr const char* kSimulatedBy = "simulated_by.txt";  ///< with true labels
+    static constexpr const char* kSimulatedBy = "simulated_by.txt";  ///< marks true labels
 
-    /// Lists velodyne/*.bin by name, or by number if names differ only in their numbers, so that 10
-    /// comes after 9. Throws if there are no files.
+    /// Lists velodyne/*.bin by name, or by number if names differ only in their numbers (9 before
+    /// 10). Throws if there are no files.
     explicit ScanFolder(std::filesystem::path folder);
 
     const std::filesystem::path& path() const { return folder_; }
     std::size_t size() const { return names_.size(); }
-    /// File name of a scan without extension, "000042".
+    /// File name of a scan without extension, such as "000042".
     const std::string& name(std::size_t scan) const { return names_[scan]; }
-    /// Names of other files in velodyne/, which are not read.
+    /// Names of other files in velodyne/, which are ignored.
     const std::vector<std::string>& otherFiles() const { return others_; }
     std::filesystem::path scanFile(std::size_t scan) const;
     std::filesystem::path labelFile(std::size_t scan) const;
@@ -61,11 +61,10 @@ class ScanFolder {
     /// True if the labels are marked as predictions (markAsPredictions()).
     bool hasPredictions() const { return std::filesystem::exists(folder_ / kMadeBy); }
 
-    /// The times in times.txt, one per scan, kNoTime_s (TimeStamp.h) for scans without a time;
-    /// empty if the file does not exist. Throws if the number of lines differs from the number of
-    /// scans.
+    /// The times in times.txt, one per scan; kNoTime_s (TimeStamp.h) if a scan has no time; empty
+    /// if the file does not exist. Throws if the number of lines differs from the number of scans.
     std::vector<double> times() const;
-    /// The same for altitudes.txt.
+    /// Like times(), for altitudes.txt.
     std::vector<double> altitudes() const;
 
  private:
@@ -73,20 +72,20 @@ class ScanFolder {
     std::vector<std::string> names_, others_;
 };
 
-/// Marks the labels of a scan folder as predictions of rawlog-segment.
+/// Marks the labels of a scan folder as predictions by rawlog-segment.
 void markAsPredictions(const std::filesystem::path& folder);
 
-/// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. For
-/// points with a ring (nuScenes), ignores the ring and scales intensities to 0..1. Returns the
-/// number of values per point, 4 or 5. Throws BrokenRecording, also for a file of another known
+/// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. If
+/// points have a ring (nuScenes), ignores it and scales intensities to 0..1. Returns the number of
+/// values per point, 4 or 5. Throws BrokenRecording if the file is invalid or has another known
 /// format.
 std::size_t readScan(const std::filesystem::path& file, Scan& scan);
 void writeScan(const std::filesystem::path& file, const Scan& scan);
 
-/// The highest component number in a label file; higher numbers are clamped.
+/// The highest component number in a label file; higher numbers are stored as this value.
 constexpr std::int32_t kMaxFileComponent = 65535;
 
-/// Reads a .label file: entire entries, or the low 16 bits of each.
+/// Reads a .label file: entire entries, or the low 16 bits of each entry.
 std::vector<std::uint32_t> readLabelEntries(const std::filesystem::path& file);
 std::vector<std::uint16_t> readLabels(const std::filesystem::path& file);
 void writeLabels(const std::filesystem::path& file, const std::vector<Label>& labels,

@@ -16,32 +16,32 @@ struct AirframeSphere {
     float radius_m;
 };
 
-/// The parts of the vehicle that the sensor sees: legs, rotors, other payload. In the sensor's own
-/// frame, regardless of its mount. Empty by default.
+/// The parts of the vehicle that the sensor sees, such as legs, rotors and other payload, in the
+/// sensor frame, regardless of its mount. Empty by default.
 struct Airframe {
     std::vector<AirframeBox> boxes;
     std::vector<AirframeSphere> spheres;
-    /// The range within which returns belong to the airframe, by direction; 0: none. Bins are
+    /// Range within which returns belong to the airframe, by direction; 0: no airframe. Bins are
     /// squares of 180 degrees / rows in azimuth and elevation. Row 0 starts at elevation -90
-    /// degrees; column 0 starts at azimuth -180 degrees, and columns run counter-clockwise. Twice
-    /// as many columns as rows, or empty.
+    /// degrees; column 0 starts at azimuth -180 degrees, and columns run counter-clockwise. Has
+    /// twice as many columns as rows, or is empty.
     Image<float> bin_range_m;
 
     bool isEmpty() const { return boxes.empty() && spheres.empty() && bin_range_m.size() == 0; }
 };
 
-/// The bin of a direction in an image with this many rows, as in Airframe::bin_range_m.
+/// The bin of a direction, indexed like Airframe::bin_range_m.
 struct AirframeBin {
     int row, column;
 };
 /// Requires finite coordinates other than the origin.
 AirframeBin airframeBinOf(const Eigen::Vector3f& point_m, int rows);
 
-/// Sets the range of each return in a box, in a sphere or within the range of its bin (borders
-/// included) to NaN, "no range": all later stages ignore the return, and its label is Unclassified.
-/// Coordinates are kept. Returns the number of returns masked, without those that had no range
-/// before. Requires ranges. An empty airframe costs no time; otherwise only returns nearer than the
-/// farthest part of the airframe take more than one comparison.
+/// Sets the range of each return in a box, in a sphere or within the range of its bin (inclusive)
+/// to NaN, "no range": later stages ignore the return and label it Unclassified. Keeps coordinates.
+/// Returns the number of returns masked, without those that already had no range. Requires ranges.
+/// Takes no time for an empty airframe; otherwise, returns beyond the farthest part of the airframe
+/// take one comparison each.
 std::size_t maskAirframe(const Airframe& airframe, Scan& scan);
 
 }  // namespace hagen

@@ -5,9 +5,9 @@
 
 namespace hagen {
 
-/// An image of a rotating LiDAR's scan: one row per beam (row 0 is the lowest), one column per
-/// azimuth. Stored column by column, so that the returns of a firing are contiguous. Columns wrap
-/// around (the last is a neighbour of the first); rows do not.
+/// A range image of a rotating LiDAR: one row per beam (row 0 is the lowest), one column per
+/// azimuth. Stored column by column, so that the returns of a firing are contiguous. The last
+/// column is a neighbour of the first; rows do not wrap around.
 template <class T>
 using Image = Eigen::Array<T, Eigen::Dynamic, Eigen::Dynamic>;
 
@@ -15,12 +15,12 @@ using Image = Eigen::Array<T, Eigen::Dynamic, Eigen::Dynamic>;
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 inline bool hasValue(float pixel) { return !std::isnan(pixel); }
 
-/// Wraps a column that is at most one beyond either end of the image.
+/// Wraps a column index that is at most 1 outside the image.
 inline int wrapColumn(int column, int columns) {
     return column < 0 ? column + columns : column >= columns ? column - columns : column;
 }
 
-/// Calls visit(row, column) for the pixels above, below and to both sides of one.
+/// Calls visit(row, column) for the pixels above, below and on both sides of a pixel.
 template <class Visit>
 void forEachOf4Neighbours(int row, int column, int rows, int columns, Visit visit) {
     if (row > 0) visit(row - 1, column);

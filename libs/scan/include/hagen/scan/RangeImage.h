@@ -11,8 +11,7 @@ namespace hagen {
 struct RangeImage {
     /// I_h x I_w: range of the closest return in each pixel, metres; NaN if there is none.
     Image<float> depth_m;
-    /// I_h x I_w: the index of that closest return (the first of equally close ones); kNoReturn if
-    /// there is none.
+    /// I_h x I_w: index of the closest return (the first of equally close returns), or kNoReturn.
     Image<std::int32_t> closest_return;
     /// The inverse of the paper's depth_mapper: the pixel of each return (column * I_h + row), or
     /// kNoPixel if the return is beyond the context or outside the sensor's range limits. A pixel
@@ -23,9 +22,9 @@ struct RangeImage {
     static constexpr std::int32_t kNoReturn = -1;
 };
 
-/// Workspace of projectScan(). Stateless; reuse it between scans to avoid allocations.
+/// Workspace of projectScan(). Reuse it between scans to avoid allocations.
 struct ProjectionWorkspace {
-    /// The closest return of each pixel so far: its range and its index, packed into one number.
+    /// The closest return of each pixel so far: range and index, packed into one number.
     std::vector<double> closest;
 };
 
@@ -38,7 +37,7 @@ struct ProjectionWorkspace {
 void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                  RangeImage& image, ProjectionWorkspace& work);
 
-/// The column whose centre is closest to this azimuth, of `columns` columns.
+/// The column whose centre is closest to this azimuth, in an image with `columns` columns.
 int nearestColumn(float azimuth_rad, int columns);
 
 /// The azimuth in (-pi, pi] at the centre of a column.

@@ -10,19 +10,19 @@ struct SensorModel {
     /// Elevation of each beam above the sensor's xy plane, strictly increasing: element r belongs
     /// to image row r; row 0 is the lowest beam.
     std::vector<float> elevations_rad;
-    /// Returns outside these limits are not in the image; in the zone they are RoI without a test.
+    /// Returns outside these limits are not in the image. Within the zone, they are RoI untested.
     float min_range_m = 0.5f;
     float max_range_m = 130.0f;
-    /// True if the beams above are the sensor's real beams. A sensor that scans without rings has
-    /// virtual beams; a return belongs to the nearest one.
+    /// True if the beams above are real. A sensor that scans without rings has virtual beams, and a
+    /// return belongs to the nearest one.
     bool has_rings = true;
 
-    /// True if a range is within the sensor's limits; false for NaN.
+    /// True if the range is within the limits; false for NaN.
     bool sees(float range_m) const { return range_m >= min_range_m && range_m <= max_range_m; }
 
     int rows() const { return static_cast<int>(elevations_rad.size()); }
 
-    /// The row of the beam closest in elevation (the lower row of a tie).
+    /// The row of the beam closest in elevation (the lower row if two are equally close).
     int nearestRow(float elevation_rad) const;
 };
 
@@ -40,7 +40,7 @@ struct SensorModel {
 ///   that field of view. Elevations are relative to the sensor's own axes, upside down or not.
 SensorModel sensorModel(const std::string& name);
 
-/// The names that sensorModel() accepts.
+/// The names accepted by sensorModel().
 std::vector<std::string> knownSensorModels();
 
 /// A sensor with these beams, from lowest to highest.

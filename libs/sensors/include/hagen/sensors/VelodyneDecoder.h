@@ -10,7 +10,7 @@
 
 namespace hagen::sensors {
 
-/// Data packets of a scan, of kVelodynePacketBytes each, contiguous in memory.
+/// The data packets of a scan, kVelodynePacketBytes each, contiguous in memory.
 struct VelodynePackets {
     const std::uint8_t* bytes = nullptr;
     std::size_t count = 0;
@@ -20,17 +20,17 @@ struct VelodynePackets {
     }
 };
 
-/// Sets `sensor` to the sensor of these packets, reusing its memory. Beams are those of
-/// `calibration` if it has the model's number of lasers, otherwise those of the model's default
+/// Sets `sensor` to the sensor of these packets, reusing its memory. Uses the beams of
+/// `calibration` if it has the model's number of lasers, otherwise those of the default
 /// calibration. Throws std::runtime_error for an unknown model, and for an HDL-64E without
 /// calibration.
 void beamsOf(const VelodynePackets& packets, const VelodyneCalibration& calibration,
              SensorModel& sensor);
 
-/// Buffers of decodePackets(). Reuse them across scans to avoid allocation; no state carries over.
+/// Buffers of decodePackets(). Stateless; reuse them between scans to avoid allocations.
 struct DecoderWorkspace {
-    std::vector<VelodyneBlock> blocks;  ///< the valid blocks of the scan
-    std::vector<int> turns;             ///< rotation from block to block, in 0.01 degrees
+    std::vector<VelodyneBlock> blocks;  ///< valid blocks of the scan
+    std::vector<int> turns;             ///< rotation between blocks, in 0.01 degrees
 };
 
 /// Decodes all packets of a scan: every return with a range above zero, in packet order. Supports
@@ -45,10 +45,10 @@ struct DecoderWorkspace {
 /// correction. Close-range corrections (distCorrectionX and Y) and intensity corrections are not
 /// applied.
 ///
-/// Returns the number of skipped blocks: those with a wrong header (not 0xEEFF, nor 0xDDFF for an
-/// HDL-64E) or an invalid azimuth. Throws std::runtime_error for a packet of an unknown model or of
-/// another model than the first packet; the message names the packet, and `scan` is unchanged.
-/// Reuses the memory of `scan`.
+/// Returns the number of skipped blocks: those with an invalid azimuth or a wrong header (other
+/// than 0xEEFF, or 0xDDFF for an HDL-64E). If a packet is from an unknown model, or from another
+/// model than the first packet, throws std::runtime_error naming the packet and leaves `scan`
+/// unchanged. Reuses the memory of `scan`.
 std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibration& own,
                           Scan& scan, DecoderWorkspace& work);
 

@@ -5,28 +5,27 @@
 
 namespace hagen::sensors {
 
-/// The firing sequence of a Velodyne sensor, from its manual; shared by the packet decoder and
-/// encoder. A packet contains 12 blocks of 32 returns, ordered by firing and laser.
+/// The firing sequence of a Velodyne, from its manual; used by the packet decoder and encoder. A
+/// packet has 12 blocks of 32 returns, ordered by firing and laser.
 struct VelodyneModel {
     std::string name;         ///< name in settings: "VLP-16"
     std::uint8_t id;          ///< product id in the packet's last byte
-    int lasers;               ///< returns of one firing
+    int lasers;               ///< number of lasers in a firing
     int firings_per_block;    ///< lasers * firings_per_block = 32
-    int lasers_at_once;       ///< number of lasers that fire at once, adjacent in the packet
-    double laser_period_us;   ///< from one laser (or group of lasers) of a firing to the next
-    double firing_period_us;  ///< from one firing to the next
+    int lasers_at_once;       ///< number of simultaneous lasers, adjacent in the packet
+    double laser_period_us;   ///< between lasers (or simultaneous groups) of a firing
+    double firing_period_us;  ///< between firings
     float distance_unit_m;    ///< unit of distances in packets
 
     double blockPeriodUs() const { return firings_per_block * firing_period_us; }
-    /// Time from one packet to the next.
+    /// Time between packets.
     double packetPeriodUs(bool is_dual) const { return (is_dual ? 6 : 12) * blockPeriodUs(); }
     /// Time from a firing's first laser to this laser.
     double delayUs(int laser) const {
         const int group = laser / lasers_at_once;
         return group * laser_period_us;
     }
-    /// A laser's position within its block's rotation: 0 at the block's azimuth, 1 at the next
-    /// block's.
+    /// A laser's rotation relative to its block: 0 at the block's azimuth, 1 at the next block's.
     double turnWithinBlock(int firing, int laser) const {
         return (firing * firing_period_us + delayUs(laser)) / blockPeriodUs();
     }
@@ -34,23 +33,22 @@ struct VelodyneModel {
 
 /// All models except the HDL-64E.
 const std::vector<VelodyneModel>& velodyneModels();
-/// Returns the model with this product id, or nullptr: VLP-16 0x22, Puck Hi-Res 0x24, HDL-32E 0x21,
+/// Returns the model with this product ID, or nullptr: VLP-16 0x22, Puck Hi-Res 0x24, HDL-32E 0x21,
 /// VLP-32C 0x28.
 const VelodyneModel* findVelodyneModel(std::uint8_t id);
-/// The HDL-64E S2 and S3, whose packets have no id: blocks of its upper 32 lasers (0xEEFF)
-/// alternate with blocks of the lower 32 (0xDDFF), two blocks to a firing. Its beams come from a
-/// calibration (readVelodyneCalibration()); velodyneModels() does not include it.
+/// The HDL-64E S2 and S3. Their packets have no ID: blocks of the upper 32 lasers (0xEEFF)
+/// alternate with blocks of the lower 32 (0xDDFF), two blocks per firing. Their beams come from a
+/// calibration (readVelodyneCalibration()), so velodyneModels() does not include them.
 const VelodyneModel& hdl64Model();
-/// Returns the model with this name. Throws std::invalid_argument for any other name.
+/// Returns the model with this name. Throws std::invalid_argument if the name is unknown.
 const VelodyneModel& velodyneModel(const std::string& name);
 
-/// The names and ids of all models: " VLP-16 (0x22), ...".
+/// The names and IDs of all models: " VLP-16 (0x22), ...".
 std::string knownVelodynes();
 
 /// Converts a packet's azimuth reading (0.01 degrees, fractions allowed) to degrees clockwise from
-/// x, within +-180. Matches MRPT's own decoder, so that both clouds coincide: MRPT spreads the
-/// 36000 readings over a full revolution with both ends inclusive, and is therefore up to 0.01
-/// degrees ahead.
+/// x, within +-180. Matches MRPT's decoder, which spreads the 36000 readings over a full revolution
+/// including both ends and is therefore up to 0.01 degrees ahead.
 double azimuthOfReadingDeg(double reading);
 
 }  // namespace hagen::sensors

@@ -8,8 +8,8 @@
 
 namespace hagen::sensors {
 
-/// The layout of a data packet: blocks with a header, an azimuth and 32 returns of three bytes,
-/// then a four-byte time, the mode and the model. All numbers are little-endian.
+/// Layout of a data packet: blocks with a header, an azimuth and 32 returns of three bytes,
+/// followed by a four-byte time, the mode and the model. All numbers are little-endian.
 constexpr std::size_t kVelodynePacketBytes = 1206;
 constexpr int kVelodyneBlocks = 12;
 constexpr std::size_t kPositionBytes = 512;  ///< size of a position packet (GPS)
@@ -27,23 +27,22 @@ struct VelodynePacket {
 
     /// Microseconds since the full hour on the sensor's clock.
     double sensorTimeUs() const;
-    /// True if the packet is marked as dual; HDL-64E packets have no mark.
+    /// True if the packet is marked as dual. HDL-64E packets have no mark.
     bool isDual() const;
-    /// Azimuth of a block, 0.01 degrees; -1: invalid.
+    /// Azimuth of a block in 0.01 degrees; -1 if invalid.
     int azimuthOf(int block) const;
-    /// Azimuth of the first valid block, without blocks of lower lasers; -1: no block is valid.
+    /// Azimuth of the first valid block, ignoring blocks of lower lasers; -1 if there is none.
     int azimuth() const;
 };
 
-/// True for a data packet: the size is right and any of its blocks has a header.
+/// True for a data packet, which has the right size and at least one block with a header.
 bool isVelodyneData(const std::uint8_t* bytes, std::size_t size);
-/// True if a data packet is from an HDL-64E, the only model with blocks of lower lasers.
+/// True if the packet is from an HDL-64E, the only model with blocks of lower lasers.
 bool isOfHdl64(const std::uint8_t* packet);
-/// The model that sent a data packet; null: unknown.
+/// The model of a packet's sensor; null if unknown.
 const VelodyneModel* velodyneModelOf(const std::uint8_t* packet);
 
-/// Time between two readings of a sensor's clock, within +-30 min, because the clock wraps every
-/// hour.
+/// Time between two readings of a sensor clock, within +-30 min because the clock wraps every hour.
 inline double elapsedUs(double from_us, double to_us) {
     constexpr double kHourUs = 3600e6;
     return std::remainder(to_us - from_us, kHourUs);

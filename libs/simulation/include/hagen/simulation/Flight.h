@@ -7,26 +7,26 @@
 
 namespace hagen::simulation {
 
-/// Position and attitude in the map (x east, z up) of the vehicle or the sensor.
+/// Pose of the vehicle or the sensor in the map (x east, z up).
 struct SensorPose {
     Eigen::Vector3d position_m;
-    Eigen::Quaterniond attitude;  ///< from its frame (x forward, z up) to the map
+    Eigen::Quaterniond attitude;  ///< from the body frame (x forward, z up) to the map
 };
 
 struct FlightSettings {
     double altitude_m = 2;      ///< above the ground
     double speed_m_s = 4;       ///< on straights; the bank limit reduces it in turns
-    double tilt_sd_rad = 0.07;  ///< standard deviation of roll and of pitch; 0: level flight
+    double tilt_sd_rad = 0.07;  ///< standard deviation of roll and pitch; 0: level flight
 };
 
-/// A multirotor's flight along a path above rolling ground. Roll, pitch and yaw are sums of slow
-/// waves; the vehicle banks into turns (up to 4 degrees) and pitches with airspeed.
+/// The flight of a multirotor along a path above rolling ground. Roll, pitch and yaw are sums of
+/// slow waves; the vehicle banks up to 4 degrees in turns and pitches with airspeed.
 class Flight {
  public:
     Flight(const Terrain& terrain, const Path& path, const FlightSettings& settings,
            std::uint64_t seed);
 
-    /// Returns the pose `time_s` after take-off (>= 0).
+    /// Returns the pose `time_s` (>= 0) after take-off.
     SensorPose at(double time_s) const;
 
  private:
@@ -42,9 +42,9 @@ class Flight {
     Terrain terrain_;
     Path path_;
     FlightSettings settings_;
-    double lean_;  ///< scale of the tilt due to speed and turns
+    double lean_;  ///< scale of tilt caused by speed and turns
     std::vector<Sway> roll_, pitch_, yaw_, climb_;
-    std::vector<double> lap_s_;  ///< time at each metre of the lap
+    std::vector<double> lap_s_;  ///< time at each step of the lap
 };
 
 }  // namespace hagen::simulation

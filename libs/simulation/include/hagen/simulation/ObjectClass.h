@@ -8,10 +8,10 @@ namespace hagen::simulation {
 
 /// The object class of a simulated return, numbered as in semantic/*.label.
 enum class ObjectClass : std::uint8_t {
-    None = 0,  ///< no return
+    None = 0,
     Terrain = 1,
-    Canopy = 2,  ///< low vegetation to fly over: crop, tufts of grass
-    Tree = 3,    ///< trunk, crown and shrubs
+    Canopy = 2,  ///< low vegetation to fly over, such as crop and grass
+    Tree = 3,    ///< trunks, crowns and shrubs
     Pole = 4,
     Wire = 5,
     Building = 6,
@@ -19,7 +19,7 @@ enum class ObjectClass : std::uint8_t {
     Wall = 8,  ///< walls and rocks
     Mover = 9,
     Dust = 10,
-    Airframe = 11  ///< the vehicle that carries the sensor
+    Airframe = 11  ///< the vehicle itself
 };
 
 /// All classes of returns, in numerical order.
@@ -27,8 +27,8 @@ const std::vector<ObjectClass>& allKinds();
 
 std::string nameOf(ObjectClass kind);
 
-/// Returns the ground-truth label: terrain and canopy are ROU, dust and airframe are unclassified,
-/// everything else is RoI at any range.
+/// Returns the ground-truth label: ROU for terrain and canopy, unclassified for dust and airframe,
+/// RoI for everything else at any range.
 Label labelOf(ObjectClass kind);
 
 }  // namespace hagen::simulation

@@ -9,7 +9,7 @@ namespace hagen::simulation {
 class Random {
  public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
-    /// Creates one of several independent streams of a seed.
+    /// Creates one of several independent random streams from a seed.
     Random(std::uint64_t seed, std::uint64_t stream);
 
     double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }  ///< [0, 1)
@@ -18,8 +18,7 @@ class Random {
     int uniformInt(int count) { return static_cast<int>(uniform() * count); }
     bool chance(double probability) { return uniform() < probability; }
     double normal();  ///< mean 0, standard deviation 1
-    /// Same mean and deviation, bounded by 3.5: a sum of four uniform numbers, several times
-    /// faster.
+    /// Like normal(), but bounded by +-3.5: a sum of four uniform numbers, several times faster.
     double approximateNormal();
     double exponential(double mean);
     int poisson(double mean);

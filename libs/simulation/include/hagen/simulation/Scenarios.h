@@ -20,8 +20,8 @@ namespace hagen::simulation {
 ///     movers       people, cars and drones moving among trees
 std::vector<std::string> scenarioNames();
 
-/// Returns the scene of a scenario; the same seed gives the same scene on every machine. Throws
-/// std::invalid_argument for an unknown name; the message lists the valid ones.
+/// Returns the scene of a scenario, identical for a seed on every machine. Throws
+/// std::invalid_argument listing the valid names if the name is unknown.
 Scene makeScene(const std::string& scenario, std::uint64_t seed);
 
 }  // namespace hagen::simulation

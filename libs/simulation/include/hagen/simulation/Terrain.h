@@ -7,14 +7,14 @@ namespace hagen::simulation {
 
 /// Parameters of a scenario's ground.
 struct TerrainParameters {
-    double max_slope_rad = 0.05;    ///< of the rolling ground
+    double max_slope_rad = 0.05;    ///< maximum slope of the rolling ground
     double bump_m = 0.03;           ///< amplitude of bumps and ruts a few metres long
-    double roughness_m = 0.02;      ///< standard deviation of the soil height from vertex to vertex
-    double grass_m = 0.1;           ///< height of the tallest grass; grass is patchy
-    double paved_half_width_m = 0;  ///< half width of a smooth, grass-free band along x
+    double roughness_m = 0.02;      ///< standard deviation of the soil height of each vertex
+    double grass_m = 0.1;           ///< height of the tallest grass, which grows in patches
+    double paved_half_width_m = 0;  ///< half width of a smooth band without grass along x
 };
 
-/// Rolling ground: a sum of waves with closed-form height.
+/// Rolling ground: a sum of waves with a closed-form height.
 class Terrain {
  public:
     Terrain(const TerrainParameters& form, Random& random);
@@ -22,7 +22,7 @@ class Terrain {
     double height_m(double x_m, double y_m) const;
     /// Returns the maximum height of the grass at a position.
     double grassHeight_m(double x_m, double y_m) const;
-    /// Returns the ground as a rough mesh, finer in the centre (GroundExtent).
+    /// Returns the ground as a rough mesh that is finer in the centre (GroundExtent).
     Shape mesh(double half_length_m, double half_width_m, double reach_m, Random& random) const;
 
  private:
