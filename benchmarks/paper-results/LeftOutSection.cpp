@@ -36,7 +36,7 @@ std::string listed(const std::vector<std::string>& texts) {
     return list;
 }
 
-/// "choices_from_a_plain_start.csv".
+/// The file of a table, such as "choices_from_a_plain_start.csv".
 std::string fileOf(const std::string& table, const selection::Search& search) {
     std::string name = table + "_from_" + search.start + ".csv";
     std::replace(name.begin(), name.end(), ' ', '_');

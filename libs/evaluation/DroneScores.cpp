@@ -8,7 +8,7 @@
 namespace hagen::evaluation {
 namespace {
 
-/// The returns of each numbered obstacle with enough returns to count.
+/// The returns of each numbered obstacle that has enough of them.
 std::vector<std::vector<std::size_t>> numberedObstacles(const GroundTruthScan& scan,
                                                         float max_range_m) {
     std::map<std::uint32_t, std::vector<std::size_t>> by_number;

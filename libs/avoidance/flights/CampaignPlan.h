@@ -10,10 +10,10 @@ namespace hagen::avoidance {
 /// Limit for a plan, and for all plans of a folder, because they are listed in memory.
 constexpr int kMaxFlights = 1'000'000;
 
-/// The flights: every combination of the lists' entries.
+/// The flights of a campaign: every combination of the lists' entries.
 struct CampaignPlan {
     std::vector<std::string> scenarios;
-    std::uint64_t first_seed = 0, last_seed = 0;  ///< both included
+    std::uint64_t first_seed = 0, last_seed = 0;  ///< inclusive
     std::vector<double> speeds_m_s{4};
     std::vector<std::string> models{"W-RoI"}, guidances{"astar"}, planners{"primitives"};
     std::vector<PoseError> pose_errors{PoseError::None};
@@ -24,7 +24,7 @@ struct CampaignPlan {
     std::vector<Updates> updates{Updates::Scans};
 };
 
-/// Part `number` of `of`, counted from 1: every of-th course.
+/// Part `number` of `of` parts, counted from 1: every `of`-th course.
 struct Shard {
     int number = 1, of = 1;
 };

@@ -26,12 +26,12 @@ class ScanFeed {
     /// Adds the measurements up to a control step that the trace has reached.
     virtual void receive(int step, const FlightTrace& trace, PoseBelief& belief) = 0;
     virtual bool isWaiting() const = 0;
-    /// Takes the waiting measurements. Times the filter.
+    /// Returns the waiting measurements, and times the filter.
     virtual FedScan take(const FlightTrace& trace, PoseBelief& belief, Stopwatch& stopwatch) = 0;
 
     virtual double period_s() const = 0;  ///< minimum time between updates
-    virtual int received() const = 0;     ///< whole scans, or sectors
-    virtual int dropped() const = 0;      ///< number of these never taken
+    virtual int received() const = 0;     ///< number of whole scans or sectors
+    virtual int dropped() const = 0;      ///< number of scans or sectors never taken
 };
 
 /// Creates the feed for a setup's updates.

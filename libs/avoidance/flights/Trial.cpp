@@ -198,7 +198,7 @@ class TrialFlight {
     std::unique_ptr<Guidance> guidance_;
     std::unique_ptr<Planner> planner_;
 
-    VehicleState state_;  ///< true
+    VehicleState state_;  ///< true state
     FlightTrace trace_;
     CommandQueue commands_;
     double free_s_ = 0;  ///< time when the planner is free again

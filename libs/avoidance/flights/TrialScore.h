@@ -34,8 +34,8 @@ class TrialJudge {
     double nearest_m_, nearest_since_s_ = 0;
 };
 
-/// Distance that a vehicle can fly straight towards the goal until the true clearance first falls
-/// below `clearance_radius_m`. NaN if the whole line is free. [m]
+/// Distance that a vehicle can fly straight towards the goal before the true clearance falls below
+/// `clearance_radius_m`. NaN if the whole line is free. [m]
 double freeDistance_m(const Course& course, const Eigen::Vector3d& position_m,
                       double clearance_radius_m, double time_s);
 

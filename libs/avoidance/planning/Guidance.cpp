@@ -146,7 +146,7 @@ class PathGuidance : public Guidance {
         const auto clearance_m = [&](const Eigen::Vector3f& point_m) {
             return world.clearanceWithin_m(point_m, limit_m);
         };
-        // First with extra clearance, which is easier to follow, then without.
+        // Searches first with extra clearance, which is easier to follow, then without.
         options.min_clearance_m += kEase_m;
         auto path_m = findPath(clearance_m, task.position_m, goal_m, options);
         if (!path_m) {

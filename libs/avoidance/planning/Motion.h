@@ -20,11 +20,11 @@ std::optional<float> freeClearance(const WorldModel& world,
                                    const std::vector<Eigen::Vector3f>& path_m, double start_after_s,
                                    double clearance_radius_m);
 
-/// The minimum clearance along such a path, at most that at its start, without any requirement.
+/// Like freeClearance(), but without a required clearance.
 float minClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
                      double start_after_s);
 
-/// The paths of a command: held and then braking, and interrupted after one period.
+/// The paths of a command: held before braking, and interrupted after one period.
 struct CommandPaths {
     std::vector<Eigen::Vector3f> held_m, broken_off_m;
 };

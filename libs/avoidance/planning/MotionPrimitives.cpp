@@ -21,7 +21,7 @@ constexpr double kStandingCost = 0.3;  ///< cost of hovering away from the goal
 constexpr double kProximityCost = 0.25, kComfortable_m = 1.3;
 
 struct Candidate {
-    double cost;  ///< without proximity, which needs queries
+    double cost;  ///< excludes proximity, which needs queries
     Eigen::Vector3d command_m_s;
 };
 

@@ -11,7 +11,7 @@ constexpr double kCell_rad = 6 * M_PI / 180;
 constexpr int kAzimuths = 60, kMaxRow = 3;  ///< elevations of -18 to 18 degrees
 constexpr float kTraceStep_m = 0.1f;
 constexpr double kReaction_s = 0.3;  ///< reaction time in addition to the stopping distance
-constexpr double kHold_s = 0.4;      ///< before braking, in the check
+constexpr double kHold_s = 0.4;      ///< time before braking in the check
 constexpr double kSlowest_m_s = 0.3;
 
 // Cost weights of angles in radians and of the blocked fraction.
@@ -20,7 +20,7 @@ constexpr double kBlockedCost = 1.5;
 constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< shorter free directions are a last resort
 
 struct HistogramCell {
-    double cost;  ///< without the blocked fraction, which needs queries
+    double cost;  ///< excludes the blocked fraction, which needs queries
     Eigen::Vector3d direction;
 };
 

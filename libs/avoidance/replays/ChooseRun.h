@@ -6,7 +6,7 @@
 
 namespace hagen::avoidance {
 
-/// Criteria for selecting a run. Empty names and 0: any.
+/// Criteria for selecting a run. Empty names and 0 match all runs.
 struct RunWanted {
     std::uint64_t seed = 0;
     std::string scenario, model, guidance, planner, pose_error;

@@ -60,7 +60,7 @@ struct FlightRecording {
     std::string ending;                 ///< text of endingOf()
     TrueScene scene;
     std::vector<ModelCell> model;
-    float model_edge_m = 0;  ///< of cells; 0: points
+    float model_edge_m = 0;  ///< edge of a cell; 0 for points
     std::vector<RecordedEvent> events;
 };
 
@@ -68,7 +68,7 @@ struct FlightRecordingLimits {
     std::size_t full_steps = 150;  ///< longer runs keep fewer points per step
     std::size_t points = 2500;     ///< per label and step
     std::size_t motions = 60;      ///< per step
-    std::size_t cells = 150000;    ///< of the model
+    std::size_t cells = 150000;    ///< in the model's history
     float point_grid_m = 0.1f;     ///< point models: one point per cube of this size
     float reach_m = 25;            ///< maximum range of stored returns
 };

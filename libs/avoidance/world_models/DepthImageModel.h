@@ -37,11 +37,11 @@ class DepthImageModel : public WorldModel {
     void addHits(const observations::MappedScan& scan);
     void clearSeenThrough(const Eigen::Vector3f& origin_m);
     void removeKnown(const Eigen::Vector3f& origin_m);
-    /// How a cell is seen: distances of its nearest voxel from the sensor and from the vertical
-    /// axis through it, and half that voxel's extent in the image.
+    /// A cell as seen by the sensor: distances of its nearest voxel from the sensor and from the
+    /// vertical axis through it, and half that voxel's extent in the image.
     struct Outline {
         Eigen::Vector3f to_middle_m;
-        float spread_m;  ///< from the centre to that of the farthest voxel
+        float spread_m;  ///< from the cell's centre to the farthest voxel's centre
         float min_away_m, min_around_m, half_columns, half_rows;
     };
     Eigen::Vector3f cornerOf(const Eigen::Array3i& first, const Eigen::Vector3f& origin_m) const;
@@ -55,8 +55,8 @@ class DepthImageModel : public WorldModel {
     DepthImage image_;
     VoxelSet unknown_, occupied_;
     std::vector<std::int8_t> log_odds_;  ///< per voxel; valid where occupied
-    std::vector<std::uint64_t> hit_;     ///< bits per voxel of the scan; else 0
-    std::vector<std::uint32_t> hits_;    ///< their blocks
+    std::vector<std::uint64_t> hit_;     ///< voxels hit in the scan, one mask per block
+    std::vector<std::uint32_t> hits_;    ///< blocks hit in the scan
 };
 
 }  // namespace hagen::avoidance

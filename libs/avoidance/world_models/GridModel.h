@@ -14,7 +14,7 @@ namespace hagen::avoidance {
 /// cells.
 class GridModel : public WorldModel {
  public:
-    /// Returns beyond `max_range_m` only clear, up to this range.
+    /// Returns beyond `max_range_m` only clear cells, up to this range.
     GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float max_range_m);
     ~GridModel() override;
 

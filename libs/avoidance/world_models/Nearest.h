@@ -43,7 +43,7 @@ class Nearest {
 };
 
 /// A result set for nanoflann: whether a tree has any point within a radius, among its first
-/// `points` points except one. The search ends at the first.
+/// `points` points except one. The search stops at the first match.
 class AnyWithin {
  public:
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

@@ -18,13 +18,13 @@ struct ObstacleTrack {
     };
 
     std::uint32_t number;                      ///< from 1; never reused
-    Eigen::Vector2d at_m, velocity_m_s{0, 0};  ///< of its centre seen from above
+    Eigen::Vector2d at_m, velocity_m_s{0, 0};  ///< state of its centre seen from above
     Eigen::Matrix2d covariance;                ///< of position and velocity, the same along x and y
-    double time_s;                             ///< of the state
+    double time_s;                             ///< time of the state
     int seen_scans = 1, missed_scans = 0;      ///< missed: since the last sighting
-    bool crossed_free_space = false;           ///< ever; required for moving
+    bool crossed_free_space = false;           ///< at any time; required of moving obstacles
     bool is_moving = false;
-    std::deque<Sight> sights;  ///< of 0.6 s, newest first
+    std::deque<Sight> sights;  ///< from the last 0.6 s, newest first
 
     /// Standard deviation of the velocity along each axis.
     double velocitySigma_m_s() const;
@@ -51,7 +51,7 @@ class ObstacleTracks {
 
     /// Adds the next scan; its `obstacles` must be numbered.
     void update(const observations::MappedScan& scan);
-    /// The same for a scan with a known view (viewOf()).
+    /// Like update(scan), but with the scan's view (viewOf()).
     void update(const observations::MappedScan& scan, std::shared_ptr<const View> view);
 
     const std::vector<ObstacleTrack>& tracks() const { return tracks_; }

@@ -24,7 +24,7 @@ class RollingBox {
  public:
     static constexpr int kBlock = 4, kGroup = 16;  ///< edges in voxels
 
-    /// It extends at least `reach_m` from the vehicle in each direction.
+    /// The box extends at least `reach_m` from the vehicle in each direction.
     RollingBox(float edge_m, const Eigen::Vector3f& reach_m);
 
     /// Moves the box to the vehicle. Returns the blocks whose content leaves it, ascending.

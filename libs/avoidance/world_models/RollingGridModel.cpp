@@ -13,8 +13,8 @@ namespace {
 constexpr int kHit = 20, kMiss = 10, kMin = -48, kMax = 84;
 constexpr std::int8_t kUnknown = std::numeric_limits<std::int8_t>::min();
 
-// Marks of voxels, as bytes, which a ray sets without reading: bits would make each step wait for
-// the previous one.
+// Marks of voxels. They are bytes, which a ray sets without reading: with bits, each step would
+// wait for the previous one.
 constexpr std::int8_t kNotSeen = 0, kPassed = 1, kIsHit = 2;
 
 }  // namespace
@@ -35,7 +35,7 @@ void RollingGridModel::update(const observations::MappedScan& scan) {
     markEnds(scan);
     const Eigen::Array3f origin = box_.inVoxels(scan.origin_m);
     for (const Eigen::Array3i& end : ends_) trace(origin, end);
-    for (const std::uint32_t index : hits_) marks_[index] = kIsHit;  // even if other rays pass
+    for (const std::uint32_t index : hits_) marks_[index] = kIsHit;  // overrides passing rays
     apply();
 }
 
@@ -74,7 +74,7 @@ void RollingGridModel::markEnds(const observations::MappedScan& scan) {
 }
 
 /// Marks the voxels from the origin to the end (exclusive) as passed (Amanatides & Woo 1987). The
-/// ray's length is 2^32, in integers, so that rounding errors do not add up.
+/// ray's length is scaled to the integer 2^32, so that rounding errors do not add up.
 void RollingGridModel::trace(const Eigen::Array3f& origin, const Eigen::Array3i& end) {
     constexpr double kLength = 4294967296.0, kNever = 1e15;
     const Eigen::Array3i start = origin.cast<int>();

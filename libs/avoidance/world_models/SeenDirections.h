@@ -20,7 +20,7 @@ class SeenDirections {
 
     enum class Place { Free, NotFree, Unknown };
     /// Free if all returns around this direction were at least half a metre farther. Unknown if
-    /// fewer than four of the nine cells around it have any.
+    /// fewer than four of the nine cells around it contain returns.
     Place placeAt(const Eigen::Vector3f& from_origin_m) const;
 
     std::size_t bytes() const { return seen_.capacity() * sizeof(Returns); }

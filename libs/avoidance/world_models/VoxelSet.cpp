@@ -25,7 +25,7 @@ struct Four {
 struct Column {
     float distance2;       ///< to the group, in squared voxels
     float first;           ///< the group's first voxel, as a position in the box
-    std::uint32_t part;    ///< of the group's number
+    std::uint32_t part;    ///< along this axis, of the group's number
     std::uint64_t blocks;  ///< mask of its blocks in the box and within reach
 };
 constexpr int kMaxColumns = 16;

@@ -9,14 +9,14 @@
 
 namespace hagen::evaluation {
 
-/// Labelled scan folders, as opened by sourcesOf(). Each degradation reads them once.
+/// Labelled scan folders, as opened by sourcesOf(). They are read once per degradation.
 struct LabelledInputs {
     std::vector<std::string> folders;
     MethodSet rows;
     std::optional<LabelMap> label_map;
 };
 
-/// The scores of one degradation: one element per method, without --labels, which apply to
+/// The scores with one degradation: one element per method, without --labels, which apply to
 /// undegraded scans.
 struct HardSet {
     std::string name;

@@ -8,7 +8,7 @@
 
 namespace hagen::evaluation {
 
-/// Name of the row and folder of its label files.
+/// The name of a row and the folder of its label files.
 struct LabelRow {
     std::string name;
     std::filesystem::path folder;
@@ -27,7 +27,7 @@ std::filesystem::path labelFilesOf(const LabelRow& row, const recordings::ScanFo
 
 /// A method that reads the labels of each scan from `folder`/NAME.label (uint32 per return; the low
 /// 16 bits are the label: 0 unclassified, 1 ROU, 2 RoI), where NAME is ScanInput::name. Throws
-/// std::runtime_error naming the file if it cannot be read, or has a wrong number of labels or an
+/// std::runtime_error naming the file if it cannot be read, has a wrong number of labels, or has an
 /// unknown label.
 Method labelFileMethod(const std::string& name, const std::filesystem::path& folder);
 

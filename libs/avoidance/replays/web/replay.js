@@ -73,7 +73,7 @@ const movers = data.scene.movers.map(mover => {
     const last = poses.length / 4 - 1, rank = Math.max(0, Math.min(last, when / data.scene.mover_step_s));
     const low = Math.floor(rank), high = Math.min(low + 1, last), share = rank - low;
     made.position.set(...[0, 1, 2].map(k => (1 - share) * place(low, k) + share * place(high, k)));
-    const turn = heading(high) - heading(low);  // the shorter way
+    const turn = heading(high) - heading(low);  // the shorter rotation
     made.rotation.z = heading(low) + share * Math.atan2(Math.sin(turn), Math.cos(turn));
   }};
 });
@@ -386,8 +386,8 @@ function tick(now) {
   seek(time + passed * Number(byId('rate').value));
   if (time >= ends) pause(); else requestAnimationFrame(tick);
 }
-/// The flight continues after its last command to its end, which follows the last step here. A
-/// command still being computed at the end was never issued.
+/// The flight continues after its last command until its end. A command still being computed at the
+/// end was never issued.
 const given = data.steps.filter(step => step.time_s < ends).length;
 function toStep(index) {
   pause();

@@ -36,8 +36,8 @@ struct Course {
 ///     street       parked cars, also in the middle, lamps, trees and walls; flown at 1.5 m
 const std::vector<std::string>& courseNames();
 
-/// The course of a scenario. A seed gives the same course on every machine. Scenes without a path
-/// for the vehicle are rejected and replaced from the seed's next stream. Throws
+/// The course of a scenario. A seed produces the same course on every machine. Scenes without a
+/// path for the vehicle are rejected and replaced from the seed's next stream. Throws
 /// std::invalid_argument, listing the known names, for an unknown name.
 Course makeCourse(const std::string& scenario, std::uint64_t seed);
 

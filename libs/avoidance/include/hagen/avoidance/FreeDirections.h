@@ -16,7 +16,7 @@ using DirectionSet = std::bitset<kDirections>;
 /// A unit vector.
 Eigen::Vector3f directionOf(std::size_t number);
 double elevationOfDirection(std::size_t number);  ///< [rad]
-/// Whether a direction points down and ends in the ground, which an altimeter detects, too.
+/// Whether a direction points down to the ground, which an altimeter also detects.
 bool pointsDown(std::size_t number);
 
 /// Length of a checked direction, and radius of the sphere that must fit.
@@ -35,7 +35,7 @@ DirectionSet blockedDirections(const std::function<float(const Eigen::Vector3f&)
 /// directions free in either. 1 if neither has any.
 double freeAgreement(const DirectionSet& blocked_a, const DirectionSet& blocked_b);
 
-/// Counts of a model's directions against ground truth.
+/// A model's directions compared with ground truth.
 struct DirectionCounts {
     std::size_t scored = 0, hits = 0, false_alarms = 0, misses = 0;
 

@@ -10,7 +10,7 @@ namespace hagen::avoidance {
 struct PathSearchOptions {
     Eigen::AlignedBox3d bounds_m;  ///< contains the centres of all cells
     double cell_m = 0.5;
-    double min_clearance_m = 0.65;    ///< for every point of the path
+    double min_clearance_m = 0.65;    ///< required at every point of the path
     double wanted_clearance_m = 1.2;  ///< cells with less clearance cost more
     int max_cells = 200000;           ///< limit of expanded cells before giving up
     double heuristic_weight =

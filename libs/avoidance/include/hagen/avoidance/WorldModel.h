@@ -31,8 +31,8 @@ class WorldModel {
     virtual float clearance_m(const Eigen::Vector3f& point_m) const {
         return clearanceWithin_m(point_m, kReach_m);
     }
-    /// The same, at most `limit_m`, which may be faster to compute. A model overrides at least one
-    /// of the two.
+    /// Like clearance_m(), but at most `limit_m`, which may be faster to compute. A model overrides
+    /// at least one of the two.
     virtual float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
         return std::min(clearance_m(point_m), limit_m);
     }
@@ -91,7 +91,7 @@ struct WorldModelSetting {
 ///     oracle+motion   true scene with future motion
 const std::vector<std::string>& worldModelNames();
 
-/// The name of a model for people, such as "RoI window" for W-RoI. Names that are not in
+/// The display name of a model, such as "RoI window" for W-RoI. Names that are not in
 /// worldModelNames(), such as those of other versions, are returned unchanged.
 std::string displayName(const std::string& model);
 
@@ -102,11 +102,11 @@ std::string worldModelFrom(const std::string& text);
 /// All names for error messages: "W-RoI (RoI window), W-Full (full window), ...".
 std::string worldModelList();
 
-/// Whether a model needs the filter's labels; then the filter's latency counts. Throws
+/// Whether a model needs the filter's labels; if so, its latency includes the filter. Throws
 /// std::invalid_argument for unknown names.
 bool needsLabels(const std::string& model);
 
-/// Whether a model knows the true scene: an oracle. False for unknown names.
+/// Whether a model needs the true scene, as oracles do. False for unknown names.
 bool needsTruth(const std::string& model);
 
 /// Whether a model predicts motion (clearanceAfter_m()). False for unknown names.
