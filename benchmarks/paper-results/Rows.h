@@ -26,8 +26,7 @@ const std::vector<Change>& betaSweep();
 const std::vector<Change>& componentSweep();
 /// Switches off each stage of a group in turn (OptionKeys.h).
 std::vector<Change> ablationOf(StageGroup group);
-/// The paper's stages that only the ground surface makes dispensable: without both, there is
-/// nothing to score.
+/// Changes that require the ground surface: without it, all returns would be ROU.
 const std::vector<Change>& paperStagesUnderSurface();
 
 /// Returns the rows for a data set, with the settings files in `config`, including the baselines.

@@ -16,7 +16,7 @@ struct CampaignStopped : std::runtime_error {
 struct CampaignOptions {
     int jobs = 1;                      ///< threads
     bool overwrites = false;           ///< discards the runs of an older campaign in the folder
-    std::function<bool()> keep_going;  ///< called often, from any thread; false: stop
+    std::function<bool()> keep_going;  ///< called often, from any thread; false stops
     std::function<void(std::size_t done, std::size_t all)> progress;  ///< after each run
 };
 

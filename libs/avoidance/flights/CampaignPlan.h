@@ -43,7 +43,7 @@ struct CourseFlights {
 /// whole scans.
 std::vector<CourseFlights> flightsOf(const CampaignPlan& plan, const Shard& shard = {});
 
-/// Throws std::runtime_error, naming the stage, if the profile lacks one that these flights need.
+/// Throws std::runtime_error naming a stage that these flights need and the profile lacks.
 void checkProfile(const LatencyProfile& profile, const std::vector<CourseFlights>& flights);
 
 }  // namespace hagen::avoidance

@@ -57,7 +57,7 @@ double cutLength_m(const Clearance& clearance_m, const std::vector<Vector3d>& pa
     return length_m;
 }
 
-/// Empty if no path leads to the goal.
+/// The length of the shortest path found; empty if no path leads to the goal.
 std::optional<double> oraclePath_m(const Course& course) {
     const Clearance clearance_m = [&](const Vector3f& at) {
         const double height_m = static_cast<double>(at.z()) -

@@ -29,7 +29,7 @@ class FlightTrace {
  private:
     struct Sample {
         simulation::SensorPose pose;
-        Eigen::Vector3d smooth_m_s2;  ///< acceleration
+        Eigen::Vector3d smooth_m_s2;  ///< smoothed acceleration
         double distance_m;
     };
     struct Place {

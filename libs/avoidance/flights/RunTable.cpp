@@ -16,9 +16,9 @@ namespace {
 struct RunColumn {
     const char* name;
     std::function<std::string(const Run&)> write;
-    std::function<void(const std::string&, Run&)> read;  ///< throws
+    std::function<void(const std::string&, Run&)> read;  ///< throws on invalid text
     bool is_key = false;                                 ///< identifies a run
-    std::string before{};  ///< value for older tables without this column; empty: required
+    std::string before{};  ///< for older tables without this column; if empty, required
 };
 
 /// Formats a number; NaN becomes an empty field.
@@ -62,7 +62,7 @@ RunColumn count(const char* name, int TrialResult::*field) {
 }
 
 RunColumn setting(const char* name, double TrialSetup::*field, double min = 0) {
-    constexpr double kMax = 100;  // like CampaignPlan
+    constexpr double kMax = 100;  // same limit as in CampaignPlan
     return {name, [=](const Run& run) { return base::shortestText(run.setup.*field); },
             [=](const std::string& text, Run& run) {
                 const auto value = numberFrom<double>(text);

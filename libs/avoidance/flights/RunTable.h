@@ -25,7 +25,7 @@ struct Run {
 std::string runHeader(bool has_updates = false);
 std::string rowOf(const Run& run, bool has_updates);
 
-/// Whether a table with this run needs the column `updates`; it then applies to all rows.
+/// Whether a table with this run needs the column `updates`, for all its rows.
 bool needsUpdates(const Run& run);
 
 /// A run's key identifies it: the fields of its course and setup, in the order of the columns:

@@ -45,7 +45,7 @@ class WholeScans : public ScanFeed {
  private:
     TrialSensor sensor_;
     int received_ = 0, dropped_ = 0;
-    std::optional<int> waiting_;  ///< newest complete turn not yet planned on
+    std::optional<int> waiting_;  ///< newest complete turn that is not used yet
 };
 
 /// Keeps all sectors since the last update. As with whole scans, the first update covers a whole

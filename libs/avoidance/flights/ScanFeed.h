@@ -14,8 +14,8 @@ namespace hagen::avoidance {
 /// The input of a world model update.
 struct FedScan {
     observations::MappedScan scan;
-    double arrived_s;      ///< arrival time of its last part
-    std::uint64_t stream;  ///< its random stream
+    double arrived_s;      ///< arrival time of the scan's last part
+    std::uint64_t stream;  ///< random stream of the scan
 };
 
 /// Buffers measurements until the planner takes them.

@@ -73,7 +73,7 @@ class TrialFlight {
     }
 
  private:
-    /// Plans on waiting measurements as soon as the planner is free, within the step from `time_s`.
+    /// Plans with the waiting measurements as soon as the planner is free in this step.
     void think(double time_s) {
         const double start_s = std::max(time_s, free_s_);
         const double taken_s = latencies_.draw_s();

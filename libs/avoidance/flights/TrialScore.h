@@ -5,8 +5,8 @@
 
 namespace hagen::avoidance {
 
-/// Decides when a flight ends and how, from true positions, at every control step. With T the time
-/// that the straight line from start to goal takes at full speed:
+/// Decides when a flight ends and how, from true positions, at every control step. T is the time
+/// of flight along the straight line from start to goal at full speed:
 ///
 ///     collision  the true clearance is below limits.collision_m
 ///     success    the vehicle is within kArrived_m of the goal

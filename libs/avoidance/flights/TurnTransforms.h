@@ -16,7 +16,7 @@ class TurnTransforms {
  public:
     TurnTransforms(double start_s, const FlightTrace& trace, PoseBelief& belief);
 
-    /// A return in the map frame.
+    /// Transforms a return to the map frame.
     Eigen::Vector3f place(const Eigen::Vector3f& point_m, float since_start_s) const;
 
  private:

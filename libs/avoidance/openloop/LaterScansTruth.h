@@ -12,7 +12,7 @@ namespace hagen::avoidance {
 
 /// Ground truth of the directions around a position, where known.
 struct TrueDirections {
-    DirectionSet blocked;  ///< within `scored`
+    DirectionSet blocked;  ///< subset of `scored`
     DirectionSet scored;   ///< directions with known truth
 };
 

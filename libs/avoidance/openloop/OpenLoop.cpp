@@ -200,7 +200,7 @@ void Walk::updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pe
     row.blocked = pending.blocked[m].count();
 }
 
-/// The entry of a scan before the models are queried.
+/// The pending scan, before the models are queried.
 PendingScan Walk::pendingScanOf(const LoggedScan& scan) const {
     const std::size_t models = models_.size();
     PendingScan pending{std::vector<OpenLoopRow>(models),  std::vector<OpenLoopCost>(models),

@@ -17,7 +17,7 @@ constexpr double kSlowest_m_s = 0.3;
 // Cost weights of angles in radians and of the blocked fraction.
 constexpr double kTargetCost = 1.0, kChangeCost = 0.25;
 constexpr double kBlockedCost = 1.5;
-constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< shorter free directions are a last resort
+constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< for directions with a shorter free distance
 
 struct HistogramCell {
     double cost;  ///< excludes the blocked fraction, which needs queries
@@ -136,7 +136,7 @@ Plan PolarHistogram::plan(const WorldModel& world, const PlanningTask& task) con
     CommandPaths paths;
     double best = std::numeric_limits<double>::infinity();
     for (const HistogramCell& cell : rankedCells(task)) {
-        if (cell.cost >= best) break;  // the rest cost more, regardless of free distance
+        if (cell.cost >= best) break;  // all others cost more, regardless of free distance
         const double free_m = freeDistance(world, task, cell.direction, reach_m);
         const double cost = cell.cost + blockedCost(task, free_m, reach_m);
         if (cost >= best) continue;

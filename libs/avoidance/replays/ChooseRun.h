@@ -15,7 +15,7 @@ struct RunWanted {
     double speed_m_s = 0, latency_scale = 0;
 };
 
-/// The matching run. Throws std::invalid_argument listing the candidates unless there is just one.
+/// The matching run. Throws std::invalid_argument listing the candidates unless one run matches.
 Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted);
 
 /// The flags that select a run `among` others with its seed, for a shell:

@@ -34,7 +34,7 @@ struct RecordedStep {
     bool is_emergency;
     std::size_t model_size;                     ///< total voxels or points in the model
     std::vector<Eigen::Vector3f> roi_m, rou_m;  ///< returns of the scan
-    std::vector<Eigen::Vector3f> path_m;        ///< from guidance
+    std::vector<Eigen::Vector3f> path_m;        ///< path of the guidance
     std::vector<RecordedMotion> motions;
 };
 
@@ -57,7 +57,7 @@ struct FlightRecording {
     double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
     std::vector<RecordedMoment> track;  ///< every kControlStep_s until the end of the flight
-    std::string ending;                 ///< text of endingOf()
+    std::string ending;                 ///< from endingOf()
     TrueScene scene;
     std::vector<ModelCell> model;
     float model_edge_m = 0;  ///< edge of a cell; 0 for points

@@ -255,7 +255,7 @@ class PageWriter {
     const FlightRecording& recording_;
 };
 
-/// Scenario, seed, contender, speed, non-default conditions, outcome.
+/// The heading: scenario, seed, model, guidance, speed, non-default conditions, outcome.
 std::string headingOf(const Run& run) {
     const TrialSetup& setup = run.setup;
     std::string text = run.scenario + ", seed " + std::to_string(run.seed) + ", " +

@@ -20,7 +20,7 @@ class DepthImage {
     struct Depths {
         float nearest_m, farthest_m;  ///< 0: no return
     };
-    static constexpr float kPixelsPerUnit = 128;  ///< a unit is about a radian ahead
+    static constexpr float kPixelsPerUnit = 128;  ///< a unit is about one radian ahead
 
     DepthImage();
 
@@ -33,8 +33,8 @@ class DepthImage {
     Depths depthsAround(const Place& place, float half_columns, float half_rows,
                         float max_half) const;
 
-    /// 4 x 4 x 4 places in space at once, in the order of a block of RollingBox, and the rectangle
-    /// of pixels around each in the image of one level.
+    /// 4 x 4 x 4 places, processed at once in the order of a block of RollingBox, and the rectangle
+    /// of pixels around each place in the image of one level.
     using Values = Eigen::Array<float, 64, 1>;
     using Pixels = Eigen::Array<int, 64, 1>;
     struct Block {

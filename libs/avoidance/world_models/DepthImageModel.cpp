@@ -7,7 +7,7 @@ namespace hagen::avoidance {
 
 namespace {
 
-// In units of 1/24, as in the rolling grid.
+// Log odds in units of 1/24, as in the rolling grid.
 constexpr int kHitLogOdds = 20, kMissLogOdds = 10, kMaxLogOdds = 84;
 constexpr float kHalfRow = 2.2f;  ///< one degree in image rows; VLP-16 rows are 2 degrees apart
 // Cells are looked up in finer images than voxels, for a tighter outline. The image of a cell must

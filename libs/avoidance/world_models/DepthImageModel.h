@@ -20,7 +20,7 @@ namespace hagen::avoidance {
 ///
 /// Not from the paper: the box; three levels of 64 children, in bit masks, instead of an octree.
 /// Free space is decided voxel by voxel, because the rows of a VLP-16 are 2 degrees apart: a large
-/// cell has gaps between them. A voxel counts as seen if a row passes within a degree of it.
+/// cell has gaps between them. A voxel is regarded as seen if a row passes within a degree of it.
 /// Occupied voxels, which are final in the paper, are checked against each image: if all depths
 /// around a voxel lie beyond it, its log odds fall as in OctoMap, so that moving objects disappear.
 class DepthImageModel : public WorldModel {

@@ -11,7 +11,7 @@ namespace hagen::avoidance {
 
 /// An obstacle tracked from scan to scan.
 struct ObstacleTrack {
-    /// Its points in one scan.
+    /// The obstacle's points in one scan.
     struct Sight {
         double time_s;                          ///< mean time of its returns
         std::vector<Eigen::Vector3f> points_m;  ///< one per 10 cm cube
@@ -41,7 +41,8 @@ struct ObstacleTrack {
 /// - it crosses free space: the scan of up to 0.6 s ago saw farther at a tenth of its points, or
 ///   the current scan does so at its former points. The visible part of a static obstacle does not.
 ///   Parts of a wire seem to move along it, so obstacles less than 15 cm high need both scans.
-/// Afterwards, it moves whenever it is fast, because its visible part changes at close range, too.
+/// Afterwards, it is moving whenever it is fast, because its visible part changes at close range,
+/// too.
 ///
 /// A track not seen for ten scans ends. Obstacles wider than 6 m, with fewer than three points, or
 /// with a point that is too far away are not tracked.
@@ -57,7 +58,7 @@ class ObstacleTracks {
     const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
     /// The track number of each obstacle of the last scan, by obstacle number; 0: none.
     const std::vector<std::uint32_t>& trackOfObstacle() const { return track_of_obstacle_; }
-    /// Memory without the shared views.
+    /// Memory in bytes, without the shared views.
     std::size_t bytes() const;
 
  private:

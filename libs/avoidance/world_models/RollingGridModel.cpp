@@ -61,7 +61,7 @@ void RollingGridModel::markEnds(const observations::MappedScan& scan) {
             end = (origin + share * ray).cast<int>().max(0).min(box_.size() - 1);
         }
         const std::uint32_t index = box_.indexOf(end);
-        // The ray enters the voxel at the cut.
+        // A shortened ray passes through its last voxel.
         const std::int8_t mark = is_hit ? kIsHit : kPassed;
         if (marks_[index] >= mark) return;
         marks_[index] = mark;
@@ -100,7 +100,7 @@ void RollingGridModel::trace(const Eigen::Array3f& origin, const Eigen::Array3i&
         const std::uint32_t index = *x + *y + *z;
         marks[index] = kPassed;
         is_marked[index / 64] = 1;
-        // Masks instead of unpredictable branches.
+        // Uses masks instead of unpredictable branches.
         const std::int64_t is_x = -std::int64_t{(next_x <= next_y) & (next_x <= next_z)};
         const std::int64_t is_y = ~is_x & -std::int64_t{next_y <= next_z};
         const std::int64_t is_z = ~(is_x | is_y);

@@ -42,7 +42,7 @@ class SeenDirections {
     std::vector<Returns> seen_;
 };
 
-/// The directions that a scan saw, and its origin.
+/// The directions observed by a scan, and its origin.
 struct View {
     double time_s;  ///< middle of the revolution, if return ages are known
     Eigen::Vector3f origin_m;

@@ -113,7 +113,7 @@ float nearestInGroup(const std::uint64_t* voxels, std::uint64_t blocks, const Ei
                                     first.z() + kEdge * static_cast<float>(bit >> 4));
         best2 = nearestInBlock(voxels[bit], at, corner, best2);
     };
-    if (nearest < count) look(nearest);  // most others are then too far
+    if (nearest < count) look(nearest);  // then, most other blocks are too far
     for (int i = 0; i < count; ++i) look(i);
     return best2;
 }

@@ -106,7 +106,7 @@ function ground() {
 }
 ground();
 
-/// Point sets of variable size.
+/// A point cloud of variable size.
 function cloud(color, size) {
   const geometry = new THREE.BufferGeometry();
   const made = new THREE.Points(geometry, new THREE.PointsMaterial({color, size}));
@@ -173,10 +173,10 @@ function vehicle() {
 }
 const {body: drone, room} = vehicle();
 
-// The model's cells: boxes if they have an edge, otherwise points. Low ones, mostly ground, are
+// The model's cells: boxes if they have an edge, otherwise points. Low cells, mostly ground, are
 // paler; those above the altitude limit are hidden by default.
 function boxes(color, opacity) {
-  const size = 0.5 * edge;  // smaller, so that the gaps are visible
+  const size = 0.5 * edge;  // smaller than a cell, so that gaps are visible
   const made = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(size, size, size),
       new THREE.MeshLambertMaterial({color, transparent: opacity < 1, opacity, depthWrite: opacity === 1}),
       Math.max(1, cells));
@@ -425,7 +425,7 @@ function resize() {
 window.addEventListener('resize', resize);
 resize();
 controls.target.set(0, 0, 0);
-// The address with #t=5 starts at 5 s, otherwise the page shows the first plan.
+// An address with #t=5 starts at 5 s; otherwise, the page shows the first plan.
 const asked = window.location.hash.match(/^#t=([0-9.]+)$/);
 seek(asked ? Number(asked[1]) : data.steps.length > 0 ? data.steps[0].time_s : 0);
 controls.update();

@@ -40,7 +40,7 @@ class LoggedScans {
  public:
     /// Reads poses and times. Throws recordings::Interrupted once `keep_going` returns false, and
     /// std::runtime_error, naming the file, if there are no scans or no poses, or if fewer than
-    /// half of the scans have one; SettingsError for invalid settings.
+    /// half of the scans have a pose; SettingsError for invalid settings.
     explicit LoggedScans(
         const LogSource& source, const std::function<bool()>& keep_going = [] { return true; });
 

@@ -62,12 +62,12 @@ struct OpenLoopModel {
 };
 
 struct OpenLoopResult {
-    std::size_t scans = 0;                                     ///< processed
-    std::size_t scans_without_pose = 0, unreadable_scans = 0;  ///< skipped
+    std::size_t scans = 0;                                     ///< processed scans
+    std::size_t scans_without_pose = 0, unreadable_scans = 0;  ///< skipped scans
     std::string why_unreadable;                                ///< first error, or empty
     std::vector<std::string> remarks;                          ///< remarks about the log as a whole
     std::size_t scans_placed_by_one_pose = 0;                  ///< see LoggedScan
-    std::size_t model_resets = 0;  ///< because the vehicle neared the border of the maps
+    std::size_t model_resets = 0;  ///< resets because the vehicle neared the border of the maps
     std::string poses;
     bool poses_have_horizon = true;
     std::vector<double> returns, roi, filter_ms;  ///< one entry per scan
@@ -91,7 +91,7 @@ struct OpenLoopEnded : std::runtime_error {
 };
 
 /// Throws std::invalid_argument if a model is unknown or listed twice, if the scenario is unknown,
-/// and for the oracle without a scene.
+/// or if the oracle is listed without a scene.
 void checkOpenLoop(const OpenLoop& open_loop);
 
 /// Runs all models on a log. After each scan, every model is queried in all directions around the
@@ -99,7 +99,7 @@ void checkOpenLoop(const OpenLoop& open_loop);
 ///
 /// Maps cover a box: the whole flight and 20 m around it if that is at most 100 000 m3, otherwise
 /// 60 x 60 x 20 m around the vehicle. When the vehicle nears the border of the latter, all models
-/// are reset around it and process the last 3 s again; this time is not measured.
+/// are reset around it and process the last 3 s again, which is not timed.
 ///
 /// Throws like checkOpenLoop(); std::runtime_error like LoggedScans, and if the log's obstacles do
 /// not match the scene; OpenLoopEnded.

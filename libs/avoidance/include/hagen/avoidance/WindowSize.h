@@ -7,7 +7,7 @@ namespace hagen::avoidance {
 /// Speed and sensor rate of a flight.
 struct FlightPace {
     double speed_m_s = 4;        ///< maximum speed
-    double scan_period_s = 0.1;  ///< of the sensor
+    double scan_period_s = 0.1;  ///< period of the sensor's scans
     VehicleLimits limits;
 
     /// Maximum time from a return to the vehicle's response: two scan periods (until the scan is

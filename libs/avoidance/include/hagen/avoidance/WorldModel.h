@@ -27,7 +27,7 @@ class WorldModel {
     virtual void update(const observations::MappedScan& scan) = 0;
 
     /// Distance from a point to the nearest known obstacle, at most kReach_m; 0 inside one. Unknown
-    /// space counts as free.
+    /// space is treated as free.
     virtual float clearance_m(const Eigen::Vector3f& point_m) const {
         return clearanceWithin_m(point_m, kReach_m);
     }
@@ -37,12 +37,12 @@ class WorldModel {
         return std::min(clearance_m(point_m), limit_m);
     }
 
-    /// clearance_m() at a time after the last scan, for models that predict motion. All others
-    /// assume a static world.
+    /// clearance_m() at a time after the last scan, for models that predict motion. All other
+    /// models assume a static world.
     virtual float clearanceAfter_m(const Eigen::Vector3f& point_m, double /*after_s*/) const {
         return clearance_m(point_m);
     }
-    /// The clearance of a point changes by at most this much per second. 0: nothing moves.
+    /// Maximum change of a point's clearance per second [m/s]; 0 if nothing moves.
     virtual float fastest_m_s() const { return 0; }
 
     /// Whether a point was observed, as free or occupied.
@@ -68,12 +68,12 @@ struct WorldModelSetting {
     ModelDistance distance = ModelDistance::Unbiased;
 };
 
-/// Names of all world models. The first is used in flags, files and hashes, the second is for
-/// people (displayName()):
+/// Names of all world models. Flags, files and hashes use the first; displayName() returns the
+/// second:
 ///
 ///     W-RoI           RoI window: RoI points of the last scans, one per 10 cm cube
 ///                     (windowSizeFor())
-///     W-RoI+motion    RoI window with motion: the same, with predicted positions of moving
+///     W-RoI+motion    RoI window with motion: W-RoI with predicted positions of moving
 ///                     obstacles (ObstacleTracks); likewise W-Full+motion, G-Full+motion and
 ///                     R-Full-0.2+motion
 ///     W-Full          full window: the same with all points
