@@ -161,7 +161,7 @@ struct Figures {
     double turn_us = 0;
 };
 
-/// What is known of the sensor's motion.
+/// The known part of the sensor's motion.
 enum class Known { Nothing, Attitude, Pose };
 
 Attitude attitudeOf(const Eigen::Isometry3d& pose) {

@@ -13,7 +13,7 @@
 namespace hagen {
 namespace {
 
-/// `default` on one degradation of one or more sets.
+/// The scores of `default` with one degradation of one or more sets.
 struct Degraded {
     std::string name;
     evaluation::Scores scores;

@@ -78,7 +78,7 @@ std::int64_t Measured::scoredReturns() const {
 
 std::vector<Measured> measureScores(const std::vector<DataSet>& sets,
                                     const MeasurementOptions& options) {
-    // Report invalid settings before minutes of simulation.
+    // Report invalid settings before the long simulation.
     for (const DataSet& set : sets) rowsFor(set, options.config);
     std::vector<Measured> all(sets.size());
     std::mutex guard;

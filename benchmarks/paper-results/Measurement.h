@@ -16,7 +16,7 @@ struct Measured {
     std::vector<std::string> folders;               ///< names of the scan folders
     std::vector<evaluation::MethodScores> methods;  ///< one per row
     std::vector<std::size_t> returns;               ///< number of returns of each scan
-    /// `default` alone on degraded copies of the scans; empty unless the set is_degraded.
+    /// Scores of `default` on degraded copies of the scans; empty unless the set is_degraded.
     std::vector<evaluation::HardSet> hard_sets;
 
     /// Returns the row of this name, or nullptr.

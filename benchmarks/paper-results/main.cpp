@@ -73,7 +73,7 @@ int run(const Flags& flags) {
     std::optional<base::OutputPath> readme;
     if (!flags.readme.empty()) {
         readme.emplace(flags.readme, base::kFile, true);
-        readmeOf(flags.readme, "");  // fails before minutes of work
+        readmeOf(flags.readme, "");  // throws before the long measurement
     }
     Provenance provenance{flags.revision, {101, 102, 103, 104, 105, 106}, flags.is_quick, {}};
     if (!flags.selection.empty()) provenance.selection = selection::readRecord(flags.selection);

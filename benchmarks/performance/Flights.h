@@ -19,8 +19,8 @@ struct FlightTimes {
 };
 
 /// Simulates a flight with a VLP-16, one scan every 0.1 s, and labels each scan with each method:
-/// the filter with our settings and with the paper's, and all published baselines. The time is that
-/// from returns with known beam indices to labels.
+/// the filter with our settings and with the paper's, and all published baselines. Measures the
+/// time from returns with known beam indices to labels.
 FlightTimes timeFlight(const std::string& scenario, std::uint64_t seed, int scans);
 
 /// Times the filter from a VLP-16 scan's packets to labels and index lists, `runs` times over the

@@ -23,7 +23,7 @@ using Choice = std::vector<std::size_t>;
 /// The filter's results for a set of scans.
 struct Counts {
     evaluation::Scores scores;
-    evaluation::Missed missed;  ///< obstacle returns above 0.5 m
+    evaluation::Missed missed;  ///< missed obstacle returns above 0.5 m
 
     Counts& operator+=(const Counts& other);
 };

@@ -26,7 +26,6 @@ struct Plan {
 ///       ground_tolerance_m: [0.14, 0.17, 0.20]
 ///     plain: {ground_tolerance_m: 0.20}
 ///
-/// where `settings` is required, and `plain` has one of their values each. Throws
 /// where `settings` is required, and `plain` has one of the listed values for some settings. Throws
 /// std::runtime_error naming file, line and entry for invalid files, unknown or repeated keys,
 /// unknown settings, values or degradations.

@@ -17,7 +17,7 @@ struct TriedSetting {
 
 /// Summary of a descent.
 struct Fold {
-    std::string left_out;             ///< held-out drive; may be empty
+    std::string left_out;             ///< held-out drive, if any
     std::vector<std::string> chosen;  ///< the chosen value of each setting
     double start = 0, objective = 0;
     MissedByGroup missed_start{}, missed{}, limit{};

@@ -143,7 +143,7 @@ GroundTruthScan turned(const GroundTruthScan& scan, const Eigen::Matrix3f& turn)
 }
 
 /// Sines of the elevations half a beam step below the lowest beam and above the highest. Elevations
-/// beyond straight down and up, where the sine would decrease again, give -2 and 2.
+/// beyond straight down and up, where the sine would decrease again, are represented by -2 and 2.
 std::pair<float, float> fieldOfView(const SensorModel& sensor) {
     const std::vector<float>& beams = sensor.elevations_rad;
     const std::size_t top = beams.size() - 1;
@@ -221,7 +221,7 @@ GroundTruthScan dualReturn(const GroundTruthScan& scan, const SensorModel& senso
     for (const std::vector<std::size_t>& row : rows) {
         for (std::size_t k = 0; row.size() > 1 && k < row.size(); ++k) {
             const std::size_t ray = row[k];
-            std::size_t nearest = ray;  // of the farther neighbours
+            std::size_t nearest = ray;  // nearest of the farther neighbours
             for (const std::size_t side : {row.size() - 1, std::size_t{1}}) {
                 const std::size_t other = row[(k + side) % row.size()];
                 const double between_rad =

@@ -25,7 +25,7 @@ namespace hagen::evaluation {
 ///                           returns are the same (y and z negated), so the sensor becomes
 ///                           mirrored(sensor)
 ///     fov_deg=A             only azimuths within A / 2 of forward
-///     above_deg=E, below_deg=E   only beams whose elevation is higher, or lower
+///     above_deg=E, below_deg=E   only beams above, or below, elevation E
 ///     dual_return           a ray whose neighbour in its row is more than 1 m farther has a second
 ///                           return there with probability 0.3
 ///     rate_hz=R             one of R / 10 azimuths of each row, as if a 10 Hz sensor turned at

@@ -18,7 +18,7 @@ std::vector<Eigen::Vector3f> levelPoints(const GroundTruthScan& scan);
 ///
 /// `points_m`: levelPoints() of the scan. Returns one value per return [m]: NaN unless its truth is
 /// RoI and its range at most `max_range_m`; infinite without ground, so that an obstacle of unknown
-/// height does not count as low.
+/// height is not regarded as low.
 std::vector<float> heightsAboveTrueGround(const GroundTruthScan& scan,
                                           const std::vector<Eigen::Vector3f>& points_m,
                                           float max_range_m);

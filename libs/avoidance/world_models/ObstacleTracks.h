@@ -41,8 +41,7 @@ struct ObstacleTrack {
 /// - it crosses free space: the scan of up to 0.6 s ago saw farther at a tenth of its points, or
 ///   the current scan does so at its former points. The visible part of a static obstacle does not.
 ///   Parts of a wire seem to move along it, so obstacles less than 15 cm high need both scans.
-/// Afterwards, it is moving whenever it is fast, because its visible part changes at close range,
-/// too.
+/// Afterwards, it is moving whenever it is fast, because its visible part also changes nearby.
 ///
 /// A track not seen for ten scans ends. Obstacles wider than 6 m, with fewer than three points, or
 /// with a point that is too far away are not tracked.

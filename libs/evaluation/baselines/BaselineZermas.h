@@ -13,8 +13,8 @@ struct ZermasOptions {
     int segments = 3;            ///< N_segs: stretches of the x axis, one plane each
     int iterations = 3;          ///< N_iter: number of fits of a plane
     int lowest_points = 20;      ///< N_LPR: number of lowest points that are averaged for the LPR
-    float seed_height_m = 0.4f;  ///< Th_seeds: seeds are lower than this above the LPR
-    float ground_distance_m = 0.2f;  ///< Th_dist: ground is lower than this above the plane
+    float seed_height_m = 0.4f;  ///< Th_seeds: maximum height of seeds above the LPR
+    float ground_distance_m = 0.2f;  ///< Th_dist: maximum height of ground above the plane
     float zone_m = 20.0f;  ///< returns farther than this are ROU and are not used for the fit
 };
 

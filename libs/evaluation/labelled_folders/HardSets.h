@@ -24,8 +24,8 @@ struct HardSet {
 };
 
 /// Returns the standard degradations if requested, then the given ones, without duplicates.
-/// Standard ones are for the sensor with the fewest beams among the folders. Throws SettingsError
-/// if a text cannot be parsed, or does not fit the sensor of a folder.
+/// Standard degradations are for the sensor with the fewest beams among the folders. Throws
+/// SettingsError if a text cannot be parsed, or does not fit the sensor of a folder.
 std::vector<Degradation> degradationsOf(const std::vector<std::string>& texts, bool with_standard,
                                         const LabelledInputs& inputs);
 

@@ -75,7 +75,7 @@ class LabelledFolder : public LabelledScanSource {
     bool has_label_map_;               ///< whether ground-truth labels are derived with `kinds_`
     bool has_kind_files_;              ///< whether the folder semantic/ exists
     std::vector<double> altitudes_m_;
-    std::size_t read_ = 0, with_pose_ = 0;  ///< scans
+    std::size_t read_ = 0, with_pose_ = 0;  ///< number of scans
     observations::ObservedScan observed_;
 };
 
@@ -108,7 +108,7 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
     if (!settings_.sensor.model) beams_ = scans_->beamsOf(recordings::kFolderLabel);
     // Poses cannot be assigned to scans without times.
     const bool has_poses = fs::exists(folder_.tumFile()) && !folder_.times().empty();
-    // A poses.txt is relative to the first scan, which may be tilted, so it gives no attitude.
+    // A poses.txt is relative to the first scan, which may be tilted, so it provides no attitude.
     if (has_poses) scans_->usePoses({});
 }
 

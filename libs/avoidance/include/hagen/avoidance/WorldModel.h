@@ -68,8 +68,8 @@ struct WorldModelSetting {
     ModelDistance distance = ModelDistance::Unbiased;
 };
 
-/// Names of all world models. Flags, files and hashes use the first; displayName() returns the
-/// second:
+/// Names of all world models. Flags, files and hashes use the first column, people the second
+/// (displayName()):
 ///
 ///     W-RoI           RoI window: RoI points of the last scans, one per 10 cm cube
 ///                     (windowSizeFor())

@@ -54,7 +54,7 @@ class DroneTruth {
 
     const GroundTruthScan& scan_;
     RangeBands bands_;
-    std::vector<std::size_t> tall_;                    ///< returns
+    std::vector<std::size_t> tall_;                    ///< indices of tall returns
     std::vector<std::vector<std::size_t>> obstacles_;  ///< returns of each obstacle
     std::unique_ptr<Plan> plan_;
 };

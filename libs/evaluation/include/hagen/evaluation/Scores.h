@@ -8,7 +8,7 @@ namespace hagen::evaluation {
 struct ClassScore {
     std::int64_t hits = 0;          ///< true positives
     std::int64_t misses = 0;        ///< false negatives (unclassified returns included)
-    std::int64_t false_alarms = 0;  ///< false positives: labelled as this class, but of the other
+    std::int64_t false_alarms = 0;  ///< false positives: returns of the other class
 
     double precision() const;  ///< NaN if nothing was labelled as this class
     double recall() const;     ///< NaN if nothing belongs to this class

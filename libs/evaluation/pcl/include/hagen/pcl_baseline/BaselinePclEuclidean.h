@@ -12,10 +12,10 @@ namespace hagen::evaluation {
 /// The tutorial's lengths suit a table top; docs/baselines.md explains the lengths used here.
 struct PclEuclideanOptions {
     float leaf_m = 0.2f;               ///< edge of a voxel
-    float plane_distance_m = 0.2f;     ///< maximum distance of points of the plane
+    float plane_distance_m = 0.2f;     ///< maximum distance of points from the plane
     int plane_iterations = 100;        ///< RANSAC iterations, from the tutorial
     float plane_tilt_deg = 30.0f;      ///< maximum slope of the ground in the sensor's frame
-    float cluster_tolerance_m = 0.7f;  ///< maximum distance of neighbours in a cluster
+    float cluster_tolerance_m = 0.7f;  ///< maximum distance between neighbours in a cluster
     int min_cluster_points = 10;       ///< smaller clusters (in voxels) are not obstacles
     float zone_m = 20.0f;              ///< farther returns are ROU and not processed
 };
