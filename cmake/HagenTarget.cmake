@@ -11,8 +11,8 @@ function(hagen_target target)
                       # loops with a condition per pixel; results do not change. Set for all
                       # targets, because GCC takes this option from the precompiled header.
                       -fno-trapping-math)
-  # SIMD (Highway): one binary selects among these instruction sets at run time. The disabled ones
-  # gain nothing here, and each costs a compilation. (ARM's SVE vectors have no compile-time size
+  # SIMD (Highway): one binary selects among these instruction sets at run time. The disabled sets
+  # are not faster here, and each costs a compilation. (ARM's SVE vectors have no compile-time size
   # and cannot be stored in arrays.)
   set(left_out HWY_SSSE3 HWY_AVX3_DL HWY_SVE HWY_SVE2 HWY_SVE_256 HWY_SVE2_128)
   list(JOIN left_out "|" left_out)

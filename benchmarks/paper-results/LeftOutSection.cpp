@@ -15,7 +15,7 @@ auto countsOf(const evaluation::Scores& s) {
                       s.rou.false_alarms);
 }
 
-/// Whether the record's scores of `default` equal the measured ones.
+/// Whether the record's scores of `default` equal the measured scores.
 bool isCurrent(const std::vector<Measured>& all, const selection::Record& record) {
     for (const Measured& measured : all) {
         if (!measured.set.flights.empty()) continue;

@@ -37,7 +37,7 @@ struct CourseFlights {
 };
 
 /// The flights of a plan, ordered by seed, so that an interrupted campaign covers every scenario.
-/// Throws std::invalid_argument for unknown names (listing the known ones), an empty list, a last
+/// Throws std::invalid_argument for unknown names (listing known names), an empty list, a last
 /// seed before the first, a speed or latency scale outside (0, 100], an invalid shard, more than
 /// kMaxFlights, and models with motion combined with sectors, because they track the obstacles of
 /// whole scans.

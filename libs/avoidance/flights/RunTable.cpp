@@ -90,7 +90,7 @@ RunColumn word(const char* name, std::string Run::*field) {
             [=](const std::string& text, Run& run) { run.*field = text; }};
 }
 
-/// In table order. Tables of whole scans lack `updates`, older tables also `air` and `distance`.
+/// In table order. Tables of whole scans lack `updates`, older tables `air` and `distance`, too.
 const std::vector<RunColumn>& allColumns() {
     static const std::vector<RunColumn> all{
         key(word("scenario", &Run::scenario)),

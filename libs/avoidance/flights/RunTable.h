@@ -20,7 +20,7 @@ struct Run {
 /// The columns: scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,
 /// pose_error,latency_scale,unknown,oracle_path_m,first_reaction_m,rms_jerk_m_s3,scans,
 /// dropped_scans,emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,version,
-/// air,distance; if `has_updates`, also updates. unknown: optimistic, brake_known; conditions as in
+/// air,distance; and updates if `has_updates`. unknown: optimistic, brake_known; conditions as in
 /// FlightConditions.h; NaN is an empty field. Fixed decimals, '.' in every locale, \n.
 std::string runHeader(bool has_updates = false);
 std::string rowOf(const Run& run, bool has_updates);

@@ -40,7 +40,7 @@ double freeDistance(const WorldModel& world, const PlanningTask& task,
                     const Eigen::Vector3d& direction, double reach_m) {
     const auto clearance_radius_m = static_cast<float>(task.limits.clearance_radius_m());
     const auto speed_m_s = static_cast<float>(speedTowardsGoal(task));
-    // Approaching objects shorten the distance for which a clearance holds.
+    // Approaching objects shorten the distance for which a clearance is valid.
     const float share = speed_m_s / (speed_m_s + world.fastest_m_s());
     float at_m = 0, needed_m = 0;
     while (at_m < reach_m) {

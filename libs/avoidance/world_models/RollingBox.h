@@ -14,8 +14,8 @@ namespace hagen::avoidance {
 Eigen::Vector3f rollingReachFor(const FlightPace& pace);
 
 /// Maps the voxels of a box that moves with a vehicle to storage. Its size is constant; an index
-/// belongs to a position modulo the size, so that moving copies nothing: entering voxels replace
-/// leaving ones.
+/// belongs to a position modulo the size, so that moving copies no data: entering voxels replace
+/// leaving voxels.
 ///
 /// Voxels are grouped for bit masks of 64: 4 x 4 x 4 voxels form a block, 4 x 4 x 4 blocks a group.
 /// An index is 4096 group + 64 block + voxel; within a block, voxel = 16 z + 4 y + x, and likewise

@@ -119,7 +119,7 @@ void WindowModel::gather(std::unique_ptr<PastScans> newest) {
 }
 
 /// Isolated points of the newest scan are confirmed by any other point near them; older unconfirmed
-/// ones by the newest scan.
+/// points by the newest scan.
 void WindowModel::confirmIsolated() {
     const PastScans& newest = *past_.front();
     const PastView& last = newest.views.front();

@@ -23,7 +23,7 @@ struct HardSet {
     std::vector<MethodScores> methods;
 };
 
-/// Returns the standard degradations if requested, then the given ones, without duplicates.
+/// Returns the standard degradations if requested, then those in `texts`, without duplicates.
 /// Standard degradations are for the sensor with the fewest beams among the folders. Throws
 /// SettingsError if a text cannot be parsed, or does not fit the sensor of a folder.
 std::vector<Degradation> degradationsOf(const std::vector<std::string>& texts, bool with_standard,

@@ -20,7 +20,7 @@ LabelRow labelRowFrom(const std::string& text, const std::vector<std::string>& t
 
 /// Returns the folder with the label files (NNNNNN.label) for the scan folder shown as
 /// `scans_name`: DIR/SCANS_NAME or DIR/SCANS_NAME/labels, or, for a single evaluated scan folder
-/// (`is_only`), also DIR or DIR/labels. Throws std::runtime_error naming the file if a scan has no
+/// (`is_only`), DIR or DIR/labels. Throws std::runtime_error naming the file if a scan has no
 /// labels.
 std::filesystem::path labelFilesOf(const LabelRow& row, const recordings::ScanFolder& scans,
                                    const std::string& scans_name, bool is_only);

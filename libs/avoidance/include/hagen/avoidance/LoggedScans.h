@@ -44,8 +44,8 @@ class LoggedScans {
     explicit LoggedScans(
         const LogSource& source, const std::function<bool()>& keep_going = [] { return true; });
 
-    /// Reads the next scan with a pose; false at the end. Throws like ScanSource::nextScan(), also
-    /// where the log is truncated. Skips unreadable scans.
+    /// Reads the next scan with a pose; false at the end. Throws like ScanSource::nextScan(),
+    /// including where the log is truncated. Skips unreadable scans.
     bool next(LoggedScan& scan);
 
     const std::string& poseSource() const { return source_->poses().source; }

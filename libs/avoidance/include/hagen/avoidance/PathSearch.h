@@ -27,8 +27,8 @@ struct PathSearchOptions {
 /// clearance are allowed.
 ///
 /// Returns positions from start to goal, both included, or nothing if the goal is out of bounds or
-/// cannot be reached. Ties are broken by the order of cells, so equal clearances give equal paths.
-/// Throws std::invalid_argument if bounds and cell size do not define a grid.
+/// cannot be reached. Ties are broken by the order of cells, so equal clearances lead to equal
+/// paths. Throws std::invalid_argument if bounds and cell size do not define a grid.
 std::optional<std::vector<Eigen::Vector3d>> findPath(
     const std::function<float(const Eigen::Vector3f&)>& clearance_m, const Eigen::Vector3d& start_m,
     const Eigen::Vector3d& goal_m, const PathSearchOptions& options);

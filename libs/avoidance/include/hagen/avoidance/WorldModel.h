@@ -117,7 +117,7 @@ bool predictsMotion(const std::string& model);
 /// names.
 float distanceBias_m(const std::string& model);
 
-/// Throws std::invalid_argument for unknown names, listing the known ones, and for an oracle
+/// Throws std::invalid_argument for unknown names, listing known names, and for an oracle
 /// without true clearances.
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting);
