@@ -14,7 +14,7 @@ struct DataSet {
     std::string about;                           ///< description for readers of the document
     std::string preset;                          ///< settings file of the sensor, in config/
     std::string folder;                          ///< a folder of scan folders
-    std::string label_map;                       ///< in config/; empty: labels/ as is
+    std::string label_map;                       ///< file in config/; empty: labels/ as is
     std::vector<convert::SimulatedLog> flights;  ///< simulated in `folder`; none for recordings
     float zone_m = 20, max_range_m = 20;
     bool is_altitude = false;    ///< part of the altitude series within the default zone
@@ -27,7 +27,7 @@ struct DataSet {
 /// Size of the simulation.
 struct SimulationSize {
     std::vector<std::uint64_t> seeds;
-    int scans = 0;  ///< per flight
+    int scans = 0;  ///< scans per flight
 };
 
 /// Returns the recordings in `labelled` (beams16/ and beams64/; none if `labelled` is empty) and

@@ -114,7 +114,7 @@ std::string losses(const std::vector<Measured>& all) {
     return text;
 }
 
-/// Reports missing rows: PCL is optional.
+/// A note on PCL's rows if they are missing, because PCL is optional.
 std::string pclNote(const std::vector<Measured>& all) {
     for (const std::string& name : headlineNames(all)) {
         if (name.rfind("pcl", 0) == 0) return "";

@@ -56,7 +56,7 @@ class LoadedScans {
     };
     struct LoadedScan {
         std::size_t kind;
-        std::vector<std::unique_ptr<Truth>> truths;  ///< for the same returns
+        std::vector<std::unique_ptr<Truth>> truths;  ///< ground truths of the same returns
     };
 
     std::size_t kindOf(const ScanInputs& inputs, bool is_upside_down);

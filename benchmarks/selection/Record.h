@@ -33,9 +33,9 @@ struct Search {
 /// The scores of a drive. Vectors have one element per search.
 struct DriveScores {
     std::string data, drive;       ///< "real, 16 beams", "00"
-    Counts present;                ///< with the presets, which were tuned on this drive
-    std::vector<Counts> with_all;  ///< with settings chosen on all drives
-    std::vector<Counts> left_out;  ///< with settings chosen without this drive
+    Counts present;                ///< counts with the presets, which were tuned on this drive
+    std::vector<Counts> with_all;  ///< counts with settings chosen on all drives
+    std::vector<Counts> left_out;  ///< counts with settings chosen without this drive
 };
 
 struct Record {

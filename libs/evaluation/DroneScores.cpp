@@ -45,7 +45,7 @@ void checkTruth(const GroundTruthScan& scan) {
 }  // namespace
 
 struct DroneTruth::Plan {
-    std::vector<Eigen::Vector3f> points_m;  ///< in the level frame
+    std::vector<Eigen::Vector3f> points_m;  ///< positions in the level frame
     PlanTree obstacles;
 
     Plan(const GroundTruthScan& scan, std::vector<Eigen::Vector3f> level_m)

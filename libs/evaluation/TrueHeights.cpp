@@ -59,7 +59,7 @@ class GroundCells {
             tree_->within(at_m, kGroundNear_m * kGroundNear_m + kOrEqual_m2);
         if (near.empty()) {
             const float last_m2 = tree_->squaredDistanceOf(kGroundCells, at_m);
-            near = tree_->within(at_m, 1.0001f * last_m2 + kOrEqual_m2);  // as floats, too
+            near = tree_->within(at_m, 1.0001f * last_m2 + kOrEqual_m2);
         }
         std::vector<float> heights_m;
         heights_m.reserve(near.size());

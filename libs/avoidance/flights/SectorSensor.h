@@ -45,7 +45,7 @@ class SectorSensor {
     TrialSensor sensor_;
     simulation::FiringPattern pattern_;
     live::StreamingSegmenter segmenter_;
-    int turn_ = 0, packet_ = 0;  ///< to be measured next
+    int turn_ = 0, packet_ = 0;  ///< next to measure
     std::deque<Measured> measured_;
     std::vector<Labelled> labelled_;
 };

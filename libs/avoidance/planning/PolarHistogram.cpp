@@ -17,7 +17,7 @@ constexpr double kSlowest_m_s = 0.3;
 // Cost weights of angles in radians and of the blocked fraction.
 constexpr double kTargetCost = 1.0, kChangeCost = 0.25;
 constexpr double kBlockedCost = 1.5;
-constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< for directions with a shorter free distance
+constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< cost of a shorter free distance
 
 struct HistogramCell {
     double cost;  ///< excludes the blocked fraction, which needs queries

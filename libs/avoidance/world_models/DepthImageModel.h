@@ -41,7 +41,7 @@ class DepthImageModel : public WorldModel {
     /// vertical axis through it, and half that voxel's extent in the image.
     struct Outline {
         Eigen::Vector3f to_middle_m;
-        float spread_m;  ///< from the cell's centre to the farthest voxel's centre
+        float spread_m;  ///< distance from the cell's centre to the farthest voxel's centre
         float min_away_m, min_around_m, half_columns, half_rows;
     };
     Eigen::Vector3f cornerOf(const Eigen::Array3i& first, const Eigen::Vector3f& origin_m) const;
@@ -54,7 +54,7 @@ class DepthImageModel : public WorldModel {
     RollingBox box_;
     DepthImage image_;
     VoxelSet unknown_, occupied_;
-    std::vector<std::int8_t> log_odds_;  ///< per voxel; valid where occupied
+    std::vector<std::int8_t> log_odds_;  ///< per voxel; valid if occupied
     std::vector<std::uint64_t> hit_;     ///< voxels hit in the scan, one mask per block
     std::vector<std::uint32_t> hits_;    ///< blocks hit in the scan
 };

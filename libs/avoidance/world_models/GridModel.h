@@ -29,7 +29,7 @@ class GridModel : public WorldModel {
 
     float edge_m_, max_range_m_;
     Eigen::Array3f corner_m_;  ///< minimum corner
-    Eigen::Array3i size_;      ///< in cells
+    Eigen::Array3i size_;      ///< size in cells
     std::unique_ptr<mrpt::maps::COccupancyGridMap3D> map_;
     VoxelTree obstacles_;
 };

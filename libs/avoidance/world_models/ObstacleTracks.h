@@ -17,12 +17,12 @@ struct ObstacleTrack {
         std::vector<Eigen::Vector3f> points_m;  ///< one per 10 cm cube
     };
 
-    std::uint32_t number;                      ///< from 1; never reused
+    std::uint32_t number;                      ///< starts at 1; never reused
     Eigen::Vector2d at_m, velocity_m_s{0, 0};  ///< state of its centre seen from above
-    Eigen::Matrix2d covariance;                ///< of position and velocity, the same along x and y
-    double time_s;                             ///< time of the state
-    int seen_scans = 1, missed_scans = 0;      ///< missed: since the last sighting
-    bool crossed_free_space = false;           ///< at any time; required of moving obstacles
+    Eigen::Matrix2d covariance;  ///< covariance of position and velocity, the same for x and y
+    double time_s;               ///< time of the state
+    int seen_scans = 1, missed_scans = 0;  ///< missed: since the last sighting
+    bool crossed_free_space = false;       ///< required of moving obstacles
     bool is_moving = false;
     std::deque<Sight> sights;  ///< from the last 0.6 s, newest first
 

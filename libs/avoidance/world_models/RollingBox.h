@@ -31,7 +31,7 @@ class RollingBox {
     const std::vector<std::uint32_t>& moveTo(const Eigen::Vector3f& vehicle_m);
 
     float edge_m() const { return edge_m_; }
-    const Eigen::Array3i& size() const { return size_; }  ///< in voxels
+    const Eigen::Array3i& size() const { return size_; }  ///< size in voxels
     const Eigen::Array3i& min() const { return min_; }    ///< voxel at the minimum corner
     std::size_t voxels() const { return blocks() * 64; }
     std::size_t blocks() const { return groups() * 64; }

@@ -23,7 +23,7 @@ struct Four {
 
 /// Groups along an axis within reach, nearest first.
 struct Column {
-    float distance2;       ///< to the group, in squared voxels
+    float distance2;       ///< squared distance to the group, in voxels
     float first;           ///< the group's first voxel, as a position in the box
     std::uint32_t part;    ///< along this axis, of the group's number
     std::uint64_t blocks;  ///< mask of its blocks in the box and within reach

@@ -19,7 +19,7 @@ constexpr std::array<const char*, kMaxLines> kColours{"#0072B2", "#D55E00", "#00
                                                       "#E69F00", "#333333", "#56B4E9"};
 
 struct Value {
-    std::string label;  ///< on the x axis
+    std::string label;  ///< label on the x axis
     double x, y;
     Interval interval;
 };

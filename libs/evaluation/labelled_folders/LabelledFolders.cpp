@@ -68,7 +68,7 @@ class LabelledFolder : public LabelledScanSource {
     recordings::ScanFolder folder_;
     std::unique_ptr<recordings::ScanSource> scans_;
     MethodSet methods_;
-    std::vector<fs::path> label_folders_;  ///< for methods_.labels
+    std::vector<fs::path> label_folders_;  ///< label files for methods_.labels
     Settings settings_;
     observations::SharedBeams beams_;  ///< recovered beams; null if the settings name the sensor
     LabelMap kinds_;                   ///< from --label-map or the folder; empty if unknown

@@ -35,13 +35,13 @@ struct MissedGroup {
 /// The scores for drones, summed over scans.
 struct DroneTotals {
     DroneScores all;
-    std::vector<MissedGroup> by_range, by_kind;  ///< without empty parts
+    std::vector<MissedGroup> by_range, by_kind;  ///< parts with returns only
 };
 DroneTotals totalsOf(const std::vector<DroneScores>& scans, const RangeBands& bands);
 
 struct MethodTotals {
     std::string name;
-    std::string sweep_key, sweep_value;  ///< of the sweep; empty without a sweep
+    std::string sweep_key, sweep_value;  ///< empty without a sweep
     Latency latency;
     ScoreTotals returns, pixels;  ///< `pixels` has no scans without a camera
     DroneTotals drone;

@@ -39,7 +39,7 @@ double freeAgreement(const DirectionSet& blocked_a, const DirectionSet& blocked_
 struct DirectionCounts {
     std::size_t scored = 0, hits = 0, false_alarms = 0, misses = 0;
 
-    double precision() const;  ///< of blocked directions; NaN if the model blocks no direction
+    double precision() const;  ///< of blocked directions; NaN if the model blocks none
     double recall() const;     ///< NaN if no direction is truly blocked
     DirectionCounts& operator+=(const DirectionCounts& other);
 };

@@ -31,7 +31,7 @@ struct OpenLoop {
 
 /// The result of a model for a scan. Does not depend on the machine.
 struct OpenLoopRow {
-    std::size_t scan = 0;  ///< from 0, counting processed scans
+    std::size_t scan = 0;  ///< number of the processed scan, from 0
     std::size_t entry = 0;
     double time_s = 0;
     std::string model;

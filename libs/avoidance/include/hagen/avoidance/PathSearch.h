@@ -17,7 +17,7 @@ struct PathSearchOptions {
         1;  ///< 1: the cheapest path; w > 1: at most w times its cost, found sooner (weighted A*)
     Eigen::Vector3d anchor_m{0, 0, 0};  ///< the centre of one of the cells
     double wanted_height_m = 0;
-    double height_cost_per_m = 0;  ///< per metre of path and metre off the target height
+    double height_cost_per_m = 0;  ///< extra cost per metre of path and metre off the target height
 };
 
 /// A* over cubic cells with 26 neighbours (weighted, Pohl 1970). A cell is passed at its centre or,

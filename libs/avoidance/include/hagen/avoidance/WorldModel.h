@@ -61,7 +61,7 @@ class WorldModel {
 
 /// Parameters of a world model known before the flight.
 struct WorldModelSetting {
-    Eigen::AlignedBox3f bounds_m;  ///< of the flight; maps extend 3 m beyond
+    Eigen::AlignedBox3f bounds_m;  ///< bounds of the flight; maps extend 3 m beyond
     /// The true distance to the nearest obstacle at a time after the last scan. Only for oracles.
     std::function<float(const Eigen::Vector3f& point_m, double after_s)> true_clearance_m;
     FlightPace pace;  ///< determines window sizes

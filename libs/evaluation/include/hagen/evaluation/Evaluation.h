@@ -43,7 +43,7 @@ struct MethodScores {
     std::vector<ScanScores> returns;  ///< scores over returns
     std::vector<ScanScores> pixels;   ///< scores over camera pixels; empty without a camera
     std::vector<DroneScores> drone;
-    std::vector<double> latency_ms;  ///< of each call of Method::segment; empty if is_recorded
+    std::vector<double> latency_ms;  ///< per call of Method::segment; empty if is_recorded
 };
 
 /// A scan as labelled by one method, for visualisation.
