@@ -1,5 +1,5 @@
-// Flies OctoMaps with various settings in closed loop, each with its own update latency: first
-// measured on the courses of seed 300 at a constant latency, then used on all seeds.
+// Flies OctoMaps with various settings in closed loop. The update latency of each is first measured
+// on the courses of seed 300 at a constant latency, then used on all seeds.
 #include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/Trial.h>
 #include <hagen/avoidance/WorldModel.h>
@@ -21,7 +21,7 @@ using namespace hagen;
 constexpr std::uint64_t kFirstSeed = 300;  // first tuning seed
 const std::vector<std::string> kScenarios{"movers", "wires", "gap", "forest-0.10"};
 
-/// Settings such as "resolution=0.4,hit=0.9,range=12".
+/// Parses settings such as "resolution=0.4,hit=0.9,range=12".
 observations::ScanMapOptions optionsFrom(const std::string& text) {
     observations::ScanMapOptions options;
     options.content = observations::MapContent::Full;

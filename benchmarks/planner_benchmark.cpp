@@ -1,5 +1,5 @@
-// Flies planners in closed loop through random forests with every tree known: success, minimum
-// distance, planning cost. Trunks have a radius of 0.15 m; the goal is 40 m from the start.
+// Flies planners in closed loop through random forests in which every tree is known: success,
+// minimum distance, planning cost. Trunks have a radius of 0.15 m; the goal is 40 m away.
 #include <ctime>
 
 #include <algorithm>

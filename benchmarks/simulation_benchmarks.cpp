@@ -1,5 +1,5 @@
-// Times simulated scans in every scene, in scenes of at least 150 000 triangles, and along courses;
-// also course generation and exact distances.
+// Times simulated scans in every scene, in scenes of at least 150 000 triangles, and along courses,
+// as well as course generation and exact distances.
 #include <benchmark/benchmark.h>
 #include <hagen/avoidance/Course.h>
 #include <hagen/simulation/Lidar.h>
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// The scene with a finer ground mesh at long range.
+/// The scene with a finely meshed ground at long range.
 hagen::simulation::Scene withWideGround(const hagen::simulation::Scene& scene) {
     constexpr double kFineLength_m = 85, kFineWidth_m = 65, kReach_m = 140;
     hagen::simulation::SceneContent content = scene.content();
@@ -43,7 +43,7 @@ void makeCourses(benchmark::State& state, const std::string& name) {
     for (auto _ : state) benchmark::DoNotOptimize(hagen::avoidance::makeCourse(name, seed++));
 }
 
-/// From start to goal on a straight line, ignoring obstacles.
+/// Scans along the straight line from start to goal, ignoring obstacles.
 void scanCourse(benchmark::State& state, const std::string& name) {
     const hagen::avoidance::Course course = hagen::avoidance::makeCourse(name, 1);
     const hagen::SensorModel model = hagen::sensorModel("VLP-16");

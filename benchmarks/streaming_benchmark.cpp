@@ -1,4 +1,4 @@
-// Cost of labelling sectors, and differences from whole-scan labels, for the table in docs/live.md.
+// Measures the cost and accuracy of labelling sectors, for the table in docs/live.md.
 #include <hagen/live/LidarStream.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
@@ -130,7 +130,7 @@ Recording read(const std::string& file, const std::string& preset, bool levels) 
 
 /// Near RoI returns of whole scans that sectors miss.
 struct Misses {
-    std::size_t all = 0, missed = 0, missed_long = 0;  ///< long: also in the previous turn
+    std::size_t all = 0, missed = 0, missed_long = 0;  ///< long: in two consecutive turns
     std::vector<bool> now, before;                     ///< by degree and row
 
     void nextTurn() {
@@ -138,7 +138,7 @@ struct Misses {
         now.assign(360 * 128, false);
         before.resize(now.size());
     }
-    /// Returns whether the return is missed here and in the previous turn.
+    /// Whether the return is missed here and in the previous turn.
     bool add(std::uint16_t place, bool is_missed) {
         ++all;
         if (!is_missed) return false;
@@ -151,17 +151,17 @@ struct Misses {
 
 struct Figures {
     std::size_t same = 0, different = 0;
-    std::size_t judged = 0, right = 0;            ///< different labels: with ground truth, correct
-    std::size_t whole_right = 0, both_right = 0;  ///< correct in whole scans; in both
-    Misses near, obstacles;                       ///< obstacles: by ground truth
+    std::size_t judged = 0, right = 0;            ///< different labels: with truth, correct
+    std::size_t whole_right = 0, both_right = 0;  ///< correct in whole scans; correct in both
+    Misses near, obstacles;                       ///< obstacles are those of the ground truth
     Misses by_whole;              ///< obstacles found by sectors, missed by whole scans
-    double highest_missed_m = 0;  ///< height of obstacles missed in two turns
+    double highest_missed_m = 0;  ///< maximum height of obstacles missed in two turns
     Confusion whole, streamed;
     std::vector<double> sector_us;
     double turn_us = 0;
 };
 
-/// The known motion of the sensor.
+/// The known part of the sensor's motion.
 enum class Known { Nothing, Attitude, Pose };
 
 Attitude attitudeOf(const Eigen::Isometry3d& pose) {
@@ -326,7 +326,7 @@ int run(int argc, char** argv) {
     for (const auto& options : all) {
         Figures sum;
         double worst = 100;
-        Confusion whole_of_worst, streamed_of_worst;  // where sectors lose most
+        Confusion whole_of_worst, streamed_of_worst;  // the flight in which sectors lose most
         double max_lost = -100;
         for (const Recording& recording : recordings) {
             const std::size_t same = sum.same, different = sum.different;

@@ -1,4 +1,4 @@
-// Measures each world model on a simulated flight: update time, query time, memory.
+// Measures update time, query time and memory of each world model on a simulated flight.
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/settings/Settings.h>
@@ -77,7 +77,7 @@ void measure(const std::string& name, const std::vector<observations::MappedScan
         model->update(scan);
         const double updated = cpu_ms();
         constexpr int kQueries = 2000;
-        for (int i = 0; i < kQueries; ++i) {  // like a planner: around and ahead of the vehicle
+        for (int i = 0; i < kQueries; ++i) {  // around and ahead of the vehicle, like a planner
             const double x = random.uniform(-6, 6);
             const double y = random.uniform(-6, 6);
             const double z = random.uniform(-1, 1);

@@ -1,8 +1,9 @@
-# For programs of self-contained packages: they link Hagen's own libraries as archives, while shared
-# libraries are built for the library packages. Archives contain the same objects, so nothing is
-# compiled twice.
+# Programs of self-contained packages link Hagen's own libraries as archives, while shared libraries
+# are built for the library packages. Archives contain the same objects, so nothing is compiled
+# twice.
 
-# hagen_archives_of(RESULT LIBRARY...): a target's libraries, with archives for Hagen's shared ones.
+# hagen_archives_of(RESULT LIBRARY...): lists libraries, with archives in place of shared ones of
+# Hagen.
 function(hagen_archives_of result)
   set(archives "")
   foreach(library ${ARGN})

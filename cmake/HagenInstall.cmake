@@ -2,8 +2,8 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hagen)
 
-# find_dependency() calls for users of Hagen, and pkg-config names. Libraries without pkg-config
-# file have a linker flag; "none": no pkg-config file can be written.
+# find_dependency() calls for users of Hagen, and pkg-config names. Libraries without a pkg-config
+# file have a linker flag; with "none", no pkg-config file can be written.
 set(find_Eigen3::Eigen "find_dependency(Eigen3 3.4 NO_MODULE)")
 set(find_hwy::hwy "find_dependency(hwy 1.0)")
 set(find_embree "find_dependency(embree 3.13)")
@@ -19,8 +19,8 @@ set(pc_ZLIB::ZLIB zlib)
 set(pc_BZip2::BZip2 -lbz2)
 set(pc_Threads::Threads -pthread)
 
-# One export set and one file per library, which finds its dependencies: those of its headers, and,
-# if it is static, those it links. They are read from the targets.
+# One export set and one file per library, which finds the dependencies of its headers and, if the
+# library is static, the libraries it links. They are read from the targets.
 get_property(HAGEN_COMPONENTS GLOBAL PROPERTY HAGEN_LIBRARIES)
 foreach(name ${HAGEN_COMPONENTS})
   get_target_property(links hagen_${name} INTERFACE_LINK_LIBRARIES)
@@ -107,7 +107,7 @@ install(FILES ${PROJECT_BINARY_DIR}/package/hagenConfig.cmake
 if(NOT HAGEN_DEBIAN_PACKAGES)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT dev)
 endif()
-# Presets for presetFile(), also without the programs. In one Debian package only, because packages
+# Presets for presetFile(), even without the programs, in only one Debian package, because packages
 # must not share files.
 if(NOT HAGEN_FILTER_ONLY)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hagen/config COMPONENT tools)

@@ -1,4 +1,4 @@
-# Finds MRPT 2.5 to 3, whose packages have other names: mrpt_obs instead of mrpt-obs. Sets
+# Finds MRPT 2.5 to 3. Package names of version 3 differ: mrpt_obs instead of mrpt-obs. Sets
 # find_mrpt::PART, the find command for users of an installed Hagen, and HAGEN_MRPT_SCENE, the
 # target for 3D scenes.
 set(HAGEN_MRPT_PARTS obs maps opengl)

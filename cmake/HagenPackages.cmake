@@ -6,7 +6,7 @@ set(HAGEN_PACKAGE_VERSION ${PROJECT_VERSION}-1 CACHE STRING "Version of the Debi
 set(HAGEN_MAINTAINER "Hagen maintainers <hagen@users.noreply.github.com>" CACHE STRING "Maintainer of the Debian packages")
 find_program(HAGEN_GZIP gzip REQUIRED)
 
-# Package of each component. A new one needs a line here, in CPACK_COMPONENTS_ALL, and its
+# Package of each component. A new component needs a line here, in CPACK_COMPONENTS_ALL, and its
 # description and dependencies below.
 set(package_filter libhagen)
 set(package_mrpt libhagen-mrpt)
@@ -112,7 +112,7 @@ if(HAGEN_BUILD_PYTHON)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/rawlogs DESTINATION ${CMAKE_INSTALL_DATADIR}/hagen COMPONENT tools)
 
-# Not enabled, because each LiDAR has an instance with its own flags.
+# The service is not enabled, because each LiDAR has an instance with its own flags.
 set(HAGEN_UNIT_BINDIR ${CMAKE_INSTALL_FULL_BINDIR})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/systemd/live-segment@.service.in
                ${PROJECT_BINARY_DIR}/package/live-segment@.service @ONLY)

@@ -26,7 +26,7 @@ function(hagen_precompile target set)
   endif()
   get_target_property(type ${target} TYPE)
   if(type STREQUAL EXECUTABLE)
-    target_compile_options(${target} PRIVATE -fPIC)  # CMake's own would be -fPIE: another set
+    target_compile_options(${target} PRIVATE -fPIC)  # CMake would use -fPIE, which needs another set
   else()
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   endif()

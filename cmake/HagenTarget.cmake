@@ -5,14 +5,14 @@ function(hagen_target target)
   target_compile_options(
     ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                       $<$<BOOL:${HAGEN_WARNINGS_AS_ERRORS}>:-Werror>
-                      # The same result on every machine: no implicit fused multiply-add.
+                      # No implicit fused multiply-add, so that results are equal on every machine.
                       -ffp-contract=off
                       # No code reads floating-point exception flags. Without them, GCC vectorises
                       # loops with a condition per pixel; results do not change. Set for all
                       # targets, because GCC takes this option from the precompiled header.
                       -fno-trapping-math)
-  # SIMD (Highway): one binary selects among these instruction sets at run time. The disabled ones
-  # gain nothing here, and each costs a compilation. (ARM's SVE vectors have no compile-time size
+  # SIMD (Highway): one binary selects among these instruction sets at run time. The disabled sets
+  # are not faster here, and each costs a compilation. (ARM's SVE vectors have no compile-time size
   # and cannot be stored in arrays.)
   set(left_out HWY_SSSE3 HWY_AVX3_DL HWY_SVE HWY_SVE2 HWY_SVE_256 HWY_SVE2_128)
   list(JOIN left_out "|" left_out)
@@ -20,13 +20,13 @@ function(hagen_target target)
   if(HAGEN_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${HAGEN_SANITIZE})
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # otherwise warns about std::optional and std::regex
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # GCC would warn about std::optional and std::regex
       target_compile_options(${target} PUBLIC -Wno-maybe-uninitialized)
     endif()
   endif()
 endfunction()
 
-# hagen_hot(TARGET): aligns loops and functions to fetch blocks. Otherwise changes elsewhere in the
+# hagen_hot(TARGET): aligns loops and functions to fetch blocks. Otherwise, unrelated changes in the
 # library make small bit loops up to 15 % slower or faster.
 function(hagen_hot target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
@@ -38,7 +38,7 @@ endfunction()
 option(HAGEN_UNITY_BUILD "Compile the libraries in batches of sources" ON)
 function(hagen_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${HAGEN_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 25)
-  # Types in anonymous namespaces are used in one source only, also within batches.
+  # Types in anonymous namespaces are used in one source only, even within batches.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   foreach(source ${ARGN})
     file(STRINGS ${source} per_target REGEX "foreach_target.h" LIMIT_COUNT 1)

@@ -6,7 +6,8 @@
 #include <cstdio>
 
 int main() {
-    // A scan is x, y, z in the sensor frame. Here: flat ground 1.5 m below, and a narrow pillar.
+    // A scan contains x, y, z in the sensor frame: here, flat ground 1.5 m below and a narrow
+    // pillar.
     const hagen::SensorModel sensor = hagen::sensorModel("VLP-16");
     hagen::Scan scan;
     for (int firing = 0; firing < 900; ++firing) {

@@ -1,5 +1,5 @@
-// The filter as an MRPT observation processor: prints the nearest obstacle of each scan of a
-// rawlog that consists of observations or sensory frames.
+// Uses the filter as an MRPT observation processor, and prints the nearest obstacle of each scan of
+// a rawlog that consists of observations or sensory frames.
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/obs/CSensoryFrame.h>

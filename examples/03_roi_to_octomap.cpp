@@ -13,7 +13,7 @@ int main(int argc, char** argv) try {
         return 2;
     }
     const auto log = hagen::recordings::openRecording(argv[1]);
-    log->usePoses(argc > 3 ? argv[3] : "");  // reads all: a pose may follow its scan
+    log->usePoses(argc > 3 ? argv[3] : "");  // reads the whole log: a pose may follow its scan
     const hagen::observations::Trajectory& vehicle = log->poses().vehicle;
 
     hagen::observations::ObservationSegmenter segmenter;

@@ -1,4 +1,4 @@
-// Labels before the turn ends: packets of a VLP-16 in, the nearest obstacle in each direction out.
+// Labels VLP-16 packets before the turn ends, and prints the nearest obstacle in each direction.
 #include <hagen/live/LidarStream.h>
 #include <hagen/live/PacketSource.h>
 #include <hagen/live/SectorDistances.h>
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
         live::LidarStream stream(
             sensors::makeDriver("VLP-16"), {},
             [&](const live::LabelledSector& sector) { distances.take(sector); });
-        // With an IMU: call stream.move() before each packet.
+        // With an IMU, call stream.move() before each packet.
 
         live::UdpSource source(live::parseAddress(argc > 1 ? argv[1] : "0.0.0.0:2368"));
         live::Packet packet;

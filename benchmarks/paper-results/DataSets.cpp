@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kEvery_s = 6;  // s; a flight's few scans must cover its entire path
+constexpr double kEvery_s = 6;  // s; few scans must cover the whole path of a flight
 
 std::string text(double value) {
     std::ostringstream stream;
@@ -45,7 +45,7 @@ DataSet recording(const fs::path& labelled, const std::string& beams, const std:
     set.label_map = "semantic_kitti.yaml";  // maps labels/ and classes
     set.is_timed = true;
     set.is_degraded = true;
-    scanFolders(set);  // fail before minutes of simulation
+    scanFolders(set);  // throws before the long simulation
     return set;
 }
 
@@ -141,7 +141,7 @@ void makeFlights(const DataSet& set, const std::string& tag) {
         const fs::path stamp = flight.folder.string() + ".stamp";
         const std::string made_by = commandOf(flight) + "\nsimulation " + tag + "\n";
         if (fs::is_directory(flight.folder) && contentOf(stamp) == made_by) continue;
-        fs::remove(stamp);  // outdated from now on
+        fs::remove(stamp);  // no stamp until the simulation succeeds
         flight.overwrite = true;
         convert::simulateLog(flight, [] { return true; });
         std::ofstream out(stamp);

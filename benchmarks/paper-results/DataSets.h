@@ -1,4 +1,4 @@
-// The labelled scans behind the tables.
+// The labelled scans used for the tables.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace hagen {
 
-/// Labelled scans with their own row or column.
+/// Labelled scans with a row or column of their own.
 struct DataSet {
     std::string name;                            ///< short name
     std::string about;                           ///< description for readers of the document
-    std::string preset;                          ///< settings file of its sensor, in config/
+    std::string preset;                          ///< settings file of the sensor, in config/
     std::string folder;                          ///< a folder of scan folders
-    std::string label_map;                       ///< in config/; empty: labels/ is used as is
-    std::vector<convert::SimulatedLog> flights;  ///< to simulate in `folder`; empty: a recording
+    std::string label_map;                       ///< file in config/; empty: labels/ as is
+    std::vector<convert::SimulatedLog> flights;  ///< simulated in `folder`; none for recordings
     float zone_m = 20, max_range_m = 20;
     bool is_altitude = false;    ///< part of the altitude series within the default zone
     bool has_all_rows = true;    ///< false: only compare methods, no sweeps or ablations
@@ -27,11 +27,11 @@ struct DataSet {
 /// Size of the simulation.
 struct SimulationSize {
     std::vector<std::uint64_t> seeds;
-    int scans = 0;  ///< per flight
+    int scans = 0;  ///< scans per flight
 };
 
-/// Returns the recordings in `labelled` (beams16/ and beams64/; empty: no recordings) and the
-/// flights to simulate in `data`. Throws std::runtime_error naming the folder of a missing
+/// Returns the recordings in `labelled` (beams16/ and beams64/; none if `labelled` is empty) and
+/// the flights to simulate in `data`. Throws std::runtime_error naming the folder of a missing
 /// recording.
 std::vector<DataSet> dataSets(const std::filesystem::path& labelled,
                               const std::filesystem::path& data, const SimulationSize& size);

@@ -114,7 +114,7 @@ std::string losses(const std::vector<Measured>& all) {
     return text;
 }
 
-/// PCL is optional.
+/// A note on PCL's rows if they are missing, because PCL is optional.
 std::string pclNote(const std::vector<Measured>& all) {
     for (const std::string& name : headlineNames(all)) {
         if (name.rfind("pcl", 0) == 0) return "";
@@ -250,7 +250,7 @@ struct Pair {
     double first, second;
 };
 
-/// F1 of RoI and ROU; on wires the recall of RoI and wires, because misses matter there.
+/// F1 of RoI and ROU; for wires, the recall of RoI and wires, because misses matter there.
 Pair ablationPair(const Measured& set, const std::string& row) {
     const evaluation::Scores scores = sumOf({&set}, row);
     if (isWires(set)) return {scores.roi.recall(), recallOfKind(set, row, "wire")};

@@ -10,12 +10,12 @@
 
 namespace hagen {
 
-/// The provenance of the figures.
+/// The provenance of the results.
 struct Provenance {
-    std::string revision;  ///< of the project
+    std::string revision;  ///< commit of the project
     std::vector<std::uint64_t> seeds;
     bool is_quick = false;
-    std::optional<selection::Record> selection;  ///< of scripts/select-settings, if available
+    std::optional<selection::Record> selection;  ///< from scripts/select-settings, if available
 };
 
 /// Returns the Markdown of docs/results.md, with the chart names of drawResults().

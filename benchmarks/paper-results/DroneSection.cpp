@@ -62,7 +62,7 @@ Table kindTable(const Data& data) {
     return table;
 }
 
-/// One row per method: "missed / nothing found / RoI on bare ground" of each data set.
+/// One row per method, with "missed / nothing found / RoI on bare ground" for each data set.
 std::string shareTable(const Data& data, const std::vector<std::string>& methods) {
     Table table(headsOf("", data));
     for (const std::string& method : methods) {

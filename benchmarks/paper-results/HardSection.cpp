@@ -13,7 +13,7 @@
 namespace hagen {
 namespace {
 
-/// `default` on one degradation of one or more sets.
+/// The scores of `default` with one degradation of one or more sets.
 struct Degraded {
     std::string name;
     evaluation::Scores scores;
@@ -89,7 +89,7 @@ Table hardTable(const std::vector<std::pair<std::string, Sets>>& data, std::size
     return table;
 }
 
-/// "- `rain=3`: real, 16 beams (-2.10); ..." of one class, in the order of the tables.
+/// The degradations of one class, such as "- `rain=3`: real, 16 beams (-2.10); ...".
 std::string costlyList(const std::vector<std::pair<std::string, Sets>>& data,
                        double Degraded::*change) {
     std::vector<std::string> order;

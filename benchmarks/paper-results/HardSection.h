@@ -8,12 +8,12 @@
 
 namespace hagen {
 
-/// Degradations that reduce F1 by more than this are marked, in points of 0.01.
+/// Minimum loss of F1 for a degradation to be listed, in points of 0.01.
 constexpr double kCostly_points = 1.5;
 
-/// `default` on the worst degradations of each degraded set.
+/// The scores of `default` with the worst degradations of each degraded set.
 std::string hardSection(const std::vector<Measured>& all);
-/// The same for all degradations, the worst first.
+/// Like hardSection(), but for all degradations, the worst first.
 CsvTables hardTables(const std::vector<Measured>& all);
 
 }  // namespace hagen

@@ -15,7 +15,7 @@ auto countsOf(const evaluation::Scores& s) {
                       s.rou.false_alarms);
 }
 
-/// Whether the record's scores of `default` equal the measured ones.
+/// Whether the record's scores of `default` equal the measured scores.
 bool isCurrent(const std::vector<Measured>& all, const selection::Record& record) {
     for (const Measured& measured : all) {
         if (!measured.set.flights.empty()) continue;
@@ -36,7 +36,7 @@ std::string listed(const std::vector<std::string>& texts) {
     return list;
 }
 
-/// "choices_from_a_plain_start.csv".
+/// The file of a table, such as "choices_from_a_plain_start.csv".
 std::string fileOf(const std::string& table, const selection::Search& search) {
     std::string name = table + "_from_" + search.start + ".csv";
     std::replace(name.begin(), name.end(), ' ', '_');

@@ -10,8 +10,8 @@
 
 namespace hagen {
 
-/// `record` is from scripts/select-settings. The section reports a missing or outdated record:
-/// outdated if its scores of the presets differ from the measured ones.
+/// `record` is from scripts/select-settings. The section reports a record that is missing, or
+/// outdated because its scores of the presets differ from the measured scores.
 std::string leftOutSection(const std::vector<Measured>& all,
                            const std::optional<selection::Record>& record);
 /// The chosen values and the progress of each search.

@@ -39,7 +39,7 @@ Measured measure(const DataSet& set, const evaluation::MethodSet& rows,
     return measured;
 }
 
-/// Calls `work` for 0 ... count - 1 in several threads; rethrows an exception at the end.
+/// Calls `work` with 0 ... count - 1 in several threads; rethrows an exception at the end.
 template <class Work>
 void inParallel(std::size_t count, unsigned jobs, Work work) {
     std::atomic<std::size_t> next{0};
@@ -78,11 +78,11 @@ std::int64_t Measured::scoredReturns() const {
 
 std::vector<Measured> measureScores(const std::vector<DataSet>& sets,
                                     const MeasurementOptions& options) {
-    // Reports invalid settings before minutes of simulation.
+    // Report invalid settings before the long simulation.
     for (const DataSet& set : sets) rowsFor(set, options.config);
     std::vector<Measured> all(sets.size());
     std::mutex guard;
-    // Starts the slowest sets first.
+    // Start the slowest sets first.
     std::vector<std::size_t> order(sets.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = order.size() - 1 - i;
     inParallel(sets.size(), options.jobs, [&](std::size_t i) {

@@ -13,15 +13,15 @@ namespace hagen {
 /// The results of all rows on a data set.
 struct Measured {
     DataSet set;
-    std::vector<std::string> folders;               ///< names of its scan folders
+    std::vector<std::string> folders;               ///< names of the scan folders
     std::vector<evaluation::MethodScores> methods;  ///< one per row
-    std::vector<std::size_t> returns;               ///< of each scan
-    /// `default` alone on degraded copies of the scans; empty unless the set is_degraded.
+    std::vector<std::size_t> returns;               ///< number of returns of each scan
+    /// Scores of `default` on degraded copies of the scans; empty unless the set is_degraded.
     std::vector<evaluation::HardSet> hard_sets;
 
     /// Returns the row of this name, or nullptr.
     const evaluation::MethodScores* row(const std::string& name) const;
-    /// Number of scans and of scored returns.
+    /// Number of scans, and of scored returns.
     std::size_t scans() const { return returns.size(); }
     std::int64_t scoredReturns() const;
 };

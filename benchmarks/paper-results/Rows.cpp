@@ -22,7 +22,7 @@ Settings settingsOf(const DataSet& set, const std::filesystem::path& file) {
     return settings;
 }
 
-/// Ensures that the row `paper` has only the paper's stages.
+/// Checks that the row `paper` uses only the paper's stages.
 void checkPaper(const Options& paper, const std::filesystem::path& file) {
     const bool has_no_others = !paper.ground_surface && !paper.level_by_attitude &&
                                paper.seed_gate_deg >= 90 && paper.repair_max_step_m <= 0 &&

@@ -24,15 +24,15 @@ std::string nameOf(const std::string& filter, const Change& change);
 /// The two sweeps of the paper.
 const std::vector<Change>& betaSweep();
 const std::vector<Change>& componentSweep();
-/// Each stage of a group switched off (OptionKeys.h).
+/// Switches off each stage of a group in turn (OptionKeys.h).
 std::vector<Change> ablationOf(StageGroup group);
-/// Those that only the ground surface makes up for: without it they leave nothing to score.
+/// Changes that require the ground surface: without it, all returns would be ROU.
 const std::vector<Change>& paperStagesUnderSurface();
 
 /// Returns the rows for a data set, with the settings files in `config`, including the baselines.
 /// Throws std::runtime_error if paper.yaml enables a stage that is not in the paper.
 evaluation::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config);
-/// Only the two filters and the baselines.
+/// Like rowsFor(), but only the two filters and the baselines.
 evaluation::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config);
 
 }  // namespace hagen

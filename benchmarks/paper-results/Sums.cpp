@@ -54,7 +54,7 @@ Sets those(const std::vector<Measured>& all, bool (*choose)(const DataSet&)) {
 }
 
 std::vector<std::string> headlineNames(const std::vector<Measured>& all) {
-    // The sets without sweeps have only these rows.
+    // Sets without sweeps have only these rows.
     for (const Measured& measured : all) {
         if (measured.set.has_all_rows) continue;
         std::vector<std::string> names;

@@ -16,7 +16,7 @@ std::vector<evaluation::ScanScores> scansOf(const Sets& sets, const std::string&
                                             ScoreList list = &evaluation::MethodScores::returns);
 evaluation::Scores sumOf(const Sets& sets, const std::string& row,
                          ScoreList list = &evaluation::MethodScores::returns);
-/// Returns the sums over the scans of each folder: a drive or a flight.
+/// Returns the sums over the scans of each folder (a drive or a flight).
 std::vector<evaluation::Scores> folderSums(const Measured& measured, const std::string& row);
 /// Returns the summed drone scores; nullopt if a set lacks the row.
 evaluation::DroneScores droneSumOf(const Sets& sets, const std::string& row);
@@ -26,8 +26,8 @@ Sets those(const std::vector<Measured>& all, bool (*choose)(const DataSet&));
 /// Returns the names of the two filters and the baselines.
 std::vector<std::string> headlineNames(const std::vector<Measured>& all);
 
-/// The data of the tables on missed obstacles, by name: each set with all rows; the altitude series
-/// within the default zone is merged.
+/// The data of the tables on missed obstacles, by name: each set that has all rows; the altitude
+/// series within the default zone is merged.
 std::vector<std::pair<std::string, Sets>> mainData(const std::vector<Measured>& all);
 
 }  // namespace hagen

@@ -47,7 +47,7 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace existing results");
 }
 
-/// A folder of charts and tables.
+/// A folder that contains charts and tables.
 constexpr base::OutputKind kFigures{"a folder of charts and tables", [](const fs::path& within) {
                                         return within.extension() == ".csv" ||
                                                evaluation::kCharts.holds(within);
@@ -73,7 +73,7 @@ int run(const Flags& flags) {
     std::optional<base::OutputPath> readme;
     if (!flags.readme.empty()) {
         readme.emplace(flags.readme, base::kFile, true);
-        readmeOf(flags.readme, "");  // fail before minutes of work
+        readmeOf(flags.readme, "");  // throws before the long measurement
     }
     Provenance provenance{flags.revision, {101, 102, 103, 104, 105, 106}, flags.is_quick, {}};
     if (!flags.selection.empty()) provenance.selection = selection::readRecord(flags.selection);

@@ -34,7 +34,7 @@ std::vector<std::string> sensorsOf(const Performance& p) {
     return sensors;
 }
 
-/// "1.59 to 2.37": the default pipeline's median divided by another's, range over the sensors.
+/// "1.59 to 2.37": the default pipeline's median over another pipeline's, across the sensors.
 std::string defaultOver(const Performance& p, const std::string& what) {
     double low = INFINITY, high = -INFINITY;
     for (const std::string& sensor : sensorsOf(p)) {

@@ -7,10 +7,10 @@
 
 namespace hagen {
 
-/// Run times of each method over a flight, per scan.
+/// Run times of each method for each scan of a flight.
 struct FlightTimes {
     std::string scenario;
-    std::vector<std::size_t> returns;  ///< of each scan
+    std::vector<std::size_t> returns;  ///< number of returns of each scan
     struct OfMethod {
         std::string name;
         std::vector<double> runs_ms;
@@ -19,8 +19,8 @@ struct FlightTimes {
 };
 
 /// Simulates a flight with a VLP-16, one scan every 0.1 s, and labels each scan with each method:
-/// the filter with our settings and with the paper's, and all published baselines. Times the step
-/// from returns with known beam indices to labels.
+/// the filter with our settings and with the paper's, and all published baselines. Measures the
+/// time from returns with known beam indices to labels.
 FlightTimes timeFlight(const std::string& scenario, std::uint64_t seed, int scans);
 
 /// Times the filter from a VLP-16 scan's packets to labels and index lists, `runs` times over the

@@ -27,7 +27,7 @@ Input realVlp16();
 Input simulatedScans(const std::string& sensor);
 
 /// Returns one orchard scan by a sensor with `beams` beams between -25 and 15 degrees and `columns`
-/// firings per revolution: one return per pixel. Its name is "16 x 870".
+/// firings per revolution, with one return per pixel. Its name is like "16 x 870".
 Input gridScan(int beams, int columns);
 
 }  // namespace hagen

@@ -9,12 +9,12 @@
 
 namespace hagen {
 
-/// A scan and the result of each stage, the input of the next. Stages do not modify their input, so
-/// all runs of a stage do the same work.
+/// A scan and the results of each stage, which are the input of the next stage. Stages do not
+/// modify their input, so all runs of a stage do the same work.
 struct Case {
     Case(const Input& input, std::size_t which, const Options& with);
 
-    mrpt::obs::CObservationVelodyneScan::Ptr packets;  ///< null: `scan` has its coordinates
+    mrpt::obs::CObservationVelodyneScan::Ptr packets;  ///< if null, `scan` has the coordinates
     SensorModel sensor;
     Options options;
     PixelDirections directions;

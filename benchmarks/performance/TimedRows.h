@@ -17,13 +17,13 @@ struct TimedRow {
 const TimedRow* find(const std::vector<TimedRow>& rows, const std::string& sensor,
                      const std::string& what);
 
-/// Prints one block per sensor, medians and percentiles in microseconds.
+/// Returns one block per sensor, with medians and percentiles in microseconds.
 std::string tableOf(const std::vector<TimedRow>& rows);
 
-/// Writes a list of {"sensor", "what", "median_ms", "p95_ms", "p99_ms", "max_ms", "runs",
+/// Returns a list of {"sensor", "what", "median_ms", "p95_ms", "p99_ms", "max_ms", "runs",
 /// "allocations"}; allocations are per run.
 std::string jsonOf(const std::vector<TimedRow>& rows);
-/// Reads that list. Throws std::runtime_error naming the file.
+/// Reads the output of jsonOf(). Throws std::runtime_error naming the file.
 std::vector<TimedRow> readTimedRows(const std::filesystem::path& file);
 
 /// Returns the slope of the least-squares line through log(y) over log(x): 1 if y is proportional

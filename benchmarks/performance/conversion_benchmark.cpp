@@ -46,7 +46,7 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Times of repeated runs. On a busy machine, CPU times are more reliable than wall time.
+/// Times of repeated runs. On a busy machine, CPU time is more reliable than wall time.
 struct Times {
     std::vector<double> seconds, processor_s;
 
@@ -74,7 +74,7 @@ bool isResult(const mrpt::serialization::CSerializable& entry) {
     return false;
 }
 
-/// The content of a segmented log: the bytes of each input entry and its results.
+/// The content of a segmented log: for each input entry, its bytes and its results.
 std::vector<convert::Bytes> groupsOf(const fs::path& segmented) {
     std::vector<convert::Bytes> groups;
     recordings::RawlogReader reader(segmented);
@@ -85,7 +85,7 @@ std::vector<convert::Bytes> groupsOf(const fs::path& segmented) {
     return groups;
 }
 
-/// Reads every object of a log, and writes these bytes.
+/// Reads every object of a log and writes the given bytes.
 void copyThrough(const fs::path& log, const std::vector<convert::Bytes>& groups,
                  const fs::path& out) {
     recordings::RawlogReader reader(log);
@@ -122,7 +122,7 @@ void measure(convert::Conversion conversion, bool copies_through, int repetition
     conversion.rawlog = folder.path / "segmented.rawlog";
     conversion.overwrite = true;
     const convert::ConversionReport report =
-        convert::convert(conversion);  // warms up, and provides the counts
+        convert::convert(conversion);  // warm-up; also provides the counts
     if (report.scans == 0) throw std::runtime_error("the log has no LiDAR scan");
     const double peak_megabytes = peakMegabytes();  // before all results are loaded
     const double flight_s = report.scan_reports.back().time_s - report.scan_reports.front().time_s;

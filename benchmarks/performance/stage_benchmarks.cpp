@@ -1,5 +1,6 @@
-// Times each stage and the complete filter and counts allocations; also MRPT's own decoder, a
-// published ground segmenter, and a lower bound for any method. Run by scripts/benchmark.
+// Times each stage and the complete filter, and counts allocations. For comparison, times MRPT's
+// own decoder, a published ground segmenter, and a lower bound for any method. Run by
+// scripts/benchmark.
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <fstream>
@@ -15,20 +16,20 @@ namespace {
 
 using namespace hagen;
 
-/// All runs of a row.
+/// The measurements of a row.
 struct Runs {
     std::string sensor, what;
     std::vector<double> runs_ms;
     std::size_t allocations = 0;
 };
 
-/// The rows in insertion order; filled while they run.
+/// The rows in insertion order; filled during the benchmarks.
 std::vector<std::unique_ptr<Runs>>& measured() {
     static std::vector<std::unique_ptr<Runs>> rows;
     return rows;
 }
 
-/// Runs the scans in turn, each timed separately.
+/// Runs the scans in turn, and times each separately.
 void time(benchmark::State& state, const StageRow& row, std::vector<Case>& cases, Runs& to) {
     for (Case& one : cases) row.run(one);  // allocates all memory
     to.runs_ms.reserve(to.runs_ms.size() + static_cast<std::size_t>(state.max_iterations));
@@ -74,7 +75,7 @@ void addSensor(const Input& input) {
     }
 }
 
-/// Adds only the two pipelines, by image size.
+/// Adds the two pipelines for an image size.
 void addGrid(int beams, int columns) {
     const Input input = gridScan(beams, columns);
     for (const StageRow& row : stageRows()) {
@@ -103,7 +104,7 @@ std::vector<TimedRow> results() {
     return rows;
 }
 
-/// Stores the results in measured().
+/// Prints nothing, and stores the results in measured().
 class Silent : public benchmark::BenchmarkReporter {
  public:
     bool ReportContext(const Context&) override { return true; }

@@ -20,10 +20,10 @@ struct Setting {
 /// The index of the value of each setting.
 using Choice = std::vector<std::size_t>;
 
-/// The filter's results on a set of scans.
+/// The filter's results for a set of scans.
 struct Counts {
     evaluation::Scores scores;
-    evaluation::Missed missed;  ///< obstacle returns above 0.5 m
+    evaluation::Missed missed;  ///< missed obstacle returns above 0.5 m
 
     Counts& operator+=(const Counts& other);
 };
@@ -32,16 +32,16 @@ enum class Group { Real, Simulated, Hard };
 constexpr std::size_t kGroups = 3;
 const char* nameOf(Group group);
 
-/// Scans that are counted and held out together.
+/// Scans that are scored and held out together.
 struct ScanSet {
-    std::string vote;   ///< sets of one vote are summed before F1
+    std::string vote;   ///< sets with the same vote are summed before F1
     std::string drive;  ///< held out with this drive; empty: never held out
     Group group = Group::Real;
-    /// False: the scans are also in another set; do not count missed returns twice.
+    /// False if the scans are also in another set, so that missed returns are not counted twice.
     bool counts_missed = true;
 };
 
-/// Returns the counts of each set with a choice.
+/// Returns the counts of each set for a choice.
 using Measure = std::function<std::vector<Counts>(const Choice&)>;
 
 /// Caches another measure by choice, so that folds share results.
@@ -49,7 +49,7 @@ class CachedMeasure {
  public:
     explicit CachedMeasure(Measure measure) : measure_(std::move(measure)) {}
     const std::vector<Counts>& operator()(const Choice& choice);
-    std::size_t measured() const { return cache_.size(); }  ///< number of choices
+    std::size_t measured() const { return cache_.size(); }  ///< number of measured choices
 
  private:
     Measure measure_;
@@ -60,8 +60,7 @@ class CachedMeasure {
 std::vector<std::string> drivesOf(const std::vector<ScanSet>& sets);
 
 /// The objective to maximise: the mean over the votes of (F1 of RoI + F1 of ROU) / 2, without the
-/// sets of the drive `left_out` (empty: all sets). Skips votes with undefined F1; NaN without
-/// votes.
+/// sets of the drive `left_out`, if any. Skips votes with undefined F1; NaN without votes.
 double objectiveOf(const std::vector<ScanSet>& sets, const std::vector<Counts>& counts,
                    const std::string& left_out);
 
@@ -73,19 +72,19 @@ MissedByGroup missedOf(const std::vector<ScanSet>& sets, const std::vector<Count
 /// Minimum improvement of the objective for changing a value.
 constexpr double kMinGain = 1e-4;
 
-/// A choice and its descent.
+/// The result of a descent.
 struct Descended {
     Choice choice;
     double start = 0, objective = 0;  ///< objective before and after
     MissedByGroup missed_start{}, missed{};
-    int rounds = 0;  ///< including the last one, without changes
+    int rounds = 0;  ///< including the last round, which changed nothing
 };
 
 /// Coordinate descent from `start` over all sets except those of `left_out`: tries all values of
 /// each setting in turn and keeps the best. A choice that misses more than `limit` in a group is
-/// worse than any within the limits; among the former, the smaller excess (summed over groups) is
-/// better. Otherwise the objective decides. Ends after a round without change, or after
-/// `max_rounds`.
+/// worse than any choice within the limits; of two such choices, the one with the smaller excess
+/// (summed over groups) is better. Otherwise the objective decides. Ends after a round without
+/// change, or after `max_rounds`.
 Descended descend(const std::vector<Setting>& settings, const Choice& start,
                   const MissedByGroup& limit, const std::vector<ScanSet>& sets,
                   CachedMeasure& measure, const std::string& left_out, int max_rounds);

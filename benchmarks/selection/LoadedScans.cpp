@@ -87,7 +87,7 @@ void LoadedScans::add(const ScanInputs& inputs) {
             if (i == scans_.size()) scans_.push_back({kind, {}});
             auto loaded =
                 std::make_unique<Truth>(Truth{set, inputs.max_range_m, std::move(*pulled), {}});
-            // Missed returns by class are not needed and slow to count.
+            // Missed returns by class are not needed, and counting them is slow.
             loaded->scan.kinds.clear();
             loaded->drone = std::make_unique<evaluation::DroneTruth>(
                 loaded->scan, evaluation::RangeBands{inputs.max_range_m});

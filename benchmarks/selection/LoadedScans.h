@@ -16,15 +16,15 @@ namespace hagen::selection {
 /// Scans to load: a folder and the sets of its scans.
 struct ScanInputs {
     std::string folder;
-    std::filesystem::path preset;  ///< settings of its sensor
+    std::filesystem::path preset;  ///< settings of the sensor
     float zone_m = 20, max_range_m = 20;
-    std::string degradation;  ///< see `--degrade`; empty: as recorded
-    /// A set and the label map of its ground truth; without a map, labels/ is used as is.
+    std::string degradation;  ///< see `--degrade`; empty for none
+    /// A set and the label map of its ground truth; without a map, labels/ is used unchanged.
     struct Truth {
         ScanSet set;
         std::optional<evaluation::LabelMap> label_map;
     };
-    std::vector<Truth> truths;  ///< of the same scans
+    std::vector<Truth> truths;  ///< ground truths of the same scans
 };
 
 class LoadedScans {
@@ -41,7 +41,7 @@ class LoadedScans {
     std::vector<Counts> measure(const std::vector<Setting>& settings, const Choice& choice) const;
 
  private:
-    /// The settings of a kind of scans; scans with equal settings share filters.
+    /// The settings for one kind of scan; scans with equal settings share filters.
     struct Kind {
         std::filesystem::path preset, sensor_file;
         std::string sensor;  ///< content of `sensor_file`
@@ -56,7 +56,7 @@ class LoadedScans {
     };
     struct LoadedScan {
         std::size_t kind;
-        std::vector<std::unique_ptr<Truth>> truths;  ///< for the same returns
+        std::vector<std::unique_ptr<Truth>> truths;  ///< ground truths of the same returns
     };
 
     std::size_t kindOf(const ScanInputs& inputs, bool is_upside_down);

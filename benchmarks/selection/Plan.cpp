@@ -57,7 +57,7 @@ const OptionKey& optionKey(const std::string& name) {
 /// The value in normalised form, so that 0.10 equals 0.1.
 std::string checkedValue(const std::string& key, const std::string& value) {
     Settings settings;
-    setOption(key, value, settings);  // throws
+    setOption(key, value, settings);  // throws on invalid values
     return textOf(optionKey(key), settings.options);
 }
 

@@ -11,10 +11,10 @@
 namespace hagen::selection {
 
 struct Plan {
-    int max_rounds = 3;                  ///< of the coordinate descent
+    int max_rounds = 3;                  ///< maximum rounds of coordinate descent
     std::vector<std::string> hard_sets;  ///< see `--degrade`
     std::vector<Setting> settings;
-    /// Values of the plain start that differ from the presets.
+    /// Values in which the plain start differs from the presets.
     std::map<std::string, std::string> plain;
 };
 
@@ -26,14 +26,14 @@ struct Plan {
 ///       ground_tolerance_m: [0.14, 0.17, 0.20]
 ///     plain: {ground_tolerance_m: 0.20}
 ///
-/// where `settings` is required, and `plain` has one of their values each. Throws
+/// where `settings` is required, and `plain` has one of the listed values for some settings. Throws
 /// std::runtime_error naming file, line and entry for invalid files, unknown or repeated keys,
 /// unknown settings, values or degradations.
 Plan readPlan(const std::filesystem::path& file);
 
 /// The current values of the settings, added to the candidates if missing. Throws
-/// std::runtime_error naming the setting if the presets (files in `config`) disagree: it depends on
-/// the sensor and cannot be chosen for all.
+/// std::runtime_error naming the setting if the presets (files in `config`) differ: it depends on
+/// the sensor and cannot be chosen for all sensors.
 Choice presentChoice(const std::vector<std::filesystem::path>& presets, Plan& plan);
 
 /// The plain start: the current choice with the values of Plan::plain.

@@ -17,8 +17,8 @@ struct TriedSetting {
 
 /// Summary of a descent.
 struct Fold {
-    std::string left_out;             ///< held-out drive; may be empty
-    std::vector<std::string> chosen;  ///< the value of each setting
+    std::string left_out;             ///< held-out drive, if any
+    std::vector<std::string> chosen;  ///< the chosen value of each setting
     double start = 0, objective = 0;
     MissedByGroup missed_start{}, missed{}, limit{};
     int rounds = 0;
@@ -33,14 +33,14 @@ struct Search {
 /// The scores of a drive. Vectors have one element per search.
 struct DriveScores {
     std::string data, drive;       ///< "real, 16 beams", "00"
-    Counts present;                ///< with the presets, tuned on this drive
-    std::vector<Counts> with_all;  ///< with settings chosen on all drives
-    std::vector<Counts> left_out;  ///< with settings chosen without this drive
+    Counts present;                ///< counts with the presets, which were tuned on this drive
+    std::vector<Counts> with_all;  ///< counts with settings chosen on all drives
+    std::vector<Counts> left_out;  ///< counts with settings chosen without this drive
 };
 
 struct Record {
     std::string revision;
-    std::vector<std::uint64_t> seeds;     ///< of the simulated flights
+    std::vector<std::uint64_t> seeds;     ///< seeds of the simulated flights
     std::vector<std::string> hard_sets;   ///< degradations
     std::size_t scans = 0, measured = 0;  ///< scans in memory, and scored choices
     std::vector<TriedSetting> settings;

@@ -49,7 +49,7 @@ std::string missedCell(const Record& record, const std::string& data, const Coun
     return hagen::missedCell(missed);
 }
 
-/// The start of a search, unless it is the first.
+/// The description of a search's start, unless it is the first search.
 std::string from(const Record& record, std::size_t search) {
     return search == 0 ? "" : ", from " + record.searches[search].start;
 }

@@ -52,7 +52,7 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace an existing file");
 }
 
-/// The drives of a data set as recorded, with and without vegetation, and degraded.
+/// Adds the drives of a data set as recorded, with and without vegetation, and degraded.
 void addDrives(const DataSet& set, const evaluation::LabelMap& without_vegetation,
                const std::string& without_name, const fs::path& config, const Plan& plan,
                LoadedScans& scans) {
@@ -85,7 +85,7 @@ void addFlights(const DataSet& set, const fs::path& config, const Plan& plan, Lo
     }
 }
 
-/// The data set of a drive's vote.
+/// The data set of each vote.
 using DataOfVotes = std::map<std::string, std::string>;
 
 LoadedScans load(const Flags& flags, const Plan& plan, DataOfVotes& data) {
@@ -113,7 +113,7 @@ LoadedScans load(const Flags& flags, const Plan& plan, DataOfVotes& data) {
     return scans;
 }
 
-/// Descents from one start, with all drives and with each held out: choices and record.
+/// Descents from one start, with all drives and with each drive held out.
 struct Searched {
     Search record;
     std::map<std::string, Choice> choices;  ///< by held-out drive

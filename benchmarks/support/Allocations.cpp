@@ -22,7 +22,7 @@ bool countsAllocations() { return HAGEN_COUNTS_ALLOCATIONS != 0; }
 }  // namespace hagen
 
 #if HAGEN_COUNTS_ALLOCATIONS
-// glibc lets programs replace these functions and keeps the originals under these names.
+// glibc lets programs replace these functions, and exports the originals under these names.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

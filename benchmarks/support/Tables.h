@@ -11,7 +11,7 @@ namespace hagen {
 class Table {
  public:
     explicit Table(std::vector<std::string> heads) : lines_{std::move(heads)} {}
-    /// Adds a row; it must have as many cells as the head.
+    /// Adds a row, which must have as many cells as the head.
     void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
     /// Returns the table with aligned columns, followed by a blank line.
     std::string text() const;
@@ -25,17 +25,17 @@ class Table {
 /// CSV tables by file name.
 using CsvTables = std::map<std::string, std::string>;
 
-/// "0.958"; a dash for undefined values.
+/// A number such as "0.958"; a dash if undefined.
 std::string cell(double value, int digits = 3);
-/// "0.951 to 0.964".
+/// Such as "0.951 to 0.964".
 std::string cell(const evaluation::Interval& interval);
-/// "0.958 / 0.977"; values that equal `best` when rounded are bold.
+/// Such as "0.958 / 0.977"; values that equal `best` when rounded are bold.
 std::string pairCell(double roi, double rou, double best_roi, double best_rou);
 std::string pairCell(double roi, double rou);
-/// "0.958"; bold if above `other` when rounded.
+/// A number such as "0.958", bold if above `other` when rounded.
 std::string boldAbove(double value, double other);
 
-/// "12 of 3456 (0.35 %)"; a dash if there is nothing to miss.
+/// Such as "12 of 3456 (0.35 %)"; a dash without items.
 std::string missedCell(const evaluation::Missed& missed);
 
 }  // namespace hagen

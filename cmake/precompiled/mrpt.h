@@ -1,4 +1,4 @@
-// Like plain.h, plus what most sources that use MRPT include.
+// Like plain.h, plus headers that most sources with MRPT include.
 #pragma once
 #include "plain.h"
 //

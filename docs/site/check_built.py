@@ -1,4 +1,4 @@
-"""Checks the built site: each link, picture, script and style of a page is there, and so is the place that it names.
+"""Checks that the targets of all links, pictures, scripts and styles of the built site exist, including anchors.
 
 Usage: check_built.py SITE
 """
@@ -9,7 +9,7 @@ from urllib.parse import unquote, urlsplit
 
 
 class Page(HTMLParser):
-    """The targets of a page, and the places that others may name."""
+    """The link targets and the anchors of a page."""
 
     def __init__(self, file):
         super().__init__()
@@ -33,7 +33,7 @@ def main():
         for tag, target in page_of(file).targets:
             url = urlsplit(target)
             if url.scheme or url.netloc:
-                if tag not in ("a",):  # nothing is loaded from elsewhere
+                if tag not in ("a",):  # external resources are not allowed
                     faults.append(f"{file.name}: {tag} loads {target}")
                 continue
             to = (file.parent / unquote(url.path)).resolve() if url.path else file
@@ -41,9 +41,9 @@ def main():
                 to = to / "index.html"
             if not to.is_relative_to(site) or not to.exists():
                 if file.name != "404.html":  # its links begin with /
-                    faults.append(f"{file.name}: {target} is not there")
+                    faults.append(f"{file.name}: {target} is missing")
             elif url.fragment and to.suffix == ".html" and unquote(url.fragment) not in page_of(to).places:
-                faults.append(f"{file.name}: {target}: no such place")
+                faults.append(f"{file.name}: {target}: no such anchor")
     print(*faults, sep="\n", end="\n" if faults else "", file=sys.stderr)
     return bool(faults)
 

@@ -1,6 +1,6 @@
-"""Draws what decides on the labels: a slice of a scan from the side, with the ground surface.
+"""Draws a slice of a scan from the side, with the ground surface from which heights are measured.
 
-Usage: heights_picture.py RECORDING AZIMUTH_DEG PICTURE.png     of its first scan; azimuths are counter-clockwise from x
+Usage: heights_picture.py RECORDING AZIMUTH_DEG PICTURE.png     draws the first scan; azimuths are counter-clockwise from x
 """
 import sys
 

@@ -1,4 +1,4 @@
-"""Changes to pages that the settings of mkdocs cannot express."""
+"""Changes to the site that mkdocs has no settings for."""
 import sys
 from pathlib import Path
 
@@ -12,7 +12,7 @@ def on_config(config):
 
 
 def on_post_build(config):
-    """Pages opened as files may not fetch the search index: it is there as a script, too."""
+    """Writes the search index as a script, too, because pages opened as files cannot fetch it."""
     search = Path(config["site_dir"]) / "search"
     index = (search / "search_index.json").read_text()
     (search / "search_index.js").write_text(f"var __search = {{index: Promise.resolve({index})}};\n")

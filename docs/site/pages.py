@@ -1,4 +1,4 @@
-"""What the site and the tests of the documents read of a Markdown page: headings, links, blocks of code."""
+"""Parses Markdown pages for the site and the tests of the documents: headings, links, code blocks."""
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -7,27 +7,27 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def all_pages():
-    """Every page for readers, relative to the project's root."""
+    """All pages for readers, relative to the project's root."""
     pages = [Path(name) for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "rawlogs/README.md")]
     return pages + sorted(path.relative_to(ROOT) for path in (ROOT / "docs").glob("*.md"))
 
 
 def slug(heading):
-    """The anchor of a heading, as GitHub makes it; the site's are the same."""
+    """The anchor of a heading, on GitHub and on the site."""
     text = re.sub(r"!?\[([^]]*)\]\([^)]*\)", r"\1", heading)
     text = re.sub(r"[`*]|<[^>]*>|\\(?=[\W_])", "", text).strip().lower()
     return re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
 
 
 def without_code(text):
-    """The same lines, empty where they are code, so that what is left is prose."""
+    """The text with empty lines in place of code and comments."""
     blank = lambda match: "\n" * match[0].count("\n")
     text = re.sub(r"^```.*?^```[^\n]*$", blank, text, flags=re.S | re.M)
     return re.sub(r"<!--.*?-->", blank, text, flags=re.S)
 
 
 def anchors(text):
-    """The anchors of all headings; a repeated one has a number behind it."""
+    """The anchors of all headings; repeated anchors are numbered."""
     seen, found = {}, set()
     for heading in re.findall(r"^#{1,6} +(.*?)#* *$", without_code(text), re.M):
         name = slug(heading)
@@ -42,7 +42,7 @@ PICTURE = re.compile(r"!\[[^][]*" + LINK.pattern)
 
 
 def links(text):
-    """Line (from 1), target and whether it is a picture, of each link."""
+    """Yields line (from 1), target, and whether it is a picture, for each link."""
     prose = re.sub(r"`[^`\n]*`", lambda match: " " * len(match[0]), without_code(text))
     pictures = {match.start(2) for match in PICTURE.finditer(prose)}
     for match in LINK.finditer(prose):
@@ -51,7 +51,7 @@ def links(text):
 
 @dataclass
 class Block:
-    """A fenced block of code, and what the comment before it says about how it is checked."""
+    """A fenced code block, and the comments before it, which say how it is checked."""
 
     page: Path
     line: int  # of the fence, from 1

@@ -1,4 +1,4 @@
-"""Takes the picture of a replay in a browser. Usage: replay_picture.py REPLAY.html TIME_S PICTURE.png"""
+"""Takes a screenshot of a replay in a browser. Usage: replay_picture.py REPLAY.html TIME_S PICTURE.png"""
 import base64
 import sys
 from pathlib import Path

@@ -1,5 +1,5 @@
-// Browsers start no workers for pages that are opened as files. Their place is taken by a frame that runs the same script:
-// what the page posts is its message, and what it posts comes back. On a web server this is not loaded.
+// Browsers do not start workers for pages opened as files. A frame that runs the same script replaces the worker and
+// exchanges the same messages with the page. Not loaded on a web server.
 window.Worker = class extends EventTarget {
     constructor(url) {
         super();

@@ -1,6 +1,6 @@
-"""Lays out the pages of the site for mkdocs: Markdown with links that are right there, pictures, sources they link to.
+"""Prepares the pages of the site for mkdocs: Markdown with adapted links, and the linked pictures and sources.
 
-Usage: stage.py FOLDER    writes FOLDER/docs (whose subfolder api has Doxygen's pages already) and FOLDER/mkdocs.yml
+Usage: stage.py FOLDER    writes FOLDER/docs (whose subfolder api already contains Doxygen's pages) and FOLDER/mkdocs.yml
 """
 import os
 import re
@@ -13,17 +13,17 @@ import yaml
 
 import pages
 
-# What is named differently on the site; all others have the name that they have in docs/.
+# Pages with other names on the site; all others keep their names.
 NAMES = {"README.md": "index.md", "rawlogs/README.md": "recordings.md"}
 
 
 def page_name(path):
-    """The page of a Markdown file on the site."""
+    """The site's page for a Markdown file."""
     return NAMES.get(str(path)) or path.name.lower()
 
 
 def api_pages(tags):
-    """Doxygen's page of each public header, by its path in the project."""
+    """Doxygen's page for each public header, by the header's path in the project."""
     found = {}
     for file in xml.etree.ElementTree.parse(tags).getroot().iter("compound"):
         if file.get("kind") == "file":
@@ -38,7 +38,7 @@ def is_page(path):
 
 
 def relinked(page, text, out, api):
-    """The page's text with links as they are on the site; copies what they lead to."""
+    """Returns the page's text with the site's links, and copies the linked files."""
 
     def target_on_site(target):
         if "://" in target or target.startswith(("#", "mailto:")):
@@ -53,7 +53,7 @@ def relinked(page, text, out, api):
         if not source.is_file():
             raise SystemExit(f"{page}: {target}: no such file")
         is_document = path.parts[0] == "docs"
-        # Browsers show text, and save what they do not know.
+        # Browsers display text files, but download unknown types.
         shown = path.relative_to("docs") if is_document else Path("sources") / (str(path) + ".txt")
         (out / shown).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, out / shown)
@@ -64,7 +64,7 @@ def relinked(page, text, out, api):
         return pages.LINK.sub(lambda match: match[1] + target_on_site(match[2]) + match[3], prose)
 
     def title(match):
-        """The text of a link that was only a file name, "[live.md](live.md)": the page's title."""
+        """The page's title, as the text of a link such as [live.md](live.md)."""
         path = pages.ROOT / os.path.normpath(page.parent / match[1])
         return f"[{re.search(r'^# (.*)$', path.read_text(), re.M)[1]}]"
 
@@ -73,7 +73,7 @@ def relinked(page, text, out, api):
 
 
 def menu(sections):
-    """The navigation of mkdocs: what is there of what navigation.yaml names, then the rest."""
+    """The navigation of mkdocs: the existing pages listed in navigation.yaml, then all others."""
 
     def entries(listed):
         for entry in listed:

@@ -14,7 +14,7 @@ import hagen
 
 
 def draw(recording, folder=None):
-    # The largest of three: the first turn of a capture may be incomplete.
+    # The largest of three scans: the first turn of a capture may be incomplete.
     scan = max(itertools.islice(hagen.open(recording), 3), key=len, default=None)
     if scan is None:
         raise RuntimeError(f"{recording}: has no LiDAR scan")
@@ -24,7 +24,7 @@ def draw(recording, folder=None):
     ground = result.labels == hagen.ROU
     near = result.obstacles > 0
     sizes = np.bincount(result.obstacles[near])
-    shown_m = np.clip(1.2 * np.abs(scan.xyz[near, :2]).max(initial=0), 5, 25)  # a room, or the zone
+    shown_m = np.clip(1.2 * np.abs(scan.xyz[near, :2]).max(initial=0), 5, 25)  # from a room to the zone
     figure, axes = plt.subplots(figsize=(8, 8), layout="constrained")
     axes.scatter(y[ground], x[ground], s=1, color="0.8")
     colours = np.delete(plt.get_cmap("tab20").colors, [14, 15], axis=0)  # its greys look like ground

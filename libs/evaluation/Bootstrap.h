@@ -7,7 +7,7 @@
 
 namespace hagen::evaluation {
 
-/// A confidence interval; NaN if there is none.
+/// A confidence interval; NaN if undefined.
 struct Interval {
     double low = NAN, high = NAN;
 };
@@ -31,9 +31,9 @@ struct ScoreIntervals {
 
 /// Returns confidence intervals of the summed scores of scans, by the percentile bootstrap (Efron
 /// and Tibshirani, An Introduction to the Bootstrap, 1993, section 13.3) over scans, because the
-/// returns of one scan are not independent. Scans of one drive are not independent either: the
-/// intervals are then too narrow. Ratios that are NaN in a resample are excluded. There are no
-/// intervals for fewer than two scans.
+/// returns of one scan are not independent. Scans of the same drive are not independent either,
+/// which makes the intervals too narrow. Ratios that are NaN in a resample are excluded. There are
+/// no intervals for fewer than two scans.
 ScoreIntervals bootstrapIntervals(const std::vector<Scores>& scans,
                                   const BootstrapOptions& options = {});
 

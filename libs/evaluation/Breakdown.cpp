@@ -12,7 +12,7 @@ struct Band {
     double from_m, to_m;
 };
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Altitudes come from a file, which may hold any value.
+// Altitudes are read from a file and may have any value.
 constexpr std::array<Band, 6> kAltitudes{{{"below 0 m", -kInfinity, 0},
                                           {"0-2 m", 0, 2},
                                           {"2-3 m", 2, 3},

@@ -9,7 +9,7 @@ namespace hagen::evaluation {
 /// A part of the scored returns: a range band, an altitude band, an object class, a folder.
 struct Group {
     std::string name;
-    std::vector<Scores> scans;  ///< one entry per scan that has this part
+    std::vector<Scores> scans;  ///< one entry per scan with returns in this part
 
     Scores sum() const;
 };
@@ -17,7 +17,7 @@ struct Group {
 /// All scans as one group.
 Group overallScores(const std::vector<ScanScores>& scans);
 
-/// Scans by folder, in the order of the folders; `folders` are the names.
+/// Scans by folder, in the order of the folder names `folders`.
 std::vector<Group> byFolder(const std::vector<ScanScores>& scans,
                             const std::vector<std::string>& folders);
 
@@ -25,11 +25,11 @@ std::vector<Group> byFolder(const std::vector<ScanScores>& scans,
 /// lower bound is inclusive. Scans of unknown altitude and empty bands are skipped.
 std::vector<Group> byAltitude(const std::vector<ScanScores>& scans);
 
-/// Parts of scans by range; bands without returns are skipped.
+/// Parts of scans by range; skips bands without returns.
 std::vector<Group> byRange(const std::vector<ScanScores>& scans, const RangeBands& bands);
 
-/// Parts of scans by object class, sorted by name. A class is either RoI or ROU: its recall
-/// (Scores::correct()) is sufficient, its precision is meaningless.
+/// Parts of scans by object class, sorted by name. A class is either RoI or ROU, so only its recall
+/// (Scores::correct()) is meaningful, not its precision.
 std::vector<Group> byKind(const std::vector<ScanScores>& scans);
 
 }  // namespace hagen::evaluation

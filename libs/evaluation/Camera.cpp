@@ -19,7 +19,7 @@ double numberOf(const YAML::Node& node, const std::string& key) {
     return value;
 }
 
-constexpr int kMaxPixelsPerSide = 20000;  // more is a typo
+constexpr int kMaxPixelsPerSide = 20000;  // larger values are typing errors
 constexpr double kMaxTotalPixels = 50e6;
 
 void checkImageSize(double value, const std::string& key) {

@@ -21,12 +21,12 @@ constexpr const char* kKnown =
     "pitch_deg=A[,attitude], upside_down, fov_deg=A, above_deg=E, below_deg=E, dual_return, "
     "rate_hz=R";
 constexpr float kNearestDrop_m = 0.5f, kFarthestDrop_m = 12.0f;
-constexpr float kNearestReturn_m = 0.05f;  // noise cannot move returns behind the sensor
+constexpr float kNearestReturn_m = 0.05f;  // noise must not move returns behind the sensor
 constexpr float kDualStep_m = 1.0f;
 constexpr double kDualChance = 0.3;
 constexpr float kSteps = 2.5f;        // maximum spacing of neighbours, in azimuth steps
 constexpr float kSameRay = 0.25f;     // returns closer than this fraction of a step share a ray
-constexpr double kRecordedHz = 10.0;  // of recordings; for rate_hz
+constexpr double kRecordedHz = 10.0;  // rate of recordings, for rate_hz
 
 std::array<std::vector<float>*, 7> floatsOf(Scan& s) {
     return {&s.x_m, &s.y_m, &s.z_m, &s.intensity, &s.range_m, &s.azimuth_rad, &s.time_s};
@@ -43,7 +43,7 @@ void forEachArray(GroundTruthScan& scan, Work work) {
     work(scan.heights_m);
 }
 
-/// Keeps the returns for which `isKept(index)`.
+/// Keeps the returns whose index passes `isKept`.
 template <class IsKept>
 GroundTruthScan filtered(const GroundTruthScan& scan, IsKept isKept) {
     std::vector<bool> is_kept(scan.input.scan.size());
@@ -88,7 +88,7 @@ Function withinFov(double angle_deg) {
     });
 }
 
-/// `side`: 1 for beams above the elevation, -1 for those below.
+/// `side` is 1 for beams above the elevation, -1 for beams below.
 Function withBeams(double elevation_deg, float side) {
     const auto elevation_rad = static_cast<float>(radians(elevation_deg));
     return keeping([=](const Scan& scan, const SensorModel& sensor, std::size_t i, Random&) {
@@ -127,7 +127,7 @@ Function withRain(double probability) {
 }
 
 /// Turns the sensor, but not its surroundings. `turn` rotates from the turned sensor's frame to the
-/// original one. Rows and azimuths keep their original values.
+/// original frame. Rows and azimuths keep their original values.
 GroundTruthScan turned(const GroundTruthScan& scan, const Eigen::Matrix3f& turn) {
     GroundTruthScan result = scan;
     Scan& returns = result.input.scan;
@@ -143,7 +143,7 @@ GroundTruthScan turned(const GroundTruthScan& scan, const Eigen::Matrix3f& turn)
 }
 
 /// Sines of the elevations half a beam step below the lowest beam and above the highest. Elevations
-/// beyond straight down and up, where the sine would decrease again, give -2 and 2.
+/// beyond straight down and up, where the sine would decrease again, are represented by -2 and 2.
 std::pair<float, float> fieldOfView(const SensorModel& sensor) {
     const std::vector<float>& beams = sensor.elevations_rad;
     const std::size_t top = beams.size() - 1;
@@ -183,7 +183,7 @@ GroundTruthScan upsideDown(const GroundTruthScan& scan, const SensorModel& senso
     return result;
 }
 
-/// The returns of each row with a range, by azimuth.
+/// The returns of each row that have a range, by azimuth.
 std::vector<std::vector<std::size_t>> rowsByAzimuth(const Scan& scan, int rows) {
     std::vector<std::vector<std::size_t>> by_row(static_cast<std::size_t>(rows));
     for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -197,7 +197,7 @@ std::vector<std::vector<std::size_t>> rowsByAzimuth(const Scan& scan, int rows) 
     return by_row;
 }
 
-/// The median step between different azimuths of a row; 0 if there is none.
+/// The median step between different azimuths of a row; 0 if there are no steps.
 float azimuthStep(const Scan& scan, const std::vector<std::vector<std::size_t>>& rows) {
     constexpr float kEqual_rad = 1e-5f;
     std::vector<float> steps_rad;
@@ -221,7 +221,7 @@ GroundTruthScan dualReturn(const GroundTruthScan& scan, const SensorModel& senso
     for (const std::vector<std::size_t>& row : rows) {
         for (std::size_t k = 0; row.size() > 1 && k < row.size(); ++k) {
             const std::size_t ray = row[k];
-            std::size_t nearest = ray;  // of the farther neighbours
+            std::size_t nearest = ray;  // nearest of the farther neighbours
             for (const std::size_t side : {row.size() - 1, std::size_t{1}}) {
                 const std::size_t other = row[(k + side) % row.size()];
                 const double between_rad =
@@ -283,7 +283,7 @@ Function atRate(double rate_hz) {
     throw std::invalid_argument("'" + text + "': " + problem);
 }
 
-/// The value of "key=value" as a number within limits.
+/// Parses the value of "key=value" as a number within limits.
 double numberOf(const std::string& text, const std::string& value, double min, double max) {
     const auto number = base::numberFrom<double>(value);
     if (number && *number >= min && *number <= max) return *number;

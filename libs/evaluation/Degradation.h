@@ -25,7 +25,7 @@ namespace hagen::evaluation {
 ///                           returns are the same (y and z negated), so the sensor becomes
 ///                           mirrored(sensor)
 ///     fov_deg=A             only azimuths within A / 2 of forward
-///     above_deg=E, below_deg=E   only beams whose elevation is higher, or lower
+///     above_deg=E, below_deg=E   only beams above, or below, elevation E
 ///     dual_return           a ray whose neighbour in its row is more than 1 m farther has a second
 ///                           return there with probability 0.3
 ///     rate_hz=R             one of R / 10 azimuths of each row, as if a 10 Hz sensor turned at
@@ -36,16 +36,16 @@ class Degradation {
     using Function =
         std::function<GroundTruthScan(const GroundTruthScan&, const SensorModel&, Random&)>;
 
-    /// Throws std::invalid_argument for values out of range and unknown names, listing the known.
+    /// Throws std::invalid_argument for values out of range and unknown names, listing known names.
     explicit Degradation(const std::string& text);
 
-    const std::string& name() const { return name_; }  ///< the text
-    /// True if the degraded scan is one of mirrored(sensor).
+    const std::string& name() const { return name_; }  ///< as passed to the constructor
+    /// True if the degraded scan is from mirrored(sensor).
     bool mirrorsSensor() const { return mirrors_sensor_; }
     /// Throws std::invalid_argument for rows that the sensor does not have.
     void checkSensor(const SensorModel& sensor) const;
 
-    /// Degrades a located scan of this sensor into another one. Depends only on the seed, on every
+    /// Degrades a located scan of this sensor. The result depends only on scan and seed, not on the
     /// machine.
     GroundTruthScan apply(const GroundTruthScan& scan, const SensorModel& sensor,
                           std::uint64_t seed) const;
@@ -53,17 +53,17 @@ class Degradation {
  private:
     std::string name_;
     Function function_;
-    int highest_row_ = 0;  ///< that `name` contains
+    int highest_row_ = 0;  ///< highest row in `name`
     bool mirrors_sensor_ = false;
 };
 
 /// The degradations of `--hard-sets` for scans of a sensor.
 std::vector<Degradation> standardDegradations(const SensorModel& sensor);
 
-/// The sensor turned upside down: its beams, seen in its own frame, have the opposite elevations.
+/// The sensor turned upside down: in its own frame, its beams have the opposite elevations.
 SensorModel mirrored(const SensorModel& sensor);
 
-/// The part of a scan whose returns have a true element in `is_kept`.
+/// The returns of a scan for which `is_kept` is true.
 GroundTruthScan partOf(const GroundTruthScan& scan, const std::vector<bool>& is_kept);
 
 }  // namespace hagen::evaluation

@@ -5,10 +5,10 @@
 
 namespace hagen::evaluation {
 
-/// The scans of a source, each degraded when pulled; scan i with seed i. Heights above the true
-/// ground are computed before, because a degraded scan may not show the ground. If the degradation
+/// Degrades each scan of a source when it is pulled; scan i with seed i. Heights above the true
+/// ground are computed first, because a degraded scan may not show the ground. If the degradation
 /// mirrors the sensor, the source's methods must be for mirrored(sensor()). Throws
-/// std::invalid_argument if the degradation cannot be applied to its sensor.
+/// std::invalid_argument if the degradation cannot be applied to the source's sensor.
 class DegradedScans : public LabelledScanSource {
  public:
     DegradedScans(std::unique_ptr<LabelledScanSource> source, Degradation degradation);

@@ -8,7 +8,7 @@
 namespace hagen::evaluation {
 namespace {
 
-/// The returns of each numbered obstacle with enough returns to count.
+/// The returns of each numbered obstacle that has enough of them.
 std::vector<std::vector<std::size_t>> numberedObstacles(const GroundTruthScan& scan,
                                                         float max_range_m) {
     std::map<std::uint32_t, std::vector<std::size_t>> by_number;
@@ -45,7 +45,7 @@ void checkTruth(const GroundTruthScan& scan) {
 }  // namespace
 
 struct DroneTruth::Plan {
-    std::vector<Eigen::Vector3f> points_m;  ///< in the level frame
+    std::vector<Eigen::Vector3f> points_m;  ///< positions in the level frame
     PlanTree obstacles;
 
     Plan(const GroundTruthScan& scan, std::vector<Eigen::Vector3f> level_m)

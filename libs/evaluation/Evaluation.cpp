@@ -5,7 +5,7 @@
 namespace hagen::evaluation {
 namespace {
 
-/// The labels that a method assigns, and its run time unless they are precomputed.
+/// Runs a method, and records its run time unless its labels are precomputed.
 std::vector<Label> timed(const Method& method, const ScanInput& input,
                          std::vector<double>& latency_ms) {
     if (method.is_recorded) return method.segment(input);

@@ -10,7 +10,7 @@
 
 namespace hagen::evaluation {
 
-/// Neighbours of horizontal positions.
+/// A search tree of horizontal positions.
 class PlanTree {
  public:
     explicit PlanTree(std::vector<Eigen::Vector2f> at_m)
@@ -30,7 +30,7 @@ class PlanTree {
         return indices;
     }
     /// Squared distance of the `count`-th nearest position, or of the farthest one if there are
-    /// fewer. There must be one.
+    /// fewer. Requires at least one position.
     float squaredDistanceOf(std::size_t count, const Eigen::Vector2f& at_m) const {
         std::vector<std::uint32_t> index(count);
         std::vector<float> distance_m2(count);

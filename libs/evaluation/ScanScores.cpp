@@ -6,7 +6,7 @@
 namespace hagen::evaluation {
 namespace {
 
-constexpr float kMaxBands = 1e6f;  // each has scores in memory
+constexpr float kMaxBands = 1e6f;  // because each band stores scores
 
 }  // namespace
 

@@ -11,9 +11,9 @@
 namespace hagen::evaluation {
 namespace {
 
-constexpr float kMaxRange_m = 10000;  // of any LiDAR; keeps cell numbers small
+constexpr float kMaxRange_m = 10000;  // above the range of any LiDAR; limits cell numbers
 
-/// The median; the upper one of an even number of values.
+/// The median; for an even number of values, the upper of the two.
 float medianOf(std::vector<float>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -49,17 +49,17 @@ class GroundCells {
         tree_ = std::make_unique<PlanTree>(std::move(centres_m));
     }
 
-    /// The ground below this cell; minus infinity without ground.
+    /// The ground below this cell; minus infinity if unknown.
     float groundOf(const Cell& cell) const {
         if (heights_m_.empty()) return -std::numeric_limits<float>::infinity();
-        // "As near" rather than "nearer"; squared distances between centres differ by 0.25 m2.
+        // Tolerates rounding; different squared distances between centres differ by 0.25 m2.
         constexpr float kOrEqual_m2 = 0.1f;
         const Eigen::Vector2f at_m = centreOf(cell);
         std::vector<std::uint32_t> near =
             tree_->within(at_m, kGroundNear_m * kGroundNear_m + kOrEqual_m2);
         if (near.empty()) {
             const float last_m2 = tree_->squaredDistanceOf(kGroundCells, at_m);
-            near = tree_->within(at_m, 1.0001f * last_m2 + kOrEqual_m2);  // as floats, too
+            near = tree_->within(at_m, 1.0001f * last_m2 + kOrEqual_m2);
         }
         std::vector<float> heights_m;
         heights_m.reserve(near.size());
@@ -95,7 +95,7 @@ std::vector<float> heightsAboveTrueGround(const GroundTruthScan& scan,
     std::vector<float> heights_m(points_m.size(), std::nanf(""));
     for (std::size_t i = 0; i < points_m.size(); ++i) {
         if (scan.truth[i] != Label::Roi || !(scan.input.scan.range_m[i] <= max_range_m)) continue;
-        if (!points_m[i].allFinite()) continue;  // in no cell
+        if (!points_m[i].allFinite()) continue;  // belongs to no cell
         const Cell cell = cellOf(points_m[i]);
         const auto [at, is_new] = ground_of_cell.try_emplace(cell, 0.0f);
         if (is_new) at->second = ground.groundOf(cell);

@@ -13,12 +13,12 @@ std::vector<Eigen::Vector3f> levelPoints(const GroundTruthScan& scan);
 ///
 /// The ground of a cell of kGroundCell_m is the median height of its ROU returns, at any range.
 /// Heights are relative to the median of the ground cells within kGroundNear_m of the return's cell
-/// (horizontally, between centres), or, without any, of the kGroundCells nearest cells and all as
-/// near as the last of them.
+/// (horizontally, between centres). If there are none, the kGroundCells nearest cells are used, and
+/// all others that are as near as the last of them.
 ///
 /// `points_m`: levelPoints() of the scan. Returns one value per return [m]: NaN unless its truth is
 /// RoI and its range at most `max_range_m`; infinite without ground, so that an obstacle of unknown
-/// height does not count as low.
+/// height is not regarded as low.
 std::vector<float> heightsAboveTrueGround(const GroundTruthScan& scan,
                                           const std::vector<Eigen::Vector3f>& points_m,
                                           float max_range_m);

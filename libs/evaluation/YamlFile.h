@@ -7,7 +7,7 @@
 
 namespace hagen::evaluation {
 
-/// "file:line: ", for messages.
+/// The prefix "file:line: " for messages.
 std::string yamlPlace(const std::filesystem::path& file, const YAML::Node& node);
 
 /// Calls `entry(key, key node, value node)` for each entry of the map in a file. Throws

@@ -58,7 +58,7 @@ RecordedScans recordFlight(const Course& course, const std::function<void()>& co
     return recorded;
 }
 
-/// The scan of the next lap.
+/// Shifts a scan in space and time, for the next lap.
 void moveOn(observations::MappedScan& scan, float by_m, double by_s) {
     scan.time_s += by_s;
     scan.origin_m.x() += by_m;
@@ -133,7 +133,7 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m,
     const auto world = makeWorldModel(model, setting);
     std::vector<HeapSample> samples{{0, base::heapBytes() - before}};
     double held = samples[0].bytes;
-    const double lap_s = recorded.scans.back().time_s;  // the first scan ends a turn after 0
+    const double lap_s = recorded.scans.back().time_s;  // the first scan ends one turn after time 0
     for (double lap_m = 0; lap_m < path_m; lap_m += recorded.length_m) {
         for (std::size_t i = 0; i < recorded.scans.size(); ++i) {
             if (continuing) continuing();

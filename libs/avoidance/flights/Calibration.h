@@ -8,8 +8,8 @@
 namespace hagen::avoidance {
 
 struct CalibrationOptions {
-    std::vector<std::string> models;  ///< to measure
-    int courses = 4;                  ///< of forest-0.05, forest-0.10, u-trap, movers, in turn
+    std::vector<std::string> models;  ///< models to measure
+    int courses = 4;                  ///< from forest-0.05, forest-0.10, u-trap, movers, in turn
     std::function<void(const std::string& what)> doing;  ///< called before each model
     std::function<void()> continuing;  ///< called often during flights; may throw to abort
 };
@@ -24,7 +24,7 @@ constexpr double kCalibrated_m_s = 10;
 LatencyProfile calibrate(const CalibrationOptions& options);
 
 constexpr double kNominal_ms = 10;
-/// A profile in which every stage takes this long.
+/// A profile with this latency for every stage.
 LatencyProfile constantProfile(double latency_ms);
 
 /// Heap used by a model after a distance flown.

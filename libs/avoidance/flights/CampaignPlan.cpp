@@ -33,7 +33,7 @@ void checkPositive(const std::string& what, const std::vector<double>& values) {
     }
 }
 
-/// Sectors have no obstacle numbers.
+/// Rejects models with motion for sectors, which have no obstacle numbers.
 void checkUpdates(const CampaignPlan& plan) {
     checkGiven("update", plan.updates);
     if (std::count(plan.updates.begin(), plan.updates.end(), Updates::Sectors) == 0) return;
@@ -85,7 +85,7 @@ void check(const CampaignPlan& plan, const Shard& shard) {
     }
 }
 
-/// Each setup combined with each value.
+/// Combines each setup with each value.
 template <class Value, class Field>
 std::vector<TrialSetup> withEach(const std::vector<TrialSetup>& setups,
                                  const std::vector<Value>& values, Field field) {
@@ -99,7 +99,7 @@ std::vector<TrialSetup> withEach(const std::vector<TrialSetup>& setups,
     return all;
 }
 
-/// The last list varies fastest.
+/// All setups of a plan; the last list varies fastest.
 std::vector<TrialSetup> setupsOf(const CampaignPlan& plan) {
     std::vector<TrialSetup> setups(1);
     setups[0].brakes_in_known_space = plan.brakes_in_known_space;

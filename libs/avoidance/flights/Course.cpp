@@ -14,8 +14,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Clearance = std::function<float(const Vector3f&)>;
 
-/// The limits of a flight: a rectangle seen from above, between heights below the lowest and above
-/// the highest ground in it.
+/// The limits of a flight: a horizontal rectangle, between heights below and above all its ground.
 Eigen::AlignedBox3d boundsOver(const simulation::Terrain& terrain) {
     constexpr double kLeft_m = -6, kRight_m = 46, kHalfWidth_m = 15;
     constexpr double kBelow_m = 1, kAbove_m = 6;
@@ -30,7 +29,7 @@ Eigen::AlignedBox3d boundsOver(const simulation::Terrain& terrain) {
     return bounds;
 }
 
-/// Whether the straight line between two places is clear, by sphere stepping.
+/// Whether the straight line between two places is clear, by sphere tracing.
 bool isStraightWayClear(const Clearance& clearance_m, const Vector3d& from_m,
                         const Vector3d& to_m) {
     constexpr double kMinStep_m = 0.05;
@@ -58,7 +57,7 @@ double cutLength_m(const Clearance& clearance_m, const std::vector<Vector3d>& pa
     return length_m;
 }
 
-/// Empty if no path leads to the goal.
+/// The length of the shortest path found; empty if no path leads to the goal.
 std::optional<double> oraclePath_m(const Course& course) {
     const Clearance clearance_m = [&](const Vector3f& at) {
         const double height_m = static_cast<double>(at.z()) -

@@ -42,7 +42,7 @@ bool leavesEndsFree(const Vector2d& at_m, double radius_m) {
     return (at_m - kCourseStart_m).norm() > near_m && (at_m - kCourseGoal_m).norm() > near_m;
 }
 
-/// Calls put(place) at random places with a density over the field (a Poisson process).
+/// Calls put(place) at random places, with this density over the field (a Poisson process).
 template <class Put>
 void scatter(simulation::SceneBuilder& builder, double per_m2, const Put& put) {
     const int count = builder.random().poisson(per_m2 * kCourseField_m.volume());
@@ -63,14 +63,14 @@ simulation::TreeParameters lightTree(simulation::Random& random) {
     return form;
 }
 
-constexpr double kMaxTreeWidth_m = 1.9;  // crown and leaf clumps, at the largest scale
+constexpr double kMaxTreeWidth_m = 1.9;  // width of crown and leaf clumps at the largest scale
 
 Shapes addTrees(simulation::SceneBuilder& builder, int count) {
     return builder.addShapes(
         count, [](simulation::Random& r) { return simulation::makeTree(lightTree(r), r); });
 }
 
-/// Trees anywhere that `mayStand` allows.
+/// Places trees wherever `mayStand` allows.
 template <class MayStand>
 void scatterTrees(simulation::SceneBuilder& builder, double per_m2, const MayStand& mayStand) {
     const Shapes trees = addTrees(builder, 6);
@@ -102,8 +102,8 @@ simulation::Scene makeForest(double per_m2, const simulation::Random& random) {
     return builder.build();
 }
 
-/// Rows 4 m apart with a tree every 3 m, at an angle to the path: the flight has to change rows
-/// through gaps of missing trees.
+/// Rows 4 m apart with a tree every 3 m, at an angle to the path: the vehicle must change rows
+/// where trees are missing.
 simulation::Scene makeOrchard(simulation::Random random) {
     simulation::SceneBuilder builder = groundOf(3, 0.04, 0.15, random);
     simulation::Random& r = builder.random();
@@ -141,7 +141,7 @@ simulation::Scene makeOrchard(simulation::Random random) {
 constexpr double kWallHeight_m = 6;  // above the altitude limit
 constexpr double kBesideField_m = 19;
 
-/// A wall across the field, with a gap off the straight line; few trees.
+/// A wall across the field with a gap off the straight line, and a few trees.
 simulation::Scene makeGap(const simulation::Random& random) {
     simulation::SceneBuilder builder = groundOf(2, 0.03, 0.1, random);
     simulation::Random& r = builder.random();
@@ -161,7 +161,7 @@ simulation::Scene makeGap(const simulation::Random& random) {
     return builder.build();
 }
 
-/// Three walls, open towards the start; the way out leads back and around.
+/// A U of three walls, open towards the start: the path leads back out and around it.
 simulation::Scene makeTrap(const simulation::Random& random) {
     simulation::SceneBuilder builder = groundOf(2, 0.03, 0.12, random);
     simulation::Random& r = builder.random();
@@ -192,7 +192,7 @@ simulation::Scene makeTerrain(const simulation::Random& random) {
     return builder.build();
 }
 
-/// Lines of poles across the path. One wire of each is at about flight altitude, the others above.
+/// Rows of poles across the path, with one wire at about flight altitude and others above.
 simulation::Scene makeWires(double radius_m, const simulation::Random& random) {
     simulation::SceneBuilder builder = groundOf(3, 0.04, 0.12, random);
     simulation::Random& r = builder.random();
@@ -277,7 +277,7 @@ void addGardenWalls(simulation::SceneBuilder& builder) {
     }
 }
 
-/// Parked cars, also in the middle of the street and up to flight altitude; lamps, trees, walls.
+/// Parked cars, even in the middle of the street; lamps, trees and walls.
 simulation::Scene makeStreet(const simulation::Random& random) {
     simulation::SceneBuilder builder = groundOf(2, 0.02, 0.08, random);
     simulation::Random& r = builder.random();

@@ -9,7 +9,7 @@ constexpr double kGravity_m_s2 = 9.81;
 
 Eigen::Quaterniond tiltedBy(const Eigen::Vector3d& acceleration_m_s2) {
     const Eigen::Vector3d thrust =
-        acceleration_m_s2 + Eigen::Vector3d(0, 0, kGravity_m_s2);  // per mass
+        acceleration_m_s2 + Eigen::Vector3d(0, 0, kGravity_m_s2);  // thrust per unit mass
     return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), thrust);
 }
 

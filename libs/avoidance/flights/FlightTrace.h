@@ -5,10 +5,10 @@
 
 namespace hagen::avoidance {
 
-/// Position and tilt of a vehicle, one sample per kControlStep_s from time 0 on. Thrust carries
-/// weight and acceleration, so the body leans into every manoeuvre; the acceleration is smoothed
-/// over kTilt_s, because a body takes time to rotate. The nose points along +x. The sensor is at
-/// the centre of the body and aligned with it.
+/// Position and tilt of a vehicle, one sample per kControlStep_s from time 0 on. Thrust provides
+/// lift and acceleration, so the body tilts in every manoeuvre; the acceleration is smoothed over
+/// kTilt_s, because a body takes time to rotate. The nose points along +x. The sensor is at the
+/// centre of the body and aligned with it.
 class FlightTrace {
  public:
     static constexpr double kTilt_s = 0.1;  ///< time constant of the tilt
@@ -29,7 +29,7 @@ class FlightTrace {
  private:
     struct Sample {
         simulation::SensorPose pose;
-        Eigen::Vector3d smooth_m_s2;  ///< acceleration
+        Eigen::Vector3d smooth_m_s2;  ///< smoothed acceleration
         double distance_m;
     };
     struct Place {

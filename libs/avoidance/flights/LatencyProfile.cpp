@@ -18,7 +18,7 @@ using base::Json;
 double toMicroseconds(double latency_ms) { return std::round(1e3 * latency_ms) / 1e3; }
 
 std::vector<double> quantilesFrom(const nlohmann::json& value) {
-    constexpr double kMax_ms = 60000;  // a simulated flight waits for them
+    constexpr double kMax_ms = 60000;  // longer latencies would stall flights
     const std::string rule = "must be one or more numbers from 0 to 60000 [ms] in ascending order";
     if (!value.is_array() || value.empty()) throw std::runtime_error(rule);
     std::vector<double> quantiles;

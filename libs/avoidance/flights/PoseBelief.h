@@ -31,8 +31,8 @@ class PoseBelief {
 
     PoseError error_;
     simulation::Random random_;
-    Eigen::Vector3d direction_{0, 0, 0};  ///< of the drift, unit length
-    std::vector<Knot> knots_;             ///< of the noise, one per 0.1 s
+    Eigen::Vector3d direction_{0, 0, 0};  ///< unit vector of the drift
+    std::vector<Knot> knots_;             ///< noise samples, one per 0.1 s
 };
 
 }  // namespace hagen::avoidance

@@ -16,12 +16,12 @@ namespace {
 struct RunColumn {
     const char* name;
     std::function<std::string(const Run&)> write;
-    std::function<void(const std::string&, Run&)> read;  ///< throws
+    std::function<void(const std::string&, Run&)> read;  ///< throws on invalid text
     bool is_key = false;                                 ///< identifies a run
-    std::string before{};  ///< value for older tables without this column; empty: required
+    std::string before{};  ///< for older tables without this column; if empty, required
 };
 
-/// A number; NaN is an empty field.
+/// Formats a number; NaN becomes an empty field.
 std::string measureText(double value, int decimals) {
     return std::isnan(value) ? "" : base::fixedText(value, decimals);
 }
@@ -62,7 +62,7 @@ RunColumn count(const char* name, int TrialResult::*field) {
 }
 
 RunColumn setting(const char* name, double TrialSetup::*field, double min = 0) {
-    constexpr double kMax = 100;  // as in a plan
+    constexpr double kMax = 100;  // same limit as in CampaignPlan
     return {name, [=](const Run& run) { return base::shortestText(run.setup.*field); },
             [=](const std::string& text, Run& run) {
                 const auto value = numberFrom<double>(text);
@@ -90,8 +90,7 @@ RunColumn word(const char* name, std::string Run::*field) {
             [=](const std::string& text, Run& run) { run.*field = text; }};
 }
 
-/// In the order of the table. Older tables lack the last columns; tables of whole scans also lack
-/// the very last one.
+/// In table order. Tables of whole scans lack `updates`, older tables `air` and `distance`, too.
 const std::vector<RunColumn>& allColumns() {
     static const std::vector<RunColumn> all{
         key(word("scenario", &Run::scenario)),

@@ -16,7 +16,7 @@ namespace {
 constexpr int kStepsPerTurn = 5;
 static_assert(kStepsPerTurn * 20 == 100);  // kControlStep_s per TrialSensor::kTurn_s
 
-/// The newest whole scan. It replaces a waiting one, and is simulated when taken.
+/// Keeps only the newest whole scan, and simulates it when it is taken.
 class WholeScans : public ScanFeed {
  public:
     WholeScans(const Course& course, Air air, float zone_m) : sensor_(course, air, zone_m) {}
@@ -45,11 +45,11 @@ class WholeScans : public ScanFeed {
  private:
     TrialSensor sensor_;
     int received_ = 0, dropped_ = 0;
-    std::optional<int> waiting_;  ///< newest complete turn not yet planned on
+    std::optional<int> waiting_;  ///< newest complete turn that is not used yet
 };
 
-/// All sectors since the last update. As with whole scans, the first update covers a whole turn: a
-/// vehicle does not start before it has looked around.
+/// Keeps all sectors since the last update. As with whole scans, the first update covers a whole
+/// turn, so that the vehicle has seen all directions before it starts.
 class Sectors : public ScanFeed {
  public:
     Sectors(const Course& course, Air air, float zone_m) : sensor_(course, air, zone_m) {}

@@ -14,8 +14,8 @@ namespace hagen::avoidance {
 /// The input of a world model update.
 struct FedScan {
     observations::MappedScan scan;
-    double arrived_s;      ///< arrival time of its last part
-    std::uint64_t stream;  ///< its random stream
+    double arrived_s;      ///< arrival time of the scan's last part
+    std::uint64_t stream;  ///< random stream of the scan
 };
 
 /// Buffers measurements until the planner takes them.
@@ -26,12 +26,12 @@ class ScanFeed {
     /// Adds the measurements up to a control step that the trace has reached.
     virtual void receive(int step, const FlightTrace& trace, PoseBelief& belief) = 0;
     virtual bool isWaiting() const = 0;
-    /// Takes the waiting measurements. Times the filter.
+    /// Returns the waiting measurements, and times the filter.
     virtual FedScan take(const FlightTrace& trace, PoseBelief& belief, Stopwatch& stopwatch) = 0;
 
     virtual double period_s() const = 0;  ///< minimum time between updates
-    virtual int received() const = 0;     ///< whole scans, or sectors
-    virtual int dropped() const = 0;      ///< number of these never taken
+    virtual int received() const = 0;     ///< number of whole scans or sectors
+    virtual int dropped() const = 0;      ///< number of scans or sectors never taken
 };
 
 /// Creates the feed for a setup's updates.

@@ -61,7 +61,7 @@ std::vector<observations::MappedScan> SectorSensor::measureUntil(double time_s,
     return sectors;
 }
 
-/// Measures packets [first, end) of a turn, and has them labelled.
+/// Measures and labels packets [first, end) of a turn.
 void SectorSensor::addPackets(int turn, int first, int end, const FlightTrace& trace,
                               PoseBelief& belief) {
     const simulation::SimulatedScan all =
@@ -96,7 +96,7 @@ observations::MappedScan SectorSensor::place(const Labelled& sector, const Fligh
     placed.turns = (sector.sweep.to_rad - sector.sweep.from_rad) / kTurn_rad;
     const double lasted_s = placed.turns * TrialSensor::kTurn_s;
     placed.origin_m = belief.at(trace, sector.end_s - 0.5 * lasted_s).position_m.cast<float>();
-    std::map<int, TurnTransforms> transforms;  // a sector may begin in the turn before
+    std::map<int, TurnTransforms> transforms;  // a sector may begin in the previous turn
     for (std::size_t i = 0; i < sector.returns.size(); ++i) {
         const Measured measured = measured_.front();
         measured_.pop_front();

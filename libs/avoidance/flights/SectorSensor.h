@@ -18,8 +18,8 @@ class SectorSensor {
     SectorSensor& operator=(const SectorSensor&) = delete;
 
     /// Measures from the end of the last call to `time_s`, along the trace, which must reach that
-    /// far. Returns the sectors completed meanwhile, oldest first, with returns placed like those
-    /// of TrialSensor::place() and without obstacle numbers.
+    /// far. Returns the sectors completed meanwhile, oldest first, with returns placed as by
+    /// TrialSensor::place(), without obstacle numbers.
     std::vector<observations::MappedScan> measureUntil(double time_s, const FlightTrace& trace,
                                                        PoseBelief& belief);
 
@@ -45,7 +45,7 @@ class SectorSensor {
     TrialSensor sensor_;
     simulation::FiringPattern pattern_;
     live::StreamingSegmenter segmenter_;
-    int turn_ = 0, packet_ = 0;  ///< the next ones
+    int turn_ = 0, packet_ = 0;  ///< next to measure
     std::deque<Measured> measured_;
     std::vector<Labelled> labelled_;
 };

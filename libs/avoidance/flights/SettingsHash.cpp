@@ -33,7 +33,7 @@ std::string filterText() {
     return text;
 }
 
-/// Sight ranges of the models.
+/// Ranges of the models, as text.
 std::string reachText() {
     std::string text;
     for (const double speed_m_s : {1, 4, 8, 10, 14, 100}) {

@@ -4,9 +4,9 @@
 
 namespace hagen::avoidance {
 
-/// Increment it with every change to courses, world models, guidance, planners or the flight itself
-/// that alters the row of any run: a table must not mix old and new runs. RecordedFlights_test
-/// detects missing increments.
+/// Increment this number with every change to courses, world models, guidance, planners or the
+/// flight itself that alters the row of any run: a table must not mix old and new runs.
+/// RecordedFlights_test detects missing increments.
 constexpr int kRevision = 13;
 
 /// 16 hexadecimal digits that identify all settings of a run outside its own row: the program's

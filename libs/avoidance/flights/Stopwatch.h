@@ -6,7 +6,7 @@
 
 namespace hagen::avoidance {
 
-/// Measures the run time of stages. Without an output, it only calls them.
+/// Measures the run time of stages. Without an output, it only runs them.
 class Stopwatch {
  public:
     explicit Stopwatch(TrialMeasurement* measurement) : measurement_(measurement) {}

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-/// Random streams of a course's seed. Each purpose has its own, so that an additional draw in one
-/// does not shift another.
+/// Random streams derived from a course's seed: one per purpose, so that an additional draw in one
+/// does not shift the others.
 namespace hagen::avoidance::streams {
 
 constexpr std::uint64_t kPose = 0x7001, kLatency = 0x7100 /* plus the stage */;

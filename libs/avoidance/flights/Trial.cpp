@@ -73,7 +73,7 @@ class TrialFlight {
     }
 
  private:
-    /// Plans on waiting measurements as soon as the planner is free, within the step from `time_s`.
+    /// Plans with the waiting measurements as soon as the planner is free in this step.
     void think(double time_s) {
         const double start_s = std::max(time_s, free_s_);
         const double taken_s = latencies_.draw_s();
@@ -198,7 +198,7 @@ class TrialFlight {
     std::unique_ptr<Guidance> guidance_;
     std::unique_ptr<Planner> planner_;
 
-    VehicleState state_;  ///< true
+    VehicleState state_;  ///< true state
     FlightTrace trace_;
     CommandQueue commands_;
     double free_s_ = 0;  ///< time when the planner is free again

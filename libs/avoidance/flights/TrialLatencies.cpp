@@ -18,7 +18,7 @@ std::vector<std::string> stagesOf(const TrialSetup& setup) {
 TrialLatencies::TrialLatencies(const Course& course, const TrialSetup& setup,
                                const LatencyProfile& profile)
     : profile_(profile), scale_(setup.latency_scale) {
-    // Counted from the last stage, so that models with and without the filter share streams.
+    // Streams are numbered from the end, so that models with and without the filter share them.
     const std::vector<std::string> names = stagesOf(setup);
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::uint64_t stream = streams::kLatency + (names.size() - i);

@@ -8,8 +8,8 @@
 
 namespace hagen::avoidance {
 
-/// Draws the latency of planning steps from the profile. A step with sectors costs as much as with
-/// a whole scan: updates with a few sectors take less time, labelling about the same.
+/// Draws the latency of planning steps from the profile. Sectors are assumed to cost as much as a
+/// whole scan: updates with a few sectors take less time, labelling about the same.
 class TrialLatencies {
  public:
     TrialLatencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile);

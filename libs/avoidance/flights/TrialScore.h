@@ -5,8 +5,8 @@
 
 namespace hagen::avoidance {
 
-/// Decides when a flight ends and how, from true positions, at every control step. With T the time
-/// that the straight line from start to goal takes at full speed:
+/// Decides when a flight ends and how, from true positions, at every control step. T is the time
+/// of flight along the straight line from start to goal at full speed:
 ///
 ///     collision  the true clearance is below limits.collision_m
 ///     success    the vehicle is within kArrived_m of the goal
@@ -34,8 +34,8 @@ class TrialJudge {
     double nearest_m_, nearest_since_s_ = 0;
 };
 
-/// Distance that a vehicle can fly straight towards the goal until the true clearance first falls
-/// below `clearance_radius_m`. NaN if the whole line is free. [m]
+/// Distance that a vehicle can fly straight towards the goal before the true clearance falls below
+/// `clearance_radius_m`. NaN if the whole line is free. [m]
 double freeDistance_m(const Course& course, const Eigen::Vector3d& position_m,
                       double clearance_radius_m, double time_s);
 

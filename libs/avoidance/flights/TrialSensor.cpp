@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint64_t kFiringsPerStream = 4096;  // exceeds the firings of a turn
 
 HagenFilter standardFilter(float zone_m) {
-    Settings settings;  // those of config/vlp16.yaml, the defaults without a file
+    Settings settings;  // the defaults, which match config/vlp16.yaml
     settings.options.zone_m = zone_m;
     return filterFor(settings.sensorModel(), settings.options);
 }

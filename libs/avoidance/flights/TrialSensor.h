@@ -11,7 +11,7 @@
 namespace hagen::avoidance {
 
 /// The LiDAR's errors in a trial: 2 cm of noise, 1 % of returns lost, thin wires missed more often
-/// with distance, and those caused by the air.
+/// with distance, and the errors caused by the air.
 simulation::SensorErrorModel trialErrorModel(Air air);
 
 /// Mask of the vehicle's own parts, from config/airframe_simulated.yaml. Empty in clear air, where
@@ -24,19 +24,19 @@ class TrialSensor {
  public:
     static constexpr double kTurn_s = 0.1;
 
-    /// `zone_m`: the filter's zone, instead of the 20 m of those settings.
+    /// `zone_m`: range of the filter's zone, 20 m in config/vlp16.yaml.
     TrialSensor(const Course& course, Air air, float zone_m = Options().zone_m);
 
     const SensorModel& sensor() const { return filter_.sensor(); }
     const Options& options() const { return filter_.options(); }
 
-    /// The turn that starts at `number` * kTurn_s, measured from the true poses. Masked returns
-    /// have no range. Depends only on air, the course's seed and the number, not on previously
-    /// measured turns.
+    /// Measures the turn that starts at `number` * kTurn_s, from the true poses. Masked returns
+    /// have no range. The result depends only on air, the course's seed and the number, not on
+    /// previously measured turns.
     simulation::SimulatedScan measure(int number, const FlightTrace& trace) const;
 
-    /// Part of that turn, up to the position of the trace at its last firing. Depends only on air,
-    /// seed, number and the first firing.
+    /// Like measure(), but only some firings; the trace must reach the last of them. The result
+    /// depends only on air, seed, number and the first firing.
     simulation::SimulatedScan measureFirings(int number, const simulation::FiringRange& firings,
                                              const FlightTrace& trace) const;
 
@@ -44,7 +44,7 @@ class TrialSensor {
     const LabelledReturns& segment(int number, const simulation::SimulatedScan& measured,
                                    const FlightTrace& trace, PoseBelief& belief);
 
-    /// Places each return with a range by the estimated pose at its own time.
+    /// Places the returns that have a range, using the estimated pose at the time of each.
     static observations::MappedScan place(int number, const simulation::SimulatedScan& measured,
                                           const LabelledReturns& returns, const FlightTrace& trace,
                                           PoseBelief& belief);

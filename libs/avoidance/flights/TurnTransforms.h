@@ -7,16 +7,16 @@
 
 namespace hagen::avoidance {
 
-/// Roll and pitch of an attitude without its heading: the inverse of levelFromSensor().
+/// Roll and pitch of an attitude: the inverse of levelFromSensor().
 Attitude tiltOf(const Eigen::Quaterniond& attitude);
 
-/// Estimated poses during a turn of the sensor, as linearly interpolated matrices. During the turn,
-/// only those up to now are valid.
+/// Estimated poses during a turn of the sensor, as linearly interpolated matrices. Until the turn
+/// ends, only past poses are valid.
 class TurnTransforms {
  public:
     TurnTransforms(double start_s, const FlightTrace& trace, PoseBelief& belief);
 
-    /// A return in the map frame.
+    /// Transforms a return to the map frame.
     Eigen::Vector3f place(const Eigen::Vector3f& point_m, float since_start_s) const;
 
  private:

@@ -18,7 +18,7 @@ float distanceToPath(const Eigen::Vector3f& point_m, const Eigen::Vector3f& dire
     return (point_m - along_m * direction).norm();
 }
 
-/// 21 bits per axis: 600 km.
+/// Packs 21 bits per axis, enough for 600 km.
 std::uint64_t cellNumber(const Eigen::Array3i& cell) {
     constexpr std::uint64_t kMiddle = 1u << 20, kMask = (1u << 21) - 1;
     std::uint64_t number = 0;
@@ -46,7 +46,7 @@ std::vector<Eigen::Vector3f> PersistentPoints::of(const observations::MappedScan
     };
     std::vector<Eigen::Vector3f> lasting;
     std::unordered_map<std::uint64_t, bool>
-        cells;  // cells of this scan: whether they are persistent
+        cells;  // cells of this scan, and whether they are persistent
     for (const Eigen::Vector3f& point_m : next.points_m) {
         if ((point_m - next.origin_m).norm() > kPersistenceRange_m) continue;
         const Eigen::Array3i cell = cellOf(point_m);

@@ -12,7 +12,7 @@ namespace hagen::avoidance {
 
 /// Ground truth of the directions around a position, where known.
 struct TrueDirections {
-    DirectionSet blocked;  ///< within `scored`
+    DirectionSet blocked;  ///< subset of `scored`
     DirectionSet scored;   ///< directions with known truth
 };
 
@@ -20,7 +20,7 @@ struct TrueDirections {
 class SeenRanges {
  public:
     explicit SeenRanges(const observations::MappedScan& scan);
-    /// Whether a return in the point's cell is from behind it.
+    /// Whether a return in the point's cell came from behind the point.
     bool isSeenThrough(const Eigen::Vector3f& point_m) const;
 
  private:
@@ -31,8 +31,8 @@ class SeenRanges {
     std::vector<float> farthest_m_;  ///< 0: no return
 };
 
-/// Selects the persistent points of a scan: one of the five scans before had a point in the same
-/// cell of 0.3 m or an adjacent one. Dust and mixed ranges at edges are not persistent.
+/// Selects the persistent points of a scan: in one of the five previous scans, the same cell of 0.3
+/// m or an adjacent one contained a point. Dust and mixed ranges at edges are not persistent.
 class PersistentPoints {
  public:
     /// Considers only points within 12 m of the sensor.
@@ -67,7 +67,7 @@ class LaterScansTruth {
 
     Eigen::Vector3f position_m_;
     FreeDirectionOptions options_;
-    std::array<std::uint8_t, kDirections> points_{};  ///< in the sphere's path, up to 2
+    std::array<std::uint8_t, kDirections> points_{};  ///< points in the sphere's path, at most 2
     std::array<std::bitset<kSamples>, kDirections> seen_;
 };
 

@@ -82,7 +82,7 @@ LoggedScans::LoggedScans(const LogSource& source, const std::function<bool()>& k
     segmenter_.initialize(source_->useSettings(source.settings));
 }
 
-/// Looks up the pose of each scan. Throws std::runtime_error if most have none.
+/// Looks up the pose of each scan. Throws std::runtime_error if most scans have no pose.
 void LoggedScans::placeAll(const std::vector<TimePoint>& times, const std::string& log) {
     scans_ = times.size();
     for (const TimePoint time : times) {

@@ -19,7 +19,7 @@ constexpr float kMapMargin_m = 20, kMapMarginUp_m = 10;  // around the whole fli
 constexpr float kMaxMap_m3 = 100000;
 constexpr float kHalfBox_m = 30, kHalfBoxUp_m = 10;  // around the vehicle
 constexpr float kBorder_m = 12, kBorderUp_m = 5;     // beyond the reach of queries and clearances
-constexpr double kReplayed_s = 3;                    // scans to process again after a reset
+constexpr double kReplayed_s = 3;                    // age of scans processed again after a reset
 
 // Maximum median distance between a scan's obstacles and those of its scene (usually 1 to 2 cm).
 constexpr float kMaxSceneDistance_m = 0.08f;
@@ -39,7 +39,7 @@ class SceneTruth {
                     widened(flight_m, kMapMargin_m, kMapMarginUp_m).cast<double>(),
                     WorldModel::kReach_m) {}
 
-    /// At the time of the last scan.
+    /// Clearance at the time of the last scan.
     float clearance_m(const Eigen::Vector3f& point_m) const {
         return distance_.at(point_m, time_s_);
     }
@@ -200,7 +200,7 @@ void Walk::updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pe
     row.blocked = pending.blocked[m].count();
 }
 
-/// The entry of a scan before the models are queried.
+/// The pending scan, before the models are queried.
 PendingScan Walk::pendingScanOf(const LoggedScan& scan) const {
     const std::size_t models = models_.size();
     PendingScan pending{std::vector<OpenLoopRow>(models),  std::vector<OpenLoopCost>(models),

@@ -142,11 +142,11 @@ class PathGuidance : public Guidance {
         PathSearchOptions options = searchOptions(task);
         const Eigen::Vector3d goal_m = freePlaceNear(world, levelGoal(task), options);
         const auto limit_m = static_cast<float>(options.wanted_clearance_m);
-        // More clearance does not reduce the cost.
+        // Limited, because more clearance does not reduce the cost.
         const auto clearance_m = [&](const Eigen::Vector3f& point_m) {
             return world.clearanceWithin_m(point_m, limit_m);
         };
-        // First with extra clearance, which is easier to follow, then without.
+        // Searches first with extra clearance, which is easier to follow, then without.
         options.min_clearance_m += kEase_m;
         auto path_m = findPath(clearance_m, task.position_m, goal_m, options);
         if (!path_m) {

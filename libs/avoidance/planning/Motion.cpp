@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kStanding_m_s = 0.05;
 constexpr float kCheckStep_m = 0.08f;
-constexpr double kApproachShare = 0.4;  ///< of the acceleration, to stop at the goal
+constexpr double kApproachShare = 0.4;  ///< fraction of the acceleration used to stop
 constexpr double kMinApproach_m_s = 0.5;
 
 }  // namespace

@@ -20,19 +20,19 @@ std::optional<float> freeClearance(const WorldModel& world,
                                    const std::vector<Eigen::Vector3f>& path_m, double start_after_s,
                                    double clearance_radius_m);
 
-/// The minimum clearance along such a path, at most that at its start, without any requirement.
+/// Like freeClearance(), but without a required clearance.
 float minClearance_m(const WorldModel& world, const std::vector<Eigen::Vector3f>& path_m,
                      double start_after_s);
 
-/// The paths of a command: held and then braking, and interrupted after one period.
+/// The paths of a command: held before braking, and interrupted after one period.
 struct CommandPaths {
     std::vector<Eigen::Vector3f> held_m, broken_off_m;
 };
 
-/// Checks a command: held for `hold_s` and followed by braking, and also interrupted after one
-/// period, so that braking will still be possible then. Too close to an obstacle, it must lead
-/// away. Returns the minimum clearance of both paths, or nullopt if one is not free. `paths` is
-/// working memory reused by the planner.
+/// Checks a command: held for `hold_s` and followed by braking, and interrupted after one period,
+/// so that braking will still be possible then. If the vehicle is too close to an obstacle, the
+/// command must lead away. Returns the minimum clearance of both paths, or nullopt if either is not
+/// free. `paths` is working memory reused by the planner.
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
                                   const Eigen::Vector3d& command_m_s, double hold_s,
                                   CommandPaths& paths);

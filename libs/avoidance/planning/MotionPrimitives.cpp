@@ -21,7 +21,7 @@ constexpr double kStandingCost = 0.3;  ///< cost of hovering away from the goal
 constexpr double kProximityCost = 0.25, kComfortable_m = 1.3;
 
 struct Candidate {
-    double cost;  ///< without proximity, which needs queries
+    double cost;  ///< excludes proximity, which needs queries
     Eigen::Vector3d command_m_s;
 };
 
@@ -125,7 +125,7 @@ Plan cheapestFree(const WorldModel& world, const PlanningTask& task) {
     double best = std::numeric_limits<double>::infinity();
     CommandPaths paths;
     for (const Candidate& candidate : rankedCandidates(task)) {
-        if (candidate.cost >= best) break;  // the rest cost more, regardless of clearance
+        if (candidate.cost >= best) break;  // all others cost more, regardless of clearance
         const std::optional<float> clearance_m =
             checkCommand(world, task, candidate.command_m_s, kLookAhead_s, paths);
         if (task.keeps_candidates) {

@@ -21,8 +21,8 @@ constexpr double kSegmentStep_m = 0.1;
 constexpr double kGrazing_m = 0.05;  ///< tolerance of edges between cells
 constexpr std::int64_t kMaxCellsOfGrid = 30'000'000;
 
-/// State of a cell, valid only with the number of the current search. 32 bytes, because long
-/// searches are dominated by fetching cells.
+/// State of a cell, valid only if its search number is current. 32 bytes, because long searches are
+/// dominated by fetching cells.
 struct Cell {
     Cost cost;
     Cost extra_permille;  ///< extra cost per metre
@@ -36,16 +36,16 @@ struct Cell {
 /// The 26 neighbours of a cell and the cell itself (number 13), in the order of their indices.
 constexpr int kNeighbours = 27, kItself = 13;
 
-/// A way into a cell. Ties of the estimate are broken by longer path done, then queried clearance,
-/// then lower cell, then lower parent. The rank packs all of these into bits, because comparisons
-/// dominate searches.
+/// A way into a cell. Ties of the estimate are broken by longer completed path, then queried
+/// clearance, then lower cell, then lower parent. The rank packs all of these into bits, because
+/// comparisons dominate searches.
 struct Entry {
     static constexpr int kParentBits = 5, kCellBits = 25, kLeftBits = 33;
 
     Cost estimate;
     std::uint64_t rank;
 
-    /// `parent` is a number of kNeighbours. If the entry is not exact, the clearance was not
+    /// `parent` is an index below kNeighbours. If the entry is not exact, the clearance was not
     /// queried yet, and the cost may be higher.
     Entry(Cost estimate_of_all, Cost left, bool is_exact, int cell, int parent)
         : estimate(estimate_of_all),
@@ -101,16 +101,16 @@ class Search {
     const Clearance& clearance_m_;
     const Eigen::Vector3d start_m_, goal_m_;
     const PathSearchOptions& options_;
-    Eigen::Vector3i min_, size_;  ///< of the grid, in cells from the anchor
+    Eigen::Vector3i min_, size_;  ///< grid limits, in cells from the anchor
     int start_ = 0, goal_ = 0;
     std::uint32_t number_ = 0;
     Cost heuristic_permille_;
     std::vector<Cell>& cells_;
     Queue queue_;
-    std::array<Cost, 4> lengths_{};  ///< of a step along that many axes
+    std::array<Cost, 4> lengths_{};  ///< length of a step along 1, 2 or 3 axes
     Eigen::Vector3i goal_place_{0, 0, 0};
-    std::array<int, kNeighbours> offsets_{};             ///< of a neighbour's index
-    std::array<Cost, kNeighbours> neighbour_lengths_{};  ///< of the step
+    std::array<int, kNeighbours> offsets_{};             ///< index offset of each neighbour
+    std::array<Cost, kNeighbours> neighbour_lengths_{};  ///< distance of each neighbour
 };
 
 /// Reused by later searches, because clearing costs more than most searches.

@@ -10,7 +10,7 @@ class MotionPrimitives : public Planner {
 };
 
 /// "3dvfh": chooses the cheapest direction of a polar histogram, after 3DVFH+ (Vanneste, Bellekens
-/// and Weyn, 2014). A cell holds the free distance of a sphere of the clearance radius.
+/// and Weyn, 2014). A cell stores the free distance of a sphere of the clearance radius.
 class PolarHistogram : public Planner {
  public:
     Plan plan(const WorldModel& world, const PlanningTask& task) const override;

@@ -11,16 +11,16 @@ constexpr double kCell_rad = 6 * M_PI / 180;
 constexpr int kAzimuths = 60, kMaxRow = 3;  ///< elevations of -18 to 18 degrees
 constexpr float kTraceStep_m = 0.1f;
 constexpr double kReaction_s = 0.3;  ///< reaction time in addition to the stopping distance
-constexpr double kHold_s = 0.4;      ///< before braking, in the check
+constexpr double kHold_s = 0.4;      ///< time before braking in the check
 constexpr double kSlowest_m_s = 0.3;
 
 // Cost weights of angles in radians and of the blocked fraction.
 constexpr double kTargetCost = 1.0, kChangeCost = 0.25;
 constexpr double kBlockedCost = 1.5;
-constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< shorter free directions are a last resort
+constexpr double kOpen_m = 2.5, kShutCost = 4;  ///< cost of a shorter free distance
 
 struct HistogramCell {
-    double cost;  ///< without the blocked fraction, which needs queries
+    double cost;  ///< excludes the blocked fraction, which needs queries
     Eigen::Vector3d direction;
 };
 
@@ -40,7 +40,7 @@ double freeDistance(const WorldModel& world, const PlanningTask& task,
                     const Eigen::Vector3d& direction, double reach_m) {
     const auto clearance_radius_m = static_cast<float>(task.limits.clearance_radius_m());
     const auto speed_m_s = static_cast<float>(speedTowardsGoal(task));
-    // Approaching objects shorten the distance for which a clearance holds.
+    // Approaching objects shorten the distance for which a clearance is valid.
     const float share = speed_m_s / (speed_m_s + world.fastest_m_s());
     float at_m = 0, needed_m = 0;
     while (at_m < reach_m) {
@@ -136,7 +136,7 @@ Plan PolarHistogram::plan(const WorldModel& world, const PlanningTask& task) con
     CommandPaths paths;
     double best = std::numeric_limits<double>::infinity();
     for (const HistogramCell& cell : rankedCells(task)) {
-        if (cell.cost >= best) break;  // the rest cost more, regardless of free distance
+        if (cell.cost >= best) break;  // all others cost more, regardless of free distance
         const double free_m = freeDistance(world, task, cell.direction, reach_m);
         const double cost = cell.cost + blockedCost(task, free_m, reach_m);
         if (cost >= best) continue;

@@ -12,7 +12,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// A condition that is omitted if default.
+/// A condition that is omitted if it has its default value.
 struct Condition {
     std::string flag;
     std::string (*valueOf)(const Run&);

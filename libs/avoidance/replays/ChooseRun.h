@@ -6,7 +6,7 @@
 
 namespace hagen::avoidance {
 
-/// Criteria for selecting a run. Empty names and 0: any.
+/// Criteria for selecting a run. Empty names and 0 match all runs.
 struct RunWanted {
     std::uint64_t seed = 0;
     std::string scenario, model, guidance, planner, pose_error;
@@ -15,7 +15,7 @@ struct RunWanted {
     double speed_m_s = 0, latency_scale = 0;
 };
 
-/// The matching run. Throws std::invalid_argument listing the candidates unless there is just one.
+/// The matching run. Throws std::invalid_argument listing the candidates unless one run matches.
 Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted);
 
 /// The flags that select a run `among` others with its seed, for a shell:

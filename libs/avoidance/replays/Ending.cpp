@@ -12,7 +12,7 @@ namespace {
 
 /// Evenly spread directions: a Fibonacci spiral from pole to pole.
 std::vector<simulation::Ray> raysAround(const Eigen::Vector3f& at_m) {
-    // 1.4 degrees apart: several hit a wire at 0.3 m.
+    // 1.4 degrees apart, so that several rays hit a wire at 0.3 m.
     constexpr int kRays = 20000;
     const double golden = kPi * (3 - std::sqrt(5.0));
     std::vector<simulation::Ray> rays;

@@ -56,7 +56,7 @@ class ModelHistory {
             }
             std::vector<ModelCell>& stays = cells_[key];
             if (!stays.empty() && stays.back().until_step >= step) {
-                stays.back().until_step = step + 1;  // continued, or a duplicate
+                stays.back().until_step = step + 1;  // the cell remains, or is a duplicate
             } else {
                 stays.push_back({centre_m, step, step + 1});
             }

@@ -34,7 +34,7 @@ struct RecordedStep {
     bool is_emergency;
     std::size_t model_size;                     ///< total voxels or points in the model
     std::vector<Eigen::Vector3f> roi_m, rou_m;  ///< returns of the scan
-    std::vector<Eigen::Vector3f> path_m;        ///< from guidance
+    std::vector<Eigen::Vector3f> path_m;        ///< path of the guidance
     std::vector<RecordedMotion> motions;
 };
 
@@ -57,10 +57,10 @@ struct FlightRecording {
     double ground_m = 0;  ///< height of the ground below the start
     std::vector<RecordedStep> steps;
     std::vector<RecordedMoment> track;  ///< every kControlStep_s until the end of the flight
-    std::string ending;                 ///< text of endingOf()
+    std::string ending;                 ///< from endingOf()
     TrueScene scene;
     std::vector<ModelCell> model;
-    float model_edge_m = 0;  ///< of cells; 0: points
+    float model_edge_m = 0;  ///< edge of a cell; 0 for points
     std::vector<RecordedEvent> events;
 };
 
@@ -68,7 +68,7 @@ struct FlightRecordingLimits {
     std::size_t full_steps = 150;  ///< longer runs keep fewer points per step
     std::size_t points = 2500;     ///< per label and step
     std::size_t motions = 60;      ///< per step
-    std::size_t cells = 150000;    ///< of the model
+    std::size_t cells = 150000;    ///< in the model's history
     float point_grid_m = 0.1f;     ///< point models: one point per cube of this size
     float reach_m = 25;            ///< maximum range of stored returns
 };

@@ -75,7 +75,7 @@ std::string scriptText(std::string json) {
 
 /// Pages store coordinates as 16-bit centimetres from the start, up to 327 m.
 constexpr double kUnit_m = 0.01;
-constexpr double kShapeUnit_m = 0.005;    // of shapes: up to 164 m
+constexpr double kShapeUnit_m = 0.005;    // for shapes, up to 164 m
 constexpr double kTurnUnit_rad = 0.0001;  // covers more than half a turn
 
 class PageWriter {
@@ -176,7 +176,7 @@ class PageWriter {
         return numbers.text();
     }
 
-    /// Three rows of four.
+    /// The pose as three rows of four numbers.
     Json json(const Eigen::Affine3f& pose) const {
         Json rows = Json::array();
         for (int row = 0; row < 3; ++row) {
@@ -255,7 +255,7 @@ class PageWriter {
     const FlightRecording& recording_;
 };
 
-/// Scenario, seed, contender, speed, non-default conditions, outcome.
+/// The heading: scenario, seed, model, guidance, speed, non-default conditions, outcome.
 std::string headingOf(const Run& run) {
     const TrialSetup& setup = run.setup;
     std::string text = run.scenario + ", seed " + std::to_string(run.seed) + ", " +

@@ -110,7 +110,7 @@ void addShape(const simulation::Shape& shape, const Eigen::Affine3f& pose, const
     }
 }
 
-/// The true scene, with movers where they were at the end.
+/// The true scene, with movers at their final poses.
 CSetOfTriangles::Ptr trueSceneOf(const FlightRecording& recording) {
     const TColor standing(110, 130, 105), moving(170, 60, 60);
     const TrueScene& scene = recording.scene;

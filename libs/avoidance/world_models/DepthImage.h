@@ -7,10 +7,10 @@
 namespace hagen::avoidance {
 
 /// The nearest and the farthest return of a scan in each pixel of an image around the sensor, and
-/// in coarser images, each of half the size (a pyramid).
+/// in a pyramid of coarser images, each half the size of the previous one.
 ///
 /// A pixel is about half a degree: 512 columns, 256 rows. Its coordinates grow with azimuth and
-/// elevation but need no arcus functions.
+/// elevation but need no inverse trigonometric functions.
 class DepthImage {
  public:
     /// A position in the image in pixels: column in [0, 512), row in [0, 256).
@@ -20,21 +20,21 @@ class DepthImage {
     struct Depths {
         float nearest_m, farthest_m;  ///< 0: no return
     };
-    static constexpr float kPixelsPerUnit = 128;  ///< a unit is about a radian ahead
+    static constexpr float kPixelsPerUnit = 128;  ///< a unit is about one radian ahead
 
     DepthImage();
 
     static Place placeOf(const Eigen::Vector3f& ray);
     void project(const std::vector<Eigen::Vector3f>& points_m, const Eigen::Vector3f& origin_m);
 
-    /// Depths within a rectangle of pixels around a place, enlarged to whole pixels of the finest
-    /// image of the pyramid in which half of it spans at most `max_half` rows and 16 times as many
-    /// columns (near the poles, columns are narrow).
+    /// Depths within a rectangle of pixels around a place. It is enlarged to whole pixels of the
+    /// finest image in which half of it spans at most `max_half` rows and 16 times as many columns
+    /// (columns are narrow near the poles).
     Depths depthsAround(const Place& place, float half_columns, float half_rows,
                         float max_half) const;
 
-    /// 4 x 4 x 4 places in space at once, in the order of a block of RollingBox, and the rectangle
-    /// of pixels around each in the image of one level.
+    /// 4 x 4 x 4 places, processed at once in the order of a block of RollingBox, and the rectangle
+    /// of pixels around each place in the image of one level.
     using Values = Eigen::Array<float, 64, 1>;
     using Pixels = Eigen::Array<int, 64, 1>;
     struct Block {
@@ -62,7 +62,7 @@ class DepthImage {
         return first_[level] + static_cast<std::size_t>((row << (9 - level)) + column);
     }
 
-    std::size_t first_[kLevels];  ///< pixel of each level
+    std::size_t first_[kLevels];  ///< index of each level's first pixel
     std::vector<Pixel> pixels_;
 };
 

@@ -7,9 +7,9 @@ namespace hagen::avoidance {
 
 namespace {
 
-// In units of 1/24, as in the rolling grid.
+// Log odds in units of 1/24, as in the rolling grid.
 constexpr int kHitLogOdds = 20, kMissLogOdds = 10, kMaxLogOdds = 84;
-constexpr float kHalfRow = 2.2f;  ///< a degree in rows of the image; a VLP-16 has 2 degrees
+constexpr float kHalfRow = 2.2f;  ///< one degree in image rows; VLP-16 rows are 2 degrees apart
 // Cells are looked up in finer images than voxels, for a tighter outline. The image of a cell must
 // not be finer than those of its voxels, so that its pixels contain theirs.
 constexpr float kVoxelHalf = 1.25f, kCellHalf = 1.875f;
@@ -103,7 +103,7 @@ Eigen::Vector3f DepthImageModel::cornerOf(const Eigen::Array3i& first,
     return box_.centre_m(first) - origin_m;
 }
 
-/// How a cell of `voxels` along an edge is seen, given by the middle of its first voxel.
+/// The outline of a cell with an edge of `voxels`, given by the middle of its first voxel.
 DepthImageModel::Outline DepthImageModel::outlineOf(const Eigen::Vector3f& to_corner_m,
                                                     int voxels) const {
     Outline outline;
@@ -119,9 +119,9 @@ DepthImageModel::Outline DepthImageModel::outlineOf(const Eigen::Vector3f& to_co
     return outline;
 }
 
-/// The requested voxels of a block that are nearer than all returns, at least one, in their part of
-/// the image. A part is as large as the block's nearest voxel, and at least `min_half_rows` up and
-/// down.
+/// The requested voxels of a block that are nearer than all returns in their part of the image,
+/// which must contain a return. A part is as large as the block's nearest voxel, and at least
+/// `min_half_rows` up and down.
 std::uint64_t DepthImageModel::nearerVoxels(const Eigen::Vector3f& to_corner_m,
                                             std::uint64_t voxels, float min_half_rows) const {
     const Outline outline = outlineOf(to_corner_m, RollingBox::kBlock);
@@ -139,7 +139,7 @@ std::uint64_t DepthImageModel::nearerVoxels(const Eigen::Vector3f& to_corner_m,
     return nearer;
 }
 
-/// Whether nearerVoxels() may find any in a cell for kHalfRow. False is certain.
+/// Whether nearerVoxels() with kHalfRow may find voxels in a cell; false only if it finds none.
 bool DepthImageModel::mayHaveFree(const Eigen::Vector3f& to_corner_m, int voxels) const {
     const Outline outline = outlineOf(to_corner_m, voxels);
     if (outline.min_away_m > max_range_m_) return false;

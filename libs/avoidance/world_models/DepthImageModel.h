@@ -20,7 +20,7 @@ namespace hagen::avoidance {
 ///
 /// Not from the paper: the box; three levels of 64 children, in bit masks, instead of an octree.
 /// Free space is decided voxel by voxel, because the rows of a VLP-16 are 2 degrees apart: a large
-/// cell has gaps between them. A voxel counts as seen if a row passes within a degree of it.
+/// cell has gaps between them. A voxel is regarded as seen if a row passes within a degree of it.
 /// Occupied voxels, which are final in the paper, are checked against each image: if all depths
 /// around a voxel lie beyond it, its log odds fall as in OctoMap, so that moving objects disappear.
 class DepthImageModel : public WorldModel {
@@ -37,11 +37,11 @@ class DepthImageModel : public WorldModel {
     void addHits(const observations::MappedScan& scan);
     void clearSeenThrough(const Eigen::Vector3f& origin_m);
     void removeKnown(const Eigen::Vector3f& origin_m);
-    /// How a cell is seen: distances of its nearest voxel from the sensor and from the vertical
-    /// axis through it, and half that voxel's extent in the image.
+    /// A cell as seen by the sensor: distances of its nearest voxel from the sensor and from the
+    /// vertical axis through it, and half that voxel's extent in the image.
     struct Outline {
         Eigen::Vector3f to_middle_m;
-        float spread_m;  ///< from the centre to that of the farthest voxel
+        float spread_m;  ///< distance from the cell's centre to the farthest voxel's centre
         float min_away_m, min_around_m, half_columns, half_rows;
     };
     Eigen::Vector3f cornerOf(const Eigen::Array3i& first, const Eigen::Vector3f& origin_m) const;
@@ -54,9 +54,9 @@ class DepthImageModel : public WorldModel {
     RollingBox box_;
     DepthImage image_;
     VoxelSet unknown_, occupied_;
-    std::vector<std::int8_t> log_odds_;  ///< per voxel; valid where occupied
-    std::vector<std::uint64_t> hit_;     ///< bits per voxel of the scan; else 0
-    std::vector<std::uint32_t> hits_;    ///< their blocks
+    std::vector<std::int8_t> log_odds_;  ///< per voxel; valid if occupied
+    std::vector<std::uint64_t> hit_;     ///< voxels hit in the scan, one mask per block
+    std::vector<std::uint32_t> hits_;    ///< blocks hit in the scan
 };
 
 }  // namespace hagen::avoidance

@@ -35,8 +35,8 @@ GridModel::GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float ma
       max_range_m_(max_range_m),
       map_(std::make_unique<mrpt::maps::COccupancyGridMap3D>()),
       obstacles_(edge_m) {
-    // Corners on whole cells, because MRPT rounds others. One more cell on each side, because MRPT
-    // assigns points less than a cell outside to the first cell.
+    // Corners are on whole cells, because MRPT rounds other values. There is one more cell on each
+    // side, because MRPT assigns points less than a cell outside to the first cell.
     const Eigen::Array3f min = ((bounds_m.min().array() - kMapMargin_m) / edge_m).floor() - 1;
     const Eigen::Array3f max = ((bounds_m.max().array() + kMapMargin_m) / edge_m).ceil() + 1;
     corner_m_ = min * edge_m;

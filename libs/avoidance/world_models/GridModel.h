@@ -14,7 +14,7 @@ namespace hagen::avoidance {
 /// cells.
 class GridModel : public WorldModel {
  public:
-    /// Returns beyond `max_range_m` only clear, up to this range.
+    /// Returns beyond `max_range_m` only clear cells, up to this range.
     GridModel(float edge_m, const Eigen::AlignedBox3f& bounds_m, float max_range_m);
     ~GridModel() override;
 
@@ -29,7 +29,7 @@ class GridModel : public WorldModel {
 
     float edge_m_, max_range_m_;
     Eigen::Array3f corner_m_;  ///< minimum corner
-    Eigen::Array3i size_;      ///< in cells
+    Eigen::Array3i size_;      ///< size in cells
     std::unique_ptr<mrpt::maps::COccupancyGridMap3D> map_;
     VoxelTree obstacles_;
 };

@@ -12,7 +12,7 @@ class ModelWithMotion : public WorldModel {
     float fastest_m_s() const override { return movers_.fastest_m_s(); }
     bool isKnown(const Eigen::Vector3f& point_m) const override { return still_->isKnown(point_m); }
     std::size_t bytes() const override { return still_->bytes() + movers_.bytes(); }
-    /// Includes the points of movers, which are drawn as voxels next to voxels.
+    /// Includes the points of movers, drawn as voxels if the model has voxels.
     Obstacles obstacles() const override;
 
  protected:
@@ -24,7 +24,7 @@ class ModelWithMotion : public WorldModel {
 };
 
 /// A window without the points of moving obstacles while these are tracked. When a track ends, its
-/// points count again, because the position of the obstacle is unknown.
+/// points are restored, because the position of the obstacle is unknown.
 class WindowWithMotion : public ModelWithMotion {
  public:
     WindowWithMotion(bool roi_only, WindowSize size)

@@ -16,10 +16,10 @@ constexpr float kDoubtOfSpeed = 0.1f, kDoubtOfSigma = 0.5f;
 struct Movers::Mover {
     Mover(const ObstacleTrack& track, double time_s);
 
-    TreePoints points;  ///< at the time of the last scan
+    TreePoints points;  ///< positions at the time of the last scan
     PointTree tree;
     Eigen::Vector3f middle_m{0, 0, 0};
-    float radius_m = 0;  ///< of a sphere around the points
+    float radius_m = 0;  ///< bounding sphere of the points
     Eigen::Vector3f velocity_m_s;
     float doubt_m, doubt_m_s;  ///< clearance uncertainty, initially and per second
 };

@@ -4,8 +4,8 @@
 
 namespace hagen::avoidance {
 
-/// Predicts moving obstacles: the points of the last scan of each, moved with its velocity
-/// (ObstacleTracks), minus the uncertainty of that velocity.
+/// Predicts moving obstacles: their last points move with the tracked velocity (ObstacleTracks),
+/// and clearances are reduced by the uncertainty of that velocity.
 class Movers {
  public:
     explicit Movers(float farthest_m);
@@ -16,12 +16,11 @@ class Movers {
     const ObstacleTracks& tracks() const { return tracks_; }
     /// The numbers of the moving tracks.
     const std::vector<std::uint32_t>& moving() const { return moving_; }
-    /// The distance from a point to the nearest of them at a time after the last scan, at most
-    /// `limit_m`.
+    /// The distance, at most `limit_m`, to the nearest mover at a time after the last scan.
     float clearanceWithin_m(const Eigen::Vector3f& point_m, float after_s, float limit_m) const;
     float fastest_m_s() const { return fastest_m_s_; }
     std::size_t bytes() const;
-    /// Adds their points to `obstacles`.
+    /// Adds the points of moving obstacles to `obstacles`.
     void addTo(WorldModel::Obstacles& obstacles) const;
 
  private:

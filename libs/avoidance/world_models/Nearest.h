@@ -19,8 +19,8 @@ class Nearest {
  public:
     explicit Nearest(float limit_m) : min_m2_(limit_m * limit_m) {}
 
-    /// Restricts the next tree to its first `points` points without hidden ones (not 0; null: none
-    /// are hidden).
+    /// Restricts the next tree to its first `points` points (at least 1) without hidden points
+    /// (null: no point is hidden).
     void consider(std::size_t points, const std::uint8_t* is_hidden = nullptr) {
         counting_ = points;
         is_hidden_ = is_hidden;
@@ -43,7 +43,7 @@ class Nearest {
 };
 
 /// A result set for nanoflann: whether a tree has any point within a radius, among its first
-/// `points` points except one. The search ends at the first.
+/// `points` points except one. The search stops at the first match.
 class AnyWithin {
  public:
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

@@ -11,7 +11,7 @@
 namespace hagen::avoidance {
 namespace {
 
-// Which obstacles are tracked.
+// Limits of tracked obstacles.
 constexpr float kMaxWidth_m = 6;
 constexpr std::size_t kMinPoints = 3;
 constexpr float kThinning_m = 0.1f;
@@ -177,7 +177,7 @@ std::vector<Eigen::Vector3f> sampleOf(const std::vector<Eigen::Vector3f>& points
     return sample;
 }
 
-/// The mean distance from each point to the nearest of the others, after these are moved.
+/// The mean distance from each point to the nearest of the others, which are moved first.
 double misfit_m(const std::vector<Eigen::Vector3f>& points_m,
                 const std::vector<Eigen::Vector3f>& others_m, const Eigen::Vector3f& by_m) {
     double sum_m = 0;

@@ -11,20 +11,20 @@ namespace hagen::avoidance {
 
 /// An obstacle tracked from scan to scan.
 struct ObstacleTrack {
-    /// Its points in one scan.
+    /// The obstacle's points in one scan.
     struct Sight {
         double time_s;                          ///< mean time of its returns
         std::vector<Eigen::Vector3f> points_m;  ///< one per 10 cm cube
     };
 
-    std::uint32_t number;                      ///< from 1; never reused
-    Eigen::Vector2d at_m, velocity_m_s{0, 0};  ///< of its centre seen from above
-    Eigen::Matrix2d covariance;                ///< of position and velocity, the same along x and y
-    double time_s;                             ///< of the state
-    int seen_scans = 1, missed_scans = 0;      ///< missed: since the last sighting
-    bool crossed_free_space = false;           ///< ever; required for moving
+    std::uint32_t number;                      ///< starts at 1; never reused
+    Eigen::Vector2d at_m, velocity_m_s{0, 0};  ///< state of its centre seen from above
+    Eigen::Matrix2d covariance;  ///< covariance of position and velocity, the same for x and y
+    double time_s;               ///< time of the state
+    int seen_scans = 1, missed_scans = 0;  ///< missed: since the last sighting
+    bool crossed_free_space = false;       ///< required of moving obstacles
     bool is_moving = false;
-    std::deque<Sight> sights;  ///< of 0.6 s, newest first
+    std::deque<Sight> sights;  ///< from the last 0.6 s, newest first
 
     /// Standard deviation of the velocity along each axis.
     double velocitySigma_m_s() const;
@@ -41,7 +41,7 @@ struct ObstacleTrack {
 /// - it crosses free space: the scan of up to 0.6 s ago saw farther at a tenth of its points, or
 ///   the current scan does so at its former points. The visible part of a static obstacle does not.
 ///   Parts of a wire seem to move along it, so obstacles less than 15 cm high need both scans.
-/// Afterwards, it moves whenever it is fast, because its visible part changes at close range, too.
+/// Afterwards, it is moving whenever it is fast, because its visible part also changes nearby.
 ///
 /// A track not seen for ten scans ends. Obstacles wider than 6 m, with fewer than three points, or
 /// with a point that is too far away are not tracked.
@@ -51,13 +51,13 @@ class ObstacleTracks {
 
     /// Adds the next scan; its `obstacles` must be numbered.
     void update(const observations::MappedScan& scan);
-    /// The same for a scan with a known view (viewOf()).
+    /// Like update(scan), but with the scan's view (viewOf()).
     void update(const observations::MappedScan& scan, std::shared_ptr<const View> view);
 
     const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
     /// The track number of each obstacle of the last scan, by obstacle number; 0: none.
     const std::vector<std::uint32_t>& trackOfObstacle() const { return track_of_obstacle_; }
-    /// Memory without the shared views.
+    /// Memory in bytes, without the shared views.
     std::size_t bytes() const;
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kSteepest = 0.25f;  ///< slope of the planners' steepest commands
 
-/// Modulo that is never negative.
+/// The non-negative modulo.
 int wrap(int value, int size) {
     const int rest = value % size;
     return rest < 0 ? rest + size : rest;

@@ -14,8 +14,8 @@ namespace hagen::avoidance {
 Eigen::Vector3f rollingReachFor(const FlightPace& pace);
 
 /// Maps the voxels of a box that moves with a vehicle to storage. Its size is constant; an index
-/// belongs to a position modulo the size, so that moving copies nothing: entering voxels replace
-/// leaving ones.
+/// belongs to a position modulo the size, so that moving copies no data: entering voxels replace
+/// leaving voxels.
 ///
 /// Voxels are grouped for bit masks of 64: 4 x 4 x 4 voxels form a block, 4 x 4 x 4 blocks a group.
 /// An index is 4096 group + 64 block + voxel; within a block, voxel = 16 z + 4 y + x, and likewise
@@ -24,14 +24,14 @@ class RollingBox {
  public:
     static constexpr int kBlock = 4, kGroup = 16;  ///< edges in voxels
 
-    /// It extends at least `reach_m` from the vehicle in each direction.
+    /// The box extends at least `reach_m` from the vehicle in each direction.
     RollingBox(float edge_m, const Eigen::Vector3f& reach_m);
 
     /// Moves the box to the vehicle. Returns the blocks whose content leaves it, ascending.
     const std::vector<std::uint32_t>& moveTo(const Eigen::Vector3f& vehicle_m);
 
     float edge_m() const { return edge_m_; }
-    const Eigen::Array3i& size() const { return size_; }  ///< in voxels
+    const Eigen::Array3i& size() const { return size_; }  ///< size in voxels
     const Eigen::Array3i& min() const { return min_; }    ///< voxel at the minimum corner
     std::size_t voxels() const { return blocks() * 64; }
     std::size_t blocks() const { return groups() * 64; }

@@ -13,8 +13,8 @@ namespace {
 constexpr int kHit = 20, kMiss = 10, kMin = -48, kMax = 84;
 constexpr std::int8_t kUnknown = std::numeric_limits<std::int8_t>::min();
 
-// Marks of voxels, as bytes, which a ray sets without reading: bits would make each step wait for
-// the previous one.
+// Marks of voxels. They are bytes, which a ray sets without reading: with bits, each step would
+// wait for the previous one.
 constexpr std::int8_t kNotSeen = 0, kPassed = 1, kIsHit = 2;
 
 }  // namespace
@@ -35,7 +35,7 @@ void RollingGridModel::update(const observations::MappedScan& scan) {
     markEnds(scan);
     const Eigen::Array3f origin = box_.inVoxels(scan.origin_m);
     for (const Eigen::Array3i& end : ends_) trace(origin, end);
-    for (const std::uint32_t index : hits_) marks_[index] = kIsHit;  // even if other rays pass
+    for (const std::uint32_t index : hits_) marks_[index] = kIsHit;  // overrides passing rays
     apply();
 }
 
@@ -61,7 +61,7 @@ void RollingGridModel::markEnds(const observations::MappedScan& scan) {
             end = (origin + share * ray).cast<int>().max(0).min(box_.size() - 1);
         }
         const std::uint32_t index = box_.indexOf(end);
-        // The ray enters the voxel at the cut.
+        // A shortened ray passes through its last voxel.
         const std::int8_t mark = is_hit ? kIsHit : kPassed;
         if (marks_[index] >= mark) return;
         marks_[index] = mark;
@@ -74,7 +74,7 @@ void RollingGridModel::markEnds(const observations::MappedScan& scan) {
 }
 
 /// Marks the voxels from the origin to the end (exclusive) as passed (Amanatides & Woo 1987). The
-/// ray's length is 2^32, in integers, so that rounding errors do not add up.
+/// ray's length is scaled to the integer 2^32, so that rounding errors do not add up.
 void RollingGridModel::trace(const Eigen::Array3f& origin, const Eigen::Array3i& end) {
     constexpr double kLength = 4294967296.0, kNever = 1e15;
     const Eigen::Array3i start = origin.cast<int>();
@@ -100,7 +100,7 @@ void RollingGridModel::trace(const Eigen::Array3f& origin, const Eigen::Array3i&
         const std::uint32_t index = *x + *y + *z;
         marks[index] = kPassed;
         is_marked[index / 64] = 1;
-        // Masks instead of unpredictable branches.
+        // Uses masks instead of unpredictable branches.
         const std::int64_t is_x = -std::int64_t{(next_x <= next_y) & (next_x <= next_z)};
         const std::int64_t is_y = ~is_x & -std::int64_t{next_y <= next_z};
         const std::int64_t is_z = ~(is_x | is_y);

@@ -14,8 +14,8 @@ namespace hagen::avoidance {
 ///
 /// Log odds and their limits are OctoMap's. A voxel is updated once per scan: occupied if it
 /// contains a return, otherwise free if a ray passes through. Rays that end in the same voxel are
-/// merged into one to its centre. Returns beyond the range of a window (15 m at 4 m/s) only clear,
-/// up to that range or the border of the box.
+/// merged into one ray to its centre. Returns beyond the range of a window (15 m at 4 m/s) only
+/// clear voxels, up to that range or the border of the box.
 ///
 /// ROG-Map keeps an inflated copy of the map for one vehicle radius, but these planners query
 /// distances. Only a bit per occupied voxel is updated incrementally; VoxelSet computes the exact
@@ -39,9 +39,9 @@ class RollingGridModel : public WorldModel {
     RollingBox box_;
     std::vector<std::int8_t> log_odds_;  ///< per voxel, see RollingGridModel.cpp
     VoxelSet occupied_;
-    std::vector<std::int8_t> marks_, is_marked_;  ///< of the scan, per voxel and block; else 0
+    std::vector<std::int8_t> marks_, is_marked_;  ///< of the scan, per voxel and block
     std::vector<std::uint32_t> hits_;             ///< voxels of the scan's returns
-    std::vector<Eigen::Array3i> ends_;            ///< of the scan's rays, in voxels of the box
+    std::vector<Eigen::Array3i> ends_;            ///< ends of the scan's rays, in voxels of the box
 };
 
 }  // namespace hagen::avoidance

@@ -20,7 +20,7 @@ class SeenDirections {
 
     enum class Place { Free, NotFree, Unknown };
     /// Free if all returns around this direction were at least half a metre farther. Unknown if
-    /// fewer than four of the nine cells around it have any.
+    /// fewer than four of the nine cells around it contain returns.
     Place placeAt(const Eigen::Vector3f& from_origin_m) const;
 
     std::size_t bytes() const { return seen_.capacity() * sizeof(Returns); }
@@ -42,7 +42,7 @@ class SeenDirections {
     std::vector<Returns> seen_;
 };
 
-/// The directions that a scan saw, and its origin.
+/// The directions observed by a scan, and its origin.
 struct View {
     double time_s;  ///< middle of the revolution, if return ages are known
     Eigen::Vector3f origin_m;

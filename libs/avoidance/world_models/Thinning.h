@@ -17,7 +17,7 @@ struct ThinnedPoint {
 std::vector<ThinnedPoint> thinnedPoints(const std::vector<Eigen::Vector3f>& points_m,
                                         const Eigen::Vector3f& origin_m, float edge_m);
 
-/// The same, as coordinates.
+/// Like thinnedPoints(), but returns coordinates.
 std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points_m,
                                      const Eigen::Vector3f& origin_m, float edge_m);
 

@@ -4,7 +4,7 @@
 namespace hagen::avoidance {
 
 /// Subtracts the mean error `bias_m` from the clearances of a model. With a negative bias,
-/// clearances grow. Results are limited to 0 to kReach_m.
+/// clearances grow. Results are limited to [0, kReach_m].
 class UnbiasedModel : public WorldModel {
  public:
     UnbiasedModel(std::unique_ptr<WorldModel> model, float bias_m)

@@ -23,9 +23,9 @@ struct Four {
 
 /// Groups along an axis within reach, nearest first.
 struct Column {
-    float distance2;       ///< to the group, in squared voxels
+    float distance2;       ///< squared distance to the group, in voxels
     float first;           ///< the group's first voxel, as a position in the box
-    std::uint32_t part;    ///< of the group's number
+    std::uint32_t part;    ///< along this axis, of the group's number
     std::uint64_t blocks;  ///< mask of its blocks in the box and within reach
 };
 constexpr int kMaxColumns = 16;
@@ -113,7 +113,7 @@ float nearestInGroup(const std::uint64_t* voxels, std::uint64_t blocks, const Ei
                                     first.z() + kEdge * static_cast<float>(bit >> 4));
         best2 = nearestInBlock(voxels[bit], at, corner, best2);
     };
-    if (nearest < count) look(nearest);  // most others are then too far
+    if (nearest < count) look(nearest);  // then, most other blocks are too far
     for (int i = 0; i < count; ++i) look(i);
     return best2;
 }

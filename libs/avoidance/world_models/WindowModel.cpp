@@ -20,8 +20,8 @@ constexpr float kMinNeighbourhood_m = 0.15f;
 
 struct PastView {
     std::shared_ptr<const View> view;
-    std::size_t points;  ///< of the scan
-    double turns;        ///< of the sensor
+    std::size_t points;  ///< points of the scan
+    double turns;        ///< turns of the sensor
 };
 
 }  // namespace
@@ -88,7 +88,7 @@ void WindowModel::update(const observations::MappedScan& scan, std::shared_ptr<c
     past->turns = scan.turns;
     gather(std::move(past));
     turns_ += scan.turns;
-    // One update more than fits, so that sectors never cover less than whole scans.
+    // Keeps one update more than fits, so that sectors never cover less than whole scans.
     while (turns_ - past_.back()->views.back().turns >
            static_cast<double>(size_.scans) - kRounding_turns) {
         forgetOldest();
@@ -119,7 +119,7 @@ void WindowModel::gather(std::unique_ptr<PastScans> newest) {
 }
 
 /// Isolated points of the newest scan are confirmed by any other point near them; older unconfirmed
-/// ones by the newest scan.
+/// points by the newest scan.
 void WindowModel::confirmIsolated() {
     const PastScans& newest = *past_.front();
     const PastView& last = newest.views.front();
@@ -155,7 +155,7 @@ void WindowModel::hide(const std::vector<std::uint32_t>& tracks) {
     }
 }
 
-/// Its points stay in the shared tree, but are ignored.
+/// The oldest scan's points stay in the shared tree, but are ignored.
 void WindowModel::forgetOldest() {
     PastScans& oldest = *past_.back();
     oldest.in_window -= oldest.views.back().points;

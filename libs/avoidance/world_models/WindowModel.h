@@ -11,14 +11,14 @@
 namespace hagen::avoidance {
 
 /// No map: the points of the last scans, each thinned to one point per 10 cm cube. Three scans
-/// share a k-d tree, so that a new scan costs a small tree and a query visits few trees. Sectors of
-/// a turn are first collected in a separate tree. Without thinning, a nearby wall would fill a scan
-/// with points much denser than the measurement noise.
+/// share a k-d tree, so that a new scan needs only a small tree and a query visits few trees.
+/// Sectors of a turn are first collected in a separate tree. Without thinning, a nearby wall would
+/// fill a scan with points much denser than the measurement noise.
 ///
-/// An isolated return may be dust or rain, or the first of a thin object. It counts once another
-/// return is within 5 % of its range (at least 15 cm): in its own scan, in an earlier one of the
-/// window or in a later one. (Like dynamic radius outlier removal within a scan: Charron et al.,
-/// "De-noising of Lidar Point Clouds Corrupted by Snowfall", CRV 2018.)
+/// An isolated return may be dust or rain, or the first of a thin object. It is ignored until
+/// another return is within 5 % of its range (at least 15 cm): in its own scan, in an earlier one
+/// of the window or in a later one. (Like dynamic radius outlier removal within a scan: Charron et
+/// al., "De-noising of Lidar Point Clouds Corrupted by Snowfall", CRV 2018.)
 class WindowModel : public WorldModel {
  public:
     static constexpr float kThinning_m = 0.1f;
@@ -27,8 +27,8 @@ class WindowModel : public WorldModel {
     ~WindowModel() override;
 
     void update(const observations::MappedScan& scan) override;
-    /// The same with the scan's view and the track number of each obstacle, by obstacle number; 0:
-    /// none.
+    /// Like update(scan), but with the scan's view and the track number of each obstacle, by
+    /// obstacle number (0: none).
     void update(const observations::MappedScan& scan, std::shared_ptr<const View> view,
                 const std::vector<std::uint32_t>& track_of_obstacle);
     /// Ignores points of these tracks until the next call.
@@ -46,7 +46,7 @@ class WindowModel : public WorldModel {
 
     bool roi_only_;
     WindowSize size_;
-    double turns_ = 0;                             ///< in the window
+    double turns_ = 0;                             ///< turns in the window
     std::deque<std::unique_ptr<PastScans>> past_;  ///< newest first
 };
 

@@ -41,7 +41,7 @@ class OracleModel : public WorldModel {
     TrueClearance true_clearance_m_;
 };
 
-/// Knows the future scene, too.
+/// Queries the future scene, too.
 class OracleOfMotion : public OracleModel {
  public:
     using OracleModel::OracleModel;
@@ -56,7 +56,7 @@ using Factory = std::unique_ptr<WorldModel> (*)(const WorldModelSetting&);
 struct Entry {
     std::string name, display_name;
     enum { AllPoints, Labels, Truth } needs;
-    Factory make;  ///< with Movers: of the map
+    Factory make;  ///< with Movers, makes the map only
     /// Mean over walls and poles with equal weight, seeds 0-29; verified on seeds 100-119. Measure
     /// again when a model or its input changes.
     float distance_bias_m;

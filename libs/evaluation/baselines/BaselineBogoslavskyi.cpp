@@ -16,8 +16,8 @@ float radiansOf(float angle_deg) {
     return static_cast<float>(radians(static_cast<double>(angle_deg)));
 }
 
-/// Weights of the rows -half ... half in the value at 0 of the least-squares parabola through them
-/// (Savitzky and Golay's smoothing weights).
+/// Savitzky and Golay's smoothing weights: those of the rows -half ... half in the value at 0 of
+/// the least-squares parabola through them.
 Eigen::VectorXf parabolaWeights(int half) {
     if (half == 0) return Eigen::VectorXf::Ones(1);
     double squares = 0, fourth_powers = 0;
@@ -33,7 +33,7 @@ Eigen::VectorXf parabolaWeights(int half) {
     return weights;
 }
 
-/// Breadth-first from the lowest pixel of each column.
+/// Grows the ground breadth-first from the lowest pixel of each column.
 Image<bool> growGround(const Image<float>& depth_m, const Image<float>& angle_rad,
                        const BogoslavskyiOptions& options) {
     const int rows = static_cast<int>(angle_rad.rows());

@@ -14,15 +14,15 @@ struct BogoslavskyiOptions {
     int columns = 870;  ///< width of the range image
     float repair_step_m =
         1.0f;  ///< gaps are filled if the depths on both sides differ by less than this
-    int smoothing_window = 5;            ///< Savitzky-Golay filter: odd number of rows; 1: none
-    float start_angle_deg = 45.0f;       ///< the lowest pixel is ground unless steeper than this
+    int smoothing_window = 5;       ///< Savitzky-Golay filter: odd number of rows; 1 disables it
+    float start_angle_deg = 45.0f;  ///< the lowest pixel is ground unless steeper than this
     float ground_difference_deg = 5.0f;  ///< neighbouring ground pixels differ by less than this
     float zone_m = 20.0f;                ///< returns farther than this are ROU (not in the paper)
 };
 
 /// Savitzky-Golay filter along each column: the least-squares parabola through the `window` values
-/// around a pixel. A pixel whose window is incomplete, at an edge or next to a gap, keeps its
-/// value. Throws std::invalid_argument unless `window` is odd and positive; 1 changes nothing.
+/// around a pixel. A pixel with an incomplete window, at an edge or next to a gap, keeps its value.
+/// Throws std::invalid_argument unless `window` is odd and positive; 1 changes nothing.
 Image<float> savitzkyGolay(const Image<float>& image, int window);
 
 /// Returns one label per return: RoI within `zone_m` unless ground; Unclassified outside the

@@ -49,12 +49,12 @@ std::optional<Plane> estimatePlane(const Scan& scan, const Indices& points) {
     return Plane{normal.cast<float>(), static_cast<float>(normal.dot(mean))};
 }
 
-/// Whether a return is processed at all.
+/// Whether a return is used at all.
 bool isInZone(const Scan& scan, const SensorModel& sensor, std::size_t i, float zone_m) {
     return sensor.sees(scan.range_m[i]) && scan.range_m[i] <= zone_m;
 }
 
-/// The returns in the zone, in equal stretches of the x axis, rearmost first.
+/// The returns in the zone, in stretches of equal length along the x axis, rearmost first.
 std::vector<Indices> alongX(const Scan& scan, const SensorModel& sensor,
                             const ZermasOptions& options) {
     Indices in_zone;
@@ -108,7 +108,7 @@ std::vector<Label> zermasGroundFit(const Scan& scan, const SensorModel& sensor,
             ground.clear();
             if (!plane) break;
             for (const std::int32_t i : stretch) {
-                // Signed: points below the plane are ground, too.
+                // The height is signed: points below the plane are ground, too.
                 if (plane->heightOf(point(scan, i)) < options.ground_distance_m) {
                     ground.push_back(i);
                 }

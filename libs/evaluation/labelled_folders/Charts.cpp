@@ -19,7 +19,7 @@ constexpr std::array<const char*, kMaxLines> kColours{"#0072B2", "#D55E00", "#00
                                                       "#E69F00", "#333333", "#56B4E9"};
 
 struct Value {
-    std::string label;  ///< on the x axis
+    std::string label;  ///< label on the x axis
     double x, y;
     Interval interval;
 };
@@ -31,12 +31,12 @@ struct Panel {
     std::string title, x_title, y_title;
     std::vector<Line> lines;
     double min_y;
-    bool has_labels = true;  ///< the x axis shows value labels instead of numbers
-    bool has_lines = true;   ///< values are connected
+    bool has_labels = true;  ///< whether the x axis shows value labels instead of numbers
+    bool has_lines = true;   ///< whether lines connect the values
 };
 
-/// The minimum value, rounded down, shared by adjacent panels. Intervals may extend below the axis:
-/// wide ones of few obstacles would compress all values into a line.
+/// The minimum value, rounded down, as the lower limit of adjacent panels. Intervals may extend
+/// below it, because wide intervals of few obstacles would compress all values into a line.
 double leastOf(const std::vector<Line>& lines) {
     double min = 0.8;
     for (const Line& line : lines) {
@@ -49,7 +49,7 @@ double leastOf(const std::vector<Line>& lines) {
 
 class Chart {
  public:
-    /// `panels_px`: width without the legend. `bottom`: fraction of the height for the axis labels.
+    /// `panels_px`: width without the legend; `bottom`: fraction of the height for axis labels.
     Chart(std::string name, int panels_px, int panels, double bottom, bool has_legend)
         : name_(std::move(name)), has_legend_(has_legend) {
         const int legend_px = has_legend ? kLegendWidth_px : 0;
@@ -97,7 +97,7 @@ class Chart {
         };
         const std::size_t lines = panel.lines.size();
         for (std::size_t l = 0; l < lines; ++l) {
-            // Shifted sideways so that intervals do not overlap.
+            // Shift sideways so that intervals do not overlap.
             const double shift =
                 panel.has_labels
                     ? 0.08 * (static_cast<double>(l) - static_cast<double>(lines - 1) / 2)

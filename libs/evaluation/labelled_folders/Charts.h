@@ -1,4 +1,4 @@
-// The scores as charts.
+// Charts of the scores.
 #pragma once
 #include <hagen/base/OutputPath.h>
 #include <filesystem>

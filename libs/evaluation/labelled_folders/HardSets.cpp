@@ -7,7 +7,7 @@
 namespace hagen::evaluation {
 namespace {
 
-/// The folders, without precomputed labels, which do not apply to degraded scans.
+/// Opens the folders, without precomputed labels, which do not apply to degraded scans.
 LabelledScanSources open(const LabelledInputs& inputs, bool is_upside_down) {
     MethodSet rows = inputs.rows;
     rows.labels.clear();

@@ -9,23 +9,23 @@
 
 namespace hagen::evaluation {
 
-/// Labelled scan folders, as opened by sourcesOf(). Each degradation reads them once.
+/// Labelled scan folders, as opened by sourcesOf(). They are read once per degradation.
 struct LabelledInputs {
     std::vector<std::string> folders;
     MethodSet rows;
     std::optional<LabelMap> label_map;
 };
 
-/// The scores of one degradation: one element per method, without --labels, which apply to
+/// The scores with one degradation: one element per method, without --labels, which apply to
 /// undegraded scans.
 struct HardSet {
     std::string name;
     std::vector<MethodScores> methods;
 };
 
-/// Returns the standard degradations if requested, then the given ones, without duplicates.
-/// Standard ones are for the sensor with the fewest beams among the folders. Throws SettingsError
-/// if a text cannot be parsed, or does not fit the sensor of a folder.
+/// Returns the standard degradations if requested, then those in `texts`, without duplicates.
+/// Standard degradations are for the sensor with the fewest beams among the folders. Throws
+/// SettingsError if a text cannot be parsed, or does not fit the sensor of a folder.
 std::vector<Degradation> degradationsOf(const std::vector<std::string>& texts, bool with_standard,
                                         const LabelledInputs& inputs);
 

@@ -26,9 +26,9 @@ std::vector<std::uint16_t> readLabelsOf(const Scan& scan, const fs::path& file) 
     return labels;
 }
 
-/// Returns the entries of the first of these files with object numbers in the high 16 bits; 0 for
-/// returns without number. Entire entries identify objects, because SemanticKITTI numbers each
-/// class separately. Empty: no file has numbers.
+/// Returns the entries of the first of these files that has object numbers in the high 16 bits; 0
+/// for returns without a number; empty if no file has numbers. Entire entries identify objects,
+/// because SemanticKITTI numbers each class separately.
 std::vector<std::uint32_t> readObjectsOf(const Scan& scan, const std::vector<fs::path>& files) {
     for (const fs::path& file : files) {
         if (!fs::exists(file)) continue;
@@ -68,14 +68,14 @@ class LabelledFolder : public LabelledScanSource {
     recordings::ScanFolder folder_;
     std::unique_ptr<recordings::ScanSource> scans_;
     MethodSet methods_;
-    std::vector<fs::path> label_folders_;  ///< for methods_.labels
+    std::vector<fs::path> label_folders_;  ///< label files for methods_.labels
     Settings settings_;
-    observations::SharedBeams beams_;  ///< recovered; null if the settings name the sensor
-    LabelMap kinds_;                   ///< from --label-map or the folder; empty: unknown
-    bool has_label_map_;               ///< ground-truth labels are derived with `kinds_`
-    bool has_kind_files_;              ///< folder semantic/ exists
+    observations::SharedBeams beams_;  ///< recovered beams; null if the settings name the sensor
+    LabelMap kinds_;                   ///< from --label-map or the folder; empty if unknown
+    bool has_label_map_;               ///< whether ground-truth labels are derived with `kinds_`
+    bool has_kind_files_;              ///< whether the folder semantic/ exists
     std::vector<double> altitudes_m_;
-    std::size_t read_ = 0, with_pose_ = 0;  ///< scans
+    std::size_t read_ = 0, with_pose_ = 0;  ///< number of scans
     observations::ObservedScan observed_;
 };
 
@@ -106,9 +106,9 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
         label_folders_.push_back(labelFilesOf(row, folder_, name_, is_only));
     }
     if (!settings_.sensor.model) beams_ = scans_->beamsOf(recordings::kFolderLabel);
-    // Without times, poses cannot be assigned to scans.
+    // Poses cannot be assigned to scans without times.
     const bool has_poses = fs::exists(folder_.tumFile()) && !folder_.times().empty();
-    // A poses.txt is relative to the first scan, which may be tilted, so it gives no attitude.
+    // A poses.txt is relative to the first scan, which may be tilted, so it provides no attitude.
     if (has_poses) scans_->usePoses({});
 }
 
@@ -137,7 +137,7 @@ std::vector<std::string> LabelledFolder::labelsWithoutScans() const {
     for (const char* labels : {"labels", "semantic"}) {
         std::size_t others = 0;
         std::string first;
-        std::error_code none;  // the folder may have none
+        std::error_code none;  // ignored: the folder may be missing
         for (const fs::path& file : base::entriesOf(folder_.path() / labels, none)) {
             if (file.extension() != ".label" || scans.count(file.stem().string()) > 0) continue;
             const std::string name = file.filename().string();
@@ -180,7 +180,7 @@ void LabelledFolder::readTruth(std::size_t i, GroundTruthScan& scan) const {
     } else if (!kinds_.empty()) {
         scan.kinds = readLabelsOf(scan.input.scan, folder_.kindFile(i));
     }
-    // Numbers in predictions are the filter's own.
+    // The numbers in predictions come from the filter itself.
     std::vector<fs::path> numbered{folder_.kindFile(i)};
     if (!folder_.hasPredictions()) numbered.insert(numbered.begin(), folder_.labelFile(i));
     scan.objects = readObjectsOf(scan.input.scan, numbered);

@@ -9,7 +9,7 @@
 
 namespace hagen::evaluation {
 
-/// Opens labelled scan folders. Ground-truth labels are read from labels/. With a label map they
+/// Opens labelled scan folders. Ground-truth labels are read from labels/; with a label map, they
 /// are derived from the classes in semantic/, or in labels/ if there is no semantic/. Class names
 /// come from the map, otherwise from the folder's kinds.yaml. Throws std::runtime_error naming a
 /// folder without scans, and SettingsError for a duplicate folder.

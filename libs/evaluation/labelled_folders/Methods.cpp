@@ -50,7 +50,7 @@ std::vector<Baseline> allBaselines(float zone_m) {
     return all;
 }
 
-/// Splits "5,7.5" into two texts; empty ones are kept, and rejected later as values.
+/// Splits "5,7.5" into two texts. Empty texts are kept; they are rejected later as values.
 std::vector<std::string> valuesOf(const std::string& text) {
     std::vector<std::string> values;
     std::istringstream stream(text + ",");  // a trailing comma yields an empty value
@@ -115,7 +115,7 @@ std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::pat
     for (const SweepPoint& row : rows.filter) {
         Settings settings = settingsFor(row.settings, sensor_file);
         if (!row.sweep_key.empty())
-            setOption(row.sweep_key, row.sweep_value, settings);  // overrides the folder
+            setOption(row.sweep_key, row.sweep_value, settings);  // overrides the folder's settings
         settings.options = settings.optionsFor(beams.get());
         methods.push_back(filterMethod(row.name, sensorOf(settings), settings));
     }

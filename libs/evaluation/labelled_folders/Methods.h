@@ -16,7 +16,7 @@ namespace hagen::evaluation {
 struct SweepPoint {
     std::string name;
     Settings settings;
-    std::string sweep_key;  ///< key of the sweep; empty: no sweep
+    std::string sweep_key;  ///< key of the sweep; empty without a sweep
     std::string sweep_value;
 };
 
@@ -27,9 +27,9 @@ std::vector<SweepPoint> rowsOf(const Settings& settings, const std::vector<std::
 /// All scored methods: the filter's rows, then the baselines if requested, then precomputed labels.
 struct MethodSet {
     std::vector<SweepPoint> filter;
-    std::optional<Settings> baselines;  ///< provides zone and sensor of the baselines
+    std::optional<Settings> baselines;  ///< zone and sensor of the baselines
     std::vector<LabelRow> labels = {};
-    bool is_upside_down = false;  ///< whether the sensor is; see mirrored()
+    bool is_upside_down = false;  ///< whether the sensor is upside down; see mirrored()
 };
 
 /// Adds a row per "NAME=DIR" of precomputed labels. Throws SettingsError like labelRowFrom().

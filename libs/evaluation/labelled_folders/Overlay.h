@@ -1,4 +1,4 @@
-// Labels drawn into a camera view.
+// Labels drawn into the view of a camera.
 #pragma once
 #include <hagen/base/OutputPath.h>
 #include <hagen/evaluation/Evaluation.h>
@@ -6,7 +6,7 @@
 
 namespace hagen::evaluation {
 
-/// A folder of these pictures (*_overlay.png), with or without subfolders.
+/// A folder of overlay pictures (*_overlay.png), with or without subfolders.
 extern const base::OutputKind kOverlays;
 
 /// Draws the pixels of a labelled scan, with a colour for each outcome: correct RoI, correct ROU,

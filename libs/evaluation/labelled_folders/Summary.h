@@ -35,22 +35,22 @@ struct MissedGroup {
 /// The scores for drones, summed over scans.
 struct DroneTotals {
     DroneScores all;
-    std::vector<MissedGroup> by_range, by_kind;  ///< without empty parts
+    std::vector<MissedGroup> by_range, by_kind;  ///< parts with returns only
 };
 DroneTotals totalsOf(const std::vector<DroneScores>& scans, const RangeBands& bands);
 
 struct MethodTotals {
     std::string name;
-    std::string sweep_key, sweep_value;  ///< key of the sweep; empty: no sweep
+    std::string sweep_key, sweep_value;  ///< empty without a sweep
     Latency latency;
-    ScoreTotals returns, pixels;  ///< pixels: zero scans without a camera
+    ScoreTotals returns, pixels;  ///< `pixels` has no scans without a camera
     DroneTotals drone;
 };
 
 /// The scores for one degradation.
 struct HardSetTotals {
     std::string name;
-    /// As in Summary::methods, without --labels; `returns` in total only.
+    /// As in Summary::methods, without --labels; `returns` has totals only.
     std::vector<MethodTotals> methods;
 };
 
@@ -59,7 +59,7 @@ struct Summary {
     std::vector<std::string> command_line;
     std::vector<std::string> folders;       ///< paths
     std::vector<std::string> folder_names;  ///< short names
-    std::vector<std::string> sensor_texts;  ///< per folder; empty: settings name the sensor
+    std::vector<std::string> sensor_texts;  ///< per folder; empty if settings name the sensor
     /// Per folder: the settings merged with those of its recording, and ignored requests.
     std::vector<Settings> folder_settings;
     std::vector<std::vector<std::string>> folder_remarks;
@@ -76,7 +76,7 @@ struct Summary {
 void addScores(const std::vector<MethodScores>& methods, const std::vector<SweepPoint>& rows,
                Summary& summary);
 
-/// The same for degraded scans, without intervals.
+/// Like addScores(), but for degraded scans and without intervals.
 void addHardSets(const std::vector<HardSet>& sets, Summary& summary);
 
 /// Change of F1 from recorded to degraded scans, in points (hundredths).

@@ -96,7 +96,7 @@ Json json(const MethodTotals& method) {
             {"pixels", method.pixels.all.scans == 0 ? Json() : json(method.pixels)}};
 }
 
-/// `recorded`: the same method on the undegraded scans.
+/// `recorded` holds the scores of the same method on the undegraded scans.
 Json json(const MethodTotals& method, const MethodTotals& recorded) {
     const Scores &scores = method.returns.all.scores, &before = recorded.returns.all.scores;
     return {{"name", method.name},

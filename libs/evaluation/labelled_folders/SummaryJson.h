@@ -9,7 +9,7 @@ namespace hagen::evaluation {
 /// Writes the entire summary as JSON:
 ///
 ///     {"hagen": version, "compiler": ..., "command_line": [...], "folders": [FOLDER, ...],
-///      "settings": {key: value, ...} as asked for, "label_map": FILE or null, "camera": FILE or
+///      "settings": {key: value, ...} as requested, "label_map": FILE or null, "camera": FILE or
 ///      null, "max_range_m": x, "scans": n, "bootstrap": {"resamples": n, "seed": n, "level":
 ///      0.95}, "methods": [{"name": ..., "sweep": {"key", "value"} or null,
 ///                   "latency_ms": {"runs", "mean", "sd", "p50", "p95", "p99", "max"} or null,

@@ -48,7 +48,7 @@ class SilentPcl {
     pcl::console::VERBOSITY_LEVEL before_ = pcl::console::getVerbosityLevel();
 };
 
-/// Returns the largest plane within the tilt limit for ground; empty if there is none.
+/// Returns the largest plane within the tilt limit for ground; empty if not found.
 pcl::PointIndices findGround(const Cloud::ConstPtr& cloud, const PclEuclideanOptions& options) {
     pcl::PointIndices ground;
     if (cloud->size() < 3) return ground;

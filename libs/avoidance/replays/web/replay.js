@@ -73,7 +73,7 @@ const movers = data.scene.movers.map(mover => {
     const last = poses.length / 4 - 1, rank = Math.max(0, Math.min(last, when / data.scene.mover_step_s));
     const low = Math.floor(rank), high = Math.min(low + 1, last), share = rank - low;
     made.position.set(...[0, 1, 2].map(k => (1 - share) * place(low, k) + share * place(high, k)));
-    const turn = heading(high) - heading(low);  // the shorter way
+    const turn = heading(high) - heading(low);  // the shorter rotation
     made.rotation.z = heading(low) + share * Math.atan2(Math.sin(turn), Math.cos(turn));
   }};
 });
@@ -106,7 +106,7 @@ function ground() {
 }
 ground();
 
-/// Point sets of variable size.
+/// A point cloud of variable size.
 function cloud(color, size) {
   const geometry = new THREE.BufferGeometry();
   const made = new THREE.Points(geometry, new THREE.PointsMaterial({color, size}));
@@ -173,10 +173,10 @@ function vehicle() {
 }
 const {body: drone, room} = vehicle();
 
-// The model's cells: boxes if they have an edge, otherwise points. Low ones, mostly ground, are
+// The model's cells: boxes if they have an edge, otherwise points. Low cells, mostly ground, are
 // paler; those above the altitude limit are hidden by default.
 function boxes(color, opacity) {
-  const size = 0.5 * edge;  // smaller, so that the gaps are visible
+  const size = 0.5 * edge;  // smaller than a cell, so that gaps are visible
   const made = new THREE.InstancedMesh(new THREE.BoxBufferGeometry(size, size, size),
       new THREE.MeshLambertMaterial({color, transparent: opacity < 1, opacity, depthWrite: opacity === 1}),
       Math.max(1, cells));
@@ -386,8 +386,8 @@ function tick(now) {
   seek(time + passed * Number(byId('rate').value));
   if (time >= ends) pause(); else requestAnimationFrame(tick);
 }
-/// The flight continues after its last command to its end, which follows the last step here. A
-/// command still being computed at the end was never issued.
+/// The flight continues after its last command until its end. A command still being computed at the
+/// end was never issued.
 const given = data.steps.filter(step => step.time_s < ends).length;
 function toStep(index) {
   pause();
@@ -425,7 +425,7 @@ function resize() {
 window.addEventListener('resize', resize);
 resize();
 controls.target.set(0, 0, 0);
-// The address with #t=5 starts at 5 s, otherwise the page shows the first plan.
+// An address with #t=5 starts at 5 s; otherwise, the page shows the first plan.
 const asked = window.location.hash.match(/^#t=([0-9.]+)$/);
 seek(asked ? Number(asked[1]) : data.steps.length > 0 ? data.steps[0].time_s : 0);
 controls.update();

@@ -23,7 +23,7 @@ struct Course {
 
 /// Names of all scenarios. Each leads 40 m along x:
 ///
-///     forest-0.02  random trees, 0.02 per square metre; also forest-0.05, forest-0.10
+///     forest-0.02  random trees, 0.02 per square metre; likewise forest-0.05, forest-0.10
 ///     orchard      rows 4 x 3 m at 10 to 30 degrees to the path, some trees missing;
 ///                  flown at 2.5 m
 ///     gap          a wall 6 m high across the path, with a gap of 1.6 to 2.4 m anywhere in it
@@ -33,11 +33,11 @@ struct Course {
 ///     wires-thin   the same with wires 10 mm thick
 ///     movers       people, cars and drones that circle across the path at 1 to 3 m/s; flown at
 ///                  1.5 m
-///     street       parked cars, also in the middle, lamps, trees and walls; flown at 1.5 m
+///     street       parked cars, even in the middle, lamps, trees and walls; flown at 1.5 m
 const std::vector<std::string>& courseNames();
 
-/// The course of a scenario. A seed gives the same course on every machine. Scenes without a path
-/// for the vehicle are rejected and replaced from the seed's next stream. Throws
+/// The course of a scenario. A seed produces the same course on every machine. Scenes without a
+/// path for the vehicle are rejected and replaced from the seed's next stream. Throws
 /// std::invalid_argument, listing the known names, for an unknown name.
 Course makeCourse(const std::string& scenario, std::uint64_t seed);
 

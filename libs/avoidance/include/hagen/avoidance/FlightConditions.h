@@ -14,7 +14,7 @@ PoseError poseErrorFrom(const std::string& name);
 ///
 ///     dusty  the default errors of the simulation: 1.5e-5 dust specks per metre of beam,
 ///            15 % mixed ranges at edges, and the vehicle's own legs, which the settings mask
-///     clear  none of these
+///     clear  no disturbances
 enum class Air { Dusty, Clear };
 std::string nameOf(Air air);
 Air airFrom(const std::string& name);
@@ -26,11 +26,11 @@ enum class ModelDistance { Unbiased, AsStored };
 std::string nameOf(ModelDistance distance);
 ModelDistance distanceFrom(const std::string& name);
 
-/// The updates of the world model.
+/// When the world model is updated.
 ///
 ///     scans    whole scans, each when the sensor's turn is complete: 10 Hz
 ///     sectors  sectors of 15 degrees, labelled by a StreamingSegmenter, each after its last
-///              packet; the planner runs at 50 Hz, on all sectors since its last start
+///              packet; the planner runs at 50 Hz, on all sectors since its last run
 enum class Updates { Scans, Sectors };
 std::string nameOf(Updates updates);
 Updates updatesFrom(const std::string& name);

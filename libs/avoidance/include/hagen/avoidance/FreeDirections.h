@@ -13,10 +13,10 @@ constexpr std::size_t kDirections = kDirectionAzimuths * kDirectionElevations;
 constexpr double kMaxElevation_rad = 0.24;
 using DirectionSet = std::bitset<kDirections>;
 
-/// A unit vector.
+/// The direction as a unit vector.
 Eigen::Vector3f directionOf(std::size_t number);
 double elevationOfDirection(std::size_t number);  ///< [rad]
-/// Whether a direction points down and ends in the ground, which an altimeter detects, too.
+/// Whether a direction points down to the ground, which an altimeter also detects.
 bool pointsDown(std::size_t number);
 
 /// Length of a checked direction, and radius of the sphere that must fit.
@@ -32,15 +32,15 @@ DirectionSet blockedDirections(const std::function<float(const Eigen::Vector3f&)
                                const FreeDirectionOptions& options = {});
 
 /// Jaccard index of the free directions of two world models: directions free in both over
-/// directions free in either. 1 if neither has any.
+/// directions free in either. 1 if neither model has free directions.
 double freeAgreement(const DirectionSet& blocked_a, const DirectionSet& blocked_b);
 
-/// Counts of a model's directions against ground truth.
+/// A model's directions compared with ground truth.
 struct DirectionCounts {
     std::size_t scored = 0, hits = 0, false_alarms = 0, misses = 0;
 
     double precision() const;  ///< of blocked directions; NaN if the model blocks none
-    double recall() const;     ///< NaN if none is truly blocked
+    double recall() const;     ///< NaN if no direction is truly blocked
     DirectionCounts& operator+=(const DirectionCounts& other);
 };
 DirectionCounts countBlocked(const DirectionSet& predicted_blocked,

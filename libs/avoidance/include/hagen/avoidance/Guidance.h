@@ -12,7 +12,7 @@ struct GuidanceTask {
     Eigen::Vector3d position_m;
     Eigen::Vector3d goal_m;
     double ground_m = 0, altitude_m = 2, lowest_m = 1.0, highest_m = 4.5;  ///< as in PlanningTask
-    Eigen::AlignedBox3d bounds_m;                                          ///< of the flight
+    Eigen::AlignedBox3d bounds_m;                                          ///< limits
     VehicleLimits limits;
 };
 

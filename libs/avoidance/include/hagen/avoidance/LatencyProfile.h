@@ -7,7 +7,7 @@
 
 namespace hagen::avoidance {
 
-/// Quantiles of each stage's run time measured on some machine. Trials draw from them, and so do
+/// Quantiles of each stage's run time, measured on one machine. Trials draw from them, and so do
 /// not depend on the speed or load of the machine that runs them.
 struct LatencyProfile {
     std::string machine, made_by, date;  ///< processor; program and version; ISO date

@@ -29,7 +29,7 @@ struct LoggedScan {
     std::size_t entry = 0;  ///< index of the log entry (or folder scan), from 0
     observations::MappedScan mapped;
     Eigen::Vector3f vehicle_m{0, 0, 0};  ///< position of the vehicle at the end of the scan
-    /// Returns have no times, or the poses end before the scan or have a gap in it.
+    /// Returns have no times, or the poses end before the scan or have a gap within it.
     bool is_placed_by_one_pose = false;
     double filter_ms = 0;  ///< CPU time of this thread in the filter
 };
@@ -40,18 +40,18 @@ class LoggedScans {
  public:
     /// Reads poses and times. Throws recordings::Interrupted once `keep_going` returns false, and
     /// std::runtime_error, naming the file, if there are no scans or no poses, or if fewer than
-    /// half of the scans have one; SettingsError for invalid settings.
+    /// half of the scans have a pose; SettingsError for invalid settings.
     explicit LoggedScans(
         const LogSource& source, const std::function<bool()>& keep_going = [] { return true; });
 
-    /// Reads the next scan with a pose; false at the end. Throws like ScanSource::nextScan(), also
-    /// where the log is truncated. Skips unreadable scans.
+    /// Reads the next scan with a pose; false at the end. Throws like ScanSource::nextScan(),
+    /// including where the log is truncated. Skips unreadable scans.
     bool next(LoggedScan& scan);
 
     const std::string& poseSource() const { return source_->poses().source; }
-    /// The map's z axis points against gravity.
+    /// Whether the map's z axis points against gravity.
     bool posesHaveHorizon() const { return source_->poses().vehicle.has_horizon; }
-    /// Number of scans in the log, and of those skipped for lack of a pose.
+    /// Number of scans in the log, and of scans skipped because they have no pose.
     std::size_t scans() const { return scans_; }
     std::size_t scansWithoutPose() const { return without_pose_; }
     /// Number of unreadable scans so far, and the first error.

@@ -31,15 +31,15 @@ struct OpenLoop {
 
 /// The result of a model for a scan. Does not depend on the machine.
 struct OpenLoopRow {
-    std::size_t scan = 0;  ///< from 0, counting processed scans
+    std::size_t scan = 0;  ///< number of the processed scan, from 0
     std::size_t entry = 0;
     double time_s = 0;
     std::string model;
-    std::size_t returns = 0, roi = 0;  ///< of the scan
+    std::size_t returns = 0, roi = 0;  ///< returns and RoI returns of the scan
     std::size_t obstacles = 0;         ///< points or voxels in the model
     std::size_t bytes = 0;             ///< memory of the model
-    std::size_t blocked = 0;           ///< directions
-    std::size_t truly_blocked = 0;     ///< among the scored ones
+    std::size_t blocked = 0;           ///< blocked directions in the model
+    std::size_t truly_blocked = 0;     ///< blocked directions in the ground truth
     DirectionCounts all, level;        ///< `level`: without downward directions
 };
 
@@ -51,7 +51,7 @@ struct OpenLoopCost {
     double heap_bytes = 0;  ///< heap of the model
 };
 
-/// A model's figures over the log.
+/// A model's results over the whole log.
 struct OpenLoopModel {
     std::string name;
     std::vector<double> obstacles, bytes, blocked;  ///< one entry per scan
@@ -62,17 +62,17 @@ struct OpenLoopModel {
 };
 
 struct OpenLoopResult {
-    std::size_t scans = 0;                                     ///< processed
-    std::size_t scans_without_pose = 0, unreadable_scans = 0;  ///< skipped
-    std::string why_unreadable;                                ///< first error; empty: none
-    std::vector<std::string> remarks;          ///< unused parts of the log as a whole
-    std::size_t scans_placed_by_one_pose = 0;  ///< see LoggedScan
-    std::size_t model_resets = 0;  ///< because the vehicle neared the border of the maps
+    std::size_t scans = 0;                                     ///< processed scans
+    std::size_t scans_without_pose = 0, unreadable_scans = 0;  ///< skipped scans
+    std::string why_unreadable;                                ///< first error, or empty
+    std::vector<std::string> remarks;                          ///< remarks about the log as a whole
+    std::size_t scans_placed_by_one_pose = 0;                  ///< see LoggedScan
+    std::size_t model_resets = 0;  ///< resets because the vehicle neared the border of the maps
     std::string poses;
     bool poses_have_horizon = true;
     std::vector<double> returns, roi, filter_ms;  ///< one entry per scan
     std::vector<OpenLoopModel> models;
-    /// Mean agreement on free directions (Jaccard), models by models.
+    /// Mean Jaccard index of the free directions, for each pair of models.
     std::vector<std::vector<double>> agreement;
 };
 
@@ -82,7 +82,8 @@ struct OpenLoopListener {
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// The log is truncated, or the listener stopped it. `result` covers the scans processed so far.
+/// The log is truncated, or the listener stopped the comparison. `result` covers the scans
+/// processed so far.
 struct OpenLoopEnded : std::runtime_error {
     OpenLoopEnded(const std::string& why, OpenLoopResult processed)
         : std::runtime_error(why), result(std::move(processed)) {}
@@ -90,7 +91,7 @@ struct OpenLoopEnded : std::runtime_error {
 };
 
 /// Throws std::invalid_argument if a model is unknown or listed twice, if the scenario is unknown,
-/// and for the oracle without a scene.
+/// or if the oracle is listed without a scene.
 void checkOpenLoop(const OpenLoop& open_loop);
 
 /// Runs all models on a log. After each scan, every model is queried in all directions around the
@@ -98,7 +99,7 @@ void checkOpenLoop(const OpenLoop& open_loop);
 ///
 /// Maps cover a box: the whole flight and 20 m around it if that is at most 100 000 m3, otherwise
 /// 60 x 60 x 20 m around the vehicle. When the vehicle nears the border of the latter, all models
-/// are reset around it and process the last 3 s again, which is not counted.
+/// are reset around it and process the last 3 s again, which is not timed.
 ///
 /// Throws like checkOpenLoop(); std::runtime_error like LoggedScans, and if the log's obstacles do
 /// not match the scene; OpenLoopEnded.

@@ -14,7 +14,7 @@ struct PlanningTask {
     double start_after_s = 0;    ///< time since the model's last scan
     Eigen::Vector3d carrot_m;    ///< lookahead point of the guidance
     double beyond_carrot_m = 0;  ///< remaining path length from there; 0: the carrot is the goal
-    double speed_m_s = 4;        ///< maximum
+    double speed_m_s = 4;        ///< maximum speed
     double ground_m = 0;         ///< height of the ground below, from the altimeter
     double altitude_m = 2;       ///< target height above the ground
     double lowest_m = 1.0, highest_m = 4.5;  ///< altitude limits above the ground

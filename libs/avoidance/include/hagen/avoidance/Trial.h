@@ -16,15 +16,15 @@
 
 namespace hagen::avoidance {
 
-/// The setup of a run. With a course and a latency profile it determines the result.
+/// The setup of a run. With a course and a latency profile, it determines the result.
 struct TrialSetup {
     std::string model = "W-RoI";
     std::string guidance = "astar";
     std::string planner = "primitives";
     double speed_m_s = 4;
     PoseError pose_error = PoseError::None;
-    double latency_scale = 1;            ///< 4: an embedded computer
-    bool brakes_in_known_space = false;  ///< be able to brake within observed space
+    double latency_scale = 1;            ///< 4 represents an embedded computer
+    bool brakes_in_known_space = false;  ///< braking must end in observed space
     Air air = Air::Dusty;
     ModelDistance distance = ModelDistance::Unbiased;
     Updates updates = Updates::Scans;
@@ -42,8 +42,8 @@ std::vector<std::string> stagesOf(const TrialSetup& setup);
 struct TrialResult {
     Outcome outcome = Outcome::Timeout;
     double min_clearance_m = std::numeric_limits<double>::infinity();  ///< true minimum
-    double path_m = 0, time_s = 0;                                     ///< flown, until the end
-    /// True free distance ahead when a command first left the straight line; NaN: never.
+    double path_m = 0, time_s = 0;  ///< length and duration of the flight
+    /// True free distance ahead when a command first left the straight line; NaN if none did.
     double first_reaction_m = std::numeric_limits<double>::quiet_NaN();
     double rms_jerk_m_s3 = 0;
     int scans = 0, dropped_scans = 0, emergency_stops = 0;
@@ -58,9 +58,9 @@ struct TrialMeasurement {
 
 /// One planning step, for replays; valid during the call.
 struct TrialStep {
-    double time_s;  ///< when the command is given
+    double time_s;  ///< when the command is issued
     VehicleState true_state, believed_state;
-    const observations::MappedScan& scan;  ///< the scan planned on
+    const observations::MappedScan& scan;  ///< the scan used for planning
     const WorldModel& world;
     const Carrot& carrot;
     const Plan& plan;

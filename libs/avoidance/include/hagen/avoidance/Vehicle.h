@@ -37,7 +37,7 @@ class CommandQueue {
     /// Times must not decrease.
     void add(double followed_from_s, const Eigen::Vector3d& command_m_s);
 
-    /// The command followed at a time; zero before the first.
+    /// The command in effect at a time; zero before the first command.
     Eigen::Vector3d at(double time_s) const;
 
     /// The state at `to_s` given `state` at `from_s`. Integrates in steps of at most

@@ -6,12 +6,12 @@ namespace hagen::avoidance {
 
 /// Speed and sensor rate of a flight.
 struct FlightPace {
-    double speed_m_s = 4;        ///< maximum
-    double scan_period_s = 0.1;  ///< of the sensor
+    double speed_m_s = 4;        ///< maximum speed
+    double scan_period_s = 0.1;  ///< period of the sensor's scans
     VehicleLimits limits;
 
-    /// Maximum time from a return to the vehicle's response: two scan periods (waiting in one, just
-    /// missed by another) and the actuation delay.
+    /// Maximum time from a return to the vehicle's response: two scan periods (until the scan is
+    /// complete, and until the planner takes it) and the actuation delay.
     double reaction_s() const { return 2 * scan_period_s + limits.actuation_delay_s; }
     double stopping_s() const { return speed_m_s / limits.acceleration_m_s2; }
     double stopping_m() const { return 0.5 * speed_m_s * stopping_s(); }
@@ -25,18 +25,17 @@ struct WindowSize {
 
 /// The window for a flight.
 ///
-/// Scans: those within the time from a return to standstill (reaction and braking). A plan's
-/// obstacles must be remembered until the vehicle could have stopped for them: meanwhile, they may
-/// be occluded, or above or below the sensor's field of view. 11 scans at 4 m/s, 23 at 10 m/s.
+/// The scans cover the time from a return to standstill (reaction and braking): obstacles must be
+/// remembered until the vehicle could have stopped for them, because meanwhile they may be
+/// occluded, or above or below the sensor's field of view. 11 scans at 4 m/s, 23 at 10 m/s.
 ///
-/// Radius: the reach of a plan: the distance flown during reaction and the planner's look-ahead,
-/// the braking distance, and the reach of a model's clearance. At least 15 m, for path searches, at
-/// most 50 m. 27.5 m at 10 m/s.
+/// The radius is the reach of a plan: the distance flown during reaction and the planner's
+/// look-ahead, the braking distance, and the reach of a model's clearance. At least 15 m, for path
+/// searches, at most 50 m. 27.5 m at 10 m/s.
 WindowSize windowSizeFor(const FlightPace& pace);
 
-/// Range of the filter's zone, and of returns in maps of a whole flight: that of the window for
-/// such a flight, so that from 7.8 m/s on all models see equally far; at least 20 m, the zone of
-/// the presets. In metres.
+/// Range [m] of the filter's zone, and of returns in maps of a whole flight: the radius of
+/// windowSizeFor(), so that from 7.8 m/s on all models have the same range; at least 20 m.
 float perceptionRangeFor_m(const FlightPace& pace);
 
 }  // namespace hagen::avoidance

@@ -27,22 +27,22 @@ class WorldModel {
     virtual void update(const observations::MappedScan& scan) = 0;
 
     /// Distance from a point to the nearest known obstacle, at most kReach_m; 0 inside one. Unknown
-    /// space counts as free.
+    /// space is treated as free.
     virtual float clearance_m(const Eigen::Vector3f& point_m) const {
         return clearanceWithin_m(point_m, kReach_m);
     }
-    /// The same, at most `limit_m`, which may be faster to compute. A model overrides at least one
-    /// of the two.
+    /// Like clearance_m(), but at most `limit_m`, which may be faster to compute. A model overrides
+    /// at least one of the two.
     virtual float clearanceWithin_m(const Eigen::Vector3f& point_m, float limit_m) const {
         return std::min(clearance_m(point_m), limit_m);
     }
 
-    /// clearance_m() at a time after the last scan, for models that predict motion. All others
-    /// assume a static world.
+    /// clearance_m() at a time after the last scan, for models that predict motion. All other
+    /// models assume a static world.
     virtual float clearanceAfter_m(const Eigen::Vector3f& point_m, double /*after_s*/) const {
         return clearance_m(point_m);
     }
-    /// The clearance of a point changes by at most this much per second. 0: nothing moves.
+    /// Maximum change of a point's clearance per second [m/s]; 0 if nothing moves.
     virtual float fastest_m_s() const { return 0; }
 
     /// Whether a point was observed, as free or occupied.
@@ -61,19 +61,19 @@ class WorldModel {
 
 /// Parameters of a world model known before the flight.
 struct WorldModelSetting {
-    Eigen::AlignedBox3f bounds_m;  ///< of the flight; maps extend 3 m beyond
+    Eigen::AlignedBox3f bounds_m;  ///< bounds of the flight; maps extend 3 m beyond
     /// The true distance to the nearest obstacle at a time after the last scan. Only for oracles.
     std::function<float(const Eigen::Vector3f& point_m, double after_s)> true_clearance_m;
     FlightPace pace;  ///< determines window sizes
     ModelDistance distance = ModelDistance::Unbiased;
 };
 
-/// Names of all world models. The first is used in flags, files and hashes, the second is for
-/// people (displayName()):
+/// Names of all world models. Flags, files and hashes use the first column, people the second
+/// (displayName()):
 ///
 ///     W-RoI           RoI window: RoI points of the last scans, one per 10 cm cube
 ///                     (windowSizeFor())
-///     W-RoI+motion    RoI window with motion: the same, with predicted positions of moving
+///     W-RoI+motion    RoI window with motion: W-RoI with predicted positions of moving
 ///                     obstacles (ObstacleTracks); likewise W-Full+motion, G-Full+motion and
 ///                     R-Full-0.2+motion
 ///     W-Full          full window: the same with all points
@@ -91,7 +91,7 @@ struct WorldModelSetting {
 ///     oracle+motion   true scene with future motion
 const std::vector<std::string>& worldModelNames();
 
-/// The name of a model for people, such as "RoI window" for W-RoI. Names that are not in
+/// The display name of a model, such as "RoI window" for W-RoI. Names that are not in
 /// worldModelNames(), such as those of other versions, are returned unchanged.
 std::string displayName(const std::string& model);
 
@@ -102,11 +102,11 @@ std::string worldModelFrom(const std::string& text);
 /// All names for error messages: "W-RoI (RoI window), W-Full (full window), ...".
 std::string worldModelList();
 
-/// Whether a model needs the filter's labels; then the filter's latency counts. Throws
+/// Whether a model needs the filter's labels; if so, its latency includes the filter. Throws
 /// std::invalid_argument for unknown names.
 bool needsLabels(const std::string& model);
 
-/// Whether a model knows the true scene: an oracle. False for unknown names.
+/// Whether a model needs the true scene, as oracles do. False for unknown names.
 bool needsTruth(const std::string& model);
 
 /// Whether a model predicts motion (clearanceAfter_m()). False for unknown names.
@@ -117,7 +117,7 @@ bool predictsMotion(const std::string& model);
 /// names.
 float distanceBias_m(const std::string& model);
 
-/// Throws std::invalid_argument for unknown names, listing the known ones, and for an oracle
+/// Throws std::invalid_argument for unknown names, listing known names, and for an oracle
 /// without true clearances.
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting);

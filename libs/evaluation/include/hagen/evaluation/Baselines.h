@@ -8,18 +8,18 @@
 
 namespace hagen::evaluation {
 
-/// A published segmenter, ready to run, to compare the filter with.
+/// A published segmenter with parameters, to compare with the filter.
 struct Baseline {
-    std::string name;        ///< short, for a row of a table
+    std::string name;        ///< short name for tables
     std::string source;      ///< authors and publication
-    std::string parameters;  ///< as text
+    std::string parameters;  ///< description of the parameters
     /// Returns one label per return: Unclassified outside the sensor's range limits, otherwise Rou
     /// or Roi. No state carries over between calls.
     std::function<std::vector<Label>(const Scan&, const SensorModel&)> segment;
 };
 
-/// Returns all baselines of this library, each with published and with tuned parameters (on
-/// labelled scans); docs/baselines.md lists both. Returns farther than `zone_m` are ROU, as with
+/// Returns all baselines of this library, each with published parameters and with parameters tuned
+/// on labelled scans; docs/baselines.md lists both. Returns farther than `zone_m` are ROU, as with
 /// the filter.
 std::vector<Baseline> baselines(float zone_m);
 

@@ -39,8 +39,8 @@ struct CameraPixel {
     std::size_t index = 0;
 };
 
-/// Returns the pixels with a visible return: of the returns that project to one pixel, the nearest
-/// to the camera. Sorted by row and column. Returns without a range are ignored.
+/// Returns the pixels with a visible return: if several returns project to a pixel, the one nearest
+/// to the camera. Sorted by row and column. Ignores returns without a range.
 std::vector<CameraPixel> visibleReturns(const PinholeCamera& camera, const Scan& scan);
 
 }  // namespace hagen::evaluation

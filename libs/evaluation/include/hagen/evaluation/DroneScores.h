@@ -8,7 +8,7 @@
 
 namespace hagen::evaluation {
 
-/// Counts of missed and of all items.
+/// The number of missed items, and of all items.
 struct Missed {
     std::int64_t missed = 0, all = 0;
 
@@ -16,18 +16,18 @@ struct Missed {
     Missed& operator+=(const Missed& other);
 };
 
-/// Scores that matter to a drone, for one scan or summed over several.
+/// Scores that matter to a drone, for one scan or summed over several scans.
 struct DroneScores {
     std::size_t scans = 0;
     /// Returns of obstacles more than kTall_m above the true ground (TrueHeights.h) that are not
-    /// labelled RoI: in total, by range band, and by class name if classes are known.
+    /// labelled RoI: in total, by range band, and by class name (if classes are known).
     Missed tall;
     std::vector<Missed> tall_by_range;
     std::map<std::string, Missed> tall_by_kind;
-    /// Obstacles of a scan with at least kObstacleReturns returns in range, none of them RoI. Zero
-    /// if the ground truth does not number obstacles.
+    /// Obstacles with at least kObstacleReturns returns in range, none of which is labelled RoI.
+    /// Zero if the ground truth does not number obstacles.
     Missed obstacles;
-    /// Ground returns labelled RoI, without a true obstacle within kBareGround_m horizontally.
+    /// Ground returns labelled RoI that have no true obstacle within kBareGround_m horizontally.
     std::int64_t false_on_bare_ground = 0;
 
     double falseOnBareGroundPerScan() const;  ///< NaN without scans
@@ -37,7 +37,7 @@ struct DroneScores {
 constexpr float kTall_m = 0.5f, kBareGround_m = 2.0f;
 constexpr std::size_t kObstacleReturns = 5;
 
-/// The ground truth of one scan for these scores, the same for all methods. Refers to the scan.
+/// The ground truth of one scan, shared by all methods. Keeps a reference to the scan.
 class DroneTruth {
  public:
     DroneTruth(const GroundTruthScan& scan, const RangeBands& bands);
@@ -54,8 +54,8 @@ class DroneTruth {
 
     const GroundTruthScan& scan_;
     RangeBands bands_;
-    std::vector<std::size_t> tall_;                    ///< returns
-    std::vector<std::vector<std::size_t>> obstacles_;  ///< returns of each
+    std::vector<std::size_t> tall_;                    ///< indices of tall returns
+    std::vector<std::vector<std::size_t>> obstacles_;  ///< returns of each obstacle
     std::unique_ptr<Plan> plan_;
 };
 

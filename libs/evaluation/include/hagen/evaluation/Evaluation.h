@@ -11,40 +11,39 @@
 
 namespace hagen::evaluation {
 
-/// Labelled scans of one sensor, pulled one by one.
+/// Labelled scans of one sensor, read one by one.
 class LabelledScanSource {
  public:
     virtual ~LabelledScanSource() = default;
 
-    /// The next scan; none at the end.
+    /// Reads the next scan; nullopt at the end.
     virtual std::optional<GroundTruthScan> next() = 0;
 
     virtual const std::string& name() const = 0;  ///< shown in tables
     virtual std::size_t size() const = 0;         ///< number of scans
-    virtual const LabelMap& kinds() const = 0;    ///< the object classes of its scans
-    virtual SensorModel sensor() const = 0;       ///< the sensor for which its scans are located
+    virtual const LabelMap& kinds() const = 0;    ///< object classes in the scans
+    virtual SensorModel sensor() const = 0;       ///< sensor for which the scans are located
     /// Describes a recovered sensor; empty if the recording or the settings name the sensor.
     virtual std::string sensorText() const { return ""; }
     /// Unused parts of the source; complete after the last scan.
     virtual std::vector<std::string> remarks() const { return {}; }
-    /// Creates the methods for its sensor. All sources must return the same names in this order.
+    /// Creates the methods for the sensor. All sources must return the same names in this order.
     virtual std::vector<Method> makeMethods() const = 0;
 };
 using LabelledScanSources = std::vector<std::unique_ptr<LabelledScanSource>>;
 
 struct EvaluationOptions {
     RangeBands range;
-    std::optional<PinholeCamera> camera;  ///< also score its pixels
+    std::optional<PinholeCamera> camera;  ///< if set, its pixels are scored, too
 };
 
 /// The results of one method, scan by scan.
 struct MethodScores {
     std::string name;
-    std::vector<ScanScores> returns;  ///< over returns
-    std::vector<ScanScores>
-        pixels;  ///< over camera pixels, one return each; empty without a camera
+    std::vector<ScanScores> returns;  ///< scores over returns
+    std::vector<ScanScores> pixels;   ///< scores over camera pixels; empty without a camera
     std::vector<DroneScores> drone;
-    std::vector<double> latency_ms;  ///< of each call of Method::segment; empty if is_recorded
+    std::vector<double> latency_ms;  ///< per call of Method::segment; empty if is_recorded
 };
 
 /// A scan as labelled by one method, for visualisation.
@@ -58,10 +57,10 @@ struct MethodOutput {
 };
 using EvaluationListener = std::function<void(const MethodOutput&)>;
 
-/// Segments every scan with every method and scores the labels. Pulls all scans one by one, so a
-/// source can be evaluated only once. Every method first processes the first scan of each source as
-/// a warm-up, neither scored nor timed. Throws std::runtime_error naming a scan with the wrong
-/// number of labels, and std::invalid_argument without sources or if their methods differ.
+/// Segments every scan with every method and scores the labels. Reads all scans, so a source can be
+/// evaluated only once. Every method first processes the first scan of each source as a warm-up,
+/// which is neither scored nor timed. Throws std::runtime_error naming a scan with the wrong number
+/// of labels, and std::invalid_argument if there are no sources or their methods differ.
 std::vector<MethodScores> evaluate(const LabelledScanSources& sources,
                                    const EvaluationOptions& options = {},
                                    const EvaluationListener& listener = {});

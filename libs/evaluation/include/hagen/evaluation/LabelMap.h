@@ -8,13 +8,13 @@
 
 namespace hagen::evaluation {
 
-/// A semantic class: its name, and the label of its returns.
+/// A semantic class: its name and its label.
 struct SemanticClass {
     std::string name;
     Label label = Label::Unclassified;
 };
 
-/// Semantic classes by their number, the low 16 bits of a label file's entries.
+/// Semantic classes by number: the low 16 bits of an entry in a label file.
 using LabelMap = std::map<std::uint16_t, SemanticClass>;
 
 /// Reads a label map, the format of `--label-map` and of a scan folder's kinds.yaml: YAML, one line
@@ -30,7 +30,7 @@ LabelMap readLabelMap(const std::filesystem::path& file);
 /// map.
 std::vector<Label> labelsOfClasses(const std::vector<std::uint16_t>& kinds, const LabelMap& map);
 
-/// Converts the numbers of a label file to labels. Throws std::invalid_argument for numbers other
+/// Converts the numbers in a label file to labels. Throws std::invalid_argument for numbers other
 /// than 0, 1, 2.
 std::vector<Label> labelsOfNumbers(const std::vector<std::uint16_t>& numbers);
 

@@ -14,7 +14,7 @@ struct ScanInput {
     Scan scan;  ///< with range, azimuth and row
     /// Rotates from the sensor's frame to the map frame (z up). nullopt if the pose is unknown.
     std::optional<Eigen::Matrix3f> map_from_sensor;
-    std::string name = {};  ///< file name without folder and extension; empty: unknown
+    std::string name = {};  ///< file name without folder and extension; empty if unknown
 };
 
 /// A segmenter for scans of one sensor and its name in tables: the filter or a baseline. `segment`

@@ -17,16 +17,15 @@ struct GroundTruthScan {
     std::string name;  ///< file or entry, for messages
     ScanInput input;
     std::vector<Label> truth;  ///< one label per return; Unclassified returns are not scored
-    std::vector<std::uint16_t> kinds;    ///< class of each return; empty: unknown
-    std::vector<std::uint32_t> objects;  ///< obstacle of each return; 0: none; empty: unknown
-    double altitude_m = NAN;             ///< of the sensor above the ground; NaN: unknown
-    /// The true attitude, like ScanInput::map_from_sensor, if withheld from the methods.
+    std::vector<std::uint16_t> kinds;    ///< class of each return; empty if unknown
+    std::vector<std::uint32_t> objects;  ///< obstacle number of each return, or 0; empty if unknown
+    double altitude_m = NAN;             ///< altitude of the sensor above the ground
+    /// The true attitude, like ScanInput::map_from_sensor, if it is withheld from the methods.
     std::optional<Eigen::Matrix3f> true_level_from_sensor;
-    /// Heights of obstacle returns above the true ground. Empty: heightsAboveTrueGround().
+    /// Heights of obstacle returns above the true ground; empty: heightsAboveTrueGround().
     std::vector<float> heights_m = {};
 
-    /// Rotates to a frame with z up: by the true attitude, or else the input's, or else the
-    /// identity.
+    /// Rotates to a frame with z up: by the true attitude, else the input's, else not at all.
     Eigen::Matrix3f levelFromSensor() const;
 };
 
@@ -44,7 +43,7 @@ struct RangeBands {
     float max_range_m = 20;
     float width_m = 5;
 
-    /// Throws std::invalid_argument for more than a million.
+    /// Throws std::invalid_argument for more than a million bands.
     std::size_t count() const;
     /// Returns the band of a range up to max_range_m. Lower bounds are inclusive.
     std::size_t bandOf(float range_m) const;

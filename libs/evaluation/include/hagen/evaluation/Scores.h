@@ -6,10 +6,9 @@ namespace hagen::evaluation {
 
 /// Precision, recall and F1 of one class, and the underlying counts.
 struct ClassScore {
-    std::int64_t hits = 0;    ///< true positives
-    std::int64_t misses = 0;  ///< false negatives (unclassified returns included)
-    std::int64_t false_alarms =
-        0;  ///< false positives: labelled as this class, belong to the other
+    std::int64_t hits = 0;          ///< true positives
+    std::int64_t misses = 0;        ///< false negatives (unclassified returns included)
+    std::int64_t false_alarms = 0;  ///< false positives: returns of the other class
 
     double precision() const;  ///< NaN if nothing was labelled as this class
     double recall() const;     ///< NaN if nothing belongs to this class
@@ -31,7 +30,7 @@ struct Scores {
     Scores& operator+=(const Scores& other);
 };
 
-/// Adds one return or one pixel. Ignored if its ground-truth label is Unclassified.
+/// Adds one return or pixel, unless its ground-truth label is Unclassified.
 void addScore(Label truth, Label found, Scores& scores);
 
 }  // namespace hagen::evaluation
