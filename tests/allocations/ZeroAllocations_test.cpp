@@ -1,5 +1,5 @@
-// After the first scans, the path from packets to labels and index lists does not allocate. This is
-// a separate program because it replaces malloc().
+// After the first scans, segmentation does not allocate, from packets to labels and index lists.
+// This is a separate program because it replaces malloc().
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/mrpt/VelodyneObservation.h>
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Sensors, ZeroAllocations, testing::Values("VLP-16", "HD
                              return std::string(of.param) == "VLP-16" ? "Vlp16" : "Hdl32";
                          });
 
-/// Every kind of allocation is counted.
+/// The test's counter sees every kind of allocation.
 TEST(AllocationCounter, SeesNewAndEigen) {
     if (!countsAllocations()) GTEST_SKIP() << "the sanitizer replaces malloc()";
     const std::size_t before = allocations();

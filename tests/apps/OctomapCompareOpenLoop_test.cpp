@@ -1,4 +1,4 @@
-// Runs the built program, as a user would.
+// Open-loop evaluation, run as a user would.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST_F(OpenLoopCommand, OracleIsExactAndModelsGetSameScans) {
     EXPECT_GT(models[1]["directions"]["level"]["recall"], 0.9);
     EXPECT_GT(models[2]["obstacles"], models[1]["obstacles"]);
     EXPECT_EQ(summary["free_agreement"]["jaccard"][0][0], 1.0);
-#ifndef __SANITIZE_ADDRESS__  // its heap does not report its size
+#ifndef __SANITIZE_ADDRESS__  // ASan does not report heap sizes
     EXPECT_GT(summary["measured"]["models"][2]["peak_heap_bytes"], 100000);
 #endif
 
@@ -135,7 +135,7 @@ TEST_F(OpenLoopCommand, ReportsSkippedDataDespiteQuiet) {
     EXPECT_EQ(summary["remarks"].size(), 1u);
 }
 
-TEST_F(OpenLoopCommand, RejectsWrongUsage) {
+TEST_F(OpenLoopCommand, RejectsInvalidArguments) {
     const std::vector<std::string> orchard{"-i", kOrchard, "-o", path("no")};
     expectFailure(with(orchard, {"--models", "O-Full-0"}), 2, "O-Full-0");
     expectFailure(

@@ -1,4 +1,4 @@
-// Presets by name, in every program that takes settings.
+// Presets by name, in all programs that accept settings.
 #include "support/SegmentTest.h"
 
 namespace hagen {

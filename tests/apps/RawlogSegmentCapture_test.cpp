@@ -53,7 +53,7 @@ TEST_F(RawlogSegmentCapture, KeepsReadablePartOfCutCapture) {
         if (cut != 3) continue;
         EXPECT_THAT(outcome.err, HasSubstr("preceding entries are in " + path("out.partial")));
     }
-    recordings::RawlogReader reader(path("out.partial.rawlog"));  // from the first cut
+    recordings::RawlogReader reader(path("out.partial.rawlog"));  // from the first truncation
     while (reader.next()) {
     }
     EXPECT_GE(reader.entries(), 12u);  // four scans, each with two clouds

@@ -1,4 +1,4 @@
-// rawlog-segment on rawlogs and scan folders, as a user would run it.
+// rawlog-segment on rawlogs and scan folders, run as a user would.
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>
@@ -56,8 +56,8 @@ Scan randomScan(int points, const Eigen::Vector3f& min_m, const Eigen::Vector3f&
     return scan;
 }
 
-// The published filter's RoI and ROU of each scan of the recording. (The last bit of a sine may
-// differ between machines, and therefore a few returns.)
+// RoI and ROU counts of the published filter for each scan of the recording. Sines may differ in
+// the last bit between machines, and therefore a few labels.
 constexpr int kGolden[10][2] = {{1730, 13883}, {1857, 13775}, {1864, 13767}, {1894, 13753},
                                 {1897, 13754}, {1967, 13751}, {2057, 13724}, {2066, 13735},
                                 {2070, 13736}, {2127, 13707}};
@@ -94,7 +94,7 @@ TEST_F(RawlogSegment, LabelsSampleRecordingAsPublished) {
                   std::string("mrpt::obs::CObservation3DScene"));
         const auto& scan = stats["scans"][i];
         EXPECT_EQ(scan["entry"], 2 * i + 1);
-        EXPECT_GT(scan["nearest_roi_m"], 5.0);  // all poles are farther away
+        EXPECT_GT(scan["nearest_roi_m"], 5.0);  // all poles are farther than this
         const auto labels = recordings::readLabels(scans.labelFile(i));
         EXPECT_EQ(scan["roi"], std::count(labels.begin(), labels.end(), 2));
         EXPECT_EQ(scan["returns"], labels.size());
@@ -145,7 +145,7 @@ TEST_F(RawlogSegment, OutputsDoNotDependOnThreads) {
         EXPECT_TRUE(test::readFile(entry) == test::readFile(path("3") / name)) << name;
         ++compared;
     }
-    EXPECT_GT(compared, outputs.size() + 30);  // a scan, its labels and its cloud, ten times
+    EXPECT_GT(compared, outputs.size() + 30);  // ten scans, each with labels and a cloud
 }
 
 TEST_F(RawlogSegment, RecoversUnnamedSensor) {
@@ -184,7 +184,7 @@ TEST_F(RawlogSegment, ReportsCloudsWithoutBeams) {
     EXPECT_THAT(few.out, HasSubstr("sensor velodyne: too few returns"));
     EXPECT_THAT(few.out, HasSubstr("VLP-16 assumed"));
 
-    writeScan(randomScan(1000, {130, -60, 10}, {150, -40, 14}));  // in a map frame
+    writeScan(randomScan(1000, {130, -60, 10}, {150, -40, 14}));  // in map coordinates
     const auto far = expectSuccess({"-i", path("scans"), "--stats", path("c.json")});
     EXPECT_THAT(far.err, HasSubstr("no return is RoI"));
     EXPECT_THAT(far.err, HasSubstr("relative to the sensor"));
@@ -197,7 +197,7 @@ TEST_F(RawlogSegment, ComparesCloudsWithNamedSensor) {
     EXPECT_THAT(overridden.err, HasSubstr("sensor.yaml overrides the settings' "
                                           "sensor.model HDL-64E"));
     fs::remove_all(path("labels"));
-    // Five of sixteen beams are a degree too high.
+    // Five of sixteen beams are one degree too high.
     folder_.write("scans/sensor.yaml",
                   "sensor: {model: custom, elevations_deg: [-15, -13, -10, -9, -7, -4, -3, -1, 2, "
                   "3, 5, 8, 9, 11, 14, 15]}\n");
@@ -207,7 +207,7 @@ TEST_F(RawlogSegment, ComparesCloudsWithNamedSensor) {
                           "Is it this sensor?"));
     fs::remove_all(path("labels"));
 
-    folder_.write("scans/sensor.yaml",  // in radians
+    folder_.write("scans/sensor.yaml",  // elevations in radians
                   "sensor: {model: custom, elevations_deg: [-0.26, -0.22, -0.19, -0.15, -0.12, "
                   "-0.08, -0.05, -0.01, 0.01, 0.05, 0.08, 0.12, 0.15, 0.19, 0.22, 0.26]}\n");
     EXPECT_THAT(run(flags).err, HasSubstr("its elevations are not in degrees"));
@@ -265,7 +265,7 @@ TEST_F(RawlogSegment, OverwritesOwnOutputsOnly) {
     EXPECT_GT(fs::file_size(path("out.rawlog")), 1000u);
     EXPECT_FALSE(fs::exists(path("scans/velodyne/000077.bin")));
 
-    folder_.write("mine/velodyne/000000.bin", "mine");  // a folder labelled by hand
+    folder_.write("mine/velodyne/000000.bin", "mine");  // labelled by hand
     folder_.write("mine/labels/000000.label", "mine");
     folder_.write("work/src/main.cpp", "");
     folder_.write("notes.txt", "mine");
@@ -369,7 +369,7 @@ TEST_F(RawlogSegment, KeepsNonFinitePointsAndEmptyScans) {
               (std::vector<std::uint16_t>{0, 0, 0}));
 }
 
-TEST_F(RawlogSegment, RejectsWrongUsage) {
+TEST_F(RawlogSegment, RejectsInvalidArguments) {
     expectFailure({}, 2, "--input");
     expectFailure({recording(), "-o", path("out")}, 2, "not expected: " + recording());
     const Arguments log{"-i", recording()};
@@ -496,7 +496,8 @@ TEST(PolesAndWall, RecordingMatchesGenerator) {
         for (std::size_t p = 0; p < made->scan_packets.size(); ++p) {
             for (int b = 0; b < 12; ++b) {
                 for (int i = 0; i < 32; ++i) {
-                    // The last bit of a sine may differ between machines, and a range by one unit.
+                    // Sines may differ in the last bit between machines, and therefore ranges by
+                    // one unit.
                     ASSERT_NEAR(recorded->scan_packets[p].blocks[b].laser_returns[i].distance(),
                                 made->scan_packets[p].blocks[b].laser_returns[i].distance(), 1);
                 }

@@ -16,7 +16,7 @@ using test::readFile;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-/// Six short flights through three courses.
+/// Six short flights on three courses.
 class Campaign : public testing::Test {
  protected:
     Campaign() {

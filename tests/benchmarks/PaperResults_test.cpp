@@ -258,7 +258,7 @@ class PaperResults : public test::ProgramTest {
     }
 };
 
-TEST_F(PaperResults, RejectsWrongUsage) {
+TEST_F(PaperResults, RejectsInvalidArguments) {
     expectFailure({}, 2, "--output");
     expectFailure({"-o", (folder_ / "none").string()}, 2, "none");
     expectFailure({"-o", folder_.path(), "--beta", "5"}, 2, "--beta");
@@ -301,7 +301,7 @@ TEST_F(PaperResults, KeepsExistingOutputs) {
     expectFailure({"-o", folder_.path(), "--overwrite"}, 1, "holiday.svg");
 }
 
-TEST(ReproducePaper, RejectsWrongUsage) {
+TEST(ReproducePaper, RejectsInvalidArguments) {
     const std::string script = HAGEN_SOURCE_DIR "/scripts/reproduce-paper";
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"--fast"}, {"--data"}, {"--quick", "results.md"}}) {

@@ -343,7 +343,7 @@ TEST(SelectionTables, ListHeldOutScoresFirst) {
 
 // ---- the programs
 
-TEST(SelectSettings, RejectsWrongUsage) {
+TEST(SelectSettings, RejectsInvalidArguments) {
     test::TemporaryFolder folder;
     const std::string output = (folder / "selection.json").string();
     const std::vector<std::string> common{"-o",          output,     "--data",
