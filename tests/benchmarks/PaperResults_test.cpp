@@ -102,7 +102,7 @@ TEST(Rows, PaperRowUsesPaperStagesOnly) {
     }
 }
 
-// The tuning's seeds are never scored.
+// Seeds used for tuning are never scored.
 TEST(DataSets, UseGivenSeeds) {
     for (const DataSet& set : dataSets("", "data", {{101, 102}, 3})) {
         ASSERT_FALSE(set.flights.empty()) << set.name;
@@ -158,7 +158,7 @@ evaluation::ScanScores scanOf(std::size_t folder, std::int64_t right, std::int64
     return scan;
 }
 
-/// Two drives, with two scans and one, and two degradations.
+/// Results of two drives (two scans and one scan) and two degradations.
 Measured twoDrives() {
     Measured measured;
     measured.set.name = "real, 16 beams";

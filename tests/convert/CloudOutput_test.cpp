@@ -35,7 +35,7 @@ class CloudOutputTest : public test::PoleConversion,
     PointTable labelled(const std::string& name) const {
         return recordings::readCloud(conversion_.clouds / (name + extensionOf(GetParam()))).table;
     }
-    /// The scan with more fields: `ring`, `t`, `range_mm` (of the return), `label`.
+    /// The scan with additional fields: `ring`, `t`, `range_mm`, `label`.
     PointTable tableOfScan() const {
         PointTable table = observations::tableOf(observed_.scan);
         const Scan& scan = observed_.scan;

@@ -59,7 +59,7 @@ TEST(ScanFolderWriter, WritesReadableFolder) {
     EXPECT_EQ(settings.sensorModel().max_range_m, sensor.max_range_m);
 }
 
-/// Scans may be written in a different order than that of their names.
+/// Scans may be written in an order other than that of their names.
 TEST(ScanFolderWriter, OrdersTimesAndPosesByName) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path());

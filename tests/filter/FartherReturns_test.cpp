@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kZone_m = 20;
 
-/// Level ground 2 m below a VLP-16, and the labels of returns above it.
+/// Level ground 2 m below a VLP-16, and the labels of farther returns.
 struct TwoMetresUp {
     SensorModel sensor = sensorModel("VLP-16");
     Ground ground;
@@ -86,8 +86,8 @@ TEST(FartherReturns, FarBelowSurfaceIsRoi) {
     EXPECT_EQ(example.judged(points)[1], Label::Roi);
 }
 
-// A range of 7 m on the beam is 6.8 m along the ground: (6.7, 1.2) m, in the third block along x
-// and the first along y.
+// 7 m along the beam are 6.8 m along the ground: (6.7, 1.2) m, in the third block along x and the
+// first along y.
 TEST(FartherReturns, WithoutEvidenceAreRoi) {
     TwoMetresUp example;
     const auto labelWithout = [&](const std::vector<std::size_t>& blocks) {
@@ -109,10 +109,10 @@ TEST(FartherReturns, IgnoresReturnsBeyondZone) {
               (std::vector<Label>{kAsItsPixel, Label::Roi, kAsItsPixel}));
 }
 
-// At 2 m above level ground, every ground return is 2 m below.
+// From 2 m above level ground, every ground return is 2 m below the sensor.
 TEST(FartherReturns, TooCloseGroundIsRoi) {
     const TwoMetresUp example;
-    const double to_ground_m = 2 / std::sin(radians(15));  // of the lowest beam
+    const double to_ground_m = 2 / std::sin(radians(15));  // range of the lowest beam
     const std::vector<Eigen::Vector3f> points{example.on(0, to_ground_m), example.on(0, 3)};
     EXPECT_EQ(example.judged(points, 1.9f), (std::vector<Label>{Label::Rou, kAsItsPixel}));
     EXPECT_EQ(example.judged(points, 2.1f), (std::vector<Label>{Label::Roi, kAsItsPixel}));

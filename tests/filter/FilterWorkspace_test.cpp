@@ -1,5 +1,5 @@
-// A filter owns its memory: other filters in the same thread, and the thread it runs on, do not
-// affect its results.
+// Each filter owns its memory, so neither other filters in its thread nor the thread itself affect
+// its results.
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 
@@ -26,7 +26,7 @@ std::vector<Scan> drive(const SensorModel& sensor, int columns) {
     return scans;
 }
 
-/// All parts of a result that can differ.
+/// All data of a result.
 struct Outcome {
     Image<float> smoothed_rad, height_m;
     std::vector<Label> own_label, label;
@@ -48,7 +48,7 @@ void expectSame(const Outcome& a, const Outcome& b) {
     EXPECT_EQ(a.roi, b.roi);
 }
 
-/// A sensor, its settings, its scans, and the results of a filter that runs alone.
+/// A sensor, its settings and scans, and the results of a filter running alone.
 struct Drive {
     SensorModel sensor;
     Options options;
