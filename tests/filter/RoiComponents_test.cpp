@@ -20,7 +20,7 @@ Image<std::int32_t> numbered(const Image<float>& depth_m, const Image<Label>& la
     return components;
 }
 
-/// The definition: flood fill from the closest pixel without a number.
+/// The definition: flood fill, starting at the closest pixel without a number.
 Image<std::int32_t> floodedNumbers(const Image<float>& depth_m, const Image<Label>& labels,
                                    float max_gap_m) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());
