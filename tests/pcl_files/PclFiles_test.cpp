@@ -1,4 +1,4 @@
-// The Point Cloud Library (PCL) as an independent reader and writer.
+// Uses the Point Cloud Library (PCL) as an independent reader and writer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>

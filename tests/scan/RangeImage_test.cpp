@@ -17,7 +17,7 @@ namespace {
 constexpr float kFar = std::numeric_limits<float>::infinity();
 ProjectionWorkspace work;  // reused by all tests, as by a filter for all scans
 
-/// A scan with only the data used by the projection.
+/// A scan with only the data that the projection uses.
 Scan randomScan(unsigned seed, int returns) {
     test::Random random(seed);
     Scan scan;
@@ -53,7 +53,7 @@ TEST(RangeImage, ForwardIsMiddleColumn) {
     EXPECT_NEAR(nearestColumn(static_cast<float>(-kPi / 2), 870), 652, 1);
 }
 
-/// The definition, return by return.
+/// Implements the definition return by return.
 void projectPlainly(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                     RangeImage& image) {
     image.depth_m.setConstant(sensor.rows(), columns, kNoValue);
@@ -64,7 +64,7 @@ void projectPlainly(const Scan& scan, const SensorModel& sensor, int columns, fl
         if (!sensor.sees(range_m) || range_m > context_m) continue;
         const int column = nearestColumn(scan.azimuth_rad[i], columns);
         float& depth_m = image.depth_m(scan.row[i], column);
-        if (!(depth_m <= range_m)) {  // empty, or farther
+        if (!(depth_m <= range_m)) {  // empty pixel, or farther return
             depth_m = range_m;
             image.closest_return(scan.row[i], column) = static_cast<std::int32_t>(i);
         }
@@ -85,7 +85,7 @@ SensorModel sensorOfRows(int rows) {
     return customSensorModel(elevations_deg);
 }
 
-/// Azimuths over the whole turn including both ends, many equal ranges, some NaN.
+/// Azimuths over the whole turn, including both ends, with many equal ranges and some NaN.
 Scan scanWithTies(test::Random& random, int rows, int returns) {
     Scan scan;
     for (int i = 0; i < returns; ++i) {
