@@ -15,7 +15,7 @@ namespace hagen::test {
 
 constexpr double kBagStart_s = 1700000000;
 
-/// The content of a bag.
+/// The contents of a bag.
 struct ReadBag {
     recordings::BagSurvey survey;
     std::unique_ptr<recordings::BagScans> scans;
@@ -50,7 +50,7 @@ inline ReadBag readBag(const std::filesystem::path& file,
     return read;
 }
 
-/// Bags made by the tests.
+/// Tests that write bags.
 class BagTest : public testing::Test {
  protected:
     ReadBag read(const std::vector<SentMessage>& messages,
