@@ -466,7 +466,6 @@ class FaultyNetwork {
         packet_rad_ = radians(24 * firings.azimuth_step_deg);
     }
 
-    /// Sends the sensor's next packet when it is due.
     void send() {
         constexpr double kPeriod_s = 0.1 / 76;  // 76 packets per turn; the last one overlaps
         const double time_s = kPeriod_s * static_cast<double>(sent_);

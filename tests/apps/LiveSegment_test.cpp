@@ -43,8 +43,7 @@ class LiveSegment : public test::ProgramTest {
         while (const auto entry = reader.next()) {
             const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
             if (!scan) continue;
-            // The recording repeats one turn with unchanged times; a real sensor's clock would
-            // advance.
+            // The recording repeats one turn with unchanged times, unlike a real sensor.
             for (auto& packet : scan->scan_packets) {
                 auto* const at =
                     reinterpret_cast<std::uint8_t*>(&packet) + sensors::kVelodyneTimeAt;
@@ -125,7 +124,6 @@ TEST_F(LiveSegment, Mid360RecordingKeepsLabels) {
     EXPECT_EQ(entries, 3 * 4);  // 4 scans in 0.336 s, each with its RoI and its ROU
 }
 
-/// Uses real captures.
 TEST_F(LiveSegment, OusterRecordingKeepsLabels) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA is not a folder of captures";

@@ -16,7 +16,6 @@ namespace fs = std::filesystem;
 
 class RawlogSegmentCapture : public test::SegmentTest {
  protected:
-    /// The packets of the sample recording.
     std::string captureOfRecording() const {
         recordings::RawlogReader reader(recording());
         test::CaptureWriter writer;

@@ -101,8 +101,7 @@ TEST_F(RawlogSegmentOctomap, ScanFolderGivesSameObstacles) {
     expectSuccess({"-i", path("scans"), "--octomap", path("of_folder.bt")});
     octomap::OcTree of_folder(0.1);
     ASSERT_TRUE(of_folder.readBinary(path("of_folder.bt")));
-    // The folder's returns have no times, so each scan is placed with a single pose: errors of up
-    // to 0.3 m.
+    // The folder's returns have no times: a single pose per scan causes errors of up to 0.3 m.
     for (const octomap::point3d& p : occupiedOf(of_folder)) {
         EXPECT_TRUE(distanceToPole(p) < 0.65 || p.x() > 15.4) << p.x() << " " << p.y();
     }

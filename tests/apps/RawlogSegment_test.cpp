@@ -36,7 +36,6 @@ class RawlogSegment : public test::SegmentTest {
  protected:
     /// A scan folder of the sample recording.
     void writeScans() const { expectSuccess({"-q", "-i", recording(), "--kitti", path("scans")}); }
-    /// A scan folder of one scan.
     void writeScan(Scan scan) const {
         scan.intensity.assign(scan.size(), 0.5f);
         fs::create_directories(path("scans/velodyne"));
@@ -44,7 +43,6 @@ class RawlogSegment : public test::SegmentTest {
     }
 };
 
-/// Random points in a box.
 Scan randomScan(int points, const Eigen::Vector3f& min_m, const Eigen::Vector3f& max_m) {
     test::Random random(1);
     Scan scan;
@@ -496,8 +494,7 @@ TEST(PolesAndWall, RecordingMatchesGenerator) {
         for (std::size_t p = 0; p < made->scan_packets.size(); ++p) {
             for (int b = 0; b < 12; ++b) {
                 for (int i = 0; i < 32; ++i) {
-                    // Sines may differ in the last bit between machines, and therefore ranges by
-                    // one unit.
+                    // Between machines, sines may differ in the last bit, ranges by one unit.
                     ASSERT_NEAR(recorded->scan_packets[p].blocks[b].laser_returns[i].distance(),
                                 made->scan_packets[p].blocks[b].laser_returns[i].distance(), 1);
                 }

@@ -21,8 +21,7 @@ const std::string kConfig = HAGEN_SOURCE_DIR "/config/";
 const std::string kPaper = kConfig + "paper.yaml";
 const std::string kCamera = kConfig + "camera_forward.yaml";
 
-/// The first row with this name in a report: RoI precision, recall, F1, then ROU precision, recall,
-/// F1.
+/// The first row with this name: precision, recall and F1 of RoI, then of ROU.
 std::vector<double> row(const std::string& report, const std::string& name) {
     std::istringstream lines(report);
     for (std::string line; std::getline(lines, line);) {
@@ -300,7 +299,7 @@ TEST_F(SegmentationEvaluate, RejectsUnusableLabels) {
     expectFailure(with(flags, {"a=" + theirs}), 1, "000000.label: has 2 labels for");
 }
 
-// Of the pole's returns, those above z = 0.5 m - 2 m are higher than 0.5 m above ground.
+// The pole's returns above z = 0.5 m - 2 m are more than 0.5 m above ground.
 TEST_F(SegmentationEvaluate, ScoresTallObstacles) {
     const std::string pole = poleWithKinds();
     auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
@@ -380,7 +379,7 @@ TEST_F(SegmentationEvaluate, HardSetsAreStandardDegradations) {
         EXPECT_EQ(names.count(name), 1u) << name;
 }
 
-// The published filter on labelled recordings, with the required scores.
+// On labelled recordings, the published filter must reach these scores.
 TEST_F(SegmentationEvaluate, PaperPresetReachesRequiredScores) {
     std::vector<std::string> arguments = sixteenBeamScans();
     if (arguments.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA is not a folder of labelled scans";

@@ -38,8 +38,7 @@ TEST(FlightTrace, InterpolatesBetweenSamples) {
 
 TEST(FlightTrace, JerkMatchesSmoothedAcceleration) {
     EXPECT_EQ(FlightTrace(VehicleState{}).rmsJerk_m_s3(), 0);
-    // A step of 3 m/s^2 is smoothed to 3 (1 - exp(-t / 0.1 s)): the squared jerk integrates to 9 /
-    // 0.2.
+    // The squared jerk of the smoothed step, 3 (1 - exp(-t / 0.1 s)), integrates to 9 / 0.2.
     EXPECT_NEAR(accelerating(3).rmsJerk_m_s3(), std::sqrt(9 / 0.2), 0.3);
 }
 

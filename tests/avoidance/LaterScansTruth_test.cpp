@@ -114,7 +114,7 @@ TEST(LaterScansTruth, MatchesBruteForce) {
                 for (float distance_m = 0; distance_m <= 8; distance_m += 0.04f) {
                     min_m = std::min(min_m, (p - distance_m * directionOf(n)).norm());
                 }
-                if (std::abs(min_m - 0.65f) < 0.001f) points = 100;  // too close to call
+                if (std::abs(min_m - 0.65f) < 0.001f) points = 100;  // within rounding errors
                 points += min_m < 0.65f;
             }
             if (points >= 100) continue;

@@ -165,8 +165,7 @@ TEST(ObstacleTracks, FlatObstaclesNeedBothCriteria) {
     EXPECT_EQ(movingScans(slice, 0, 1), 0) << "background earlier visible at the new position";
 }
 
-// As the vehicle passes, more of a wall becomes visible: its centre moves at 3 m/s, its points do
-// not.
+// While a wall comes into view, its centre moves at 3 m/s, but its points do not.
 TEST(ObstacleTracks, GrowingWallDoesNotMove) {
     ObstacleTracks tracks;
     simulation::Random random(2);
@@ -201,7 +200,7 @@ TEST(ObstacleTracks, NoiseCausesNoMotion) {
         for (const ObstacleTrack& track : tracks.tracks()) moving += track.is_moving;
     }
     EXPECT_EQ(tracks.tracks().size(), 20u);
-    EXPECT_EQ(moving, 0);  // of 2000
+    EXPECT_EQ(moving, 0);  // 2000 tracks are checked
 }
 
 TEST(ObstacleTracks, SurviveNineHiddenScans) {
@@ -255,7 +254,7 @@ TEST(WindowWithMotion, PredictsMoversWithoutTrail) {
     }
     EXPECT_GT(moving->clearanceAfter_m(placeAfter(0), 1.0), 0.8f);
     EXPECT_FLOAT_EQ(moving->clearance_m(placeAfter(0)), moving->clearanceAfter_m(placeAfter(0), 0));
-    // Its position 0.8 s ago.
+    // The walker's position 0.8 s ago.
     EXPECT_GT(moving->clearance_m(placeAfter(-0.8)), 0.6f);
     EXPECT_LT(standing->clearance_m(placeAfter(-0.8)), 0.3f);
     EXPECT_EQ(standing->fastest_m_s(), 0);

@@ -15,8 +15,7 @@ namespace hagen::avoidance {
 namespace {
 
 const std::vector<std::string> kNames{"R-Full-0.1", "R-Full-0.2", "D-Full"};
-// Half the box in x, y, z at 4 m/s. A box may be kMore_m larger, as it consists of whole voxel
-// groups.
+// Half the box at 4 m/s. A box may be kMore_m larger, as it consists of whole voxel groups.
 const Eigen::Array3f kReach_m(15, 15, 6);
 constexpr float kMore_m = 4;
 

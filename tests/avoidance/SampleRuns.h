@@ -35,8 +35,7 @@ inline constexpr auto kWon = hagen::avoidance::Outcome::Success,
                       kHit = hagen::avoidance::Outcome::Collision,
                       kLate = hagen::avoidance::Outcome::Timeout;
 
-/// Seeds 0..9: W-RoI fails only 0 (collision), O-Full-0.4 fails 0, 1, 2 (timeout), W-RoI straight
-/// fails all.
+/// Seeds 0..9: W-RoI fails 0 (collision), O-Full-0.4 0 to 2 (timeout), W-RoI straight all.
 inline std::vector<Row> threeContenders() {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {

@@ -185,7 +185,7 @@ TEST(WorldModel, RoiModelsIgnoreOtherReturns) {
     }
 }
 
-/// By brute force over all points of the last 11 turns; thinning may keep another point per 10 cm.
+/// Compares with all points of the last 11 turns; thinning may keep another point per 10 cm.
 TEST(WorldModel, SectorWindowMatchesBruteForce) {
     simulation::Random random(17);
     const auto model = makeWorldModel("W-Full", setting());
@@ -395,7 +395,7 @@ TEST(SeenDirections, FreePlacesHaveFartherReturns) {
     EXPECT_EQ(placeAt(5.4f, 0.1f), Place::NotFree);
     EXPECT_EQ(placeAt(-2, 0.1f), Place::Unknown);
     EXPECT_EQ(placeAt(2, 4), Place::Unknown) << "beside the wall";
-    // A pole is in front of the wall: rays close to it may have passed it.
+    // A pole is in front of the wall: rays close to the pole may have passed it.
     auto points = wall();
     for (float z = 0; z < 2; z += 0.05f) points.emplace_back(3, 0.2f, z);
     const View past_pole = viewOf(scanOf(points));

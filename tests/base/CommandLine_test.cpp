@@ -62,7 +62,6 @@ TEST(CommandLine, ChecksMemoryLimit) {
     EXPECT_EQ(runWith({"--memory-limit", "many"}).exit_code, kWrongUsage);
 }
 
-/// The output of guarded() on standard error.
 std::string guardedErrorOf(int (*program)(int, char**)) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(guarded(0, nullptr, program), kFailed);

@@ -73,8 +73,7 @@ Choice bruteForce(const std::string& left_out) {
 }
 
 TEST(Objective, AveragesBothClasses) {
-    // Two sets with the same vote are summed first: each vote has the same weight, whatever its
-    // size.
+    // Sets with the same vote are summed first: each vote has the same weight, whatever its size.
     const std::vector<ScanSet> sets{{"rain", "x", Group::Hard, true},
                                     {"rain", "y", Group::Hard, true},
                                     {"flights", "", Group::Simulated, true}};

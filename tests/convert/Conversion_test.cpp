@@ -100,7 +100,6 @@ class ConversionTest : public testing::TestWithParam<std::size_t> {
         return listener;
     }
 
-    /// Writes the log as a scan folder.
     void convertToFolder(const std::string& name) {
         Conversion to_folder = conversion();
         to_folder.rawlog.clear();

@@ -40,8 +40,7 @@ struct Picture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;
 
-    /// Counts pixels of a colour within these fractions of width and height, from the upper left
-    /// corner.
+    /// Counts pixels of a colour within these fractions of width and height, from the top left.
     int count(const Colour& colour, double from_x = 0, double to_x = 1, double from_y = 0,
               double to_y = 1) const {
         int number = 0;

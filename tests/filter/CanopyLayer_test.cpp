@@ -28,8 +28,7 @@ Image<float> tolerated(const PixelPoints& pixels) {
     return tolerance_m;
 }
 
-/// One return at the centre of each of `cells` x `cells` cells around the sensor, at height(k) in
-/// cell k.
+/// Returns at the centres of `cells` x `cells` cells around the sensor, with height(k) in cell k.
 template <class Height>
 std::vector<Eigen::Vector3f> field(int cells, Height height) {
     std::vector<Eigen::Vector3f> points;

@@ -1,5 +1,4 @@
-// Restricted to an area of the ground grid, a stage gives the same results there as on the whole
-// grid.
+// A stage restricted to an area of the ground grid gives the same results there.
 #include <gtest/gtest.h>
 #include <hagen/filter/CellTops.h>
 #include "filter/simd/CanopyLayer.h"

@@ -14,7 +14,7 @@
 namespace hagen {
 namespace {
 
-FilterWorkspace work;  // reused by all tests, as by a filter for all scans
+FilterWorkspace work;  // reused, as in a filter
 
 OwnLabels ownLabels(const std::vector<Label>& label) {
     OwnLabels own{label, {}};

@@ -27,7 +27,7 @@ struct TwoMetresUp {
 
     std::vector<Label> judged(const std::vector<Eigen::Vector3f>& points_m,
                               float min_clearance_m = 0) const {
-        static FilterWorkspace work;  // reused by all tests, as by a filter for all scans
+        static FilterWorkspace work;  // reused, as in a filter
         const Scan scan = test::scanOf(sensor, points_m);
         RangeImage image;
         projectScan(scan, sensor, 870, 48.0f, image, work.projection);
@@ -86,8 +86,7 @@ TEST(FartherReturns, FarBelowSurfaceIsRoi) {
     EXPECT_EQ(example.judged(points)[1], Label::Roi);
 }
 
-// 7 m along the beam are 6.8 m along the ground: (6.7, 1.2) m, in the third block along x and the
-// first along y.
+// 7 m along the beam end at (6.7, 1.2) m: in the third block along x and the first along y.
 TEST(FartherReturns, WithoutEvidenceAreRoi) {
     TwoMetresUp example;
     const auto labelWithout = [&](const std::vector<std::size_t>& blocks) {

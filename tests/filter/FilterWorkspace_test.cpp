@@ -1,5 +1,4 @@
-// Each filter owns its memory, so neither other filters in its thread nor the thread itself affect
-// its results.
+// Neither other filters in the thread nor the thread itself affect a filter's results.
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 

@@ -15,7 +15,7 @@ using test::pixelsAt;
 
 constexpr float kWithdrawn = -std::numeric_limits<float>::infinity();
 
-GroundEvidenceWorkspace work;  // reused by all tests, as by a filter for all scans
+GroundEvidenceWorkspace work;  // reused, as in a filter
 
 std::vector<int> level(const PixelPoints& pixels) {
     Image<std::uint8_t> is_level;
@@ -145,7 +145,6 @@ TEST(FindLevelPixels, EmptyPixelsAreSkipped) {
     EXPECT_EQ(levelInColumn({low, none, {4.99f, 0, 0}}), (std::vector{1, 0, 1}));
     EXPECT_EQ(levelInColumn({low, none, {5.01f, 0, 0}}), (std::vector{0, 0, 0}));
     EXPECT_EQ(levelInColumn({low, {9, 0, 0}}), (std::vector{1, 1}));
-    // Steps never lead to the next column.
     EXPECT_EQ(level({none, low, none, high}, 2), (std::vector{0, 0, 0, 0}));
 }
 
@@ -263,8 +262,7 @@ TEST(RequireEvidence, ReachesFourBlocks) {
 }
 
 TEST(RequireEvidence, EndsAtGridEdge) {
-    // Grid columns are contiguous in memory, but the end of a column is not near the start of the
-    // next.
+    // Grid columns are contiguous in memory, but a column's end is not near the next one's start.
     const std::vector<float> tolerance_m =
         required({{47.9f, 47.9f, 0, true}, {-47.9f, 47.9f, 5, false}, {47.9f, -47.9f, 5, false}});
     EXPECT_EQ(tolerance_m, (std::vector{0.5f, kWithdrawn, kWithdrawn}));

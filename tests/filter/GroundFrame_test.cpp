@@ -43,7 +43,7 @@ float greatestHeight(const Eigen::Isometry3f& ground_from_sensor,
     return greatest_m;
 }
 
-GroundFrameWorkspace work;  // reused by all tests, as by a filter for all scans
+GroundFrameWorkspace work;  // reused, as in a filter
 
 TEST(GroundFrame, PlaneHasZeroHeightAtAnyTilt) {
     test::Random random(70);
@@ -70,8 +70,7 @@ TEST(GroundFrame, IgnoresWallsAndCrowns) {
         const Eigen::Vector3f normal = levelFromSensor(attitude).transpose().col(2);
         const auto ground = ringsOnPlane(attitude, 3);
         auto points = ground;
-        // A wall from 8 m on fills a sector of 100 degrees (28 % of the returns) and hides the
-        // ground behind it.
+        // A wall from 8 m on fills 100 degrees (28 % of the returns) and hides the ground behind.
         const int first = random.whole(0, 179);
         int raised = 0;
         for (std::size_t i = 8 * 180; i < points.size(); ++i) {

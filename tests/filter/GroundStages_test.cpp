@@ -76,7 +76,7 @@ void forManySights(Visit visit) {
 }
 
 const HeightTolerance kTolerance;
-FilterWorkspace work;  // reused by all tests, as by a filter for all scans
+FilterWorkspace work;  // reused, as in a filter
 
 /// The results of all stages from pixels to labels.
 struct Judged {

@@ -19,9 +19,8 @@ constexpr int kCells = GroundSurface::kCells;
 constexpr float kCell_m = GroundSurface::kCell_m;
 constexpr float kNone = std::numeric_limits<float>::infinity();
 using Grid = Eigen::ArrayXXf;
-GroundSurfaceWorkspace work;  // reused by all tests, as by a filter for all scans
+GroundSurfaceWorkspace work;  // reused, as in a filter
 
-/// The surface fitted to these points.
 GroundSurface surfaceUnder(const std::vector<Eigen::Vector3f>& points_m) {
     GroundSurface surface;
     const PixelPoints pixels = pixelsAt(points_m);
@@ -217,9 +216,8 @@ TEST(GroundSurface, RemovesCellsAboveSteepestSlopes) {
 }
 
 TEST(GroundSurface, SlopesAreIsotropic) {
-    // Level ground and a plateau, 3 x 3 cells each, with walls everywhere else. The far corner of
-    // the plateau is 9 cells away along one axis and 5 along the other: 4 straight and 5 diagonal
-    // steps.
+    // Level ground and a plateau of 3 x 3 cells each, surrounded by walls. The far corner of the
+    // plateau is 4 straight and 5 diagonal steps away.
     const float height_m = 0.3f * kCell_m * (4 + 5 * std::sqrt(2.0f)) + 0.15f;
     for (const auto& [dx, dy] :
          {std::pair{9, 5}, {9, -5}, {-9, 5}, {-9, -5}, {5, 9}, {5, -9}, {-5, 9}, {-5, -9}}) {

@@ -71,8 +71,7 @@ TEST(HagenFilter, WallIsRoiAndGroundIsRou) {
     HagenFilter papers(sensorModel("VLP-16"), paperOptions());
     const auto& result = papers.segment(wall.scan);
     EXPECT_EQ(mistakes(wall, result, Label::Roi), 0);
-    // If a beam hits the ground just before the wall, the slope to the next beam is that of the
-    // wall.
+    // If a beam hits the ground just before the wall, the slope to the next beam is the wall's.
     const double wall_columns = 870 * 2 * std::atan(5.0 / 10.0) / (2 * kPi);
     EXPECT_LE(mistakes(wall, result, Label::Rou), wall_columns);
     // By height, these returns are ground again; of the wall, at most the lowest row is missed.

@@ -22,7 +22,7 @@ using test::pixelsAt;
 /// Tolerances over the plane z = 0, so that a pixel's height is its z.
 Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {},
                        float sensor_height_m = 1) {
-    static ToleranceWorkspace work;  // reused by all tests, as by a filter for all scans
+    static ToleranceWorkspace work;  // reused, as in a filter
     Image<float> tolerance_m;
     CellTops tops;
     PixelCells cells;

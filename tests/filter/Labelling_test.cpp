@@ -15,7 +15,7 @@ constexpr float kNoGate_rad = static_cast<float>(kPi / 2);
 
 Image<Label> labelled(const Image<float>& depth_m, const Image<float>& angle_rad, float beta_rad,
                       Seeds seeds = Seeds::Lowest, float seed_gate_rad = kNoGate_rad) {
-    static LabellingWorkspace work;  // reused by all tests, as by a filter for all scans
+    static LabellingWorkspace work;  // reused, as in a filter
     Image<Label> labels;
     labelRegions(depth_m, angle_rad, beta_rad, seeds, seed_gate_rad, labels, work);
     return labels;

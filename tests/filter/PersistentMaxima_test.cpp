@@ -13,7 +13,7 @@ namespace hagen {
 namespace {
 
 std::vector<Maximum> maximaOf(const Image<float>& proximity_m, float min_persistence_m = 0.0f) {
-    static MaximaWorkspace work;  // reused by all tests, as by a filter for all scans
+    static MaximaWorkspace work;  // reused, as in a filter
     std::vector<Maximum> maxima;
     findPersistentMaxima(proximity_m, min_persistence_m, maxima, work);
     return maxima;

@@ -14,7 +14,7 @@ namespace {
 
 Image<std::int32_t> numbered(const Image<float>& depth_m, const Image<Label>& labels,
                              float max_gap_m = 1.0f) {
-    static ComponentsWorkspace work;  // reused by all tests, as by a filter for all scans
+    static ComponentsWorkspace work;  // reused, as in a filter
     Image<std::int32_t> components;
     numberRoiComponents(depth_m, labels, max_gap_m, components, work);
     return components;

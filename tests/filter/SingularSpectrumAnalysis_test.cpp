@@ -12,7 +12,7 @@ namespace hagen {
 namespace {
 
 Image<float> smoothed(const Image<float>& values, int window_size, int principal_components) {
-    static SsaWorkspace work;  // reused by all tests, as by a filter for all scans
+    static SsaWorkspace work;  // reused, as in a filter
     Image<float> result;
     smoothColumns(values, window_size, principal_components, result, work);
     return result;

@@ -23,7 +23,6 @@ struct Tilt {
     double pitch_rad = 0, roll_rad = 0;
 };
 
-/// A scene, and the position of the sensor in it.
 struct Sight {
     SimpleScene scene;
     Vector3d sensor_m;
@@ -84,7 +83,7 @@ Outcome outcome(const Sight& sight, const std::string& sensor_name) {
 
 const std::vector<std::string> kSensors{"VLP-16", "HDL-32E", "HDL-64E"};
 
-/// Level, pitched and rolled like in flight.
+/// Level, pitched and rolled, as in flight.
 const std::vector<Tilt> kTilts{{0, 0}, {0.2, 0}, {0, 0.15}};
 
 /// Calls visit(outcome, sensor) for all sensors when level, and for the VLP-16 also when tilted.
@@ -102,7 +101,6 @@ void forEachSensor(Sight sight, Visit visit) {
     }
 }
 
-/// Walls around a rectangle.
 void addWalls(SimpleScene& scene, const Eigen::Vector2d& low_m, const Eigen::Vector2d& high_m,
               double height_m) {
     constexpr double kThick_m = 0.2;
@@ -379,8 +377,7 @@ TEST(Traps, LeavesBeforeFirstGroundRing) {
     EXPECT_EQ(outcome(sight, "VLP-16").missed_dangers, 0);
 }
 
-// The tops of cars and boxes before the first ring look like rising ground, and the ring is
-// evidence.
+// The tops of cars and boxes before the first ring look like rising ground; the ring is evidence.
 TEST(Traps, DISABLED_CarBeforeFirstGroundRing) {
     SimpleScene car;
     car.boxes = {{{9, -2.2, 0}, {12, 2.2, 1.5}}, {{-2.2, 9, 0}, {2.2, 10.8, 1.5}}};

@@ -57,8 +57,7 @@ Border borderOf(const Obstacle& obstacle, simulation::Random& random) {
     return {obstacle.middle_m + turned * at_m, turned * outwards};
 }
 
-/// Places the obstacle beside the straight path along x, 9 m ahead, at a random offset to the
-/// voxels.
+/// Places the obstacle beside the straight path along x, 9 m ahead, at a random voxel offset.
 Obstacle placedBeside(Obstacle obstacle, simulation::Random& random) {
     const double aside_m = random.uniform(0.8, 3), side = random.chance(0.5) ? 1 : -1;
     const double x_m = 9 + random.uniform(-0.4, 0.4), y_m = random.uniform(-0.4, 0.4);

@@ -27,7 +27,7 @@ const std::string kHowToRecord =
     "again: "
     "HAGEN_RECORD_FLIGHTS=1 scripts/test -R RecordedFlights";
 
-/// Recorded flights: "revision,N", then rows like in runs.csv. A flight may have several rows:
+/// Recorded flights: "revision,N", then rows as in runs.csv. A flight may have several rows:
 /// depending on the machine, its result is one of them (docs/octomap-compare.md).
 struct Recording {
     int revision;
@@ -98,8 +98,8 @@ LatencyProfile someProfile() {
 }
 
 /// Flights with every scenario, air, guidance, planner, pose error and kind of model at least once.
-/// They are short, and their results do not change if the directions of the LiDAR's rays change by
-/// 1e-6, more than processors differ.
+/// They are short, and changing the LiDAR's rays by 1e-6 (more than processors differ) does not
+/// change their results.
 std::vector<std::string> keys() {
     return {"forest-0.02,1,W-RoI,straight,10,primitives,none,1,optimistic,dusty,unbiased",
             "forest-0.02,5,O-RoI-0.4,straight,10,3dvfh,noise,1,optimistic,dusty,unbiased",

@@ -16,7 +16,6 @@ using test::emptyContent;
 using test::putWall;
 using test::simpleCourse;
 
-/// A result as text, for comparison.
 std::string textOf(const TrialResult& result) {
     hagen::avoidance::Run run{};
     run.result = result;

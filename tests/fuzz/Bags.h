@@ -8,7 +8,7 @@
 
 namespace hagen::fuzz {
 
-/// Surveys and reads a bag like the programs do.
+/// Surveys and reads a bag as the programs do.
 void readAnyBag(const std::filesystem::path& file);
 
 /// One message of each supported type, with short scans.

@@ -8,8 +8,7 @@
 
 namespace hagen::fuzz {
 
-/// Checks that each return in a sector has a label, and that near or stale directions are never
-/// free.
+/// Checks that each return of a sector has a label and near or stale directions are never free.
 class SectorChecker {
  public:
     explicit SectorChecker(const SensorModel& sensor) : distances_(sensor) {}

@@ -30,7 +30,6 @@ struct Target {
 const std::vector<Target>& targets();
 /// Registers a target; called at the end of its file. Returns true.
 bool add(Target target);
-/// The words of a text.
 std::vector<std::string> wordsIn(const std::string& text);
 
 /// Thrown by require() for an error that must not occur for any input.

@@ -1,5 +1,4 @@
-// The filter with arbitrary scans, sensors, attitudes and options: labels must not depend on the
-// instruction set.
+// The filter with arbitrary scans, sensors, attitudes and options, on different instruction sets.
 #include <hagen/filter/HagenFilter.h>
 #include "scan/InstructionSets.h"
 

@@ -1,5 +1,4 @@
-// Arbitrary bytes from a MAVLink peer, in parts of any size, and the vehicle motion decoded from
-// them.
+// Arbitrary bytes from a MAVLink peer in parts of any size, and the motion decoded from them.
 #include "live/autopilot/Messages.h"
 #include "live/autopilot/VehicleMotion.h"
 #include "live/mavlink/Parser.h"

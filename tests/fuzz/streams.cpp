@@ -1,6 +1,5 @@
-// A stream of LiDAR datagrams; some are modified, truncated, late, lost or duplicated. No call
-// throws, and each datagram is either accepted, or rejected and counted. Byte 0 of the input
-// selects the sensor.
+// A stream of LiDAR datagrams, some modified, truncated, late, lost or duplicated. No call throws;
+// each datagram is accepted, or rejected and counted. Byte 0 of the input selects the sensor.
 #include <hagen/live/LidarStream.h>
 #include "sensors/ouster/OusterSensor.h"
 

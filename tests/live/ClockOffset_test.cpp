@@ -134,8 +134,7 @@ TEST(ClockOffset, MessagesFromFullQueueAreOld) {
             double arrival_s = stamp_s + 70;
             if (stamp_s > 10) arrival_s += std::min(0.5 * (stamp_s - 10), 2.0);
             if (after_outage && stamp_s > 10) {
-                // First, messages buffered during the outage arrive, then all messages are 2 s
-                // late.
+                // First, messages from the outage arrive, then all messages are 2 s late.
                 if (stamp_s > 10.5 && stamp_s <= 38) continue;
                 arrival_s = std::max(stamp_s + 72, 110 + 0.001 * (stamp_s - 10));
             }

@@ -270,8 +270,7 @@ TEST_F(DirectionsInFlight, ObstacleBelowHorizonStays) {
     EXPECT_GT(compared, 3000);
 }
 
-/// Each turn sweeps the horizon above the obstacle, but the packet that would hit the obstacle is
-/// lost.
+/// In each turn, the packet that would hit the obstacle is lost; the horizon above is swept.
 TEST_F(DirectionsInFlight, LostPacketsOfTiltedSensorAreNotFree) {
     Vehicle vehicle;
     vehicle.pitch_rad = radians(-20);

@@ -12,8 +12,7 @@ struct Scheduling {
     int policy, priority;
 };
 
-/// A thread's priority after lowerPriority(); the policy is -1 if real-time priority is not
-/// permitted.
+/// Priority of a thread after lowerPriority(); policy -1 if real-time priority is not permitted.
 Scheduling after(Scheduling before) {
     Scheduling result{-1, 0};
     std::thread([&] {

@@ -302,8 +302,7 @@ TEST_F(SectorDistancesTest, OffsetSensorKeepsObstacleOfLostPacket) {
     }
 }
 
-/// Pitched down by 20 degrees, the sensor sees the low obstacle at 268 degrees at its own 272.3
-/// degrees.
+/// Pitched down by 20 degrees, the sensor sees the obstacle at 268 at its own 272.3 degrees.
 TEST_F(SectorDistancesTest, ObstacleBelowHorizonStays) {
     SectorDistances::Settings settings;
     settings.body_from_sensor = Eigen::AngleAxisd(radians(20.0), Eigen::Vector3d::UnitY());

@@ -40,8 +40,7 @@ Eigen::Isometry3d part(const Eigen::Isometry3d& step, double turns) {
 
 class TurnMotionTest : public testing::Test {
  protected:
-    /// The sector's returns from the plane, all ROU, each seen from the sensor's position at its
-    /// time.
+    /// Returns of the plane in a sector, all ROU, each from the sensor's position at its time.
     Scan sweep(const Flight& flight, int sector) {
         Scan scan;
         for (int k = 0; k < kColumns / kSectors; ++k) {

@@ -52,8 +52,7 @@ std::string rawText(const std::string& text) {
     return raw(static_cast<std::uint32_t>(text.size())) + text;
 }
 
-/// The options that follow the fields: insertion options without `disableDeletion`, likelihood
-/// options.
+/// The options after the fields: insertion (without `disableDeletion`) and likelihood.
 std::string options() {
     return raw(std::int8_t{1}) + raw(0.02f) + std::string("\x01\0\0\0", 4) + raw(0.001f) +
            raw(2.0f) + std::string("\0", 1) + raw(std::int8_t{0}) + raw(0.0025) + raw(1.0) +
@@ -337,8 +336,7 @@ TEST(NewerClouds, LimitsMemoryForValueCounts) {
     const std::string whole = cloudWithVectors();
     for (const std::string before : {"double", "uint16_t", "gps_time", "ring"}) {
         std::string bytes = whole;
-        // A type name is followed by the number of values, a field name by the number of
-        // characters.
+        // A type name precedes the number of values, a field name the number of characters.
         bytes.replace(bytes.find(before) + before.size(), 4, raw(std::uint32_t{0xffffffff}));
         try {
             read(bytes);

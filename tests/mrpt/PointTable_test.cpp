@@ -76,7 +76,7 @@ TEST(PointTable, KeepsExtremesOfEachType) {
     add("float64", NumberType::Float64, double());
     EXPECT_NO_THROW(check(table));
     for (const PointField& field : table.fields) EXPECT_EQ(field.name, nameOf(field.type));
-    EXPECT_THAT(columnOf(table, table.fields[1]), ElementsAre(0, 1));  // others are unchanged
+    EXPECT_THAT(columnOf(table, table.fields[1]), ElementsAre(0, 1));  // other fields unchanged
 }
 
 TEST(PointTable, FindsFieldsCaseInsensitively) {

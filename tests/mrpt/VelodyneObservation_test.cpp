@@ -396,7 +396,7 @@ void expectEqual(const mrpt::obs::VelodyneCalibration& found,
               &Laser::sinVertCorrection, &Laser::cosVertCorrection, &Laser::sinVertOffsetCorrection,
               &Laser::cosVertOffsetCorrection}) {
             EXPECT_EQ(a.*number, b.*number) << i;
-            EXPECT_EQ(std::signbit(a.*number), std::signbit(b.*number)) << i;  // -0
+            EXPECT_EQ(std::signbit(a.*number), std::signbit(b.*number)) << i;  // detects -0
         }
     }
 }

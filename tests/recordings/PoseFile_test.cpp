@@ -160,8 +160,7 @@ TEST_F(PoseFile, PrefersTumPosesOfFolder) {
 }
 
 TEST_F(PoseFile, AppliesKittiCalibration) {
-    // The camera looks along x: its z axis is the LiDAR's x axis, its x axis is the LiDAR's -y
-    // axis.
+    // The camera looks along x: its z axis is the LiDAR's x axis, its x axis the LiDAR's -y axis.
     folder_.write("velodyne/000000.bin", "");
     folder_.write("calib.txt", "P0: 1 2 3\nTr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n");
     folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 5\n");  // 5 m along the camera's z

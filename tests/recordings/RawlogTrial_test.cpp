@@ -46,8 +46,8 @@ void SlowObject::serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) {
     }
 }
 
-/// An object that blocks forever when read, like on a lock that another thread held during fork():
-/// once for each file in `locks`.
+/// An object that blocks forever when read, as on a lock held by another thread during fork(): once
+/// per file in `locks`.
 class LockedObject : public mrpt::serialization::CSerializable {
     DEFINE_SERIALIZABLE(LockedObject, hagen::recordings)
 };

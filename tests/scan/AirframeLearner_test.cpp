@@ -57,7 +57,7 @@ TEST(AirframeLearner, LearnsEdges) {
     const LearnedAirframe learned = learnedFrom(50, [](int number, Scan& scan) {
         addReturn(179, 11, 0.5, scan);
         if (number % 10 == 0) addReturn(-179, 13, 0.52, scan);  // adjacent across the seam
-        if (number % 10 == 1) addReturn(-177, 13, 0.52, scan);  // adjacent to that
+        if (number % 10 == 1) addReturn(-177, 13, 0.52, scan);  // adjacent to the previous bin
         if (number % 10 == 2) addReturn(179, 9, 1.2, scan);     // adjacent, but farther
         if (number == 3) addReturn(177, 11, 0.5, scan);         // seen once only
         if (number % 10 == 4) addReturn(100, 11, 0.5, scan);    // not adjacent

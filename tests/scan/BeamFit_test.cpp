@@ -58,8 +58,7 @@ TEST(BeamFit, KnownModelsFitOwnBeams) {
 }
 
 TEST(BeamFit, FewerBeamsLeaveRowsEmpty) {
-    // The scan has 16 blurred beams, the model 64 beams so dense that every return is within
-    // tolerance.
+    // The scan has 16 blurred beams; the model's 64 beams are so dense that all returns fit.
     const auto beams_deg = beamsEvery(2, -15, 15);
     const auto fit =
         fitBeams(scanOf(beams_deg, 1.0f), customSensorModel(beamsEvery(0.5, -16, 16.5)), 600);

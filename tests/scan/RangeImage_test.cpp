@@ -15,7 +15,7 @@ namespace hagen {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
-ProjectionWorkspace work;  // reused by all tests, as by a filter for all scans
+ProjectionWorkspace work;  // reused, as in a filter
 
 /// A scan with only the data that the projection uses.
 Scan randomScan(unsigned seed, int returns) {
@@ -78,7 +78,6 @@ void expectSameImage(const RangeImage& a, const RangeImage& b) {
     EXPECT_EQ(a.depth_mapper, b.depth_mapper);
 }
 
-/// A sensor with `rows` beams.
 SensorModel sensorOfRows(int rows) {
     std::vector<double> elevations_deg(rows);
     for (int row = 0; row < rows; ++row) elevations_deg[row] = -30.0 + 40.0 * row / rows;

@@ -302,8 +302,7 @@ TEST(RecoverBeams, HalfTurnKeepsResolution) {
 }
 
 TEST(RecoverBeams, BlurredRingsGetFewRows) {
-    // The returns are dense in azimuth and sparse in elevation: rows as fine as columns would be
-    // mostly empty.
+    // As returns are sparse in elevation, rows as fine as columns would be mostly empty.
     Spin blurred;
     blurred.columns = 1800;
     blurred.tilt_deg = 1.5;

@@ -71,8 +71,7 @@ TEST_F(OusterSensorTest, PacketSizesMatchManual) {
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16", 128), 24832u);
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16_DUAL", 128), 33024u);
     EXPECT_EQ(bytesOf("RNG15_RFL8_NIR8", 128), 8448u);
-    // From the SDK: 32 bytes before and after the columns; each of the 16 columns has 12 bytes plus
-    // these per pixel.
+    // From the SDK: 32 bytes on each side of 16 columns of 12 bytes plus these bytes per pixel.
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16_ZONE16", 128), 64u + 16 * (12 + 128 * 12));
     EXPECT_EQ(bytesOf("RNG15_RFL8_WIN8", 128), 64u + 16 * (12 + 128 * 4));
     EXPECT_EQ(bytesOf("RNG15_RFL8_NIR8_ZONE16", 128), 64u + 16 * (12 + 128 * 8));

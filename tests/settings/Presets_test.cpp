@@ -57,8 +57,7 @@ TEST_F(PresetsTest, AddedFoldersRankBetweenUserAndInstalled) {
     folder_.write("library/vlp16.yaml", "zone_m: 11");
     folder_.write("library/drone.yaml", "zone_m: 12");
     folder_.write("user/drone.yaml", "zone_m: 13");
-    // The variable remains set for the rest of the process, but its folder is removed after this
-    // test.
+    // The variable remains set in this process, but its folder is removed after this test.
     addPresetFolder(folder_ / "library");
     EXPECT_EQ(zoneOf(presetFile("vlp16")), 11);
     EXPECT_EQ(zoneOf(presetFile("drone")), 12);

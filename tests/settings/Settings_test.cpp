@@ -549,7 +549,7 @@ TEST(Settings, DumpRoundTrips) {
     mergeSettings(folder.write("none.yaml", dumpSettings(Settings())), again = Settings());
     EXPECT_FALSE(again.sensor.model);
     EXPECT_TRUE(again.given.count("zone_m"));
-    EXPECT_FALSE(again.given.count("columns"));  // must keep adapting to the sensor
+    EXPECT_FALSE(again.given.count("columns"));  // so that columns adapt to the sensor
     EXPECT_THAT(dumpSettings(Settings()), HasSubstr("model: recovered"));
     EXPECT_TRUE(again.airframe.parts.isEmpty());
 }

@@ -42,8 +42,7 @@ TEST(FlightTest, KeepsAltitude) {
     }
 }
 
-/// Compared with level ground, the flight is lower by the mean ground height from 3 m behind to 3 m
-/// ahead.
+/// The flight is higher than over level ground by the mean height from 3 m behind to 3 m ahead.
 TEST(FlightTest, FollowsMeanGroundHeight) {
     TerrainParameters form;
     form.max_slope_rad = form.bump_m = 0;

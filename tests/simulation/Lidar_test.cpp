@@ -36,7 +36,6 @@ FlightSettings flightAt(double altitude_m, double speed_m_s, double tilt_sd_deg)
     return settings;
 }
 
-/// A flight over a scene, and its sensor.
 struct Simulation {
     Simulation(SceneContent content, const FlightSettings& settings,
                const std::string& name = "VLP-16")

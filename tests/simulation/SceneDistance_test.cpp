@@ -27,7 +27,7 @@ double leastOf(const Function& function) {
     return function(0.5 * (low + high));
 }
 
-/// By search over all points of the triangle.
+/// Distance by search over all points of the triangle.
 double plainToTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                        const Eigen::Vector3d& c) {
     return leastOf([&](double u) {

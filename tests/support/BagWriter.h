@@ -39,7 +39,6 @@ class MessageBytes {
         return number(static_cast<std::uint32_t>(bytes.size())).raw(bytes);
     }
     MessageBytes& time(double time_s);
-    /// Adds a std_msgs/Header.
     MessageBytes& header(double time_s, const std::string& frame);
     /// Adds a position and a rotation about z.
     MessageBytes& pose(double x, double y, double z, double yaw_rad = 0);
@@ -94,7 +93,6 @@ struct BagShape {
 ByteString ros1BagOf(const std::vector<SentMessage>& messages, const BagShape& shape = {});
 ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shape = {},
                   bool is_ros1 = false);
-/// Writes a ROS 2 database.
 std::filesystem::path writeDb3(const std::filesystem::path& file,
                                const std::vector<SentMessage>& messages);
 

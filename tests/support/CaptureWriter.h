@@ -10,7 +10,6 @@ namespace hagen::test {
 
 using ByteString = std::string;
 
-/// The bytes of a Velodyne packet.
 ByteString bytesOf(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket& packet);
 
 /// A UDP datagram to write.
@@ -56,7 +55,6 @@ class CaptureWriter {
 /// A .pcapng file with the same frames.
 ByteString pcapngOf(const std::vector<ByteString>& frames, double time_s = 1700000000);
 
-/// Writes bytes to a file.
 std::filesystem::path writeBytes(const std::filesystem::path& file, const ByteString& bytes);
 
 }  // namespace hagen::test

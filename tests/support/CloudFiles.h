@@ -34,7 +34,6 @@ class Packed {
     std::string text;
 };
 
-/// A point with the fields of these files.
 struct FilePoint {
     float x_m, y_m, z_m;
     std::uint16_t ring;

@@ -36,7 +36,6 @@ class TurningOuster {
     explicit TurningOuster(const std::string& profile = "RNG19_RFL8_SIG16_NIR16")
         : profile_(profile) {}
 
-    /// The packets of the next turn.
     std::vector<std::string> turn(const OusterMode& mode) {
         const sensors::OusterSensor sensor =
             sensors::ousterSensorOf(ousterJsonOf(mode, profile_), "test");

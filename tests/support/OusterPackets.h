@@ -11,8 +11,7 @@ namespace hagen::test {
 std::string ousterJson(const std::string& profile = "RNG19_RFL8_SIG16_NIR16",
                        const std::string& serial = "992137000142");
 
-/// The packets of a frame, written as in Ouster's manual and SDK, with the serial number of
-/// `sensor`.
+/// The packets of a frame as in Ouster's manual and SDK, with the serial number of `sensor`.
 std::vector<std::string> packetsOf(const sensors::OusterSensor& sensor,
                                    const sensors::OusterFrame& frame);
 

@@ -6,7 +6,6 @@
 
 namespace hagen::test {
 
-/// A temporary folder for a test.
 class TemporaryFolder {
  public:
     TemporaryFolder();
@@ -36,7 +35,6 @@ std::string messageOf(Call call) {
 
 std::string readFile(const std::filesystem::path& file);
 
-/// The outcome of a program.
 struct Outcome {
     int exit_code;
     std::string out, err;

@@ -49,7 +49,6 @@ class ProgramTest : public testing::Test {
         }
     }
 
-    /// All files in the folder.
     std::set<std::filesystem::path> files() const {
         return {std::filesystem::recursive_directory_iterator(folder_.path()), {}};
     }

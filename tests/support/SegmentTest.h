@@ -3,7 +3,6 @@
 
 namespace hagen::test {
 
-/// Tests of rawlog-segment.
 class SegmentTest : public ProgramTest {
  protected:
     Outcome run(const Arguments& arguments) const override {
