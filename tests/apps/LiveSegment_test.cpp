@@ -365,7 +365,7 @@ TEST_F(LiveSegment, FailsWithoutPackets) {
                   1, "no packet from a VLP-16 received");
 }
 
-TEST_F(LiveSegment, RejectsWrongFlags) {
+TEST_F(LiveSegment, RejectsInvalidFlags) {
     const std::string file = capture();
     expectFailure({"--model", "VLP-16"}, 2, "one of --listen and --replay is required");
     expectFailure({"--replay", file, "--listen", "1.2.3.4:5", "--model", "VLP-16"}, 2,

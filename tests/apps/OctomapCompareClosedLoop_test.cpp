@@ -144,7 +144,7 @@ TEST(ClosedLoopFlights, JobsAndShardsDoNotChangeRows) {
     EXPECT_EQ(readFile(folder / "one/runs.csv"), runs);
 }
 
-TEST(ClosedLoopFlights, SectorsDoNotChangeRowsOfScans) {
+TEST(ClosedLoopFlights, SectorsDoNotChangeScanRows) {
     const TemporaryFolder folder;
     const auto fly = [&](const std::string& into, const std::string& updates,
                          const std::string& jobs) {

@@ -40,7 +40,7 @@ TEST_F(RawlogSegmentCapture, CaptureAndRawlogGetSameLabels) {
     EXPECT_GT(labelsOf("a").size(), 100000u);
 }
 
-TEST_F(RawlogSegmentCapture, KeepsReadablePartOfCutCapture) {
+TEST_F(RawlogSegmentCapture, KeepsReadablePartOfTruncatedCapture) {
     const std::string capture = captureOfRecording();
     const std::uintmax_t size = fs::file_size(capture);
     for (std::uintmax_t cut = 5; cut > 0; --cut) {

@@ -178,7 +178,7 @@ TEST_F(RawlogSegmentClouds, ReadsOwnOutput) {
     EXPECT_EQ(stats["outputs"]["clouds"], path("b"));
 }
 
-TEST_F(RawlogSegmentClouds, KeepsFieldsOfMrpt3) {
+TEST_F(RawlogSegmentClouds, KeepsMrpt3Fields) {
     const fs::path data = test::dataFolder("HAGEN_MRPT3_DATA");
     if (data.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not a folder of MRPT 3 logs";
     const std::string log = (data / "sample_mrpt3.rawlog").string();

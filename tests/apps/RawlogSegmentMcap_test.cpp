@@ -138,7 +138,7 @@ TEST_F(RawlogSegmentMcap, RejectsInvalidOutputs) {
     EXPECT_EQ(test::readFile(path("out.mcap")), "mine");
 }
 
-TEST_F(RawlogSegmentMcap, KeepsReadablePartOfCutInput) {
+TEST_F(RawlogSegmentMcap, KeepsReadablePartOfTruncatedInput) {
     expectSuccess({"-q", "-i", recording(), "--mcap", path("in.mcap")});
     fs::resize_file(path("in.mcap"), fs::file_size(path("in.mcap")) * 2 / 3);
     const auto outcome = run({"-i", path("in.mcap"), "--mcap", path("out.mcap")});

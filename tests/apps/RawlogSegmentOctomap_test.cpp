@@ -95,7 +95,7 @@ TEST_F(RawlogSegmentOctomap, StoresRequestedContent) {
     EXPECT_LT(roi.size(), rays.size() / 2);
 }
 
-TEST_F(RawlogSegmentOctomap, ScanFolderGivesSameObstacles) {
+TEST_F(RawlogSegmentOctomap, ScanFolderYieldsSameObstacles) {
     expectSuccess({"-i", recording(), "--kitti", path("scans")});
     const octomap::OcTree of_log = mapOf({});
     expectSuccess({"-i", path("scans"), "--octomap", path("of_folder.bt")});

@@ -135,7 +135,7 @@ TEST_F(RawlogSegmentTrouble, ReportsFullDiskForScene) {
 }
 
 /// MRPT reads null objects in sensory frames, but cannot write them.
-TEST_F(RawlogSegmentTrouble, OmitsNullObjectsOfSensoryFrames) {
+TEST_F(RawlogSegmentTrouble, OmitsNullObjectsInSensoryFrames) {
     recordings::RawlogReader reader(recording());
     mrpt::obs::CObservation::Ptr scan;
     while (!scan) scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(reader.next());
@@ -176,7 +176,7 @@ TEST_F(RawlogSegmentTrouble, LimitsNumberOfSensors) {
 }
 
 /// Like ESC [, U+009B starts a control sequence, as does byte 0x9b on 8-bit terminals.
-TEST_F(RawlogSegmentTrouble, ReplacesControlCharactersOfLabels) {
+TEST_F(RawlogSegmentTrouble, ReplacesControlCharactersInLabels) {
     const std::string line = "rawlog-segment: all is lost";
     const std::string label =
         "a\x1b[2J\x07\r\n" + line + "Ö\xc2\x9b" + "2J\x9b" + "2J\u65e5\u202egpj\u2066";
@@ -297,7 +297,7 @@ TEST_F(RawlogSegmentTrouble, IgnoresImplausibleTimes) {
     }
 }
 
-TEST_F(RawlogSegmentTrouble, LimitsIncludesOfRecordedSettings) {
+TEST_F(RawlogSegmentTrouble, LimitsIncludesInRecordedSettings) {
     fs::create_directories(folder_ / "scans/velodyne");
     folder_.write("scans/velodyne/000000.bin", std::string(1600, '\x40'));
     folder_.write("secret.yaml", "");

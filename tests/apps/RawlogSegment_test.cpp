@@ -109,7 +109,7 @@ TEST_F(RawlogSegment, LabelsSampleRecordingAsPublished) {
     EXPECT_LE(stats["latency_ms"]["p50"], stats["latency_ms"]["max"]);
 }
 
-TEST_F(RawlogSegment, LabelsEveryReturnOfRealScan) {
+TEST_F(RawlogSegment, LabelsWholeRealScan) {
     if (test::realScan().empty()) GTEST_SKIP() << "mrpt-common is not installed";
     expectSuccess({"-i", test::realScan(), "-o", path("out.rawlog"), "--kitti", path("scans")});
     recordings::RawlogReader reader(path("out.rawlog"));
@@ -316,7 +316,7 @@ TEST_F(RawlogSegment, CopiesLogWithoutLidar) {
     EXPECT_EQ(entriesOf(path("out.rawlog")), entriesOf(log));
 }
 
-TEST_F(RawlogSegment, ConvertsRangeOfEntries) {
+TEST_F(RawlogSegment, ConvertsEntryRange) {
     const auto outcome =
         expectSuccess({"-i", recording(), "-o", path("out.rawlog"), "--cloud", "xyzi", "--from",
                        "3", "--to", "6", "-c", folder_.write("near.yaml", "zone_m: 0.1\n")});
@@ -331,7 +331,7 @@ TEST_F(RawlogSegment, ConvertsRangeOfEntries) {
               std::string("mrpt::maps::CPointsMapXYZI"));
 }
 
-TEST_F(RawlogSegment, DrawsStagesOfScan) {
+TEST_F(RawlogSegment, DrawsScanStages) {
     for (const char* mount : {"", "  mount_pitch_deg: 60\n", "  mount_roll_deg: 180\n"}) {
         const auto settings =
             folder_.write("settings.yaml", "sensor:\n  model: VLP-16\n" + std::string(mount));
@@ -429,7 +429,7 @@ TEST_F(RawlogSegment, ReportsUnreadableScanEvenIfQuiet) {
         HasSubstr("entry 0 (lidar): kept, but not segmented: packet 0: unknown model id 0x99"));
 }
 
-TEST_F(RawlogSegment, KeepsReadablePartOfCutLog) {
+TEST_F(RawlogSegment, KeepsReadablePartOfTruncatedLog) {
     const std::string bytes = test::readFile(recording());
     const auto cut = folder_.write("cut.rawlog", bytes.substr(0, bytes.size() / 2));
     const auto outcome = run({"-i", cut, "-o", path("out.rawlog")});

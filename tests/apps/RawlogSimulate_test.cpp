@@ -151,7 +151,7 @@ TEST_F(RawlogSimulate, WritesSensorWithoutPacketsToFolder) {
     EXPECT_GT(scan.size(), 50000u);
 }
 
-TEST_F(RawlogSimulate, StoresMountOfSensor) {
+TEST_F(RawlogSimulate, StoresSensorMount) {
     expectSuccess(with(wires_, {"--poses", path("upright.tum")}));
     expectSuccess(with(wires_, {"--mount-roll-deg", "180", "--mount-pitch-deg", "-20", "-o",
                                 path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")}));

@@ -115,7 +115,7 @@ TEST_F(SegmentationEvaluate, SweepOverridesFolderSettings) {
     EXPECT_EQ(f1(report, 1), 1);
 }
 
-TEST_F(SegmentationEvaluate, ReportsSettingsOfRecording) {
+TEST_F(SegmentationEvaluate, ReportsRecordingSettings) {
     const std::string pole = labelledPole();
     std::ofstream(folder_ / "pole/sensor.yaml", std::ios::app) << "zone_m: 3\n";
     const auto report = json({"-i", pole});
@@ -202,7 +202,7 @@ TEST_F(SegmentationEvaluate, ListsBaselines) {
                                                "bogoslavskyi tuned"}));
 }
 
-TEST_F(SegmentationEvaluate, BaselinesUseZoneOfSettings) {
+TEST_F(SegmentationEvaluate, BaselinesUseZoneFromSettings) {
     const std::string near = folder_.write("near.yaml", "zone_m: 5\n");  // excludes the pole
     const auto report =
         json({"-i", labelledPole(), "-c", near, "--sweep", "zone_m=5,20", "--baselines"});
@@ -217,7 +217,7 @@ TEST_F(SegmentationEvaluate, BaselinesUseZoneOfSettings) {
 }
 
 // Label files of another program.
-TEST_F(SegmentationEvaluate, ScoresLabelsOfOtherPrograms) {
+TEST_F(SegmentationEvaluate, ScoresLabelsFromOtherPrograms) {
     const std::string pole = labelledPole();
     const auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
     writeLabelFile("theirs/000000.label", truth);

@@ -205,7 +205,7 @@ TEST(RollingModels, MemoryStaysConstant) {
     }
 }
 
-TEST(RollingModels, IgnoresOrderOfReturns) {
+TEST(RollingModels, IgnoresReturnOrder) {
     for (const std::string& name : kNames) {
         simulation::Random random(7);
         const auto one = make(name), other = make(name);

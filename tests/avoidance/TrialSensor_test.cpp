@@ -59,7 +59,7 @@ TEST(TrialSensor, PlacesReturnsDuringFlight) {
     }
 }
 
-TEST(TrialSensor, SeesToEndOfZone) {
+TEST(TrialSensor, SeesWholeZone) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -40, 40);
     const Course course = simpleCourse(std::move(content));

@@ -68,7 +68,7 @@ TEST_F(OutputPathTest, NumbersPartialNames) {
     EXPECT_EQ(test::readFile(folder_ / "a.partial.rawlog"), "a.partial.rawlog");
 }
 
-TEST_F(OutputPathTest, FindsPartialOutputsOfEarlierRuns) {
+TEST_F(OutputPathTest, FindsPartialOutputsFromEarlierRuns) {
     const fs::path directory = folder_ / "out.v2";
     for (const fs::path& none : {file_, fs::path(), folder_ / "none/a.rawlog"}) {
         EXPECT_THAT(partialOutputs(none), IsEmpty());
@@ -85,7 +85,7 @@ TEST_F(OutputPathTest, FindsPartialOutputsOfEarlierRuns) {
     EXPECT_EQ(partialOutputs(directory.string() + "/"), partialOutputs(directory));
 }
 
-TEST_F(OutputPathTest, FindsTemporaryFilesOfEndedProcesses) {
+TEST_F(OutputPathTest, FindsStaleTemporaryFiles) {
     const auto of = [&](const std::string& process) {
         return folder_.write("a.rawlog.tmp-" + process + "-0123456789abcdef", "half");
     };

@@ -112,7 +112,7 @@ TEST(Folds, LeaveOutEachDriveOnce) {
                 ElementsAre("00", "07"));
 }
 
-TEST(Descend, FindsOptimumOfTrainingScans) {
+TEST(Descend, FindsTrainingOptimum) {
     CachedMeasure measure(bowls);
     for (const std::string left_out : {"", "x", "y", "z"}) {
         const Descended d = descend(kSettings, {2, 2}, kAny, kDrives, measure, left_out, 10);
@@ -238,7 +238,7 @@ TEST(Plan, IncludesCurrentValues) {
                 HasSubstr("beta_deg is 11 in"));
 }
 
-TEST(Plan, PlainStartHasOwnValues) {
+TEST(Plan, PlainStartUsesOwnValues) {
     test::TemporaryFolder folder;
     Plan plan = readPlan(folder.write(
         "plan.yaml",

@@ -239,7 +239,7 @@ TEST_P(ConversionTest, ConvertsScanFolder) {
               test::readFile(folder_ / "scans/velodyne/000042.bin"));
 }
 
-TEST_P(ConversionTest, PrefersBeamsOfRecording) {
+TEST_P(ConversionTest, PrefersBeamsFromRecording) {
     fs::create_directories(folder_ / "scans/velodyne");
     recordings::writeScan(folder_ / "scans/velodyne/000000.bin",
                           test::scanScene({}, sensorModel("HDL-32E"), 100, {0, 0, 2}).scan);
@@ -294,7 +294,7 @@ TEST_P(ConversionTest, LabelsCloudsLikeTheirPackets) {
     }
 }
 
-TEST(Conversion, LabelsOfCloudsDoNotDependOnThreads) {
+TEST(Conversion, CloudLabelsDoNotDependOnThreads) {
     const test::TemporaryFolder folder;
     std::vector<CObservation::Ptr> scans;
     for (int i = 0; i < 12; ++i) scans.push_back(scanFrom(0.3 * i, i % 3 == 0 ? "rear" : "front"));
@@ -334,7 +334,7 @@ TEST(Conversion, LabelsOfCloudsDoNotDependOnThreads) {
     EXPECT_EQ(converted(2, 6, 11).second.back().roi, alone.second.back().roi);
 }
 
-TEST_P(ConversionTest, KeepsPosesOfScanFolder) {
+TEST_P(ConversionTest, KeepsPosesFromScanFolder) {
     fs::create_directories(folder_ / "scans/velodyne");
     const Scan scan = test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan;
     recordings::writeScan(folder_ / "scans/velodyne/000000.bin", scan);
@@ -350,7 +350,7 @@ TEST_P(ConversionTest, KeepsPosesOfScanFolder) {
     EXPECT_NEAR((poses[1] - mrpt::poses::CPose3D(0, -5, 0, 0, 0, 0)).norm(), 0.0, 1e-9);
 }
 
-TEST_P(ConversionTest, KeepsPosesOfLog) {
+TEST_P(ConversionTest, KeepsPosesFromLog) {
     const auto poseAt = [](double x_m) {
         auto observation = mrpt::obs::CObservationRobotPose::Create();
         observation->sensorLabel = "pose";
@@ -550,7 +550,7 @@ TEST_P(ConversionTest, ReportsScanWithInvalidLimits) {
     }
 }
 
-TEST_P(ConversionTest, KeepsPartialOutputOfBrokenLog) {
+TEST_P(ConversionTest, KeepsPartialOutputFromBrokenLog) {
     writeLog({scanFrom(0), scanFrom(1), scanFrom(2)});
     const std::string bytes = test::readFile(folder_ / "in.rawlog");
     folder_.write("in.rawlog", bytes.substr(0, bytes.size() / 2));
@@ -566,7 +566,7 @@ TEST_P(ConversionTest, KeepsPartialOutputOfBrokenLog) {
               (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi"}));
 }
 
-TEST_P(ConversionTest, KeepsPartialOutputOfBrokenFolder) {
+TEST_P(ConversionTest, KeepsPartialOutputFromBrokenFolder) {
     writeLog({scanFrom(0), scanFrom(1)});
     convertToFolder("scans.v1");
     folder_.write("scans.v1/velodyne/000001.bin", "cut");
@@ -727,7 +727,7 @@ TEST_P(ConversionTest, KeepsPartialOutputOnInterrupt) {
     EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog").size(), 4u);
 }
 
-TEST_P(ConversionTest, KeepsTimesOfScanFolder) {
+TEST_P(ConversionTest, KeepsTimesFromScanFolder) {
     writeLog({scanFrom(0)});
     convertToFolder("scans");
     folder_.write("scans/times.txt", "7.25\n");

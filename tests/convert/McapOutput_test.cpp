@@ -117,7 +117,7 @@ TEST_F(McapOutputTest, WritesReadablePointsAndFields) {
     EXPECT_THAT(remarks_, Contains(HasSubstr("'of_int64' is int64, which PointCloud2 does not")));
 }
 
-TEST_F(McapOutputTest, WritesRingsAndTimesOfPackets) {
+TEST_F(McapOutputTest, WritesPacketRingsAndTimes) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "lidar")});
     convertCounting();
     const auto clouds = cloudsOf(conversion_.mcap, "/lidar/points");

@@ -75,7 +75,7 @@ TEST(ScanFolderWriter, OrdersTimesAndPosesByName) {
     EXPECT_NEAR(recordings::readKittiPoses(read.kittiPosesFile()).at(1).x(), -10, 1e-9);
 }
 
-TEST(ScanFolderWriter, KeepsMountOfSensor) {
+TEST(ScanFolderWriter, KeepsSensorMount) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path(), {2.5f, -0.4f});
     writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);

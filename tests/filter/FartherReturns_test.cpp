@@ -67,7 +67,7 @@ TEST(FartherReturns, MeasuresHeightAboveSurface) {
     EXPECT_EQ(example.judged({example.on(0, 3), bush})[1], Label::Rou);
 }
 
-TEST(FartherReturns, UsesTolerancesOfPixels) {
+TEST(FartherReturns, UsesPixelTolerances) {
     TwoMetresUp example;
     const Scan scan = test::scanOf(example.sensor, {example.on(0, 7)});
     RangeImage image;

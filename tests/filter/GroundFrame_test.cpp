@@ -118,14 +118,14 @@ TEST(GroundFrame, WeighsPointsAboveLess) {
     EXPECT_LT(movedBy(0.5f), 0.8f * movedBy(-0.5f));
 }
 
-TEST(GroundFrame, TwoCellsGiveLevelPlane) {
+TEST(GroundFrame, TwoCellsYieldLevelPlane) {
     const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt({{5, 0, -1.5f}, {8, 3, -2}}), {}, work);
     EXPECT_TRUE(frame.linear().isIdentity());
     EXPECT_FLOAT_EQ(frame.translation().z(), 2);
     EXPECT_FLOAT_EQ(fitGroundFrame(pixelsAt({{5, 0, -1.5f}}), {}, work).translation().z(), 1.5f);
 }
 
-TEST(GroundFrame, NoPixelGivesLevelPlaneThroughSensor) {
+TEST(GroundFrame, NoPixelYieldsLevelPlaneThroughSensor) {
     const PixelPoints none = pixelsAt({test::kEmptyPixel, test::kEmptyPixel});
     EXPECT_TRUE(fitGroundFrame(none, {}, work).isApprox(Eigen::Isometry3f::Identity()));
     const Attitude attitude{0.1f, 0.2f};

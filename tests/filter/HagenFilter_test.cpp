@@ -178,7 +178,7 @@ TEST(HagenFilter, UpsideDownLabelsMatchUpright) {
 }
 
 /// The result of another filter has fewer returns behind pixels.
-TEST(HagenFilter, IgnoresResultOfAnotherFilter) {
+TEST(HagenFilter, IgnoresResultFromOtherFilter) {
     const SensorModel sensor = sensorModel("VLP-16");
     SimpleScene scene;
     scene.boxes.push_back({{10, -5, 0}, {11, 5, 30}});
@@ -308,7 +308,7 @@ Scan inOrder(const Scan& scan, const SensorModel& sensor, const std::vector<std:
     return test::scanOf(sensor, points);
 }
 
-TEST(HagenFilter, IgnoresOrderOfReturns) {
+TEST(HagenFilter, IgnoresReturnOrder) {
     for (unsigned seed = 43; seed < 49; ++seed) {
         const SensorModel sensor = sensorModel(seed % 2 == 0 ? "VLP-16" : "HDL-64E");
         const Scan scan = randomScan(seed, sensor);
@@ -509,7 +509,7 @@ TEST(HagenFilter, RejectsUnlocatedScan) {
     EXPECT_EQ(filter.segment(scan).returns.label.size(), 2u);
 }
 
-TEST(HagenFilter, RejectsRowsOfAnotherSensor) {
+TEST(HagenFilter, RejectsRowsFromOtherSensor) {
     for (const auto& [own, other] : {std::pair{"VLP-16", "HDL-64E"}, {"HDL-64E", "VLP-16"}}) {
         HagenFilter filter(sensorModel(own));
         const auto ground = test::scanScene({}, sensorModel(own), 870, kTwoMetresUp);

@@ -120,7 +120,7 @@ void expectOneResult(const std::string& sensor_name, const Options& options,
 }
 
 /// The reference stages give the same labels, although sums may be rounded differently.
-TEST(InstructionSets, ReferenceStagesGiveSameLabels) {
+TEST(InstructionSets, ReferenceStagesYieldSameLabels) {
     for (const char* const name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
         for (const unsigned seed : {3, 4, 5}) {
             const SensorModel sensor = sensorModel(name);

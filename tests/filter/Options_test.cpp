@@ -33,7 +33,7 @@ TEST(Options, ChecksEveryRange) {
     }
 }
 
-TEST(Options, AcceptsEndsOfRanges) {
+TEST(Options, AcceptsRangeLimits) {
     for (const OptionKey& key : optionKeys()) {
         for (const double end : {key.min, key.max}) {
             Options options;

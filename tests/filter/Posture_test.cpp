@@ -16,7 +16,7 @@ Attitude tilt(double roll_deg, double pitch_deg = 0) {
     return {static_cast<float>(radians(roll_deg)), static_cast<float>(radians(pitch_deg))};
 }
 
-TEST(Posture, FollowsTiltOfSensorAxis) {
+TEST(Posture, FollowsSensorAxisTilt) {
     EXPECT_EQ(postureOf(std::nullopt), Posture::Upright);
     for (const auto& upright : {tilt(0), tilt(29), tilt(-29), tilt(0, 29), tilt(20, -20)})
         EXPECT_EQ(postureOf(upright), Posture::Upright);

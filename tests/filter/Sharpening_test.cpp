@@ -43,7 +43,7 @@ TEST(Sharpening, NeighboursWrapInAzimuth) {
     EXPECT_FLOAT_EQ(sharpened_m(1, 0), 12.0f);
 }
 
-TEST(Sharpening, LoneMaximumStays) {
+TEST(Sharpening, KeepsLoneMaximum) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
     proximity_m(1, 2) = 6.0f;
     Image<float> sharpened_m;

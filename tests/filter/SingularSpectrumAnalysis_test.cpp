@@ -180,7 +180,7 @@ TEST(Ssa, AcceptsLongWindows) {
     }
 }
 
-TEST(Ssa, AllComponentsGiveIdentity) {
+TEST(Ssa, AllComponentsYieldIdentity) {
     test::Random random(14);
     const Image<float> values = random.image(15, 30, 0.0f, 1.6f, 0.1);
     EXPECT_TRUE(test::same(smoothed(values, 8, 8), values));

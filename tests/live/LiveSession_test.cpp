@@ -185,7 +185,7 @@ TEST_F(LiveSessionTest, SensorInOtherModeIsNotSilent) {
     EXPECT_THAT(remarks_, testing::Each(testing::Not(HasSubstr("address changed"))));
 }
 
-TEST_F(LiveSessionTest, CountsTooLatePacketsOfMid360) {
+TEST_F(LiveSessionTest, CountsTooLateMid360Packets) {
     options_.model = "Mid-360";
     GivenPackets source;
     for (int k = 0; k < 100; ++k) {
@@ -289,7 +289,7 @@ TEST_F(LiveSessionTest, ForeignPacketsDoNotDelayLabels) {
 }
 
 /// After a backlog, the newest packets are labelled first.
-TEST_F(LiveSessionTest, DropsPacketsOfOldBacklog) {
+TEST_F(LiveSessionTest, DropsOldBacklog) {
     GivenPackets source;
     source.addAll(turnsOf(20)).pause(0.7).addAll(turnsOf(1, 4000000)).asSensor();
     first_sector_takes_ = std::chrono::milliseconds(500);

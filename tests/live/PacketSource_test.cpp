@@ -99,7 +99,7 @@ TEST(UdpSource, ReceivesDatagrams) {
 }
 
 /// After the process was stopped, packets in the buffer are old.
-TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
+TEST(UdpSource, KeepsArrivalTimeOfDelayedPackets) {
     const std::uint16_t port = test::freePort();
     UdpSource source({0x7f000001, port});
     const test::LocalUdp sender;

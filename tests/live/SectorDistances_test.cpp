@@ -85,7 +85,7 @@ TEST_F(SectorDistancesTest, NarrowLostPacketKeepsObstacle) {
     }
 }
 
-TEST_F(SectorDistancesTest, KeepsObstacleOfPacketLostTwice) {
+TEST_F(SectorDistancesTest, KeepsObstacleIfPacketIsLostTwice) {
     SectorDistances distances(sensor_);
     turn(0, 0.05, {{12.9, 4}}, distances);
     for (const int k : {1, 2}) {
@@ -280,7 +280,7 @@ TEST_F(SectorDistancesTest, NearObstacleStaysForOffsetSensor) {
     }
 }
 
-TEST_F(SectorDistancesTest, OffsetSensorKeepsObstacleOfLostPacket) {
+TEST_F(SectorDistancesTest, OffsetSensorKeepsObstacleIfPacketIsLost) {
     for (const auto& [x_m, y_m] : {std::pair{0.3, 0.6}, {0.3, -0.6}, {0.6, 0.2}, {-0.5, 0.1}}) {
         SectorDistances::Settings settings;
         settings.body_from_sensor.translation().x() = 1;
@@ -353,7 +353,7 @@ TEST_F(SectorDistancesTest, FramesWithLossesAreUnknown) {
 }
 
 /// After a network outage, a quarter of the packets from 0.3 s arrive together.
-TEST_F(SectorDistancesTest, BurstOfFramesIsNotFullView) {
+TEST_F(SectorDistancesTest, FrameBurstIsNotFullView) {
     const Scan scan;
     const std::vector<Label> labels;
     const auto stateAfter = [&](double measured_s) {
@@ -396,7 +396,7 @@ TEST_F(SectorDistancesTest, FrameObstacleStaysUntilSecondLook) {
     }
 }
 
-TEST_F(SectorDistancesTest, FrameObstacleLastsTenthOfSecond) {
+TEST_F(SectorDistancesTest, FrameObstacleLasts100ms) {
     SectorDistances distances(sensorModel("Mid-360"));
     take(std::nullopt, 1.00, {{2, 4}}, distances);
     for (int k = 1; k < 5; ++k) take(std::nullopt, 1 + 0.02 * k, {{2, 5}}, distances);

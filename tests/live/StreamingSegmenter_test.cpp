@@ -424,7 +424,7 @@ TEST_F(StreamingSegmenterTest, HugeMotionLosesNoReturn) {
 }
 
 /// The packets are many turns late.
-TEST_F(StreamingSegmenterTest, LabelsSectorOfManyTurns) {
+TEST_F(StreamingSegmenterTest, LabelsMultiTurnSector) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingSegmenter segmenter(sensor_, {}, take());

@@ -114,7 +114,7 @@ TEST(Thinning, IgnoresReturnsWithoutCoordinates) {
     EXPECT_THAT(thinning.of(scan), ElementsAre(0));
 }
 
-TEST(Thinning, KeepsNothingWithoutColumns) {
+TEST(Thinning, KeepsNoReturnsWithoutColumns) {
     Thinning thinning(kRows, kColumns, 0);
     Scan scan;
     add(0, 3, 4, -1, scan);

@@ -51,7 +51,7 @@ TEST_F(TurnCoverageTest, DegreeIsCompleteWhenFullySwept) {
     EXPECT_EQ(add(13.71, 14.5), (Degrees{10.5, 11.5, 12.5, 13.5}));  // azimuths are rounded
 }
 
-TEST_F(TurnCoverageTest, DetectsGapOfTenthDegree) {
+TEST_F(TurnCoverageTest, DetectsTenthDegreeGap) {
     add(10, 12.4);
     EXPECT_EQ(add(12.5, 15), (Degrees{13.5, 14.5}));
     EXPECT_EQ(add({{15, 16.2}, {16.3, 18}}, 18), (Degrees{13.5, 14.5, 15.5, 17.5}));

@@ -262,7 +262,7 @@ TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
 }
 
 /// A burst from a second, slower path: it contains neither a clock step nor new data.
-TEST_F(VelodyneStreamTest, DropsDuplicatesOfEarlierTurn) {
+TEST_F(VelodyneStreamTest, DropsDuplicatesFromEarlierTurn) {
     const std::vector<ByteString> packets = turnsOf(5);
     addAll(packets, stream_);
     const std::size_t sectors = stream_.segmenter().sectors();
@@ -278,7 +278,7 @@ TEST_F(VelodyneStreamTest, DropsDuplicatesOfEarlierTurn) {
 }
 
 /// Packets are accepted as soon as they are certain not to be late.
-TEST_F(VelodyneStreamTest, SixteenLatePacketsMeanClockStep) {
+TEST_F(VelodyneStreamTest, SixteenLatePacketsSignalClockStep) {
     addAll(turnsOf(2), stream_);
     const auto again = turnsOf(1, 500000);
     for (std::size_t i = 0; i < 20; ++i) {
@@ -416,7 +416,7 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
 }
 
 /// The sensor has a single beam: laser 9 of a VLP-32C points 4.2 degrees behind the head.
-TEST(VelodyneStreams, ObstacleOfLaggingBeamStays) {
+TEST(VelodyneStreams, LaggingBeamKeepsObstacle) {
     const auto& model = velodyneModel("VLP-32C");
     observations::Firings firings = test::fireAt({}, model, {0, 0, 2});
     firings.range_m.setZero();
@@ -452,7 +452,7 @@ TEST(VelodyneStreams, Hdl64NeedsCalibration) {
 }
 
 /// Lower blocks identify an HDL-64E, even if their azimuths are unsound.
-TEST(VelodyneStreams, SurvivesUnsoundLowerBlocksOfHdl64) {
+TEST(VelodyneStreams, SurvivesUnsoundLowerHdl64Blocks) {
     sensors::VelodyneCalibration calibration;
     for (int laser = 0; laser < 64; ++laser) {
         const double elevation_rad = radians(-24 + 0.4 * laser);

@@ -96,7 +96,7 @@ TEST(Hdl64, DecodesReturnsOntoRoomWalls) {
     EXPECT_EQ(scan.beams.rows, 64);
 }
 
-TEST(Hdl64, UsesCalibrationOfScan) {
+TEST(Hdl64, UsesScanCalibration) {
     CObservationVelodyneScan observation = scanInRoom(12);
     ObservedScan observed;
     readObservation(observation, {}, observed);

@@ -21,7 +21,7 @@ void expectTilt(const std::optional<Attitude>& is, const Attitude& expected) {
     EXPECT_LT((levelFromSensor(*is) - levelFromSensor(expected)).norm(), 1e-5f);
 }
 
-TEST(Mount, KeepsAttitudeOfLevelSensor) {
+TEST(Mount, KeepsLevelSensorAttitude) {
     EXPECT_FALSE(tiltOf({}, CPose3D(), {}).has_value());
     ScanPose pose;
     pose.attitude = tilt(3, -5);
@@ -55,7 +55,7 @@ TEST(Mount, UsesSettingsForLevelRecording) {
 }
 
 /// A chain of transforms causes rounding errors.
-TEST(Mount, ToleratesRoundingOfRecordedMount) {
+TEST(Mount, ToleratesRoundedRecordedMount) {
     const CPose3D rounded(0, 0, 0, 0.3, 1e-7, -1e-9);
     expectTilt(tiltOf({}, rounded, tilt(180, 0)), tilt(180, 0));
     EXPECT_TRUE(tiltOf({}, rounded, {}).has_value());

@@ -192,7 +192,7 @@ mrpt::obs::CObservationPointCloud::Ptr cloudFrom(const SensorModel& sensor, int 
                          mrpt::Clock::fromDouble(100));
 }
 
-TEST_F(ObservationSegmenterTest, RecoversSensorOfClouds) {
+TEST_F(ObservationSegmenterTest, RecoversSensorFromClouds) {
     const auto cloud = cloudFrom(sensorModel("HDL-64E"), 600);
     for (int i = 0; i < 3; ++i) {
         const SegmentationResult* before = out_.result;

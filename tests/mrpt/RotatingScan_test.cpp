@@ -75,7 +75,7 @@ Compared compare(const test::RotatingLayout& layout, const Settings& settings) {
     return compared;
 }
 
-TEST(RotatingScan, PointsMatchLabelsOfPackets) {
+TEST(RotatingScan, PointsMatchPacketLabels) {
     Settings named;
     named.sensor.model = "VLP-16";
     for (const Settings& settings : {Settings(), named}) {
@@ -88,7 +88,7 @@ TEST(RotatingScan, PointsMatchLabelsOfPackets) {
     }
 }
 
-TEST(RotatingScan, RangesMatchLabelsOfPackets) {
+TEST(RotatingScan, RangesMatchPacketLabels) {
     const Compared compared = compare({}, {});
     EXPECT_GT(compared.returns, 30000u);
     EXPECT_EQ(compared.different, 0u);
@@ -153,7 +153,7 @@ TEST(RotatingScan, ColumnsFollowAzimuthSpan) {
     EXPECT_NEAR(degrees(readWith(scan, threeBeams()).scan.azimuth_rad[2]), 100, 1e-4);
 }
 
-TEST(RotatingScan, ReadsAllRangesOfPixels) {
+TEST(RotatingScan, ReadsAllPixelRanges) {
     CObservationRotatingScan scan = smallScan();
     scan.rangeImage(1, 2) = 4;
     scan.rangeOtherLayers["LAST"].setZero(3, 4);
@@ -168,7 +168,7 @@ TEST(RotatingScan, ReadsAllRangesOfPixels) {
     EXPECT_THAT(observed.remark, HasSubstr("1 ranges without a point"));
 }
 
-TEST(RotatingScan, UsesElevationsOfModel) {
+TEST(RotatingScan, UsesModelElevations) {
     CObservationRotatingScan scan = smallScan();
     scan.rowCount = 64;
     scan.rangeImage.setZero(64, 4);
@@ -308,7 +308,7 @@ std::vector<std::size_t> byTime(const Scan& scan) {
     return order;
 }
 
-TEST(RotatingScan, MatchesPacketsOfConvertedScans) {
+TEST(RotatingScan, ConvertedScansMatchPackets) {
     auto packets = test::poleScanFrom(3, "lidar");
     packets->scan_packets.resize(70);  // fromVelodyne() rejects a turn that passes 0 degrees
     packets->calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration("VLP16");

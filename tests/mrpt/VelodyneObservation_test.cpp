@@ -58,7 +58,7 @@ void expectMrptAgrees(CObservationVelodyneScan observation) {
     }
 }
 
-TEST(VelodyneObservation, DecodesAllReturnsOfRealScan) {
+TEST(VelodyneObservation, DecodesWholeRealScan) {
     const auto observation = test::realVlp16Scan();
     if (!observation) GTEST_SKIP() << "mrpt-common is not installed";
     Scan scan;
@@ -369,7 +369,7 @@ TEST(VelodyneObservation, DefaultsToModelCalibration) {
     EXPECT_EQ(sensorOf(*observation).rows(), 32);
 }
 
-TEST(VelodyneObservation, UsesRangeLimitsOfObservation) {
+TEST(VelodyneObservation, UsesRangeLimitsFromObservation) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(60, model, 24, 0.0));
     observation->minRange = 0.9;

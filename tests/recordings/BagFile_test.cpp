@@ -121,7 +121,7 @@ TEST_F(BagFileTest, ReadsEveryFormat) {
 }
 
 /// Reads files of other programs in tests/recordings/data; see the README there.
-TEST_F(BagFileTest, ReadsFilesOfOtherPrograms) {
+TEST_F(BagFileTest, ReadsFilesFromOtherPrograms) {
     const fs::path data = fs::path(HAGEN_SOURCE_DIR) / "tests/recordings/data";
     const Read ros2 = readAll(data / "flight_zstd.mcap");
     EXPECT_EQ(ros2.broken_because, "");
@@ -349,7 +349,7 @@ TEST_F(BagFolderTest, ReadsFilesInOrder) {
     EXPECT_EQ(readAll(folder_ / "bag").messages.size(), 4u);
 }
 
-TEST_F(BagFolderTest, RejectsWrongMetadata) {
+TEST_F(BagFolderTest, RejectsInvalidMetadata) {
     writeMetadata("", "[bag_8.mcap, bag_99.mcap]");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because,
                 HasSubstr("metadata.yaml: lists 'bag_99.mcap', which is not in the folder"));
@@ -450,7 +450,7 @@ TEST_F(BagFileTest, InterruptsQuery) {
     EXPECT_EQ(ending.calls, 3);
 }
 
-TEST_F(BagFileTest, RejectsChunkOfZeros) {
+TEST_F(BagFileTest, RejectsZeroedChunk) {
     const ByteString chunk = ByteString(16, '\0') + little64(900) + ByteString(8, '\0') +
                              little64(900) + ByteString(900, '\0');
     expectBroken(ByteString("\x89MCAP0\r\n", 8) + test::mcapRecord(6, chunk),

@@ -206,7 +206,7 @@ TEST_F(BagPosesTest, IgnoresTransformsWithinVehicle) {
     EXPECT_THAT(circle.scans->plan().remarks, ElementsAre(HasSubstr("form a cycle")));
 }
 
-TEST_F(BagPosesTest, IgnoresTransformsOfMap) {
+TEST_F(BagPosesTest, IgnoresMapTransforms) {
     const ReadBag bag =
         read({cloud("/map_cloud", 0, "map"), cloud("/points", 0, "base"),
               transform("/tf", "earth", "map", 1), transform("/tf", "earth", "map", 2, 0.1),
@@ -317,7 +317,7 @@ TEST_F(BagPosesTest, ReportsUnreadablePoses) {
                                    "message 1 (recorded at 1700000000.100 s): it is ")));
 }
 
-TEST_F(BagPosesTest, SeparatesParentsOfFrame) {
+TEST_F(BagPosesTest, SeparatesFrameParents) {
     const ReadBag bag = read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
                               transform("/tf", "map", "lidar", 100, 0.05),
                               transform("/tf", "odom", "lidar", 2, 0.1),

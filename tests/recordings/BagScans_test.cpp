@@ -83,7 +83,7 @@ TEST(BagScans, RejectsMoreThan100Lidars) {
     EXPECT_EQ(readBag(file, {{"/another"}, {}}).of("another").size(), 1u);
 }
 
-TEST(BagScans, ReportsOtherTypesOfTopic) {
+TEST(BagScans, ReportsOtherTypesOnTopic) {
     const test::TemporaryFolder folder;
     for (const char* name : {"mixed.mcap", "mixed.bag"}) {
         const std::vector<SentMessage> messages{
@@ -306,7 +306,7 @@ TEST_F(BagScansTest, RejectsUnknownSerialisations) {
     EXPECT_THAT(cut.failed_because, HasSubstr("bytes too short"));
 }
 
-TEST_F(BagScansTest, ReadsOusterMetadataOfBag) {
+TEST_F(BagScansTest, ReadsOusterMetadataFromBag) {
     const auto sensor = sensors::ousterSensorOf(test::ousterJson(), "here");
     std::vector<SentMessage> messages{cloud("/ouster/points", 0, "os_sensor"),
                                       transform("/tf_static", "base_link", "os_sensor", 3)};

@@ -62,7 +62,7 @@ TEST_F(BagSourceTest, ReturnsEntryPerScan) {
     EXPECT_EQ(source->entriesKnown(), 6u);
 }
 
-TEST_F(BagSourceTest, UsesPosesAndMountOfBag) {
+TEST_F(BagSourceTest, UsesPosesAndMountFromBag) {
     const auto source = open();
     source->usePoses("");
     EXPECT_EQ(source->poses().source, "nav_msgs/Odometry on /odom");
@@ -98,7 +98,7 @@ TEST_F(BagSourceTest, KeepsMountInLidarPoses) {
     EXPECT_TRUE(poseOf("base_link").attitude_is_of_sensor);
 }
 
-TEST_F(BagSourceTest, PrefersPosesOfFile) {
+TEST_F(BagSourceTest, PrefersPosesFromFile) {
     SourceOptions options;
     options.topics = {"/rear"};
     writeKittiPoses(folder_ / "poses.txt", {CPose3D(), CPose3D(5, 0, 0, 0, 0, 0), CPose3D()});

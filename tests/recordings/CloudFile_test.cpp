@@ -318,7 +318,7 @@ TEST_F(CloudFileTest, PlyErrorsIncludeLine) {
 
 // LAS
 
-TEST_F(CloudFileTest, LasReadsFieldsOfPointFormat) {
+TEST_F(CloudFileTest, LasReadsPointFormatFields) {
     const PointTable old = read("a.las", test::las(filePoints(1))).table;
     EXPECT_THAT(column(old, "return_number"), ElementsAre(2));
     EXPECT_THAT(column(old, "number_of_returns"), ElementsAre(3));

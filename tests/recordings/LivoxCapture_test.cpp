@@ -136,7 +136,7 @@ TEST_F(LivoxCaptureTest, CountsImuPackets) {
                           "UDP datagram"));
 }
 
-TEST_F(LivoxCaptureTest, ScanDurationIsTenthOfSecond) {
+TEST_F(LivoxCaptureTest, ScansLast100ms) {
     const Scans scans = read(captureOf(packets(500)).bytes());
     ASSERT_EQ(scans.size(), 3u);
     std::size_t points = 0;
@@ -178,7 +178,7 @@ TEST_F(LivoxCaptureTest, LateDuplicatesDoNotHideLosses) {
     EXPECT_THAT(remarks_[0], HasSubstr("3 duplicate packets dropped"));
 }
 
-TEST_F(LivoxCaptureTest, CountsLossesAndJumpsKeepsPoints) {
+TEST_F(LivoxCaptureTest, CountsLossesAndKeepsPoints) {
     auto all = packets(300);
     std::swap(all[20], all[21]);
     all.erase(all.begin() + 50, all.begin() + 53);

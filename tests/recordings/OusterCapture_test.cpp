@@ -88,7 +88,7 @@ const char* const kProfiles[] = {"LEGACY",
                                  "FUSA_RNG15_RFL8_NIR8_DUAL",
                                  "FIVE_WORD_PIXEL"};
 
-TEST_F(OusterCaptureTest, ReadsFramesOfAllProfiles) {
+TEST_F(OusterCaptureTest, ReadsAllProfiles) {
     for (const std::string profile : kProfiles) {
         SCOPED_TRACE(profile);
         const sensors::OusterSensor sensor = sensorOf(profile);
@@ -274,7 +274,7 @@ TEST_F(OusterCaptureTest, CountsIgnoredDatagrams) {
               "992137000143, 1 other UDP datagram (most: 1 of 5 bytes to port 7502)");
 }
 
-TEST_F(OusterCaptureTest, ReportsMetadataOfOtherSensor) {
+TEST_F(OusterCaptureTest, ReportsMetadataFromOtherSensor) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("RNG19_RFL8_SIG16_NIR16", "123"));
@@ -289,7 +289,7 @@ TEST_F(OusterCaptureTest, ReportsMetadataOfOtherSensor) {
                           "(most: 8 of 1024 bytes to port 7502). Is it another"));
 }
 
-TEST_F(OusterCaptureTest, DropsTurnsOfOtherMode) {
+TEST_F(OusterCaptureTest, DropsTurnsInOtherMode) {
     test::TurningOuster ouster;
     std::vector<std::string> packets;
     const auto add = [&](const test::OusterMode& mode, int turns) {
@@ -353,7 +353,7 @@ std::string md5Of(const std::vector<Number>& numbers, const test::TemporaryFolde
     return outcome.out.substr(0, 32);
 }
 
-TEST_F(OusterCaptureTest, MatchesDigestsOfRealCapture) {
+TEST_F(OusterCaptureTest, MatchesRealCaptureDigests) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA is not a folder of captures";
     const sensors::OusterSensor sensor =

@@ -94,7 +94,7 @@ TEST(PackedRawlog, ReportsDamagedZstdLog) {
                 HasSubstr("a window of more than 128 MiB; decompress it first"));
 }
 
-TEST(PackedRawlog, ReadsLogsOfMrpt3) {
+TEST(PackedRawlog, ReadsMrpt3Logs) {
     const auto folder = test::dataFolder("HAGEN_MRPT3_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not a folder of MRPT 3 logs";
     for (const char* name :

@@ -138,7 +138,7 @@ TEST_F(PoseFile, RejectsKittiPosesAtEqualTimes) {
     EXPECT_EQ(test::messageOf([&] { posesOfRawlog(survey, file); }), "");
 }
 
-TEST_F(PoseFile, RejectsKittiFileOfOtherLength) {
+TEST_F(PoseFile, RejectsKittiFileWithOtherLength) {
     const auto file = folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     RawlogSurvey survey = surveyOfTwoScans();
     EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
@@ -148,7 +148,7 @@ TEST_F(PoseFile, RejectsKittiFileOfOtherLength) {
                 HasSubstr("scan of a single LiDAR"));
 }
 
-TEST_F(PoseFile, PrefersTumPosesOfFolder) {
+TEST_F(PoseFile, PrefersTumPosesFromFolder) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     const ScanFolder folder(folder_.path());

@@ -198,7 +198,7 @@ TEST_F(ScanFolderTest, ReadsTimePerScan) {
     EXPECT_EQ(scans.altitudes(), (std::vector<double>{1.5, 12}));
 }
 
-TEST_F(ScanFolderTest, RejectsWrongTimes) {
+TEST_F(ScanFolderTest, RejectsInvalidTimes) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("times.txt", "0.0\n0.1\n");
     const ScanFolder scans(folder_.path());

@@ -166,7 +166,7 @@ TEST_F(ScanSourceTest, SkipsRecoveryForNamedSensor) {
     EXPECT_THAT(beamsPulledFrom(*unused), ElementsAre("0:a:-"));
 }
 
-TEST_F(ScanSourceTest, RecoversBeamsOfScanFolder) {
+TEST_F(ScanSourceTest, RecoversBeamsFromScanFolder) {
     const fs::path folder = scanFolderOf(3);
     SourceOptions options;
     options.first_entry = options.last_entry = 0;
@@ -286,7 +286,7 @@ TEST_F(ScanSourceTest, ConvertsFolderScansToObjects) {
     EXPECT_EQ(object->sensorLabel, "velodyne");
 }
 
-TEST_F(ScanSourceTest, UsesLaterPosesOfRawlog) {
+TEST_F(ScanSourceTest, UsesLaterPosesFromRawlog) {
     const auto source =
         openRecording(rawlogOf({pose(0.9, 5, 0), cloud(1, "front"), pose(1.1, 7, 0)}));
     source->usePoses({});
@@ -298,7 +298,7 @@ TEST_F(ScanSourceTest, UsesLaterPosesOfRawlog) {
     EXPECT_TRUE(scan->pose.pose_has_horizon);
 }
 
-TEST_F(ScanSourceTest, UsesAttitudeOfSkippedEntries) {
+TEST_F(ScanSourceTest, UsesAttitudeFromSkippedEntries) {
     SourceOptions options;
     options.first_entry = 2;
     const auto source = openRecording(
@@ -309,7 +309,7 @@ TEST_F(ScanSourceTest, UsesAttitudeOfSkippedEntries) {
     EXPECT_NEAR(scan->pose.attitude->pitch_rad, 0.2, 1e-6);
 }
 
-TEST_F(ScanSourceTest, PrefersAttitudeOfPoseFile) {
+TEST_F(ScanSourceTest, PrefersAttitudeFromPoseFile) {
     writeTumPoses(folder_ / "flight.tum", {{1001.0, CPose3D(3, 0, 0, 0, 0.4, 0)}});
     const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), cloud(1, "front")}));
     source->usePoses(folder_ / "flight.tum");
@@ -348,7 +348,7 @@ TEST_F(ScanSourceTest, KeepsAttitudeWithKittiFile) {
     EXPECT_FALSE(scan->pose.pose_has_horizon);
 }
 
-TEST_F(ScanSourceTest, ListsScanTimesOfAllLidars) {
+TEST_F(ScanSourceTest, ListsScanTimesForAllLidars) {
     SourceOptions options;
     options.sensor_labels = {"rear"};
     const auto times = openRecording(rawlogOf(mixed()), options)->scanTimes();
@@ -365,7 +365,7 @@ TEST_F(ScanSourceTest, ScanTimesDoNotDependOnPoses) {
     EXPECT_EQ(source->poses().source, "CObservationRobotPose");
 }
 
-TEST_F(ScanSourceTest, UsesSensorOfFolder) {
+TEST_F(ScanSourceTest, UsesSensorFromFolder) {
     const fs::path folder = scanFolderOf(1);
     std::ofstream(folder / "sensor.yaml") << "sensor:\n  model: HDL-32E\n";
     EXPECT_EQ(openRecording(folder)->settingsFor({}).sensor.model, "HDL-32E");
@@ -391,7 +391,7 @@ TEST_F(ScanSourceTest, StopsLookAheadOnRequest) {
     EXPECT_EQ(source->scanTimes().at("front").size(), 3u);  // no partial result is kept
 }
 
-TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfRawlog) {
+TEST_F(ScanSourceTest, ReportsRawlogLookAheadErrors) {
     PackedInput stream(rawlogOf(mixed()));
     std::string bytes(1 << 16, '\0');
     bytes.resize(stream.Read(bytes.data(), bytes.size()));
@@ -415,7 +415,7 @@ TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfRawlog) {
     }
 }
 
-TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfFolder) {
+TEST_F(ScanSourceTest, ReportsFolderLookAheadErrors) {
     const fs::path folder = scanFolderOf(3), file = folder / "velodyne/000001.bin";
     for (const std::size_t first : {0u, 2u}) {
         int asked = 0;
@@ -468,7 +468,7 @@ TEST_F(ScanSourceTest, ReadsCloudsBesideRecording) {
     EXPECT_THAT(source->remarks(), testing::Contains("1 folder in the folder: ignored"));
 }
 
-TEST_F(ScanSourceTest, ReportsOtherFilesOfScanFolder) {
+TEST_F(ScanSourceTest, ReportsOtherFilesInScanFolder) {
     const fs::path folder = scanFolderOf(2);
     folder_.write("scans/velodyne/000002.bin.gz", "");
     folder_.write("scans/velodyne/000003.BIN", "");
@@ -478,7 +478,7 @@ TEST_F(ScanSourceTest, ReportsOtherFilesOfScanFolder) {
     EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("such as 000002.bin.gz")));
 }
 
-TEST_F(ScanSourceTest, SuggestsFolderOfOneLidar) {
+TEST_F(ScanSourceTest, SuggestsSingleLidarFolder) {
     scanFolderOf(2);
     fs::create_directories(folder_ / "both");
     fs::rename(folder_ / "scans", folder_ / "both/velodyne");

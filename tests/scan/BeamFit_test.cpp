@@ -108,7 +108,7 @@ TEST(BeamFit, IgnoresBeamsInSky) {
     EXPECT_EQ(fit->share(), 1.0f);
 }
 
-TEST(BeamFit, WithoutBeamsCountsReturns) {
+TEST(BeamFit, CountsReturnsWithoutBeams) {
     const auto fit = fitBeams(scanOf(beamsEvery(0.05, -15, 15)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->beams_shown, 0u);

@@ -78,7 +78,7 @@ TEST(CheckLocated, RejectsShortArrays) {
     EXPECT_NE(objection(scan, sensor), "");
 }
 
-TEST(CheckLocated, RejectsRowsOfAnotherSensor) {
+TEST(CheckLocated, RejectsRowsFromOtherSensor) {
     EXPECT_THAT(objection(locatedWith(sensorModel("VLP-16")), sensorModel("HDL-64E")),
                 AllOf(HasSubstr("16 beams from -15 to 15 degrees"), HasSubstr("HDL-64E"),
                       HasSubstr("64 beams"), HasSubstr("call locateBeams()")));

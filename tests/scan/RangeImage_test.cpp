@@ -134,7 +134,7 @@ TEST(RangeImage, ReturnsByPixelContainsEachOnce) {
     EXPECT_EQ(seen.size(), static_cast<std::size_t>(mapped));
 }
 
-TEST(RangeImage, EmptyScanGivesEmptyImage) {
+TEST(RangeImage, EmptyScanYieldsEmptyImage) {
     RangeImage image;
     projectScan(Scan(), sensorModel("VLP-16"), 870, kFar, image, work);
     EXPECT_EQ(image.depth_m.rows(), 16);

@@ -151,7 +151,7 @@ TEST(RecoverBeams, SurvivesJitterRoundingStraysAndDropouts) {
     }
 }
 
-TEST(RecoverBeams, AddsUnseenBeamsOfModel) {
+TEST(RecoverBeams, AddsUnseenModelBeams) {
     for (const std::string& name : spinningModels()) {
         SCOPED_TRACE(name);
         const SensorModel truth = sensorModel(name);
@@ -375,7 +375,7 @@ std::vector<std::int32_t> ringsOf(const Scan& scan, int beams) {
     return rings;
 }
 
-TEST(RingBeams, BeamIsMedianOfRing) {
+TEST(RingBeams, BeamIsRingMedian) {
     Spin spin;
     spin.columns = 200;
     spin.jitter_deg = 0.2;
@@ -394,7 +394,7 @@ TEST(RingBeams, BeamIsMedianOfRing) {
     EXPECT_GT(found->share, 0.99f);
 }
 
-TEST(RingBeams, RejectsRingsOfOtherFields) {
+TEST(RingBeams, RejectsNonRingFields) {
     const Scan scan = scanOf({-7, -3, 0, 1.5, 8}, {});
     const auto rings = ringsOf(scan, 5);
     ASSERT_TRUE(ringBeams(scan, rings));

@@ -194,7 +194,7 @@ TEST_F(CaptureFileTest, CountsOtherTrafficAndCutFrames) {
     expectBalance();
 }
 
-TEST_F(CaptureFileTest, ReportsPositionOfTruncation) {
+TEST_F(CaptureFileTest, ReportsTruncationPosition) {
     CaptureWriter writer;
     for (int i = 0; i < 5; ++i) writer.datagram(sent(ByteString(60, 'x')));
     std::vector<ByteString> frames(5, ethernet(test::ipOf(sent(ByteString(60, 'x')))));

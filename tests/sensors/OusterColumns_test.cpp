@@ -103,7 +103,7 @@ TEST_F(OusterColumnsTest, LegacyPacketsUseEncoder) {
 }
 
 /// In an unknown mode, excessive column numbers invalidate the turn.
-TEST_F(OusterColumnsTest, LargeColumnNumbersMeanOtherMode) {
+TEST_F(OusterColumnsTest, LargeColumnNumbersSignalOtherMode) {
     OusterSensor sensor = sensor_;
     sensor.turn_s = 0;
     OusterColumns columns(sensor);

@@ -45,7 +45,7 @@ class PresetsTest : public testing::Test {
     std::optional<std::string> variable_ = variable();
 };
 
-TEST_F(PresetsTest, BuildFindsPresetsOfSources) {
+TEST_F(PresetsTest, BuildFindsSourcePresets) {
     for (const char* name : {"vlp16", "hdl32e", "paper", "common"}) {
         const fs::path file = presetFile(name);
         EXPECT_TRUE(fs::equivalent(file, kSources / (std::string(name) + ".yaml"))) << file;
