@@ -59,13 +59,15 @@ class ZeroAllocations : public testing::TestWithParam<const char*> {
     }
 };
 
-TEST_P(ZeroAllocations, PaperPipeline) {
+TEST_P(ZeroAllocations, PaperPipelineNeverAllocates) {
     expectNoAllocations(GetParam(), test::paperOptions(), {});
 }
 
-TEST_P(ZeroAllocations, DefaultPipeline) { expectNoAllocations(GetParam(), Options(), {}); }
+TEST_P(ZeroAllocations, DefaultPipelineNeverAllocates) {
+    expectNoAllocations(GetParam(), Options(), {});
+}
 
-TEST_P(ZeroAllocations, KnownAttitudeAndAllOptions) {
+TEST_P(ZeroAllocations, AllOptionsNeverAllocate) {
     Options options;
     options.ground_is_roi_below_m = 1.5f;
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
@@ -78,7 +80,7 @@ TEST_P(ZeroAllocations, KnownAttitudeAndAllOptions) {
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
 }
 
-TEST(ZeroAllocationsPerScan, LocateBeamsAndSegment) {
+TEST(ZeroAllocationsPerScan, LocatingAndSegmentingNeverAllocate) {
     if (!countsAllocations()) GTEST_SKIP() << "the sanitizer replaces malloc()";
     const SensorModel sensor = sensorModel("HDL-64E");
     test::LabelledScan seen = test::scanScene(street(), sensor, 600, {0, 0, 1.7});

@@ -1,5 +1,5 @@
-"""Every code block on the pages is checked by scripts/check-docs or has a reason not to be. Also tests the parts of that
-check that need no programs."""
+"""Every code block is checked by scripts/check-docs or has a reason for its exemption. Also tests the parts of that
+script that need no programs."""
 import sys
 import unittest
 from importlib.machinery import SourceFileLoader

@@ -157,7 +157,7 @@ const std::vector<Vector3d> kPlacesInRoom{{0.3, 0.2, 1.1},   {-1.5, -0.8, 1.1}, 
                                           {-0.3, -0.2, 1.1}, {0.9, -0.8, 1.1},  {1.5, -0.5, 1.1},
                                           {0.3, 0.2, 1.5}};
 
-TEST(Traps, EmptyRoom) {
+TEST(Traps, ObstaclesAreRoiInEmptyRoom) {
     forEachSensor({emptyRoom(), {0.3, 0.2, 1.1}}, [](const Outcome& o, const std::string& sensor) {
         EXPECT_GT(o.dangers, 10000);
         EXPECT_EQ(o.missed_dangers, 0);
@@ -168,7 +168,7 @@ TEST(Traps, EmptyRoom) {
     });
 }
 
-TEST(Traps, FurnishedRoom) {
+TEST(Traps, ObstaclesAreRoiInFurnishedRoom) {
     forEachSensor({furnishedRoom(), kPlacesInRoom.front()},
                   [](const Outcome& o, const std::string& sensor) {
                       EXPECT_GT(o.dangers, 10000);
@@ -201,7 +201,7 @@ TEST(Traps, ClassroomIsNotCrop) {
 
 SimpleScene corridor() { return indoors({-15, -1}, {15, 1}, 2.5); }
 
-TEST(Traps, Corridor) {
+TEST(Traps, ObstaclesAreRoiInCorridor) {
     for (const std::string& sensor : kSensors) {
         for (const double x_m : {-12.0, 0.0}) {
             const Outcome o = outcome({corridor(), {x_m, 0.2, 1.1}}, sensor);
@@ -224,13 +224,13 @@ TEST(Traps, CorridorEndIsNotCrop) {
 }
 
 // The plane is wrong by 3 degrees, so some of the walls' lowest returns are close to it.
-TEST(Traps, DISABLED_CorridorPitched) {
+TEST(Traps, DISABLED_ObstaclesAreRoiInPitchedCorridor) {
     EXPECT_EQ(outcome({corridor(), {0, 0.2, 1.1}, {0.2, 0}}, "VLP-16").missed_dangers, 0);
 }
 
 SimpleScene hall() { return indoors({-20, -15}, {20, 15}, 8); }
 
-TEST(Traps, HallWithCeiling) {
+TEST(Traps, ObstaclesAreRoiInHall) {
     for (const std::string& sensor : kSensors) {
         for (const double height_m : {1.1, 4.0, 7.0}) {
             const Outcome o = outcome({hall(), {3, 2, height_m}}, sensor);
@@ -245,7 +245,7 @@ TEST(Traps, HallWithCeiling) {
 
 // The plane is wrong by 16 degrees: the floor is level enough to be evidence, even for the walls,
 // and the surface ends above their feet.
-TEST(Traps, DISABLED_HallTilted) {
+TEST(Traps, DISABLED_ObstaclesAreRoiInTiltedHall) {
     EXPECT_EQ(outcome({hall(), {3, 2, 4}, {0.2, 0}}, "VLP-16").missed_dangers, 0);
     EXPECT_EQ(outcome({hall(), {3, 2, 4}, {0, 0.15}}, "VLP-16").missed_dangers, 0);
     EXPECT_EQ(outcome({hall(), {3, 2, 7}, {0.2, 0}}, "HDL-64E").missed_dangers, 0);
@@ -263,7 +263,7 @@ SimpleScene bridge() {
     return scene;
 }
 
-TEST(Traps, UnderBridge) {
+TEST(Traps, BridgeIsRoi) {
     for (const double height_m : {1.5, 3.5}) {
         forEachSensor({bridge(), {1, 3, height_m}}, [](const Outcome& o, const std::string&) {
             EXPECT_GT(o.dangers, 2000);
@@ -289,7 +289,7 @@ SimpleScene balcony() {
     return scene;
 }
 
-TEST(Traps, BalconyRail) {
+TEST(Traps, BalconyRailIsRoi) {
     for (const Vector3d& place_m : {Vector3d(0.5, 0, 13.5), {-1.5, 0.3, 13.2}}) {
         Sight sight{balcony(), place_m};
         sight.floor_m = 12;
@@ -314,7 +314,7 @@ SimpleScene yard() {
     return scene;
 }
 
-TEST(Traps, BeamsAboveHorizonOnly) {
+TEST(Traps, ReturnsAboveHorizonAreRoi) {
     for (Sight sight :
          {Sight{yard(), {0, 0, 1.5}}, Sight{furnishedRoom(), {0.3, 0.2, 1.1}},
           Sight{hall(), {3, 2, 1.5}}, Sight{bridge(), {1, 3, 1.5}}, Sight{corridor(), {0, 0, 1}}}) {
@@ -335,7 +335,7 @@ auto leaves(double share) {
     };
 }
 
-TEST(Traps, FoliageWithoutGround) {
+TEST(Traps, FoliageWithoutGroundIsRoi) {
     SimpleScene nothing;
     nothing.has_ground = false;
     for (const std::string& sensor : kSensors) {
@@ -349,7 +349,7 @@ TEST(Traps, FoliageWithoutGround) {
     }
 }
 
-TEST(Traps, FoliageWithLittleGround) {
+TEST(Traps, FoliageOverLittleGroundIsRoi) {
     for (const std::string& sensor : kSensors) {
         for (const double share : {0.6, 0.95}) {
             for (const double height_m : {1.5, 3.0}) {
@@ -371,14 +371,14 @@ TEST(Traps, FoliageWithLittleGround) {
 
 // The lowest leaves between the sensor and the first ring of ground, 11 m away, look like ground
 // that rises to 1.5 m, slightly more than allowed for hidden ground.
-TEST(Traps, LeavesBeforeFirstGroundRing) {
+TEST(Traps, LeavesBeforeFirstGroundRingAreRoi) {
     Sight sight{{}, {0, 0, 3}};
     sight.change = leaves(0.6);
     EXPECT_EQ(outcome(sight, "VLP-16").missed_dangers, 0);
 }
 
 // The tops of cars and boxes before the first ring look like rising ground; the ring is evidence.
-TEST(Traps, DISABLED_CarBeforeFirstGroundRing) {
+TEST(Traps, DISABLED_CarBeforeFirstGroundRingIsRoi) {
     SimpleScene car;
     car.boxes = {{{9, -2.2, 0}, {12, 2.2, 1.5}}, {{-2.2, 9, 0}, {2.2, 10.8, 1.5}}};
     EXPECT_EQ(outcome({car, {0, 0, 4}}, "VLP-16").missed_dangers, 0);
@@ -397,7 +397,7 @@ SimpleScene cliff() {
     return scene;
 }
 
-TEST(Traps, Cliff) {
+TEST(Traps, ObstaclesAreRoiAtCliff) {
     for (const double x_m : {0.0, 6.0}) {
         forEachSensor({cliff(), {x_m, 0, 2}}, [](const Outcome& o, const std::string& sensor) {
             EXPECT_GT(o.dangers, 200);
@@ -426,7 +426,7 @@ SimpleScene lake() {
     return scene;
 }
 
-TEST(Traps, WaterUpToFarBank) {
+TEST(Traps, ObstaclesAreRoiInWaterUpToBank) {
     for (const auto& [reach_m, height_m] : {std::pair{10.0, 1.5}, {15.0, 1.5}, {15.0, 4.0}}) {
         Sight sight{lake(), {0, 0, height_m}};
         sight.change = water(reach_m);
@@ -438,7 +438,7 @@ TEST(Traps, WaterUpToFarBank) {
     }
 }
 
-TEST(Traps, OpenWater) {
+TEST(Traps, ObstaclesAreRoiOverOpenWater) {
     SimpleScene scene = lake();
     scene.has_ground = false;
     forEachSensor({scene, {0, 0, 4}}, [](const Outcome& o, const std::string&) {
@@ -448,7 +448,7 @@ TEST(Traps, OpenWater) {
 }
 
 // As with the car, the nearby bank is evidence for a hill under the pontoon.
-TEST(Traps, DISABLED_PontoonInWater) {
+TEST(Traps, DISABLED_PontoonInWaterIsRoi) {
     Sight sight{lake(), {0, 0, 4}};
     sight.scene.boxes.push_back({{-2, 8, 0}, {3, 10, 1.5}});
     sight.change = water(15);
@@ -456,7 +456,7 @@ TEST(Traps, DISABLED_PontoonInWater) {
                   [](const Outcome& o, const std::string&) { EXPECT_EQ(o.missed_dangers, 0); });
 }
 
-TEST(Traps, HoveringNearGround) {
+TEST(Traps, ObstaclesAreRoiWhenHoveringLow) {
     SimpleScene scene;
     scene.poles = {{3, 1, 0.1, 2}, {-4, 2, 0.05, 1}, {1, -2, 0.05, 1}};
     scene.boxes = {{{5, -4, 0}, {6, 0, 2}}, {{-3, -3, 0}, {-2.5, -2.5, 0.5}}};
@@ -468,7 +468,7 @@ TEST(Traps, HoveringNearGround) {
     });
 }
 
-TEST(Traps, BesideTower) {
+TEST(Traps, TowerIsRoi) {
     SimpleScene scene;
     scene.boxes = {{{10, -8, 0}, {20, 8, 60}}};
     forEachSensor({scene, {0, 0, 30}}, [](const Outcome& o, const std::string&) {

@@ -291,7 +291,7 @@ TEST_F(VelodyneStreamTest, SixteenLatePacketsSignalClockStep) {
     EXPECT_EQ(stream_.counts().interruptions, 1u);
 }
 
-TEST_F(VelodyneStreamTest, CountsGap) {
+TEST_F(VelodyneStreamTest, CountsPacketsMissingInGap) {
     addAll(turnsOf(2), stream_);
     addAll(turnsOf(2, 1000000 + 360000), stream_, 0.36);  // 0.16 s are missing
     EXPECT_EQ(stream_.counts().interruptions, 1u);

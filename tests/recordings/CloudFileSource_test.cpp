@@ -169,7 +169,7 @@ TEST_F(CloudFileSourceTest, ReadsNuScenes) {
     EXPECT_EQ(rings[3], 3);
 }
 
-TEST_F(CloudFileSourceTest, KeepsExtensionsOfEqualNames) {
+TEST_F(CloudFileSourceTest, KeepsExtensionsIfNamesAreEqual) {
     EXPECT_THAT(scansOf(folderOf({"1.bin", "1.pcd"})).first, ElementsAre("1.bin", "1.pcd"));
 }
 
