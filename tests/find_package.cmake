@@ -1,4 +1,4 @@
-# Installs the build tree into a clean prefix, builds examples/find_package against it, and runs it.
+# Installs the build tree into a clean prefix, then builds and runs examples/find_package with it.
 set(prefix ${BUILD}/find_package/prefix)
 set(build ${BUILD}/find_package/build)
 file(REMOVE_RECURSE ${BUILD}/find_package)

@@ -1,5 +1,5 @@
-// After the first scans, the path from packets to labels and index lists does not allocate. This is
-// a separate program because it replaces malloc().
+// After the first scans, segmentation does not allocate, from packets to labels and index lists.
+// This is a separate program because it replaces malloc().
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/mrpt/VelodyneObservation.h>
@@ -60,13 +60,15 @@ class ZeroAllocations : public testing::TestWithParam<const char*> {
     }
 };
 
-TEST_P(ZeroAllocations, PaperPipeline) {
+TEST_P(ZeroAllocations, PaperPipelineNeverAllocates) {
     expectNoAllocations(GetParam(), test::paperOptions(), {});
 }
 
-TEST_P(ZeroAllocations, DefaultPipeline) { expectNoAllocations(GetParam(), Options(), {}); }
+TEST_P(ZeroAllocations, DefaultPipelineNeverAllocates) {
+    expectNoAllocations(GetParam(), Options(), {});
+}
 
-TEST_P(ZeroAllocations, KnownAttitudeAndAllOptions) {
+TEST_P(ZeroAllocations, AllOptionsNeverAllocate) {
     Options options;
     for (const OptionKey& key : optionKeys()) {  // stages that are off by default
         const auto* const real = std::get_if<float Options::*>(&key.field);
@@ -82,7 +84,7 @@ TEST_P(ZeroAllocations, KnownAttitudeAndAllOptions) {
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
 }
 
-TEST(ZeroAllocationsPerScan, LocateBeamsAndSegment) {
+TEST(ZeroAllocationsPerScan, LocatingAndSegmentingNeverAllocate) {
     if (!countsAllocations()) GTEST_SKIP() << "the sanitizer replaces malloc()";
     const SensorModel sensor = sensorModel("HDL-64E");
     test::LabelledScan seen = test::scanScene(street(), sensor, 600, {0, 0, 1.7});
@@ -101,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Sensors, ZeroAllocations, testing::Values("VLP-16", "HD
                              return std::string(of.param) == "VLP-16" ? "Vlp16" : "Hdl32";
                          });
 
-/// Every kind of allocation is counted.
+/// The test's counter sees every kind of allocation.
 TEST(AllocationCounter, SeesNewAndEigen) {
     if (!countsAllocations()) GTEST_SKIP() << "the sanitizer replaces malloc()";
     const std::size_t before = allocations();

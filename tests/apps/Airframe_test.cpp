@@ -145,13 +145,13 @@ TEST_F(AirframeMask, AppliesToEvaluation) {
             .get<double>();
     };
     EXPECT_LT(missed(""), 0.1);
-    // A mask as large as the zone leaves no obstacle.
+    // A mask as large as the zone hides every obstacle.
     EXPECT_EQ(missed("airframe: [sphere: {centre_m: [0, 0, 0], radius_m: 20}]"), 1);
 }
 
 TEST_F(AirframeMask, WarnsIfMostReturnsAreMasked) {
     fs::create_directories(path("scans/velodyne"));
-    for (int scan = 0; scan < 12; ++scan) {  // a wall all around a standing vehicle
+    for (int scan = 0; scan < 12; ++scan) {  // a wall all around a hovering vehicle
         std::ofstream out(path("scans/velodyne/" + convert::scanName(scan) + ".bin"),
                           std::ios::binary);
         for (int azimuth_deg = 0; azimuth_deg < 360; ++azimuth_deg) {
@@ -195,7 +195,7 @@ TEST_F(AirframeMask, LearnsFromOneSensorOnly) {
     EXPECT_THAT(outcome.out, HasSubstr("12 LiDAR scans of 'rear':\n  1 bin masked"));
 }
 
-TEST_F(AirframeMask, RejectsWrongUsage) {
+TEST_F(AirframeMask, RejectsInvalidArguments) {
     folder_.write("mine.yaml", "mine");
     folder_.write("b.png", "mine");
     const Arguments learn{"-i", recording(), "--learn-airframe", path("a.yaml")};
@@ -203,7 +203,7 @@ TEST_F(AirframeMask, RejectsWrongUsage) {
                    {{{"--learn-seconds", "0.5"}, "at least 10 are needed"},
                     {{"--from", "5"}, "--learn-seconds"},
                     {{"--sensor-label", "rear"}, "has 0 scans"}});
-    for (const char* file : {"mine.yaml", "b.yaml"}) {  // the mask or its picture exists
+    for (const char* file : {"mine.yaml", "b.yaml"}) {  // the mask, or its picture, exists
         expectFailure({"-i", recording(), "--learn-airframe", path(file)}, 1, "--overwrite");
     }
     expectFailures(

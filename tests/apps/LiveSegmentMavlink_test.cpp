@@ -1,4 +1,4 @@
-// live-segment --mavlink, as seen by an autopilot.
+// live-segment --mavlink, tested with a simulated autopilot.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ std::vector<Message> all(const std::vector<mavlink::Frame>& frames) {
     return messages;
 }
 
-/// Whether a replay took much longer than `replay_s`, so that directions are correctly unknown.
+/// Whether a replay took much longer than `replay_s`: directions may then correctly be unknown.
 bool isTooSlow(const std::vector<mavlink::Frame>& frames, double replay_s) {
     const auto distances = all<mavlink::ObstacleDistance>(frames);
     if (distances.empty()) return true;
@@ -168,7 +168,7 @@ TEST_F(LiveSegmentMavlink, SendsObstacles) {
         }
         return true;
     };
-    // The others are the first ones and the last one.
+    // Only the first messages and the last one may differ.
     EXPECT_GT(std::count_if(distances.begin(), distances.end(), is_right),
               static_cast<std::ptrdiff_t>(distances.size() / 2));
     for (const std::uint16_t distance_cm : distances.back().distances) {
@@ -176,7 +176,7 @@ TEST_F(LiveSegmentMavlink, SendsObstacles) {
     }
     const auto obstacles = all<mavlink::ObstacleDistance3d>(frames);
     ASSERT_GT(obstacles.size(), 4u);
-    // Two per turn, the nearer one first; on a busy machine, the very first may be missing.
+    // Two obstacles per turn, the nearer first; on a busy machine, the very first may be missing.
     const auto middle = obstacles.begin() + static_cast<std::ptrdiff_t>(obstacles.size() / 2);
     const auto& nearest = *std::min_element(middle, middle + 2, [](const auto& a, const auto& b) {
         return std::hypot(a.x, a.y) < std::hypot(b.x, b.y);
@@ -275,7 +275,7 @@ TEST_F(LiveSegmentMavlink, IndependentParserAgrees) {
     EXPECT_GT(messages["DISTANCE_SENSOR"], 3);
 }
 
-/// The sequence of states: k if all directions are known, u if all are unknown.
+/// One letter per change of state: k if all directions are known, u if all are unknown.
 std::string statesOf(const std::vector<mavlink::Frame>& frames) {
     std::string states;
     for (const auto& message : all<mavlink::ObstacleDistance>(frames)) {
@@ -315,7 +315,7 @@ TEST_F(LiveSegmentMavlink, ReportsSilenceAsUnknown) {
     }
 }
 
-/// Sends packets of a sensor on a yawing and rolling vehicle, and its attitude, in real time.
+/// Sends sensor packets and attitudes of a yawing and rolling vehicle in real time.
 class FlyingSensor {
  public:
     FlyingSensor(std::uint16_t port, Autopilot& autopilot)
@@ -360,7 +360,7 @@ class FlyingSensor {
         static const auto rows = sensors::rowsOfLasers(sensors::defaultCalibration(model));
         static const test::SimpleScene scene = poles();
         static const SensorModel sensor = sensorModel("VLP-16");
-        // North, west, up: the scene's x, y, z.
+        // Scene axes x, y, z point north, west and up.
         const Eigen::Vector3d flip(1, -1, -1);
         const Eigen::Matrix3d scene_from_sensor =
             flip.asDiagonal() * vehicle.nedFromFrd() * flip.asDiagonal();
@@ -412,7 +412,7 @@ TEST_F(LiveSegmentMavlink, PolesStayInPlaceInFlight) {
     while (poses >> time_s >> x >> y >> z >> turn.x() >> turn.y() >> turn.z() >> turn.w()) {
         max_tilt_rad = std::max(max_tilt_rad, std::acos((turn * Eigen::Vector3d::UnitZ()).z()));
     }
-    EXPECT_NEAR(max_tilt_rad, 0.14, 0.03);  // roll of FlyingSensor
+    EXPECT_NEAR(max_tilt_rad, 0.14, 0.03);  // maximum roll of FlyingSensor
     const auto converted = test::run(
         HAGEN_RAWLOG_SEGMENT,
         {"-i", path("flight.pcap"), "--poses", path("flight.tum"), "-o", path("flight.rawlog")});
@@ -420,8 +420,8 @@ TEST_F(LiveSegmentMavlink, PolesStayInPlaceInFlight) {
 
     const auto messages = all<mavlink::ObstacleDistance>(autopilot.frames());
     ASSERT_GT(messages.size(), 40u);
-    // All processes share a clock. Starved of CPU time, the program is late: its directions are
-    // then unknown, and a few messages may be wrong.
+    // All processes share a clock. If the program is starved of CPU time, its directions are
+    // unknown and a few messages may be wrong.
     int compared = 0, wrong = 0;
     for (std::size_t i = messages.size() / 3; i + 1 < messages.size(); ++i) {
         const auto& distances = messages[i].distances;
@@ -466,7 +466,6 @@ class FaultyNetwork {
         packet_rad_ = radians(24 * firings.azimuth_step_deg);
     }
 
-    /// Sends the sensor's next packet when it is due.
     void send() {
         constexpr double kPeriod_s = 0.1 / 76;  // 76 packets per turn; the last one overlaps
         const double time_s = kPeriod_s * static_cast<double>(sent_);
@@ -501,7 +500,7 @@ class FaultyNetwork {
                 break;
             case 5: {
                 std::string other = bytes;
-                other.back() = '\x21';  // of an HDL-32E
+                other.back() = '\x21';  // product ID of an HDL-32E
                 deliver(other, {});
                 count();
                 break;
@@ -531,7 +530,7 @@ class FaultyNetwork {
 
  private:
     struct Delivery {
-        double time_s;  ///< just after sending
+        double time_s;  ///< right after sending
         std::size_t k;
     };
     void count() { ++faults_; }
@@ -641,7 +640,7 @@ TEST_F(LiveSegmentMavlink, ContinuesWithoutAutopilot) {
     EXPECT_EQ(stats()["received"], 0);
 }
 
-TEST_F(LiveSegmentMavlink, RejectsWrongPeers) {
+TEST_F(LiveSegmentMavlink, RejectsInvalidPeers) {
     const std::string file = capture(2);
     const auto with_peer = [&](const std::string& peer) {
         return std::vector<std::string>{"-q", "--replay", file, "--mavlink", peer};

@@ -1,4 +1,4 @@
-// live-segment, as a user would run it.
+// live-segment, run as a user would.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ class LiveSegment : public test::ProgramTest {
         while (const auto entry = reader.next()) {
             const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
             if (!scan) continue;
-            // The recording repeats a turn, with its times; a sensor's clock would advance.
+            // The recording repeats one turn with unchanged times, unlike a real sensor.
             for (auto& packet : scan->scan_packets) {
                 auto* const at =
                     reinterpret_cast<std::uint8_t*>(&packet) + sensors::kVelodyneTimeAt;
@@ -121,10 +121,9 @@ TEST_F(LiveSegment, Mid360RecordingKeepsLabels) {
     recordings::RawlogReader reader(path("recorded.rawlog"));
     std::size_t entries = 0;
     while (reader.next()) ++entries;
-    EXPECT_EQ(entries, 3 * 4);  // 0.336 s: each scan with its RoI and its ROU
+    EXPECT_EQ(entries, 3 * 4);  // 4 scans in 0.336 s, each with its RoI and its ROU
 }
 
-/// Uses real captures.
 TEST_F(LiveSegment, OusterRecordingKeepsLabels) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA is not a folder of captures";
@@ -192,7 +191,7 @@ TEST_F(LiveSegment, ReceivesFromNetwork) {
     }
     packets.erase(packets.begin() + 40, packets.begin() + 43);
     std::atomic<bool> is_done = false;
-    // Sends until the program ends, as it is unknown when it starts to listen.
+    // Sends until the program ends, because the time when it starts listening is unknown.
     std::thread sender([&] {
         const test::LocalUdp out;
         const auto send = [&](const std::string& bytes) {
@@ -209,7 +208,7 @@ TEST_F(LiveSegment, ReceivesFromNetwork) {
             std::this_thread::sleep_for(std::chrono::microseconds(1300));
         }
     });
-    // On a busy machine, the program needs longer to start and to receive enough packets.
+    // On a busy machine, starting and receiving enough packets takes longer.
     test::Outcome outcome{};
     for (double duration_s = 1.5; duration_s < 60; duration_s *= 2) {
         outcome = run(with(sensor_, {"--listen", "127.0.0.1:" + std::to_string(port), "--duration",
@@ -262,7 +261,7 @@ TEST_F(LiveSegment, EndsDespiteBlockedTerminal) {
         "'; head -c 65536 /dev/zero >&3; exec timeout 20 '" + HAGEN_LIVE_SEGMENT + "' --replay '" +
         capture() + "' --model HDL-32E --speed 20 --stats '" + path("stats.json") + "' 2>&3";
     const auto outcome = test::run("/bin/bash", {"-c", command});
-    EXPECT_EQ(outcome.exit_code, 1);   // not an HDL-32E
+    EXPECT_EQ(outcome.exit_code, 1);   // the sensor is not an HDL-32E
     EXPECT_TRUE(stats().is_object());  // complete
 }
 
@@ -366,7 +365,7 @@ TEST_F(LiveSegment, FailsWithoutPackets) {
                   1, "no packet from a VLP-16 received");
 }
 
-TEST_F(LiveSegment, RejectsWrongFlags) {
+TEST_F(LiveSegment, RejectsInvalidFlags) {
     const std::string file = capture();
     expectFailure({"--model", "VLP-16"}, 2, "one of --listen and --replay is required");
     expectFailure({"--replay", file, "--listen", "1.2.3.4:5", "--model", "VLP-16"}, 2,

@@ -1,4 +1,4 @@
-// Manual pages and completions, compared with --help.
+// Manual pages and shell completions, compared with --help.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <filesystem>

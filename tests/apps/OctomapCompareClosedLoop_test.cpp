@@ -28,7 +28,7 @@ Outcome octomapCompare(const std::vector<std::string>& arguments) {
     return test::run(HAGEN_OCTOMAP_COMPARE, arguments);
 }
 
-/// A profile that does not depend on the build machine.
+/// A latency profile that does not depend on the build machine.
 fs::path someProfile(const TemporaryFolder& folder) {
     std::string text = R"({"quantiles_ms": {"filter": [0.5, 1])";
     for (const char* model : {"W-RoI", "W-Full", "G-Full", "O-Full-0.4", "oracle"}) {
@@ -40,7 +40,7 @@ fs::path someProfile(const TemporaryFolder& folder) {
     return folder.write("profile.json", text + "}}");
 }
 
-/// A few short flights with these additional arguments.
+/// Arguments of a few short flights, with additional arguments.
 std::vector<std::string> flying(const TemporaryFolder& folder, const std::string& into,
                                 const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"closedloop",
@@ -139,12 +139,12 @@ TEST(ClosedLoopFlights, JobsAndShardsDoNotChangeRows) {
         tables.push_back(folder / into / "runs.csv");
     }
     EXPECT_EQ(concatenated(tables), sortedLines(runs));
-    // No flight is left.
+    // All flights are finished, so the program flies none.
     ASSERT_EQ(octomapCompare(flying(folder, "one")).exit_code, 0);
     EXPECT_EQ(readFile(folder / "one/runs.csv"), runs);
 }
 
-TEST(ClosedLoopFlights, SectorsDoNotChangeRowsOfScans) {
+TEST(ClosedLoopFlights, SectorsDoNotChangeScanRows) {
     const TemporaryFolder folder;
     const auto fly = [&](const std::string& into, const std::string& updates,
                          const std::string& jobs) {
@@ -176,7 +176,7 @@ TEST(ClosedLoopFlights, SectorsDoNotChangeRowsOfScans) {
         EXPECT_EQ(one, row);
     }
     EXPECT_NE(of_sectors, of_scans);
-    // Two runs into the same folder are equivalent.
+    // Running both into the same folder is equivalent.
     fly("scans", "sectors", "1");
     EXPECT_EQ(readFile(folder / "scans/runs.csv"), both);
 }
@@ -243,15 +243,15 @@ TEST(ClosedLoopFlights, KeepsFinishedRunsOnFullDisk) {
     ASSERT_EQ(octomapCompare(arguments).exit_code, 0);
     const std::string finished = readFile(folder / "full/runs.csv");
     *(std::find(arguments.begin(), arguments.end(), "--seeds") + 1) = "1003-1003";
-    std::string command = "ulimit -f 1; exec '" HAGEN_OCTOMAP_COMPARE "'";  // blocks of 1 KiB
+    std::string command = "ulimit -f 1; exec '" HAGEN_OCTOMAP_COMPARE "'";  // in blocks of 1 KiB
     for (const std::string& word : arguments) command += " '" + word + "'";
     expectFailure(test::run("/bin/bash", {"-c", command}), 1, "full/");
     EXPECT_EQ(readFile(folder / "full/runs.csv"), finished);
-    ASSERT_EQ(octomapCompare(arguments).exit_code, 0);  // without the limit
+    ASSERT_EQ(octomapCompare(arguments).exit_code, 0);  // without the file size limit
     EXPECT_EQ(readFile(folder / "full/runs.csv").rfind(finished.substr(0, 400), 0), 0u);
 }
 
-TEST(ClosedLoop, RejectsWrongUsageBeforeWriting) {
+TEST(ClosedLoop, RejectsInvalidArgumentsBeforeWriting) {
     const TemporaryFolder folder;
     const auto fails = [&](const std::vector<std::string>& more, const std::string& part) {
         expectFailure(octomapCompare(flying(folder, "none", more)), 2, part);

@@ -1,4 +1,4 @@
-// Runs the built program, as a user would.
+// Open-loop evaluation, run as a user would.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST_F(OpenLoopCommand, OracleIsExactAndModelsGetSameScans) {
     EXPECT_GT(models[1]["directions"]["level"]["recall"], 0.9);
     EXPECT_GT(models[2]["obstacles"], models[1]["obstacles"]);
     EXPECT_EQ(summary["free_agreement"]["jaccard"][0][0], 1.0);
-#ifndef __SANITIZE_ADDRESS__  // its heap does not report its size
+#ifndef __SANITIZE_ADDRESS__  // ASan does not report heap sizes
     EXPECT_GT(summary["measured"]["models"][2]["peak_heap_bytes"], 100000);
 #endif
 
@@ -79,7 +79,7 @@ TEST_F(OpenLoopCommand, OracleIsExactAndModelsGetSameScans) {
     for (const auto& [returns, times] : rows_of_returns) EXPECT_EQ(times, 3) << returns;
 }
 
-TEST_F(OpenLoopCommand, LogAndScanFolderGiveSameResults) {
+TEST_F(OpenLoopCommand, LogAndScanFolderYieldSameResults) {
     simulate(4);
     ASSERT_EQ(run(gap("a")).exit_code, 0);
     ASSERT_EQ(run(with(gap("b"), {"-q"})).out, "");
@@ -92,7 +92,7 @@ TEST_F(OpenLoopCommand, LogAndScanFolderGiveSameResults) {
     EXPECT_THAT(folder.err, HasSubstr("4 scans were placed with one pose each"));
 }
 
-TEST_F(OpenLoopCommand, UsesPosesOfLog) {
+TEST_F(OpenLoopCommand, UsesPosesFromLog) {
     const auto outcome = run({"-i", kOrchard, "--models", "W-RoI", "-o", path("out")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("30 scans of"));
@@ -135,7 +135,7 @@ TEST_F(OpenLoopCommand, ReportsSkippedDataDespiteQuiet) {
     EXPECT_EQ(summary["remarks"].size(), 1u);
 }
 
-TEST_F(OpenLoopCommand, RejectsWrongUsage) {
+TEST_F(OpenLoopCommand, RejectsInvalidArguments) {
     const std::vector<std::string> orchard{"-i", kOrchard, "-o", path("no")};
     expectFailure(with(orchard, {"--models", "O-Full-0"}), 2, "O-Full-0");
     expectFailure(
@@ -154,7 +154,7 @@ TEST_F(OpenLoopCommand, RejectsWrongUsage) {
     EXPECT_FALSE(fs::exists(path("no")));
 }
 
-TEST_F(OpenLoopCommand, RejectsSceneOfOtherLog) {
+TEST_F(OpenLoopCommand, RejectsSceneFromOtherLog) {
     expectFailure({"-i", kOrchard, "--truth-scenario", "orchard", "--truth-seed", "2", "--models",
                    "oracle", "-o", path("no")},
                   1, "was not simulated in orchard with seed 2");
@@ -171,7 +171,7 @@ TEST_F(OpenLoopCommand, KeepsExistingFiles) {
     expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("file")}, 1, "file");
 }
 
-TEST_F(OpenLoopCommand, KeepsScansOfTruncatedMcap) {
+TEST_F(OpenLoopCommand, KeepsScansFromTruncatedMcap) {
     simulate(12);
     const auto converted =
         test::run(HAGEN_RAWLOG_SEGMENT, {"-i", path("gap.rawlog"), "--mcap", path("gap.mcap")});
@@ -185,7 +185,7 @@ TEST_F(OpenLoopCommand, KeepsScansOfTruncatedMcap) {
     EXPECT_TRUE(fs::exists(path("cut/scans.partial.csv")));
 }
 
-TEST_F(OpenLoopCommand, KeepsScansOfTruncatedRawlog) {
+TEST_F(OpenLoopCommand, KeepsScansFromTruncatedRawlog) {
     simulate(12);
     fs::resize_file(path("gap.rawlog"), fs::file_size(path("gap.rawlog")) * 2 / 3);
     const auto outcome = run(gap("out"));

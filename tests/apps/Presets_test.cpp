@@ -1,4 +1,4 @@
-// Presets by name, in every program that takes settings.
+// Presets by name, in all programs that accept settings.
 #include "support/SegmentTest.h"
 
 namespace hagen {
@@ -10,7 +10,6 @@ namespace fs = std::filesystem;
 
 class Presets : public test::SegmentTest {
  protected:
-    /// Expects a program to reject its arguments.
     static void expectRejected(const char* program, const Arguments& arguments, const char* words) {
         const auto outcome = test::run(program, arguments);
         EXPECT_EQ(outcome.exit_code, 2);

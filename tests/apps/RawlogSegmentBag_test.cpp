@@ -114,7 +114,7 @@ TEST_F(RawlogSegmentBag, SummaryListsTopicsAndPoses) {
     EXPECT_THAT(clouds.out, HasSubstr("sensor velodyne_points: 16 beams recovered (VLP-16)"));
 }
 
-TEST_F(RawlogSegmentBag, KeepsReadablePartOfCutBag) {
+TEST_F(RawlogSegmentBag, KeepsReadablePartOfTruncatedBag) {
     test::BagShape shape;
     shape.messages_per_chunk = 1;
     for (const std::string name : {"flight.bag", "flight.mcap", "flight.db3"}) {

@@ -16,7 +16,6 @@ namespace fs = std::filesystem;
 
 class RawlogSegmentCapture : public test::SegmentTest {
  protected:
-    /// The packets of the sample recording.
     std::string captureOfRecording() const {
         recordings::RawlogReader reader(recording());
         test::CaptureWriter writer;
@@ -41,7 +40,7 @@ TEST_F(RawlogSegmentCapture, CaptureAndRawlogGetSameLabels) {
     EXPECT_GT(labelsOf("a").size(), 100000u);
 }
 
-TEST_F(RawlogSegmentCapture, KeepsReadablePartOfCutCapture) {
+TEST_F(RawlogSegmentCapture, KeepsReadablePartOfTruncatedCapture) {
     const std::string capture = captureOfRecording();
     const std::uintmax_t size = fs::file_size(capture);
     for (std::uintmax_t cut = 5; cut > 0; --cut) {
@@ -53,7 +52,7 @@ TEST_F(RawlogSegmentCapture, KeepsReadablePartOfCutCapture) {
         if (cut != 3) continue;
         EXPECT_THAT(outcome.err, HasSubstr("preceding entries are in " + path("out.partial")));
     }
-    recordings::RawlogReader reader(path("out.partial.rawlog"));  // from the first cut
+    recordings::RawlogReader reader(path("out.partial.rawlog"));  // from the first truncation
     while (reader.next()) {
     }
     EXPECT_GE(reader.entries(), 12u);  // four scans, each with two clouds

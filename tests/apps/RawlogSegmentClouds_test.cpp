@@ -21,7 +21,7 @@ using testing::Not;
 
 namespace fs = std::filesystem;
 
-/// A file format, and its bytes for a scan.
+/// A cloud file: its format and contents.
 struct Written {
     std::string ending;
     std::function<std::string(const Scan&)> text;
@@ -135,7 +135,7 @@ TEST_F(RawlogSegmentClouds, RealScansGetSameLabelsInAnyFormat) {
     const fs::path data = test::dataFolder("HAGEN_LABELLED_DATA");
     if (data.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA is not a folder of scans";
     const recordings::ScanFolder scans(data / "beams16" / "00");
-    // The folder specifies its beams; cloud files need the settings.
+    // The folder specifies its beams; for cloud files, the settings must.
     const std::vector<std::string> settings{"-q", "-c", config("vlp16"), "-c",
                                             scans.sensorFile().string()};
     expectSuccess(
@@ -178,14 +178,14 @@ TEST_F(RawlogSegmentClouds, ReadsOwnOutput) {
     EXPECT_EQ(stats["outputs"]["clouds"], path("b"));
 }
 
-TEST_F(RawlogSegmentClouds, KeepsFieldsOfMrpt3) {
+TEST_F(RawlogSegmentClouds, KeepsMrpt3Fields) {
     const fs::path data = test::dataFolder("HAGEN_MRPT3_DATA");
     if (data.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not a folder of MRPT 3 logs";
     const std::string log = (data / "sample_mrpt3.rawlog").string();
     expectSuccess({"-q", "-i", log, "--clouds", path("out")});
     const auto table = recordings::readCloud(path("out") + "/cloud/000000.ply").table;
     EXPECT_EQ(namesOf(table), "x, y, z, intensity, t, ring, label, obstacle");
-    // Its rings are VLP-16 laser numbers, which do not increase with elevation.
+    // The log's rings are VLP-16 laser numbers, which do not increase with elevation.
     const auto column = [&](const char* name) {
         return columnOf(table, *findField(table, {name}));
     };
@@ -234,11 +234,11 @@ TEST_F(RawlogSegmentClouds, KeepsCloudsBeforeBrokenOne) {
     EXPECT_FALSE(fs::exists(path("out")));
 }
 
-TEST_F(RawlogSegmentClouds, RejectsWrongOutputs) {
+TEST_F(RawlogSegmentClouds, RejectsInvalidOutputs) {
     const std::string file = write("in/a.pcd", pcdOf(poles()));
     fs::create_directory(path("taken"));
     write("notes/notes.txt", "mine");
-    write("mine/000000.pcd", "mine");  // named like a labelled cloud
+    write("mine/000000.pcd", "mine");  // a user's file, named like a labelled cloud
     expectFailures({"-i", file}, 2,
                    {{{"--clouds", path("out"), "--cloud-format", "las"}, "las"},
                     {{"--kitti", path("out"), "--cloud-format", "pcd"}, "--clouds"},

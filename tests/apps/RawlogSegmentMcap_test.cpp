@@ -33,7 +33,7 @@ class RawlogSegmentMcap : public test::SegmentTest {
 };
 
 TEST_F(RawlogSegmentMcap, OwnOutputGetsSameLabels) {
-    // Clouds, so that both runs have the same input: packets specify beams more precisely.
+    // Converts to clouds first, because packets specify beams more precisely than clouds.
     expectSuccess({"-q", "-i", recording(), "--mcap", path("clouds.mcap"), "--to", "9"});
     expectSuccess({"-q", "-i", path("clouds.mcap"), "-c", config("vlp16"), "--mcap", path("a.mcap"),
                    "--clouds", path("a")});
@@ -114,14 +114,14 @@ TEST_F(RawlogSegmentMcap, ReferenceReaderAgrees) {
             {"/lidar/obstacles", 10}, {"/lidar/points", 10}, {"/lidar/pose", 10}, {"/tf", 10}}));
     EXPECT_EQ(points, stats["mcap"]["points"]);
     EXPECT_EQ(boxes, stats["mcap"]["boxes"]);
-    // The last line is the file's summary.
+    // The last line summarises the file.
     EXPECT_EQ(line["profile"], "ros2");
     EXPECT_EQ(line["messages"], "40");
     EXPECT_EQ(line["chunks"], line["chunkIndexes"]);
     EXPECT_EQ(line["topics"].size(), 4u);
 }
 
-TEST_F(RawlogSegmentMcap, RejectsWrongOutputs) {
+TEST_F(RawlogSegmentMcap, RejectsInvalidOutputs) {
     folder_.write("out.mcap", "mine");
     folder_.write("in.mcap", "mine");
     fs::create_directory(path("folder.mcap"));
@@ -138,7 +138,7 @@ TEST_F(RawlogSegmentMcap, RejectsWrongOutputs) {
     EXPECT_EQ(test::readFile(path("out.mcap")), "mine");
 }
 
-TEST_F(RawlogSegmentMcap, KeepsReadablePartOfCutInput) {
+TEST_F(RawlogSegmentMcap, KeepsReadablePartOfTruncatedInput) {
     expectSuccess({"-q", "-i", recording(), "--mcap", path("in.mcap")});
     fs::resize_file(path("in.mcap"), fs::file_size(path("in.mcap")) * 2 / 3);
     const auto outcome = run({"-i", path("in.mcap"), "--mcap", path("out.mcap")});

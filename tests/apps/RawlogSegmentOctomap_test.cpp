@@ -55,9 +55,9 @@ TEST_F(RawlogSegmentOctomap, ObstaclesAreAtTruePositions) {
     const octomap::OcTree tree = mapOf({});
     EXPECT_EQ(tree.getResolution(), 0.2);
     std::set<int> poles;
-    std::set<int> wall;  // by y
+    std::set<int> wall;  // y of the wall's voxels
     for (const octomap::point3d& p : occupiedOf(tree)) {
-        // Some ground around a pole's foot is RoI.
+        // Some ground near a pole's foot is labelled RoI.
         const double reach_m = p.z() < 0.2f ? 0.8 : 0.35;
         EXPECT_TRUE(distanceToPole(p) < reach_m || isAtWall(p))
             << p.x() << " " << p.y() << " " << p.z();
@@ -95,13 +95,13 @@ TEST_F(RawlogSegmentOctomap, StoresRequestedContent) {
     EXPECT_LT(roi.size(), rays.size() / 2);
 }
 
-TEST_F(RawlogSegmentOctomap, ScanFolderGivesSameObstacles) {
+TEST_F(RawlogSegmentOctomap, ScanFolderYieldsSameObstacles) {
     expectSuccess({"-i", recording(), "--kitti", path("scans")});
     const octomap::OcTree of_log = mapOf({});
     expectSuccess({"-i", path("scans"), "--octomap", path("of_folder.bt")});
     octomap::OcTree of_folder(0.1);
     ASSERT_TRUE(of_folder.readBinary(path("of_folder.bt")));
-    // Its returns have no times, so each scan is placed with one pose: errors of up to 0.3 m.
+    // The folder's returns have no times: a single pose per scan causes errors of up to 0.3 m.
     for (const octomap::point3d& p : occupiedOf(of_folder)) {
         EXPECT_TRUE(distanceToPole(p) < 0.65 || p.x() > 15.4) << p.x() << " " << p.y();
     }
@@ -111,7 +111,7 @@ TEST_F(RawlogSegmentOctomap, ScanFolderGivesSameObstacles) {
 }
 
 TEST_F(RawlogSegmentOctomap, OmitsScansWithoutUsablePose) {
-    std::string half, far;  // for the first 0.5 s only; outside any map
+    std::string half, far;  // poses for the first 0.5 s only; one pose outside any map
     for (int i = 0; i < 10; ++i) {
         const std::string time = std::to_string(1767225600 + 0.1 * i);
         if (i <= 5) half += time + " " + std::to_string(0.3 * i) + " 0 1.2 0 0 0 1\n";
@@ -124,7 +124,7 @@ TEST_F(RawlogSegmentOctomap, OmitsScansWithoutUsablePose) {
     const auto outcome =
         expectSuccess({"-i", recording(), "--octomap", path("far.bt"), "-o", path("out.rawlog"),
                        "--poses", folder_.write("far.tum", far)});
-    // The far pose also displaces the scan before it.
+    // The far pose also displaces the preceding scan.
     EXPECT_THAT(outcome.out, HasSubstr("in the OctoMap: 8 of 10 scans"));
     EXPECT_THAT(outcome.out, HasSubstr("10 LiDAR scans"));
     EXPECT_THAT(outcome.err, HasSubstr("lies outside an OctoMap"));
@@ -132,7 +132,7 @@ TEST_F(RawlogSegmentOctomap, OmitsScansWithoutUsablePose) {
     EXPECT_TRUE(fs::exists(path("out.rawlog")));
 }
 
-TEST_F(RawlogSegmentOctomap, RejectsWrongUsage) {
+TEST_F(RawlogSegmentOctomap, RejectsInvalidArguments) {
     const std::string map = path("map.bt");
     const Arguments log{"-i", recording()};
     for (const std::string bad : {"0", "-0.2", "nan", "inf", "fine"}) {

@@ -1,4 +1,4 @@
-// rawlog-segment with corrupt recordings, full disks, few resources and interruptions.
+// rawlog-segment with corrupt recordings, full disks, scarce resources and interruptions.
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -31,7 +31,7 @@ using Change = std::function<void(int, CObservationVelodyneScan&)>;
 
 class RawlogSegmentTrouble : public test::SegmentTest {
  protected:
-    /// Poses (KITTI) of a sensor that does not move.
+    /// KITTI poses of a static sensor.
     std::string still(int scans = 10) const {
         std::string lines;
         for (int i = 0; i < scans; ++i) lines += "1 0 0 0 0 1 0 0 0 0 1 1\n";
@@ -51,7 +51,7 @@ class RawlogSegmentTrouble : public test::SegmentTest {
         writer.commit();
         return path("in.rawlog");
     }
-    /// The sample recording with changed scans.
+    /// The sample recording, with each scan modified by a function.
     std::string changedRecording(
         const std::function<void(int, CObservationVelodyneScan&, convert::RawlogWriter&)>& change) {
         recordings::RawlogReader reader(recording());
@@ -67,7 +67,7 @@ class RawlogSegmentTrouble : public test::SegmentTest {
     }
 };
 
-/// A new file could reuse a closed stream's descriptor: messages would end up in the output.
+/// A new file could reuse a closed stream's descriptor, so that messages end up in the output.
 TEST_F(RawlogSegmentTrouble, ClosedStreamsDoNotChangeOutput) {
     const Arguments flags{"-i", recording(), "--preview", "--overwrite", "-o"};
     expectSuccess(with(flags, {path("open.rawlog")}));
@@ -135,7 +135,7 @@ TEST_F(RawlogSegmentTrouble, ReportsFullDiskForScene) {
 }
 
 /// MRPT reads null objects in sensory frames, but cannot write them.
-TEST_F(RawlogSegmentTrouble, OmitsNullObjectsOfSensoryFrames) {
+TEST_F(RawlogSegmentTrouble, OmitsNullObjectsInSensoryFrames) {
     recordings::RawlogReader reader(recording());
     mrpt::obs::CObservation::Ptr scan;
     while (!scan) scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(reader.next());
@@ -176,7 +176,7 @@ TEST_F(RawlogSegmentTrouble, LimitsNumberOfSensors) {
 }
 
 /// Like ESC [, U+009B starts a control sequence, as does byte 0x9b on 8-bit terminals.
-TEST_F(RawlogSegmentTrouble, ReplacesControlCharactersOfLabels) {
+TEST_F(RawlogSegmentTrouble, ReplacesControlCharactersInLabels) {
     const std::string line = "rawlog-segment: all is lost";
     const std::string label =
         "a\x1b[2J\x07\r\n" + line + "Ö\xc2\x9b" + "2J\x9b" + "2J\u65e5\u202egpj\u2066";
@@ -205,7 +205,7 @@ TEST_F(RawlogSegmentTrouble, AcceptsLabelNamedLikeMarkerFile) {
     EXPECT_TRUE(fs::is_directory(path("clouds/made_by.txt_")));
 }
 
-/// A file of zeros is a single line of 4 GiB.
+/// A sparse file of zeros is a single line of 4 GiB.
 TEST_F(RawlogSegmentTrouble, LimitsLineAndMapSizes) {
     std::ofstream(path("poses.tum")).close();
     fs::resize_file(path("poses.tum"), std::uintmax_t{4} << 30);
@@ -237,7 +237,7 @@ TEST_F(RawlogSegmentTrouble, FlagsAcceptNumbersOnly) {
 }
 
 TEST_F(RawlogSegmentTrouble, MissingDescriptorsDoNotDamageOutput) {
-    // With fewer than 5, the program's libraries do not load.
+    // With fewer than 5 descriptors, the program's libraries do not load.
     for (int descriptors = 6; descriptors < 12; descriptors += 2) {
         const auto outcome = runAfter("ulimit -n " + std::to_string(descriptors) + "; ",
                                       {"-i", recording(), "--kitti", path("k"), "--mcap",
@@ -252,7 +252,7 @@ TEST_F(RawlogSegmentTrouble, MissingDescriptorsDoNotDamageOutput) {
     }
 }
 
-/// A gnuplot that hangs, floods standard error or leaves processes behind.
+/// A gnuplot that hangs, floods standard error or leaves child processes behind.
 TEST_F(RawlogSegmentTrouble, HangingGnuplotAffectsPicturesOnly) {
     for (const std::string script : {"sleep 1000 & wait", "exec yes >&2"}) {
         fs::permissions(folder_.write("gnuplot", "#!/bin/bash\n" + script + "\n"),
@@ -270,7 +270,7 @@ TEST_F(RawlogSegmentTrouble, HangingGnuplotAffectsPicturesOnly) {
     }
 }
 
-/// Times at the limits of the clock, and poses at these times.
+/// Times at the limits of the clock, with poses at these times.
 TEST_F(RawlogSegmentTrouble, IgnoresImplausibleTimes) {
     const std::vector<std::int64_t> ticks{std::numeric_limits<std::int64_t>::min(),
                                           std::numeric_limits<std::int64_t>::max(), -1, 0,
@@ -297,7 +297,7 @@ TEST_F(RawlogSegmentTrouble, IgnoresImplausibleTimes) {
     }
 }
 
-TEST_F(RawlogSegmentTrouble, LimitsIncludesOfRecordedSettings) {
+TEST_F(RawlogSegmentTrouble, LimitsIncludesInRecordedSettings) {
     fs::create_directories(folder_ / "scans/velodyne");
     folder_.write("scans/velodyne/000000.bin", std::string(1600, '\x40'));
     folder_.write("secret.yaml", "");
@@ -318,7 +318,7 @@ TEST_F(RawlogSegmentTrouble, LimitsIncludesOfRecordedSettings) {
     }
 }
 
-/// Here for lack of stack memory.
+/// Threads cannot start because their stacks exceed the memory limit.
 TEST_F(RawlogSegmentTrouble, MissingThreadsDoNotDamageOutput) {
     for (const int mb : {900, 600}) {
         const auto outcome =
@@ -340,7 +340,7 @@ TEST_F(RawlogSegmentTrouble, ReportsMemoryLimit) {
                   "--memory-limit");
 }
 
-/// Ctrl-C in a terminal sends the signal to the program and to all of its children.
+/// Ctrl-C in a terminal signals the program and all of its children.
 TEST_F(RawlogSegmentTrouble, InterruptedPicturesKeepRawlog) {
     const std::string command = "set -m; \"" + std::string(HAGEN_RAWLOG_SEGMENT) + "\" -i \"" +
                                 recording() + "\" --pictures \"" + path("pictures") + "\" -o \"" +
@@ -352,7 +352,7 @@ TEST_F(RawlogSegmentTrouble, InterruptedPicturesKeepRawlog) {
     EXPECT_TRUE(fs::exists(path("out.partial.rawlog"))) << outcome.err;
 }
 
-/// As if a disk were unplugged.
+/// Simulates a disk unplugged during the conversion.
 TEST_F(RawlogSegmentTrouble, KeepsScansBeforeMissingOne) {
     expectSuccess({"-i", recording(), "--kitti", path("scans")});
     fs::remove(path("scans/poses.txt"));
@@ -363,7 +363,7 @@ TEST_F(RawlogSegmentTrouble, KeepsScansBeforeMissingOne) {
     EXPECT_THAT(all.err, HasSubstr("000005.bin"));
     EXPECT_THAT(all.err, HasSubstr("the 5 preceding scans are in"));
     EXPECT_TRUE(fs::exists(path("out.partial.rawlog"))) << all.err;
-    // A scan that is not converted may be missing.
+    // Scans outside the converted range may be missing.
     expectSuccess({"-i", path("scans"), "--from", "6", "--to", "8", "-o", path("part.rawlog")});
 }
 

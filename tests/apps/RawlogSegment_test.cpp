@@ -1,4 +1,4 @@
-// rawlog-segment on rawlogs and scan folders, as a user would run it.
+// rawlog-segment on rawlogs and scan folders, run as a user would.
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>
@@ -36,7 +36,6 @@ class RawlogSegment : public test::SegmentTest {
  protected:
     /// A scan folder of the sample recording.
     void writeScans() const { expectSuccess({"-q", "-i", recording(), "--kitti", path("scans")}); }
-    /// A scan folder of one scan.
     void writeScan(Scan scan) const {
         scan.intensity.assign(scan.size(), 0.5f);
         fs::create_directories(path("scans/velodyne"));
@@ -44,7 +43,6 @@ class RawlogSegment : public test::SegmentTest {
     }
 };
 
-/// Random points in a box.
 Scan randomScan(int points, const Eigen::Vector3f& min_m, const Eigen::Vector3f& max_m) {
     test::Random random(1);
     Scan scan;
@@ -56,8 +54,8 @@ Scan randomScan(int points, const Eigen::Vector3f& min_m, const Eigen::Vector3f&
     return scan;
 }
 
-// The published filter's RoI and ROU of each scan of the recording. (The last bit of a sine may
-// differ between machines, and therefore a few returns.)
+// RoI and ROU counts of the published filter for each scan of the recording. Sines may differ in
+// the last bit between machines, and therefore a few labels.
 constexpr int kGolden[10][2] = {{1730, 13883}, {1857, 13775}, {1864, 13767}, {1894, 13753},
                                 {1897, 13754}, {1967, 13751}, {2057, 13724}, {2066, 13735},
                                 {2070, 13736}, {2127, 13707}};
@@ -94,7 +92,7 @@ TEST_F(RawlogSegment, LabelsSampleRecordingAsPublished) {
                   std::string("mrpt::obs::CObservation3DScene"));
         const auto& scan = stats["scans"][i];
         EXPECT_EQ(scan["entry"], 2 * i + 1);
-        EXPECT_GT(scan["nearest_roi_m"], 5.0);  // all poles are farther away
+        EXPECT_GT(scan["nearest_roi_m"], 5.0);  // all poles are farther than this
         const auto labels = recordings::readLabels(scans.labelFile(i));
         EXPECT_EQ(scan["roi"], std::count(labels.begin(), labels.end(), 2));
         EXPECT_EQ(scan["returns"], labels.size());
@@ -111,7 +109,7 @@ TEST_F(RawlogSegment, LabelsSampleRecordingAsPublished) {
     EXPECT_LE(stats["latency_ms"]["p50"], stats["latency_ms"]["max"]);
 }
 
-TEST_F(RawlogSegment, LabelsEveryReturnOfRealScan) {
+TEST_F(RawlogSegment, LabelsWholeRealScan) {
     if (test::realScan().empty()) GTEST_SKIP() << "mrpt-common is not installed";
     expectSuccess({"-i", test::realScan(), "-o", path("out.rawlog"), "--kitti", path("scans")});
     recordings::RawlogReader reader(path("out.rawlog"));
@@ -145,7 +143,7 @@ TEST_F(RawlogSegment, OutputsDoNotDependOnThreads) {
         EXPECT_TRUE(test::readFile(entry) == test::readFile(path("3") / name)) << name;
         ++compared;
     }
-    EXPECT_GT(compared, outputs.size() + 30);  // a scan, its labels and its cloud, ten times
+    EXPECT_GT(compared, outputs.size() + 30);  // ten scans, each with labels and a cloud
 }
 
 TEST_F(RawlogSegment, RecoversUnnamedSensor) {
@@ -184,7 +182,7 @@ TEST_F(RawlogSegment, ReportsCloudsWithoutBeams) {
     EXPECT_THAT(few.out, HasSubstr("sensor velodyne: too few returns"));
     EXPECT_THAT(few.out, HasSubstr("VLP-16 assumed"));
 
-    writeScan(randomScan(1000, {130, -60, 10}, {150, -40, 14}));  // in a map frame
+    writeScan(randomScan(1000, {130, -60, 10}, {150, -40, 14}));  // in map coordinates
     const auto far = expectSuccess({"-i", path("scans"), "--stats", path("c.json")});
     EXPECT_THAT(far.err, HasSubstr("no return is RoI"));
     EXPECT_THAT(far.err, HasSubstr("relative to the sensor"));
@@ -197,7 +195,7 @@ TEST_F(RawlogSegment, ComparesCloudsWithNamedSensor) {
     EXPECT_THAT(overridden.err, HasSubstr("sensor.yaml overrides the settings' "
                                           "sensor.model HDL-64E"));
     fs::remove_all(path("labels"));
-    // Five of sixteen beams are a degree too high.
+    // Five of sixteen beams are one degree too high.
     folder_.write("scans/sensor.yaml",
                   "sensor: {model: custom, elevations_deg: [-15, -13, -10, -9, -7, -4, -3, -1, 2, "
                   "3, 5, 8, 9, 11, 14, 15]}\n");
@@ -207,7 +205,7 @@ TEST_F(RawlogSegment, ComparesCloudsWithNamedSensor) {
                           "Is it this sensor?"));
     fs::remove_all(path("labels"));
 
-    folder_.write("scans/sensor.yaml",  // in radians
+    folder_.write("scans/sensor.yaml",  // elevations in radians
                   "sensor: {model: custom, elevations_deg: [-0.26, -0.22, -0.19, -0.15, -0.12, "
                   "-0.08, -0.05, -0.01, 0.01, 0.05, 0.08, 0.12, 0.15, 0.19, 0.22, 0.26]}\n");
     EXPECT_THAT(run(flags).err, HasSubstr("its elevations are not in degrees"));
@@ -265,7 +263,7 @@ TEST_F(RawlogSegment, OverwritesOwnOutputsOnly) {
     EXPECT_GT(fs::file_size(path("out.rawlog")), 1000u);
     EXPECT_FALSE(fs::exists(path("scans/velodyne/000077.bin")));
 
-    folder_.write("mine/velodyne/000000.bin", "mine");  // a folder labelled by hand
+    folder_.write("mine/velodyne/000000.bin", "mine");  // labelled by hand
     folder_.write("mine/labels/000000.label", "mine");
     folder_.write("work/src/main.cpp", "");
     folder_.write("notes.txt", "mine");
@@ -318,7 +316,7 @@ TEST_F(RawlogSegment, CopiesLogWithoutLidar) {
     EXPECT_EQ(entriesOf(path("out.rawlog")), entriesOf(log));
 }
 
-TEST_F(RawlogSegment, ConvertsRangeOfEntries) {
+TEST_F(RawlogSegment, ConvertsEntryRange) {
     const auto outcome =
         expectSuccess({"-i", recording(), "-o", path("out.rawlog"), "--cloud", "xyzi", "--from",
                        "3", "--to", "6", "-c", folder_.write("near.yaml", "zone_m: 0.1\n")});
@@ -333,7 +331,7 @@ TEST_F(RawlogSegment, ConvertsRangeOfEntries) {
               std::string("mrpt::maps::CPointsMapXYZI"));
 }
 
-TEST_F(RawlogSegment, DrawsStagesOfScan) {
+TEST_F(RawlogSegment, DrawsScanStages) {
     for (const char* mount : {"", "  mount_pitch_deg: 60\n", "  mount_roll_deg: 180\n"}) {
         const auto settings =
             folder_.write("settings.yaml", "sensor:\n  model: VLP-16\n" + std::string(mount));
@@ -369,7 +367,7 @@ TEST_F(RawlogSegment, KeepsNonFinitePointsAndEmptyScans) {
               (std::vector<std::uint16_t>{0, 0, 0}));
 }
 
-TEST_F(RawlogSegment, RejectsWrongUsage) {
+TEST_F(RawlogSegment, RejectsInvalidArguments) {
     expectFailure({}, 2, "--input");
     expectFailure({recording(), "-o", path("out")}, 2, "not expected: " + recording());
     const Arguments log{"-i", recording()};
@@ -431,7 +429,7 @@ TEST_F(RawlogSegment, ReportsUnreadableScanEvenIfQuiet) {
         HasSubstr("entry 0 (lidar): kept, but not segmented: packet 0: unknown model id 0x99"));
 }
 
-TEST_F(RawlogSegment, KeepsReadablePartOfCutLog) {
+TEST_F(RawlogSegment, KeepsReadablePartOfTruncatedLog) {
     const std::string bytes = test::readFile(recording());
     const auto cut = folder_.write("cut.rawlog", bytes.substr(0, bytes.size() / 2));
     const auto outcome = run({"-i", cut, "-o", path("out.rawlog")});
@@ -496,7 +494,7 @@ TEST(PolesAndWall, RecordingMatchesGenerator) {
         for (std::size_t p = 0; p < made->scan_packets.size(); ++p) {
             for (int b = 0; b < 12; ++b) {
                 for (int i = 0; i < 32; ++i) {
-                    // The last bit of a sine may differ between machines, and a range by one unit.
+                    // Between machines, sines may differ in the last bit, ranges by one unit.
                     ASSERT_NEAR(recorded->scan_packets[p].blocks[b].laser_returns[i].distance(),
                                 made->scan_packets[p].blocks[b].laser_returns[i].distance(), 1);
                 }

@@ -1,4 +1,4 @@
-// rawlog-simulate; its packets are compared with the simulation.
+// rawlog-simulate, including its packets compared with the simulation.
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/Trajectory.h>
 #include <hagen/mrpt/VelodyneObservation.h>
@@ -151,7 +151,7 @@ TEST_F(RawlogSimulate, WritesSensorWithoutPacketsToFolder) {
     EXPECT_GT(scan.size(), 50000u);
 }
 
-TEST_F(RawlogSimulate, StoresMountOfSensor) {
+TEST_F(RawlogSimulate, StoresSensorMount) {
     expectSuccess(with(wires_, {"--poses", path("upright.tum")}));
     expectSuccess(with(wires_, {"--mount-roll-deg", "180", "--mount-pitch-deg", "-20", "-o",
                                 path("a.rawlog"), "--kitti", path("a"), "--poses", path("a.tum")}));
@@ -275,7 +275,7 @@ TEST_F(RawlogSimulate, ReproducesDemoRecording) {
     EXPECT_NEAR(rou, kRou, 0.002 * kRou);
 }
 
-TEST_F(RawlogSimulate, RejectsWrongUsage) {
+TEST_F(RawlogSimulate, RejectsInvalidArguments) {
     expectFailure({"--scenario", "jungle", "--scans", "1", "--altitude", "2", "--seed", "1", "-o",
                    path("a.rawlog")},
                   2, "unknown scenario 'jungle'; known: orchard, field, forest-0.02");

@@ -1,4 +1,4 @@
-// segmentation-evaluate, as a user would run it.
+// segmentation-evaluate, run as a user would.
 #include <hagen/recordings/ScanFolder.h>
 #include "convert/ScanFolderWriter.h"
 
@@ -21,7 +21,7 @@ const std::string kConfig = HAGEN_SOURCE_DIR "/config/";
 const std::string kPaper = kConfig + "paper.yaml";
 const std::string kCamera = kConfig + "camera_forward.yaml";
 
-/// The first row of this name in a report: RoI precision, recall, F1, ROU precision, recall, F1.
+/// The first row with this name: precision, recall and F1 of RoI, then of ROU.
 std::vector<double> row(const std::string& report, const std::string& name) {
     std::istringstream lines(report);
     for (std::string line; std::getline(lines, line);) {
@@ -58,7 +58,7 @@ class SegmentationEvaluate : public test::ProgramTest {
         writer.finish();
         return (folder_ / name).string();
     }
-    /// The same with the classes 1 terrain and 4 pole, and the altitude.
+    /// Like labelledPole(), with classes 1 (terrain) and 4 (pole) and the altitude.
     std::string poleWithKinds() const {
         const std::string pole = labelledPole();
         fs::create_directories(folder_ / "pole/semantic");
@@ -115,7 +115,7 @@ TEST_F(SegmentationEvaluate, SweepOverridesFolderSettings) {
     EXPECT_EQ(f1(report, 1), 1);
 }
 
-TEST_F(SegmentationEvaluate, ReportsSettingsOfRecording) {
+TEST_F(SegmentationEvaluate, ReportsRecordingSettings) {
     const std::string pole = labelledPole();
     std::ofstream(folder_ / "pole/sensor.yaml", std::ios::app) << "zone_m: 3\n";
     const auto report = json({"-i", pole});
@@ -181,7 +181,7 @@ TEST_F(SegmentationEvaluate, RecoversUnnamedSensor) {
 TEST_F(SegmentationEvaluate, SweepHasRowPerValue) {
     const auto outcome = expectSuccess({"-i", labelledPole(), "--sweep", "zone_m=5,20", "--sweep",
                                         "beta_deg=10", "--sweep", "ground_tolerance_m=0.1,0.25"});
-    EXPECT_EQ(row(outcome.out, "zone_m=5").at(1), 0.0) << outcome.out;  // the pole is farther
+    EXPECT_EQ(row(outcome.out, "zone_m=5").at(1), 0.0) << outcome.out;  // excludes the pole
     EXPECT_EQ(row(outcome.out, "zone_m=20").at(1), 1.0);
     EXPECT_EQ(row(outcome.out, "beta_deg=10").at(1), 1.0);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("..lerance_m=0.1"), HasSubstr("..erance_m=0.25")));
@@ -192,7 +192,7 @@ TEST_F(SegmentationEvaluate, ListsBaselines) {
     std::vector<std::string> names;
     for (const auto& method : report["methods"]) {
         names.push_back(method["name"]);
-        // On flat ground with one pole, no method fails.
+        // On flat ground with one pole, every method works.
         EXPECT_GT(method["returns"]["all"]["rou"]["f1"], 0.9) << method["name"];
         EXPECT_EQ(method["latency_ms"]["runs"], 1);
     }
@@ -202,8 +202,8 @@ TEST_F(SegmentationEvaluate, ListsBaselines) {
                                                "bogoslavskyi tuned"}));
 }
 
-TEST_F(SegmentationEvaluate, BaselinesUseZoneOfSettings) {
-    const std::string near = folder_.write("near.yaml", "zone_m: 5\n");  // the pole is farther
+TEST_F(SegmentationEvaluate, BaselinesUseZoneFromSettings) {
+    const std::string near = folder_.write("near.yaml", "zone_m: 5\n");  // excludes the pole
     const auto report =
         json({"-i", labelledPole(), "-c", near, "--sweep", "zone_m=5,20", "--baselines"});
     const auto& methods = report["methods"];
@@ -217,7 +217,7 @@ TEST_F(SegmentationEvaluate, BaselinesUseZoneOfSettings) {
 }
 
 // Label files of another program.
-TEST_F(SegmentationEvaluate, ScoresLabelsOfOtherPrograms) {
+TEST_F(SegmentationEvaluate, ScoresLabelsFromOtherPrograms) {
     const std::string pole = labelledPole();
     const auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
     writeLabelFile("theirs/000000.label", truth);
@@ -299,7 +299,7 @@ TEST_F(SegmentationEvaluate, RejectsUnusableLabels) {
     expectFailure(with(flags, {"a=" + theirs}), 1, "000000.label: has 2 labels for");
 }
 
-// Of the pole's returns, those above z = 0.5 m - 2 m are more than 0.5 m above ground.
+// The pole's returns above z = 0.5 m - 2 m are more than 0.5 m above ground.
 TEST_F(SegmentationEvaluate, ScoresTallObstacles) {
     const std::string pole = poleWithKinds();
     auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
@@ -323,7 +323,7 @@ TEST_F(SegmentationEvaluate, ScoresTallObstacles) {
     EXPECT_EQ(drone["returns_above_half_metre_by_kind"][0]["name"], "pole");
     EXPECT_EQ(drone["returns_above_half_metre_by_range"][0]["name"], "10-15 m");
     EXPECT_EQ(drone["false_roi_on_bare_ground_per_scan"], 1.0);
-    EXPECT_TRUE(drone["obstacles"].is_null());  // no numbers yet
+    EXPECT_TRUE(drone["obstacles"].is_null());  // obstacles are not numbered yet
     std::vector<std::uint32_t> numbered;
     for (const std::uint16_t label : truth) numbered.push_back(label == 2 ? 7 << 16 | 2 : label);
     folder_.write("pole/labels/000000.label",
@@ -348,7 +348,7 @@ TEST_F(SegmentationEvaluate, ScoresDegradedScans) {
     const auto& recorded = report["methods"][0];
     const auto& sets = report["hard_sets"];
     ASSERT_EQ(sets.size(), 3u);
-    for (const auto& set : sets) EXPECT_EQ(set["methods"].size(), 1u);  // not those of --labels
+    for (const auto& set : sets) EXPECT_EQ(set["methods"].size(), 1u);  // ignores --labels
     const auto& same = sets[0]["methods"][0];
     EXPECT_EQ(sets[0]["name"], "dropout=0");
     EXPECT_EQ(same["name"], "hagen");
@@ -373,13 +373,13 @@ TEST_F(SegmentationEvaluate, HardSetsAreStandardDegradations) {
                               "--degrade", "noise_m=0.01", "--bootstrap", "0"});
     std::set<std::string> names;
     for (const auto& set : report["hard_sets"]) names.insert(set["name"]);
-    EXPECT_EQ(names.size(), report["hard_sets"].size());  // each once
+    EXPECT_EQ(names.size(), report["hard_sets"].size());  // no duplicates
     for (const char* name : {"dead_beams=0", "dead_beams=15", "dead_beams=7,8", "dropout=50",
                              "rain=3", "roll_deg=20", "upside_down", "rate_hz=20", "noise_m=0.01"})
         EXPECT_EQ(names.count(name), 1u) << name;
 }
 
-// The published filter on labelled recordings, with the required scores.
+// On labelled recordings, the published filter must reach these scores.
 TEST_F(SegmentationEvaluate, PaperPresetReachesRequiredScores) {
     std::vector<std::string> arguments = sixteenBeamScans();
     if (arguments.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA is not a folder of labelled scans";
@@ -437,7 +437,7 @@ TEST_F(SegmentationEvaluate, JsonCountsAddUp) {
         for (const auto& group : returns[part]) hits += group["roi"]["hits"].get<std::int64_t>();
         EXPECT_EQ(returns["all"]["roi"]["hits"], hits) << part;
     }
-    // Classes and altitude are known for one of two otherwise identical folders.
+    // One of two otherwise identical folders has classes and an altitude.
     ASSERT_EQ(returns["by_kind"].size(), 2u);
     EXPECT_EQ(returns["by_kind"][0]["name"], "pole");
     EXPECT_EQ(returns["by_kind"][0]["returns"].get<std::int64_t>() * 2,
@@ -469,12 +469,12 @@ TEST_F(SegmentationEvaluate, ScoresCameraPixels) {
     const auto& pixels = report["methods"][0]["pixels"]["all"];
     const auto& returns = report["methods"][0]["returns"]["all"];
     EXPECT_EQ(pixels["roi"]["f1"], 1.0);
-    EXPECT_LT(pixels["returns"], returns["returns"]);  // a quarter of the circle
+    EXPECT_LT(pixels["returns"], returns["returns"]);  // the camera sees a quarter of the circle
     EXPECT_GT(pixels["returns"], 100);
     EXPECT_TRUE(fs::exists(folder_ / "overlays/pole_000000_overlay.png"));
 }
 
-/// An evaluation may take hours.
+/// An evaluation may take hours, so failed pictures must not lose the scores.
 TEST_F(SegmentationEvaluate, KeepsScoresWithoutPictures) {
     fs::permissions(folder_.write("gnuplot", "#!/bin/sh\nexit 3\n"), fs::perms::owner_all);
     const auto outcome = test::run(
@@ -504,7 +504,7 @@ TEST_F(SegmentationEvaluate, DrawsCharts) {
     EXPECT_THAT(test::readFile(folder_ / "charts/by_range.svg"), HasSubstr("zone_m=15"));
 }
 
-TEST_F(SegmentationEvaluate, RejectsWrongUsage) {
+TEST_F(SegmentationEvaluate, RejectsInvalidArguments) {
     expectFailure({}, 2, "--input");
     const std::string pole = labelledPole(), unnamed = labelledPole("unnamed");
     fs::remove(folder_ / "unnamed/sensor.yaml");

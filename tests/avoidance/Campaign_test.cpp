@@ -16,7 +16,7 @@ using test::readFile;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-/// Six short flights through three courses.
+/// Six short flights on three courses.
 class Campaign : public testing::Test {
  protected:
     Campaign() {
@@ -73,7 +73,7 @@ TEST_F(Campaign, ResumesAfterInterruption) {
     EXPECT_EQ(table("stopped"), table("whole"));
 }
 
-TEST_F(Campaign, RepeatsFlightOfIncompleteRow) {
+TEST_F(Campaign, RepeatsFlightWithIncompleteRow) {
     fly("whole");
     flyUntil(2, "killed");
     std::ofstream(place_ / "killed/runs.csv", std::ios::app) << "forest-0.02,1,W-RoI,str";
@@ -81,7 +81,7 @@ TEST_F(Campaign, RepeatsFlightOfIncompleteRow) {
     EXPECT_EQ(table("killed"), table("whole"));
 }
 
-TEST_F(Campaign, AddsFlightsOfAnotherPlan) {
+TEST_F(Campaign, AddsFlightsFromOtherPlan) {
     const CampaignPlan all = plan_;
     fly("whole");
     for (const char* model : {"oracle", "W-RoI"}) {

@@ -1,4 +1,4 @@
-// Selection of the run to replay, and the errors if several or none match.
+// Selection of the run to replay, and errors if none or several match.
 #include <gtest/gtest.h>
 #include <stdexcept>
 
@@ -50,7 +50,7 @@ TEST(ChooseRun, ListsAvailableRuns) {
 TEST(ChooseRun, ListsDistinguishingFlags) {
     const Row plain = test::runOf("gap", 1, "W-RoI", "astar", kWon);
     std::vector<Row> runs(6, plain);
-    runs[1].setup.speed_m_s = 0.1 + 0.2;  // needs all its digits
+    runs[1].setup.speed_m_s = 0.1 + 0.2;  // has 17 significant digits
     runs[2].setup.latency_scale = 4;
     runs[3].setup.planner = "3dvfh";
     runs[4].setup.pose_error = avoidance::PoseError::Noise;

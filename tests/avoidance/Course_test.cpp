@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/// Built only once, as courses are expensive.
+/// Caches courses, because they are expensive to build.
 const Course& course(const std::string& name, std::uint64_t seed) {
     static std::map<std::pair<std::string, std::uint64_t>, Course> made;
     const auto key = std::make_pair(name, seed);
@@ -31,7 +31,7 @@ Vector3f above(const Course& course, double x_m, double y_m, double height_m) {
     return Vector3d(x_m, y_m, course.scene.terrain().height_m(x_m, y_m) + height_m).cast<float>();
 }
 
-/// The minimum clearance from static objects on the straight path at the wanted altitude.
+/// The minimum clearance from static objects on the straight path at the requested altitude.
 float minClearanceStraight_m(const Course& course) {
     float min_m = 1e9f;
     for (double x_m = course.start_m.x(); x_m <= course.goal_m.x(); x_m += 0.05) {
@@ -117,7 +117,7 @@ TEST_P(EachCourse, DependsOnSeedOnly) {
 TEST(CourseTest, ForestMatchesDensity) {
     for (const auto& [name, per_m2] :
          std::map<std::string, double>{{"forest-0.02", 0.02}, {"forest-0.10", 0.10}}) {
-        const double expected = per_m2 * 56 * 34;  // minus the trees within 3.9 m of the ends
+        const double expected = per_m2 * 56 * 34;  // minus the trees within 3.9 m of both ends
         double mean = 0;
         for (std::uint64_t seed = 1; seed <= 3; ++seed)
             mean += count(course(name, seed), simulation::ObjectClass::Tree) / 3.0;
@@ -140,7 +140,7 @@ TEST(CourseTest, TrapBlocksAllAltitudes) {
     }
 }
 
-/// Widths of the wires hit by a fence of upward rays from below the straight path.
+/// Widths of the wires hit by a dense row of upward rays from below the straight path.
 std::vector<double> wireWidths_m(const Course& c) {
     constexpr double kStep_m = 0.001;
     std::vector<simulation::RayHit> hits;

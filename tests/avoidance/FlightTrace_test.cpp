@@ -6,7 +6,7 @@
 namespace hagen::avoidance {
 namespace {
 
-/// One second at this acceleration along x, from rest.
+/// Accelerates along x from rest for one second.
 FlightTrace accelerating(double acceleration_m_s2) {
     VehicleState state;
     FlightTrace trace(state);
@@ -24,7 +24,7 @@ TEST(FlightTrace, LeansIntoAcceleration) {
     EXPECT_NEAR((trace.at(0).attitude.toRotationMatrix() - Eigen::Matrix3d::Identity()).norm(), 0,
                 1e-12);
     const Eigen::Matrix3d attitude = trace.at(1).attitude.toRotationMatrix();
-    EXPECT_NEAR(std::atan2(attitude(0, 2), attitude(2, 2)), radians(45), 1e-3);  // leans ahead
+    EXPECT_NEAR(std::atan2(attitude(0, 2), attitude(2, 2)), radians(45), 1e-3);  // tilts forwards
     EXPECT_NEAR(attitude(1, 0), 0, 1e-12);  // heading stays along x
 }
 
@@ -38,7 +38,7 @@ TEST(FlightTrace, InterpolatesBetweenSamples) {
 
 TEST(FlightTrace, JerkMatchesSmoothedAcceleration) {
     EXPECT_EQ(FlightTrace(VehicleState{}).rmsJerk_m_s3(), 0);
-    // A step of 3 m/s^2 becomes 3 (1 - exp(-t / 0.1 s)): its jerk squared integrates to 9 / 0.2.
+    // The squared jerk of the smoothed step, 3 (1 - exp(-t / 0.1 s)), integrates to 9 / 0.2.
     EXPECT_NEAR(accelerating(3).rmsJerk_m_s3(), std::sqrt(9 / 0.2), 0.3);
 }
 

@@ -36,7 +36,7 @@ TEST(FreeDirections, AreUnitVectors) {
     }
 }
 
-/// Contact does not stop the sphere.
+/// Touching an obstacle does not block the sphere.
 TEST(FreeDirections, TouchingIsFree) {
     const FreeDirectionOptions options;
     const auto leave_m = [&](float room_m) { return [room_m](const auto&) { return room_m; }; };

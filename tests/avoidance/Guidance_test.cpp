@@ -39,7 +39,7 @@ TEST(Guidance, PathThroughEmptySpaceIsStraight) {
     const Carrot ahead = carrot("astar", {}, task);
     EXPECT_TRUE(ahead.at_m.isApprox(Eigen::Vector3d(4, 0, 2), 1e-9));
     EXPECT_NEAR(ahead.beyond_m, 36, 1e-9);
-    task.goal_m = {40, 17, 2};  // the path has 45 degree steps, the carrot does not
+    task.goal_m = {40, 17, 2};  // the path has 45 degree bends, the carrot does not
     const Eigen::Vector3d at_m = carrot("astar", {}, task).at_m;
     EXPECT_NEAR(at_m.norm(), std::sqrt(16 + 4), 0.3);
 }
@@ -71,9 +71,9 @@ TEST(Guidance, CarrotEndsAtGoal) {
     EXPECT_NEAR(near.beyond_m, 0, 1e-9);
 }
 
-/// Planners fly straight at the carrot, so it must not be hidden behind a bend.
-TEST(Guidance, CarrotStaysInSight) {
-    SolidWorld world;  // an S between two walls, 2.2 m wide
+/// Planners fly straight to the carrot, so no bend may hide it.
+TEST(Guidance, CarrotStaysVisible) {
+    SolidWorld world;  // an S-bend between two walls, 2.2 m wide
     world.box({2, -20, -10}, {2.4f, 0.7f, 20}).box({4.6f, -0.7f, -10}, {5, 20, 20});
     GuidanceTask task = eastwards();
     for (const double y_m : {-0.5, 0.0, 0.8}) {

@@ -15,7 +15,7 @@ using test::TemporaryFolder;
 
 TEST(LatencyProfile, DrawsMatchQuantiles) {
     LatencyProfile profile;
-    profile.quantiles_ms["a"] = {1, 2, 10};  // half in 1..2, half in 2..10
+    profile.quantiles_ms["a"] = {1, 2, 10};  // half the draws in 1..2, half in 2..10
     simulation::Random random(7);
     int low = 0;
     double sum = 0;

@@ -57,7 +57,7 @@ TEST(SeenRanges, IgnoresPointAtOrigin) {
 }
 
 TEST(LaterScansTruth, ScoresOnlyFullySeenDirections) {
-    // No returns near the paths, whose lengths are below and above the range of 6 m.
+    // The paths are shorter and longer than the range of 6 m; no returns are near them.
     LaterScansTruth short_way({0, 0, 2}, {5.0f, 0.65f}), long_way({0, 0, 2}, {6.9f, 0.2f});
     observations::MappedScan scan = everywhere({0, 0, 2}, 6, false);
     scan.points_m.erase(std::remove_if(scan.points_m.begin(), scan.points_m.end(),
@@ -72,7 +72,7 @@ TEST(LaterScansTruth, ScoresOnlyFullySeenDirections) {
 TEST(LaterScansTruth, TwoPointsBlockDirection) {
     observations::MappedScan scan = everywhere({0.5f, 0, 2}, 20, false);
     scan.points_m.push_back({4, 0, 2});
-    EXPECT_FALSE(truthOf(scan).blocked[120]);  // level, along x
+    EXPECT_FALSE(truthOf(scan).blocked[120]);  // horizontal, along x
     EXPECT_FALSE(truthOf(scan).scored[120]);
     scan.points_m.push_back({4, 0, 2});
     EXPECT_TRUE(truthOf(scan).blocked[120]);
@@ -87,7 +87,7 @@ TEST(PersistentPoints, RequireEarlierNearbyPoint) {
     scan.points_m = {{1.1f, 1.9f, 3.05f}, {-4, 5, -7}, {13, 0, 0}};
     EXPECT_EQ(points.of(scan), (std::vector<Eigen::Vector3f>{{1.1f, 1.9f, 3.05f}}));
     for (int i = 0; i < 4; ++i) points.of(observations::MappedScan());
-    EXPECT_EQ(points.of(scan).size(), 2u);  // five scans ago; 13 m is out of range
+    EXPECT_EQ(points.of(scan).size(), 2u);  // first seen five scans ago; 13 m is out of range
     for (int i = 0; i < 5; ++i) points.of(observations::MappedScan());
     EXPECT_TRUE(points.of(scan).empty());
 }
@@ -114,7 +114,7 @@ TEST(LaterScansTruth, MatchesBruteForce) {
                 for (float distance_m = 0; distance_m <= 8; distance_m += 0.04f) {
                     min_m = std::min(min_m, (p - distance_m * directionOf(n)).norm());
                 }
-                if (std::abs(min_m - 0.65f) < 0.001f) points = 100;  // too close to call
+                if (std::abs(min_m - 0.65f) < 0.001f) points = 100;  // within rounding errors
                 points += min_m < 0.65f;
             }
             if (points >= 100) continue;

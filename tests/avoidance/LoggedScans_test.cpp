@@ -43,7 +43,7 @@ class LoggedScansTest : public testing::Test {
         writer.commit();
         return file;
     }
-    /// The vehicle at (2 t, 0, 2) at these times.
+    /// Vehicle poses (2 t, 0, 2) at these times.
     fs::path posesAt(const std::vector<double>& times_s) const {
         std::vector<recordings::TimedPose> poses;
         for (const double t : times_s) poses.push_back({t, CPose3D(2 * t, 0, 2, 0, 0, 0)});
@@ -61,11 +61,11 @@ TEST_F(LoggedScansTest, PlacesPointsByPoses) {
     LoggedScan scan;
     ASSERT_TRUE(scans.next(scan));
     EXPECT_EQ(scan.entry, 0u);
-    EXPECT_TRUE(scan.is_placed_by_one_pose);  // such clouds have no times
+    EXPECT_TRUE(scan.is_placed_by_one_pose);  // the clouds have no times
     EXPECT_EQ(scan.mapped.time_s, 10);
     EXPECT_NEAR((scan.mapped.origin_m - Eigen::Vector3f(20.5f, 0, 2)).norm(), 0, 1e-5);
     EXPECT_NEAR((scan.vehicle_m - Eigen::Vector3f(20, 0, 2)).norm(), 0, 1e-5);
-    // Ahead and left of the sensor means left and behind for the vehicle.
+    // The pole is ahead and left of the sensor, thus left of and behind the vehicle.
     const Eigen::Vector2f pole_m(20.5f - 1, 6);
     std::size_t roi = 0;
     for (std::size_t i = 0; i < scan.mapped.points_m.size(); ++i) {

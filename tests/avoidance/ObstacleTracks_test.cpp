@@ -43,7 +43,7 @@ observations::MappedScan scanAt(int number) {
     return scan;
 }
 
-/// A surrounding wall behind everything.
+/// Adds a surrounding wall behind everything.
 void addBackground(observations::MappedScan& scan) {
     constexpr double kStep_rad = 0.02, kRadius_m = 12;
     for (double azimuth_rad = 0; azimuth_rad < 2 * M_PI; azimuth_rad += kStep_rad) {
@@ -58,7 +58,7 @@ void addBackground(observations::MappedScan& scan) {
     }
 }
 
-/// Position of a pillar with constant velocity.
+/// The pillar's position at a constant velocity.
 Pillar moved(const Pillar& pillar, const Eigen::Vector2d& velocity_m_s, double time_s) {
     return {pillar.at_m + time_s * velocity_m_s, pillar.radius_m};
 }
@@ -72,7 +72,7 @@ std::vector<observations::MappedScan> walkerAndPost(int scans, double age_s = 0.
     std::vector<observations::MappedScan> all;
     for (int number = 0; number < scans; ++number) {
         observations::MappedScan scan = scanAt(number);
-        // Numbers change from scan to scan: the nearest obstacle is 1.
+        // Obstacle numbers change between scans, as the nearest obstacle is 1.
         const bool is_swapped = number % 2 == 1;
         addReturns(moved(kWalker, kWalk_m_s, scan.time_s - age_s), is_swapped ? 2 : 1, age_s,
                    random, scan);
@@ -95,7 +95,7 @@ TEST(ObstacleTracks, SurviveChangingNumbers) {
     for (const auto& scan : walkerAndPost(10)) tracks.update(scan);
     ASSERT_EQ(tracks.tracks().size(), 2u);
     for (const ObstacleTrack& track : tracks.tracks()) EXPECT_EQ(track.seen_scans, 10);
-    // In the tenth scan, numbers are swapped.
+    // In the tenth scan, the numbers are swapped.
     EXPECT_EQ(tracks.trackOfObstacle(), (std::vector<std::uint32_t>{0, 2, 1}));
 }
 
@@ -111,7 +111,7 @@ TEST(ObstacleTracks, EstimateVelocities) {
     EXPECT_LT(post.velocity_m_s.norm(), 0.2);
 }
 
-/// Scans of a moving pillar, cropped to a height.
+/// Scans of a moving pillar, cropped at a maximum height.
 std::vector<observations::MappedScan> slicesOfWalker(double max_height_m) {
     simulation::Random random(5);
     std::vector<observations::MappedScan> all;
@@ -146,7 +146,7 @@ int movingScans(std::vector<observations::MappedScan> scans, int first_with_back
     return moving;
 }
 
-// Where no scan sees farther, the return may be another part of a static object.
+// If no scan sees past a return, it may belong to another part of a static object.
 TEST(ObstacleTracks, MotionRequiresCrossingFreeSpace) {
     constexpr int kNever = 100;
     const auto walker = slicesOfWalker(1.5);
@@ -156,7 +156,7 @@ TEST(ObstacleTracks, MotionRequiresCrossingFreeSpace) {
     EXPECT_GT(movingScans(walker, 0, 1), 2) << "background earlier visible at the new position";
 }
 
-// Rays pass a wire at the old and at the new positions of its pieces.
+// Rays pass a wire at the old and new positions of its segments.
 TEST(ObstacleTracks, FlatObstaclesNeedBothCriteria) {
     const auto slice = slicesOfWalker(0.1);
     EXPECT_GT(slice[0].points_m.size(), 3u);
@@ -165,7 +165,7 @@ TEST(ObstacleTracks, FlatObstaclesNeedBothCriteria) {
     EXPECT_EQ(movingScans(slice, 0, 1), 0) << "background earlier visible at the new position";
 }
 
-// While passing, more of a wall becomes visible: its centre moves at 3 m/s, its points do not.
+// While a wall comes into view, its centre moves at 3 m/s, but its points do not.
 TEST(ObstacleTracks, GrowingWallDoesNotMove) {
     ObstacleTracks tracks;
     simulation::Random random(2);
@@ -200,7 +200,7 @@ TEST(ObstacleTracks, NoiseCausesNoMotion) {
         for (const ObstacleTrack& track : tracks.tracks()) moving += track.is_moving;
     }
     EXPECT_EQ(tracks.tracks().size(), 20u);
-    EXPECT_EQ(moving, 0);  // of 2000
+    EXPECT_EQ(moving, 0);  // 2000 tracks are checked
 }
 
 TEST(ObstacleTracks, SurviveNineHiddenScans) {
@@ -213,7 +213,7 @@ TEST(ObstacleTracks, SurviveNineHiddenScans) {
         tracks.update(scan);
     }
     EXPECT_EQ(tracks.tracks().size(), 2u);
-    // Moving at once, although no earlier scan is left for comparison.
+    // The track is moving at once, even without an earlier scan for comparison.
     EXPECT_TRUE(trackNear(tracks, moved(kWalker, kWalk_m_s, 1.8).at_m).is_moving);
     // After a longer gap, tracks are dropped.
     for (int number = 18; number < 30; ++number) tracks.update(scanAt(number));
@@ -230,7 +230,7 @@ TEST(ObstacleTracks, NeedObstacleNumbers) {
     EXPECT_EQ(tracks.trackOfObstacle(), (std::vector<std::uint32_t>{0}));
 }
 
-// The window with motion.
+// ---- the window model with motion
 
 std::unique_ptr<WorldModel> modelOf(const std::string& name,
                                     const std::vector<observations::MappedScan>& scans) {
@@ -254,7 +254,7 @@ TEST(WindowWithMotion, PredictsMoversWithoutTrail) {
     }
     EXPECT_GT(moving->clearanceAfter_m(placeAfter(0), 1.0), 0.8f);
     EXPECT_FLOAT_EQ(moving->clearance_m(placeAfter(0)), moving->clearanceAfter_m(placeAfter(0), 0));
-    // Its position 0.8 s ago.
+    // The walker's position 0.8 s ago.
     EXPECT_GT(moving->clearance_m(placeAfter(-0.8)), 0.6f);
     EXPECT_LT(standing->clearance_m(placeAfter(-0.8)), 0.3f);
     EXPECT_EQ(standing->fastest_m_s(), 0);
@@ -279,8 +279,8 @@ TEST(MapWithMotion, PredictsMoversAndKeepsMap) {
     }
 }
 
-/// A post exists in the first scan only; later, only the walker's returns are behind it.
-TEST(MapWithMotion, RaysUpToMoversClear) {
+/// The first scan contains a post; later scans have only the walker's returns behind it.
+TEST(MapWithMotion, RaysToMoversClearMap) {
     const Eigen::Vector2d post(3.1, -0.72);
     const double azimuth_rad = std::atan2(post.y(), post.x());
     auto scans = walkerAndPost(14);
@@ -330,7 +330,7 @@ TEST(WindowWithMotion, EqualsWindowWithoutMovers) {
     }
 }
 
-// The planner.
+// ---- the planner
 
 /// A ball that approaches along the x axis.
 class BallModel : public WorldModel {
@@ -354,7 +354,7 @@ class BallModel : public WorldModel {
     float speed_m_s_;
 };
 
-/// The minimum distance from the ball's surface in 2 s, if the command is held for 1.2 s.
+/// The minimum distance from the ball's surface within 2 s if the command is held for 1.2 s.
 double nearestWay_m(const Eigen::Vector3d& command_m_s, double ball_first_m) {
     VehicleState state{{0, 0, 2}, {0, 0, 0}};
     double min_m = 1e9;
@@ -375,7 +375,7 @@ PlanningTask taskTowards(const Eigen::Vector3d& carrot_m, double start_after_s) 
     return task;
 }
 
-// Straight ahead there is room to stop, but the ball approaches.
+// There is room to stop straight ahead, but the ball approaches.
 TEST(MotionPrimitives, AvoidApproachingObstacle) {
     const PlanningTask task = taskTowards({12, 0, 2}, 0.3);
     const double ball_m = 6 - 3 * 0.3;
@@ -387,7 +387,7 @@ TEST(MotionPrimitives, AvoidApproachingObstacle) {
     EXPECT_LT(nearestWay_m(still.command_m_s, ball_m), 0.3);
 }
 
-// The ball stands in the way, or leaves before the vehicle arrives.
+// The ball blocks the path, or leaves it before the vehicle arrives.
 TEST(PolarHistogram, RanksDirectionsByPrediction) {
     const PlanningTask task = taskTowards({20, 0, 2}, 0);
     const auto planner = makePlanner("3dvfh");
@@ -396,7 +396,7 @@ TEST(PolarHistogram, RanksDirectionsByPrediction) {
 }
 
 TEST(MotionPrimitives, EvadeWhenNothingIsFree) {
-    // Hovering at the goal; the ball's surface is 1.15 m away and arrives 0.4 s later.
+    // The vehicle hovers at the goal; the ball's surface is 1.15 m away and arrives in 0.4 s.
     const PlanningTask task = taskTowards({0, 0, 2}, 1.45);
     const double ball_m = 6 - 3 * 1.45;
     const Plan plan = makePlanner("primitives")->plan(BallModel(true), task);

@@ -21,7 +21,7 @@ using mrpt::poses::CPose3D;
 
 constexpr float kWall_m = 6;
 
-/// A model that contains flat ground and a wall from the start and counts its updates.
+/// A model that initially contains flat ground and a wall and counts its updates.
 class WallModel : public WorldModel {
  public:
     struct Notes {
@@ -139,7 +139,7 @@ TEST_F(OpenLoopTest, ShortFlightNeedsNoReset) {
 }
 
 TEST_F(OpenLoopTest, LongFlightResetsMaps) {
-    // At 10 m/s, away from the wall.
+    // Flies away from the wall at 10 m/s.
     const auto result = runOpenLoop(wallsOnly(wallFlight(25, -10, 1, 90)));
     EXPECT_GE(result.model_resets, 10u);
     ASSERT_EQ(notes_.bounds_m.size(), result.model_resets + 1);
@@ -149,7 +149,7 @@ TEST_F(OpenLoopTest, LongFlightResetsMaps) {
         all.extend(box);
     }
     EXPECT_TRUE(all.contains(Eigen::Vector3f(-250, 0, 2)));
-    // 2 or 3 scans each, plus those of the previous 3 s.
+    // 2 or 3 scans each, plus the scans of the previous 3 s.
     for (const int updates : notes_.updates) EXPECT_LE(updates, 3 + 4);
     EXPECT_GE(notes_.updates.at(3), 3 + 2);
 }
@@ -173,7 +173,7 @@ TEST_F(OpenLoopTest, RejectsWrongScene) {
                 HasSubstr("was not simulated in wires with seed 1"));
 }
 
-/// Scans after a clock reset do not count as later scans of earlier ones.
+/// Scans after a clock reset must not serve as later scans of earlier ones.
 TEST_F(OpenLoopTest, RestartsWhenClockJumpsBack) {
     const fs::path log = wallFlight(8);
     const auto hitsWith = [&](double first_s) {

@@ -65,7 +65,7 @@ TEST(PathSearch, QueriesFewCellsInEmptySpace) {
     EXPECT_LT(world.asked, 200);
 }
 
-/// A wall across the path with one gap around `middle_m`.
+/// A wall across the path with a single gap centred at `middle_m`.
 SolidWorld wallWithGap(float middle_m, float width_m) {
     SolidWorld world;
     world.box({9.9f, -30, -10}, {10.1f, middle_m - width_m / 2, 20});
@@ -121,7 +121,7 @@ TEST(PathSearch, LeavesObstacleAtStart) {
     const auto path = search(world, {0, 0, 2}, {10, 0, 2}, options);
     ASSERT_TRUE(path);
     double before_m = 0.29;
-    for (const Eigen::Vector3d& at : *path) {  // grows up to the minimum, then stays above
+    for (const Eigen::Vector3d& at : *path) {  // rises to the minimum and stays above
         const double clearance_m = world.clearance_m(at.cast<float>());
         EXPECT_TRUE(clearance_m > before_m || clearance_m >= options.min_clearance_m - 1e-6);
         before_m = std::min(clearance_m, options.min_clearance_m);
@@ -161,7 +161,7 @@ TEST(PathSearch, RejectsInvalidGrids) {
                  std::invalid_argument);
 }
 
-/// Plain Dijkstra search on the same graph: visits every cell and tries every step.
+/// Plain Dijkstra search on the same graph, which visits every cell and tries every step.
 class PlainGraph {
  public:
     PlainGraph(const SolidWorld& world, const Eigen::Vector3d& start_m,

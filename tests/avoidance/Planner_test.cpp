@@ -12,7 +12,7 @@ using test::SmallFlight;
 using test::SmallFlightResult;
 using test::SolidWorld;
 
-/// A task in the air: eastwards, at 2 m, with a distant goal.
+/// An airborne task: eastwards at 2 m altitude to a distant goal.
 PlanningTask eastwards(double speed_m_s = 0) {
     PlanningTask task;
     task.start.position_m = {0, 0, 2};
@@ -68,7 +68,7 @@ TEST_P(Planners, ClimbToCarrot) {
 }
 
 TEST_P(Planners, KeepAltitudeLimits) {
-    // A wall that could be flown over if the altitude limits allowed it, with no way around.
+    // The wall has no way around, and the altitude limits prevent flying over it.
     SolidWorld world;
     world.ground(0).box({12, -40, 0}, {12.5f, 40, 5});
     SmallFlight over = flight();
@@ -87,7 +87,7 @@ TEST_P(Planners, FlyAroundTrunk) {
     EXPECT_EQ(flown.emergencies, 0);
 }
 
-/// A wall across the path with one gap beside the straight line.
+/// A wall across the path with a single gap beside the straight line.
 SolidWorld wallWithGap(float width_m) {
     SolidWorld world;
     world.box({20, -100, -100}, {20.2f, 1 - width_m / 2, 100});
@@ -114,7 +114,7 @@ TEST_P(Planners, MoveAwayFromNearObstacle) {
     task.carrot_m = {-20, 0, 2};
     const Plan away = plan(world, task);
     EXPECT_LT(away.command_m_s.x(), -1);
-    task.carrot_m = {20, 0, 2};  // beyond the obstacle
+    task.carrot_m = {20, 0, 2};  // behind the obstacle
     EXPECT_LE(plan(world, task).command_m_s.x(), 0.1);
 }
 
@@ -163,7 +163,7 @@ TEST_P(Planners, AvoidCrossingObstacle) {
     }
 }
 
-/// Open towards the start, across the straight path.
+/// A dead end across the straight path, open towards the start.
 SolidWorld trap() {
     SolidWorld world;
     world.ground(0).box({20, -5, 0}, {20.3f, 5, 9});
@@ -222,7 +222,7 @@ TEST_P(Planners, AreDeterministic) {
 }
 
 TEST(MustStop, DependsOnStoppingDistance) {
-    // From 4 m/s at 5 m/s^2, stopping takes slightly more than 1.6 m; a period covers 0.4 m.
+    // From 4 m/s at 5 m/s^2, stopping takes slightly more than 1.6 m; one period covers 0.4 m.
     const auto stopsBefore = [](float wall_m) {
         SolidWorld world;
         world.box({wall_m, -100, -100}, {wall_m + 1, 100, 100});

@@ -1,4 +1,4 @@
-// Contents of a replay: the recording, the true scene, the ending.
+// Contents of a replay: the recording, the true scene and the ending.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,11 +36,11 @@ avoidance::FlightRecording smallRecording() {
 
 TEST(Replay, PageStoresCentimetresFromStart) {
     const std::string page = avoidance::replayPage(smallRecording());
-    // 1, 2 and 3 m: 100, 200, 300 in 16 bits, 64 00 C8 00 2C 01, by base64 of RFC 4648.
+    // 1, 2 and 3 m as 16-bit centimetres: 64 00 C8 00 2C 01, encoded in base64 (RFC 4648).
     EXPECT_THAT(page, HasSubstr("\"track\":\"ZADIACwB\""));
     EXPECT_THAT(page, HasSubstr("\"clearances\":\"MgA=\""));  // 50: 32 00
     EXPECT_THAT(page, HasSubstr("\"ending\":\"reached the goal at 9.00 s\""));
-    EXPECT_THAT(page, HasSubstr("\"way_sizes\":[-2]"));  // not free
+    EXPECT_THAT(page, HasSubstr("\"way_sizes\":[-2]"));  // negative: not free
     EXPECT_THAT(page, HasSubstr("<title>gap, seed 1, OctoMap 0.4 m, A*, 4 m/s: success</title>"));
     EXPECT_THAT(avoidance::replayPage(avoidance::FlightRecording{}), HasSubstr("\"steps\":[]"));
 }
@@ -88,7 +88,7 @@ TEST(Replay, SceneShowsFinalModel) {
               "no/a.3Dscene: cannot be written: No such file or directory");
 }
 
-/// A triangle at x = 7 m and one that moves from there to 8 m in one step.
+/// A triangle at x = 7 m, and another that moves from 7 to 8 m in one step.
 avoidance::TrueScene smallScene() {
     avoidance::TrueScene scene;
     simulation::Shape triangle;
@@ -105,7 +105,7 @@ TEST(Replay, PageStoresShapesAndPoses) {
     avoidance::FlightRecording recording = smallRecording();
     recording.scene = smallScene();
     const std::string page = avoidance::replayPage(recording);
-    // Half centimetres: nine numbers, of which the fourth is 1 and the ninth 2.
+    // Nine numbers in half centimetres; the fourth is 1, the ninth is 2.
     EXPECT_THAT(page, HasSubstr("\"shapes\":[\"AAAAAAAAAQAAAAAAAAAAAAIA\"]"));
     EXPECT_THAT(
         page,
@@ -131,7 +131,7 @@ TEST(Replay, SceneContainsTrueObstacles) {
         scene.getByName("true scene"));
     ASSERT_NE(truth, nullptr);
     EXPECT_EQ(truth->getTrianglesCount(), 2u);
-    // Six corners of a slope: seven lines along it.
+    // The slope has six corners and seven lines.
     const auto ground =
         std::dynamic_pointer_cast<observations::viz::CSetOfLines>(scene.getByName("ground"));
     ASSERT_NE(ground, nullptr);
@@ -150,7 +150,7 @@ TEST(TrueScene, MatchesCourse) {
     }
     ASSERT_EQ(seen.movers.size(), content.movers.size());
     for (std::size_t i = 0; i < seen.movers.size(); ++i) {
-        EXPECT_FALSE(seen.shapes[seen.movers[i].shape].triangles.empty());  // also of rods
+        EXPECT_FALSE(seen.shapes[seen.movers[i].shape].triangles.empty());  // even for rods
         for (const double time_s : {0.0, 1.3, 2.99, 3.0}) {
             const Eigen::Affine3f truly =
                 simulation::poseOf(content.movers[i], content.terrain, time_s);
@@ -189,7 +189,7 @@ TEST(Ending, DescribesOutcome) {
     EXPECT_EQ(avoidance::endingOf(course, result, 4, start_m),
               "gave up for lack of progress at 2.50 s");
     EXPECT_EQ(avoidance::endingOf(course, result, 4, {1000, 0, 2}), "left the course at 2.50 s");
-    // The limit is three times 40 m at 4 m/s, plus 20 s: 50 s; at 2 m/s: 80 s.
+    // The limit is three times the time for 40 m, plus 20 s: 50 s at 4 m/s, 80 s at 2 m/s.
     result.time_s = 50.5;
     EXPECT_EQ(avoidance::endingOf(course, result, 4, start_m), "ran out of time at 50.50 s");
     EXPECT_EQ(avoidance::endingOf(course, result, 2, start_m),

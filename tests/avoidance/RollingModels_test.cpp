@@ -15,7 +15,7 @@ namespace hagen::avoidance {
 namespace {
 
 const std::vector<std::string> kNames{"R-Full-0.1", "R-Full-0.2", "D-Full"};
-// At 4 m/s, along x, y, z. A box may be kMore_m larger, as it consists of whole voxel groups.
+// Half the box at 4 m/s. A box may be kMore_m larger, as it consists of whole voxel groups.
 const Eigen::Array3f kReach_m(15, 15, 6);
 constexpr float kMore_m = 4;
 
@@ -74,7 +74,7 @@ TEST(RollingModels, ClearanceMatchesVoxelsWhileMoving) {
             const auto voxels = model->obstacles();
             ASSERT_GT(voxels.centre_m.size(), 100u) << name;
             for (int i = 0; i < 400; ++i) {
-                const Eigen::Vector3f at = randomIn(random, origin, 21, 11);  // also outside
+                const Eigen::Vector3f at = randomIn(random, origin, 21, 11);  // partly outside
                 const float expected = bruteForce(voxels, at);
                 ASSERT_NEAR(model->clearance_m(at), expected, 1e-4f) << name << " " << i;
                 ASSERT_NEAR(model->clearanceWithin_m(at, 0.9f), std::min(0.9f, expected), 1e-4f);
@@ -83,7 +83,7 @@ TEST(RollingModels, ClearanceMatchesVoxelsWhileMoving) {
     }
 }
 
-/// Like an OctoMap, which has no box and stores floats.
+/// Compares with an OctoMap, which has no box and stores floats.
 TEST(RollingModels, GridMatchesOctoMap) {
     for (const std::string name : {"R-Full-0.1", "R-Full-0.2"}) {
         const float edge = edgeOf(name);
@@ -94,14 +94,14 @@ TEST(RollingModels, GridMatchesOctoMap) {
         options.max_range_m = 15;
         observations::ScanMap map(options);
         const auto model = make(name);
-        // No ray passes exactly through an edge.
+        // The origin is chosen so that no ray passes exactly through a voxel edge.
         const Eigen::Vector3f origin(0.0317f, 0.0523f, 1.0713f);
         for (int scan = 0; scan < 12; ++scan) {
-            // Returns repeat at the same places, so that voxels are hit and cleared.
+            // Some returns repeat at the same places, so that voxels are both hit and cleared.
             auto points = randomPoints(random, origin, 800, 4, 2);
             for (auto& point : points) {
                 if (random.chance(0.3)) point = ((point.array() / 1.2f).round() * 1.2f + 0.05f);
-                if (random.chance(0.1)) {  // beyond the range, but not above the box
+                if (random.chance(0.1)) {  // beyond the range, but within the box's height
                     const Eigen::Vector3f ray =
                         (point - origin).cwiseProduct(Eigen::Vector3f(1, 1, 0.05f));
                     point = origin + 30 * ray.normalized();
@@ -205,7 +205,7 @@ TEST(RollingModels, MemoryStaysConstant) {
     }
 }
 
-TEST(RollingModels, IgnoresOrderOfReturns) {
+TEST(RollingModels, IgnoresReturnOrder) {
     for (const std::string& name : kNames) {
         simulation::Random random(7);
         const auto one = make(name), other = make(name);
@@ -225,7 +225,7 @@ TEST(RollingModels, IgnoresOrderOfReturns) {
     }
 }
 
-/// Faster flights need a larger range, also up and down.
+/// Faster flights require a larger range, even vertically.
 TEST(RollingModels, BoxGrowsWithSpeed) {
     for (const std::string& name : kNames) {
         FlightPace pace;
@@ -239,7 +239,7 @@ TEST(RollingModels, BoxGrowsWithSpeed) {
     }
 }
 
-/// Returns of walls around the sensor, in 16 rows as of a VLP-16, with a pillar in front.
+/// Returns of walls around the sensor in 16 rows, like a VLP-16, with a pillar in front.
 std::vector<Eigen::Vector3f> rows(const Eigen::Vector3f& origin, float pillar_m) {
     std::vector<Eigen::Vector3f> points;
     for (float elevation = -15; elevation <= 15; elevation += 2) {
@@ -256,7 +256,7 @@ std::vector<Eigen::Vector3f> rows(const Eigen::Vector3f& origin, float pillar_m)
     return points;
 }
 
-/// Compares each voxel with the returns, by angle.
+/// Compares each voxel with the returns by angle.
 TEST(DepthImageMap, KnownSpaceMatchesBruteForce) {
     constexpr float kEdge_m = 0.2f, kDegree = static_cast<float>(M_PI / 180);
     const Eigen::Vector3f origin(0.11f, -0.05f, 1.02f);
@@ -278,7 +278,7 @@ TEST(DepthImageMap, KnownSpaceMatchesBruteForce) {
         const float away = (voxel - origin).norm();
         const Eigen::Vector3f direction = (voxel - origin) / away;
         const float own = std::atan(0.5f * kEdge_m / away);  // the voxel's minimum half-angle
-        // Half a row plus pixels of up to two voxels or one degree.
+        // Half a row, plus pixels of up to two voxels or one degree.
         const float wide = std::max(6 * own, 3 * kDegree);
         bool is_hidden = false, has_return = false, has_beside = false, is_all_beyond = true;
         for (std::size_t k = 0; k < points.size(); ++k) {
@@ -307,7 +307,7 @@ TEST(DepthImageMap, KnownSpaceMatchesBruteForce) {
 TEST(DepthImageMap, IsUnknownBetweenRows) {
     const auto model = make("D-Full");
     const Eigen::Vector3f origin(0, 0, 0);
-    std::vector<Eigen::Vector3f> row;  // only one, level
+    std::vector<Eigen::Vector3f> row;  // a single level row
     for (float azimuth = -0.5f; azimuth < 0.5f; azimuth += 0.003f) {
         row.emplace_back(14 * std::cos(azimuth), 14 * std::sin(azimuth), 0.01f);
     }
@@ -333,7 +333,7 @@ TEST(DepthImageMap, KnownSpaceStaysKnown) {
     EXPECT_GT(known.size(), 1000u);
 }
 
-/// Three images that see through a pillar remove it and nothing else.
+/// Three images that see through a pillar remove only this pillar.
 TEST(DepthImageMap, RemovesPillarSeenThrough) {
     const auto model = make("D-Full");
     const Eigen::Vector3f origin(0.11f, -0.05f, 1.02f), beside = origin + Eigen::Vector3f(4, 0, 0);
@@ -347,7 +347,7 @@ TEST(DepthImageMap, RemovesPillarSeenThrough) {
     EXPECT_GT(model->obstacles().centre_m.size(), all - all / 10);
 }
 
-/// A voxel with a return is not seen through, even if other rays pass it.
+/// A voxel with a return is not cleared, even if other rays pass through it.
 TEST(DepthImageMap, KeepsVoxelWithReturn) {
     const auto model = make("D-Full");
     std::vector<Eigen::Vector3f> points;

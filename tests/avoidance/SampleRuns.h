@@ -8,7 +8,7 @@
 
 namespace hagen::test {
 
-using Row = hagen::avoidance::Run;  // a test has a Run() of its own
+using Row = hagen::avoidance::Run;  // testing::Test has a member Run()
 
 inline Row runOf(const std::string& scenario, std::uint64_t seed, const std::string& model,
                  const std::string& guidance, hagen::avoidance::Outcome outcome,
@@ -35,7 +35,7 @@ inline constexpr auto kWon = hagen::avoidance::Outcome::Success,
                       kHit = hagen::avoidance::Outcome::Collision,
                       kLate = hagen::avoidance::Outcome::Timeout;
 
-/// Seeds 0..9: W-RoI wins all but 0 (hit); O-Full-0.4 all but 0, 1, 2 (late); W-RoI straight none.
+/// Seeds 0..9: W-RoI fails 0 (collision), O-Full-0.4 0 to 2 (timeout), W-RoI straight all.
 inline std::vector<Row> threeContenders() {
     std::vector<Row> runs;
     for (std::uint64_t seed = 0; seed < 10; ++seed) {

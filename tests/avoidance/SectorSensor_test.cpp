@@ -18,7 +18,7 @@ using test::simpleCourse;
 constexpr double kStep_s = kControlStep_s;
 constexpr double kMaxSector_s = 0.1 * 15 / 360;
 
-/// A flight along x that turns aside at 0.25 s.
+/// A flight along x that turns sideways at 0.25 s.
 FlightTrace traceUntil(int steps, double speed_m_s = 8) {
     VehicleState state{{0, 0, 2}, {speed_m_s, 0, 0}};
     FlightTrace trace(state);
@@ -37,14 +37,14 @@ Course courseWithWall() {
     return simpleCourse(std::move(content));
 }
 
-/// The sectors of a flight, requested at each control step.
+/// The sectors of a flight, read at each control step.
 std::vector<observations::MappedScan> sectorsOf(const Course& course, Air air, PoseError error,
                                                 int steps) {
     SectorSensor sensor(course, air);
     PoseBelief belief(error, 3);
     std::vector<observations::MappedScan> sectors;
     for (int step = 1; step <= steps; ++step) {
-        // Only the trace flown so far is known.
+        // The sensor gets only the trace flown so far.
         for (auto& sector : sensor.measureUntil(kStep_s * step, traceUntil(step), belief)) {
             sectors.push_back(std::move(sector));
         }
@@ -82,7 +82,7 @@ TEST(SectorSensor, ReturnsMatchWholeScans) {
         for (int turn = 0; turn < 3; ++turn) {
             int first = 0;
             for (const int ms : {20, 40, 60, 80, 100}) {
-                // Packets of 24 firings of 55.296 us; the last one has the remainder.
+                // Packets contain 24 firings of 55.296 us; the last packet has the remainder.
                 const int end = ms == 100 ? 1809 : static_cast<int>(ms / (24 * 0.055296)) * 24;
                 const auto measured = whole.measureFirings(turn, {first, end}, trace);
                 LabelledReturns labelled;
@@ -101,7 +101,7 @@ TEST(SectorSensor, ReturnsMatchWholeScans) {
             found.insert(found.end(), sector.points_m.begin(), sector.points_m.end());
         }
         ASSERT_GT(expected.size(), 40000u);
-        ASSERT_GT(found.size(), expected.size());  // also of the fourth turn
+        ASSERT_GT(found.size(), expected.size());  // includes returns of the fourth turn
         for (std::size_t i = 0; i < expected.size(); ++i) {
             ASSERT_LT((found[i] - expected[i]).norm(), 1e-4f) << nameOf(error) << " " << i;
         }
@@ -149,7 +149,7 @@ double knownAt_s(const std::string& name, bool by_sectors, const Eigen::Vector3f
             const auto& labels = scans.segment(ms / 100 - 1, measured, trace, belief);
             model->update(TrialSensor::place(ms / 100 - 1, measured, labels, trace, belief));
         }
-        // A voxel of 0.4 m plus its bias.
+        // A voxel of 0.4 m plus the model's bias.
         if (model->clearance_m(point_m) < 0.5f) return 1e-3 * ms;
     }
     return 1;
@@ -159,12 +159,12 @@ TEST(SectorSensor, WallReachesModelWithinSector) {
     for (const char* model : {"W-RoI", "W-Full", "R-Full-0.2", "O-Full-0.4"}) {
         for (const float y_m : {-3.0f, 3.0f}) {
             const Eigen::Vector3f on_wall(10, y_m, 2);
-            // A turn begins behind and proceeds clockwise.
+            // A turn starts behind the vehicle and proceeds clockwise.
             const double clockwise_rad = kPi - std::atan2(static_cast<double>(y_m), 10.0);
             const double seen_s = 0.1 * clockwise_rad / (2 * kPi);
             const double known_s = knownAt_s(model, true, on_wall);
             EXPECT_GT(known_s, seen_s - 0.001) << model << " " << y_m;
-            // A sector, the preceding packet and this test's resolution of 1 ms.
+            // A sector, the preceding packet, and the test's resolution of 1 ms.
             EXPECT_LT(known_s, seen_s + kMaxSector_s + 0.0014 + 0.001) << model << " " << y_m;
         }
         EXPECT_NEAR(knownAt_s(model, false, {10, 0, 2}), 0.1, 1e-9) << model;
@@ -189,7 +189,7 @@ TEST(SectorSensor, JoinedSectorsKeepReturnsAndAges) {
     EXPECT_EQ(all.age_s.size(), all.points_m.size());
     EXPECT_NEAR(all.turns, turns, 1e-12);
     EXPECT_EQ(all.time_s, sectors.back().time_s);
-    // At 8 m/s along x; halfway.
+    // The mean position at 8 m/s along x is halfway.
     EXPECT_NEAR(all.origin_m.x(), 8 * 0.5 * all.time_s, 0.02);
 }
 

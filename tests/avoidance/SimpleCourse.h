@@ -6,7 +6,7 @@
 
 namespace hagen::test {
 
-/// 20 m along x, 2 m above level ground.
+/// A course of 20 m along x, 2 m above level ground.
 inline avoidance::Course simpleCourse(simulation::SceneContent content, std::uint64_t seed = 1) {
     put(content, simulation::ObjectClass::Terrain, 0, plane());
     const simulation::Scene scene(std::move(content));
@@ -18,7 +18,7 @@ inline avoidance::Course simpleCourse(simulation::SceneContent content, std::uin
             20};
 }
 
-/// A wall across the course, from x = 10 to 10.2 m, from y to y, 8 m high.
+/// Adds a wall across the course, from x = 10 to 10.2 m and between two values of y, 8 m high.
 inline void putWall(simulation::SceneContent& content, float from_y_m, float to_y_m) {
     simulation::Shape wall;
     wall.addBox({10.0f, from_y_m, 0}, {10.2f, to_y_m, 8});

@@ -23,7 +23,7 @@ TEST(TrialJudge, CollisionPrecedesGoal) {
 
 TEST(TrialJudge, TimesOutWithoutProgress) {
     const Course course = simpleCourse(emptyContent());
-    TrialJudge judge(course, 4);  // may stall for 20 / 4 + 10 s
+    TrialJudge judge(course, 4);  // stalling is limited to 20 / 4 + 10 s
     EXPECT_EQ(judge.judge({5, 0, 2}, 2, 0.3, 2), std::nullopt);
     EXPECT_EQ(judge.judge({4, 0, 2}, 2, 0.3, 16.9), std::nullopt);
     EXPECT_EQ(judge.judge({5.5, 0, 2}, 2, 0.3, 17.1), Outcome::Timeout);
@@ -35,7 +35,7 @@ TEST(TrialJudge, TimesOutWithoutProgress) {
 TEST(TrialJudge, LimitsFlightTime) {
     const Course course = simpleCourse(emptyContent());
     TrialJudge judge(course, 4);
-    for (double time_s = 0; time_s < 34.9; time_s += 5) {  // a little more than 1 m in 5 s
+    for (double time_s = 0; time_s < 34.9; time_s += 5) {  // slightly more than 1 m per 5 s
         EXPECT_EQ(judge.judge({time_s / 4, 0, 2}, 2, 0.3, time_s), std::nullopt) << time_s;
     }
     EXPECT_EQ(judge.judge({12, 0, 2}, 2, 0.3, 35.1), Outcome::Timeout);

@@ -14,7 +14,7 @@ using test::emptyContent;
 using test::putWall;
 using test::simpleCourse;
 
-/// One second of flight at 8 m/s along x with hard braking, so that the body is tilted.
+/// One second of flight at 8 m/s along x with hard braking, which tilts the body.
 FlightTrace fastTrace() {
     VehicleState state{{0, 0, 2}, {8, 0, 0}};
     FlightTrace trace(state);
@@ -59,7 +59,7 @@ TEST(TrialSensor, PlacesReturnsDuringFlight) {
     }
 }
 
-TEST(TrialSensor, SeesToEndOfZone) {
+TEST(TrialSensor, SeesWholeZone) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -40, 40);
     const Course course = simpleCourse(std::move(content));
@@ -86,7 +86,7 @@ TEST(TrialSensor, SeesToEndOfZone) {
     }
 }
 
-/// Returns of a kind that still have a range.
+/// Number of returns of this class that still have a range.
 int countOf(simulation::ObjectClass kind, const simulation::SimulatedScan& measured) {
     int count = 0;
     for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -113,7 +113,7 @@ TEST(TrialSensor, DustyAirAddsOnlyDust) {
         EXPECT_GT(std::count(measured.kind.begin(), measured.kind.end(),
                              simulation::ObjectClass::Airframe),
                   50);
-        // Legs hide a few per cent of the wall, the mask almost nothing.
+        // The legs hide a few per cent of the wall, the mask hides almost nothing.
         EXPECT_GT(countOf(simulation::ObjectClass::Wall, measured),
                   0.95 * countOf(simulation::ObjectClass::Wall, in_clear_air));
         const auto labels = dusty.segment(turn, measured, trace, belief);

@@ -47,7 +47,7 @@ TEST(UnbiasedModel, KeepsClearanceRange) {
             }
         }
     }
-    // Increased clearances do not exceed the range.
+    // Corrected clearances do not exceed the range.
     EXPECT_FLOAT_EQ(wallWith(-0.3f).clearance_m({2.8f, 0, 0}), 3.0f);
     EXPECT_FLOAT_EQ(wallWith(-0.3f).clearance_m({9, 0, 0}), 3.0f);
 }

@@ -18,7 +18,7 @@ TEST(Vehicle, StoppingDistanceMatchesPhysics) {
     for (int step = 0; step < 200; ++step) {
         state = advance(state, {0, 0, 0}, kControlStep_s, limits);
     }
-    // At 5 m/s^2 down to 1 m/s, then by 1/5 s: (16 - 1) / 10 + 1 / 5 m.
+    // Braking at 5 m/s^2 to 1 m/s, then exponentially with 5/s: (16 - 1) / 10 + 1 / 5 m.
     EXPECT_NEAR(state.position_m.x(), 1.7, 0.02);
     EXPECT_NEAR(state.velocity_m_s.norm(), 0, 1e-6);
 }
@@ -33,7 +33,7 @@ TEST(CommandQueue, FollowsCommandsOnTime) {
     const VehicleLimits limits;
     const VehicleState before = commands.advanced(VehicleState{}, 0, 0.113, limits);
     EXPECT_EQ(before.velocity_m_s.x(), 0);
-    // Saturated: 5 m/s^2 for exactly 0.2 s.
+    // Saturated at 5 m/s^2 for exactly 0.2 s.
     const VehicleState after = commands.advanced(VehicleState{}, 0, 0.313, limits);
     EXPECT_NEAR(after.velocity_m_s.x(), 1.0, 1e-12);
     EXPECT_NEAR(after.position_m.x(), 0.5 * 5 * 0.04, 1e-12);

@@ -7,7 +7,7 @@ namespace {
 
 FlightPace paceOf(double speed_m_s) { return {speed_m_s, 0.1, {}}; }
 
-/// Time and distance of braking from a speed to 2 % of it or 0.1 m/s, in control steps.
+/// Time and distance to brake to 2 % of a speed or 0.1 m/s, in control steps.
 struct Braking {
     double time_s = 0, way_m = 0;
 };
@@ -44,7 +44,7 @@ TEST(WindowSize, CoversStoppingTime) {
     for (double speed_m_s = 2; speed_m_s <= 14; speed_m_s += 0.5) {
         const FlightPace pace = paceOf(speed_m_s);
         const WindowSize size = windowSizeFor(pace);
-        // Below 1 m/s, braking takes longer, but the speed is harmless.
+        // Below 1 m/s, braking takes longer, but is uncritical.
         const double needed_s = pace.reaction_s() + brakingFrom(speed_m_s).time_s - 0.4;
         EXPECT_GE(0.1 * static_cast<double>(size.scans), needed_s) << speed_m_s;
         EXPECT_LE(0.1 * static_cast<double>(size.scans), needed_s + 0.5) << speed_m_s;
@@ -64,7 +64,7 @@ TEST(WindowSize, CoversPlanAndClearance) {
 
 TEST(WindowSize, DependsOnScanPeriod) {
     FlightPace pace = paceOf(4);
-    pace.scan_period_s = 0.05;  // 20 Hz: reacts 0.1 s earlier
+    pace.scan_period_s = 0.05;  // at 20 Hz, the vehicle reacts 0.1 s earlier
     EXPECT_EQ(windowSizeFor(pace).scans, 19u);
     pace.limits.acceleration_m_s2 = 10;
     EXPECT_EQ(windowSizeFor(pace).scans, 11u);

@@ -35,7 +35,7 @@ std::vector<std::string> modelsThatLearn() {
     return names;
 }
 
-/// Edge of a model's voxels; 0 for points.
+/// Edge length of a model's voxels; 0 for points.
 float edgeOf(const std::string& name) {
     if (name[0] == 'W') return 0;
     if (name.find("0.1") != std::string::npos) return 0.1f;
@@ -47,7 +47,7 @@ observations::MappedScan scanOf(const std::vector<Eigen::Vector3f>& points,
     return {0, kOrigin, points, std::vector<Label>(points.size(), label), {}, {}};
 }
 
-/// A wall at x = 5.1 m, dense.
+/// A dense wall, by default at x = 5.1 m.
 std::vector<Eigen::Vector3f> wall(float x_m = 5.1f) {
     std::vector<Eigen::Vector3f> points;
     for (float y = -4; y <= 4; y += 0.07f) {
@@ -65,7 +65,7 @@ std::vector<Eigen::Vector3f> board() {
     return points;
 }
 
-/// Few points all around, so that no ray clears the end of another.
+/// A few points all around, so that no ray clears another's end point.
 std::vector<Eigen::Vector3f> sparsePoints(simulation::Random& random, int count) {
     std::vector<Eigen::Vector3f> points;
     for (int i = 0; i < count; ++i) {
@@ -77,7 +77,7 @@ std::vector<Eigen::Vector3f> sparsePoints(simulation::Random& random, int count)
     return points;
 }
 
-/// Each point as two returns, so that none is isolated.
+/// Duplicates each point, so that none is isolated.
 std::vector<Eigen::Vector3f> twice(std::vector<Eigen::Vector3f> points) {
     points.insert(points.end(), points.begin(), points.end());
     return points;
@@ -95,9 +95,9 @@ TEST(WorldModel, ClearanceMatchesBruteForce) {
         const auto points = sparsePoints(random, 60);
         const auto model = makeWorldModel(name, setting());
         model->update(scanOf(twice(points)));
-        // A cube is nearer than its point by at most its diagonal. Cubes are compared by centre.
+        // A cube is nearer than its point by at most its diagonal. Distances refer to cube centres.
         const float diagonal = std::sqrt(3.0f) * edgeOf(name);
-        // In a grid, rays clear cells hit by other rays.
+        // In a grid, rays clear cells that other rays hit.
         const bool is_whole = name != "G-Full";
         for (int i = 0; i < 400; ++i) {
             const Eigen::Vector3f at = sparsePoints(random, 1)[0];
@@ -185,13 +185,13 @@ TEST(WorldModel, RoiModelsIgnoreOtherReturns) {
     }
 }
 
-/// By brute force over all points of the last 11 turns; thinning may keep another point per 10 cm.
+/// Compares with all points of the last 11 turns; thinning may keep another point per 10 cm.
 TEST(WorldModel, SectorWindowMatchesBruteForce) {
     simulation::Random random(17);
     const auto model = makeWorldModel("W-Full", setting());
     std::vector<std::pair<double, std::vector<Eigen::Vector3f>>> updates;
     for (int i = 0; i < 150; ++i) {
-        // Like a planner that is sometimes late: from a sector to more than a turn.
+        // Like a planner that is sometimes late: updates cover one sector to more than a turn.
         const double turns = i % 7 == 3 ? random.uniform(0.04, 1.3) : 0.2;
         updates.emplace_back(turns, twice(sparsePoints(random, 6)));
         observations::MappedScan sectors = scanOf(updates.back().second);
@@ -253,8 +253,8 @@ TEST(WorldModel, LimitedClearanceIsCutOff) {
     }
 }
 
-/// By brute force: the nearest point of each 10 cm cube around the origin is kept. So a clearance
-/// is never below the true one, and exceeds it by at most a cube's diagonal.
+/// Brute force keeps the point nearest to the origin per 10 cm cube. Thus a clearance is never
+/// below the true one and exceeds it by at most a cube's diagonal.
 TEST(WorldModel, WindowKeepsNearestPointPerCube) {
     constexpr float kEdge_m = 0.1f;
     simulation::Random random(10);
@@ -293,7 +293,7 @@ TEST(WorldModel, WindowKeepsNearestPointPerCube) {
     }
 }
 
-/// By brute force, while scans enter and leave the window.
+/// Compares with brute force as scans enter and leave the window.
 TEST(WorldModel, WindowHidesIsolatedPoints) {
     struct Point {
         Eigen::Vector3f at;
@@ -306,7 +306,7 @@ TEST(WorldModel, WindowHidesIsolatedPoints) {
     std::size_t isolated = 0, confirmed = 0;
     for (int scan = 0; scan < 60; ++scan) {
         std::vector<Eigen::Vector3f> points;
-        for (int i = 0; i < 5; ++i) {  // each in its own cube
+        for (int i = 0; i < 5; ++i) {  // each point in its own cube
             const auto cube = static_cast<float>(i) + 31;
             const auto y = static_cast<float>(random.uniform(-0.6, 0.6));
             const auto z = static_cast<float>(random.uniform(1.0, 1.6));
@@ -339,7 +339,7 @@ TEST(WorldModel, WindowHidesIsolatedPoints) {
     EXPECT_GT(confirmed, 100u);
 }
 
-/// Whole scans, or five updates per turn.
+/// Updates with whole scans, or five times per turn.
 TEST(WorldModel, WindowForgetsAfterElevenTurns) {
     for (const std::string name : {"W-RoI", "W-Full"}) {
         for (const int per_turn : {1, 5}) {
@@ -382,7 +382,7 @@ TEST(WorldModel, RaysClearMovedObstacles) {
     }
 }
 
-// The wall is at x = 5.1 m, 8 m wide.
+// The wall at x = 5.1 m is 8 m wide.
 TEST(SeenDirections, FreePlacesHaveFartherReturns) {
     using Place = SeenDirections::Place;
     const View view = viewOf(scanOf(wall()));
@@ -395,7 +395,7 @@ TEST(SeenDirections, FreePlacesHaveFartherReturns) {
     EXPECT_EQ(placeAt(5.4f, 0.1f), Place::NotFree);
     EXPECT_EQ(placeAt(-2, 0.1f), Place::Unknown);
     EXPECT_EQ(placeAt(2, 4), Place::Unknown) << "beside the wall";
-    // A pole in front of the wall: rays close beside it may have passed it.
+    // A pole is in front of the wall: rays close to the pole may have passed it.
     auto points = wall();
     for (float z = 0; z < 2; z += 0.05f) points.emplace_back(3, 0.2f, z);
     const View past_pole = viewOf(scanOf(points));
@@ -433,7 +433,7 @@ TEST(WorldModel, BytesMatchHeap) {
     for (const std::string& name : modelsThatLearn()) {
         simulation::Random random(5);
         const auto first = makeWorldModel(name, setting());
-        first->update(scanOf(sparsePoints(random, 3000)));  // allocates what all models share
+        first->update(scanOf(sparsePoints(random, 3000)));  // allocates memory shared by all models
         const std::size_t before = heap();
         const auto model = makeWorldModel(name, setting());
         for (int i = 0; i < 12; ++i) model->update(scanOf(sparsePoints(random, 3000)));
@@ -454,7 +454,7 @@ TEST(WorldModel, OraclesReturnTrueClearance) {
     EXPECT_THROW(makeWorldModel("oracle", {kBounds, nullptr, {}}), std::invalid_argument);
     EXPECT_FLOAT_EQ(1.5f, model->clearanceAfter_m({3.5f, 0, 0}, 1)) << "assumes a static world";
     EXPECT_EQ(0, model->fastest_m_s());
-    // The wall at x = 5 m comes closer at 1 m/s.
+    // The wall at x = 5 m approaches at 1 m/s.
     const auto predicts = makeWorldModel("oracle+motion", setting());
     EXPECT_FLOAT_EQ(1.5f, predicts->clearanceAfter_m({3.5f, 0, 0}, 0));
     EXPECT_FLOAT_EQ(0.5f, predicts->clearanceAfter_m({3.5f, 0, 0}, 1));
@@ -493,13 +493,13 @@ TEST(WorldModel, AcceptsDisplayNames) {
         EXPECT_EQ(worldModelFrom(name), name);
         EXPECT_EQ(worldModelFrom(shown), name);
         EXPECT_THAT(worldModelList(), HasSubstr(name + " (" + shown + ")"));
-        EXPECT_THROW(needsLabels(shown), std::invalid_argument);  // no key
+        EXPECT_THROW(needsLabels(shown), std::invalid_argument);  // display names are not keys
     }
     EXPECT_EQ(worldModelFrom("Full window"), "W-Full");
     EXPECT_EQ(worldModelFrom("OctoMap"), "OctoMap");
 }
 
-/// MRPT's grid rounds its size; floats become too coarse for its cells.
+/// MRPT's grid rounds its size, and floats become too coarse for its cells.
 TEST(GridAtFarPlaces, RejectsBoundsBeyondFloatPrecision) {
     for (const float far_m : {1e3F, 5e4F, 1.9e5F}) {
         const Eigen::Vector3f there(far_m, -far_m, 0);

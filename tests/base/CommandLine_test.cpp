@@ -18,7 +18,7 @@ struct Ran {
     std::string err;
 };
 
-/// Runs a program with -i, with -c, which may be repeated, and with -q, which has no value.
+/// Runs a program with the flags -i, -c (repeatable) and -q (without a value).
 Ran runWith(std::vector<std::string> words) {
     words.insert(words.begin(), "program");
     std::vector<char*> argv;
@@ -62,7 +62,6 @@ TEST(CommandLine, ChecksMemoryLimit) {
     EXPECT_EQ(runWith({"--memory-limit", "many"}).exit_code, kWrongUsage);
 }
 
-/// The output of guarded() on standard error.
 std::string guardedErrorOf(int (*program)(int, char**)) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(guarded(0, nullptr, program), kFailed);

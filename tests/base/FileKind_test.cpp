@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Bytes that are not text, behind a magic number.
+/// Non-text bytes after a magic number.
 const std::string kRest = std::string("\0\1\2\x80", 4) + std::string(600, '\x91');
 
 TEST(FileKind, RecognisesMagicNumbers) {

@@ -21,7 +21,7 @@ TEST(Json, ReplacesInvalidUtf8) {
     EXPECT_EQ(dumpJson("\xff"), "\"\xEF\xBF\xBD\"");
 }
 
-TEST(Json, ReportsLocationOfSyntaxError) {
+TEST(Json, ReportsSyntaxErrorLocation) {
     EXPECT_THAT(errorOf("{\n \"a\": 1,\n  b: 2}"),
                 StartsWith("is not valid JSON: parse error at line 3, column 3: "));
     EXPECT_THAT(errorOf("{\"a\": 1}\n}"), HasSubstr("line 2, column 1"));

@@ -68,7 +68,7 @@ TEST_F(OutputPathTest, NumbersPartialNames) {
     EXPECT_EQ(test::readFile(folder_ / "a.partial.rawlog"), "a.partial.rawlog");
 }
 
-TEST_F(OutputPathTest, FindsPartialOutputsOfEarlierRuns) {
+TEST_F(OutputPathTest, FindsPartialOutputsFromEarlierRuns) {
     const fs::path directory = folder_ / "out.v2";
     for (const fs::path& none : {file_, fs::path(), folder_ / "none/a.rawlog"}) {
         EXPECT_THAT(partialOutputs(none), IsEmpty());
@@ -85,15 +85,15 @@ TEST_F(OutputPathTest, FindsPartialOutputsOfEarlierRuns) {
     EXPECT_EQ(partialOutputs(directory.string() + "/"), partialOutputs(directory));
 }
 
-TEST_F(OutputPathTest, FindsTemporaryFilesOfEndedProcesses) {
+TEST_F(OutputPathTest, FindsStaleTemporaryFiles) {
     const auto of = [&](const std::string& process) {
         return folder_.write("a.rawlog.tmp-" + process + "-0123456789abcdef", "half");
     };
-    of("1");  // still running
+    of("1");  // the process is still running
     of("x");
     EXPECT_THAT(partialOutputs(file_), IsEmpty());
     const fs::path ended = of("999999999");
-    const fs::path reused = of(std::to_string(getpid()));  // of an earlier run in a container
+    const fs::path reused = of(std::to_string(getpid()));  // left by an earlier run in a container
     EXPECT_THAT(partialOutputs(file_), testing::UnorderedElementsAre(ended, reused));
     EXPECT_THAT(leftBehind({file_, folder_ / "b"}), HasSubstr(ended.string()));
     EXPECT_EQ(leftBehind({folder_ / "b"}), "");
@@ -129,7 +129,7 @@ TEST_F(OutputPathTest, KeepsFolderThatAppearsMeanwhile) {
     folder_.write("scans/precious", "theirs");
     EXPECT_THAT(test::messageOf([&] { output.commit(); }), HasSubstr("scans.partial"));
     EXPECT_EQ(test::readFile(folder_ / "scans/precious"), "theirs");
-    EXPECT_EQ(output.keepPartial(), folder_ / "scans.partial");  // already
+    EXPECT_EQ(output.keepPartial(), folder_ / "scans.partial");  // kept already
 }
 
 TEST_F(OutputPathTest, MessagesNameOutputsNotTemporaryFiles) {
@@ -158,9 +158,9 @@ TEST_F(OutputPathTest, WriteErrorsIncludeReason) {
     };
     EXPECT_EQ(errorAt(folder_.path()), "named.csv: cannot be written: Is a directory");
     EXPECT_EQ(errorAt("/dev/full"), "named.csv: cannot be written: No space left on device");
-    std::ofstream out("/dev/full");  // full before it is closed
+    std::ofstream out("/dev/full");  // the disk is full before the stream is closed
     out << std::string(100000, 'x') << std::flush;
-    errno = EACCES;  // set by a later call
+    errno = EACCES;  // overwritten by a later call
     EXPECT_EQ(test::messageOf([&] { closeWritten(out, "named.csv"); }),
               "named.csv: cannot be written: No space left on device");
     EXPECT_EQ(errorAt(folder_ / "a.csv"), "");

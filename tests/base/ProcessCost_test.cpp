@@ -33,7 +33,7 @@ TEST(ProcessCost, WaitingProcessUsesNoCpuTime) {
     }
     char sent = 0;
     ASSERT_EQ(read(pipe[0], &sent, 1), 1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // until the child waits
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the child starts waiting
     const auto used = cpuTimeOf(child);
     EXPECT_GE(used, std::chrono::milliseconds(20));
     EXPECT_EQ(cpuTimeOf(child), used);

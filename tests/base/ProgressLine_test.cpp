@@ -14,7 +14,7 @@
 namespace hagen::base {
 namespace {
 
-/// The output on standard error if that is a terminal.
+/// The output to standard error if it is a terminal.
 std::string onTerminal(const std::function<void()>& write) {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) {

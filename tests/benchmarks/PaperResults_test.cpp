@@ -102,7 +102,7 @@ TEST(Rows, PaperRowUsesPaperStagesOnly) {
     }
 }
 
-// The tuning's seeds are never scored.
+// Seeds used for tuning are never scored.
 TEST(DataSets, UseGivenSeeds) {
     for (const DataSet& set : dataSets("", "data", {{101, 102}, 3})) {
         ASSERT_FALSE(set.flights.empty()) << set.name;
@@ -158,7 +158,7 @@ evaluation::ScanScores scanOf(std::size_t folder, std::int64_t right, std::int64
     return scan;
 }
 
-/// Two drives, with two scans and one, and two degradations.
+/// Results of two drives (two scans and one scan) and two degradations.
 Measured twoDrives() {
     Measured measured;
     measured.set.name = "real, 16 beams";
@@ -258,7 +258,7 @@ class PaperResults : public test::ProgramTest {
     }
 };
 
-TEST_F(PaperResults, RejectsWrongUsage) {
+TEST_F(PaperResults, RejectsInvalidArguments) {
     expectFailure({}, 2, "--output");
     expectFailure({"-o", (folder_ / "none").string()}, 2, "none");
     expectFailure({"-o", folder_.path(), "--beta", "5"}, 2, "--beta");
@@ -301,7 +301,7 @@ TEST_F(PaperResults, KeepsExistingOutputs) {
     expectFailure({"-o", folder_.path(), "--overwrite"}, 1, "holiday.svg");
 }
 
-TEST(ReproducePaper, RejectsWrongUsage) {
+TEST(ReproducePaper, RejectsInvalidArguments) {
     const std::string script = HAGEN_SOURCE_DIR "/scripts/reproduce-paper";
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"--fast"}, {"--data"}, {"--quick", "results.md"}}) {

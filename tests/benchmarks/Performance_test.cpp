@@ -78,7 +78,7 @@ TEST(StageRows, HaveExpectedNames) {
     }
 }
 
-/// The document with these rows.
+/// A document with a few rows.
 Performance small() {
     Performance p;
     for (const char* sensor : {"VLP-16", "16 x 435", "16 x 870", "16 x 1740", "16 x 3480",

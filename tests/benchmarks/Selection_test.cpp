@@ -24,15 +24,15 @@ const fs::path kConfig = HAGEN_SOURCE_DIR "/config";
 
 constexpr std::int64_t kReturns = 100000;
 
-/// Counts with this F1 in both classes: equal numbers of misses and false alarms.
+/// Counts with this F1 in both classes; misses equal false alarms.
 Counts countsOf(double f1, std::int64_t missed = 0) {
     const auto wrong = std::llround((1 - f1) * kReturns);
     const evaluation::ClassScore score{kReturns - wrong, wrong, wrong};
     return {{score, score}, {missed, kReturns}};
 }
 
-/// Two settings of five values each, and three drives: the F1 of a drive falls with the squared
-/// distance from its own best values.
+/// Two settings with five values each, and three drives. The F1 of a drive falls with the squared
+/// distance from its own optimum.
 const std::vector<Setting> kSettings{{"a", {"0", "1", "2", "3", "4"}},
                                      {"b", {"0", "1", "2", "3", "4"}}};
 const std::vector<ScanSet> kDrives{
@@ -73,7 +73,7 @@ Choice bruteForce(const std::string& left_out) {
 }
 
 TEST(Objective, AveragesBothClasses) {
-    // Two sets of one vote are summed first: a vote counts once, however large its sets are.
+    // Sets with the same vote are summed first: each vote has the same weight, whatever its size.
     const std::vector<ScanSet> sets{{"rain", "x", Group::Hard, true},
                                     {"rain", "y", Group::Hard, true},
                                     {"flights", "", Group::Simulated, true}};
@@ -87,7 +87,7 @@ TEST(Objective, AveragesBothClasses) {
     const double rain = (0.5 + 2.0 / 3) / 2;
     EXPECT_DOUBLE_EQ(objectiveOf(sets, {rain_x, rain_y, flights}, ""), (rain + 0.9) / 2);
     EXPECT_DOUBLE_EQ(objectiveOf(sets, {rain_x, rain_y, flights}, "y"), (1 + 0.9) / 2);
-    // A vote without scored returns does not count.
+    // A vote without scored returns is ignored.
     EXPECT_DOUBLE_EQ(objectiveOf(sets, {{}, {}, flights}, ""), 0.9);
 }
 
@@ -112,7 +112,7 @@ TEST(Folds, LeaveOutEachDriveOnce) {
                 ElementsAre("00", "07"));
 }
 
-TEST(Descend, FindsOptimumOfTrainingScans) {
+TEST(Descend, FindsTrainingOptimum) {
     CachedMeasure measure(bowls);
     for (const std::string left_out : {"", "x", "y", "z"}) {
         const Descended d = descend(kSettings, {2, 2}, kAny, kDrives, measure, left_out, 10);
@@ -121,13 +121,13 @@ TEST(Descend, FindsOptimumOfTrainingScans) {
         EXPECT_DOUBLE_EQ(d.objective, objectiveOf(kDrives, bowls(d.choice), left_out));
         EXPECT_LE(d.rounds, 2);  // the settings do not depend on each other
     }
-    // The left-out drive matters: the optimum of z is far from the others.
+    // Leaving out a drive matters: the optimum of z is far from the others.
     EXPECT_EQ(descend(kSettings, {2, 2}, kAny, kDrives, measure, "z", 10).choice, (Choice{0, 3}));
     EXPECT_NE(descend(kSettings, {2, 2}, kAny, kDrives, measure, "x", 10).choice, (Choice{0, 3}));
 }
 
 TEST(Descend, RepeatsForDependentSettings) {
-    // A diagonal valley, by hand: (0, 0), (1, 2), (3, 4), (4, 4).
+    // A diagonal valley; the descent visits (0, 0), (1, 2), (3, 4), (4, 4).
     const auto valley = [](const Choice& c) {
         const double a = static_cast<double>(c[0]), b = static_cast<double>(c[1]);
         return std::vector<Counts>{
@@ -141,7 +141,7 @@ TEST(Descend, RepeatsForDependentSettings) {
     EXPECT_EQ(within(1).choice, (Choice{1, 2}));
     EXPECT_EQ(within(2).choice, (Choice{3, 4}));
     EXPECT_EQ(within(20).choice, (Choice{4, 4}));
-    EXPECT_EQ(within(20).rounds, 4);  // the last one changes nothing
+    EXPECT_EQ(within(20).rounds, 4);  // the last round changes nothing
 }
 
 TEST(Descend, KeepsValuesWithoutGain) {
@@ -158,7 +158,7 @@ const std::vector<ScanSet> kGroupsOfSets{{"real", "x", Group::Real, true},
                                          {"other", "y", Group::Real, true},
                                          {"flights", "", Group::Simulated, true}};
 
-/// The optimum, (4, 4), misses more than (0, 0) in the flights, and less in x.
+/// Compared with (0, 0), the optimum (4, 4) misses more in the flights and less in x.
 std::vector<Counts> trade(const Choice& choice) {
     const double f1 = bowl(choice, {4, 4});
     const std::int64_t more = choice[0] > 2 ? 5 : 0;
@@ -197,7 +197,7 @@ TEST(CachedMeasure, MeasuresChoicesOnce) {
     EXPECT_LE(calls, 25);
 }
 
-// Student's t of four values: the mean +- 3.182 standard errors.
+// Student's t for four values: mean +- 3.182 standard errors.
 TEST(MeanOverDrives, HasStudentInterval) {
     const MeanInterval interval = meanOverDrives({0.9, 0.92, 0.94, 0.96});
     EXPECT_DOUBLE_EQ(interval.mean, 0.93);
@@ -238,7 +238,7 @@ TEST(Plan, IncludesCurrentValues) {
                 HasSubstr("beta_deg is 11 in"));
 }
 
-TEST(Plan, PlainStartHasOwnValues) {
+TEST(Plan, PlainStartUsesOwnValues) {
     test::TemporaryFolder folder;
     Plan plan = readPlan(folder.write(
         "plan.yaml",
@@ -289,7 +289,7 @@ Record twoDrives() {
                         {{"", {"10"}, 0.9, 0.91, {3, 2, 1}, {2, 2, 1}, {3, 2, 1}, 2},
                          {"02", {"5"}, 0.9, 0.92, {3, 2, 1}, {2, 2, 1}, {3, 2, 1}, 2}}},
                        {"a plain start", {}}};
-    // By search: from the presets, from a plain start.
+    // Scores of each search: from the presets, and from a plain start.
     record.scores = {{"real",
                       "00",
                       countsOf(0.95, 3),
@@ -328,9 +328,9 @@ TEST(Record, ReportsBrokenFiles) {
 TEST(SelectionTables, ListHeldOutScoresFirst) {
     const std::string text = scoreTable(twoDrives());
     EXPECT_THAT(text, HasSubstr("0.900 / 0.900"));
-    EXPECT_THAT(text, HasSubstr("**0.910 / 0.910**"));  // the mean, held out
-    EXPECT_THAT(text, HasSubstr("0.783 to 1.000"));     // 0.91 +- 12.706 * 0.01, at most 1
-    EXPECT_THAT(text, HasSubstr("0.955 / 0.955"));      // the mean of the current settings
+    EXPECT_THAT(text, HasSubstr("**0.910 / 0.910**"));  // held-out mean
+    EXPECT_THAT(text, HasSubstr("0.783 to 1.000"));     // 0.91 +- 12.706 * 0.01, clipped at 1
+    EXPECT_THAT(text, HasSubstr("0.955 / 0.955"));      // mean of the current settings
     EXPECT_THAT(text, HasSubstr("14 of 200000 (0.01 %)"));
     EXPECT_THAT(text, ContainsRegex("from a plain start.. +\\| ..0.820 / 0.820"));
     EXPECT_LT(text.find("held out"), text.find("in-sample"));
@@ -343,7 +343,7 @@ TEST(SelectionTables, ListHeldOutScoresFirst) {
 
 // ---- the programs
 
-TEST(SelectSettings, RejectsWrongUsage) {
+TEST(SelectSettings, RejectsInvalidArguments) {
     test::TemporaryFolder folder;
     const std::string output = (folder / "selection.json").string();
     const std::vector<std::string> common{"-o",          output,     "--data",

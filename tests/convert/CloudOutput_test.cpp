@@ -35,7 +35,7 @@ class CloudOutputTest : public test::PoleConversion,
     PointTable labelled(const std::string& name) const {
         return recordings::readCloud(conversion_.clouds / (name + extensionOf(GetParam()))).table;
     }
-    /// The scan with more fields: `ring`, `t`, `range_mm` (of the return), `label`.
+    /// The scan with additional fields: `ring`, `t`, `range_mm`, `label`.
     PointTable tableOfScan() const {
         PointTable table = observations::tableOf(observed_.scan);
         const Scan& scan = observed_.scan;
@@ -130,7 +130,7 @@ TEST_P(CloudOutputTest, KeepsPointsWithoutReturns) {
     EXPECT_THAT(column(labelled("18"), "y"), AllOf(Contains(7), Contains(8)));
 }
 
-TEST_P(CloudOutputTest, WritesRingsAndTimesOfPackets) {
+TEST_P(CloudOutputTest, WritesPacketRingsAndTimes) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "lidar")});
     convertCounting();
     const PointTable output = labelled("000000");
@@ -140,7 +140,7 @@ TEST_P(CloudOutputTest, WritesRingsAndTimesOfPackets) {
     EXPECT_EQ(column(output, "time"), std::vector<double>(scan.time_s.begin(), scan.time_s.end()));
 }
 
-TEST_P(CloudOutputTest, WritesNoRingsOfClouds) {
+TEST_P(CloudOutputTest, OmitsRingsForClouds) {
     conversion_.input = writeRawlog(
         {observations::observationOf(observed_.scan, "lidar", mrpt::Clock::fromDouble(1))});
     convertCounting();

@@ -61,7 +61,7 @@ class ConversionTest : public testing::TestWithParam<std::size_t> {
         return folder_ / "in.rawlog";
     }
 
-    /// Class or label of each entry; those of a sensory frame in brackets.
+    /// Class or label of each entry; the contents of a sensory frame are in brackets.
     static std::vector<std::string> entriesOf(const fs::path& file) {
         std::vector<std::string> names;
         recordings::RawlogReader reader(file);
@@ -100,7 +100,6 @@ class ConversionTest : public testing::TestWithParam<std::size_t> {
         return listener;
     }
 
-    /// Writes the log as a scan folder.
     void convertToFolder(const std::string& name) {
         Conversion to_folder = conversion();
         to_folder.rawlog.clear();
@@ -172,7 +171,7 @@ TEST_P(ConversionTest, ReproducesOwnOutput) {
 }
 
 TEST_P(ConversionTest, KeepsResultsOfOtherScans) {
-    writeLog({scanFrom(0, "front"), scanFrom(0, "rear")});  // at the same time
+    writeLog({scanFrom(0, "front"), scanFrom(0, "rear")});  // at equal times
     Conversion first = conversion();
     first.preview = true;
     convert(first);
@@ -240,7 +239,7 @@ TEST_P(ConversionTest, ConvertsScanFolder) {
               test::readFile(folder_ / "scans/velodyne/000042.bin"));
 }
 
-TEST_P(ConversionTest, PrefersBeamsOfRecording) {
+TEST_P(ConversionTest, PrefersBeamsFromRecording) {
     fs::create_directories(folder_ / "scans/velodyne");
     recordings::writeScan(folder_ / "scans/velodyne/000000.bin",
                           test::scanScene({}, sensorModel("HDL-32E"), 100, {0, 0, 2}).scan);
@@ -255,7 +254,7 @@ TEST_P(ConversionTest, PrefersBeamsOfRecording) {
     EXPECT_EQ(written.sensorModel().rows(), 32);
 }
 
-/// The scans of these observations as clouds, each without its sensor.
+/// The scans of these observations as clouds that do not name their sensor.
 std::vector<mrpt::serialization::CSerializable::Ptr> cloudsOf(
     const std::vector<CObservation::Ptr>& scans) {
     std::vector<mrpt::serialization::CSerializable::Ptr> clouds;
@@ -295,12 +294,12 @@ TEST_P(ConversionTest, LabelsCloudsLikeTheirPackets) {
     }
 }
 
-TEST(Conversion, LabelsOfCloudsDoNotDependOnThreads) {
+TEST(Conversion, CloudLabelsDoNotDependOnThreads) {
     const test::TemporaryFolder folder;
     std::vector<CObservation::Ptr> scans;
     for (int i = 0; i < 12; ++i) scans.push_back(scanFrom(0.3 * i, i % 3 == 0 ? "rear" : "front"));
     auto clouds = cloudsOf(scans);
-    // The first cloud of each label has only three beams, too few to identify a model.
+    // The first cloud of each label has only three beams, too few to recover a model.
     for (const std::size_t first : {0, 1}) {
         auto& points = *dynamic_cast<CObservationPointCloud&>(*clouds[first]).pointcloud;
         std::vector<bool> is_deleted;
@@ -330,12 +329,12 @@ TEST(Conversion, LabelsOfCloudsDoNotDependOnThreads) {
     };
     const auto alone = converted(1, 0, 11);
     EXPECT_EQ(converted(4, 0, 11).first, alone.first);
-    // The labels do not depend on the converted range either.
+    // Labels do not depend on the converted range either.
     EXPECT_EQ(converted(2, 0, 0).second.front().roi, alone.second.front().roi);
     EXPECT_EQ(converted(2, 6, 11).second.back().roi, alone.second.back().roi);
 }
 
-TEST_P(ConversionTest, KeepsPosesOfScanFolder) {
+TEST_P(ConversionTest, KeepsPosesFromScanFolder) {
     fs::create_directories(folder_ / "scans/velodyne");
     const Scan scan = test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan;
     recordings::writeScan(folder_ / "scans/velodyne/000000.bin", scan);
@@ -351,7 +350,7 @@ TEST_P(ConversionTest, KeepsPosesOfScanFolder) {
     EXPECT_NEAR((poses[1] - mrpt::poses::CPose3D(0, -5, 0, 0, 0, 0)).norm(), 0.0, 1e-9);
 }
 
-TEST_P(ConversionTest, KeepsPosesOfLog) {
+TEST_P(ConversionTest, KeepsPosesFromLog) {
     const auto poseAt = [](double x_m) {
         auto observation = mrpt::obs::CObservationRobotPose::Create();
         observation->sensorLabel = "pose";
@@ -359,7 +358,7 @@ TEST_P(ConversionTest, KeepsPosesOfLog) {
         observation->pose.mean = mrpt::poses::CPose3D(x_m, 0, 2, 0, 0, 0);
         return observation;
     };
-    // The second scan's time lies between two poses; the later one comes after the scan in the log.
+    // The second scan lies between two poses; the later one follows the scan in the log.
     writeLog({poseAt(0), scanFrom(0), poseAt(0.05), scanFrom(0.1), poseAt(0.15), poseAt(0.25),
               scanFrom(3), scanFrom(4)});
     Conversion posed = conversion();
@@ -370,7 +369,7 @@ TEST_P(ConversionTest, KeepsPosesOfLog) {
     const auto poses = recordings::readTumPoses(folder_ / "scans/poses.tum");
     ASSERT_EQ(poses.size(), 2u);
     EXPECT_NEAR(poses[1].pose.x(), 0.1, 1e-6);
-    // One remark for each scan without a pose near its time.
+    // One remark per scan without a nearby pose.
     ASSERT_EQ(remarks.size(), 2u);
     EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
     EXPECT_EQ(remarks[1].rfind("entry 7 (lidar): no pose", 0), 0u) << remarks[1];
@@ -415,8 +414,8 @@ TEST_P(ConversionTest, ReportsMissingPosesWithoutHorizon) {
     EXPECT_FALSE(fs::exists(folder_ / "scans/poses.txt"));
 }
 
-/// A mount in the log and one in the settings lead to the same poses and results.
-TEST_P(ConversionTest, AppliesMountOfSettings) {
+/// A mount in the log and a mount in the settings lead to equal poses and results.
+TEST_P(ConversionTest, AppliesMountFromSettings) {
     const mrpt::poses::CPose3D mount(0, 0, 0, 0, radians(-20), radians(180));
     const auto converted = [&](bool is_recorded, const std::string& name) {
         std::vector<mrpt::serialization::CSerializable::Ptr> entries;
@@ -446,7 +445,7 @@ TEST_P(ConversionTest, AppliesMountOfSettings) {
     const auto recorded = converted(true, "recorded"), set = converted(false, "set");
     EXPECT_LT((recorded.asVectorVal() - set.asVectorVal()).norm(), 1e-5);
     EXPECT_EQ(test::readFile(folder_ / "recorded.bt"), test::readFile(folder_ / "set.bt"));
-    // Read again, the poses contain the mount of sensor.yaml.
+    // When read again, the poses include the mount of sensor.yaml.
     Conversion again = nothing();
     again.input = folder_ / "set";
     again.folder = folder_ / "again";
@@ -500,7 +499,7 @@ TEST_P(ConversionTest, RejectsExternalRotatingScan) {
     scan.rangeResolution = 0.01;
     scan.rangeImage.setZero(3, 4);
     std::string bytes = test::bytesOf(scan);
-    bytes.resize(bytes.size() - 1 - (4 + 2 * 12 + 4 + 2));  // up to the images
+    bytes.resize(bytes.size() - 1 - (4 + 2 * 12 + 4 + 2));  // remove the images at the end
     bytes += '\1' + test::little32(8) + "scan.bin" + '\x88';
     test::writeBytes(folder_ / "in.rawlog", test::bytesOf(*pose()) + bytes);
     const std::string why = test::messageOf([&] { convert(conversion()); });
@@ -528,7 +527,7 @@ TEST_P(ConversionTest, ReportsUnreadableScan) {
               (std::vector<std::string>{"pose", "lidar", "lidar", "lidar_roi", "lidar_non_roi"}));
 }
 
-/// The limits are from the recording; invalid limits in the settings would end the conversion.
+/// The limits come from the recording; invalid limits in the settings would end the conversion.
 TEST_P(ConversionTest, ReportsScanWithInvalidLimits) {
     const double nan = std::nan("");
     for (const auto& [min_m, max_m] : {std::pair{2.0, 1.0}, {nan, 100.0}, {0.0, nan}}) {
@@ -551,7 +550,7 @@ TEST_P(ConversionTest, ReportsScanWithInvalidLimits) {
     }
 }
 
-TEST_P(ConversionTest, KeepsPartialOutputOfBrokenLog) {
+TEST_P(ConversionTest, KeepsPartialOutputFromBrokenLog) {
     writeLog({scanFrom(0), scanFrom(1), scanFrom(2)});
     const std::string bytes = test::readFile(folder_ / "in.rawlog");
     folder_.write("in.rawlog", bytes.substr(0, bytes.size() / 2));
@@ -567,7 +566,7 @@ TEST_P(ConversionTest, KeepsPartialOutputOfBrokenLog) {
               (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi"}));
 }
 
-TEST_P(ConversionTest, KeepsPartialOutputOfBrokenFolder) {
+TEST_P(ConversionTest, KeepsPartialOutputFromBrokenFolder) {
     writeLog({scanFrom(0), scanFrom(1)});
     convertToFolder("scans.v1");
     folder_.write("scans.v1/velodyne/000001.bin", "cut");
@@ -728,7 +727,7 @@ TEST_P(ConversionTest, KeepsPartialOutputOnInterrupt) {
     EXPECT_EQ(entriesOf(folder_ / "out.partial.rawlog").size(), 4u);
 }
 
-TEST_P(ConversionTest, KeepsTimesOfScanFolder) {
+TEST_P(ConversionTest, KeepsTimesFromScanFolder) {
     writeLog({scanFrom(0)});
     convertToFolder("scans");
     folder_.write("scans/times.txt", "7.25\n");
@@ -780,7 +779,7 @@ TEST_P(ConversionTest, RejectsExistingOutput) {
 }
 
 TEST_P(ConversionTest, StopsAtUnsuitableSettings) {
-    // A cloud uses the settings' sensor; packets have 16 beams, too few for this window.
+    // For a cloud, the settings name the sensor; packets have 16 beams, too few for this window.
     Scan scan;
     scan.x_m = {5, 6};
     scan.y_m = scan.z_m = {0, 1};
@@ -836,7 +835,7 @@ TEST_P(ConversionTest, ReportsProgressPerEntry) {
 
 INSTANTIATE_TEST_SUITE_P(Threads, ConversionTest, testing::Values(1, 4));
 
-/// All callbacks and files of a conversion with `jobs` threads.
+/// All callback arguments and files of a conversion with `jobs` threads.
 std::string outputsOf(Conversion conversion, const test::TemporaryFolder& folder,
                       std::size_t jobs) {
     conversion.jobs = jobs;

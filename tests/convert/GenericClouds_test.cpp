@@ -38,7 +38,7 @@ CObservationPointCloud::Ptr asCloud(const mrpt::serialization::CSerializable::Pt
     return cloud;
 }
 
-/// The other fields of a cloud read as a generic cloud.
+/// The additional fields of a cloud read as a generic cloud.
 const PointTable& fieldsOf(const CObservationPointCloud& observation) {
     static const PointTable none;
     const PointTable* const fields = observations::otherFieldsOf(*observation.pointcloud);
@@ -98,7 +98,7 @@ TEST_F(GenericClouds, KeepFieldsInResults) {
         EXPECT_THAT(column(fields, "color_g"), Each(color.G));
         EXPECT_THAT(column(fields, "color_b"), Each(color.B));
 
-        // The points of the labelled cloud with this label, in their order.
+        // Points with this label, in the order of the labelled cloud.
         const auto labels = column(all, "label");
         for (const auto& [name, in_cloud] :
              {std::pair{"obstacle", "obstacle"}, {"ring", "ring"}, {"t", "time"}}) {
@@ -120,7 +120,7 @@ TEST_F(GenericClouds, ReproduceOwnOutput) {
     convert(conversion_);
     expectSameAgain();
 
-    conversion_.settings.options.zone_m = 0.2f;  // all returns are farther
+    conversion_.settings.options.zone_m = 0.2f;  // all returns are beyond the zone
     conversion_.settings.options.context_m = 0.3f;
     conversion_.overwrite = true;
     conversion_.preview = false;
@@ -128,7 +128,7 @@ TEST_F(GenericClouds, ReproduceOwnOutput) {
     expectSameAgain();
 }
 
-TEST_F(GenericClouds, KeepFieldsOfFiles) {
+TEST_F(GenericClouds, KeepFieldsFromFiles) {
     observations::ObservedScan observed;
     observations::readObservation(*test::poleScanFrom(0, "lidar"), {}, observed);
     PointTable input = observations::tableOf(observed.scan);
@@ -206,8 +206,8 @@ TEST_F(GenericClouds, AreOptional) {
     }
 }
 
-// The sample was written by MRPT 3; its fields and bytes are preserved.
-TEST_F(GenericClouds, KeepCloudOfMrpt3) {
+// MRPT 3 wrote the sample; its fields and bytes are preserved.
+TEST_F(GenericClouds, KeepMrpt3Cloud) {
     const char* const folder = std::getenv("HAGEN_MRPT3_DATA");
     if (folder == nullptr) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not set (see CONTRIBUTING.md)";
     conversion_.input = fs::path(folder) / "sample_mrpt3.rawlog";

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// gnuplot's SVG of this text.
+/// The SVG that gnuplot draws of this text.
 std::string drawn(const std::string& text) {
     const test::TemporaryFolder folder;
     runGnuplot("set terminal svg\nset output 'text.svg'\nset label " + gnuplotString(text) +

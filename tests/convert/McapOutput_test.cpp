@@ -29,7 +29,7 @@ using testing::Pair;
 class McapOutputTest : public test::PoleConversion, public testing::Test {
  protected:
     McapOutputTest() { conversion_.mcap = folder_ / "out.mcap"; }
-    /// The scan with two additional points that are not returns, and fields of other types.
+    /// The scan plus two points that are not returns, with fields of other types.
     PointTable tableOfScan() const {
         const PointTable scan = observations::tableOf(observed_.scan);
         PointTable table;
@@ -53,7 +53,7 @@ class McapOutputTest : public test::PoleConversion, public testing::Test {
         addColumn("label", NumberType::UInt8, numbers, table);
         return table;
     }
-    /// The clouds of a topic, read by our own reader.
+    /// The clouds of a topic, read with our own reader.
     static std::vector<mrpt::obs::CObservation::ConstPtr> cloudsOf(const fs::path& file,
                                                                    const std::string& topic) {
         recordings::SourceOptions options;
@@ -63,7 +63,7 @@ class McapOutputTest : public test::PoleConversion, public testing::Test {
         while (const auto scan = source->nextScan()) clouds.push_back(scan->observation);
         return clouds;
     }
-    /// The number of messages by topic.
+    /// The number of messages per topic.
     static std::map<std::string, int> topicsOf(const fs::path& file) {
         const auto bag = recordings::openBag(file);
         std::map<std::string, int> topics;
@@ -117,7 +117,7 @@ TEST_F(McapOutputTest, WritesReadablePointsAndFields) {
     EXPECT_THAT(remarks_, Contains(HasSubstr("'of_int64' is int64, which PointCloud2 does not")));
 }
 
-TEST_F(McapOutputTest, WritesRingsAndTimesOfPackets) {
+TEST_F(McapOutputTest, WritesPacketRingsAndTimes) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "lidar")});
     convertCounting();
     const auto clouds = cloudsOf(conversion_.mcap, "/lidar/points");
@@ -193,7 +193,7 @@ TEST_F(McapOutputTest, KeepsPartialFileOnInterrupt) {
     conversion_.input = writeRawlog({test::poleScanFrom(0, "lidar"), test::poleScanFrom(1, "lidar"),
                                      test::poleScanFrom(2, "lidar")});
     conversion_.jobs = 1;
-    // The preceding search for poses also calls keep_going.
+    // The preceding pose search also calls keep_going.
     int due = 0;
     ConversionListener counting;
     counting.keep_going = [&] { return ++due > 0; };

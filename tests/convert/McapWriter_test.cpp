@@ -39,7 +39,7 @@ std::uint64_t little(const std::string& bytes, std::size_t at, int size) {
     return number;
 }
 
-/// Bytes that do not compress.
+/// Incompressible bytes.
 Bytes noise(std::size_t size, std::uint32_t seed) {
     Bytes bytes(size);
     for (std::uint8_t& byte : bytes) {
@@ -53,7 +53,7 @@ std::string text(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
 class McapWriterTest : public testing::Test {
  protected:
-    /// Clouds that fill several chunks, poses between them, times out of order.
+    /// Writes clouds that fill several chunks, with poses between them and times out of order.
     std::vector<Read> write(const std::string& name, int messages = 12) const {
         McapWriter writer(folder_ / name, name);
         const std::uint16_t clouds = writer.addTopic("/a/points", pointCloud2Type());
@@ -89,7 +89,7 @@ TEST_F(McapWriterTest, WritesReproducibleBytes) {
     EXPECT_TRUE(bytesOf("a.mcap") == bytesOf("b.mcap"));
 }
 
-/// Topic IDs have 16 bits and are not 0.
+/// Topic IDs are non-zero 16-bit numbers.
 TEST_F(McapWriterTest, LimitsTopicsTo16Bits) {
     McapWriter writer(folder_ / "a.mcap", "a.mcap");
     for (int topic = 1; topic <= 65535; ++topic) {
@@ -103,8 +103,8 @@ TEST_F(McapWriterTest, WritesFileWithoutMessages) {
     EXPECT_TRUE(readAll(folder_ / "a.mcap").empty());
 }
 
-/// Follows the footer to the summary, its chunk indices to the message indices, and these to the
-/// times of the messages, byte by byte as specified.
+/// Follows the footer to the summary, the chunk indices to the message indices, and these to the
+/// message times, byte by byte as specified.
 TEST_F(McapWriterTest, IndexesEveryMessage) {
     const auto written = write("a.mcap");
     const std::string bytes = bytesOf("a.mcap");
@@ -117,7 +117,7 @@ TEST_F(McapWriterTest, IndexesEveryMessage) {
         kinds.push_back(bytes[at]);
         const std::size_t content = at + 9;
         at = content + little(bytes, at + 1, 8);
-        if (kinds.back() == 4) {  // a channel: numbers, topic, encoding and an empty map
+        if (kinds.back() == 4) {  // a channel: two IDs, topic, encoding and an empty map
             std::size_t map = content + 4;
             for (int text = 0; text < 2; ++text) map += 4 + little(bytes, map, 4);
             EXPECT_EQ(little(bytes, map, 4), 0u);
@@ -193,7 +193,7 @@ TEST_F(McapWriterTest, ReportsWriteError) {
                 StartsWith("out.mcap: cannot be written"));
 }
 
-// Messages, compared with the tests' own writer.
+// ---- messages, compared with those of the tests' own writer
 
 const RosHeader kAt{1700000000250000000, "lidar"};
 constexpr double kAt_s = 1700000000.25;

@@ -1,4 +1,4 @@
-// The order of the steps, for any number of threads.
+// The order of pipeline steps for any number of threads.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST(OrderedPipeline, KeepsOrder) {
     EXPECT_TRUE(seen.written.empty());
 }
 
-/// The first exception ends the pipeline; the items written by then are an ordered prefix.
+/// The first exception ends the pipeline; the items written before form an ordered prefix.
 TEST(OrderedPipeline, StopsAtException) {
     for (const std::size_t threads : {1, 2, 8}) {
         for (int step = 0; step < 5; ++step) {

@@ -59,7 +59,7 @@ TEST(ScanFolderWriter, WritesReadableFolder) {
     EXPECT_EQ(settings.sensorModel().max_range_m, sensor.max_range_m);
 }
 
-/// Scans may be written in a different order than that of their names.
+/// Scans may be written in an order other than that of their names.
 TEST(ScanFolderWriter, OrdersTimesAndPosesByName) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path());
@@ -75,7 +75,7 @@ TEST(ScanFolderWriter, OrdersTimesAndPosesByName) {
     EXPECT_NEAR(recordings::readKittiPoses(read.kittiPosesFile()).at(1).x(), -10, 1e-9);
 }
 
-TEST(ScanFolderWriter, KeepsMountOfSensor) {
+TEST(ScanFolderWriter, KeepsSensorMount) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path(), {2.5f, -0.4f});
     writer.write("000000", threePoints(), labels(), sensorModel("HDL-32E"), 50.0);

@@ -35,12 +35,12 @@ constexpr Colour kNearestObstacle = kObstacles[0];
 constexpr Colour kRou{0xA9, 0xBC, 0xCB};
 constexpr Colour kEmpty{0xE9, 0xE9, 0xE9};
 
-/// A picture read back from its file; row 0 on top.
+/// A picture read from its file; row 0 is at the top.
 struct Picture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;
 
-    /// Pixels of a colour within these shares of width and height, from the upper left corner.
+    /// Counts pixels of a colour within these fractions of width and height, from the top left.
     int count(const Colour& colour, double from_x = 0, double to_x = 1, double from_y = 0,
               double to_y = 1) const {
         int number = 0;
@@ -127,7 +127,7 @@ std::string errorOf(Action action) {
     return "no error";
 }
 
-// Positions of the full images below the legend and of the top view, as fractions of a picture.
+// Positions of the full images and of the top view as fractions of a picture, below the legend.
 constexpr double kImageTop = 0.13, kImageBottom = 0.41, kImageMiddle = 0.4913;
 constexpr double kTopViewTop = 0.095, kTopViewBottom = 0.93, kTopViewMiddle = 0.528;
 
@@ -178,7 +178,7 @@ TEST(StagePictures, DrawLeftAndForward) {
 }
 
 TEST(StagePictures, DrawLowestBeamAtBottom) {
-    SimpleScene scene;  // only ground: the upper half is empty
+    SimpleScene scene;  // ground only: the upper half is empty
     const Picture labels = Drawn(scanOf(scene)).picture("6_labels.png");
     constexpr double kMiddle = (0.12 + 0.41) / 2;
     EXPECT_EQ(labels.count(kRou, 0, 1, kImageTop, kMiddle), 0);
@@ -223,7 +223,7 @@ TEST(StagePictures, QuoteTitle) {
           std::string("Flug über Wiese, 空, not UTF-8: \xFF\xFE\xC3, zero \0 byte", 50) +
               std::string(5000, 'w')}) {
         const Drawn drawn(scan, title);
-        // Below the title, the picture does not change.
+        // Except for the title, the picture is unchanged.
         EXPECT_EQ(drawn.picture("6_labels.png").count(kRou),
                   plain.picture("6_labels.png").count(kRou))
             << title;
@@ -296,7 +296,7 @@ TEST(StagePictures, ReplaceOldPictures) {
     EXPECT_GT(readPicture(folder / "6_labels.png").width, 0);
 }
 
-/// The message of drawing a plane into a folder.
+/// The error message from drawing a plane into a folder.
 std::string errorInto(const std::filesystem::path& folder) {
     const Scan scan = scanOf({});
     HagenFilter filter(sensorModel("VLP-16"));
@@ -319,13 +319,13 @@ TEST(StagePictures, RejectMissingFolder) {
 
 TEST(StagePictures, ReportWriteError) {
     const TemporaryFolder folder;
-    // Not even root can replace a non-empty folder by a file.
+    // Not even root can replace a non-empty folder with a file.
     std::filesystem::create_directories(folder / "4_range_angle.png" / "something");
     const std::string error = errorInto(folder.path());
     EXPECT_THAT(error, HasSubstr((folder / "4_range_angle.png").string()));
 }
 
-/// Uses a script instead of gnuplot.
+/// The error message with a script instead of gnuplot.
 std::string errorWithGnuplot(const std::string& script) {
     const TemporaryFolder programs, folder;
     const auto program = programs.write("gnuplot", "#!/bin/sh\n" + script);
@@ -335,7 +335,7 @@ std::string errorWithGnuplot(const std::string& script) {
 }
 
 TEST(StagePictures, ReportTruncatedPicture) {
-    // With a full disk, the program succeeds but its files are incomplete.
+    // On a full disk, gnuplot succeeds but its files are incomplete.
     const std::string error = errorWithGnuplot(
         "for f in 1_depth 2_maxima; do printf '\\211PNG\\r\\n\\032\\nIHDR...' >$f.png; done\n");
     EXPECT_THAT(error, HasSubstr("1_depth.png could not be written completely"));
@@ -347,14 +347,14 @@ TEST(StagePictures, QuoteGnuplotErrors) {
     EXPECT_THAT(error, HasSubstr("unknown terminal"));
 }
 
-/// The commands for gnuplot without the numbers of the images.
+/// The commands for gnuplot, without the pixel data.
 std::string commandsOf(const std::function<void()>& draw) {
     const TemporaryFolder programs;
     const std::string taken = (programs / "taken").string();
     const auto program = programs.write("gnuplot", "#!/bin/sh\ncat \"$2\" >'" + taken + "'\n");
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
     const Environment path("PATH", programs.path().string() + ":/usr/bin:/bin");
-    errorOf(draw);  // there is no picture
+    errorOf(draw);  // fails, as no picture is drawn
     std::istringstream lines(test::readFile(taken));
     std::string text, end;
     for (std::string line; std::getline(lines, line);) {
@@ -369,9 +369,9 @@ std::string commandsOf(const std::function<void()>& draw) {
     return text;
 }
 
-/// The tests above check what a picture shows; this test pins each size, position, colour and text
-/// by the FNV-1a hash of the script. If a change is intended, look at the pictures, then record its
-/// hash.
+/// The tests above check what a picture shows; this test pins all sizes, positions, colours and
+/// texts by the FNV-1a hash of the script. After an intended change, check the pictures, then
+/// update the hash.
 void expectHash(std::uint64_t recorded, const std::string& commands) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : commands) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
@@ -407,7 +407,7 @@ TEST(AirframePicture, ShowsMaskedDirections) {
     const Colour farthest{0xFD, 0xE7, 0x25};
     EXPECT_GT(picture.count(farthest, 0, 0.45, 0, 0.5), 4000);
     EXPECT_EQ(picture.count(farthest, 0, 0.45, 0.5, 1), 0);
-    EXPECT_EQ(picture.count(farthest, 0.45, 0.8), 0);  // right of this: the colour scale
+    EXPECT_EQ(picture.count(farthest, 0.45, 0.8), 0);  // left of the colour scale
     EXPECT_GT(picture.count(kEmpty), 100000);
 }
 

@@ -88,7 +88,7 @@ TEST_P(WriteCloudTest, KeepsArrays) {
     table.fields[5] = {"pair", NumberType::UInt8, table.fields[0].offset, 2};
     const recordings::CloudFile cloud = writeAndRead(table);
     if (GetParam() == OutputFormat::Ply) {
-        EXPECT_THAT(column(cloud, "pair_0"), ElementsAre(2, 255));  // of 0x0102 and 0xffff
+        EXPECT_THAT(column(cloud, "pair_0"), ElementsAre(2, 255));  // from 0x0102 and 0xffff
         EXPECT_THAT(column(cloud, "pair_1"), ElementsAre(1, 255));
     } else {
         EXPECT_THAT(columnOf(cloud.table, cloud.table.fields.back(), 1), ElementsAre(1, 255));
@@ -114,7 +114,7 @@ TEST(WriteCloudNames, DistinguishManyEqualNamesInTime) {
     }
     const std::clock_t start = std::clock();
     const PointTable written = tableForPointCloud2(table);
-    // Takes 0.05 s, or a minute if the search restarts for each name.
+    // Takes 0.05 s, but a minute if the search restarts for each name.
     EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5);
     std::vector<std::string> names;
     std::set<std::string> different;
@@ -185,7 +185,7 @@ TEST(TableForPointCloud2, StartsWithAlignedCoordinates) {
     for (const auto& field : table.fields) {
         EXPECT_EQ(field.offset % bytesOf(field.type), 0u) << field.name;
     }
-    EXPECT_EQ(table.bytes_per_point, 40u);  // 12, 2 and a gap of 2, 8, 1 and a gap of 7, 8
+    EXPECT_EQ(table.bytes_per_point, 40u);  // 12, 2 and 2 of padding, 8, 1 and 7 of padding, 8
     EXPECT_EQ(findField(table, {"z"})->type, NumberType::Float32);
     EXPECT_EQ(findField(table, {"my_ring"})->type, NumberType::UInt16);
     EXPECT_EQ(findField(table, {"t"})->type, NumberType::Float64);

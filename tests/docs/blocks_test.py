@@ -1,5 +1,5 @@
-"""Every code block on the pages is checked by scripts/check-docs or has a reason not to be. Also tests the parts of that
-check that need no programs."""
+"""Every code block is checked by scripts/check-docs or has a reason for its exemption. Also tests the parts of that
+script that need no programs."""
 import sys
 import unittest
 from importlib.machinery import SourceFileLoader
@@ -25,7 +25,7 @@ class Blocks(unittest.TestCase):
                 self.assertNotEqual(check_docs.manner(block), "unknown", where)
                 self.assertNotEqual(block.notes.get("not run", "why"), None, where)
 
-    def test_blocks_of_files_match_the_files(self):
+    def test_file_blocks_match_files(self):
         for page in pages.all_pages():
             for block in pages.blocks(page):
                 if check_docs.manner(block) == "file":
@@ -53,11 +53,11 @@ class Commands(unittest.TestCase):
     def test_joins_lines_and_omits_comments(self):
         self.assertEqual(shell.commands("one --a \\\n   two\n\n# all\nthree   # rest\nfour a#b\n"), ["one --a two", "three", "four a#b"])
 
-    def test_finds_each_program_of_line(self):
+    def test_finds_each_program_in_line(self):
         self.assertEqual(shell.calls("A=1 seg -i 'a b' && sudo apt install x > log; cd y"),
                          [["seg", "-i", "a b"], ["apt", "install", "x", "log"], ["cd", "y"]])
 
-    def test_accepts_flags_of_help(self):
+    def test_accepts_flags_listed_in_help(self):
         for command in ("seg -i a --output=b", "build/release/bin/seg -i a", "compare fly --seed -1", "seg --help", "cmake --anything",
                         "scripts/check-docs --build x"):
             self.assertEqual(self.flags.faults(command), [], command)

@@ -1,4 +1,4 @@
-"""Commands in the documentation: lines of a block, their programs and flags."""
+"""Parses and checks the commands in the documentation: their programs and flags."""
 import re
 import shlex
 from pathlib import Path

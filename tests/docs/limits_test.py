@@ -1,4 +1,4 @@
-"""The table of limits in docs/reliability.md: the constants in each file have the values of the table."""
+"""Compares the table of limits in docs/reliability.md with the constants in the code."""
 import re
 import unittest
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Each link in the documentation leads to an existing page, heading, picture or file.
+"""Checks that each link in the documentation leads to an existing page, heading, picture or file.
 
 URLs are not opened. Usage: links_test.py [PAGE.md...]; default: all pages.
 """

@@ -44,7 +44,7 @@ void writeVelodyne(const fs::path& rawlog, const fs::path& folder) {
     test::writeBytes(folder / "flight.mcap", test::mcapOf(messages));
 }
 
-/// Flat ground 1.7 m below, and a surrounding wall 15 m away.
+/// Flat ground 1.7 m below the sensor, and a surrounding wall 15 m away.
 void writeHdl64(const fs::path& folder) {
     const auto lasers = test::hdl64Lasers();
     test::CaptureWriter capture;

@@ -79,12 +79,12 @@ TEST(BogoslavskyiLabels, SeparatesObstaclesFromFlatGround) {
     const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
     const std::vector<Label> labels = bogoslavskyiLabels(labelled.scan, kSensor);
     EXPECT_EQ(recall(labelled, labels, Label::Roi), 1.0);
-    // The ground row at an obstacle's foot carries the slope to the obstacle.
+    // The slope to an obstacle is stored in the ground row at its foot.
     EXPECT_GT(recall(labelled, labels, Label::Rou), 0.95);
 }
 
 TEST(BogoslavskyiLabels, SmoothsAngles) {
-    // A box's foot is a step in the angles, which smoothing spreads over its neighbours.
+    // The angles have a step at a box's foot, which smoothing spreads to its neighbours.
     SimpleScene scene;
     scene.boxes.push_back({{4.0, -3.0, 0.0}, {5.0, 3.0, 1.0}});
     const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
@@ -97,23 +97,23 @@ TEST(BogoslavskyiLabels, SmoothsAngles) {
 }
 
 TEST(BogoslavskyiLabels, StartsFromFlatLowestPixels) {
-    // A step up all around: steeper than 45 degrees at the lowest beam, so nothing starts there.
+    // A surrounding step, steeper than 45 degrees at the lowest beam, so nothing starts there.
     const Eigen::Vector3f low = at(0, 10.0, 5.0), high = at(1, 10.0, 5.0);
     std::vector<Eigen::Vector3f> column{low, high};
     EXPECT_EQ(bogoslavskyiLabels(scanOf(column), kSensor), std::vector<Label>(2, Label::Roi));
-    // Level ground: the height of both is the same.
+    // Level ground: both pixels have the same height.
     const double rise = std::sin(radians(15.0)) / std::sin(radians(13.0));
     column[1] = at(1, 10.0, 5.0 * rise);
     EXPECT_EQ(bogoslavskyiLabels(scanOf(column), kSensor), std::vector<Label>(2, Label::Rou));
 }
 
 TEST(BogoslavskyiLabels, GrowsUpToAngleDifference) {
-    // Level from beam 0 to 1, then a slope from 1 to 2: ground if it is flatter than 5 degrees.
+    // Level from beam 0 to 1, then a slope from 1 to 2: ground if below 5 degrees.
     const auto labelsOf = [&](double slope_deg) {
         const double z_m = -1.5;
         const auto groundRange = [&](double beam_deg) { return z_m / std::sin(radians(beam_deg)); };
         const double from_m = groundRange(-13.0) * std::cos(radians(13.0));
-        // On the line up from there: r sin e = z + tan s (r cos e - from).
+        // The point on the slope: r sin e = z + tan s (r cos e - from).
         const double t = std::tan(radians(slope_deg)), e = radians(-11.0);
         const double range_m = (z_m - t * from_m) / (std::sin(e) - t * std::cos(e));
         return bogoslavskyiLabels(scanOf({at(0, 0.0, groundRange(-15.0)),

@@ -39,7 +39,7 @@ TEST(ZermasGroundFit, SeparatesObstaclesFromFlatGround) {
     scene.boxes.push_back({{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}});
     const LabelledScan labelled = test::scanScene(scene, kSensor, 720, {0.0, 0.0, 1.5});
     const std::vector<Label> labels = zermasLabels(labelled.scan, kSensor);
-    // Only returns near the height Th_dist above the ground may be wrong.
+    // Only returns near the height threshold Th_dist may be wrong.
     EXPECT_GT(shareRight(labelled, labels), 0.97);
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const bool is_near = labelled.scan.range_m[i] <= 20.0f;
@@ -75,7 +75,7 @@ TEST(ZermasGroundFit, FitsTiltedPlane) {
 }
 
 TEST(ZermasGroundFit, FitsOnePlanePerSegment) {
-    // Level, then rising by 20 percent: three planes can follow, one cannot.
+    // Level ground, then a rise of 20 percent: three planes can follow it, one cannot.
     std::vector<Eigen::Vector3f> points_m;
     for (float x = -15.0f; x <= 15.0f; x += 0.5f) {
         for (int y = -10; y <= 10; ++y) {

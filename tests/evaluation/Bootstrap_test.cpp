@@ -7,7 +7,7 @@
 namespace hagen::evaluation {
 namespace {
 
-/// Scans of one RoI return each; every second return is found.
+/// Scans with one RoI return each; every second return is found.
 std::vector<Scores> everySecondFound(int scans) {
     std::vector<Scores> all;
     for (int i = 0; i < scans; ++i) {
@@ -19,8 +19,8 @@ std::vector<Scores> everySecondFound(int scans) {
 }
 
 TEST(Bootstrap, MatchesBinomialInterval) {
-    // Recall 0.5 of n = 400 scans: standard deviation sqrt(0.25 / 400) = 0.025, 95 % within 1.96
-    // deviations. Counts are integers, so bounds are multiples of 1 / 400.
+    // Recall 0.5 for n = 400 scans: the standard deviation is sqrt(0.25 / 400) = 0.025, and 95 %
+    // lie within 1.96 deviations. Counts are integers, so bounds are multiples of 1 / 400.
     BootstrapOptions options;
     options.resamples = 4000;
     const Interval recall = bootstrapIntervals(everySecondFound(400), options).roi.recall;
@@ -31,8 +31,8 @@ TEST(Bootstrap, MatchesBinomialInterval) {
     EXPECT_NEAR(narrow.high - narrow.low, 2 * 0.025, 0.0055);
 }
 
-TEST(Bootstrap, ResamplesScansNotReturns) {
-    // With one scan fully found and one fully missed, recall is 0, 0.5 or 1 for any return counts.
+TEST(Bootstrap, ResamplesScansInsteadOfReturns) {
+    // If one scan is found and the other missed, recall is 0, 0.5 or 1 for any number of returns.
     std::vector<Scores> scans(2);
     scans[0].roi.hits = 1000;
     scans[1].roi.misses = 1000;

@@ -60,7 +60,7 @@ TEST(Breakdown, RangeBandsSkipEmptyScans) {
     near.by_range = {roi(1, 0), {}, {}};
     far.by_range = {roi(2, 0), {}, roi(0, 3)};
     const std::vector<Group> groups = byRange({near, far}, {15, 5});
-    ASSERT_EQ(groups.size(), 2u);  // nothing at 5-10 m
+    ASSERT_EQ(groups.size(), 2u);  // no returns at 5-10 m
     EXPECT_EQ(groups[0].scans.size(), 2u);
     EXPECT_EQ(groups[1].name, "10-15 m");
     EXPECT_EQ(groups[1].scans.size(), 1u);

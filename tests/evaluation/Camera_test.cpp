@@ -38,14 +38,14 @@ void expectAt(const PinholeCamera& camera, const Eigen::Vector3f& point_m, int u
 
 TEST(Camera, ProjectsDirectionsToPixels) {
     expectAt(smallCamera(), {5, 0, 0}, 4, 3);
-    expectAt(smallCamera(), {5, 5, 0}, 0, 3);   // 45 degrees: 4 px from the middle
+    expectAt(smallCamera(), {5, 5, 0}, 0, 3);   // 45 degrees: 4 px from the centre
     expectAt(smallCamera(), {8, -4, 0}, 6, 3);  // slope 1/2: 2 px
     expectAt(smallCamera(), {8, 0, 6}, 4, 0);   // slope 3/4 up: 3 px
     expectAt(smallCamera(), {8, 0, -2}, 4, 4);
 }
 
 TEST(Camera, RoundsToNearestPixel) {
-    expectAt(smallCamera(), {100, 12.4f, 0}, 4, 3);  // 0.496 px from the middle
+    expectAt(smallCamera(), {100, 12.4f, 0}, 4, 3);  // 0.496 px from the centre
     expectAt(smallCamera(), {100, 12.6f, 0}, 3, 3);
 }
 
@@ -70,10 +70,10 @@ TEST(Camera, AppliesPose) {
     PinholeCamera camera = smallCamera();
     camera.pose.translation() = Eigen::Vector3d(0, 1, 0);  // 1 m to the left of the sensor
     expectAt(camera, {5, 1, 0}, 4, 3);
-    expectAt(camera, {4, 0, 0}, 5, 3);  // 1 m to its right at 4 m: 1 px
+    expectAt(camera, {4, 0, 0}, 5, 3);  // 1 m to the right of the camera at 4 m: 1 px
     camera = smallCamera();
     camera.pose.linear() = Eigen::AngleAxisd(radians(90), Eigen::Vector3d::UnitZ()).matrix();
-    expectAt(camera, {0, 5, 0}, 4, 3);  // looks to the left
+    expectAt(camera, {0, 5, 0}, 4, 3);  // the camera looks to the left
 }
 
 const char* const kFile =

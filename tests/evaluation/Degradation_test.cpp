@@ -23,8 +23,8 @@ constexpr auto G = Label::Rou, O = Label::Roi, U = Label::Unclassified;
 const SensorModel kSensor = sensorModel("VLP-16");
 constexpr int kColumns = 360;
 
-/// A return at the centre of every pixel, with random ranges and truth. `kinds` and `objects` hold
-/// the index of the return, so that it can be traced.
+/// Returns at the centres of all pixels, with random ranges and truth. `kinds` and `objects` hold
+/// each return's index, so that it can be traced.
 GroundTruthScan randomScan(unsigned seed = 1) {
     test::Random random(seed);
     std::vector<Vector3f> points_m;
@@ -54,7 +54,7 @@ Vector3f point(const GroundTruthScan& scan, std::size_t i) {
     return {s.x_m[i], s.y_m[i], s.z_m[i]};
 }
 
-/// All arrays have the same size, and ranges and azimuths match the coordinates.
+/// Expects arrays of equal size, and ranges and azimuths that match the coordinates.
 void expectSound(const GroundTruthScan& scan) {
     const Scan& s = scan.input.scan;
     for (const std::size_t size :
@@ -68,7 +68,7 @@ void expectSound(const GroundTruthScan& scan) {
     }
 }
 
-/// Expects exactly the returns with `isKept(original index)` to remain.
+/// Expects that exactly the returns with `isKept(original index)` remain.
 template <class IsKept>
 void expectPart(const GroundTruthScan& scan, const GroundTruthScan& part, IsKept isKept) {
     expectSound(part);
@@ -159,7 +159,7 @@ TEST(Degradation, KeepsReturnsNearerThanDrops) {
     EXPECT_GT(degraded(scan, "noise_m=10").input.scan.range_m[0], 0.0f);
 }
 
-/// Expects points to be rotated and cropped to the field of view, and the attitude on request.
+/// Expects points to be rotated and cropped to the field of view. The attitude is optional.
 void expectTilted(const std::string& text, const Attitude& attitude) {
     const auto scan = randomScan();
     const auto tilted = degraded(scan, text);
@@ -176,7 +176,7 @@ void expectTilted(const std::string& text, const Attitude& attitude) {
     for (std::size_t i = 0; i < scan.kinds.size(); ++i) {
         const Vector3f seen_m = level.transpose() * point(scan, i);
         const double elevation_deg = degrees(std::asin(double(seen_m.z() / seen_m.norm())));
-        if (std::abs(std::abs(elevation_deg) - 16) < 1e-3) continue;  // half a step beyond 15
+        if (std::abs(std::abs(elevation_deg) - 16) < 1e-3) continue;  // half a row beyond 15
         ASSERT_EQ(kept.count(i) > 0, std::abs(elevation_deg) < 16) << elevation_deg;
     }
     EXPECT_LT(kept.size(), scan.kinds.size());
@@ -209,7 +209,7 @@ TEST(Degradation, UpsideDownMatchesMirroredSensor) {
     EXPECT_EQ(turned.kinds, scan.kinds);
     EXPECT_EQ(turned.truth, scan.truth);
     ASSERT_TRUE(turned.input.map_from_sensor.has_value());
-    Scan located = turned.input.scan;  // by its coordinates
+    Scan located = turned.input.scan;  // rows from its coordinates
     locateBeams(mirrored(kSensor), located);
     EXPECT_EQ(located.row, turned.input.scan.row);
     EXPECT_NO_THROW(checkLocated(turned.input.scan, mirrored(kSensor)));
@@ -284,7 +284,7 @@ TEST(Degradation, SecondReturnsLieBehindEdges) {
     }
 }
 
-// Across a gap, the next return of the row is not a neighbour.
+// Across a gap, the next return in the row is not a neighbour.
 TEST(Degradation, SecondReturnsNeedNeighbours) {
     GroundTruthScan scan;
     std::vector<Vector3f> points_m;
@@ -386,7 +386,7 @@ TEST(Degradation, RejectsValuesOutOfRange) {
     EXPECT_EQ(problemOf("pitch_deg=-20,attitude"), "");
 }
 
-/// The same scan three times.
+/// Returns the same scan three times.
 class OneScan : public LabelledScanSource {
  public:
     std::optional<GroundTruthScan> next() override {
@@ -420,7 +420,7 @@ TEST(DegradedScans, UseOneSeedPerScan) {
     EXPECT_EQ(again.next()->kinds, first->kinds);
 }
 
-// Beams above the horizon see no ground.
+// Beams above the horizon do not see the ground.
 TEST(DegradedScans, KeepRecordedHeights) {
     DegradedScans scans(std::make_unique<OneScan>(), Degradation("above_deg=0"));
     const auto recorded = randomScan();

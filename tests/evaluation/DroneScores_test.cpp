@@ -52,7 +52,7 @@ TEST(DroneScores, CountUnknownHeightsAsTall) {
 TEST(DroneScores, PreferGivenHeights) {
     auto scan = scanOf({{4, 0, kGround_m}, {4, 0, 0}, {4, 0, -1.9f}, {30, 0, 0}, {4, 1, 0}},
                        {G, O, O, O, U});
-    scan.heights_m = {9, 0.4f, 0.6f, 9, 9};  // only used for obstacles in range
+    scan.heights_m = {9, 0.4f, 0.6f, 9, 9};  // used for obstacles in range only
     EXPECT_EQ(scoresOf(scan, {G, G, G, G, G}).tall.all, 1);
     scan.heights_m.pop_back();
     EXPECT_THROW(scoresOf(scan, {G, G, G, G, G}), std::invalid_argument);
@@ -73,7 +73,7 @@ TEST(DroneScores, FindObstaclesByOneReturn) {
     std::vector<Vector3f> points_m{{4, 0, kGround_m}};
     std::vector<Label> truth{G}, found{O};
     GroundTruthScan scan;
-    std::vector<std::uint32_t> objects{1};  // of ground: ignored
+    std::vector<std::uint32_t> objects{1};  // number of the ground, ignored
     const auto add = [&](std::uint32_t object, float x_m, int returns, int roi) {
         for (int i = 0; i < returns; ++i) {
             points_m.push_back({x_m, 0, 0});

@@ -56,7 +56,7 @@ class Obstacles : public LabelledScanSource {
     std::size_t next_ = 0;
 };
 
-/// The sources as evaluate() takes them.
+/// Converts sources to the argument of evaluate().
 template <class... Source>
 LabelledScanSources sourcesOf(Source... source) {
     LabelledScanSources sources;
@@ -102,7 +102,7 @@ TEST(Evaluation, CallsListenerPerScanAndMethod) {
 }
 
 TEST(Evaluation, ReportsScanWithWrongLabels) {
-    int calls = 0;  // the first scan twice, then the second
+    int calls = 0;  // first scan twice, then the second
     const Method one_too_few{"short", [&calls](const ScanInput& input) {
                                  return std::vector<Label>(++calls == 3 ? 1 : input.scan.size(), O);
                              }};

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 class LabelledFolders : public testing::Test {
  protected:
-    /// A folder with one scan of one return.
+    /// Writes a folder with one scan of one return.
     std::string folderAt(const std::string& path) const {
         folder_.write(path + "/velodyne/000000.bin", std::string(16, '\0'));
         folder_.write(path + "/labels/000000.label", std::string(4, '\0'));
@@ -45,7 +45,7 @@ TEST_F(LabelledFolders, HaveShortestUniqueNames) {
     EXPECT_THAT(test::messageOf([&] { namesOf({a, d, a + "/."}); }), HasSubstr("is given twice"));
 }
 
-/// Ground truth uses the same mount as the filter.
+/// Ground truth and filter use the same mount.
 TEST_F(LabelledFolders, UseMountWithoutPoses) {
     const std::string folder = folderAt("hanging");
     MethodSet methods;

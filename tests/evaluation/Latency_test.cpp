@@ -8,7 +8,7 @@ namespace hagen::evaluation {
 namespace {
 
 TEST(Latency, MatchesHandComputation) {
-    // 1 + 2 + 3 + 6 = 12; squares of -2, -1, 0, 3 sum to 14, over 3.
+    // 1 + 2 + 3 + 6 = 12; the squares of -2, -1, 0, 3 sum to 14, divided by 3.
     const Latency latency = latencyOf({6, 1, 3, 2});
     EXPECT_EQ(latency.runs, 4u);
     EXPECT_DOUBLE_EQ(latency.mean_ms, 3);

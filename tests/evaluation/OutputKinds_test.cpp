@@ -1,4 +1,4 @@
-// Which existing outputs of each kind may be replaced.
+// Rules for replacing existing outputs of each kind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
@@ -53,7 +53,7 @@ TEST(OutputKinds, ReplaceOwnKindOnly) {
     EXPECT_FALSE(mayReplace(folder / "file", kScanFolders));
     EXPECT_FALSE(mayReplace("/dev/null", kFile));
     EXPECT_TRUE(mayReplace(folder / "scans", kScanFolders));
-    // A folder labelled by hand has the same names.
+    // A folder labelled by hand contains the same file names.
     EXPECT_FALSE(mayReplace(folder / "mine", kScanFolders));
     EXPECT_THAT(test::messageOf([&] { OutputPath(folder / "work", kScanFolders, true); }),
                 HasSubstr("'notes.txt'"));
@@ -65,7 +65,7 @@ TEST(OutputKinds, AcceptFoldersPerSensor) {
     folder.write("scans/front/velodyne/000000.bin", "");
     folder.write("scans/rear/labels/000000.label", "");
     folder.write("scans/rear/labels/made_by.txt", "");
-    // One of the two was labelled by hand.
+    // One of the two subfolders was labelled by hand.
     EXPECT_FALSE(mayReplace(folder / "scans", kScanFolders));
     folder.write("scans/front/labels/made_by.txt", "");
     folder.write("pictures/front/000000/1_depth.png", "");

@@ -27,7 +27,7 @@ TEST(ScanScores, IgnoreFarAndMissingRanges) {
 }
 
 TEST(ScanScores, RangeBandsIncludeLowerBound) {
-    // 4.9 | 5 9.9 | 10 12 with bands of 5 m up to 12 m: 1, 2 and 2 returns.
+    // Bands of 5 m up to 12 m: 4.9 | 5 9.9 | 10 12, i.e. 1, 2 and 2 returns.
     const RangeBands bands{12, 5};
     const ScanScores scores =
         scoreScan(scanAt({4.9f, 5, 9.9f, 10, 12}, {O, O, O, G, G}), {O, O, G, G, O}, {}, bands);
@@ -53,7 +53,7 @@ TEST(ScanScores, RejectExcessiveBandCounts) {
 }
 
 TEST(ScanScores, ScoreClassesByName) {
-    // Two wires, one missed; a tree found; terrain labelled RoI; dust is excluded with its class.
+    // Two wires, one missed; a found tree; terrain labelled RoI; dust, whose class is excluded.
     GroundTruthScan scan = scanAt({1, 2, 3, 4, 5}, {O, O, O, G, U});
     scan.kinds = {5, 5, 3, 1, 10};
     const ScanScores scores = scoreScan(scan, {O, G, O, O, O}, kKinds, {});

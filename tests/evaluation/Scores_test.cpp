@@ -16,8 +16,8 @@ Scores scoresOf(const std::vector<Label>& truth, const std::vector<Label>& found
 }
 
 TEST(Scores, MatchHandCounts) {
-    // Of four RoI returns two are found, one is called ROU, one unclassified; of two ROU returns
-    // one is found, one is called RoI; the return without a true label is not counted.
+    // Of four RoI returns, two are found, one is labelled ROU and one unclassified; of two ROU
+    // returns, one is found and one is labelled RoI; the return without a true label is ignored.
     const Scores scores = scoresOf({O, O, O, G, G, U, O}, {O, O, G, O, G, O, U});
     EXPECT_EQ(scores.roi.hits, 2);
     EXPECT_EQ(scores.roi.misses, 2);
@@ -35,7 +35,7 @@ TEST(Scores, MatchHandCounts) {
 TEST(Scores, SumCountsBeforeRatios) {
     Scores sum = scoresOf({O}, {O});
     sum += scoresOf({O, O, O, G}, {G, G, G, O});
-    EXPECT_DOUBLE_EQ(sum.roi.recall(), 0.25);  // the mean of both recalls would be 0.5
+    EXPECT_DOUBLE_EQ(sum.roi.recall(), 0.25);  // the mean of the two recalls would be 0.5
     EXPECT_EQ(sum.rou.misses, 1);
     EXPECT_EQ(sum.rou.false_alarms, 3);
 }

@@ -32,7 +32,7 @@ float plainMedian(std::vector<float> values) {
     return values[values.size() / 2];
 }
 
-/// Direct implementation of the definition: all cells, all distances.
+/// The definition, implemented directly over all cells and distances.
 float plainHeight(const GroundTruthScan& scan, std::size_t obstacle) {
     const auto centre = [&](std::size_t i) {
         return Eigen::Vector2f(0.5f * std::floor(2 * scan.input.scan.x_m[i]) + 0.25f,
@@ -106,7 +106,7 @@ TEST(TrueHeights, AreInfiniteWithoutGround) {
     EXPECT_TRUE(heightsOf(scanOf({}, {})).empty());
 }
 
-/// As floats, such squared distances are whole numbers.
+/// Squared distances this large are integers as floats.
 TEST(TrueHeights, UseDistantGround) {
     for (const float far_m : {1000.0f, 1500.0f, 2000.0f, 5000.0f, 9999.0f}) {
         const auto heights = heightsOf(scanOf({{far_m, 0, -1}, {10, 0, 0}}, {G, O}));
@@ -121,7 +121,7 @@ TEST(TrueHeights, SkipReturnsBeyondRange) {
     EXPECT_TRUE(std::isnan(heights_m[2]));
 }
 
-// Such returns have no cell; sanitizers would report the overflow of a cell number.
+// Such returns have no cell; sanitizers would report the overflow of a cell index.
 TEST(TrueHeights, SkipImplausiblyFarReturns) {
     const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {20000, 0, 0}, {20000, 0, -2}}, {G, O, O, G});
     const std::vector<float> heights_m = heightsOf(scan, 1e6f);
@@ -129,7 +129,7 @@ TEST(TrueHeights, SkipImplausiblyFarReturns) {
     EXPECT_TRUE(std::isnan(heights_m[2]));
 }
 
-// A tilted sensor whose attitude is unknown, known, or known to the scorer only.
+// A tilted sensor whose attitude is unknown, known, or known only to the scorer.
 TEST(TrueHeights, UseTrueHorizonOfTiltedSensor) {
     const std::vector<Vector3f> points_m{{4, 1, -2}, {4.2f, 1.1f, -2}, {4, 1, -1.2f}};
     const Eigen::Matrix3f turn =

@@ -1,7 +1,7 @@
 // Preloaded (LD_PRELOAD) by faults_test.py. With HAGEN_FAILING_NEW=N, the N-th allocation by `new`
-// since the start of main(), also in child processes, fails once and prints its call stack. With 0,
-// none fails, and their number is printed at the end. malloc() is not affected: C libraries report
-// its failure.
+// since the start of main(), even in child processes, fails once and prints its call stack. With 0,
+// no allocation fails, and their number is printed at the end. malloc() is not affected, because C
+// libraries report its failure.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <unistd.h>
@@ -66,7 +66,7 @@ void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memo
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
-/// C library function that calls main().
+/// The C library function that calls main().
 extern "C" int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*fini)(),
                                  void (*rtld_fini)(), void* stack_end) {
     program = main;

@@ -51,7 +51,7 @@ def content(path):
     return path.read_bytes() if path.exists() else None
 
 
-# Comparisons of outputs that contain measured times or pictures.
+# How to compare outputs that contain measured times or pictures.
 
 def counts(value):
     return {key: len(item) if isinstance(item, list) else item for key, item in value.items()
@@ -108,7 +108,7 @@ def evaluation(bin_folder, folder):
 
 
 CASES = {"conversion": conversion, "simulation": simulation, "evaluation": evaluation,
-         # Without an OctoMap, whose nodes dominate the allocations.
+         # Omits the OctoMap, whose nodes dominate the allocations.
          "plain": lambda *folders: conversion(*folders, with_map=False)}
 
 
@@ -181,7 +181,7 @@ class Injector:
             self.aborted += 1
             return []
         code, found, wrong = ended.returncode, self.outputs(folder), []
-        # A signal may end the program before it has written anything.
+        # A signal may end the program before anything is written.
         is_ended = "SIGKILL" in fault or "signal=" in fault and code < 0 and found == self.before
         if code not in (0, 1, 2) and not is_ended:
             wrong.append(f"exit code {code}: {ended.stderr[-200:]}")

@@ -16,7 +16,7 @@ using test::pixelsAt;
 
 constexpr float kBefore_m = 0.2f;  // tolerance without a canopy
 
-/// The tolerances over the plane z = 0.
+/// The tolerances relative to the plane z = 0.
 Image<float> tolerated(const PixelPoints& pixels) {
     Image<float> tolerance_m = pixels.z_m.isNaN().select(
         kNoValue, Image<float>::Constant(pixels.z_m.rows(), pixels.z_m.cols(), kBefore_m));
@@ -28,8 +28,7 @@ Image<float> tolerated(const PixelPoints& pixels) {
     return tolerance_m;
 }
 
-/// One return in the centre of each of `cells` x `cells` cells around the sensor, with height(k) in
-/// cell k.
+/// Returns at the centres of `cells` x `cells` cells around the sensor, with height(k) in cell k.
 template <class Height>
 std::vector<Eigen::Vector3f> field(int cells, Height height) {
     std::vector<Eigen::Vector3f> points;
@@ -52,28 +51,28 @@ TEST(CanopyLayer, ToleratesMeanPlusTwoDeviations) {
     EXPECT_LT((tolerated(pixelsAt(mixed)) - 1.1f).abs().maxCoeff(), 1e-3f);
 }
 
-TEST(CanopyLayer, TwoHighReturnsMakeObstacle) {
+TEST(CanopyLayer, TwoHighReturnsFormObstacle) {
     const auto points = field(40, [](int) { return 0.6f; });
     const auto toleratedBelow = [&](std::vector<float> heights_m) {
         auto with = points;
         for (const float height_m : heights_m) with.emplace_back(1.1f, 1.1f, height_m);
         return tolerated(pixelsAt(with)).rightCols<1>().value();
     };
-    // Plants are tolerated up to 0.7 m; one higher cell hardly changes their deviation.
+    // Plants up to 0.7 m are tolerated; one higher cell hardly changes their deviation.
     EXPECT_NEAR(toleratedBelow({0.79f, 0.79f}), 0.7f, 0.02f);
     EXPECT_NEAR(toleratedBelow({0.95f, 0.79f}), 0.7f, 0.03f);
     EXPECT_EQ(toleratedBelow({0.85f, 0.85f}), kBefore_m);
 }
 
-TEST(CanopyLayer, DeviationCountsUpToMean) {
-    // Mean 0.288 m, standard deviation 0.256 m: not more than twice the mean.
+TEST(CanopyLayer, LimitsToleranceToTwiceMean) {
+    // The mean of 0.288 m plus two deviations of 0.256 m exceeds the limit of twice the mean.
     const PixelPoints pixels = pixelsAt(field(20, [](int k) { return k % 5 == 0 ? 0.8f : 0.16f; }));
     const Image<float> expected_m =
         (pixels.z_m > 0.7f).select(kBefore_m, Image<float>::Constant(1, pixels.z_m.cols(), 0.676f));
     EXPECT_LT((tolerated(pixels) - expected_m).abs().maxCoeff(), 2e-3f);
 }
 
-TEST(CanopyLayer, NeedsFewTallCells) {
+TEST(CanopyLayer, AllowsTwentyPercentTallCells) {
     const auto share = [](int percent_tall) {
         return field(20, [=](int k) { return k % 100 < percent_tall ? 1.2f : 0.6f; });
     };
@@ -92,7 +91,7 @@ TEST(CanopyLayer, NeedsThirtyFivePercentPlants) {
     EXPECT_LT((tolerated(pixelsAt(share(36))) - 0.7f).abs().maxCoeff(), 2e-3f);
 }
 
-TEST(CanopyLayer, PlantsAreTenToHundredCentimetresHigh) {
+TEST(CanopyLayer, PlantHeightsAreTenToHundredCentimetres) {
     EXPECT_TRUE((tolerated(pixelsAt(field(20, [](int) { return 0.1f; }))) == kBefore_m).all());
     EXPECT_TRUE((tolerated(pixelsAt(field(20, [](int) { return 1.0f; }))) == kBefore_m).all());
     EXPECT_TRUE((tolerated(pixelsAt(field(20, [](int) { return 0.99f; }))) > 1.0f).all());
@@ -137,7 +136,7 @@ TEST(CanopyLayer, MatchesBruteForce) {
         top_m = std::max(top_m, points.back().z());
         in_cells_m[{cellFromSensor(x_m), cellFromSensor(y_m)}].push_back(points.back().z());
     }
-    std::map<std::pair<int, int>, float> seconds_m;  // second highest, or the only one
+    std::map<std::pair<int, int>, float> seconds_m;  // the second highest return, or the only one
     for (auto& [cell, heights_m] : in_cells_m) {
         std::sort(heights_m.rbegin(), heights_m.rend());
         seconds_m[cell] = heights_m[heights_m.size() > 1 ? 1 : 0];

@@ -1,4 +1,4 @@
-// A stage restricted to an area of the ground grid gives the same results there as on the whole.
+// A stage restricted to an area of the ground grid gives the same results there.
 #include <gtest/gtest.h>
 #include <hagen/filter/CellTops.h>
 #include "filter/simd/CanopyLayer.h"
@@ -58,11 +58,11 @@ TEST(CellArea, MatchesWholeGridInside) {
     ToleranceWorkspace work;
     toleratedHeights(crops.pixels, crops.cells, whole, {}, 2.0f, whole_m, work);
     tolerateCanopy(crops.cells, whole, whole_m);
-    ASSERT_GT(whole_m.maxCoeff<Eigen::PropagateNumbers>(), 0.4f);  // contains a canopy
+    ASSERT_GT(whole_m.maxCoeff<Eigen::PropagateNumbers>(), 0.4f);  // the scene contains a canopy
 
     const CellArea insides[] = {
         {60, 70, 61, 73}, {0, 20, 0, 9}, {97, 130, 111, 130}, {1, 7, 60, 70}};
-    CellTops tops;  // reused: heights of earlier areas remain
+    CellTops tops;  // reused, so it contains heights of earlier areas
     ToleranceWorkspace work_of_area;
     for (const CellArea& inside : insides) {
         const CellArea area = inside.grownBy(kCanopyReach);
@@ -96,7 +96,7 @@ TEST(CellTops, RaisesCellsKnownToBeHigher) {
     const Crops crops = makeCrops(6);
     CellTops all;
     findCellTops(crops.cells, crops.height_m, all);
-    // One pixel in five is left, with the height of its former cell.
+    // Every fifth pixel remains, with the height of its former cell.
     Crops thin;
     Image<float> known_m;
     for (auto* image :
@@ -132,7 +132,7 @@ TEST(CellTops, RaisesCellsKnownToBeHigher) {
     EXPECT_TRUE((tops.top_m == before.top_m).all());
     for (Eigen::Index k = 0; k < known_m.size(); ++k) {
         const int cell = thin.cells.cell.data()[k];
-        ASSERT_EQ(highestOf(tops, cell), before.highest_m.data()[cell]);  // without raised heights
+        ASSERT_EQ(highestOf(tops, cell), before.highest_m.data()[cell]);  // no heights were raised
     }
 }
 

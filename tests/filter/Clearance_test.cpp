@@ -13,7 +13,7 @@ namespace {
 
 using test::pixelsAt;
 
-/// Pixels in the frame of level ground, with the sensor `height_m` above it.
+/// Pixels in the frame of level ground `height_m` below the sensor.
 Ground groundAt(float height_m, const PixelPoints& pixels) {
     Ground ground;
     ground.is_seen = true;
@@ -40,8 +40,8 @@ TEST(Clearance, ZeroDisablesAlarm) {
     EXPECT_EQ(labels(0, 0), Label::Rou);
 }
 
-// 3 m above ground that rises ahead by 15 degrees, with a level sensor: along gravity, the ground
-// at x ahead is 3 - x tan 15 below; along its normal the distance is constant.
+// A level sensor is 3 m above ground that rises ahead by 15 degrees. Along gravity, the ground at x
+// is 3 - x tan 15 below; along the ground normal, the distance is constant.
 TEST(Clearance, FollowsGravityOverSlopes) {
     const float rise = static_cast<float>(std::tan(radians(15)));
     const auto points =

@@ -12,7 +12,7 @@ namespace {
 const SensorModel kSensor = sensorModel("VLP-16");
 const PixelDirections kDirections = pixelDirections(kSensor, 40);
 
-/// The depth of a plane `height_m` below the sensor; NaN where a beam misses it.
+/// The depth of a plane `height_m` below the sensor; NaN for beams that miss it.
 Image<float> planeDepth(float height_m) {
     Image<float> depth_m = Image<float>::Constant(kSensor.rows(), 40, kNoValue);
     for (int row = 0; row < kSensor.rows(); ++row) {
@@ -42,7 +42,7 @@ TEST(DeadBeams, FillsPlaneWhereBeamMeetsIt) {
     }
 }
 
-TEST(DeadBeams, OneReturnMakesRowLive) {
+TEST(DeadBeams, SingleReturnMakesRowLive) {
     Image<float> depth_m = planeDepth(2);
     depth_m.row(3) = kNoValue;
     depth_m(3, 17) = 9;

@@ -14,7 +14,7 @@
 namespace hagen {
 namespace {
 
-FilterWorkspace work;  // reused by all tests, as by a filter for all scans
+FilterWorkspace work;  // reused, as in a filter
 
 OwnLabels ownLabels(const std::vector<Label>& label) {
     OwnLabels own{label, {}};
@@ -24,7 +24,7 @@ OwnLabels ownLabels(const std::vector<Label>& label) {
     return own;
 }
 
-/// The definition, return by return.
+/// Implements the definition return by return.
 LabelledReturns plainReturns(const Scan& scan, const RangeImage& image, const Image<Label>& labels,
                              const Image<std::int32_t>& components,
                              const std::vector<Label>& own_label, float zone_m,

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kZone_m = 20;
 
-/// Level ground 2 m below a VLP-16, and the labels of returns above it.
+/// Level ground 2 m below a VLP-16, and the labels of farther returns.
 struct TwoMetresUp {
     SensorModel sensor = sensorModel("VLP-16");
     Ground ground;
@@ -27,7 +27,7 @@ struct TwoMetresUp {
 
     std::vector<Label> judged(const std::vector<Eigen::Vector3f>& points_m,
                               float min_clearance_m = 0) const {
-        static FilterWorkspace work;  // reused by all tests, as by a filter for all scans
+        static FilterWorkspace work;  // reused, as in a filter
         const Scan scan = test::scanOf(sensor, points_m);
         RangeImage image;
         projectScan(scan, sensor, 870, 48.0f, image, work.projection);
@@ -67,7 +67,7 @@ TEST(FartherReturns, MeasuresHeightAboveSurface) {
     EXPECT_EQ(example.judged({example.on(0, 3), bush})[1], Label::Rou);
 }
 
-TEST(FartherReturns, UsesTolerancesOfPixels) {
+TEST(FartherReturns, UsesPixelTolerances) {
     TwoMetresUp example;
     const Scan scan = test::scanOf(example.sensor, {example.on(0, 7)});
     RangeImage image;
@@ -86,8 +86,7 @@ TEST(FartherReturns, FarBelowSurfaceIsRoi) {
     EXPECT_EQ(example.judged(points)[1], Label::Roi);
 }
 
-// A range of 7 m on the beam is 6.8 m along the ground: (6.7, 1.2) m, in the third block along x
-// and the first along y.
+// 7 m along the beam end at (6.7, 1.2) m: in the third block along x and the first along y.
 TEST(FartherReturns, WithoutEvidenceAreRoi) {
     TwoMetresUp example;
     const auto labelWithout = [&](const std::vector<std::size_t>& blocks) {
@@ -109,10 +108,10 @@ TEST(FartherReturns, IgnoresReturnsBeyondZone) {
               (std::vector<Label>{kAsItsPixel, Label::Roi, kAsItsPixel}));
 }
 
-// At 2 m above level ground, every ground return is 2 m below.
+// From 2 m above level ground, every ground return is 2 m below the sensor.
 TEST(FartherReturns, TooCloseGroundIsRoi) {
     const TwoMetresUp example;
-    const double to_ground_m = 2 / std::sin(radians(15));  // of the lowest beam
+    const double to_ground_m = 2 / std::sin(radians(15));  // range of the lowest beam
     const std::vector<Eigen::Vector3f> points{example.on(0, to_ground_m), example.on(0, 3)};
     EXPECT_EQ(example.judged(points, 1.9f), (std::vector<Label>{Label::Rou, kAsItsPixel}));
     EXPECT_EQ(example.judged(points, 2.1f), (std::vector<Label>{Label::Roi, kAsItsPixel}));

@@ -1,5 +1,4 @@
-// A filter owns its memory: other filters in the same thread, and the thread it runs on, do not
-// affect its results.
+// Neither other filters in the thread nor the thread itself affect a filter's results.
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 
@@ -26,7 +25,7 @@ std::vector<Scan> drive(const SensorModel& sensor, int columns) {
     return scans;
 }
 
-/// All parts of a result that can differ.
+/// All data of a result.
 struct Outcome {
     Image<float> smoothed_rad, height_m;
     std::vector<Label> own_label, label;
@@ -48,7 +47,7 @@ void expectSame(const Outcome& a, const Outcome& b) {
     EXPECT_EQ(a.roi, b.roi);
 }
 
-/// A sensor, its settings, its scans, and the results of a filter that runs alone.
+/// A sensor, its settings and scans, and the results of a filter running alone.
 struct Drive {
     SensorModel sensor;
     Options options;

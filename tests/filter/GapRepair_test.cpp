@@ -27,14 +27,14 @@ TEST(GapRepair, FillsOnlyOnePixelHoles) {
     constexpr float kNo = kNoValue;
     const std::pair<std::vector<float>, std::vector<float>> cases[] = {
         {{10, kNo, 10.5f}, {10, 10.25f, 10.5f}},
-        {{10, kNo, 11}, {10, kNo, 11}},            // too far apart
-        {{10, kNo, kNo, 10}, {10, kNo, kNo, 10}},  // two pixels
+        {{10, kNo, 11}, {10, kNo, 11}},            // too different
+        {{10, kNo, kNo, 10}, {10, kNo, kNo, 10}},  // two missing pixels
         {{10, kNo, 10.5f, kNo, 11, kNo, kNo}, {10, 10.25f, 10.5f, 10.75f, 11, kNo, kNo}},
         {{kNo, 10, kNo}, {kNo, 10, kNo}},  // outermost rows
         {{kNo, kNo, kNo}, {kNo, kNo, kNo}}};
     for (const auto& [before, after] : cases) {
         EXPECT_TRUE(test::same(repaired(column(before), 1.0f), column(after)));
-        EXPECT_TRUE(test::same(repaired(column(before), 0.0f), column(before)));  // off
+        EXPECT_TRUE(test::same(repaired(column(before), 0.0f), column(before)));  // disabled
     }
 }
 

@@ -15,7 +15,7 @@ using test::pixelsAt;
 
 constexpr float kWithdrawn = -std::numeric_limits<float>::infinity();
 
-GroundEvidenceWorkspace work;  // reused by all tests, as by a filter for all scans
+GroundEvidenceWorkspace work;  // reused, as in a filter
 
 std::vector<int> level(const PixelPoints& pixels) {
     Image<std::uint8_t> is_level;
@@ -27,7 +27,7 @@ std::vector<int> level(const PixelPoints& pixels) {
     return {is_level.data(), is_level.data() + is_level.size()};
 }
 
-/// The level pixels of columns of `rows` pixels, lowest row first.
+/// Flags of the level pixels in columns of `rows` pixels, lowest row first.
 std::vector<int> level(const std::vector<Eigen::Vector3f>& points_m, int rows) {
     return level(pixelsAt(points_m, rows));
 }
@@ -52,7 +52,7 @@ PixelPoints seen(const test::SimpleScene& scene, const SensorModel& sensor, doub
     return pixelsAt(points_m, sensor.rows());
 }
 
-/// Numbers of level pixels and of all pixels between two heights.
+/// Numbers of level pixels and of all pixels in a height range.
 struct LevelShare {
     int level = 0, pixels = 0;
 };
@@ -83,7 +83,7 @@ TEST(FindLevelPixels, WallIsNotLevel) {
     test::SimpleScene scene;
     scene.boxes = {{{8, -9, 0}, {9, 9, 9}}, {{-9, -9, 0}, {-8, 9, 9}}};
     const PixelPoints pixels = seen(scene, sensorModel("VLP-16"), 1.5);
-    // The lowest pixel may be on a level step from the ground before the wall.
+    // The step from the ground to the lowest pixel of the wall may be level.
     const LevelShare walls = levelBetween(0.6f, 8.9f, pixels);
     EXPECT_GT(walls.pixels, 500);
     EXPECT_EQ(walls.level, 0);
@@ -116,17 +116,17 @@ TEST(FindLevelPixels, OnlyOutwardStepsAreLevel) {
     EXPECT_EQ(levelInColumn({{6, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));
     EXPECT_EQ(levelInColumn({{-5, 0, 0}, {-6, 0, 0}}), (std::vector{1, 1}));
     EXPECT_EQ(levelInColumn({{0, -6, 0}, {0, -5, 0}}), (std::vector{0, 0}));
-    EXPECT_EQ(levelInColumn({{5, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));  // nowhere
+    EXPECT_EQ(levelInColumn({{5, 0, 0}, {5, 0, 0}}), (std::vector{0, 0}));  // a step of length 0
 }
 
 TEST(FindLevelPixels, ShortStepsAreSkipped) {
-    // Ranges are 2 cm off: the short steps are steep, the long one is not.
+    // Ranges have 2 cm errors: the short steps are steep, the long one is not.
     EXPECT_EQ(levelInColumn({{1, 0, 0}, {1.05f, 0, 0.02f}, {1.1f, 0, 0}}), (std::vector{1, 0, 1}));
     EXPECT_EQ(levelInColumn({{1, 0, 0}, {1.05f, 0, 0.09f}, {1.1f, 0, 0}}), (std::vector{0, 0, 0}));
     EXPECT_EQ(levelInColumn({{1, 0, 0}, {1, 0, 0.05f}, {1, 0, 0.1f}}), (std::vector{0, 0, 0}));
     EXPECT_EQ(levelInColumn({{1.2f, 0, 0}, {1.15f, 0, 0.02f}, {1.1f, 0, 0}}),
               (std::vector{0, 0, 0}));
-    // Steps do not lead into the next column.
+    // Steps never lead to the next column.
     EXPECT_EQ(level({{1, 0, 0}, {1.05f, 0, 0.02f}, {1.1f, 0, 0}, {9, 0, 9}}, 2),
               (std::vector{0, 0, 0, 0}));
 }
@@ -136,20 +136,19 @@ TEST(FindLevelPixels, EmptyPixelsAreSkipped) {
     EXPECT_EQ(levelInColumn({low, none, high}), (std::vector{1, 0, 1}));
     EXPECT_EQ(levelInColumn({low, none, none, none, high}), (std::vector{1, 0, 0, 0, 1}));
     EXPECT_EQ(levelInColumn({low, none, none, none, none, high}),
-              (std::vector{0, 0, 0, 0, 0, 0}));  // too many
+              (std::vector{0, 0, 0, 0, 0, 0}));  // too many empty pixels
     EXPECT_EQ(levelInColumn({low, none, steep}), (std::vector{0, 0, 0}));
-    // A return in between that is not close is not skipped.
+    // A distant return in between is not skipped.
     EXPECT_EQ(levelInColumn({low, {3, 0, 0.3f}, {3.1f, 0, 0.4f}, {4, 0, 0}}),
               (std::vector{0, 0, 0, 0}));
-    // Not farther than 2 m; to the pixel above, at any distance.
+    // Steps across empty pixels are limited to 2 m; steps to the adjacent pixel are not.
     EXPECT_EQ(levelInColumn({low, none, {4.99f, 0, 0}}), (std::vector{1, 0, 1}));
     EXPECT_EQ(levelInColumn({low, none, {5.01f, 0, 0}}), (std::vector{0, 0, 0}));
     EXPECT_EQ(levelInColumn({low, {9, 0, 0}}), (std::vector{1, 1}));
-    // Steps do not lead into the next column.
     EXPECT_EQ(level({none, low, none, high}, 2), (std::vector{0, 0, 0, 0}));
 }
 
-// The table top is 0.75 m up, in the cell from 3 to 3.75 m.
+// The table top at 0.75 m is in the cell from 3 to 3.75 m.
 TEST(FindLevelPixels, TableOverFloorIsNotLevel) {
     const std::vector<Eigen::Vector3f> floor{{3.1f, 0.1f, 0}, {4.6f, 0.1f, 0}};
     const std::vector<Eigen::Vector3f> table{{3.2f, 0.3f, 0.75f}, {3.6f, 0.3f, 0.75f}};
@@ -157,7 +156,7 @@ TEST(FindLevelPixels, TableOverFloorIsNotLevel) {
     EXPECT_EQ(levelInColumn(table), (std::vector{1, 1}));
     EXPECT_EQ(level({floor[0], floor[1], table[0], table[1]}, 2), (std::vector{1, 1, 0, 0}));
     EXPECT_EQ(level({table[0], table[1], floor[0], floor[1]}, 2), (std::vector{0, 0, 1, 1}));
-    // Floor in another cell does not count.
+    // Floor in another cell is irrelevant.
     EXPECT_EQ(level({table[0], table[1], {3.8f, 0.1f, 0}, {4.6f, 0.1f, 0}}, 2),
               (std::vector{1, 1, 1, 1}));
 }
@@ -189,7 +188,7 @@ struct Seen {
     bool is_level;
 };
 
-/// The tolerances of these pixels, initially 0.5 m.
+/// The tolerances after requireEvidence(); initially 0.5 m.
 std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
     std::vector<Eigen::Vector3f> points_m;
     for (const Seen& s : seen) points_m.emplace_back(s.x_m, s.y_m, s.height_m);
@@ -214,7 +213,7 @@ std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
     return {tolerance_m.data(), tolerance_m.data() + tolerance_m.size()};
 }
 
-/// `number` pixels of one cell, close to the surface; the first `of_them_level` are level.
+/// `number` pixels in one cell, close to the surface; the first `of_them_level` are level.
 std::vector<Seen> closePixels(int number, int of_them_level, float x_m = 1, float y_m = 1) {
     std::vector<Seen> pixels(static_cast<std::size_t>(number), {x_m, y_m, 0, false});
     for (int i = 0; i < of_them_level; ++i) pixels[static_cast<std::size_t>(i)].is_level = true;
@@ -234,7 +233,7 @@ TEST(RequireEvidence, NeedsFiftyFivePercentLevel) {
 }
 
 TEST(RequireEvidence, SumsSharesOverCells) {
-    // Alone, the cell at 1 m has evidence, the cell at 5 m does not.
+    // On its own, the cell at 1 m has evidence, but the cell at 5 m does not.
     std::vector<Seen> pixels = closePixels(100, 80);
     const auto join = [&](const std::vector<Seen>& more) {
         pixels.insert(pixels.end(), more.begin(), more.end());
@@ -245,7 +244,7 @@ TEST(RequireEvidence, SumsSharesOverCells) {
     EXPECT_TRUE(allAre(kWithdrawn, required(pixels)));
 }
 
-// Blocks are 3 m wide: x = 1 is in the block from 0 to 3 m, x = 12 is in the fourth after it.
+// Blocks are 3 m wide: x = 1 is in the block from 0 to 3 m, x = 12 is four blocks farther.
 TEST(RequireEvidence, ReachesFourBlocks) {
     const auto toleratedAt = [](float x_m, float y_m) {
         return required({{1, 1, 0, true}, {x_m, y_m, 5, false}}).back();
@@ -263,7 +262,7 @@ TEST(RequireEvidence, ReachesFourBlocks) {
 }
 
 TEST(RequireEvidence, EndsAtGridEdge) {
-    // Grid columns are contiguous in memory, but the end of one is not near the start of the next.
+    // Grid columns are contiguous in memory, but a column's end is not near the next one's start.
     const std::vector<float> tolerance_m =
         required({{47.9f, 47.9f, 0, true}, {-47.9f, 47.9f, 5, false}, {47.9f, -47.9f, 5, false}});
     EXPECT_EQ(tolerance_m, (std::vector{0.5f, kWithdrawn, kWithdrawn}));
@@ -282,7 +281,7 @@ TEST(RequireEvidence, ToleranceGrowsWithDistance) {
 }
 
 TEST(RequireEvidence, OutsideGridHasNoEvidence) {
-    // A pixel outside has no tolerance and is no evidence for cells inside.
+    // A pixel outside has no tolerance and provides no evidence for cells inside.
     for (const auto& [x_m, y_m] : {std::pair{48.1f, 0.0f},
                                    {-48.1f, 0.0f},
                                    {0.0f, 48.1f},

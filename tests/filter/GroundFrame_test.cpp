@@ -17,8 +17,8 @@ Attitude randomAttitude(test::Random& random) {
     return {random.real(-max_rad, max_rad), random.real(-max_rad, max_rad)};
 }
 
-/// Rings of points on a plane `below_m` under the sensor, in the frame of a sensor with `attitude`
-/// against the plane: 16 rings of 2 to 36 m.
+/// Points on a plane `below_m` under the sensor, in 16 rings of 2 to 36 m. The sensor has
+/// `attitude` relative to the plane.
 std::vector<Eigen::Vector3f> ringsOnPlane(const Attitude& attitude, float below_m) {
     std::vector<Eigen::Vector3f> points;
     const Eigen::Matrix3f sensor_from_plane = levelFromSensor(attitude).transpose();
@@ -43,7 +43,7 @@ float greatestHeight(const Eigen::Isometry3f& ground_from_sensor,
     return greatest_m;
 }
 
-GroundFrameWorkspace work;  // reused by all tests, as by a filter for all scans
+GroundFrameWorkspace work;  // reused, as in a filter
 
 TEST(GroundFrame, PlaneHasZeroHeightAtAnyTilt) {
     test::Random random(70);
@@ -56,7 +56,7 @@ TEST(GroundFrame, PlaneHasZeroHeightAtAnyTilt) {
             EXPECT_LT(greatestHeight(frame, points), 0.01f);
             EXPECT_NEAR(frame.translation().z(), below_m, 0.01f);
             EXPECT_NEAR(frame.translation().head<2>().norm(), 0, 1e-5);
-            // The shortest rotation: forward stays forward in top view.
+            // By the shortest rotation, forward stays forward in top view.
             EXPECT_TRUE((frame.linear() * frame.linear().transpose()).isIdentity(1e-5f));
             EXPECT_GT(frame.linear()(0, 0), 0.9f);
         }
@@ -70,8 +70,7 @@ TEST(GroundFrame, IgnoresWallsAndCrowns) {
         const Eigen::Vector3f normal = levelFromSensor(attitude).transpose().col(2);
         const auto ground = ringsOnPlane(attitude, 3);
         auto points = ground;
-        // A wall fills a sector of 100 degrees from 8 m on: 28 % of the returns; the ground behind
-        // it is hidden.
+        // A wall from 8 m on fills 100 degrees (28 % of the returns) and hides the ground behind.
         const int first = random.whole(0, 179);
         int raised = 0;
         for (std::size_t i = 8 * 180; i < points.size(); ++i) {
@@ -80,7 +79,7 @@ TEST(GroundFrame, IgnoresWallsAndCrowns) {
             points[i] += random.real(0, 6) * normal;
             ++raised;
         }
-        for (Eigen::Vector3f& p : points) {  // and tree crowns anywhere
+        for (Eigen::Vector3f& p : points) {  // adds tree crowns anywhere
             if (!random.chance(0.2)) continue;
             p += random.real(0.5f, 6) * normal;
             ++raised;
@@ -109,24 +108,24 @@ TEST(GroundFrame, IgnoresStraysFarAndEmptyPixels) {
 }
 
 TEST(GroundFrame, WeighsPointsAboveLess) {
-    const auto movedBy = [](float off_m) {  // every fourth point, one per cell
+    const auto movedBy = [](float off_m) {  // moves every fourth point, one per cell
         auto points = test::groundPoints(36, 1.5f, [](float, float) { return -2.0f; });
         for (std::size_t i = 0; i < points.size(); i += 4) points[i].z() += off_m;
-        const PixelPoints pixels = pixelsAt(points, 49);  // per side of the square
+        const PixelPoints pixels = pixelsAt(points, 49);  // points per side of the square
         return std::abs(fitGroundFrame(pixels, Attitude{}, work).translation().z() - 2);
     };
     EXPECT_GT(movedBy(0.5f), 0.001f);
     EXPECT_LT(movedBy(0.5f), 0.8f * movedBy(-0.5f));
 }
 
-TEST(GroundFrame, TwoCellsGiveLevelPlane) {
+TEST(GroundFrame, TwoCellsYieldLevelPlane) {
     const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt({{5, 0, -1.5f}, {8, 3, -2}}), {}, work);
     EXPECT_TRUE(frame.linear().isIdentity());
     EXPECT_FLOAT_EQ(frame.translation().z(), 2);
     EXPECT_FLOAT_EQ(fitGroundFrame(pixelsAt({{5, 0, -1.5f}}), {}, work).translation().z(), 1.5f);
 }
 
-TEST(GroundFrame, NoPixelGivesLevelPlaneThroughSensor) {
+TEST(GroundFrame, NoPixelYieldsLevelPlaneThroughSensor) {
     const PixelPoints none = pixelsAt({test::kEmptyPixel, test::kEmptyPixel});
     EXPECT_TRUE(fitGroundFrame(none, {}, work).isApprox(Eigen::Isometry3f::Identity()));
     const Attitude attitude{0.1f, 0.2f};
@@ -155,7 +154,7 @@ TEST(CanBeGround, NeedsSensorAboveLevelGround) {
     EXPECT_TRUE(canBeGround(frameAt(2, 44), {}, labels));
     EXPECT_TRUE(canBeGround(frameAt(2, -44), {}, labels));
     EXPECT_FALSE(canBeGround(frameAt(2, 46), {}, labels));
-    // A sensor with a known mount of 60 degrees.
+    // The sensor has a known mount of 60 degrees.
     const Attitude mounted{static_cast<float>(radians(60)), 0};
     EXPECT_TRUE(canBeGround(frameAt(2, 60), mounted, labels));
     EXPECT_FALSE(canBeGround(frameAt(2, 0), mounted, labels));
@@ -176,8 +175,8 @@ TEST(Upwards, WithoutAttitudeIsGroundNormal) {
 }
 
 TEST(Upwards, SlopeLeansFromNormal) {
-    // A level sensor over ground that rises ahead by 10 degrees is nose down relative to it, and up
-    // leans forward from the ground normal.
+    // A level sensor over ground that rises ahead by 10 degrees is pitched down relative to the
+    // ground, so up leans forward from the ground normal.
     const Attitude against_slope{0, static_cast<float>(radians(10))};
     const Eigen::Isometry3f frame =
         fitGroundFrame(pixelsAt(ringsOnPlane(against_slope, 2)), Attitude{}, work);

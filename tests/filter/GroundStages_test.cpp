@@ -1,4 +1,4 @@
-// The vectorised ground stages against their definitions, and on every instruction set.
+// Compares the vectorised ground stages with their definitions and across instruction sets.
 #include <gtest/gtest.h>
 #include "filter/FilterWorkspace.h"
 #include "filter/simd/CanopyLayer.h"
@@ -14,8 +14,8 @@
 namespace hagen {
 namespace {
 
-/// The returns of a rotating sensor over rolling ground with obstacles, low plants, stray returns
-/// below the ground, gaps and returns outside the grid; in the sensor frame, 2 m up.
+/// The returns of a rotating sensor 2 m above rolling ground, in the sensor frame, with obstacles,
+/// low plants, stray returns below the ground, gaps and returns outside the grid.
 struct Sight {
     PixelPoints pixels;
     Image<Label> labels;
@@ -57,7 +57,8 @@ Sight randomSight(test::Random& random, int rows, int columns, float step_m, dou
     return s;
 }
 
-/// Sizes that are not multiples of a vector, one column, many rows, equal values, empty images.
+/// Visits sizes that are not multiples of a vector, a single column, many rows, equal values and
+/// empty images.
 template <class Visit>
 void forManySights(Visit visit) {
     test::Random random(110);
@@ -75,9 +76,9 @@ void forManySights(Visit visit) {
 }
 
 const HeightTolerance kTolerance;
-FilterWorkspace work;  // reused by all tests, as by a filter for all scans
+FilterWorkspace work;  // reused, as in a filter
 
-/// All stages from the pixels to the labels.
+/// The results of all stages from pixels to labels.
 struct Judged {
     Eigen::Isometry3f frame;
     PixelCells cells;

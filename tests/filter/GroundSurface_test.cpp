@@ -19,9 +19,8 @@ constexpr int kCells = GroundSurface::kCells;
 constexpr float kCell_m = GroundSurface::kCell_m;
 constexpr float kNone = std::numeric_limits<float>::infinity();
 using Grid = Eigen::ArrayXXf;
-GroundSurfaceWorkspace work;  // reused by all tests, as by a filter for all scans
+GroundSurfaceWorkspace work;  // reused, as in a filter
 
-/// The surface fitted to all points.
 GroundSurface surfaceUnder(const std::vector<Eigen::Vector3f>& points_m) {
     GroundSurface surface;
     const PixelPoints pixels = pixelsAt(points_m);
@@ -62,7 +61,7 @@ TEST(GroundSurface, IsBilinearBetweenCellCentres) {
     EXPECT_NEAR(surface.at(x_m, y_m + kCell_m), 3, 1e-4);
     EXPECT_NEAR(surface.at(x_m + 0.25f * kCell_m, y_m), 1.25f, 1e-4);
     EXPECT_NEAR(surface.at(x_m, y_m + 0.25f * kCell_m), 1.5f, 1e-4);
-    // 0.25 of the way in x, 0.5 in y: 0.375 * 1 + 0.125 * 2 + 0.375 * 3 + 0.125 * 5
+    // 0.25 in x, 0.5 in y: 0.375 * 1 + 0.125 * 2 + 0.375 * 3 + 0.125 * 5
     EXPECT_NEAR(surface.at(x_m + 0.25f * kCell_m, y_m + 0.5f * kCell_m), 2.375f, 1e-4);
 }
 
@@ -95,9 +94,9 @@ TEST(GroundSurface, SingleHeightFillsSquare) {
     EXPECT_LT((surfaceUnder({points.front()}).height_m - 0.7f).abs().maxCoeff(), 1e-5f);
 }
 
-/// The definition in the header, over a square in which every cell is seen: the envelope by
-/// Dijkstra's algorithm from the lowest cells, means and binomial by definition. NaN where
-/// neighbours are not ground and coarser grids contribute.
+/// The definition in the header, for a square in which every cell is seen: the envelope by
+/// Dijkstra's algorithm from the lowest cells, means and binomial as defined. NaN where neighbours
+/// are not ground and coarser grids contribute.
 Grid slowSurface(const std::vector<Eigen::Vector3f>& points_m) {
     Grid lowest_m = Grid::Constant(kCells, kCells, kNone);
     for (const auto& p : points_m) {
@@ -191,20 +190,19 @@ TEST(GroundSurface, MatchesSlowFitInView) {
     }
 }
 
-/// Whether a cell of returns at `height_m` counts as ground, `cells` away from a cell of level
-/// ground.
+/// Whether a cell with returns at `height_m`, `cells` away from a cell of level ground, is ground.
 bool isGround(int cells, float height_m, bool diagonally, bool seen_between) {
     std::vector<Eigen::Vector3f> points{{middleOf(64), middleOf(64), 0}};
     const int y = diagonally ? 64 + cells : 64;
     points.emplace_back(middleOf(64 + cells), middleOf(y), height_m);
-    for (int k = 1; seen_between && k < cells; ++k) {  // too high to be a step themselves
+    for (int k = 1; seen_between && k < cells; ++k) {  // too high to be ground themselves
         points.emplace_back(middleOf(64 + k), middleOf(diagonally ? 64 + k : 64), 30.0f);
     }
     return !(surfaceUnder(points).height_m == 0).all();
 }
 
 TEST(GroundSurface, RemovesCellsAboveSteepestSlopes) {
-    // The last step is into a cell with a candidate, the others are over cells without.
+    // The last step leads to a cell with a candidate, the others cross cells without candidates.
     const float cells = 10, step_m = 0.75f;
     const float unseen_m = (0.15f * (cells - 1) + 0.3f) * step_m + 0.15f;
     EXPECT_TRUE(isGround(10, unseen_m - 0.01f, false, false));
@@ -218,9 +216,8 @@ TEST(GroundSurface, RemovesCellsAboveSteepestSlopes) {
 }
 
 TEST(GroundSurface, SlopesAreIsotropic) {
-    // Level ground in 3 x 3 cells, a plateau in another 3 x 3, walls everywhere else. The far
-    // corner of the plateau is 9 cells away along one axis and 5 along the other: 4 straight and
-    // 5 diagonal steps.
+    // Level ground and a plateau of 3 x 3 cells each, surrounded by walls. The far corner of the
+    // plateau is 4 straight and 5 diagonal steps away.
     const float height_m = 0.3f * kCell_m * (4 + 5 * std::sqrt(2.0f)) + 0.15f;
     for (const auto& [dx, dy] :
          {std::pair{9, 5}, {9, -5}, {-9, 5}, {-9, -5}, {5, 9}, {5, -9}, {-5, 9}, {-5, -9}}) {
@@ -246,7 +243,7 @@ TEST(GroundSurface, FollowsGentleHill) {
 }
 
 TEST(GroundSurface, WallDoesNotLiftHiddenGround) {
-    // The ground is not visible within 1 m of the wall, nor for 6 m behind it.
+    // The ground is hidden within 1 m of the wall and for 6 m behind it.
     std::vector<Eigen::Vector3f> points;
     for (const Eigen::Vector3f& p : groundPoints(25, 0.25f, kLevel)) {
         if (!(p.x() > 9 && p.x() < 16 && std::abs(p.y()) < 6)) points.push_back(p);
@@ -281,7 +278,7 @@ TEST(GroundSurface, IgnoresOtherPixels) {
 }
 
 TEST(GroundSurface, RecoversGroundCutOffByLabels) {
-    // A mound of 0.15 m, labelled as an obstacle, with a 2 m bush on it.
+    // A 0.15 m mound, labelled as an obstacle, with a 2 m bush on top.
     const auto mound = [](float x_m, float y_m) {
         return 0.15f * std::exp(-((x_m - 8) * (x_m - 8) + y_m * y_m) / (2 * 2 * 2));
     };
@@ -304,8 +301,8 @@ TEST(GroundSurface, RecoversGroundCutOffByLabels) {
     EXPECT_LT(greatestError(surface, 18, mound), 0.03f);
 }
 
-// Blocks 0.3 m high hide the ground: the slope limits accept them, the first fit does not. The same
-// holds for mirrored blocks below ground.
+// Blocks 0.3 m high hide the ground: the slope limits accept them, but the first fit does not. The
+// same applies to mirrored blocks below ground.
 TEST(GroundSurface, KeepsDistantPixelsExcluded) {
     for (const float height_m : {0.3f, -0.5f}) {
         auto points = groundPoints(20, 0.25f, kLevel);

@@ -24,7 +24,7 @@ using test::SimpleScene;
 
 const Eigen::Vector3d kTwoMetresUp(0, 0, 2);
 
-/// Returns in the zone whose label differs from the ground truth.
+/// Number of returns in the zone whose label differs from the ground truth.
 int mistakes(const LabelledScan& labelled, const SegmentationResult& result, Label truth) {
     int wrong = 0;
     for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
@@ -34,7 +34,7 @@ int mistakes(const LabelledScan& labelled, const SegmentationResult& result, Lab
     return wrong;
 }
 
-/// Missed returns higher than grass, with the ground 2 m below the sensor.
+/// Number of missed returns higher than grass, with the ground 2 m below the sensor.
 int missedAboveGrass(const LabelledScan& labelled, const SegmentationResult& result) {
     int missed = 0;
     for (std::size_t i = 0; i < labelled.scan.size(); ++i) {
@@ -71,10 +71,10 @@ TEST(HagenFilter, WallIsRoiAndGroundIsRou) {
     HagenFilter papers(sensorModel("VLP-16"), paperOptions());
     const auto& result = papers.segment(wall.scan);
     EXPECT_EQ(mistakes(wall, result, Label::Roi), 0);
-    // Where a beam hits the ground just before the wall, the slope to the next beam is the wall's.
+    // If a beam hits the ground just before the wall, the slope to the next beam is the wall's.
     const double wall_columns = 870 * 2 * std::atan(5.0 / 10.0) / (2 * kPi);
     EXPECT_LE(mistakes(wall, result, Label::Rou), wall_columns);
-    // Their height makes these returns ground again, with at most the lowest of the wall.
+    // By height, these returns are ground again; of the wall, at most the lowest row is missed.
     HagenFilter filter(sensorModel("VLP-16"));
     EXPECT_EQ(missedAboveGrass(wall, filter.segment(wall.scan)), 0);
     EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);
@@ -91,7 +91,7 @@ TEST(HagenFilter, FloatingBoxIsRoi) {
     }
 }
 
-// Limitation of the paper's seeds: the return of a column's lowest beam is labelled ground.
+// Limitation of the paper's seeds: the lowest return of each column is labelled ground.
 TEST(HagenFilter, NearWallIsRouOnlyInPaper) {
     SimpleScene scene;
     scene.boxes.push_back({{5, -2, 0}, {6, 2, 4}});
@@ -104,7 +104,7 @@ TEST(HagenFilter, NearWallIsRouOnlyInPaper) {
     EXPECT_EQ(mistakes(wall, filter.segment(wall.scan), Label::Rou), 0);
 }
 
-/// The scan of a sensor with this attitude at the same position.
+/// The scan of a sensor with this attitude at the same place.
 Scan tilted(const Scan& level, const SensorModel& sensor, const Attitude& attitude) {
     const Eigen::Matrix3f sensor_from_level = levelFromSensor(attitude).transpose();
     std::vector<Eigen::Vector3f> points;
@@ -117,7 +117,7 @@ Scan tilted(const Scan& level, const SensorModel& sensor, const Attitude& attitu
 
 TEST(HagenFilter, LoneReturnIsRoi) {
     HagenFilter filter(sensorModel("VLP-16"));
-    // An earlier scan had ground.
+    // The previous scan contains ground.
     filter.segment(test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 2}).scan);
     Scan scan;
     scan.x_m = {5.0f};
@@ -157,7 +157,7 @@ TEST(HagenFilter, IgnoresUnusedAttitude) {
     EXPECT_EQ(filter.segment(pole.scan, Attitude{0.2f, 0.2f}).returns.label, labels);
 }
 
-/// The mount determines the image rows, also if angles are relative to the airframe.
+/// The mount determines the image rows, even if angles are relative to the airframe.
 TEST(HagenFilter, UpsideDownLabelsMatchUpright) {
     const SensorModel sensor = sensorModel("VLP-16");
     SimpleScene scene;
@@ -177,8 +177,8 @@ TEST(HagenFilter, UpsideDownLabelsMatchUpright) {
     }
 }
 
-/// A result from another filter, with fewer returns behind pixels.
-TEST(HagenFilter, IgnoresResultOfAnotherFilter) {
+/// The result of another filter has fewer returns behind pixels.
+TEST(HagenFilter, IgnoresResultFromOtherFilter) {
     const SensorModel sensor = sensorModel("VLP-16");
     SimpleScene scene;
     scene.boxes.push_back({{10, -5, 0}, {11, 5, 30}});
@@ -208,7 +208,7 @@ TEST(HagenFilter, TooCloseGroundIsRoi) {
     EXPECT_EQ(mistakes(ground, low.segment(ground.scan), Label::Rou), count(ground, Label::Rou));
 }
 
-TEST(HagenFilter, LowGroundAlarmNeedsNoSurface) {
+TEST(HagenFilter, LowGroundAlarmWorksWithoutSurface) {
     const auto ground = test::scanScene({}, sensorModel("VLP-16"), 870, {0, 0, 1});
     Options options = paperOptions();
     options.ground_is_roi_below_m = 1.5f;
@@ -308,7 +308,7 @@ Scan inOrder(const Scan& scan, const SensorModel& sensor, const std::vector<std:
     return test::scanOf(sensor, points);
 }
 
-TEST(HagenFilter, IgnoresOrderOfReturns) {
+TEST(HagenFilter, IgnoresReturnOrder) {
     for (unsigned seed = 43; seed < 49; ++seed) {
         const SensorModel sensor = sensorModel(seed % 2 == 0 ? "VLP-16" : "HDL-64E");
         const Scan scan = randomScan(seed, sensor);
@@ -324,7 +324,7 @@ TEST(HagenFilter, IgnoresOrderOfReturns) {
     }
 }
 
-/// The fraction of returns whose label changes when the scan is rotated by whole columns.
+/// The share of returns whose label changes when the scan is rotated by whole columns.
 double changedByTurning(const Scan& scan, const SensorModel& sensor, const Options& options,
                         int columns) {
     const double angle_rad = 2 * kPi * columns / 870;
@@ -352,7 +352,7 @@ TEST(HagenFilter, HeadingBarelyAffectsLabels) {
     const Scan scan = test::scanScene(scene, sensor, 870, kTwoMetresUp).scan;
     for (const int columns : {1, 37, 435, 700}) {
         EXPECT_EQ(changedByTurning(scan, sensor, paperOptions(), columns), 0) << columns;
-        // The cells of the surface do not rotate with the scan.
+        // The surface's cells do not rotate with the scan.
         EXPECT_LT(changedByTurning(scan, sensor, Options(), columns), 0.01) << columns;
     }
 }
@@ -418,7 +418,7 @@ TEST(HagenFilter, EmptyScanHasNoReturns) {
     EXPECT_TRUE((result.ground.surface.height_m == 0).all());
 }
 
-/// Gentle hills with plants and obstacles; no two returns have the same range.
+/// Gentle hills with plants and obstacles; all ranges are different.
 Scan hillyScan(unsigned seed, const SensorModel& sensor) {
     test::Random random(seed);
     std::vector<Eigen::Vector3f> points;
@@ -451,7 +451,7 @@ std::vector<Image<float>> imagesWith(const Options& options, const Scan& scan) {
         numbers(r.returns.component)};
 }
 
-/// The first of these images that an option changes; each stage has its own options.
+/// The name of the first image that an option changes; each stage has its own options.
 TEST(HagenFilter, EveryOptionReachesItsStage) {
     enum { Depth, Repaired, Sharpened, Merged, Angle, Smoothed, OfPixel, Labels, Components };
     const std::map<std::string, int> stages{{"context_m", Depth},
@@ -510,7 +510,7 @@ TEST(HagenFilter, RejectsUnlocatedScan) {
     EXPECT_EQ(filter.segment(scan).returns.label.size(), 2u);
 }
 
-TEST(HagenFilter, RejectsRowsOfAnotherSensor) {
+TEST(HagenFilter, RejectsRowsFromOtherSensor) {
     for (const auto& [own, other] : {std::pair{"VLP-16", "HDL-64E"}, {"HDL-64E", "VLP-16"}}) {
         HagenFilter filter(sensorModel(own));
         const auto ground = test::scanScene({}, sensorModel(own), 870, kTwoMetresUp);

@@ -19,10 +19,10 @@ using test::cellFromSensor;
 using test::kEmptyPixel;
 using test::pixelsAt;
 
-/// Relative to the plane z = 0, so a pixel's height is its z.
+/// Tolerances over the plane z = 0, so that a pixel's height is its z.
 Image<float> tolerated(const PixelPoints& pixels, const HeightTolerance& tolerance = {},
                        float sensor_height_m = 1) {
-    static ToleranceWorkspace work;  // reused by all tests, as by a filter for all scans
+    static ToleranceWorkspace work;  // reused, as in a filter
     Image<float> tolerance_m;
     CellTops tops;
     PixelCells cells;
@@ -65,7 +65,7 @@ TEST(HeightTolerance, MatchesBruteForce) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto& p = points[i];
         if (!hasValue(p.x())) continue;
-        std::map<std::pair<int, int>, std::vector<float>> around_m;  // by cell, the highest first
+        std::map<std::pair<int, int>, std::vector<float>> around_m;  // per cell, the highest first
         for (const auto& q : points) {
             if (!hasValue(q.x()) || q.z() >= 1.5f) continue;
             const int u = static_cast<int>(cellFromSensor(q.x()));
@@ -98,7 +98,7 @@ TEST(LabelByHeight, OutsideToleranceIsRoi) {
     EXPECT_TRUE((labels == expected).all());
 }
 
-/// The labels of a column over the plane z = 0, lowest row first, after growing feet. The initial
+/// The labels of a column over the plane z = 0 after growing feet, lowest row first. The initial
 /// labels use a tolerance of 0.2 m.
 std::vector<Label> grown(const std::vector<Eigen::Vector3f>& column) {
     const PixelPoints pixels = pixelsAt(column, static_cast<int>(column.size()));
@@ -115,7 +115,7 @@ TEST(GrowFeet, FollowsObstaclesDownToGround) {
     const Eigen::Vector3f none = kEmptyPixel, top(8, 0, 1);
     const std::pair<std::vector<Eigen::Vector3f>, std::vector<Label>> cases[] = {
         {{{3, 0, 0}, {8, 0, 0.05f}, {8, 0, 0.15f}, {8, 0, 0.5f}}, {kRou, kRoi, kRoi, kRoi}},
-        {{{5, 0, 0.15f}, {8, 0, 0.5f}}, {kRou, kRoi}},            // grass in front of a wall
+        {{{5, 0, 0.15f}, {8, 0, 0.5f}}, {kRou, kRoi}},            // grass before a wall
         {{{7.61f, 0, 0.1f}, {8, 0, 0.5f}}, {kRoi, kRoi}},         // steeper than 45 degrees
         {{{7.59f, 0, 0.1f}, {8, 0, 0.5f}}, {kRou, kRoi}},         // flatter
         {{{0, 7.59f, 0.1f}, {0, 8, 0.5f}}, {kRou, kRoi}},         // in any direction
@@ -131,8 +131,8 @@ TEST(GrowFeet, FollowsObstaclesDownToGround) {
     }
 }
 
-/// Labels of 3 x 5 pixels that differ only in height (over the plane z = 0) after removing specks;
-/// tolerance 0.2 m.
+/// Labels of 3 x 5 pixels that differ only in their height over the plane z = 0, after removing
+/// specks; the tolerance is 0.2 m.
 Image<Label> voted(const Image<float>& height_m, float distance_step_m = 0) {
     PixelPoints pixels{Image<float>(3, 5), Image<float>::Zero(3, 5), height_m};
     for (int column = 0; column < 5; ++column) {
@@ -171,7 +171,7 @@ TEST(RemoveSpecks, TieKeepsLabel) {
     height_m(0, 1) = 2;     // votes for RoI
     height_m(2, 2) = height_m(2, 3) = 0;
     EXPECT_EQ(voted(height_m)(1, 2), kRoi);
-    height_m(1, 3) = 0;  // 2 to 3
+    height_m(1, 3) = 0;  // votes: 2 to 3
     EXPECT_EQ(voted(height_m)(1, 2), kRou);
 }
 
@@ -194,8 +194,8 @@ TEST(RemoveSpecks, IgnoresPixelsBeyondOneMetre) {
 TEST(RemoveSpecks, CountsLabelsBeforeVoting) {
     Image<float> height_m = Image<float>::Constant(3, 5, kNoValue);
     height_m.col(0) = 0.0f;
-    height_m(1, 1) = 0.3f;  // 2 to 4: becomes ROU
-    height_m(1, 2) = 0.3f;  // 2 to 1, as the left one still counts as RoI
+    height_m(1, 1) = 0.3f;  // votes 2 to 4, becomes ROU
+    height_m(1, 2) = 0.3f;  // votes 2 to 1, as the left one is still RoI
     height_m(0, 2) = 0.0f;
     const Image<Label> labels = voted(height_m);
     EXPECT_EQ(labels(1, 1), kRou);

@@ -1,4 +1,4 @@
-// The whole filter gives bitwise equal results on all available instruction sets.
+// All available instruction sets give bitwise equal results for the whole filter.
 #include "scan/InstructionSets.h"
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
@@ -15,7 +15,7 @@
 namespace hagen {
 namespace {
 
-/// A yard with poles and walls, with noise, missing returns and a tilted sensor.
+/// A yard with poles and walls, seen by a tilted sensor with noise and missing returns.
 Scan noisyScan(const SensorModel& sensor, int columns, unsigned seed) {
     test::SimpleScene scene;
     scene.boxes = {{{4, -9, 0}, {12, -7, 3}}, {{-14, 4, 0}, {-6, 5, 2}}, {{5, 2, 0}, {6, 3, 0.4}}};
@@ -51,7 +51,7 @@ class Bytes {
     void add(const std::string& name, const std::vector<T>& values) {
         add(name, values.data(), values.size());
     }
-    /// The first name with different values; empty if all are equal.
+    /// The name of the first difference; empty if there is none.
     std::string differenceFrom(const Bytes& other) const {
         for (std::size_t i = 0; i < names_.size(); ++i) {
             if (bytes_[i] != other.bytes_[i]) return names_[i];
@@ -120,7 +120,7 @@ void expectOneResult(const std::string& sensor_name, const Options& options,
 }
 
 /// The reference stages give the same labels, although sums may be rounded differently.
-TEST(InstructionSets, ReferenceStagesGiveSameLabels) {
+TEST(InstructionSets, ReferenceStagesYieldSameLabels) {
     for (const char* const name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
         for (const unsigned seed : {3, 4, 5}) {
             const SensorModel sensor = sensorModel(name);

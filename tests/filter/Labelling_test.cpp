@@ -15,7 +15,7 @@ constexpr float kNoGate_rad = static_cast<float>(kPi / 2);
 
 Image<Label> labelled(const Image<float>& depth_m, const Image<float>& angle_rad, float beta_rad,
                       Seeds seeds = Seeds::Lowest, float seed_gate_rad = kNoGate_rad) {
-    static LabellingWorkspace work;  // reused by all tests, as by a filter for all scans
+    static LabellingWorkspace work;  // reused, as in a filter
     Image<Label> labels;
     labelRegions(depth_m, angle_rad, beta_rad, seeds, seed_gate_rad, labels, work);
     return labels;
@@ -77,7 +77,7 @@ TEST(Labelling, MatchesSlowLabellerOnEveryInstructionSet) {
         const int rows = random.chance(0.5) ? random.whole(1, 70) : random.whole(71, 256);
         const int columns = random.chance(0.3) ? random.whole(1, 3) : random.whole(4, 40);
         const Image<float> depth_m = random.image(rows, columns, 1.0f, 30.0f, 0.1);
-        // only a few angles, so that many differ by exactly beta; regions may cross empty pixels
+        // A few angles, so that many differ by exactly beta; regions may cross empty pixels.
         Image<float> angle_rad = random.image(rows, columns, 0.0f, 4.0f, 0.05).round() * 0.25f;
         if (random.chance(0.5)) angle_rad = depth_m.isNaN().select(kNoValue, angle_rad);
         const float beta_rad = 0.25f * static_cast<float>(random.whole(1, 4));
@@ -93,7 +93,7 @@ TEST(Labelling, MatchesSlowLabellerOnEveryInstructionSet) {
 }
 
 TEST(Labelling, FollowsWindingPath) {
-    // Up one column, across, down the next, and so on: 0 is the path, 1 separates it.
+    // Angle 0 is the path: up one column, across, down the next, and so on. Angle 1 separates it.
     for (const int rows : {5, 64, 65, 130}) {
         const int columns = 40;
         Image<float> angle_rad = Image<float>::Constant(rows, columns, 1.0f);
@@ -103,7 +103,7 @@ TEST(Labelling, FollowsWindingPath) {
         }
         angle_rad.col(columns - 1).setConstant(2.0f);
         Image<float> depth_m = Image<float>::Constant(rows, columns, 10.0f);
-        // the only seed: all other columns have a pixel without an angle below
+        // Only column 0 has a seed: elsewhere, the lowest pixel has no angle.
         for (int column = 1; column < columns; ++column) angle_rad(0, column) = kNoValue;
         for (int column = 3; column < columns - 1; column += 4) angle_rad(1, column) = 0.0f;
         for (const Seeds seeds : {Seeds::Lowest, Seeds::TopAndNearest}) {
@@ -117,7 +117,8 @@ TEST(Labelling, FollowsWindingPath) {
 }
 
 TEST(Labelling, GatedSeedIsRoiUnlessReached) {
-    // Lowest pixels are steep in columns 0 and 1, level in 2; from 2 to 1, angles differ by 0.4.
+    // The lowest pixels of columns 0 and 1 are steep, that of column 2 is level; from 2 to 1,
+    // angles differ by 0.4.
     Image<float> depth_m(3, 3), angle_rad(3, 3);
     depth_m.row(0) = 5.0f;
     depth_m.row(1) = 6.0f;

@@ -28,7 +28,7 @@ Image<float> levelAngles(const Image<float>& depth_m, const SensorModel& sensor,
     return angles_rad;
 }
 
-// MRPT rotates by yaw, pitch, roll: R = Rz(yaw) Ry(pitch) Rx(roll), multiplied out for yaw 0.
+// MRPT rotates by yaw, pitch, roll: R = Rz(yaw) Ry(pitch) Rx(roll), written out for yaw 0.
 TEST(Levelling, RotationIsPitchThenRoll) {
     test::Random random(60);
     for (int round = 0; round < 20; ++round) {

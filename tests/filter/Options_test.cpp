@@ -24,7 +24,7 @@ TEST(Options, AblationsDifferFromDefaults) {
 
 TEST(Options, ChecksEveryRange) {
     for (const OptionKey& key : optionKeys()) {
-        if (std::holds_alternative<bool Options::*>(key.field)) continue;  // no invalid values
+        if (std::holds_alternative<bool Options::*>(key.field)) continue;  // all values are valid
         Options options;
         std::visit(
             [&](auto field) {
@@ -41,12 +41,12 @@ TEST(Options, ChecksEveryRange) {
     }
 }
 
-TEST(Options, AcceptsEndsOfRanges) {
+TEST(Options, AcceptsRangeLimits) {
     for (const OptionKey& key : optionKeys()) {
         for (const double end : {key.min, key.max}) {
             Options options;
-            options.window_size = 64;          // so that the most components fit
-            options.principal_components = 1;  // and the smallest window does
+            options.window_size = 64;          // so that the maximum number of components fits
+            options.principal_components = 1;  // so that the minimum window fits
             std::visit(
                 [&](auto field) {
                     using Value = std::decay_t<decltype(options.*field)>;

@@ -13,15 +13,15 @@ namespace hagen {
 namespace {
 
 std::vector<Maximum> maximaOf(const Image<float>& proximity_m, float min_persistence_m = 0.0f) {
-    static MaximaWorkspace work;  // reused by all tests, as by a filter for all scans
+    static MaximaWorkspace work;  // reused, as in a filter
     std::vector<Maximum> maxima;
     findPersistentMaxima(proximity_m, min_persistence_m, maxima, work);
     return maxima;
 }
 
-/// The definition, without sweep or union-find: a pixel dies at the highest level at which a path
-/// connects it to an older pixel, which is the maximum over all paths to any older pixel of the
-/// lowest proximity on the path. Computed by widest paths between all pairs (Floyd and Warshall).
+/// The definition without sweep or union-find: a pixel dies at the highest level at which a path
+/// connects it to an older pixel, i.e. the maximum, over all paths to older pixels, of the lowest
+/// proximity on the path. Computed as widest paths between all pairs (Floyd and Warshall).
 std::vector<Maximum> bruteForceMaxima(const Image<float>& proximity_m, float min_persistence_m) {
     const int rows = static_cast<int>(proximity_m.rows());
     const int columns = static_cast<int>(proximity_m.cols());
@@ -63,7 +63,7 @@ std::vector<Maximum> bruteForceMaxima(const Image<float>& proximity_m, float min
     return maxima;
 }
 
-/// The definition as a sweep: every pixel, oldest first, joins the components that it touches.
+/// The definition as a sweep: each pixel, oldest first, joins the components it touches.
 std::vector<Maximum> sweptMaxima(const Image<float>& proximity_m, float min_persistence_m) {
     const int rows = static_cast<int>(proximity_m.rows());
     const int columns = static_cast<int>(proximity_m.cols());
@@ -106,7 +106,7 @@ std::vector<Maximum> sweptMaxima(const Image<float>& proximity_m, float min_pers
     return maxima;
 }
 
-/// Equal bit for bit, in the same order.
+/// Expects bitwise equal maxima in the same order.
 void expectIdentical(const std::vector<Maximum>& found, const std::vector<Maximum>& expected) {
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -190,11 +190,11 @@ TEST(PersistentMaxima, PlateauHasMaximumAtFirstPixel) {
 TEST(PersistentMaxima, WrapInAzimuthOnly) {
     Image<float> proximity_m = Image<float>::Constant(5, 9, kNoValue);
     proximity_m(2, 0) = 3.0f;
-    proximity_m(2, 8) = 2.0f;  // next to the first across the seam: not a maximum
+    proximity_m(2, 8) = 2.0f;  // adjacent across the seam, so not a maximum
     EXPECT_EQ(maximaOf(proximity_m).size(), 1u);
     proximity_m(2, 8) = kNoValue;
     proximity_m(0, 4) = 3.0f;
-    proximity_m(4, 4) = 2.0f;  // first and last row: two
+    proximity_m(4, 4) = 2.0f;  // the first and last rows are not adjacent
     EXPECT_EQ(maximaOf(proximity_m).size(), 3u);
 }
 

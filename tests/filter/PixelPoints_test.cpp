@@ -18,7 +18,7 @@ struct Located {
     PixelPoints pixels;
 };
 
-/// The pixels of a scan of these points, after `fill` has repaired gaps of its depth image.
+/// The pixels of a scan of these points; `fill` repairs gaps in its depth image.
 template <class Fill>
 Located located(const SensorModel& sensor, const std::vector<Eigen::Vector3f>& points_m,
                 Fill fill) {
@@ -35,7 +35,7 @@ Located located(const SensorModel& sensor, const std::vector<Eigen::Vector3f>& p
 
 TEST(PixelPoints, PixelIsAtClosestReturn) {
     const SensorModel sensor = sensorModel("VLP-16");
-    // Off the centre of beam and column, like real returns.
+    // Off the centre of its beam and column, like a real return.
     const Eigen::Vector3f near = test::onBeam(sensor, 3, 40.2, 6) + Eigen::Vector3f(0, 0, 0.02f);
     const Eigen::Vector3f far = test::onBeam(sensor, 3, 40.3, 9);
     for (const auto& points : {std::vector{far, near}, std::vector{near, far}}) {

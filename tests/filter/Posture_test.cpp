@@ -16,7 +16,7 @@ Attitude tilt(double roll_deg, double pitch_deg = 0) {
     return {static_cast<float>(radians(roll_deg)), static_cast<float>(radians(pitch_deg))};
 }
 
-TEST(Posture, FollowsTiltOfSensorAxis) {
+TEST(Posture, FollowsSensorAxisTilt) {
     EXPECT_EQ(postureOf(std::nullopt), Posture::Upright);
     for (const auto& upright : {tilt(0), tilt(29), tilt(-29), tilt(0, 29), tilt(20, -20)})
         EXPECT_EQ(postureOf(upright), Posture::Upright);
@@ -39,10 +39,10 @@ TEST(Posture, ImageRowsRise) {
         const SensorModel down = sensorIn(Posture::UpsideDown, sensor);
         EXPECT_EQ(down.elevations_rad.front(), -sensor.elevations_rad.back());
     }
-    EXPECT_EQ(sensorIn(Posture::OnItsSide, sensorModel("VLP-16")).rows(), 91);  // 2 degrees apart
+    EXPECT_EQ(sensorIn(Posture::OnItsSide, sensorModel("VLP-16")).rows(), 91);  // every 2 degrees
 }
 
-// The image frame is the turned sensor frame; the rest of the tilt completes it.
+// The posture rotates the sensor frame into the image frame; the remaining tilt completes it.
 TEST(Posture, FrameAndRestComposeTilt) {
     test::Random random(8);
     for (int k = 0; k < 200; ++k) {
@@ -90,7 +90,7 @@ TEST(Posture, TurningKeepsMissingRanges) {
     const SensorModel sensor = sensorModel("VLP-16");
     Scan scan = test::scanOf(sensor, {{5, 1, 0}, {4, 0, 0.5f}, {0, 2.65e-23f, 0}, {0, 0, 0}});
     scan.range_m[1] = kNoValue;     // masked airframe
-    EXPECT_GT(scan.range_m[2], 0);  // so close that a squared coordinate is 0
+    EXPECT_GT(scan.range_m[2], 0);  // so close that its squared coordinates are 0
     EXPECT_TRUE(std::isnan(scan.range_m[3]));
     for (const Attitude& attitude : {tilt(180), tilt(90), tilt(40, -20)}) {
         HagenFilter filter(sensor, {});
@@ -109,7 +109,7 @@ test::LabelledScan sceneFrom(const SensorModel& sensor, const Attitude& attitude
     return test::scanScene(scene, sensor, 870, {0, 0, 2}, levelFromSensor(attitude).cast<double>());
 }
 
-TEST(Posture, LabelsHoldAtAnyRoll) {
+TEST(Posture, LabelsAreCorrectAtAnyRoll) {
     const SensorModel sensor = sensorModel("VLP-16");
     HagenFilter filter(sensor);
     for (const double roll_deg : {0.0, 20.0, 35.0, 60.0, 90.0, 120.0, 145.0, 160.0, 180.0, -90.0}) {
@@ -130,7 +130,7 @@ TEST(Posture, LabelsHoldAtAnyRoll) {
         EXPECT_GT(obstacles, 100);
         EXPECT_LE(missed, 0.05 * obstacles);
         EXPECT_LE(mistaken, 0.03 * ground);
-        // The transform is from the sensor's own frame.
+        // The transform starts in the sensor's own frame.
         const Eigen::Isometry3f& from_sensor = result.ground.from_sensor;
         EXPECT_NEAR(from_sensor.translation().z(), 2, 0.1f);
         EXPECT_LT((from_sensor.linear() - levelFromSensor(attitude)).norm(), 0.1f);

@@ -10,7 +10,7 @@
 namespace hagen {
 namespace {
 
-/// The definition, pixel by pixel.
+/// Implements the definition pixel by pixel.
 Image<float> plainAngles(const Image<float>& depth_m, const PixelDirections& directions) {
     Image<float> angles_rad(depth_m.rows() - 1, depth_m.cols());
     for (int column = 0; column < depth_m.cols(); ++column) {
@@ -41,7 +41,7 @@ Image<float> plainCarried(const Image<float>& range_angle_rad, bool to_beam_abov
     return carried_rad;
 }
 
-/// A sensor with this many beams, from -25 to 15 degrees.
+/// A sensor with `rows` beams from -25 to 15 degrees.
 PixelDirections directionsOf(int rows, int columns) {
     SensorModel sensor;
     for (int row = 0; row < rows; ++row) {

@@ -13,7 +13,7 @@ std::vector<RoiBox> boxesOf(const std::vector<Eigen::Vector3f>& points_m,
     return boxRoiComponents(test::scanOf(sensorModel("VLP-16"), points_m), returns);
 }
 
-TEST(RoiBoxes, BoxContainsReturnsOfComponent) {
+TEST(RoiBoxes, BoxContainsComponentReturns) {
     const auto boxes = boxesOf({{6, 8, 0}, {3, 4, 0}, {3, -4, 0}, {7, 6, 1}, {6, 8, -2}, {0, 1, 0}},
                                {2, 1, 1, 2, 2, 0});
     ASSERT_EQ(boxes.size(), 2u);

@@ -14,13 +14,13 @@ namespace {
 
 Image<std::int32_t> numbered(const Image<float>& depth_m, const Image<Label>& labels,
                              float max_gap_m = 1.0f) {
-    static ComponentsWorkspace work;  // reused by all tests, as by a filter for all scans
+    static ComponentsWorkspace work;  // reused, as in a filter
     Image<std::int32_t> components;
     numberRoiComponents(depth_m, labels, max_gap_m, components, work);
     return components;
 }
 
-/// The definition: flood fill from the closest pixel without a number.
+/// The definition: flood fill, starting at the closest pixel without a number.
 Image<std::int32_t> floodedNumbers(const Image<float>& depth_m, const Image<Label>& labels,
                                    float max_gap_m) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());

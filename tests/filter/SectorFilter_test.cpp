@@ -20,7 +20,7 @@ using test::SimpleScene;
 const Eigen::Vector3d kTwoMetresUp(0, 0, 2);
 constexpr int kColumns = 870;
 
-/// A turn whose first returns belong to a sector around the front.
+/// A turn whose first returns form a sector around the front.
 struct Turn {
     Scan scan, sector;
     std::vector<Label> whole;  ///< labels of the whole scan
@@ -48,14 +48,14 @@ Turn turnOf(const SimpleScene& scene, const SensorModel& sensor, double half_rad
     return turn;
 }
 
-/// An earlier sector result that contains only labels.
+/// The context from an earlier sector whose only known data are labels.
 std::vector<ContextReturn> contextOf(const std::vector<Label>& regions) {
     std::vector<ContextReturn> context;
     for (const Label region : regions) context.push_back({region, kNoValue});
     return context;
 }
 
-/// All columns up to 35 degrees from the front, and one in six elsewhere.
+/// All columns within 35 degrees of the front, and every sixth column elsewhere.
 ColumnMap windowInFront() {
     ColumnMap map;
     mapColumns(kColumns, 6, 58, 29, map);
@@ -80,7 +80,8 @@ TEST(SectorFilter, MatchesWholeScan) {
         ASSERT_EQ(found.returns.label.size(), turn.sector.size());
         ASSERT_EQ(filter.found().size(), turn.sector.size());
         EXPECT_TRUE(found.ground.has_surface);
-        // Labels, and the regions before ground estimation, which contain most of the flat ground.
+        // Compares labels, and the regions before ground estimation, which contain most of the flat
+        // ground.
         std::size_t different = 0, ground = 0, rou = 0, pole = 0, roi = 0;
         for (std::size_t i = 0; i < turn.sector.size(); ++i) {
             different += found.returns.label[i] != turn.whole[i];
@@ -98,7 +99,7 @@ TEST(SectorFilter, MatchesWholeScan) {
     }
 }
 
-/// If a sector sees only a wall, the context shows the ground.
+/// If a sector contains only a wall, the context shows the ground.
 TEST(SectorFilter, ContextRevealsGround) {
     SimpleScene scene;
     scene.boxes.push_back({{2, -20, 0}, {3, 20, 6}});
@@ -123,7 +124,7 @@ TEST(SectorFilter, EmptySectorHasNoLabels) {
     locateBeams(sensor, none);
     const ColumnMap columns = windowInFront();
     EXPECT_TRUE(filter.segment(none, {}, {none, columns, {}}).returns.label.empty());
-    // Context only.
+    // A context without a sector.
     const Scan scan = test::scanScene({}, sensor, kColumns, kTwoMetresUp).scan;
     const std::vector<Label> rou(scan.size(), Label::Rou);
     EXPECT_TRUE(filter.segment(scan, {}, {none, columns, contextOf(rou)}).returns.label.empty());
@@ -142,7 +143,7 @@ TEST(SectorFilter, RejectsUnlocatedReturns) {
     EXPECT_THROW(SectorFilter(sensor, options), std::invalid_argument);
 }
 
-/// Thin plants in rows. If only every sixth column is kept, it hits few of their tops.
+/// Thin plants in rows. Every sixth column alone hits few of their tops.
 SimpleScene sceneWithCrops() {
     SimpleScene scene;
     for (int i = -14; i <= 14; ++i) {
@@ -168,12 +169,12 @@ Turn thinned(const Turn& turn, std::vector<std::size_t>& kept) {
     return thin;
 }
 
-TEST(SectorFilter, CanopyNeedsHeightsOfContext) {
+TEST(SectorFilter, CanopyNeedsContextHeights) {
     const SensorModel sensor = sensorModel("VLP-16");
     const Turn turn = turnOf(sceneWithCrops(), sensor, radians(7.5));
     std::vector<std::size_t> kept;
     const Turn thin = thinned(turn, kept);
-    // The result of sectors with all these returns: here, of one whole turn.
+    // Earlier sectors contained all returns; here, one whole turn.
     SectorFilter all(sensor, {});
     ColumnMap every_column;
     mapColumns(kColumns, 6, 0, kColumns / 6, every_column);

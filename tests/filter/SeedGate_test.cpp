@@ -8,7 +8,7 @@
 namespace hagen {
 namespace {
 
-/// The remaining seeds, from the lowest pixel of a single column.
+/// Whether the lowest pixel of a single column remains a seed.
 bool passes(const std::vector<float>& column_m, float angle_rad, float gate_rad = 0.5f) {
     const auto rows = static_cast<Eigen::Index>(column_m.size());
     Image<float> depth_m(rows, 1), pixel_angle_rad = Image<float>::Zero(rows, 1);

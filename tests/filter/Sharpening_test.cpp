@@ -43,7 +43,7 @@ TEST(Sharpening, NeighboursWrapInAzimuth) {
     EXPECT_FLOAT_EQ(sharpened_m(1, 0), 12.0f);
 }
 
-TEST(Sharpening, LoneMaximumStays) {
+TEST(Sharpening, KeepsLoneMaximum) {
     Image<float> proximity_m = Image<float>::Constant(3, 5, kNoValue);
     proximity_m(1, 2) = 6.0f;
     Image<float> sharpened_m;
@@ -66,7 +66,7 @@ TEST(Merge, MovesNearerByHalf) {
     Image<float> proximity_m = 20.0f - depth_m, sharpened_m = proximity_m, merged_m;
     sharpened_m(1, 2) = 2.0f + 3.0f;
     mergeMaxima(depth_m, proximity_m, sharpened_m, {{1, 2, 2.0f, 0.0f}}, 0.5f, merged_m);
-    EXPECT_FLOAT_EQ(merged_m(1, 2), 16.5f);  // (2 + 5) / 2 = 3.5 of proximity
+    EXPECT_FLOAT_EQ(merged_m(1, 2), 16.5f);  // (2 + 5) / 2 = 3.5 in proximity
     merged_m(1, 2) = 18.0f;
     EXPECT_TRUE(test::same(merged_m, depth_m));
 }

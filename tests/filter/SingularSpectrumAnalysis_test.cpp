@@ -12,15 +12,15 @@ namespace hagen {
 namespace {
 
 Image<float> smoothed(const Image<float>& values, int window_size, int principal_components) {
-    static SsaWorkspace work;  // reused by all tests, as by a filter for all scans
+    static SsaWorkspace work;  // reused, as in a filter
     Image<float> result;
     smoothColumns(values, window_size, principal_components, result, work);
     return result;
 }
 
 /// Textbook singular spectrum analysis: singular value decomposition of the whole trajectory
-/// matrix, sum of the leading elementary matrices, mean of every antidiagonal. `gap` is the
-/// difference of the eigenvalues on both sides of the cut, relative to the largest one.
+/// matrix, sum of the leading elementary matrices, mean of each antidiagonal. `gap` is the relative
+/// difference (to the largest) of the eigenvalues on both sides of the cut.
 Eigen::ArrayXd oracle(const Eigen::VectorXd& series, int window_size, int principal_components,
                       double& gap) {
     const int n = static_cast<int>(series.size()), k = n - window_size + 1;
@@ -51,12 +51,12 @@ Eigen::ArrayXd oracle(const Eigen::VectorXd& series, int window_size, int princi
     return sums.cwiseQuotient(counts);
 }
 
-/// Maximum error of a result, and of results for which the eigenvalues on both sides of the cut
-/// differ by at least 1e-3 of the largest one.
+/// Maximum error of a result, and of a result whose eigenvalues on both sides of the cut differ by
+/// at least 1e-3 of the largest.
 constexpr double kTolerance = 2e-4, kAccuracy = 1e-4 / 3;
 
-/// Typical columns: noise, constants, ramps, steps, walls above ground, waves, few distinct values;
-/// some with gaps.
+/// Typical columns: noise, constants, ramps, steps, walls above ground, waves or few distinct
+/// values; some have gaps.
 Image<float> realLike(test::Random& random, int rows, int columns) {
     Image<float> image(rows, columns);
     for (int column = 0; column < columns; ++column) {
@@ -156,7 +156,7 @@ TEST(Ssa, StaysFiniteForExtremeValues) {
         ASSERT_TRUE((found.isNaN() == values.isNaN()).all());
         ASSERT_LE(found.isNaN().select(0.0f, found.abs()).maxCoeff(), 10 * scale);
     }
-    // With few distinct values, eigenvalues coincide and matrices decompose into blocks.
+    // If values repeat, eigenvalues coincide and matrices decompose into blocks.
     for (int round = 0; round < 50; ++round) {
         Image<float> values = random.image(random.whole(9, 40), 40, 0, 1, 0.02);
         const float min = 0.1f * static_cast<float>(round % 7);
@@ -180,7 +180,7 @@ TEST(Ssa, AcceptsLongWindows) {
     }
 }
 
-TEST(Ssa, AllComponentsGiveIdentity) {
+TEST(Ssa, AllComponentsYieldIdentity) {
     test::Random random(14);
     const Image<float> values = random.image(15, 30, 0.0f, 1.6f, 0.1);
     EXPECT_TRUE(test::same(smoothed(values, 8, 8), values));

@@ -1,7 +1,7 @@
-// The distances of world models, measured on simulated flights past a wall and poles.
+// Distance errors of world models, measured in simulated flights past a wall and poles.
 //
 // To measure the biases in WorldModel.cpp again, run this test with kSeeds of 0 to 29 and
-// ModelDistance::AsStored: its failures print them.
+// ModelDistance::AsStored: its failures print the biases.
 #include <gtest/gtest.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/scan/Angle.h>
@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 constexpr std::uint64_t kSeeds[] = {200, 201, 202};  // not those used to measure the biases
 constexpr double kSpeed_m_s = 4, kAltitude_m = 2.5, kFirst_s = 1, kLast_s = 2.6;
 
-/// A pole, or a wall if its radius is 0, seen from above.
+/// A pole, or a wall (radius 0), seen from above.
 struct Obstacle {
     double radius_m, half_length_m = 0, half_thickness_m = 0;
     Vector2d middle_m{0, 0};
@@ -57,7 +57,7 @@ Border borderOf(const Obstacle& obstacle, simulation::Random& random) {
     return {obstacle.middle_m + turned * at_m, turned * outwards};
 }
 
-/// Beside the straight path along x, 9 m ahead, anywhere in a map's voxels.
+/// Places the obstacle beside the straight path along x, 9 m ahead, at a random voxel offset.
 Obstacle placedBeside(Obstacle obstacle, simulation::Random& random) {
     const double aside_m = random.uniform(0.8, 3), side = random.chance(0.5) ? 1 : -1;
     const double x_m = 9 + random.uniform(-0.4, 0.4), y_m = random.uniform(-0.4, 0.4);
@@ -98,7 +98,7 @@ Course courseWith(const Obstacle& obstacle, std::uint64_t seed) {
     return {"passing", seed, scene, distance, start, goal, kAltitude_m, bounds, 0};
 }
 
-/// Along x, weaving by some centimetres, so that the sensor's rows hit other places in each scan.
+/// Weaves by some centimetres along x, so that the sensor's rows hit different places in each scan.
 FlightTrace traceOf(simulation::Random& random) {
     constexpr double kAcross_m = 0.15, kUp_m = 0.1, kRate_rad_s = 2.5;
     const double across_rad = random.uniform(0, 2 * kPi), up_rad = random.uniform(0, 2 * kPi);
@@ -128,7 +128,7 @@ void removeDust(simulation::SimulatedScan& measured) {
 /// Errors of a model's clearances.
 struct Errors {
     double sum_m = 0;
-    int queries = 0, missed = 0;  ///< missed: off by more than 1 m
+    int queries = 0, missed = 0;  ///< missed: error above 1 m
 
     double mean_m() const { return sum_m / (queries - missed); }
 };
@@ -138,7 +138,7 @@ struct ErrorsOfModel {
     double bias_m() const { return (wall.mean_m() + pole.mean_m()) / 2; }
 };
 
-/// Whether a point beside the obstacle is visible to the sensor.
+/// Whether the sensor sees a point beside the obstacle.
 bool isSeen(const simulation::Scene::Snapshot& snapshot, const Eigen::Vector3f& from_m,
             const Eigen::Vector3f& at_m) {
     const Eigen::Vector3f way_m = at_m - from_m;
@@ -147,8 +147,8 @@ bool isSeen(const simulation::Scene::Snapshot& snapshot, const Eigen::Vector3f& 
     return std::isnan(hits.front().range_m);
 }
 
-/// A VLP-16 flies past an obstacle. After each scan, the models are queried at random
-/// visible points, 0.3 to 1.5 m from the obstacle.
+/// A VLP-16 flies past an obstacle. After each scan, the models are queried at random visible
+/// points, 0.3 to 1.5 m from the obstacle.
 void flyPast(const Obstacle& kind, std::uint64_t seed, ModelDistance distance,
              std::map<std::string, ErrorsOfModel>& errors) {
     simulation::Random scene_random(seed, 1), path_random(seed, 2), query_random(seed, 3);
@@ -195,8 +195,8 @@ void flyPast(const Obstacle& kind, std::uint64_t seed, ModelDistance distance,
     }
 }
 
-/// The mean over few flights depends on how obstacles lie in the voxels. Without the correction,
-/// the biases of maps are 14 to 27 cm.
+/// The mean over a few flights depends on where obstacles lie in the voxels. Without the
+/// correction, the biases of maps are 14 to 27 cm.
 double tolerance_m(const std::string& model) {
     if (model.find("0.4") != std::string::npos) return 0.09;
     return model.compare(0, 2, "W-") == 0 ? 0.03 : 0.04;

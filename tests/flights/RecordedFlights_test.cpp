@@ -1,4 +1,4 @@
-// Some short flights must reproduce the recorded ones exactly, unless kRevision was incremented.
+// Some short flights must match the recorded ones exactly, unless kRevision was incremented.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/avoidance/Trial.h>
@@ -27,8 +27,8 @@ const std::string kHowToRecord =
     "again: "
     "HAGEN_RECORD_FLIGHTS=1 scripts/test -R RecordedFlights";
 
-/// The recorded flights: "revision,N", then rows as in runs.csv. A flight may have several
-/// rows: the result is one of them, depending on the machine (docs/octomap-compare.md).
+/// Recorded flights: "revision,N", then rows as in runs.csv. A flight may have several rows:
+/// depending on the machine, its result is one of them (docs/octomap-compare.md).
 struct Recording {
     int revision;
     std::string rows;
@@ -68,7 +68,7 @@ std::set<std::string> flightsOf(const std::vector<std::string>& rows) {
     return flights;
 }
 
-/// The error of a recording compared with the flights of this revision; empty if there is none.
+/// Why the recording differs from the flights of this revision; empty if it does not.
 std::string errorOf(const Recording& recording, const Recording& flown) {
     if (recording.revision != flown.revision) {
         return "recorded at revision " + std::to_string(recording.revision) +
@@ -97,9 +97,9 @@ LatencyProfile someProfile() {
     return profile;
 }
 
-/// Every scenario, air, guidance, planner, pose error and kind of model at least once. Fast
-/// flights, because they are short, with the same result if the directions of the LiDAR's rays
-/// change by 1e-6, because processors may differ by less.
+/// Flights with every scenario, air, guidance, planner, pose error and kind of model at least once.
+/// They are short, and changing the LiDAR's rays by 1e-6 (more than processors differ) does not
+/// change their results.
 std::vector<std::string> keys() {
     return {"forest-0.02,1,W-RoI,straight,10,primitives,none,1,optimistic,dusty,unbiased",
             "forest-0.02,5,O-RoI-0.4,straight,10,3dvfh,noise,1,optimistic,dusty,unbiased",

@@ -16,7 +16,6 @@ using test::emptyContent;
 using test::putWall;
 using test::simpleCourse;
 
-/// A result as text, for comparison.
 std::string textOf(const TrialResult& result) {
     hagen::avoidance::Run run{};
     run.result = result;
@@ -31,7 +30,7 @@ TEST(Trial, FliesStraightOverOpenGround) {
         setup.air = Air::Clear;
         const TrialResult result = runTrial(course, setup, constantProfile(10));
         EXPECT_EQ(result.outcome, Outcome::Success) << model;
-        EXPECT_NEAR(result.path_m, 18.5, 0.2);  // until the goal counts as reached
+        EXPECT_NEAR(result.path_m, 18.5, 0.2);  // the flight ends near the goal
         EXPECT_NEAR(result.min_clearance_m, 2, 0.35);
         EXPECT_TRUE(std::isnan(result.first_reaction_m));
         EXPECT_EQ(result.emergency_stops, 0);
@@ -41,7 +40,7 @@ TEST(Trial, FliesStraightOverOpenGround) {
     }
 }
 
-/// On a diagonal course, the first reaction is to the wall, not to the start.
+/// On a diagonal course, the first reaction must be to the wall, not to the start.
 TEST(Trial, FirstReactionIsToObstacle) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -2.5f, 2.5f);
@@ -79,7 +78,7 @@ TEST(Trial, LatencySumsRequiredStages) {
     TrialSetup setup;
     setup.model = "W-RoI";
     EXPECT_NEAR(runTrial(course, setup, constantProfile(10)).latency_max_ms, 40, 1e-6);
-    setup.model = "W-Full";  // no filter
+    setup.model = "W-Full";  // this model needs no filter
     const TrialResult full = runTrial(course, setup, constantProfile(10));
     EXPECT_NEAR(full.latency_p50_ms, 30, 1e-6);
     EXPECT_EQ(full.dropped_scans, 0);
@@ -95,7 +94,7 @@ TEST(Trial, BusyPlannerUsesNewestScan) {
     std::vector<double> given_s;
     TrialListener listener;
     listener.step = [&](const TrialStep& step) { given_s.push_back(step.time_s); };
-    // Three stages of 80 ms: a plan every 240 ms, for the newest of 2 or 3 scans.
+    // Three stages take 80 ms each: a plan every 240 ms, for the newest of 2 or 3 scans.
     const TrialResult result = runTrial(course, setup, constantProfile(80), nullptr, listener);
     ASSERT_GT(given_s.size(), 20u);
     for (std::size_t i = 1; i < given_s.size(); ++i) {
@@ -134,7 +133,7 @@ TEST(Trial, FliesAroundWall) {
     TrialSetup setup;
     const TrialResult result = runTrial(course, setup, constantProfile(10));
     EXPECT_EQ(result.outcome, Outcome::Success);
-    EXPECT_GT(result.path_m, 18.5 + 1);  // at least 2 hypot(10, 4.5) - 20, minus the arrival
+    EXPECT_GT(result.path_m, 18.5 + 1);  // at least 2 hypot(10, 4.5) - 20, minus the goal radius
     EXPECT_GT(result.min_clearance_m, 0.3);
 }
 
@@ -158,7 +157,7 @@ TEST(Trial, AccountsForKnownLatency) {
     simulation::SceneContent content = emptyContent();
     putWall(content, -40, 40);
     TrialSetup setup;
-    setup.latency_scale = 100;  // each plan takes 3 s, which the planner knows
+    setup.latency_scale = 100;  // each plan takes 3 s, which the planner takes into account
     setup.guidance = "straight";
     setup.model = "oracle";
     setup.speed_m_s = 8;
@@ -197,7 +196,7 @@ TEST(Trial, SectorsArePlannedAtFiftyHertz) {
         turns += step.scan.turns;
         EXPECT_NEAR(turns, 10 * step.scan.time_s, 1e-3);
         EXPECT_LE(step.scan.time_s, step.time_s - 0.004 + 1e-9);
-        // One or two packets are incomplete, and up to two wait for a third.
+        // One or two packets are not complete yet, and up to two wait for a third.
         EXPECT_GE(step.scan.time_s, step.time_s - 0.004 - 0.0054);
         EXPECT_NEAR(step.latency_ms, 1e3 * (step.time_s - step.scan.time_s), 1e-6);
     };
@@ -208,7 +207,7 @@ TEST(Trial, SectorsArePlannedAtFiftyHertz) {
     EXPECT_EQ(textOf(result), textOf(runTrial(course, setup, constantProfile(1))));
 }
 
-TEST(Trial, BusyPlannerTakesAllSectors) {
+TEST(Trial, BusyPlannerUsesAllSectors) {
     const Course course = simpleCourse(emptyContent());
     for (const char* model : {"W-Full", "R-Full-0.2", "oracle"}) {
         TrialSetup setup;

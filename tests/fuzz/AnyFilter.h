@@ -14,10 +14,10 @@ namespace hagen::fuzz {
 /// A number, often an extreme one.
 float oddNumber(Parts& parts);
 
-/// Changes some options, within their limits. Images get up to 256 columns.
+/// Changes some options within their limits. Images have up to 256 columns.
 void setOptions(Parts& parts, Options& options);
 
-/// Throws std::invalid_argument if there are too few beams.
+/// A random sensor. Throws std::invalid_argument if it has too few beams.
 SensorModel anySensor(Parts& parts);
 
 /// An attitude of arbitrary numbers, or none.

@@ -8,10 +8,10 @@
 
 namespace hagen::fuzz {
 
-/// Surveys and reads a bag like a program.
+/// Surveys and reads a bag as the programs do.
 void readAnyBag(const std::filesystem::path& file);
 
-/// One message of each supported type; scans are short.
+/// One message of each supported type, with short scans.
 std::vector<test::SentMessage> everyMessage();
 
 }  // namespace hagen::fuzz

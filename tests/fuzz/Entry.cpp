@@ -1,5 +1,5 @@
-// The target of this program for libFuzzer. `PROGRAM write-seeds FOLDER` writes its seeds into
-// FOLDER/seeds, its dictionary to FOLDER/words and the longest input to FOLDER/longest.
+// Runs this program's target in libFuzzer. `PROGRAM write-seeds FOLDER` writes its seeds to
+// FOLDER/seeds, its dictionary to FOLDER/words and the maximum input size to FOLDER/longest.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -8,7 +8,7 @@
 
 namespace hagen::fuzz {
 
-/// Checks each sector: every return has a label; near or stale directions are never free.
+/// Checks that each return of a sector has a label and near or stale directions are never free.
 class SectorChecker {
  public:
     explicit SectorChecker(const SensorModel& sensor) : distances_(sensor) {}
@@ -45,7 +45,7 @@ class SectorChecker {
         const double turned_deg =
             clockwise_rad / 0.017453292519943295 + (clockwise_rad < 0 ? 360 : 0);
         const double part = turned_deg / 5 - std::floor(turned_deg / 5);
-        if (part < 1e-3 || part > 1 - 1e-3) return;  // may be rounded to a neighbour
+        if (part < 1e-3 || part > 1 - 1e-3) return;  // may be rounded into a neighbouring direction
         const auto& direction = around[static_cast<std::size_t>(turned_deg / 5) % 72];
         require(direction.state == live::SectorDistances::State::Obstacle &&
                     direction.distance_m <= distance_m,

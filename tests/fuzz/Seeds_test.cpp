@@ -1,4 +1,4 @@
-// Runs every fuzz target on its seeds, their prefixes and some mutations. HAGEN_FUZZ_SECONDS: time
+// Runs each fuzz target on its seeds, their prefixes and some mutations. HAGEN_FUZZ_SECONDS: time
 // for mutations per target (default: a few hundred mutations); HAGEN_FUZZ_SEED: random seed
 // (default: 1).
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ unsigned numberFrom(const char* variable, unsigned otherwise) {
     return text == nullptr ? otherwise : static_cast<unsigned>(std::strtoul(text, nullptr, 10));
 }
 
-/// A seed with a few bytes changed, and possibly a part removed or repeated.
+/// A seed with some changed bytes, and possibly a removed or repeated part.
 std::string mutated(std::string bytes, std::mt19937& random) {
     if (bytes.empty()) return bytes;
     const auto place = [&] { return random() % bytes.size(); };
@@ -44,7 +44,7 @@ class Seeds : public testing::TestWithParam<std::string> {
         return *std::find_if(all.begin(), all.end(),
                              [](const Target& each) { return each.name == GetParam(); });
     }
-    /// Fails on a finding and prints the bytes.
+    /// Reports a finding as a failure and prints the bytes.
     void run(const std::string& input) const {
         try {
             target().run(input);

@@ -1,8 +1,7 @@
 #pragma once
-// Common parts of the fuzz targets. A target is a function of any bytes that returns, or
-// rejects them with a std::runtime_error with a message. Each file of this folder has one.
-// scripts/fuzz runs them with libFuzzer; Seeds_test.cpp runs the seeds and some mutations as an
-// ordinary test.
+// Common parts of the fuzz targets, one per file. A target accepts arbitrary bytes and either
+// returns or rejects them with a std::runtime_error with a message. scripts/fuzz runs targets with
+// libFuzzer; Seeds_test.cpp runs seeds and some mutations as an ordinary test.
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
@@ -19,9 +18,9 @@ using Seeds = std::vector<std::string>;
 struct Target {
     std::string name;
     void (*run)(std::string_view input);
-    /// Valid inputs to start from.
+    /// Returns valid inputs to start from.
     Seeds (*seeds)();
-    /// Words of the format for libFuzzer's dictionary.
+    /// Words of the file format for libFuzzer's dictionary.
     std::vector<std::string> words = {};
     std::size_t longest = 4096;  ///< maximum size of an input [bytes]
     bool is_bounded = true;      ///< false if mutations may exhaust memory
@@ -29,20 +28,19 @@ struct Target {
 
 /// The targets of this program, sorted by name.
 const std::vector<Target>& targets();
-/// Adds a target, at the end of its file; returns true.
+/// Registers a target; called at the end of its file. Returns true.
 bool add(Target target);
-/// The words of a text.
 std::vector<std::string> wordsIn(const std::string& text);
 
-/// An error that must not occur for any input.
+/// Thrown by require() for an error that must not occur for any input.
 struct Violation : std::logic_error {
     using std::logic_error::logic_error;
 };
 /// Throws Violation if a condition does not hold.
 void require(bool holds, const std::string& what);
 
-/// Returns false if a function rejects its input with a std::runtime_error with a message. Any
-/// other exception is a finding.
+/// Calls a function and returns false if it rejects its input with a std::runtime_error with a
+/// message. Any other exception is a finding.
 template <class Call>
 bool mayRefuse(const Call& call) {
     try {
@@ -68,10 +66,10 @@ class InputFile {
     std::filesystem::path path_;
 };
 
-/// This process's folder for such files; in memory if possible.
+/// This process's folder for input files, in memory if possible.
 const std::filesystem::path& scratch();
 
-/// Splits an input. Reads zeros after its end.
+/// Splits an input into numbers and strings. Reads zeros beyond its end.
 class Parts {
  public:
     explicit Parts(std::string_view input) : rest_(input) {}
@@ -84,7 +82,7 @@ class Parts {
         std::memcpy(&value, bytes.data(), bytes.size());
         return value;
     }
-    /// A number from 0 to below `end`.
+    /// A number in [0, `end`).
     std::size_t below(std::size_t end) { return number<std::uint8_t>() % end; }
     bool chance() { return (number<std::uint8_t>() & 1) != 0; }
     std::string_view take(std::size_t bytes) {
@@ -92,7 +90,7 @@ class Parts {
         rest_.remove_prefix(taken.size());
         return taken;
     }
-    /// Everything up to the next separator, which is skipped.
+    /// The bytes up to the next separator, which is skipped.
     std::string_view until(char separator) {
         const std::string_view taken = rest_.substr(0, rest_.find(separator));
         rest_.remove_prefix(taken.size() < rest_.size() ? taken.size() + 1 : rest_.size());
@@ -105,7 +103,7 @@ class Parts {
     std::string_view rest_;
 };
 
-/// The bytes of numbers, as Parts reads them.
+/// The bytes from which Parts reads these numbers.
 template <class... Number>
 std::string bytesOf(Number... numbers) {
     std::string bytes;

@@ -1,4 +1,4 @@
-// Table and latency profile of a campaign with any content.
+// Campaign tables and latency profiles with arbitrary content.
 #include <hagen/avoidance/LatencyProfile.h>
 #include "avoidance/flights/RunTable.h"
 
@@ -7,7 +7,7 @@
 namespace hagen::fuzz {
 namespace {
 
-/// The key of a run round-trips.
+/// Checks that a run's key round-trips.
 void writeAndReadKey(const avoidance::Run& run) {
     const std::string key = avoidance::keyOf(run);
     require(avoidance::keyOf(avoidance::runOfKey(key)) == key, "a key changes by writing it");

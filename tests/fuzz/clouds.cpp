@@ -1,4 +1,4 @@
-// Point cloud files of all formats, and the scans made from them.
+// Point cloud files of all formats, and scans made from them.
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include "mrpt/TableCloud.h"

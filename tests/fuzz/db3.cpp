@@ -1,5 +1,5 @@
-// ROS 2 databases (SQLite files). The first byte of the input selects one; the others overwrite
-// bytes at given offsets, because most mutations would not be a database.
+// ROS 2 databases (SQLite files). The first byte of the input selects a database; the others
+// overwrite bytes at given offsets, because most direct mutations would not be a database.
 #include <algorithm>
 #include <fstream>
 #include <iterator>

@@ -1,4 +1,4 @@
-// The filter with any scan, sensor, attitude and options, on all instruction sets: equal labels.
+// The filter with arbitrary scans, sensors, attitudes and options, on different instruction sets.
 #include <hagen/filter/HagenFilter.h>
 #include "scan/InstructionSets.h"
 
@@ -17,7 +17,7 @@ struct Labels {
     std::vector<std::int32_t> component;
 };
 
-/// No result if the filter rejects the sensor, the options or the scan.
+/// The labels of a scan, or no value if the filter rejects the sensor, the options or the scan.
 std::optional<Labels> labelsOf(Scan scan, const SensorModel& sensor, const Options& options,
                                const std::optional<Attitude>& attitude) {
     try {
@@ -53,7 +53,7 @@ void segmentAnything(std::string_view input) {
     std::optional<Attitude> attitude;
     if (parts.chance()) attitude = Attitude{oddNumber(parts), oddNumber(parts)};
     Scan scan;
-    // A few arbitrary returns, then a shape with many.
+    // Some arbitrary returns, then a shape with many returns.
     for (std::size_t returns = parts.below(64); returns > 0; --returns) {
         scan.x_m.push_back(oddNumber(parts));
         scan.y_m.push_back(oddNumber(parts));
@@ -72,7 +72,7 @@ void segmentAnything(std::string_view input) {
     }
     scan.intensity.assign(scan.size(), 0.5f);
 
-    // The best instruction set and another one.
+    // Compares the best instruction set with another one.
     const auto sets = instructionSets();
     const std::size_t other = parts.below(sets.size());
     std::optional<Labels> first;

@@ -1,4 +1,4 @@
-// Livox datagrams with any content.
+// Livox datagrams with arbitrary content.
 #include <hagen/scan/SensorModel.h>
 
 #include "fuzz/Target.h"
@@ -23,7 +23,7 @@ void decode(std::string_view input) {
     locateBeams(sensorModel("Mid-360"), scan);
 }
 
-/// A packet of the manufacturer's protocol: a header of 36 bytes, then points.
+/// A packet in the manufacturer's protocol: a header of 36 bytes, then points.
 std::string packetOf(std::uint8_t type, std::size_t point_bytes, std::uint16_t points) {
     std::string bytes(36, '\0');
     const auto put = [&](std::size_t at, auto number) {

@@ -1,4 +1,4 @@
-// Any bytes from a MAVLink peer, in parts of any size, and the motion decoded from them.
+// Arbitrary bytes from a MAVLink peer in parts of any size, and the motion decoded from them.
 #include "live/autopilot/Messages.h"
 #include "live/autopilot/VehicleMotion.h"
 #include "live/mavlink/Parser.h"
@@ -60,7 +60,7 @@ Seeds mavlinkSeeds() {
     place.time_boot_ms = 1020;
     place.x = 3;
     place.vz = -1;
-    // One part each: its size, the message, whether the datagram ends.
+    // A part consists of its size, the message, and whether the datagram ends.
     const auto part = [](const std::string& bytes) {
         return std::string(1, static_cast<char>(bytes.size() - 1)) + bytes + '\1';
     };

@@ -1,4 +1,4 @@
-// Text files of numbers: poses of all formats, and times in file names.
+// Text files of numbers: poses in all formats, and times in file names.
 #include "recordings/NumberTable.h"
 #include "recordings/PoseFile.h"
 
@@ -17,7 +17,7 @@ void readTables(std::string_view input) {
         for (const auto& line : recordings::readNumberTable(file.path())) {
             for (const double number : line.numbers) require(std::isfinite(number), "no number");
         }
-        // Every byte belongs to a number, a comment or a separator.
+        // Each byte belongs to a number, a comment or a separator.
         const bool has_nul = input.find('\0') != std::string_view::npos;
         require(!has_nul || input.find('#') != std::string_view::npos, "bytes that are no numbers");
     });

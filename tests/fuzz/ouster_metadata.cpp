@@ -13,7 +13,7 @@ void readMetadata(std::string_view input) {
         const auto sensor = sensors::ousterSensorOf(std::string(input), "metadata");
         require(sensor.packetBytes() <= 65536, "a packet that no datagram holds");
         require(sensor.windowColumns() <= sensor.columns_per_frame, "more columns than a turn has");
-        // Any packet of this sensor is accepted.
+        // The sensor accepts any packet of its size.
         const std::string packet(sensor.packetBytes(), '\1');
         sensors::OusterFrames frames(sensor);
         frames.add(reinterpret_cast<const std::uint8_t*>(packet.data()), 0);

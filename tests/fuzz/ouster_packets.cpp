@@ -1,4 +1,4 @@
-// Ouster packets with any content. The first byte of the input selects the profile.
+// Ouster packets with arbitrary content. The first byte of the input selects the profile.
 #include <hagen/mrpt/ObservationScan.h>
 #include "recordings/captures/LidarCapture.h"
 #include "sensors/ouster/OusterScan.h"

@@ -1,4 +1,4 @@
-// Files compressed by gzip or zstd, read in steps of a size selected by the first byte.
+// gzip and zstd files, read in steps of a size selected by the first byte.
 #include "convert/GzipOutput.h"
 #include "recordings/rawlogs/PackedInput.h"
 

@@ -1,7 +1,7 @@
 // The objects of a rawlog, read by MRPT, and the conversion of its scans. MRPT trusts sizes in
-// files and may exhaust memory (a matrix of a rotating scan, which LimitedNew.cpp does not see) or
-// crash. Therefore, RawlogReader first reads a rawlog in another process with a memory limit
-// (RawlogTrial). Errors inside MRPT are not findings; errors in the conversion of an object are.
+// files and may exhaust memory (e.g. for a rotating scan's matrix, which LimitedNew.cpp does not
+// see) or crash. Therefore, RawlogReader first reads a rawlog in another process with a memory
+// limit (RawlogTrial). Errors inside MRPT are not findings; errors in the conversion are.
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <mrpt/obs/CObservationComment.h>

@@ -1,4 +1,4 @@
-// Scan folders. The input contains the files, separated by bytes 0xff.
+// Scan folders. The input contains the files, separated by 0xff bytes.
 #include <hagen/recordings/ScanSource.h>
 
 #include <fstream>

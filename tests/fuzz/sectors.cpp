@@ -1,5 +1,5 @@
-// A LiDAR labelled sector by sector: any packets, sweeps, times and motions, of any sensor with any
-// options. Each return is output once, with a label; near directions are never free.
+// A LiDAR labelled sector by sector, with arbitrary packets, sweeps, times, motions, sensors and
+// options. Each return is labelled once; near directions are never free.
 #include <hagen/live/StreamingSegmenter.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 using live::LabelledSector;
 using live::StreamingSegmenter;
 
-/// Returns of a packet: some arbitrary ones, then ground and a wall in each row.
+/// Returns of a packet: some are arbitrary, the rest show ground and a wall in each row.
 Scan anyPacket(Parts& parts, const SensorModel& sensor, const live::Sweep& sweep) {
     Scan scan;
     const auto add = [&](float azimuth_rad, std::uint8_t row, float range_m) {
@@ -116,7 +116,7 @@ Seeds sectorSeeds() {
     const std::string defaults(1, '\0'), vlp16("\2\0\0", 3), usual(1, '\0'), head(1, '\0');
     std::string turns, moving;
     for (int packet = 0; packet < 60; ++packet) {
-        // No arbitrary returns; the sensor is 2 m up; a wall is 9 m away.
+        // No arbitrary returns; the sensor is 2 m above ground and 9 m from a wall.
         const std::string returns = bytesOf(std::uint8_t{0}, std::int8_t{20}, std::uint8_t{30});
         const std::string one = bytesOf(std::uint8_t{10}, std::uint8_t{130}) + returns + "\x40";
         turns += one;

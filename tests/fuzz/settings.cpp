@@ -1,4 +1,4 @@
-// Settings files (YAML), and files of learned airframe bins.
+// YAML settings files, and files of learned airframe bins.
 #include <hagen/settings/Settings.h>
 #include "settings/AirframeFile.h"
 
@@ -11,7 +11,7 @@ void readSettings(std::string_view input) {
     const InputFile file(input, "input.yaml");
     mayRefuse([&] { readAirframeBins(file.path()); });
     Settings settings;
-    // An include may name any file, so the text is read like a recording's own settings.
+    // An include could name any file, so the text is read like settings of a recording.
     const bool is_read =
         mayRefuse([&] { mergeSettings(file.path(), settings, SettingsOrigin::Recording); });
     if (!is_read) return;
@@ -21,7 +21,7 @@ void readSettings(std::string_view input) {
     });
     // The written file round-trips.
     const std::string text = dumpSettings(settings);
-    if (!settings.airframe.learned.empty()) return;  // may be a file in another folder
+    if (!settings.airframe.learned.empty()) return;  // bins may be in a file in another folder
     const InputFile copy(text, "copy.yaml");
     Settings again;
     const bool is_again =

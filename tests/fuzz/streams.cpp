@@ -1,5 +1,5 @@
-// A stream of LiDAR datagrams, some modified, truncated, late, lost or duplicated. Nothing throws,
-// and each datagram is accepted, or rejected and counted. Byte 0 of the input selects the sensor.
+// A stream of LiDAR datagrams, some modified, truncated, late, lost or duplicated. No call throws;
+// each datagram is accepted, or rejected and counted. Byte 0 of the input selects the sensor.
 #include <hagen/live/LidarStream.h>
 #include "sensors/ouster/OusterSensor.h"
 
@@ -21,7 +21,7 @@ void put(std::string& bytes, std::size_t at, Number number) {
     std::memcpy(&bytes[at], &number, sizeof number);
 }
 
-/// The n-th packet of a Velodyne surrounded by a wall.
+/// The n-th packet of a Velodyne inside a circular wall.
 std::string velodynePacket(std::size_t n, std::uint8_t model) {
     std::string bytes(1206, '\0');
     for (std::size_t block = 0; block < 12; ++block) {
@@ -37,7 +37,7 @@ std::string velodynePacket(std::size_t n, std::uint8_t model) {
     return bytes;
 }
 
-/// The n-th packet of a Livox in the manufacturer's protocol, with points of 14 bytes.
+/// The n-th packet of a Livox in the manufacturer's protocol, with 14 bytes per point.
 std::string livoxPacket(std::size_t n) {
     constexpr std::size_t kPoints = 96;
     std::string bytes(36 + 14 * kPoints, '\0');
@@ -56,7 +56,7 @@ std::string livoxPacket(std::size_t n) {
     return bytes;
 }
 
-/// A small image is fast.
+/// Settings with a small image, for speed.
 Settings fewColumns() {
     Settings settings;
     settings.options.columns = 128;
@@ -94,13 +94,13 @@ AnyLidar anyLidar(std::size_t kind) {
     return {sensors::makeDriver("Mid-360"), fewColumns(), livoxPacket};
 }
 
-/// Number of counted datagrams.
+/// Total number of counted datagrams.
 std::size_t counted(const sensors::PacketCounts& c) {
     return c.packets + c.wrong_size + c.other_sensor + c.auxiliary + c.duplicate + c.unsound +
            c.too_late + c.uncertain;
 }
 
-/// Each datagram uses four bytes of the input, and three more per changed byte.
+/// Each datagram uses four bytes of the input, plus three per changed byte.
 void streamDatagrams(std::string_view input) {
     Parts parts(input);
     std::unique_ptr<SectorChecker> checker;

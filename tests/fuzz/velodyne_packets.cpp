@@ -1,4 +1,4 @@
-// A Velodyne scan with packets of any bytes. The first byte of the input selects the calibration.
+// Velodyne scans with arbitrary packets. The first byte of the input selects the calibration.
 #include <hagen/mrpt/ObservationScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 

@@ -5,7 +5,7 @@ set(work ${BUILD}/install-test)
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
 
-# run([ERROR] EXPECTED COMMAND...): the command succeeds (with ERROR: fails) and prints EXPECTED.
+# run([ERROR] EXPECTED COMMAND...): expects the command to succeed (with ERROR: to fail) and to print EXPECTED.
 function(run expected)
   set(command ${ARGN})
   set(fails FALSE)
@@ -38,7 +38,7 @@ endif()
 set(project ${CMAKE_CURRENT_LIST_DIR}/project)
 set(labels "78 of 7248 returns are RoI")
 
-# By find_package. A shared library requires only Eigen.
+# With find_package. A shared library requires only Eigen.
 set(alone ${hidden})
 if(SHARED)
   list(APPEND alone -DCMAKE_DISABLE_FIND_PACKAGE_hwy=ON)
@@ -47,7 +47,7 @@ run("" ${configure} ${alone} -S ${project} -B ${work}/find_package)
 run("" ${CMAKE_COMMAND} --build ${work}/find_package)
 run(${labels} ${work}/find_package/labels)
 
-# By pkg-config.
+# With pkg-config.
 file(GLOB_RECURSE pc ${prefix}/*hagen-filter.pc)
 get_filename_component(pc ${pc} DIRECTORY)
 set(ENV{PKG_CONFIG_PATH} ${pc})
@@ -61,7 +61,7 @@ get_filename_component(libraries ${pc} DIRECTORY)
 run("" ${CXX} -std=c++17 ${project}/main.cpp -o ${work}/labels ${flags} -Wl,-rpath,${libraries})
 run(${labels} ${work}/labels)
 
-# By add_subdirectory, as shared libraries.
+# With add_subdirectory, as shared libraries.
 run("" ${configure} ${hidden} -S ${project} -B ${work}/add_subdirectory -DHAGEN_SOURCE=${SOURCE} -DBUILD_SHARED_LIBS=ON)
 run("" ${CMAKE_COMMAND} --build ${work}/add_subdirectory)
 run(${labels} ${work}/add_subdirectory/labels)
@@ -72,10 +72,10 @@ if(objects)
   message(FATAL_ERROR "compiled for the filter alone: ${objects}")
 endif()
 
-# By FetchContent, built above.
+# With FetchContent, built above.
 run("" ${configure} ${hidden} -S ${project} -B ${work}/fetched -DHAGEN_SOURCE=${SOURCE} -DFETCHED=ON)
 
-# Each component alone; those below MRPT also without it.
+# Finds each component alone; components below MRPT also without MRPT.
 set(finds ${configure} -S ${CMAKE_CURRENT_LIST_DIR}/components)
 foreach(component ${COMPONENTS})
   run("" ${finds} -B ${work}/component/${component} -DCOMPONENTS=${component})

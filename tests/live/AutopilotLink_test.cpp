@@ -33,7 +33,7 @@ class Autopilot {
         address.port = socket_.port();
         return address;
     }
-    /// The next message, or id 0xffffff after 5 s without one.
+    /// The next message, or id 0xffffff after 5 s without a message.
     mavlink::Frame receive() {
         mavlink::Frame frame;
         frame.id = 0xffffff;
@@ -48,7 +48,7 @@ class Autopilot {
         EXPECT_EQ(frame.component, 196);
         return frame;
     }
-    /// The first of the next `most` messages that satisfies `is`.
+    /// The first of the next `most` messages for which `is` is true.
     template <class Message, class Is>
     std::optional<Message> receiveUntil(const Is& is, int max = 400) {
         for (int i = 0; i < max; ++i) {
@@ -87,7 +87,7 @@ class AutopilotLinkTest : public testing::Test {
             remarks_.push_back(remark);
         });
     }
-    /// A turn with one return straight ahead and others to the left, each 1 m farther.
+    /// Adds a turn with one return straight ahead, and others to the left in steps of 1 m.
     void takeTurn(int returns = 1) {
         Scan scan;
         for (int i = 0; i < returns; ++i) {
@@ -161,7 +161,7 @@ TEST_F(AutopilotLinkTest, ReportsStalledLabelling) {
     EXPECT_THAT(remarks(), Contains(HasSubstr("sending directions again")));
 }
 
-/// A remark that throws std::bad_alloc represents any step that does.
+/// A remark that throws std::bad_alloc represents every step that could.
 TEST_F(AutopilotLinkTest, SurvivesOutOfMemory) {
     Autopilot autopilot;
     settings_.peer = autopilot.address();
@@ -199,7 +199,7 @@ TEST_F(AutopilotLinkTest, LateSectorIsNotFree) {
     link_->begin(sensor_, {20, 0});
     Scan scan;
     SegmentationResult result;
-    const double time_s = now_s() - 0.4;  // arrival of its packets
+    const double time_s = now_s() - 0.4;  // arrival of the sector's packets
     link_->take({scan, {}, Sweep{0, 2 * kPi}, time_s, time_s, true, false, false, result});
     for (int i = 0; i < 5; ++i) {
         const auto message =
@@ -226,7 +226,7 @@ TEST_F(AutopilotLinkTest, SendsAtConfiguredRates) {
     }
     labels.join();
     EXPECT_EQ(messages[mavlink::ObstacleDistance::kId], 20);
-    // One obstacle, or none if this process was delayed.
+    // At most one obstacle per period; none if this process was delayed.
     EXPECT_LE(messages[mavlink::ObstacleDistance3d::kId], 10);
     EXPECT_GT(messages[mavlink::ObstacleDistance3d::kId], 2);
     EXPECT_EQ(messages[mavlink::DistanceSensor::kId], 0);  // no ground
@@ -261,13 +261,13 @@ TEST_F(AutopilotLinkTest, SensorMovesWithVehicle) {
     const auto is_told = Contains(HasSubstr("receiving the attitude of vehicle 1"));
     for (int i = 0; i < 20 && !testing::Value(remarks(), is_told); ++i) autopilot_.receive();
     EXPECT_THAT(remarks(), is_told);
-    // Nothing is known without messages.
+    // Without messages, attitude and pose become unknown.
     for (int i = 0; i < 100 && link_->motionAt(now_s()).attitude; ++i) autopilot_.receive();
     EXPECT_FALSE(link_->motionAt(now_s()).attitude);
     EXPECT_FALSE(link_->motionAt(now_s()).map_from_sensor);
 }
 
-/// With so many obstacles, a period takes too long.
+/// With this many obstacles, a period takes too long.
 TEST_F(AutopilotLinkTest, ReadsMessagesWhenLate) {
     link_->begin(sensor_, {20, 0});
     autopilot_.receive();

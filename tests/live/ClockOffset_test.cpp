@@ -27,7 +27,7 @@ TEST(ClockOffset, FollowsDriftingClock) {
     ClockOffset clock;
     for (int i = 0; i < 5000; ++i) {
         const double stamp_s = 0.02 * i;
-        const double arrival_s = 10 + stamp_s * 1.0005 + 0.005;  // ours is faster by 500 ppm
+        const double arrival_s = 10 + stamp_s * 1.0005 + 0.005;  // our clock is fast by 500 ppm
         const auto result = clock.ourTime(stamp_s, arrival_s);
         EXPECT_FALSE(result.has_restarted);
         EXPECT_LE(result.time_s, arrival_s);
@@ -43,7 +43,7 @@ TEST(ClockOffset, DetectsRestartWithinOneSecond) {
     for (int i = 0; i < 100; ++i) {
         const auto result = clock.ourTime(2 + 0.02 * i, 603 + 0.02 * i);
         if (result.has_restarted) ++restarts;
-        // Until the restart is detected, messages are older than the previous ones.
+        // Until the restart is detected, messages seem older than the previous ones.
         EXPECT_LT(result.time_s, restarts > 0 ? 605 : 600);
         EXPECT_EQ(restarts, 0.02 * i > 0.49 ? 1 : 0) << i;
     }
@@ -63,7 +63,7 @@ TEST(ClockOffset, FollowsClockStepAfterSeveralStamps) {
     }
 }
 
-/// The first time stamp after the restart may be later or earlier than the last one before.
+/// The first time stamp after the restart may be later or earlier than the last one before it.
 TEST(ClockOffset, FollowsRestartAfterLongGap) {
     for (const double uptime_s : {5.0, 11.5, 12.0, 15.0, 25.0}) {
         ClockOffset clock;
@@ -79,7 +79,7 @@ TEST(ClockOffset, FollowsRestartAfterLongGap) {
     }
 }
 
-/// Of two paths to a vehicle, the fast one fails.
+/// Two paths lead to the vehicle; the fast one fails.
 TEST(ClockOffset, MessagesOnSlowerPathAreOld) {
     for (const double longer_s : {0.8, 1.5, 2.0, 10.0}) {
         ClockOffset clock;
@@ -126,7 +126,7 @@ TEST(ClockOffset, DrainingBacklogIsOld) {
     }
 }
 
-TEST(ClockOffset, MessagesOfFullQueueAreOld) {
+TEST(ClockOffset, MessagesFromFullQueueAreOld) {
     for (const bool after_outage : {false, true}) {
         ClockOffset clock;
         for (int i = 0; i < 5000; ++i) {
@@ -134,7 +134,7 @@ TEST(ClockOffset, MessagesOfFullQueueAreOld) {
             double arrival_s = stamp_s + 70;
             if (stamp_s > 10) arrival_s += std::min(0.5 * (stamp_s - 10), 2.0);
             if (after_outage && stamp_s > 10) {
-                // First the messages kept during the outage arrive, then all messages are 2 s late.
+                // First, messages from the outage arrive, then all messages are 2 s late.
                 if (stamp_s > 10.5 && stamp_s <= 38) continue;
                 arrival_s = std::max(stamp_s + 72, 110 + 0.001 * (stamp_s - 10));
             }
@@ -144,7 +144,7 @@ TEST(ClockOffset, MessagesOfFullQueueAreOld) {
 }
 
 TEST(ClockOffset, DelayedMessagesAreOld) {
-    // At 50 Hz, but all messages stamped during an interval arrive together at its end.
+    // At 50 Hz, all messages stamped during an interval arrive together at its end.
     for (const double wait_s : {1.2, 4.0, 30.0}) {
         ClockOffset clock;
         const double free_at_s = 10 + wait_s;

@@ -22,7 +22,7 @@ constexpr int kPacketsPerTurn = 72, kPacketsPerSector = 5;
 
 struct Pole {
     double north_m, east_m, radius_m = 0.15;
-    double top_m = 1e9;  ///< above the vehicle's start
+    double top_m = 1e9;  ///< relative to the vehicle's initial position
 };
 
 /// A LiDAR on a vehicle that moves among infinitely high poles. All returns are RoI.
@@ -112,7 +112,7 @@ class Flight {
 
 class DirectionsInFlight : public testing::Test {
  protected:
-    /// Compares directions with true positions of poles; returns the number of compared poles.
+    /// Compares directions with the true positions of poles; returns the number of poles compared.
     int compare(const Flight& flight, const SectorDistances& distances, double now_s,
                 bool all_is_seen = true) {
         const Vehicle vehicle = flight.vehicleAt(now_s);
@@ -129,7 +129,7 @@ class DirectionsInFlight : public testing::Test {
                 const double turned = edge_deg + 2.5 + 360;
                 may_be_obstacle[static_cast<std::size_t>(turned / 5) % 72] = true;
             }
-            // Not at the edge of a direction.
+            // Skips poles near the edge of a direction.
             const double into_deg = std::remainder(bearing_deg, 5);
             if (std::abs(into_deg) > 1.5) continue;
             const auto k = static_cast<std::size_t>((bearing_deg + 2.5) / 5) % 72;
@@ -162,7 +162,7 @@ class DirectionsInFlight : public testing::Test {
 TEST_F(DirectionsInFlight, DirectionsAreClockwiseFromAhead) {
     Flight flight;
     flight.has_attitude = flight.has_place = false;
-    // Ahead, on the right, behind, on the left.
+    // The poles are ahead, right, behind and left.
     flight.poles = {{6, 0}, {0, 7}, {-8, 0}, {0, -9}};
     SectorDistances distances(sensor_, aheadFirst());
     flight.fly(0.2, distances);
@@ -185,7 +185,7 @@ TEST_F(DirectionsInFlight, PolesStayInPlaceInFlight) {
         const double roll = 0.2, rate = 6;
         vehicle.yaw_rad = 0.5 + 1.6 * t;  // 92 degrees per second
         vehicle.roll_rad = roll * std::sin(rate * t);
-        // Rates about the vehicle's axes.
+        // Angular rates about the vehicle's axes.
         vehicle.rates_rad_s = {roll * rate * std::cos(rate * t), 1.6 * std::sin(vehicle.roll_rad),
                                1.6 * std::cos(vehicle.roll_rad)};
         vehicle.speed_m_s = {4, -3, 0.5};
@@ -195,7 +195,7 @@ TEST_F(DirectionsInFlight, PolesStayInPlaceInFlight) {
     SectorDistances distances(sensor_, aheadFirst());
     int compared = 0;
     for (double now_s = 0.25; now_s < 1; now_s += 0.013) {
-        flight.fly(now_s - 0.01, distances);  // labels are delayed
+        flight.fly(now_s - 0.01, distances);  // labels arrive with a delay
         compared += compare(flight, distances, now_s);
     }
     EXPECT_GT(compared, 200);
@@ -229,13 +229,13 @@ TEST_F(DirectionsInFlight, IsUnknownWithoutBeamAtHorizon) {
     flight.fly(0.3, distances);
     compare(flight, distances, 0.3, false);
     const Directions at = distances.at(0.3, flight.poses());
-    EXPECT_EQ(at[1].state, State::SeenNothing);  // ahead and behind
+    EXPECT_EQ(at[1].state, State::SeenNothing);  // ahead of or behind the vehicle
     EXPECT_EQ(at[38].state, State::SeenNothing);
-    EXPECT_EQ(at[20].state, State::Unknown);  // on the sides, the sensor looks up and down
+    EXPECT_EQ(at[20].state, State::Unknown);  // to the sides, the sensor looks up or down
     EXPECT_EQ(at[52].state, State::Unknown);
 }
 
-/// A tilted sensor looks at a low obstacle and at the horizon above it at different times.
+/// A tilted sensor sees a low obstacle and the horizon above it at different times.
 TEST_F(DirectionsInFlight, ObstacleBelowHorizonStays) {
     int compared = 0;
     for (const auto& [roll_deg, pitch_deg, rate_deg_s] :
@@ -270,7 +270,7 @@ TEST_F(DirectionsInFlight, ObstacleBelowHorizonStays) {
     EXPECT_GT(compared, 3000);
 }
 
-/// Each turn, the horizon above the obstacle is swept, but the packet that would hit it is lost.
+/// In each turn, the packet that would hit the obstacle is lost; the horizon above is swept.
 TEST_F(DirectionsInFlight, LostPacketsOfTiltedSensorAreNotFree) {
     Vehicle vehicle;
     vehicle.pitch_rad = radians(-20);
@@ -304,7 +304,7 @@ TEST_F(DirectionsInFlight, LostPacketsOfTiltedSensorAreNotFree) {
 
 TEST_F(DirectionsInFlight, LostDirectionBecomesUnknown) {
     Flight flight;
-    // From the third turn on, one packet per turn is lost in the middle of a sector.
+    // From the third turn on, each turn loses one packet in the middle of a sector.
     flight.isLost = [](int packet) {
         return packet >= 2 * kPacketsPerTurn && packet % kPacketsPerTurn == 42;
     };
@@ -337,13 +337,13 @@ TEST_F(DirectionsInFlight, ObstacleStaysUntilAllBeamsPassed) {
     };
     take(wire, 0, 180, 1);
     take(none, 180, 360, 1.05);
-    take(none, 360, 374.4, 1.1);  // less than 10.5 (the end of its degree) plus 4
+    take(none, 360, 374.4, 1.1);  // less than the end of the obstacle's degree (10.5) plus 4
     EXPECT_EQ(distances.at(1.11)[2].state, State::Obstacle);
     take(none, 374.4, 374.6, 1.104);
     EXPECT_EQ(distances.at(1.11)[2].state, State::SeenNothing);
 }
 
-/// An obstacle at the end of a sector is passed only by the next turn.
+/// An obstacle at the end of a sector is not passed until the next turn.
 TEST_F(DirectionsInFlight, ObstacleStaysForOneTurn) {
     const auto stateAfter = [&](double turned_rad) {
         SectorDistances distances(sensor_, aheadFirst());

@@ -15,7 +15,7 @@ std::uint16_t checksumOf(const std::string& text) {
 }
 
 TEST(Checksum, HasPublishedCheckValues) {
-    // CRC-16/MCRF4XX, the inverse of CRC-16/IBM-SDLC (X.25), 0x906e.
+    // CRC-16/MCRF4XX is the inverse of CRC-16/IBM-SDLC (X.25), whose check value is 0x906e.
     EXPECT_EQ(checksumOf("123456789"), 0x6f91);
     EXPECT_EQ(checksumOf("123456789") ^ 0xffff, 0x906e);
     EXPECT_EQ(checksumOf(""), 0xffff);
@@ -27,7 +27,7 @@ TEST(Checksum, ContinuesFromEarlierBytes) {
 }
 
 TEST(CrcExtra, MatchesDefinitions) {
-    // From the generated headers of the MAVLink C library.
+    // Values from the generated headers of the MAVLink C library.
     EXPECT_EQ(crcExtra(0), 50);
     EXPECT_EQ(crcExtra(30), 39);
     EXPECT_EQ(crcExtra(132), 85);
@@ -48,7 +48,7 @@ TEST(Encode, HeartbeatMatchesNodeMavlink) {
     frame.sequence = 7;
     frame.system = 1;
     frame.component = kComponentObstacleAvoidance;
-    // By node-mavlink's MavLinkProtocolV2(1, 196).serialize(message, 7).
+    // Bytes from node-mavlink's MavLinkProtocolV2(1, 196).serialize(message, 7).
     EXPECT_EQ(encode(frame, Heartbeat::kBytes),
               (Bytes{0xfd, 0x09, 0x00, 0x00, 0x07, 0x01, 0xc4, 0x00, 0x00, 0x00, 0x04,
                      0x03, 0x02, 0x01, 0x12, 0x08, 0x00, 0x04, 0x03, 0x96, 0xda}));
@@ -60,7 +60,7 @@ TEST(Encode, TruncatesTrailingZeros) {
     EXPECT_EQ(encode(frameOf(attitude), Attitude::kBytes)[1], 3);  // the fourth byte is also 0
     attitude.yawspeed = 1;
     EXPECT_EQ(encode(frameOf(attitude), Attitude::kBytes)[1], Attitude::kBytes);
-    // One byte remains.
+    // At least one byte remains.
     const Bytes bytes = encode(frameOf(Attitude()), Attitude::kBytes);
     EXPECT_EQ(bytes[1], 1);
     EXPECT_EQ(bytes.size(), 10u + 1 + 2);
@@ -72,7 +72,7 @@ TEST(Encode, RejectsUnknownMessage) {
     EXPECT_THROW(encode(frame, 4), std::invalid_argument);
 }
 
-TEST(MessageOf, ReadsOutputOfFrameOf) {
+TEST(MessageOf, InvertsFrameOf) {
     ObstacleDistance message;
     message.time_usec = 1234567890123;
     for (std::size_t k = 0; k < 72; ++k) message.distances[k] = static_cast<std::uint16_t>(900 * k);

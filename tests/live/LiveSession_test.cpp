@@ -25,7 +25,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A source of given packets, with explicit pauses only.
+/// A source of given packets that pauses only on request.
 class GivenPackets : public PacketSource {
  public:
     GivenPackets& add(const std::string& bytes, std::uint32_t from_ip = 0x0a000064) {
@@ -54,8 +54,8 @@ class GivenPackets : public PacketSource {
         packets_.push_back(packet);
         return *this;
     }
-    /// A simulated pause before the following packets: arrival times change, but nothing waits. So
-    /// the timing does not depend on the load of the machine.
+    /// A simulated pause before the following packets: arrival times change, but the source does
+    /// not wait, so that timing does not depend on the machine's load.
     GivenPackets& later(double seconds) {
         later_s_ += seconds;
         return *this;
@@ -73,7 +73,7 @@ class GivenPackets : public PacketSource {
         return Next::Packet;
     }
     bool isLive() const override { return is_live_; }
-    /// Like a sensor, does not wait for labels.
+    /// Like a real sensor, the source does not wait for labels.
     GivenPackets& asSensor() {
         is_live_ = true;
         return *this;
@@ -185,7 +185,7 @@ TEST_F(LiveSessionTest, SensorInOtherModeIsNotSilent) {
     EXPECT_THAT(remarks_, testing::Each(testing::Not(HasSubstr("address changed"))));
 }
 
-TEST_F(LiveSessionTest, CountsTooLatePacketsOfMid360) {
+TEST_F(LiveSessionTest, CountsTooLateMid360Packets) {
     options_.model = "Mid-360";
     GivenPackets source;
     for (int k = 0; k < 100; ++k) {
@@ -221,12 +221,12 @@ TEST_F(LiveSessionTest, CountsEachPacketOnce) {
     EXPECT_EQ(report.returns, returns_);
     EXPECT_GT(report.roi, 100u);
     EXPECT_EQ(report.latency.count() + report.sectors_cut, report.sectors);
-    // The pole is 8.5 m away, 20 degrees to the left.
+    // The pole is 8.5 m away, 20 degrees to the left of ahead.
     const int sector = (360 - 21) / 5;
     EXPECT_NEAR(report.nearest_m[sector], 8.35, 0.3);
     EXPECT_TRUE(std::isinf(report.nearest_m[(sector + 36) % 72]));
-    // Starved of CPU time, the session correctly sees stale data, a silent or slow sensor, and may
-    // switch to the other VLP-16.
+    // A session starved of CPU time correctly reports stale data and a silent or slow sensor, and
+    // may switch to the other VLP-16.
     if (report.seconds > 0.25) GTEST_SKIP() << "this machine is too slow at the moment";
     EXPECT_EQ(report.other_sensor, 2u);
     EXPECT_EQ(report.latest[sector].state, SectorDistances::State::Obstacle);
@@ -243,7 +243,7 @@ TEST_F(LiveSessionTest, ReportsStartAndEndOfSilence) {
     EXPECT_EQ(report.interruptions, 1u);
     EXPECT_EQ(report.packets, 75u);
     EXPECT_EQ(report.other_sensor, 0u);
-    EXPECT_EQ(report.sectors_cut, 2u);  // at the silence and at the end
+    EXPECT_EQ(report.sectors_cut, 2u);  // at the silence, and at the end
     EXPECT_THAT(remarks_, Contains(HasSubstr("no valid packet from the sensor for 1 s")));
     EXPECT_THAT(remarks_, Contains(HasSubstr("to 10.0.0.102")));
     EXPECT_THAT(remarks_, Contains(HasSubstr("receiving packets")));
@@ -267,7 +267,7 @@ TEST_F(LiveSessionTest, ReportsMissingReturns) {
                 ElementsAre(HasSubstr("no returns for 1 s"), HasSubstr("receiving returns")));
 }
 
-/// Packets before a pause are labelled although other sensors send to the port.
+/// Packets before a pause are labelled even if other sensors send to the port.
 TEST_F(LiveSessionTest, ForeignPacketsDoNotDelayLabels) {
     GivenPackets source;
     auto turn = turnsOf(1);
@@ -289,7 +289,7 @@ TEST_F(LiveSessionTest, ForeignPacketsDoNotDelayLabels) {
 }
 
 /// After a backlog, the newest packets are labelled first.
-TEST_F(LiveSessionTest, DropsPacketsOfOldBacklog) {
+TEST_F(LiveSessionTest, DropsOldBacklog) {
     GivenPackets source;
     source.addAll(turnsOf(20)).pause(0.7).addAll(turnsOf(1, 4000000)).asSensor();
     first_sector_takes_ = std::chrono::milliseconds(500);
@@ -305,7 +305,7 @@ TEST_F(LiveSessionTest, ReportsOverloadWithoutRateChange) {
     std::vector<std::vector<std::string>> turns;
     for (std::uint32_t k = 0; k < 22; ++k) turns.push_back(turnsOf(1, 1000000 + 100000 * k));
     GivenPackets source;
-    source.later(0.3);  // tolerated delay on a busy machine
+    source.later(0.3);  // a delay tolerated on a busy machine
     for (const auto& turn : turns) source.addAll(turn).later(0.1).pause(0.1);
     source.asSensor();
     LiveListener listener;
@@ -364,7 +364,7 @@ TEST_F(LiveSessionTest, CountsPacketsWaitingAtEnd) {
     EXPECT_LT(report.datagrams, packets.size());
 }
 
-/// The datagrams of a capture: payload, and all metadata as text.
+/// The datagrams of a capture: payload, and other data as text.
 std::vector<std::pair<std::string, std::string>> datagramsIn(const std::filesystem::path& file) {
     std::vector<std::pair<std::string, std::string>> all;
     sensors::CaptureFile capture(file);
@@ -435,7 +435,7 @@ TEST_F(LiveRecordingTest, KeepsExistingFiles) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "b.pcap"));
 }
 
-/// The vehicle is rolled by 0.2; its sensor is mounted with a pitch of 0.3.
+/// The vehicle has a roll of 0.2; its sensor is mounted with a pitch of 0.3.
 TEST_F(LiveRecordingTest, StampsPosesWithPacketTimes) {
     options_.settings.mount.pitch_rad = 0.3f;
     const Eigen::Quaterniond rolled(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()));
@@ -448,7 +448,7 @@ TEST_F(LiveRecordingTest, StampsPosesWithPacketTimes) {
     };
     GivenPackets source;
     const LiveReport report = runLive(source.addAll(turnsOf(1)), options_, listener);
-    EXPECT_EQ(report.recorded.poses, 5u);  // 76 packets, each 1.33 ms later; 20 ms apart
+    EXPECT_EQ(report.recorded.poses, 5u);  // 76 packets span 0.1 s; poses are 20 ms apart
     std::istringstream lines(test::readFile(folder_ / "a.tum"));
     std::string header;
     std::getline(lines, header);

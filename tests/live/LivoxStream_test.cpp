@@ -68,18 +68,18 @@ TEST_F(LivoxStreamTest, CountsLossesDuplicatesAndJumps) {
     };
     double time_s = 0;
     for (const int i : {0, 1, 1, 2, 5, 6, 8, 7, 9}) add(packet(i), time_s += 5e-4);
-    for (const int i : {10, 11, 12, 13}) {  // the clock was stepped
+    for (const int i : {10, 11, 12, 13}) {  // after a clock step
         add(packet(i, -4000000000), time_s += 5e-4);
     }
     const auto& counts = stream_.counts();
     EXPECT_EQ(counts.duplicate, 1u);
     EXPECT_EQ(counts.lost, 2u);
-    EXPECT_EQ(counts.late, 4u);  // three before the clock step is detected
+    EXPECT_EQ(counts.late, 4u);  // three of them before the clock step is detected
     EXPECT_EQ(counts.interruptions, 1u);
     EXPECT_EQ(counts.packets, 9u);
 }
 
-/// As by PTP. Later packets are neither late nor held back until the clock has caught up.
+/// PTP may step the clock. Later packets are neither late nor held back until the clock catches up.
 TEST_F(LivoxStreamTest, ClockStepBackDoesNotDelayPackets) {
     for (const std::int64_t back_ns : {20000000, 200000000, 900000000, 2000000000}) {
         frames_.clear();
@@ -107,7 +107,7 @@ TEST_F(LivoxStreamTest, ClockStepBackDoesNotDelayPackets) {
     }
 }
 
-/// Each packet arrives twice, as over a second network: immediately or after the next ones.
+/// Each packet arrives twice, as over a second network: at once or after some later packets.
 TEST_F(LivoxStreamTest, ClockStepBackToleratesDuplicates) {
     for (const std::int64_t back_ns : {20000000, 200000000, 2000000000}) {
         for (const int later : {0, 1, 3}) {
@@ -123,7 +123,7 @@ TEST_F(LivoxStreamTest, ClockStepBackToleratesDuplicates) {
                 EXPECT_EQ(addTo(i - later, i), Taken::Duplicate);
             }
             EXPECT_EQ(stream.counts().interruptions, 1u) << back_ns << " " << later;
-            // Copies from before the step arrive between the first packets after it.
+            // Copies from before the step arrive among the first packets after it.
             const auto too_late = static_cast<std::size_t>(3 + later);
             EXPECT_EQ(stream.counts().too_late, too_late) << back_ns << " " << later;
             EXPECT_EQ(stream.counts().packets, 1000 - too_late) << back_ns << " " << later;
@@ -131,7 +131,7 @@ TEST_F(LivoxStreamTest, ClockStepBackToleratesDuplicates) {
     }
 }
 
-/// Packets delayed by a network are older than those arriving with them.
+/// Packets delayed by a network are older than those that arrive with them.
 TEST_F(LivoxStreamTest, DropsPacketsFarTooLate) {
     const auto packet = [](int i) { return packetOf(i, 5000000000 + kPacket_ns * i); };
     double time_s = 0;
@@ -145,7 +145,7 @@ TEST_F(LivoxStreamTest, DropsPacketsFarTooLate) {
     EXPECT_EQ(add(packet(490), time_s += 4.8e-4), Taken::Yes);
     EXPECT_EQ(add(packetOf(502, 5000000000 - 1200000000), time_s += 4.8e-4), Taken::TooLate);
     EXPECT_EQ(add(packet(503), time_s += 4.8e-4), Taken::Yes);
-    for (int i = 0; i < 300; ++i) {  // copies, as by a slower path
+    for (int i = 0; i < 300; ++i) {  // duplicates from a slower path
         EXPECT_EQ(add(packet(i), time_s += 1e-6), Taken::Duplicate);
     }
     EXPECT_EQ(stream_.counts().too_late, 5u);
@@ -185,7 +185,7 @@ TEST_F(LivoxStreamTest, FrameEndsAtSilence) {
     }
 }
 
-/// Of ten packets, six are lost and four arrive twice: 40 % was measured.
+/// Of ten packets, six are lost and four arrive twice: only 40 % of the time was measured.
 TEST_F(LivoxStreamTest, DuplicatesDoNotReplaceLostPackets) {
     double measured_s = 0;
     SectorDistances distances(sensorModel("Mid-360"));

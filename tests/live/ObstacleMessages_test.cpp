@@ -20,7 +20,7 @@ TEST(ObstacleDistance, EncodesDistancesNothingAndUnknown) {
     EXPECT_EQ(message.distances[1], 2001);  // nothing
     EXPECT_EQ(message.distances[2], 65535);
     EXPECT_EQ(message.distances[3], message.min_distance);
-    EXPECT_EQ(message.distances[4], 2000);  // an obstacle is never encoded as "nothing"
+    EXPECT_EQ(message.distances[4], 2000);  // an obstacle must never be encoded as "nothing"
     EXPECT_EQ(message.min_distance, 1);
     EXPECT_EQ(message.max_distance, 2000);
     EXPECT_EQ(message.increment, 5);

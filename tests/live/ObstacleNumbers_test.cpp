@@ -28,7 +28,7 @@ Directions directionsOf(const std::vector<Seen>& all) {
 
 TEST(ObstacleNumbers, MergesNeighboursWithinOneMetre) {
     ObstacleNumbers numbers;
-    // One obstacle around 0 degrees, one at 90 degrees, two neighbours 3 m apart.
+    // One obstacle near 0 degrees, one at 90 degrees, and two neighbours 3 m apart.
     const auto found = numbers.nearest(
         directionsOf({{71, 5.2}, {0, 5}, {1, 5.1}, {18, 8}, {40, 6}, {41, 9}}), 10, {});
     ASSERT_EQ(found.size(), 4u);
@@ -51,7 +51,7 @@ TEST(ObstacleNumbers, RoomIsSingleObstacle) {
 TEST(ObstacleNumbers, NumberFollowsSlowObstacle) {
     ObstacleNumbers numbers;
     const auto first = numbers.nearest(directionsOf({{0, 5}, {18, 8}, {40, 6}}), 10, {});
-    // They approach, and their order changes.
+    // The obstacles approach, and their order by distance changes.
     const auto second = numbers.nearest(directionsOf({{0, 7.0 - 1}, {18, 6.6}, {40, 5.5}}), 10, {});
     ASSERT_EQ(second.size(), 3u);
     EXPECT_EQ(second[0].number, first[1].number);
@@ -70,7 +70,7 @@ TEST(ObstacleNumbers, TurningVehicleKeepsNumbers) {
     pose.map_from_vehicle = Eigen::AngleAxisd(radians(-30), Eigen::Vector3d::UnitZ());
     const auto second = numbers.nearest(directionsOf({{66, 8}, {0, 8.1}}), 10, pose);
     ASSERT_EQ(second.size(), 2u);
-    EXPECT_NEAR(second[0].at_m.y(), 4, 1e-4);  // the left one
+    EXPECT_NEAR(second[0].at_m.y(), 4, 1e-4);  // the obstacle on the left
     EXPECT_EQ(second[0].number, first[0].number);
     EXPECT_EQ(second[1].number, first[1].number);
 }

@@ -32,7 +32,7 @@ Settings settingsOfFourBeams() {
 
 class OusterStreamTest : public testing::Test {
  protected:
-    /// The packets of frame `id`, with 16 of its 64 columns each.
+    /// The packets of frame `id`, each with 16 of its 64 columns.
     std::vector<std::string> packetsOf(std::uint16_t id) {
         frames_.push_back(test::randomFrame(sensor_, id));
         return test::packetsOf(sensor_, frames_.back());
@@ -97,8 +97,7 @@ TEST_F(OusterStreamTest, SweepMatchesReturns) {
             const double middle_rad = (sector.sweep->from_rad + sector.sweep->to_rad) / 2;
             const double half_rad = (sector.sweep->to_rad - sector.sweep->from_rad) / 2;
             for (std::size_t i = 0; i < sector.returns.size(); ++i) {
-                if (sector.returns.range_m[i] < 1)
-                    continue;  // the beams do not start at the origin
+                if (sector.returns.range_m[i] < 1) continue;  // beams do not start at the origin
                 const double off_rad = std::remainder(
                     -static_cast<double>(sector.returns.azimuth_rad[i]) - middle_rad, 2 * kPi);
                 EXPECT_LT(std::abs(off_rad), half_rad + radians(12));  // pixels are staggered
@@ -117,9 +116,9 @@ TEST_F(OusterStreamTest, CountsLossesDuplicatesAndLatePackets) {
     const auto second = packetsOf(2);
     add(second[0]);
     EXPECT_EQ(add(second[0]), Taken::Duplicate);
-    add(second[2]);  // number 1 arrives later
+    add(second[2]);  // packet 1 arrives later
     EXPECT_EQ(add(second[1]), Taken::Yes);
-    // Number 3 is lost.
+    // Packet 3 is lost.
     for (int id = 3; id < 6; ++id) {
         for (const auto& packet : packetsOf(static_cast<std::uint16_t>(id))) add(packet);
     }
@@ -130,7 +129,7 @@ TEST_F(OusterStreamTest, CountsLossesDuplicatesAndLatePackets) {
     EXPECT_EQ(stream_.counts().too_late, 1u);
 }
 
-/// Columns marked as invalid by the sensor were not measured and are not part of a sweep.
+/// Columns that the sensor marked as invalid were not measured and do not belong to a sweep.
 TEST_F(OusterStreamTest, InvalidColumnsAreNotSwept) {
     frames_.push_back(test::randomFrame(sensor_, 1));
     OusterFrame& frame = frames_.back();
@@ -203,7 +202,7 @@ TEST_F(OusterStreamTest, RejectsOtherDatagrams) {
     EXPECT_EQ(stream_.segmenter().sectors(), 0u);
 }
 
-/// Columns would be placed in wrong directions, so all directions are unknown.
+/// Columns would be placed in wrong directions, so all directions become unknown.
 TEST(OusterStreams, DropsOtherModeInFlight) {
     for (const test::OusterMode& mode : {test::OusterMode{2048, 10}, test::OusterMode{512, 10}}) {
         const OusterSensor sensor = sensors::ousterSensorOf(test::ousterJsonOf({1024, 10}), "test");

@@ -46,7 +46,7 @@ TEST(PacketQueue, AllocatesForWaitingPacketsOnly) {
         }
         for (int i = 0; i < 3; ++i) ASSERT_EQ(queue.pop(taken, kSoon), Popped::Packet);
     }
-    EXPECT_LE(memory.size(), 5u);  // three waiting packets, and one on either side
+    EXPECT_LE(memory.size(), 5u);  // three waiting packets, and one at each end
 }
 
 TEST(PacketQueue, DrainsAfterClose) {

@@ -63,7 +63,7 @@ TEST(Address, ReadsOrRejectsText) {
     }
 }
 
-/// One second of an HDL-64E, or the system's maximum; Linux doubles the size for its own use.
+/// One second of HDL-64E packets, or the system's maximum; Linux doubles the size for its own use.
 TEST(UdpSource, RequestsLargeBuffer) {
     int max = 0;
     std::ifstream("/proc/sys/net/core/rmem_max") >> max;
@@ -98,12 +98,12 @@ TEST(UdpSource, ReceivesDatagrams) {
     EXPECT_EQ(packet.bytes.size(), 9000u);
 }
 
-/// After a stop of the process, packets in the buffer are old.
-TEST(UdpSource, KeepsArrivalOfDelayedPackets) {
+/// After the process was stopped, packets in the buffer are old.
+TEST(UdpSource, KeepsArrivalTimeOfDelayedPackets) {
     const std::uint16_t port = test::freePort();
     UdpSource source({0x7f000001, port});
     const test::LocalUdp sender;
-    // The kernel enables arrival times shortly after the first socket requests them.
+    // The kernel starts to record arrival times shortly after the first socket requests them.
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     sender.send(std::string("abc"), test::localAddress(port));
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
@@ -154,11 +154,11 @@ TEST(ReplaySource, ReplaysAtRecordedPace) {
     }
 }
 
-/// A reader must be able to stop during a long run of frames without datagrams.
+/// A search through many frames without datagrams must be interruptible.
 TEST(ReplaySource, LongSearchContinuesInNextCall) {
     const test::TemporaryFolder folder;
     const auto file = test::CaptureWriter().write(folder / "a.pcap");
-    std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse: frames without bytes
+    std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse: frames without content
     ReplaySource source(file, 1);
     Packet packet;
     for (int i = 0; i < 2; ++i) {

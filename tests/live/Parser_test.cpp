@@ -82,7 +82,7 @@ TEST_F(ParserTest, SkipsGarbage) {
         for (int k = 0; k < 8; ++k) {
             const std::size_t noise = random() % 40;
             for (std::size_t i = 0; i < noise; ++i) {
-                // Many noise bytes look like the start of a message.
+                // Makes many noise bytes look like the start of a message.
                 bytes.push_back(static_cast<std::uint8_t>(random() % 4 == 0 ? 0xfd : random()));
             }
             const Bytes message = attitude(static_cast<std::uint8_t>(k));
@@ -112,7 +112,7 @@ TEST_F(ParserTest, RejectsRandomBytes) {
     Bytes bytes(200000);
     for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
     add(bytes);
-    // By chance, 1 in 65536 message-like sequences has a correct checksum.
+    // By chance, 1 in 65536 random sequences has a correct checksum.
     EXPECT_LE(frames_.size(), 1u);
     add(attitude(0));
     parser_.end(take_);

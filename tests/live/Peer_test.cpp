@@ -66,7 +66,7 @@ TEST(PeerOpen, ReportsMissingPeer) {
                 HasSubstr("no such host"));
 }
 
-/// The other end of a UDP connection; it replies to the latest sender.
+/// The other end of a UDP connection, which replies to the latest sender.
 class UdpEnd {
  public:
     explicit UdpEnd(std::uint16_t port = 0) : socket_(std::chrono::seconds(2), port) {}
@@ -108,7 +108,7 @@ TEST(UdpPeer, SendsAndReceives) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
-/// 0.0.0.0 is this machine, which replies from 127.0.0.1. Datagrams of other senders are ignored.
+/// 0.0.0.0 is this machine, which replies from 127.0.0.1. Datagrams from other senders are ignored.
 TEST(UdpPeer, IgnoresOtherSenders) {
     UdpEnd other;
     const auto peer = Peer::open(parsePeer("udp:0.0.0.0:" + std::to_string(other.port())));
@@ -120,7 +120,7 @@ TEST(UdpPeer, IgnoresOtherSenders) {
     EXPECT_EQ(received(*peer), Bytes{2});
 }
 
-/// After 2 s, the peer is reconnected from the same port.
+/// After 2 s, the peer reconnects from the same port.
 TEST(UdpPeer, ReconnectsFromSamePort) {
     UdpEnd other;
     const auto peer = peerAt(other.port());
@@ -155,7 +155,7 @@ TEST(UdpPeer, SurvivesRefusedConnection) {
     EXPECT_EQ(peer->trouble(), "");
 }
 
-/// A negative timeout means no wait rather than an infinite one.
+/// A negative timeout must not mean an infinite wait.
 void expectNoWait(Peer& peer) {
     for (const double longest_s : {0.0, -0.0005, -0.002, -1e300, std::nan("")}) {
         std::array<std::uint8_t, 16> buffer{};
@@ -219,7 +219,7 @@ class SerialPeerTest : public testing::Test {
 TEST_F(SerialPeerTest, SurvivesUnpluggedLine) {
     const auto peer = open();
     EXPECT_FALSE(peer->hasDatagrams());
-    // Bytes that a terminal would translate or interpret.
+    // These bytes would be translated or interpreted by a terminal.
     const Bytes special{0x03, 0x04, '\n', '\r', 0x11, 0x13, 0x7f, 0xfd, 0xff, 0x00};
     EXPECT_TRUE(peer->send(special));
     EXPECT_EQ(line_->receive(64), special);
@@ -267,7 +267,7 @@ TEST_F(SerialPeerTest, WorksAsFileDescriptorZero) {
 
 TEST_F(SerialPeerTest, SendsWholeMessagesOnly) {
     const auto peer = open();
-    // Fill the line without reading.
+    // Fills the line without reading.
     const std::size_t size = 200;
     std::uint8_t sent = 0;
     while (sent < 250 && peer->send(Bytes(size, sent))) ++sent;
@@ -276,7 +276,7 @@ TEST_F(SerialPeerTest, SendsWholeMessagesOnly) {
     for (int i = 0; i < 400 && all.size() < (sent + 1u) * size; ++i) {
         const Bytes part = line_->receive(4096);
         all.insert(all.end(), part.begin(), part.end());
-        // The rest of a started message is sent first.
+        // The rest of a partly sent message is sent first.
         if (peer->send(Bytes(size, sent))) break;
     }
     while (all.size() < (sent + 1u) * size) {
@@ -287,7 +287,7 @@ TEST_F(SerialPeerTest, SendsWholeMessagesOnly) {
     for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i / size);
 }
 
-/// Stale obstacles are not sent once the line works again.
+/// Stale obstacles are not sent when the line works again.
 TEST_F(SerialPeerTest, ReportsBlockedLineAndDropsBacklog) {
     const auto peer = open();
     constexpr std::size_t kSize = 200;

@@ -23,7 +23,7 @@ struct Point {
 
 class SectorDistancesTest : public testing::Test {
  protected:
-    /// A sector from one azimuth to another, in degrees clockwise from ahead.
+    /// Adds a sector between two azimuths, in degrees clockwise from ahead.
     void take(double from_deg, double to_deg, double time_s, const std::vector<Point>& points,
               SectorDistances& distances) {
         take(Sweep{radians(from_deg), radians(to_deg)}, time_s, points, distances);
@@ -41,7 +41,7 @@ class SectorDistancesTest : public testing::Test {
         }
         distances.take({scan, labels, sweep, time_s, time_s + 0.005, true, false, false, result_});
     }
-    /// A whole turn in sectors of 20 degrees, each `turn_s / 18` after the one before.
+    /// Adds a whole turn in sectors of 20 degrees, each `turn_s / 18` after the previous one.
     void turn(int number, double turn_s, const std::vector<Point>& points,
               SectorDistances& distances) {
         for (int k = 0; k < 18; ++k) {
@@ -70,7 +70,7 @@ TEST_F(SectorDistancesTest, LostPacketIsUnknown) {
     EXPECT_EQ(distances.at(1.1)[2].state, State::SeenNothing);
 }
 
-/// A packet of 1 degree, as from an HDL-32E with dual returns.
+/// A packet is 1 degree wide, like those of an HDL-32E with dual returns.
 TEST_F(SectorDistancesTest, NarrowLostPacketKeepsObstacle) {
     for (const double lost_deg : {12.0, 12.2, 12.5, 12.9}) {
         SectorDistances distances(sensor_);
@@ -85,7 +85,7 @@ TEST_F(SectorDistancesTest, NarrowLostPacketKeepsObstacle) {
     }
 }
 
-TEST_F(SectorDistancesTest, KeepsObstacleOfPacketLostTwice) {
+TEST_F(SectorDistancesTest, KeepsObstacleIfPacketIsLostTwice) {
     SectorDistances distances(sensor_);
     turn(0, 0.05, {{12.9, 4}}, distances);
     for (const int k : {1, 2}) {
@@ -95,13 +95,13 @@ TEST_F(SectorDistancesTest, KeepsObstacleOfPacketLostTwice) {
     EXPECT_NEAR(distances.at(0.15)[2].distance_m, 4, 1e-4);
 }
 
-/// Packets of an Ouster with 512 columns are 11 degrees wide: 16 packets are half a turn.
+/// Packets of an Ouster with 512 columns are 11 degrees wide, so half a turn has 16 packets.
 TEST_F(SectorDistancesTest, LatePacketDoesNotRemoveObstacle) {
     const auto sweepOf = [](int k) { return Sweep{radians(11.25 * k), radians(11.25 * (k + 1))}; };
     for (const int late : {1, 14, 15, 16}) {
         SectorDistances distances(sensor_);
         const auto timeOf = [](int k) { return 0.1 / 32 * k; };
-        // Each turn, packet 2 sees a pole at its end, in the degree that packet 3 completes.
+        // In each turn, packet 2 sees a pole near its end, in a degree that packet 3 completes.
         for (int k = 0; k < 67 + late; ++k) {
             std::vector<Point> points;
             if (k % 32 == 2) points.push_back({33.6, 5});
@@ -129,7 +129,7 @@ TEST_F(SectorDistancesTest, StartsUnknown) {
 
 TEST_F(SectorDistancesTest, SectorsAreClockwiseFromAhead) {
     SectorDistances distances(sensor_);
-    // Three times per direction, at known distances.
+    // Returns at known distances, including several in the same direction.
     turn(0, 0.1, {{2, 7}, {3, 6}, {92, 5}, {268, 4}, {359, 3}, {181, 9, Label::Rou}}, distances);
     const auto at = distances.at(0.1);
     for (int k = 0; k < SectorDistances::kSectors; ++k) {
@@ -153,7 +153,7 @@ TEST_F(SectorDistancesTest, StaleDirectionsAreNotFree) {
     EXPECT_EQ(distances.at(0.31)[0].state, State::Unknown);
     EXPECT_EQ(distances.at(0.29)[6].state, State::Obstacle);
     EXPECT_EQ(distances.at(0.5)[6].state, State::Unknown);
-    // If the clock steps back, future data are not fresh.
+    // If the clock steps back, data from the future are not fresh.
     EXPECT_EQ(distances.at(-1)[6].state, State::Unknown);
     EXPECT_EQ(distances.at(-1)[0].state, State::Unknown);
 }
@@ -183,11 +183,11 @@ TEST_F(SectorDistancesTest, PartlySweptDirectionIsNotFree) {
     EXPECT_EQ(others.at(1)[2].state, State::Unknown);
     take(13, 20, 1.01, {}, others);
     EXPECT_EQ(others.at(1.01)[2].state, State::SeenNothing);
-    EXPECT_EQ(others.at(1.01)[2].time_s, 1);  // time of the older part
+    EXPECT_EQ(others.at(1.01)[2].time_s, 1);  // time of the earlier part
 }
 
 TEST_F(SectorDistancesTest, ObstacleAtSweepBorderStays) {
-    // The degree from 10 to 11 is swept in two parts; the obstacle is in the first.
+    // The degree from 10 to 11 is swept in two parts; the obstacle is in the first part.
     SectorDistances distances(sensor_);
     take(0, 10.4, 1, {{10.2, 4}}, distances);
     take(10.4, 20, 1.005, {{10.8, 9}}, distances);
@@ -201,8 +201,8 @@ TEST_F(SectorDistancesTest, NextTurnReplacesLast) {
         turn(0, turn_s, {{47, 4}, {100, 3}}, distances);
         turn(1, turn_s, {{47, 8}}, distances);
         const auto at = distances.at(2 * turn_s);
-        EXPECT_NEAR(at[9].distance_m, 8, 1e-4) << turn_s;       // it moved away
-        EXPECT_EQ(at[20].state, State::SeenNothing) << turn_s;  // it is gone
+        EXPECT_NEAR(at[9].distance_m, 8, 1e-4) << turn_s;       // the obstacle moved away
+        EXPECT_EQ(at[20].state, State::SeenNothing) << turn_s;  // the obstacle is gone
     }
 }
 
@@ -240,12 +240,12 @@ TEST_F(SectorDistancesTest, TiltedSensorLeavesHorizonUnknown) {
     SectorDistances distances(sensor_, settings);
     take(0, 360, 1, {}, distances);
     const auto at = distances.at(1);
-    EXPECT_EQ(at[0].state, State::Unknown);       // ahead, the beams end 15 degrees lower
-    EXPECT_EQ(at[36].state, State::Unknown);      // behind, they begin higher
-    EXPECT_EQ(at[18].state, State::SeenNothing);  // beside, they are level
+    EXPECT_EQ(at[0].state, State::Unknown);       // ahead, the beams end below the horizon
+    EXPECT_EQ(at[36].state, State::Unknown);      // behind, they begin above the horizon
+    EXPECT_EQ(at[18].state, State::SeenNothing);  // at the sides, they are level
 }
 
-/// The packet ends within the obstacle's degree, before the obstacle.
+/// The packet ends before the obstacle, within the same degree.
 TEST_F(SectorDistancesTest, ObstacleStaysUntilPassed) {
     for (const double end_deg : {11.0, 11.25, 11.6, 11.9}) {
         SectorDistances distances(sensor_);
@@ -258,8 +258,8 @@ TEST_F(SectorDistancesTest, ObstacleStaysUntilPassed) {
     }
 }
 
-/// The sensor is 1 m ahead of the body: an obstacle behind the sensor can be ahead of the body, a
-/// direction passed up to half a turn later.
+/// The sensor is 1 m ahead of the body: an obstacle behind the sensor can be ahead of the body, in
+/// a direction that is passed up to half a turn later.
 TEST_F(SectorDistancesTest, NearObstacleStaysForOffsetSensor) {
     for (const auto& [x_m, y_m] : {std::pair{0.3, 0.6}, {0.3, -0.6}, {0.6, 0.2}, {-0.5, 0.1}}) {
         SectorDistances::Settings settings;
@@ -280,7 +280,7 @@ TEST_F(SectorDistancesTest, NearObstacleStaysForOffsetSensor) {
     }
 }
 
-TEST_F(SectorDistancesTest, OffsetSensorKeepsObstacleOfLostPacket) {
+TEST_F(SectorDistancesTest, OffsetSensorKeepsObstacleIfPacketIsLost) {
     for (const auto& [x_m, y_m] : {std::pair{0.3, 0.6}, {0.3, -0.6}, {0.6, 0.2}, {-0.5, 0.1}}) {
         SectorDistances::Settings settings;
         settings.body_from_sensor.translation().x() = 1;
@@ -302,7 +302,7 @@ TEST_F(SectorDistancesTest, OffsetSensorKeepsObstacleOfLostPacket) {
     }
 }
 
-/// Nose down by 20 degrees, the sensor sees the low obstacle at 268 degrees at its own 272.3.
+/// Pitched down by 20 degrees, the sensor sees the obstacle at 268 at its own 272.3 degrees.
 TEST_F(SectorDistancesTest, ObstacleBelowHorizonStays) {
     SectorDistances::Settings settings;
     settings.body_from_sensor = Eigen::AngleAxisd(radians(20.0), Eigen::Vector3d::UnitY());
@@ -324,7 +324,7 @@ TEST_F(SectorDistancesTest, ObstacleBelowHorizonStays) {
         EXPECT_EQ(distances.at(time_s)[53].state, State::Obstacle) << from_deg;
     }
     EXPECT_EQ(steps, 360);
-    // The next turn removes it.
+    // The next turn removes the obstacle.
     take(1080, 1440, 0.4, {}, distances);
     EXPECT_EQ(distances.at(0.41)[53].state, State::SeenNothing);
 }
@@ -344,16 +344,16 @@ TEST_F(SectorDistancesTest, FramesWithLossesAreUnknown) {
         takeFrames(measured_s, frames, distances);
         return distances.at(1 + 0.02 * frames)[9].state;
     };
-    EXPECT_EQ(stateAfter(0.02, 3), State::Unknown);  // not yet a full view
+    EXPECT_EQ(stateAfter(0.02, 3), State::Unknown);  // view not yet complete
     EXPECT_EQ(stateAfter(0.02, 5), State::SeenNothing);
     EXPECT_EQ(stateAfter(0.018, 50), State::SeenNothing);
     EXPECT_EQ(stateAfter(0.012, 50), State::Unknown);
-    EXPECT_EQ(stateAfter(0.0005, 50), State::Unknown);  // one packet of 42
+    EXPECT_EQ(stateAfter(0.0005, 50), State::Unknown);  // one of 42 packets
     EXPECT_EQ(stateAfter(0, 50), State::Unknown);
 }
 
-/// A quarter of the packets of 0.3 s arrive together after a network outage.
-TEST_F(SectorDistancesTest, BurstOfFramesIsNotFullView) {
+/// After a network outage, a quarter of the packets from 0.3 s arrive together.
+TEST_F(SectorDistancesTest, FrameBurstIsNotFullView) {
     const Scan scan;
     const std::vector<Label> labels;
     const auto stateAfter = [&](double measured_s) {
@@ -369,15 +369,15 @@ TEST_F(SectorDistancesTest, BurstOfFramesIsNotFullView) {
     EXPECT_EQ(stateAfter(0.019), State::SeenNothing);
 }
 
-/// A direction is free only after a full view that began after the obstacle was seen.
+/// A direction becomes free only after a full view that began after the obstacle was seen.
 TEST_F(SectorDistancesTest, FrameObstacleStaysUntilSecondLook) {
     Scan pole, nothing;
     pole.x_m = {5};
     pole.y_m = {-0.1f};
     pole.z_m = {0};
-    // Frames 0 to 5 or 7; once, the period is longer than the pole is kept.
+    // With {1, 7}, frames continue for longer than the pole is kept.
     for (const auto& [last_with_pole, last] : {std::pair{1, 5}, {5, 5}, {1, 7}}) {
-        for (const double lost_s : {0.0, 5e-4}) {  // then silence, or one packet of 42
+        for (const double lost_s : {0.0, 5e-4}) {  // followed by silence, or by one of 42 packets
             SectorDistances distances(sensorModel("Mid-360"));
             for (int k = 0; k < 25; ++k) {
                 const double time_s = 1 + 0.02 * k;
@@ -396,14 +396,14 @@ TEST_F(SectorDistancesTest, FrameObstacleStaysUntilSecondLook) {
     }
 }
 
-TEST_F(SectorDistancesTest, FrameObstacleLastsTenthOfSecond) {
+TEST_F(SectorDistancesTest, FrameObstacleLasts100ms) {
     SectorDistances distances(sensorModel("Mid-360"));
     take(std::nullopt, 1.00, {{2, 4}}, distances);
     for (int k = 1; k < 5; ++k) take(std::nullopt, 1 + 0.02 * k, {{2, 5}}, distances);
     EXPECT_NEAR(distances.at(1.09)[0].distance_m, 4, 1e-4);
     EXPECT_EQ(distances.at(1.09)[9].state, State::SeenNothing);
     for (int k = 5; k < 16; ++k) take(std::nullopt, 1 + 0.02 * k, {{2, 5}}, distances);
-    EXPECT_NEAR(distances.at(1.31)[0].distance_m, 5, 1e-4);  // it expires
+    EXPECT_NEAR(distances.at(1.31)[0].distance_m, 5, 1e-4);  // the obstacle expires later
     EXPECT_EQ(distances.at(1.7)[0].state, State::Unknown);
     for (int k = 0; k < 15; ++k) take(std::nullopt, 2 + 0.02 * k, {}, distances);
     EXPECT_EQ(distances.at(2.29)[0].state, State::SeenNothing);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kTurn_rad = 2 * kPi;
 constexpr int kPackets = 75;
 
-/// A turn over flat ground with a pole and a wall, packet by packet.
+/// The packets of a turn over flat ground with a pole and a wall.
 std::vector<Scan> packetsOfATurn(const SensorModel& sensor) {
     test::SimpleScene scene;
     scene.poles.push_back({8, 3, 0.2, 6});
@@ -64,7 +64,7 @@ TEST(SectorPackets, LostSweepIsNotFree) {
     SectorDistances distances(sensor);
     Scan none;
     SegmentationResult result;
-    // A sector of 25 degrees in five packets, without the middle one; clockwise from ahead.
+    // Five packets form a sector of 25 degrees, clockwise from ahead; the middle packet is missing.
     std::vector<Sweep> packets;
     for (const int p : {0, 1, 3, 4}) packets.push_back({radians(5.0 * p), radians(5.0 * (p + 1))});
     distances.take(
@@ -77,7 +77,7 @@ TEST(SectorPackets, LostSweepIsNotFree) {
     EXPECT_EQ(at[5].state, State::Unknown);
 }
 
-/// The labels of a second turn with a known tilt, after a turn with or without a pose.
+/// The labels of a second turn with a known tilt; the first turn may have a pose.
 std::vector<Label> labelsAfter(const std::optional<Eigen::Isometry3d>& first) {
     const SensorModel sensor = sensorModel("VLP-16");
     const auto packets = packetsOfATurn(sensor);

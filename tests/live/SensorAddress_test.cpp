@@ -20,7 +20,7 @@ void expectTaken(const std::vector<Sent>& all) {
     }
 }
 
-/// The same model, mounted elsewhere.
+/// The other sensor is of the same model, but mounted elsewhere.
 TEST(SensorAddress, OtherSensorNeverReplacesOurs) {
     expectTaken({{1, 10, true}, {2, 10.1, false}, {2, 11.6, false}, {1, 11.7, true}});
 }
@@ -28,7 +28,7 @@ TEST(SensorAddress, OtherSensorNeverReplacesOurs) {
 TEST(SensorAddress, ReturnsToEarlierAddress) {
     expectTaken({{1, 10, true},
                  {2, 11.5, true},
-                 {1, 11.6, true},  // so there are two sensors
+                 {1, 11.6, true},  // shows that there are two sensors
                  {2, 11.7, false},
                  {2, 13.2, false},
                  {1, 13.3, true}});

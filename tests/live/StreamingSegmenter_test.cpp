@@ -28,7 +28,7 @@ test::SimpleScene sceneWithPole() {
     return scene;
 }
 
-/// The returns of each packet of a turn, clockwise from behind, like from a sensor.
+/// The returns of each packet of a turn, clockwise from behind, as a sensor sends them.
 std::vector<Scan> packetsOf(const test::LabelledScan& turn, std::vector<Label>* truth = nullptr) {
     std::vector<Scan> packets(kPackets);
     std::vector<std::vector<Label>> labels(kPackets);
@@ -147,7 +147,7 @@ TEST_F(StreamingSegmenterTest, FullContextMatchesWholeScan) {
     for (const Label label : of_turn) roi += label == Label::Roi;
     for (const Label label : labels()) roi_streamed += label == Label::Roi;
     EXPECT_EQ(labels().size(), of_turn.size());
-    // Columns at borders of sectors have returns of both turns.
+    // Columns at sector borders contain returns of both turns.
     EXPECT_NEAR(static_cast<double>(roi_streamed), static_cast<double>(roi), 3);
     EXPECT_GT(roi, 100u);
 }
@@ -160,7 +160,7 @@ TEST_F(StreamingSegmenterTest, FullContextHasEachReturnOnce) {
     options.skip_ahead_rad = 0;
     std::size_t sectors = 0, with_all = 0;
     const auto check = [&](const LabelledSector& sector) {
-        if (sector.sweep->from_rad < kPi + kTurn_rad) return;  // of the first turn
+        if (sector.sweep->from_rad < kPi + kTurn_rad) return;  // skips the first turn
         const std::size_t returns = sector.result.range_image.depth_mapper.size();
         EXPECT_LE(returns, turn.scan.size());
         with_all += returns == turn.scan.size();
@@ -168,7 +168,7 @@ TEST_F(StreamingSegmenterTest, FullContextHasEachReturnOnce) {
     };
     StreamingSegmenter segmenter(sensor_, {}, check, options);
     for (int k = 0; k < 2; ++k) addTurn(k, packets, segmenter);
-    // Due to rounding, the packet ahead may count as overwritten.
+    // Due to rounding, the packet ahead may be treated as overwritten.
     EXPECT_GT(2 * with_all, sectors);
     EXPECT_GT(sectors, 10u);
 }
@@ -200,7 +200,7 @@ TEST_F(StreamingSegmenterTest, LabelsEachReturnOnce) {
     for (int k = 0; k < 3; ++k) addTurn(k, packets, segmenter);
     addTurn(3, packets, segmenter, 0, 2);
     segmenter.flush();
-    segmenter.flush();  // nothing is left
+    segmenter.flush();  // no returns are left
     EXPECT_EQ(labels().size(), 3 * turn.scan.size() + packets[0].size() + packets[1].size());
     EXPECT_EQ(segmenter.sectors(), taken_.size());
     EXPECT_TRUE(taken_.back().has_turn);
@@ -219,7 +219,7 @@ TEST_F(StreamingSegmenterTest, NoGroundBeforeHalfTurn) {
         const auto roi = std::count(sector.label.begin(), sector.label.end(), Label::Roi);
         if (known_rad < kPi - 0.02) {
             EXPECT_GT(roi, 50) << known_rad;
-            EXPECT_LT(rou, roi) << known_rad;  // returns beyond the zone
+            EXPECT_LT(rou, roi) << known_rad;  // ROU returns are beyond the zone
         } else {
             EXPECT_EQ(roi, 0) << known_rad;
         }
@@ -238,7 +238,7 @@ TEST_F(StreamingSegmenterTest, FirstTurnMissesNoObstacle) {
     std::size_t at = 0, missed = 0;
     for (const Scan& packet : packets) {
         for (std::size_t i = 0; i < packet.size(); ++i, ++at) {
-            // Above the height tolerance of the filter.
+            // Obstacles above the filter's height tolerance.
             const bool is_obstacle = truth[at] == Label::Roi && packet.z_m[i] > -1.5f;
             missed += is_obstacle && streamed[at] != Label::Roi;
         }
@@ -270,7 +270,7 @@ TEST_F(StreamingSegmenterTest, ContextFollowsTilt) {
     const test::SimpleScene scene = sceneWithPole();
     const auto level = test::scanScene(scene, sensor_, kColumns, {0, 0, 2});
     const Attitude tilt{0, static_cast<float>(radians(3.0))};
-    // Returns of a tilted sensor in its frame.
+    // The returns of a tilted sensor, in the sensor frame.
     test::LabelledScan tilted;
     const Eigen::Matrix3d turn = levelFromSensor(tilt).cast<double>();
     for (int column = 0; column < kColumns; ++column) {
@@ -317,9 +317,9 @@ TEST_F(StreamingSegmenterTest, ContextFollowsTilt) {
     const std::size_t with_tilt = errorsWith(true, 0), without_tilt = errorsWith(false, 0);
     EXPECT_GT(without_tilt, 50u);
     EXPECT_LT(4 * with_tilt, without_tilt);
-    // Without the oldest returns beside the sector, an unknown tilt causes fewer errors.
+    // Omitting the oldest returns beside the sector reduces the errors of an unknown tilt.
     EXPECT_LT(errorsWith(false, radians(30.0)), without_tilt);
-    // Motion is estimated from the first sectors of ground.
+    // Motion is estimated from the first sectors that contain ground.
     EXPECT_LT(4 * errorsWith(false, 0, true), without_tilt);
     // A mount is a tilt, but does not imply that the sensor is static.
     mount = Attitude{};
@@ -328,7 +328,7 @@ TEST_F(StreamingSegmenterTest, ContextFollowsTilt) {
 }
 
 TEST_F(StreamingSegmenterTest, RestartClearsState) {
-    // The ground apparently falls by 0.2 m per turn, then stays.
+    // The ground seems to fall by 0.2 m per turn, then stays.
     const test::SimpleScene scene = sceneWithPole();
     const auto packetsAt = [&](double height_m) {
         return packetsOf(test::scanScene(scene, sensor_, kColumns, {0, 0, height_m}));
@@ -403,7 +403,7 @@ TEST_F(StreamingSegmenterTest, NonFiniteMotionIsUnknown) {
               }));
 }
 
-/// In any posture, context with coordinates beyond float is dropped.
+/// In any posture, context whose coordinates exceed float is dropped.
 TEST_F(StreamingSegmenterTest, HugeMotionLosesNoReturn) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
@@ -423,8 +423,8 @@ TEST_F(StreamingSegmenterTest, HugeMotionLosesNoReturn) {
     }
 }
 
-/// Packets that are many turns late.
-TEST_F(StreamingSegmenterTest, LabelsSectorOfManyTurns) {
+/// The packets are many turns late.
+TEST_F(StreamingSegmenterTest, LabelsMultiTurnSector) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingSegmenter segmenter(sensor_, {}, take());
@@ -434,7 +434,7 @@ TEST_F(StreamingSegmenterTest, LabelsSectorOfManyTurns) {
     EXPECT_EQ(labels().size(), turn.scan.size() + packets[0].size());
 }
 
-/// Thin plants: one column in five hits few tops, but sectors keep the earlier heights.
+/// Thin plants: every fifth column alone hits few tops, but sectors keep the earlier heights.
 TEST_F(StreamingSegmenterTest, CropsAreCanopyInSectors) {
     test::SimpleScene crops;
     for (int i = -14; i <= 14; ++i) {
@@ -485,7 +485,7 @@ TEST_F(StreamingSegmenterTest, FramesUseEarlierFrames) {
     const std::vector<Scan> packets = packetsOf(turn);
     StreamingSegmenter segmenter(sensor_, {}, take());
     for (int k = 0; k < 5; ++k) {
-        // Every fifth packet: a frame in all directions.
+        // Every fifth packet forms a frame in all directions.
         Scan frame;
         for (int p = k; p < kPackets; p += 5) {
             const Scan& part = packets[p];
@@ -504,7 +504,7 @@ TEST_F(StreamingSegmenterTest, FramesUseEarlierFrames) {
     }
 }
 
-TEST_F(StreamingSegmenterTest, RejectsWrongOptionsAndScans) {
+TEST_F(StreamingSegmenterTest, RejectsInvalidOptionsAndScans) {
     const auto messageWith = [&](auto change) {
         StreamingOptions options;
         change(options);

@@ -30,7 +30,7 @@ void add(int column, int row, float range_m, float z_m, Scan& scan) {
     scan.row.push_back(static_cast<std::uint8_t>(row));
 }
 
-/// The class's definition, implemented with maps.
+/// Implements the definition of the class with maps.
 std::set<std::size_t> thinnedByHand(const Scan& scan, int every) {
     using Pixel = std::pair<int, int>;
     std::map<Pixel, std::vector<std::size_t>> own, group;
@@ -72,7 +72,7 @@ TEST(Thinning, MatchesDefinition) {
     }
 }
 
-/// maskAirframe() leaves masked returns without a range.
+/// maskAirframe() removes the range of masked returns.
 TEST(Thinning, IgnoresMaskedReturns) {
     Scan scan;
     add(10, 3, kNoValue, 0, scan);
@@ -95,14 +95,14 @@ TEST(Thinning, LowGroundReplacesCrown) {
     EXPECT_THAT(thinning.of(scan), ElementsAre(2, 3));
 }
 
-TEST(Thinning, UpsideDownSensorSwapsLow) {
+TEST(Thinning, UpsideDownSensorInvertsHeights) {
     Thinning thinning(kRows, kColumns, 5);
     Scan scan;
     add(100, 3, 4, 1, scan);
     add(101, 3, 9, 2.3F, scan);
     add(102, 3, 4, -1, scan);
     EXPECT_THAT(thinning.of(scan, -1), ElementsAre(1));
-    EXPECT_THAT(thinning.of(scan, 0), ElementsAre(0));  // on its side
+    EXPECT_THAT(thinning.of(scan, 0), ElementsAre(0));  // the sensor is on its side
     EXPECT_THAT(thinning.of(scan), ElementsAre(2));
 }
 
@@ -114,7 +114,7 @@ TEST(Thinning, IgnoresReturnsWithoutCoordinates) {
     EXPECT_THAT(thinning.of(scan), ElementsAre(0));
 }
 
-TEST(Thinning, KeepsNothingWithoutColumns) {
+TEST(Thinning, KeepsNoReturnsWithoutColumns) {
     Thinning thinning(kRows, kColumns, 0);
     Scan scan;
     add(0, 3, 4, -1, scan);

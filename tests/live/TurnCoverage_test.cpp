@@ -9,8 +9,8 @@ namespace {
 
 class TurnCoverageTest : public testing::Test {
  protected:
-    /// Adds packets with these ranges of degrees as a sector; returns the centres of the degrees
-    /// of the first turn completed so far.
+    /// Adds packets with these angles (in degrees) as a sector; returns the centres of the degrees
+    /// completed so far in the first turn.
     std::vector<double> add(const std::vector<std::pair<double, double>>& packets_deg,
                             double head_deg) {
         std::vector<Sweep> packets;
@@ -45,13 +45,13 @@ class TurnCoverageTest : public testing::Test {
 
 using Degrees = std::vector<double>;
 
-TEST_F(TurnCoverageTest, DegreeCompleteWhenFullySwept) {
+TEST_F(TurnCoverageTest, DegreeIsCompleteWhenFullySwept) {
     EXPECT_EQ(add(10, 12.4), (Degrees{10.5, 11.5}));
-    EXPECT_EQ(add(12.4, 13.7), (Degrees{10.5, 11.5, 12.5}));         // also the degrees just behind
+    EXPECT_EQ(add(12.4, 13.7), (Degrees{10.5, 11.5, 12.5}));         // completes 12 to 13
     EXPECT_EQ(add(13.71, 14.5), (Degrees{10.5, 11.5, 12.5, 13.5}));  // azimuths are rounded
 }
 
-TEST_F(TurnCoverageTest, DetectsGapOfTenthDegree) {
+TEST_F(TurnCoverageTest, DetectsTenthDegreeGap) {
     add(10, 12.4);
     EXPECT_EQ(add(12.5, 15), (Degrees{13.5, 14.5}));
     EXPECT_EQ(add({{15, 16.2}, {16.3, 18}}, 18), (Degrees{13.5, 14.5, 15.5, 17.5}));
@@ -85,7 +85,7 @@ TEST_F(TurnCoverageTest, NextTurnIsSweptAgain) {
     EXPECT_EQ(endOfArc({radians(710), radians(730), radians(700)}, {0, radians(5)}), radians(725));
 }
 
-/// Earlier sweeps are not joined to the current one, even where their angles are adjacent.
+/// Earlier sweeps are not joined to the current sweep, even if their angles are adjacent.
 TEST_F(TurnCoverageTest, RestartDoesNotJoinEarlierSweeps) {
     add(350, 370.5);
     EXPECT_EQ(add(10.5, 13), (Degrees{11.5, 12.5}));

@@ -40,7 +40,7 @@ Eigen::Isometry3d part(const Eigen::Isometry3d& step, double turns) {
 
 class TurnMotionTest : public testing::Test {
  protected:
-    /// The sector's returns of the plane, all ROU, each from the sensor's position at its time.
+    /// Returns of the plane in a sector, all ROU, each from the sensor's position at its time.
     Scan sweep(const Flight& flight, int sector) {
         Scan scan;
         for (int k = 0; k < kColumns / kSectors; ++k) {
@@ -78,7 +78,7 @@ class TurnMotionTest : public testing::Test {
         }
     }
 
-    /// Maximum height error of ground points 10 m away, moved by the estimated motion.
+    /// Maximum height error of ground points 10 m away after applying the estimated motion.
     double worstHeight_m(const Flight& flight, double turns) const {
         const auto estimated = motion_.since(turns);
         if (!estimated) return std::nan("");
@@ -123,7 +123,7 @@ TEST_F(TurnMotionTest, FindsTiltAndRise) {
                                       static_cast<double>(random_.real(-3, 3)),
                                       static_cast<double>(random_.real(-0.1F, 0.1F)));
         fly(flight, 3 * kSectors);
-        // The motion is up to 0.8 m: 4 degrees, 10 m away.
+        // At 10 m, the motion is up to 0.8 m (4 degrees).
         EXPECT_LT(worstHeight_m(flight, 1), 0.1);
         EXPECT_LT(worstHeight_m(flight, 0.5), 0.05);
     }
@@ -160,7 +160,7 @@ TEST_F(TurnMotionTest, FindsMotionLookingDown) {
 }
 
 TEST_F(TurnMotionTest, IgnoresGroundBeyondZone) {
-    motion_ = TurnMotion(sensor_.rows(), kColumns, 9);  // the first ring is 9.7 m away
+    motion_ = TurnMotion(sensor_.rows(), kColumns, 9);  // the first ring of ground is 9.7 m away
     fly({}, 3 * kSectors);
     EXPECT_FALSE(motion_.since(1));
 }
@@ -187,7 +187,7 @@ TEST_F(TurnMotionTest, ForgetsWithoutGround) {
     EXPECT_FALSE(motion_.since(1));
 }
 
-TEST_F(TurnMotionTest, IgnoresPixelsUnseenBefore) {
+TEST_F(TurnMotionTest, IgnoresPixelsNotSeenBefore) {
     fly({}, kSectors);
     swept_ += kSectors;
     fly({}, kSectors);

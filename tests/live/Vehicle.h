@@ -1,6 +1,6 @@
 #pragma once
-// A simulated vehicle and its messages, by the formulas of the aeronautical convention (rotations
-// about down, right and forward) instead of the tested code.
+// A simulated vehicle and its messages, computed with the formulas of the aeronautical convention
+// (rotations about down, right and forward) instead of the tested code.
 #include <Eigen/Geometry>
 #include "live/autopilot/Messages.h"
 #include "live/mavlink/Frame.h"
@@ -9,10 +9,10 @@
 
 namespace hagen::live {
 
-/// In MAVLink's frames: north, east, down; forward, right, down.
+/// A vehicle in MAVLink's frames: north, east, down and forward, right, down.
 struct Vehicle {
     double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
-    Eigen::Vector3d rates_rad_s = Eigen::Vector3d::Zero();  ///< about its axes
+    Eigen::Vector3d rates_rad_s = Eigen::Vector3d::Zero();  ///< about the vehicle's axes
     Eigen::Vector3d ned_m = Eigen::Vector3d::Zero(), speed_m_s = Eigen::Vector3d::Zero();
 
     Eigen::Matrix3d nedFromFrd() const {
@@ -30,7 +30,7 @@ struct Vehicle {
         const Eigen::Vector3d frd = nedFromFrd().transpose() * (place_ned_m - ned_m);
         return {frd.x(), -frd.y(), -frd.z()};
     }
-    /// Clockwise from the vehicle's heading, in degrees from 0 to 360.
+    /// Bearing clockwise from the vehicle's heading, in degrees from 0 to 360.
     double bearing_deg(const Eigen::Vector3d& place_ned_m) const {
         const Eigen::Vector3d way = place_ned_m - ned_m;
         const double bearing = (std::atan2(way.y(), way.x()) - yaw_rad) * 180 / M_PI;
@@ -49,7 +49,7 @@ struct Vehicle {
         return mavlink::frameOf(m);
     }
     mavlink::Frame quaternion(double boot_s) const {
-        // Half angles, rotations about down, right, forward.
+        // Half angles of the rotations about down, right and forward.
         const double cr = std::cos(roll_rad / 2), sr = std::sin(roll_rad / 2);
         const double cp = std::cos(pitch_rad / 2), sp = std::sin(pitch_rad / 2);
         const double cy = std::cos(yaw_rad / 2), sy = std::sin(yaw_rad / 2);

@@ -14,7 +14,7 @@ using Taken = VehicleMotion::Taken;
 
 constexpr double kBehind_s = 50;  // delay of the vehicle's clock
 
-/// The rotation in our frames.
+/// Converts a rotation from MAVLink's frames to ours.
 Eigen::Matrix3d ours(const Eigen::Matrix3d& ned_from_frd) {
     const Eigen::Vector3d flip(1, -1, -1);
     return flip.asDiagonal() * ned_from_frd * flip.asDiagonal();
@@ -76,7 +76,7 @@ TEST(VehicleMotion, InterpolatesAndExtrapolates) {
         motion.at(0.25 + kBehind_s)->place_m->isApprox(Eigen::Vector3d(1, 0.5, -0.25), 1e-4));
     EXPECT_TRUE(
         motion.at(1.15 + kBehind_s)->place_m->isApprox(1.15 * Eigen::Vector3d(4, 2, -1), 1e-4));
-    // Position and attitude are unknown after 0.5 s.
+    // Position and attitude become unknown after 0.5 s.
     EXPECT_TRUE(motion.at(1.49 + kBehind_s));
     EXPECT_FALSE(motion.at(1.51 + kBehind_s));
     EXPECT_FALSE(motion.at(kBehind_s - 0.01));
@@ -101,7 +101,7 @@ TEST(VehicleMotion, PositionJumpCausesNoMotion) {
     }
 }
 
-/// The estimate may have jumped within a gap, so earlier positions are not comparable.
+/// The estimate may jump within a gap, so earlier positions are not comparable.
 TEST(VehicleMotion, JumpInGapCausesNoMotion) {
     VehicleMotion motion;
     Vehicle vehicle;

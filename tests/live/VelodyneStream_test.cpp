@@ -86,7 +86,7 @@ class VelodyneStreamTest : public testing::Test {
     LidarStream stream_{sensors::makeDriver("VLP-16"), {}, into(all_)};
 };
 
-/// Share of labels that match whole scans, where enough of a turn was known.
+/// Share of labels that match those of whole scans, if enough of a turn was known.
 double sameShare(const std::string& recording, const Settings& settings, std::size_t& near_missed) {
     const auto source = recordings::openRecording(recording);
     source->usePoses({});
@@ -118,7 +118,7 @@ double sameShare(const std::string& recording, const Settings& settings, std::si
         for (const auto& raw : packets->scan_packets) {
             time_s += kTurn_s / static_cast<double>(packets->scan_packets.size());
             ByteString packet = test::bytesOf(raw);
-            // Some recordings repeat one turn with its times.
+            // Some recordings repeat one turn with unchanged times.
             const auto time_us = static_cast<std::uint32_t>(std::lround(1e6 * time_s));
             std::memcpy(packet.data() + sensors::kVelodyneTimeAt, &time_us, sizeof time_us);
             add(packet, time_s, *stream);
@@ -140,11 +140,11 @@ double sameShare(const std::string& recording, const Settings& settings, std::si
 TEST(StreamedRecordings, LabelsMatchWholeScans) {
     const std::string folder = std::string(HAGEN_SOURCE_DIR) + "/rawlogs/";
     std::size_t near_missed = 0;
-    // Every other turn is missing, and poses are only known at the start of a turn: the figures in
-    // docs/live.md are for flights without gaps.
+    // Every other turn is missing, and poses are only known at the start of a turn; docs/live.md
+    // reports results for flights without gaps.
     EXPECT_GT(sameShare(folder + "orchard.rawlog", {}, near_missed), 0.97);
     EXPECT_LT(near_missed, 300u);  // of 229 000
-    // One turn per second: no context but the turn itself.
+    // At one turn per second, the only context is the turn itself.
     sameShare(folder + "poles_and_wall.rawlog", {}, near_missed);
     EXPECT_EQ(near_missed, 0u);
 }
@@ -261,8 +261,8 @@ TEST_F(VelodyneStreamTest, DropsPacketsTurnLate) {
     EXPECT_EQ(stream.counts().packets, 5 * kPackets - 15);
 }
 
-/// As a burst from a second, slower path: no clock step, no new data.
-TEST_F(VelodyneStreamTest, DropsDuplicatesOfEarlierTurn) {
+/// A burst from a second, slower path: it contains neither a clock step nor new data.
+TEST_F(VelodyneStreamTest, DropsDuplicatesFromEarlierTurn) {
     const std::vector<ByteString> packets = turnsOf(5);
     addAll(packets, stream_);
     const std::size_t sectors = stream_.segmenter().sectors();
@@ -277,8 +277,8 @@ TEST_F(VelodyneStreamTest, DropsDuplicatesOfEarlierTurn) {
     EXPECT_EQ(stream_.counts().packets, 6 * kPackets);
 }
 
-/// Packets are accepted once it is certain that they are not late.
-TEST_F(VelodyneStreamTest, SixteenLatePacketsMeanClockStep) {
+/// Packets are accepted as soon as they are certain not to be late.
+TEST_F(VelodyneStreamTest, SixteenLatePacketsSignalClockStep) {
     addAll(turnsOf(2), stream_);
     const auto again = turnsOf(1, 500000);
     for (std::size_t i = 0; i < 20; ++i) {
@@ -291,7 +291,7 @@ TEST_F(VelodyneStreamTest, SixteenLatePacketsMeanClockStep) {
     EXPECT_EQ(stream_.counts().interruptions, 1u);
 }
 
-TEST_F(VelodyneStreamTest, CountsGap) {
+TEST_F(VelodyneStreamTest, CountsPacketsMissingInGap) {
     addAll(turnsOf(2), stream_);
     addAll(turnsOf(2, 1000000 + 360000), stream_, 0.36);  // 0.16 s are missing
     EXPECT_EQ(stream_.counts().interruptions, 1u);
@@ -334,7 +334,7 @@ TEST_F(VelodyneStreamTest, RejectsForeignDatagrams) {
     EXPECT_EQ(counts.duplicate, 1u);
 }
 
-/// Two sound blocks are far apart: at their rate, the whole packet would sweep more than a turn.
+/// Two valid blocks are far apart: at their rate, the whole packet would sweep more than a turn.
 TEST_F(VelodyneStreamTest, AcceptsPacketWithImplausibleSweep) {
     ByteString packet = turnsOf(1)[0];
     const auto setAzimuth = [&](int block, unsigned centidegrees) {
@@ -350,7 +350,7 @@ TEST_F(VelodyneStreamTest, AcceptsPacketWithImplausibleSweep) {
     EXPECT_GT(all_.label.size(), 0u);
 }
 
-/// The directions of an unsound block are unknown: no sweep covers them.
+/// The directions of an unsound block are unknown, so no sweep covers them.
 TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
     auto packets = turnsOf(1);
     const auto setHeader = [&](int block, char value) {
@@ -379,7 +379,7 @@ TEST_F(VelodyneStreamTest, UnsoundBlocksAreNotSwept) {
     }
 }
 
-/// One block of a dual-return firing does not cover the directions of the other.
+/// One block of a dual-return firing does not cover the directions of the other block.
 TEST_F(VelodyneStreamTest, HalfFiringIsNotSwept) {
     auto packets = turnsOf(1, 1000000, true);
     packets[40][100 * 5] = '\0';
@@ -401,7 +401,7 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     for (int k = 0; k < 3000; ++k) {
         ByteString packet = packets[random() % packets.size()];
         for (auto changes = random() % 20; changes > 0; --changes) {
-            // Not the model, as other models are rejected.
+            // Keeps the model byte, as other models are rejected.
             packet[random() % 1205] = static_cast<char>(random());
         }
         add(packet, 1e-3 * k, stream_);
@@ -412,11 +412,11 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     EXPECT_EQ(counts.packets + counts.duplicate + counts.unsound + counts.wrong_size +
                   counts.other_sensor + counts.too_late,
               given);
-    EXPECT_GT(counts.packets, 500u);  // in any order: many are too late
+    EXPECT_GT(counts.packets, 500u);  // the order is random, so many packets are too late
 }
 
-/// A single beam: laser 9 of a VLP-32C points 4.2 degrees behind the head.
-TEST(VelodyneStreams, ObstacleOfLaggingBeamStays) {
+/// The sensor has a single beam: laser 9 of a VLP-32C points 4.2 degrees behind the head.
+TEST(VelodyneStreams, LaggingBeamKeepsObstacle) {
     const auto& model = velodyneModel("VLP-32C");
     observations::Firings firings = test::fireAt({}, model, {0, 0, 2});
     firings.range_m.setZero();
@@ -451,8 +451,8 @@ TEST(VelodyneStreams, Hdl64NeedsCalibration) {
     EXPECT_THROW(sensors::makeVelodyneDriver(sensors::hdl64Model()), std::invalid_argument);
 }
 
-/// Lower blocks identify an HDL-64E even if their azimuths are unsound.
-TEST(VelodyneStreams, SurvivesUnsoundLowerBlocksOfHdl64) {
+/// Lower blocks identify an HDL-64E, even if their azimuths are unsound.
+TEST(VelodyneStreams, SurvivesUnsoundLowerHdl64Blocks) {
     sensors::VelodyneCalibration calibration;
     for (int laser = 0; laser < 64; ++laser) {
         const double elevation_rad = radians(-24 + 0.4 * laser);

@@ -1,5 +1,5 @@
-// Reads a stream of MAVLink messages with node-mavlink, which has its own definitions and checks every CRC. Prints a line
-// of JSON per message, then one with the counts: node read_mavlink.mjs FILE
+// Reads a stream of MAVLink messages with node-mavlink, which has its own definitions and checks every CRC. Prints a
+// JSON line per message, then one with the counts: node read_mavlink.mjs FILE
 //
 // Modules are found from the working directory (npm install node-mavlink). Exit code 77: the module is missing.
 import { createRequire } from "node:module";

@@ -115,7 +115,7 @@ TEST(CloudSensors, UsesFullestOfFiveClouds) {
     EXPECT_EQ(rowsAfter(scanOf(below)), 3);
     EXPECT_EQ(rowsAfter(scanOf(all)), 6);
     EXPECT_EQ(rowsAfter(scanOf(below)), 6);
-    EXPECT_EQ(rowsAfter(scanOf({-19, -14, -10, -3, 3, 12})), 6);  // as full, but later
+    EXPECT_EQ(rowsAfter(scanOf({-19, -14, -10, -3, 3, 12})), 6);  // equally full, but later
     EXPECT_NEAR(degrees(sensors.beamsOf("a")->sensor.elevations_rad[0]), -20, 0.02);
     EXPECT_FALSE(sensors.isSettled("a"));
     EXPECT_EQ(rowsAfter(scanOf(below)), 6);
@@ -154,7 +154,7 @@ TEST(CloudSensors, IgnoresOtherObservations) {
     sensors.see(*packets);
     const auto cloud = cloudOf(scan, "a");
     sensors.see(*resultOf(*cloud, true, cloud->pointcloud));
-    mrpt::obs::CObservationPointCloud empty;  // cannot be read
+    mrpt::obs::CObservationPointCloud empty;  // unreadable
     empty.sensorLabel = "a";
     sensors.see(empty);
     mrpt::obs::CObservationVelodyneScan torn;

@@ -32,7 +32,7 @@ mrpt::img::TCamera camera() {
     return camera;
 }
 
-/// A range image whose pixels are all different, and one without range.
+/// A range image in which all pixels differ and one has no range.
 CObservation3DRangeScan::Ptr rangeImage() {
     auto observation = CObservation3DRangeScan::Create();
     observation->hasRangeImage = true;
@@ -48,7 +48,7 @@ CObservation3DRangeScan::Ptr rangeImage() {
     return observation;
 }
 
-/// Coordinates as MRPT computes them.
+/// Coordinates computed by MRPT.
 std::vector<float> unprojected(CObservation3DRangeScan observation) {
     mrpt::obs::T3DPointsProjectionParams parameters;
     parameters.USE_SSE2 = false;
@@ -93,9 +93,9 @@ TEST(DepthCamera, RemovesLensDistortion) {
     observation->cameraParams.setDistortionPlumbBob(-0.12, 0.05, 0.002, -0.001, 0.01);
     Scan scan;
     readDepthScan(*observation, scan);
-    // Unlike MRPT's inversion, ours does not stop after a few steps.
+    // MRPT's inversion stops after a few steps, unlike ours.
     expectSame(unprojected(*observation), scan, 2e-3f);
-    // A return projects to its pixel by the published formula.
+    // By the published formula, each return projects to its pixel.
     const auto& camera = observation->cameraParams;
     std::size_t i = 0;
     for (int r = 0; r < kRows; ++r) {
@@ -127,7 +127,7 @@ TEST(DepthCamera, PrefersStoredPoints) {
     EXPECT_TRUE(isLidarScan(*observation));
     EXPECT_TRUE(isCloud(*observation));
     observation->hasPoints3D = observation->hasRangeImage = false;
-    EXPECT_FALSE(isLidarScan(*observation));  // a picture
+    EXPECT_FALSE(isLidarScan(*observation));  // only a picture is left
 }
 
 TEST(DepthCamera, ReadsAllLayers) {
@@ -182,8 +182,8 @@ TEST(DepthCamera, RejectsInvalidScans) {
     }
 }
 
-/// The view of a camera of 58 x 45 degrees from 1.5 m above flat ground with a pole at 6 m, with
-/// the truth of each return.
+/// A camera of 58 x 45 degrees, 1.5 m above flat ground with a pole at 6 m: its view, with the
+/// truth of each return.
 struct Seen {
     CObservation3DRangeScan::Ptr observation = rangeImage();
     std::vector<Label> truth;

@@ -12,7 +12,7 @@ namespace {
 using mrpt::poses::CPose3D;
 const auto kStart = mrpt::Clock::fromDouble(1000.0);
 
-/// A vehicle that flies at this velocity for one second, 2 m up.
+/// A vehicle that flies at this velocity for one second, starting 2 m up.
 Trajectory flight(double vx_m_s, double vz_m_s) {
     Trajectory vehicle;
     for (int i = 0; i <= 10; ++i) {
@@ -23,7 +23,7 @@ Trajectory flight(double vx_m_s, double vz_m_s) {
     return vehicle;
 }
 
-/// A full revolution on this flight over flat ground, with a wall 10 m ahead of the start.
+/// A full revolution during this flight over flat ground, with a wall 10 m ahead of the start.
 Scan scanOnTheWay(double vx_m_s, double vz_m_s) {
     test::SimpleScene scene;
     scene.boxes.push_back({{10, -30, 0}, {11, 30, 10}});
@@ -34,7 +34,7 @@ Scan scanOnTheWay(double vx_m_s, double vz_m_s) {
     return scan;
 }
 
-/// Maximum distance of returns from the ground 2 m below or the wall 10 m ahead.
+/// Maximum distance of returns from the ground 2 m below or from the wall 10 m ahead.
 double worstDistance_m(const Scan& scan) {
     double worst = 0;
     for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -53,7 +53,7 @@ TEST(Deskew, CorrectsTranslation) {
 }
 
 TEST(Deskew, UsesSensorPoseOnVehicle) {
-    // The same flight with a sensor mounted off-centre and rotated.
+    // The same flight, with a sensor mounted off-centre and rotated.
     const CPose3D sensor_on_vehicle(0.5, -0.2, 0.3, 1.2, 0.1, -0.2);
     Trajectory vehicle;
     for (int i = 0; i <= 10; ++i) {
@@ -67,7 +67,7 @@ TEST(Deskew, UsesSensorPoseOnVehicle) {
 }
 
 TEST(Deskew, CorrectsRotation) {
-    // The map point (10, 0, 0), seen by a sensor that turns on the spot.
+    // The map point (10, 0, 0), seen by a sensor that rotates in place.
     Trajectory vehicle;
     for (int i = 0; i <= 10; ++i) {
         vehicle.add(mrpt::Clock::fromDouble(1000.0 + 0.01 * i), CPose3D(0, 0, 0, 0.05 * i, 0, 0));
@@ -108,7 +108,7 @@ TEST(Deskew, KeepsScanWithoutFullCoverage) {
     EXPECT_FALSE(deskew(vehicle, kStart, {}, sensorModel("VLP-16"), scan));
     EXPECT_EQ(scan.x_m, before.x_m);
     EXPECT_FALSE(deskew(Trajectory(), kStart, {}, sensorModel("VLP-16"), scan));
-    // Nor if one pose is implausible.
+    // One implausible pose also prevents the correction.
     vehicle.add(mrpt::Clock::fromDouble(1000.07), CPose3D(1e300, 0, 0, 0, 0, 0));
     vehicle.add(mrpt::Clock::fromDouble(1000.2), CPose3D(2, 0, 0, 0, 0, 0));
     EXPECT_FALSE(deskew(vehicle, kStart, {}, sensorModel("VLP-16"), scan));

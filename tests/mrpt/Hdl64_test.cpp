@@ -1,4 +1,4 @@
-// Synthetic packets and calibration file of an HDL-64E.
+// Tests with synthetic packets and a synthetic calibration file of an HDL-64E.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mrpt/ObservationScan.h>
@@ -25,7 +25,7 @@ using mrpt::obs::VelodyneCalibration;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A file of this process, as tests run in parallel.
+/// The file name is unique to this process, as tests run in parallel.
 std::filesystem::path fileOf(const std::string& content) {
     static const test::TemporaryFolder folder;
     return test::writeBytes(folder / "calibration.xml", content);
@@ -42,7 +42,7 @@ std::string replaced(const std::string& from, const std::string& to) {
     return at == std::string::npos ? xml : xml.replace(at, from.size(), to);
 }
 
-/// The range to the walls, the ground and the ceiling of a room around the sensor.
+/// The range to the walls, floor and ceiling of a room around the sensor.
 double rangeInRoom(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direction) {
     const Eigen::Vector3d low_m(-12, -9, -1.7), high_m(15, 7, 2.5);
     double range_m = std::numeric_limits<double>::infinity();
@@ -86,7 +86,7 @@ TEST(Hdl64, DecodesReturnsOntoRoomWalls) {
         const Eigen::Vector3d hit_m = origin_m + range_m * direction;
         const Eigen::Vector3d there_m =
             Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]).cast<double>();
-        // Ranges have steps of 2 mm, azimuths are up to 0.01 degrees ahead (azimuthOfReadingDeg()).
+        // Ranges are in steps of 2 mm, azimuths up to 0.01 degrees ahead (azimuthOfReadingDeg()).
         ASSERT_LT((there_m - hit_m).norm(), 0.002 + 2e-4 * range_m) << firing << " " << laser;
         ASSERT_NEAR(scan.range_m[i], range_m, 0.0011);
         ASSERT_NEAR(scan.time_s[i], 48e-6 * firing, 1e-7);
@@ -96,7 +96,7 @@ TEST(Hdl64, DecodesReturnsOntoRoomWalls) {
     EXPECT_EQ(scan.beams.rows, 64);
 }
 
-TEST(Hdl64, UsesCalibrationOfScan) {
+TEST(Hdl64, UsesScanCalibration) {
     CObservationVelodyneScan observation = scanInRoom(12);
     ObservedScan observed;
     readObservation(observation, {}, observed);

@@ -85,7 +85,7 @@ TEST(Horizon, AppliesImuMount) {
     CObservationIMU imu;
     imu.timestamp = kTime;
     imu.sensorPose = imu_on_vehicle;
-    imu.set(mrpt::obs::IMU_YAW, 2.0);  // a compass error does not matter
+    imu.set(mrpt::obs::IMU_YAW, 2.0);  // a compass error is irrelevant
     imu.set(mrpt::obs::IMU_PITCH, turned.pitch());
     imu.set(mrpt::obs::IMU_ROLL, turned.roll());
     Horizon horizon;
@@ -123,7 +123,7 @@ TEST(Horizon, IgnoresInvalidImu) {
         return !horizon.at(kTime);
     };
     imu.set(mrpt::obs::IMU_X_ACC, 9.81);
-    imu.set(mrpt::obs::IMU_PITCH, 0.1);  // no attitude without roll
+    imu.set(mrpt::obs::IMU_PITCH, 0.1);  // pitch without roll is not an attitude
     EXPECT_TRUE(isIgnored());
     imu.set(mrpt::obs::IMU_ROLL, NAN);
     EXPECT_TRUE(isIgnored());
@@ -145,7 +145,7 @@ TEST(Horizon, IgnoresInvalidImu) {
     EXPECT_FALSE(isIgnored());
 }
 
-/// A cloud of level ground, seen by a sensor that is mounted with a pitch.
+/// A cloud of level ground from a sensor mounted with a pitch.
 mrpt::obs::CObservationPointCloud::Ptr cloudAt(const CPose3D& sensor_on_vehicle) {
     Settings settings;
     const auto scan = test::scanScene({}, settings.sensorModel(), 400, {0, 0, 2}).scan;
@@ -159,7 +159,7 @@ TEST(Horizon, ReachesSegmenterOutput) {
     ObservationSegmenter segmenter;
     ObservationSegmenter::Output out;
     ASSERT_TRUE(segmenter.process(*cloud, out));
-    ASSERT_TRUE(out.pose.attitude);  // like on a level vehicle
+    ASSERT_TRUE(out.pose.attitude);  // the vehicle is assumed to be level
     EXPECT_NEAR(out.pose.attitude->pitch_rad, 0.2, 1e-5);
 
     EXPECT_FALSE(segmenter.process(poseOf({0, 0, 5, 1.0, -0.05, 0.1}), out));

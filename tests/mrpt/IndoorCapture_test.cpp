@@ -1,4 +1,4 @@
-// In a recording of a room, only the floor may be ROU.
+// In a recording of a room, only floor returns may be ROU.
 #include <gtest/gtest.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -39,12 +39,12 @@ std::vector<CObservationVelodyneScan::Ptr> scansOf(const std::filesystem::path& 
         scans.back()->scan_packets.push_back(packet);
     }
     if (scans.size() < 3) return {};
-    return {scans.begin() + 1, scans.end() - 1};  // the first and the last are incomplete
+    return {scans.begin() + 1, scans.end() - 1};  // the first and last are incomplete
 }
 
 // Ground truth by height: the floor is 1.02 to 1.15 m below the sensor, which stands on a desk.
-// Higher returns are walls, ceiling, furniture and people.
-TEST(IndoorCapture, LabelsAllButFloorRoi) {
+// Higher returns are from walls, ceiling, furniture and people.
+TEST(IndoorCapture, LabelsEverythingButFloorRoi) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA is not a folder of captures";
     const auto scans = scansOf(folder / "vlp16_packets_1206.bin");
@@ -63,7 +63,7 @@ TEST(IndoorCapture, LabelsAllButFloorRoi) {
     }
     EXPECT_GT(others, 150000u);
     EXPECT_LE(missed, others / 1000);
-    // A quarter of the returns is nearer than MRPT's default minimum range of 1 m.
+    // A quarter of the returns are nearer than MRPT's default minimum range of 1 m.
     EXPECT_EQ(unclassified, 0u);
 }
 

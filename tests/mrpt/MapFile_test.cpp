@@ -39,7 +39,7 @@ class MapFile : public testing::Test {
         return {std::istreambuf_iterator<char>(in), {}};
     }
 
-    /// Expects every voxel of both maps to be equal: unknown, free or occupied.
+    /// Expects every voxel to have the same state in both maps: unknown, free or occupied.
     void expectSameVoxels(const octomap::OcTree& read) const {
         const octomap::OcTree& tree = map_.tree();
         EXPECT_EQ(tree.getResolution(), read.getResolution());
@@ -64,7 +64,7 @@ class MapFile : public testing::Test {
         return count;
     }
 
-    test::TemporaryFolder folder_;  // own folder, as tests run in parallel
+    test::TemporaryFolder folder_;  // unique, as tests run in parallel
     ScanMap map_{{MapContent::Full, 0.2, 20}};
 };
 
@@ -103,7 +103,7 @@ TEST_F(MapFile, IsReproducible) {
     }
 }
 
-/// In the order in which converters write them.
+/// Like converters, saves the .bt file last.
 TEST_F(MapFile, InPlaceMatchesCopy) {
     for (const std::string ending : {".bt", ".ot", ".3Dscene"}) {
         saveMap(map_.tree(), folder_ / ("copied" + ending));

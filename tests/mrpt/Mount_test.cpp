@@ -21,7 +21,7 @@ void expectTilt(const std::optional<Attitude>& is, const Attitude& expected) {
     EXPECT_LT((levelFromSensor(*is) - levelFromSensor(expected)).norm(), 1e-5f);
 }
 
-TEST(Mount, KeepsAttitudeOfLevelSensor) {
+TEST(Mount, KeepsLevelSensorAttitude) {
     EXPECT_FALSE(tiltOf({}, CPose3D(), {}).has_value());
     ScanPose pose;
     pose.attitude = tilt(3, -5);
@@ -45,17 +45,17 @@ TEST(Mount, UsesSettingsForLevelRecording) {
     ScanPose vehicle;
     vehicle.attitude = tilt(5, 0);
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(180, 0)), tilt(185, 0));
-    // Nose down by 8 degrees, then turned about its own forward axis.
+    // The vehicle is pitched down by 8 degrees, the sensor is turned about its forward axis.
     vehicle.attitude = tilt(0, 8);
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(90, 8));
-    vehicle.is_of_sensor = true;  // the pose, but not the attitude
+    vehicle.is_of_sensor = true;  // applies to the pose, not to the attitude
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(90, 8));
     vehicle.attitude_is_of_sensor = true;
     expectTilt(tiltOf(vehicle, CPose3D(), tilt(90, 0)), tilt(0, 8));
 }
 
-/// As after a chain of transforms.
-TEST(Mount, ToleratesRoundingOfRecordedMount) {
+/// A chain of transforms causes rounding errors.
+TEST(Mount, ToleratesRoundedRecordedMount) {
     const CPose3D rounded(0, 0, 0, 0.3, 1e-7, -1e-9);
     expectTilt(tiltOf({}, rounded, tilt(180, 0)), tilt(180, 0));
     EXPECT_TRUE(tiltOf({}, rounded, {}).has_value());

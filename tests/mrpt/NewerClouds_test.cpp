@@ -1,4 +1,4 @@
-// Clouds in the formats of MRPT 2.15 to 3. Their bytes are written by hand or derived from the
+// Clouds in the formats of MRPT 2.15 to 3. Their bytes are handwritten or derived from the
 // installed MRPT.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ std::string rawText(const std::string& text) {
     return raw(static_cast<std::uint32_t>(text.size())) + text;
 }
 
-/// The options after the fields: insertion without `disableDeletion`, likelihood.
+/// The options after the fields: insertion (without `disableDeletion`) and likelihood.
 std::string options() {
     return raw(std::int8_t{1}) + raw(0.02f) + std::string("\x01\0\0\0", 4) + raw(0.001f) +
            raw(2.0f) + std::string("\0", 1) + raw(std::int8_t{0}) + raw(0.0025) + raw(1.0) +
@@ -96,7 +96,7 @@ void expectTwoPoints(const mrpt::serialization::CSerializable& object) {
     EXPECT_THAT(cloud->getPointsBufferRef_z(), ElementsAre(5, 6));
 }
 
-/// A cloud of version 2 with vectors written by MRPT.
+/// A cloud of version 2, which contains vectors written by MRPT.
 std::string cloudWithVectors() {
     const auto vector = [](const auto& values) {
         mrpt::io::CMemoryStream stream;
@@ -150,7 +150,7 @@ TEST(NewerClouds, ReadsAllGenericVersions) {
     }
 }
 
-/// A table with a field of each type of the class, and fields of two other types.
+/// A table with a field of each supported type, and fields of two other types.
 PointTable tableOfAllTypes() {
     PointTable table;
     table.points = 2;
@@ -184,7 +184,7 @@ TEST(NewerClouds, ReportsUnusableFields) {
     observation.pointcloud = cloud;
     ObservedScan observed;
     readObservation(observation, {}, observed);
-    EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));  // not the temperature
+    EXPECT_THAT(observed.scan.time_s, ElementsAre(0, 0.1f));  // ignores the temperature
 }
 
 TEST(NewerClouds, WritesTablesAsVersion3) {
@@ -336,7 +336,7 @@ TEST(NewerClouds, LimitsMemoryForValueCounts) {
     const std::string whole = cloudWithVectors();
     for (const std::string before : {"double", "uint16_t", "gps_time", "ring"}) {
         std::string bytes = whole;
-        // After a type name is the number of values; after a field name, the number of characters.
+        // A type name precedes the number of values, a field name the number of characters.
         bytes.replace(bytes.find(before) + before.size(), 4, raw(std::uint32_t{0xffffffff}));
         try {
             read(bytes);

@@ -145,7 +145,7 @@ TEST(ObservationScan, SettingsOverrideRangeLimits) {
     EXPECT_EQ(observed.sensor.max_range_m, 10.0f);
     EXPECT_EQ(observed.sensor.min_range_m, 0.1f);
     readObservation(*velodyneScan(), Settings(), observed);
-    EXPECT_EQ(observed.sensor.min_range_m, 0.5f);  // the recording's own
+    EXPECT_EQ(observed.sensor.min_range_m, 0.5f);  // from the recording
     EXPECT_FALSE(observed.is_sensor_assumed);
 }
 

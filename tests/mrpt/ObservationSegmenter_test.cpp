@@ -25,7 +25,7 @@ CObservationVelodyneScan::Ptr scanFrom(double x_m, const char* label = "front") 
     return scan;
 }
 
-/// A static vehicle between two times, in seconds after the scans' time.
+/// A trajectory that stays at a pose between two times, in seconds after the scans' time.
 Trajectory standingAt(const mrpt::poses::CPose3D& pose, double from_s, double to_s) {
     Trajectory vehicle;
     for (double s = from_s; s <= to_s; s += 0.1) {
@@ -135,7 +135,7 @@ TEST_F(ObservationSegmenterTest, LogsRemarksOnly) {
     EXPECT_THAT(out_.remark, HasSubstr("no packets"));
 }
 
-/// A mask around the pole that scanFrom(0) sees at (12, 2), 2 m above the ground.
+/// Settings that mask the pole that scanFrom(0) sees at (12, 2), 2 m above the ground.
 Settings withMaskedPole() {
     Settings settings;
     settings.airframe.parts.boxes = {{{11, 1, -1.95f}, {13, 3, 5}}};
@@ -184,7 +184,7 @@ TEST_F(ObservationSegmenterTest, AdaptsToChangedSensor) {
     EXPECT_EQ(out_.result->labels.rows(), 32);
 }
 
-/// A pole at (12, 2) on flat ground, without its sensor.
+/// A cloud of a pole at (12, 2) on flat ground that does not name its sensor.
 mrpt::obs::CObservationPointCloud::Ptr cloudFrom(const SensorModel& sensor, int columns) {
     test::SimpleScene scene;
     scene.poles.push_back({12, 2, 0.15, 8});
@@ -192,7 +192,7 @@ mrpt::obs::CObservationPointCloud::Ptr cloudFrom(const SensorModel& sensor, int 
                          mrpt::Clock::fromDouble(100));
 }
 
-TEST_F(ObservationSegmenterTest, RecoversSensorOfClouds) {
+TEST_F(ObservationSegmenterTest, RecoversSensorFromClouds) {
     const auto cloud = cloudFrom(sensorModel("HDL-64E"), 600);
     for (int i = 0; i < 3; ++i) {
         const SegmentationResult* before = out_.result;
@@ -203,7 +203,7 @@ TEST_F(ObservationSegmenterTest, RecoversSensorOfClouds) {
         EXPECT_EQ(out_.options->columns, 600);
         ASSERT_TRUE(out_.recovered);
         EXPECT_FALSE(out_.is_sensor_assumed);
-        EXPECT_TRUE(i == 0 || out_.result == before);  // by the same filter
+        EXPECT_TRUE(i == 0 || out_.result == before);  // the filter is reused
     }
     EXPECT_GT(out_.roi->pointcloud->size(), 50u);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Two points of 8 bytes, laid out by hand: a uint16 at byte 1 and a float32 at byte 4.
+/// Two points of 8 bytes with a manual layout: a uint16 at byte 1 and a float32 at byte 4.
 PointTable twoPoints() {
     PointTable table;
     table.fields = {{"Ring", NumberType::UInt16, 1, 1}, {"x", NumberType::Float32, 4, 1}};
@@ -76,7 +76,7 @@ TEST(PointTable, KeepsExtremesOfEachType) {
     add("float64", NumberType::Float64, double());
     EXPECT_NO_THROW(check(table));
     for (const PointField& field : table.fields) EXPECT_EQ(field.name, nameOf(field.type));
-    EXPECT_THAT(columnOf(table, table.fields[1]), ElementsAre(0, 1));  // others stay in place
+    EXPECT_THAT(columnOf(table, table.fields[1]), ElementsAre(0, 1));  // other fields unchanged
 }
 
 TEST(PointTable, FindsFieldsCaseInsensitively) {

@@ -11,7 +11,7 @@ namespace {
 
 using mrpt::poses::CPose3D;
 
-/// A pole on flat ground, and the filter's own result.
+/// A pole on flat ground, and the result of HagenFilter.
 struct Example {
     Scan scan;
     LabelledReturns expected;

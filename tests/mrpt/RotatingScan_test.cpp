@@ -1,4 +1,4 @@
-// Scans of the installed MRPT; bytes of newer versions are written by hand.
+// Scans of the installed MRPT, and handwritten bytes of newer versions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mrpt/MrptCompat.h>
@@ -32,7 +32,7 @@ CObservationRotatingScan::Ptr scanOf(const std::string& bytes) {
     return std::dynamic_pointer_cast<CObservationRotatingScan>(test::objectOf(bytes));
 }
 
-/// The label of each pixel that has a return, as column * rows + row.
+/// The label of each pixel with a return, indexed by column * rows + row.
 std::map<std::uint32_t, Label> labelsOf(const mrpt::obs::CObservation& observation,
                                         const Settings& settings,
                                         const std::vector<std::uint32_t>& pixel_of_return) {
@@ -54,7 +54,7 @@ struct Compared {
     std::size_t returns = 0, different = 0, roi = 0;
 };
 
-/// Labels of a VLP-16's packets and of the same returns as a rotating scan.
+/// Labels of a VLP-16's packets, and of the same returns as a rotating scan.
 Compared compare(const test::RotatingLayout& layout, const Settings& settings) {
     Compared compared;
     for (const double x_m : {0.0, 3.0, 8.0}) {
@@ -75,7 +75,7 @@ Compared compare(const test::RotatingLayout& layout, const Settings& settings) {
     return compared;
 }
 
-TEST(RotatingScan, PointsMatchLabelsOfPackets) {
+TEST(RotatingScan, PointsMatchPacketLabels) {
     Settings named;
     named.sensor.model = "VLP-16";
     for (const Settings& settings : {Settings(), named}) {
@@ -88,13 +88,13 @@ TEST(RotatingScan, PointsMatchLabelsOfPackets) {
     }
 }
 
-TEST(RotatingScan, RangesMatchLabelsOfPackets) {
+TEST(RotatingScan, RangesMatchPacketLabels) {
     const Compared compared = compare({}, {});
     EXPECT_GT(compared.returns, 30000u);
     EXPECT_EQ(compared.different, 0u);
 }
 
-/// Three rows of four columns; no ranges.
+/// Three rows of four columns without ranges.
 CObservationRotatingScan smallScan() {
     CObservationRotatingScan scan;
     scan.sensorLabel = "lidar";
@@ -153,7 +153,7 @@ TEST(RotatingScan, ColumnsFollowAzimuthSpan) {
     EXPECT_NEAR(degrees(readWith(scan, threeBeams()).scan.azimuth_rad[2]), 100, 1e-4);
 }
 
-TEST(RotatingScan, ReadsAllRangesOfPixels) {
+TEST(RotatingScan, ReadsAllPixelRanges) {
     CObservationRotatingScan scan = smallScan();
     scan.rangeImage(1, 2) = 4;
     scan.rangeOtherLayers["LAST"].setZero(3, 4);
@@ -168,7 +168,7 @@ TEST(RotatingScan, ReadsAllRangesOfPixels) {
     EXPECT_THAT(observed.remark, HasSubstr("1 ranges without a point"));
 }
 
-TEST(RotatingScan, UsesElevationsOfModel) {
+TEST(RotatingScan, UsesModelElevations) {
     CObservationRotatingScan scan = smallScan();
     scan.rowCount = 64;
     scan.rangeImage.setZero(64, 4);
@@ -247,7 +247,7 @@ TEST(RotatingScan, ReadsBothLayouts) {
         EXPECT_EQ(read->rangeOtherLayers.at("LAST")(2, 3), 9);
         EXPECT_EQ(test::bytesOf(*read), test::bytesOf(scan));
     }
-    // Sizes with similar bytes.
+    // Sizes that look similar in bytes.
     for (const int columns : {256, 257, 1024, 4096}) {
         for (const int rows : {4, 16, 256}) {
             CObservationRotatingScan wide;
@@ -308,9 +308,9 @@ std::vector<std::size_t> byTime(const Scan& scan) {
     return order;
 }
 
-TEST(RotatingScan, MatchesPacketsOfConvertedScans) {
+TEST(RotatingScan, ConvertedScansMatchPackets) {
     auto packets = test::poleScanFrom(3, "lidar");
-    packets->scan_packets.resize(70);  // fromVelodyne() refuses a turn that passes 0 degrees
+    packets->scan_packets.resize(70);  // fromVelodyne() rejects a turn that passes 0 degrees
     packets->calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration("VLP16");
     CObservationRotatingScan rotating;
     rotating.fromVelodyne(*packets);
@@ -330,10 +330,10 @@ TEST(RotatingScan, MatchesPacketsOfConvertedScans) {
         const float off_m =
             std::hypot(observed.scan.x_m[i] - kept.x_m[j], observed.scan.y_m[i] - kept.y_m[j],
                        observed.scan.z_m[i] - kept.z_m[j]);
-        // 0.01 degrees: azimuths of packets are rounded.
+        // Packet azimuths are rounded to 0.01 degrees.
         ASSERT_LT(off_m, 2e-4f * observed.scan.range_m[i]) << k;
     }
-    // Unless their sensor is named, rows of lasers have no elevations.
+    // Without the sensor's name, rows of lasers have no elevations.
     rotating.lidarModel = "Unknown";
     EXPECT_THAT(errorOf(rotating), HasSubstr("no elevations"));
     Settings settings;

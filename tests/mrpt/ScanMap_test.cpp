@@ -30,7 +30,7 @@ Eigen::Vector3d middleOf(const Voxel& v, double edge_m) {
                      Eigen::Vector3d::Constant(0.5));
 }
 
-/// Length of a segment inside a voxel widened by a margin (slab method).
+/// Length of a segment within a voxel widened by a margin (slab method).
 double lengthIn(const Voxel& v, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                 double edge_m, double margin_m = 0) {
     double first = 0, last = 1;
@@ -74,7 +74,8 @@ MappedScan randomScan(simulation::Random& random, int points) {
     return scan;
 }
 
-/// Compares voxels near the scan with hits and rays. Voxels barely touched may have either state.
+/// Compares voxels near the scan with hits and rays. A voxel barely touched by a ray may have
+/// either state.
 void expectAsDefined(const ScanMapOptions& options, const MappedScan& scan) {
     ScanMap map(options);
     map.insert(scan);
@@ -234,7 +235,7 @@ TEST(ScanMap, UsesGivenProbabilities) {
     EXPECT_NEAR(at(1.1f), 0.25, 1e-6);
 }
 
-/// OctoMap's insertion is a second implementation.
+/// OctoMap's own insertion serves as a reference.
 TEST(ScanMap, MatchesOctoMapInsertion) {
     simulation::Random random(12);
     const MappedScan scan = randomScan(random, 400);

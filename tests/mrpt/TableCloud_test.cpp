@@ -46,7 +46,7 @@ TableCloud cloudOf(const PointTable& table) {
     return TableCloud(std::make_shared<const PointTable>(table));
 }
 
-/// A cloud of two points with another field.
+/// A cloud of two points with an additional field.
 TableCloud cloudWith(const char* name, NumberType type, const Numbers& numbers) {
     PointTable table = tableAt(Numbers(numbers.size(), 2));
     addColumn(name, type, numbers, table);
@@ -134,7 +134,7 @@ TEST(TableCloud, RejectsTablesWithoutCoordinates) {
     EXPECT_THROW(cloudOf(table), std::runtime_error);
 }
 
-/// Returns of these beams inside a sphere, with ring numbers by `ringOf`.
+/// Returns of these beams inside a sphere; `ringOf` assigns ring numbers.
 template <class RingOf>
 PointTable sphereOf(const std::vector<double>& beams_deg, const RingOf& ringOf) {
     Numbers x, y, z, rings;
@@ -174,7 +174,7 @@ ObservedScan readBack(const PointTable& table, const Settings& settings = {}) {
     return observed;
 }
 
-/// The same from a log of a newer MRPT with the table as a CGenericPointsMap.
+/// Like readBack(), but from a log of a newer MRPT that stores the table as a CGenericPointsMap.
 ObservedScan readFromLog(const PointTable& table) {
     registerMrptClasses();
     registerNewerClouds();
@@ -208,7 +208,7 @@ TEST(TableCloud, UsesMonotonicRingsAsRows) {
 TEST(TableCloud, PrefersRingOverElevation) {
     PointTable table = sphereOf(vlp16_deg(), [](int beam, int) { return beam; });
     Numbers z = columnOf(table, table.fields[2]);
-    z[5] += 1.0;  // 6 degrees higher
+    z[5] += 1.0;  // 6 degrees up
     PointTable moved;
     moved.points = table.points;
     for (const PointField& field : table.fields) {
@@ -216,7 +216,7 @@ TEST(TableCloud, PrefersRingOverElevation) {
     }
     EXPECT_EQ(readBack(moved).scan.row[5], 5);
     Settings named;
-    named.sensor.model = "VLP-16";  // beams from the settings
+    named.sensor.model = "VLP-16";  // the settings specify the beams
     EXPECT_EQ(readBack(moved, named).scan.row[5], 8);
 }
 
@@ -242,7 +242,7 @@ TEST(TableCloud, KeepsRowsAndTimesInLogs) {
 }
 
 TEST(TableCloud, SeparatesCloseBeamsByRings) {
-    std::vector<double> beams_deg;  // 0.1 degrees apart: too close for a histogram of 20 columns
+    std::vector<double> beams_deg;  // 0.1 degrees apart, too close for a histogram of 20 columns
     for (int beam = 0; beam < 32; ++beam)
         beams_deg.push_back(-2 + 0.1 * beam + 0.001 * beam * beam);
     const auto observed = readBack(sphereOf(beams_deg, [](int beam, int) { return beam; }));
@@ -253,7 +253,7 @@ TEST(TableCloud, SeparatesCloseBeamsByRings) {
 }
 
 TEST(TableCloud, IgnoresContradictingRings) {
-    // Laser numbers of a VLP-16 in firing order, and overlapping lines as of a Livox.
+    // Laser numbers of a VLP-16 in firing order, and overlapping lines like those of a Livox.
     const auto interleaved = readBack(
         sphereOf(vlp16_deg(), [](int beam, int) { return beam < 8 ? 2 * beam : 2 * beam - 15; }));
     const auto overlapping =

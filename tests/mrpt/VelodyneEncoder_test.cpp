@@ -15,7 +15,7 @@ Firings firingsAt(float range_m, int lasers, int count) {
     return firings;
 }
 
-// VelodyneDecoder_test.cpp tests that decoding reverses encoding; this tests the raw bytes.
+// VelodyneDecoder_test.cpp tests that decoding inverts encoding; these tests check the raw bytes.
 TEST(VelodyneEncoder, MatchesManual) {
     Firings firings = firingsAt(10.0f, 16, 24);
     firings.first_azimuth_deg = 359.9;

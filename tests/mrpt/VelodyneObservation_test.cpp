@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 using mrpt::obs::CObservationVelodyneScan;
 
-/// Our returns that MRPT also decodes: the first 16 of each block.
+/// Indices of our returns that MRPT also decodes: the first 16 in each block.
 std::vector<std::size_t> returnsInFirstHalfOfBlocks(const CObservationVelodyneScan& observation) {
     std::vector<std::size_t> indices;
     std::size_t index = 0;
@@ -58,7 +58,7 @@ void expectMrptAgrees(CObservationVelodyneScan observation) {
     }
 }
 
-TEST(VelodyneObservation, DecodesAllReturnsOfRealScan) {
+TEST(VelodyneObservation, DecodesWholeRealScan) {
     const auto observation = test::realVlp16Scan();
     if (!observation) GTEST_SKIP() << "mrpt-common is not installed";
     Scan scan;
@@ -113,7 +113,7 @@ void expectReturns(const sensors::VelodyneModel& model, const Firings& firings, 
             const double azimuth_rad = -radians(firingAzimuthDeg(model, firings, laser, firing));
             const double turned =
                 std::remainder(static_cast<double>(scan.azimuth_rad[i]) - azimuth_rad, 2 * kPi);
-            ASSERT_LT(std::abs(degrees(turned)), 0.016);  // azimuths are rounded twice to 0.01
+            ASSERT_LT(std::abs(degrees(turned)), 0.016);  // azimuths are rounded to 0.01 twice
             ASSERT_NEAR(scan.range_m[i], range_m, 0.5f * model.distance_unit_m + 1e-5f);
             ASSERT_EQ(scan.row[i], rows[laser]);
             ASSERT_NEAR(scan.intensity[i], firings.intensity(laser, firing), 0.5 / 255 + 1e-6);
@@ -206,7 +206,7 @@ TEST(VelodyneObservation, RejectsExcessivePackets) {
     EXPECT_EQ(decoded.size(), 0u);
 }
 
-/// Changes a byte of a packet as transmitted.
+/// Changes a byte of a packet in its transmitted form.
 void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte,
              std::uint8_t value) {
     std::uint8_t bytes[CObservationVelodyneScan::PACKET_SIZE];
@@ -215,7 +215,7 @@ void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte
     std::memcpy(static_cast<void*>(&observation.scan_packets[packet]), bytes, sizeof bytes);
 }
 
-/// Expects a decoded scan to equal that of the reference decoder, up to rounding.
+/// Expects a decoded scan to match the reference decoder, up to rounding.
 void expectDecodedAsPlainly(const CObservationVelodyneScan& observation, Scan& scan) {
     Scan plain;
     const std::size_t unsound_blocks = test::decodePlainly(observation, plain);
@@ -236,8 +236,8 @@ void expectDecodedAsPlainly(const CObservationVelodyneScan& observation, Scan& s
     }
 }
 
-/// A random scan: any part of a revolution, any fraction of missing returns, half of them with dual
-/// returns, half with a calibration with all corrections.
+/// A random scan: any part of a revolution and any share of missing returns. Half of the scans have
+/// dual returns, half a calibration with all corrections.
 CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
     const char* const names[] = {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"};
     const sensors::VelodyneModel& model = sensors::velodyneModel(names[random.whole(0, 3)]);
@@ -330,7 +330,7 @@ TEST(VelodyneObservation, RejectsOtherModels) {
     }
 }
 
-/// Finite as doubles but not as floats: coordinates would be undefined.
+/// Corrections finite as doubles but not as floats would make coordinates undefined.
 TEST(VelodyneObservation, RejectsImplausibleCorrections) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(64, model, 24, 0.0));
@@ -369,7 +369,7 @@ TEST(VelodyneObservation, DefaultsToModelCalibration) {
     EXPECT_EQ(sensorOf(*observation).rows(), 32);
 }
 
-TEST(VelodyneObservation, UsesRangeLimitsOfObservation) {
+TEST(VelodyneObservation, UsesRangeLimitsFromObservation) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     const auto observation = encodeScan(model, randomFirings(60, model, 24, 0.0));
     observation->minRange = 0.9;
@@ -396,7 +396,7 @@ void expectEqual(const mrpt::obs::VelodyneCalibration& found,
               &Laser::sinVertCorrection, &Laser::cosVertCorrection, &Laser::sinVertOffsetCorrection,
               &Laser::cosVertOffsetCorrection}) {
             EXPECT_EQ(a.*number, b.*number) << i;
-            EXPECT_EQ(std::signbit(a.*number), std::signbit(b.*number)) << i;  // is recorded
+            EXPECT_EQ(std::signbit(a.*number), std::signbit(b.*number)) << i;  // detects -0
         }
     }
 }

@@ -44,7 +44,7 @@ TEST(PclEuclidean, SeparatesObstaclesFromFlatGround) {
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const float height_m = labelled.scan.z_m[i] + 1.5f;
         const bool is_near = labelled.scan.range_m[i] <= 20.0f;
-        if (!is_near || std::abs(height_m - 0.2f) < 0.15f) continue;  // half a voxel, and tilt
+        if (!is_near || std::abs(height_m - 0.2f) < 0.15f) continue;  // half a voxel, plus tilt
         EXPECT_EQ(labels[i], height_m > 0.2f ? Label::Roi : Label::Rou) << "at height " << height_m;
     }
 }
@@ -64,7 +64,7 @@ TEST(PclEuclidean, FitsTiltedPlane) {
 
 TEST(PclEuclidean, JoinsClustersWithinTolerance) {
     PclEuclideanOptions options;
-    options.min_cluster_points = 10;  // each post has six
+    options.min_cluster_points = 10;  // each post has six points
     const auto twoPosts = [&](float gap_m) {
         std::vector<Eigen::Vector3f> points_m = ground();
         addPost({6.5f, 2.05f, -0.9f}, 6, points_m);
@@ -80,7 +80,7 @@ TEST(PclEuclidean, JoinsClustersWithinTolerance) {
 TEST(PclEuclidean, LabelsReturnsByVoxel) {
     std::vector<Eigen::Vector3f> points_m = ground();
     addPost({6.5f, 2.05f, -0.9f}, 12, points_m);
-    for (int i = 0; i < 12; ++i) {  // a second return in each voxel
+    for (int i = 0; i < 12; ++i) {  // adds a second return to each voxel
         points_m.push_back(points_m[points_m.size() - 12] + Eigen::Vector3f(0.01f, 0.01f, 0.01f));
     }
     EXPECT_EQ(roiCount(points_m, {}), 24);

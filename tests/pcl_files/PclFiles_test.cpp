@@ -1,4 +1,4 @@
-// The Point Cloud Library (PCL) as an independent reader and writer.
+// Uses the Point Cloud Library (PCL) as an independent reader and writer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
@@ -63,7 +63,7 @@ class PclFilesTest : public testing::Test {
     pcl::PointCloud<pcl::PointXYZI> cloud_;
 };
 
-TEST_F(PclFilesTest, ReadsAllPcdOfPcl) {
+TEST_F(PclFilesTest, ReadsPclPcdFiles) {
     ASSERT_EQ(pcl::io::savePCDFileASCII(file_, cloud_), 0);
     expectPoints();
     ASSERT_EQ(pcl::io::savePCDFileBinary(file_, cloud_), 0);
@@ -76,7 +76,7 @@ TEST_F(PclFilesTest, ReadsAllPcdOfPcl) {
     expectPoints();
 }
 
-TEST_F(PclFilesTest, ReadsAllPlyOfPcl) {
+TEST_F(PclFilesTest, ReadsPclPlyFiles) {
     ASSERT_EQ(pcl::io::savePLYFileASCII(file_, cloud_), 0);
     expectPoints();
     ASSERT_EQ(pcl::io::savePLYFileBinary(file_, cloud_), 0);

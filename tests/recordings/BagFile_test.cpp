@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-/// "/topic type time bytes" of each message.
+/// "/topic type time bytes" for each message.
 struct Read {
     std::vector<std::string> messages;
     std::string broken_because;
@@ -75,13 +75,13 @@ class BagFileTest : public testing::Test {
     Read readBytes(const ByteString& bytes) const {
         return readAll(test::writeBytes(folder_ / "file", bytes));
     }
-    /// Expects an error with the file name and these words.
+    /// Expects an error that contains the file name and these words.
     void expectBroken(const ByteString& bytes, const std::string& words) const {
         const std::string why = readBytes(bytes).broken_because;
         EXPECT_THAT(why, HasSubstr((folder_ / "file").string() + ": "));
         EXPECT_THAT(why, HasSubstr(words));
     }
-    /// Replaces the messages of a database by messages without data.
+    /// Replaces the messages in a database with messages without data.
     static void writeMessagesTable(const fs::path& file, const std::string& columns,
                                    int messages = 1) {
         test::writeDb3(file, someMessages());
@@ -120,8 +120,8 @@ TEST_F(BagFileTest, ReadsEveryFormat) {
     EXPECT_EQ(read.fraction, 1.0);
 }
 
-/// Files of other programs in tests/recordings/data; see the README there.
-TEST_F(BagFileTest, ReadsFilesOfOtherPrograms) {
+/// Reads files of other programs in tests/recordings/data; see the README there.
+TEST_F(BagFileTest, ReadsFilesFromOtherPrograms) {
     const fs::path data = fs::path(HAGEN_SOURCE_DIR) / "tests/recordings/data";
     const Read ros2 = readAll(data / "flight_zstd.mcap");
     EXPECT_EQ(ros2.broken_because, "");
@@ -129,7 +129,7 @@ TEST_F(BagFileTest, ReadsFilesOfOtherPrograms) {
     EXPECT_THAT(ros2.messages[0],
                 HasSubstr("/tf_static tf2_msgs/TFMessage cdr 1700000000000000000 "));
     EXPECT_THAT(ros2.messages.back(), HasSubstr("of something else"));
-    // ROS 1 messages: written by rosbag in bags, by another serialiser in the MCAP.
+    // ROS 1 messages in bags are from rosbag, those in the MCAP from another serialiser.
     const Read ros1 = readAll(data / "flight_ros1.mcap");
     EXPECT_EQ(ros1.messages.size(), 33u);
     for (const char* file : {"flight_bz2.bag", "flight_lz4.bag"}) {
@@ -159,7 +159,7 @@ TEST_F(BagFileTest, ReadsUpToAnyTruncation) {
             EXPECT_TRUE(std::equal(read.messages.begin(), read.messages.end(), all.begin()));
         }
     }
-    // Messages before the cut are kept, also in a database.
+    // Messages before the truncation are kept, even in a database.
     std::vector<test::SentMessage> large;
     for (int i = 0; i < 10; ++i) {
         large.push_back(test::stringMessage("/a", i, std::string(20000, 'a')));
@@ -193,7 +193,7 @@ TEST_F(BagFileTest, DetectsChangedDataByCrc) {
     mcap = test::mcapOf(someMessages());
     mcap[mcap.find("statistics")] = 'x';
     expectBroken(mcap, "the CRC of the summary is wrong");
-    EXPECT_EQ(readBytes(mcap).messages, expected(false));  // the messages were intact
+    EXPECT_EQ(readBytes(mcap).messages, expected(false));  // all messages are intact
 }
 
 TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
@@ -285,7 +285,7 @@ TEST_F(BagFileTest, RejectsDatabaseWithHotJournal) {
     const auto run = [&](const std::string& sql) {
         EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
     };
-    // The transaction exceeds the cache, so part of it is in the file before it ends.
+    // The transaction exceeds the cache, so part of it is written to the file before it ends.
     run("PRAGMA cache_size = 5; BEGIN; UPDATE messages SET timestamp = 7;"
         "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 500) "
         "INSERT INTO messages (topic_id, timestamp, data) SELECT 1, i, zeroblob(4000) FROM n");
@@ -297,7 +297,7 @@ TEST_F(BagFileTest, RejectsDatabaseWithHotJournal) {
     EXPECT_EQ(read.messages.size(), 0u);
     EXPECT_THAT(read.broken_because, HasSubstr("interrupted: " + journal.string() +
                                                " contains an unfinished transaction"));
-    // As the message suggests, a query by a process that may write undoes the transaction.
+    // As the message suggests, a query by a process with write permission undoes the transaction.
     sqlite3_open(copy.c_str(), &database);
     run("SELECT count(*) FROM messages");
     sqlite3_close(database);
@@ -339,7 +339,7 @@ class BagFolderTest : public BagFileTest {
 
 TEST_F(BagFolderTest, ReadsFilesInOrder) {
     EXPECT_TRUE(isBag(folder_ / "bag"));
-    EXPECT_EQ(readAll(folder_ / "bag").messages, expected(false));  // bag_10 is the last
+    EXPECT_EQ(readAll(folder_ / "bag").messages, expected(false));  // bag_10 is last
     writeMetadata();
     EXPECT_TRUE(isBag(folder_ / "bag"));
     const Read read = readAll(folder_ / "bag");
@@ -349,7 +349,7 @@ TEST_F(BagFolderTest, ReadsFilesInOrder) {
     EXPECT_EQ(readAll(folder_ / "bag").messages.size(), 4u);
 }
 
-TEST_F(BagFolderTest, RejectsWrongMetadata) {
+TEST_F(BagFolderTest, RejectsInvalidMetadata) {
     writeMetadata("", "[bag_8.mcap, bag_99.mcap]");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because,
                 HasSubstr("metadata.yaml: lists 'bag_99.mcap', which is not in the folder"));
@@ -358,7 +358,7 @@ TEST_F(BagFolderTest, RejectsWrongMetadata) {
                 HasSubstr("metadata.yaml: lists no files"));
     writeMetadata("  compression_mode: FILE\n  compression_format: zstd\n");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("compressed as a whole (zstd)"));
-    // Listed files cannot be outside the folder.
+    // Metadata must not list files outside the folder.
     writeMetadata("", "[../../etc/passwd]");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("lists 'passwd', which is not"));
     writeMetadata("", "{a: b}");
@@ -396,7 +396,7 @@ TEST_F(BagFileTest, RejectsComputedColumns) {
     }
 }
 
-/// Counts the calls of a check and ends reading by an exception after some calls.
+/// Counts the calls of a check and stops reading with an exception after a number of calls.
 struct Ending {
     struct Ended : std::runtime_error {
         using std::runtime_error::runtime_error;
@@ -425,7 +425,7 @@ TEST_F(BagFileTest, InterruptsBetweenMessages) {
     for (int i = 0; i < 50; ++i) schemas += test::mcapRecord(3, ByteString(14, '\0'));
     const ByteString chunk = ByteString(16, '\0') + little64(schemas.size()) + ByteString(8, '\0') +
                              little64(schemas.size()) + schemas;
-    // Records of a file and of a chunk, an attachment, and sections of a ROS 1 bag.
+    // Tests records of a file and of a chunk, an attachment, and sections of a ROS 1 bag.
     const fs::path attachment =
         test::writeBytes(folder_ / "a", magic + '\x09' + little64(4000000000u));
     fs::resize_file(attachment, 4000000017u);  // sparse
@@ -442,7 +442,7 @@ TEST_F(BagFileTest, InterruptsBetweenMessages) {
 }
 
 TEST_F(BagFileTest, InterruptsQuery) {
-    // Without the key, the messages must be sorted before the first one.
+    // Without the primary key, messages must be sorted before the first can be read.
     const fs::path file = folder_ / "a.db3";
     writeMessagesTable(file, "id INTEGER, topic_id INTEGER, timestamp INTEGER, data BLOB", 100000);
     Ending ending;
@@ -450,7 +450,7 @@ TEST_F(BagFileTest, InterruptsQuery) {
     EXPECT_EQ(ending.calls, 3);
 }
 
-TEST_F(BagFileTest, RejectsChunkOfZeros) {
+TEST_F(BagFileTest, RejectsZeroedChunk) {
     const ByteString chunk = ByteString(16, '\0') + little64(900) + ByteString(8, '\0') +
                              little64(900) + ByteString(900, '\0');
     expectBroken(ByteString("\x89MCAP0\r\n", 8) + test::mcapRecord(6, chunk),

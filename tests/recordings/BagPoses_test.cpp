@@ -23,7 +23,7 @@ constexpr double kStart_s = test::kBagStart_s;
 /// Poses of the vehicle and mounts of its sensors.
 using BagPosesTest = test::BagTest;
 
-/// A transform on /tf.
+/// A message with one transform on /tf.
 SentMessage moved(double since_s, const std::string& parent, const std::string& child, double x,
                   double y, double z, double yaw_rad = 0) {
     return test::sentMessage("/tf", "tf2_msgs/TFMessage", kStart_s + since_s,
@@ -33,8 +33,8 @@ SentMessage moved(double since_s, const std::string& parent, const std::string& 
                              });
 }
 
-/// A vehicle that flies along x at 10 m/s, turned to the left, and rises at 1 m/s. Its height is in
-/// a separate frame; 2 m ahead of that frame is base_link, which rotates.
+/// A vehicle that flies along x at 10 m/s, rotated to the left, and climbs at 1 m/s. A separate
+/// frame has its height; base_link is 2 m ahead of that frame and rotates.
 std::vector<SentMessage> climbingVehicle(const std::vector<SentMessage>& others) {
     std::vector<SentMessage> messages = others;
     for (const double since_s : {0.0, 0.1, 0.2}) {
@@ -44,8 +44,8 @@ std::vector<SentMessage> climbingVehicle(const std::vector<SentMessage>& others)
     return messages;
 }
 
-/// Expects base_link's poses at all times at which all of the vehicle's frames are known. Times are
-/// interpolated as double seconds since 1970, with microsecond accuracy.
+/// Expects base_link's poses at all times for which all frames of the vehicle are known. Times are
+/// interpolated as double seconds since 1970, which have microsecond accuracy.
 void expectClimb(const PoseSeries& series) {
     ASSERT_EQ(series.poses.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -64,7 +64,7 @@ TEST_F(BagPosesTest, PrefersOdometryToTransforms) {
         read({cloud("/points", 0, "base_link"), odometry(0, 1), odometry(0.1, 2),
               odometry(0.102, 2.1), transform("/tf", "odom", "base_link", 7)});
     EXPECT_EQ(odometry_only.scans->plan().poses->source, "nav_msgs/Odometry on /odom");
-    EXPECT_EQ(odometry_only.scans->plan().poses->poses.size(), 2u);  // not closer than 10 ms
+    EXPECT_EQ(odometry_only.scans->plan().poses->poses.size(), 2u);  // at least 10 ms apart
     const ReadBag moved =
         read({cloud("/points"), transform("/tf", "map", "odom", 100),
               transform("/tf", "odom", "base", 1, 0), transform("/tf", "odom", "base", 2, 0.1),
@@ -74,7 +74,7 @@ TEST_F(BagPosesTest, PrefersOdometryToTransforms) {
     EXPECT_EQ(moved.scans->plan().poses->poses.at(1).x_m, 2);
     EXPECT_NEAR(CPose3D(moved.of("points")[0]->sensorPose()).x(), 5, 1e-9);
     EXPECT_FALSE(read({cloud("/points")}).scans->plan().poses);
-    // Rare poses (a goal, or map corrections) do not place scans.
+    // Infrequent poses (a goal, or map corrections) do not place scans.
     const auto seldom = [&](double since_s) {
         return test::sentMessage("/goal", "geometry_msgs/PoseStamped", kStart_s + since_s,
                                  [&](test::MessageBytes& bytes) {
@@ -87,12 +87,12 @@ TEST_F(BagPosesTest, PrefersOdometryToTransforms) {
 }
 
 TEST_F(BagPosesTest, FollowsMountThroughFrames) {
-    // Odometry of the IMU, which is mounted beside the LiDAR.
+    // The odometry is that of the IMU, which is mounted beside the LiDAR.
     const ReadBag bag = read({transform("/tf_static", "base_link", "lidar", 5),
                               transform("/tf_static", "base_link", "imu", 2), odometry(0, 0, "imu"),
                               odometry(0.1, 0, "imu"), cloud("/points")});
     EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 3, 1e-9);
-    // In ROS 1, a transform that never changes is often repeated on tf.
+    // In ROS 1, constant transforms are often repeated on tf.
     const ReadBag still = read({transform("/tf", "base_link", "lidar", 4),
                                 transform("/tf", "base_link", "lidar", 4, 0.1), odometry(0, 0),
                                 odometry(0.1, 1), cloud("/points")});
@@ -115,14 +115,14 @@ TEST_F(BagPosesTest, TreatsConstantTransformsAsStatic) {
     ASSERT_TRUE(bag.scans->plan().poses);
     EXPECT_EQ(bag.scans->plan().poses->source, "transforms from odom to base_footprint");
     EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5.5, 1e-9);
-    // The name of the vehicle's frame does not matter.
+    // The vehicle's frame may have any name.
     const ReadBag body =
         read({cloud("/points"), transform("/tf", "body", "lidar", 3),
               transform("/tf", "body", "lidar", 3, 0.1), transform("/tf", "earth", "body", 1),
               transform("/tf", "earth", "body", 2, 0.1)});
     EXPECT_EQ(body.scans->plan().poses->source, "transforms from earth to body");
     EXPECT_NEAR(CPose3D(body.of("points")[0]->sensorPose()).x(), 3, 1e-9);
-    // No frame moves: the vehicle is parked.
+    // No frame moves because the vehicle is parked.
     const ReadBag parked =
         read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
               transform("/tf", "odom", "lidar", 1, 0.1), transform("/tf", "map", "odom", 1)});
@@ -140,7 +140,7 @@ TEST_F(BagPosesTest, ComposesMovingTransforms) {
     expectClimb(*bag.scans->plan().poses);
     EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5, 1e-9);
     EXPECT_THAT(bag.scans->plan().remarks, testing::IsEmpty());
-    // Constant transforms in between are also applied.
+    // Constant transforms in between are applied.
     const ReadBag still =
         read({cloud("/points"), moved(0, "base_link", "lidar", 0, 0, 1),
               moved(0.1, "base_link", "lidar", 0, 0, 2), transform("/tf", "odom", "base_link", 7)});
@@ -169,7 +169,7 @@ TEST_F(BagPosesTest, ComposesOdometryWithTransforms) {
     expectClimb(*bag.scans->plan().poses);
     EXPECT_NEAR(CPose3D(bag.of("points")[0]->sensorPose()).x(), 5, 1e-9);
     EXPECT_THAT(bag.scans->plan().remarks, testing::IsEmpty());
-    // Another LiDAR is attached to the odometry frame: its poses are kept.
+    // Another LiDAR is attached to the odometry frame, so the poses of the odometry are used.
     std::vector<SentMessage> with_other = messages;
     with_other.push_back(cloud("/down", 0, "base_footprint"));
     const ReadBag two = read(with_other);
@@ -206,7 +206,7 @@ TEST_F(BagPosesTest, IgnoresTransformsWithinVehicle) {
     EXPECT_THAT(circle.scans->plan().remarks, ElementsAre(HasSubstr("form a cycle")));
 }
 
-TEST_F(BagPosesTest, IgnoresTransformsOfMap) {
+TEST_F(BagPosesTest, IgnoresMapTransforms) {
     const ReadBag bag =
         read({cloud("/map_cloud", 0, "map"), cloud("/points", 0, "base"),
               transform("/tf", "earth", "map", 1), transform("/tf", "earth", "map", 2, 0.1),
@@ -225,7 +225,7 @@ TEST_F(BagPosesTest, ReportsSensorOnOtherFrame) {
     std::vector<SentMessage> messages{cloud("/points"), imu,
                                       transform("/tf_static", "os_sensor", "lidar", 5),
                                       transform("/tf_static", "imu_case", "imu", 5)};
-    // Without poses, any frame is accepted.
+    // Without poses, the sensor may have any frame.
     const ReadBag alone = read(messages);
     EXPECT_NEAR(CPose3D(alone.of("points")[0]->sensorPose()).x(), 5, 1e-9);
     EXPECT_EQ(alone.scans->plan().imu_topic, "/imu");
@@ -286,7 +286,7 @@ TEST_F(BagPosesTest, CountsExcessFrames) {
         return test::sentMessage(topic, "tf2_msgs/TFMessage", kStart_s, write);
     };
     const ReadBag bag = read({cloud("/points"), transforms("/tf", kMaxMovingFrames + 2),
-                              // A known frame is not counted again.
+                              // A known frame is not counted as excess.
                               transform("/tf", "base_link", "f0", 2, 0.1),
                               transforms("/tf_static", FrameTree::kMaxFrames + 2)});
     EXPECT_EQ(bag.survey.transforms.size(), kMaxMovingFrames);
@@ -317,7 +317,7 @@ TEST_F(BagPosesTest, ReportsUnreadablePoses) {
                                    "message 1 (recorded at 1700000000.100 s): it is ")));
 }
 
-TEST_F(BagPosesTest, SeparatesParentsOfFrame) {
+TEST_F(BagPosesTest, SeparatesFrameParents) {
     const ReadBag bag = read({cloud("/points"), transform("/tf", "odom", "lidar", 1),
                               transform("/tf", "map", "lidar", 100, 0.05),
                               transform("/tf", "odom", "lidar", 2, 0.1),

@@ -38,7 +38,7 @@ std::vector<float> xOf(const CObservation::Ptr& scan) {
     return {x_m.begin(), x_m.end()};
 }
 
-/// The points of the fixtures: (i, 2 i, -i / 2), i from 1 to 20.
+/// The points of the fixtures are (i, 2 i, -i / 2), i from 1 to 20.
 void expectPoints(const CObservation::Ptr& scan) {
     const auto& cloud = *dynamic_cast<const CObservationPointCloud&>(*scan).pointcloud;
     ASSERT_EQ(cloud.size(), 20u);
@@ -50,7 +50,7 @@ void expectPoints(const CObservation::Ptr& scan) {
     }
 }
 
-/// Files made from the same messages by other programs.
+/// Files with the same messages, written by other programs.
 class Fixture : public testing::TestWithParam<const char*> {
  protected:
     static fs::path file() {
@@ -83,7 +83,7 @@ TEST(BagScans, RejectsMoreThan100Lidars) {
     EXPECT_EQ(readBag(file, {{"/another"}, {}}).of("another").size(), 1u);
 }
 
-TEST(BagScans, ReportsOtherTypesOfTopic) {
+TEST(BagScans, ReportsOtherTypesOnTopic) {
     const test::TemporaryFolder folder;
     for (const char* name : {"mixed.mcap", "mixed.bag"}) {
         const std::vector<SentMessage> messages{
@@ -101,7 +101,7 @@ TEST(BagScans, ReportsOtherTypesOfTopic) {
 }
 
 TEST_P(Fixture, ReadsEveryMessageType) {
-    // Invalid metadata is an error only for topics that need it.
+    // Invalid metadata causes an error only for topics that need it.
     const BagOptions options{{"/cloud", "organised", "/livox", "/livox1", "/velodyne_packets"}, {}};
     const ReadBag read = readBag(file(), options);
     ASSERT_EQ(read.failed_because, "");
@@ -149,7 +149,7 @@ TEST_P(Fixture, ReadsPosesFramesAndAttitudes) {
     EXPECT_EQ(plan.poses->poses[3].z_m, 5);
     EXPECT_EQ(plan.poses->poses[3].qw, 1);
     EXPECT_EQ(plan.poses->poses[3].time_ns, 1700000000300000000);
-    // Via a mast on the vehicle.
+    // The LiDAR is attached via a mast.
     const CPose3D on_vehicle(read.of("cloud")[0]->sensorPose());
     EXPECT_NEAR(on_vehicle.x(), 1, 1e-9);
     EXPECT_NEAR(on_vehicle.z(), 2, 1e-9);
@@ -219,7 +219,7 @@ TEST_F(BagScansTest, PrefersPacketsToClouds) {
     EXPECT_EQ(test::bytesOf(turn->scan_packets[3]), test::bytesOf(scan->scan_packets[3]));
     EXPECT_THAT(read(messages, {{"/velodyne_points"}, {}}).labels(),
                 ElementsAre("velodyne_points"));
-    // Clouds are preferred to packets of an unknown sensor.
+    // Clouds take precedence over packets of an unknown sensor.
     auto unknown = *scan;
     for (auto& packet : unknown.scan_packets) reinterpret_cast<char*>(&packet)[1205] = '\x61';
     const ReadBag clouds =
@@ -267,7 +267,7 @@ TEST_F(BagScansTest, IgnoresCloudsInFixedFrames) {
 TEST_F(BagScansTest, ReportsUnreadableMessages) {
     SentMessage cut = cloud("/points", 0.1), lying = cloud("/points", 0.2);
     cut.ros1.resize(cut.ros1.size() - 10);
-    // The width follows the sequence number, the time, the frame and the height.
+    // The width follows the sequence number, time, frame and height.
     const std::size_t width_at = 4 + 8 + 4 + 5 + 4;
     lying.ros1.replace(width_at, 4, "\xff\xff\xff\xff");
     SentMessage text = test::stringMessage("/points", kStart_s, "no cloud at all");
@@ -306,7 +306,7 @@ TEST_F(BagScansTest, RejectsUnknownSerialisations) {
     EXPECT_THAT(cut.failed_because, HasSubstr("bytes too short"));
 }
 
-TEST_F(BagScansTest, ReadsOusterMetadataOfBag) {
+TEST_F(BagScansTest, ReadsOusterMetadataFromBag) {
     const auto sensor = sensors::ousterSensorOf(test::ousterJson(), "here");
     std::vector<SentMessage> messages{cloud("/ouster/points", 0, "os_sensor"),
                                       transform("/tf_static", "base_link", "os_sensor", 3)};
@@ -328,7 +328,7 @@ TEST_F(BagScansTest, ReadsOusterMetadataOfBag) {
                 HasSubstr("the bag has no topic '/ouster/metadata'"));
     const fs::path json = folder_.write("os.json", test::ousterJson());
     EXPECT_EQ(read(messages, {{}, json}).of("ouster_lidar_packets").size(), 3u);
-    // Metadata may come last.
+    // The metadata may be the last message.
     messages.push_back(test::stringMessage("/ouster/metadata", kStart_s + 1, test::ousterJson()));
     const ReadBag bag = read(messages);
     EXPECT_THAT(bag.labels(), ElementsAre("ouster_lidar_packets"));
@@ -339,7 +339,7 @@ TEST_F(BagScansTest, ReadsOusterMetadataOfBag) {
     EXPECT_DOUBLE_EQ(mrpt::Clock::toDouble(scan->timestamp), kStart_s + 0.2);
     EXPECT_NEAR(CPose3D(scan->sensorPose()).x(), 3, 1e-9);
     EXPECT_NEAR(CPose3D(scan->sensorPose()).z(), sensor.lidar_to_sensor.translation().z(), 1e-9);
-    // Packets of another profile.
+    // These packets have another profile.
     const fs::path other = folder_.write("other.json", test::ousterJson("LEGACY"));
     EXPECT_THAT(read(messages, {{}, other}).failed_because,
                 HasSubstr("Is it another sensor's metadata?"));

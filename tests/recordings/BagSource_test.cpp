@@ -22,7 +22,7 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 constexpr double kStart_s = 1700000000;
 
-/// Two LiDARs, each with three clouds, on a vehicle that moves at 10 m/s.
+/// Two LiDARs with three clouds each, on a vehicle that moves at 10 m/s.
 class BagSourceTest : public testing::Test {
  protected:
     BagSourceTest() {
@@ -62,7 +62,7 @@ TEST_F(BagSourceTest, ReturnsEntryPerScan) {
     EXPECT_EQ(source->entriesKnown(), 6u);
 }
 
-TEST_F(BagSourceTest, UsesPosesAndMountOfBag) {
+TEST_F(BagSourceTest, UsesPosesAndMountFromBag) {
     const auto source = open();
     source->usePoses("");
     EXPECT_EQ(source->poses().source, "nav_msgs/Odometry on /odom");
@@ -93,12 +93,12 @@ TEST_F(BagSourceTest, KeepsMountInLidarPoses) {
     };
     EXPECT_TRUE(poseOf("lidar").is_of_sensor);
     EXPECT_TRUE(poseOf("lidar").attitude_is_of_sensor);
-    // The mount of the LiDAR is unknown.
+    // The LiDAR's mount is unknown.
     EXPECT_TRUE(poseOf("base_link").is_of_sensor);
     EXPECT_TRUE(poseOf("base_link").attitude_is_of_sensor);
 }
 
-TEST_F(BagSourceTest, PrefersPosesOfFile) {
+TEST_F(BagSourceTest, PrefersPosesFromFile) {
     SourceOptions options;
     options.topics = {"/rear"};
     writeKittiPoses(folder_ / "poses.txt", {CPose3D(), CPose3D(5, 0, 0, 0, 0, 0), CPose3D()});
@@ -149,7 +149,7 @@ TEST_F(BagSourceTest, ReportsLookAheadErrors) {
         test::writeBytes(bag, whole.substr(0, whole.size() / 2));
         SourceOptions options;
         options.last_entry = last;
-        options.keep_going = [&] {  // replaces the file being read
+        options.keep_going = [&] {  // replaces the file during reading
             fs::remove(bag);
             test::writeBytes(bag, whole);
             return true;

@@ -26,7 +26,7 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 constexpr double kStart_s = 1700000000;
 
-/// A capture of three turns, 0.1 s apart, which see a pole from different positions.
+/// A capture of three turns, 0.1 s apart, that show a pole from different positions.
 class CaptureSourceTest : public testing::Test {
  protected:
     CaptureSourceTest() {
@@ -38,7 +38,7 @@ class CaptureSourceTest : public testing::Test {
             observations::Firings firings = test::fireAt(scene, model, {1.0 * i, 0, 2});
             firings.first_time_us = static_cast<std::uint32_t>(100000 * i);
             scans_.push_back(encodeScan(model, firings));
-            // The last packet is not full: the next turn follows immediately.
+            // The last packet is incomplete, because the next turn follows immediately.
             scans_.back()->scan_packets.pop_back();
             writer.packets(*scans_.back(), kStart_s + 0.1 * i, 1.327e-3);
         }
@@ -120,7 +120,7 @@ TEST_F(CaptureSourceTest, ReadsTimesAndPoses) {
                 HasSubstr("has 2 poses for 3 scans"));
 }
 
-/// A capture of three frames of an Ouster, and its metadata.
+/// A capture of three Ouster frames, and its metadata.
 class OusterSourceTest : public testing::Test {
  protected:
     OusterSourceTest() {
@@ -153,7 +153,7 @@ TEST_F(OusterSourceTest, WritesCloudsWithSensor) {
             const auto entry = source->nextEntry();
             ASSERT_TRUE(entry);
             ASSERT_EQ(entry->scans.size(), 1u);
-            EXPECT_EQ(entry->scans[0].beams, nullptr);  // nothing to recover
+            EXPECT_EQ(entry->scans[0].beams, nullptr);  // there are no beams to recover
             observations::ObservedScan observed;
             observations::readObservation(*entry->scans[0].observation, {}, observed);
             EXPECT_EQ(observed.sensor.name, "OS-0-32-U1");
@@ -231,7 +231,7 @@ TEST_F(CaptureSourceTest, ReportsLookAheadErrors) {
     for (const std::size_t last : {0u, 2u, 100u}) {
         SourceOptions options;
         options.last_entry = last;
-        const auto source = open(options);  // of the file replaced below
+        const auto source = open(options);  // opens the file replaced below
         fs::remove(capture_);
         std::ofstream(capture_, std::ios::binary) << bytes.substr(0, bytes.size() / 2);
         EXPECT_EQ(source->scanTimes().at("velodyne").size(), 2u);

@@ -29,12 +29,12 @@ class CloudFileSourceTest : public testing::Test {
         test::writeFile(folder_ / name, text);
         return folder_ / name;
     }
-    /// A folder of clouds with these names.
+    /// Creates a folder of clouds with these names.
     fs::path folderOf(const std::vector<std::string>& names) const {
         for (const std::string& name : names) write("clouds/" + name, test::bin(filePoints()));
         return folder_ / "clouds";
     }
-    /// Names of the scans, and their times.
+    /// Names and times of the scans.
     static std::pair<std::vector<std::string>, std::vector<double>> scansOf(const fs::path& input) {
         std::pair<std::vector<std::string>, std::vector<double>> scans;
         const auto source = openRecording(input);
@@ -80,7 +80,7 @@ TEST_F(CloudFileSourceTest, ReadsFilesByNumber) {
                                    testing::DoubleNear(1.1, 1e-6)));
 }
 
-/// A separator belongs to the next number only after another number.
+/// A separator is part of the following number only after another number.
 TEST_F(CloudFileSourceTest, AcceptsSeparatorsBeforeNumbers) {
     for (const std::string before : {"scan.", "_", "left_"}) {
         SCOPED_TRACE(before);
@@ -169,7 +169,7 @@ TEST_F(CloudFileSourceTest, ReadsNuScenes) {
     EXPECT_EQ(rings[3], 3);
 }
 
-TEST_F(CloudFileSourceTest, KeepsExtensionsOfEqualNames) {
+TEST_F(CloudFileSourceTest, KeepsExtensionsIfNamesAreEqual) {
     EXPECT_THAT(scansOf(folderOf({"1.bin", "1.pcd"})).first, ElementsAre("1.bin", "1.pcd"));
 }
 
@@ -177,7 +177,7 @@ TEST_F(CloudFileSourceTest, PrefersScanFolder) {
     const fs::path folder = folderOf({"1.bin"});
     write("clouds/velodyne/000000.bin", test::bin(filePoints()));
     EXPECT_EQ(openRecording(folder)->nextScan()->observation->sensorLabel, kFolderLabel);
-    // The subfolder itself is a folder of clouds.
+    // The subfolder itself is a valid folder of clouds.
     EXPECT_EQ(openRecording(folder / "velodyne")->nextScan()->observation->sensorLabel, "lidar");
 }
 
@@ -208,7 +208,7 @@ TEST_F(CloudFileSourceTest, ReportsBrokenFile) {
     }
 }
 
-/// As to a missing drive.
+/// The link's target could be on an unmounted drive.
 TEST_F(CloudFileSourceTest, ReportsDanglingLink) {
     const fs::path folder = folderOf({"1.bin", "3.bin"});
     fs::create_symlink("nowhere", folder / "2.bin");

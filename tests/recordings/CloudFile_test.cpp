@@ -32,7 +32,7 @@ class CloudFileTest : public testing::Test {
     CloudFile read(const std::string& name, const std::string& text) const {
         return readCloud(write(name, text));
     }
-    /// The error message for a file; empty if the file can be read.
+    /// The error message for a file; empty if the file is readable.
     std::string complaint(const std::string& name, const std::string& text) const {
         try {
             read(name, text);
@@ -78,7 +78,7 @@ TEST_F(CloudFileTest, ReadsEveryFormat) {
     }
 }
 
-/// A sparse file may be larger than all memory.
+/// A sparse file may exceed all memory.
 TEST_F(CloudFileTest, RejectsTooLargeFile) {
     const fs::path file = write("huge.bin", "");
     fs::resize_file(file, (std::uintmax_t{2} << 30) + 1);
@@ -90,7 +90,7 @@ TEST_F(CloudFileTest, RejectsTooLargeFile) {
     }
 }
 
-/// A map is rejected before memory is allocated for its points.
+/// Rejects a map before allocating memory for its points.
 TEST_F(CloudFileTest, RejectsTooManyPoints) {
     const std::string count = "16777217";
     const std::string npy =
@@ -133,14 +133,14 @@ TEST_F(CloudFileTest, IgnoresFileName) {
     EXPECT_FALSE(hasCloudName("a/times.txt"));
 }
 
-/// A file cut anywhere except after its last number is rejected.
+/// A truncated file is rejected, unless only digits of its last number are missing.
 TEST_F(CloudFileTest, RejectsTruncatedFile) {
     for (const auto& [name, text] : test::cloudFiles()) {
         for (std::size_t k = 0; k < 50; ++k) {
             const std::size_t size = k * (text.size() - 1) / 49;
             const std::string cut = text.substr(0, size);
             const bool is_shorter_bin = name == "points.bin" && size % 16 == 0;
-            // Bytes after the vertices are not read; the last digits of a number may be cut.
+            // Bytes after the vertices are not read; digits of the last number may be missing.
             const std::size_t unread = name == "ascii.ply" ? 6 : name == "ascii.pcd" ? 7 : 5;
             const bool may_be_whole = name.find(".ply") != std::string::npos || name == "ascii.pcd"
                                           ? size + unread >= text.size()
@@ -151,7 +151,7 @@ TEST_F(CloudFileTest, RejectsTruncatedFile) {
     }
 }
 
-/// With any wrong byte in header or data, a file is either read or rejected.
+/// With any wrong byte in header or data, reading either succeeds or reports an error.
 TEST_F(CloudFileTest, SurvivesWrongBytes) {
     for (const auto& [name, text] : test::cloudFiles(filePoints(3))) {
         for (std::size_t at = 0; at < text.size(); at += 4) {
@@ -189,7 +189,7 @@ TEST_F(CloudFileTest, RejectsAbsurdPointCounts) {
     }
 }
 
-/// The size of fields is limited even if there are no points, so that the file needs no data.
+/// The size of fields is limited even without points, when the file needs no data.
 TEST_F(CloudFileTest, RejectsAbsurdFields) {
     EXPECT_THAT(complaint("a.pcd",
                           "FIELDS x y z a\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 4000000000\n"
@@ -226,7 +226,7 @@ TEST_F(CloudFileTest, PcdAcceptsShortestText) {
     EXPECT_THAT(complaint("a.pcd", header + "1 2"), HasSubstr("is it truncated?"));
 }
 
-TEST_F(CloudFileTest, PcdReportsViewpointAndRest) {
+TEST_F(CloudFileTest, PcdReportsViewpointAndTrailingBytes) {
     const std::string moved =
         replaced(test::binaryPcd(filePoints()), "VIEWPOINT 0 0 0", "VIEWPOINT 0 0 2");
     const CloudFile cloud = read("a.pcd", moved + "more");
@@ -318,7 +318,7 @@ TEST_F(CloudFileTest, PlyErrorsIncludeLine) {
 
 // LAS
 
-TEST_F(CloudFileTest, LasReadsFieldsOfPointFormat) {
+TEST_F(CloudFileTest, LasReadsPointFormatFields) {
     const PointTable old = read("a.las", test::las(filePoints(1))).table;
     EXPECT_THAT(column(old, "return_number"), ElementsAre(2));
     EXPECT_THAT(column(old, "number_of_returns"), ElementsAre(3));
@@ -470,12 +470,12 @@ TEST_F(CloudFileTest, BinAcceptsEmptyRejectsTruncated) {
     EXPECT_THAT(complaint("a.bin", std::string(16, '\xee')),
                 HasSubstr("not a point cloud: its first numbers are not points of a LiDAR"));
     EXPECT_THAT(complaint("a.bin", std::string(16, 'x')), HasSubstr("it seems to be text. Known"));
-    // A picture of any size is not a truncated .bin.
+    // A picture is not reported as a truncated .bin, whatever its size.
     EXPECT_THAT(complaint("a.bin", "\xff\xd8\xff\xe0" + std::string(13, '\xee')),
                 HasSubstr("it seems to be a JPEG picture"));
 }
 
-/// Rows of sky before the first return, or no returns.
+/// The file starts with rows of sky, or has no returns at all.
 TEST_F(CloudFileTest, BinAcceptsLeadingZeros) {
     const std::vector<FilePoint> points = filePoints(400);
     for (const int zeros : {300, 1000}) {
@@ -501,7 +501,7 @@ TEST_F(CloudFileTest, BinAcceptsLeadingZeros) {
 }
 
 TEST_F(CloudFileTest, BinReadsRings) {
-    for (const int count : {20, 21, 400}) {  // the size of 20 points is also a multiple of 16
+    for (const int count : {20, 21, 400}) {  // 20 points have a size that is also a multiple of 16
         SCOPED_TRACE(count);
         const std::vector<FilePoint> points = filePoints(count);
         const PointTable table = read("a.pcd.bin", test::binWithRings(points)).table;
@@ -516,7 +516,7 @@ TEST_F(CloudFileTest, BinReadsRings) {
     EXPECT_THAT(complaint("cut.bin", cut), HasSubstr("not a multiple of 20-byte points"));
 }
 
-/// The fifth numbers are first 0, like rings, and then times; intensities are up to 65535.
+/// The fifth numbers look like rings at first, but are times; intensities are up to 65535.
 TEST_F(CloudFileTest, BinRejectsOtherFifthNumbers) {
     std::string text;
     const auto add = [&](float number) {

@@ -1,4 +1,4 @@
-// The npm package copc as an independent reader of LAS files.
+// Uses the npm package copc as an independent reader of LAS files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include "recordings/clouds/CloudFile.h"
@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr int kPoints = 40;
 
-/// Point data record formats with their bytes per point and the offset of the GPS time (0: none).
+/// Point data record formats: bytes per point and offset of the GPS time (0: none).
 struct Format {
     int number;
     std::size_t bytes, gps_time;
 };
 void PrintTo(const Format& format, std::ostream* out) { *out << format.number; }
 
-/// A file of records that are random except for the times.
+/// A file of records that are random except for their times.
 std::string randomLas(const Format& format, unsigned seed) {
     test::Random random(seed);
     const bool is_new = format.number >= 6;

@@ -41,7 +41,7 @@ class LivoxCaptureTest : public testing::Test {
         }
         return writer;
     }
-    /// `count` packets of 480 us with one point each; x is the packet's number.
+    /// `count` packets of 480 us with one point each, whose x is the packet's number.
     static std::vector<std::string> packets(int count, std::int64_t first_ns = 5000) {
         std::vector<std::string> all;
         for (int i = 0; i < count; ++i) {
@@ -71,7 +71,7 @@ class LivoxCaptureTest : public testing::Test {
 
 TEST_F(LivoxCaptureTest, LimitsSearchForSensorKind) {
     const auto file = CaptureWriter().write(folder_ / "a.pcap");
-    std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse: frames without bytes
+    std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse: frames without content
     const auto start = std::chrono::steady_clock::now();
     EXPECT_TRUE(openCapture(file));
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
@@ -92,7 +92,7 @@ TEST_F(LivoxCaptureTest, ReadsBothDataTypes) {
         const auto observed = observedOf(*scans[0]);
         EXPECT_EQ(observed.sensor.name, "Mid-360");
         EXPECT_FALSE(observed.sensor.has_rings);
-        const Scan& scan = observed.scan;  // without the point without range
+        const Scan& scan = observed.scan;  // omits the point without range
         EXPECT_THAT(scan.x_m,
                     ElementsAre(FloatNear(1500 * unit_m, 1e-4f), FloatNear(-3000 * unit_m, 1e-4f)));
         EXPECT_THAT(scan.y_m,
@@ -136,7 +136,7 @@ TEST_F(LivoxCaptureTest, CountsImuPackets) {
                           "UDP datagram"));
 }
 
-TEST_F(LivoxCaptureTest, ScansLastTenthOfSecond) {
+TEST_F(LivoxCaptureTest, ScansLast100ms) {
     const Scans scans = read(captureOf(packets(500)).bytes());
     ASSERT_EQ(scans.size(), 3u);
     std::size_t points = 0;
@@ -178,7 +178,7 @@ TEST_F(LivoxCaptureTest, LateDuplicatesDoNotHideLosses) {
     EXPECT_THAT(remarks_[0], HasSubstr("3 duplicate packets dropped"));
 }
 
-TEST_F(LivoxCaptureTest, CountsLossesAndJumpsKeepsPoints) {
+TEST_F(LivoxCaptureTest, CountsLossesAndKeepsPoints) {
     auto all = packets(300);
     std::swap(all[20], all[21]);
     all.erase(all.begin() + 50, all.begin() + 53);

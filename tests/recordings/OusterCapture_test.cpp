@@ -88,7 +88,7 @@ const char* const kProfiles[] = {"LEGACY",
                                  "FUSA_RNG15_RFL8_NIR8_DUAL",
                                  "FIVE_WORD_PIXEL"};
 
-TEST_F(OusterCaptureTest, ReadsFramesOfAllProfiles) {
+TEST_F(OusterCaptureTest, ReadsAllProfiles) {
     for (const std::string profile : kProfiles) {
         SCOPED_TRACE(profile);
         const sensors::OusterSensor sensor = sensorOf(profile);
@@ -114,8 +114,8 @@ TEST_F(OusterCaptureTest, ReadsFramesOfAllProfiles) {
     }
 }
 
-/// The position of a pixel's return, by rotations of the sensor's parts instead of the manual's
-/// formula: the beam starts on the clockwise turning head, at a distance from the axis.
+/// The position of a pixel's return. Rotates the parts of the sensor instead of using the manual's
+/// formula: the beam starts on the head, which turns clockwise, at a distance from the axis.
 Eigen::Vector3d expectedPoint(const sensors::OusterSensor& sensor, std::size_t pixel,
                               std::size_t column, double range_m) {
     const double turned_rad =
@@ -180,7 +180,7 @@ TEST_F(OusterCaptureTest, ReportsOtherFusaSensor) {
 }
 
 TEST_F(OusterCaptureTest, FirstColumnLooksForward) {
-    // Column 0 points along the lidar's x axis, to the back of the sensor.
+    // Column 0 points along the LiDAR's x axis, to the rear of the sensor.
     const sensors::OusterSensor sensor = sensorOf("LEGACY");
     sensors::OusterFrame frame = test::randomFrame(sensor, 1);
     std::fill(frame.range.begin(), frame.range.end(), 0);
@@ -211,7 +211,7 @@ TEST_F(OusterCaptureTest, CountsLostDuplicateAndLatePackets) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 6);
     const Scans whole = read(captureOf(packets).bytes());
-    // Two packets of a frame are swapped, one is late by half a turn, one is duplicated.
+    // Two packets of a frame are swapped, one is half a turn late, one is duplicated.
     std::swap(packets[0], packets[1]);
     std::rotate(packets.begin() + 5, packets.begin() + 6, packets.begin() + 8);
     packets.insert(packets.begin() + 9, packets[8]);
@@ -244,13 +244,13 @@ TEST_F(OusterCaptureTest, RestartLosesNoPackets) {
     EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
 }
 
-/// Frame IDs may be close to the earlier ones: many consecutive late packets mean a restart.
+/// A restarted sensor may repeat recent frame IDs: many consecutive late packets mean a restart.
 TEST_F(OusterCaptureTest, EarlyRestartLosesSixteenPackets) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     auto packets = packetsOfFrames(sensor, 20, 300);
     const auto again = packetsOfFrames(sensor, 30, 0);
     packets.insert(packets.end(), again.begin(), again.end());
-    EXPECT_EQ(read(captureOf(packets).bytes()).size(), 46u);  // of four packets each
+    EXPECT_EQ(read(captureOf(packets).bytes()).size(), 46u);  // frames of four packets
     EXPECT_THAT(remarks_[0], HasSubstr("16 packets more than a turn late, dropped"));
     EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
 }
@@ -274,7 +274,7 @@ TEST_F(OusterCaptureTest, CountsIgnoredDatagrams) {
               "992137000143, 1 other UDP datagram (most: 1 of 5 bytes to port 7502)");
 }
 
-TEST_F(OusterCaptureTest, ReportsMetadataOfOtherSensor) {
+TEST_F(OusterCaptureTest, ReportsMetadataFromOtherSensor) {
     const sensors::OusterSensor sensor = sensorOf("RNG19_RFL8_SIG16_NIR16");
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("RNG19_RFL8_SIG16_NIR16", "123"));
@@ -289,7 +289,7 @@ TEST_F(OusterCaptureTest, ReportsMetadataOfOtherSensor) {
                           "(most: 8 of 1024 bytes to port 7502). Is it another"));
 }
 
-TEST_F(OusterCaptureTest, DropsTurnsOfOtherMode) {
+TEST_F(OusterCaptureTest, DropsTurnsInOtherMode) {
     test::TurningOuster ouster;
     std::vector<std::string> packets;
     const auto add = [&](const test::OusterMode& mode, int turns) {
@@ -343,7 +343,7 @@ TEST_F(OusterCaptureTest, SurvivesCorruptData) {
     }
 }
 
-/// The MD5 sum of numbers, by md5sum.
+/// The MD5 sum of these numbers, computed by md5sum.
 template <class Number>
 std::string md5Of(const std::vector<Number>& numbers, const test::TemporaryFolder& folder) {
     const std::string bytes(reinterpret_cast<const char*>(numbers.data()),
@@ -353,7 +353,7 @@ std::string md5Of(const std::vector<Number>& numbers, const test::TemporaryFolde
     return outcome.out.substr(0, 32);
 }
 
-TEST_F(OusterCaptureTest, MatchesDigestsOfRealCapture) {
+TEST_F(OusterCaptureTest, MatchesRealCaptureDigests) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA is not a folder of captures";
     const sensors::OusterSensor sensor =

@@ -1,4 +1,4 @@
-// Rawlogs in the compressions of different MRPT versions: none, gzip, zstd.
+// Rawlogs with the compression of different MRPT versions: none, gzip, zstd.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/mrpt/NewerClouds.h>
@@ -58,7 +58,7 @@ TEST(PackedRawlog, ReadsEveryCompression) {
     EXPECT_EQ(readLog(folder.write("plain", plain)), all);
     EXPECT_EQ(readLog(folder.write("zstd", packed)), all);
     EXPECT_EQ(readLog(folder.write("checked", zstdOf(plain, true))), all);
-    // Consecutive frames that end anywhere.
+    // Consecutive frames may end anywhere.
     EXPECT_EQ(readLog(folder.write("frames", zstdOf(plain.substr(0, 70000)) + zstdOf("") +
                                                  zstdOf(plain.substr(70000)))),
               all);
@@ -88,13 +88,13 @@ TEST(PackedRawlog, ReportsDamagedZstdLog) {
     EXPECT_THAT(readLog(folder.write("behind", zstdOf(plainLog(2)) + "something else")).second,
                 HasSubstr("the compressed data is corrupt"));
     EXPECT_NE(readLog(folder.write("magic", "\x28\xb5\x2f\xfd")).second, "");
-    // A frame with a window of 256 MiB and an empty last block.
+    // A frame with a window of 256 MiB and an empty final block.
     const std::string long_window("\x28\xb5\x2f\xfd\x00\x90\x01\x00\x00", 9);
     EXPECT_THAT(readLog(folder.write("long", long_window)).second,
                 HasSubstr("a window of more than 128 MiB; decompress it first"));
 }
 
-TEST(PackedRawlog, ReadsLogsOfMrpt3) {
+TEST(PackedRawlog, ReadsMrpt3Logs) {
     const auto folder = test::dataFolder("HAGEN_MRPT3_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not a folder of MRPT 3 logs";
     for (const char* name :
@@ -107,7 +107,7 @@ TEST(PackedRawlog, ReadsLogsOfMrpt3) {
         EXPECT_FALSE(source->nextScan());
         EXPECT_EQ(source->entriesKnown(), 5u);
         EXPECT_EQ(cloud->observation->sensorLabel, "cloud");
-        // MRPT made the cloud from the packets.
+        // MRPT created the cloud from these packets.
         auto scan = *std::dynamic_pointer_cast<const mrpt::obs::CObservationVelodyneScan>(
             packets->observation);
         scan.generatePointCloud();

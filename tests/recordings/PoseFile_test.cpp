@@ -31,7 +31,7 @@ class PoseFile : public testing::Test {
 };
 
 TEST_F(PoseFile, ReadsTumPoses) {
-    // A quarter turn to the left is (0, 0, sin 45, cos 45).
+    // (0, 0, sin 45, cos 45) is a quarter turn to the left.
     const auto file = folder_.write(
         "a.tum", "# time x y z qx qy qz qw\n\n12.5 1 2 3 0 0 0.70710678 0.70710678\n");
     EXPECT_EQ(kindOfPoseFile(file), PoseFileKind::Tum);
@@ -42,7 +42,7 @@ TEST_F(PoseFile, ReadsTumPoses) {
     EXPECT_NEAR(poses[0].pose.yaw(), M_PI / 2, 1e-6);
 }
 
-TEST_F(PoseFile, ReadsFilesOfSpreadsheets) {
+TEST_F(PoseFile, ReadsSpreadsheetExports) {
     const auto file =
         folder_.write("a.tum", "\xef\xbb\xbf# time x y z\r\n1 +2 -3e+0 .5 0 0 0 1\r\n");
     const auto poses = readTumPoses(file);
@@ -132,13 +132,13 @@ TEST_F(PoseFile, RejectsKittiPosesAtEqualTimes) {
                 HasSubstr("poses.txt: scans 0 and 1 have different poses, but the same time"));
     folder_.write("poses.txt", "1 0 0 4 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
     EXPECT_TRUE(posesOfRawlog(survey, file).are_of_sensor);
-    // Without times, scans have no poses, so there is no conflict.
+    // Scans without times have no poses, so there is no conflict.
     folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 4 0 1 0 0 0 0 1 0\n");
     for (auto& scan : survey.scans["lidar"]) scan.time = INVALID_TIMESTAMP;
     EXPECT_EQ(test::messageOf([&] { posesOfRawlog(survey, file); }), "");
 }
 
-TEST_F(PoseFile, RejectsKittiFileOfOtherLength) {
+TEST_F(PoseFile, RejectsKittiFileWithOtherLength) {
     const auto file = folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     RawlogSurvey survey = surveyOfTwoScans();
     EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
@@ -148,7 +148,7 @@ TEST_F(PoseFile, RejectsKittiFileOfOtherLength) {
                 HasSubstr("scan of a single LiDAR"));
 }
 
-TEST_F(PoseFile, PrefersTumPosesOfFolder) {
+TEST_F(PoseFile, PrefersTumPosesFromFolder) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     const ScanFolder folder(folder_.path());

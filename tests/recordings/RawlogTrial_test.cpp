@@ -1,4 +1,4 @@
-// Tests of the read-ahead child process when it is blocked by a lock that is never released.
+// Tests of the read-ahead child process, including when a lock that is never released blocks it.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ mrpt::obs::CObservationComment comment(const std::string& text) {
     return observation;
 }
 
-/// An object whose reading uses CPU time for longer than the idle timeout.
+/// An object that takes more CPU time to read than the idle timeout.
 class SlowObject : public mrpt::serialization::CSerializable {
     DEFINE_SERIALIZABLE(SlowObject, hagen::recordings)
 };
@@ -46,8 +46,8 @@ void SlowObject::serializeFrom(mrpt::serialization::CArchive&, std::uint8_t) {
     }
 }
 
-/// An object whose reading blocks forever, as for a lock held by another thread at the time of
-/// fork(): once for each file in `locks`.
+/// An object that blocks forever when read, as on a lock held by another thread during fork(): once
+/// per file in `locks`.
 class LockedObject : public mrpt::serialization::CSerializable {
     DEFINE_SERIALIZABLE(LockedObject, hagen::recordings)
 };
@@ -77,7 +77,7 @@ class RawlogTrialTest : public testing::Test {
         writer.commit();
     }
 
-    /// The entries if the reader blocks `times` times.
+    /// The verdicts on all entries if the reader blocks `times` times.
     std::vector<EntryVerdict> verdicts(int times) {
         for (int i = 0; i < times; ++i) std::ofstream(locks / std::to_string(i)) << 'x';
         const int file = open((folder_ / "a.rawlog").c_str(), O_RDONLY | O_CLOEXEC);
@@ -118,7 +118,7 @@ TEST_F(RawlogTrialTest, WaitsForSlowReader) {
     EXPECT_EQ(found.back().kind, EntryVerdict::Kind::End);
 }
 
-/// Signals of an interval timer interrupt system calls.
+/// The signals of an interval timer interrupt system calls.
 TEST_F(RawlogTrialTest, IgnoresSignalsWhileWaiting) {
     struct sigaction none {
     }, before{};

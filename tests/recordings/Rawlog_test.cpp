@@ -113,7 +113,7 @@ TEST_F(Rawlog, ReadsConcatenatedMembers) {
     EXPECT_EQ(readLog(folder_.write("twice.rawlog", bytes + bytes)).first, 6u);
 }
 
-/// A log with one entry per member, and the file size after each.
+/// Writes a log with one entry per member; returns the file size after each.
 std::vector<std::size_t> writeLargeEntries(const fs::path& file, int entries) {
     convert::RawlogWriter writer(file, true);
     std::vector<std::size_t> ends;
@@ -132,7 +132,7 @@ std::vector<std::size_t> writeLargeEntries(const fs::path& file, int entries) {
     return ends;
 }
 
-/// As from a tape or from preallocation. gzip(1) also ignores them.
+/// Tapes and preallocation append zeros, which gzip(1) also ignores.
 TEST_F(Rawlog, IgnoresTrailingZeros) {
     writeLog(folder_ / "a.rawlog", 20);
     const std::string log = test::readFile(folder_ / "a.rawlog");
@@ -147,7 +147,7 @@ TEST_F(Rawlog, IgnoresTrailingZeros) {
     EXPECT_THROW(while (other.next()){}, BrokenRecording);
 }
 
-TEST_F(Rawlog, ReadsRemovedFile) {
+TEST_F(Rawlog, ContinuesIfFileIsRemoved) {
     writeLog(folder_ / "a.rawlog", 20);
     RawlogReader reader(folder_ / "a.rawlog");
     ASSERT_NE(reader.next(), nullptr);
@@ -165,7 +165,7 @@ TEST_F(Rawlog, EndsMembersBetweenEntries) {
         writer.gather(entries, member);
         ASSERT_TRUE(member.empty()) << i;
     }
-    convert::Bytes entries(5000, 2);  // starts below 256 KiB and ends above
+    convert::Bytes entries(5000, 2);  // starts before 256 KiB and ends beyond
     writer.gather(entries, member);
     ASSERT_EQ(member.size(), 267000u);
     EXPECT_EQ(member.front(), 1);
@@ -190,7 +190,7 @@ TEST_F(Rawlog, ReportsTrailingGarbage) {
     const std::string bytes = test::readFile(folder_ / "whole.rawlog");
     for (const std::size_t at : {ends[0], ends[0] + 1, ends[0] + 2, ends[1]}) {
         std::string damaged = bytes;
-        damaged[at] = static_cast<char>(damaged[at] ^ 0x20);  // in the next member's header
+        damaged[at] = static_cast<char>(damaged[at] ^ 0x20);  // corrupts the next member's header
         const auto [read, broken] = readLog(folder_.write("damaged.rawlog", damaged));
         EXPECT_EQ(read, at < ends[1] ? 1u : 2u);
         EXPECT_THAT(broken, HasSubstr("compressed data is corrupt")) << at << broken;
@@ -234,7 +234,7 @@ TEST_F(Rawlog, RejectsOtherFiles) {
     const auto packed = folder_.write("log.bz2", "BZh91AY&SY");
     EXPECT_THAT(readLog(packed).second,
                 HasSubstr("is not a recording: it seems to be bzip2-compressed: unpack it first"));
-    // After an entry, the file is a recording.
+    // A file with a valid first entry is a recording.
     convert::Bytes entry;
     convert::serialise(comment("first"), entry);
     const std::string bytes(entry.begin(), entry.end());
@@ -243,7 +243,7 @@ TEST_F(Rawlog, RejectsOtherFiles) {
                           " (uncompressed) cannot be read: it is not an MRPT object"));
 }
 
-/// An object whose reading ends the process, like some of MRPT's on corrupt data.
+/// An object that ends the process when read, like some MRPT objects on corrupt data.
 class CrashingObject : public mrpt::serialization::CSerializable {
     DEFINE_SERIALIZABLE(CrashingObject, hagen::recordings)
 };
@@ -265,7 +265,7 @@ TEST_F(Rawlog, SurvivesCrashingEntry) {
     EXPECT_THAT(why, AllOf(HasSubstr("a.rawlog: entry 1 at byte "), HasSubstr("Aborted")));
 }
 
-/// The length of a text, in the 4 bytes before it, exceeds the file.
+/// The length of a text, in the 4 bytes before it, exceeds the file size.
 TEST_F(Rawlog, RejectsCountBeyondFile) {
     convert::Bytes bytes;
     convert::serialise(comment("first"), bytes);

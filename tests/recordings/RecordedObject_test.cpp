@@ -43,8 +43,8 @@ TEST(RecordedObject, CopiesPointsToSimpleCloud) {
     EXPECT_EQ(objectOf(cloud, std::nullopt), nullptr);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve all memory
-/// MRPT's clouds would crash.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve all memory
+/// Without memory, MRPT's clouds would crash.
 TEST(RecordedObjectDeathTest, ThrowsWithoutMemory) {
     const auto cloud = cloudOf(1 << 20);
     const auto copyWithLittleMemory = [&] {

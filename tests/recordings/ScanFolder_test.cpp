@@ -89,7 +89,7 @@ TEST_F(ScanFolderTest, ReadsNuScenesWithoutRings) {
                 HasSubstr("cut.pcd.bin: 804 bytes are not a multiple of 20-byte points"));
 }
 
-/// Among zeros, returns may look like points of five numbers if only every fifth number is checked.
+/// If only every fifth number is checked, returns among zeros may look like points of five numbers.
 TEST_F(ScanFolderTest, ReadsZerosAsFourNumbers) {
     Scan scan;
     for (std::vector<float>* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity}) {
@@ -154,7 +154,7 @@ TEST_F(ScanFolderTest, RejectsOtherFiles) {
     const auto picture = folder_.write("a.bin", "\xff\xd8\xff\xe0" + std::string(28, '\xee'));
     EXPECT_THAT(test::messageOf([&] { readScan(picture, scan); }),
                 HasSubstr("a.bin: has no points: it seems to be a JPEG picture"));
-    // Valid points beyond the range of a LiDAR.
+    // Valid points that exceed the range of a LiDAR.
     Scan far;
     for (auto* numbers : {&far.x_m, &far.y_m, &far.z_m, &far.intensity}) *numbers = {1e5f, 2e5f};
     writeScan(folder_ / "far.bin", far);
@@ -198,7 +198,7 @@ TEST_F(ScanFolderTest, ReadsTimePerScan) {
     EXPECT_EQ(scans.altitudes(), (std::vector<double>{1.5, 12}));
 }
 
-TEST_F(ScanFolderTest, RejectsWrongTimes) {
+TEST_F(ScanFolderTest, RejectsInvalidTimes) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("times.txt", "0.0\n0.1\n");
     const ScanFolder scans(folder_.path());

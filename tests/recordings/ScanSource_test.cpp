@@ -31,7 +31,7 @@ using Entries = std::vector<mrpt::serialization::CSerializable::Ptr>;
 
 mrpt::Clock::time_point at(double seconds) { return mrpt::Clock::fromDouble(1000.0 + seconds); }
 
-/// A cloud with one return, at x.
+/// A cloud with one return at x.
 Scan returnAt(float x_m) {
     Scan scan;
     scan.x_m = {x_m};
@@ -90,7 +90,7 @@ class ScanSourceTest : public testing::Test {
         if (!times.empty()) std::ofstream(path / "times.txt") << times;
         return path;
     }
-    /// Two LiDARs, a comment, and a frame with one scan of each.
+    /// Entries with two LiDARs, a comment, and a frame with one scan per LiDAR.
     Entries mixed() const {
         auto comment = mrpt::obs::CObservationComment::Create();
         return {cloud(1, "front"), comment, frameOf({cloud(3, "front"), cloud(4, "rear")}),
@@ -107,7 +107,7 @@ TEST_F(ScanSourceTest, ReadsScansInOrder) {
     EXPECT_EQ(source->entriesKnown(), 5u);
 }
 
-/// A cloud of this model's beams, some of which point into the sky.
+/// A cloud of this model's beams, some of which point at the sky.
 mrpt::obs::CObservationPointCloud::Ptr spin(double seconds, const std::string& label,
                                             const std::string& model, int columns = 500) {
     const test::SimpleScene scene{{{{-30, -30, -9}, {30, 30, 30}}}, {}, {}, true};
@@ -115,7 +115,7 @@ mrpt::obs::CObservationPointCloud::Ptr spin(double seconds, const std::string& l
     return observations::observationOf(scan, label, at(seconds));
 }
 
-/// "entry:label:sensor" of every scan, and "-" where no beams are known.
+/// "entry:label:sensor" of every scan; "-" if no beams are known.
 std::vector<std::string> beamsPulledFrom(ScanSource& source) {
     std::vector<std::string> pulled;
     while (const auto scan = source.nextScan()) {
@@ -136,11 +136,11 @@ TEST_F(ScanSourceTest, RecoversBeamsByLabel) {
                             "3:top:-", "4:packets:-", "5:late:HDL-64E"));
 }
 
-TEST_F(ScanSourceTest, RecoversSameBeamsForEveryPart) {
+TEST_F(ScanSourceTest, RecoversSameBeamsForAnyRange) {
     const fs::path rawlog =
         rawlogOf({spin(1, "a", "VLP-16", 900), spin(2, "a", "HDL-32E"), spin(3, "a", "HDL-32E"),
                   spin(4, "a", "VLP-16"), spin(5, "a", "VLP-16"), spin(6, "a", "HDL-64E", 900)});
-    // The fullest of the first five is used; the sixth is too late.
+    // The fullest of the first five clouds is used; the sixth is too late.
     const auto whole = openRecording(rawlog);
     const int max_columns = whole->beamsOf("a")->max_columns;
     EXPECT_EQ(whole->beamsOf("a")->sensor.name, "HDL-32E");
@@ -166,7 +166,7 @@ TEST_F(ScanSourceTest, SkipsRecoveryForNamedSensor) {
     EXPECT_THAT(beamsPulledFrom(*unused), ElementsAre("0:a:-"));
 }
 
-TEST_F(ScanSourceTest, RecoversBeamsOfScanFolder) {
+TEST_F(ScanSourceTest, RecoversBeamsFromScanFolder) {
     const fs::path folder = scanFolderOf(3);
     SourceOptions options;
     options.first_entry = options.last_entry = 0;
@@ -286,7 +286,7 @@ TEST_F(ScanSourceTest, ConvertsFolderScansToObjects) {
     EXPECT_EQ(object->sensorLabel, "velodyne");
 }
 
-TEST_F(ScanSourceTest, UsesLaterPosesOfRawlog) {
+TEST_F(ScanSourceTest, UsesLaterPosesFromRawlog) {
     const auto source =
         openRecording(rawlogOf({pose(0.9, 5, 0), cloud(1, "front"), pose(1.1, 7, 0)}));
     source->usePoses({});
@@ -294,11 +294,11 @@ TEST_F(ScanSourceTest, UsesLaterPosesOfRawlog) {
     const auto scan = source->nextScan();
     ASSERT_TRUE(scan && scan->pose.sensor_pose);
     EXPECT_NEAR(scan->pose.sensor_pose->x(), 6.0, 1e-6);
-    EXPECT_NEAR(scan->pose.sensor_pose->z(), 1.25, 1e-6);  // mounting height included
+    EXPECT_NEAR(scan->pose.sensor_pose->z(), 1.25, 1e-6);  // includes the mounting height
     EXPECT_TRUE(scan->pose.pose_has_horizon);
 }
 
-TEST_F(ScanSourceTest, UsesAttitudeOfSkippedEntries) {
+TEST_F(ScanSourceTest, UsesAttitudeFromSkippedEntries) {
     SourceOptions options;
     options.first_entry = 2;
     const auto source = openRecording(
@@ -309,7 +309,7 @@ TEST_F(ScanSourceTest, UsesAttitudeOfSkippedEntries) {
     EXPECT_NEAR(scan->pose.attitude->pitch_rad, 0.2, 1e-6);
 }
 
-TEST_F(ScanSourceTest, PrefersAttitudeOfPoseFile) {
+TEST_F(ScanSourceTest, PrefersAttitudeFromPoseFile) {
     writeTumPoses(folder_ / "flight.tum", {{1001.0, CPose3D(3, 0, 0, 0, 0.4, 0)}});
     const auto source = openRecording(rawlogOf({pose(0.95, 0, 0.2), cloud(1, "front")}));
     source->usePoses(folder_ / "flight.tum");
@@ -348,7 +348,7 @@ TEST_F(ScanSourceTest, KeepsAttitudeWithKittiFile) {
     EXPECT_FALSE(scan->pose.pose_has_horizon);
 }
 
-TEST_F(ScanSourceTest, ListsScanTimesOfAllLidars) {
+TEST_F(ScanSourceTest, ListsScanTimesForAllLidars) {
     SourceOptions options;
     options.sensor_labels = {"rear"};
     const auto times = openRecording(rawlogOf(mixed()), options)->scanTimes();
@@ -365,7 +365,7 @@ TEST_F(ScanSourceTest, ScanTimesDoNotDependOnPoses) {
     EXPECT_EQ(source->poses().source, "CObservationRobotPose");
 }
 
-TEST_F(ScanSourceTest, UsesSensorOfFolder) {
+TEST_F(ScanSourceTest, UsesSensorFromFolder) {
     const fs::path folder = scanFolderOf(1);
     std::ofstream(folder / "sensor.yaml") << "sensor:\n  model: HDL-32E\n";
     EXPECT_EQ(openRecording(folder)->settingsFor({}).sensor.model, "HDL-32E");
@@ -388,10 +388,10 @@ TEST_F(ScanSourceTest, StopsLookAheadOnRequest) {
     options.keep_going = [&] { return ++asked != 3; };
     const auto source = openRecording(rawlogOf(mixed()), options);
     EXPECT_THROW(source->scanTimes(), Interrupted);
-    EXPECT_EQ(source->scanTimes().at("front").size(), 3u);  // nothing partial is kept
+    EXPECT_EQ(source->scanTimes().at("front").size(), 3u);  // no partial result is kept
 }
 
-TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfRawlog) {
+TEST_F(ScanSourceTest, ReportsRawlogLookAheadErrors) {
     PackedInput stream(rawlogOf(mixed()));
     std::string bytes(1 << 16, '\0');
     bytes.resize(stream.Read(bytes.data(), bytes.size()));
@@ -400,7 +400,7 @@ TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfRawlog) {
         std::ofstream(rawlog, std::ios::binary) << bytes;
         SourceOptions options;
         options.last_entry = last;
-        const auto source = openRecording(rawlog, options);  // of the file replaced below
+        const auto source = openRecording(rawlog, options);  // opens the file replaced below
         fs::remove(rawlog);
         std::ofstream(rawlog, std::ios::binary) << bytes.substr(0, bytes.size() - 10);
         source->scanTimes();
@@ -415,13 +415,13 @@ TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfRawlog) {
     }
 }
 
-TEST_F(ScanSourceTest, ReportsLookAheadErrorsOfFolder) {
+TEST_F(ScanSourceTest, ReportsFolderLookAheadErrors) {
     const fs::path folder = scanFolderOf(3), file = folder / "velodyne/000001.bin";
     for (const std::size_t first : {0u, 2u}) {
         int asked = 0;
         SourceOptions options;
         options.first_entry = first;
-        options.keep_going = [&] {  // before each file; single returns settle no beams
+        options.keep_going = [&] {  // called before each file; single returns never settle beams
             ++asked;
             const int shown = asked - static_cast<int>(first) - 1;
             if (shown == 2) fs::resize_file(file, 10);
@@ -452,7 +452,7 @@ TEST_F(ScanSourceTest, SuggestsRecordingsInFolder) {
     EXPECT_THAT(messageOf(),
                 HasSubstr("flights: is a folder with 3 recordings; pass one of them: " +
                           (folder_ / "flights/a.bag").string()));
-    // Clouds beside the recordings are read.
+    // Clouds beside recordings are read.
     folder_.write("flights/1.bin", "");
     EXPECT_TRUE(openRecording(folder_ / "flights"));
 }
@@ -468,7 +468,7 @@ TEST_F(ScanSourceTest, ReadsCloudsBesideRecording) {
     EXPECT_THAT(source->remarks(), testing::Contains("1 folder in the folder: ignored"));
 }
 
-TEST_F(ScanSourceTest, ReportsOtherFilesOfScanFolder) {
+TEST_F(ScanSourceTest, ReportsOtherFilesInScanFolder) {
     const fs::path folder = scanFolderOf(2);
     folder_.write("scans/velodyne/000002.bin.gz", "");
     folder_.write("scans/velodyne/000003.BIN", "");
@@ -478,7 +478,7 @@ TEST_F(ScanSourceTest, ReportsOtherFilesOfScanFolder) {
     EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("such as 000002.bin.gz")));
 }
 
-TEST_F(ScanSourceTest, SuggestsFolderOfOneLidar) {
+TEST_F(ScanSourceTest, SuggestsSingleLidarFolder) {
     scanFolderOf(2);
     fs::create_directories(folder_ / "both");
     fs::rename(folder_ / "scans", folder_ / "both/velodyne");
@@ -500,7 +500,7 @@ TEST_F(ScanSourceTest, DistinguishesSensorAndVehiclePoses) {
     const auto sensor = openRecording(log);
     sensor->usePoses(folder_ / "kitti.txt");
     EXPECT_TRUE(sensor->nextScan()->pose.is_of_sensor);
-    // An IMU or robot pose gives the vehicle's attitude, even with poses of the sensor.
+    // An IMU or robot pose specifies the vehicle's attitude, even if there are poses of the sensor.
     const auto both = openRecording(rawlogOf({pose(0.95, 0, 0.1), cloud(1, "front")}));
     both->usePoses(folder_ / "kitti.txt");
     const auto scan = both->nextScan();

@@ -31,7 +31,7 @@ using testing::Not;
 using Packets = std::vector<ByteString>;
 using Turns = std::vector<CObservationVelodyneScan::Ptr>;
 
-/// Packets of a sensor that turns at 10 Hz, from this azimuth on.
+/// Packets of a sensor that turns at 10 Hz, starting at this azimuth.
 Packets packetsOf(const std::string& model_name, int firings, double first_azimuth_deg = 0,
                   std::uint32_t first_time_us = 1000000, bool is_dual = false) {
     const sensors::VelodyneModel& model = sensors::velodyneModel(model_name);
@@ -105,7 +105,7 @@ TEST_F(VelodyneCaptureTest, TurnEndsWhereAzimuthWraps) {
         const double period_us = sensors::velodyneModel(model).firing_period_us;
         const Packets packets = packetsOf(model, static_cast<int>(310e3 / period_us), 200.0);
         const Turns turns = read(captureOf(packets).bytes());
-        ASSERT_EQ(turns.size(), 4u);  // 160 degrees, two whole turns, the remainder
+        ASSERT_EQ(turns.size(), 4u);  // 160 degrees, two whole turns, and the remainder
         EXPECT_EQ(packetsOf(turns), packets);
         for (std::size_t i = 0; i < turns.size(); ++i) {
             const Packets of_turn = packetsOf({turns[i]});
@@ -173,7 +173,7 @@ TEST_F(VelodyneCaptureTest, DropsDuplicates) {
     EXPECT_THAT(remarks_[0], HasSubstr(", 100 duplicate packets dropped"));
 }
 
-/// As via a slower path: every tenth packet is duplicated 30 ms later, and one arrives only then.
+/// A slower path duplicates every tenth packet 30 ms later; one packet arrives only there.
 TEST_F(VelodyneCaptureTest, DropsPacketsFarTooLate) {
     const Packets packets = packetsOf("VLP-16", 24 * 200);
     Packets with_copies, without_one;
@@ -193,7 +193,7 @@ TEST_F(VelodyneCaptureTest, DropsPacketsFarTooLate) {
     EXPECT_EQ(remarks_[0].find("interruption"), std::string::npos) << remarks_[0];
 }
 
-/// By slightly more than 16 packets, so that new packets could be mistaken for late ones.
+/// The clock steps back by slightly more than 16 packets, so new packets look like late ones.
 TEST_F(VelodyneCaptureTest, SmallClockStepBackLosesNoPackets) {
     for (const std::uint32_t back_us : {23000u, 30000u, 42000u}) {
         Packets packets = packetsOf("VLP-16", 24 * 100, 0.0, 900000000u);
@@ -205,7 +205,7 @@ TEST_F(VelodyneCaptureTest, SmallClockStepBackLosesNoPackets) {
     }
 }
 
-/// Few packets after a clock step are sufficient.
+/// A few packets after a clock step are sufficient.
 TEST_F(VelodyneCaptureTest, ClockStepBeforeEndLosesNoPackets) {
     Packets packets = packetsOf("VLP-16", 24 * 40, 0.0, 900000000u);
     for (const std::uint32_t time_us : {100000000u, 50000000u}) {
@@ -345,7 +345,7 @@ TEST_F(VelodyneCaptureTest, ReadsTruncatedCapture) {
         const Packets before(packets.begin(),
                              packets.begin() + static_cast<std::ptrdiff_t>((size - 24) / frame));
         EXPECT_EQ(packetsOf(read(whole.substr(0, size))), before);
-        if ((size - 24) % frame == 0) continue;  // looks like a shorter capture
+        if ((size - 24) % frame == 0) continue;  // equals a shorter capture
         EXPECT_THAT(broken_, HasSubstr("a.pcap: frame " + std::to_string(before.size()) +
                                        " at byte " + std::to_string(24 + before.size() * frame)));
     }
@@ -367,7 +367,7 @@ TEST_F(VelodyneCaptureTest, ReadsRealCaptures) {
         for (const auto& turn : turns) {
             Scan scan;
             EXPECT_EQ(decodePackets(*turn, scan), 0u);
-            EXPECT_LT(scan.time_s.back(), 0.112f);  // 9 Hz plus one packet
+            EXPECT_LT(scan.time_s.back(), 0.112f);  // a turn at 9 Hz plus one packet
         }
         EXPECT_EQ(remarks_[0].find("lost"), std::string::npos) << remarks_[0];
     }
@@ -376,7 +376,7 @@ TEST_F(VelodyneCaptureTest, ReadsRealCaptures) {
 TEST_F(VelodyneCaptureTest, MatchesMrpt) {
     const auto folder = test::dataFolder("HAGEN_VELODYNE_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_VELODYNE_DATA is not a folder of captures";
-    // MRPT decodes the first half of each block, for an HDL-32E half of the lasers.
+    // MRPT decodes the first half of each block, i.e. half of the lasers of an HDL-32E.
     for (const auto& turn : readFile(folder / "sample_velodyne_vlp16_gps.pcap")) {
         turn->minRange = 0;
         turn->maxRange = 1000;
@@ -387,7 +387,7 @@ TEST_F(VelodyneCaptureTest, MatchesMrpt) {
         all.filterOutIsolatedPoints = false;
         turn->generatePointCloud(all);
         EXPECT_GT(turn->point_cloud.size(), packets * 10);
-        std::size_t next = 0;  // MRPT's returns are among ours, in the same order
+        std::size_t next = 0;  // MRPT's returns are a subset of ours in the same order
         for (std::size_t i = 0; i < turn->point_cloud.size(); ++i) {
             const auto& cloud = turn->point_cloud;
             while (next < scan.size() &&
@@ -411,7 +411,7 @@ TEST_F(VelodyneCaptureTest, ReadsRawPackets) {
     ASSERT_EQ(packets.size(), 1000u);
     const Turns turns = read(captureOf(packets).bytes());
     EXPECT_EQ(packetsOf(turns), packets);
-    EXPECT_EQ(turns.size(), 14u);  // 12 whole turns
+    EXPECT_EQ(turns.size(), 14u);  // 12 of them are whole turns
 }
 
 /// A capture of an HDL-64E with all returns at 5 m.

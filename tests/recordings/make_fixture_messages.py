@@ -38,7 +38,7 @@ def pose(x, y, z):
 add("/tf_static", "tf2_msgs/TFMessage", 0,
     transforms=[transform("base_link", "mast", 0, 1, 0, 1.5), transform("mast", "lidar", 0, 0, 0, 0.5)])
 for i in range(6):
-    # The vehicle moves at 10 m/s along x, but along y according to tf.
+    # Odometry moves the vehicle along x at 10 m/s, but tf moves it along y.
     t = 0.1 * i
     add("/odom", "nav_msgs/Odometry", t, header=header(t, "odom"), child_frame_id="base_link",
         pose={"pose": pose(i, 0, 5), "covariance": [0.0] * 36},
@@ -59,7 +59,7 @@ add("/cloud", "sensor_msgs/PointCloud2", 0.2, header=header(0.2, "lidar"), heigh
             [("x", 0, FLOAT32), ("y", 4, FLOAT32), ("z", 8, FLOAT32), ("intensity", 12, FLOAT32),
              ("ring", 16, UINT16), ("t", 20, UINT32)]],
     is_bigendian=False, point_step=24, row_step=480, data=raw(points), is_dense=True)
-# Big-endian doubles in two rows with 4 bytes of padding and reordered fields.
+# Two rows of big-endian doubles with 4 bytes of padding and reordered fields.
 rows = b"".join(b"".join(struct.pack(">ddd", -i / 2, i, 2 * i) for i in range(10 * row + 1, 10 * row + 11)) + b"\xff" * 4
                 for row in range(2))
 add("/organised", "sensor_msgs/PointCloud2", 0.25, header=header(0.25, "other"), height=2, width=10,
@@ -69,7 +69,7 @@ for name, kind in [("/livox", "livox_ros_driver2/CustomMsg"), ("/livox1", "livox
     add(name, kind, 0.3, header=header(0.3, "livox_frame"), timebase=T0, point_num=20, lidar_id=1, rsvd=[0, 0, 0],
         points=[{"offset_time": 1000000 * i, "x": i, "y": 2 * i, "z": -i / 2, "reflectivity": i, "tag": 0, "line": i % 4}
                 for i in range(1, 21)])
-# A packet of a VLP-16 with a return of 5 m for each laser.
+# A VLP-16 packet with a return at 5 m for each laser.
 packet = b"".join(struct.pack("<HH", 0xeeff, 40 * block) + struct.pack("<HB", 2500, 100) * 32 for block in range(12))
 packet += struct.pack("<IBB", 1000, 0x37, 0x22)
 add("/velodyne_packets", "velodyne_msgs/VelodyneScan", 0.4, header=header(0.4, "velodyne"),

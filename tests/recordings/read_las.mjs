@@ -23,7 +23,7 @@ const isLegacy = header.pointDataRecordFormat < 6;
 const value = (name, i) => (name in view.dimensions ? view.getter(name)(i) : 0);
 for (let i = 0; i < view.pointCount; ++i) {
   const overlap = value("Overlap", i);
-  // The package converts class 12 of older formats to a flag.
+  // copc converts class 12 of older formats to a flag.
   const classification = isLegacy && overlap ? 12 : value("Classification", i);
   const flags = value("Synthetic", i) + 2 * value("KeyPoint", i) + 4 * value("Withheld", i);
   const channel = value("ScanChannel", i) + value("ScannerChannel", i);

@@ -25,7 +25,7 @@ const bytes = fs.readFileSync(process.argv[2]);
 const unpack = (packed) => new Uint8Array(execFileSync("zstd", ["-dq"], { input: packed, maxBuffer: 1 << 30 }));
 const decompressHandlers = { zstd: unpack };
 
-// Streaming reader: checks every CRC.
+// The streaming reader checks every CRC.
 const streamed = [];
 const stream = new core.McapStreamReader({ decompressHandlers, validateCrcs: true });
 stream.append(bytes);
@@ -34,7 +34,7 @@ for (let record; (record = stream.nextRecord()); ) {
 }
 if (!stream.done()) throw new Error("the file has an unexpected end");
 
-// Indexed reader.
+// The indexed reader.
 const readable = {
   size: async () => BigInt(bytes.length),
   read: async (offset, size) => new Uint8Array(bytes.subarray(Number(offset), Number(offset + size))),

@@ -22,7 +22,7 @@ const isRos1 = kind === "ros1";
 const here = path.dirname(fileURLToPath(import.meta.url));
 const custom = JSON.parse(fs.readFileSync(path.join(here, "definitions.json"), "utf-8"));
 
-// The definition of a type and of all its nested types.
+// The definitions of a type and of all its nested types.
 const header = isRos1
   ? "MSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id"
   : "MSG: std_msgs/Header\ntime stamp\nstring frame_id";

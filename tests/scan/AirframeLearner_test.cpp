@@ -42,8 +42,8 @@ TEST(AirframeLearner, LearnsConstantNearRanges) {
     const LearnedAirframe learned = learnedFrom(40, [&](int number, Scan& scan) {
         addReturn(31, 11, 0.5 + 0.001 * (number % 10), scan);  // a leg
         if (number % 2 == 0) addReturn(71, 11, 0.7, scan);     // in half of the scans
-        if (number % 5 < 2) addReturn(111, 11, 0.7, scan);     // in fewer
-        addReturn(-91, 11, random.real(0.3f, 1.4f), scan);     // passes by
+        if (number % 5 < 2) addReturn(111, 11, 0.7, scan);     // in less than half
+        addReturn(-91, 11, random.real(0.3f, 1.4f), scan);     // a passing object
         addReturn(-131, 11, 1.6, scan);                        // too far
         addReturn(-171, -31, 8, scan);                         // the ground
     });
@@ -56,11 +56,11 @@ TEST(AirframeLearner, LearnsConstantNearRanges) {
 TEST(AirframeLearner, LearnsEdges) {
     const LearnedAirframe learned = learnedFrom(50, [](int number, Scan& scan) {
         addReturn(179, 11, 0.5, scan);
-        if (number % 10 == 0) addReturn(-179, 13, 0.52, scan);  // beside it, across the seam
-        if (number % 10 == 1) addReturn(-177, 13, 0.52, scan);  // beside that
-        if (number % 10 == 2) addReturn(179, 9, 1.2, scan);     // beside it, but farther
-        if (number == 3) addReturn(177, 11, 0.5, scan);         // once
-        if (number % 10 == 4) addReturn(100, 11, 0.5, scan);    // not beside it
+        if (number % 10 == 0) addReturn(-179, 13, 0.52, scan);  // adjacent across the seam
+        if (number % 10 == 1) addReturn(-177, 13, 0.52, scan);  // adjacent to the previous bin
+        if (number % 10 == 2) addReturn(179, 9, 1.2, scan);     // adjacent, but farther
+        if (number == 3) addReturn(177, 11, 0.5, scan);         // seen once only
+        if (number % 10 == 4) addReturn(100, 11, 0.5, scan);    // not adjacent
     });
     EXPECT_EQ(learned.bins, 3);
     EXPECT_NEAR(rangeAt(learned, -179, 13), 0.6, 1e-5);

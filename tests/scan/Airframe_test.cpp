@@ -38,7 +38,7 @@ Airframe randomAirframe(test::Random& random) {
     return airframe;
 }
 
-/// The definition, in double precision and degrees.
+/// The definition in double precision and degrees.
 bool isMasked(const Airframe& airframe, double x, double y, double z, double range_m) {
     for (const AirframeBox& box : airframe.boxes) {
         if (x >= box.low_m.x() && x <= box.high_m.x() && y >= box.low_m.y() &&

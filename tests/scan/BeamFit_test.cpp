@@ -11,7 +11,7 @@
 namespace hagen {
 namespace {
 
-/// A turn of these beams at random ranges, with elevation errors up to `jitter_deg`.
+/// A turn of these beams with random ranges and elevation errors of up to `jitter_deg`.
 Scan scanOf(const std::vector<double>& beams_deg, float jitter_deg = 0.0f, unsigned seed = 1) {
     test::Random random(seed);
     Scan scan;
@@ -38,7 +38,7 @@ std::vector<double> beamsEvery(double step_deg, double lowest_deg, double highes
     return beams_deg;
 }
 
-TEST(BeamFit, KnownModelsFitThemselves) {
+TEST(BeamFit, KnownModelsFitOwnBeams) {
     for (const std::string& name : knownSensorModels()) {
         SCOPED_TRACE(name);
         const SensorModel sensor = sensorModel(name);
@@ -58,19 +58,19 @@ TEST(BeamFit, KnownModelsFitThemselves) {
 }
 
 TEST(BeamFit, FewerBeamsLeaveRowsEmpty) {
-    // 16 blurred beams, compared with 64 beams so dense that every return is within tolerance.
+    // The scan has 16 blurred beams; the model's 64 beams are so dense that all returns fit.
     const auto beams_deg = beamsEvery(2, -15, 15);
     const auto fit =
         fitBeams(scanOf(beams_deg, 1.0f), customSensorModel(beamsEvery(0.5, -16, 16.5)), 600);
     ASSERT_TRUE(fit);
     EXPECT_GT(fit->share(), 0.99f);
-    EXPECT_NEAR(fit->filled, 0.25, 0.05);  // a return every fourth row
-    // With the true beams, no row lacks returns.
+    EXPECT_NEAR(fit->filled, 0.25, 0.05);  // one return per four rows
+    // With the true beams, every row has returns.
     EXPECT_GT(fitBeams(scanOf(beams_deg, 0.5f), sensorModel("VLP-16"), 600)->filled, 0.99f);
 }
 
 TEST(BeamFit, CountsReturnsWithinTolerance) {
-    // Uniform jitter of 0.8 degrees: half of the returns are within 0.4.
+    // With uniform jitter of 0.8 degrees, half of the returns are within 0.4 degrees.
     const auto fit = fitBeams(scanOf(beamsEvery(2, -15, 15), 0.8f), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_NEAR(fit->returns_share, 0.5, 0.02);
@@ -108,11 +108,11 @@ TEST(BeamFit, IgnoresBeamsInSky) {
     EXPECT_EQ(fit->share(), 1.0f);
 }
 
-TEST(BeamFit, WithoutBeamsCountsReturns) {
+TEST(BeamFit, CountsReturnsWithoutBeams) {
     const auto fit = fitBeams(scanOf(beamsEvery(0.05, -15, 15)), sensorModel("VLP-16"), 600);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->beams_shown, 0u);
-    EXPECT_NEAR(fit->share(), 0.4, 0.03);  // 0.8 of every 2 degrees
+    EXPECT_NEAR(fit->share(), 0.4, 0.03);  // 0.8 of 2 degrees
 }
 
 TEST(BeamFit, NeedsEnoughReturns) {

@@ -78,11 +78,11 @@ TEST(CheckLocated, RejectsShortArrays) {
     EXPECT_NE(objection(scan, sensor), "");
 }
 
-TEST(CheckLocated, RejectsRowsOfAnotherSensor) {
+TEST(CheckLocated, RejectsRowsFromOtherSensor) {
     EXPECT_THAT(objection(locatedWith(sensorModel("VLP-16")), sensorModel("HDL-64E")),
                 AllOf(HasSubstr("16 beams from -15 to 15 degrees"), HasSubstr("HDL-64E"),
                       HasSubstr("64 beams"), HasSubstr("call locateBeams()")));
-    // equally many beams at other angles
+    // the same number of beams at other angles
     EXPECT_NE(objection(locatedWith(sensorModel("VLP-16")), sensorModel("Puck Hi-Res")), "");
     EXPECT_NE(objection(locatedWith(sensorModel("HDL-32E")), sensorModel("VLP-32C")), "");
 }

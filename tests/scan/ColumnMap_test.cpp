@@ -14,7 +14,7 @@ using testing::ElementsAre;
 
 TEST(ColumnMap, WindowKeepsItsColumns) {
     ColumnMap map;
-    mapColumns(16, 4, 1, 1, map);  // columns 4 to 7; opposite is 12
+    mapColumns(16, 4, 1, 1, map);  // columns 4 to 7; column 12 is opposite
     EXPECT_THAT(map.to_turn, ElementsAre(12, 0, 4, 5, 6, 7, 8));
     EXPECT_THAT(map.to_image, ElementsAre(1, 1, 1, 1, 2, 3, 4, 5, 6, 6, 6, 6, 0, 0, 0, 0));
     EXPECT_THAT(map.even, ElementsAre(0, 1, 2, 6));
@@ -23,12 +23,12 @@ TEST(ColumnMap, WindowKeepsItsColumns) {
 
 TEST(ColumnMap, WindowAtSeamIsContiguous) {
     ColumnMap map;
-    mapColumns(16, 4, 3, 2, map);  // columns 12 to 15 and 0 to 3
+    mapColumns(16, 4, 3, 2, map);  // columns 12 to 15, then 0 to 3
     EXPECT_THAT(map.to_turn, ElementsAre(8, 12, 13, 14, 15, 0, 1, 2, 3, 4));
 }
 
-/// For any window, the image has the same size, each column of the turn is mapped, the first
-/// columns of groups do not collide, and neighbours stay in order.
+/// For any window, the image has the same size, each column of the turn is mapped, groups have
+/// different first columns, and neighbours stay in order.
 TEST(ColumnMap, EveryColumnMapsToItsGroup) {
     for (const int columns : {870, 1024, 19}) {
         for (const int group : {1, 2, 3, 4, 6}) {

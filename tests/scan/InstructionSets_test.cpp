@@ -60,7 +60,7 @@ TEST(InstructionSets, RejectUnknownNames) {
     EXPECT_EQ(instructionSets(), all);
 }
 
-/// Run by the next test in a separate process.
+/// The next test runs this in a separate process.
 TEST(InstructionSets, DISABLED_LimitMatchesEnvironment) {
     const char* const wanted = std::getenv("HAGEN_SIMD");
     ASSERT_NE(wanted, nullptr);
@@ -80,7 +80,7 @@ TEST(InstructionSets, FollowEnvironmentVariable) {
         EXPECT_EQ(outcome.err, "");
     }
     const test::Outcome unknown = start("mmx");
-    EXPECT_EQ(unknown.exit_code, 1);  // not the first set
+    EXPECT_EQ(unknown.exit_code, 1);  // must not fall back to the first set
     EXPECT_THAT(unknown.err,
                 HasSubstr("HAGEN_SIMD has no effect: 'mmx' is not an instruction set"));
 }

@@ -15,9 +15,9 @@ namespace hagen {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
-ProjectionWorkspace work;  // reused by all tests, as by a filter for all scans
+ProjectionWorkspace work;  // reused, as in a filter
 
-/// A scan with only the data used by the projection.
+/// A scan with only the data that the projection uses.
 Scan randomScan(unsigned seed, int returns) {
     test::Random random(seed);
     Scan scan;
@@ -53,7 +53,7 @@ TEST(RangeImage, ForwardIsMiddleColumn) {
     EXPECT_NEAR(nearestColumn(static_cast<float>(-kPi / 2), 870), 652, 1);
 }
 
-/// The definition, return by return.
+/// Implements the definition return by return.
 void projectPlainly(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                     RangeImage& image) {
     image.depth_m.setConstant(sensor.rows(), columns, kNoValue);
@@ -64,7 +64,7 @@ void projectPlainly(const Scan& scan, const SensorModel& sensor, int columns, fl
         if (!sensor.sees(range_m) || range_m > context_m) continue;
         const int column = nearestColumn(scan.azimuth_rad[i], columns);
         float& depth_m = image.depth_m(scan.row[i], column);
-        if (!(depth_m <= range_m)) {  // empty, or farther
+        if (!(depth_m <= range_m)) {  // empty pixel, or farther return
             depth_m = range_m;
             image.closest_return(scan.row[i], column) = static_cast<std::int32_t>(i);
         }
@@ -78,14 +78,13 @@ void expectSameImage(const RangeImage& a, const RangeImage& b) {
     EXPECT_EQ(a.depth_mapper, b.depth_mapper);
 }
 
-/// A sensor with `rows` beams.
 SensorModel sensorOfRows(int rows) {
     std::vector<double> elevations_deg(rows);
     for (int row = 0; row < rows; ++row) elevations_deg[row] = -30.0 + 40.0 * row / rows;
     return customSensorModel(elevations_deg);
 }
 
-/// Azimuths over the whole turn including both ends, many equal ranges, some NaN.
+/// Azimuths over the whole turn, including both ends, with many equal ranges and some NaN.
 Scan scanWithTies(test::Random& random, int rows, int returns) {
     Scan scan;
     for (int i = 0; i < returns; ++i) {
@@ -135,7 +134,7 @@ TEST(RangeImage, ReturnsByPixelContainsEachOnce) {
     EXPECT_EQ(seen.size(), static_cast<std::size_t>(mapped));
 }
 
-TEST(RangeImage, EmptyScanGivesEmptyImage) {
+TEST(RangeImage, EmptyScanYieldsEmptyImage) {
     RangeImage image;
     projectScan(Scan(), sensorModel("VLP-16"), 870, kFar, image, work);
     EXPECT_EQ(image.depth_m.rows(), 16);

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Disturbances of the returns of a spinning sensor.
+/// Disturbances of a spinning sensor's returns.
 struct Spin {
     int columns = 900;
     double jitter_deg = 0, rounding_m = 0, tilt_deg = 0;
@@ -78,7 +78,7 @@ std::vector<std::string> spinningModels() {
     return names;
 }
 
-/// Beams of no known model: uneven, at least `min_step_deg` apart.
+/// Uneven beams of an unknown model, at least `min_step_deg` apart.
 std::vector<double> randomBeams(test::Random& random, int count, double min_step_deg) {
     std::vector<double> beams_deg{static_cast<double>(random.real(-40, -20))};
     for (int beam = 1; beam < count; ++beam) {
@@ -151,13 +151,13 @@ TEST(RecoverBeams, SurvivesJitterRoundingStraysAndDropouts) {
     }
 }
 
-TEST(RecoverBeams, AddsUnseenBeamsOfModel) {
+TEST(RecoverBeams, AddsUnseenModelBeams) {
     for (const std::string& name : spinningModels()) {
         SCOPED_TRACE(name);
         const SensorModel truth = sensorModel(name);
         Spin spin;
         for (int beam = truth.rows() / 2 + 1; beam < truth.rows(); ++beam) {
-            spin.dead_beams.insert(beam);  // beams into the sky
+            spin.dead_beams.insert(beam);  // beams that point at the sky
         }
         spin.dead_beams.insert(2);
         const auto found = recoverBeams(scanOf(beamsOf(truth), spin));
@@ -226,7 +226,7 @@ TEST(RecoverBeams, IgnoresReturnsWithoutRange) {
 
 TEST(RecoverBeams, NeedsEnoughReturns) {
     EXPECT_FALSE(recoverBeams(Scan()));
-    EXPECT_FALSE(recoverBeams(scanOf({-10, -5, 0}, {133})));  // 399
+    EXPECT_FALSE(recoverBeams(scanOf({-10, -5, 0}, {133})));  // 399 returns
     EXPECT_TRUE(recoverBeams(scanOf({-10, -5, 0, 5}, {100})));
 }
 
@@ -259,7 +259,7 @@ TEST(RecoverBeams, RandomCloudHasNoRings) {
     }
 }
 
-TEST(RecoverBeams, BandsAndFewRingsAreNotBeams) {
+TEST(RecoverBeams, RejectsBandsAndFewRings) {
     const auto joined = [](Scan scan, const Scan& more) {
         for (std::size_t i = 0; i < more.size(); ++i) {
             add({more.x_m[i], more.y_m[i], more.z_m[i]}, scan);
@@ -268,7 +268,7 @@ TEST(RecoverBeams, BandsAndFewRingsAreNotBeams) {
     };
     const Scan bands = joined(randomScan(1, 5000, -20, -10), randomScan(2, 5000, 10, 20));
     EXPECT_FALSE(recoverBeams(bands)->sensor.has_rings);
-    // A fifth of the returns are on rings.
+    // Only a fifth of the returns are on rings.
     const Scan few = joined(randomScan(1, 5000, -20, 20), scanOf({-15, -5, 5, 15}, {1250 / 4}));
     EXPECT_FALSE(recoverBeams(few)->sensor.has_rings);
 }
@@ -302,7 +302,7 @@ TEST(RecoverBeams, HalfTurnKeepsResolution) {
 }
 
 TEST(RecoverBeams, BlurredRingsGetFewRows) {
-    // Dense in azimuth and sparse in elevation: rows as fine as columns would be mostly empty.
+    // As returns are sparse in elevation, rows as fine as columns would be mostly empty.
     Spin blurred;
     blurred.columns = 1800;
     blurred.tilt_deg = 1.5;
@@ -312,7 +312,7 @@ TEST(RecoverBeams, BlurredRingsGetFewRows) {
     EXPECT_LE(found->sensor.rows(), 26);
 }
 
-TEST(RecoverBeams, OneElevationGivesSensor) {
+TEST(RecoverBeams, AcceptsSingleElevation) {
     Scan scan;
     for (int i = 0; i < 500; ++i) add({1.0 + i, 0, 0}, scan);
     for (const double height_m : {0.0, 1.0}) {
@@ -325,7 +325,7 @@ TEST(RecoverBeams, OneElevationGivesSensor) {
     }
 }
 
-/// The first scan of each folder of real recordings.
+/// The first scan of each folder in a set of real recordings.
 std::vector<Scan> realScans(const std::string& set) {
     std::vector<Scan> scans;
     const char* const data = std::getenv("HAGEN_LABELLED_DATA");
@@ -354,19 +354,19 @@ TEST(RecoverBeams, DeskewedRealScansHaveNoRings) {
         const auto found = recoverBeams(scan);
         EXPECT_FALSE(found->sensor.has_rings) << found->share;
         EXPECT_GE(found->sensor.rows(), 16);
-        EXPECT_LE(found->sensor.rows(), 26);  // of 16 beams
+        EXPECT_LE(found->sensor.rows(), 26);  // the sensor has 16 beams
     }
     for (const Scan& scan : fine) {
         const auto found = recoverBeams(scan);
         EXPECT_FALSE(found->sensor.has_rings) << found->share;
         EXPECT_GE(found->sensor.rows(), 35);
-        EXPECT_LE(found->sensor.rows(), 80);  // of 64 beams
+        EXPECT_LE(found->sensor.rows(), 80);  // the sensor has 64 beams
     }
 }
 
-// Rings
+// ---- rings
 
-/// The rings of scanOf() without dropouts: all beams in turn.
+/// The rings of scanOf() without dropouts, in which beams repeat in order.
 std::vector<std::int32_t> ringsOf(const Scan& scan, int beams) {
     std::vector<std::int32_t> rings;
     for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -375,7 +375,7 @@ std::vector<std::int32_t> ringsOf(const Scan& scan, int beams) {
     return rings;
 }
 
-TEST(RingBeams, BeamIsMedianOfRing) {
+TEST(RingBeams, BeamIsRingMedian) {
     Spin spin;
     spin.columns = 200;
     spin.jitter_deg = 0.2;
@@ -394,7 +394,7 @@ TEST(RingBeams, BeamIsMedianOfRing) {
     EXPECT_GT(found->share, 0.99f);
 }
 
-TEST(RingBeams, RejectsRingsOfOtherFields) {
+TEST(RingBeams, RejectsNonRingFields) {
     const Scan scan = scanOf({-7, -3, 0, 1.5, 8}, {});
     const auto rings = ringsOf(scan, 5);
     ASSERT_TRUE(ringBeams(scan, rings));
@@ -404,7 +404,7 @@ TEST(RingBeams, RejectsRingsOfOtherFields) {
         two[i] = rings[i] / 3;
         if (rings[i] == 1 || rings[i] == 2) swapped[i] = 3 - rings[i];
         if (i % 5 == 0 && i % 2 == 0) blurred[i] = 4;           // 10 % is tolerated
-        if (i % 11 == 0) rare[i] = 1000 + static_cast<int>(i);  // rings of one return
+        if (i % 11 == 0) rare[i] = 1000 + static_cast<int>(i);  // rings with one return
     }
     EXPECT_FALSE(ringBeams(scan, one));
     EXPECT_FALSE(ringBeams(scan, two));

@@ -19,7 +19,7 @@ void addPoint(float x, float y, float z, Scan& scan) {
     scan.intensity.push_back(0.0f);
 }
 
-/// Dense beams, and beams up to straight up and down.
+/// Sensors with dense beams, and with beams that point straight up and down.
 std::vector<SensorModel> allSensors() {
     std::vector<SensorModel> sensors;
     for (const std::string& name : knownSensorModels()) sensors.push_back(sensorModel(name));
@@ -31,7 +31,7 @@ std::vector<SensorModel> allSensors() {
     return sensors;
 }
 
-/// Points all around; some lie on axes, some are not finite.
+/// Points all around; some are on axes, some not finite.
 Scan pointsAround(test::Random& random, int count) {
     const float specials[] = {0.0f,   -0.0f, 1.0f,     -1.0f,
                               1e-30f, 1e30f, kNoValue, std::numeric_limits<float>::infinity()};
@@ -47,7 +47,7 @@ Scan pointsAround(test::Random& random, int count) {
     return scan;
 }
 
-/// The paper's definition, point by point, in double precision.
+/// The paper's definition, point by point in double precision.
 void expectBeamsOfDefinition(const SensorModel& sensor, const Scan& scan) {
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const float x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
@@ -61,7 +61,7 @@ void expectBeamsOfDefinition(const SensorModel& sensor, const Scan& scan) {
         ASSERT_EQ(scan.range_m[i], range_m);
         const double azimuth_rad = std::atan2(static_cast<double>(y), static_cast<double>(x));
         ASSERT_NEAR(scan.azimuth_rad[i], azimuth_rad, 5e-7) << x << " " << y;
-        // A different row only within rounding of the midpoint angle.
+        // Rows may only differ if rounding moves the point across the midpoint angle.
         const double sine = static_cast<double>(z) / std::hypot(x, y, static_cast<double>(z));
         const double elevation_rad = std::asin(std::clamp(sine, -1.0, 1.0));
         const int row = scan.row[i],

@@ -1,4 +1,4 @@
-"""scripts/avoidance-report: made-up campaigns with known answers."""
+"""scripts/avoidance-report: synthetic campaigns with known results."""
 import csv
 import json
 import pathlib
@@ -68,14 +68,14 @@ def test_equal_models_have_no_difference():
     assert "No difference was found between the RoI window and the occupancy grid 0.2 m in `gap` at 4 m/s." in page
 
 
-def test_other_conditions_are_apart():
+def test_other_conditions_are_reported_separately():
     page, _, pairs = report(flights("gap", "W-RoI", 50) + flights("gap", "G-Full", 50) +
                             flights("gap", "W-RoI", 6, planner="3dvfh") + flights("gap", "G-Full", 6, planner="3dvfh"))
     assert sorted(pair["courses"] for pair in pairs) == ["50", "6"], pairs
     assert "planner 3dvfh (6)" in page
 
 
-def test_cost_is_of_shared_courses():
+def test_cost_uses_shared_courses_only():
     page, _, _ = report(flights("gap", "W-RoI", 5) + flights("gap", "G-Full", 4, latency_ms=20) +
                         flights("street", "G-Full", 9, latency_ms=90),
                         "model,path_m,bytes\nW-RoI,0,1\nW-RoI,1000,1500000\nG-Full,1000,90000000\n")
@@ -83,7 +83,7 @@ def test_cost_is_of_shared_courses():
     assert "it uses 1.5 MB, the maps 90 to 90 MB" in page
 
 
-def test_missing_campaign_is_named():
+def test_missing_campaign_is_reported():
     done = subprocess.run([SCRIPT, "/none"], capture_output=True, text=True, check=False)
     assert done.returncode == 1 and "/none/runs.csv: No such file" in done.stderr, done
 

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 class CaptureFileTest : public testing::Test {
  protected:
-    /// The contents of all datagrams of these bytes, and the counters.
+    /// The payloads of all datagrams in these bytes; updates the counters.
     std::vector<ByteString> read(const ByteString& bytes) {
         CaptureFile capture(test::writeBytes(folder_ / "a.pcap", bytes));
         std::vector<ByteString> contents;
@@ -39,7 +39,7 @@ class CaptureFileTest : public testing::Test {
         counts_ = capture.counts();
         return contents;
     }
-    /// Every frame is counted once.
+    /// Expects that every frame is counted once.
     void expectBalance() const {
         EXPECT_EQ(counts_.frames, counts_.datagrams + counts_.fragments + counts_.other_traffic +
                                       counts_.cut_frames);
@@ -70,7 +70,7 @@ TEST_F(CaptureFileTest, CheckInterruptsSearch) {
     Datagram datagram;
     EXPECT_THROW(capture.next(datagram), Stop);
     EXPECT_EQ(capture.counts().frames, 3 * CaptureFile::kFramesPerCheck);
-    // Continues at the same place.
+    // Reading continues at the same position.
     EXPECT_FALSE(capture.next(datagram));
     EXPECT_EQ(capture.counts().other_traffic, 5000u);
 }
@@ -99,7 +99,7 @@ TEST_F(CaptureFileTest, ReadsAllFormatsAndLinks) {
     EXPECT_THAT(read(CaptureWriter(276).frame(any2).bytes()), ElementsAre("x"));
     EXPECT_THAT(read(CaptureWriter(0).frame(ByteString("\x02\0\0\0", 4) + ip).bytes()),
                 ElementsAre("x"));
-    // Nanoseconds instead of microseconds.
+    // The time stamps are in nanoseconds instead of microseconds.
     ByteString nanoseconds = CaptureWriter().frame(ethernet(ip), 1700000000.000123).bytes();
     nanoseconds.replace(0, 4, test::little32(0xa1b23c4d));
     EXPECT_THAT(read(nanoseconds), ElementsAre("x"));
@@ -123,7 +123,7 @@ TEST_F(CaptureFileTest, ReassemblesFragmentsInAnyOrder) {
     ByteString content;
     for (int i = 0; i < 24896; ++i) content += static_cast<char>(random.whole(0, 255));
     std::vector<ByteString> all;
-    for (std::uint16_t id = 1; id <= 3; ++id) {  // three, interleaved
+    for (std::uint16_t id = 1; id <= 3; ++id) {  // three datagrams, interleaved
         SentDatagram datagram = sent(content + static_cast<char>(id));
         datagram.id = id;
         for (const ByteString& ip : test::fragmentsOf(datagram, 1480)) all.push_back(ip);
@@ -170,7 +170,7 @@ TEST_F(CaptureFileTest, CountsOtherTrafficAndCutFrames) {
     const ByteString ip = test::ipOf(sent(ByteString(500, 'x')));
     ByteString tcp = ip;
     tcp[9] = '\x06';
-    ByteString longer = ip;  // claims to be longer than the frame
+    ByteString longer = ip;  // its header claims more bytes than the frame has
     longer[2] = '\x7f';
     ByteString udp_longer = ip;
     udp_longer[24] = '\x7f';
@@ -194,7 +194,7 @@ TEST_F(CaptureFileTest, CountsOtherTrafficAndCutFrames) {
     expectBalance();
 }
 
-TEST_F(CaptureFileTest, ReportsPositionOfTruncation) {
+TEST_F(CaptureFileTest, ReportsTruncationPosition) {
     CaptureWriter writer;
     for (int i = 0; i < 5; ++i) writer.datagram(sent(ByteString(60, 'x')));
     std::vector<ByteString> frames(5, ethernet(test::ipOf(sent(ByteString(60, 'x')))));
@@ -214,7 +214,7 @@ TEST_F(CaptureFileTest, ReportsPositionOfTruncation) {
                 EXPECT_THAT(why, HasSubstr("frame " + std::to_string(datagrams) + " at byte "));
             }
         }
-        EXPECT_GT(broken, 100u);  // everywhere except between two frames
+        EXPECT_GT(broken, 100u);  // at every position except between two frames
         EXPECT_EQ(read(whole).size(), 5u);
     }
 }
@@ -228,7 +228,7 @@ TEST_F(CaptureFileTest, SurvivesCorruptData) {
     for (int round = 0; round < 200; ++round) {
         ByteString bytes = writer.bytes();
         for (int i = random.whole(1, 8); i > 0; --i) {
-            // Mostly the headers.
+            // Mostly corrupts headers.
             const int at = random.chance(0.8) ? random.whole(24, 24 + 16 + 60)
                                               : random.whole(0, static_cast<int>(bytes.size()) - 1);
             bytes[static_cast<std::size_t>(at)] = static_cast<char>(random.whole(0, 255));

@@ -44,7 +44,7 @@ TEST(CaptureWriter, WritesFilesReadableByCaptureFile) {
     EXPECT_FALSE(capture.next(read));
 }
 
-/// Like a receiver: the words of the header, including the checksum, sum to ffff.
+/// As a receiver checks, the header's words, including the checksum, sum to ffff.
 TEST(CaptureWriter, WritesValidIpChecksums) {
     const test::TemporaryFolder folder;
     CaptureWriter writer(folder / "a.pcap");
@@ -59,7 +59,7 @@ TEST(CaptureWriter, WritesValidIpChecksums) {
     EXPECT_EQ((sum & 0xffff) + (sum >> 16), 0xffffu);
 }
 
-/// A killed program leaves complete blocks.
+/// If the program is killed, the file ends with a complete block.
 TEST(CaptureWriter, EndsWithWholeFrame) {
     const test::TemporaryFolder folder;
     CaptureWriter writer(folder / "a.pcap");

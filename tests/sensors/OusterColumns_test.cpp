@@ -16,7 +16,7 @@ const OusterMode kOthers[] = {{512, 10}, {2048, 10}, {512, 20}, {4096, 5}};
 
 class OusterColumnsTest : public testing::Test {
  protected:
-    /// Number of packets with certain columns in some turns.
+    /// Number of packets with certain columns in a number of turns.
     std::size_t certain(const OusterMode& mode, int turns) {
         std::size_t count = 0;
         for (int k = 0; k < turns; ++k) {
@@ -35,7 +35,7 @@ class OusterColumnsTest : public testing::Test {
 TEST_F(OusterColumnsTest, MetadataColumnsAreCertain) {
     EXPECT_EQ(certain(kMode, 5), 5 * 64u);
     ouster_.setClock(5000000000000);
-    EXPECT_EQ(certain(kMode, 3), 3 * 64u);  // a clock step
+    EXPECT_EQ(certain(kMode, 3), 3 * 64u);  // after a clock step
     ouster_.setClock(0);
     EXPECT_EQ(certain(kMode, 3), 3 * 64u);
     EXPECT_EQ(columns_.restarts(), 0u);
@@ -60,8 +60,8 @@ TEST_F(OusterColumnsTest, DetectsOtherModeImmediately) {
     }
 }
 
-/// If the column rate is unchanged, the initialization number decides.
-TEST_F(OusterColumnsTest, RestartRequiresProofOfColumns) {
+/// If the column rate does not change, the initialization number shows the restart.
+TEST_F(OusterColumnsTest, RestartMakesColumnsUncertain) {
     for (const OusterMode& mode : kOthers) {
         certain(kMode, 3);
         ++ouster_.initialization;
@@ -102,8 +102,8 @@ TEST_F(OusterColumnsTest, LegacyPacketsUseEncoder) {
     }
 }
 
-/// With an unknown mode, excessive column numbers invalidate the turn.
-TEST_F(OusterColumnsTest, LargeColumnNumbersMeanOtherMode) {
+/// In an unknown mode, excessive column numbers invalidate the turn.
+TEST_F(OusterColumnsTest, LargeColumnNumbersSignalOtherMode) {
     OusterSensor sensor = sensor_;
     sensor.turn_s = 0;
     OusterColumns columns(sensor);

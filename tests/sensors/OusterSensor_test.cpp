@@ -39,7 +39,7 @@ TEST_F(OusterSensorTest, ReadsPacketHeader) {
                           frameIdOf(bytes, sensor));
     };
     EXPECT_EQ(headerOf("RNG19_RFL8_SIG16_NIR16"), std::tuple(true, 992137000142u, 4321));
-    EXPECT_EQ(headerOf("LEGACY"), std::tuple(true, 0u, 4321));  // has no serial number
+    EXPECT_EQ(headerOf("LEGACY"), std::tuple(true, 0u, 4321));  // packets without a serial number
 }
 
 TEST_F(OusterSensorTest, ReadsBeamsAndFormat) {
@@ -71,7 +71,7 @@ TEST_F(OusterSensorTest, PacketSizesMatchManual) {
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16", 128), 24832u);
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16_DUAL", 128), 33024u);
     EXPECT_EQ(bytesOf("RNG15_RFL8_NIR8", 128), 8448u);
-    // From the SDK: 32 bytes before and after 16 columns of 12 bytes plus these per pixel.
+    // From the SDK: 32 bytes on each side of 16 columns of 12 bytes plus these bytes per pixel.
     EXPECT_EQ(bytesOf("RNG19_RFL8_SIG16_NIR16_ZONE16", 128), 64u + 16 * (12 + 128 * 12));
     EXPECT_EQ(bytesOf("RNG15_RFL8_WIN8", 128), 64u + 16 * (12 + 128 * 4));
     EXPECT_EQ(bytesOf("RNG15_RFL8_NIR8_ZONE16", 128), 64u + 16 * (12 + 128 * 8));
@@ -94,7 +94,7 @@ TEST_F(OusterSensorTest, HeaderFollowsMetadataOrProfile) {
                 HasSubstr("'header_type' is 'NEW', not 'STANDARD' or 'FUSA'"));
 }
 
-TEST_F(OusterSensorTest, ReadsMetadataInSections) {
+TEST_F(OusterSensorTest, ReadsSectionedMetadata) {
     const OusterSensor sensor = read(R"({
         "sensor_info": {"prod_line": "OS-1-64", "prod_sn": "7"},
         "beam_intrinsics": {"beam_altitude_angles": [10, 0, -10], "beam_azimuth_angles": [0, 0, 0],
@@ -108,7 +108,7 @@ TEST_F(OusterSensorTest, ReadsMetadataInSections) {
     EXPECT_EQ(sensor.profile.name, "RNG15_RFL8_NIR8");
     EXPECT_NEAR(sensor.beam_origin_m, 0.012163, 1e-12);
     EXPECT_NEAR(sensor.beam_origin_up_m, 0.005, 1e-12);
-    EXPECT_EQ(sensor.windowColumns(), 512u);  // it wraps around
+    EXPECT_EQ(sensor.windowColumns(), 512u);  // the window wraps around
 }
 
 TEST_F(OusterSensorTest, ReadsMetadataWithoutFormat) {

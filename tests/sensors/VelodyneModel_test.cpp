@@ -21,7 +21,7 @@ TEST(VelodyneModel, DefaultBeamsMatchDataSheets) {
 
 TEST(VelodyneModel, RowsFollowElevation) {
     const auto rows = rowsOfLasers(defaultCalibration(velodyneModel("VLP-16")));
-    // The VLP-16 fires at -15, 1, -13, 3, ... degrees.
+    // The VLP-16 fires in the order -15, 1, -13, 3, ... degrees.
     EXPECT_EQ(rows,
               (std::vector<std::uint8_t>{0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15}));
 }
@@ -41,7 +41,7 @@ TEST(VelodyneModel, FiringTimesMatchManuals) {
     EXPECT_EQ(velodyneModel("VLP-16").firing_period_us, 55.296);
     EXPECT_EQ(velodyneModel("HDL-32E").laser_period_us, 1.152);
     EXPECT_EQ(velodyneModel("HDL-32E").firing_period_us, 46.080);
-    // A VLP-32C fires two lasers at once, the last pair 15 periods after the first.
+    // A VLP-32C fires two lasers at a time; the last pair fires 15 periods after the first.
     EXPECT_EQ(velodyneModel("VLP-32C").delayUs(1), 0.0);
     EXPECT_DOUBLE_EQ(velodyneModel("VLP-32C").delayUs(31), 15 * 2.304);
     EXPECT_DOUBLE_EQ(velodyneModel("VLP-16").packetPeriodUs(false), 1327.104);
@@ -59,7 +59,7 @@ TEST(VelodyneModel, Vlp32cHasAzimuthOffsets) {
         sum += laser.azimuth_deg;
     }
     EXPECT_NEAR(sum, 0.0, 1e-9);
-    EXPECT_EQ(lasers[0].azimuth_deg, -1.4);  // subtracted: the manual adds 1.4
+    EXPECT_EQ(lasers[0].azimuth_deg, -1.4);  // the decoder subtracts it, the manual adds 1.4
     EXPECT_NEAR(lasers[3].elevation_sine, std::sin(-15.639 * M_PI / 180), 1e-12);
 }
 
@@ -74,7 +74,7 @@ TEST(VelodyneModel, AzimuthReadingsAreClockwise) {
 }
 
 TEST(VelodyneModel, RejectsOtherModels) {
-    EXPECT_EQ(findVelodyneModel(0xa1), nullptr);  // VLS-128: different packets
+    EXPECT_EQ(findVelodyneModel(0xa1), nullptr);  // VLS-128: its packets differ
     EXPECT_THROW(velodyneModel("HDL-64E"), std::invalid_argument);
 }
 

@@ -4,7 +4,7 @@
 namespace hagen::sensors {
 namespace {
 
-/// A packet whose blocks have this header and the azimuths 0, 40, 80 ...
+/// A packet whose blocks have this header and azimuths 0, 40, 80 ...
 VelodynePacket packetOf(unsigned header) {
     VelodynePacket packet{};
     for (int block = 0; block < kVelodyneBlocks; ++block) {
@@ -33,10 +33,10 @@ TEST(VelodynePacket, OnlySoundBlocksHaveAzimuth) {
     VelodynePacket packet = packetOf(0xeeff);
     EXPECT_EQ(packet.azimuth(), 0);
     EXPECT_EQ(packet.azimuthOf(11), 440);
-    packet.bytes[0] = 0;  // no header
+    packet.bytes[0] = 0;  // invalid header
     EXPECT_EQ(packet.azimuthOf(0), -1);
     EXPECT_EQ(packet.azimuth(), 40);
-    packet.bytes[102] = 0xa0;  // 36000
+    packet.bytes[102] = 0xa0;  // 36000, one turn
     packet.bytes[103] = 0x8c;
     EXPECT_EQ(packet.azimuthOf(1), -1);
     EXPECT_EQ(packet.azimuth(), 80);

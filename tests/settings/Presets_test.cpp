@@ -17,7 +17,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Tests run from a build, which uses the presets of the sources.
+/// Tests run in a build, which uses the presets of the source folder.
 const fs::path kSources = fs::path(HAGEN_SOURCE_DIR) / "config";
 
 class PresetsTest : public testing::Test {
@@ -45,7 +45,7 @@ class PresetsTest : public testing::Test {
     std::optional<std::string> variable_ = variable();
 };
 
-TEST_F(PresetsTest, BuildFindsPresetsOfSources) {
+TEST_F(PresetsTest, BuildFindsSourcePresets) {
     for (const char* name : {"vlp16", "hdl32e", "paper", "common"}) {
         const fs::path file = presetFile(name);
         EXPECT_TRUE(fs::equivalent(file, kSources / (std::string(name) + ".yaml"))) << file;
@@ -57,7 +57,7 @@ TEST_F(PresetsTest, AddedFoldersRankBetweenUserAndInstalled) {
     folder_.write("library/vlp16.yaml", "zone_m: 11");
     folder_.write("library/drone.yaml", "zone_m: 12");
     folder_.write("user/drone.yaml", "zone_m: 13");
-    // The variable stays for the rest of the process, but the folder is removed with this test.
+    // The variable remains set in this process, but its folder is removed after this test.
     addPresetFolder(folder_ / "library");
     EXPECT_EQ(zoneOf(presetFile("vlp16")), 11);
     EXPECT_EQ(zoneOf(presetFile("drone")), 12);
@@ -83,7 +83,7 @@ TEST_F(PresetsTest, ExistingFileWins) {
     folder_.write("mine.yaml", "zone_m: 15");
     EXPECT_EQ(zoneOf(presetFile("mine.yaml")), 15);
     EXPECT_EQ(zoneOf(presetFile((folder_ / "mine.yaml").string())), 15);
-    // A folder of that name, such as the output of an earlier run, does not hide a preset.
+    // A folder with the preset's name, e.g. an earlier output, does not hide the preset.
     fs::create_directory(folder_ / "hdl32e");
     EXPECT_TRUE(fs::equivalent(presetFile("hdl32e"), kSources / "hdl32e.yaml"));
 }
@@ -93,7 +93,7 @@ TEST_F(PresetsTest, UserSettingsIncludePresets) {
     mergeSettings(folder_.write("drone.yaml", "include: hdl32e\nzone_m: 9"), settings);
     EXPECT_EQ(settings.sensor.model, "HDL-32E");
     EXPECT_EQ(settings.options.zone_m, 9);
-    // A file beside the settings takes precedence.
+    // A file next to the settings takes precedence.
     folder_.write("vlp16.yaml", "zone_m: 8");
     EXPECT_EQ(zoneOf(folder_.write("b.yaml", "include: [vlp16.yaml]")), 8);
     const fs::path wrong = folder_.write("c.yaml", "zone_m: 9\ninclude: hdl32");
@@ -124,7 +124,7 @@ TEST_F(PresetsTest, UnknownNameListsPresetsAndFolders) {
 TEST_F(PresetsTest, PathIsNotPreset) {
     EXPECT_THAT(test::messageOf([] { presetFile("conf/drone.yaml"); }),
                 HasSubstr("conf/drone.yaml: no such file"));
-    // A file from a guide, used in another folder.
+    // The path is from a guide, but used in another folder.
     EXPECT_THAT(test::messageOf([] { presetFile("config/hdl64e.yaml"); }),
                 HasSubstr("config/hdl64e.yaml: no such file; the preset's name is 'hdl64e'"));
     EXPECT_THROW(presetFile("../config/vlp16"), SettingsError);

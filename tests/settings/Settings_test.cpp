@@ -34,7 +34,7 @@ class SettingsTest : public testing::Test {
         mergeSettings(folder_.write("settings.yaml", text), settings);
         return settings;
     }
-    /// The error message for a rejected file; the settings must be unchanged.
+    /// The error message for a rejected file, which must not change the settings.
     std::string refusalOf(const std::string& text) {
         const fs::path file = folder_.write("refused.yaml", text);
         Settings settings;
@@ -149,7 +149,7 @@ TEST_F(SettingsTest, InfinityRoundTrips) {
     EXPECT_EQ(base::parseJson(json.dump()).at("context_m"), ".inf");
 }
 
-TEST_F(SettingsTest, SwitchesAreTrueOrFalse) {
+TEST_F(SettingsTest, SwitchesAcceptOnlyBooleans) {
     for (const OptionKey& key : optionKeys()) {
         if (!std::holds_alternative<bool Options::*>(key.field)) continue;
         for (const std::string word : {"true", "false"}) {
@@ -161,7 +161,7 @@ TEST_F(SettingsTest, SwitchesAreTrueOrFalse) {
     }
 }
 
-TEST_F(SettingsTest, SeedsAreOneOfThreeWords) {
+TEST_F(SettingsTest, SeedsAcceptOnlyThreeWords) {
     EXPECT_EQ(settingsOf("seeds: top_and_nearest").options.seeds, Seeds::TopAndNearest);
     EXPECT_EQ(settingsOf("seeds: lowest").options.seeds, Seeds::Lowest);
     EXPECT_EQ(settingsOf("seeds: every").options.seeds, Seeds::Every);
@@ -238,7 +238,7 @@ TEST_F(SettingsTest, RejectsDuplicateKeys) {
 TEST_F(SettingsTest, RejectsFractionsForWholeNumbers) {
     EXPECT_TRUE(says(refusalOf("window_size: 8.5"), "whole number"));
     EXPECT_TRUE(says(refusalOf("window_size: 8x"), "whole number"));
-    EXPECT_EQ(settingsOf("window_size: 010").options.window_size, 10);  // not octal
+    EXPECT_EQ(settingsOf("window_size: 010").options.window_size, 10);  // decimal, not octal
 }
 
 TEST_F(SettingsTest, RejectsInvalidYaml) {
@@ -246,7 +246,7 @@ TEST_F(SettingsTest, RejectsInvalidYaml) {
     EXPECT_TRUE(says(refusalOf("- 1\n- 2\n"), "key: value"));
     EXPECT_TRUE(says(refusalOf("just words"), "key: value"));
     EXPECT_TRUE(says(refusalOf("zone_m: 20\n---\nzone: 30\n"), "several documents"));
-    // yaml-cpp finds infinitely many documents in these.
+    // yaml-cpp would find infinitely many documents.
     EXPECT_TRUE(says(refusalOf(","), "invalid YAML"));
     EXPECT_TRUE(says(refusalOf(std::string(",nclude: (\0\0\0\0\0\0\0\1", 18)), "invalid YAML"));
     Settings settings;
@@ -297,7 +297,7 @@ TEST_F(SettingsTest, RecoveredSensorReplacesModel) {
     EXPECT_EQ(settings.sensorModel(&recovered).rows(), 32);
 }
 
-/// Columns, window size and components for a sensor with this number of rows.
+/// The columns, window size and components chosen for a sensor with this number of rows.
 std::vector<int> fitted(const Settings& settings, int rows, int max_columns) {
     RecoveredBeams recovered;
     recovered.sensor.elevations_rad.assign(rows, 0.0f);
@@ -319,7 +319,7 @@ TEST_F(SettingsTest, UnsetOptionsAdaptToRecoveredSensor) {
     }
 }
 
-TEST_F(SettingsTest, GivenOptionsStayForRecoveredSensor) {
+TEST_F(SettingsTest, RecoveredSensorKeepsGivenOptions) {
     EXPECT_EQ(fitted(settingsOf("columns: 870"), 8, 100), (std::vector{870, 4, 3}));
     EXPECT_EQ(fitted(settingsOf("window_size: 8"), 8, 100), (std::vector{100, 8, 5}));
     EXPECT_EQ(fitted(settingsOf("{window_size: 6, principal_components: 5}"), 8, 100),
@@ -386,7 +386,7 @@ TEST_F(SettingsTest, ReadsAirframeParts) {
                   "- sphere: {centre_m: [0, 0, -0.3], radius_m: 0.2}\n"
                   "- learned: legs.yaml\n");
     const Settings settings = settingsOf("include: drone/drone.yaml");
-    EXPECT_EQ(settings.files.back(), folder / "legs.yaml");  // so that no output replaces it
+    EXPECT_EQ(settings.files.back(), folder / "legs.yaml");  // so that no output overwrites it
     const auto& airframe = settings.airframe;
     ASSERT_EQ(airframe.parts.boxes.size(), 1u);
     EXPECT_EQ(airframe.parts.boxes[0].low_m, Eigen::Vector3f(-1, -0.5f, 0));
@@ -467,7 +467,7 @@ TEST_F(SettingsTest, LearnedBinsRoundTrip) {
         const auto file = folder_.write("bins.yaml", airframeBinsText(bins, "a\nfile: {"));
         const Image<float> again = readAirframeBins(file);
         ASSERT_EQ(again.rows(), rows);
-        EXPECT_LE((again - bins).abs().maxCoeff(), 0.0005001f);  // in millimetres
+        EXPECT_LE((again - bins).abs().maxCoeff(), 0.0005001f);  // bins are stored in millimetres
         EXPECT_TRUE(((again > 0) == (bins > 0)).all());
     }
     const auto file = folder_.write("none.yaml", airframeBinsText(Image<float>::Zero(90, 180), ""));
@@ -549,7 +549,7 @@ TEST(Settings, DumpRoundTrips) {
     mergeSettings(folder.write("none.yaml", dumpSettings(Settings())), again = Settings());
     EXPECT_FALSE(again.sensor.model);
     EXPECT_TRUE(again.given.count("zone_m"));
-    EXPECT_FALSE(again.given.count("columns"));  // columns would no longer adapt to the sensor
+    EXPECT_FALSE(again.given.count("columns"));  // so that columns adapt to the sensor
     EXPECT_THAT(dumpSettings(Settings()), HasSubstr("model: recovered"));
     EXPECT_TRUE(again.airframe.parts.isEmpty());
 }
@@ -577,7 +577,7 @@ TEST(Settings, TableListsEveryKey) {
     EXPECT_EQ(keys[0].range, "0.1 ... 1000");
 }
 
-/// The page repeats each limit.
+/// The page must repeat each limit.
 TEST(Settings, RangesMatchDocumentation) {
     std::ifstream page(std::filesystem::path(HAGEN_SOURCE_DIR) / "docs/settings.md");
     std::map<std::string, std::string> ranges;

@@ -18,7 +18,7 @@ Terrain rolling() {
 struct Tilt {
     double roll, pitch;
 };
-/// Roll and pitch of an attitude that rotates about z, then y, then x.
+/// Roll and pitch of an attitude composed of rotations about z, then y, then x.
 Tilt tiltOf(const SensorPose& pose) {
     const Eigen::Matrix3d r = pose.attitude.toRotationMatrix();
     return {std::atan2(r(2, 1), r(2, 2)), -std::asin(r(2, 0))};
@@ -42,7 +42,7 @@ TEST(FlightTest, KeepsAltitude) {
     }
 }
 
-/// Over level ground, the flight is lower by the mean ground height from 3 m behind to 3 m ahead.
+/// The flight is higher than over level ground by the mean height from 3 m behind to 3 m ahead.
 TEST(FlightTest, FollowsMeanGroundHeight) {
     TerrainParameters form;
     form.max_slope_rad = form.bump_m = 0;
@@ -56,7 +56,7 @@ TEST(FlightTest, FollowsMeanGroundHeight) {
     for (double time_s = 0; time_s < 60; time_s += 0.3) {
         const Eigen::Vector3d at = flight.at(time_s).position_m,
                               step = flight.at(time_s + 1e-3).position_m - at;
-        if (std::abs(step.y()) > 1e-9) continue;  // in a turn
+        if (std::abs(step.y()) > 1e-9) continue;  // skips turns
         double ground_m = 0;
         for (int i = -3; i <= 3; ++i) ground_m += terrain.height_m(at.x() + i, at.y()) / 7;
         EXPECT_NEAR(at.z() - over_level.at(time_s).position_m.z(), ground_m, 1e-6);
@@ -115,7 +115,7 @@ TEST(FlightTest, SlowsDownInTurns) {
         EXPECT_LT(path.distance_m(a.x(), a.y()), 1e-6);
     }
     EXPECT_NEAR(fastest, 8, 0.05);
-    EXPECT_NEAR(slowest * slowest / path.radius_m, 0.68, 0.05);  // a bank of 4 degrees
+    EXPECT_NEAR(slowest * slowest / path.radius_m, 0.68, 0.05);  // a bank angle of 4 degrees
 }
 
 TEST(FlightTest, IsContinuous) {

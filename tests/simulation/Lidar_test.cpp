@@ -36,7 +36,6 @@ FlightSettings flightAt(double altitude_m, double speed_m_s, double tilt_sd_deg)
     return settings;
 }
 
-/// A flight over a scene, and its sensor.
 struct Simulation {
     Simulation(SceneContent content, const FlightSettings& settings,
                const std::string& name = "VLP-16")
@@ -49,7 +48,7 @@ struct Simulation {
         Random random(seed);
         return simulateScan(scene, sensor, flight, time_s, random, faults, mount);
     }
-    /// A return in the map.
+    /// A return in map coordinates.
     Eigen::Vector3d inMap(const SimulatedScan& scan, std::size_t i, double start_s) const {
         const SensorPose pose = flight.at(start_s + static_cast<double>(scan.scan.time_s[i]));
         return pose.position_m +
@@ -75,7 +74,7 @@ TEST_P(EachSensor, ExactReturnsLieOnGround) {
     const SimulatedScan scan = setup.scan(7.3, noFaults());
     ASSERT_GT(scan.size(), 5000u);
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        // Rays start at their firing, lasers slightly later.
+        // Rays start at the position of their firing; lasers fire slightly later.
         const double range_m = static_cast<double>(scan.scan.range_m[i]);
         ASSERT_NEAR(setup.inMap(scan, i, 7.3).z(), 0, 1e-3 + 1e-4 * range_m) << i;
         ASSERT_EQ(scan.kind[i], ObjectClass::Terrain);
@@ -158,7 +157,7 @@ TEST(LidarTest, StartsBehindAndTurnsClockwise) {
     EXPECT_NEAR(scan.scan.azimuth_rad[3 * scan.size() / 4], -kPi / 2, 0.05);
 }
 
-/// Expects ranges with this standard deviation.
+/// Expects range errors with this standard deviation.
 void expectNoise(const Simulation& setup, double noise_m) {
     SensorErrorModel faults = noFaults();
     faults.min_noise_m = noise_m;
@@ -180,11 +179,11 @@ TEST(LidarTest, LosesWeakReturnsFirst) {
         return static_cast<double>(std::count(scan.scan.row.begin(), scan.scan.row.end(), row));
     };
     EXPECT_GT(count(some, 0), 0.99 * count(all, 0));  // 8 m away
-    EXPECT_LT(count(some, 7), 0.5 * count(all, 7));   // 115 m away, at 1 degree
+    EXPECT_LT(count(some, 7), 0.5 * count(all, 7));   // 115 m away, with the beam at 1 degree
 }
 
 /// Share of firings of the beam at 1 degree that hit a horizontal wire of 24 mm around the sensor
-/// at the height of that beam.
+/// at the beam's height.
 double shareHittingWire(double distance_m) {
     const FlightSettings hover = flightAt(3, 1e-3, 0);
     const SceneContent empty = emptyContent();
@@ -242,7 +241,7 @@ TEST(LidarTest, MeasuresLargeSurfacesOnAxis) {
 
 TEST(LidarTest, MixesRangesAtEdges) {
     SceneContent content = emptyContent();
-    Shape steps;  // bars 0.6 m before a wall, on the right-hand side of the path
+    Shape steps;  // bars 0.6 m in front of a wall, to the right of the path
     steps.addBox({-40, -19, -5}, {40, -18, 20});
     for (float x = -30; x < 30; x += 0.4f) steps.addBox({x, -17.5f, -5}, {x + 0.2f, -17.4f, 20});
     put(content, ObjectClass::Vehicle, 1, std::move(steps));
@@ -333,7 +332,7 @@ TEST(LidarTest, AppliesMount) {
 }
 
 TEST(LidarTest, AirframeStaysWithVehicle) {
-    // Azimuth and range of the four legs, below the vehicle's horizon.
+    // Azimuth and range of the four legs below the vehicle's horizon.
     const std::vector<std::pair<double, double>> legs{
         {0.80, 0.42}, {2.35, 0.44}, {-0.78, 0.41}, {-2.38, 0.45}};
     SensorErrorModel faults = noFaults();
@@ -351,7 +350,7 @@ TEST(LidarTest, AirframeStaysWithVehicle) {
         for (std::size_t i = 0; i < scan.size(); ++i) {
             ASSERT_EQ(scan.kind[i], ObjectClass::Airframe);
             const Eigen::Vector3d on_vehicle = mount * pointOf(scan, i);
-            if (on_vehicle.z() > 0) continue;  // rotors
+            if (on_vehicle.z() > 0) continue;  // skips the rotors
             const double azimuth = std::atan2(on_vehicle.y(), on_vehicle.x());
             bool is_leg = false;
             for (std::size_t leg = 0; leg < legs.size(); ++leg) {
@@ -437,13 +436,13 @@ TEST(Mid360, FramesBecomeUniform) {
     for (const int count : by_elevation) EXPECT_NEAR(count, 20000 * kFrames / 40.0, 250);
 }
 
-TEST(Mid360, HasErrorsOfManual) {
+TEST(Mid360, HasErrorsFromManual) {
     const SensorErrorModel errors = sensorErrors(sensorModel("Mid-360"));
     EXPECT_EQ(errors.footprint_rad, SensorErrorModel().footprint_rad);
     EXPECT_LT(errors.half_range_m, SensorErrorModel().half_range_m);
     EXPECT_EQ(sensorErrors(sensorModel("VLP-16")).half_range_m, SensorErrorModel().half_range_m);
     EXPECT_EQ(errors.min_noise_m, 0.018);
-    expectNoise(livoxIndoors(), errors.min_noise_m);  // walls at 25 m and more
+    expectNoise(livoxIndoors(), errors.min_noise_m);  // walls are at 25 m and more
 }
 
 TEST(LidarTest, DependsOnSeedAndScene) {

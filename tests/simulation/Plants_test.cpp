@@ -8,7 +8,7 @@
 namespace hagen::simulation {
 namespace {
 
-/// Share of level rays at a height and within a half width that pass through a shape.
+/// Share of level rays that pass through a shape, at one height and within a half width.
 double shareThatPasses(Shape shape, float z_m, float half_width_m) {
     const Scene scene = test::sceneOf(ObjectClass::Tree, 1, std::move(shape));
     std::vector<Ray> rays;
@@ -50,7 +50,7 @@ TEST(PlantsTest, TreesMatchParameters) {
     }
     EXPECT_NEAR(top, 6, 1.2);
     EXPECT_LT(widest, 1.7f * static_cast<float>(form.crown_radius_m));
-    EXPECT_GT(area, form.leaf_area_m2);  // plus its wood
+    EXPECT_GT(area, form.leaf_area_m2);  // leaves plus wood
 }
 
 TEST(PlantsTest, CropShowsGround) {
@@ -59,7 +59,7 @@ TEST(PlantsTest, CropShowsGround) {
     test::put(content, ObjectClass::Terrain, 0, test::plane());
     test::put(content, ObjectClass::Canopy, 0, makeCanopyPatch(20, random),
               Eigen::Affine3f(Eigen::Scaling(1.0f, 1.0f, 0.6f)));
-    std::vector<Ray> rays;  // 15 degrees down, across the rows
+    std::vector<Ray> rays;  // rays point 15 degrees down, across the rows
     for (float x = -5; x < 5; x += 0.013f) {
         rays.push_back({{x, -10, 2.5f}, Eigen::Vector3f(0, 0.966f, -0.259f)});
     }

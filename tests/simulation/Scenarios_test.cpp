@@ -61,7 +61,7 @@ TEST_P(EachScenario, HasClassesAndObjectNumbers) {
     EXPECT_EQ(numbers.count(0), 0u);
 }
 
-/// No obstacle within 0.5 m of the path at any altitude of flight.
+/// No obstacle is within 0.5 m of the path at any flight altitude.
 TEST_P(EachScenario, PathIsFree) {
     const Scene scene = makeScene(GetParam(), 2);
     std::vector<Ray> rays;
@@ -125,10 +125,10 @@ TEST(ScenariosTest, DenseForestsHaveMoreTrees) {
     EXPECT_GT(trees("forest-0.10"), 1.6 * trees("forest-0.05"));
 }
 
-/// Both sides of a trap start at the ends of its back and have the same direction.
+/// Both sides of a trap start at the ends of its back wall and are parallel.
 TEST(ScenariosTest, TrapsAreOpenOnOneSide) {
     const Scene scene = makeScene("u-trap", 1);
-    std::vector<Eigen::Vector2d> middles_m;  // walls: back, one side, the other side ...
+    std::vector<Eigen::Vector2d> middles_m;  // in the order back, one side, other side ...
     for (const SceneObject& object : scene.content().objects) {
         if (object.kind != ObjectClass::Wall) continue;
         const std::vector<Eigen::Vector3f>& vertices_m =

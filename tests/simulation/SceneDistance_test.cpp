@@ -27,7 +27,7 @@ double leastOf(const Function& function) {
     return function(0.5 * (low + high));
 }
 
-/// By search over all points of the triangle.
+/// Distance by search over all points of the triangle.
 double plainToTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                        const Eigen::Vector3d& c) {
     return leastOf([&](double u) {
@@ -44,7 +44,7 @@ double plainToRod(const Eigen::Vector3d& p, const Eigen::Vector4d& from,
                     }));
 }
 
-/// Distance to all surfaces of standing objects.
+/// Distance to the surfaces of all standing objects.
 double plainDistance(const SceneContent& content, const Eigen::Vector3d& p, double reach_m) {
     double nearest = reach_m;
     for (const SceneObject& object : content.objects) {
@@ -79,7 +79,7 @@ TEST(SceneDistanceTest, MatchesGeometry) {
     Shape wall, pole, ball;
     wall.addBox({5, -4, 0}, {5.3f, 4, 6});
     pole.addRod({{0, 4, -1, 0.2f}, {0, 4, 5, 0.1f}});
-    ball.addRod({{-4, 0, 2, 0.5f}, {-4, 0, 2, 0.3f}});  // the smaller ball within the larger
+    ball.addRod({{-4, 0, 2, 0.5f}, {-4, 0, 2, 0.3f}});  // the smaller ball is inside the larger
     put(content, ObjectClass::Wall, 1, wall);
     put(content, ObjectClass::Pole, 2, pole);
     put(content, ObjectClass::Mover, 3, ball);

@@ -89,7 +89,7 @@ TEST(SceneTest, TransformsShapesAndNormals) {
     Shape slope;  // slope 1:1 along x
     slope.addQuad({0, -1, 0}, {1, -1, 1}, {1, 1, 1}, {0, 1, 0});
     const Eigen::Affine3f pose = Eigen::Translation3f(10, 0, 0) * Eigen::Scaling(4.0f, 4.0f, 2.0f);
-    const Scene scene = sceneOf(ObjectClass::Wall, 1, slope, pose);  // now 1:2
+    const Scene scene = sceneOf(ObjectClass::Wall, 1, slope, pose);  // scaled to 1:2
     const RayHit hit = castOne(scene, {0, 0, 1}, {1, 0, 0});
     EXPECT_NEAR(hit.range_m, 12, 1e-4);
     EXPECT_NEAR(hit.normal.x(), -1 / std::sqrt(5.0f), 1e-5);
@@ -101,7 +101,7 @@ TEST(SceneTest, MoversMoveWithTime) {
     Shape box;
     box.addBox({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 2});
     content.shapes.push_back(box);
-    MovingObstacle mover;  // a large circle, so that it moves nearly straight along +y
+    MovingObstacle mover;  // the circle is so large that it moves nearly straight along +y
     mover.number = 9;
     mover.radius_m = 1000;
     mover.middle_m = {-990, 0};
@@ -110,7 +110,7 @@ TEST(SceneTest, MoversMoveWithTime) {
     const Scene scene(std::move(content));
     EXPECT_EQ(castOne(scene, {0, 0, 1}, {1, 0, 0}, 0).number, 9);
     EXPECT_NEAR(castOne(scene, {0, 0, 1}, {1, 0, 0}, 0).range_m, 9.5, 0.01);
-    // After 0.1 s, the mover is 1 m farther.
+    // After 0.1 s, the mover has moved by 1 m.
     EXPECT_EQ(castOne(scene, {0, 0, 1}, {1, 0, 0}, 1.0f).kind, ObjectClass::None);
     EXPECT_EQ(castOne(scene, {0, 1, 1}, {1, 0, 0}, 1.0f).kind, ObjectClass::Mover);
     std::vector<RayHit> hits;

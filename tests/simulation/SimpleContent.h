@@ -3,7 +3,7 @@
 
 namespace hagen::test {
 
-/// Level, smooth ground without grass or objects.
+/// Content with level, smooth ground and no grass or objects.
 inline simulation::SceneContent emptyContent() {
     simulation::TerrainParameters level;
     level.max_slope_rad = level.bump_m = level.roughness_m = level.grass_m = 0;

@@ -77,7 +77,7 @@ TEST(TerrainTest, MeshMatchesGround) {
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle) ASSERT_LT(corner, mesh.vertices_m.size());
     }
-    // Seen from above, the triangles are counter-clockwise and cover the terrain once.
+    // Seen from above, triangles are counter-clockwise and cover the terrain once.
     double area_m2 = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
         const auto at = [&](std::uint32_t corner) -> Eigen::Vector2d {

@@ -31,13 +31,13 @@ ByteString mcapText(const std::string& text) {
     return little(static_cast<std::uint32_t>(text.size())) + text;
 }
 
-/// "sensor_msgs/msg/PointCloud2".
+/// Converts a type name to the form "sensor_msgs/msg/PointCloud2".
 std::string typeOfRos2(const std::string& type) {
     const std::size_t slash = type.find('/');
     return type.substr(0, slash) + "/msg" + type.substr(slash);
 }
 
-/// Numbers the topics in their order, from 1.
+/// Assigns numbers to topics in their order, from 1.
 std::map<std::string, std::uint16_t> numbersOf(const std::vector<SentMessage>& messages) {
     std::map<std::string, std::uint16_t> numbers;
     for (const SentMessage& message : messages) {
@@ -237,7 +237,7 @@ ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shap
     all += mcapRecord(0x0f, little32(crcOf(all)));
     const std::uint64_t summary_at = all.size();
     ByteString summary = mcapRecord(0x0b, "statistics");
-    // The CRC covers the summary and the footer up to the CRC itself.
+    // The CRC covers the summary and the footer up to the CRC.
     summary += ByteString(1, '\2') + little(std::uint64_t{20}) + little(summary_at) +
                little(std::uint64_t{0});
     return all + summary + little32(crcOf(summary)) + magic;

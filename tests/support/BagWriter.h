@@ -11,7 +11,7 @@
 
 namespace hagen::test {
 
-/// The bytes of a message, field by field: as ROS 1 or as CDR.
+/// The bytes of a ROS 1 or CDR message, appended field by field.
 class MessageBytes {
  public:
     explicit MessageBytes(bool is_cdr) : is_cdr_(is_cdr) {
@@ -30,7 +30,7 @@ class MessageBytes {
         if (is_cdr_) bytes_ += '\0';
         return *this;
     }
-    /// Bytes of a fixed number, or preceded by a count.
+    /// Appends a fixed number of bytes; counted() writes their number first.
     MessageBytes& raw(const ByteString& bytes) {
         bytes_ += bytes;
         return *this;
@@ -39,9 +39,8 @@ class MessageBytes {
         return number(static_cast<std::uint32_t>(bytes.size())).raw(bytes);
     }
     MessageBytes& time(double time_s);
-    /// std_msgs/Header.
     MessageBytes& header(double time_s, const std::string& frame);
-    /// A position and a rotation about z.
+    /// Adds a position and a rotation about z.
     MessageBytes& pose(double x, double y, double z, double yaw_rad = 0);
     const ByteString& bytes() const { return bytes_; }
 
@@ -52,7 +51,7 @@ class MessageBytes {
 
 /// A message to write, in both serialisations.
 struct SentMessage {
-    std::string topic, type;  ///< "sensor_msgs/PointCloud2"
+    std::string topic, type;  ///< type, e.g. "sensor_msgs/PointCloud2"
     double time_s = 0;        ///< time of recording
     ByteString ros1, cdr;
 };
@@ -73,35 +72,34 @@ SentMessage sentMessage(const std::string& topic, const std::string& type, doubl
 /// A cloud with the fields x, y, z and intensity (float32).
 SentMessage cloudMessage(const std::string& topic, double time_s, const std::string& frame,
                          const std::vector<float>& xyzi);
-/// velodyne_msgs/VelodyneScan with the packets of a scan.
+/// A velodyne_msgs/VelodyneScan with the packets of a scan.
 SentMessage velodyneMessage(const std::string& topic, double time_s, const std::string& frame,
                             const mrpt::obs::CObservationVelodyneScan& scan, double period_s);
 SentMessage odometryMessage(const std::string& topic, double time_s, const std::string& frame,
                             const std::string& child, double x, double y, double z);
-/// One transform on /tf or /tf_static.
+/// A single transform on /tf or /tf_static.
 SentMessage transformMessage(const std::string& topic, double time_s, const std::string& parent,
                              const std::string& child, double x, double y, double z);
 SentMessage stringMessage(const std::string& topic, double time_s, const std::string& text);
 
-/// How a bag is written; sizes and CRCs are correct.
+/// Options for writing a bag; sizes and CRCs are always correct.
 struct BagShape {
     std::string compression = "none";    ///< "none", "bz2", "lz4", "zstd", or invalid
-    std::size_t messages_per_chunk = 4;  ///< of an MCAP; 0: no chunks
-    bool is_closed = true;               ///< a ROS 1 bag has an index
+    std::size_t messages_per_chunk = 4;  ///< MCAP only; 0: no chunks
+    bool is_closed = true;               ///< whether a ROS 1 bag has an index
 };
 
-/// A ROS 1 bag, and an MCAP with ROS 2 (or ROS 1) messages.
+/// Bytes of a ROS 1 bag, and of an MCAP with ROS 2 (or ROS 1) messages.
 ByteString ros1BagOf(const std::vector<SentMessage>& messages, const BagShape& shape = {});
 ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shape = {},
                   bool is_ros1 = false);
-/// Writes a ROS 2 database.
 std::filesystem::path writeDb3(const std::filesystem::path& file,
                                const std::vector<SentMessage>& messages);
 
-/// Bytes compressed by "bz2", "lz4" or "zstd"; unchanged for anything else.
+/// Compresses bytes by "bz2", "lz4" or "zstd"; other names leave them unchanged.
 ByteString packed(const ByteString& plain, const std::string& compression);
 
-/// A record of a ROS 1 bag, and of an MCAP.
+/// Records of a ROS 1 bag and of an MCAP.
 ByteString ros1Record(const std::vector<std::pair<std::string, ByteString>>& fields,
                       const ByteString& data);
 ByteString mcapRecord(unsigned op, const ByteString& content);

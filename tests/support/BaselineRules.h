@@ -7,7 +7,7 @@
 
 namespace hagen::test {
 
-/// Rules for every baseline: one label per return, range limits like the filter, reproducible
+/// Checks rules for all baselines: one label per return, range limits like the filter, reproducible
 /// labels, and no labels for an empty scan.
 inline void expectBaselineRules(const evaluation::Baseline& baseline, float zone_m) {
     SCOPED_TRACE(baseline.name);
@@ -20,7 +20,7 @@ inline void expectBaselineRules(const evaluation::Baseline& baseline, float zone
     scene.poles.push_back({5.0, 2.0, 0.2, 4.0});
     Scan scan = scanScene(scene, sensor, 360, {0.0, 0.0, 1.5}).scan;
     Random random(11);
-    for (int i = 0; i < 500; ++i) {  // and random returns that no scene has
+    for (int i = 0; i < 500; ++i) {  // random returns unlike any scene
         scan.x_m.push_back(random.real(-30.0f, 30.0f));
         scan.y_m.push_back(random.chance(0.1) ? kNoValue : random.real(-30.0f, 30.0f));
         scan.z_m.push_back(random.real(-8.0f, 8.0f));

@@ -102,7 +102,7 @@ ByteString pcapngOf(const std::vector<ByteString>& frames, double time_s) {
     };
     ByteString bytes = block(
         0x0a0d0d0a, little32(0x1a2b3c4d) + ByteString("\x01\0\0\0", 4) + ByteString(8, '\xff'));
-    bytes += block(1, ByteString("\x01\0\0\0", 4) + little32(65535));  // an interface: Ethernet
+    bytes += block(1, ByteString("\x01\0\0\0", 4) + little32(65535));  // an Ethernet interface
     const auto time_us = static_cast<std::uint64_t>(1e6 * time_s);
     for (const ByteString& frame : frames) {
         const auto size = static_cast<std::uint32_t>(frame.size());

@@ -10,7 +10,6 @@ namespace hagen::test {
 
 using ByteString = std::string;
 
-/// The bytes of a Velodyne packet.
 ByteString bytesOf(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket& packet);
 
 /// A UDP datagram to write.
@@ -19,17 +18,17 @@ struct SentDatagram {
     double time_s = 1700000000;
     std::uint32_t from_ip = 0x0a000064;
     std::uint16_t to_port = 2368;
-    std::uint16_t id = 0;  ///< of IP
+    std::uint16_t id = 0;  ///< IP identification
 };
 
-/// "\x12\x34", a number in network order.
+/// A number in network order, e.g. "\x12\x34".
 ByteString big16(unsigned value);
 ByteString big32(std::uint32_t value);
 ByteString little32(std::uint32_t value);
 
 /// The IP packet of a datagram, with a valid header but no checksums.
 ByteString ipOf(const SentDatagram& datagram);
-/// The IP packets of its fragments, with at most `most` bytes each.
+/// The IP packets of a datagram's fragments, with at most `max` bytes each.
 std::vector<ByteString> fragmentsOf(const SentDatagram& datagram, std::size_t max);
 /// An Ethernet frame; each tag adds a VLAN header.
 ByteString ethernet(const ByteString& ip, int vlan_tags = 0, unsigned type = 0x0800);
@@ -40,7 +39,7 @@ class CaptureWriter {
     explicit CaptureWriter(std::uint32_t link_type = 1);
 
     CaptureWriter& frame(const ByteString& frame, double time_s = 1700000000);
-    /// A frame that was captured up to `kept` bytes.
+    /// Writes a frame that was captured only up to `kept` bytes.
     CaptureWriter& cutFrame(const ByteString& frame, std::size_t kept);
     CaptureWriter& datagram(const SentDatagram& datagram);
     CaptureWriter& packets(const mrpt::obs::CObservationVelodyneScan& scan, double time_s,
@@ -53,10 +52,9 @@ class CaptureWriter {
     ByteString bytes_;
 };
 
-/// The same frames as a .pcapng file.
+/// A .pcapng file with the same frames.
 ByteString pcapngOf(const std::vector<ByteString>& frames, double time_s = 1700000000);
 
-/// Writes bytes to a file.
 std::filesystem::path writeBytes(const std::filesystem::path& file, const ByteString& bytes);
 
 }  // namespace hagen::test

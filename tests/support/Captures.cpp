@@ -18,8 +18,8 @@ CObservationVelodyneScan::Ptr realVlp16Scan() {
 
 CObservationVelodyneScan::Ptr readCapture(const std::filesystem::path& pcap,
                                           const char* calibration) {
-    // A pcap file: a header of 24 bytes; a frame: 16 bytes, the last 8 its lengths, then Ethernet,
-    // IP and UDP headers of 42 bytes, then the packet.
+    // A pcap file has a header of 24 bytes. A frame has 16 bytes, of which the last 8 are its
+    // lengths, then 42 bytes of Ethernet, IP and UDP headers, then the packet.
     constexpr std::size_t kFileHeader = 24, kFrameHeader = 16, kNetworkHeaders = 42;
     const std::string bytes = readFile(pcap);
     auto scan = CObservationVelodyneScan::Create();

@@ -1,5 +1,5 @@
 #pragma once
-// Point cloud files, written byte by byte as specified by their formats.
+// Writes point cloud files byte by byte as specified by their formats.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace hagen::test {
 
-/// The bytes of consecutive numbers.
+/// Appends numbers as consecutive bytes.
 class Packed {
  public:
     template <class Number>
@@ -21,7 +21,7 @@ class Packed {
         text.append(bytes, sizeof number);
         return *this;
     }
-    /// Big-endian.
+    /// Adds a big-endian number.
     template <class Number>
     Packed& addBig(Number number) {
         const std::size_t start = text.size();
@@ -34,7 +34,6 @@ class Packed {
     std::string text;
 };
 
-/// A point of these files.
 struct FilePoint {
     float x_m, y_m, z_m;
     std::uint16_t ring;
@@ -58,7 +57,7 @@ inline std::string pcdHeader(std::size_t points, const std::string& data) {
            count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA " + data + "\n";
 }
 
-/// With four bytes of padding.
+/// A binary PCD with four bytes of padding per point.
 inline std::string binaryPcd(const std::vector<FilePoint>& points) {
     Packed packed;
     for (const FilePoint& point : points) {
@@ -80,7 +79,7 @@ inline std::string asciiPcd(const std::vector<FilePoint>& points) {
     return text;
 }
 
-/// Packed as literal runs of 32 bytes at most, which is valid LZF.
+/// A PCD compressed as literal runs of at most 32 bytes, which is valid LZF.
 inline std::string compressedPcd(const std::vector<FilePoint>& points) {
     Packed columns;
     for (const auto& point : points) columns.add(point.x_m);
@@ -109,7 +108,7 @@ inline std::string plyHeader(std::size_t points, const std::string& format,
            more + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
-/// With a list before the vertices and another after them.
+/// A binary PLY with one list before the vertices and another after them.
 inline std::string binaryPly(const std::vector<FilePoint>& points, bool is_big) {
     Packed packed;
     const auto add = [&](auto number) { is_big ? packed.addBig(number) : packed.add(number); };
@@ -135,7 +134,7 @@ inline std::string asciiPly(const std::vector<FilePoint>& points) {
     return text + "1 0\n";
 }
 
-/// An array as NumPy saves it; the header is padded to 64 bytes.
+/// An array as saved by NumPy; the header is padded to 64 bytes.
 inline std::string npy(std::string header, const std::string& data) {
     while ((10 + header.size() + 1) % 64 != 0) header += ' ';
     header += '\n';
@@ -179,7 +178,7 @@ inline std::string las(const std::vector<FilePoint>& points, bool is_new = false
     put(24, std::uint8_t{1});
     put(25, static_cast<std::uint8_t>(is_new ? 4 : 2));
     put(94, static_cast<std::uint16_t>(header_size));
-    put(96, static_cast<std::uint32_t>(header_size + 3));  // after three other bytes
+    put(96, static_cast<std::uint32_t>(header_size + 3));  // three other bytes precede the points
     put(104, static_cast<std::uint8_t>(is_new ? 6 : 1));
     put(105, static_cast<std::uint16_t>(record));
     put(107, static_cast<std::uint32_t>(is_new ? 0 : points.size()));
@@ -216,7 +215,7 @@ inline std::string bin(const std::vector<FilePoint>& points) {
     return packed.text;
 }
 
-/// With rings, like nuScenes.
+/// A .bin file with rings, like nuScenes.
 inline std::string binWithRings(const std::vector<FilePoint>& points) {
     Packed packed;
     for (const FilePoint& point : points) {
@@ -226,7 +225,7 @@ inline std::string binWithRings(const std::vector<FilePoint>& points) {
     return packed.text;
 }
 
-/// One file of each format, with its name.
+/// A named file in each format.
 inline std::vector<std::pair<std::string, std::string>> cloudFiles(
     const std::vector<FilePoint>& points = filePoints()) {
     return {{"ascii.pcd", asciiPcd(points)},

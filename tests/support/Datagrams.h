@@ -6,7 +6,7 @@
 
 namespace hagen::test {
 
-/// Valid during the lifetime of `bytes`.
+/// A datagram that is valid during the lifetime of `bytes`.
 inline sensors::Datagram datagramOf(const std::string& bytes, std::int64_t time_ns = 0) {
     sensors::Datagram datagram;
     datagram.time_ns = time_ns;

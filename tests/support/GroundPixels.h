@@ -5,7 +5,7 @@
 
 namespace hagen::test {
 
-/// Pixels at these points, column by column with `rows` rows; a point with NaN is an empty pixel.
+/// Pixels at these points in columns of `rows` rows; a point with NaN is an empty pixel.
 inline PixelPoints pixelsAt(const std::vector<Eigen::Vector3f>& points_m, int rows = 1) {
     PixelPoints pixels;
     const Eigen::Index columns = static_cast<Eigen::Index>(points_m.size()) / rows;
@@ -34,7 +34,7 @@ std::vector<Eigen::Vector3f> groundPoints(float reach_m, float step_m, Height he
     return points;
 }
 
-/// The 0.75 m cell of a coordinate, counted from the sensor.
+/// The index of the 0.75 m cell at a coordinate, counted from the sensor.
 inline int cellFromSensor(float coordinate_m) {
     return static_cast<int>(std::floor(coordinate_m / 0.75f));
 }

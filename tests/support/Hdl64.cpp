@@ -11,7 +11,7 @@ ByteString little16(unsigned value) {
     return {static_cast<char>(value & 0xff), static_cast<char>(value >> 8 & 0xff)};
 }
 
-/// Forward and to the left of a laser, in the plane of rotation.
+/// The horizontal directions forward and left at an azimuth.
 Eigen::Vector3d forwardOf(double azimuth_deg) {
     return {std::cos(kRadians * azimuth_deg), -std::sin(kRadians * azimuth_deg), 0};
 }
@@ -37,7 +37,7 @@ Eigen::Vector3d Hdl64Laser::origin_m(double azimuth_deg) const {
 std::vector<Hdl64Laser> hdl64Lasers() {
     std::vector<Hdl64Laser> lasers;
     for (int i = 0; i < 64; ++i) {
-        const int place = i * 7 % 32;  // lasers are not in the order of their elevations
+        const int place = i * 7 % 32;  // lasers are not ordered by elevation
         const bool is_lower = i >= 32;
         const double vert_deg = is_lower ? -24.33 + 0.5 * place : -8.2 + place / 3.0;
         lasers.push_back({(i % 4 - 1.5) * 3.1, vert_deg, 90.0 + i, is_lower ? 12.0 : 20.0,
@@ -94,7 +94,7 @@ std::vector<ByteString> hdl64Packets(int firings, const Hdl64Range& range_m) {
             }
         }
         packet += little32(static_cast<std::uint32_t>(1000000 + first * 48));
-        packet += "9W";  // a status byte that means dual returns for smaller sensors
+        packet += "9W";  // a status byte that smaller sensors use for dual returns
         packets.push_back(packet);
     }
     return packets;

@@ -11,14 +11,14 @@ struct LivoxPoint {
     int tag = 0;
 };
 
-/// A packet as Livox SDK 2 defines it: points in millimetres (1) or centimetres (2), 5 us apart.
+/// A packet as defined by Livox SDK 2: points 5 us apart in millimetres (1) or centimetres (2).
 std::string livoxPacket(const std::vector<LivoxPoint>& points, std::int64_t time_ns, int number,
                         int data_type = 1);
 
-/// A packet of points all around, 2 m above flat ground with a wall at x = 6 m.
+/// A packet of points all around, 2 m above flat ground, with a wall at x = 6 m.
 std::string livoxPacketOfWall(int number, std::int64_t time_ns);
 
-/// Period of such packets: 96 points at 200 kHz.
+/// Duration of a packet: 96 points at 200 kHz.
 constexpr std::int64_t kLivoxPacket_ns = 480000;
 constexpr int kLivoxPoints = 96;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Local UDP, for tests of programs that send and receive.
+// Local UDP sockets for tests of programs that send and receive.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 
 namespace hagen::test {
 
-/// Seconds of the steady clock, as used by hagen::live.
+/// Time of the steady clock in seconds, as used by hagen::live.
 inline double steadyNow_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
@@ -34,7 +34,7 @@ class LocalUdp {
         sockaddr_in from;
     };
 
-    /// `wait`: timeout of receive() (default: none). `port` 0: any free port.
+    /// `wait`: timeout of receive() (default: none). `port`: 0 selects a free port.
     explicit LocalUdp(std::chrono::milliseconds wait = std::chrono::milliseconds(0),
                       std::uint16_t port = 0)
         : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {

@@ -17,7 +17,7 @@ struct OusterMode {
     std::string text() const { return std::to_string(columns) + "x" + std::to_string(turns_per_s); }
 };
 
-/// ousterJson() of a mode.
+/// Metadata (ousterJson()) for a mode.
 inline std::string ousterJsonOf(const OusterMode& mode,
                                 const std::string& profile = "RNG19_RFL8_SIG16_NIR16") {
     std::string json = ousterJson(profile);
@@ -30,13 +30,12 @@ inline std::string ousterJsonOf(const OusterMode& mode,
     return json;
 }
 
-/// A turning Ouster with changing modes.
+/// A rotating Ouster whose mode may change.
 class TurningOuster {
  public:
     explicit TurningOuster(const std::string& profile = "RNG19_RFL8_SIG16_NIR16")
         : profile_(profile) {}
 
-    /// The packets of the next turn.
     std::vector<std::string> turn(const OusterMode& mode) {
         const sensors::OusterSensor sensor =
             sensors::ousterSensorOf(ousterJsonOf(mode, profile_), "test");
@@ -55,7 +54,7 @@ class TurningOuster {
                 bytes[sensor.has_fusa_header ? 1 : 4] = initialization;
                 continue;
             }
-            for (std::size_t c = 0; c < sensor.columns_per_packet; ++c) {  // the head's angle
+            for (std::size_t c = 0; c < sensor.columns_per_packet; ++c) {  // encoder angle
                 const std::size_t column = p * sensor.columns_per_packet + c;
                 const auto angle = static_cast<std::uint32_t>(90112 / mode.columns * column);
                 std::uint8_t* const at = bytes + c * sensor.columnBytes() + 12;

@@ -12,7 +12,7 @@ void put(std::string& bytes, std::uint64_t value, int size) {
 
 void putPixel(std::string& bytes, const sensors::OusterProfile& profile,
               const sensors::OusterFrame& frame, std::size_t at) {
-    // The bits above the range are flags.
+    // The bits above the range contain flags.
     const std::uint32_t flags = 0x00f80000 & ~profile.range_mask;
     std::string pixel;
     if (profile.name == "LEGACY") {

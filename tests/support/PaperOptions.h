@@ -3,7 +3,7 @@
 
 namespace hagen::test {
 
-/// The filter as described in the paper: only its stages, no returns beyond the zone.
+/// The filter as described in the paper: only its stages, without returns beyond the zone.
 inline Options paperOptions() {
     Options options;
     options.context_m = options.zone_m;

@@ -18,8 +18,8 @@ constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kTurn = CObservationVelodyneScan::ROTATION_MAX_UNITS;  // 0.01 degrees
 constexpr double kHourUs = 3600e6;
 
-/// A raw packet, read byte by byte (little-endian): MRPT's struct is packed, and its accessors bind
-/// references to unaligned numbers.
+/// A raw packet, read byte by byte (little-endian), because MRPT's struct is packed and its
+/// accessors bind references to unaligned numbers.
 class Packet {
  public:
     explicit Packet(const CObservationVelodyneScan::TVelodyneRawPacket& raw)
@@ -52,13 +52,13 @@ class Packet {
 
 int wrapTurn(int reading) { return ((reading % kTurn) + kTurn) % kTurn; }
 
-/// A direction in the plane.
+/// A direction in the horizontal plane.
 struct Azimuth {
-    float sine, cosine;  ///< of the angle clockwise from x
+    float sine, cosine;  ///< of the clockwise angle from x
     float azimuth_rad;   ///< counter-clockwise from x, as in MRPT
 };
 
-/// Directions of all azimuth readings, and interpolation between them.
+/// The directions of all azimuth readings, with interpolation.
 class AzimuthTable {
  public:
     AzimuthTable() {
@@ -70,8 +70,8 @@ class AzimuthTable {
         }
     }
 
-    /// The nearest entry, rotated by the remainder: at most 0.005 degrees, where sin(d) = d and
-    /// cos(d) = 1 to 4e-9.
+    /// Rotates the nearest entry by the remainder of at most 0.005 degrees, for which sin(d) = d
+    /// and cos(d) = 1 within 4e-9.
     Azimuth operator()(float reading) const {
         const float nearest = std::round(reading);
         const float rest_rad = (reading - nearest) * static_cast<float>(radians(0.01));
@@ -94,8 +94,8 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
     return of_model;
 }
 
-/// Rotation of the sensor between the blocks of consecutive firings, in 0.01 degrees: the median
-/// over the scan, so that neither rounded azimuths nor a broken block shift returns.
+/// The sensor's rotation between the blocks of consecutive firings, in 0.01 degrees. The median
+/// over the scan prevents rounded azimuths and broken blocks from shifting returns.
 int turnOfBlocks(const CObservationVelodyneScan& observation) {
     std::vector<int> turns;
     for (const auto& raw : observation.scan_packets) {
@@ -115,7 +115,7 @@ int turnOfBlocks(const CObservationVelodyneScan& observation) {
 
 /// A laser's calibration for the decoder.
 struct Laser {
-    float sine, cosine;                  ///< of its elevation
+    float sine, cosine;                  ///< of the laser's elevation
     float distance_m, up_m, sideways_m;  ///< added to the measurement
     double azimuth_reading;              ///< subtracted from the azimuth, 0.01 degrees
     std::uint8_t row;

@@ -6,8 +6,8 @@
 
 namespace hagen::test {
 
-/// Reference implementation of decodePackets(): return by return, each direction from a table of
-/// all azimuths. All packets must be from one known model.
+/// Reference implementation of decodePackets() that decodes return by return, with a table of the
+/// directions of all azimuths. All packets must be from one known model.
 std::size_t decodePlainly(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan);
 
 }  // namespace hagen::test

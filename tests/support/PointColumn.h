@@ -6,7 +6,7 @@
 
 namespace hagen::test {
 
-/// The numbers of a field, which must exist.
+/// The values of a field, which must exist.
 inline std::vector<double> column(const observations::PointTable& table, const char* name) {
     const auto* const field = findField(table, {name});
     EXPECT_NE(field, nullptr) << name;

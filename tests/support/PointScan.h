@@ -7,7 +7,7 @@
 
 namespace hagen::test {
 
-/// A scan of these points, in the sensor frame, in this order.
+/// A scan of these points in the sensor frame, in this order.
 inline Scan scanOf(const SensorModel& sensor, const std::vector<Eigen::Vector3f>& points_m) {
     Scan scan;
     for (const Eigen::Vector3f& p : points_m) {
@@ -20,7 +20,7 @@ inline Scan scanOf(const SensorModel& sensor, const std::vector<Eigen::Vector3f>
     return scan;
 }
 
-/// The point of a beam at this azimuth and range.
+/// The point on a beam at this azimuth and range.
 inline Eigen::Vector3f onBeam(const SensorModel& sensor, int row, double azimuth_deg,
                               double range_m) {
     const double elevation_rad = static_cast<double>(sensor.elevations_rad[row]);

@@ -16,14 +16,14 @@
 
 namespace hagen::test {
 
-/// A conversion with the sensor VLP-16, and the returns of a scan of a pole for its input.
+/// A conversion for the sensor VLP-16, and the returns of its input, a scan of a pole.
 class PoleConversion {
  protected:
     PoleConversion() {
         observations::readObservation(*poleScanFrom(0, "lidar"), {}, observed_);
         conversion_.settings.sensor.model = "VLP-16";
     }
-    /// Converts; remarks are added to remarks_.
+    /// Converts the input and adds remarks to remarks_.
     convert::ConversionReport convertCounting() {
         convert::ConversionListener listener;
         listener.remark = [&](const std::string& what, const std::string& remark) {

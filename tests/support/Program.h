@@ -6,7 +6,6 @@
 
 namespace hagen::test {
 
-/// A temporary folder for a test.
 class TemporaryFolder {
  public:
     TemporaryFolder();
@@ -23,7 +22,7 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-/// The message of the std::runtime_error that a call throws; empty if it does not throw.
+/// The message of the std::runtime_error thrown by a call; empty if nothing is thrown.
 template <class Call>
 std::string messageOf(Call call) {
     try {
@@ -36,7 +35,6 @@ std::string messageOf(Call call) {
 
 std::string readFile(const std::filesystem::path& file);
 
-/// The outcome of a program.
 struct Outcome {
     int exit_code;
     std::string out, err;
@@ -44,10 +42,10 @@ struct Outcome {
 /// Runs a program with these arguments, without input or terminal.
 Outcome run(const std::string& program, const std::vector<std::string>& arguments);
 
-/// A file of Debian's mrpt-common: an outdoor VLP-16 scan. Empty if it is not installed.
+/// An outdoor VLP-16 scan from Debian's mrpt-common; empty if not installed.
 std::filesystem::path realScan();
 
-/// The folder in this environment variable; empty if it is not set. Tests are then skipped.
+/// The folder named by this environment variable; empty if not set. Tests are then skipped.
 std::filesystem::path dataFolder(const char* variable);
 
 }  // namespace hagen::test

@@ -19,12 +19,12 @@ class ProgramTest : public testing::Test {
  protected:
     using Arguments = test::Arguments;
 
-    /// Runs the program with the fixture's common arguments and these.
+    /// Runs the program with the fixture's common arguments and additional arguments.
     virtual Outcome run(const Arguments& arguments) const = 0;
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-    /// Runs the program, and expects exit code 0.
+    /// Runs the program and expects exit code 0.
     Outcome expectSuccess(const Arguments& arguments) const {
         Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -41,7 +41,7 @@ class ProgramTest : public testing::Test {
         EXPECT_EQ(files(), before) << words;
     }
 
-    /// The same for several cases: additional arguments, and words of the message.
+    /// Like expectFailure() for several cases of additional arguments and words of the message.
     void expectFailures(const Arguments& common, int exit_code,
                         const std::vector<std::pair<Arguments, std::string>>& cases) const {
         for (const auto& [arguments, words] : cases) {
@@ -49,7 +49,6 @@ class ProgramTest : public testing::Test {
         }
     }
 
-    /// All files in the folder.
     std::set<std::filesystem::path> files() const {
         return {std::filesystem::recursive_directory_iterator(folder_.path()), {}};
     }

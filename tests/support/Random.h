@@ -5,7 +5,7 @@
 
 namespace hagen::test {
 
-/// Random test data with the test's seed, so that failures are reproducible.
+/// Random test data from the test's seed, so that failures are reproducible.
 class Random {
  public:
     explicit Random(unsigned seed) : engine_(seed) {}
@@ -16,7 +16,7 @@ class Random {
     int whole(int min, int max) { return std::uniform_int_distribution<int>(min, max)(engine_); }
     bool chance(double probability) { return std::bernoulli_distribution(probability)(engine_); }
 
-    /// An image of values within [least, most], with a fraction of missing values.
+    /// An image with values in [min, max] and a share of missing values.
     Image<float> image(int rows, int columns, float min, float max, double missing) {
         Image<float> image(rows, columns);
         for (float& pixel : image.reshaped()) {

@@ -15,14 +15,12 @@ namespace hagen::test {
 
 constexpr double kBagStart_s = 1700000000;
 
-/// The content of a bag.
 struct ReadBag {
     recordings::BagSurvey survey;
     std::unique_ptr<recordings::BagScans> scans;
     std::vector<mrpt::obs::CObservation::Ptr> observations;
     std::string failed_because;
 
-    /// Observations with this label.
     std::vector<mrpt::obs::CObservation::Ptr> of(const std::string& label) const {
         std::vector<mrpt::obs::CObservation::Ptr> found;
         for (const auto& one : observations) {
@@ -50,7 +48,6 @@ inline ReadBag readBag(const std::filesystem::path& file,
     return read;
 }
 
-/// Bags made by the tests.
 class BagTest : public testing::Test {
  protected:
     ReadBag read(const std::vector<SentMessage>& messages,

@@ -8,7 +8,7 @@
 
 namespace hagen::test {
 
-/// Reads a log to its end or to an error. Number of entries read, and the error message.
+/// Reads a log to its end or to an error. Returns the number of entries and the error message.
 inline std::pair<std::size_t, std::string> readLog(const std::filesystem::path& file) {
     recordings::RawlogReader reader(file);
     try {

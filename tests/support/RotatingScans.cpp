@@ -37,12 +37,12 @@ mrpt::serialization::CSerializable::Ptr objectOf(const std::string& bytes) {
 std::string newerBytesOf(const mrpt::obs::CObservationRotatingScan& scan,
                          const std::vector<float>& points) {
     std::string bytes = bytesOf(scan);
-    // From the size of the range image to the end, as written by libs/maps of MRPT 2.5.8.
+    // Size from the range image's dimensions to the end, as written by libs/maps of MRPT 2.5.8.
     std::size_t images = 4 + 2 * scan.rangeImage.size() + 4 + scan.intensityImage.size() + 2;
     for (const auto& [name, layer] : scan.rangeOtherLayers) {
         images += 4 + name.size() + 2 * layer.size();
     }
-    bytes.insert(bytes.size() - 1 - images, 1, '\0');  // stored in the log
+    bytes.insert(bytes.size() - 1 - images, 1, '\0');  // stored inside the log
     std::string more =
         points.empty() ? raw(std::uint32_t{0}) : raw(scan.columnCount) + raw(scan.rowCount);
     for (const float coordinate : points) more += raw(coordinate);
@@ -67,7 +67,7 @@ RotatingImage rotatingImageOf(const mrpt::obs::CObservationVelodyneScan& packets
                                 0.01);
     };
     rotating.columnCount = static_cast<std::uint16_t>(24 * packets.scan_packets.size());
-    // The blocks' azimuths, 0.01 degrees, two firings each; clockwise.
+    // Azimuths of the blocks in 0.01 degrees, clockwise, two firings each.
     double turn = 0;
     const int start = packets.scan_packets.front().blocks[0].rotation();
     int before = start;

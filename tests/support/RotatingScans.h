@@ -9,16 +9,16 @@
 
 namespace hagen::test {
 
-/// How a VLP-16's scan is laid out as a CObservationRotatingScan.
+/// The layout of a VLP-16 scan as a CObservationRotatingScan.
 struct RotatingLayout {
-    bool has_points = false;        ///< as in MRPT 3
-    bool is_highest_first = false;  ///< row 0 is the highest beam, otherwise the lowest
+    bool has_points = false;        ///< points as in MRPT 3
+    bool is_highest_first = false;  ///< row 0 is the highest beam instead of the lowest
 };
 
-/// The same returns as a range image, a column for each firing, with 2 mm resolution; and the pixel
+/// The same returns as a range image with one column per firing and 2 mm resolution, and the pixel
 /// of each return, as column * rows + row.
 struct RotatingImage {
-    std::string bytes;  ///< the object, in a rawlog
+    std::string bytes;  ///< the object as in a rawlog
     std::vector<std::uint32_t> pixel_of_return;
 };
 RotatingImage rotatingImageOf(const mrpt::obs::CObservationVelodyneScan& packets, const Scan& scan,
@@ -28,8 +28,8 @@ RotatingImage rotatingImageOf(const mrpt::obs::CObservationVelodyneScan& packets
 std::string bytesOf(const mrpt::serialization::CSerializable& object);
 mrpt::serialization::CSerializable::Ptr objectOf(const std::string& bytes);
 
-/// The bytes of a scan in the layout of MRPT from 2.9 to 3: points are rows * columns * (x, y, z),
-/// row by row.
+/// The bytes of a scan in the layout of MRPT 2.9 to 3, in which points are rows * columns * (x, y,
+/// z), row by row.
 std::string newerBytesOf(const mrpt::obs::CObservationRotatingScan& scan,
                          const std::vector<float>& points = {});
 

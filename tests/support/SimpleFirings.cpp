@@ -14,7 +14,7 @@ observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneMo
     const std::vector<std::uint8_t> rows =
         sensors::rowsOfLasers(sensors::defaultCalibration(model));
     observations::Firings firings;
-    firings.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;  // 10 turns per second
+    firings.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;  // 10 Hz
     const int count = static_cast<int>(std::round(360.0 / firings.azimuth_step_deg));
     firings.range_m.setConstant(model.lasers, count, kNoValue);
     firings.intensity.setZero(model.lasers, count);

@@ -5,15 +5,15 @@
 
 namespace hagen::test {
 
-/// The measurements of a level Velodyne in a full revolution of 0.1 s, starting at `position_m` and
-/// moving at `velocity_m_s`, without returns beyond `range_limit_m`.
+/// The measurements of a level Velodyne during a full revolution of 0.1 s, starting at `position_m`
+/// and moving at `velocity_m_s`. Omits returns beyond `range_limit_m`.
 observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneModel& model,
                              const Eigen::Vector3d& position_m,
                              const Eigen::Vector3d& velocity_m_s = Eigen::Vector3d::Zero(),
                              double range_limit_m = 100.0);
 
-/// A VLP-16 scan from (x_m, 0, 2) of a pole at (12, 2) on flat ground, x_m seconds after a fixed
-/// time.
+/// A VLP-16 scan of a pole at (12, 2) on flat ground, measured from (x_m, 0, 2), x_m seconds after
+/// a fixed time.
 mrpt::obs::CObservationVelodyneScan::Ptr poleScanFrom(double x_m, const std::string& label);
 
 }  // namespace hagen::test

@@ -10,7 +10,7 @@ namespace {
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 /// Distance at which the ray enters the box: the last entry into one of the three pairs of planes,
-/// if it comes before the first exit.
+/// if it precedes the first exit.
 double rangeTo(const SimpleScene::Box& box, const Eigen::Vector3d& origin,
                const Eigen::Vector3d& direction) {
     double enter = 0.0, leave = kNothing;
@@ -24,8 +24,8 @@ double rangeTo(const SimpleScene::Box& box, const Eigen::Vector3d& origin,
     return enter > 0.0 && enter <= leave ? enter : kNothing;
 }
 
-/// Distance at which the ray hits the pole: |origin + t direction - axis|^2 = radius^2 in the
-/// plane.
+/// Distance at which the ray hits the pole, in the horizontal plane: |origin + t direction -
+/// axis|^2 = radius^2.
 double rangeTo(const SimpleScene::Pole& pole, const Eigen::Vector3d& origin,
                const Eigen::Vector3d& direction) {
     const Eigen::Vector2d from_axis(origin.x() - pole.x_m, origin.y() - pole.y_m);

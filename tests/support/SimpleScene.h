@@ -9,8 +9,8 @@
 
 namespace hagen::test {
 
-/// A world of flat ground (z = 0), floors at other heights, upright boxes and cylindrical poles,
-/// whose ranges and labels are known in closed form. Ground and floors are ROU, the rest is RoI.
+/// A world of flat ground (z = 0), floors at other heights, upright boxes and cylindrical poles.
+/// Ranges and labels have closed forms: ground and floors are ROU, the rest is RoI.
 struct SimpleScene {
     struct Box {
         Eigen::Vector3d low_m, high_m;
@@ -18,7 +18,7 @@ struct SimpleScene {
     struct Pole {
         double x_m, y_m, radius_m, height_m;
     };
-    /// Level, limited to a rectangle; seen only from above.
+    /// A level rectangle, visible only from above.
     struct Floor {
         Eigen::Vector2d low_m, high_m;
         double z_m;
@@ -31,7 +31,7 @@ struct SimpleScene {
 
 /// The first hit of a ray.
 struct Hit {
-    double range_m = std::numeric_limits<double>::infinity();  ///< infinite: nothing
+    double range_m = std::numeric_limits<double>::infinity();  ///< infinite if nothing is hit
     Label label = Label::Unclassified;
 };
 Hit castRay(const SimpleScene& scene, const Eigen::Vector3d& origin_m,
@@ -43,11 +43,11 @@ struct LabelledScan {
     std::vector<Label> truth;
 };
 
-/// Changes the hit of a ray with this direction in the world.
+/// Changes the hit of a ray; the direction is in world coordinates.
 using ChangeHit = std::function<void(const Eigen::Vector3d& direction, Hit& hit)>;
 
-/// A scan from `position_m`, level by default, with a ray through the centre of each pixel of an
-/// image with `columns`.
+/// A scan from `position_m`, level by default, with one ray through the centre of each pixel of an
+/// image with `columns` columns.
 LabelledScan scanScene(
     const SimpleScene& scene, const SensorModel& sensor, int columns,
     const Eigen::Vector3d& position_m,

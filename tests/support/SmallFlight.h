@@ -10,8 +10,8 @@
 
 namespace hagen::test {
 
-/// A closed-loop flight through a known world: planner and guidance only, without sensor, filter or
-/// maps.
+/// A closed-loop flight through a known world with only planner and guidance, without sensor,
+/// filter or maps.
 struct SmallFlight {
     Eigen::Vector3d start_m{0, 0, 2}, goal_m{40, 0, 2};
     Eigen::AlignedBox3d bounds_m{Eigen::Vector3d(-5, -20, 0), Eigen::Vector3d(45, 20, 6)};
@@ -19,7 +19,7 @@ struct SmallFlight {
     double speed_m_s = 4, latency_s = 0.1, longest_s = 60;
     double ground_m = 0;
     bool brakes_in_known_space = false;
-    /// Called before each plan, for moving worlds.
+    /// Called before each plan, to move the world.
     std::function<void(double time_s)> moves = [](double) {};
 };
 
@@ -31,8 +31,8 @@ struct SmallFlightResult {
     avoidance::VehicleState end;
 };
 
-/// Plans at 10 Hz for the state at which the command takes effect, moves at 50 Hz. Ends within 1 m
-/// of the goal or at the time limit.
+/// Plans at 10 Hz from the state at which the command takes effect, and moves at 50 Hz. Ends within
+/// 1 m of the goal or at the time limit.
 inline SmallFlightResult fly(const SolidWorld& world, const SmallFlight& flight) {
     const auto planner = avoidance::makePlanner(flight.planner);
     const auto guidance = avoidance::makeGuidance(flight.guidance);
@@ -83,7 +83,7 @@ inline SmallFlightResult fly(const SolidWorld& world, const SmallFlight& flight)
     return result;
 }
 
-/// Random trunks, none near start or goal.
+/// Random trunks, at least 2 m from start and goal.
 template <class RandomNumbers>
 SolidWorld forest(RandomNumbers& random, double density_per_m2, const SmallFlight& flight,
                   float radius_m = 0.15f) {

@@ -5,14 +5,14 @@
 
 namespace hagen::test {
 
-/// A perfect model of a world of simple solids with exact distances.
+/// A perfect model of a world of simple solids, with exact distances.
 class SolidWorld : public avoidance::WorldModel {
  public:
     SolidWorld& sphere(const Eigen::Vector3f& middle_m, float radius_m) {
         spheres_.push_back({middle_m, radius_m});
         return *this;
     }
-    /// Upright, infinitely high.
+    /// Adds an upright, infinitely high trunk.
     SolidWorld& trunk(const Eigen::Vector2f& middle_m, float radius_m) {
         trunks_.push_back({{middle_m.x(), middle_m.y(), 0}, radius_m});
         return *this;
@@ -25,7 +25,7 @@ class SolidWorld : public avoidance::WorldModel {
         ground_m_ = height_m;
         return *this;
     }
-    /// Space beyond this is unknown.
+    /// Makes space outside this box unknown.
     SolidWorld& knownWithin(const Eigen::AlignedBox3f& box_m) {
         known_m_ = box_m;
         return *this;
@@ -43,7 +43,7 @@ class SolidWorld : public avoidance::WorldModel {
     std::size_t bytes() const override { return 0; }
     Obstacles obstacles() const override { return {}; }
 
-    /// Distance to the nearest surface, at any range; 0 inside.
+    /// Distance to the nearest surface at any range; 0 inside a solid.
     float distance_m(const Eigen::Vector3f& point_m) const {
         float min_m = point_m.z() - ground_m_;
         for (const Ball& ball : spheres_) {

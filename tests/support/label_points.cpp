@@ -1,6 +1,6 @@
-// Labels scans with only the filter, to compare processors: label-points MODEL REPEAT FILE.bin...
-// Files are float32 x, y, z, intensity. Prints per file: returns, RoI, and a checksum of all labels
-// and obstacle numbers. One filter segments each scan REPEAT times.
+// Labels scans with the filter only, to compare processors: label-points MODEL REPEAT FILE.bin...
+// Files contain float32 x, y, z, intensity. Prints per file: returns, RoI, and a checksum of all
+// labels and obstacle numbers. A single filter segments each scan REPEAT times.
 #include <hagen/filter/HagenFilter.h>
 
 #include <array>

@@ -9,7 +9,7 @@
 #include "support/PolesAndWall.h"
 
 int main(int argc, char** argv) {
-    if (argc != 2 || argv[1][0] == '-') {  // --help is not a file
+    if (argc != 2 || argv[1][0] == '-') {  // --help is not a file name
         std::fprintf(stderr, "usage: make-poles-and-wall OUT.rawlog\n");
         return 2;
     }

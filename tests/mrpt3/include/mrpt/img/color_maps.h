@@ -1,5 +1,5 @@
 #pragma once
-// Colour maps return a TColorf in version 3.
+// In version 3, colour maps return a TColorf.
 #include_next <mrpt/img/color_maps.h>
 
 namespace mrpt::img {

@@ -1,5 +1,5 @@
 #pragma once
-// A substitute for the class of version 3.
+// A stub of the class in version 3.
 #include <mrpt/maps/CSimplePointsMap.h>
 
 namespace mrpt::maps {

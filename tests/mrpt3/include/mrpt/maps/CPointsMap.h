@@ -1,6 +1,6 @@
 #pragma once
-// The interface of version 3: no applyDeletionMask(), but copying of points with their fields, and
-// fields by name.
+// The interface of version 3: points are copied with their fields, fields have names, and
+// applyDeletionMask() is missing.
 #define applyDeletionMask(mask)                                                    \
     removedInVersion3(mask);                                                       \
     struct InsertCtx {};                                                           \
