@@ -8,7 +8,7 @@ namespace hagen::convert {
 
 namespace fs = std::filesystem;
 
-// The user's clouds may have such names, too: only the marker distinguishes them.
+// Only the marker distinguishes these clouds from the user's clouds, which may have the same names.
 const base::OutputKind kClouds{"a folder of labelled clouds",
                                [](const fs::path& within) {
                                    return within.extension() == ".ply" ||

@@ -134,7 +134,7 @@ class Converter {
                                                " of " + std::to_string(threads) + " threads");
         }
         report_.left_out_before = source_->entriesSkipped();
-        if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: all failed
+        if (!outputs_.hasAny()) outputs_.commit(report_);  // throws, because all outputs failed
         if (end.why) savePartialOutputs(end.why);
         return finish();
     }
@@ -164,7 +164,7 @@ class Converter {
         }
     }
 
-    /// Pictures take about 1 s each and are drawn sequentially: more threads would only read ahead
+    /// Pictures take about 1 s each and are drawn sequentially. More threads would only read ahead
     /// and delay an interruption.
     std::size_t wantedThreads() const {
         if (!conversion_.pictures.empty()) return 1;
@@ -186,8 +186,8 @@ class Converter {
     }
 
     void writeResults(ConvertedEntry& entry) {
-        // Inserting into a map takes seconds: otherwise entries read ahead would delay an
-        // interruption.
+        // Checked here too, because inserting into a map takes seconds, and entries read ahead
+        // would delay an interruption.
         if (outputs_.wantsMap() && !listener_.keep_going()) {
             throw recordings::Interrupted("interrupted");
         }
@@ -209,7 +209,8 @@ class Converter {
         listener_.progress(report_);
     }
 
-    /// Whether an entry is a result of an earlier run whose scan has just been segmented again.
+    /// Whether an entry is a result of an earlier run that is replaced, because its scan has just
+    /// been segmented again.
     bool isReplaced(const mrpt::serialization::CSerializable::Ptr& entry) const {
         const auto observation = std::dynamic_pointer_cast<CObservation>(entry);
         if (!observation || !observations::isResult(*observation)) return false;
@@ -402,7 +403,7 @@ class Converter {
     std::mutex listening_;  ///< another thread calls the listener while reading
     const ConversionListener listener_;
     std::unique_ptr<recordings::ScanSource> source_;
-    const Settings settings_;  ///< merged with the recording's own sensor
+    const Settings settings_;  ///< merged with the recording's sensor
     ConversionOutputs outputs_;
     /// Time of the last segmented scan, by sensor label.
     std::map<std::string, mrpt::Clock::time_point> last_segmented_;
@@ -439,7 +440,7 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     inputs.insert(inputs.end(), {conversion.input, conversion.poses, conversion.sensor_json,
                                  conversion.calibration});
     const fs::path externals = externalsOf(conversion.input);
-    std::error_code no_such;  // a name with the extension may be too long
+    std::error_code no_such;  // ignored; a name with the extension may be too long
     const bool has_externals = fs::is_directory(externals, no_such);
     if (has_externals) inputs.push_back(externals);
     base::checkApart(outputsOf(conversion), inputs);

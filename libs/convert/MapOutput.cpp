@@ -81,7 +81,7 @@ void MapOutput::throwFailures() const {
     if (!failures_.empty()) throw std::runtime_error(failures_);
 }
 
-/// The tree may fill the memory, so it is not copied: the formats that modify it most are written
+/// The tree may fill the memory, so it is not copied. The formats that modify it most are written
 /// last.
 void MapOutput::write() {
     std::vector<const base::OutputPath*> files;

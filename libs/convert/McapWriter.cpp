@@ -137,7 +137,7 @@ void McapWriter::write(std::uint16_t topic, std::uint64_t time_ns, const Bytes& 
     add(std::uint64_t{2 + 4 + 8 + 8 + message.size()}, chunk_);
     add(topic, chunk_);
     add(static_cast<std::uint32_t>(sequence), chunk_);
-    add(time_ns, chunk_);  // recording time, publishing time
+    add(time_ns, chunk_);  // recording time and publishing time
     add(time_ns, chunk_);
     chunk_.insert(chunk_.end(), message.begin(), message.end());
     ++sequence;
@@ -246,7 +246,7 @@ void McapWriter::putSummary() {
     add(offsets_at, footer);
     put(footer);
     Bytes end;
-    add(crc_, end);  // of the summary and the footer up to here
+    add(crc_, end);  // CRC of the summary and of the footer up to here
     put(end);
 }
 

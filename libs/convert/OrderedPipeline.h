@@ -18,7 +18,7 @@ namespace hagen::convert {
 /// failed, and no later item is accounted for.
 template <class Item>
 struct PipelineSteps {
-    std::function<bool(Item&)> read;  ///< in order; false: no more items
+    std::function<bool(Item&)> read;  ///< in order; returns false after the last item
     std::function<void(Item&)> work;
     std::function<void(Item&)> account;  ///< in order
     std::function<void(Item&)> pack;
@@ -28,7 +28,7 @@ struct PipelineSteps {
 /// How a pipeline ended.
 struct PipelineEnd {
     std::size_t threads;     ///< number of threads started
-    std::exception_ptr why;  ///< exception of the first failed item; null: end of input
+    std::exception_ptr why;  ///< exception of the first failed item; null at the end of the input
 };
 
 /// Admits items one by one, in the order of their numbers.
@@ -99,7 +99,7 @@ class OrderedPipeline {
         return true;
     }
 
-    /// False, and ends the pipeline, if a step throws. Keeps the first exception.
+    /// Returns false, and ends the pipeline, if a step throws. Keeps the first exception.
     template <class Step>
     bool attempt(const Step& step) {
         try {
@@ -123,9 +123,9 @@ class OrderedPipeline {
     Turnstile accounts_, writes_;
 };
 
-/// Runs all items through the steps on up to `threads` threads, including the caller's; on fewer if
-/// the system cannot start them (oneTBB would terminate the process). Holds one item per thread in
-/// memory.
+/// Runs all items through the steps on up to `threads` threads, including the caller's, or on fewer
+/// if the system cannot start more (oneTBB would terminate the process). Holds one item per thread
+/// in memory.
 template <class Item>
 PipelineEnd runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
     OrderedPipeline<Item> pipeline(steps);

@@ -11,8 +11,8 @@ void serialise(const mrpt::serialization::CSerializable& entry, Bytes& bytes);
 
 /// Writes a rawlog, renamed into place when complete.
 ///
-/// Entries are compressed in gzip members of at least 256 KiB uncompressed. Members end between
-/// entries. Boundaries depend only on the entries, so the same entries give the same bytes.
+/// Entries are compressed in gzip members of at least 256 KiB uncompressed. No entry spans two
+/// members. Boundaries depend only on the entries, so the same entries produce the same bytes.
 class RawlogWriter {
  public:
     /// Throws std::runtime_error naming the file; see OutputPath.
@@ -23,12 +23,12 @@ class RawlogWriter {
     /// reported some entries late, or only by commit().
     void write(const mrpt::serialization::CSerializable& entry);
 
-    /// The steps of write(), for several threads. serialise() and packGzipMember() may run on any
-    /// thread. gather() and writeMember() must be called in the log's order; they may run
+    /// The steps of write(), for use on several threads. serialise() and packGzipMember() may run
+    /// on every thread. gather() and writeMember() must be called in the log's order; they may run
     /// concurrently with each other.
     ///
     /// Adds entries that must stay in one member. A completed member is moved to `member`, which is
-    /// otherwise empty. Leaves `entries` in an unspecified state.
+    /// otherwise empty. `entries` is then unspecified.
     void gather(Bytes& entries, Bytes& member);
     /// Writes a member compressed by packGzipMember().
     void writeMember(const Bytes& packed);

@@ -23,13 +23,13 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
         out << "# Beams of this recording (" << sensor.name << "), lowest first\n"
             << "sensor:\n  model: custom\n  elevations_deg: [" << std::setprecision(9);
         for (int row = 0; row < sensor.rows(); ++row) {
-            // As float, pi / 2 exceeds 90 degrees.
+            // Limits the value, because float pi / 2 exceeds 90 degrees.
             const double elevation_deg =
                 std::clamp(degrees(sensor.elevations_rad[row]), -90.0, 90.0);
             out << (row > 0 ? ", " : "") << elevation_deg;
         }
         out << "]\n";
-    } else {  // a custom sensor would have rings
+    } else {  // not described as a custom sensor, which would have rings
         out << "# Sensor of this recording\nsensor:\n  model: " << sensor.name << "\n";
     }
     // A recording may exceed the limits of settings.

@@ -17,7 +17,7 @@ using observations::NumberType;
 using observations::PointField;
 using observations::PointTable;
 
-constexpr double kFarForFloat_m = 8192.0;  // float32 spacing is 1 mm
+constexpr double kFarForFloat_m = 8192.0;  // from here on, float32 values are 1 mm apart
 
 /// A field of the output.
 struct WrittenField {
@@ -172,7 +172,7 @@ std::string recordsOf(const std::vector<WrittenField>& fields, const PointTable&
 }
 
 std::vector<std::string> changesWithin(const Limits& limits, const PointTable& table) {
-    constexpr double kExact = 9007199254740992.0;  // 2^53
+    constexpr double kExact = 9007199254740992.0;  // 2^53, the largest exact integer of a double
     std::vector<std::string> changes;
     for (const WrittenField& field : fieldsOf(limits, table)) {
         if (field.type == field.from.type || field.from.type == NumberType::Float64) continue;

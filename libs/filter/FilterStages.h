@@ -1,4 +1,4 @@
-// The stages in order, for filters that process a whole scan or a sector.
+// The stages in order, for filters of a whole scan or of a sector.
 #pragma once
 #include <hagen/filter/CellArea.h>
 #include <hagen/filter/Levelling.h>
@@ -19,14 +19,14 @@ void labelByAngles(const PixelDirections& directions, float min_range_m,
                    const std::optional<Attitude>& horizon, const Options& options,
                    SegmentationResult& result, FilterWorkspace& work);
 
-// Beyond the paper: use the detected ground to find more ground and too little clearance. The plane
-// is fitted to `columns` of the image (null: evenly spaced columns).
+// Beyond the paper: the detected ground improves the ROU labels and reveals insufficient clearance.
+// The plane is fitted to `columns` of the image (null: evenly spaced columns).
 
-/// Whether the options require the ground.
+/// Whether the options require the ground plane.
 bool usesGround(const Options& options);
 
-/// Finds the ground plane, the pixels in its frame, and whether ground is visible and has a
-/// surface.
+/// Finds the ground plane, transforms the pixels to its frame, and decides whether ground is
+/// visible and has a surface.
 void findGroundPlane(const Scan& scan, const PixelDirections& directions,
                      const std::optional<Attitude>& horizon, const Options& options,
                      const std::vector<std::int32_t>* columns, SegmentationResult& result,
@@ -37,7 +37,7 @@ void findGroundSurface(const Image<Label>& labels, const Options& options,
                        const std::vector<std::int32_t>* columns, Ground& ground,
                        FilterWorkspace& work);
 
-/// Computes the maximum ground height per pixel. Requires `ground.tops` of the same area.
+/// Computes the maximum ground height per pixel. Requires `ground.tops` for the same area.
 void findTolerances(const Options& options, const CellArea& area, Ground& ground,
                     FilterWorkspace& work);
 

@@ -21,8 +21,8 @@ namespace hagen {
 /// allocations. Workspaces have no state and may be replaced at any time. Threads must not share
 /// one.
 struct FilterWorkspace {
-    Scan turned;                     // if the sensor is not upright
-    PixelDirections directions;      // of an image with a subset of the columns
+    Scan turned;                     // the scan in the image frame if the sensor is not upright
+    PixelDirections directions;      // for an image of some of the columns
     ProjectionWorkspace projection;  // stage 1
     DeadBeamsWorkspace dead_beams;   // stage 2
     MaximaWorkspace maxima;          // stage 3

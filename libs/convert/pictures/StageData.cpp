@@ -217,7 +217,7 @@ class DataBlockWriter {
 
         data_.half_width_m = 1.15f * view_.options.zone_m;
         const float pixel_m =
-            data_.half_width_m / 400;  // several returns on one pixel are drawn once
+            data_.half_width_m / 400;  // so that several returns on one pixel are drawn once
         struct Point {
             int x_px, y_px;
             std::size_t colour;

@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels, const Eige
             };
             const auto cells = [&](int axis) { return (along(axis) + kReach_m) * (1 / kCell_m); };
             const float u = cells(0), v = cells(1), z_m = along(2);
-            if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;  // also if empty
+            if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;  // skips NaN (empty) too
             Lowest& low = lowest[static_cast<int>(u) * kCells + static_cast<int>(v)];
             if (low.pixel < 0 || z_m < low.z_m) low = {pixel, z_m};
         }
@@ -92,9 +92,9 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
 
 namespace {
 
-// Conditions for ground.
-constexpr float kMinHeight_m = 0.1f;   // of the sensor above ground
-constexpr float kMinCosine = 0.7071f;  // of the sensor's tilt, 45 degrees
+// Conditions for the plane to be ground.
+constexpr float kMinHeight_m = 0.1f;   // of the sensor above the ground
+constexpr float kMinCosine = 0.7071f;  // of the sensor's tilt (45 degrees)
 constexpr Eigen::Index kMinPixels = 20;
 
 /// The shortest rotation that turns a vector upwards, unless it points straight down. Equals

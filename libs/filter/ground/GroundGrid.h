@@ -1,4 +1,4 @@
-// The grid of the ground surface and of the objects on it.
+// The grid of the ground surface and of the objects above it.
 #pragma once
 #include <hagen/filter/GroundSurface.h>
 #include <cstddef>

@@ -10,7 +10,7 @@ struct Place {
     bool is_on_grid;
 };
 
-/// Along one axis. Empty pixels are in cell 0.
+/// The place along one axis. Empty pixels are in cell 0.
 Place placeOf(float coordinate_m) {
     constexpr float kLast = kGridStride - 1;
     const float place =

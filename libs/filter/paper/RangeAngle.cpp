@@ -51,7 +51,7 @@ void allCarried(const Image<float>& range_angle_rad, bool to_beam_above,
         const float* from = range_angle_rad.data() + column * angles;
         float* to = pixel_angle_rad.data() + column * (angles + 1);
         to[0] = from[0];
-        // The pixels between have a beam above and one below.
+        // The pixels in between have a beam above and a beam below.
         const float *const below = from, *const above = from + 1;
         columnCarried(to_beam_above ? above : below, to_beam_above ? below : above,
                       static_cast<int>(angles) - 1, to + 1);

@@ -25,7 +25,7 @@ SeriesComponents decomposeSeries(const Eigen::ArrayXf& series, int window_size) 
     for (Eigen::Index k = 0; k < columns; ++k) {
         trajectory.col(k) = series.segment(k, window_size).matrix().cast<double>();
     }
-    // Eigenvalues ascend, eigenvectors are columns.
+    // The solver sorts eigenvalues in ascending order; eigenvectors are columns.
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(trajectory *
                                                                 trajectory.transpose());
     SeriesComponents components;

@@ -77,7 +77,7 @@ void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blo
     }
 }
 
-/// `own`: the sums of each block. Most blocks have no plants.
+/// `own` contains the sums of each block. Most blocks have no plants.
 void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>& blocks) {
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         blocks[block] = {};
@@ -93,7 +93,7 @@ void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>
     }
 }
 
-/// Raises the tolerance of each pixel to the canopy of its block, unless something in its cell
+/// Raises the tolerance of each pixel to the canopy of its block, unless an object in its cell
 /// protrudes from it; NaN stays NaN.
 void raiseTolerances(const PixelCells& cells, const CellTops& tops,
                      const BlocksAndNone<float>& canopy_m, Image<float>& tolerance_m) {

@@ -14,7 +14,7 @@ namespace hagen {
 /// returns more than another 0.1 m higher has no canopy: its object stands on the ground. These
 /// statistics are over 13 x 13 blocks of 4 x 4 cells; with fewer than 30 observed cells, no canopy
 /// is assumed. `tops` are relative to the surface; tolerances of empty pixels are NaN. `area` is
-/// that of `tops`; only pixels at least kCanopyReach inside it get a complete result.
+/// the area of `tops`; only pixels at least kCanopyReach inside it get a complete result.
 void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m,
                     const CellArea& area = {});
 

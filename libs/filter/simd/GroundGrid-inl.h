@@ -60,7 +60,7 @@ HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& inte
     return hn::CountTrue(d, is_chosen);
 }
 
-/// The values at these indices.
+/// Gathers the values at these indices.
 template <class D>
 HWY_INLINE hn::Vec<D> gatherAt(D d, const float* HWY_RESTRICT values,
                                const std::uint16_t* HWY_RESTRICT index) {
@@ -72,7 +72,7 @@ HWY_INLINE hn::Vec<D> gatherAt(D d, const float* HWY_RESTRICT values,
 /// The cells of points; border cells for points that are not on the grid.
 template <class D>
 struct GridCells {
-    hn::Vec<hn::RebindToSigned<D>> i, j;  ///< 1 for the first cell, 0 for the border before it
+    hn::Vec<hn::RebindToSigned<D>> i, j;  ///< 1 is the first cell, 0 the border before it
     hn::Vec<hn::RebindToSigned<D>> cell;
     hn::Mask<D> is_on_grid;
 };

@@ -23,8 +23,8 @@ HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 
-/// The maximum of each cell and the four at its sides, limited to 0...kTallest_m. The border gets
-/// the values of the adjacent cells.
+/// The maximum of each cell and its four neighbours, limited to 0...kTallest_m. The border gets the
+/// values of the adjacent cells.
 void TallestAroundIn(const float* HWY_RESTRICT top_m, const CellArea& area,
                      float* HWY_RESTRICT tallest_m) {
     const hn::ScalableTag<float> d;

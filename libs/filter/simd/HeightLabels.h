@@ -29,8 +29,8 @@ struct ToleranceWorkspace {
 /// m cell or one of its four neighbours contains a tall object: there, a return slightly above the
 /// ground is more likely the foot of an obstacle than grass. Within three times the sensor's height
 /// above the ground, this reduction decreases to zero: from above, feet are detected without it.
-/// `pixels` in the ground frame, `tops` of their heights above the surface. Results for pixels
-/// outside the cells of `area` are undefined.
+/// `pixels` must be in the ground frame; `tops` must be computed from their heights above the
+/// surface. Results for pixels outside the cells of `area` are undefined.
 void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, float sensor_height_m,
                       Image<float>& tolerance_m, ToleranceWorkspace& work,

@@ -38,7 +38,7 @@ void HeightsAboveIn(std::size_t points, const float* HWY_RESTRICT x_m,
                 const auto c =
                     hn::Add(hn::Mul(coordinate_m, hn::Set(d, 1 / GroundSurface::kCell_m)),
                             hn::Set(d, 0.5f * kCells - 0.5f));
-                const auto positive = hn::IfThenElseZero(hn::Gt(c, hn::Zero(d)), c);  // not NaN
+                const auto positive = hn::IfThenElseZero(hn::Gt(c, hn::Zero(d)), c);  // 0 for NaN
                 return hn::Min(positive, hn::Set(d, kCells - 1));
             };
             const auto u = cells(hn::LoadU(d, x_m + first + k));

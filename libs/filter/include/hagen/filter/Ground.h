@@ -18,14 +18,14 @@ struct Ground {
 
     /// Whether a surface was fitted. If not, the members below are from an older scan.
     bool has_surface = false;
-    PixelCells cells;              ///< of the pixels, on the surface grid
+    PixelCells cells;              ///< the pixels' cells on the surface grid
     Image<std::uint8_t> is_level;  ///< 1: the pixel looks like ground (GroundEvidence.h)
-    GroundSurface surface;         ///< under the ROU
+    GroundSurface surface;         ///< fitted under the ROU pixels
     Image<float> height_m;         ///< of each pixel above the surface
     CellTops tops;                 ///< the highest point in each cell
     Image<float> tolerance_m;      ///< pixels up to this height are ground
-    /// Per block (PixelCells.h), then beyond the grid: whether the surface there is ground
-    /// (requireEvidence()). Empty if not requested.
+    /// For each block (PixelCells.h), and for positions beyond the grid: whether the surface there
+    /// is ground (requireEvidence()). Empty if not requested.
     std::vector<std::uint8_t> has_evidence;
 };
 

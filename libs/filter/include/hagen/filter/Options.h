@@ -1,22 +1,22 @@
 #pragma once
 namespace hagen {
 
-/// How the labelling interprets section III-E; see Labelling.h.
+/// Interpretation of section III-E by the labelling; see Labelling.h.
 enum class Seeds {
     Lowest,         ///< the lowest pixel of a column is ground; its region is ROU
-    TopAndNearest,  ///< the paper's literal text: regions of the top and nearest pixels are RoI
-    Every           ///< no labelling: every pixel is ROU; only the ground stages label
+    TopAndNearest,  ///< the paper's literal text: the regions of top and nearest pixels are RoI
+    Every           ///< every pixel is ROU; only the ground stages find RoI
 };
 
-/// All settings of the filter, named as in settings files. config/paper.yaml has our interpretation
-/// of the paper; the defaults differ.
+/// All settings of the filter, named as in settings files. config/paper.yaml contains our
+/// interpretation of the paper; the defaults differ.
 struct Options {
     /// Radius of the avoidance zone; farther returns are ROU.
     float zone_m = 20.0f;
     /// Returns up to this range are projected, as context of the zone; at least zone_m.
     float context_m = 48.0f;
-    /// I_w, image columns per revolution; at most the sensor's firings per revolution, because a
-    /// column without returns separates its neighbours.
+    /// I_w, image columns per revolution; not more than the sensor's firings per revolution,
+    /// because a column without returns separates its neighbours.
     int columns = 870;
     /// Fill one-pixel gaps of the depth image between vertical neighbours that differ by less than
     /// this; 0: off.

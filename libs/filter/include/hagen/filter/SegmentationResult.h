@@ -17,7 +17,7 @@ struct SegmentationResult {
     Image<float> proximity_m;        ///< zone_m - depth, at least 0
     std::vector<Maximum> maxima;     ///< stage 3, with birth, death and persistence
     Image<float> sharpened_m;        ///< stage 4, proximity or depth
-    Image<float> merged_m;           ///< stage 5, depth again
+    Image<float> merged_m;           ///< stage 5, converted back to depth
     Image<float> range_angle_rad;    ///< stage 6
     Image<float> smoothed_rad;       ///< stage 7
     Image<float> pixel_angle_rad;    ///< the angle of each pixel, used for labelling
