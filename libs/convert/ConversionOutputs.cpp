@@ -184,7 +184,7 @@ void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::O
     const bool is_named = !recorded.name.empty();
     const std::string name = is_named ? recorded.name : scanName(recorded.entry);
     fs::path folder = pictures_->folderOf(label) / name;
-    while (!fs::create_directory(folder)) folder += "_";  // name used by another scan of the sensory frame
+    while (!fs::create_directory(folder)) folder += "_";  // used by another scan
     const std::string title =
         lastNameOf(conversion_.input) + ", " + label + (is_named ? ", scan " : ", entry ") + name;
     // The view in which the filter processes a sensor that is not upright: image rows differ from

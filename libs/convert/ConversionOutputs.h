@@ -86,7 +86,7 @@ class ConversionOutputs {
     std::optional<McapOutput> mcap_;
     std::optional<MapOutput> map_;
     std::optional<base::OutputPath> stats_;
-    std::array<std::atomic<bool>, kParts> is_given_up_{};  ///< atomic because steps run on several threads
+    std::array<std::atomic<bool>, kParts> is_given_up_{};  ///< read on several threads
     std::mutex why_mutex_;
     std::array<std::string, kParts> why_;
     std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label

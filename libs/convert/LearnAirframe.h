@@ -17,7 +17,7 @@ struct AirframeLearning {
     std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
     std::filesystem::path file;         ///< FILE.yaml; the picture is FILE.png
     bool overwrite = false;             ///< replace existing outputs
-    double seconds = 10;                ///< part of the recording to use, from the first selected scan
+    double seconds = 10;                ///< duration to use, from the first selected scan
     std::size_t from = 0;               ///< first and last entry to read, both inclusive
     std::size_t to = std::numeric_limits<std::size_t>::max();
     std::vector<std::string> sensor_labels;  ///< label of the LiDAR; empty if there is only one
@@ -30,7 +30,7 @@ struct AirframeReport {
     std::size_t unreadable_scans = 0;  ///< scans reported as unreadable
     int bins = 0;                      ///< masked bins
     double share_of_sphere = 0;        ///< masked fraction of the sphere
-    double share_of_seen = 0;          ///< masked fraction of the bins with a return, by solid angle
+    double share_of_seen = 0;          ///< masked fraction of the bins with a return
     std::filesystem::path picture;
     /// True if the mask is so large that it probably covers more than the airframe.
     bool isSuspicious() const { return share_of_sphere > 0.2 || share_of_seen > 0.2; }

@@ -20,7 +20,7 @@ void checkOptions(const Options& options, int beams) {
     for (const OptionKey& key : optionKeys()) {
         const double value =
             std::visit([&](auto field) { return static_cast<double>(options.*field); }, key.field);
-        if (!(value >= asOption(key.min, key) && value <= asOption(key.max, key))) {  // rejects NaN too
+        if (!(value >= asOption(key.min, key) && value <= asOption(key.max, key))) {  // or NaN
             std::ostringstream message;
             message << key.name << " is " << value << ", but must lie within " << key.min << " and "
                     << key.max;

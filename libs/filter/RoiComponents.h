@@ -16,7 +16,7 @@ struct ComponentsWorkspace {
     ColumnLinks links;       ///< between RoI pixels; between two runs, only the lowest
     std::size_t runs = 0;
     std::vector<std::int32_t> run;       ///< per pixel of the image
-    std::vector<std::uint32_t> nearest;  ///< per run: minimum depth as an integer with the same order
+    std::vector<std::uint32_t> nearest;  ///< per run: minimum depth as an order-preserving integer
     std::vector<std::int32_t> first;     ///< per run: an earlier run linked to it, or itself
     std::vector<std::uint64_t> closest;  ///< per first run of a component: its nearest run
     std::vector<std::int32_t> number;    ///< per run: its component

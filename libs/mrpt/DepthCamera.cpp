@@ -30,7 +30,7 @@ ImagePoint distorted(const TCamera& camera, const ImagePoint& at) {
             y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
 }
 
-/// The inverse: a fixed-point iteration as in OpenCV.
+/// The inverse of distorted(), by fixed-point iteration as in OpenCV.
 ImagePoint undistorted(const TCamera& camera, const ImagePoint& seen) {
     if (camera.distortion == DistortionModel::none) return seen;
     constexpr int kMaxSteps = 20;

@@ -28,7 +28,7 @@ using mrpt::maps::CPointsMapXYZI;
 using mrpt::maps::CSimplePointsMap;
 using mrpt::serialization::CArchive;
 
-/// Reads a vector of numbers other than float: two names, then the numbers. MRPT's own reader
+/// Reads a vector of numbers other than float: two type names, then the numbers. MRPT's own reader
 /// trusts the count in the file.
 template <class Vector>
 void readVector(CArchive& in, Vector& values) {
@@ -151,7 +151,7 @@ class GenericCloud : public CPointsMapXYZI {
         likelihoodOptions.writeToStream(out);
     }
 
-    /// The class supports only these types; others are written as float64.
+    /// The type in which numbers are written: float64 for types that the class does not support.
     static NumberType writtenType(NumberType type) {
         const bool is_kept =
             type == NumberType::Float32 || type == NumberType::UInt16 || type == NumberType::UInt8;
@@ -210,7 +210,7 @@ class GenericCloud : public CPointsMapXYZI {
         takeColor();
     }
 
-    /// Returns why the field cannot be kept; empty: kept.
+    /// Keeps a field, or returns why it cannot be kept.
     template <class Number>
     std::string keep(const std::string& name, const std::vector<double>& values) {
         if (name.empty()) return "no name";

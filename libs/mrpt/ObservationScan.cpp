@@ -102,7 +102,7 @@ FieldsOfReturns fieldsOfReturns(const CObservationPointCloud& observation) {
     return found;
 }
 
-/// Lists the unused fields of a newer MRPT's cloud, and warnings about others.
+/// Lists the unused fields of a newer MRPT's cloud, and warnings about used fields.
 std::string remarkOnFields(const CObservationPointCloud& observation, const FieldsOfReturns& used,
                            bool are_rings_used) {
     std::string names;
@@ -158,11 +158,11 @@ void readLocated(const CObservationPointCloud& observation, const LocatedCloud& 
     takeOwnSensor(settings, observed);
     readPoints(observation, observed.scan);
     locateBeams(observed.sensor, observed.scan);
-    observed.scan.row = cloud.rows();  // exact, also for near returns
+    observed.scan.row = cloud.rows();  // exact even for near returns
     observed.scan.time_s = cloud.times_s();
 }
 
-/// Reads a cloud whose beams are known from the settings, recovery, or a field.
+/// Reads a cloud whose beams come from the settings, recovery, or a field.
 void readCloud(const CObservationPointCloud& observation, const Settings& settings,
                const SharedBeams& beams, ObservedScan& observed) {
     readPoints(observation, observed.scan);

@@ -133,7 +133,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder to write pictures to");
     }
-    for (const std::string& picture : pictures) {  // removes old pictures, which could be mistaken for new ones
+    for (const std::string& picture : pictures) {  // old ones could be mistaken for new
         std::error_code error;
         fs::remove(folder / picture, error);
         if (error) {
@@ -156,7 +156,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setpgroup(&attributes, 0);
     char program[] = "gnuplot", no_settings_of_the_users[] = "-d";
-    char script_file[] = "/dev/stdin";  // given by name, because gnuplot reads standard input byte by byte
+    char script_file[] = "/dev/stdin";  // by name, because "-" is read byte by byte
     char* const arguments[] = {program, no_settings_of_the_users, script_file, nullptr};
     pid_t child = 0;
     std::vector<char*> environment = withoutTerminal();

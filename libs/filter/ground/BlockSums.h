@@ -8,7 +8,7 @@
 namespace hagen {
 
 constexpr int kBlockCells = 4;
-constexpr int kBlocks = GroundSurface::kCells / kBlockCells;  // along each side; blocks are 3 m wide
+constexpr int kBlocks = GroundSurface::kCells / kBlockCells;  // along each side, each 3 m wide
 
 /// A value per block, column by column.
 template <class Value>

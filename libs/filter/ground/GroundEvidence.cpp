@@ -20,7 +20,7 @@ bool isStep(const PixelPoints& pixels, Eigen::Index low, Eigen::Index high) {
     const auto length_m2 = [&](const Eigen::Vector3f& step) {
         return step.x() * step.x() + step.y() * step.y() + step.z() * step.z();
     };
-    for (Eigen::Index between = low + 1; between < high; ++between) {  // pixels in between must be empty or close
+    for (Eigen::Index between = low + 1; between < high; ++between) {  // must be empty or close
         if (length_m2(pixels.at(between) - below) >= kShort_m * kShort_m) return false;
     }
     const Eigen::Vector3f step = pixels.at(high) - below;

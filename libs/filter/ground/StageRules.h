@@ -29,12 +29,12 @@ constexpr float kSteepest = 0.3f;    // maximum slope of visible ground [-0.10, 
 constexpr float kSteepestUnseen = 0.15f;  // of ground hidden by objects [-0.05, -0.52]
 constexpr float kDiagonal = 1.41421356f;  // distance of diagonal neighbours, in cells
 constexpr float kEnvelope_m = 0.15f;      // maximum height above the steepest slopes [+0.02, -0.01]
-constexpr float kAboveLowest_m = 0.05f;   // max. height of candidates above the lowest [+0.19, -0.44]
-constexpr float kBelowLowest_m = 0.1f;    // and max. depth below it [0, 0]
+constexpr float kAboveLowest_m = 0.05f;   // max. height above the lowest candidate [+0.19, -0.44]
+constexpr float kBelowLowest_m = 0.1f;    // max. depth below it [0, 0]
 constexpr float kSureReturns = 5;         // a mean over this many has full weight [-0.20, +0.20]
-constexpr float kClose_m = 0.2f;          // max. distance to the coarse surface, plus per metre: [+0.29, -0.67]
-constexpr float kCloseBelow_per_m = 0.01f;   // below the surface [-0.04, +0.01]
-constexpr float kCloseAbove_per_m = 0.005f;  // above the surface [+0.11, -0.19]
+constexpr float kClose_m = 0.2f;          // max. distance to the coarse surface [+0.29, -0.67]
+constexpr float kCloseBelow_per_m = 0.01f;   // and per metre of range, below it [-0.04, +0.01]
+constexpr float kCloseAbove_per_m = 0.005f;  // and above it [+0.11, -0.19]
 }  // namespace surface_rules
 
 namespace evidence_rules {

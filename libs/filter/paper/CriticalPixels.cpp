@@ -148,7 +148,7 @@ void findCriticalPixels(const FramedLevels& framed, CriticalPixels& critical) {
     };
     const int last = framed.columns - 1;
     if (last < 0) return;
-    findIn(0, std::min(1, last), false, false);  // the last column is the left neighbour of the first
+    findIn(0, std::min(1, last), false, false);  // the last column is to the left of the first
     findIn(std::min(1, last), last, true, false);
     findIn(last, last + 1, true, true);
     for (int row = 0; row < framed.rows; ++row) {  // link frame pixels to the originals

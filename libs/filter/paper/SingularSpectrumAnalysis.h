@@ -35,7 +35,8 @@ void smoothColumns(const Image<float>& values, int window_size, int principal_co
 
 /// The components of one series of N values, as in stage 7.
 struct SeriesComponents {
-    /// W eigenvalues of X X^T, descending; a component's share of X is its eigenvalue divided by their sum.
+    /// W eigenvalues of X X^T, descending; a component's share of X is its eigenvalue divided by
+    /// their sum.
     Eigen::VectorXd eigenvalues;
     /// N x W: column c is the elementary series of component c, the hankelized projection of X onto
     /// its eigenvector. The sum of the first PC columns is the result of smoothColumns(), the sum

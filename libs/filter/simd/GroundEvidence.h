@@ -14,7 +14,7 @@ struct GroundEvidenceWorkspace {
     /// For each pixel, whether a level step leads to the pixel above (1), the next (2), ... (4),
     /// (8).
     std::vector<std::uint8_t> steps;
-    std::vector<std::uint8_t> close;  ///< for each pixel, 1 if close to the surface, 2 if also level
+    std::vector<std::uint8_t> close;  ///< per pixel, 1 if close to the surface, 2 if also level
 };
 
 /// Marks the pixels that look like ground (1, otherwise 0), in the ground frame. A pixel and the

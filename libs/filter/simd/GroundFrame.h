@@ -21,8 +21,8 @@ struct GroundFrameWorkspace {
         std::size_t size = 0;
     };
 
-    std::vector<std::int32_t> cell, height;  ///< of each pixel; heights as integers with the same order
-    std::vector<std::int64_t> lowest;        ///< for each cell, height and index of its lowest pixel
+    std::vector<std::int32_t> cell, height;  ///< per pixel; heights as order-preserving integers
+    std::vector<std::int64_t> lowest;        ///< per cell, height and index of its lowest pixel
     std::vector<std::int32_t> occupied;      ///< cells with a pixel
     Points points;
 };

@@ -64,7 +64,7 @@ void smoothHeights(const std::vector<float>& weighted_m, const std::vector<float
             const int cell = gridColumn<kSide>(j) + i;
             const V weight = binomial<kSide>(weights.data() + cell);
             hn::StoreU(weight, d, smooth.weight.data() + cell);
-            const bool is_empty = hn::AllTrue(d, hn::Eq(weight, hn::Zero(d)));  // true for most vectors
+            const bool is_empty = hn::AllTrue(d, hn::Eq(weight, hn::Zero(d)));  // usually true
             const V smooth_m = is_empty ? hn::Zero(d) : binomial<kSide>(weighted_m.data() + cell);
             hn::StoreU(smooth_m, d, smooth.weighted_m.data() + cell);
         }
@@ -136,7 +136,7 @@ HWY_INLINE void push(D d, const HeightGrid& coarse, const HeightGrid& fine,
                      float* HWY_RESTRICT filled_m, int stride) {
     using VD = hn::Vec<D>;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    HWY_ALIGN float below_m[kGridStride + 64];  // heights of the coarse grid at the fine grid's cells
+    HWY_ALIGN float below_m[kGridStride + 64];  // refined heights of the coarse grid
     for (int j = 0; j < fine.cells; ++j) {
         refineColumn(d, coarse, j, below_m);
         const float* HWY_RESTRICT weight = fine.weight.data() + fine.column(j);

@@ -35,7 +35,7 @@ class AutopilotLink {
         bool is_simulated = false;  ///< the vehicle's clock may pause or run slow
         SectorDistances::Settings directions = aheadFirst();
     };
-    /// Counts of sent and received messages by name.
+    /// Numbers of sent and received messages by name.
     using Counts = std::vector<std::pair<std::string, std::size_t>>;
     /// Called by the sending thread.
     using Remark = std::function<void(const std::string&)>;
@@ -53,7 +53,7 @@ class AutopilotLink {
     void take(const LabelledSector& sector);
     /// The sensor's motion as reported by the autopilot.
     SensorMotion motionAt(double time_s) const;
-    /// Sends the last message and stops the thread.
+    /// Sends a last message with all directions unknown, and stops the thread.
     void stop();
     Counts counts() const;
 

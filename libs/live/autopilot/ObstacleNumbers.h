@@ -17,11 +17,11 @@ struct Obstacle {
 };
 
 /// Tracks and numbers the nearest obstacles. Neighbouring directions whose points are less than 1 m
-/// apart form one obstacle. It keeps its number while its nearest point, corrected for the
+/// apart form one obstacle. An obstacle keeps its number while its nearest point, corrected for the
 /// vehicle's motion, moves at most 1.5 m between calls.
 class ObstacleNumbers {
  public:
-    /// Returns up to `most` obstacles, nearest first.
+    /// Returns up to `max` obstacles, nearest first.
     std::vector<Obstacle> nearest(const Directions& directions, std::size_t max,
                                   const std::optional<VehiclePose>& pose);
 

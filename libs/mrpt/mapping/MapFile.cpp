@@ -108,7 +108,7 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file) {
 void saveMapInPlace(octomap::OcTree& whole, const fs::path& file, const fs::path& named) {
     checkMapFile(named);
     if (named.extension() == ".3Dscene") return saveScene(whole, file, named);
-    whole.updateInnerOccupancy();  // stale while a map is being built
+    whole.updateInnerOccupancy();  // inner nodes are stale while a map is being built
     errno = 0;
     std::ofstream out(file, std::ios::binary);
     if (!out) throwWriteError(named);

@@ -30,7 +30,7 @@ struct Conversion {
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
     std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot, .3Dscene: one map in each format
     observations::ScanMapOptions octomap;         ///< resolution and contents of the map
-    std::filesystem::path stats;                  ///< JSON file: settings, counts, one line per scan
+    std::filesystem::path stats;                  ///< JSON: settings, counts, one line per scan
     bool overwrite = false;                       ///< replace existing outputs
 
     std::filesystem::path poses;  ///< vehicle poses (TUM, KITTI); empty for the poses of the log
@@ -85,8 +85,8 @@ struct ConversionReport {
     Mcap mcap;                            ///< contents of the MCAP
     std::size_t scans_in_map = 0;         ///< scans in the OctoMap (those with a pose)
     std::size_t scans_with_attitude = 0;  ///< scans with known roll and pitch
-    std::string first_without_attitude;   ///< "entry 0 (lidar)"; empty if all scans have an attitude
-    bool is_attitude_of_poses = false;    ///< interpolated from poses; otherwise the latest of the log
+    std::string first_without_attitude;   ///< "entry 0 (lidar)"; empty if there is none
+    bool is_attitude_of_poses = false;    ///< interpolated poses; otherwise the log's latest
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
     Settings settings;    ///< settings of the conversion, merged with a scan folder's sensor.yaml

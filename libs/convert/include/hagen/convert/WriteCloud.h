@@ -25,7 +25,8 @@ const char* extensionOf(OutputFormat format);
 void writeCloud(const std::filesystem::path& file, OutputFormat format,
                 const observations::PointTable& table);
 
-/// Messages for the user about numbers that are rounded when a table is written. Empty if there are none.
+/// Messages for the user about numbers that are rounded when a table is written. Empty if there are
+/// none.
 std::vector<std::string> changesWhenWritten(OutputFormat format,
                                             const observations::PointTable& table);
 

@@ -34,7 +34,7 @@ struct ExtractionRules {
 /// Workspace of extractReturns(). Reuse it between scans to avoid allocations; it has no state.
 /// Lists may have unused entries at the end.
 struct ExtractionWorkspace {
-    std::vector<std::int32_t> verdict;  ///< 2 * component + 1 if ROU; [0] is for returns without a pixel
+    std::vector<std::int32_t> verdict;  ///< 2 * component + 1 if ROU; [0] is for no pixel
     std::vector<std::int32_t> number;   ///< the new number of each component
     std::vector<std::uint32_t> roi, rou, unclassified;
 };

@@ -4,7 +4,7 @@
 
 namespace hagen::live {
 
-/// Latency statistics of a run of any length in constant memory: 1 us to 100 s in steps of 2 %.
+/// Latency statistics in constant memory, however long the run: 1 us to 100 s in steps of 2 %.
 class LatencyHistogram {
  public:
     /// Adds a time; values that are not positive count as the minimum.

@@ -12,7 +12,7 @@ namespace hagen::live {
 
 /// An IPv4 address and a port.
 struct Address {
-    std::uint32_t ip = 0;  ///< 0: all local interfaces
+    std::uint32_t ip = 0;  ///< 0 for all local interfaces
     std::uint16_t port = 0;
 
     bool isMulticast() const { return (ip >> 28) == 0xe; }
