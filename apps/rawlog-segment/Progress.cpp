@@ -25,7 +25,7 @@ std::string clockOf(double seconds) {
     return text;
 }
 
-/// The common text of remarks that differ only in numbers and names.
+/// The text of a remark without numbers and names, which similar remarks have in common.
 std::string kindOf(const std::string& remark) {
     std::string kind;
     bool is_quoted = false;

@@ -88,7 +88,7 @@ void declare(Program& app, Flags& flags) {
     app.option("--sensor-label", conversion.sensor_labels,
                "segment only this LiDAR; may be repeated")
         .once()
-        .mayBeEmpty()  // labels may be empty
+        .mayBeEmpty()  // sensor labels may be empty
         .group("Input");
     app.option("--poses", conversion.poses,
                "vehicle trajectory (TUM), or one sensor pose per scan (KITTI); overrides the "
@@ -240,7 +240,7 @@ void check(const Flags& flags) {
         throw UsageError("--learn-airframe", "does not use poses: omit --poses");
     }
     if (!(flags.learn_seconds > 0)) throw UsageError("--learn-seconds", "must be positive");
-    if (!(conversion.octomap.resolution_m > 0)) {  // NaN passes any range check
+    if (!(conversion.octomap.resolution_m > 0)) {  // NaN passes range checks
         throw UsageError("--octomap-resolution", "must be positive");
     }
     if (conversion.from > conversion.to) {

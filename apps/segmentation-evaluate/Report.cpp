@@ -13,7 +13,7 @@ namespace {
 
 using namespace evaluation;
 
-constexpr std::size_t kMaxColumns = 5;  // adjacent methods within 100 columns
+constexpr std::size_t kMaxColumns = 5;  // methods side by side within 100 columns
 
 std::string format(const char* pattern, ...) {
     char text[512];
@@ -100,7 +100,7 @@ std::string latencyTable(const Summary& summary) {
     return text;
 }
 
-/// A percentage; a dash if it is undefined.
+/// A percentage, or a dash if it is undefined.
 std::string percentage(double share) { return figure(100 * share, 2); }
 
 std::string droneTable(const Summary& summary) {
@@ -122,13 +122,13 @@ std::string droneTable(const Summary& summary) {
     return text;
 }
 
-/// "+0.12", or a dash.
+/// The change of a score, such as "+0.12", or a dash.
 std::string change(double degraded, double recorded) {
     const double points = changeInPoints(degraded, recorded);
     return std::isnan(points) ? "-" : format("%+.2f", points);
 }
 
-/// `recorded`: null for the original scans, which have no change.
+/// `recorded` is null for the original scans, which have no change.
 std::string hardSetLine(const std::string& name, std::size_t width, const Scores& scores,
                         const Scores* recorded, const Missed& tall) {
     const auto changeOf = [&](ClassScore Scores::*c) {
@@ -140,7 +140,7 @@ std::string hardSetLine(const std::string& name, std::size_t width, const Scores
            right(count(tall.all), 10) + right(percentage(tall.share()), 8) + "\n";
 }
 
-/// A method on all degradations.
+/// The scores of a method on all degradations.
 std::string hardSetTable(const Summary& summary, std::size_t method) {
     std::vector<std::string> names{"as recorded"};
     for (const HardSetTotals& set : summary.hard_sets) names.push_back(set.name);
@@ -223,7 +223,8 @@ std::string kindTable(const std::vector<GroupTotals>& kinds) {
     return text;
 }
 
-/// Method names shortened to column width: the beginnings, or the ends if these are ambiguous.
+/// Method names shortened to column width: their beginnings, or their ends if beginnings are
+/// ambiguous.
 std::vector<std::string> headsOf(const Summary& summary, std::size_t width) {
     std::vector<std::string> begins, ends;
     for (const MethodTotals& method : summary.methods) {
@@ -298,7 +299,7 @@ std::string partsOf(const ScoreTotals& scores) {
     return text;
 }
 
-/// Recovered sensors and options changed by recordings, one line per folder.
+/// Recovered sensors, and options changed by recordings, with one line per folder.
 std::string sensorsOf(const Summary& summary) {
     std::string text;
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {

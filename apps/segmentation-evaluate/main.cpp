@@ -75,7 +75,7 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace existing outputs");
 }
 
-/// Reads a file or preset named by a flag, and adds it to the list of read files. Reports an
+/// Reads a file or preset given by a flag, and adds it to the list of read files. Reports an
 /// unusable file as wrong usage.
 template <class Read>
 auto fromFlag(const std::string& name, Read read, std::vector<fs::path>& files)
@@ -97,7 +97,7 @@ auto fromFlag(const std::string& name, Read read, std::vector<fs::path>& files)
     }
 }
 
-/// With several rows, each has a picture subfolder of --overlay.
+/// Rejects row names that cannot be names of picture subfolders of --overlay.
 void checkNames(const std::vector<evaluation::LabelRow>& rows) {
     for (const evaluation::LabelRow& row : rows) {
         if (row.name != "." && row.name != "..") continue;
