@@ -6,12 +6,14 @@
 namespace hagen {
 
 /// Stage 4, sharpening: the modified bilateral filter of section III-B, applied to the maxima only,
-/// I_f(x) = I(x) + sum_i I(x_i) g_r(|I(x_i) - I(x)|) g_s(|x_i - x|) / sum_i g_r g_s  over the
-/// neighbours x_i (8, azimuth wrapped) with a value; g_s and g_r are Gaussians of `sigma_px` pixels
-/// and `sigma_m` metres. The image I is proximity or depth. Maxima without neighbours, and pixels
-/// that are not maxima, keep their values. The paper prints I(x) under the sum; then the weights
-/// cancel to I_f(x) = 2 I(x): `by_neighbours` false. `sharpened_m` must not be the same image as
-/// `image_m`.
+///
+///   I_f(x) = I(x) + sum_i I(x_i) g_r(|I(x_i) - I(x)|) g_s(|x_i - x|) / sum_i g_r g_s
+///
+/// over the 8 neighbours x_i (azimuth wrapped), without empty ones; g_s and g_r are Gaussians of
+/// `sigma_px` pixels and `sigma_m` metres. The image I is proximity or depth. Maxima without
+/// neighbours, and pixels that are not maxima, keep their values. If `by_neighbours` is false, the
+/// sum is over I(x), as printed in the paper; then the weights cancel to I_f(x) = 2 I(x).
+/// `sharpened_m` must not be the same image as `image_m`.
 void sharpenMaxima(const Image<float>& image_m, const std::vector<Maximum>& maxima, float sigma_px,
                    float sigma_m, Image<float>& sharpened_m, bool by_neighbours = true);
 

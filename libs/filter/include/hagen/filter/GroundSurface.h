@@ -14,12 +14,10 @@ struct GroundSurface {
     static constexpr float kCell_m = 0.75f;
     static constexpr int kCells = 128;  ///< per side: 48 m in each direction
 
-    /// kCells x kCells heights, at the centres of cells (i, j): x = (i + 0.5) kCell_m - 48 m, y =
-    /// (j + 0.5) kCell_m - 48 m.
+    /// kCells x kCells heights at the cell centres: x = (i + 0.5) kCell_m - 48 m, y likewise with j.
     Eigen::ArrayXXf height_m;
 
-    /// Interpolates bilinearly between cell centres; outside the square, returns the height at its
-    /// edge.
+    /// Bilinear interpolation between cell centres; outside the square, the height at its edge.
     float at(float x_m, float y_m) const;
 };
 
@@ -31,15 +29,16 @@ struct GroundSurfaceWorkspace {
     std::vector<float> coarse_m;  ///< the coarse surface on the fine grid
 };
 
-/// Fits the surface to the pixels marked in `is_candidate`, in the ground frame: 1. take the lowest
-/// candidate of each cell; if three or more neighbours are 0.4 m higher, the lowest of all
-/// neighbours (mirror images and stray returns lie below the ground; two adjacent strays protect
-/// each other); 2. remove cells whose lowest candidate is more than 0.15 m above the slopes from
-/// lower cells: 0.3 over cells with candidates, 0.15 over others (relative to the plane); 3.
-/// average the candidates close to the lowest to a cell's height, weighted by their number; 4.
-/// smooth with a weighted 3 x 3 binomial, then fill cells without candidates from increasingly
-/// coarse grids (pull-push: Gortler et al., The Lumigraph, 1996). Without candidates: the plane z =
-/// 0.
+/// Fits the surface to the pixels marked in `is_candidate`, in the ground frame:
+///  1. take the lowest candidate of each cell; if three or more neighbours are 0.4 m higher, the
+///     lowest of all neighbours (mirror images and stray returns lie below the ground; two adjacent
+///     strays protect each other);
+///  2. remove cells whose lowest candidate is more than 0.15 m above the slopes from lower cells:
+///     0.3 over cells with candidates, 0.15 over others (relative to the plane);
+///  3. average the candidates close to the lowest candidate of each cell, weighted by their number;
+///  4. smooth with a weighted 3 x 3 binomial, then fill cells without candidates from increasingly
+///     coarse grids (pull-push: Gortler et al., The Lumigraph, 1996).
+/// Without candidates, the result is the plane z = 0.
 void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate,
                       GroundSurface& surface, GroundSurfaceWorkspace& work);
 
