@@ -1,4 +1,4 @@
-// The stages in order, for filters of a whole scan or of a sector.
+// The stages of the filters of whole scans and of sectors, in order.
 #pragma once
 #include <hagen/filter/CellArea.h>
 #include <hagen/filter/Levelling.h>
@@ -20,7 +20,7 @@ void labelByAngles(const PixelDirections& directions, float min_range_m,
                    SegmentationResult& result, FilterWorkspace& work);
 
 // Beyond the paper: the detected ground improves the ROU labels and reveals insufficient clearance.
-// The plane is fitted to `columns` of the image (null: evenly spaced columns).
+// The plane is fitted to `columns` of the image (evenly spaced columns if null).
 
 /// Whether the options require the ground plane.
 bool usesGround(const Options& options);
@@ -41,8 +41,8 @@ void findGroundSurface(const Image<Label>& labels, const Options& options,
 void findTolerances(const Options& options, const CellArea& area, Ground& ground,
                     FilterWorkspace& work);
 
-/// Labels pixels by their height above the surface, if one was fitted. If no ground is visible, no
-/// pixel is ROU.
+/// Labels pixels by their height above the surface, if a surface was fitted. If no ground is
+/// visible, no pixel is ROU.
 void relabelByGround(const Ground& ground, const Options& options, Image<Label>& labels,
                      FilterWorkspace& work);
 

@@ -83,7 +83,7 @@ void HagenFilter::State::runStages(const Scan& scan, const std::optional<Attitud
                                    const View& view) {
     const Options& o = options;
     SegmentationResult& r = result;
-    r.own_labels.label.clear();  // exchangeResult() may have left those of another filter
+    r.own_labels.label.clear();  // exchangeResult() may have left another filter's labels
     r.own_labels.returns.clear();
     r.ground.has_surface = r.ground.is_seen = false;
 

@@ -15,7 +15,7 @@ struct ComponentsWorkspace {
     ColumnBits roi, lowest;  ///< RoI pixels with a depth, and the lowest pixel of each run
     ColumnLinks links;       ///< between RoI pixels; between two runs, only the lowest
     std::size_t runs = 0;
-    std::vector<std::int32_t> run;       ///< per pixel of the image
+    std::vector<std::int32_t> run;       ///< per pixel: its run
     std::vector<std::uint32_t> nearest;  ///< per run: minimum depth as an order-preserving integer
     std::vector<std::int32_t> first;     ///< per run: an earlier run linked to it, or itself
     std::vector<std::uint64_t> closest;  ///< per first run of a component: its nearest run

@@ -11,7 +11,7 @@ namespace hagen {
 namespace {
 
 constexpr std::int32_t kBeside = 5;     // columns added on both sides, for the regions
-constexpr std::int32_t kTogether = 16;  // columns; most sectors then have the same image size
+constexpr std::int32_t kTogether = 16;  // number of columns is a multiple of this
 constexpr std::size_t kPlaneEvery = 2;  // uses every 2nd of the evenly spaced columns
 
 struct Columns {
@@ -65,7 +65,7 @@ void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<
 /// tolerance.
 CellArea areaOf(const Ground& ground, const Columns& judged, const Options& options) {
     constexpr float kBeyond_m = 1;  // beyond the zone, for neighbours of pixels at its edge
-    constexpr int kSides = 1;       // cells, because tall neighbours of a cell matter
+    constexpr int kSides = 1;       // margin for the tall neighbours of a cell
     const float max_m = options.zone_m + kBeyond_m;
     const Eigen::Index rows = ground.cells.cell.rows();
     CellArea area{CellArea::kSide, 0, CellArea::kSide, 0};
@@ -93,7 +93,7 @@ struct SectorFilter::State {
     PixelDirections near_directions;  ///< judged columns
     SegmentationResult result;
     Columns judged;           ///< in the images of `result`
-    SegmentationResult near;  ///< images of the judged columns and an empty column
+    SegmentationResult near;  ///< results for the judged columns and an empty column
     std::vector<ContextReturn> found;
     Image<float> known_m;  ///< known height of each pixel's cell
     std::vector<std::int32_t> plane_columns;

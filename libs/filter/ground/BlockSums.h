@@ -14,13 +14,13 @@ constexpr int kBlocks = GroundSurface::kCells / kBlockCells;  // along each side
 template <class Value>
 using Blocks = std::array<Value, kBlocks * kBlocks>;
 
-/// Like Blocks, but indexed by a pixel's block (PixelCells.h), with a last element for pixels
+/// Like Blocks, but indexed by a pixel's block (PixelCells.h), and with a last element for pixels
 /// without a block.
 template <class Value>
 using BlocksAndNone = std::array<Value, kBlocks * kBlocks + 1>;
 
 /// Sums over `kReach` blocks in each direction along a line of blocks that are `stride` apart. Each
-/// step adds one block and removes one.
+/// step adds a block and removes a block.
 template <int kReach, class Value>
 void sumAlong(const Value* blocks, int stride, Value* sums) {
     Value around;
@@ -48,7 +48,7 @@ inline BlockArea blocksIn(const CellArea& area) {
 }
 
 /// Replaces the value of each block of an area by the sum over the square around it. Blocks outside
-/// the area count as 0.
+/// the area are treated as 0.
 template <int kReach, class Value>
 void sumAround(Blocks<Value>& blocks, const BlockArea& area = {}) {
     Blocks<Value> sums{};

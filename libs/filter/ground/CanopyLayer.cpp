@@ -11,12 +11,12 @@ namespace {
 
 using namespace canopy_rules;
 
-/// Counts of the cells with returns around a block.
+/// Statistics of the cells with returns around a block.
 struct Surroundings {
-    int seen = 0;                  ///< all cells
+    int seen = 0;                  ///< number of cells
     int tall = 0;                  ///< cells whose highest return is above plants
     int plants = 0;                ///< cells whose highest return is a low plant
-    double sum_m = 0, sum_m2 = 0;  ///< plant heights and their squares
+    double sum_m = 0, sum_m2 = 0;  ///< sums of plant heights and of their squares
 
     void addCell(float top_m) {
         if (top_m == CellTops::kNone_m) return;

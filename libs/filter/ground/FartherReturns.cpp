@@ -25,7 +25,7 @@ std::size_t listFarther(const Scan& scan, const RangeImage& image, float zone_m,
     const std::int32_t size = static_cast<std::int32_t>(scan.size());
     std::size_t n = 0;
     for (std::int32_t i = 0; i < size; ++i) {
-        const std::int32_t pixel = pixels[i], has_pixel = ~(pixel >> 31);  // 0 or all bits
+        const std::int32_t pixel = pixels[i], has_pixel = ~(pixel >> 31);  // 0, or all bits set
         const std::int32_t is_farther = range_m[i] > depth_m[pixel & has_pixel] + kFarther_m;
         const std::int32_t is_in_zone = range_m[i] <= zone_m;
         list[n] = i;

@@ -40,7 +40,7 @@ constexpr int kCells = GroundSurface::kCells, kCoarseCells = kCells / 2;
 
 /// A pixel that may be ground.
 struct Candidate {
-    int i, j;  ///< its cell
+    int i, j;  ///< cell of the pixel
     float z_m;
 };
 using Candidates = std::vector<Candidate>;
@@ -90,8 +90,8 @@ Grid withoutStrays(const Grid& lowest_m) {
     return cleaned_m;
 }
 
-/// Step 2. The envelope is the highest surface below `cleaned_m` that is nowhere too steep, by a
-/// two-pass chamfer transform (Borgefors 1986).
+/// Step 2. The envelope is the highest surface below `cleaned_m` that is nowhere too steep,
+/// computed by a two-pass chamfer transform (Borgefors 1986).
 class Envelope {
  public:
     explicit Envelope(const Grid& cleaned_m) : cells_(static_cast<int>(cleaned_m.rows())) {
@@ -218,13 +218,13 @@ Grid filled(const WeightedGrid& grid) {
     return height_m;
 }
 
-/// Steps 3 and 4.
+/// Runs steps 3 and 4.
 Grid surfaceAbout(const Candidates& candidates, const Grid& lowest_m) {
     const WeightedGrid means = cellMeans(candidates, lowest_m);
     return filled({binomial(means.weighted_m), binomial(means.weight)});
 }
 
-/// All four steps.
+/// Runs all four steps.
 Grid wholeFit(const Candidates& candidates, int cells) {
     const Grid lowest_m = withoutStrays(lowestOfCells(candidates, cells));
     const Grid max_m = Envelope(lowest_m).height_m() + kEnvelope_m;

@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/ground/Levelling.cpp"
-#include <hwy/foreach_target.h>  // once per instruction set
+#include <hwy/foreach_target.h>  // compiled once per instruction set
 #include <hwy/highway.h>
 
 #include "filter/paper/SlopeAngle-inl.h"

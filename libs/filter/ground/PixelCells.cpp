@@ -6,7 +6,7 @@ namespace hagen::plain {
 namespace {
 
 struct Place {
-    int index;  ///< 1 for the first cell, 0 and kCells + 1 for the border
+    int index;  ///< 1 is the first cell; 0 and kCells + 1 are the border
     bool is_on_grid;
 };
 

@@ -13,8 +13,8 @@
 
 namespace hagen {
 
-/// The transform from the sensor frame to the ground frame (GroundFrame.h), for the plane z = a x +
-/// b y + c in the level frame.
+/// The transform from the sensor to the ground frame (GroundFrame.h) for the plane z = a x + b y +
+/// c in the level frame.
 Eigen::Isometry3f groundFrame(const Eigen::Vector3d& plane, const Eigen::Matrix3f& level);
 
 namespace plain {

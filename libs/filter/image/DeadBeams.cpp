@@ -9,7 +9,7 @@ constexpr Eigen::Index kMaxRows = 2;  // max. number of adjacent rows to bridge
 
 /// Checks columns until all rows are found live; the first columns usually suffice.
 void findLiveRows(const Image<float>& depth_m, std::vector<std::uint8_t>& is_live) {
-    constexpr Eigen::Index kTogether = 32;  // columns
+    constexpr Eigen::Index kTogether = 32;  // columns per check
     const auto rows = static_cast<std::size_t>(depth_m.rows());
     is_live.assign(rows, 0);
     std::uint8_t* const live = is_live.data();
@@ -28,7 +28,7 @@ float sineBetween(const PixelDirections& directions, Eigen::Index a, Eigen::Inde
            directions.row_cosine[b] * directions.row_sine[a];
 }
 
-/// Fills the row from those below and above; pixels with an empty neighbour stay empty.
+/// Fills the row from the rows below and above; pixels with an empty neighbour stay empty.
 void bridgeRow(const PixelDirections& directions, Eigen::Index below, Eigen::Index row,
                Eigen::Index above, Image<float>& repaired_m) {
     const float whole = sineBetween(directions, below, above);

@@ -7,7 +7,7 @@
 namespace hagen {
 namespace {
 
-constexpr float kMaxTiltCosine = 0.8660254f;  // 30 degrees
+constexpr float kMaxTiltCosine = 0.8660254f;  // cosine of 30 degrees
 constexpr double kMinSpacing_deg = 1;
 
 double medianSpacing_deg(const SensorModel& sensor) {

@@ -15,7 +15,7 @@ enum class Posture {
     OnItsSide    ///< in between: uses virtual rows in the level frame
 };
 
-/// The posture for a tilt; upright if it is unknown.
+/// The posture for a tilt; upright if the tilt is unknown.
 Posture postureOf(const std::optional<Attitude>& attitude);
 
 /// The sensor whose beams are the rows of the image. Upside down: the same beams with negated
@@ -23,8 +23,8 @@ Posture postureOf(const std::optional<Attitude>& attitude);
 /// the sensor's beams, but at least 1 degree.
 SensorModel sensorIn(Posture posture, const SensorModel& sensor);
 
-/// The rotation from the sensor frame to the image frame: identity, 180 degrees about x, or to the
-/// level frame.
+/// The rotation from the sensor frame to the image frame: the identity, 180 degrees about x, or the
+/// rotation to the level frame.
 Eigen::Matrix3f imageFromSensor(Posture posture, const std::optional<Attitude>& attitude);
 
 /// The tilt of the image frame.

@@ -151,7 +151,7 @@ void findCriticalPixels(const FramedLevels& framed, CriticalPixels& critical) {
     findIn(0, std::min(1, last), false, false);  // the last column is to the left of the first
     findIn(std::min(1, last), last, true, false);
     findIn(last, last + 1, true, true);
-    for (int row = 0; row < framed.rows; ++row) {  // link frame pixels to the originals
+    for (int row = 0; row < framed.rows; ++row) {  // links frame pixels to the copied pixels
         critical.ascent[framed.indexOf(row, -1)] = framed.indexOf(row, last);
         critical.ascent[framed.indexOf(row, framed.columns)] = framed.indexOf(row, 0);
     }

@@ -12,7 +12,7 @@ namespace hagen {
 template <class Real>
 constexpr double kNegligible = sizeof(Real) == sizeof(float) ? 0x1p-23 : 0x1p-44;
 
-/// The smallest divisor, so large that the square of its square root does not underflow.
+/// The smallest divisor. Its square does not underflow.
 template <class Real>
 constexpr double kTiny = sizeof(Real) == sizeof(float) ? 1e-30 : 1e-280;
 

@@ -67,7 +67,7 @@ void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_
 /// Spreads the reached pixels of a column up and down along its links.
 template <class Words>
 void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reached) {
-    // Upwards: the carry of an addition propagates along consecutive links.
+    // Upwards, the carry of an addition propagates along consecutive links.
     std::uint64_t from_below = 0;
     for (int word = 0; word < words; ++word) {
         const std::uint64_t links = above[word], from = reached[word];
@@ -75,7 +75,7 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
         reached[word] = from | (sum ^ links);
         from_below = leaving < links || sum < leaving;
     }
-    // Downwards there is no carry, so the step length doubles instead.
+    // Downwards, there is no carry, so the step length is doubled instead.
     std::uint64_t from_above = 0;
     for (int word = words - 1; word >= 0; --word) {
         std::uint64_t links = above[word], down = reached[word];

@@ -40,7 +40,7 @@ std::int32_t maximumAbove(std::int32_t pixel, std::vector<std::int32_t>& ascent)
     }
 }
 
-/// Finds where maxima meet, in pixel order.
+/// Finds the pixels where maxima meet, in pixel order.
 void findMeetings(MaximaWorkspace& w) {
     CriticalPixels& critical = w.critical;
     for (std::size_t n = 0; n < critical.maxima; ++n) {
@@ -72,7 +72,7 @@ std::int32_t eldest(std::int32_t maximum, std::vector<std::int32_t>& elder) {
     return maximum;
 }
 
-/// Applies the elder rule at each meeting as the level sinks: the younger component dies.
+/// Applies the elder rule at each meeting as the level decreases: the younger component dies.
 void applyElderRule(MaximaWorkspace& w) {
     w.order.clear();
     for (const MaximaWorkspace::Meeting& meeting : w.meetings) {

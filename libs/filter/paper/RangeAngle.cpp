@@ -14,7 +14,7 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// One column: I_h - 1 angles from I_h depths.
+/// Computes the I_h - 1 angles of a column from its I_h depths.
 void columnAngles(const float* depth_m, const float* sine, const float* cosine, int angles,
                   float* angle_rad) {
     coverRows(angles, [=](auto d, int row) HWY_ATTR {
@@ -23,7 +23,7 @@ void columnAngles(const float* depth_m, const float* sine, const float* cosine, 
     });
 }
 
-/// The first angles where present, otherwise the second.
+/// Selects the first angle of each pixel if present, otherwise the second.
 void columnCarried(const float* first_rad, const float* second_rad, int pixels,
                    float* pixel_angle_rad) {
     coverRows(pixels, [=](auto d, int row) HWY_ATTR {

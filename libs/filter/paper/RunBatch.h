@@ -5,8 +5,8 @@ namespace hagen {
 
 // Stage 7 smooths many runs of values at once, one per vector lane.
 
-/// The number of lanes: several vectors even for the widest instruction set, to hide the latency of
-/// square roots and divisions.
+/// The number of lanes: several vectors even with the widest instruction set, to hide the latency
+/// of square roots and divisions.
 template <class Real>
 constexpr int kLanes = 128 / sizeof(Real);
 

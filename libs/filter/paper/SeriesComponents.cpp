@@ -4,7 +4,7 @@
 namespace hagen {
 namespace {
 
-/// Value n is the mean of the n-th antidiagonal, the entries (w, n - w).
+/// Returns the means of the antidiagonals; the n-th antidiagonal has the entries (w, n - w).
 Eigen::VectorXd antidiagonalMeans(const Eigen::MatrixXd& matrix) {
     Eigen::VectorXd means(matrix.rows() + matrix.cols() - 1);
     for (Eigen::Index n = 0; n < means.size(); ++n) {

@@ -10,7 +10,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/paper/SingularSpectrumAnalysis.cpp"
-#include <hwy/foreach_target.h>  // once per instruction set
+#include <hwy/foreach_target.h>  // compiled once per instruction set
 #include <hwy/highway.h>
 
 #include "filter/paper/EigenBatch-inl.h"
@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// The Gram matrix (m x m) of the trajectory matrix's rows, divided by its trace. Each entry is
-/// computed from the previous one along the diagonal.
+/// computed from the previous entry along the diagonal.
 template <class Real>
 void rowProducts(RunBatch<Real>& batch) {
     const int m = batch.m, columns = batch.values - m + 1;
@@ -79,8 +79,8 @@ HWY_INLINE Pack<Real> weightedSum(const Lanes<Real>* weights, const Lanes<Real>*
 
 /// The means along the antidiagonals of the trajectory matrix's projection, as a filter of the
 /// series: the sum along each diagonal of the m x m projection is the weight of the value at that
-/// distance. Each of the first m - 1 values adds a row of the projection to the filter, each of the
-/// last removes one.
+/// distance. Each of the first m - 1 values adds a row of the projection to the filter, and each of
+/// the last m - 1 values removes a row.
 template <class Real>
 void antidiagonalMeans(RunBatch<Real>& batch) {
     const int m = batch.m;
@@ -201,7 +201,7 @@ std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t e
     return end;
 }
 
-/// Fills work.runs with the runs of `fewest` or more values, sorted by length.
+/// Fills work.runs with the runs of at least `fewest` values, sorted by length.
 void findRuns(Image<float>& image, int fewest, SsaWorkspace& work) {
     std::vector<std::uint64_t>& words = work.has_value;
     std::vector<Run>&found = work.found, &runs = work.runs;

@@ -16,8 +16,8 @@ struct SsaWorkspace {
     };
 
     std::vector<std::uint64_t> has_value;  ///< one bit per pixel
-    std::vector<Run> found, runs;          ///< in pixel order; sorted by length
-    std::vector<int> next_of_length;       ///< per length, index of its next run in `runs`
+    std::vector<Run> found, runs;          ///< runs in pixel order, and sorted by length
+    std::vector<int> next_of_length;       ///< for each length, index of the next run in `runs`
     RunBatch<float> floats;
     RunBatch<double> doubles;
 };

@@ -30,7 +30,7 @@ HWY_ATTR void separate(const float* two_m, int cells, float* highest_m, float* t
 }
 
 /// Calls visit(first, cells) for each contiguous range of cells. Rounds up to a multiple of
-/// kTogether: the next column overwrites up to three surplus cells.
+/// kTogether; the next column overwrites up to three surplus cells.
 template <class Visit>
 void forEachStretch(const CellArea& area, Visit visit) {
     static_assert(kGridSize % kTogether == 0);

@@ -49,7 +49,7 @@ void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         const auto z = hn::LoadU(d, z_m + pixel);
         auto marks = hn::Zero(di);
-        auto is_open = hn::Not(hn::IsNaN(z));  // until a pixel is far enough
+        auto is_open = hn::Not(hn::IsNaN(z));  // true until a pixel is far enough
         for (int above = 1; above <= max_above && !hn::AllFalse(d, is_open); ++above) {
             const std::size_t next = pixel + static_cast<std::size_t>(above);
             const auto dx = hn::Sub(hn::LoadU(d, x_m + next), x);
@@ -118,7 +118,7 @@ void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY
     });
 }
 
-/// Lowers the tolerance of each pixel to `min_m` of its block, if it is minus infinity.
+/// Lowers the tolerance of a pixel to minus infinity if `min_m` of its block is minus infinity.
 void WithdrawIn(std::size_t pixels, const std::uint16_t* HWY_RESTRICT block,
                 const float* HWY_RESTRICT min_m, float* HWY_RESTRICT tolerance_m) {
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {

@@ -8,7 +8,8 @@
 
 namespace hagen {
 
-/// Workspace of this stage. Reuse it between scans to avoid allocations; it has no state.
+/// Workspace of findLevelPixels() and requireEvidence(). Reuse it between scans to avoid
+/// allocations; it has no state.
 struct GroundEvidenceWorkspace {
     std::vector<float> lowest_m;  ///< lowest height in each cell
     /// For each pixel, whether a level step leads to the pixel above (1), the next (2), ... (4),
@@ -28,8 +29,8 @@ struct GroundEvidenceWorkspace {
 void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
                      Image<std::uint8_t>& is_level, GroundEvidenceWorkspace& work);
 
-/// The candidates for the first fit of the ground surface: level ROU pixels stay ROU, all others
-/// are unclassified.
+/// The candidates for the first fit of the ground surface: level ROU pixels stay ROU, all other
+/// pixels become unclassified.
 void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
                   Image<Label>& candidates);
 

@@ -14,7 +14,7 @@ constexpr float kMinGround_m = -1.5f;
 
 /// The maximum height of ground returns above the surface.
 struct HeightTolerance {
-    float near_m = 0.17f;       ///< at the sensor
+    float near_m = 0.17f;       ///< tolerance at the sensor
     float per_m = 0.005f;       ///< increase per metre of distance
     float beside_tall = 0.12f;  ///< decrease per metre of adjacent object height (up to 1.1 m)
 };
@@ -36,8 +36,8 @@ void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const 
                       Image<float>& tolerance_m, ToleranceWorkspace& work,
                       const CellArea& area = {});
 
-/// RoI if a pixel is higher than its tolerance or more than 1.5 m below the surface; otherwise ROU.
-/// Unclassified if it is empty.
+/// Labels a pixel RoI if it is higher than its tolerance or more than 1.5 m below the surface,
+/// Unclassified if it is empty, and otherwise ROU.
 void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
                    Image<Label>& labels);
 

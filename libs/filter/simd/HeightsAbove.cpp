@@ -20,8 +20,8 @@ struct Corners {
     static constexpr std::size_t kPoints = 256;
     HWY_ALIGN std::int32_t cell[kPoints];
     HWY_ALIGN float to_next_i[kPoints], to_next_j[kPoints];
-    HWY_ALIGN float here_m[2 * kPoints];  ///< of cells (i, j) and (i + 1, j)
-    HWY_ALIGN float next_m[2 * kPoints];  ///< of cells (i, j + 1) and (i + 1, j + 1)
+    HWY_ALIGN float here_m[2 * kPoints];  ///< heights of cells (i, j) and (i + 1, j)
+    HWY_ALIGN float next_m[2 * kPoints];  ///< heights of cells (i, j + 1) and (i + 1, j + 1)
 };
 
 /// Bilinear interpolation. Copies heights in pairs, because gather instructions are slower, and for

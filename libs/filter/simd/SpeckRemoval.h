@@ -22,7 +22,7 @@ struct SpeckWorkspace {
 /// its 8 neighbours, which removes isolated specks. Neighbours whose horizontal distance from the
 /// sensor differs by more than 1 m (both rounded to 1/64 m, and limited to 511 m) do not vote.
 /// Clearly higher pixels keep their labels, because a wire is a speck, too. With fewer than 3
-/// votes, or a tie, the label stays. Votes are the labels before the call.
+/// votes, or with a tie, the label is kept. Votes are the labels before the call.
 void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
                   const Image<float>& tolerance_m, Image<Label>& labels, SpeckWorkspace& work);
 

@@ -23,22 +23,23 @@ struct FramedLevels {
 /// Sets empty and negative pixels to 0.
 void frameLevels(const Image<float>& image, FramedLevels& framed);
 
-/// The offsets of a pixel's 8 neighbours, in circular order; the even ones share an edge with it.
+/// The offsets of a pixel's 8 neighbours, in circular order; even neighbours share an edge with the
+/// pixel.
 constexpr int kNeighbours = 8;
 std::array<int, kNeighbours> neighbourOffsets(int stride);
 
-/// The pixels at which components of {pixel >= level} are born or may meet as the level sinks, and
-/// a path from every pixel above 0 to a maximum. Pixels are indices into the framed levels.
+/// The pixels at which components of {pixel >= level} are born or may meet as the level decreases,
+/// and a path from every pixel above 0 to a maximum. Pixels are indices into the framed levels.
 struct CriticalPixels {
     /// For each pixel, an older neighbour, or itself if it is a maximum; for a frame pixel, the
     /// pixel it copies.
     std::vector<std::int32_t> ascent;
     /// For each pixel, the bit set of its older neighbours.
     std::vector<std::int32_t> older_neighbours;
-    std::size_t maxima = 0, saddles = 0;  ///< counts; the lists may be longer
+    std::size_t maxima = 0, saddles = 0;  ///< counts; the lists may have unused entries
     std::vector<std::int32_t> maximum;    ///< pixels without an older neighbour, ascending
-    /// Pixels whose older neighbours are not all adjacent to each other, ascending. Any other pixel
-    /// joins at most one component.
+    /// Pixels whose older neighbours are not all adjacent to each other, ascending. Other pixels
+    /// join at most one component.
     std::vector<std::int32_t> saddle;
 };
 

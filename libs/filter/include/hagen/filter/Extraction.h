@@ -10,7 +10,7 @@ namespace hagen {
 
 /// The labels of a scan's returns, and the returns of each label.
 struct LabelledReturns {
-    std::vector<Label> label;             ///< one entry per return, in the scan's order
+    std::vector<Label> label;             ///< label of each return, in the scan's order
     std::vector<std::int32_t> component;  ///< RoI component; 1 is the nearest, 0 means none
     /// Indices of the returns with each label, ascending; every return is in exactly one list.
     std::vector<std::uint32_t> roi, rou, unclassified;
@@ -26,8 +26,8 @@ struct LabelledImage {
 /// Rules for returns that do not depend on their pixel.
 struct ExtractionRules {
     float zone_m;  ///< farther returns are ROU
-    /// The maximum depth of a return with its own label behind its pixel to belong to the pixel's
-    /// component; farther returns are not part of the obstacle.
+    /// The maximum distance of a return with its own label behind its pixel to belong to the
+    /// pixel's component.
     float component_gap_m;
 };
 

@@ -12,9 +12,10 @@ namespace hagen {
 /// The height of the ground over a square around the sensor, in the ground frame.
 struct GroundSurface {
     static constexpr float kCell_m = 0.75f;
-    static constexpr int kCells = 128;  ///< per side: 48 m in each direction
+    static constexpr int kCells = 128;  ///< cells per side, 48 m in each direction
 
-    /// kCells x kCells heights at the cell centres: x = (i + 0.5) kCell_m - 48 m, y likewise with j.
+    /// kCells x kCells heights at the cell centres: x = (i + 0.5) kCell_m - 48 m, y likewise with
+    /// j.
     Eigen::ArrayXXf height_m;
 
     /// Bilinear interpolation between cell centres; outside the square, the height at its edge.
@@ -45,8 +46,8 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate
 /// Fits the surface under a labelled image in two passes. The first is coarse (cells twice as wide)
 /// and uses the ROU of 200 to 400 evenly spaced columns, or of `columns`. Pixels close to its
 /// height at the centre of their cell may be ground, whatever their labels; this recovers ground
-/// that the labels have cut off. Steps 3 and 4 then fit the surface to these pixels, which exclude
-/// strays and obstacles.
+/// that the labels have cut off. Steps 3 and 4 then fit the surface to these pixels, which do not
+/// include strays and obstacles.
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels, GroundSurface& surface,
                       GroundSurfaceWorkspace& work,
                       const std::vector<std::int32_t>* columns = nullptr);

@@ -10,8 +10,8 @@
 namespace hagen {
 
 /// The Hagen filter for one sensor: separates near obstacles (RoI) from ground and distant returns
-/// (ROU). It keeps no state between scans, only memory to reuse. Filters do not depend on each
-/// other or on the thread that runs them.
+/// (ROU). It keeps no state between scans, only reusable memory. Filters are independent of each
+/// other and of the thread that runs them.
 ///
 ///     HagenFilter filter(sensorModel("VLP-16"));
 ///     Scan scan = ...;                       // coordinates; locateBeams() for the rest
@@ -30,8 +30,8 @@ class HagenFilter {
     const SegmentationResult& segment(const Scan& scan,
                                       const std::optional<Attitude>& attitude = {});
 
-    /// Swaps the filter's result with `result`, so that it outlives the next call without a copy.
-    /// The filter reuses the memory of `result`.
+    /// Swaps the filter's result with `result`, to keep the result beyond the next call without a
+    /// copy. The filter reuses the memory of `result`.
     void exchangeResult(SegmentationResult& result);
 
     const SensorModel& sensor() const;

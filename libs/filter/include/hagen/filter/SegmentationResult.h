@@ -24,7 +24,7 @@ struct SegmentationResult {
     Image<Label> labels;             ///< stage 8, relabelled by height, limited to the zone
     Ground ground;                   ///< beyond the paper, see Ground.h
     Image<std::int32_t> components;  ///< obstacles, numbered from the nearest
-    OwnLabels own_labels;            ///< for returns behind the closest one of their pixel
+    OwnLabels own_labels;            ///< for returns behind the closest return of their pixel
     LabelledReturns returns;         ///< stage 9, for each return of the scan
 };
 
