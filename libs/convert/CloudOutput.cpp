@@ -46,7 +46,7 @@ void CloudOutput::write(const std::string& name,
         folders_.folderOf(observation.sensorLabel) / (name + extensionOf(format_));
     try {
         writeCloud(file, format_, table);
-    } catch (...) {  // do not leave a partial cloud
+    } catch (...) {  // removes the partial cloud
         std::error_code ignored;
         fs::remove(file, ignored);
         throw;

@@ -14,10 +14,10 @@ namespace hagen::convert {
 /// The output kind: a folder of labelled clouds, or a folder of such folders.
 extern const base::OutputKind kClouds;
 
-/// Changes made to clouds when they were written, with counts.
+/// Counts the changes made to clouds when they were written.
 class CloudChanges {
  public:
-    /// The changes in one cloud.
+    /// Adds the changes in a cloud.
     void add(const std::vector<std::string>& changes);
     /// Messages for the user, with the number of affected clouds unless all are affected.
     std::vector<std::string> texts(std::size_t all_clouds) const;

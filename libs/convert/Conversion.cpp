@@ -46,8 +46,9 @@ ConversionListener oneAtATime(const ConversionListener& listener, std::mutex& mu
     return safe;
 }
 
-/// Reads the poses of a rawlog only if an output needs them, because that may take another pass.
-/// TUM poses are cheap to read; poses of a bag are already known and provide the attitude.
+/// Whether to read poses. Those of a rawlog are read only if an output needs them, because that may
+/// take another pass. TUM poses are cheap to read; poses of a bag are already known and provide the
+/// attitude.
 bool needsPoses(const Conversion& conversion) {
     const bool is_tum = !conversion.poses.empty() && recordings::kindOfPoseFile(conversion.poses) ==
                                                          recordings::PoseFileKind::Tum;
@@ -100,7 +101,7 @@ void count(const observations::ObservationSegmenter::Output& out, const ScanRepo
     all.scan_reports.push_back(scan);
 }
 
-/// A conversion in progress: entries are segmented on several threads; all outputs and callbacks
+/// A conversion in progress. Entries are segmented on several threads; all outputs and callbacks
 /// follow the order of the recording.
 class Converter {
  public:
@@ -164,8 +165,8 @@ class Converter {
         }
     }
 
-    /// Pictures take about 1 s each and are drawn sequentially. More threads would only read ahead
-    /// and delay an interruption.
+    /// The number of threads. Pictures take about 1 s each and are drawn sequentially, so more
+    /// threads would only read ahead and delay an interruption.
     std::size_t wantedThreads() const {
         if (!conversion_.pictures.empty()) return 1;
         if (conversion_.jobs > 0) return conversion_.jobs;
@@ -336,7 +337,7 @@ class Converter {
                                      " outside an OctoMap; no map is written");
     }
 
-    /// Reports suspicious labels.
+    /// Reports results that suggest wrong settings or coordinates.
     void remarkOnLabels() const {
         if (!settings_.airframe.parts.isEmpty() && report_.scans > 0 &&
             report_.returns_masked == 0) {
@@ -370,7 +371,7 @@ class Converter {
     }
 
     /// Keeps partial outputs when the recording or the conversion ends early, and adds their
-    /// location to the error. Usage errors, and errors before the first entry, keep nothing.
+    /// location to the error. Keeps nothing after usage errors and errors before the first entry.
     [[noreturn]] void savePartialOutputs(const std::exception_ptr& end) {
         std::string why;
         bool is_interruption = false;
@@ -400,7 +401,7 @@ class Converter {
     }
 
     const Conversion& conversion_;
-    std::mutex listening_;  ///< another thread calls the listener while reading
+    std::mutex listening_;  ///< guards the listener, which another thread calls while reading
     const ConversionListener listener_;
     std::unique_ptr<recordings::ScanSource> source_;
     const Settings settings_;  ///< merged with the recording's sensor

@@ -73,8 +73,8 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion)
     }
 }
 
-// Members are packed on several threads; all other steps of a part run on one thread at a time.
-// Later steps see the flag.
+// Runs a step of a part, unless the part has failed. Members are packed on several threads; all
+// other steps of a part run on one thread at a time.
 template <class Step>
 void ConversionOutputs::attempt(Part part, Step step) {
     if (is_given_up_[part]) return;
@@ -87,7 +87,7 @@ void ConversionOutputs::attempt(Part part, Step step) {
     }
 }
 
-/// Keeps the first reason. Null, or lack of memory for its text, means out of memory.
+/// Keeps the first reason; without a text, the reason is lack of memory.
 void ConversionOutputs::giveUp(Part part, const char* why) noexcept {
     const std::lock_guard lock(why_mutex_);
     if (is_given_up_[part]) return;
@@ -234,7 +234,7 @@ bool ConversionOutputs::hasWholeParts(Part part) const {
            (part == kClouds && clouds_->files() > 0);
 }
 
-/// The failed outputs, the reasons, and the parts that are kept.
+/// Lists the failed outputs, the reasons, and the parts that are kept.
 std::string ConversionOutputs::whatFailed() {
     std::string text;
     forEach([&](Part part, auto& output) {

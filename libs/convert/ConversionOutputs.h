@@ -21,8 +21,8 @@ namespace hagen::convert {
 /// The paths of the requested outputs.
 std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
 
-/// The requested outputs of a conversion. If one fails (full disk, full map, missing gnuplot), it
-/// is aborted and commit() reports it; the others are not affected.
+/// The requested outputs of a conversion. If an output fails (full disk, full map, missing
+/// gnuplot), it is aborted and commit() reports it; the others are not affected.
 class ConversionOutputs {
  public:
     /// Throws std::runtime_error naming an output that cannot be written.
@@ -32,7 +32,7 @@ class ConversionOutputs {
     void gather(Bytes& entries, Bytes& member) {
         if (rawlog_) rawlog_->gather(entries, member);
     }
-    /// Compresses a member, on any thread, and writes it.
+    /// Compresses and writes a member. May be called on any thread.
     void pack(const Bytes& member, Bytes& packed);
     void writeMember(const Bytes& packed);
 

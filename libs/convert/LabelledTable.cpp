@@ -24,7 +24,7 @@ using observations::PointTable;
 
 constexpr const char *kLabel = "label", *kObstacle = "obstacle";
 
-/// The fields without labels, and the point of each return.
+/// All fields except the labels, and the point of each return.
 struct Unlabelled {
     PointTable table;
     std::vector<std::uint32_t> point_of_return;
@@ -36,7 +36,7 @@ const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud) {
     return located != nullptr ? &located->otherFields() : observations::otherFieldsOf(cloud);
 }
 
-/// The fields of a scan and the observation's other fields, with the scan's times.
+/// Combines the fields of a scan, including times, with the observation's other fields.
 PointTable withOtherFields(const Scan& scan, const mrpt::obs::CObservation& observation) {
     const auto* const cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
     const PointTable* const others =

@@ -30,7 +30,7 @@ enum Op : std::uint8_t {
 };
 
 constexpr std::size_t kChunkBytes = 1 << 20;  // about one scan of 16 beams
-constexpr int kZstdLevel = 1;                 // fast enough to keep up with segmentation
+constexpr int kZstdLevel = 1;                 // fast enough for segmentation
 constexpr const char* kCompression = "zstd";
 
 Bytes magic() { return {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'}; }
@@ -124,7 +124,7 @@ std::uint16_t McapWriter::addTopic(const std::string& name, const RosType& type)
     add(schema->second, content);
     add(name, content);
     add(std::string("cdr"), content);
-    add(std::uint32_t{0}, content);  // no metadata
+    add(std::uint32_t{0}, content);  // number of metadata entries
     addRecord(kChannel, content, channels_);
     addRecord(kChannel, content, chunk_);
     return topic;
@@ -193,8 +193,8 @@ void McapWriter::putSummary() {
     add(std::uint64_t{messages_}, statistics);
     add(static_cast<std::uint16_t>(schema_of_.size()), statistics);
     add(static_cast<std::uint32_t>(messages_of_.size()), statistics);
-    add(std::uint32_t{0}, statistics);  // attachments
-    add(std::uint32_t{0}, statistics);  // metadata
+    add(std::uint32_t{0}, statistics);  // number of attachments
+    add(std::uint32_t{0}, statistics);  // number of metadata records
     add(static_cast<std::uint32_t>(chunks_.size()), statistics);
     add(times_.first_ns, statistics);
     add(times_.last_ns, statistics);

@@ -21,11 +21,11 @@ class McapWriter {
     McapWriter(const std::filesystem::path& place, const std::filesystem::path& file);
 
     /// Adds a topic for messages in CDR, and returns its number. Throws std::runtime_error if there
-    /// are more than 65535.
+    /// are more than 65535 topics.
     std::uint16_t addTopic(const std::string& name, const RosType& type);
 
-    /// Writes a message of a topic; times are since 1970. A full disk may be reported some messages
-    /// late, or only by close().
+    /// Writes a message of a topic; times are since 1970. A full disk may be reported after further
+    /// messages, or only by close().
     void write(std::uint16_t topic, std::uint64_t time_ns,
                const std::vector<std::uint8_t>& message);
 

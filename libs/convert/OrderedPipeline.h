@@ -13,8 +13,8 @@
 namespace hagen::convert {
 
 /// The steps applied to each item of a stream. Steps marked "in order" process one item at a time,
-/// in the order of reading; the others may process several items concurrently. An exception in a
-/// step ends the stream before its item: earlier items are completed, unless packing or writing
+/// in the order of reading; the other steps may process several items concurrently. An exception in
+/// a step ends the stream before its item: earlier items are completed, unless packing or writing
 /// failed, and no later item is accounted for.
 template <class Item>
 struct PipelineSteps {
@@ -25,7 +25,7 @@ struct PipelineSteps {
     std::function<void(Item&)> write;  ///< in order
 };
 
-/// How a pipeline ended.
+/// The result of a pipeline.
 struct PipelineEnd {
     std::size_t threads;     ///< number of threads started
     std::exception_ptr why;  ///< exception of the first failed item; null at the end of the input
@@ -116,9 +116,9 @@ class OrderedPipeline {
     const PipelineSteps<Item>& steps_;
     std::mutex reading_, failing_;
     std::size_t read_ = 0;
-    std::atomic<bool> has_ended_{false};   ///< stop reading
-    std::atomic<bool> has_failed_{false};  ///< stop accounting
-    bool is_cut_ = false;                  ///< stop writing
+    std::atomic<bool> has_ended_{false};   ///< reading has stopped
+    std::atomic<bool> has_failed_{false};  ///< accounting has stopped
+    bool is_cut_ = false;                  ///< writing has stopped
     std::exception_ptr why_;
     Turnstile accounts_, writes_;
 };

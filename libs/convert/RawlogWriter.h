@@ -20,7 +20,7 @@ class RawlogWriter {
 
     const base::OutputPath& place() const { return path_; }
     /// Throws std::runtime_error naming the file if the entry cannot be written. A full disk may be
-    /// reported some entries late, or only by commit().
+    /// reported after further entries, or only by commit().
     void write(const mrpt::serialization::CSerializable& entry);
 
     /// The steps of write(), for use on several threads. serialise() and packGzipMember() may run
@@ -35,10 +35,10 @@ class RawlogWriter {
 
     /// Completes the file and renames it into place.
     void commit();
-    /// Completes the file as OUT.partial.rawlog and returns that name. After a failed write it ends
-    /// with the last whole member. Throws std::runtime_error if it has no member.
+    /// Completes the file as OUT.partial.rawlog and returns that name. After a failed write, the
+    /// file ends with the last complete member. Throws std::runtime_error if it has no member.
     std::filesystem::path keepPartial();
-    /// Whether all entries are in the file, under its final or partial name.
+    /// Whether the file, under its final or partial name, contains all entries.
     bool isWhole() const { return is_finished_ && !has_failed_; }
 
  private:

@@ -123,7 +123,7 @@ void putMarker(const RosHeader& header, std::int32_t id, std::int32_t action,
         to.number(static_cast<double>(length));
     }
     for (const float part : {1.0f, 0.75f, 0.47f, 0.35f}) to.number(part);  // r, g, b, a
-    to.number(std::int32_t{0}).number(std::uint32_t{0});                   // until deleted
+    to.number(std::int32_t{0}).number(std::uint32_t{0});                   // lifetime: unlimited
     to.number(std::uint8_t{0}).count(0).count(0);                          // points, colours
     to.text("");
     put(RosHeader(), to);

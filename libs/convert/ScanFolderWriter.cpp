@@ -32,7 +32,7 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
     } else {  // not described as a custom sensor, which would have rings
         out << "# Sensor of this recording\nsensor:\n  model: " << sensor.name << "\n";
     }
-    // A recording may exceed the limits of settings.
+    // A recording's range limits may exceed those allowed in settings.
     const auto limit_m = [](float range_m) { return std::clamp<double>(range_m, 0, kMaxRange_m); };
     const double min_m = limit_m(sensor.min_range_m), max_m = limit_m(sensor.max_range_m);
     if (min_m < max_m) {
@@ -87,7 +87,7 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
     try {
         recordings::writeScan(points, scan);
         recordings::writeLabels(labels, returns.label, returns.component);
-    } catch (...) {  // do not leave a partial scan
+    } catch (...) {  // removes the partial scan
         std::error_code ignored;
         fs::remove(points, ignored);
         fs::remove(labels, ignored);

@@ -86,7 +86,7 @@ void serialiseEntry(CloudClass cloud_class, ConvertedEntry& entry) {
 std::unique_ptr<ObservationSegmenter> makeSegmenter(const Conversion& conversion,
                                                     const Settings& settings) {
     auto segmenter = std::make_unique<ObservationSegmenter>();
-    segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the listener receives them
+    segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the listener gets the remarks
     // Clouds with all fields need the observation's fields, so they are created afterwards.
     const bool is_generic = conversion.cloud_class == CloudClass::Generic;
     segmenter->cloud_class = is_generic ? CloudClass::Simple : conversion.cloud_class;

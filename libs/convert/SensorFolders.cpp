@@ -50,7 +50,7 @@ void SensorFolders::unwrapOnlyFolder() {
     try {
         fs::remove(path_.temporary());
         fs::rename(lifted, path_.temporary());
-    } catch (const fs::filesystem_error&) {  // restore for keepPartial()
+    } catch (const fs::filesystem_error&) {  // restores the folder for keepPartial()
         std::error_code ignored;
         fs::create_directory(path_.temporary(), ignored);
         fs::rename(lifted, only, ignored);

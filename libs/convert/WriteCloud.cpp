@@ -39,7 +39,7 @@ Limits limitsOf(OutputFormat format) {
 }
 constexpr Limits kPointCloud2{"PointCloud2", false, true};
 
-/// Header names must not contain blanks.
+/// Replaces blanks and control characters, which headers do not support.
 std::string asWord(std::string name) {
     std::replace_if(
         name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
@@ -172,7 +172,7 @@ std::string recordsOf(const std::vector<WrittenField>& fields, const PointTable&
 }
 
 std::vector<std::string> changesWithin(const Limits& limits, const PointTable& table) {
-    constexpr double kExact = 9007199254740992.0;  // 2^53, the largest exact integer of a double
+    constexpr double kExact = 9007199254740992.0;  // 2^53: smaller integers are exact
     std::vector<std::string> changes;
     for (const WrittenField& field : fieldsOf(limits, table)) {
         if (field.type == field.from.type || field.from.type == NumberType::Float64) continue;

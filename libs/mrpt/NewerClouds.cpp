@@ -28,7 +28,7 @@ using mrpt::maps::CPointsMapXYZI;
 using mrpt::maps::CSimplePointsMap;
 using mrpt::serialization::CArchive;
 
-/// Reads a vector of numbers other than float: two type names, then the numbers. MRPT's own reader
+/// Reads a vector of numbers other than float: two type names, then the numbers. MRPT's reader
 /// trusts the count in the file.
 template <class Vector>
 void readVector(CArchive& in, Vector& values) {
@@ -49,7 +49,7 @@ constexpr NumberType typeOf() {
     return std::is_same_v<Number, std::uint8_t> ? NumberType::UInt8 : NumberType::UInt32;
 }
 
-/// Reads the point count and the coordinates.
+/// The coordinates of a cloud, read after the point count.
 struct Coordinates {
     std::vector<float> x_m, y_m, z_m;
 
@@ -79,7 +79,7 @@ void readInsertionOptions(CArchive& in, CPointsMap::TInsertionOptions& options) 
         options.maxDistForInterpolatePoints >> options.insertInvalidPoints;
 }
 
-/// A CSimplePointsMap that reads older and newer insertion options and writes the older ones.
+/// A CSimplePointsMap that reads older and newer insertion options and writes older ones.
 class SimpleCloud : public CSimplePointsMap {
     static constexpr std::uint8_t kVersionWithOptions = 10;
 

@@ -15,7 +15,7 @@ MRPT_INITIALIZER(registerAllClasses_hagen_observations) { registerHagenClasses()
 
 void registerHagenClasses() {
     mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
-    // Former class name, without namespace.
+    // The former class name, without namespace.
     mrpt::rtti::registerClassCustomName(
         "hagen::ObservationSegmenter",
         CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
@@ -62,7 +62,7 @@ SharedBeams ObservationSegmenter::beamsOf(const mrpt::obs::CObservation& observa
     return sensors_.beamsOf(observation.sensorLabel);
 }
 
-/// The filter for the most recently read scan.
+/// Returns the filter for the most recently read scan.
 HagenFilter& ObservationSegmenter::filterOf(const std::string& label) {
     const SensorModel& sensor = observed_.sensor;
     const Options options = settings_.optionsFor(observed_.recovered.get());

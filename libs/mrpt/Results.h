@@ -13,7 +13,7 @@ const mrpt::img::TColor kRoiColor(213, 94, 0), kNonRoiColor(150, 190, 230);
 
 constexpr const char* kRoiSuffix = "_roi";
 constexpr const char* kNonRoiSuffix = "_non_roi";
-/// Name of the object in a preview's scene. One of its parts is named after the scan, because
+/// Name of the object in a preview's scene. A part of the object is named after the scan, because
 /// rawlogs do not store scene labels.
 constexpr const char* kPreviewName = "hagen preview";
 constexpr std::string_view kPreviewOfPrefix = "zone of ";

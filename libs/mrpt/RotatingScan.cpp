@@ -192,7 +192,7 @@ std::optional<SensorModel> namedSensor(const std::string& lidar_model) {
     return std::nullopt;
 }
 
-/// The sensor of a scan without points.
+/// Determines the sensor of a scan without points.
 SensorModel sensorOfRows(const CObservationRotatingScan& observation, const Settings& settings) {
     const int rows = rowsOf(observation);
     const auto own = namedSensor(observation.lidarModel);
@@ -225,7 +225,7 @@ struct Row {
 /// The directions of the pixels of an image without points.
 struct Geometry {
     std::vector<Row> rows;
-    int columns = 0;             ///< used columns
+    int columns = 0;             ///< number of used columns
     double first_rad = 0;        ///< azimuth of the first column, counter-clockwise
     double step_rad = 0;         ///< angle to the next column
     double columns_of_turn = 0;  ///< number of columns in a full turn

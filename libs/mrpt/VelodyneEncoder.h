@@ -18,7 +18,7 @@ struct Firings {
     std::uint32_t first_time_us = 0;  ///< time of the first firing since the full hour
 };
 
-/// Returns the azimuth of a laser in a firing, degrees clockwise from x, as decoded (up to
+/// Returns the azimuth of a laser in a firing, in degrees clockwise from x, as decoded (up to
 /// rounding). Use it to compute the range to encode.
 double firingAzimuthDeg(const sensors::VelodyneModel& model, const Firings& firings, int laser,
                         int firing);

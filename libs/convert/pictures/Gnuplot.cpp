@@ -51,7 +51,7 @@ std::vector<char*> withoutTerminal() {
     return kept;
 }
 
-// A picture takes about 1 s of CPU time and less than 1 MB.
+// Limits for a picture, which takes about 1 s of CPU time and less than 1 MB.
 constexpr rlim_t kMaxCpu_s = 20, kMaxFileBytes = 64 << 20;
 constexpr double kIdleTimeout_s = 5;  ///< time without CPU usage before gnuplot is killed
 constexpr double kMinLoad = 0.02;
@@ -133,7 +133,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder to write pictures to");
     }
-    for (const std::string& picture : pictures) {  // old ones could be mistaken for new
+    for (const std::string& picture : pictures) {  // removes old pictures
         std::error_code error;
         fs::remove(folder / picture, error);
         if (error) {

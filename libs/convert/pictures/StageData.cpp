@@ -19,7 +19,7 @@ std::size_t colourOf(std::int32_t component) {
     return static_cast<std::size_t>(std::max(component, 1) - 1) % kRoiColours.size();
 }
 
-/// Returns the longest contiguous segment of a column's angles; empty if shorter than the window.
+/// The longest contiguous segment of a column's angles; empty if shorter than the window.
 struct Run {
     int first_row = 0, rows = 0;
 };
@@ -144,7 +144,7 @@ class DataBlockWriter {
         data_.bars = std::min<int>(static_cast<int>(longest.size()), kMaxBars);
         longest.resize(static_cast<std::size_t>(data_.bars));
         std::sort(longest.begin(),
-                  longest.end());  // findPersistentMaxima() returns the oldest first
+                  longest.end());  // findPersistentMaxima() returns the oldest maxima first
         block("$bars", [&] {
             text_ << "NaN NaN NaN\n";
             int rank = 0;
@@ -174,7 +174,7 @@ class DataBlockWriter {
         const SeriesComponents found =
             decomposeSeries(r.range_angle_rad.col(data_.column).segment(run.first_row, run.rows),
                             view_.options.window_size);
-        // Angles that are all zero have no components.
+        // Avoids division by zero: if all angles are zero, there are no components.
         const double all = std::max(found.eigenvalues.sum(), 1e-12);
         const int components = std::min<int>(view_.options.window_size, kMaxComponents);
         block("$elementary", [&] {
@@ -252,7 +252,7 @@ class DataBlockWriter {
     }
 
     const StageView& view_;
-    const int columns_, rows_;  ///< of the images
+    const int columns_, rows_;  ///< size of the images
     StageData data_;
     GnuplotStream text_;
 };

@@ -7,7 +7,7 @@
 namespace hagen::convert {
 namespace {
 
-/// Perceptually uniform: viridis for depths, cividis for angles.
+/// Perceptually uniform palettes: viridis for depths, cividis for angles.
 constexpr const char* kDepthPalette =
     "defined (0 '#440154', 1 '#472D7B', 2 '#3B528B', 3 '#2C728E', 4 '#21918C', 5 '#28AE80', "
     "6 '#5EC962', 7 '#ADDC30', 8 '#FDE725')";
@@ -17,7 +17,7 @@ constexpr const char* kAnglePalette =
 
 constexpr double kZoomHalf_deg = 30.0;
 
-/// A number with one decimal.
+/// A number with one decimal place.
 std::string oneDecimal(double value) {
     GnuplotStream text;
     text.setf(std::ios::fixed);

@@ -15,7 +15,7 @@ struct Box {
 /// Writes a gnuplot script panel by panel; each panel draws a data block.
 class StagePanelWriter {
  public:
-    static constexpr int kWidth_px = 1200;  ///< of most pictures
+    static constexpr int kWidth_px = 1200;  ///< width of most pictures
 
     /// Keeps references to both arguments.
     StagePanelWriter(const StageView& view, const StageData& data);
@@ -73,7 +73,7 @@ class StagePanelWriter {
 
     const StageView& view_;
     const StageData& data_;
-    const int columns_, rows_;  ///< of the images
+    const int columns_, rows_;  ///< size of the images
     const float far_m_;         ///< upper end of the depth scale
     int width_px_ = 0, height_px_ = 0;
     bool has_heading_ = false;

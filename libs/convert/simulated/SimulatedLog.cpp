@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr double kStart_s = simulation::kSimulatedLogStart_s;
 constexpr const char* kLidarLabel = "lidar";
-constexpr double kPoseStep_s = 0.05;  // much shorter than the maximum gap for interpolation
+constexpr double kPoseStep_s = 0.05;  // much less than the maximum interpolation gap
 
 /// A pose file that is renamed into place when complete.
 class PoseOutput {
@@ -114,7 +114,7 @@ bool hasPackets(const SensorModel& sensor) {
 /// Whether scans are written as clouds. (MRPT does not support the packets of an HDL-64E.)
 bool hasClouds(const SensorModel& sensor) { return !sensor.has_rings; }
 
-/// Returns the scan to store in a folder: as measured, or as decoded from its packets.
+/// The scan to store in a folder, as measured or as decoded from its packets.
 struct MeasuredScan {
     Scan scan;
     SensorModel sensor;

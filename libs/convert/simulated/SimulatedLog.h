@@ -13,9 +13,9 @@ struct SimulatedLog {
     std::uint64_t seed = 1;
     int scans = 0;
     double altitude_m = 2, speed_m_s = 4, tilt_sd_deg = 4;
-    double every_s = 0.1;    ///< period of scans
+    double every_s = 0.1;    ///< time between the starts of scans
     bool clear_air = false;  ///< without dust and returns from the vehicle itself
-    double mount_roll_deg = 0, mount_pitch_deg = 0;  ///< of the sensor on the level vehicle
+    double mount_roll_deg = 0, mount_pitch_deg = 0;  ///< tilt of the sensor on the level vehicle
 
     std::filesystem::path rawlog, folder, poses;
     bool overwrite = false;

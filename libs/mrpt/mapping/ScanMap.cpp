@@ -89,13 +89,13 @@ class ScanMap::RayTraversal {
     }
 
     void hit(const Eigen::Vector3f& point_m) {
-        if (!((point_m - origin_m_).norm() <= max_range_m_)) return;  // or not finite
+        if (!((point_m - origin_m_).norm() <= max_range_m_)) return;  // true if not finite
         const octomap::OcTreeKey key = tree_->coordToKey(pointOf(point_m));
         if (hit_.add(key)) voxels_.occupied.push_back(key);
     }
 
     /// Marks the voxels before the point's voxel as free, up to the maximum range. Rays that end in
-    /// the same voxel count as one ray to its centre.
+    /// the same voxel are merged into a ray to its centre.
     void pass(const Eigen::Vector3f& point_m) {
         const Eigen::Vector3f ray = point_m - origin_m_;
         const float range_m = ray.norm();

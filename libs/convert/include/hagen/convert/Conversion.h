@@ -18,9 +18,9 @@ namespace hagen::convert {
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
     std::filesystem::path input;        ///< see openRecording()
-    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag; or empty
+    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag, or empty
     std::filesystem::path calibration;  ///< HDL-64E calibration of a capture, or empty
-    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
+    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty for all topics
 
     std::filesystem::path rawlog;  ///< segmented rawlog
     std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR
@@ -28,7 +28,7 @@ struct Conversion {
     OutputFormat cloud_format = OutputFormat::Ply;
     std::filesystem::path mcap;      ///< labelled clouds, boxes and poses as ROS 2 messages
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
-    std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot, .3Dscene: one map in each format
+    std::vector<std::filesystem::path> octomaps;  ///< the map in each format: .bt, .ot, .3Dscene
     observations::ScanMapOptions octomap;         ///< resolution and contents of the map
     std::filesystem::path stats;                  ///< JSON: settings, counts, one line per scan
     bool overwrite = false;                       ///< replace existing outputs
@@ -36,10 +36,10 @@ struct Conversion {
     std::filesystem::path poses;  ///< vehicle poses (TUM, KITTI); empty for the poses of the log
     std::size_t from = 0;         ///< first and last entry to convert, both inclusive
     std::size_t to = std::numeric_limits<std::size_t>::max();
-    std::vector<std::string> sensor_labels;  ///< LiDARs to segment; empty: all
+    std::vector<std::string> sensor_labels;  ///< LiDARs to segment; empty for all LiDARs
     observations::CloudClass cloud_class = observations::CloudClass::Simple;
     std::size_t jobs = 0;  ///< number of threads, 0 for all cores; does not affect outputs
-    bool preview = false;  ///< add a coloured scene after each pair of clouds
+    bool preview = false;  ///< add a coloured scene per scan to the rawlog
     std::optional<float>
         picture_azimuth_deg;  ///< column to draw; default: column of the nearest obstacle
     Settings settings;
@@ -53,21 +53,21 @@ struct ScanReport {
     double time_s;
     std::size_t returns, roi, rou, unclassified;
     std::size_t returns_masked;  ///< unclassified returns from the airframe in the settings
-    std::size_t obstacles;       ///< RoI components
+    std::size_t obstacles;       ///< number of RoI components
     float nearest_roi_m;         ///< NaN if the scan has no RoI
     double latency_ms;           ///< time from the observation in memory to its labels
 };
 
 /// Results of a conversion.
 struct ConversionReport {
-    std::size_t entries = 0;  ///< entries converted; all are in the output
-    std::size_t scans = 0;    ///< segmented LiDAR scans in these entries
+    std::size_t entries = 0;  ///< converted entries, which are all in the output
+    std::size_t scans = 0;    ///< segmented LiDAR scans in the converted entries
     std::size_t returns = 0, roi = 0, rou = 0, unclassified = 0;
     std::size_t returns_masked = 0;    ///< unclassified airframe returns
     std::size_t unreadable_scans = 0;  ///< scans kept but not segmented, and reported
     std::size_t results_replaced = 0;  ///< clouds and previews of an earlier run, not in the output
     std::size_t left_out_before = 0;   ///< entries skipped before `from`
-    /// Sensor description by sensor label: "VLP-16, 16 beams", or how it was recovered
+    /// Sensor description by sensor label: "VLP-16, 16 beams", or how the sensor was recovered
     /// (CloudSensors.h).
     std::map<std::string, std::string> sensors;
     /// Sensors that neither the log nor the settings name, and their image columns.
@@ -78,7 +78,7 @@ struct ConversionReport {
     std::map<std::string, Recovered> recovered;  ///< by sensor label
     std::string poses;  ///< source of the poses; empty if not needed or not available
     std::size_t scans_with_pose = 0;
-    std::size_t clouds = 0, cloud_points = 0;  ///< files and points of the labelled clouds
+    std::size_t clouds = 0, cloud_points = 0;  ///< numbers of labelled clouds and of their points
     struct Mcap {
         std::size_t scans = 0, points = 0, boxes = 0, messages = 0;
     };
@@ -109,13 +109,13 @@ struct ConversionListener {
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// Segments a whole log. Holds one entry per thread in memory. Pictures are drawn on one thread.
+/// Segments a log. Holds one entry per thread in memory. Pictures are drawn on one thread.
 ///
 /// A segmented rawlog keeps every entry of a rawlog, in order, but only the scans of a capture or
 /// bag. Each LiDAR observation is followed, in the same sensory frame if any, by its `_roi` and
-/// `_non_roi` clouds and the preview, if requested. They replace results of an earlier run. Scan
-/// folders and labelled clouds keep the names of an input folder; scans of other recordings are
-/// numbered.
+/// `_non_roi` clouds and the preview, if requested. The new results replace those of an earlier
+/// run. Scan folders and labelled clouds keep the names of an input folder; scans of other
+/// recordings are numbered.
 ///
 /// An OctoMap needs poses. Each return is placed with the pose at its own time, if known. Scans
 /// without a pose are skipped, with a remark.

@@ -17,12 +17,12 @@ namespace hagen::convert {
 /// A scan in the map frame.
 struct PlacedScan {
     observations::MappedScan mapped;
-    /// All returns are placed with the scan's pose, because the times of returns are missing or
-    /// invalid, or because the vehicle's poses end before the scan or have a gap.
+    /// Whether all returns are placed with the scan's pose, because the times of returns are
+    /// missing or invalid, or because the vehicle's poses end before the scan or have a gap.
     bool is_by_one_pose;
 };
 
-/// Places the classified returns of a scan: each with the pose at its own time if `vehicle` and the
+/// Places the classified returns of a scan, each with the pose at its own time if `vehicle` and the
 /// scan provide it, otherwise with the scan's pose. Returns nullopt without a pose.
 std::optional<PlacedScan> placeInMap(const observations::ObservationSegmenter::Output& segmented,
                                      const mrpt::obs::CObservation& observation,
@@ -43,7 +43,7 @@ class MapOutput {
     /// Throws std::runtime_error naming the files that could not be written, after renaming the
     /// others into place.
     void commit();
-    /// The names of the partial files, separated by spaces. Throws like commit().
+    /// Keeps partial files; returns their names, separated by spaces. Throws like commit().
     std::string keepPartial();
 
  private:

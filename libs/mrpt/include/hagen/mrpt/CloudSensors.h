@@ -15,15 +15,17 @@ namespace hagen::observations {
 /// Recovered beams; null if unknown.
 using SharedBeams = std::shared_ptr<const RecoveredBeams>;
 
-/// Recovers the unnamed sensors of clouds, one per sensor label.
+/// Recovers unnamed sensors, one per sensor label, from their clouds.
 ///
 /// A label's beams come from the cloud with the most returns among its first five with at least
-/// kMinReturnsForBeams returns (ties: the first). After five clouds, the beams do not change.
+/// kMinReturnsForBeams returns (the first in case of a tie). After five clouds, the beams do not
+/// change.
 class CloudSensors {
  public:
     static constexpr int kClouds = 5;
 
-    /// Uses an observation if it is a readable cloud (not packets) and the label is not complete.
+    /// Uses an observation if it is a readable cloud (not packets) and the label needs further
+    /// clouds.
     void see(const mrpt::obs::CObservation& observation);
     /// Like above, for the coordinates of a cloud. Rings of its returns, if given, define the beams
     /// if they agree with the elevations (ringBeams()).

@@ -9,7 +9,7 @@ namespace hagen::observations {
 /// A segmented scan, or some of its sectors, registered in the map: each return is placed with the
 /// estimated pose at its own time. Returns without a valid range are dropped.
 struct MappedScan {
-    double time_s = 0;                      ///< end of the sectors
+    double time_s = 0;                      ///< time at the end of the sectors
     Eigen::Vector3f origin_m{0, 0, 0};      ///< sensor position halfway through the scan
     std::vector<Eigen::Vector3f> points_m;  ///< all returns within the sensor's range limits
     std::vector<Label> labels;              ///< one entry per point: Rou or Roi

@@ -23,7 +23,7 @@
 namespace hagen::observations {
 
 /// Registers every class of mrpt-obs and mrpt-maps so that it can be read from a rawlog. Linking
-/// the libraries is not enough: the linker drops a library without referenced symbols.
+/// the libraries is not enough, because the linker drops libraries without referenced symbols.
 inline void registerMrptClasses() {
     // Registers only once, because later calls must not modify the registry while threads use it.
     static const bool is_done = [] {

@@ -13,7 +13,7 @@ namespace hagen::observations {
 struct ScanPose {
     /// Sensor pose in the map at the scan's time; nullopt if the trajectory does not cover it.
     std::optional<mrpt::poses::CPose3D> sensor_pose;
-    bool pose_has_horizon = false;     ///< the map is gravity-aligned
+    bool pose_has_horizon = false;     ///< whether the map is gravity-aligned
     std::optional<Attitude> attitude;  ///< tilt of the sensor, if known
     /// The pose or attitude belongs to the sensor itself and includes the mount, if any.
     bool is_of_sensor = false, attitude_is_of_sensor = false;

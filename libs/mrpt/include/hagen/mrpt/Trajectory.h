@@ -24,10 +24,10 @@ class Trajectory {
     /// neighbours are at most 0.2 s apart or a pose has exactly this time.
     std::optional<mrpt::poses::CPose3D> at(mrpt::Clock::time_point time) const;
 
-    /// True if the map is gravity-aligned, so that a pose provides the vehicle's attitude. False if
+    /// Whether the map is gravity-aligned, so that a pose provides the vehicle's attitude. False if
     /// poses are integrated from odometry or relative to the first pose.
     bool has_horizon = true;
-    std::size_t not_finite = 0;  ///< ignored poses
+    std::size_t not_finite = 0;  ///< number of ignored poses
 
     std::size_t size() const { return poses_.size(); }
 

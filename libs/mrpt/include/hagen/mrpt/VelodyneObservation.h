@@ -32,7 +32,7 @@ void sensorOf(const mrpt::obs::CObservationVelodyneScan& observation, SensorMode
               ObservationWorkspace& work);
 
 /// Decodes all raw packets of an observation with its calibration (sensors::decodePackets()),
-/// regardless of its range limits. (MRPT's own generatePointCloud() decodes half of each block.)
+/// regardless of its range limits. (MRPT's generatePointCloud() decodes only half of each block.)
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan,
                           ObservationWorkspace& work);
 /// Like above, with temporary buffers.
