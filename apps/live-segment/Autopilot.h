@@ -11,7 +11,7 @@
 
 namespace hagen {
 
-/// The flags for the autopilot link.
+/// The flags of the autopilot link.
 struct AutopilotFlags {
     std::string peer;  ///< empty for no link
     int system = 1, nearest = 5;

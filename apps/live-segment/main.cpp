@@ -1,4 +1,4 @@
-// Labels the packets of a LiDAR as they arrive: near obstacles (RoI) and everything else (ROU).
+// Labels the packets of a LiDAR as they arrive, as near obstacles (RoI) or everything else (ROU).
 #include <hagen/live/LiveSession.h>
 #include <hagen/settings/Presets.h>
 
@@ -106,7 +106,7 @@ void check(Flags& flags) {
 
 using To = BackgroundPrinter::To;
 
-/// The status as one terminal line.
+/// Shows the status in a terminal line.
 class StatusLine {
  public:
     explicit StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
@@ -228,7 +228,7 @@ int run(const Program& program, Flags& flags) {
         } catch (const SettingsError& e) {
             failure = e.what();
             failed = kWrongUsage;
-        } catch (const std::exception& e) {  // printed in the background
+        } catch (const std::exception& e) {  // the background printer prints the message
             printer.print(line.instead(), "");
             failure = program.messageOf(e);
         }

@@ -25,8 +25,8 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-/// All models except those with motion, because open loop queries clearances only at scan times,
-/// and the oracle if the scene is unknown.
+/// All models except those that predict motion, because open loop queries clearances only at scan
+/// times; without a scene, also omits models that need ground truth.
 std::vector<std::string> standardModels(bool has_scene) {
     std::vector<std::string> models = avoidance::worldModelNames();
     const auto isMissing = [=](const std::string& model) {

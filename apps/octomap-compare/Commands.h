@@ -14,7 +14,7 @@ using namespace base;  // Program, Command, Flag, UsageError
 /// Rejects other values unless they are in `also`, and lists the names.
 void takesWorldModels(Flag flag, const std::vector<std::string>& also = {});
 
-/// Throws UsageError for duplicates.
+/// Throws UsageError if a value occurs twice.
 template <class Value>
 void requireOnce(const std::string& flag, const std::vector<Value>& values) {
     for (auto value = values.begin(); value != values.end(); ++value) {
@@ -29,7 +29,7 @@ void requireOnce(const std::string& flag, const std::vector<Value>& values) {
 std::vector<std::string> namesFrom(const std::string& flag, const std::vector<std::string>& names,
                                    const std::vector<std::string>& all);
 
-// Each adds a subcommand with its flags.
+// Add a subcommand with its flags.
 void addClosedLoop(Program& program);
 void addCalibrate(Program& program);
 void addOpenLoop(Program& program);

@@ -10,7 +10,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::size_t kMaxRemarks = 10;  // per kind, so that a frequent one does not hide others
+constexpr std::size_t kMaxRemarks = 10;  // per kind, so that frequent remarks do not hide others
 constexpr Seconds kBetweenLines{0.1}, kBeforeRate{1.0};
 
 std::string clockOf(double seconds) {

@@ -31,7 +31,7 @@ class Progress {
         std::size_t printed = 0, suppressed = 0;
         std::string last;  ///< last suppressed remark
     };
-    std::map<std::string, Remark> remarks_;  ///< times by text
+    std::map<std::string, Remark> remarks_;  ///< counts by text
     std::map<std::string, Kind> kinds_;      ///< counts by text without numbers and names
     std::chrono::steady_clock::time_point start_, shown_;
 };

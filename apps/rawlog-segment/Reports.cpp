@@ -25,7 +25,7 @@ std::string counted(std::size_t number, const std::string& one, const std::strin
     return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
-/// Bytes of a file or of all files in a folder. Ignores files removed concurrently.
+/// Size of a file or of all files in a folder, in bytes. Ignores files removed concurrently.
 double bytesOf(const std::filesystem::path& path) {
     namespace fs = std::filesystem;
     std::error_code unreadable;

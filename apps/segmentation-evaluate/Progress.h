@@ -6,7 +6,7 @@
 
 namespace hagen {
 
-/// A progress line on standard error, removed at the end; not shown unless standard error is a
+/// A progress line on standard error, removed at the end; shown only if standard error is a
 /// terminal.
 class Progress {
  public:

@@ -38,7 +38,7 @@ std::string trimmed(std::string line) {
     return line + "\n";
 }
 
-/// A dash for undefined values.
+/// A number, or a dash if it is undefined.
 std::string figure(double value, int digits = 4) {
     return std::isnan(value) ? "-" : format("%.*f", digits, value);
 }
@@ -68,7 +68,7 @@ std::vector<std::string> namesOf(const std::vector<MethodTotals>& methods) {
     return names;
 }
 
-/// Scores of each method, over returns or pixels.
+/// The scores of each method, over returns or pixels.
 std::string scoreTable(const Summary& summary, ScoreTotals MethodTotals::*which) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text = left("", width) +
@@ -275,7 +275,7 @@ std::string comparison(const Summary& summary) {
     return text;
 }
 
-/// Missed obstacle returns above 0.5 m, by part: "12 of 3456".
+/// The missed obstacle returns above 0.5 m by part, such as "12 of 3456".
 std::string missedParts(const Summary& summary) {
     using Groups = std::vector<MissedGroup> DroneTotals::*;
     const auto table = [&](const std::string& by, const std::string& heading, Groups part) {

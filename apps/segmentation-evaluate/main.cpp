@@ -106,7 +106,8 @@ void checkNames(const std::vector<evaluation::LabelRow>& rows) {
     }
 }
 
-/// The outputs, renamed into place at the end. A failed output does not affect the others.
+/// The outputs, which are renamed into place at the end. A failed output does not affect the
+/// others.
 struct Outputs {
     Outputs(const Flags& flags, const evaluation::MethodSet& rows, std::vector<fs::path> inputs) {
         inputs.insert(inputs.end(), flags.folders.begin(), flags.folders.end());

@@ -27,13 +27,13 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::size_t kQueue = 4096;  // packets, several seconds
+constexpr std::size_t kQueue = 4096;  // packets of several seconds
 constexpr double kFlush_s = 0.02;     // pause after which the sector in progress is labelled
 constexpr double kStatus_s = 0.5;
 // SectorDistances treats a direction as unknown if its turn is 0.3 s old. Packets that waited
-// longer than kTooOld_s are therefore dropped, until one has waited less than kNew_s.
+// longer than kTooOld_s are therefore dropped, until a packet has waited less than kNew_s.
 constexpr double kTooOld_s = 0.15, kNew_s = 0.05;
-constexpr int kKeepsUp = 4;  // consecutive statuses without dropped packets that end an overload
+constexpr int kKeepsUp = 4;  // statuses without dropped packets that end an overload
 
 double processCpu_s() {
     return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
@@ -51,7 +51,7 @@ class Session {
     void drop(const Packet& packet);
     /// Counts packets that were not labelled. Thread-safe.
     void lose(std::size_t packets) { lost_ += packets; }
-    /// Called by the receiving thread for each datagram.
+    /// Records a datagram; called by the receiving thread.
     void record(const Packet& packet) {
         if (recorder_) recorder_->add(packet);
     }
@@ -192,7 +192,7 @@ void Session::drop(const Packet& packet) {
     last_packet_s_ = packet.arrival_s;
     ++dropped_;
     reportReturn();
-    if (report_.datagrams == 0) return;  // sent before the session began
+    if (report_.datagrams == 0) return;  // the packet arrived before the session
     if (keeps_up_ >= kKeepsUp) {
         listener_.remark("labelling is too slow: dropping packets that waited too long");
     }
@@ -398,7 +398,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     if (stats) {
         try {
             writeStats(report, options, listener, *stats);
-        } catch (const std::exception& e) {  // must not affect the other outputs
+        } catch (const std::exception& e) {  // other outputs must not fail
             report.stats_failure = e.what();
         }
     }

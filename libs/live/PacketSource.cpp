@@ -57,7 +57,7 @@ UdpSource::UdpSource(const Address& address)
     if (socket_ < 0) fail(name_);
     try {
         const int yes = 1;
-        // SO_RCVBUF is limited by net.core.rmem_max; SO_RCVBUFFORCE needs CAP_NET_ADMIN.
+        // SO_RCVBUF is limited by net.core.rmem_max, but SO_RCVBUFFORCE needs CAP_NET_ADMIN.
         if (setsockopt(socket_, SOL_SOCKET, SO_RCVBUFFORCE, &kBufferBytes, sizeof kBufferBytes) !=
             0)
             setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &kBufferBytes, sizeof kBufferBytes);
@@ -134,7 +134,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
         const std::int64_t waited_ns = packet.time_ns - nanoseconds(stamp);
         packet.arrival_s -= 1e-9 * static_cast<double>(waited_ns);
         packet.time_ns -= waited_ns;
-        // The system clock was set back meanwhile, so the arrival time is unknown.
+        // If the system clock was set back meanwhile, the arrival time is unknown.
         if (waited_ns < 0) packet.arrival_s = latest_arrival_s_;
     }
     packet.arrival_s = latest_arrival_s_ = std::max(latest_arrival_s_, packet.arrival_s);

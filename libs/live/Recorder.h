@@ -27,7 +27,7 @@ class Recorder {
     /// Calls finish().
     ~Recorder();
 
-    /// Called by the receiving thread.
+    /// Adds a datagram; called by the receiving thread.
     void add(const Packet& packet);
     /// Adds a pose at a packet time (Packet::time_ns), unless it is at most 20 ms after the last
     /// pose. Requires `has_poses`.

@@ -10,8 +10,8 @@ namespace hagen::live {
 namespace {
 
 constexpr double kDirections_s = 0.05;
-constexpr double kMinTime_s = 0.125;  // shortest time for a rate
-constexpr double kOtherRate = 0.2;    // relative change that is reported
+constexpr double kMinTime_s = 0.125;  // minimum time for a rate
+constexpr double kOtherRate = 0.2;    // minimum relative change that is reported
 
 SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor) {
     SectorDistances::Settings settings;

@@ -14,7 +14,7 @@ class SensorAddress {
  public:
     /// Whether a packet from this address belongs to the sensor. Counts invalid packets, too.
     bool take(std::uint32_t ip, double arrival_s);
-    /// nullopt before the first packet.
+    /// The current address; nullopt before the first packet.
     std::optional<std::uint32_t> ip() const {
         return own_.empty() ? std::nullopt : std::optional(own_[current_]);
     }

@@ -88,7 +88,7 @@ void copyPoints(const PointsView& points, Scan& scan) {
     }
     const char* row = points.data;
     const auto at = [&](int column) {
-        float value;  // numpy slices of structures are unaligned
+        float value;  // NumPy slices of structures are unaligned
         std::memcpy(&value, row + column * points.column_bytes, sizeof value);
         return value;
     };

@@ -56,6 +56,6 @@ template <class T>
 pybind11::array_t<T> copied(const std::vector<T>& values) {
     return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data());
 }
-pybind11::array_t<float> pointsOf(const Scan& scan);  ///< (N, 3)
+pybind11::array_t<float> pointsOf(const Scan& scan);  ///< the coordinates, (N, 3)
 
 }  // namespace hagen::python

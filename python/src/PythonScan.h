@@ -36,7 +36,7 @@ void readArrays(PythonScan& scan);
 
 /// The pose as a matrix (4, 4), or None.
 pybind11::object poseOf(const PythonScan& scan);
-/// (roll, pitch) [rad], or None.
+/// The attitude as (roll, pitch) [rad], or None.
 pybind11::object attitudeOf(const PythonScan& scan);
 
 }  // namespace hagen::python

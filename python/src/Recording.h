@@ -18,7 +18,8 @@ namespace hagen::python {
 /// functions require the GIL, and release it while reading.
 class Recording {
  public:
-    /// Throws FileNotFoundError, and like recordings::openRecording() and ScanSource::usePoses().
+    /// Throws FileNotFoundError, and exceptions of recordings::openRecording() and
+    /// ScanSource::usePoses().
     Recording(const std::filesystem::path& file, recordings::SourceOptions options,
               const std::filesystem::path& poses);
 

@@ -9,7 +9,7 @@ constexpr double kDrift = 1e-3;  // maximum drift of a clock
 constexpr double kSlow = 0.5;    // minimum speed of a simulated clock
 constexpr double kJump_s = 1;    // minimum change that is a restart, not drift
 // A single time stamp this far ahead may be corrupt or from another vehicle; kInARow consecutive
-// ones are valid.
+// time stamps are valid.
 constexpr double kAhead_s = 0.1;
 constexpr int kInARow = 3;
 

@@ -15,7 +15,7 @@ struct Limits {
     float nearest_m = 0.5f;  ///< minimum range of the sensor
 };
 
-/// OBSTACLE_DISTANCE: 72 directions of 5 degrees, the first straight ahead. Distances are
+/// OBSTACLE_DISTANCE: 72 directions of 5 degrees, the first centred straight ahead. Distances are
 /// horizontal, from 1 cm to the zone; zone + 1 cm means no obstacle, 65535 unknown.
 mavlink::ObstacleDistance obstacleDistance(const Directions& directions, const Limits& limits,
                                            double time_s);

@@ -12,7 +12,7 @@ namespace hagen::live {
 
 /// The nearest point of an obstacle.
 struct Obstacle {
-    std::uint16_t number = 0;  ///< constant while the obstacle is tracked; never 65535
+    std::uint16_t number = 0;  ///< constant while the obstacle is tracked; not 65535
     Eigen::Vector3f at_m = Eigen::Vector3f::Zero();  ///< in the vehicle's level frame
 };
 

@@ -34,7 +34,7 @@ class VehicleMotion {
     struct Attitude {
         double time_s;
         Eigen::Quaterniond map_from_vehicle;
-        Eigen::Vector3d rates_rad_s;  ///< about the vehicle's axes
+        Eigen::Vector3d rates_rad_s;  ///< rates about the vehicle's axes
     };
     struct Place {
         double time_s;

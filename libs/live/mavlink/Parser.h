@@ -11,7 +11,8 @@
 namespace hagen::mavlink {
 
 /// Finds MAVLink 2 messages in a byte stream. A frame with a wrong checksum or an unknown message
-/// ID is skipped by one byte only, so that a message inside is not lost. No input makes it throw.
+/// ID is skipped by one byte only, so that a message inside is not lost. Does not throw on invalid
+/// input.
 class Parser {
  public:
     struct Counts {

@@ -22,8 +22,8 @@ struct PeerAddress {
 /// "serial:/dev/ttyAMA0:921600". Throws std::runtime_error describing the error.
 PeerAddress parsePeer(const std::string& text);
 
-/// A UDP or serial connection, which may be interrupted. Sending never blocks: a delayed message
-/// would be stale.
+/// A UDP or serial connection, which may be interrupted. Sending never blocks, because a delayed
+/// message would be stale.
 class Peer {
  public:
     /// Throws std::runtime_error naming the host or device if it is unknown or cannot be opened.

@@ -33,7 +33,7 @@ const Speed* speedOf(int baud) {
 }
 
 constexpr std::chrono::milliseconds kOpenEvery{500};    // time between attempts to reopen
-constexpr std::chrono::milliseconds kTakesWithin{300};  // longest wait for progress
+constexpr std::chrono::milliseconds kTakesWithin{300};  // longest time without progress
 constexpr std::chrono::milliseconds kStuckFor{1000};    // duration of the error report
 
 class SerialPeer : public Peer {
@@ -56,7 +56,7 @@ class SerialPeer : public Peer {
             if (errno != EAGAIN && errno != EINTR) leave(errno);
             return false;
         }
-        // The rest of a partly written message precedes the next one.
+        // The rest of a partly written message is sent before the next message.
         rest_.assign(bytes.begin() + sent, bytes.end());
         noteWaiting();
         return true;
@@ -98,7 +98,7 @@ class SerialPeer : public Peer {
         }
         termios settings{};
         if (tcgetattr(line_, &settings) != 0) return leave(errno);
-        cfmakeraw(&settings);  // 8N1 without translation
+        cfmakeraw(&settings);  // 8N1 without character translation
         settings.c_cflag |= CLOCAL | CREAD;
         settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
         settings.c_cc[VMIN] = 1;
@@ -140,7 +140,7 @@ class SerialPeer : public Peer {
         waiting_ = waitingBytes();
         if (waiting_ == 0) moved_ = Clock::now();
     }
-    /// Drops queued messages of a stuck line; they would be sent late.
+    /// Drops queued messages of a stuck line, because they would be sent late.
     void dropOld() {
         const int waiting = waitingBytes();
         if (waiting < waiting_ || (waiting == 0 && !isFull())) moved_ = Clock::now();

@@ -52,7 +52,7 @@ class UdpPeer : public Peer {
         if (!is_connected_) return false;
         if (::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) return true;
         note(errno);
-        // The error may belong to an earlier message, so this one is sent again.
+        // The error may belong to an earlier message, so this message is sent again.
         return errno == ECONNREFUSED &&
                ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0;
     }
@@ -65,7 +65,8 @@ class UdpPeer : public Peer {
         const ssize_t got = recvfrom(socket_, buffer, size, MSG_DONTWAIT,
                                      reinterpret_cast<sockaddr*>(&from), &from_size);
         if (got > 0) {
-            // Datagrams queued before the socket was connected may come from other senders.
+            // Datagrams that were queued before the socket was connected may come from other
+            // senders.
             if (from.sin_addr.s_addr != peer_.sin_addr.s_addr || from.sin_port != peer_.sin_port) {
                 return 0;
             }

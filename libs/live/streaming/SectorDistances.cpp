@@ -46,8 +46,8 @@ struct SectorDistances::Look {
     /// For each degree of the vehicle, the sensor's rotation when it last passed, and the arrival
     /// time of that sector.
     std::array<double, kBins> passed_rad, passed_s{};
-    /// Like passed_rad, for each degree of the current sensor frame. A tilted sensor looks below
-    /// the horizon and at the horizon straight above at different times.
+    /// Like passed_rad, but for each degree of the current sensor frame. A tilted sensor looks
+    /// below the horizon and at the horizon straight above at different times.
     std::array<double, kBins> passed_by_sensor_rad;
     std::array<bool, kSectors> is_doubtful{};  ///< unconfirmed old obstacle
     Sectors sectors;
@@ -244,8 +244,8 @@ SectorDistances::Sectors SectorDistances::at(double now_s, const PoseAt& poseAt)
         const Seen& seen = **each;
         if (!matters(seen, now_s)) continue;
         const bool is_fresh = isFresh(seen, now_s);
-        // A later turn has swept everything again. If it did not see the horizon, no direction is
-        // free anyway, so doubts do not matter.
+        // The sector is obsolete if a later turn has swept everything again. If that turn did not
+        // see the horizon, no direction is free anyway, so doubts do not matter.
         const auto areAllPassed = [&](const std::array<double, kBins>& all_rad) {
             return seen.isPassed(*std::min_element(all_rad.begin(), all_rad.end()));
         };

@@ -16,14 +16,14 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::size_t kMaxPackets = 4000;  // limit independent of the clock; a turn has up to 600
+constexpr std::size_t kMaxPackets = 4000;  // maximum even if the clock stops; a turn has up to 600
 constexpr double kPacketEnd_rad = 0.01;    // tolerance of packet boundaries
 // A beam's correction may add half a turn, and nearestColumn() wraps only once.
 constexpr float kMaxAzimuth_rad = 7.8F;
 constexpr double kMaxRotation_rad = 1e12;  // 250 years at 20 Hz; still exact to 0.1 mrad
 constexpr double kMargin_rad = 0.02;       // added to the sector's image ahead of the sector
 constexpr int kEmptyColumns = 16;  // group width where no returns are kept; shown as two columns
-// Smaller motions leave all returns in their pixels.
+// With smaller motions, all returns stay in their pixels.
 constexpr double kMinMotion_m = 0.01, kMinMotion_rad = 1e-3;
 
 template <class Value>
@@ -60,7 +60,7 @@ void moveReturns(const Eigen::Isometry3d& motion, std::size_t first, Scan& scan)
         x_m[i] = turn(0, 0) * x + turn(0, 1) * y + turn(0, 2) * z + way_m.x();
         y_m[i] = turn(1, 0) * x + turn(1, 1) * y + turn(1, 2) * z + way_m.y();
         z_m[i] = turn(2, 0) * x + turn(2, 1) * y + turn(2, 2) * z + way_m.z();
-        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN if one is not finite
+        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN unless all are finite
         range_m[i] += zero;
     }
 }
@@ -311,15 +311,15 @@ void StreamingSegmenter::addThinned(std::size_t first, std::size_t end) {
     pending_end_ = end;
 }
 
-/// The transform of a packet's returns to the current sensor frame, if the motion since then is
-/// known.
+/// The transform of a packet's returns to the current sensor frame, if the motion since the packet
+/// is known.
 std::optional<Eigen::Isometry3d> StreamingSegmenter::motionSince(const Packet& packet) const {
     const Packet& latest = packets_.back();
     if (!packet.pose && !latest.pose && packet.sweep) {
         const double middle_rad = (packet.sweep->from_rad + packet.sweep->to_rad) / 2;
         return turn_motion_.since((head_rad_ - middle_rad) / kTurn_rad);
     }
-    // Tilt and pose are not comparable: only the pose has heading and position.
+    // Poses without position are not comparable to others.
     if (!packet.pose || !latest.pose || packet.has_place != latest.has_place) return std::nullopt;
     return latest.pose->inverse() * *packet.pose;
 }
@@ -386,8 +386,8 @@ bool StreamingSegmenter::knowsEnough() const {
 }
 
 /// Selects the image columns: all columns in and beside the sector, and a fraction of the others.
-/// All sectors have the same image size, unless late packets widen one. Returns false if the image
-/// spans the turn.
+/// All sectors have the same image size, unless late packets widen a sector. Returns false if the
+/// image spans the turn.
 bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     const int columns = filter_.options().columns;
     const Sweep& latest = *packets_.back().sweep;
@@ -429,7 +429,7 @@ const SegmentationResult& StreamingSegmenter::judge() {
     return result;
 }
 
-/// Turns the sector's packets into context.
+/// Stores the results of the sector's packets, which become context.
 void StreamingSegmenter::keepFound() {
     forgetThinned();
     auto from = found_.begin();

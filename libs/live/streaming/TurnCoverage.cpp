@@ -31,7 +31,7 @@ const std::vector<TurnCoverage::Swept>& TurnCoverage::add(const LabelledSector& 
     swept_.clear();
     const double to_rad = sector.sweep->to_rad + added_rad_;
     if (to_rad < head_rad_) {
-        // The sensor has restarted, so leaves a gap of at least a full turn to the previous angles.
+        // The sensor has restarted. Leaves a gap of at least a full turn after the previous angles.
         added_rad_ += kTurn_rad * (std::ceil((head_rad_ - to_rad) / kTurn_rad) + 1);
         stretches_.clear();
     }

@@ -10,9 +10,9 @@ namespace hagen::live {
 namespace {
 
 constexpr int kEvery = 4;                                   // compares every n-th column
-constexpr double kMemory_rad = 0.8;                         // decay angle of the weights
+constexpr double kMemory_rad = 0.8;                         // decay angle of weights
 constexpr double kMisfit_m = 0.3;                           // misfit of a return with weight 1/2
-constexpr double kUsualRise_m = 0.1, kUsualTilt_rad = 0.1;  // prior per turn
+constexpr double kUsualRise_m = 0.1, kUsualTilt_rad = 0.1;  // prior motion per turn
 constexpr double kMinWeight = 10;    // minimum total weight; an exact return has weight 1
 constexpr double kSteepest = 0.6;    // maximum slope between rings
 constexpr float kMinApart_m = 0.2F;  // minimum distance of rings that define a slope
@@ -105,7 +105,7 @@ void TurnMotion::add(const Scan& sector, const std::vector<Label>& label, double
         Ground& ground =
             ground_[static_cast<std::size_t>(pixel.column) * static_cast<std::size_t>(rows_) +
                     static_cast<std::size_t>(pixel.row)];
-        // If a pixel has several returns, ground is kept.
+        // If a pixel has several returns, the ground return is kept.
         if (pixel.ground.radius_m > 0 || ground.head_rad < head_rad) ground = pixel.ground;
     }
     const Eigen::Vector3d usual(kUsualRise_m, kUsualTilt_rad, kUsualTilt_rad);

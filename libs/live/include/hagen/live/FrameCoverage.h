@@ -23,7 +23,7 @@ class FrameCoverage {
     struct Frame {
         double time_s, sensor_time_s, measured_s;
     };
-    std::deque<Frame> frames_;  ///< of the current period
+    std::deque<Frame> frames_;  ///< frames of the current period
 };
 
 }  // namespace hagen::live

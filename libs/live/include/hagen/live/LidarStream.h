@@ -21,7 +21,7 @@ class LidarStream : private sensors::ReturnSink {
     /// Adds a datagram that arrived at `arrival_s`, in seconds of a monotonic clock. Throws
     /// std::invalid_argument unless the time is finite.
     sensors::Taken add(const sensors::Datagram& datagram, double arrival_s);
-    /// Labels the sector in progress, because the sensor is silent.
+    /// Labels the sector in progress, for use when the sensor is silent.
     void flush() override;
 
     /// Sets the sensor's tilt and pose; see StreamingSegmenter. While the tilt is unknown, the

@@ -22,7 +22,7 @@ namespace hagen::live {
 
 /// Options of a live session.
 struct LiveOptions {
-    /// "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
+    /// The sensor model: "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
     std::string model;
     std::filesystem::path calibration;  ///< only for an HDL-64E
     Settings settings;
@@ -59,7 +59,7 @@ struct LiveReport : sensors::PacketCounts {
     Recorded recorded;          ///< empty if nothing was recorded
 };
 
-/// Figures since the last status.
+/// Statistics since the last status.
 struct LiveStatus {
     double turns_per_s = 0;
     double p50_s = 0, p99_s = 0, max_s = 0;                     ///< latency; NaN without sectors
@@ -75,27 +75,27 @@ struct LiveListener {
     std::function<SensorMotion(double time_s)> motion;
     /// Functions that return more counts for `stats`, by section name; called at the end.
     std::map<std::string, std::function<std::vector<std::pair<std::string, std::size_t>>()>> counts;
-    /// Messages for the user: silence, changed mode, changed rate.
+    /// Called with messages for the user, such as silence, a changed mode or a changed rate.
     std::function<void(const std::string& remark)> remark = [](const auto&) {};
     /// Called every 0.5 s.
     std::function<void(const LiveReport&, const LiveStatus&)> status = [](const auto&,
                                                                           const auto&) {};
-    /// Called with each labelled sector; keep it short.
+    /// Called with each labelled sector; must return quickly.
     std::function<void(const LabelledSector&)> sector = [](const auto&) {};
     /// Returns false to end the session.
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// "a VLP-16" or "the Ouster of FILE".
+/// The sensor's name in messages: "a VLP-16" or "the Ouster of FILE".
 std::string sensorName(const LiveOptions& options);
 
-/// Labels the packets of a source until it ends, the duration is over or the listener stops it. One
-/// thread receives, the caller labels (its real-time priority, if any, is permanently lowered by
-/// one), and one thread records. If recording fails, the failure is reported and the session
-/// continues. No packet content ends the session.
+/// Labels the packets of a source until the source ends, the duration is over or the listener ends
+/// the session. One thread receives, the caller labels (its real-time priority, if any, is
+/// permanently lowered by one), and one thread records. If recording fails, the failure is reported
+/// and the session continues. No packet content ends the session.
 ///
 /// Throws std::runtime_error naming the file or address that failed, even if only recording cannot
-/// start. Throws SettingsError.
+/// start, and SettingsError.
 LiveReport runLive(PacketSource& source, const LiveOptions& options,
                    const LiveListener& listener = {});
 

@@ -27,8 +27,8 @@ struct Packet {
 /// Seconds of a monotonic clock.
 double steadyNow_s();
 
-/// Passes packets from the receiving to the labelling thread. Bounded; buffers are reused, so
-/// memory grows only to the maximum number of waiting packets.
+/// Passes packets from the receiving to the labelling thread. The queue is bounded and reuses
+/// buffers, so its memory grows only with the maximum number of waiting packets.
 class PacketQueue {
  public:
     explicit PacketQueue(std::size_t max);

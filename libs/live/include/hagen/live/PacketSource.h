@@ -29,7 +29,7 @@ class PacketSource {
     /// Waits up to 0.1 s for the next packet. Throws std::runtime_error naming the source if it
     /// cannot be read.
     virtual Next next(Packet& packet) = 0;
-    /// Whether packets are lost unless they are read in time.
+    /// Whether packets are lost if they are not read in time.
     virtual bool isLive() const = 0;
 };
 

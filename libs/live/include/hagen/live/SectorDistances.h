@@ -73,7 +73,7 @@ class SectorDistances {
     void take(const LabelledSector& sector);
     /// The directions at a time on the packet arrival clock.
     Sectors at(double now_s, const PoseAt& poseAt = {}) const;
-    /// Arrival of the latest packet of any sector; -infinity before the first.
+    /// Arrival of the latest packet of any sector; -infinity before the first sector.
     double latest_s() const { return latest_s_; }
 
  private:
@@ -89,7 +89,7 @@ class SectorDistances {
         double ahead_rad = 0;                    ///< beam offset
         /// Without a rotating head, the start of the period that FrameCoverage found complete.
         std::optional<double> all_around_since_s;
-        double from_rad = 0, to_rad = 0;     ///< total rotation before and after
+        double from_rad = 0, to_rad = 0;     ///< total rotation before and after the sector
         std::vector<Eigen::Vector3f> roi_m;  ///< in the sensor's frame
 
         bool isPassed(double at_rad) const { return at_rad - to_rad > kLaterTurn_rad; }

@@ -51,13 +51,13 @@ using sensors::Sweep;
 
 /// The returns of a sector with their labels. References are valid during the call only.
 struct LabelledSector {
-    const Scan& returns;               ///< in order of arrival, as measured
-    const std::vector<Label>& label;   ///< one per return
+    const Scan& returns;               ///< as measured, in order of arrival
+    const std::vector<Label>& label;   ///< label of each return
     std::optional<Sweep> sweep;        ///< nullopt without a rotating head
     double first_time_s, last_time_s;  ///< arrival of the first and last packet
     bool has_turn;                     ///< whether the context covers a full turn
     bool is_doubtful;                  ///< too little context, so all returns in the zone are RoI
-    bool is_cut;                       ///< ended by flush() or restart()
+    bool is_cut;                       ///< whether it was ended by flush() or restart()
     /// Result for the sector and its context. Only columns around the sector have images and labels
     /// (SectorFilter.h).
     const SegmentationResult& result;
@@ -101,16 +101,16 @@ class StreamingSegmenter {
     void setAttitude(const std::optional<Attitude>& attitude);
     void setPose(const std::optional<Eigen::Isometry3d>& map_from_sensor);
     /// Sets the sensor's tilt on a level vehicle, which the filter uses while the tilt is unknown.
-    /// Does not describe motion. Default: none.
+    /// It does not describe motion. By default, there is none.
     void setMount(const std::optional<Attitude>& tilt);
 
-    /// Sets the beam offsets: a direction is complete once all beams have passed it. Default: none.
-    /// Throws std::invalid_argument unless both are between 0 and a full turn.
+    /// Sets the beam offsets: a direction is complete once all beams have passed it. By default,
+    /// there are none. Throws std::invalid_argument unless both are between 0 and a full turn.
     void setBeamOffsets(const BeamOffsets& offsets);
 
     /// Adds the returns of a packet, with ranges, azimuths and rows (checkLocated()), and its
     /// arrival time in seconds. Throws std::invalid_argument for invalid values. A late packet's
-    /// `sweep` may precede earlier ones: its returns are labelled with the sector in progress.
+    /// `sweep` may precede earlier sweeps; its returns are labelled with the sector in progress.
     /// Calls the callback when a sector ends.
     void add(const Scan& returns, const Sweep& sweep, double time_s);
     /// Adds a frame of a sensor without a rotating head as a sector. `first_time_s` (default:
@@ -133,7 +133,7 @@ class StreamingSegmenter {
     const StreamingOptions& streaming() const { return streaming_; }
 
  private:
-    /// Returns, and the results of those already labelled.
+    /// Returns, and the results of those that are already labelled.
     struct Returns {
         Scan scan;
         std::vector<ContextReturn> found;
@@ -145,7 +145,7 @@ class StreamingSegmenter {
     };
     struct Packet {
         Returns all;
-        std::size_t thinned_first = 0, thinned_end = 0;  ///< in `thinned_`
+        std::size_t thinned_first = 0, thinned_end = 0;  ///< range of its returns in `thinned_`
         std::optional<Sweep> sweep;
         double time_s = 0, first_time_s = 0;    ///< equal, except for frames
         std::optional<Eigen::Isometry3d> pose;  ///< of the sensor; without position, rotation only
@@ -181,7 +181,7 @@ class StreamingSegmenter {
     BeamOffsets offsets_;
     std::optional<Eigen::Isometry3d> pose_;
 
-    std::deque<Packet> packets_;  ///< of the latest turn, in order of arrival
+    std::deque<Packet> packets_;  ///< packets of the latest turn, in order of arrival
     std::vector<Packet> spare_;   ///< reused packet buffers
     /// Context returns far from a sector, packet by packet, because most sectors use long stretches
     /// of them.

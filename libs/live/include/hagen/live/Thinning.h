@@ -6,8 +6,8 @@
 namespace hagen::live {
 
 /// Selects the context returns of a packet far from a sector: the nearest return of each pixel in
-/// every n-th column, or the lowest return of its row up to the next such column if clearly lower.
-/// Ground visible in gaps between obstacles shows their height.
+/// every n-th column, or the lowest return of its row up to the next of these columns if clearly
+/// lower. Ground visible in gaps between obstacles shows their height.
 class Thinning {
  public:
     /// `rows` of the sensor and `columns` of the image. `every` is n; 0 selects nothing.

@@ -8,7 +8,7 @@
 namespace hagen::live {
 
 /// The directions that all beams of a rotating sensor have swept; some beams lag (BeamOffsets).
-/// Lost packets leave gaps, however narrow. Late packets close their gap.
+/// Lost packets leave gaps, however narrow. Late packets close the gap.
 class TurnCoverage {
  public:
     /// The directions completed by a packet's sweep, as angles that grow from turn to turn.
@@ -39,7 +39,7 @@ class TurnCoverage {
 
     void add(const Sweep& sweep, const BeamOffsets& offsets);
 
-    std::vector<Sweep> stretches_;  ///< gapless, within the latest turn; unordered
+    std::vector<Sweep> stretches_;  ///< stretches without gaps within the latest turn; unordered
     std::vector<Swept> swept_;
     double head_rad_ = kNone, before_rad_ = kNone;
     double added_rad_ = 0;  ///< offset to the angles of sectors

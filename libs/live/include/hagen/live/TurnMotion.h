@@ -8,12 +8,13 @@
 
 namespace hagen::live {
 
-/// Estimates tilt and climb of a rotating sensor: compares each ROU return in the zone with the
+/// Estimates tilt and climb of a rotating sensor: each ROU return in the zone is compared with the
 /// return of the same pixel one turn before. (Beyond the zone, ROU is not only ground.)
 ///
 /// Point-to-plane registration (Chen and Medioni 1992) with three unknowns: height, roll and pitch;
 /// level ground does not determine heading and position. The plane at a return contains the next
-/// ring of its column, and is level across. Outliers (Cauchy weights) and older returns weigh less.
+/// ring of its column, and is level across. Outliers (Cauchy weights) and older returns have lower
+/// weights.
 class TurnMotion {
  public:
     /// `rows` of the sensor, `columns` of the image, and zone of the filter.
@@ -47,7 +48,7 @@ class TurnMotion {
     int rows_, columns_;
     float zone_m_;
     std::vector<Ground> ground_;  ///< latest ground of each pixel in the compared columns
-    std::vector<Pixel> sector_;   ///< reused
+    std::vector<Pixel> sector_;   ///< pixels of a sector; reused
     double head_rad_ = 0;
     /// Normal equations of the least-squares fit of height, roll and pitch of the previous frame
     /// relative to the current frame, in units of a return's variance.
