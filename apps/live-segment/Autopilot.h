@@ -29,7 +29,6 @@ void checkAutopilot(const AutopilotFlags& flags);
 std::unique_ptr<live::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
                                                    const Settings& settings,
                                                    live::LiveListener& listener);
-/// The message counts as one line of text.
 std::string summaryOf(const live::AutopilotLink& link);
 
 }  // namespace hagen

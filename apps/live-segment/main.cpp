@@ -106,7 +106,6 @@ void check(Flags& flags) {
 
 using To = BackgroundPrinter::To;
 
-/// Shows the status in a terminal line.
 class StatusLine {
  public:
     explicit StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) != 0) {}

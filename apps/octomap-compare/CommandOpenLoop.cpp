@@ -40,7 +40,6 @@ void print(std::size_t count, const std::string& what) {
     if (count > 0) std::cerr << "octomap-compare: " << count << " " << oneLine(what) << "\n";
 }
 
-/// Reports skipped scans.
 void printLosses(const avoidance::OpenLoopResult& result) {
     print(result.scans_without_pose, "scans skipped: no pose within 0.2 s");
     print(result.unreadable_scans,
@@ -50,7 +49,6 @@ void printLosses(const avoidance::OpenLoopResult& result) {
     }
 }
 
-/// Reports limitations of the results.
 void printLimits(const avoidance::OpenLoopResult& result) {
     print(result.scans_placed_by_one_pose,
           "scans were placed with one pose each, because their returns have no times or the "

@@ -248,7 +248,6 @@ void check(const Flags& flags) {
     }
 }
 
-/// Learns the airframe and reports it.
 void learn(const Flags& flags) {
     const convert::Conversion& conversion = flags.conversion;
     convert::AirframeLearning learning;

@@ -32,7 +32,6 @@ std::string right(const std::string& text, std::size_t width) {
     return std::string(width - std::min(width, text.size()), ' ') + text;
 }
 
-/// Removes trailing blanks from a line.
 std::string trimmed(std::string line) {
     line.erase(line.find_last_not_of(' ') + 1);
     return line + "\n";
@@ -100,7 +99,6 @@ std::string latencyTable(const Summary& summary) {
     return text;
 }
 
-/// A percentage, or a dash if it is undefined.
 std::string percentage(double share) { return figure(100 * share, 2); }
 
 std::string droneTable(const Summary& summary) {
@@ -140,7 +138,6 @@ std::string hardSetLine(const std::string& name, std::size_t width, const Scores
            right(count(tall.all), 10) + right(percentage(tall.share()), 8) + "\n";
 }
 
-/// The scores of a method on all degradations.
 std::string hardSetTable(const Summary& summary, std::size_t method) {
     std::vector<std::string> names{"as recorded"};
     for (const HardSetTotals& set : summary.hard_sets) names.push_back(set.name);

@@ -17,7 +17,6 @@ extern const base::OutputKind kClouds;
 /// Counts the changes made to clouds when they were written.
 class CloudChanges {
  public:
-    /// Adds the changes in a cloud.
     void add(const std::vector<std::string>& changes);
     /// Messages for the user, with the number of affected clouds unless all are affected.
     std::vector<std::string> texts(std::size_t all_clouds) const;

@@ -80,7 +80,6 @@ ScanReport reportOf(const ConvertedScan& scan) {
     return report;
 }
 
-/// Adds a scan to the totals.
 void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan,
            const std::string& title, ConversionReport& all) {
     ++all.scans;
@@ -274,7 +273,6 @@ class Converter {
         }
     }
 
-    /// Commits the outputs of a completely read recording.
     ConversionReport finish() {
         if (report_.entries == 0) {
             throw std::runtime_error(

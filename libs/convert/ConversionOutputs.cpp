@@ -100,7 +100,6 @@ void ConversionOutputs::giveUp(Part part, const char* why) noexcept {
     }
 }
 
-/// Calls act(part, output) for each requested output.
 template <class Do>
 void ConversionOutputs::forEach(Do act) {
     if (rawlog_) act(kRawlog, *rawlog_);

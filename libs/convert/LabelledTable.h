@@ -8,7 +8,6 @@
 
 namespace hagen::convert {
 
-/// Points with their labels.
 struct LabelledTable {
     observations::PointTable table;
     std::vector<std::string> renamed;  ///< new names of renamed input fields

@@ -14,7 +14,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Record types.
 enum Op : std::uint8_t {
     kHeader = 0x01,
     kFooter = 0x02,

@@ -67,8 +67,6 @@ RosType rosTypeOf(const char* name, const char* fields, std::initializer_list<Pa
     return type;
 }
 
-// Serialisation of values.
-
 void put(const RosHeader& header, CdrWriter& to) {
     constexpr std::int64_t kSecond_ns = 1000000000;
     if (header.time_ns < 0 ||

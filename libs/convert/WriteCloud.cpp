@@ -19,7 +19,6 @@ using observations::PointTable;
 
 constexpr double kFarForFloat_m = 8192.0;  // from here on, float32 values are 1 mm apart
 
-/// A field of the output.
 struct WrittenField {
     std::string name;
     NumberType type;

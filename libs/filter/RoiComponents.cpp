@@ -83,7 +83,6 @@ std::int32_t firstOf(std::int32_t run, std::int32_t* first) {
     return run;
 }
 
-/// Joins the runs of adjacent columns.
 void joinRuns(int rows, int columns, ComponentsWorkspace* w) {
     const int to_first_column = rows - rows * columns, last_column = rows * (columns - 1);
     const std::int32_t* const run_of = w->run.data();

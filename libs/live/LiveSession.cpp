@@ -215,7 +215,6 @@ void Session::reportUncertain() {
                                ": its packets are dropped. Is it in another mode?");
 }
 
-/// Reports changes after an accepted packet.
 void Session::reportChanges() {
     if (is_uncertain_) {
         is_uncertain_ = false;
@@ -229,7 +228,6 @@ void Session::reportChanges() {
                                                 : "the sensor sends one return per firing now");
 }
 
-/// Reports the end of a silence.
 void Session::reportReturn() {
     if (!is_silent_) return;
     is_silent_ = false;

@@ -223,7 +223,6 @@ class GenericCloud : public CPointsMapXYZI {
         return "";
     }
 
-    /// Reads the fields of one type.
     template <class Number>
     void readFields(CArchive& in, std::uint8_t version) {
         for (auto fields = in.ReadAs<std::uint32_t>(); fields > 0; --fields) {

@@ -192,7 +192,6 @@ std::optional<SensorModel> namedSensor(const std::string& lidar_model) {
     return std::nullopt;
 }
 
-/// Determines the sensor of a scan without points.
 SensorModel sensorOfRows(const CObservationRotatingScan& observation, const Settings& settings) {
     const int rows = rowsOf(observation);
     const auto own = namedSensor(observation.lidarModel);

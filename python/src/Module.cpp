@@ -92,7 +92,6 @@ std::vector<double> timesWithoutPython(const Filter& filter, const py::object& x
     return seconds;
 }
 
-/// The images that the filter computed, by their names in SegmentationResult.
 py::dict stagesOf(const py::object& self) {
     const auto& r = self.cast<const Segmented&>().result;
     py::dict stages;

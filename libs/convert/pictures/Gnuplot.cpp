@@ -156,7 +156,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setpgroup(&attributes, 0);
     char program[] = "gnuplot", no_settings_of_the_users[] = "-d";
-    char script_file[] = "/dev/stdin";  // by name, because "-" is read byte by byte
+    char script_file[] = "/dev/stdin";  // by name, because gnuplot reads stdin byte by byte
     char* const arguments[] = {program, no_settings_of_the_users, script_file, nullptr};
     pid_t child = 0;
     std::vector<char*> environment = withoutTerminal();

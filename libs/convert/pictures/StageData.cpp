@@ -72,7 +72,6 @@ std::string sanitizedTitle(const std::string& title) {
     return tidy;
 }
 
-/// Writes all data blocks.
 class DataBlockWriter {
  public:
     explicit DataBlockWriter(const StageView& view)

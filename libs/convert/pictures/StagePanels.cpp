@@ -17,7 +17,6 @@ constexpr const char* kAnglePalette =
 
 constexpr double kZoomHalf_deg = 30.0;
 
-/// A number with one decimal place.
 std::string oneDecimal(double value) {
     GnuplotStream text;
     text.setf(std::ios::fixed);

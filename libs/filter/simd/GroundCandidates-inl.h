@@ -11,7 +11,6 @@ namespace {
 
 using namespace surface_rules;
 
-/// Consecutive pixels.
 struct PixelSpan {
     const float *x_m, *y_m, *z_m;
     std::size_t size;
@@ -67,7 +66,6 @@ HWY_INLINE void listCandidates(const PixelSpan& pixels, GroundFit<kSide>& fit,
 // The next two functions are not inlined, because only returning from a function clears the upper
 // halves of vectors, which would slow down the scalar loops of the fit.
 
-/// Lists the pixels marked `wanted`.
 template <int kSide>
 HWY_NOINLINE void listMarked(const PixelSpan& pixels, const std::uint8_t* HWY_RESTRICT mark,
                              std::uint8_t wanted, GroundFit<kSide>& fit) {

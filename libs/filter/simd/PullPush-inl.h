@@ -53,7 +53,6 @@ HWY_INLINE hn::Vec<hn::ScalableTag<float>> binomial(const float* HWY_RESTRICT ce
         hn::Mul(hn::Set(d, 0.0625f), corners));
 }
 
-/// Smooths weighted heights and weights.
 template <int kSide>
 void smoothHeights(const std::vector<float>& weighted_m, const std::vector<float>& weights,
                    HeightGrid& smooth) {

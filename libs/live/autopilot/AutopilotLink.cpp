@@ -181,7 +181,6 @@ class AutopilotLink::Work {
                            : "MAVLink: sending directions again");
     }
 
-    /// Reads all waiting messages.
     void receiveAll(double longest_s) {
         for (std::size_t n = 0; n < kMaxAtOnce && receive(n == 0 ? longest_s : 0); ++n) {
         }

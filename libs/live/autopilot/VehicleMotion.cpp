@@ -39,7 +39,6 @@ void forget(std::deque<Sample>& samples) {
     while (samples.back().time_s - samples.front().time_s > kKept_s) samples.pop_front();
 }
 
-/// Finds the first sample after a time.
 template <class Sample>
 auto after(const std::deque<Sample>& samples, double time_s) {
     return std::upper_bound(samples.begin(), samples.end(), time_s,
@@ -122,7 +121,6 @@ VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arr
     return Taken::Other;
 }
 
-/// Adds the position if known.
 void VehicleMotion::placeAt(double time_s, VehiclePose& pose) const {
     const auto next = after(places_, time_s);
     if (next == places_.begin()) return;

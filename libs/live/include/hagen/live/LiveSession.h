@@ -20,7 +20,6 @@
 
 namespace hagen::live {
 
-/// Options of a live session.
 struct LiveOptions {
     /// The sensor model: "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
     std::string model;

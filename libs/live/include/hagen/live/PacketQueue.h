@@ -44,7 +44,6 @@ class PacketQueue {
     enum class Popped { Packet, Nothing, Closed };
     /// Takes the oldest packet; waits up to `longest` if the queue is empty.
     Popped pop(Packet& packet, std::chrono::microseconds longest);
-    /// Number of waiting packets.
     std::size_t size() const;
 
  private:

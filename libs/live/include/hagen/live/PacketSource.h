@@ -10,7 +10,6 @@
 
 namespace hagen::live {
 
-/// An IPv4 address and a port.
 struct Address {
     std::uint32_t ip = 0;  ///< 0 for all local interfaces
     std::uint16_t port = 0;
@@ -20,7 +19,6 @@ struct Address {
 /// Parses "192.168.1.77:2368" or "0.0.0.0:2368". Throws std::runtime_error describing the error.
 Address parseAddress(const std::string& text);
 
-/// A source of packets.
 class PacketSource {
  public:
     enum class Next { Packet, Nothing, End };

@@ -19,7 +19,6 @@ struct RecordingOptions {
     }
 };
 
-/// The result of a recording.
 struct Recorded {
     std::size_t packets = 0, poses = 0;        ///< numbers written
     std::size_t left_out = 0;                  ///< datagrams dropped because the disk was too slow

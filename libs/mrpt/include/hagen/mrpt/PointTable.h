@@ -23,7 +23,6 @@ std::size_t bytesOf(NumberType type);
 /// The name of a type, such as "uint16" or "float64".
 const char* nameOf(NumberType type);
 
-/// A field of all points of a table.
 struct PointField {
     std::string name;
     NumberType type = NumberType::Float32;

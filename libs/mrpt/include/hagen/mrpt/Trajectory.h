@@ -8,7 +8,6 @@
 
 namespace hagen::observations {
 
-/// Whether position and rotation are finite.
 bool isFinite(const mrpt::poses::CPose3D& pose);
 
 /// The vehicle's trajectory: its poses in the map over time.
