@@ -29,7 +29,7 @@ enum Op : std::uint8_t {
 };
 
 constexpr std::size_t kChunkBytes = 1 << 20;  // about one scan of 16 beams
-constexpr int kZstdLevel = 1;                 // fast enough for segmentation
+constexpr int kZstdLevel = 1;                 // fast enough to keep up with segmentation
 constexpr const char* kCompression = "zstd";
 
 Bytes magic() { return {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'}; }

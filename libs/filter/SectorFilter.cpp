@@ -65,7 +65,7 @@ void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<
 /// tolerance.
 CellArea areaOf(const Ground& ground, const Columns& judged, const Options& options) {
     constexpr float kBeyond_m = 1;  // beyond the zone, for neighbours of pixels at its edge
-    constexpr int kSides = 1;       // margin for the tall neighbours of a cell
+    constexpr int kSides = 1;       // margin in cells, for tall neighbours
     const float max_m = options.zone_m + kBeyond_m;
     const Eigen::Index rows = ground.cells.cell.rows();
     CellArea area{CellArea::kSide, 0, CellArea::kSide, 0};

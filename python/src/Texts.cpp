@@ -24,7 +24,7 @@ template <class Error>
     throw Error(shown);
 }
 
-/// Rethrows exceptions, with valid texts, to the previous translators.
+/// Rethrows exceptions with valid texts for the previous translators.
 void showErrorText(std::exception_ptr thrown) {
     try {
         std::rethrow_exception(std::move(thrown));

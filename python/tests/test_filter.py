@@ -119,7 +119,7 @@ def test_stages_have_image_shape():
     assert stages["labels"].dtype == np.uint8 and stages["components"].dtype == np.int32
     assert stages["depth_m"].dtype == np.float32
 
-    # Column 0 looks backwards, columns run clockwise; row 0 is the lowest beam.
+    # Column 0 points backwards, columns run clockwise; row 0 is the lowest beam.
     column = round(870 / 2 - 0.5 / (2 * np.pi) * 870)
     assert stages["depth_m"][8, column] == pytest.approx(8 / np.cos(np.radians(1)), abs=0.01)
     assert stages["labels"][8, column] == hagen.ROI

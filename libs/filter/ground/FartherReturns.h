@@ -15,7 +15,7 @@ namespace hagen {
 struct FartherReturnsWorkspace {
     std::vector<std::int32_t> index;   ///< indices of the returns to label
     std::vector<float> x_m, y_m, z_m;  ///< in the ground frame
-    std::vector<float> height_m;       ///< above the surface
+    std::vector<float> height_m;       ///< heights above the surface
 };
 
 /// Labels returns behind the closest return of their pixel, which determines the pixel's label. A

@@ -9,7 +9,7 @@
 
 namespace hagen {
 
-/// Pixels farther below the surface indicate that it is not the ground.
+/// Pixels farther below the surface indicate that the surface is not the ground.
 constexpr float kMinGround_m = -1.5f;
 
 /// The maximum height of ground returns above the surface.

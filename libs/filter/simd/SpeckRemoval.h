@@ -12,7 +12,7 @@ namespace hagen {
 /// wrapped copies of the last and first columns. Neighbours are thus at constant offsets. Memory
 /// past the end has room for whole vectors.
 struct SpeckWorkspace {
-    std::vector<std::int16_t> distance;  ///< horizontal, from the sensor, in 1/64 m
+    std::vector<std::int16_t> distance;  ///< horizontal distance from the sensor in 1/64 m
     std::vector<std::int16_t> doubt;     ///< all bits set if the label may change, otherwise 0
     std::vector<std::int16_t> vote;      ///< for RoI or for ROU; 0 for empty pixels
     std::vector<std::uint8_t> elected;   ///< the new label, or 0 to keep the old one

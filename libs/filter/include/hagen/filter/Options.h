@@ -29,7 +29,7 @@ struct Options {
     /// Standard deviations of the bilateral filter: spatial, in pixels, and of range, in metres.
     float sharpening_sigma_px = 1.2f;
     float sharpening_sigma_m = 1.3f;
-    /// Add the weighted mean of its neighbours to a maximum; if false, of itself, as printed.
+    /// Add the weighted mean of its neighbours to a maximum; if false, its own value, as printed.
     bool sharpen_by_neighbours = true;
     /// Sharpen and merge proximity, which moves maxima nearer, or else depth, which moves them
     /// away.

@@ -73,10 +73,10 @@ struct LabelledSector {
 /// Labels the returns of a LiDAR sector by sector while it turns.
 ///
 /// Runs SectorFilter on the latest turn with the new sector in place: all returns in a window
-/// around the sector, and a selection of the others that shows the ground. Context ahead of the
-/// sector is from the turn before. Almost all labels equal those of the whole scan. Sectors without
-/// a previous turn use the available context, but everything in the zone is RoI until half a turn
-/// is known, to be safe.
+/// around the sector, and a selection of the other returns that shows the ground. Context ahead of
+/// the sector is from the turn before. Almost all labels equal those of the whole scan. Sectors
+/// without a previous turn use the available context, but everything in the zone is RoI until half
+/// a turn is known, to be safe.
 ///
 ///     StreamingSegmenter segmenter(sensorModel("VLP-16"), {}, [&](const LabelledSector& sector) {
 ///         for (std::size_t i = 0; i < sector.returns.size(); ++i) ...
@@ -194,9 +194,9 @@ class StreamingSegmenter {
     Returns window_, moved_;  ///< reused; `moved_` only for frames
     ColumnMap columns_;       ///< reused
     Scan sector_;
-    std::vector<Label> labels_;         ///< of the sector's returns
-    std::vector<ContextReturn> found_;  ///< of the sector's returns
-    std::vector<Sweep> sweeps_;         ///< of the sector's packets
+    std::vector<Label> labels_;         ///< labels of the sector's returns
+    std::vector<ContextReturn> found_;  ///< results of the sector's returns
+    std::vector<Sweep> sweeps_;         ///< sweeps of the sector's packets
 };
 
 }  // namespace hagen::live

@@ -32,7 +32,7 @@ struct ObservedScan {
     SensorModel sensor;
     /// The beams of `sensor` if neither the recording nor the settings name it; otherwise null.
     SharedBeams recovered;
-    bool is_sensor_assumed = false;  ///< a VLP-16 is assumed: no name, no known beams
+    bool is_sensor_assumed = false;  ///< whether a VLP-16 is assumed for lack of a name and beams
     /// Warnings: skipped packet blocks, settings overridden by the recording. May be empty.
     std::string remark;
 
