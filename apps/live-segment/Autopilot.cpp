@@ -13,8 +13,8 @@ using base::UsageError;
 
 namespace {
 
-/// Serial baud rate for all messages plus 10 %: directions at 20 Hz, each obstacle and the ground
-/// at 10 Hz. A byte takes 10 bits.
+/// The baud rate for all messages plus 10 %: directions at 20 Hz, obstacles and ground at 10 Hz. A
+/// byte takes 10 bits.
 int neededBaud(int obstacles) {
     constexpr int kBytes_s = 3900, kBytesOfObstacle_s = 400;
     return 11 * (kBytes_s + kBytesOfObstacle_s * obstacles);

@@ -11,9 +11,9 @@
 
 namespace hagen {
 
-/// The flags for the autopilot link.
+/// The flags of the autopilot link.
 struct AutopilotFlags {
-    std::string peer;  ///< empty: no link
+    std::string peer;  ///< empty for no link
     int system = 1, nearest = 5;
     double sensor_yaw_deg = 0;
     std::optional<float> height_m;
@@ -24,12 +24,11 @@ void declareAutopilot(base::Program& app, AutopilotFlags& flags);
 /// Throws UsageError for an invalid peer.
 void checkAutopilot(const AutopilotFlags& flags);
 
-/// Opens the link and connects it to a session's listener; null without --mavlink. Calls
+/// Opens the link and connects it to a session's listener; returns null without --mavlink. Calls
 /// `listener.remark` from its own thread. Throws std::runtime_error naming the peer.
 std::unique_ptr<live::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
                                                    const Settings& settings,
                                                    live::LiveListener& listener);
-/// Message counts in one line.
 std::string summaryOf(const live::AutopilotLink& link);
 
 }  // namespace hagen

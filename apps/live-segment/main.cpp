@@ -1,4 +1,4 @@
-// Labels the packets of a LiDAR as they arrive: near obstacles (RoI) and everything else (ROU).
+// Labels the packets of a LiDAR as they arrive, as near obstacles (RoI) or everything else (ROU).
 #include <hagen/live/LiveSession.h>
 #include <hagen/settings/Presets.h>
 
@@ -106,7 +106,6 @@ void check(Flags& flags) {
 
 using To = BackgroundPrinter::To;
 
-/// The status as one terminal line.
 class StatusLine {
  public:
     explicit StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
@@ -150,7 +149,7 @@ std::string summaryOf(const live::LiveReport& r) {
     return text.str();
 }
 
-/// The failures of a session; empty if none occurred.
+/// The failures of a session; empty if there were none.
 std::string failureOf(const live::LiveReport& report, const live::LiveOptions& options) {
     std::string failure = report.recorded.failure;
     if (report.recorded.left_out > 0) {
@@ -203,15 +202,15 @@ int run(const Program& program, Flags& flags) {
         listener.status = [&](const auto& report, const auto& status) {
             line.show(report, status, printer);
         };
-        listener.remark = [&](const std::string& remark) {  // also on the autopilot's thread
+        listener.remark = [&](const std::string& remark) {  // may run on the autopilot's thread
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
         std::unique_ptr<live::AutopilotLink> link;
-        std::string failure, left;  // left: outputs of earlier runs
+        std::string failure, left;  // `left` lists outputs of earlier runs
         try {
             left = base::leftBehind(
                 {flags.live.recording.file, flags.live.recording.posesFile(), flags.live.stats});
-        } catch (const std::filesystem::filesystem_error&) {  // reported on opening
+        } catch (const std::filesystem::filesystem_error&) {  // reported when the file is opened
         }
         int failed = kFailed;
         try {
@@ -228,14 +227,15 @@ int run(const Program& program, Flags& flags) {
         } catch (const SettingsError& e) {
             failure = e.what();
             failed = kWrongUsage;
-        } catch (const std::exception& e) {  // printed in the background
+        } catch (const std::exception& e) {  // the background printer prints the message
             printer.print(line.instead(), "");
             failure = program.messageOf(e);
         }
         if (!flags.is_quiet && !left.empty()) printer.print(To::Errors, left + "\n");
         if (!failure.empty()) printer.print(To::Errors, "live-segment: " + failure + "\n");
         if (!printer.finish()) {
-            // The terminal is blocked. All files are complete; exit() would still flush stdout.
+            // The terminal is blocked, so exit() would hang flushing stdout. All files are
+            // complete.
             link.reset();
             const bool is_done = failure.empty() && printer.isOutputPrinted();
             std::_Exit(is_done ? kDone : failure.empty() ? kFailed : failed);

@@ -1,4 +1,4 @@
-// octomap-compare closedloop: flies a campaign in simulation.
+// octomap-compare closedloop: flies a simulated campaign.
 #include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/Guidance.h>
 #include <hagen/avoidance/Planner.h>

@@ -25,8 +25,8 @@ struct Flags {
     bool overwrites = false, is_quiet = false;
 };
 
-/// All models except those with motion, because open loop queries clearances only at scan times;
-/// the oracle only if the scene is known.
+/// All models except those that predict motion, because open loop queries clearances only at scan
+/// times; without a scene, also omits models that need ground truth.
 std::vector<std::string> standardModels(bool has_scene) {
     std::vector<std::string> models = avoidance::worldModelNames();
     const auto isMissing = [=](const std::string& model) {
@@ -40,7 +40,6 @@ void print(std::size_t count, const std::string& what) {
     if (count > 0) std::cerr << "octomap-compare: " << count << " " << oneLine(what) << "\n";
 }
 
-/// Prints the skipped scans.
 void printLosses(const avoidance::OpenLoopResult& result) {
     print(result.scans_without_pose, "scans skipped: no pose within 0.2 s");
     print(result.unreadable_scans,
@@ -50,7 +49,6 @@ void printLosses(const avoidance::OpenLoopResult& result) {
     }
 }
 
-/// Prints the limitations of the figures.
 void printLimits(const avoidance::OpenLoopResult& result) {
     print(result.scans_placed_by_one_pose,
           "scans were placed with one pose each, because their returns have no times or the "
@@ -92,7 +90,7 @@ int run(Flags flags) {
     };
     try {
         const avoidance::OpenLoopResult result = avoidance::runOpenLoop(open_loop, listener);
-        show(result);  // before writing files, which may fail
+        show(result);  // shown first, because writing files may fail
         files.commit(open_loop, result);
         tellLeftBehind(files.paths());
         return 0;
@@ -106,7 +104,7 @@ int run(Flags flags) {
     }
 }
 
-/// Reports invalid settings and names as wrong usage.
+/// Runs the command; reports invalid settings and names as wrong usage.
 int runChecked(const Flags& flags) {
     try {
         return run(flags);

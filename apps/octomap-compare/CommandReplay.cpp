@@ -92,7 +92,7 @@ void addReplay(Program& program) {
     sub.option("--latency-scale", wanted.latency_scale, "latency scale factor");
     sub.option("--unknown", wanted.unknown, "unobserved space, see `closedloop`")
         .transform([](const std::string& name) {
-            return name == "brake_known" ? "brake-known" : name;  // as in runs.csv
+            return name == "brake_known" ? "brake-known" : name;  // the name in runs.csv
         })
         .oneOf({"optimistic", "brake-known"});
     sub.option("--air", wanted.air, "dusty or clear").oneOf({"dusty", "clear"});

@@ -11,10 +11,10 @@ namespace hagen {
 using namespace base;  // Program, Command, Flag, UsageError
 
 /// Lets a flag accept world models by name or by displayed name, such as W-RoI and "RoI window".
-/// Rejects any other text not in `also`, and lists the names.
+/// Rejects other values unless they are in `also`, and lists the names.
 void takesWorldModels(Flag flag, const std::vector<std::string>& also = {});
 
-/// Throws UsageError for duplicates.
+/// Throws UsageError if a value occurs twice.
 template <class Value>
 void requireOnce(const std::string& flag, const std::vector<Value>& values) {
     for (auto value = values.begin(); value != values.end(); ++value) {
@@ -24,12 +24,12 @@ void requireOnce(const std::string& flag, const std::vector<Value>& values) {
         throw UsageError(flag, text.str() + " is given twice");
     }
 }
-/// The names, with "all" expanded. Throws UsageError for duplicates, and for other names besides
-/// "all".
+/// Expands "all" to all names. Throws UsageError for duplicates, and for "all" together with other
+/// names.
 std::vector<std::string> namesFrom(const std::string& flag, const std::vector<std::string>& names,
                                    const std::vector<std::string>& all);
 
-// Each adds a subcommand with its flags.
+// Add a subcommand with its flags.
 void addClosedLoop(Program& program);
 void addCalibrate(Program& program);
 void addOpenLoop(Program& program);

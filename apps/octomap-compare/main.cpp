@@ -1,4 +1,4 @@
-// Compares obstacle avoidance with and without a map: flights, recorded logs, replays.
+// Compares obstacle avoidance with and without a map.
 #include "Commands.h"
 
 namespace {

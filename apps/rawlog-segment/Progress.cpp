@@ -10,7 +10,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::size_t kMaxRemarks = 10;  // per kind, so that a frequent one does not hide others
+constexpr std::size_t kMaxRemarks = 10;  // per kind, so that frequent remarks do not hide others
 constexpr Seconds kBetweenLines{0.1}, kBeforeRate{1.0};
 
 std::string clockOf(double seconds) {
@@ -25,7 +25,7 @@ std::string clockOf(double seconds) {
     return text;
 }
 
-/// The common text of remarks that differ only in numbers and names.
+/// The text of a remark without numbers and names, which similar remarks have in common.
 std::string kindOf(const std::string& remark) {
     std::string kind;
     bool is_quoted = false;

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-/// Reports a conversion on standard error: warnings, and on a terminal a progress line.
+/// Reports a conversion on standard error: warnings and, on a terminal, a progress line.
 class Progress {
  public:
     Progress(std::string input, bool quiet);
@@ -12,8 +12,8 @@ class Progress {
     /// Returns the listener of a conversion, which keeps a reference to this object.
     hagen::convert::ConversionListener listener();
 
-    /// Clears the line and reports the pending warnings. A repeated warning is printed once and
-    /// then counted.
+    /// Clears the line and prints the pending warnings. A repeated warning is printed once and then
+    /// counted.
     void finish();
 
  private:
@@ -31,7 +31,7 @@ class Progress {
         std::size_t printed = 0, suppressed = 0;
         std::string last;  ///< last suppressed remark
     };
-    std::map<std::string, Remark> remarks_;  ///< by text
-    std::map<std::string, Kind> kinds_;      ///< remarks that differ only in numbers and names
+    std::map<std::string, Remark> remarks_;  ///< counts by text
+    std::map<std::string, Kind> kinds_;      ///< counts by text without numbers and names
     std::chrono::steady_clock::time_point start_, shown_;
 };

@@ -25,7 +25,7 @@ std::string counted(std::size_t number, const std::string& one, const std::strin
     return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
-/// Bytes of a file or of all files in a folder. Ignores files removed concurrently.
+/// Size of a file or of all files in a folder, in bytes. Ignores files removed concurrently.
 double bytesOf(const std::filesystem::path& path) {
     namespace fs = std::filesystem;
     std::error_code unreadable;
@@ -40,7 +40,7 @@ double bytesOf(const std::filesystem::path& path) {
     return unreadable ? 0 : static_cast<double>(bytes);
 }
 
-/// "12.3 MB".
+/// The size of a file or folder, such as "12.3 MB".
 std::string sizeText(const std::filesystem::path& path) {
     const char* unit = "kB";
     double size = bytesOf(path) / 1e3;
@@ -54,7 +54,7 @@ std::string sizeText(const std::filesystem::path& path) {
 
 void printEntries(const Conversion& conversion, const ConversionReport& report) {
     const std::size_t last = report.left_out_before + report.entries - 1;
-    // A recording that ends before --to has no later entries.
+    // If the recording ends before --to, no later entries were skipped.
     const bool is_cut = report.left_out_before > 0 || last == conversion.to;
     std::cout << counted(report.scans, "LiDAR scan", "LiDAR scans") << " in "
               << counted(report.entries, "entry", "entries");
@@ -65,7 +65,7 @@ void printEntries(const Conversion& conversion, const ConversionReport& report) 
     std::cout << ", " << report.returns << " returns:\n";
 }
 
-/// Why some scans have no attitude; empty if all have one.
+/// Why some scans have no attitude; empty if all scans have one.
 std::string whyNotAll(const ConversionReport& report) {
     if (report.first_without_attitude.empty()) return "";
     const std::size_t others = report.scans - report.scans_with_attitude - 1;
@@ -123,7 +123,7 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
         std::cout << what << ": " << path.string() << " (" << sizeText(path) << ")\n";
     };
     output("segmented rawlog", conversion.rawlog);
-    if (report.scans > 0) {  // otherwise there are no folders
+    if (report.scans > 0) {  // otherwise there are no folders to list
         output("scans and labels", conversion.folder);
         output("pictures", conversion.pictures);
     }

@@ -1,4 +1,4 @@
-// Segments a log: near obstacles (RoI) and everything else (ROU) in each LiDAR scan.
+// Segments the LiDAR scans of a log into near obstacles (RoI) and everything else (ROU).
 #include <hagen/convert/Conversion.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/settings/Presets.h>
@@ -88,7 +88,7 @@ void declare(Program& app, Flags& flags) {
     app.option("--sensor-label", conversion.sensor_labels,
                "segment only this LiDAR; may be repeated")
         .once()
-        .mayBeEmpty()  // labels may be empty
+        .mayBeEmpty()  // because sensor labels may be empty
         .group("Input");
     app.option("--poses", conversion.poses,
                "vehicle trajectory (TUM), or one sensor pose per scan (KITTI); overrides the "
@@ -217,7 +217,7 @@ void declare(Program& app, Flags& flags) {
     app.version(HAGEN_VERSION);
 }
 
-/// Checks combinations of flags.
+/// Rejects invalid combinations of flags.
 void check(const Flags& flags) {
     const convert::Conversion& conversion = flags.conversion;
     if (flags.dumps_settings) return;
@@ -240,7 +240,7 @@ void check(const Flags& flags) {
         throw UsageError("--learn-airframe", "does not use poses: omit --poses");
     }
     if (!(flags.learn_seconds > 0)) throw UsageError("--learn-seconds", "must be positive");
-    if (!(conversion.octomap.resolution_m > 0)) {  // NaN passes any range check
+    if (!(conversion.octomap.resolution_m > 0)) {  // NaN passes range checks
         throw UsageError("--octomap-resolution", "must be positive");
     }
     if (conversion.from > conversion.to) {
@@ -248,7 +248,6 @@ void check(const Flags& flags) {
     }
 }
 
-/// Learns the airframe and reports it.
 void learn(const Flags& flags) {
     const convert::Conversion& conversion = flags.conversion;
     convert::AirframeLearning learning;

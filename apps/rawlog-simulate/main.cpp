@@ -85,7 +85,7 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
     app.version(HAGEN_VERSION);
 }
 
-/// Checks combinations of flags.
+/// Rejects invalid combinations of flags.
 void check(const convert::SimulatedLog& log) {
     if (log.rawlog.empty() && log.folder.empty() && log.poses.empty()) {
         throw UsageError("an output (-o, --kitti or --poses) is required");

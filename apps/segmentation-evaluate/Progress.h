@@ -6,17 +6,17 @@
 
 namespace hagen {
 
-/// A progress line on standard error, removed at the end; silent unless standard error is a
+/// A progress line on standard error, removed at the end; shown only if standard error is a
 /// terminal.
 class Progress {
  public:
-    /// `times`: number of passes over all scans.
+    /// `times` is the number of passes over all scans.
     explicit Progress(const evaluation::LabelledScanSources& sources, std::size_t times = 1);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// `what`: shown before the scan number.
+    /// `what` is shown before the scan number.
     void show(const evaluation::MethodOutput& view, const std::string& what = "");
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 using namespace evaluation;
 
-constexpr std::size_t kMaxColumns = 5;  // adjacent methods within 100 columns
+constexpr std::size_t kMaxColumns = 5;  // methods side by side within 100 columns
 
 std::string format(const char* pattern, ...) {
     char text[512];
@@ -32,13 +32,12 @@ std::string right(const std::string& text, std::size_t width) {
     return std::string(width - std::min(width, text.size()), ' ') + text;
 }
 
-/// Removes trailing blanks from a line.
 std::string trimmed(std::string line) {
     line.erase(line.find_last_not_of(' ') + 1);
     return line + "\n";
 }
 
-/// A dash for undefined values.
+/// A number, or a dash if it is undefined.
 std::string figure(double value, int digits = 4) {
     return std::isnan(value) ? "-" : format("%.*f", digits, value);
 }
@@ -68,7 +67,7 @@ std::vector<std::string> namesOf(const std::vector<MethodTotals>& methods) {
     return names;
 }
 
-/// Scores of each method, over returns or pixels.
+/// The scores of each method, over returns or pixels.
 std::string scoreTable(const Summary& summary, ScoreTotals MethodTotals::*which) {
     const std::size_t width = widthOf("method", namesOf(summary.methods));
     std::string text = left("", width) +
@@ -100,7 +99,6 @@ std::string latencyTable(const Summary& summary) {
     return text;
 }
 
-/// A percentage; a dash if it is undefined.
 std::string percentage(double share) { return figure(100 * share, 2); }
 
 std::string droneTable(const Summary& summary) {
@@ -122,13 +120,13 @@ std::string droneTable(const Summary& summary) {
     return text;
 }
 
-/// "+0.12", or a dash.
+/// The change of a score, such as "+0.12", or a dash.
 std::string change(double degraded, double recorded) {
     const double points = changeInPoints(degraded, recorded);
     return std::isnan(points) ? "-" : format("%+.2f", points);
 }
 
-/// `recorded`: null for the original scans, which have no change.
+/// `recorded` is null for the original scans, which have no change.
 std::string hardSetLine(const std::string& name, std::size_t width, const Scores& scores,
                         const Scores* recorded, const Missed& tall) {
     const auto changeOf = [&](ClassScore Scores::*c) {
@@ -140,7 +138,6 @@ std::string hardSetLine(const std::string& name, std::size_t width, const Scores
            right(count(tall.all), 10) + right(percentage(tall.share()), 8) + "\n";
 }
 
-/// A method on all degradations.
 std::string hardSetTable(const Summary& summary, std::size_t method) {
     std::vector<std::string> names{"as recorded"};
     for (const HardSetTotals& set : summary.hard_sets) names.push_back(set.name);
@@ -223,7 +220,8 @@ std::string kindTable(const std::vector<GroupTotals>& kinds) {
     return text;
 }
 
-/// Method names shortened to column width: the beginnings, or the ends if these are ambiguous.
+/// Method names shortened to column width: their beginnings, or their ends if beginnings are
+/// ambiguous.
 std::vector<std::string> headsOf(const Summary& summary, std::size_t width) {
     std::vector<std::string> begins, ends;
     for (const MethodTotals& method : summary.methods) {
@@ -274,7 +272,7 @@ std::string comparison(const Summary& summary) {
     return text;
 }
 
-/// Missed obstacle returns above 0.5 m, by part: "12 of 3456".
+/// The missed obstacle returns above 0.5 m by part, such as "12 of 3456".
 std::string missedParts(const Summary& summary) {
     using Groups = std::vector<MissedGroup> DroneTotals::*;
     const auto table = [&](const std::string& by, const std::string& heading, Groups part) {
@@ -298,7 +296,7 @@ std::string partsOf(const ScoreTotals& scores) {
     return text;
 }
 
-/// Recovered sensors and options changed by recordings, one line per folder.
+/// Recovered sensors, and options changed by recordings, with one line per folder.
 std::string sensorsOf(const Summary& summary) {
     std::string text;
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {

@@ -6,8 +6,8 @@
 
 namespace hagen {
 
-/// Tables up to 100 columns wide: scores and run times of each method; the breakdown of its scores
-/// if there is only one method, otherwise each method's F1 by part.
+/// Tables up to 100 columns wide, with scores and run times of each method, and either the
+/// breakdown of a single method's scores or, for several methods, their F1 by part.
 std::string reportOf(const evaluation::Summary& summary);
 
 }  // namespace hagen

@@ -75,7 +75,7 @@ void addFlags(Command& app, Flags& flags) {
     app.flag("--overwrite", flags.overwrite, "replace existing outputs");
 }
 
-/// Reads a file or preset named by a flag, and adds it to the list of read files. Reports an
+/// Reads a file or preset given by a flag, and adds it to the list of read files. Reports an
 /// unusable file as wrong usage.
 template <class Read>
 auto fromFlag(const std::string& name, Read read, std::vector<fs::path>& files)
@@ -97,7 +97,7 @@ auto fromFlag(const std::string& name, Read read, std::vector<fs::path>& files)
     }
 }
 
-/// With several rows, each has a picture subfolder of --overlay.
+/// Rejects row names that cannot be names of picture subfolders of --overlay.
 void checkNames(const std::vector<evaluation::LabelRow>& rows) {
     for (const evaluation::LabelRow& row : rows) {
         if (row.name != "." && row.name != "..") continue;
@@ -106,7 +106,8 @@ void checkNames(const std::vector<evaluation::LabelRow>& rows) {
     }
 }
 
-/// The outputs, renamed into place at the end. A failed output does not affect the others.
+/// The outputs, which are renamed into place at the end. A failed output does not affect the
+/// others.
 struct Outputs {
     Outputs(const Flags& flags, const evaluation::MethodSet& rows, std::vector<fs::path> inputs) {
         inputs.insert(inputs.end(), flags.folders.begin(), flags.folders.end());

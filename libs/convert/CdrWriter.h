@@ -11,8 +11,8 @@
 
 namespace hagen::convert {
 
-/// Writes the fields of a message as little-endian CDR, as FieldReader::ofCdr() reads them: a
-/// four-byte header, then the fields, numbers aligned to their size.
+/// Writes the fields of a message as little-endian CDR, which FieldReader::ofCdr() reads: a
+/// four-byte header, then the fields, with numbers aligned to their size.
 class CdrWriter {
  public:
     CdrWriter() : bytes_{0, 1, 0, 0} {}

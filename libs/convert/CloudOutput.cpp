@@ -8,7 +8,7 @@ namespace hagen::convert {
 
 namespace fs = std::filesystem;
 
-// The user's clouds may have such names, too: only the marker distinguishes them.
+// Only the marker distinguishes these clouds from the user's clouds, which may have the same names.
 const base::OutputKind kClouds{"a folder of labelled clouds",
                                [](const fs::path& within) {
                                    return within.extension() == ".ply" ||
@@ -46,7 +46,7 @@ void CloudOutput::write(const std::string& name,
         folders_.folderOf(observation.sensorLabel) / (name + extensionOf(format_));
     try {
         writeCloud(file, format_, table);
-    } catch (...) {  // do not leave a partial cloud
+    } catch (...) {  // removes the partial cloud
         std::error_code ignored;
         fs::remove(file, ignored);
         throw;

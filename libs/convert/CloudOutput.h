@@ -11,19 +11,18 @@
 
 namespace hagen::convert {
 
-/// A folder of labelled clouds, or a folder of such folders, as an output.
+/// The output kind: a folder of labelled clouds, or a folder of such folders.
 extern const base::OutputKind kClouds;
 
-/// Changes made to clouds when they were written, with counts.
+/// Counts the changes made to clouds when they were written.
 class CloudChanges {
  public:
-    /// The changes in one cloud.
     void add(const std::vector<std::string>& changes);
-    /// For the user, with the number of affected clouds unless all.
+    /// Messages for the user, with the number of affected clouds unless all are affected.
     std::vector<std::string> texts(std::size_t all_clouds) const;
 
  private:
-    std::map<std::string, std::size_t> clouds_;  ///< by change
+    std::map<std::string, std::size_t> clouds_;  ///< number of clouds by change
 };
 
 /// Writes labelled clouds, one file per scan and one folder per LiDAR if there are several.
@@ -38,7 +37,7 @@ class CloudOutput {
 
     std::size_t files() const { return files_; }
     std::size_t points() const { return points_; }
-    /// The changes in the files, for the user.
+    /// Messages for the user about changes in the files.
     std::vector<std::string> remarks() const { return changes_.texts(files_); }
 
     void commit() { folders_.commit(); }

@@ -46,8 +46,9 @@ ConversionListener oneAtATime(const ConversionListener& listener, std::mutex& mu
     return safe;
 }
 
-/// Reads the poses of a rawlog only if an output needs them, because that may take another pass.
-/// TUM poses are cheap to read; poses of a bag are already known and provide the attitude.
+/// Whether to read poses. Those of a rawlog are read only if an output needs them, because that may
+/// take another pass. TUM poses are cheap to read; poses of a bag are already known and provide the
+/// attitude.
 bool needsPoses(const Conversion& conversion) {
     const bool is_tum = !conversion.poses.empty() && recordings::kindOfPoseFile(conversion.poses) ==
                                                          recordings::PoseFileKind::Tum;
@@ -79,7 +80,6 @@ ScanReport reportOf(const ConvertedScan& scan) {
     return report;
 }
 
-/// Adds a scan to the totals.
 void count(const observations::ObservationSegmenter::Output& out, const ScanReport& scan,
            const std::string& title, ConversionReport& all) {
     ++all.scans;
@@ -100,7 +100,7 @@ void count(const observations::ObservationSegmenter::Output& out, const ScanRepo
     all.scan_reports.push_back(scan);
 }
 
-/// A conversion in progress: entries are segmented on several threads; all outputs and callbacks
+/// A conversion in progress. Entries are segmented on several threads; all outputs and callbacks
 /// follow the order of the recording.
 class Converter {
  public:
@@ -134,7 +134,7 @@ class Converter {
                                                " of " + std::to_string(threads) + " threads");
         }
         report_.left_out_before = source_->entriesSkipped();
-        if (!outputs_.hasAny()) outputs_.commit(report_);  // throws: all failed
+        if (!outputs_.hasAny()) outputs_.commit(report_);  // throws, because all outputs failed
         if (end.why) savePartialOutputs(end.why);
         return finish();
     }
@@ -164,8 +164,8 @@ class Converter {
         }
     }
 
-    /// Pictures take about 1 s each and are drawn sequentially: more threads would only read ahead
-    /// and delay an interruption.
+    /// The number of threads. Pictures take about 1 s each and are drawn sequentially, so more
+    /// threads would only read ahead and delay an interruption.
     std::size_t wantedThreads() const {
         if (!conversion_.pictures.empty()) return 1;
         if (conversion_.jobs > 0) return conversion_.jobs;
@@ -186,8 +186,8 @@ class Converter {
     }
 
     void writeResults(ConvertedEntry& entry) {
-        // Inserting into a map takes seconds: otherwise entries read ahead would delay an
-        // interruption.
+        // Checked here too, because inserting into a map takes seconds, and entries read ahead
+        // would delay an interruption.
         if (outputs_.wantsMap() && !listener_.keep_going()) {
             throw recordings::Interrupted("interrupted");
         }
@@ -209,7 +209,8 @@ class Converter {
         listener_.progress(report_);
     }
 
-    /// Whether an entry is a result of an earlier run whose scan has just been segmented again.
+    /// Whether an entry is a result of an earlier run that is replaced, because its scan has just
+    /// been segmented again.
     bool isReplaced(const mrpt::serialization::CSerializable::Ptr& entry) const {
         const auto observation = std::dynamic_pointer_cast<CObservation>(entry);
         if (!observation || !observations::isResult(*observation)) return false;
@@ -272,7 +273,6 @@ class Converter {
         }
     }
 
-    /// Commits the outputs of a completely read recording.
     ConversionReport finish() {
         if (report_.entries == 0) {
             throw std::runtime_error(
@@ -335,7 +335,7 @@ class Converter {
                                      " outside an OctoMap; no map is written");
     }
 
-    /// Reports suspicious labels.
+    /// Reports results that suggest wrong settings or coordinates.
     void remarkOnLabels() const {
         if (!settings_.airframe.parts.isEmpty() && report_.scans > 0 &&
             report_.returns_masked == 0) {
@@ -369,7 +369,7 @@ class Converter {
     }
 
     /// Keeps partial outputs when the recording or the conversion ends early, and adds their
-    /// location to the error. Usage errors, and errors before the first entry, keep nothing.
+    /// location to the error. Keeps nothing after usage errors and errors before the first entry.
     [[noreturn]] void savePartialOutputs(const std::exception_ptr& end) {
         std::string why;
         bool is_interruption = false;
@@ -399,10 +399,10 @@ class Converter {
     }
 
     const Conversion& conversion_;
-    std::mutex listening_;  ///< another thread calls the listener while reading
+    std::mutex listening_;  ///< guards the listener, which another thread calls while reading
     const ConversionListener listener_;
     std::unique_ptr<recordings::ScanSource> source_;
-    const Settings settings_;  ///< merged with the recording's own sensor
+    const Settings settings_;  ///< merged with the recording's sensor
     ConversionOutputs outputs_;
     /// Time of the last segmented scan, by sensor label.
     std::map<std::string, mrpt::Clock::time_point> last_segmented_;
@@ -439,7 +439,7 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     inputs.insert(inputs.end(), {conversion.input, conversion.poses, conversion.sensor_json,
                                  conversion.calibration});
     const fs::path externals = externalsOf(conversion.input);
-    std::error_code no_such;  // a name with the extension may be too long
+    std::error_code no_such;  // ignored; a name with the extension may be too long
     const bool has_externals = fs::is_directory(externals, no_such);
     if (has_externals) inputs.push_back(externals);
     base::checkApart(outputsOf(conversion), inputs);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The sensor's tilt on the level vehicle: as in the log, otherwise as in the settings.
+/// The sensor's tilt on the level vehicle, from the log or otherwise from the settings.
 Attitude mountOf(const mrpt::obs::CObservation& scan, const Settings& settings) {
     const mrpt::math::TPose3D on_vehicle = scan.sensorPose();
     return observations::mountOf(
@@ -26,7 +26,7 @@ Attitude mountOf(const mrpt::obs::CObservation& scan, const Settings& settings) 
         settings.mount);
 }
 
-/// Also for "folder/".
+/// The last name of a path, even with a trailing separator ("folder/").
 std::string lastNameOf(const fs::path& input) {
     return (input.has_filename() ? input : input.parent_path()).filename().string();
 }
@@ -73,8 +73,8 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion)
     }
 }
 
-// Members are packed on several threads; all other steps of a part run on one thread at a time.
-// Later steps see the flag.
+// Runs a step of a part, unless the part has failed. Members are packed on several threads; all
+// other steps of a part run on one thread at a time.
 template <class Step>
 void ConversionOutputs::attempt(Part part, Step step) {
     if (is_given_up_[part]) return;
@@ -87,7 +87,7 @@ void ConversionOutputs::attempt(Part part, Step step) {
     }
 }
 
-/// Keeps the first reason; null, or no memory for its text: out of memory.
+/// Keeps the first reason; without a text, the reason is lack of memory.
 void ConversionOutputs::giveUp(Part part, const char* why) noexcept {
     const std::lock_guard lock(why_mutex_);
     if (is_given_up_[part]) return;
@@ -100,7 +100,6 @@ void ConversionOutputs::giveUp(Part part, const char* why) noexcept {
     }
 }
 
-/// Calls act(part, output) for each requested output.
 template <class Do>
 void ConversionOutputs::forEach(Do act) {
     if (rawlog_) act(kRawlog, *rawlog_);
@@ -177,17 +176,18 @@ std::string ConversionOutputs::writeScan(
     return own_name;
 }
 
-/// The folder is named by the entry, for use with --from.
+/// The folder is named after the entry, for use with --from.
 void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::Output& segmented,
                                      const recordings::RecordedScan& recorded) {
     const std::string& label = recorded.observation->sensorLabel;
     const bool is_named = !recorded.name.empty();
     const std::string name = is_named ? recorded.name : scanName(recorded.entry);
     fs::path folder = pictures_->folderOf(label) / name;
-    while (!fs::create_directory(folder)) folder += "_";  // further scan of a sensory frame
+    while (!fs::create_directory(folder)) folder += "_";  // used by another scan
     const std::string title =
         lastNameOf(conversion_.input) + ", " + label + (is_named ? ", scan " : ", entry ") + name;
-    // As the filter processes a sensor that is not upright: image rows differ from the sensor's.
+    // The view in which the filter processes a sensor that is not upright: image rows differ from
+    // the sensor's.
     const std::optional<Attitude>& attitude = segmented.pose.attitude;
     const Posture posture = postureOf(attitude);
     const SensorModel sensor = sensorIn(posture, *segmented.sensor);
@@ -223,7 +223,7 @@ void ConversionOutputs::finish(const ConversionReport& report) {
     }
 }
 
-/// Whether an aborted output has complete parts: members of a rawlog, scans, clouds.
+/// Whether an aborted output contains complete parts (members of a rawlog, scans, clouds).
 bool ConversionOutputs::hasWholeParts(Part part) const {
     if (part == kFolders) {
         return std::any_of(folder_writers_.begin(), folder_writers_.end(),
@@ -233,7 +233,7 @@ bool ConversionOutputs::hasWholeParts(Part part) const {
            (part == kClouds && clouds_->files() > 0);
 }
 
-/// The failed outputs, the reasons, and the parts that are kept.
+/// Lists the failed outputs, the reasons, and the parts that are kept.
 std::string ConversionOutputs::whatFailed() {
     std::string text;
     forEach([&](Part part, auto& output) {

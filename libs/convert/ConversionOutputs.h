@@ -21,8 +21,8 @@ namespace hagen::convert {
 /// The paths of the requested outputs.
 std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
 
-/// The requested outputs of a conversion. If one fails (full disk, full map, missing gnuplot), it
-/// is aborted and commit() reports it; the others are not affected.
+/// The requested outputs of a conversion. If an output fails (full disk, full map, missing
+/// gnuplot), it is aborted and commit() reports it; the others are not affected.
 class ConversionOutputs {
  public:
     /// Throws std::runtime_error naming an output that cannot be written.
@@ -32,16 +32,16 @@ class ConversionOutputs {
     void gather(Bytes& entries, Bytes& member) {
         if (rawlog_) rawlog_->gather(entries, member);
     }
-    /// Compresses a member, on any thread, and writes it.
+    /// Compresses and writes a member. May be called on any thread.
     void pack(const Bytes& member, Bytes& packed);
     void writeMember(const Bytes& packed);
 
     /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, and to the MCAP. An
-    /// empty name means the next number. Returns the name used.
+    /// empty name is replaced by the next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const recordings::RecordedScan& recorded, const Settings& settings);
 
-    /// Null if not requested.
+    /// The output of labelled clouds; null if not requested.
     const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }
     const McapOutput* mcap() const { return mcap_ ? &*mcap_ : nullptr; }
 
@@ -50,7 +50,7 @@ class ConversionOutputs {
     void insertIntoMap(const observations::MappedScan& scan);
     void giveUpMap(const std::string& why) { giveUp(kMap, why.c_str()); }
 
-    /// False once all requested outputs have failed. Thread-safe.
+    /// Returns false once all requested outputs have failed. Thread-safe.
     bool hasAny() const;
 
     /// Renames the outputs into place. Then throws std::runtime_error naming each failed output,
@@ -79,18 +79,18 @@ class ConversionOutputs {
     std::string whatFailed();
 
     const Conversion& conversion_;
-    const std::array<std::filesystem::path, kParts> paths_;  ///< empty: not requested
+    const std::array<std::filesystem::path, kParts> paths_;  ///< empty if not requested
     std::optional<RawlogWriter> rawlog_;
     std::optional<SensorFolders> folders_, pictures_;
     std::optional<CloudOutput> clouds_;
     std::optional<McapOutput> mcap_;
     std::optional<MapOutput> map_;
     std::optional<base::OutputPath> stats_;
-    std::array<std::atomic<bool>, kParts> is_given_up_{};  ///< steps run on several threads
+    std::array<std::atomic<bool>, kParts> is_given_up_{};  ///< read on several threads
     std::mutex why_mutex_;
     std::array<std::string, kParts> why_;
     std::map<std::string, ScanFolderWriter> folder_writers_;  ///< by sensor label
-    std::map<std::string, std::size_t> scans_;                ///< written so far
+    std::map<std::string, std::size_t> scans_;                ///< number of scans written so far
     bool are_folders_finished_ = false, is_mcap_finished_ = false;
 };
 

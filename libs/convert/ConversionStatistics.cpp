@@ -42,7 +42,7 @@ Json latencyOf(const std::vector<ScanReport>& scans) {
 }
 
 double inMillimetres(float metres) {
-    return std::round(static_cast<double>(metres) * 1e3) / 1e3;  // sensor resolution
+    return std::round(static_cast<double>(metres) * 1e3) / 1e3;  // rounds to the sensor resolution
 }
 
 Json lineOf(const ScanReport& scan) {
@@ -100,7 +100,8 @@ void writeConversionStatistics(const std::filesystem::path& file, const Conversi
     json["returns_masked"] = report.returns_masked;
     json["latency_ms"] = latencyOf(report.scan_reports);
 
-    // Scans are written one by one. A single JSON value would take about 1 kB of memory per scan.
+    // Scans are written one by one, because a single JSON value would take about 1 kB of memory per
+    // scan.
     std::ofstream out(file);
     const std::string head = base::dumpJson(json, 1);
     out << head.substr(0, head.rfind("\n}")) << ",\n \"scans\": [";

@@ -27,8 +27,8 @@ struct FreeCompressor {
 }  // namespace
 
 void packGzipMember(const Bytes& plain, Bytes& packed) {
-    // No thread_local compressor: destroying it at thread exit needs memory, without which glibc
-    // aborts.
+    // Not thread_local, because destroying it at thread exit needs memory; glibc aborts if there is
+    // none.
     const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
         libdeflate_alloc_compressor(kGzipLevel));
     if (!compressor) throw std::bad_alloc();
@@ -44,7 +44,7 @@ GzipOutput::GzipOutput(const std::filesystem::path& file) : path_(file) {
     errno = 0;
     file_.reset(std::fopen(file.c_str(), "wb"));
     if (!file_) failWrite(path_);
-    std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a member is already a buffer
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // unbuffered, because members are written whole
 }
 
 void GzipOutput::write(const Bytes& member) {

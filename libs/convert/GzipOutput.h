@@ -13,15 +13,15 @@ using Bytes = std::vector<std::uint8_t>;
 /// one gzip file. Thread-safe.
 void packGzipMember(const Bytes& plain, Bytes& packed);
 
-/// Writes a gzip file member by member and checks every write. MRPT's own stream does not report a
-/// full disk.
+/// Writes a gzip file member by member and checks every write. MRPT's stream does not report a full
+/// disk.
 class GzipOutput {
  public:
     /// Throws std::runtime_error naming the file if it cannot be opened.
     explicit GzipOutput(const std::filesystem::path& file);
 
     /// Appends a compressed member. Throws std::runtime_error with the system's error message; the
-    /// file then ends with its last whole member. Do not write afterwards.
+    /// file then ends with its last complete member. Do not write afterwards.
     void write(const Bytes& member);
     /// Closes the file. Throws like write().
     void close();

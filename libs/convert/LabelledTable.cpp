@@ -24,19 +24,19 @@ using observations::PointTable;
 
 constexpr const char *kLabel = "label", *kObstacle = "obstacle";
 
-/// The fields without labels, and the point of each return.
+/// All fields except the labels, and the point of each return.
 struct Unlabelled {
     PointTable table;
     std::vector<std::uint32_t> point_of_return;
 };
 
-/// Fields missing from a scan: from a rawlog of MRPT 3, and the tags of a Livox.
+/// Fields that a scan does not contain: those of a rawlog of MRPT 3, and the tags of a Livox.
 const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud) {
     const auto* const located = dynamic_cast<const observations::LocatedCloud*>(&cloud);
     return located != nullptr ? &located->otherFields() : observations::otherFieldsOf(cloud);
 }
 
-/// The fields of a scan and the observation's other fields, with the scan's times.
+/// Combines the fields of a scan, including times, with the observation's other fields.
 PointTable withOtherFields(const Scan& scan, const mrpt::obs::CObservation& observation) {
     const auto* const cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
     const PointTable* const others =
@@ -87,7 +87,7 @@ std::vector<std::string> renameTaken(const std::vector<std::string>& taken, Poin
     return renamed;
 }
 
-/// Adds label and obstacle; fields of the input with their names are renamed.
+/// Adds label and obstacle; renames fields of the input with the same names.
 LabelledTable labelled(const observations::ObservationSegmenter::Output& segmented,
                        Unlabelled points, NumberType obstacle_type) {
     LabelledTable labelled;
@@ -114,7 +114,7 @@ void rename(const std::string& from, const std::string& to, PointTable& table) {
     }
 }
 
-/// A cloud of these points, all in one colour.
+/// A cloud of these points, all in the same colour.
 mrpt::maps::CPointsMap::Ptr coloredCloudOf(const PointTable& table,
                                            const std::vector<std::uint32_t>& points,
                                            const mrpt::img::TColor& color) {
@@ -153,7 +153,7 @@ void useCloudsWithFields(const mrpt::obs::CObservation& observation,
         rename("time", "t", points.table);
     }
     const std::vector<std::uint32_t> point_of_return = points.point_of_return;
-    // CGenericPointsMap has no uint32.
+    // CGenericPointsMap does not support uint32.
     const PointTable table = labelled(segmented, std::move(points), NumberType::UInt16).table;
     const auto pointsOfReturns = [&](const std::vector<std::uint32_t>& returns) {
         std::vector<std::uint32_t> of_returns;

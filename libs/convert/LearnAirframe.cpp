@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Adds the scans of the first seconds.
+/// Adds the scans of the first `seconds` of the recording to the learner.
 void addScans(const AirframeLearning& learning, const AirframeListener& listener,
               AirframeLearner& learner, AirframeReport& report) {
     recordings::SourceOptions options;

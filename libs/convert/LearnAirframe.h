@@ -12,27 +12,27 @@ namespace hagen::convert {
 /// A recording to learn the airframe from, and the file to write.
 struct AirframeLearning {
     std::filesystem::path input;        ///< a rawlog, a capture, a bag, or a scan folder
-    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag; empty: none
-    std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
-    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
+    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag, or empty
+    std::filesystem::path calibration;  ///< HDL-64E calibration of a capture, or empty
+    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty for all topics
     std::filesystem::path file;         ///< FILE.yaml; the picture is FILE.png
     bool overwrite = false;             ///< replace existing outputs
-    double seconds = 10;                ///< of the recording, from the first selected scan
+    double seconds = 10;                ///< duration to use, from the first selected scan
     std::size_t from = 0;               ///< first and last entry to read, both inclusive
     std::size_t to = std::numeric_limits<std::size_t>::max();
-    std::vector<std::string> sensor_labels;  ///< the LiDAR; empty: the only one
-    Settings settings;                       ///< for the sensor; their airframe is ignored
+    std::vector<std::string> sensor_labels;  ///< label of the LiDAR; empty if there is only one
+    Settings settings;                       ///< settings of the sensor; their airframe is ignored
 };
 
 struct AirframeReport {
     std::string sensor_label;
-    std::size_t scans = 0;             ///< used for learning
-    std::size_t unreadable_scans = 0;  ///< each was reported
-    int bins = 0;                      ///< masked bins
-    double share_of_sphere = 0;        ///< solid angle of these bins
-    double share_of_seen = 0;          ///< fraction of the solid angle of all bins with a return
+    std::size_t scans = 0;             ///< scans used for learning
+    std::size_t unreadable_scans = 0;  ///< scans reported as unreadable
+    int bins = 0;                      ///< number of masked bins
+    double share_of_sphere = 0;        ///< masked fraction of the sphere
+    double share_of_seen = 0;          ///< masked fraction of the bins with a return
     std::filesystem::path picture;
-    /// True if so much is masked that it is probably not only the airframe.
+    /// True if the mask is so large that it probably covers more than the airframe.
     bool isSuspicious() const { return share_of_sphere > 0.2 || share_of_seen > 0.2; }
 };
 
@@ -42,14 +42,15 @@ struct AirframeListener {
         [](const auto&, const auto&) {};
     /// Called with remarks about the recording, such as ignored content.
     std::function<void(const std::string& what)> remark = [](const auto&) {};
-    /// Called before reading each entry. False ends with Interrupted, without output.
+    /// Called before reading each entry. Returning false ends learning with Interrupted, without
+    /// output.
     std::function<bool()> keep_going = [] { return true; };
 };
 
 /// Learns the airframe from the first seconds of a recording (AirframeLearner), and writes it as a
 /// file for `airframe: [{learned: FILE}]` with a picture. Throws std::runtime_error naming the
-/// recording if it has no scans, too few (AirframeRules::min_scans), or scans of several LiDARs;
-/// naming the output if it cannot be written. In both cases, no output is left behind.
+/// recording if it has no scans, too few scans (AirframeRules::min_scans), or scans of several
+/// LiDARs, or naming the output if it cannot be written. In both cases, no output is left.
 AirframeReport learnAirframe(const AirframeLearning& learning,
                              const AirframeListener& listener = {});
 

@@ -81,8 +81,8 @@ void MapOutput::throwFailures() const {
     if (!failures_.empty()) throw std::runtime_error(failures_);
 }
 
-/// The tree may fill the memory, so it is not copied: the formats that modify it most are written
-/// last.
+/// Writes the formats that modify the tree most last, because the tree is not copied: it may fill
+/// the memory.
 void MapOutput::write() {
     std::vector<const base::OutputPath*> files;
     for (const char* ending : {".3Dscene", ".ot", ".bt"}) {

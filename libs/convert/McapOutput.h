@@ -17,7 +17,7 @@
 namespace hagen::convert {
 
 /// The name of a sensor in topics and frames of ROS: its label, with '_' for characters that are
-/// not allowed there. It begins with a letter and differs from the frames "map", "odom" and
+/// not allowed there. The name begins with a letter and differs from the frames "map", "odom" and
 /// "world".
 std::string rosNameOf(const std::string& sensor_label);
 
@@ -25,8 +25,8 @@ std::string rosNameOf(const std::string& sensor_label);
 ///
 /// - /NAME/points, sensor_msgs/PointCloud2: labelledTable().
 /// - /NAME/obstacles, visualization_msgs/MarkerArray: boxesToDraw().
-/// - /NAME/pose, geometry_msgs/PoseStamped in the frame `map`, and the same as a transform from
-///   `map` to NAME on /tf: the sensor pose, if known.
+/// - /NAME/pose, geometry_msgs/PoseStamped in the frame `map`: the sensor pose, if known; also as
+///   a transform from `map` to NAME on /tf.
 ///
 /// Clouds and boxes are in the frame NAME. All messages have the time of their scan.
 class McapOutput {
@@ -42,12 +42,12 @@ class McapOutput {
     std::size_t points() const { return points_; }
     std::size_t boxes() const { return boxes_; }
     std::size_t messages() const { return writer_.messages(); }
-    /// The changes, for the user.
+    /// Messages for the user about changes.
     std::vector<std::string> remarks() const;
 
     /// Completes the file. Do not write afterwards.
     void finish() { writer_.close(); }
-    /// Renames the file into place, unless there were no scans.
+    /// Renames the file into place, if it contains scans.
     void commit();
     std::filesystem::path keepPartial() { return path_.keepPartial(); }
 
@@ -55,7 +55,7 @@ class McapOutput {
     struct Lidar {
         std::string name;
         std::uint16_t points, obstacles;
-        std::optional<std::uint16_t> pose;  ///< once one is known
+        std::optional<std::uint16_t> pose;  ///< set once a pose is known
     };
     Lidar& lidarOf(const std::string& sensor_label);
     std::int64_t stampOf(mrpt::Clock::time_point time);

@@ -14,7 +14,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Record types.
 enum Op : std::uint8_t {
     kHeader = 0x01,
     kFooter = 0x02,
@@ -124,7 +123,7 @@ std::uint16_t McapWriter::addTopic(const std::string& name, const RosType& type)
     add(schema->second, content);
     add(name, content);
     add(std::string("cdr"), content);
-    add(std::uint32_t{0}, content);  // no metadata
+    add(std::uint32_t{0}, content);  // number of metadata entries
     addRecord(kChannel, content, channels_);
     addRecord(kChannel, content, chunk_);
     return topic;
@@ -137,7 +136,7 @@ void McapWriter::write(std::uint16_t topic, std::uint64_t time_ns, const Bytes& 
     add(std::uint64_t{2 + 4 + 8 + 8 + message.size()}, chunk_);
     add(topic, chunk_);
     add(static_cast<std::uint32_t>(sequence), chunk_);
-    add(time_ns, chunk_);  // recording time, publishing time
+    add(time_ns, chunk_);  // recording time and publishing time
     add(time_ns, chunk_);
     chunk_.insert(chunk_.end(), message.begin(), message.end());
     ++sequence;
@@ -193,8 +192,8 @@ void McapWriter::putSummary() {
     add(std::uint64_t{messages_}, statistics);
     add(static_cast<std::uint16_t>(schema_of_.size()), statistics);
     add(static_cast<std::uint32_t>(messages_of_.size()), statistics);
-    add(std::uint32_t{0}, statistics);  // attachments
-    add(std::uint32_t{0}, statistics);  // metadata
+    add(std::uint32_t{0}, statistics);  // number of attachments
+    add(std::uint32_t{0}, statistics);  // number of metadata records
     add(static_cast<std::uint32_t>(chunks_.size()), statistics);
     add(times_.first_ns, statistics);
     add(times_.last_ns, statistics);
@@ -246,7 +245,7 @@ void McapWriter::putSummary() {
     add(offsets_at, footer);
     put(footer);
     Bytes end;
-    add(crc_, end);  // of the summary and the footer up to here
+    add(crc_, end);  // CRC of the summary and of the footer up to here
     put(end);
 }
 

@@ -13,22 +13,22 @@
 namespace hagen::convert {
 
 /// The steps applied to each item of a stream. Steps marked "in order" process one item at a time,
-/// in the order of reading; the others may process several items concurrently. An exception in a
-/// step ends the stream before its item: earlier items are completed, unless packing or writing
+/// in the order of reading; the other steps may process several items concurrently. An exception in
+/// a step ends the stream before its item: earlier items are completed, unless packing or writing
 /// failed, and no later item is accounted for.
 template <class Item>
 struct PipelineSteps {
-    std::function<bool(Item&)> read;  ///< in order; false: no more items
+    std::function<bool(Item&)> read;  ///< in order; returns false after the last item
     std::function<void(Item&)> work;
     std::function<void(Item&)> account;  ///< in order
     std::function<void(Item&)> pack;
     std::function<void(Item&)> write;  ///< in order
 };
 
-/// How a pipeline ended.
+/// The result of a pipeline.
 struct PipelineEnd {
     std::size_t threads;     ///< number of threads started
-    std::exception_ptr why;  ///< exception of the first failed item; null: end of input
+    std::exception_ptr why;  ///< exception of the first failed item; null at the end of the input
 };
 
 /// Admits items one by one, in the order of their numbers.
@@ -99,7 +99,7 @@ class OrderedPipeline {
         return true;
     }
 
-    /// False, and ends the pipeline, if a step throws. Keeps the first exception.
+    /// Returns false, and ends the pipeline, if a step throws. Keeps the first exception.
     template <class Step>
     bool attempt(const Step& step) {
         try {
@@ -116,16 +116,16 @@ class OrderedPipeline {
     const PipelineSteps<Item>& steps_;
     std::mutex reading_, failing_;
     std::size_t read_ = 0;
-    std::atomic<bool> has_ended_{false};   ///< stop reading
-    std::atomic<bool> has_failed_{false};  ///< stop accounting
-    bool is_cut_ = false;                  ///< stop writing
+    std::atomic<bool> has_ended_{false};   ///< reading has stopped
+    std::atomic<bool> has_failed_{false};  ///< accounting has stopped
+    bool is_cut_ = false;                  ///< writing has stopped
     std::exception_ptr why_;
     Turnstile accounts_, writes_;
 };
 
-/// Runs all items through the steps on up to `threads` threads, including the caller's; on fewer if
-/// the system cannot start them (oneTBB would terminate the process). Holds one item per thread in
-/// memory.
+/// Runs all items through the steps on up to `threads` threads, including the caller's, or on fewer
+/// if the system cannot start more (oneTBB would terminate the process). Holds one item per thread
+/// in memory.
 template <class Item>
 PipelineEnd runPipeline(const PipelineSteps<Item>& steps, std::size_t threads) {
     OrderedPipeline<Item> pipeline(steps);

@@ -72,7 +72,7 @@ void RawlogWriter::writeMember(const Bytes& packed) {
 void RawlogWriter::finish() {
     if (is_finished_) return;
     is_finished_ = true;
-    if (!gathered_.empty() || is_empty_) {  // a gzip file needs at least one member
+    if (!gathered_.empty() || is_empty_) {  // because a gzip file needs at least one member
         packGzipMember(gathered_, packed_);
         writeMember(packed_);
     }

@@ -11,8 +11,8 @@ void serialise(const mrpt::serialization::CSerializable& entry, Bytes& bytes);
 
 /// Writes a rawlog, renamed into place when complete.
 ///
-/// Entries are compressed in gzip members of at least 256 KiB uncompressed. Members end between
-/// entries. Boundaries depend only on the entries, so the same entries give the same bytes.
+/// Entries are compressed in gzip members of at least 256 KiB uncompressed. No entry spans two
+/// members. Boundaries depend only on the entries, so the same entries produce the same bytes.
 class RawlogWriter {
  public:
     /// Throws std::runtime_error naming the file; see OutputPath.
@@ -20,25 +20,25 @@ class RawlogWriter {
 
     const base::OutputPath& place() const { return path_; }
     /// Throws std::runtime_error naming the file if the entry cannot be written. A full disk may be
-    /// reported some entries late, or only by commit().
+    /// reported after further entries, or only by commit().
     void write(const mrpt::serialization::CSerializable& entry);
 
-    /// The steps of write(), for several threads. serialise() and packGzipMember() may run on any
-    /// thread. gather() and writeMember() must be called in the log's order; they may run
+    /// The steps of write(), for use on several threads. serialise() and packGzipMember() may run
+    /// on every thread. gather() and writeMember() must be called in the log's order; they may run
     /// concurrently with each other.
     ///
     /// Adds entries that must stay in one member. A completed member is moved to `member`, which is
-    /// otherwise empty. Leaves `entries` in an unspecified state.
+    /// otherwise empty. `entries` is then unspecified.
     void gather(Bytes& entries, Bytes& member);
     /// Writes a member compressed by packGzipMember().
     void writeMember(const Bytes& packed);
 
     /// Completes the file and renames it into place.
     void commit();
-    /// Completes the file as OUT.partial.rawlog and returns that name. After a failed write it ends
-    /// with the last whole member. Throws std::runtime_error if it has no member.
+    /// Completes the file as OUT.partial.rawlog and returns that name. After a failed write, the
+    /// file ends with the last complete member. Throws std::runtime_error if it has no member.
     std::filesystem::path keepPartial();
-    /// Whether all entries are in the file, under its final or partial name.
+    /// Whether the file, under its final or partial name, contains all entries.
     bool isWhole() const { return is_finished_ && !has_failed_; }
 
  private:

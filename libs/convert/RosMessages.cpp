@@ -18,7 +18,7 @@ using mrpt::poses::CPose3D;
 using observations::NumberType;
 using observations::PointTable;
 
-// Fields of the types, from docs.ros.org/en/humble.
+// Message definitions from docs.ros.org/en/humble.
 
 using Part = std::pair<const char*, const char*>;  // name and fields
 const Part kTime{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec"};
@@ -67,8 +67,6 @@ RosType rosTypeOf(const char* name, const char* fields, std::initializer_list<Pa
     return type;
 }
 
-// Values.
-
 void put(const RosHeader& header, CdrWriter& to) {
     constexpr std::int64_t kSecond_ns = 1000000000;
     if (header.time_ns < 0 ||
@@ -79,7 +77,7 @@ void put(const RosHeader& header, CdrWriter& to) {
     to.text(header.frame);
 }
 
-/// A position and a rotation, as in geometry_msgs/Pose and Transform.
+/// Writes a position and a rotation, as in geometry_msgs/Pose and Transform.
 void put(const CPose3D& pose, CdrWriter& to) {
     mrpt::math::CQuaternionDouble rotation;
     pose.getAsQuaternion(rotation);
@@ -110,7 +108,7 @@ bool isFinite(const PointTable& table) {
 
 constexpr std::int32_t kCube = 1, kAdd = 0, kDeleteAll = 3;
 
-/// A marker; fields for other shapes are empty.
+/// Writes a marker; fields for other shapes are empty.
 void putMarker(const RosHeader& header, std::int32_t id, std::int32_t action,
                const Eigen::AlignedBox3f& box, CdrWriter& to) {
     constexpr float kThinnest_m = 0.01f;  // viewers reject boxes without volume
@@ -123,11 +121,11 @@ void putMarker(const RosHeader& header, std::int32_t id, std::int32_t action,
         to.number(static_cast<double>(length));
     }
     for (const float part : {1.0f, 0.75f, 0.47f, 0.35f}) to.number(part);  // r, g, b, a
-    to.number(std::int32_t{0}).number(std::uint32_t{0});                   // stays until deleted
+    to.number(std::int32_t{0}).number(std::uint32_t{0});                   // lifetime: unlimited
     to.number(std::uint8_t{0}).count(0).count(0);                          // points, colours
     to.text("");
     put(RosHeader(), to);
-    to.text("").count(0).count(0);  // the texture and its coordinates
+    to.text("").count(0).count(0);  // texture and its coordinates
     to.text("").text("").text("").count(0).number(std::uint8_t{0});
 }
 

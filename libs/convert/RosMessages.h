@@ -12,7 +12,7 @@ namespace hagen::convert {
 /// A message type of ROS 2.
 struct RosType {
     std::string name;        ///< "sensor_msgs/msg/PointCloud2"
-    std::string definition;  ///< ros2msg: its fields, then those of each type in it
+    std::string definition;  ///< in ros2msg format: its fields, then the fields of nested types
 };
 
 const RosType& pointCloud2Type();
@@ -28,7 +28,7 @@ struct RosHeader {
 
 /// The messages below are CDR (little-endian), as defined in ROS 2 Humble and later.
 
-/// sensor_msgs/msg/PointCloud2: a checked little-endian table, as one row. Throws
+/// sensor_msgs/msg/PointCloud2: a checked little-endian table as a cloud of one row. Throws
 /// std::runtime_error for 64-bit integers and for more than 4 GB.
 std::vector<std::uint8_t> pointCloud2Message(const RosHeader& header,
                                              const observations::PointTable& table);

@@ -23,16 +23,16 @@ void writeBeams(const SensorModel& sensor, std::ostream& out) {
         out << "# Beams of this recording (" << sensor.name << "), lowest first\n"
             << "sensor:\n  model: custom\n  elevations_deg: [" << std::setprecision(9);
         for (int row = 0; row < sensor.rows(); ++row) {
-            // As float, pi / 2 exceeds 90 degrees.
+            // Limits the value, because float pi / 2 exceeds 90 degrees.
             const double elevation_deg =
                 std::clamp(degrees(sensor.elevations_rad[row]), -90.0, 90.0);
             out << (row > 0 ? ", " : "") << elevation_deg;
         }
         out << "]\n";
-    } else {  // a custom sensor would have rings
+    } else {  // not described as a custom sensor, which would have rings
         out << "# Sensor of this recording\nsensor:\n  model: " << sensor.name << "\n";
     }
-    // A recording may exceed the limits of settings.
+    // A recording's range limits may exceed those allowed in settings.
     const auto limit_m = [](float range_m) { return std::clamp<double>(range_m, 0, kMaxRange_m); };
     const double min_m = limit_m(sensor.min_range_m), max_m = limit_m(sensor.max_range_m);
     if (min_m < max_m) {
@@ -87,7 +87,7 @@ void ScanFolderWriter::write(const std::string& name, const Scan& scan,
     try {
         recordings::writeScan(points, scan);
         recordings::writeLabels(labels, returns.label, returns.component);
-    } catch (...) {  // do not leave a partial scan
+    } catch (...) {  // removes the partial scan
         std::error_code ignored;
         fs::remove(points, ignored);
         fs::remove(labels, ignored);

@@ -16,7 +16,7 @@ namespace hagen::convert {
 /// File name of scan n in a scan folder, without extension: "000042".
 std::string scanName(std::size_t scan);
 
-/// Range limits from the settings; nullopt: the sensor's own.
+/// Range limits from the settings; nullopt for the sensor's limits.
 struct GivenLimits {
     std::optional<float> min_range_m, max_range_m;
 };
@@ -25,14 +25,15 @@ struct GivenLimits {
 /// naming the file that cannot be written.
 class ScanFolderWriter {
  public:
-    /// Creates velodyne/ and labels/ in an existing folder. `mount`: the sensor's tilt on the level
-    /// vehicle, for sensor.yaml. `unnamed`: the sensor is unnamed, and sensor.yaml contains only
-    /// these limits, not the recovered beams.
+    /// Creates velodyne/ and labels/ in an existing folder. `mount` is the sensor's tilt on the
+    /// level vehicle, for sensor.yaml. With `unnamed`, the sensor is unnamed, and sensor.yaml
+    /// contains only these limits, not the recovered beams.
     explicit ScanFolderWriter(std::filesystem::path folder, const Attitude& mount = {},
                               const std::optional<GivenLimits>& unnamed = std::nullopt);
 
-    /// Adds a scan with the labels of its returns. `sensor_pose`: sensor pose in the map at the
-    /// scan's time, if known. `pose_has_horizon`: the z axis of that map points against gravity.
+    /// Adds a scan with the labels of its returns. `sensor_pose` is the sensor pose in the map at
+    /// the scan's time, if known. `pose_has_horizon` means that the z axis of the map points
+    /// against gravity.
     void write(const std::string& name, const Scan& scan, const LabelledReturns& returns,
                const SensorModel& sensor, double time_s,
                const std::optional<mrpt::poses::CPose3D>& sensor_pose = std::nullopt,
@@ -50,7 +51,7 @@ class ScanFolderWriter {
     std::filesystem::path folder_;
     Attitude mount_;
     std::optional<GivenLimits> unnamed_;
-    std::vector<std::string> names_;  ///< of the scans; per scan:
+    std::vector<std::string> names_;  ///< scan names; the other lists have one entry per scan, too
     std::vector<double> times_s_;
     std::vector<std::optional<mrpt::poses::CPose3D>> poses_;
     bool have_horizon_ = true;

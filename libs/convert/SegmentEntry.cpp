@@ -63,7 +63,7 @@ void removeOldResults(ConvertedEntry& entry) {
     }
 }
 
-/// The object, followed by the results; in a sensory frame, the results are inside it.
+/// Serialises the object, followed by the results, which in a sensory frame are inside the object.
 void serialiseEntry(CloudClass cloud_class, ConvertedEntry& entry) {
     if (entry.object && cloud_class == CloudClass::Generic) recordings::keepFields(entry.object);
     std::vector<CObservation::Ptr> added;
@@ -86,8 +86,8 @@ void serialiseEntry(CloudClass cloud_class, ConvertedEntry& entry) {
 std::unique_ptr<ObservationSegmenter> makeSegmenter(const Conversion& conversion,
                                                     const Settings& settings) {
     auto segmenter = std::make_unique<ObservationSegmenter>();
-    segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // remarks go to the listener
-    // Clouds with all fields require the observation's fields and are created afterwards.
+    segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // the listener gets the remarks
+    // Clouds with all fields need the observation's fields, so they are created afterwards.
     const bool is_generic = conversion.cloud_class == CloudClass::Generic;
     segmenter->cloud_class = is_generic ? CloudClass::Simple : conversion.cloud_class;
     segmenter->initialize(settings);

@@ -22,7 +22,7 @@ struct ConvertedScan {
 /// An entry during its conversion. Reused for later entries.
 struct ConvertedEntry {
     double fraction_read = 0;
-    mrpt::serialization::CSerializable::Ptr object;  ///< null: write only scans
+    mrpt::serialization::CSerializable::Ptr object;  ///< null if only scans are written
     std::vector<ConvertedScan> scans;
     std::size_t results_replaced = 0;  ///< results of an earlier run removed from the object
     Bytes bytes, member, packed;       ///< buffers of the output rawlog

@@ -9,7 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Leaves room for suffixes of equal names, within the 255-byte limit of file systems.
+/// The file name for a sensor label. Leaves room for suffixes of equal names, within the 255-byte
+/// limit of file systems.
 std::string fileName(const std::string& sensor_label) {
     constexpr std::size_t kMaxLetters = 100;
     std::string name = sensor_label.substr(0, kMaxLetters);
@@ -39,7 +40,7 @@ const fs::path& SensorFolders::folderOf(const std::string& sensor_label) {
     return folder;
 }
 
-/// With only one sensor, its folder becomes the whole output.
+/// If there is only one sensor, makes its folder the whole output.
 void SensorFolders::unwrapOnlyFolder() {
     if (folders_.size() != 1 || is_unwrapped_) return;
     const fs::path only = folders_.begin()->second;
@@ -49,7 +50,7 @@ void SensorFolders::unwrapOnlyFolder() {
     try {
         fs::remove(path_.temporary());
         fs::rename(lifted, path_.temporary());
-    } catch (const fs::filesystem_error&) {  // restore for keepPartial()
+    } catch (const fs::filesystem_error&) {  // restores the folder for keepPartial()
         std::error_code ignored;
         fs::create_directory(path_.temporary(), ignored);
         fs::rename(lifted, only, ignored);

@@ -26,10 +26,10 @@ class SensorFolders {
     void unwrapOnlyFolder();
     void writeMarker() const;
 
-    const char* marker_;  ///< of the kind; may be null
+    const char* marker_;  ///< marker file of the output kind; may be null
     base::OutputPath path_;
     std::map<std::string, std::filesystem::path> folders_;  ///< by sensor label
-    bool is_unwrapped_ = false;  ///< the only sensor's folder is the output
+    bool is_unwrapped_ = false;  ///< the folder of the only sensor is the output
 };
 
 }  // namespace hagen::convert

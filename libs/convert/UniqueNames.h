@@ -12,7 +12,7 @@ class UniqueNames {
     /// A name that was not returned before.
     std::string of(const std::string& name) {
         std::string unique = name;
-        // Continues at the last suffix, to avoid quadratic time for many equal names.
+        // Continues after the last suffix, to avoid quadratic time for many equal names.
         for (std::size_t& again = times_[name]; !names_.insert(unique).second;) {
             ++again;
             unique = name + (again <= 2 ? std::string(again, '_') : "_" + std::to_string(again));
@@ -22,7 +22,7 @@ class UniqueNames {
 
  private:
     std::set<std::string> names_;
-    std::map<std::string, std::size_t> times_;  ///< number of changes per name
+    std::map<std::string, std::size_t> times_;  ///< number of suffixes tried, by name
 };
 
 }  // namespace hagen::recordings

@@ -17,9 +17,8 @@ using observations::NumberType;
 using observations::PointField;
 using observations::PointTable;
 
-constexpr double kFarForFloat_m = 8192.0;  // float32 spacing is 1 mm
+constexpr double kFarForFloat_m = 8192.0;  // from here on, float32 values are 1 mm apart
 
-/// A field of the output.
 struct WrittenField {
     std::string name;
     NumberType type;
@@ -39,7 +38,7 @@ Limits limitsOf(OutputFormat format) {
 }
 constexpr Limits kPointCloud2{"PointCloud2", false, true};
 
-/// Header names must not contain blanks.
+/// Replaces blanks and control characters, which headers do not support.
 std::string asWord(std::string name) {
     std::replace_if(
         name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
@@ -172,7 +171,7 @@ std::string recordsOf(const std::vector<WrittenField>& fields, const PointTable&
 }
 
 std::vector<std::string> changesWithin(const Limits& limits, const PointTable& table) {
-    constexpr double kExact = 9007199254740992.0;  // 2^53
+    constexpr double kExact = 9007199254740992.0;  // 2^53: smaller integers are exact
     std::vector<std::string> changes;
     for (const WrittenField& field : fieldsOf(limits, table)) {
         if (field.type == field.from.type || field.from.type == NumberType::Float64) continue;

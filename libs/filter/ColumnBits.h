@@ -4,8 +4,8 @@
 
 namespace hagen {
 
-/// One bit per pixel, in separate words for each column: row 0 is the lowest bit of a column's
-/// first word; bits above the last row are 0. Columns are processed as a whole.
+/// One bit per pixel; each column starts a new word. Row 0 is the lowest bit of a column's first
+/// word; bits above the last row are 0. Columns are processed as a whole.
 using ColumnBits = std::vector<std::uint64_t>;
 
 constexpr int kWordRows = 64;

@@ -19,7 +19,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Appends `first` + n for each set bit n. Copies eight table entries per byte; the next byte
-/// overwrites surplus entries, or they lie past the end.
+/// overwrites the surplus.
 HWY_INLINE std::uint32_t* AppendWord(std::uint64_t bits, std::uint32_t first,
                                      std::uint32_t* HWY_RESTRICT list) {
     const hn::CappedTag<std::uint32_t, 8> d;
@@ -115,8 +115,8 @@ namespace {
 
 HWY_EXPORT(LabelWords);
 
-/// 2 * component + 1 if ROU, per pixel, so that a return needs one look-up. No pixel: RoI without
-/// component.
+/// For each pixel, 2 * component + 1 if ROU, so that a return needs one look-up. A return without a
+/// pixel is RoI without a component.
 void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& components,
                   std::vector<std::int32_t>& verdict) {
     verdict.resize(static_cast<std::size_t>(labels.size()) + 1);
@@ -128,19 +128,19 @@ void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& compone
     }
 }
 
-/// Removes returns with their own label from their pixel's component if they are far behind it.
+/// Removes returns with their own label from their pixel's component if they are too far behind it.
 void leaveComponents(const std::vector<std::int32_t>& own_labelled, const Scan& scan,
                      const RangeImage& image, float component_gap_m,
                      std::vector<std::int32_t>& component) {
     for (const std::int32_t i : own_labelled) {
-        if (component[i] == 0) continue;  // may have no pixel
+        if (component[i] == 0) continue;  // includes returns without a pixel
         const float behind_m = scan.range_m[i] - image.depth_m.data()[image.depth_mapper[i]];
         component[i] = behind_m < component_gap_m ? component[i] : 0;
     }
 }
 
 /// Renumbers components 1, 2, ... in order, skipping components without returns (all their pixels
-/// were repaired). `most`: the highest number. Only RoI returns belong to components.
+/// were repaired). `max` is the highest number. Only RoI returns belong to components.
 void renumber(std::int32_t max, LabelledReturns& returns, std::vector<std::int32_t>& number) {
     std::vector<std::int32_t>& component = returns.component;
     number.assign(static_cast<std::size_t>(max) + 1, 0);
@@ -151,7 +151,7 @@ void renumber(std::int32_t max, LabelledReturns& returns, std::vector<std::int32
     for (const std::uint32_t i : returns.roi) component[i] = number[component[i]];
 }
 
-/// Labels the last returns, fewer than a word, in word-sized copies.
+/// Labels the last returns, which do not fill a word, in word-sized copies.
 void labelRest(const ExtractionRules& rules, ExtractionInput in, std::size_t first,
                std::size_t rest, ExtractionOutput& out) {
     std::array<float, kReturnsPerWord> range_m{};

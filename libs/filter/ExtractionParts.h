@@ -10,8 +10,8 @@ constexpr std::size_t kReturnsPerWord = 64;
 struct ExtractionInput {
     const float* range_m;
     const std::int32_t* pixel;
-    const std::uint8_t* own_label;         ///< or null
-    const std::int32_t* verdict_of_pixel;  ///< 2 * component + 1 if ROU; index -1: no pixel
+    const std::uint8_t* own_label;         ///< null if no return has its own label
+    const std::int32_t* verdict_of_pixel;  ///< 2 * component + 1 if ROU; index -1 is for no pixel
 };
 
 struct ExtractionOutput {

@@ -82,7 +82,7 @@ void findTolerances(const Options& o, const CellArea& area, Ground& g, FilterWor
 void relabelByGround(const Ground& g, const Options& o, Image<Label>& labels, FilterWorkspace& w) {
     if (g.has_surface) {
         labelByHeight(g.height_m, g.tolerance_m, labels);
-        // Obstacles reach down to their feet; specks are removed.
+        // Extends obstacles down to their feet, and removes specks.
         if (o.grow_feet) growFeet(g.pixels, g.height_m, labels, w.feet);
         if (o.remove_specks) removeSpecks(g.pixels, g.height_m, g.tolerance_m, labels, w.specks);
     }

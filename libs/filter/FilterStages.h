@@ -1,4 +1,4 @@
-// The stages in order, for filters that process a whole scan or a sector.
+// The stages of the filters of whole scans and of sectors, in order.
 #pragma once
 #include <hagen/filter/CellArea.h>
 #include <hagen/filter/Levelling.h>
@@ -19,14 +19,14 @@ void labelByAngles(const PixelDirections& directions, float min_range_m,
                    const std::optional<Attitude>& horizon, const Options& options,
                    SegmentationResult& result, FilterWorkspace& work);
 
-// Beyond the paper: use the detected ground to find more ground and too little clearance. The plane
-// is fitted to `columns` of the image (null: evenly spaced columns).
+// Beyond the paper: the detected ground improves the ROU labels and reveals insufficient clearance.
+// The plane is fitted to `columns` of the image (evenly spaced columns if null).
 
-/// Whether the options require the ground.
+/// Whether the options require the ground plane.
 bool usesGround(const Options& options);
 
-/// Finds the ground plane, the pixels in its frame, and whether ground is visible and has a
-/// surface.
+/// Finds the ground plane, transforms the pixels to its frame, and decides whether ground is
+/// visible and has a surface.
 void findGroundPlane(const Scan& scan, const PixelDirections& directions,
                      const std::optional<Attitude>& horizon, const Options& options,
                      const std::vector<std::int32_t>* columns, SegmentationResult& result,
@@ -37,12 +37,12 @@ void findGroundSurface(const Image<Label>& labels, const Options& options,
                        const std::vector<std::int32_t>* columns, Ground& ground,
                        FilterWorkspace& work);
 
-/// Computes the maximum ground height per pixel. Requires `ground.tops` of the same area.
+/// Computes the maximum ground height per pixel. Requires `ground.tops` for the same area.
 void findTolerances(const Options& options, const CellArea& area, Ground& ground,
                     FilterWorkspace& work);
 
-/// Labels pixels by their height above the surface, if one was fitted. If no ground is visible, no
-/// pixel is ROU.
+/// Labels pixels by their height above the surface, if a surface was fitted. If no ground is
+/// visible, no pixel is ROU.
 void relabelByGround(const Ground& ground, const Options& options, Image<Label>& labels,
                      FilterWorkspace& work);
 

@@ -17,12 +17,12 @@
 
 namespace hagen {
 
-/// Workspaces of all stages, documented with the stages. A filter owns one and reuses it, to avoid
-/// allocations. Workspaces have no state and may be replaced at any time. Threads must not share
-/// one.
+/// Workspaces of all stages, documented with the stages. A filter owns and reuses one instance, to
+/// avoid allocations. Workspaces have no state and may be replaced at any time, but threads must
+/// not share them.
 struct FilterWorkspace {
-    Scan turned;                     // if the sensor is not upright
-    PixelDirections directions;      // of an image with a subset of the columns
+    Scan turned;                     // the scan in the image frame if the sensor is not upright
+    PixelDirections directions;      // of a subset of the columns
     ProjectionWorkspace projection;  // stage 1
     DeadBeamsWorkspace dead_beams;   // stage 2
     MaximaWorkspace maxima;          // stage 3
@@ -30,7 +30,7 @@ struct FilterWorkspace {
     LabellingWorkspace labelling;    // stage 8
     GroundFrameWorkspace ground_frame;
     GroundEvidenceWorkspace evidence;
-    Image<Label> candidates;  // for the ground surface
+    Image<Label> candidates;  // candidates for the ground surface
     GroundSurfaceWorkspace ground_surface;
     ToleranceWorkspace tolerance;
     FeetWorkspace feet;

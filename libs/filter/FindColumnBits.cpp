@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The lowest `bits` bits.
+/// A word whose lowest `bits` bits are set.
 HWY_INLINE std::uint64_t Lowest(int bits) { return ~std::uint64_t{0} >> (kWordRows - bits); }
 
 void FindLinks(const float* HWY_RESTRICT image, int rows, int columns, float max_step,
@@ -50,7 +50,7 @@ void FindLinks(const float* HWY_RESTRICT image, int rows, int columns, float max
     }
 }
 
-/// The pixels for which `isSet` holds.
+/// Finds the pixels for which `isSet` holds.
 template <class D, class IsSet>
 HWY_INLINE void FindPixels(D d, const hn::TFromD<D>* HWY_RESTRICT image, int rows, int columns,
                            IsSet isSet, std::uint64_t* HWY_RESTRICT bits) {
@@ -97,7 +97,7 @@ HWY_EXPORT(FindPresent);
 HWY_EXPORT(FindLabelled);
 
 /// Calls find(first pixel, columns, first word) for parts of an image. Vectors read past the end of
-/// a column, so the last columns are copied to `seam`, followed by the first one.
+/// a column, so the last columns are copied to `seam`, followed by the first column.
 template <class T, class Find>
 void findInParts(const T* image, int rows, int columns, std::vector<T>& seam, Find find) {
     constexpr int kPast = kWordRows;  // maximum lanes of a vector

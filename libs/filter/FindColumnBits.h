@@ -9,7 +9,7 @@
 
 namespace hagen {
 
-/// `seam` is a buffer for the image's last columns, followed by the first one.
+/// `seam` is a buffer for the image's last columns, followed by the first column.
 void findLinks(const Image<float>& image, float max_step, ColumnLinks& links,
                std::vector<float>& seam);
 void findPresent(const Image<float>& image, ColumnBits& present, std::vector<float>& seam);

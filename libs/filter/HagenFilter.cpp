@@ -71,7 +71,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
         return s.result;
     }
 
-    // The same, in a frame whose image rows are in ascending elevation.
+    // The same scan in a frame whose image rows are in ascending elevation.
     turnScan(scan, posture, attitude, view.sensor, s.work.turned);
     s.runStages(s.work.turned, horizonOf(attitudeIn(posture, attitude)), view);
     Eigen::Isometry3f& from_sensor = s.result.ground.from_sensor;
@@ -83,7 +83,7 @@ void HagenFilter::State::runStages(const Scan& scan, const std::optional<Attitud
                                    const View& view) {
     const Options& o = options;
     SegmentationResult& r = result;
-    r.own_labels.label.clear();  // may be from another filter (exchangeResult())
+    r.own_labels.label.clear();  // exchangeResult() may have left another filter's labels
     r.own_labels.returns.clear();
     r.ground.has_surface = r.ground.is_seen = false;
 

@@ -6,7 +6,8 @@
 
 namespace hagen {
 
-/// The paper's stages, ours before the ground surface, and the ground surface with its dependants.
+/// The paper's stages, our stages before the ground surface, and the ground surface with its
+/// dependants.
 enum class StageGroup { Paper, Own, Surface };
 
 /// A row of the ablation: the value of a setting that switches a stage off.
@@ -21,14 +22,14 @@ struct Ablation {
 struct OptionKey {
     std::string name, unit;
     double min, max;           ///< allowed range, both inclusive
-    std::string what, symbol;  ///< one-line description; the paper's symbol, if any
+    std::string what, symbol;  ///< one-line description; the paper's symbol or empty
     std::variant<float Options::*, int Options::*, bool Options::*, Seeds Options::*> field;
-    std::string section;  ///< in settings files; "paper": interpretation of the paper
+    std::string section;  ///< in settings files; "paper" for interpretations of the paper
     std::vector<Ablation> ablations = {};
 };
 const std::vector<OptionKey>& optionKeys();
 
-/// The name with the section: "paper.seeds".
+/// The name including the section: "paper.seeds".
 std::string nameInFiles(const OptionKey& key);
 /// The value of an option in settings-file syntax: "20", "true", "lowest".
 std::string textOf(const OptionKey& key, const Options& options);

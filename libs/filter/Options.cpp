@@ -8,7 +8,7 @@
 namespace hagen {
 namespace {
 
-/// A limit rounded to the option's type, as settings are: 0.01f is below 0.01.
+/// Rounds a limit to the option's type, like the settings: 0.01f is below 0.01.
 double asOption(double limit, const OptionKey& key) {
     const bool is_float = std::holds_alternative<float Options::*>(key.field);
     return is_float ? static_cast<double>(static_cast<float>(limit)) : limit;
@@ -20,7 +20,7 @@ void checkOptions(const Options& options, int beams) {
     for (const OptionKey& key : optionKeys()) {
         const double value =
             std::visit([&](auto field) { return static_cast<double>(options.*field); }, key.field);
-        if (!(value >= asOption(key.min, key) && value <= asOption(key.max, key))) {  // NaN too
+        if (!(value >= asOption(key.min, key) && value <= asOption(key.max, key))) {  // or NaN
             std::ostringstream message;
             message << key.name << " is " << value << ", but must lie between " << key.min
                     << " and " << key.max;

@@ -9,7 +9,7 @@ namespace hagen {
 
 /// A sort key of a number >= 0 and its item; keys ascend as numbers descend.
 inline std::uint64_t sinkingKey(float number, std::size_t item) {
-    std::uint32_t bits;  // order like the numbers
+    std::uint32_t bits;  // in the order of the numbers
     std::memcpy(&bits, &number, sizeof bits);
     return std::uint64_t{~bits} << 32 | item;
 }

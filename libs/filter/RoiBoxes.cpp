@@ -5,7 +5,7 @@
 namespace hagen {
 namespace {
 
-constexpr std::uint32_t kMinDrawn = 30;  // returns
+constexpr std::uint32_t kMinDrawn = 30;  // minimum number of returns
 
 }  // namespace
 

@@ -67,14 +67,14 @@ void findRuns(const float* depth_m, int rows, int columns, ComponentsWorkspace* 
             std::memcpy(&depth, depths_m + bit, sizeof depth);
             run += is_lowest;
             min = std::min(min | static_cast<std::uint32_t>(-is_lowest), depth);
-            nearest[run] = min;  // from the lowest pixel upwards
+            nearest[run] = min;  // runs are visited from the lowest pixel upwards
             runs[bit] = static_cast<std::int32_t>(run);
         });
     });
     w->runs = static_cast<std::size_t>(run + 1);
 }
 
-/// The first of the runs joined with this one.
+/// The first of the runs joined with this run.
 std::int32_t firstOf(std::int32_t run, std::int32_t* first) {
     while (first[run] != run) {
         first[run] = first[first[run]];
@@ -83,7 +83,6 @@ std::int32_t firstOf(std::int32_t run, std::int32_t* first) {
     return run;
 }
 
-/// Joins the runs of adjacent columns.
 void joinRuns(int rows, int columns, ComponentsWorkspace* w) {
     const int to_first_column = rows - rows * columns, last_column = rows * (columns - 1);
     const std::int32_t* const run_of = w->run.data();
@@ -95,7 +94,7 @@ void joinRuns(int rows, int columns, ComponentsWorkspace* w) {
             runs + (first_pixel < last_column ? rows : to_first_column);
         forEachBit(w->links.right[word], [&](int bit) {
             const std::int32_t a = runs[bit], b = on_right[bit];
-            if (first[b] == b && a < b) {  // the first link of b: the usual case
+            if (first[b] == b && a < b) {  // usual case: the first link of b
                 first[b] = first[a];
             } else {
                 const std::int32_t first_a = firstOf(a, first), first_b = firstOf(b, first);
@@ -114,7 +113,7 @@ void numberRuns(ComponentsWorkspace* w) {
     const std::size_t runs = w->runs;
     std::fill_n(closest, runs, ~std::uint64_t{0});
     for (std::size_t run = 0; run < runs; ++run) {
-        first[run] = first[first[run]];  // final for earlier runs
+        first[run] = first[first[run]];  // already final for earlier runs
         const std::uint64_t key = std::uint64_t{nearest[run]} << 32 | run;
         if (key < closest[first[run]]) closest[first[run]] = key;
     }
@@ -135,8 +134,8 @@ void numberRuns(ComponentsWorkspace* w) {
 
 }  // namespace
 
-// Fast because links are found for many pixels at once, and runs and components are joined and
-// sorted instead of pixels.
+// Fast because it finds links for many pixels at once, and joins and sorts runs and components
+// instead of pixels.
 void numberRoiComponents(const Image<float>& depth_m, const Image<Label>& labels, float max_gap_m,
                          Image<std::int32_t>& components, ComponentsWorkspace& w) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());

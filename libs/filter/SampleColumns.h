@@ -6,8 +6,8 @@
 
 namespace hagen {
 
-/// Evenly spaced columns of an image: at least `enough`, fewer than twice as many; all if the image
-/// has fewer.
+/// Samples evenly spaced columns of an image: at least `enough`, but fewer than 2 * `enough`, or
+/// all columns of a narrower image.
 inline void sampleColumns(Eigen::Index columns, Eigen::Index enough,
                           std::vector<std::int32_t>& sample) {
     const Eigen::Index step = std::max<Eigen::Index>(1, columns / enough);

@@ -10,16 +10,16 @@
 namespace hagen {
 namespace {
 
-constexpr std::int32_t kBeside = 5;     // columns added on both sides of a sector, for its regions
-constexpr std::int32_t kTogether = 16;  // columns; gives most sectors the same image size
-constexpr std::size_t kPlaneEvery = 2;  // use every 2nd of the evenly spread columns
+constexpr std::int32_t kBeside = 5;     // columns added on both sides, for the regions
+constexpr std::int32_t kTogether = 16;  // number of columns is a multiple of this
+constexpr std::size_t kPlaneEvery = 2;  // uses every 2nd of the evenly spaced columns
 
 struct Columns {
     Eigen::Index first = 0, count = 0;
 };
 
-/// Copies columns of an image and appends an empty one: columns wrap around, but the first and last
-/// copied columns are not neighbours.
+/// Copies columns of an image and appends an empty column, because the first and last copied
+/// columns are not neighbours although columns wrap around.
 template <class Value>
 void copyColumns(const Image<Value>& from, Eigen::Index first, Eigen::Index count, Value empty,
                  Image<Value>& to) {
@@ -64,14 +64,14 @@ void readContext(const RangeImage& image, const SectorOfInterest& sector, Image<
 /// The cells of the judged pixels in the zone, and the surrounding cells that affect their
 /// tolerance.
 CellArea areaOf(const Ground& ground, const Columns& judged, const Options& options) {
-    constexpr float kBeyond_m = 1;  // outside the zone: neighbours of pixels at its edge
-    constexpr int kSides = 1;       // tall neighbours of a cell matter
+    constexpr float kBeyond_m = 1;  // beyond the zone, for neighbours of pixels at its edge
+    constexpr int kSides = 1;       // margin in cells, for tall neighbours
     const float max_m = options.zone_m + kBeyond_m;
     const Eigen::Index rows = ground.cells.cell.rows();
     CellArea area{CellArea::kSide, 0, CellArea::kSide, 0};
     for (Eigen::Index k = judged.first * rows; k < (judged.first + judged.count) * rows; ++k) {
         const float x_m = ground.pixels.x_m.data()[k], y_m = ground.pixels.y_m.data()[k];
-        if (!(x_m * x_m + y_m * y_m < max_m * max_m)) continue;  // or empty
+        if (!(x_m * x_m + y_m * y_m < max_m * max_m)) continue;  // true if empty
         const int cell = ground.cells.cell.data()[k];
         const int row = cell % CellArea::kSide, column = cell / CellArea::kSide;
         area.first_row = std::min(area.first_row, row);
@@ -93,7 +93,7 @@ struct SectorFilter::State {
     PixelDirections near_directions;  ///< judged columns
     SegmentationResult result;
     Columns judged;           ///< in the images of `result`
-    SegmentationResult near;  ///< images of the judged columns and an empty one
+    SegmentationResult near;  ///< results for the judged columns and an empty column
     std::vector<ContextReturn> found;
     Image<float> known_m;  ///< known height of each pixel's cell
     std::vector<std::int32_t> plane_columns;
@@ -140,7 +140,7 @@ Columns SectorFilter::State::judgedColumns(const SectorOfInterest& sector) const
     const RangeImage& image = result.range_image;
     const auto rows = static_cast<std::int32_t>(image.depth_m.rows());
     const auto columns = static_cast<std::int32_t>(image.depth_m.cols());
-    std::int32_t first = rows * columns, last = -1;  // pixels, column by column
+    std::int32_t first = rows * columns, last = -1;  // pixel indices, column by column
     for (std::size_t i = 0; i < sector.returns.size(); ++i) {
         const std::int32_t pixel = image.depth_mapper[i];
         if (pixel == RangeImage::kNoPixel) continue;
@@ -154,8 +154,7 @@ Columns SectorFilter::State::judgedColumns(const SectorOfInterest& sector) const
     return {first, std::min(rounded, columns - first)};
 }
 
-/// Stages 1 and 2. Gaps are repaired only in the judged columns. Dead beams are found in the whole
-/// turn.
+/// Stages 1 and 2. Repairs gaps only in the judged columns, but finds dead beams in the whole turn.
 void SectorFilter::State::project(const Scan& scan, const SectorOfInterest& sector) {
     const Options& o = options;
     SegmentationResult& r = result;
@@ -205,7 +204,7 @@ void SectorFilter::State::findGround(const Scan& scan, const SectorOfInterest& s
     findTolerances(options, area, g, work);
 }
 
-/// Stores the cell heights of the sector's returns; the cells now contain all of its returns.
+/// Stores the cell heights of the sector's returns now that the cells contain all of these returns.
 void SectorFilter::State::keepHeights() {
     const Ground& ground = result.ground;
     if (!ground.has_surface) return;

@@ -4,7 +4,7 @@
 
 namespace hagen::live {
 
-/// Direction bins of autopilot messages: the first is centred straight ahead.
+/// Direction bins of autopilot messages. The first bin is centred straight ahead.
 using Direction = SectorDistances::Sector;
 using DirectionState = SectorDistances::State;
 using Directions = SectorDistances::Sectors;

@@ -27,13 +27,13 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::size_t kQueue = 4096;  // packets; holds several seconds
-constexpr double kFlush_s = 0.02;     // without packets, before the sector in progress is labelled
+constexpr std::size_t kQueue = 4096;  // packets of several seconds
+constexpr double kFlush_s = 0.02;     // pause after which the sector in progress is labelled
 constexpr double kStatus_s = 0.5;
 // SectorDistances treats a direction as unknown if its turn is 0.3 s old. Packets that waited
-// longer than kTooOld_s are therefore dropped, until one has waited less than kNew_s.
+// longer than kTooOld_s are therefore dropped, until a packet has waited less than kNew_s.
 constexpr double kTooOld_s = 0.15, kNew_s = 0.05;
-constexpr int kKeepsUp = 4;  // consecutive statuses without dropped packets that end an overload
+constexpr int kKeepsUp = 4;  // statuses without dropped packets that end an overload
 
 double processCpu_s() {
     return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
@@ -51,16 +51,16 @@ class Session {
     void drop(const Packet& packet);
     /// Counts packets that were not labelled. Thread-safe.
     void lose(std::size_t packets) { lost_ += packets; }
-    /// Called by the receiving thread for each datagram.
+    /// Records a datagram; called by the receiving thread.
     void record(const Packet& packet) {
         if (recorder_) recorder_->add(packet);
     }
-    /// Unblocks a thread waiting in record().
+    /// Unblocks a thread that waits in record().
     void endRecording() {
         if (recorder_) recorder_->close();
     }
     /// Reports silence and status, and labels the sector in progress if the sensor is silent.
-    /// `is_idle`: the queue is empty.
+    /// `is_idle` means that the queue is empty.
     void update(bool is_idle);
     LiveReport finish(double start_cpu_s);
 
@@ -86,17 +86,17 @@ class Session {
     std::unique_ptr<Recorder> recorder_;
 
     double start_s_, status_s_;
-    double last_packet_s_ = 0, last_taken_s_ = 0;  ///< from the sensor, from any sender
+    double last_packet_s_ = 0, last_taken_s_ = 0;  ///< from the sensor; from all senders
     double last_return_s_ = 0;
     SensorAddress address_;
-    std::size_t uncertain_ = 0, restarts_ = 0, mode_changes_ = 0;  ///< already reported
+    std::size_t uncertain_ = 0, restarts_ = 0, mode_changes_ = 0;  ///< counts already reported
     bool is_uncertain_ = false;
     bool is_flushed_ = true, is_silent_ = false, is_empty_ = false;
     bool is_recording_reported_ = false, is_slow_recording_reported_ = false;
     bool has_place_ = false;
     std::size_t foreign_ip_ = 0;
-    std::size_t dropped_ = 0, dropped_before_ = 0;  ///< total, total at the last status
-    int keeps_up_ = kKeepsUp;                       ///< statuses
+    std::size_t dropped_ = 0, dropped_before_ = 0;  ///< total, and total at the last status
+    int keeps_up_ = kKeepsUp;                       ///< statuses without dropped packets
     std::atomic<std::size_t> lost_ = 0;
 };
 
@@ -119,7 +119,7 @@ void Session::takeSector(const LabelledSector& sector) {
     reportEmptiness(sector.returns);
 }
 
-/// A covered window looks like open air, so both are reported.
+/// Reports that returns are missing, because a covered window looks like open air.
 void Session::reportEmptiness(const Scan& returns) {
     const bool is_empty = std::all_of(returns.range_m.begin(), returns.range_m.end(),
                                       [](float range_m) { return std::isnan(range_m); });
@@ -133,7 +133,8 @@ void Session::reportEmptiness(const Scan& returns) {
                      "covered");
 }
 
-/// Sensors of the same model without serial numbers are distinguished by address.
+/// Whether a packet is from the sensor. Addresses distinguish sensors of the same model without
+/// serial numbers.
 bool Session::isOfSensor(const Packet& packet) {
     const sensors::LidarDriver& driver = stream_->driver();
     if (driver.hasSerial() || !driver.isData(packet.datagram())) return true;
@@ -145,7 +146,7 @@ bool Session::isOfSensor(const Packet& packet) {
     if (before != packet.from_ip) {
         listener_.remark("the sensor's address changed from " + sensors::ipText(before) + " to " +
                          sensors::ipText(packet.from_ip));
-        stream_->flush();  // a sector never mixes returns of both
+        stream_->flush();  // so that no sector mixes returns from both addresses
     }
     return true;
 }
@@ -169,7 +170,7 @@ void Session::take(const Packet& packet) {
 }
 
 /// Removes the mount from the sensor's pose. Before the first position is known, poses are recorded
-/// at the origin, because labelling needs the tilt; later ones without position are skipped.
+/// at the origin, because labelling needs the tilt. Later poses without position are skipped.
 void Session::recordPose(const Packet& packet, const SensorMotion& motion) {
     Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
     if (motion.map_from_sensor) {
@@ -191,7 +192,7 @@ void Session::drop(const Packet& packet) {
     last_packet_s_ = packet.arrival_s;
     ++dropped_;
     reportReturn();
-    if (report_.datagrams == 0) return;  // sent before the session began
+    if (report_.datagrams == 0) return;  // the packet arrived before the session
     if (keeps_up_ >= kKeepsUp) {
         listener_.remark("labelling is too slow: dropping packets that waited too long");
     }
@@ -214,7 +215,6 @@ void Session::reportUncertain() {
                                ": its packets are dropped. Is it in another mode?");
 }
 
-/// Called after an accepted packet.
 void Session::reportChanges() {
     if (is_uncertain_) {
         is_uncertain_ = false;
@@ -228,7 +228,6 @@ void Session::reportChanges() {
                                                 : "the sensor sends one return per firing now");
 }
 
-/// Reports the end of a silence.
 void Session::reportReturn() {
     if (!is_silent_) return;
     is_silent_ = false;
@@ -261,7 +260,8 @@ void Session::showStatus(double now_s) {
     listener_.status(report_, status);
 }
 
-/// Whether packets were dropped since the last status. Incomplete turns give no valid rate.
+/// Whether packets were dropped since the last status. If so, turns are incomplete and yield no
+/// valid rate.
 bool Session::updateOverload() {
     const bool is_behind = dropped_ > dropped_before_;
     dropped_before_ = dropped_;
@@ -285,8 +285,8 @@ void Session::reportSilence(double now_s) {
 
 void Session::update(bool is_idle) {
     const double now_s = steadyNow_s();
-    // Packets that wait for a busy processor do not count as silence, and packets from other
-    // senders do not end it.
+    // Packets waiting for a busy processor do not count as silence, and packets from other senders
+    // do not end the silence.
     const double heard_s = is_idle ? now_s : last_taken_s_;
     if (report_.datagrams > 0 && !is_flushed_ && heard_s - last_packet_s_ > kFlush_s) {
         stream_->flush();
@@ -396,7 +396,7 @@ LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveL
     if (stats) {
         try {
             writeStats(report, options, listener, *stats);
-        } catch (const std::exception& e) {  // does not affect the other outputs
+        } catch (const std::exception& e) {  // other outputs must not fail
             report.stats_failure = e.what();
         }
     }

@@ -20,10 +20,10 @@
 namespace hagen::live {
 namespace {
 
-constexpr int kBufferBytes = 8 << 20;     // one second of HDL-64E data
-constexpr std::size_t kMaxBytes = 65536;  // per datagram
+constexpr int kBufferBytes = 8 << 20;     // about one second of HDL-64E data
+constexpr std::size_t kMaxBytes = 65536;  // maximum size of a datagram
 constexpr double kMaxWait_s = 0.1;
-/// Longer pauses in a capture (clock changes, sensor off) are skipped.
+/// The maximum replayed pause of a capture; longer pauses (clock changes, sensor off) are skipped.
 constexpr double kMaxPause_s = 2;
 
 [[noreturn]] void fail(const std::string& what) {
@@ -57,7 +57,7 @@ UdpSource::UdpSource(const Address& address)
     if (socket_ < 0) fail(name_);
     try {
         const int yes = 1;
-        // SO_RCVBUF is limited by net.core.rmem_max; SO_RCVBUFFORCE needs CAP_NET_ADMIN.
+        // SO_RCVBUF is limited by net.core.rmem_max, but SO_RCVBUFFORCE needs CAP_NET_ADMIN.
         if (setsockopt(socket_, SOL_SOCKET, SO_RCVBUFFORCE, &kBufferBytes, sizeof kBufferBytes) !=
             0)
             setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &kBufferBytes, sizeof kBufferBytes);
@@ -65,7 +65,7 @@ UdpSource::UdpSource(const Address& address)
         getsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &buffer_bytes_, &size);
         setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
         setsockopt(socket_, IPPROTO_IP, IP_PKTINFO, &yes, sizeof yes);
-        // Multicast groups can be shared by several programs. Sharing a unicast address would
+        // Several programs may receive from a multicast group, but sharing a unicast address would
         // divert packets from the first program.
         if (address.isMulticast()) {
             setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -117,7 +117,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
     packet.from_ip = ntohl(from.sin_addr.s_addr);
     packet.from_port = ntohs(from.sin_port);
     packet.to_port = port_;
-    packet.arrival_s = steadyNow_s();  // first, so that later calls do not add to the age
+    packet.arrival_s = steadyNow_s();  // read first, so that later calls do not increase the age
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
     packet.time_ns = nanoseconds(now);
@@ -134,7 +134,7 @@ PacketSource::Next UdpSource::next(Packet& packet) {
         const std::int64_t waited_ns = packet.time_ns - nanoseconds(stamp);
         packet.arrival_s -= 1e-9 * static_cast<double>(waited_ns);
         packet.time_ns -= waited_ns;
-        // The system clock was set back meanwhile, so the arrival time is unknown.
+        // If the system clock was set back meanwhile, the arrival time is unknown.
         if (waited_ns < 0) packet.arrival_s = latest_arrival_s_;
     }
     packet.arrival_s = latest_arrival_s_ = std::max(latest_arrival_s_, packet.arrival_s);
@@ -148,7 +148,7 @@ ReplaySource::ReplaySource(const std::filesystem::path& file, double speed)
     });
 }
 
-/// Reads the next datagram; false at the end. Throws NoneYet after many frames without one.
+/// Reads the next datagram; false at the end. Throws NoneYet after many frames without a datagram.
 bool ReplaySource::readWaiting() {
     search_start_s_ = steadyNow_s();
     return capture_.next(waiting_);

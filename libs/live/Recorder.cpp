@@ -12,9 +12,9 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::chrono::milliseconds kFlush{200};     // without packets
+constexpr std::chrono::milliseconds kFlush{200};     // time without packets before flushing
 constexpr std::int64_t kPosePeriod_ns = 20'000'000;  // typical period of attitude messages
-constexpr std::size_t kMaxPoseBytes = 1 << 20;       // maximum queued pose lines: hours
+constexpr std::size_t kMaxPoseBytes = 1 << 20;       // maximum size of queued pose lines
 
 /// Keeps a partial output; returns a note with its path, or "" if nothing was written.
 std::string keptOf(base::OutputPath& output) {

@@ -20,16 +20,17 @@ namespace hagen::live {
 /// files get their final names in finish().
 class Recorder {
  public:
-    /// `waits`: add() blocks on a full queue instead of dropping. Throws std::runtime_error naming
-    /// the file if it cannot be written, or exists and may not be replaced.
+    /// With `waits`, add() blocks while the queue is full instead of dropping. Throws
+    /// std::runtime_error naming the file if it cannot be written, or exists and may not be
+    /// replaced.
     Recorder(const RecordingOptions& options, bool has_poses, bool waits);
     /// Calls finish().
     ~Recorder();
 
-    /// Called by the receiving thread.
+    /// Adds a datagram; called by the receiving thread.
     void add(const Packet& packet);
     /// Adds a pose at a packet time (Packet::time_ns), unless it is at most 20 ms after the last
-    /// one. Requires `has_poses`.
+    /// pose. Requires `has_poses`.
     void addPose(std::int64_t time_ns, const Eigen::Isometry3d& map_from_vehicle);
     /// Ignores all later add() calls.
     void close();
@@ -59,7 +60,7 @@ class Recorder {
     std::atomic<bool> is_closed_ = false;
 
     mutable std::mutex mutex_;  // guards all members below
-    std::string pose_lines_;    ///< not yet written
+    std::string pose_lines_;    ///< lines that are not written yet
     Recorded recorded_;
 
     std::thread thread_;

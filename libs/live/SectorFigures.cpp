@@ -10,8 +10,8 @@ namespace hagen::live {
 namespace {
 
 constexpr double kDirections_s = 0.05;
-constexpr double kMinTime_s = 0.125;  // shortest time for a rate
-constexpr double kOtherRate = 0.2;    // relative change that is reported
+constexpr double kMinTime_s = 0.125;  // minimum time for a rate
+constexpr double kOtherRate = 0.2;    // minimum relative change that is reported
 
 SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor) {
     SectorDistances::Settings settings;
@@ -95,7 +95,7 @@ LiveStatus SectorFigures::status(double passed_s, bool turns) const {
 }
 
 std::optional<RateChange> SectorFigures::rateChange() {
-    const double arrived_s = recent_last_s_ - recent_first_s_;  // shorter at the start
+    const double arrived_s = recent_last_s_ - recent_first_s_;  // shorter at the start of a session
     if (arrived_s <= kMinTime_s || recent_sweep_rad_ <= 0) return std::nullopt;
     const double rate = recent_sweep_rad_ / (2 * kPi) / arrived_s;
     const bool is_odd = reported_rate_ > 0 && std::abs(rate / reported_rate_ - 1) > kOtherRate;

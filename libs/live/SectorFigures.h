@@ -23,9 +23,11 @@ class SectorFigures {
     /// Copies the latest distances into the report.
     void update(double now_s) { report_.latest = distances_.at(now_s); }
 
-    /// Status of the last `passed_s`. For a sensor that does not turn, frames replace angles.
+    /// The status of the last `passed_s`. For a sensor without a rotating head, angles are replaced
+    /// by frames.
     LiveStatus status(double passed_s, bool turns) const;
-    /// A changed motor speed, confirmed by two statuses: packets may arrive in bursts.
+    /// Returns a change of motor speed confirmed by two statuses, because packets may arrive in
+    /// bursts.
     std::optional<RateChange> rateChange();
     /// Resets status and rate.
     void next();

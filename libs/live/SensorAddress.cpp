@@ -26,7 +26,7 @@ bool SensorAddress::choose(std::uint32_t ip, bool is_silent) {
         current_ = at;
         return true;
     }
-    // Both addresses send, so there are two sensors; keep the first.
+    // Both addresses send, so there are two sensors; keeps the first.
     const std::size_t later = std::max(at, current_);
     current_ = std::min(at, current_);
     others_.push_back(own_[later]);

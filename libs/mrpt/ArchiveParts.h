@@ -51,7 +51,7 @@ void registerAs(const char* name) {
         name,
         [] { return std::static_pointer_cast<mrpt::rtti::CObject>(std::make_shared<Derived>()); },
         [] { return CLASS_ID(Base); }};
-    // MRPT warns on standard error if the name is taken.
+    // MRPT prints a warning to standard error if the name is taken.
     const SilentErrorStream silence;
     mrpt::rtti::registerClassCustomName(name, &id);
 }

@@ -12,7 +12,7 @@
 namespace hagen::observations {
 namespace {
 
-constexpr int kMinRows = 3;  // of the filter's image
+constexpr int kMinRows = 3;  // minimum number of rows of the filter's image
 
 std::size_t returnsWithRange(const Scan& scan) {
     std::size_t returns = 0;
@@ -33,7 +33,7 @@ void CloudSensors::see(const mrpt::obs::CObservation& observation) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception&) {
-        return;  // readObservation() reports it
+        return;  // readObservation() reports the error
     }
     see(observation.sensorLabel, scan_, rings_);
 }

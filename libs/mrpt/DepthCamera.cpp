@@ -22,7 +22,7 @@ struct ImagePoint {
 
 /// The distorted point, by the OpenCV model that MRPT calls "plumb bob".
 ImagePoint distorted(const TCamera& camera, const ImagePoint& at) {
-    const auto& k = camera.dist;  // k1 k2 p1 p2 k3 k4 k5 k6
+    const auto& k = camera.dist;  // in the order k1 k2 p1 p2 k3 k4 k5 k6
     const double x = at.right, y = at.down, r2 = x * x + y * y;
     const double radial =
         (1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
@@ -30,7 +30,7 @@ ImagePoint distorted(const TCamera& camera, const ImagePoint& at) {
             y * radial + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y};
 }
 
-/// The inverse: a fixed-point iteration as in OpenCV.
+/// The inverse of distorted(), by fixed-point iteration as in OpenCV.
 ImagePoint undistorted(const TCamera& camera, const ImagePoint& seen) {
     if (camera.distortion == DistortionModel::none) return seen;
     constexpr int kMaxSteps = 20;

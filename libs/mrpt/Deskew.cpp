@@ -9,9 +9,9 @@ namespace hagen::observations {
 namespace {
 
 constexpr double kKnotSpacing_s = 1e-3;
-constexpr double kMaxScan_s = 10;  // longer: corrupt timestamps
+constexpr double kMaxScan_s = 10;  // longer scans have corrupt timestamps
 
-/// Returns the sensor's pose at `start` + time_s, relative to its pose at `start`.
+/// Returns the sensor's pose at `start` + time_s relative to `start_pose`.
 std::optional<Eigen::Isometry3f> motionUntil(const Trajectory& vehicle,
                                              mrpt::Clock::time_point start,
                                              const mrpt::poses::CPose3D& start_pose,
@@ -24,7 +24,7 @@ std::optional<Eigen::Isometry3f> motionUntil(const Trajectory& vehicle,
     const auto matrix = (*pose + sensor_on_vehicle - start_pose)
                             .getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
     const Eigen::Matrix4f motion = matrix.asEigen().cast<float>();
-    if (!motion.allFinite()) return std::nullopt;  // 1e300 m is finite only as double
+    if (!motion.allFinite()) return std::nullopt;  // 1e300 m is finite only as a double
     return Eigen::Isometry3f(motion);
 }
 

@@ -19,7 +19,7 @@ using mrpt::poses::CPose3D;
 constexpr double kMaxAge_s = 0.2;
 
 /// The measurement, if present and finite. Flags of corrupt recordings may be neither true nor
-/// false, must not be read as bool, and count as missing.
+/// false; they must not be read as bool, and are treated as missing.
 std::optional<double> measured(const CObservationIMU& imu, mrpt::obs::TIMUDataIndex what) {
     unsigned char is_present = 0;
     static_assert(sizeof(imu.dataIsPresent.at(what)) == sizeof(is_present));

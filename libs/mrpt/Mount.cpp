@@ -5,7 +5,7 @@
 namespace hagen::observations {
 namespace {
 
-constexpr float kRounding_rad = 1e-4f;  // of composed poses
+constexpr float kRounding_rad = 1e-4f;  // rounding error of composed poses
 
 bool isLevel(const Attitude& attitude) { return attitude.roll_rad == 0 && attitude.pitch_rad == 0; }
 bool isMountUsed(const Attitude& recorded, const Attitude& mount) {

@@ -1,12 +1,12 @@
 /// Replaces MRPT's allocation for cloud vectors, which returns an unchecked null pointer if memory
-/// is exhausted (mrpt/core/aligned_allocator.h), with one that throws std::bad_alloc.
+/// is exhausted (mrpt/core/aligned_allocator.h), with an allocation that throws std::bad_alloc.
 #include <mrpt/core/aligned_allocator.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <new>
 
-// Visible even in a Python module with hidden symbols.
+// Makes the functions visible even in a Python module with hidden symbols.
 #define HAGEN_VISIBLE __attribute__((visibility("default")))
 
 namespace mrpt {

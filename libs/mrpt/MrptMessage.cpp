@@ -5,7 +5,7 @@ namespace hagen::observations {
 
 std::string messageOf(const std::exception& exception) {
     std::string text = exception.what();
-    // The innermost message is the last.
+    // The innermost message comes last.
     const std::string mark = "Message: ";
     const std::size_t message = text.rfind(mark);
     if (message != std::string::npos) {

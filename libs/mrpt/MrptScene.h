@@ -1,5 +1,5 @@
 #pragma once
-// MRPT's 3D scenes: mrpt::opengl until version 2, mrpt::viz since 3.
+// MRPT's 3D scenes are in mrpt::opengl until version 2, in mrpt::viz since version 3.
 #include <mrpt/img/TColor.h>
 #include <mrpt/version.h>
 
@@ -41,7 +41,7 @@ using Scene = mrpt::viz::Scene;
 using VisualObject = mrpt::viz::CVisualObject;
 #endif
 
-/// The result of colour maps: a TColor until version 2, a TColorf since 3.
+/// Colour maps return a TColor until version 2, a TColorf since version 3.
 inline mrpt::img::TColor colorOf(const mrpt::img::TColor& color) { return color; }
 inline mrpt::img::TColor colorOf(const mrpt::img::TColorf& color) { return color.asTColor(); }
 

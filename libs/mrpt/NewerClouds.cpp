@@ -28,7 +28,7 @@ using mrpt::maps::CPointsMapXYZI;
 using mrpt::maps::CSimplePointsMap;
 using mrpt::serialization::CArchive;
 
-/// Reads a vector of numbers other than float: two names, then the numbers. MRPT's own reader
+/// Reads a vector of numbers other than float: two type names, then the numbers. MRPT's reader
 /// trusts the count in the file.
 template <class Vector>
 void readVector(CArchive& in, Vector& values) {
@@ -49,7 +49,7 @@ constexpr NumberType typeOf() {
     return std::is_same_v<Number, std::uint8_t> ? NumberType::UInt8 : NumberType::UInt32;
 }
 
-/// Reads the point count and the coordinates.
+/// The coordinates of a cloud, read after the point count.
 struct Coordinates {
     std::vector<float> x_m, y_m, z_m;
 
@@ -79,7 +79,7 @@ void readInsertionOptions(CArchive& in, CPointsMap::TInsertionOptions& options) 
         options.maxDistForInterpolatePoints >> options.insertInvalidPoints;
 }
 
-/// A CSimplePointsMap that reads older and newer insertion options and writes the older ones.
+/// A CSimplePointsMap that reads older and newer insertion options and writes older ones.
 class SimpleCloud : public CSimplePointsMap {
     static constexpr std::uint8_t kVersionWithOptions = 10;
 
@@ -151,7 +151,7 @@ class GenericCloud : public CPointsMapXYZI {
         likelihoodOptions.writeToStream(out);
     }
 
-    /// The class supports only these types; others are written as float64.
+    /// The type in which numbers are written: float64 for types that the class does not support.
     static NumberType writtenType(NumberType type) {
         const bool is_kept =
             type == NumberType::Float32 || type == NumberType::UInt16 || type == NumberType::UInt8;
@@ -210,7 +210,7 @@ class GenericCloud : public CPointsMapXYZI {
         takeColor();
     }
 
-    /// Returns why the field cannot be kept; empty: kept.
+    /// Keeps a field, or returns why it cannot be kept.
     template <class Number>
     std::string keep(const std::string& name, const std::vector<double>& values) {
         if (name.empty()) return "no name";
@@ -223,7 +223,6 @@ class GenericCloud : public CPointsMapXYZI {
         return "";
     }
 
-    /// Reads the fields of one type.
     template <class Number>
     void readFields(CArchive& in, std::uint8_t version) {
         for (auto fields = in.ReadAs<std::uint32_t>(); fields > 0; --fields) {

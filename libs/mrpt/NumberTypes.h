@@ -6,7 +6,7 @@
 
 namespace hagen::observations {
 
-/// Calls `use` with a value of the C++ type and returns its result.
+/// Calls `use` with a value of the corresponding C++ type and returns the result.
 template <class Use>
 auto withType(NumberType type, const Use& use) {
     switch (type) {

@@ -32,7 +32,7 @@ void assignPoints(const Coordinates& x, const Coordinates& y, const Coordinates&
     scan.time_s.clear();
 }
 
-/// Scales intensities to 0..1 if the cloud's range is 0..255, as with many drivers.
+/// Scales intensities to 0..1 if they range from 0 to 255, as with many drivers.
 template <class Intensities>
 void assignIntensities(const Intensities& intensities, Scan& scan) {
     const auto max = std::max_element(intensities.begin(), intensities.end());
@@ -102,7 +102,7 @@ FieldsOfReturns fieldsOfReturns(const CObservationPointCloud& observation) {
     return found;
 }
 
-/// Lists the unused fields of a newer MRPT's cloud, and warnings about others.
+/// Lists the unused fields of a newer MRPT's cloud, and warnings about used fields.
 std::string remarkOnFields(const CObservationPointCloud& observation, const FieldsOfReturns& used,
                            bool are_rings_used) {
     std::string names;
@@ -139,7 +139,7 @@ void takeRings(const std::vector<std::int32_t>& rings, const std::vector<int>& r
     }
 }
 
-/// Applies the settings' range limits, but not their beams, to the recording's own sensor.
+/// Applies the settings' range limits, but not their beams, to the sensor from the recording.
 void takeOwnSensor(const Settings& settings, ObservedScan& observed) {
     SensorModel& sensor = observed.sensor;
     sensor.min_range_m = settings.sensor.min_range_m.value_or(sensor.min_range_m);
@@ -158,11 +158,11 @@ void readLocated(const CObservationPointCloud& observation, const LocatedCloud& 
     takeOwnSensor(settings, observed);
     readPoints(observation, observed.scan);
     locateBeams(observed.sensor, observed.scan);
-    observed.scan.row = cloud.rows();  // exact, also for near returns
+    observed.scan.row = cloud.rows();  // exact even for near returns
     observed.scan.time_s = cloud.times_s();
 }
 
-/// Reads a cloud whose beams are known from the settings, recovery, or a field.
+/// Reads a cloud whose beams come from the settings, recovery, or a field.
 void readCloud(const CObservationPointCloud& observation, const Settings& settings,
                const SharedBeams& beams, ObservedScan& observed) {
     readPoints(observation, observed.scan);
@@ -289,7 +289,7 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
 mrpt::maps::CPointsMap::Ptr cloudOf(const Scan& scan, const std::vector<std::uint32_t>& indices,
                                     CloudClass cloud_class) {
     if (cloud_class == CloudClass::Generic) return genericCloudOf(pointsOf(tableOf(scan), indices));
-    // Reserve first: growing point by point takes several times as long.
+    // Reserves memory first, because growing point by point takes several times as long.
     const auto fill = [&](auto points, const auto& set_more) {
         points->setSize(indices.size());
         for (std::size_t k = 0; k < indices.size(); ++k) {

@@ -15,7 +15,7 @@ MRPT_INITIALIZER(registerAllClasses_hagen_observations) { registerHagenClasses()
 
 void registerHagenClasses() {
     mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
-    // Former class name, without namespace.
+    // The former class name, without namespace.
     mrpt::rtti::registerClassCustomName(
         "hagen::ObservationSegmenter",
         CLASS_ID_NAMESPACE(ObservationSegmenter, hagen::observations));
@@ -30,13 +30,14 @@ bool isSameSensor(const SensorModel& a, const SensorModel& b) {
            a.max_range_m == b.max_range_m && a.has_rings == b.has_rings;
 }
 
-/// Whether two options are equal, given that only the sensor may differ.
+/// Whether two options, which may differ only by the sensor, are equal.
 bool areSameFor(const Options& a, const Options& b) {
     return a.columns == b.columns && a.window_size == b.window_size &&
            a.principal_components == b.principal_components;
 }
 
-/// MRPT's constructor terminates the program if allocating the name fails; copying throws.
+/// A profiler to copy: if allocating the name fails, MRPT's constructor terminates the program, but
+/// copying throws.
 const mrpt::system::CTimeLogger& profilerToCopy() {
     static const mrpt::system::CTimeLogger profiler(false, "hagen::ObservationSegmenter");
     return profiler;
@@ -61,7 +62,7 @@ SharedBeams ObservationSegmenter::beamsOf(const mrpt::obs::CObservation& observa
     return sensors_.beamsOf(observation.sensorLabel);
 }
 
-/// The filter for the most recently read scan.
+/// Returns the filter for the most recently read scan.
 HagenFilter& ObservationSegmenter::filterOf(const std::string& label) {
     const SensorModel& sensor = observed_.sensor;
     const Options options = settings_.optionsFor(observed_.recovered.get());

@@ -9,7 +9,7 @@ namespace {
 constexpr double kMaxSpan_s = 2.0;
 constexpr std::int32_t kMaxRing = 65535;
 
-/// The unit [s] of times with this span.
+/// Guesses the unit [s] of times with this span.
 double timeUnit(const PointTable& table, const PointField& field, double span) {
     if (&field == findField(table, {"gps_time", "gpstime"})) return 1.0;
     const bool is_integer = field.type < NumberType::Float32;

@@ -11,9 +11,9 @@ namespace hagen::observations {
 /// Beam numbers or times of points.
 template <class Number>
 struct PointFieldValues {
-    std::vector<Number> values;  ///< one per requested point; empty: unknown
-    std::string field;           ///< name of the field; empty: missing or not used
-    std::string remark;          ///< why the field is not used; empty: used or missing
+    std::vector<Number> values;  ///< one per requested point; empty if unknown
+    std::string field;           ///< name of the field; empty if missing or not used
+    std::string remark;          ///< why the field is not used; otherwise empty
 };
 
 /// Beam numbers of these points of a checked table, from the first of the fields ring, channel,
@@ -29,8 +29,8 @@ const PointField* timeFieldOf(const PointTable& table);
 /// nanoseconds, or microseconds if the points would otherwise span less than 1 ms. Other numbers
 /// are seconds, or the largest of ms, us, ns in which they span at most 2 s; gps_time is always in
 /// seconds. Times within 2 s of 0 are relative to the scan's time; others are absolute and
-/// converted relative to the earliest. Ignores the field if a time is not finite or the times span
-/// more than 2 s.
+/// converted to times relative to the earliest. Ignores the field if a time is not finite or the
+/// times span more than 2 s.
 PointFieldValues<float> timesOf(const PointTable& table, const std::vector<std::uint32_t>& points);
 
 }  // namespace hagen::observations

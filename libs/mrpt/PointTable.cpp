@@ -44,7 +44,7 @@ void check(const PointTable& table) {
         const std::string title = "the field '" + field.name + "'";
         if (!names.insert(field.name).second) throw std::runtime_error(title + " occurs twice");
         if (field.count == 0) throw std::runtime_error(title + " has no numbers");
-        // Without points, the data size does not limit the counts in a header.
+        // If there are no points, the data size does not limit the counts in a header.
         if (field.count > kMaxNumbersPerPoint - numbers) {
             throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
                                      nameOf(field.type) + ") exceeds the limit of " +

@@ -22,7 +22,7 @@ bool isAbout(const mrpt::img::TColorf& a, const mrpt::img::TColorf& b) {
            std::abs(a.B - b.B) < half_step;
 }
 
-/// Whether a cloud has the mark of a result. CGenericPointsMap does not store renderOptions; it has
+/// Whether a cloud is marked as a result. CGenericPointsMap does not store renderOptions, but has
 /// colour fields, even if empty.
 bool isMarked(const mrpt::maps::CPointsMap& cloud, bool is_roi) {
     if (isAbout(cloud.renderOptions.color, mrpt::img::TColorf(colorOf(is_roi)))) return true;
@@ -37,7 +37,7 @@ std::string suffixOf(const mrpt::obs::CObservation& observation) {
     const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
     // A cloud in an external file has not been read and is not a result.
     if (cloud == nullptr || cloud->pointcloud == nullptr) return "";
-    for (const bool is_roi : {false, true}) {  // "_non_roi" ends in "_roi", too
+    for (const bool is_roi : {false, true}) {  // "_non_roi" last, because it also ends in "_roi"
         if (base::endsWith(cloud->sensorLabel, suffixOf(is_roi)) &&
             isMarked(*cloud->pointcloud, is_roi)) {
             return suffixOf(is_roi);

@@ -13,18 +13,18 @@ const mrpt::img::TColor kRoiColor(213, 94, 0), kNonRoiColor(150, 190, 230);
 
 constexpr const char* kRoiSuffix = "_roi";
 constexpr const char* kNonRoiSuffix = "_non_roi";
-/// Name of the object in a preview's scene. One of its parts is named after the scan, because
+/// Name of the object in a preview's scene. A part of the object is named after the scan, because
 /// rawlogs do not store scene labels.
 constexpr const char* kPreviewName = "hagen preview";
 constexpr std::string_view kPreviewOfPrefix = "zone of ";
 
 /// A cloud as a result of the filter, with the scan's time, pose and suffixed label. The colour in
-/// its renderOptions, which rawlogs store, marks it as a result.
+/// its renderOptions, which rawlogs store, marks the cloud as a result.
 mrpt::obs::CObservationPointCloud::Ptr resultOf(const mrpt::obs::CObservation& scan, bool is_roi,
                                                 const mrpt::maps::CPointsMap::Ptr& points);
 
-/// Whether the observation is a result of the filter: a cloud with suffix and mark, or a preview. A
-/// suffix alone is not enough: a scan may be labelled "front_roi".
+/// Whether the observation is a result of the filter: a cloud with suffix and mark, or a preview.
+/// The suffix alone is not sufficient, because a scan may be labelled "front_roi".
 bool isResult(const mrpt::obs::CObservation& observation);
 
 /// The label of the scan that a result comes from.

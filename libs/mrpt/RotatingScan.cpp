@@ -24,7 +24,7 @@ namespace {
 using mrpt::obs::CObservationRotatingScan;
 using mrpt::serialization::CArchive;
 
-/// A scan with the points that newer MRPTs store. Written as the older class.
+/// A scan with the points that newer MRPTs store. It is written as the older class.
 class NewerRotatingScan : public CObservationRotatingScan {
  public:
     OrganizedPoints points;
@@ -67,8 +67,9 @@ void NewerRotatingScan::serializeFrom(CArchive& in, std::uint8_t version) {
     in >> minRange >> maxRange >> sensorPose >> originalReceivedTimestamp >>
         has_satellite_timestamp;
 
-    // Next come columns and rows (older layout), or the storage type (newer layout): 0 (in the
-    // log), columns, rows; 1 or 2 (in a file), file name length.
+    // In the older layout, columns and rows follow. In the newer layout, the storage type follows,
+    // which is 0 (in the log), then columns and rows; or 1 or 2 (in a file), then the file name
+    // length.
     std::array<std::uint8_t, 4> next{};
     in.ReadBuffer(next.data(), next.size());
     const std::uint16_t older_columns = number(next[0], next[1]);
@@ -191,7 +192,6 @@ std::optional<SensorModel> namedSensor(const std::string& lidar_model) {
     return std::nullopt;
 }
 
-/// The sensor of a scan without points.
 SensorModel sensorOfRows(const CObservationRotatingScan& observation, const Settings& settings) {
     const int rows = rowsOf(observation);
     const auto own = namedSensor(observation.lidarModel);
@@ -215,19 +215,19 @@ SensorModel sensorOfRows(const CObservationRotatingScan& observation, const Sett
 
 /// The direction of an image row, and its beam.
 struct Row {
-    double sine, cosine;  ///< of the elevation
+    double sine, cosine;  ///< of the row's elevation
     std::uint8_t beam;
-    double delay = 0;        ///< of the laser, in columns
-    double azimuth_rad = 0;  ///< of the laser, added to the column's
+    double delay = 0;        ///< delay of the laser, in columns
+    double azimuth_rad = 0;  ///< azimuth of the laser, added to the column's azimuth
 };
 
 /// The directions of the pixels of an image without points.
 struct Geometry {
     std::vector<Row> rows;
-    int columns = 0;             ///< used columns
+    int columns = 0;             ///< number of used columns
     double first_rad = 0;        ///< azimuth of the first column, counter-clockwise
-    double step_rad = 0;         ///< to the next column
-    double columns_of_turn = 0;  ///< of a full turn
+    double step_rad = 0;         ///< angle to the next column
+    double columns_of_turn = 0;  ///< number of columns in a full turn
     double resolution_m = 0;
     bool is_dual_by_blocks = false;  ///< two columns have the same azimuth
 };
@@ -246,7 +246,7 @@ std::optional<int> columnsFromVelodyne(const CObservationRotatingScan& scan) {
     return used;
 }
 
-/// The Velodyne model named by the scan or, failing that, the settings; null: unknown.
+/// The Velodyne model named by the scan or otherwise by the settings; null if unknown.
 const sensors::VelodyneModel* velodyneOf(const CObservationRotatingScan& scan,
                                          const Settings& settings) {
     for (const std::string& name : {scan.lidarModel, settings.sensor.model.value_or("")}) {
@@ -275,7 +275,7 @@ Geometry geometryOfVelodyne(const CObservationRotatingScan& scan,
         Row row{correction.elevation_sine, correction.elevation_cosine,
                 sensors::rowOfLaser(calibration, laser)};
         row.delay = model.delayUs(laser) / model.firing_period_us;
-        row.azimuth_rad = radians(correction.azimuth_deg);  // clockwise: subtracted
+        row.azimuth_rad = radians(correction.azimuth_deg);  // subtracted, because it is clockwise
         geometry.rows.push_back(row);
     }
     return geometry;
@@ -412,7 +412,7 @@ void readRangeImage(const CObservationRotatingScan& observation, const Settings&
     std::vector<std::uint8_t> beams;
     readPixels(observation, geometry, scan, beams, returns);
     locateBeams(sensor, scan);
-    scan.row = beams;  // exact
+    scan.row = beams;  // replaces the rows of locateBeams(), which are estimates
 }
 
 void takeLimits(const CObservationRotatingScan& observation, SensorModel& sensor) {

@@ -23,10 +23,10 @@ observations::viz::CPointCloudColoured::Ptr coloured(const mrpt::maps::CPointsMa
     return cloud;
 }
 
-/// The twelve edges of a box.
+/// Adds the twelve edges of a box.
 void addEdges(const Eigen::AlignedBox3f& box, observations::viz::CSetOfLines& lines) {
     using Box = Eigen::AlignedBox3f;
-    // Bit k of a corner's number: at the upper end of axis k.
+    // Bit k of a corner's number is set if the corner is at the upper end of axis k.
     for (int corner = 0; corner < 8; ++corner) {
         const Eigen::Vector3f a = box.corner(static_cast<Box::CornerType>(corner));
         for (const int bit : {1, 2, 4}) {

@@ -9,7 +9,7 @@
 
 namespace hagen::observations {
 
-constexpr double kMaxRange_m = 1000.0;  // maximum of any sensor
+constexpr double kMaxRange_m = 1000.0;  // more than all sensors measure
 
 TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::move(table)) {
     check(*table_);

@@ -13,12 +13,12 @@
 
 namespace hagen::observations {
 
-/// A cloud with all fields of its input. MRPT writes only those of a CPointsMapXYZI. Field names
-/// are case-insensitive:
+/// A cloud with all fields of its input. MRPT writes only the fields of a CPointsMapXYZI. Field
+/// names are case-insensitive:
 ///
 /// - x, y, z: coordinates in the sensor's frame [m].
 /// - the first of intensity, i, reflectivity, remission: scaled to 0..1 by the smallest of 1, 255,
-///   65535 that is at least the maximum, otherwise by the maximum. Not finite: 0.
+///   65535 that is at least the maximum, otherwise by the maximum. 0 if not finite.
 /// - ring, channel, line: the beam number (ringsOf()). It becomes the row only if it agrees with
 ///   the elevation (ringBeams()) and the settings name no sensor.
 /// - time, t, timestamp and others: times (timesOf()).
@@ -33,8 +33,8 @@ class TableCloud : public IntensityCloud {
     const PointTable& table() const { return *table_; }
     /// The table row of each return, ascending.
     const std::vector<std::uint32_t>& pointOfReturn() const { return point_of_return_; }
-    const std::vector<std::int32_t>& rings() const { return rings_; }  ///< empty: unknown
-    const std::vector<float>& times_s() const { return times_s_; }     ///< empty: unknown
+    const std::vector<std::int32_t>& rings() const { return rings_; }  ///< empty if unknown
+    const std::vector<float>& times_s() const { return times_s_; }     ///< empty if unknown
     std::size_t pointsNotFinite() const { return table_->points - point_of_return_.size(); }
 
     /// Warnings about unusable fields and implausible coordinates.
@@ -58,9 +58,9 @@ mrpt::obs::CObservationPointCloud::Ptr observationOf(std::shared_ptr<const Point
 /// The cloud of an observation if it is a TableCloud, otherwise null.
 const TableCloud* tableCloudOf(const mrpt::obs::CObservation& observation);
 
-/// A table of a scan: x, y, z, intensity (0..1), and `time` [s] if known; all float32.
+/// The table of a scan: x, y, z, intensity (0..1), and `time` [s] if known; all float32.
 PointTable tableOf(const Scan& scan);
-/// The same without times.
+/// Like tableOf(), but without times.
 PointTable untimedTableOf(const Scan& scan);
 
 }  // namespace hagen::observations

@@ -38,11 +38,11 @@ class PacketWriter {
 
 unsigned distanceUnits(float range_m, const sensors::VelodyneModel& model) {
     const float units = std::round(range_m / model.distance_unit_m);
-    return units >= 1.0f && units <= 65535.0f ? static_cast<unsigned>(units) : 0u;  // NaN: 0
+    return units >= 1.0f && units <= 65535.0f ? static_cast<unsigned>(units) : 0u;  // 0 for NaN
 }
 
 unsigned intensityUnits(float intensity) {
-    if (!(intensity > 0.0f)) return 0;  // also for NaN
+    if (!(intensity > 0.0f)) return 0;  // true for NaN
     return static_cast<unsigned>(std::lround(255.0f * std::min(intensity, 1.0f)));
 }
 
@@ -92,7 +92,7 @@ std::vector<Packet> encodePackets(const sensors::VelodyneModel& model, const Fir
         PacketWriter bytes;
         for (int b = 0; b < kBlocks; ++b) {
             const int block_firing = first + b / blocks_per_firing * model.firings_per_block;
-            // Dual mode: the last return comes first, then the strongest.
+            // In dual mode, a block of last returns precedes a block of strongest returns.
             const auto& range_m = dual && b % 2 == 0 ? firings.last_range_m : firings.range_m;
             bytes.put16(CObservationVelodyneScan::UPPER_BANK);
             bytes.put16(azimuthUnits(readingOf(model, firings, 0, block_firing)));

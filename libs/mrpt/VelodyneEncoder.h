@@ -7,17 +7,18 @@
 
 namespace hagen::observations {
 
-/// Measurements of a Velodyne over several firings: arrays (laser, firing), lasers in firing order.
+/// Measurements of a Velodyne in several firings, as arrays (laser, firing), with lasers in firing
+/// order.
 struct Firings {
-    Image<float> range_m;             ///< NaN or 0: no return
+    Image<float> range_m;             ///< NaN or 0 if there is no return
     Image<float> intensity;           ///< 0..1
-    Image<float> last_range_m;        ///< dual mode: the farther return; empty: strongest mode
-    double first_azimuth_deg = 0;     ///< of the first firing, clockwise from x
-    double azimuth_step_deg = 0.2;    ///< from one firing to the next
-    std::uint32_t first_time_us = 0;  ///< since the full hour
+    Image<float> last_range_m;        ///< the farther return in dual mode; empty in strongest mode
+    double first_azimuth_deg = 0;     ///< azimuth of the first firing, clockwise from x
+    double azimuth_step_deg = 0.2;    ///< angle from a firing to the next
+    std::uint32_t first_time_us = 0;  ///< time of the first firing since the full hour
 };
 
-/// Returns the azimuth of a laser in a firing, degrees clockwise from x, as decoded (up to
+/// Returns the azimuth of a laser in a firing, in degrees clockwise from x, as decoded (up to
 /// rounding). Use it to compute the range to encode.
 double firingAzimuthDeg(const sensors::VelodyneModel& model, const Firings& firings, int laser,
                         int firing);

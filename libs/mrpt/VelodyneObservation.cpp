@@ -30,7 +30,8 @@ void readCalibration(const mrpt::obs::VelodyneCalibration& of_observation,
         laser.distance_m = from.distanceCorrection;
         laser.horizontal_offset_m = from.horizontalOffsetCorrection;
         laser.vertical_offset_m = from.verticalOffsetCorrection;
-        // These products are not used; if they are not finite, the calibration is corrupt.
+        // Checks these unused products, because a calibration in which they are not finite is
+        // corrupt.
         if (!std::isfinite(from.sinVertOffsetCorrection + from.cosVertOffsetCorrection)) {
             laser.vertical_offset_m = std::numeric_limits<double>::quiet_NaN();
         }

@@ -50,7 +50,7 @@ __all__ = [
     "simulate",
 ]
 
-# Presets of this package.
+# Makes the presets of this package available.
 _hagen._add_presets(_pathlib.Path(_hagen.__file__).parent / "config")
 
 
@@ -70,20 +70,20 @@ def open(
     first=0,
     last=None,
 ):
-    """Opens a recording: an iterator of its scans (Scan).
+    """Opens a recording and returns an iterator of its scans (Scan).
 
     file: a rawlog, a capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 or its folder), a
-        scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. Files
-        are distinguished by content.
-    sensor_labels: one or several labels of LiDARs to read; default: all. Recording.remarks lists
-        those without scans, after the last scan.
-    poses: a pose file (TUM, KITTI); default: the poses of the recording.
+        scan folder, or a point cloud (.pcd, .ply, .las, .npy, .bin) or a folder of them. The
+        content determines the format.
+    sensor_labels: labels of the LiDARs to read (default: all). After the last scan,
+        Recording.remarks lists labels without scans.
+    poses: a pose file (TUM, KITTI; default: the poses of the recording).
     sensor_json: Ouster metadata for a capture or bag.
     calibration: HDL-64E calibration for a capture (db.xml).
-    topics: one or several LiDAR topics of a bag to read; default: all.
+    topics: LiDAR topics of a bag to read (default: all).
     first, last: the range of entries to read, both inclusive.
 
-    Raises FileNotFoundError, and RuntimeError naming the file (and the entry, while iterating) if it
+    Raises FileNotFoundError, or RuntimeError naming the file (and the entry, while iterating) if it
     cannot be read.
     """
     return Recording(
@@ -110,19 +110,19 @@ def simulate(
     every_s=0.1,
     clear_air=False,
 ):
-    """Simulates a flight with a LiDAR over a scene: an iterator of scans with true labels (Scan.truth).
+    """Simulates a LiDAR flight over a scene; returns an iterator of scans with Scan.truth.
 
     The scans equal those of rawlog-simulate for the same arguments.
 
     scenario: the scene, one of scenarios().
     scans: number of scans.
-    seed: the same seed gives the same scene, flight and scans.
+    seed: the same seed produces the same scene, flight and scans.
     altitude_m: height above the ground, 1 to 15.
     sensor: 'VLP-16', 'HDL-32E', 'HDL-64E' or 'Mid-360'.
     speed_m_s: speed on straights, 0.1 to 20.
-    tilt_sd_deg: standard deviation of roll and of pitch, 0 to 15; 0: level flight.
+    tilt_sd_deg: standard deviation of roll and of pitch, 0 (level flight) to 15.
     every_s: time between the starts of scans, at least 0.1.
-    clear_air: no dust, and no returns from the vehicle itself.
+    clear_air: whether to omit dust and returns from the vehicle itself.
 
     Raises ValueError for an unknown scenario or sensor, and for numbers out of range.
     """

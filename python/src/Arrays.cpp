@@ -27,7 +27,7 @@ Array converted(const py::object& values, const std::string& text) {
     }
 }
 
-/// Converts any object to an array; throws ValueError unless it contains real numbers.
+/// Converts an object to an array; throws ValueError unless it contains real numbers.
 py::array numbersFrom(const py::object& values, const std::string& expected) {
     // Converting a masked array would expose the masked values.
     if (py::hasattr(values, "mask") &&
@@ -54,7 +54,7 @@ py::array_t<float> pointsFrom(const py::object& points) {
         throw py::value_error("expected " + expected + ", not of shape " + shapeText(array) +
                               (has_more ? "; pass points[:, :3]" : ""));
     }
-    if (static_cast<std::size_t>(array.shape(0)) > kMaxReturns) {  // before conversion
+    if (static_cast<std::size_t>(array.shape(0)) > kMaxReturns) {  // checked before conversion
         throw py::value_error("the scan has " + std::to_string(array.shape(0)) +
                               " returns, more than the " + std::to_string(kMaxReturns) +
                               " allowed");
@@ -69,7 +69,8 @@ PointsView viewOf(const py::array_t<float>& points) {
 }
 
 void copyPoints(const PointsView& points, Scan& scan) {
-    // Resizes without clearing, to avoid filling arrays twice; locateBeams() writes the rest.
+    // Resizes without clearing, to avoid filling arrays twice; locateBeams() writes the other
+    // arrays.
     for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.intensity})
         values->resize(points.returns);
     scan.time_s.clear();
@@ -87,7 +88,7 @@ void copyPoints(const PointsView& points, Scan& scan) {
     }
     const char* row = points.data;
     const auto at = [&](int column) {
-        float value;  // numpy slices of structures are unaligned
+        float value;  // NumPy slices of structures are unaligned
         std::memcpy(&value, row + column * points.column_bytes, sizeof value);
         return value;
     };

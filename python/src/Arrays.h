@@ -11,7 +11,7 @@
 
 namespace hagen::python {
 
-/// The coordinates of returns in numpy's memory: float32, in any layout.
+/// The coordinates of returns in NumPy's memory: float32, in an arbitrary layout.
 struct PointsView {
     const char* data;
     std::size_t returns;
@@ -19,7 +19,7 @@ struct PointsView {
 };
 
 /// Returns an (N, 3) array of numbers as float32, without a copy if it is float32 already. Throws
-/// ValueError for other shapes, for values that are not numbers and, if numpy raises on overflow
+/// ValueError for other shapes, for values that are not numbers and, if NumPy raises on overflow
 /// (np.errstate(), warnings as errors), for numbers beyond float32.
 pybind11::array_t<float> pointsFrom(const pybind11::object& points);
 PointsView viewOf(const pybind11::array_t<float>& points);
@@ -39,23 +39,23 @@ pybind11::array_t<T> shared(const std::vector<T>& values, const pybind11::object
                                 owner);
 }
 
-/// The same for an image: rows x columns.
+/// Like above, for an image (rows x columns).
 template <class T>
 pybind11::array_t<T> shared(const Image<T>& image, const pybind11::object& owner) {
     const pybind11::ssize_t rows = image.rows(), size = sizeof(T);
     return pybind11::array_t<T>({rows, image.cols()}, {size, size * rows}, image.data(), owner);
 }
 
-/// Labels are numpy's uint8.
+/// Like above, for labels, which are uint8 in NumPy.
 pybind11::array_t<std::uint8_t> shared(const std::vector<Label>& labels,
                                        const pybind11::object& owner);
 pybind11::array_t<std::uint8_t> shared(const Image<Label>& labels, const pybind11::object& owner);
 
-/// Returns copies.
+/// Returns a copy as an array.
 template <class T>
 pybind11::array_t<T> copied(const std::vector<T>& values) {
     return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data());
 }
-pybind11::array_t<float> pointsOf(const Scan& scan);  ///< (N, 3)
+pybind11::array_t<float> pointsOf(const Scan& scan);  ///< the coordinates, (N, 3)
 
 }  // namespace hagen::python

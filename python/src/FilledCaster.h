@@ -11,9 +11,8 @@
 #include "Simulation.h"
 #include "Texts.h"
 
-// Python objects without their C++ object, as __new__() alone creates them, or as seen in
-// __init__() of a derived class before it calls the base's. For these, pybind11 would use
-// uninitialized memory.
+// Python objects without a C++ object: __new__() creates them, and __init__() of a derived class
+// sees them before it calls the base's. With these, pybind11 would use uninitialized memory.
 namespace pybind11::detail {
 
 inline bool isEmpty(handle object, const std::type_info& held) {
@@ -24,7 +23,7 @@ inline bool isEmpty(handle object, const std::type_info& held) {
     return of_python->get_value_and_holder(type).value_ptr() == nullptr;
 }
 
-/// pybind11's caster, but raises TypeError for such an object.
+/// pybind11's caster, but raises TypeError for these objects.
 template <class T>
 class FilledCaster : public type_caster_base<T> {
  public:

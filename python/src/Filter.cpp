@@ -61,11 +61,11 @@ std::shared_ptr<Segmented> Filter::newResult() {
     }
     if (!made) made = std::make_unique<Segmented>();
     made->remark.clear();
-    // Filters with other settings may not set these, so old values would remain.
+    // Filters with other settings may not overwrite these values of an earlier scan.
     made->result.ground.is_seen = made->result.ground.has_surface = false;
     made->result.own_labels.label.clear();
     made->result.own_labels.returns.clear();
-    // The pool outlives the filter while results are in use.
+    // The deleter shares the pool, which thus outlives the filter while results are in use.
     return {made.release(), [pool = pool_](Segmented* dropped) {
                 std::unique_ptr<Segmented> owned(dropped);
                 const std::lock_guard lock(pool->mutex);
@@ -108,7 +108,7 @@ std::shared_ptr<Segmented> Filter::segment(const PointsView& points,
     maskAirframe(settings_.airframe.parts, segmented->scan);
     const std::optional<Attitude> otherwise =
         isLevel(settings_.mount) ? std::nullopt : std::optional(settings_.mount);
-    // Exchanged before, too; otherwise the filter would use new memory for each scan.
+    // Exchanged before segmenting, too, so that the filter reuses memory.
     filter.exchangeResult(segmented->result);
     filter.segment(segmented->scan, attitude ? attitude : otherwise);
     filter.exchangeResult(segmented->result);
@@ -120,12 +120,12 @@ std::shared_ptr<Segmented> Filter::segment(const PointsView& points,
 std::shared_ptr<Segmented> Filter::segment(const PythonScan& scan,
                                            const std::optional<Attitude>& attitude) {
     const std::lock_guard lock(recorded_.mutex);
-    // A destroyed recording differs from no recording.
+    // Compares owners, because a destroyed recording is not the same as no recording.
     const bool is_same =
         !recorded_.source.owner_before(scan.source) && !scan.source.owner_before(recorded_.source);
     if (!recorded_.segmenter || !is_same) {
         recorded_.segmenter = std::make_unique<observations::ObservationSegmenter>();
-        recorded_.segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // see the remark
+        recorded_.segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // stored in remarks
         recorded_.segmenter->initialize(scan.source ? scan.source->settingsFor(settings_)
                                                     : settings_);
         recorded_.source = scan.source;

@@ -15,25 +15,24 @@
 
 namespace hagen::python {
 
-/// A segmented scan. It owns the images of all stages; numpy's arrays share its memory.
+/// A segmented scan. It owns the images of all stages; NumPy arrays share its memory.
 struct Segmented {
     Scan scan;
     SegmentationResult result;
     std::string sensor, remark;
 };
 
-/// The height of each return above the ground surface [m]; NaN without a surface, or for a return
-/// without a range.
+/// The height of each return above the ground surface [m]; NaN without a surface or range.
 std::vector<float> heightsOf(const Segmented& segmented);
 
-/// The filter for Python. Thread-safe: each call has its own filter. Memory of results that Python
-/// has dropped is reused, so that a loop over scans soon allocates nothing.
+/// The filter for Python. Thread-safe: each call has its own filter. Reuses the memory of results
+/// that Python has dropped, so that a loop over scans soon stops allocating.
 class Filter {
  public:
     /// Throws SettingsError if the options do not fit the sensor.
     explicit Filter(const Settings& settings);
 
-    /// Segments the returns of one scan from the sensor in the settings, or from one with the beams
+    /// Segments the returns of one scan from the sensor in the settings, or with the beams
     /// recovered from the first scans. Needs no GIL.
     std::shared_ptr<Segmented> segment(const PointsView& points,
                                        const std::optional<Attitude>& attitude);
@@ -64,7 +63,7 @@ class Filter {
     observations::CloudSensors sensors_;
     observations::SharedBeams beams_;
 
-    /// For scans of recordings, which may have several sensors and their own settings.
+    /// State for scans of recordings, which may have several sensors and their own settings.
     struct Recorded {
         std::mutex mutex;
         std::weak_ptr<const recordings::ScanSource> source;

@@ -6,8 +6,8 @@
 
 namespace hagen::python {
 
-/// Throws std::invalid_argument (ValueError in Python) unless `value` is between `least` and
-/// `most`, which NaN is not. Requires the GIL.
+/// Throws std::invalid_argument (ValueError in Python) unless `value` is between `min` and `max`;
+/// throws for NaN. Requires the GIL.
 inline void checkLimits(const std::string& what, double value, double min, double max) {
     if (value >= min && value <= max) return;
     const auto text = [](double number) {

@@ -19,8 +19,8 @@
 #include "Arrays.h"
 #include "FilledCaster.h"
 #include "Filter.h"
+#include "GilRelease.h"
 #include "Limits.h"
-#include "OthersRun.h"
 #include "Recording.h"
 #include "Simulation.h"
 #include "Texts.h"
@@ -30,7 +30,7 @@ namespace py = pybind11;
 namespace hagen::python {
 namespace {
 
-/// Settings from presets or files, as with -c, and from single options.
+/// Reads settings from presets or files, as with -c, and from single options.
 Settings settingsFrom(const py::args& names, const py::kwargs& options) {
     Settings settings;
     const py::object fsencode = py::module_::import("os").attr("fsencode");
@@ -67,16 +67,16 @@ std::shared_ptr<Segmented> segment(Filter& filter, const py::object& scan,
     const std::optional<Attitude> tilt = attitudeFrom(attitude);
     if (py::isinstance<PythonScan>(scan)) {
         const auto& recorded = scan.cast<const PythonScan&>();
-        const OthersRun others_run;
+        const GilRelease gil_release;
         return filter.segment(recorded, tilt);
     }
     const py::array_t<float> points = pointsFrom(scan);
     const PointsView view = viewOf(points);
-    const OthersRun others_run;
+    const GilRelease gil_release;
     return filter.segment(view, tilt);
 }
 
-/// Times of the filter in C++ alone on these points [s], for benchmarks/python/python_speed.py.
+/// Measures the C++ filter alone on these points [s], for benchmarks/python/python_speed.py.
 std::vector<double> timesWithoutPython(const Filter& filter, const py::object& xyz, int runs) {
     Scan scan;
     copyPoints(viewOf(pointsFrom(xyz)), scan);
@@ -92,7 +92,6 @@ std::vector<double> timesWithoutPython(const Filter& filter, const py::object& x
     return seconds;
 }
 
-/// The images that the filter computed, by their names in SegmentationResult.
 py::dict stagesOf(const py::object& self) {
     const auto& r = self.cast<const Segmented&>().result;
     py::dict stages;
@@ -109,7 +108,7 @@ py::dict stagesOf(const py::object& self) {
     add("pixel_angle_rad", r.pixel_angle_rad);
     add("labels", r.labels);
     add("components", r.components);
-    if (r.ground.has_surface) {  // otherwise from an earlier scan
+    if (r.ground.has_surface) {  // otherwise the images are from an earlier scan
         add("height_m", r.ground.height_m);
         add("tolerance_m", r.ground.tolerance_m);
     }
@@ -147,7 +146,7 @@ evaluation::Scores evaluate(const py::object& labels, const py::object& truth,
                                   ") and points (" + std::to_string(scan.input.scan.size()) +
                                   ") differ");
         }
-        locateBeams(sensorModel("VLP-16"), scan.input.scan);  // for ranges only
+        locateBeams(sensorModel("VLP-16"), scan.input.scan);  // only the ranges are used
     }
     evaluation::RangeBands bands;
     bands.max_range_m = static_cast<float>(max_range_m);
@@ -171,7 +170,8 @@ Arrays have one entry per return, in the recording's order. Points are in the se
 forward, y left, z up.)")
         .def_readonly("xyz", &PythonScan::xyz, "(N, 3) float32: coordinates [m]")
         .def_readonly("intensity", &PythonScan::intensity, "(N,) float32: 0 to 1")
-        .def_readonly("ring", &PythonScan::ring, R"((N,) uint8: the beam, counted from the lowest.
+        .def_readonly("ring", &PythonScan::ring,
+                      R"((N,) uint8: beam number, counted from the lowest.
 None for a sensor without rings.)")
         .def_readonly("times", &PythonScan::times, R"((N,) float32: time of each return since the
 scan's first firing [s]. None if unknown.)")
@@ -184,13 +184,13 @@ scan's first firing [s]. None if unknown.)")
             "The label of the LiDAR in the recording; invalid UTF-8 bytes become U+FFFD.")
         .def_property_readonly(
             "sensor", [](const PythonScan& scan) { return shownText(scan.sensor.name); },
-            R"(The model of the sensor, such as 'VLP-16'; 'recovered' if the beams were estimated
+            R"(The sensor model, such as 'VLP-16'; 'recovered' if the beams were estimated
 from the clouds.)")
         .def_property_readonly("pose", &poseOf,
-                               R"((4, 4) float64: from the sensor's frame at the time
-of the scan to the map frame. None if unknown.)")
-        .def_property_readonly("attitude", &attitudeOf, R"((roll, pitch) of the sensor against the
-horizon [rad]; None if unknown. See Filter.segment().)")
+                               R"((4, 4) float64: transform from the sensor's frame at
+the scan's time to the map frame. None if unknown.)")
+        .def_property_readonly("attitude", &attitudeOf, R"((roll, pitch) of the sensor relative to
+the horizon [rad]; None if unknown. See Filter.segment().)")
         .def_property_readonly(
             "entry", [](const PythonScan& scan) { return scan.recorded.entry; },
             "Index of the entry in the recording.")
@@ -201,14 +201,14 @@ horizon [rad]; None if unknown. See Filter.segment().)")
             "remark", [](const PythonScan& scan) { return shownText(scan.remark); },
             "Remark about this scan; may be empty.")
         .def_readonly("truth", &PythonScan::truth, R"((N,) uint8: true labels of a simulated scan:
-terrain and canopy are ROU, dust and the vehicle's own parts are unclassified, everything else is
-RoI at any range. Otherwise None.)")
+terrain and canopy are ROU, dust and the airframe are unclassified, all other objects are RoI at
+all ranges. Otherwise None.)")
         .def_readonly("kind", &PythonScan::kind,
                       R"((N,) uint8: classes of a simulated scan: 1 terrain,
 2 canopy, 3 tree, 4 pole, 5 wire, 6 building, 7 vehicle, 8 wall, 9 mover, 10 dust, 11 airframe.
 Otherwise None.)")
-        .def_readonly("object", &PythonScan::object, R"((N,) uint16: the number of the object in a
-simulated scene; 0: none. Otherwise None.)")
+        .def_readonly("object", &PythonScan::object, R"((N,) uint16: number of the object in a
+simulated scene; 0 for no object. Otherwise None.)")
         .def_readonly("altitude_m", &PythonScan::altitude_m,
                       R"(Height of the sensor above the ground
 of a simulated scene [m]; otherwise None.)")
@@ -224,8 +224,8 @@ void defineResult(py::module_& m) {
     py::class_<Segmented, std::shared_ptr<Segmented>>(m, "Result",
                                                       R"(The filter's result for one scan.
 
-Arrays share the memory of the result and keep it alive: about 1 MB for a VLP-16. To keep labels of
-many scans, copy them: result.labels.copy().)")
+Arrays share the memory of the result (about 1 MB for a VLP-16) and keep it alive. To keep labels
+of many scans, copy them: result.labels.copy().)")
         .def_property_readonly(
             "labels",
             [](const py::object& self) {
@@ -238,33 +238,33 @@ many scans, copy them: result.labels.copy().)")
             [](const py::object& self) {
                 return shared(self.cast<const Segmented&>().result.returns.component, self);
             },
-            "(N,) int32: obstacle (RoI component) of each return, from 1 (nearest); 0: none.")
+            "(N,) int32: obstacle (RoI component) of each return, 1 for the nearest; 0 if none.")
         .def_property_readonly(
             "heights", [](const Segmented& segmented) { return copied(heightsOf(segmented)); },
             R"((N,) float32: the height of each return above the ground surface [m], computed on
-access. NaN for returns without a range; all NaN if no ground was seen.)")
+access. NaN for returns without a range; all NaN if no ground was visible.)")
         .def_property_readonly("ground", &groundOf,
-                               R"((4, 4) float32: from the sensor's frame to the
-ground frame, whose z = 0 is the mean plane of the ground. None if no ground was seen.)")
+                               R"((4, 4) float32: transform from the sensor's frame to
+the ground frame, whose z = 0 is the mean ground plane. None if no ground was visible.)")
         .def_property_readonly("stages", &stagesOf,
-                               R"(The image of every stage by its name: a dict of
+                               R"(The images of the stages: a dict from names to
 2D arrays, rows x columns.
 
-Row 0 is the lowest beam, column 0 looks backwards, the middle one along x; columns run clockwise.
-NaN: no value.
+Row 0 is the lowest beam. Column 0 points backwards, the middle column along x; columns run
+clockwise. NaN means no value.
 
-depth_m          the range of the closest return in each pixel [m]
-repaired_m       the same without one-pixel gaps
+depth_m          range of the closest return in each pixel [m]
+repaired_m       depth_m without one-pixel gaps
 proximity_m      zone_m - depth, at least 0
 sharpened_m      proximity (or depth) with its maxima sharpened
-merged_m         depth again
-range_angle_rad  the angle from each beam to the one above it; one row less
-smoothed_rad     the same after singular spectrum analysis
-pixel_angle_rad  the angle of each pixel, used for labelling
-labels           uint8, as for returns
+merged_m         sharpened image, converted back to depth
+range_angle_rad  angle from each beam to the beam above it; one row less
+smoothed_rad     range_angle_rad after singular spectrum analysis
+pixel_angle_rad  angle of each pixel, used for labelling
+labels           uint8: label of each pixel, as for returns
 components       int32: obstacles, numbered from the nearest
 height_m         height above the ground surface; only if there is a surface
-tolerance_m      pixels up to this height are ground; only if there is a surface)")
+tolerance_m      maximum height of ground pixels; only if there is a surface)")
         .def_property_readonly(
             "sensor", [](const Segmented& segmented) { return shownText(segmented.sensor); },
             "The sensor model; 'recovered' if its beams were estimated from scans.")
@@ -289,26 +289,27 @@ far returns (ROU) in a LiDAR scan, without a map.
     result = filter.segment(xyz)          # (N, 3) [m], x forward, y left, z up
     near = xyz[result.labels == hagen.ROI]
 
-Reuse the filter, because it keeps its memory. It has no other state, and is thread-safe.)")
+Reuse a filter, because it keeps its memory. It has no other state and is thread-safe.)")
         .def(py::init([](const py::args& settings, const py::kwargs& options) {
                  return std::make_unique<Filter>(settingsFrom(settings, options));
              }),
              R"(Filter(*settings, **options)
 
 settings: presets (hagen.presets()) or settings files; later ones override earlier ones. Without a
-sensor in them, beams are estimated from the arrays of points.
+named sensor, beams are estimated from the arrays of points.
 options: single options, such as zone_m=15 or beta_deg=7.5; see docs/settings.md.
 Raises hagen.SettingsError.)")
         .def("segment", &segment, py::arg("scan"), py::arg("attitude") = py::none(),
              R"(Segments one scan, which may be empty.
 
 scan: an array of shape (N, 3) with x, y, z of each return in the sensor's frame [m], for the sensor
-in the settings; float32 is used directly, other types are converted. Or a Scan from hagen.open() or
+in the settings; types other than float32 are converted. Or a Scan from hagen.open() or
 hagen.simulate(), which has its own sensor, beams, tilt and mount, as in rawlog-segment.
-attitude: (roll, pitch) of the sensor relative to the horizon [rad], if known: pitch about y, nose
-down positive, then roll about x, left side up positive. It allows any mounting angle.
+attitude: (roll, pitch) of the sensor relative to the horizon [rad], if known: pitch about y (nose
+down is positive), then roll about x (left side up is positive). The sensor may then be mounted at
+an arbitrary angle.
 
-Raises ValueError for other shapes, or an angle beyond +-2 pi. Releases the GIL.)")
+Raises ValueError for other shapes and for angles beyond +-2 pi. Releases the GIL.)")
         .def_property_readonly(
             "sensor", [](const Filter& filter) { return shownText(filter.sensor().name); },
             "The sensor model; 'recovered' if its beams were estimated from scans.")
@@ -323,8 +324,7 @@ Raises ValueError for other shapes, or an angle beyond +-2 pi. Releases the GIL.
 }
 
 void defineSources(py::module_& m) {
-    py::class_<Recording>(m, "Recording",
-                          "A recording, open for reading: an iterator of its scans.")
+    py::class_<Recording>(m, "Recording", "An open recording, and an iterator of its scans.")
         .def(py::init([](const std::filesystem::path& file, std::vector<std::string> sensor_labels,
                          const std::filesystem::path& poses,
                          const std::filesystem::path& sensor_json,
@@ -355,13 +355,13 @@ void defineSources(py::module_& m) {
             "Source of the poses; empty without poses.")
         .def_property_readonly(
             "remarks", [](const Recording& recording) { return shownTexts(recording.remarks()); },
-            R"(Remarks about the recording as a whole, such as missing
+            R"(Remarks about the whole recording, such as missing
 packets; complete after the last scan.)")
         .def("__repr__", [](const Recording& recording) {
             return shownText("<hagen.Recording: " + recording.file().string() + ">");
         });
 
-    py::class_<Simulation>(m, "Simulation", "A simulated flight: an iterator of its scans.")
+    py::class_<Simulation>(m, "Simulation", "A simulated flight, and an iterator of its scans.")
         .def(py::init([](const std::string& scenario, int scans, std::uint64_t seed,
                          double altitude_m, const std::string& sensor, double speed_m_s,
                          double tilt_sd_deg, double every_s, bool clear_air) {
@@ -390,15 +390,15 @@ void defineScores(py::module_& m) {
     py::class_<ClassScore>(m, "ClassScore",
                            "Precision, recall and F1 of one class, and their counts.")
         .def_property_readonly("precision", &ClassScore::precision,
-                               "NaN if nothing was labelled as this class.")
+                               "Precision; NaN if no return was labelled as this class.")
         .def_property_readonly("recall", &ClassScore::recall,
-                               "NaN if nothing belongs to this class.")
-        .def_property_readonly("f1", &ClassScore::f1, "NaN if both are empty.")
+                               "Recall; NaN if no return belongs to this class.")
+        .def_property_readonly("f1", &ClassScore::f1, "F1; NaN if precision and recall are NaN.")
         .def_readonly("hits", &ClassScore::hits, "True positives.")
         .def_readonly("misses", &ClassScore::misses,
-                      "False negatives (unclassified returns included).")
+                      "False negatives, including unclassified returns.")
         .def_readonly("false_alarms", &ClassScore::false_alarms,
-                      "False positives: labelled as this class, belong to the other.");
+                      "False positives: returns labelled as this class that belong to the other.");
     py::class_<Scores>(m, "Scores", R"(Scores of both classes. Sums are micro-averages: counts are
 summed over returns and scans before ratios are computed.)")
         .def(py::init<>())
@@ -409,14 +409,14 @@ summed over returns and scans before ratios are computed.)")
                                "The fraction with the correct label; NaN without returns.")
         .def(
             "__add__", [](Scores a, const Scores& b) { return a += b; }, py::is_operator())
-        // Returns the object itself, which may have several names.
+        // Returns the object itself, which several names may refer to.
         .def(
             "__iadd__", [](Scores& a, const Scores& b) -> Scores& { return a += b; },
             py::return_value_policy::reference, py::is_operator())
         .def("__repr__", &scoresText);
     m.def("evaluate", &evaluate, py::arg("labels"), py::arg("truth"), py::arg("xyz") = py::none(),
-          py::arg("max_range_m") = 20.0, R"(Scores labels against the true ones, as
-segmentation-evaluate does.
+          py::arg("max_range_m") = 20.0, R"(Scores labels against true labels, like
+segmentation-evaluate.
 
 labels, truth: (N,) labels, 0 unclassified, 1 ROU, 2 RoI. Returns whose true label is 0 are not
 scored.
@@ -431,8 +431,8 @@ namespace {
 
 newfunc new_object = nullptr;
 
-/// pybind11 throws a C++ exception through Python if its base class is called, as pickle does with
-/// old protocols.
+/// Raises TypeError if pybind11's base class is called, as pickle does with old protocols; pybind11
+/// would throw a C++ exception through Python.
 PyObject* newObject(PyTypeObject* type, PyObject* args, PyObject* words) {
     PyObject* const base = py::detail::get_internals().instance_base;
     if (reinterpret_cast<PyObject*>(type) != base) return new_object(type, args, words);
@@ -451,8 +451,8 @@ void refuseObjectsOfNoClass() {
 
 PYBIND11_MODULE(_hagen, m) {
     refuseObjectsOfNoClass();
-    // pybind11 looks up NumPy for the first array. Two threads doing so at once would deadlock: one
-    // waits for the GIL, the other for the first one's result.
+    // pybind11 looks up NumPy for the first array. If two threads did so at once, they would
+    // deadlock: one would wait for the GIL, the other for the first thread's result.
     py::dtype::of<float>();
     using namespace hagen;
     using namespace hagen::python;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "Arrays.h"
-#include "OthersRun.h"
+#include "GilRelease.h"
 
 namespace hagen::python {
 
@@ -16,7 +16,7 @@ namespace py = pybind11;
 void readArrays(PythonScan& scan) {
     observations::ObservedScan observed;
     {
-        const OthersRun others_run;
+        const GilRelease gil_release;
         const Settings nothing_named;
         try {
             readObservation(*scan.recorded.observation,

@@ -19,11 +19,11 @@ struct PythonScan {
     pybind11::array_t<float> intensity;  ///< (N,)
     pybind11::object ring;               ///< (N,) uint8, or None
     pybind11::object times;              ///< (N,) float32 [s], or None
-    double time_s = 0;                   ///< since 1970
+    double time_s = 0;                   ///< [s] since 1970
     SensorModel sensor;
     std::string remark;
 
-    // Of simulated scans; otherwise None.
+    // None unless the scan is simulated.
     pybind11::object truth = pybind11::none();   ///< (N,) uint8
     pybind11::object kind = pybind11::none();    ///< (N,) uint8
     pybind11::object object = pybind11::none();  ///< (N,) uint16
@@ -36,7 +36,7 @@ void readArrays(PythonScan& scan);
 
 /// The pose as a matrix (4, 4), or None.
 pybind11::object poseOf(const PythonScan& scan);
-/// (roll, pitch) [rad], or None.
+/// The attitude as (roll, pitch) [rad], or None.
 pybind11::object attitudeOf(const PythonScan& scan);
 
 }  // namespace hagen::python

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "OthersRun.h"
+#include "GilRelease.h"
 #include "Texts.h"
 
 namespace hagen::python {
@@ -20,7 +20,7 @@ namespace {
 template <class Read>
 auto withoutGil(Read read) {
     try {
-        const OthersRun others_run;
+        const GilRelease gil_release;
         return read();
     } catch (const recordings::Interrupted&) {
         if (PyErr_Occurred() != nullptr) throw py::error_already_set();
@@ -48,23 +48,23 @@ Recording::Recording(const std::filesystem::path& file, recordings::SourceOption
     options.keep_going = hasNoSignal;
     source_ = withoutGil([&] {
         std::shared_ptr<recordings::ScanSource> source = recordings::openRecording(file, options);
-        source->useSettings(Settings());  // for the beams of unnamed sensors
+        source->useSettings(Settings());  // required for the beams of unnamed sensors
         source->usePoses(poses);
         return source;
     });
 }
 
 std::string Recording::poseSource() const {
-    const OthersRun others_run;
+    const GilRelease gil_release;
     const std::lock_guard lock(reading_);
     return source_->poses().source;
 }
 
 std::vector<std::string> Recording::remarks() const {
-    const OthersRun others_run;
+    const GilRelease gil_release;
     const std::lock_guard lock(reading_);
     std::vector<std::string> remarks = source_->remarks();
-    // A label without scans may be a typo.
+    // A requested label without scans may be a typo.
     std::string others;
     for (const auto* const labels : {&labels_, &source_->otherLabels()}) {
         for (const std::string& label : *labels) others += " '" + label + "'";

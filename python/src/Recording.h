@@ -14,15 +14,17 @@
 
 namespace hagen::python {
 
-/// A recording that Python iterates, from any number of threads: each scan goes to one of them. All
+/// A recording that Python iterates, from one or several threads; each scan goes to one thread. All
 /// functions require the GIL, and release it while reading.
 class Recording {
  public:
-    /// Throws FileNotFoundError, and like recordings::openRecording() and ScanSource::usePoses().
+    /// Throws FileNotFoundError, and exceptions of recordings::openRecording() and
+    /// ScanSource::usePoses().
     Recording(const std::filesystem::path& file, recordings::SourceOptions options,
               const std::filesystem::path& poses);
 
-    /// The next scan; none at the end. Throws like ScanSource::nextScan(), and KeyboardInterrupt.
+    /// The next scan; nullopt at the end. Throws like ScanSource::nextScan(), and
+    /// KeyboardInterrupt.
     std::optional<PythonScan> next();
 
     const std::filesystem::path& file() const { return file_; }
@@ -33,9 +35,9 @@ class Recording {
     std::filesystem::path file_;
     std::vector<std::string> wanted_labels_;
     std::shared_ptr<recordings::ScanSource> source_;
-    std::set<std::string> labels_;  ///< of the scans read so far
+    std::set<std::string> labels_;  ///< sensor labels of the scans read so far
     bool is_at_end_ = false;
-    mutable std::mutex reading_;  ///< locked without the GIL, which sources sometimes acquire
+    mutable std::mutex reading_;  ///< locked without the GIL, because sources sometimes acquire it
 };
 
 }  // namespace hagen::python

@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "Arrays.h"
+#include "GilRelease.h"
 #include "Limits.h"
-#include "OthersRun.h"
 
 namespace hagen::python {
 
 namespace {
 
-/// The limits of rawlog-simulate.
+/// Checks the request against the limits of rawlog-simulate.
 const SimulationRequest& checked(const SimulationRequest& request) {
     checkLimits("scans", request.scans, 1, 100000);
     checkLimits("altitude_m", request.altitude_m, 1, 15);
@@ -39,7 +39,7 @@ simulation::FlightSettings flightOf(const SimulationRequest& request) {
     return settings;
 }
 
-/// Packets if the sensor supports them, otherwise a cloud with known beams.
+/// Returns packets if the sensor has a packet format, otherwise a cloud with known beams.
 mrpt::obs::CObservation::Ptr observationOf(const simulation::SimulatedScan& made,
                                            const SensorModel& sensor, double time_s) {
     mrpt::obs::CObservation::Ptr observation;
@@ -64,7 +64,7 @@ Simulation::Simulation(const SimulationRequest& request)
       scene_(simulation::makeScene(request.scenario, request.seed)),
       flight_(scene_.terrain(), scene_.path(), flightOf(request), request.seed),
       faults_(simulation::sensorErrors(sensor_)),
-      random_(request.seed, 3) {  // the stream of rawlog-simulate: the same scans
+      random_(request.seed, 3) {  // the random stream of rawlog-simulate, for the same scans
     simulation::firingPattern(sensor_);
     if (request.clear_air) {
         faults_.dust_per_m = 0;
@@ -76,7 +76,7 @@ std::optional<PythonScan> Simulation::next() {
     simulation::SimulatedScan made;
     PythonScan scan;
     {
-        const OthersRun others_run;
+        const GilRelease gil_release;
         const std::lock_guard lock(simulating_);
         if (made_ >= request_.scans) return std::nullopt;
         const double time_s = request_.every_s * made_;

@@ -14,7 +14,7 @@
 
 namespace hagen::python {
 
-/// A simulation, with the flags of rawlog-simulate.
+/// Parameters of a simulation, like the flags of rawlog-simulate.
 struct SimulationRequest {
     std::string scenario;
     int scans = 1;
@@ -24,13 +24,13 @@ struct SimulationRequest {
     bool clear_air = false;
 };
 
-/// A simulated flight that Python iterates: the scans that rawlog-simulate writes.
+/// A simulated flight whose scans Python iterates; they equal those of rawlog-simulate.
 class Simulation {
  public:
     /// Throws std::invalid_argument for unknown names and numbers out of range.
     explicit Simulation(const SimulationRequest& request);
 
-    /// The next scan; none at the end. Requires the GIL, and releases it while simulating.
+    /// The next scan; nullopt at the end. Requires the GIL, and releases it while simulating.
     std::optional<PythonScan> next();
     int scans() const { return request_.scans; }
     int left() const { return request_.scans - made_; }

@@ -16,7 +16,7 @@ py::str made(PyObject* text) {
     return py::reinterpret_steal<py::str>(text);
 }
 
-/// Throws a copy with a text for Python, or `error` itself if its text is valid.
+/// Throws a copy of `error` with a text for Python, or `error` itself if its text is valid.
 template <class Error>
 [[noreturn]] void rethrowShown(const std::exception& error) {
     const auto shown = shownText(error.what()).cast<std::string>();
@@ -24,7 +24,7 @@ template <class Error>
     throw Error(shown);
 }
 
-/// Passes everything to the previous translators.
+/// Rethrows exceptions with valid texts for the previous translators.
 void showErrorText(std::exception_ptr thrown) {
     try {
         std::rethrow_exception(std::move(thrown));

@@ -6,18 +6,19 @@
 
 namespace hagen::python {
 
-/// Converts a text from a recording, or with a path, whose invalid UTF-8 bytes become U+FFFD.
-/// Python's own conversion would raise.
+/// Converts a text from a recording, or with a path. Invalid UTF-8 bytes, for which Python's
+/// conversion would raise, become U+FFFD.
 pybind11::str shownText(const std::string& text);
 pybind11::list shownTexts(const std::vector<std::string>& texts);
 
-/// A file name for Python: os.fsencode() returns its bytes.
+/// Converts a file name so that os.fsencode() returns its bytes.
 pybind11::str fileText(const std::string& name);
 
 /// The result of str() for an object. Surrogates, which UTF-8 cannot encode, are escaped.
 std::string textOf(const pybind11::handle& object);
 
-/// From here on, exceptions with invalid UTF-8 keep their type and get a text from shownText().
+/// Registers a translator: exceptions with invalid UTF-8 keep their type and get a text from
+/// shownText().
 void showErrorTexts();
 
 }  // namespace hagen::python

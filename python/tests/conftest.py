@@ -1,4 +1,4 @@
-"""Shared by the tests: the recordings of the project, and its programs."""
+"""Shared by the tests: the project's recordings and programs."""
 import os
 import pathlib
 import subprocess
@@ -26,7 +26,7 @@ def program():
 
 @pytest.fixture(scope="session")
 def poles_labels(program, tmp_path_factory):
-    """The scan folder that rawlog-segment writes for the poles and the wall."""
+    """The scan folder that rawlog-segment writes for poles_and_wall.rawlog."""
     folder = tmp_path_factory.mktemp("poles") / "labels"
     program("rawlog-segment", "-i", POLES, "--kitti", folder, "-c", "vlp16", "-q")
     return folder

@@ -1,4 +1,4 @@
-"""hagen.Filter on arrays. Oracles: rawlog-segment on the same points, and geometry."""
+"""hagen.Filter on arrays, compared with rawlog-segment on the same points, and with geometry."""
 import sys
 import threading
 import warnings
@@ -32,7 +32,7 @@ def ground_and_pillar(height_m=1.5):
     return points, is_pillar[seen]
 
 
-def test_labels_ground_and_a_pillar():
+def test_labels_ground_and_pillar():
     points, is_pillar = ground_and_pillar()
     result = hagen.Filter("vlp16").segment(points)
 
@@ -119,7 +119,7 @@ def test_stages_have_image_shape():
     assert stages["labels"].dtype == np.uint8 and stages["components"].dtype == np.int32
     assert stages["depth_m"].dtype == np.float32
 
-    # Column 0 looks backwards, columns run clockwise; row 0 is the lowest beam.
+    # Column 0 points backwards, columns run clockwise; row 0 is the lowest beam.
     column = round(870 / 2 - 0.5 / (2 * np.pi) * 870)
     assert stages["depth_m"][8, column] == pytest.approx(8 / np.cos(np.radians(1)), abs=0.01)
     assert stages["labels"][8, column] == hagen.ROI
@@ -129,7 +129,7 @@ def test_stages_have_image_shape():
     )
 
 
-def test_the_paper_has_no_ground():
+def test_paper_settings_find_no_ground():
     points, _ = ground_and_pillar()
     result = hagen.Filter("paper").segment(points)
     assert "height_m" not in result.stages
@@ -159,17 +159,17 @@ def test_arrays_share_memory():
 
 
 def test_attitude_levels_scan():
-    """A sensor on its side sees ground where an upright one has walls."""
+    """Without its attitude, an upside-down sensor mistakes the ground for obstacles."""
     points, is_pillar = ground_and_pillar()
     upside_down = points * np.array([1, -1, -1], np.float32)
     segmenter = hagen.Filter("vlp16")
     result = segmenter.segment(upside_down, attitude=(np.pi, 0))
     np.testing.assert_array_equal(result.labels, segmenter.segment(points).labels)
-    untold = segmenter.segment(upside_down)
-    assert np.count_nonzero(untold.labels == hagen.ROI) > 10 * np.count_nonzero(is_pillar)
+    without_attitude = segmenter.segment(upside_down)
+    assert np.count_nonzero(without_attitude.labels == hagen.ROI) > 10 * np.count_nonzero(is_pillar)
 
 
-def test_options_and_settings_files(tmp_path):
+def test_applies_options_and_settings_files(tmp_path):
     points, is_pillar = ground_and_pillar()
     settings = tmp_path / "near.yaml"
     settings.write_text("zone_m: 5\n")
@@ -234,7 +234,7 @@ def test_filter_is_thread_safe():
     assert not wrong
 
 
-def test_empty_scans_and_points_without_a_range():
+def test_accepts_empty_scans_and_points_without_range():
     segmenter = hagen.Filter("vlp16")
     empty = segmenter.segment(np.empty((0, 3), np.float32))
     assert empty.labels.shape == (0,) and empty.stages["depth_m"].shape == (16, 870)
@@ -287,7 +287,7 @@ def test_rejects_float32_overflow():
         warnings.simplefilter("error")
         with pytest.raises(ValueError, match="float32 cannot hold"):
             segmenter.segment(far)
-    with np.errstate(all="ignore"):  # infinite, so without range
+    with np.errstate(all="ignore"):  # infinite, so the points have no range
         assert np.all(segmenter.segment(far).labels == hagen.UNCLASSIFIED)
 
 

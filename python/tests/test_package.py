@@ -1,4 +1,4 @@
-"""The package: its names, its type stubs, its presets, and the examples."""
+"""Names, type stubs and presets of the package, and the examples."""
 import ast
 import os
 import pathlib
@@ -51,7 +51,7 @@ ARGUMENTS = {"segment": ([],), "__add__": (hagen.Scores(),), "__iadd__": (hagen.
     "name", ["ClassScore", "Filter", "Recording", "Result", "Scan", "Scores", "Simulation"]
 )
 def test_rejects_uninitialized_objects(name):
-    """__new__() alone creates them; using them would read uninitialized memory."""
+    """Using objects created by __new__() alone would read uninitialized memory."""
     of = getattr(hagen, name)
     own = members(of) | {"__len__", "__length_hint__", "__next__", "__repr__", "__add__", "__iadd__"}
     for member in own & set(vars(of)):
@@ -107,7 +107,7 @@ print(hagen.Filter(name).settings)
 
 
 def test_mrpt_out_of_memory_raises():
-    """The linker shows which allocator MRPT's clouds use: ours throws, MRPT's returns nullptr."""
+    """The linker lists the allocator of MRPT's clouds: ours throws, MRPT's returns nullptr."""
     environment = {**os.environ, "LD_DEBUG": "bindings", "LD_BIND_NOW": "1"}
     output = subprocess.run(
         [sys.executable, "-c", "import hagen"], env=environment, check=True, capture_output=True
@@ -123,7 +123,7 @@ def test_mrpt_out_of_memory_raises():
 
 
 @pytest.mark.parametrize("example", ["plot_obstacles.py", "walk_through.py"])
-def test_examples_draw(example, tmp_path):
+def test_examples_draw_pictures(example, tmp_path):
     pytest.importorskip("matplotlib")
     recording = SOURCES / "rawlogs" / "orchard.rawlog"
     folder = tmp_path / "made" / "by the example"

@@ -1,4 +1,4 @@
-"""hagen.open(). Oracle: rawlog-segment on the same recording."""
+"""hagen.open(), compared with rawlog-segment on the same recording."""
 import gzip
 import os
 import signal
@@ -32,7 +32,7 @@ def test_labels_match_program(poles_labels):
 
 
 def test_recording_settings_are_local(poles_labels, tmp_path):
-    """Even after its deletion."""
+    """The settings of a deleted recording do not affect later scans."""
     folder = tmp_path / "near"
     (folder / "velodyne").mkdir(parents=True)
     scan = sorted((poles_labels / "velodyne").glob("*.bin"))[0]
@@ -41,7 +41,7 @@ def test_recording_settings_are_local(poles_labels, tmp_path):
     simulated = next(hagen.simulate("orchard", seed=1))
     expected = hagen.Filter("vlp16").segment(simulated).labels.copy()
     segmenter = hagen.Filter("vlp16")
-    near = segmenter.segment(next(iter(hagen.open(folder)))).labels  # both are destroyed here
+    near = segmenter.segment(next(iter(hagen.open(folder)))).labels  # destroys recording and scan
     assert np.count_nonzero(near == hagen.ROI) < np.count_nonzero(
         hagen.Filter("vlp16").segment(next(iter(hagen.open(poles_labels)))).labels == hagen.ROI
     )
@@ -49,7 +49,7 @@ def test_recording_settings_are_local(poles_labels, tmp_path):
 
 
 def test_points_alone_give_similar_labels():
-    """Without the packets' rows and azimuths, some returns change their pixel."""
+    """Without the packets' rows and azimuths, some returns move to other pixels."""
     segmenter = hagen.Filter("vlp16")
     for scan in hagen.open(POLES):
         with_packets = segmenter.segment(scan).labels
@@ -69,20 +69,20 @@ def test_scan_attributes():
     assert first.sensor == "VLP-16" and first.sensor_label == "lidar"
     assert scans[1].time - first.time == pytest.approx(0.1)
 
-    # 3 m/s at 1.2 m altitude, level.
+    # The vehicle flies at 3 m/s, 1.2 m above the ground, level.
     assert first.pose.shape == (4, 4)
     np.testing.assert_allclose(scans[9].pose[:3, 3] - first.pose[:3, 3], [2.7, 0, 0], atol=1e-6)
     assert first.pose[2, 3] == pytest.approx(1.2)
     np.testing.assert_allclose(first.attitude, (0, 0), atol=1e-6)
     assert recording.poses and recording.remarks == []
 
-    # A return of the lowest beam on the ground; its elevation identifies the ring.
+    # The elevation of a return identifies its ring.
     elevation = np.arctan2(first.xyz[:, 2], np.hypot(first.xyz[:, 0], first.xyz[:, 1]))
     np.testing.assert_allclose(np.degrees(elevation), 2.0 * first.ring - 15, atol=0.05)
     assert first.truth is None and first.altitude_m is None
 
 
-def test_parts_of_a_recording():
+def test_selects_entries():
     scans = list(hagen.open(ORCHARD, first=10, last=30))
     assert 0 < len(scans) < 30
     assert min(scan.entry for scan in scans) >= 10 and max(scan.entry for scan in scans) <= 30
@@ -101,19 +101,19 @@ def test_selects_sensor_labels():
     assert recording.remarks == [remark.format("rear")]
 
 
-def test_a_scan_outlives_its_recording():
+def test_scan_outlives_recording():
     scan = next(hagen.open(POLES))
     expected = hagen.Filter("vlp16").segment(next(hagen.open(POLES))).labels
     np.testing.assert_array_equal(hagen.Filter("vlp16").segment(scan).labels, expected)
 
 
-def test_point_clouds(tmp_path):
+def test_reads_point_cloud_files(tmp_path):
     scan = next(hagen.open(ORCHARD))
     np.save(tmp_path / "cloud.npy", scan.xyz)
     cloud = next(hagen.open(tmp_path / "cloud.npy"))
     np.testing.assert_array_equal(cloud.xyz, scan.xyz)
     assert cloud.pose is None and cloud.name == "cloud"
-    assert cloud.sensor == "VLP-16"  # recovered
+    assert cloud.sensor == "VLP-16"  # beams recovered
     # Beams from the settings override those estimated from the cloud.
     named = hagen.Filter("vlp16").segment(cloud)
     np.testing.assert_array_equal(named.labels, hagen.Filter("vlp16").segment(scan.xyz).labels)
@@ -144,7 +144,7 @@ def test_reports_unreadable_files(tmp_path):
 
 
 def test_shows_non_utf8_texts(tmp_path):
-    """Sensor labels and file names may contain any bytes."""
+    """Sensor labels and file names may contain arbitrary bytes."""
     recording = tmp_path / os.fsdecode(b"fl\xffght.rawlog")
     recording.write_bytes(gzip.decompress(POLES.read_bytes()).replace(b"lidar", b"lid\xffr"))
     scans = hagen.open(recording)
@@ -187,8 +187,8 @@ def test_broken_recording_raises_after_scans(tmp_path):
     assert 0 < scans < 10
 
 
-def test_large_programs_can_read():
-    """Probing a rawlog limits additional memory only."""
+def test_reads_with_large_heap():
+    """Probing a rawlog limits only additional memory."""
     ballast = np.ones(200_000_000 // 8)
     assert len(list(hagen.open(POLES))) == 10
     assert ballast[-1] == 1

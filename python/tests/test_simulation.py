@@ -1,4 +1,4 @@
-"""hagen.simulate() and hagen.evaluate(). Oracles: rawlog-simulate and segmentation-evaluate."""
+"""hagen.simulate() and hagen.evaluate() match rawlog-simulate and segmentation-evaluate."""
 import json
 import math
 
@@ -50,7 +50,7 @@ def test_scores_match_program(program, flight, tmp_path):
     segmenter = hagen.Filter("vlp16")
     total = hagen.Scores()
     for scan in simulated():
-        # Scan folders have points and poses, no packets.
+        # Scan folders contain points and poses, but no packets.
         labels = segmenter.segment(scan.xyz, attitude=scan.attitude).labels
         total += hagen.evaluate(labels, scan.truth, scan.xyz)
     method = find_f1(expected)
@@ -65,7 +65,7 @@ def find_f1(summary):
     return returns["roi"]["f1"], returns["rou"]["f1"]
 
 
-def test_scores_count():
+def test_scores_count_labels():
     truth = np.array([2, 2, 2, 1, 1, 0], np.uint8)
     found = np.array([2, 1, 0, 1, 2, 2], np.uint8)
     scores = hagen.evaluate(found, truth)
@@ -83,7 +83,7 @@ def test_scores_count():
     assert same is twice and twice.roi.hits == 3 and scores.roi.hits == 1
 
 
-def test_scores_end_at_a_range():
+def test_scores_ignore_farther_returns():
     xyz = np.array([[19.9, 0, 0], [0, 20.1, 0], [0, 0, 5]])
     scores = hagen.evaluate([2, 1, 2], [2, 2, 2], xyz)
     assert scores.returns == 2 and scores.correct == 1
@@ -99,7 +99,7 @@ def test_rejects_ranges_beyond_limits(max_range_m):
 
 
 @pytest.mark.parametrize("sensor, rows", [("HDL-64E", 64), ("Mid-360", 24)])
-def test_other_sensors_have_beams(sensor, rows):
+def test_simulates_other_sensors(sensor, rows):
     scan = next(hagen.simulate("forest-0.05", seed=2, sensor=sensor))
     assert scan.sensor == sensor
     assert (scan.ring is None) == (sensor == "Mid-360")
@@ -115,7 +115,7 @@ def test_clear_air_has_no_dust():
     assert {dust, airframe} & kinds[False]
 
 
-def test_rejects_wrong_flights():
+def test_rejects_wrong_flight_arguments():
     with pytest.raises(ValueError, match="jungle.*orchard"):
         hagen.simulate("jungle")
     with pytest.raises(ValueError, match="sensor|VLP-16"):

@@ -27,8 +27,8 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// Opens an in-memory file that is deleted when closed. Unlike a pipe, a file cannot deadlock if
-/// gnuplot reads and prints at any pace.
+/// Opens an in-memory file that is deleted when closed. Unlike a pipe, a file cannot deadlock while
+/// gnuplot reads and prints.
 File scratchFile(const std::string& content) {
     const int memory = memfd_create("gnuplot", MFD_CLOEXEC);
     File file(memory >= 0 ? fdopen(memory, "w+") : nullptr);
@@ -51,9 +51,9 @@ std::vector<char*> withoutTerminal() {
     return kept;
 }
 
-// A picture takes about 1 s of CPU time and less than 1 MB.
+// Limits for a picture, which takes about 1 s of CPU time and less than 1 MB.
 constexpr rlim_t kMaxCpu_s = 20, kMaxFileBytes = 64 << 20;
-constexpr double kIdleTimeout_s = 5;  ///< without CPU usage
+constexpr double kIdleTimeout_s = 5;  ///< time without CPU usage before gnuplot is killed
 constexpr double kMinLoad = 0.02;
 
 double cpuTimeOf_s(pid_t process) {
@@ -61,9 +61,9 @@ double cpuTimeOf_s(pid_t process) {
     return std::chrono::duration<double>(used).count();
 }
 
-/// Waits for gnuplot, and kills its process group if it hangs or fills the disk. "Hangs" means low
-/// CPU usage, because a picture may take many seconds on a busy machine. Returns the exit status;
-/// `complaint` is the reason if it was killed.
+/// Waits for gnuplot, and kills its process group if it hangs or fills the disk. A hang is detected
+/// by low CPU usage, because a picture may take many seconds on a busy machine. Returns the exit
+/// status; `complaint` is the reason if it was killed.
 int waitFor(pid_t process, std::string& complaint) {
     const rlimit cpu{kMaxCpu_s, kMaxCpu_s + 1}, file{kMaxFileBytes, kMaxFileBytes};
     prlimit(process, RLIMIT_CPU, &cpu, nullptr);
@@ -88,7 +88,7 @@ int waitFor(pid_t process, std::string& complaint) {
     return status;
 }
 
-/// Returns gnuplot's last line: the lines before repeat the command and mark the position.
+/// Returns gnuplot's last line; the lines before it repeat the command and mark the position.
 std::string lastWord(std::FILE* errors) {
     std::rewind(errors);
     std::string word;
@@ -102,7 +102,7 @@ std::string lastWord(std::FILE* errors) {
     return word;
 }
 
-/// True if the file starts and ends with the right bytes, that is, it is not truncated.
+/// True if the file starts and ends with the right bytes, so that it is not truncated.
 bool isWhole(const fs::path& picture) {
     const bool is_svg = picture.extension() == ".svg";
     const std::string start = is_svg ? "<?xml" : std::string("\x89PNG\r\n\x1a\n", 8);
@@ -123,7 +123,7 @@ std::string gnuplotString(const std::string& text) {
     for (const char c : text) {
         const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
         quoted += is_control ? ' ' : c;
-        if (c == '\'') quoted += c;  // a doubled quote is a literal one
+        if (c == '\'') quoted += c;  // a doubled quote is a literal quote
     }
     return quoted + "'";
 }
@@ -133,7 +133,7 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     if (!fs::is_directory(folder)) {
         throw std::runtime_error(folder.string() + ": no such folder to write pictures to");
     }
-    for (const std::string& picture : pictures) {  // do not mistake an old one for the new one
+    for (const std::string& picture : pictures) {  // removes old pictures
         std::error_code error;
         fs::remove(folder / picture, error);
         if (error) {
@@ -149,14 +149,14 @@ void runGnuplot(const std::string& script, const fs::path& folder,
     posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
-    // In its own process group, so that Ctrl-C reaches only the program, which ends after the
+    // In its own process group, so that Ctrl-C reaches only our program, which ends after the
     // picture.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setpgroup(&attributes, 0);
     char program[] = "gnuplot", no_settings_of_the_users[] = "-d";
-    char script_file[] = "/dev/stdin";  // by name: gnuplot reads standard input byte by byte
+    char script_file[] = "/dev/stdin";  // by name, because gnuplot reads stdin byte by byte
     char* const arguments[] = {program, no_settings_of_the_users, script_file, nullptr};
     pid_t child = 0;
     std::vector<char*> environment = withoutTerminal();

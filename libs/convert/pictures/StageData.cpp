@@ -19,7 +19,7 @@ std::size_t colourOf(std::int32_t component) {
     return static_cast<std::size_t>(std::max(component, 1) - 1) % kRoiColours.size();
 }
 
-/// Returns the longest contiguous segment of a column's angles; empty if shorter than the window.
+/// The longest contiguous segment of a column's angles; empty if shorter than the window.
 struct Run {
     int first_row = 0, rows = 0;
 };
@@ -72,7 +72,6 @@ std::string sanitizedTitle(const std::string& title) {
     return tidy;
 }
 
-/// Writes all data blocks.
 class DataBlockWriter {
  public:
     explicit DataBlockWriter(const StageView& view)
@@ -144,7 +143,7 @@ class DataBlockWriter {
         data_.bars = std::min<int>(static_cast<int>(longest.size()), kMaxBars);
         longest.resize(static_cast<std::size_t>(data_.bars));
         std::sort(longest.begin(),
-                  longest.end());  // findPersistentMaxima() returns the oldest first
+                  longest.end());  // findPersistentMaxima() returns the oldest maxima first
         block("$bars", [&] {
             text_ << "NaN NaN NaN\n";
             int rank = 0;
@@ -174,7 +173,7 @@ class DataBlockWriter {
         const SeriesComponents found =
             decomposeSeries(r.range_angle_rad.col(data_.column).segment(run.first_row, run.rows),
                             view_.options.window_size);
-        // Angles that are all zero have no components.
+        // Avoids division by zero: if all angles are zero, there are no components.
         const double all = std::max(found.eigenvalues.sum(), 1e-12);
         const int components = std::min<int>(view_.options.window_size, kMaxComponents);
         block("$elementary", [&] {
@@ -217,7 +216,7 @@ class DataBlockWriter {
 
         data_.half_width_m = 1.15f * view_.options.zone_m;
         const float pixel_m =
-            data_.half_width_m / 400;  // several returns on one pixel are drawn once
+            data_.half_width_m / 400;  // so that several returns on one pixel are drawn once
         struct Point {
             int x_px, y_px;
             std::size_t colour;
@@ -252,7 +251,7 @@ class DataBlockWriter {
     }
 
     const StageView& view_;
-    const int columns_, rows_;  ///< of the images
+    const int columns_, rows_;  ///< size of the images
     StageData data_;
     GnuplotStream text_;
 };

@@ -21,10 +21,10 @@ namespace hagen::convert {
 struct StageData {
     std::string blocks;
     int column = 0;                       ///< column whose components are shown
-    int bars = 0;                         ///< maxima in $bars
+    int bars = 0;                         ///< number of maxima in $bars
     std::vector<double> component_share;  ///< fraction of variance, 0 to 1, one entry per component
-                                          ///< of $elementary; empty: block missing
-    float half_width_m = 0.0f;            ///< of the top view
+                                          ///< of $elementary; empty without that block
+    float half_width_m = 0.0f;            ///< half width of the top view
 };
 
 StageData stageDataOf(const StageView& view);

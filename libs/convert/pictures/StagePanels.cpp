@@ -7,7 +7,7 @@
 namespace hagen::convert {
 namespace {
 
-/// Perceptually uniform: viridis for depths, cividis for angles.
+/// Perceptually uniform palettes: viridis for depths, cividis for angles.
 constexpr const char* kDepthPalette =
     "defined (0 '#440154', 1 '#472D7B', 2 '#3B528B', 3 '#2C728E', 4 '#21918C', 5 '#28AE80', "
     "6 '#5EC962', 7 '#ADDC30', 8 '#FDE725')";
@@ -17,7 +17,6 @@ constexpr const char* kAnglePalette =
 
 constexpr double kZoomHalf_deg = 30.0;
 
-/// A number with one decimal.
 std::string oneDecimal(double value) {
     GnuplotStream text;
     text.setf(std::ios::fixed);
@@ -72,10 +71,11 @@ void StagePanelWriter::maximaImage(const Box& box, bool has_azimuth) {
 
 void StagePanelWriter::angleImage(const Box& box, const std::string& block, bool has_azimuth,
                                   bool has_mark) {
-    imageAxes(box, 180, -180, has_azimuth, 0.5);  // an angle lies between two beams
+    imageAxes(box, 180, -180, has_azimuth, 0.5);  // 0.5, because an angle lies between two beams
     colourBar(box, kAnglePalette, 90, 30, "angle [deg]");
     if (has_mark) {
-        // from above if the axis has numbers; otherwise from below, where no title is
+        // The arrow points from above if the axis has numbers, otherwise from below, where there is
+        // no title.
         const double tip = has_azimuth ? box.top : box.bottom;
         const double tail = has_azimuth ? box.top + 22 : box.bottom - 12;
         text_ << "set arrow from " << data_.column << ", screen " << y(tail) << " to "
@@ -272,8 +272,8 @@ double StagePanelWriter::columnAt(double azimuth_deg) const {
 void StagePanelWriter::beamTics(const char* axis, int max, double first_row) {
     int step = (rows_ - 1 + max - 2) / (max - 1);
     const int last = rows_ - 1;
-    for (int even = step; even <= last / 2;
-         ++even) {  // also for the highest beam, if the step allows it
+    // Labels the highest beam too if the step allows it.
+    for (int even = step; even <= last / 2; ++even) {
         if (last % even != 0) continue;
         step = even;
         break;

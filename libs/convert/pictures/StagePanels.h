@@ -15,7 +15,7 @@ struct Box {
 /// Writes a gnuplot script panel by panel; each panel draws a data block.
 class StagePanelWriter {
  public:
-    static constexpr int kWidth_px = 1200;  ///< of most pictures
+    static constexpr int kWidth_px = 1200;  ///< width of most pictures
 
     /// Keeps references to both arguments.
     StagePanelWriter(const StageView& view, const StageData& data);
@@ -43,7 +43,7 @@ class StagePanelWriter {
  private:
     /// Resets all shared settings, and draws the titles of this panel.
     void beginPanel(const Box& box);
-    // Pixels to gnuplot's screen coordinates.
+    // Convert pixels to gnuplot's screen coordinates.
     double x(double pixels) const;
     double y(double pixels) const;
     /// Draws a mark and a word to its right; returns the position of the next entry.
@@ -58,7 +58,7 @@ class StagePanelWriter {
                    double first_row = 0.0);
     /// Fractional column of an azimuth; column centres are integers.
     double columnAt(double azimuth_deg) const;
-    /// Labels up to `most` beams by elevation in degrees, evenly spaced from the lowest to the
+    /// Labels up to `max` beams by elevation in degrees, evenly spaced from the lowest to the
     /// highest.
     void beamTics(const char* axis, int max, double first_row = 0.0);
     void colourBar(const Box& box, const char* palette, float max, float step,
@@ -67,14 +67,14 @@ class StagePanelWriter {
     void depthScale(const Box& box);
     void labelScale();
     std::string columnName() const;
-    // Around the selected column, zoomed in until pixels are visible.
+    // Draws axes around the selected column, zoomed in until pixels are visible.
     void zoomAxes(const Box& box);
     void zoomDepth(const Box& box, const std::string& block);
 
     const StageView& view_;
     const StageData& data_;
-    const int columns_, rows_;  ///< of the images
-    const float far_m_;         ///< end of the depth scale
+    const int columns_, rows_;  ///< size of the images
+    const float far_m_;         ///< upper end of the depth scale
     int width_px_ = 0, height_px_ = 0;
     bool has_heading_ = false;
     std::string heading_, panel_title_;

@@ -14,20 +14,20 @@ namespace hagen::convert {
 /// A segmented scan to draw: input and result of one call of HagenFilter::segment(). Keeps
 /// references to the caller's objects.
 struct StageView {
-    const Scan& scan;           ///< if the sensor is not upright: from turnScan()
-    const SensorModel& sensor;  ///< sensor of the image rows: sensorIn() the scan's posture
+    const Scan& scan;           ///< result of turnScan() if the sensor is not upright
+    const SensorModel& sensor;  ///< sensor of the image rows, from sensorIn()
     const Options& options;
     const SegmentationResult& result;
-    std::string title;  ///< any text, for example the source of the scan
+    std::string title;  ///< for example the source of the scan
     /// Azimuth (finite, counter-clockwise from x) of the column whose principal components are
-    /// shown (rounded to the nearest column). nullopt: the column of the nearest RoI pixel in a
-    /// smoothed column; otherwise of the nearest RoI pixel; otherwise straight ahead.
+    /// shown (rounded to the nearest column). Default: the column of the nearest RoI pixel in a
+    /// smoothed column, otherwise of the nearest RoI pixel, otherwise straight ahead.
     std::optional<float> azimuth_deg = std::nullopt;
 };
 
 /// The pictures of drawStages(): one per stage, and an overview.
 const std::vector<std::string>& stagePictures();
-/// A folder of these pictures, or of folders of them.
+/// The output kind: a folder of these pictures, or a folder of such folders.
 extern const base::OutputKind kStagePictures;
 
 /// Draws the result of each stage for a scan as PNGs in the existing `folder`:
@@ -42,7 +42,7 @@ extern const base::OutputKind kStagePictures;
 ///   stages.png         all of the above
 ///
 /// Images show azimuths from +180 to -180 degrees, left of the sensor on the left, with the lowest
-/// beam at the bottom; pixels without a value are grey. One call runs gnuplot once. Throws
+/// beam at the bottom; pixels without a value are grey. Runs gnuplot once. Throws
 /// std::invalid_argument if the images do not have one row per beam, std::runtime_error like
 /// runGnuplot().
 void drawStages(const StageView& view, const std::filesystem::path& folder);

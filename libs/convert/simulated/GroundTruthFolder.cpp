@@ -26,7 +26,7 @@ void writeKinds(const fs::path& file) {
     base::closeWritten(out, file);
 }
 
-/// Class numbers are written like labels, as low 16 bits.
+/// Converts class numbers to labels, because both are written as the low 16 bits.
 std::vector<Label> asLabels(const std::vector<simulation::ObjectClass>& kinds) {
     std::vector<Label> numbers;
     for (const simulation::ObjectClass kind : kinds) numbers.push_back(static_cast<Label>(kind));

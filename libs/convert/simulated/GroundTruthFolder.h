@@ -23,7 +23,7 @@ struct GroundTruthLabels {
 ///     altitudes.txt           height of the sensor above the ground [m], one line per scan
 class GroundTruthFolder {
  public:
-    /// `mount`: the sensor's tilt on the level vehicle. Throws std::runtime_error if the folder
+    /// `mount` is the sensor's tilt on the level vehicle. Throws std::runtime_error if the folder
     /// cannot be written.
     GroundTruthFolder(const std::filesystem::path& folder, bool overwrite,
                       const Attitude& mount = {});

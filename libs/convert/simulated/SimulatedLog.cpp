@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr double kStart_s = simulation::kSimulatedLogStart_s;
 constexpr const char* kLidarLabel = "lidar";
-constexpr double kPoseStep_s = 0.05;  // much shorter than the maximum gap for interpolation
+constexpr double kPoseStep_s = 0.05;  // much less than the maximum interpolation gap
 
 /// A pose file that is renamed into place when complete.
 class PoseOutput {
@@ -66,7 +66,7 @@ class SimulatedOutputs {
     void writePose(double time_s, const mrpt::poses::CPose3D& pose) {
         if (poses_) all_.write(poses_->place(), [&] { poses_->add(time_s, pose); });
     }
-    /// Calls step(folder).
+    /// Calls step(folder) if a folder was requested; records a failure.
     template <class Step>
     void writeScan(const Step& step) {
         if (folder_) all_.write(folder_->place(), [&] { step(*folder_); });
@@ -114,7 +114,7 @@ bool hasPackets(const SensorModel& sensor) {
 /// Whether scans are written as clouds. (MRPT does not support the packets of an HDL-64E.)
 bool hasClouds(const SensorModel& sensor) { return !sensor.has_rings; }
 
-/// Returns the scan to store in a folder: as measured, or as decoded from its packets.
+/// The scan to store in a folder, as measured or as decoded from its packets.
 struct MeasuredScan {
     Scan scan;
     SensorModel sensor;
@@ -200,7 +200,8 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
         writePose(time_s, flight.at(time_s), outputs);
         const MeasuredScan measured =
             writeScanEntry(made, sensor, sensor_on_vehicle, time_s, outputs);
-        // Writes poses until after the last firing, or until the next scan's poses begin.
+        // Writes poses up to the next scan's first pose or, after the last scan, until after the
+        // last firing.
         const bool is_last = scan + 1 == log.scans;
         for (int step = 1; (step - 1) * kPoseStep_s < measuring_s; ++step) {
             const double pose_s = time_s + step * kPoseStep_s;

@@ -6,16 +6,16 @@
 
 namespace hagen::convert {
 
-/// Parameters of a simulated log and its outputs; an empty path: not written.
+/// Parameters of a simulated log and its outputs; outputs with an empty path are not written.
 struct SimulatedLog {
     std::string scenario;
     std::string sensor = "VLP-16";
     std::uint64_t seed = 1;
     int scans = 0;
     double altitude_m = 2, speed_m_s = 4, tilt_sd_deg = 4;
-    double every_s = 0.1;    ///< from the start of one scan to the start of the next
-    bool clear_air = false;  ///< no dust, and no returns of the vehicle itself
-    double mount_roll_deg = 0, mount_pitch_deg = 0;  ///< of the sensor on the level vehicle
+    double every_s = 0.1;    ///< time between the starts of scans
+    bool clear_air = false;  ///< without dust and returns from the vehicle itself
+    double mount_roll_deg = 0, mount_pitch_deg = 0;  ///< tilt of the sensor on the level vehicle
 
     std::filesystem::path rawlog, folder, poses;
     bool overwrite = false;
@@ -38,7 +38,7 @@ struct SimulationReport {
 ///   sensor.yaml,
 /// - the vehicle's poses as a TUM file.
 ///
-/// The same seed gives the same bytes. Throws std::invalid_argument for an unknown scenario or
+/// The same seed produces the same bytes. Throws std::invalid_argument for an unknown scenario or
 /// sensor, and std::runtime_error if a file cannot be written or if `keep_going` returns false: the
 /// output is then kept in partial files. The message names the files.
 SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()>& keep_going);

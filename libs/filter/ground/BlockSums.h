@@ -8,18 +8,19 @@
 namespace hagen {
 
 constexpr int kBlockCells = 4;
-constexpr int kBlocks = GroundSurface::kCells / kBlockCells;  // along each side, 3 m each
+constexpr int kBlocks = GroundSurface::kCells / kBlockCells;  // along each side, each 3 m wide
 
 /// A value per block, column by column.
 template <class Value>
 using Blocks = std::array<Value, kBlocks * kBlocks>;
 
-/// The same for each pixel's block (PixelCells.h), with a last element for pixels without one.
+/// Like Blocks, but indexed by a pixel's block (PixelCells.h), and with a last element for pixels
+/// without a block.
 template <class Value>
 using BlocksAndNone = std::array<Value, kBlocks * kBlocks + 1>;
 
 /// Sums over `kReach` blocks in each direction along a line of blocks that are `stride` apart. Each
-/// step adds one block and removes one.
+/// step adds a block and removes a block.
 template <int kReach, class Value>
 void sumAlong(const Value* blocks, int stride, Value* sums) {
     Value around;
@@ -36,7 +37,7 @@ struct BlockArea {
     int first_row = 0, end_row = kBlocks, first_column = 0, end_column = kBlocks;
 };
 
-/// The blocks whose cells are all inside an area.
+/// The blocks that lie completely inside an area.
 inline BlockArea blocksIn(const CellArea& area) {
     const auto first = [](int place) {
         return (std::max(place - 1, 0) + kBlockCells - 1) / kBlockCells;
@@ -47,7 +48,7 @@ inline BlockArea blocksIn(const CellArea& area) {
 }
 
 /// Replaces the value of each block of an area by the sum over the square around it. Blocks outside
-/// the area count as 0.
+/// the area are treated as 0.
 template <int kReach, class Value>
 void sumAround(Blocks<Value>& blocks, const BlockArea& area = {}) {
     Blocks<Value> sums{};

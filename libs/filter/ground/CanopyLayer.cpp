@@ -11,12 +11,12 @@ namespace {
 
 using namespace canopy_rules;
 
-/// Counts of the cells with returns around a block.
+/// Statistics of the cells with returns around a block.
 struct Surroundings {
-    int seen = 0;                  ///< all cells
-    int tall = 0;                  ///< highest return is above plants
-    int plants = 0;                ///< highest return is a low plant
-    double sum_m = 0, sum_m2 = 0;  ///< plant heights and their squares
+    int seen = 0;                  ///< number of cells
+    int tall = 0;                  ///< cells whose highest return is above plants
+    int plants = 0;                ///< cells whose highest return is a low plant
+    double sum_m = 0, sum_m2 = 0;  ///< sums of plant heights and of their squares
 
     void addCell(float top_m) {
         if (top_m == CellTops::kNone_m) return;
@@ -27,14 +27,15 @@ struct Surroundings {
         sum_m += top_m;
         sum_m2 += static_cast<double>(top_m) * top_m;
     }
-    /// 0 without a canopy.
+    /// The height of the canopy; 0 if there is none.
     float canopy_m() const {
         return isCanopy(seen, tall, plants) ? canopyHeight_m(plants, sum_m, sum_m2) : 0.0f;
     }
 };
 
 Surroundings surroundingsOf(int block, const CellTops& tops) {
-    // Cells along one axis of the square around the block; the grid has a border of one cell.
+    // The range of cells along one axis of the square around the block; the grid has a border of
+    // one cell.
     const auto first = [](int b) { return std::max(b - kReach, 0) * kBlockCells + 1; };
     const auto end = [](int b) { return std::min(b + kReach + 1, kBlocks) * kBlockCells + 1; };
     const int row = block % kBlocks, column = block / kBlocks;
@@ -48,7 +49,7 @@ Surroundings surroundingsOf(int block, const CellTops& tops) {
 }  // namespace
 
 void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m) {
-    std::vector<float> canopy_m(kBlocks * kBlocks + 1, 0.0f);  // last: beyond the grid
+    std::vector<float> canopy_m(kBlocks * kBlocks + 1, 0.0f);  // last element: beyond the grid
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         canopy_m[block] = surroundingsOf(block, tops).canopy_m();
     }

@@ -12,7 +12,7 @@ void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTop
     tops.two_m.assign(2 * kGridSize, CellTops::kNone_m);
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         float h_m = height_m.data()[pixel];
-        if (!(h_m < tops_rules::kOverhead_m)) continue;  // also if empty
+        if (!(h_m < tops_rules::kOverhead_m)) continue;  // skips NaN (empty) too
         float* const two_m = &tops.two_m[2 * std::size_t{cells.cell.data()[pixel]}];
         if (h_m > two_m[0]) std::swap(h_m, two_m[0]);
         two_m[1] = std::max(h_m, two_m[1]);

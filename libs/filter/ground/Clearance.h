@@ -9,8 +9,8 @@ namespace hagen {
 
 /// The minimum height of the sensor above the ground.
 struct Clearance {
-    Eigen::Vector3f up;  ///< against gravity, in the ground frame; a unit vector
-    float min_m = 0;     ///< 0: no minimum
+    Eigen::Vector3f up;  ///< unit vector against gravity, in the ground frame
+    float min_m = 0;     ///< 0 for no minimum
 
     /// Whether a point in the ground frame is too close.
     bool isViolatedBy(const Ground& ground, const Eigen::Vector3f& point_m) const {

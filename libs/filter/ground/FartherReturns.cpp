@@ -14,8 +14,8 @@ void reserve(std::size_t size, FartherReturnsWorkspace& work) {
     for (auto* values : {&work.x_m, &work.y_m, &work.z_m, &work.height_m}) values->resize(size);
 }
 
-/// Lists the returns in the zone behind the closest return of their pixel; returns their number.
-/// Branch-free, because they are few and scattered.
+/// Lists the returns in the zone that lie behind the closest return of their pixel; returns their
+/// number. Branch-free, because these returns are few and scattered.
 std::size_t listFarther(const Scan& scan, const RangeImage& image, float zone_m,
                         std::int32_t* list) {
     static_assert(RangeImage::kNoPixel == -1);
@@ -25,7 +25,7 @@ std::size_t listFarther(const Scan& scan, const RangeImage& image, float zone_m,
     const std::int32_t size = static_cast<std::int32_t>(scan.size());
     std::size_t n = 0;
     for (std::int32_t i = 0; i < size; ++i) {
-        const std::int32_t pixel = pixels[i], has_pixel = ~(pixel >> 31);  // 0 or all bits
+        const std::int32_t pixel = pixels[i], has_pixel = ~(pixel >> 31);  // 0, or all bits set
         const std::int32_t is_farther = range_m[i] > depth_m[pixel & has_pixel] + kFarther_m;
         const std::int32_t is_in_zone = range_m[i] <= zone_m;
         list[n] = i;
@@ -34,7 +34,7 @@ std::size_t listFarther(const Scan& scan, const RangeImage& image, float zone_m,
     return n;
 }
 
-/// The listed returns in the ground frame.
+/// Transforms the listed returns to the ground frame.
 void locate(const Scan& scan, const Eigen::Isometry3f& ground_from_sensor, std::size_t n,
             FartherReturnsWorkspace& work) {
     const Eigen::Matrix3f turn = ground_from_sensor.linear();

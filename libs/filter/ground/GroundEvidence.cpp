@@ -20,7 +20,7 @@ bool isStep(const PixelPoints& pixels, Eigen::Index low, Eigen::Index high) {
     const auto length_m2 = [&](const Eigen::Vector3f& step) {
         return step.x() * step.x() + step.y() * step.y() + step.z() * step.z();
     };
-    for (Eigen::Index between = low + 1; between < high; ++between) {  // empty or close
+    for (Eigen::Index between = low + 1; between < high; ++between) {  // must be empty or close
         if (length_m2(pixels.at(between) - below) >= kShort_m * kShort_m) return false;
     }
     const Eigen::Vector3f step = pixels.at(high) - below;
@@ -30,8 +30,8 @@ bool isStep(const PixelPoints& pixels, Eigen::Index low, Eigen::Index high) {
     return outwards > 0 && step.z() * step.z() < kSteepest * kSteepest * run_m2;
 }
 
-/// Whether most near-surface pixels around a block are level. `close` and `level` are counts per
-/// block.
+/// Whether most near-surface pixels around a block are level. `close` and `level` are pixel counts
+/// per block.
 using Counts = Eigen::Array<int, kBlocks, kBlocks>;
 bool hasEvidence(const Counts& close, const Counts& level, int i, int j) {
     const int first_i = std::max(i - kReach, 0), first_j = std::max(j - kReach, 0);
@@ -80,7 +80,7 @@ void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
         ++close.data()[block];
         level.data()[block] += is_level.data()[pixel];
     }
-    has_evidence.assign(kBlocks * kBlocks + 1, 0);  // last: beyond the grid
+    has_evidence.assign(kBlocks * kBlocks + 1, 0);  // last element: beyond the grid
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         has_evidence[block] = hasEvidence(close, level, block % kBlocks, block / kBlocks);
     }

@@ -13,7 +13,7 @@ namespace {
 
 using namespace frame_rules;
 
-/// The lowest point of each cell that has points, in a level frame.
+/// Returns the lowest point of each cell that has points, in a level frame.
 std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
                                            const std::vector<std::int32_t>& columns) {
     struct Lowest {
@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels, const Eige
             };
             const auto cells = [&](int axis) { return (along(axis) + kReach_m) * (1 / kCell_m); };
             const float u = cells(0), v = cells(1), z_m = along(2);
-            if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;  // also if empty
+            if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) continue;  // skips NaN (empty) too
             Lowest& low = lowest[static_cast<int>(u) * kCells + static_cast<int>(v)];
             if (low.pixel < 0 || z_m < low.z_m) low = {pixel, z_m};
         }
@@ -41,10 +41,10 @@ std::vector<Eigen::Vector3d> lowestOfCells(const PixelPoints& pixels, const Eige
     return points;
 }
 
-/// The plane z = a x + b y + c through the points, by weighted least squares.
+/// Fits the plane z = a x + b y + c to the points by weighted least squares.
 template <class Weight>
 Eigen::Vector3d planeThrough(const std::vector<Eigen::Vector3d>& points, Weight weight) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // allows collinear points
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // for collinear points
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& p : points) {
         const Eigen::Vector3d row(p.x(), p.y(), 1);
@@ -92,9 +92,9 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
 
 namespace {
 
-// Conditions for ground.
-constexpr float kMinHeight_m = 0.1f;   // of the sensor above ground
-constexpr float kMinCosine = 0.7071f;  // of the sensor's tilt, 45 degrees
+// Conditions for the plane to be ground.
+constexpr float kMinHeight_m = 0.1f;   // height of the sensor above the ground
+constexpr float kMinCosine = 0.7071f;  // cosine of the sensor's tilt (45 degrees)
 constexpr Eigen::Index kMinPixels = 20;
 
 /// The shortest rotation that turns a vector upwards, unless it points straight down. Equals

@@ -1,4 +1,4 @@
-// The grid of the ground surface and of the objects on it.
+// The grid of the ground surface and of the objects above it.
 #pragma once
 #include <hagen/filter/GroundSurface.h>
 #include <cstddef>
@@ -28,8 +28,8 @@ constexpr int gridColumn(int j) {
     return (j + 1) * kStride<kSide> + 1;
 }
 
-/// Calls visit(k) for each k below `size`, interleaving four ranges: adjacent pixels often share a
-/// cell, and consecutive updates of one cell would stall.
+/// Calls visit(k) for each k below `size`. Interleaves four ranges, because adjacent pixels often
+/// share a cell, and consecutive updates of the same cell would stall.
 template <class Visit>
 __attribute__((always_inline)) inline void visitByTurns(std::size_t size, Visit visit) {
     const std::size_t quarter = size / 4;

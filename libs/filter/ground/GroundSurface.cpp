@@ -35,17 +35,17 @@ namespace {
 
 using namespace surface_rules;
 
-using Grid = Eigen::ArrayXXf;  // one value per cell, any number of cells per side
+using Grid = Eigen::ArrayXXf;  // one value per cell
 constexpr int kCells = GroundSurface::kCells, kCoarseCells = kCells / 2;
 
 /// A pixel that may be ground.
 struct Candidate {
-    int i, j;  ///< its cell
+    int i, j;  ///< cell of the pixel
     float z_m;
 };
 using Candidates = std::vector<Candidate>;
 
-/// The cell of a coordinate along one axis; -1 beyond the grid, or if it is NaN.
+/// The cell of a coordinate along one axis; -1 if it is NaN or beyond the grid.
 int cellOf(float coordinate_m, int cells) {
     const float per_m = static_cast<float>(cells) / (kCells * GroundSurface::kCell_m);
     const float place = coordinate_m * per_m + static_cast<float>(cells / 2 + 1);
@@ -60,7 +60,7 @@ void listCandidate(const Eigen::Vector3f& pixel_m, int cells, IsCandidate isCand
     if (c.i >= 0 && c.j >= 0 && isCandidate(c)) list.push_back(c);
 }
 
-/// Step 1.
+/// Step 1: the lowest candidate of each cell.
 Grid lowestOfCells(const Candidates& candidates, int cells) {
     Grid lowest_m = Grid::Constant(cells, cells, kNoHeight);
     for (const Candidate& c : candidates) lowest_m(c.i, c.j) = std::min(lowest_m(c.i, c.j), c.z_m);
@@ -90,13 +90,13 @@ Grid withoutStrays(const Grid& lowest_m) {
     return cleaned_m;
 }
 
-/// Step 2. The envelope is the highest surface below `cleaned_m` that is nowhere too steep, by a
-/// two-pass chamfer transform (Borgefors 1986).
+/// Step 2. The envelope is the highest surface below `cleaned_m` that is nowhere too steep,
+/// computed by a two-pass chamfer transform (Borgefors 1986).
 class Envelope {
  public:
     explicit Envelope(const Grid& cleaned_m) : cells_(static_cast<int>(cleaned_m.rows())) {
         const float width_m =
-            GroundSurface::kCell_m * kCells / static_cast<float>(cells_);  // of a cell
+            GroundSurface::kCell_m * kCells / static_cast<float>(cells_);  // width of a cell
         const Grid seen = (cleaned_m < kNoHeight).cast<float>();
         side_m_ = (seen > 0).select(Grid::Constant(cells_, cells_, width_m * kSteepest),
                                     Grid::Constant(cells_, cells_, width_m * kSteepestUnseen));
@@ -114,11 +114,11 @@ class Envelope {
     auto height_m() const { return height_m_.block(1, 1, cells_, cells_); }
 
  private:
-    /// Reaches a cell from the previous column and from all previous cells of its own column, using
-    /// the ramp: the maximum climb from the column's edge to each cell.
+    /// Updates each cell of a column from the previous column and from all previous cells of the
+    /// same column. The ramp is the maximum climb from the column's edge to each cell.
     void passColumn(int j, bool is_forward) {
-        const int before = is_forward ? j : j + 2;  // including the border
-        float low_m = kNoHeight;                    // relative to the ramp
+        const int before = is_forward ? j : j + 2;  // index includes the border
+        float low_m = kNoHeight;                    // minimum relative to the ramp
         for (int n = 0; n < cells_; ++n) {
             const int i = is_forward ? n : cells_ - 1 - n;
             const float side_m = side_m_(i, j);
@@ -134,9 +134,9 @@ class Envelope {
     }
 
     int cells_;
-    Grid side_m_;    ///< climb to a cell from the one beside it
-    Grid ramp_m_;    ///< climb along a column up to each cell
-    Grid height_m_;  ///< with a border of one cell
+    Grid side_m_;    ///< climb to a cell from the cell beside it
+    Grid ramp_m_;    ///< climb along a column from its edge to each cell
+    Grid height_m_;  ///< heights, with a border of one cell
 };
 
 /// Weighted heights and their weights, 0 to 1.
@@ -147,7 +147,7 @@ struct WeightedGrid {
 /// Step 3: the means of the candidates close to `lowest_m`.
 WeightedGrid cellMeans(const Candidates& candidates, const Grid& lowest_m) {
     Grid sum_m = Grid::Zero(lowest_m.rows(), lowest_m.cols()), number = sum_m;
-    visitByTurns(candidates.size(), [&](std::size_t k) {  // same order as simd/
+    visitByTurns(candidates.size(), [&](std::size_t k) {  // in the same order as simd/
         const Candidate& c = candidates[k];
         const float above_m = c.z_m - lowest_m(c.i, c.j);
         if (!(above_m >= -kBelowLowest_m && above_m <= kAboveLowest_m)) return;
@@ -158,7 +158,7 @@ WeightedGrid cellMeans(const Candidates& candidates, const Grid& lowest_m) {
     return {sum_m / number.max(1.0f) * weight, weight};
 }
 
-/// Step 4.
+/// Step 4: smoothing.
 Grid binomial(const Grid& grid) {
     const Eigen::Index cells = grid.rows();
     Grid g = Grid::Zero(cells + 2, cells + 2);  // with a border
@@ -205,8 +205,8 @@ Grid refined(const Grid& coarse_m) {
     return fine_m;
 }
 
-/// Pulls up to a single cell; then pushes: a fine cell takes its missing weight from the coarse
-/// grid.
+/// Pulls up to a single cell, then pushes down: a fine cell takes its missing weight from the
+/// coarse grid.
 Grid filled(const WeightedGrid& grid) {
     std::vector<WeightedGrid> levels{grid};
     while (levels.back().weight.rows() > 1) levels.push_back(pull(levels.back()));
@@ -218,13 +218,13 @@ Grid filled(const WeightedGrid& grid) {
     return height_m;
 }
 
-/// Steps 3 and 4.
+/// Runs steps 3 and 4.
 Grid surfaceAbout(const Candidates& candidates, const Grid& lowest_m) {
     const WeightedGrid means = cellMeans(candidates, lowest_m);
     return filled({binomial(means.weighted_m), binomial(means.weight)});
 }
 
-/// All four steps.
+/// Runs all four steps.
 Grid wholeFit(const Candidates& candidates, int cells) {
     const Grid lowest_m = withoutStrays(lowestOfCells(candidates, cells));
     const Grid max_m = Envelope(lowest_m).height_m() + kEnvelope_m;

@@ -4,7 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/ground/Levelling.cpp"
-#include <hwy/foreach_target.h>  // once per instruction set
+#include <hwy/foreach_target.h>  // compiled once per instruction set
 #include <hwy/highway.h>
 
 #include "filter/paper/SlopeAngle-inl.h"
@@ -14,8 +14,8 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// One column, which lies in the plane of two unit vectors `outwards` and `upwards` given in the
-/// level frame.
+/// Computes one column, which lies in the plane of two unit vectors `outwards` and `upwards` given
+/// in the level frame.
 void columnLevelAngles(const float* depth_m, const float* sine, const float* cosine,
                        const float* outwards, const float* upwards, int angles, float* angle_rad) {
     coverRows(angles, [=](auto d, int row) HWY_ATTR {

@@ -6,11 +6,11 @@ namespace hagen::plain {
 namespace {
 
 struct Place {
-    int index;  ///< 1 for the first cell, 0 and kCells + 1 for the border
+    int index;  ///< 1 is the first cell; 0 and kCells + 1 are the border
     bool is_on_grid;
 };
 
-/// Along one axis. Empty pixels are in cell 0.
+/// The place along one axis. Empty pixels are in cell 0.
 Place placeOf(float coordinate_m) {
     constexpr float kLast = kGridStride - 1;
     const float place =

@@ -24,7 +24,7 @@ void locatePixels(const Scan& scan, const PixelDirections& directions, const Ran
                 x_m[row] = scan_x_m[i];
                 y_m[row] = scan_y_m[i];
                 z_m[row] = scan_z_m[i];
-            } else {  // repaired, or NaN if empty
+            } else {  // repaired, or empty (NaN)
                 const float level_m = depth[row] * directions.row_cosine[row];
                 x_m[row] = level_m * directions.column_cosine[column];
                 y_m[row] = level_m * directions.column_sine[column];

@@ -1,6 +1,6 @@
-// Scalar reference implementations of the ground stages. simd/ has the vectorised ones;
-// HAGEN_SIMD=plain (InstructionSets.h) selects these instead. The headers of the stages document
-// them. Both add floats in the same order, so results are bit-identical except for sums of doubles.
+// Scalar reference implementations of the ground stages, used instead of the vectorised ones in
+// simd/ if HAGEN_SIMD=plain (InstructionSets.h). The headers of the stages document them. Both add
+// floats in the same order, so results are bit-identical except for sums of doubles.
 #pragma once
 #include <hagen/filter/CellTops.h>
 #include <hagen/filter/GroundSurface.h>
@@ -13,8 +13,8 @@
 
 namespace hagen {
 
-/// From the sensor frame to the ground frame (GroundFrame.h), for the plane z = a x + b y + c in
-/// the level frame.
+/// The transform from the sensor to the ground frame (GroundFrame.h) for the plane z = a x + b y +
+/// c in the level frame.
 Eigen::Isometry3f groundFrame(const Eigen::Vector3d& plane, const Eigen::Matrix3f& level);
 
 namespace plain {

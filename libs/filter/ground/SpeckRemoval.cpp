@@ -11,7 +11,7 @@ void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
     using namespace speck_rules;
     const int rows = static_cast<int>(labels.rows()), columns = static_cast<int>(labels.cols());
     const Image<Label> before = labels;
-    const auto distance = [&](int row, int column) {  // in steps
+    const auto distance = [&](int row, int column) {  // in steps of 1/64 m
         const float x_m = pixels.x_m(row, column), y_m = pixels.y_m(row, column);
         const float distance_m = std::min(std::sqrt(x_m * x_m + y_m * y_m), kFarthest_m);
         return static_cast<int>(distance_m * kSteps_per_m + 0.5f);

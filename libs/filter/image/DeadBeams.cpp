@@ -5,11 +5,11 @@
 namespace hagen {
 namespace {
 
-constexpr Eigen::Index kMaxRows = 2;  // adjacent rows to bridge
+constexpr Eigen::Index kMaxRows = 2;  // max. number of adjacent rows to bridge
 
-/// The first columns usually show that all rows are live.
+/// Checks columns until all rows are found live; the first columns usually suffice.
 void findLiveRows(const Image<float>& depth_m, std::vector<std::uint8_t>& is_live) {
-    constexpr Eigen::Index kTogether = 32;  // columns
+    constexpr Eigen::Index kTogether = 32;  // columns per check
     const auto rows = static_cast<std::size_t>(depth_m.rows());
     is_live.assign(rows, 0);
     std::uint8_t* const live = is_live.data();
@@ -28,7 +28,7 @@ float sineBetween(const PixelDirections& directions, Eigen::Index a, Eigen::Inde
            directions.row_cosine[b] * directions.row_sine[a];
 }
 
-/// Fills the row from those below and above; pixels stay empty where either is empty.
+/// Fills the row from the rows below and above; pixels with an empty neighbour stay empty.
 void bridgeRow(const PixelDirections& directions, Eigen::Index below, Eigen::Index row,
                Eigen::Index above, Image<float>& repaired_m) {
     const float whole = sineBetween(directions, below, above);
@@ -36,7 +36,7 @@ void bridgeRow(const PixelDirections& directions, Eigen::Index below, Eigen::Ind
     const float to_above = sineBetween(directions, row, above);
     for (Eigen::Index column = 0; column < repaired_m.cols(); ++column) {
         const float low_m = repaired_m(below, column), high_m = repaired_m(above, column);
-        // The line through both points in polar coordinates.
+        // The point where the beam crosses the line through both points, in polar coordinates.
         repaired_m(row, column) = low_m * high_m * whole / (low_m * from_below + high_m * to_above);
     }
 }

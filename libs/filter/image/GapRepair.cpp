@@ -3,9 +3,8 @@
 
 namespace hagen {
 
-// Columns are contiguous, so all pixels are computed as one array, each from its two neighbours,
-// without branching on empty pixels. Pixels at the ends of columns, which would mix two columns,
-// are restored afterwards.
+// Columns are contiguous, so all pixels are computed as one array without branching on empty
+// pixels. Pixels at the ends of columns, which would mix two columns, are restored afterwards.
 void repairGaps(const Image<float>& depth_m, float max_step_m, Image<float>& repaired_m) {
     const Eigen::Index rows = depth_m.rows(), pixels = depth_m.size();
     if (!(max_step_m > 0)) {

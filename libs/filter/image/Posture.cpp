@@ -7,7 +7,7 @@
 namespace hagen {
 namespace {
 
-constexpr float kMaxTiltCosine = 0.8660254f;  // 30 degrees
+constexpr float kMaxTiltCosine = 0.8660254f;  // cosine of 30 degrees
 constexpr double kMinSpacing_deg = 1;
 
 double medianSpacing_deg(const SensorModel& sensor) {
@@ -36,7 +36,7 @@ SensorModel allAround(SensorModel sensor) {
     return sensor;
 }
 
-/// A rotation by 180 degrees about x: exact, and rows stay rows.
+/// Rotates by 180 degrees about x, exactly; returns keep their rows.
 void turnUpsideDown(const Scan& scan, const SensorModel& rows_of, Scan& turned) {
     const std::size_t size = scan.size();
     turned.x_m = scan.x_m;
@@ -67,7 +67,7 @@ void level(const Scan& scan, const Eigen::Matrix3f& level_from_sensor, const Sen
         turned.z_m[i] = point_m.z();
     }
     locateBeams(rows_of, turned);
-    // Rotation preserves ranges; returns without range (such as the airframe) stay without.
+    // Rotation preserves ranges; returns without range (such as the airframe) stay without range.
     turned.range_m = scan.range_m;
 }
 

@@ -10,28 +10,28 @@ namespace hagen {
 
 /// The sensor's orientation. The stages need images whose rows rise against gravity.
 enum class Posture {
-    Upright,     ///< tilted by up to 30 degrees: its own rows rise
-    UpsideDown,  ///< less than 30 degrees from upside down: its rows rise in reverse order
-    OnItsSide    ///< in between: virtual rows, in the level frame
+    Upright,     ///< tilted by up to 30 degrees: the sensor's rows rise
+    UpsideDown,  ///< less than 30 degrees from upside down: the reversed rows rise
+    OnItsSide    ///< in between: uses virtual rows in the level frame
 };
 
-/// The posture for a tilt; upright if it is unknown.
+/// The posture for a tilt; upright if the tilt is unknown.
 Posture postureOf(const std::optional<Attitude>& attitude);
 
 /// The sensor whose beams are the rows of the image. Upside down: the same beams with negated
-/// elevations. On its side: virtual beams from -90 to 90 degrees, evenly spaced by the median
-/// spacing of the sensor's beams, at least 1 degree.
+/// elevations. On its side: virtual beams from -90 to 90 degrees, spaced by the median spacing of
+/// the sensor's beams, but at least 1 degree.
 SensorModel sensorIn(Posture posture, const SensorModel& sensor);
 
-/// The rotation from the sensor frame to the image frame: identity, 180 degrees about x, or to the
-/// level frame.
+/// The rotation from the sensor frame to the image frame: the identity, 180 degrees about x, or the
+/// rotation to the level frame.
 Eigen::Matrix3f imageFromSensor(Posture posture, const std::optional<Attitude>& attitude);
 
-/// The remaining tilt of the image frame.
+/// The tilt of the image frame.
 std::optional<Attitude> attitudeIn(Posture posture, const std::optional<Attitude>& attitude);
 
-/// Rotates a scan into the image frame, with the rows of `rows_of`, which is sensorIn(posture,
-/// sensor). Not for upright sensors. `turned` keeps the order of the returns.
+/// Rotates a scan into the image frame and assigns the rows of `rows_of`, which is
+/// sensorIn(posture, sensor). Not for upright sensors. Returns keep their order.
 void turnScan(const Scan& scan, Posture posture, const std::optional<Attitude>& attitude,
               const SensorModel& rows_of, Scan& turned);
 

@@ -14,10 +14,10 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// For adjacent columns whose left (and right) neighbours all come earlier, or all later, in the
-/// image. Positive floats order like their bits, and ties go to the earlier pixel. So a neighbour
-/// is older if its bits, plus 1 if it is earlier, are greater. Branch-free: the results of 64
-/// pixels are one word.
+/// For adjacent columns whose left (and right) neighbours are all earlier, or all later, in the
+/// image. Positive floats order like their bits, and the earlier pixel wins ties, so a neighbour is
+/// older if its bits, plus 1 if it is earlier, are greater. Branch-free: the results of 64 pixels
+/// are one word.
 void FindCriticalIn(int begin, int end, int stride, bool left_is_earlier, bool right_is_earlier,
                     const float* HWY_RESTRICT level, CriticalPixels& critical) {
     const hn::ScalableTag<std::int32_t> d;
@@ -65,8 +65,8 @@ void FindCriticalIn(int begin, int end, int stride, bool left_is_earlier, bool r
                                        hn::Or(bit(left, 6), bit(above_left, 7)));
             hn::StoreU(hn::Or(right_bits, left_bits), d, older_neighbours + i);
 
-            // Around the pixel, a stretch of older neighbours begins after an edge that is not
-            // older.
+            // Around the pixel, a stretch of older neighbours begins after a younger edge
+            // neighbour.
             const auto begins = [&](V side, V corner, V next)
                                     HWY_ATTR { return hn::AndNot(side, hn::Or(corner, next)); };
             const V minus_stretches = hn::Add(
@@ -102,7 +102,7 @@ namespace {
 
 HWY_EXPORT(FindCriticalIn);
 
-constexpr int kSlack = 2 * 64;  ///< elements accessed past the ends by words and vectors
+constexpr int kSlack = 2 * 64;  ///< elements that words and vectors access past the ends
 
 }  // namespace
 
@@ -125,7 +125,7 @@ void frameLevels(const Image<float>& image, FramedLevels& framed) {
     if (framed.columns > 1) {
         frameColumn(framed.columns - 1, -1);
         frameColumn(0, framed.columns);
-    } else {  // a pixel is not its own neighbour
+    } else {  // a single column, because a pixel is not its own neighbour
         std::fill_n(level + framed.indexOf(0, -1), stride, 0.0f);
         std::fill_n(level + framed.indexOf(0, framed.columns), stride, 0.0f);
     }
@@ -148,10 +148,10 @@ void findCriticalPixels(const FramedLevels& framed, CriticalPixels& critical) {
     };
     const int last = framed.columns - 1;
     if (last < 0) return;
-    findIn(0, std::min(1, last), false, false);  // the last column is left of the first
+    findIn(0, std::min(1, last), false, false);  // the last column is to the left of the first
     findIn(std::min(1, last), last, true, false);
     findIn(last, last + 1, true, true);
-    for (int row = 0; row < framed.rows; ++row) {  // link frame pixels to the originals
+    for (int row = 0; row < framed.rows; ++row) {  // links frame pixels to the copied pixels
         critical.ascent[framed.indexOf(row, -1)] = framed.indexOf(row, last);
         critical.ascent[framed.indexOf(row, framed.columns)] = framed.indexOf(row, 0);
     }

@@ -7,12 +7,12 @@
 
 namespace hagen {
 
-/// Off-diagonal elements below this fraction of the matrix count as 0. For doubles, this is far
-/// below the resolution of squared floats.
+/// Off-diagonal elements below this fraction of the matrix are treated as 0. For doubles, the
+/// fraction is far below the resolution of squared floats.
 template <class Real>
 constexpr double kNegligible = sizeof(Real) == sizeof(float) ? 0x1p-23 : 0x1p-44;
 
-/// The smallest divisor; the square of its square root does not underflow.
+/// The smallest divisor. Its square does not underflow.
 template <class Real>
 constexpr double kTiny = sizeof(Real) == sizeof(float) ? 1e-30 : 1e-280;
 
@@ -45,7 +45,7 @@ constexpr int kVectors = kLanes<Real> / kVectorLanes<Real>;
 
 template <class Real>
 struct Pack {
-    HWY_INLINE Pack() {}  // an implicit one is not compiled for this instruction set
+    HWY_INLINE Pack() {}  // an implicit constructor is not compiled for this instruction set
     hn::Vec<D<Real>> part[kVectors<Real>];
 };
 template <class Real>
@@ -133,7 +133,7 @@ HWY_INLINE bool allOf(const PackMask<Real>& mask) {
 
 /// Householder reduction Q^T A Q = T to a tridiagonal matrix, from the last row upwards, which
 /// leaves the large eigenvalues at the lower end of T, where QL needs them. Row k of the matrix
-/// stores the vector v of its reflection, `scale` its 2 / v^T v (0: no reflection).
+/// stores the vector v of its reflection, `scale` stores 2 / v^T v (0: no reflection).
 template <class Real>
 void tridiagonalise(int m, EigenBatch<Real>& batch) {
     const auto row = [&](int i) { return &batch.matrix[i * m]; };
@@ -175,7 +175,7 @@ void tridiagonalise(int m, EigenBatch<Real>& batch) {
     if (m > 1) store(load(row(1)[0]), batch.beside[0]);
 }
 
-/// The next QL sweep: the rotations in [first, end).
+/// The next QL sweep, which applies the rotations in [first, end).
 template <class Real>
 struct Sweep {
     int first, end;
@@ -236,7 +236,7 @@ HWY_INLINE GivensRotation<Real>* qlSweep(const Sweep<Real>& sweep, EigenBatch<Re
         const Pack<Real> t = (d - below) * s + c * (b + b);
         p = s * t;
         store(below + p, diagonal[i + 1]);
-        // An idle lane continues with c = s = 1 and the next diagonal entry, as at the start.
+        // Idle lanes continue with c = s = 1 and the next diagonal entry, as at the start.
         g = c * t - select(idles, sweep.shift - d, b);
         s = select(idles, one, s);
         begins = idles;

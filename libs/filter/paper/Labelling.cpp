@@ -32,7 +32,7 @@ void lowestPixels(const ColumnBits& present, const ColumnBits& has_angle, int wo
     }
 }
 
-/// The lowest pixels that may be ground.
+/// Keeps the lowest pixels that may be ground.
 void gateLowest(const Image<float>& depth_m, const Image<float>& angle_rad, float gate_rad,
                 std::vector<int>& seeds, ColumnBits& lowest) {
     const int rows = static_cast<int>(depth_m.rows()), words = wordsOf(rows);
@@ -64,10 +64,10 @@ void topAndNearestPixels(const Image<float>& depth_m, const Image<float>& angle_
     }
 }
 
-/// Extends the reached pixels of a column up and down along its links.
+/// Spreads the reached pixels of a column up and down along its links.
 template <class Words>
 void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reached) {
-    // Upwards: the carry of an addition propagates along consecutive links.
+    // Upwards, the carry of an addition propagates along consecutive links.
     std::uint64_t from_below = 0;
     for (int word = 0; word < words; ++word) {
         const std::uint64_t links = above[word], from = reached[word];
@@ -75,12 +75,12 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
         reached[word] = from | (sum ^ links);
         from_below = leaving < links || sum < leaving;
     }
-    // Downwards there is no carry; double the step length instead.
+    // Downwards, there is no carry, so the step length is doubled instead.
     std::uint64_t from_above = 0;
     for (int word = words - 1; word >= 0; --word) {
         std::uint64_t links = above[word], down = reached[word];
         const std::uint64_t next = links & (down >> 1 | from_above) & ~down;
-        if (next != 0) {  // rare, because ground seeds are the lowest pixels
+        if (next != 0) {  // rare, because ground seeds are the lowest pixels of columns
             down |= next;
             for (int way = 1; way < kWordRows; way *= 2) {
                 down |= links & down >> way;
@@ -96,7 +96,7 @@ void spreadInColumn(Words words, const std::uint64_t* above, std::uint64_t* reac
 /// columns spread to their neighbours; a column that gains pixels is queued to spread itself.
 template <class Words>
 void growRegions(Words words, int columns, const ColumnLinks& links, LabellingWorkspace* w) {
-    w->waiting.resize(static_cast<std::size_t>(columns) + 1);  // and a scratch entry
+    w->waiting.resize(static_cast<std::size_t>(columns) + 1);  // plus a scratch entry
     w->is_waiting.assign(static_cast<std::size_t>(columns), false);
     int* const waiting = w->waiting.data();
     int* const is_waiting = w->is_waiting.data();
@@ -140,7 +140,7 @@ void growRegions(Words words, int columns, const ColumnLinks& links, LabellingWo
     }
 }
 
-/// For each byte value, its eight bits as bytes, 0 or 1.
+/// The eight bits of each byte value, as bytes 0 or 1.
 using Bytes = std::array<std::uint8_t, 8>;
 constexpr std::array<Bytes, 256> makeBytesOfBits() {
     std::array<Bytes, 256> table{};
@@ -171,7 +171,7 @@ void writeLabels(std::uint64_t present, std::uint64_t rou, int pixels, Label* la
     }
 }
 
-/// ROU: pixels reached from the ground, or not reached from the RoI. Pixels without an angle are
+/// ROU pixels are reached from the ground, or not reached from the RoI. Pixels without an angle are
 /// RoI.
 void writeLabels(const LabellingWorkspace& w, bool from_ground, Image<Label>* labels) {
     const int rows = static_cast<int>(labels->rows()), columns = static_cast<int>(labels->cols());
@@ -190,7 +190,7 @@ void writeLabels(const LabellingWorkspace& w, bool from_ground, Image<Label>* la
 
 }  // namespace
 
-// Fast because links are found for many pixels at once and regions grow by whole columns.
+// Fast because it finds links for many pixels at once and grows regions by whole columns.
 void labelRegions(const Image<float>& depth_m, const Image<float>& pixel_angle_rad, float beta_rad,
                   Seeds seeds, float seed_gate_rad, Image<Label>& labels, LabellingWorkspace& w) {
     const int rows = static_cast<int>(depth_m.rows()), columns = static_cast<int>(depth_m.cols());

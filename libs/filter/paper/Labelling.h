@@ -14,13 +14,14 @@ struct LabellingWorkspace {
     ColumnBits reached;           ///< the seeds, then the pixels reached from them
     std::vector<int> seeds;       ///< as pixel indices
     std::vector<int> waiting;     ///< columns that have not spread to their neighbours yet
-    std::vector<int> is_waiting;  ///< for each column
-    std::vector<float> seam;      ///< copies of the columns at both ends of the image
+    std::vector<int> is_waiting;  ///< whether a column is in `waiting`
+    std::vector<float> seam;      ///< copies of the first and last columns of the image
 };
 
-/// Stage 8, labelling (section III-E; breadth-first there, but the result does not depend on the
-/// order). Regions grow from seeds over the 4-neighbourhood (azimuth wrapped) to pixels whose angle
-/// differs by less than `beta_rad`. They do not cross empty pixels or pixels without an angle.
+/// Stage 8, labelling (section III-E, which searches breadth-first; the result does not depend on
+/// the order). Regions grow from seeds over the 4-neighbourhood (azimuth wrapped) to pixels whose
+/// angle differs by less than `beta_rad`. They do not cross empty pixels or pixels without an
+/// angle.
 ///
 /// Seeds::Lowest: the lowest pixel of each column is a seed, its region ROU, the rest RoI.
 /// Seeds::TopAndNearest: the highest and the nearest pixel of each column are seeds, their regions

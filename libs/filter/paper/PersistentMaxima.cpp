@@ -40,7 +40,7 @@ std::int32_t maximumAbove(std::int32_t pixel, std::vector<std::int32_t>& ascent)
     }
 }
 
-/// Finds where maxima meet, in pixel order.
+/// Finds the pixels where maxima meet, in pixel order.
 void findMeetings(MaximaWorkspace& w) {
     CriticalPixels& critical = w.critical;
     for (std::size_t n = 0; n < critical.maxima; ++n) {
@@ -72,7 +72,7 @@ std::int32_t eldest(std::int32_t maximum, std::vector<std::int32_t>& elder) {
     return maximum;
 }
 
-/// Applies the elder rule at each meeting as the level sinks: the younger component dies.
+/// Applies the elder rule at each meeting as the level decreases: the younger component dies.
 void applyElderRule(MaximaWorkspace& w) {
     w.order.clear();
     for (const MaximaWorkspace::Meeting& meeting : w.meetings) {
@@ -106,9 +106,9 @@ void proximityOf(const Image<float>& depth_m, float zone_m, Image<float>& proxim
     }
 }
 
-// Fast because few pixels matter: components are born where no neighbour is older, and can only
-// meet where the older neighbours of a pixel are not adjacent. Vectors find these pixels, and only
-// the meetings are sorted.
+// Fast because few pixels matter: components are born where no neighbour is older, and meet only
+// where the older neighbours of a pixel are not adjacent. These pixels are found with vectors, and
+// only the meetings are sorted.
 void findPersistentMaxima(const Image<float>& proximity_m, float min_persistence_m,
                           std::vector<Maximum>& maxima, MaximaWorkspace& w) {
     frameLevels(proximity_m, w.proximity_m);

@@ -14,7 +14,7 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// One column: I_h - 1 angles from I_h depths.
+/// Computes the I_h - 1 angles of a column from its I_h depths.
 void columnAngles(const float* depth_m, const float* sine, const float* cosine, int angles,
                   float* angle_rad) {
     coverRows(angles, [=](auto d, int row) HWY_ATTR {
@@ -23,7 +23,7 @@ void columnAngles(const float* depth_m, const float* sine, const float* cosine, 
     });
 }
 
-/// The first angles where present, otherwise the second.
+/// Selects the first angle of each pixel if present, otherwise the second.
 void columnCarried(const float* first_rad, const float* second_rad, int pixels,
                    float* pixel_angle_rad) {
     coverRows(pixels, [=](auto d, int row) HWY_ATTR {
@@ -51,7 +51,7 @@ void allCarried(const Image<float>& range_angle_rad, bool to_beam_above,
         const float* from = range_angle_rad.data() + column * angles;
         float* to = pixel_angle_rad.data() + column * (angles + 1);
         to[0] = from[0];
-        // The pixels between have a beam above and one below.
+        // The pixels in between have a beam above and a beam below.
         const float *const below = from, *const above = from + 1;
         columnCarried(to_beam_above ? above : below, to_beam_above ? below : above,
                       static_cast<int>(angles) - 1, to + 1);

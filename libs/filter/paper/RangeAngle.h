@@ -17,9 +17,9 @@ void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
 /// Sets NaN angles to 0, as if the angle image had been initialised with 0.
 void levelGaps(Image<float>& range_angle_rad);
 
-/// The angle of each of the I_h x I_w pixels: to the beam above; if absent, to the beam below; NaN
-/// if both are absent. An empty pixel has no angle, unless levelGaps() set one. `to_beam_above`
-/// false: prefers the beam below.
+/// The angle of each of the I_h x I_w pixels: to the beam above; if absent, to the beam below (vice
+/// versa if not `to_beam_above`); NaN if both are absent. An empty pixel has no angle, unless
+/// levelGaps() set it.
 void carryAngles(const Image<float>& range_angle_rad, Image<float>& pixel_angle_rad,
                  bool to_beam_above = true);
 

@@ -5,12 +5,12 @@ namespace hagen {
 
 // Stage 7 smooths many runs of values at once, one per vector lane.
 
-/// The number of lanes: several vectors even for the widest instruction set, to hide the latency of
-/// square roots and divisions.
+/// The number of lanes: several vectors even with the widest instruction set, to hide the latency
+/// of square roots and divisions.
 template <class Real>
 constexpr int kLanes = 128 / sizeof(Real);
 
-/// One number per lane.
+/// A number per lane.
 template <class Real>
 struct alignas(64) Lanes {
     Real of[kLanes<Real>];
@@ -40,15 +40,15 @@ struct EigenBatch {
 template <class Real>
 struct RunBatch {
     using Values = std::vector<Lanes<Real>>;
-    int m = 0;            ///< the window; each run has at least 2 m - 1 values
-    int values = 0;       ///< of the longest run
+    int m = 0;            ///< window size; each run has at least 2 m - 1 values
+    int values = 0;       ///< length of the longest run
     Values series;        ///< the runs; shorter ones are padded with zeros
     Values tail;          ///< the last 2 (m - 1) values of each run
-    Lanes<Real> columns;  ///< of each trajectory matrix
+    Lanes<Real> columns;  ///< number of columns of each trajectory matrix
 
-    Values smooth;        ///< the result without the last m - 1 values of each run
-    Values smooth_tail;   ///< the last m - 1 values
-    Lanes<Real> error{};  ///< bound on the rounding error of the result
+    Values smooth;        ///< result without the last m - 1 values of each run
+    Values smooth_tail;   ///< last m - 1 values of the result
+    Lanes<Real> error{};  ///< upper bound of the rounding error of the result
 
     Lanes<Real> trace;
     Values head, filter;

@@ -6,7 +6,7 @@ namespace hagen {
 
 /// Keeps the seeds that may be ground: their angle is below `gate_rad`, and the next pixel above
 /// with a value is farther away. The lowest return of a column may also be an obstacle nearer than
-/// the first ring on the ground (a wall, a trunk, the airframe), whose whole face would become ROU.
+/// the first ring on the ground (a wall, trunk or the airframe) whose whole face would become ROU.
 ///
 /// `seeds` are pixel indices (column * rows + row) of valid pixels. Seeds whose `pixel_angle_rad`
 /// is NaN are dropped. Keeps their order.

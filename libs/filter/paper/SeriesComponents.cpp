@@ -4,7 +4,7 @@
 namespace hagen {
 namespace {
 
-/// Value n is the mean of the n-th antidiagonal, the entries (w, n - w).
+/// Returns the means of the antidiagonals; the n-th antidiagonal has the entries (w, n - w).
 Eigen::VectorXd antidiagonalMeans(const Eigen::MatrixXd& matrix) {
     Eigen::VectorXd means(matrix.rows() + matrix.cols() - 1);
     for (Eigen::Index n = 0; n < means.size(); ++n) {
@@ -25,7 +25,7 @@ SeriesComponents decomposeSeries(const Eigen::ArrayXf& series, int window_size) 
     for (Eigen::Index k = 0; k < columns; ++k) {
         trajectory.col(k) = series.segment(k, window_size).matrix().cast<double>();
     }
-    // Eigenvalues ascend, eigenvectors are columns.
+    // The solver sorts eigenvalues in ascending order; eigenvectors are columns.
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(trajectory *
                                                                 trajectory.transpose());
     SeriesComponents components;

@@ -34,7 +34,7 @@ void sharpenMaxima(const Image<float>& image_m, const std::vector<Maximum>& maxi
                 weights += weight;
             }
         }
-        // The weights of neighbours many sigmas away underflow to 0.
+        // The weights underflow to 0 if all neighbours are many sigmas away.
         if (weights > 0.0f) {
             sharpened_m(maximum.row, maximum.column) = centre_m + weighted_sum / weights;
         }

@@ -9,17 +9,17 @@ namespace hagen {
 ///
 ///   I_f(x) = I(x) + sum_i I(x_i) g_r(|I(x_i) - I(x)|) g_s(|x_i - x|) / sum_i g_r g_s
 ///
-/// over those of the 8 neighbours x_i (azimuth wrapped) that have a value; g_s and g_r are
-/// Gaussians of `sigma_px` pixels and `sigma_m` metres. The image I is proximity or depth. Maxima
-/// without neighbours, and pixels that are not maxima, keep their values. The paper prints I(x)
-/// under the sum; then the weights cancel to I_f(x) = 2 I(x): `by_neighbours` false. `sharpened_m`
-/// must not be the same image as `image_m`.
+/// over the 8 neighbours x_i (azimuth wrapped), without empty ones; g_s and g_r are Gaussians of
+/// `sigma_px` pixels and `sigma_m` metres. The image I is proximity or depth. Maxima without
+/// neighbours, and pixels that are not maxima, keep their values. If `by_neighbours` is false, the
+/// sum is over I(x), as printed in the paper; then the weights cancel to I_f(x) = 2 I(x).
+/// `sharpened_m` must not be the same image as `image_m`.
 void sharpenMaxima(const Image<float>& image_m, const std::vector<Maximum>& maxima, float sigma_px,
                    float sigma_m, Image<float>& sharpened_m, bool by_neighbours = true);
 
 /// Stage 5, merge: the mean of proximity and sharpened proximity, converted back to depth. Only
-/// maxima move, and only closer, but not below `min_range_m`, where the sharpening usually ends
-/// ("maximizing intensities"). `merged_m` must not be the same image as `depth_m`.
+/// maxima move, and only closer, usually to the limit `min_range_m` ("maximizing intensities").
+/// `merged_m` must not be the same image as `depth_m`.
 void mergeMaxima(const Image<float>& depth_m, const Image<float>& proximity_m,
                  const Image<float>& sharpened_m, const std::vector<Maximum>& maxima,
                  float min_range_m, Image<float>& merged_m);

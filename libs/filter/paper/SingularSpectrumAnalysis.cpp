@@ -10,7 +10,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/paper/SingularSpectrumAnalysis.cpp"
-#include <hwy/foreach_target.h>  // once per instruction set
+#include <hwy/foreach_target.h>  // compiled once per instruction set
 #include <hwy/highway.h>
 
 #include "filter/paper/EigenBatch-inl.h"
@@ -22,13 +22,13 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// The Gram matrix (m x m) of the trajectory matrix's rows, divided by its trace. Each entry is
-/// computed from the previous one along the diagonal.
+/// computed from the previous entry along the diagonal.
 template <class Real>
 void rowProducts(RunBatch<Real>& batch) {
     const int m = batch.m, columns = batch.values - m + 1;
     const Pack<Real> zero = all<Real>(0);
     const Lanes<Real>* const series = batch.series.data();
-    const Lanes<Real>* const tail = batch.tail.data() + m - 1;  // values outside the first row
+    const Lanes<Real>* const tail = batch.tail.data() + m - 1;  // values after the first row
     batch.head.resize(columns);                                 // the first row
     for (int k = 0; k < columns; ++k) {
         const auto is_within = all<Real>(k) < load(batch.columns);
@@ -79,8 +79,8 @@ HWY_INLINE Pack<Real> weightedSum(const Lanes<Real>* weights, const Lanes<Real>*
 
 /// The means along the antidiagonals of the trajectory matrix's projection, as a filter of the
 /// series: the sum along each diagonal of the m x m projection is the weight of the value at that
-/// distance. Each of the first m - 1 values adds a row of the projection to the filter, each of the
-/// last removes one.
+/// distance. Each of the first m - 1 values adds a row of the projection to the filter, and each of
+/// the last m - 1 values removes a row.
 template <class Real>
 void antidiagonalMeans(RunBatch<Real>& batch) {
     const int m = batch.m;
@@ -107,7 +107,7 @@ void antidiagonalMeans(RunBatch<Real>& batch) {
     }
 }
 
-/// Subtracts the computed components from the series, if these are to be removed.
+/// Subtracts the computed components from the series, if they are to be removed.
 template <class Real>
 void subtractSmooth(RunBatch<Real>& batch) {
     const int m = batch.m;
@@ -120,8 +120,8 @@ void subtractSmooth(RunBatch<Real>& batch) {
 }
 
 /// Rounding rotates the kept components by a rounding error of the matrix, divided by the gap
-/// between the eigenvalues PC and PC + 1. At most that fraction of the last kept component is lost,
-/// and none of its entries exceeds its singular value.
+/// between the eigenvalues PC and PC + 1. At most this fraction of the last kept component is lost,
+/// and its entries do not exceed its singular value.
 void boundRoundingError(RunBatch<float>& batch) {
     constexpr double rounding = 0x1p-24, of_eigenvalue = 16 * rounding;
     const Pack<float> last = load(batch.eigen.last), next = load(batch.eigen.next);
@@ -182,14 +182,14 @@ HWY_EXPORT(findValues);
 HWY_EXPORT(smoothWithFloats);
 HWY_EXPORT(smoothWithDoubles);
 
-/// Maximum effect of rounding on a value, in its unit. On real scans it was less than a fifth of
-/// this.
+/// Maximum effect of rounding on a value, in the value's unit. On real scans it was less than a
+/// fifth of this.
 constexpr float kTolerance = 2e-4f;
 
 using Run = SsaWorkspace::Run;
 
 /// The first bit in [from, end) that differs from the bits of `same`, which are all 0 or all 1;
-/// `end` if there is none.
+/// `end` if all are equal.
 std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t end,
                      std::uint64_t same) {
     for (; from < end; from = (from / 64 + 1) * 64) {
@@ -201,7 +201,7 @@ std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t e
     return end;
 }
 
-/// Fills work.runs with the runs of `fewest` or more values, sorted by length.
+/// Fills work.runs with the runs of at least `fewest` values, sorted by length.
 void findRuns(Image<float>& image, int fewest, SsaWorkspace& work) {
     std::vector<std::uint64_t>& words = work.has_value;
     std::vector<Run>&found = work.found, &runs = work.runs;
@@ -252,7 +252,7 @@ void reserve(int window_size, int rows, RunBatch<Real>& batch) {
     eigen.rotations.reserve(4 * m * m);  // usually two sweeps per eigenvalue
 }
 
-/// Lanes without a run repeat the last run.
+/// Fills lanes without a run with the last run.
 template <class Real>
 void fillLanes(const Run* runs, int count, RunBatch<Real>& batch) {
     const int tail_values = 2 * (batch.m - 1);
@@ -280,7 +280,7 @@ void takeLane(const RunBatch<Real>& batch, int lane, const Run& run) {
     }
 }
 
-/// Smooths runs, which are sorted by length. Runs with too large a rounding error are not written
+/// Smooths runs, which are sorted by length. Runs whose rounding error is too large are not written
 /// and stay in `runs`.
 template <class Real>
 void smoothRuns(int window_size, int principal_components, RunBatch<Real>& batch,
@@ -313,7 +313,7 @@ void smoothColumns(const Image<float>& values, int window_size, int principal_co
                    Image<float>& smoothed, SsaWorkspace& work) {
     smoothed = values;
     if (principal_components == window_size) return;
-    // All components of a shorter run would be kept.
+    // Skips shorter runs, because all of their components would be kept.
     findRuns(smoothed, window_size + principal_components, work);
     reserve(window_size, static_cast<int>(values.rows()), work.floats);
     reserve(window_size, static_cast<int>(values.rows()), work.doubles);

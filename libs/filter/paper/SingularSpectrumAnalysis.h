@@ -16,8 +16,8 @@ struct SsaWorkspace {
     };
 
     std::vector<std::uint64_t> has_value;  ///< one bit per pixel
-    std::vector<Run> found, runs;          ///< in pixel order; sorted by length
-    std::vector<int> next_of_length;       ///< per length, index of its next run in `runs`
+    std::vector<Run> found, runs;          ///< runs in pixel order, and sorted by length
+    std::vector<int> next_of_length;       ///< for each length, index of the next run in `runs`
     RunBatch<float> floats;
     RunBatch<double> doubles;
 };
@@ -35,7 +35,8 @@ void smoothColumns(const Image<float>& values, int window_size, int principal_co
 
 /// The components of one series of N values, as in stage 7.
 struct SeriesComponents {
-    /// W eigenvalues of X X^T, descending; each divided by their sum is the component's share of X.
+    /// W eigenvalues of X X^T, descending; a component's share of X is its eigenvalue divided by
+    /// their sum.
     Eigen::VectorXd eigenvalues;
     /// N x W: column c is the elementary series of component c, the hankelized projection of X onto
     /// its eigenvector. The sum of the first PC columns is the result of smoothColumns(), the sum

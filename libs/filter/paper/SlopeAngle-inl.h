@@ -50,7 +50,7 @@ HWY_INLINE Step<V> stepToBeamAbove(D d, const float* depth_m, const float* sine,
 }
 
 /// Calls visit(d, row) so that vectors with tag d starting at these rows cover [0, rows). The last
-/// may overlap the previous one: a row's result must depend only on its inputs.
+/// vector may overlap the previous one, so a row's result must depend only on its inputs.
 template <class Visit>
 HWY_INLINE void coverRows(int rows, const Visit& visit) {
     const hn::CappedTag<float, 8> d;

@@ -18,9 +18,9 @@ using namespace canopy_rules;
 
 /// Counts of the cells of one or more blocks.
 struct Census {
-    int seen = 0;    ///< with returns
-    int tall = 0;    ///< highest return is above plants
-    int plants = 0;  ///< highest return is a low plant
+    int seen = 0;    ///< cells with returns
+    int tall = 0;    ///< cells whose highest return is above plants
+    int plants = 0;  ///< cells whose highest return is a low plant
 
     void add(const Census& other) {
         seen += other.seen;
@@ -57,13 +57,13 @@ bool isPlant(float top_m) { return (top_m > kMinHeight_m) & (top_m < kTallest_m)
 const float* columnOf(const CellTops& tops, int j) { return tops.highest_m.col(j + 1).data() + 1; }
 
 void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blocks) {
-    constexpr std::int32_t kTall = 1 << 8, kPlants = 1 << 16;  // three counts in one number
+    constexpr std::int32_t kTall = 1 << 8, kPlants = 1 << 16;  // packs three counts into one number
     for (int column = area.first_column; column < area.end_column; ++column) {
         std::int32_t counts[kCells] = {};
         const int first = column * kBlockCells;
         for (int j = first; j < first + kBlockCells; ++j) {
             const float* const top_m = columnOf(tops, j);
-            for (int i = 0; i < kCells; ++i) {  // all cells, so that the compiler vectorises it
+            for (int i = 0; i < kCells; ++i) {  // so that the compiler vectorises the loop
                 counts[i] += (top_m[i] != CellTops::kNone_m ? 1 : 0) +
                              (top_m[i] >= kTallest_m ? kTall : 0) +
                              (isPlant(top_m[i]) ? kPlants : 0);
@@ -77,7 +77,7 @@ void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blo
     }
 }
 
-/// `own`: the sums of each block. Most blocks have no plants.
+/// `own` contains the sums of each block. Most blocks have no plants.
 void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>& blocks) {
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         blocks[block] = {};
@@ -93,7 +93,7 @@ void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>
     }
 }
 
-/// Raises the tolerance of each pixel to the canopy of its block, unless something in its cell
+/// Raises the tolerance of each pixel to the canopy of its block, unless an object in its cell
 /// protrudes from it; NaN stays NaN.
 void raiseTolerances(const PixelCells& cells, const CellTops& tops,
                      const BlocksAndNone<float>& canopy_m, Image<float>& tolerance_m) {
@@ -118,7 +118,7 @@ void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>&
     Blocks<Census> around = own;
     sumAround<kReach>(around, blocks);
     const auto isCanopy = [](const Census& census) { return census.isCanopy(); };
-    if (std::none_of(around.begin(), around.end(), isCanopy)) return;  // nearly always
+    if (std::none_of(around.begin(), around.end(), isCanopy)) return;  // usual case
 
     Blocks<Heights> heights;
     sumHeights(tops, own, heights);

@@ -11,10 +11,10 @@ namespace hagen {
 /// desks are as high as crops, but surrounded by walls. In a canopy, only returns above the plants
 /// are obstacles; the limit is the mean + 2 standard deviations of the cells' highest returns,
 /// capped at twice the mean (short grass with trunks is not a high crop), + 0.1 m. A cell with two
-/// returns more than another 0.1 m higher has no canopy: its object stands on the ground. These
-/// statistics are over 13 x 13 blocks of 4 x 4 cells; with fewer than 30 observed cells, no canopy
-/// is assumed. `tops` are relative to the surface; tolerances of empty pixels are NaN. `area` is
-/// that of `tops`; only pixels at least kCanopyReach inside it get a complete result.
+/// returns more than another 0.1 m higher is not raised, because its object stands on the ground.
+/// These statistics are over 13 x 13 blocks of 4 x 4 cells; with fewer than 30 observed cells, no
+/// canopy is assumed. `tops` are relative to the surface; tolerances of empty pixels are NaN.
+/// `area` is the area of `tops`; only pixels at least kCanopyReach inside it get a complete result.
 void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m,
                     const CellArea& area = {});
 

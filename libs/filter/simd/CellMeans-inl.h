@@ -15,7 +15,7 @@ namespace {
 
 using namespace surface_rules;
 
-/// Sums the candidates of each cell that are close to the lowest, `ground_m`.
+/// Sums the candidates of each cell that are close to the lowest candidate, `ground_m`.
 template <int kSide>
 void sumUpClose(GroundFit<kSide>& fit, const float* ground_m) {
     for (auto* sums : {&fit.sum_m, &fit.number}) std::fill(sums->begin(), sums->end(), 0.0f);
@@ -25,7 +25,7 @@ void sumUpClose(GroundFit<kSide>& fit, const float* ground_m) {
     visitByTurns(
         fit.candidates, [=](std::size_t k) __attribute__((always_inline)) {
             const float above_m = z_m[k] - ground_m[cell[k]];
-            // 1 for ground, 0 otherwise; a plain condition would become a branch.
+            // 1 for ground, otherwise 0. A plain condition would be compiled to a branch.
             const float is_ground =
                 static_cast<float>((above_m >= -kBelowLowest_m) & (above_m <= kAboveLowest_m));
             sum_m[cell[k]] += is_ground * z_m[k];
@@ -61,7 +61,7 @@ void weighMeans(GroundFit<kSide>& fit) {
             float* HWY_RESTRICT sum_m = fit.sum_m.data() + gridColumn<kSide>(j) + i;
             float* HWY_RESTRICT number = fit.number.data() + gridColumn<kSide>(j) + i;
             const V n = hn::LoadU(d, number), one = hn::Set(d, 1.0f);
-            if (hn::AllTrue(d, hn::Eq(n, hn::Zero(d)))) continue;  // most cells
+            if (hn::AllTrue(d, hn::Eq(n, hn::Zero(d)))) continue;  // true for most cells
             const V weight = hn::Min(hn::Mul(n, hn::Set(d, 1 / kSureReturns)), one);
             const V mean_m = hn::Div(hn::LoadU(d, sum_m), hn::Max(n, one));
             hn::StoreU(hn::Mul(mean_m, weight), d, sum_m);

@@ -30,7 +30,7 @@ HWY_ATTR void separate(const float* two_m, int cells, float* highest_m, float* t
 }
 
 /// Calls visit(first, cells) for each contiguous range of cells. Rounds up to a multiple of
-/// kTogether: the next column overwrites up to three surplus cells.
+/// kTogether; the next column overwrites up to three surplus cells.
 template <class Visit>
 void forEachStretch(const CellArea& area, Visit visit) {
     static_assert(kGridSize % kTogether == 0);
@@ -61,7 +61,7 @@ void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTop
     });
     const auto raise = [=](std::size_t pixel) __attribute__((always_inline)) {
         float &first_m = two_m[2 * cell[pixel]], &second_m = two_m[2 * cell[pixel] + 1];
-        const float own_m = h_m[pixel] < kOverhead_m ? h_m[pixel] : none_m;  // NaN: none
+        const float own_m = h_m[pixel] < kOverhead_m ? h_m[pixel] : none_m;  // none if NaN
         second_m = std::max(second_m, std::min(own_m, first_m));
         first_m = std::max(first_m, own_m);
     };

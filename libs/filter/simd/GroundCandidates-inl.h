@@ -11,7 +11,6 @@ namespace {
 
 using namespace surface_rules;
 
-/// Consecutive pixels.
 struct PixelSpan {
     const float *x_m, *y_m, *z_m;
     std::size_t size;
@@ -52,8 +51,8 @@ HWY_INLINE void listCandidates(const PixelSpan& pixels, GroundFit<kSide>& fit,
         const auto cells = gridCells<kSide>(d, x, y);
         const auto is_candidate =
             hn::And(cells.is_on_grid, isCandidate(d, pixel, x, y, cells.cell));
-        // Writes whole vectors; the next one overwrites the surplus. Masked stores are slow on some
-        // machines.
+        // Writes whole vectors; the next vector overwrites the surplus. Masked stores are slow on
+        // some machines.
         auto heights_m = hn::LoadU(d, pixels.z_m + pixel);
         auto place = cells.cell;
         const std::size_t listed = compress(d, is_candidate, heights_m, place);
@@ -64,10 +63,9 @@ HWY_INLINE void listCandidates(const PixelSpan& pixels, GroundFit<kSide>& fit,
     fit.candidates = n;
 }
 
-// The next two are not inlined: only returning from a function clears the upper halves of vectors,
-// which would slow down the scalar loops of the fit.
+// The next two functions are not inlined, because only returning from a function clears the upper
+// halves of vectors, which would slow down the scalar loops of the fit.
 
-/// Lists the pixels marked `wanted`.
 template <int kSide>
 HWY_NOINLINE void listMarked(const PixelSpan& pixels, const std::uint8_t* HWY_RESTRICT mark,
                              std::uint8_t wanted, GroundFit<kSide>& fit) {

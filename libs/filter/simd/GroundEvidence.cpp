@@ -16,7 +16,7 @@ namespace {
 
 using namespace evidence_rules;
 
-/// A pixel's marks have one bit per possible upper pixel of a step.
+/// A pixel's mark has one bit per possible upper pixel of a step.
 constexpr std::uint8_t markOf(int above) { return static_cast<std::uint8_t>(1 << (above - 1)); }
 
 }  // namespace
@@ -39,8 +39,8 @@ HWY_INLINE void storeMask(D, hn::Mask<D> mask, std::uint8_t* HWY_RESTRICT to) {
     hn::StoreU(hn::DemoteTo(Bytes<D>(), ones), Bytes<D>(), to);
 }
 
-/// Marks of the level steps from each pixel to the next pixels in memory. The caller corrects the
-/// top of each column, where these belong to another column.
+/// Marks the level steps from each pixel to the next pixels in memory. At the top of each column,
+/// where these pixels belong to another column, the caller corrects the marks.
 void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                   const float* HWY_RESTRICT z_m, std::uint8_t* HWY_RESTRICT steps) {
     const auto markSteps = [&](auto d, std::size_t pixel, int max_above) HAGEN_INLINE {
@@ -49,7 +49,7 @@ void LevelStepsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         const auto z = hn::LoadU(d, z_m + pixel);
         auto marks = hn::Zero(di);
-        auto is_open = hn::Not(hn::IsNaN(z));  // until a pixel is far enough
+        auto is_open = hn::Not(hn::IsNaN(z));  // true until a pixel is far enough
         for (int above = 1; above <= max_above && !hn::AllFalse(d, is_open); ++above) {
             const std::size_t next = pixel + static_cast<std::size_t>(above);
             const auto dx = hn::Sub(hn::LoadU(d, x_m + next), x);
@@ -118,7 +118,7 @@ void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY
     });
 }
 
-/// Lowers the tolerance of each pixel to `min_m` of its block, if that is minus infinity.
+/// Lowers the tolerance of a pixel to minus infinity if `min_m` of its block is minus infinity.
 void WithdrawIn(std::size_t pixels, const std::uint16_t* HWY_RESTRICT block,
                 const float* HWY_RESTRICT min_m, float* HWY_RESTRICT tolerance_m) {
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
@@ -142,7 +142,7 @@ HWY_EXPORT(MarkLevelIn);
 HWY_EXPORT(CloseIn);
 HWY_EXPORT(WithdrawIn);
 
-/// Counts of the pixels close to the surface, and of the level ones among them.
+/// Counts of the pixels close to the surface, and of those that are level.
 struct Counts {
     int close = 0, level = 0;
 

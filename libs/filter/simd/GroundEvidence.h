@@ -8,36 +8,38 @@
 
 namespace hagen {
 
-/// Workspace of this stage. Reuse it between scans to avoid allocations; it has no state.
+/// Workspace of findLevelPixels() and requireEvidence(). Reuse it between scans to avoid
+/// allocations; it has no state.
 struct GroundEvidenceWorkspace {
-    std::vector<float> lowest_m;  ///< per cell
-    /// Per pixel: whether a level step leads to the pixel above (1), the next (2), ... (4), (8).
+    std::vector<float> lowest_m;  ///< lowest height in each cell
+    /// For each pixel, whether a level step leads to the pixel above (1), the next (2), ... (4),
+    /// (8).
     std::vector<std::uint8_t> steps;
-    std::vector<std::uint8_t> close;  ///< per pixel: 1: close to the surface, 2: and level
+    std::vector<std::uint8_t> close;  ///< per pixel, 1 if close to the surface, 2 if also level
 };
 
 /// Marks the pixels that look like ground (1, otherwise 0), in the ground frame. A pixel and the
 /// one above it in its column form a level step if the upper one is farther out and the slope
 /// between them, relative to the plane, is less than 0.3. Walls are too steep, and ceilings come
 /// closer with elevation. If the pixel above is empty or less than 0.08 m away (range noise
-/// dominates the slope over short distances), the next pixel farther away may form a step too, as
-/// may the close ones before it, up to the fourth pixel above and up to 2 m. Both pixels of a step
-/// are level, unless another pixel of their cell (0.75 m) is more than 0.3 m below: then they are
-/// leaves, a table or a roof.
+/// dominates the slope over short distances), the next pixel farther away and the close pixels
+/// before it may also form a step, up to the fourth pixel above and up to 2 m. Both pixels of a
+/// step are level, unless another pixel of their cell (0.75 m) is more than 0.3 m below: then they
+/// are leaves, a table or a roof.
 void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
                      Image<std::uint8_t>& is_level, GroundEvidenceWorkspace& work);
 
-/// The candidates for the first fit of the ground surface: level ROU pixels stay ROU, all others
-/// are unclassified.
+/// The candidates for the first fit of the ground surface: level ROU pixels stay ROU, all other
+/// pixels become unclassified.
 void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
                   Image<Label>& candidates);
 
-/// Sets the tolerance to minus infinity (RoI at any height) without evidence that the surface is
-/// ground: unless at least 55 % of the pixels close to the surface (0.2 m, plus 0.005 m per metre
-/// of distance) within 9 x 9 blocks of 3 m are level. A surface that cuts through walls, trees or
-/// furniture has pixels there that are not level. `height_m` is from heightsAbove(); tolerances of
-/// empty pixels are NaN. `has_evidence` is the result per block (PixelCells.h), then false for
-/// positions beyond the grid.
+/// Sets the tolerance to minus infinity (RoI at every height) without evidence that the surface is
+/// ground, which requires that at least 55 % of the pixels close to the surface (0.2 m, plus 0.005
+/// m per metre of distance) within 9 x 9 blocks of 3 m are level. A surface that cuts through
+/// walls, trees or furniture has pixels there that are not level. `height_m` is from
+/// heightsAbove(); tolerances of empty pixels are NaN. `has_evidence` is the result for each block
+/// (PixelCells.h), then false for positions beyond the grid.
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
                      Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence,

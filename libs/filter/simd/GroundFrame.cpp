@@ -43,8 +43,8 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Cell and height of each pixel in a level frame, as integers; heights order like their floats.
-/// Pixels outside the grid get the cell kCells * kCells.
+/// Computes the cell and height of each pixel in a level frame, as integers; which preserve the
+/// order of heights. Pixels outside the grid get the cell kCells * kCells.
 void LevelPixelsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
                    const float* HWY_RESTRICT z_m, const Eigen::Matrix3f& level,
                    std::int32_t* HWY_RESTRICT cell, std::int32_t* HWY_RESTRICT height) {
@@ -143,7 +143,7 @@ void weighByDistance(Points& points) {
     }
 }
 
-/// The lowest point of each cell that has points, in work.points.
+/// Finds the lowest point of each cell that has points, in work.points.
 void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
                        const std::vector<std::int32_t>& columns, GroundFrameWorkspace& work) {
     const Eigen::Index rows = pixels.x_m.rows();
@@ -160,7 +160,8 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
         n_level += rows;
     }
 
-    // The height, then the pixel index: the minimum is the first of the lowest pixels.
+    // Keys contain the height, then the pixel index, so the minimum is the first of the lowest
+    // pixels.
     constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
     work.lowest.assign(kCells * kCells + 1, kNone);
     work.occupied.resize(kCells * kCells + 1);
@@ -189,7 +190,7 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
     weighByDistance(points);
 }
 
-/// The plane z = a x + b y + c through the points, by weighted least squares.
+/// Fits the plane z = a x + b y + c to the points by weighted least squares.
 Eigen::Vector3d planeThrough(const Points& points, const RobustWeight& weight) {
     PartialSums parts;
     HWY_DYNAMIC_DISPATCH(SumUpIn)(points, weight, parts);
@@ -197,7 +198,7 @@ Eigen::Vector3d planeThrough(const Points& points, const RobustWeight& weight) {
     for (int k = 0; k < kSums; ++k)
         sum[k] = (parts[k][0] + parts[k][1]) + (parts[k][2] + parts[k][3]);
     const auto& [w, wx, wy, wxx, wxy, wyy, wz, wxz, wyz] = sum;
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // allows collinear points
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;  // for collinear points
     normal += (Eigen::Matrix3d() << wxx, wxy, wx, wxy, wyy, wy, wx, wy, w).finished();
     return normal.ldlt().solve(Eigen::Vector3d(wxz, wyz, wz));
 }

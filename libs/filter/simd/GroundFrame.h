@@ -11,9 +11,9 @@
 namespace hagen {
 
 /// Workspace of fitGroundFrame(). Reuse it between scans to avoid allocations; it has no state.
-/// Lists may be longer than their contents.
+/// Lists may have unused entries at the end.
 struct GroundFrameWorkspace {
-    std::vector<std::int32_t> columns;  ///< of the image
+    std::vector<std::int32_t> columns;  ///< image columns to fit the plane to
     /// The points to fit the plane to, and their weights by distance. The last of the four parts is
     /// padded with points of weight 0.
     struct Points {
@@ -21,8 +21,8 @@ struct GroundFrameWorkspace {
         std::size_t size = 0;
     };
 
-    std::vector<std::int32_t> cell, height;  ///< per pixel; heights as bits in the same order
-    std::vector<std::int64_t> lowest;        ///< per cell: height, then index of its lowest pixel
+    std::vector<std::int32_t> cell, height;  ///< per pixel; heights as order-preserving integers
+    std::vector<std::int64_t> lowest;        ///< per cell, height and index of its lowest pixel
     std::vector<std::int32_t> occupied;      ///< cells with a pixel
     Points points;
 };
@@ -44,8 +44,8 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
 
 /// Whether the fitted plane may be ground: the sensor is above it, tilted by less than 45 degrees
 /// relative to the horizon (to the airframe if the attitude is unknown), and at least 20 pixels are
-/// labelled ROU. High up next to a tower or tree no ground is visible, and other surfaces must not
-/// be mistaken for it.
+/// labelled ROU. High up next to a tower or tree, no ground is visible, and other surfaces must not
+/// be mistaken for ground.
 bool canBeGround(const Eigen::Isometry3f& ground_from_sensor,
                  const std::optional<Attitude>& attitude, const Image<Label>& labels);
 

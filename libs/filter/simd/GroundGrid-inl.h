@@ -32,7 +32,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #define HAGEN_INLINE HWY_ATTR __attribute__((always_inline))
 
 /// Calls visit(d, i) for `size` floats: i is the first of a vector, d its tag. The last few are
-/// visited one by one, as vectors of one lane. `visit` is HAGEN_INLINE.
+/// visited one by one, as vectors of one lane. `visit` must be HAGEN_INLINE.
 template <class Visit>
 HWY_INLINE void forEachVector(std::size_t size, Visit visit) {
     const hn::ScalableTag<float> d;
@@ -60,7 +60,7 @@ HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& inte
     return hn::CountTrue(d, is_chosen);
 }
 
-/// The values at these indices.
+/// Gathers the values at these indices.
 template <class D>
 HWY_INLINE hn::Vec<D> gatherAt(D d, const float* HWY_RESTRICT values,
                                const std::uint16_t* HWY_RESTRICT index) {
@@ -69,10 +69,10 @@ HWY_INLINE hn::Vec<D> gatherAt(D d, const float* HWY_RESTRICT values,
                            hn::PromoteTo(hn::RebindToSigned<D>(), hn::LoadU(d16, index)));
 }
 
-/// The cells of points; border cells for points that are not on the grid.
+/// The cells of points; points that are not on the grid get border cells.
 template <class D>
 struct GridCells {
-    hn::Vec<hn::RebindToSigned<D>> i, j;  ///< 1 for the first cell, 0 for the border before it
+    hn::Vec<hn::RebindToSigned<D>> i, j;  ///< 1 is the first cell, 0 the border before it
     hn::Vec<hn::RebindToSigned<D>> cell;
     hn::Mask<D> is_on_grid;
 };

@@ -13,8 +13,8 @@
 #include "filter/simd/ObstacleRemoval-inl.h"
 #include "filter/simd/PullPush-inl.h"
 
-// Fast because the first fit, which only selects nearby pixels, is coarse. The second visits each
-// pixel in two short loops, for the minimum of its cell and for the mean; everything else works on
+// Fast because the first fit, which only selects nearby pixels, is coarse. The second fit visits
+// each pixel in two short loops, for the minimum and the mean of its cell; all other work is on
 // whole vectors of cells.
 
 HWY_BEFORE_NAMESPACE();
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kCells = GroundSurface::kCells, kCoarseCells = kCells / 2;
 
-/// All steps for the listed candidates; kCleans: including steps 1 and 2.
+/// Runs all steps for the listed candidates; steps 1 and 2 only if kCleans.
 template <int kSide, bool kCleans>
 HWY_INLINE void fitSurface(GroundFit<kSide>& fit, float* HWY_RESTRICT surface_m, int stride) {
     findLowest(fit);
@@ -38,15 +38,15 @@ HWY_INLINE void fitSurface(GroundFit<kSide>& fit, float* HWY_RESTRICT surface_m,
     fillHeights(fit.pyramid, surface_m, stride);
 }
 
-/// Fit to the pixels marked `true`.
+/// Fits the surface to the pixels marked `true`.
 void FitMarkedIn(const PixelSpan& image, const std::uint8_t* mark, GroundFit<kCells>& fit,
                  float* HWY_RESTRICT surface_m) {
     listMarked(image, mark, true, fit);
     fitSurface<kCells, true>(fit, surface_m, kCells);
 }
 
-/// Fit to the ROU of some columns. Writes heights at the centres of the fine grid's
-/// cells.
+/// Fits the surface to the ROU of some columns. Writes heights at the cell centres of the fine
+/// grid.
 void FitCoarseIn(const PixelSpan& image, std::size_t rows, const std::vector<std::int32_t>& columns,
                  const std::uint8_t* labels, GroundFit<kCoarseCells>& fit,
                  float* HWY_RESTRICT fine_m) {
@@ -64,7 +64,7 @@ void FitCoarseIn(const PixelSpan& image, std::size_t rows, const std::vector<std
     }
 }
 
-/// Fit to the pixels close to a coarse surface.
+/// Fits the surface to the pixels close to a coarse surface.
 void FitCloseIn(const PixelSpan& image, const float* HWY_RESTRICT coarse_m, GroundFit<kCells>& fit,
                 float* HWY_RESTRICT surface_m) {
     listClose(image, coarse_m, fit);
@@ -114,7 +114,7 @@ PixelSpan spanOf(const PixelPoints& pixels) {
             static_cast<std::size_t>(pixels.x_m.size())};
 }
 
-/// Fits a coarse surface under the ROU of a few columns, in work.coarse_m.
+/// Fits a coarse surface under the ROU of a few columns; stores it in work.coarse_m.
 void fitCoarse(const PixelSpan& image, const Image<Label>& labels,
                const std::vector<std::int32_t>& columns, GroundSurfaceWorkspace& work) {
     beginFit(image.size, work.coarse);

@@ -23,13 +23,13 @@ HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 
-/// The maximum of each cell and the four at its sides, limited to 0...kTallest_m. The border gets
-/// the values of the adjacent cells.
+/// The maximum of each cell and its four neighbours, limited to 0...kTallest_m. The border gets the
+/// values of the adjacent cells.
 void TallestAroundIn(const float* HWY_RESTRICT top_m, const CellArea& area,
                      float* HWY_RESTRICT tallest_m) {
     const hn::ScalableTag<float> d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const int first_i = std::max(area.first_row - 1, 0) / lanes * lanes;  // whole vectors
+    const int first_i = std::max(area.first_row - 1, 0) / lanes * lanes;  // in whole vectors
     const int end_i = std::min(area.end_row - 1, kCells);
     const int end_j = std::min(area.end_column - 1, kCells);
     for (int j = std::max(area.first_column - 1, 0); j < end_j; ++j) {

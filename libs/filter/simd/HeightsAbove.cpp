@@ -20,8 +20,8 @@ struct Corners {
     static constexpr std::size_t kPoints = 256;
     HWY_ALIGN std::int32_t cell[kPoints];
     HWY_ALIGN float to_next_i[kPoints], to_next_j[kPoints];
-    HWY_ALIGN float here_m[2 * kPoints];  ///< of cells (i, j) and (i + 1, j)
-    HWY_ALIGN float next_m[2 * kPoints];  ///< of cells (i, j + 1) and (i + 1, j + 1)
+    HWY_ALIGN float here_m[2 * kPoints];  ///< heights of cells (i, j) and (i + 1, j)
+    HWY_ALIGN float next_m[2 * kPoints];  ///< heights of cells (i, j + 1) and (i + 1, j + 1)
 };
 
 /// Bilinear interpolation. Copies heights in pairs, because gather instructions are slower, and for
@@ -38,7 +38,7 @@ void HeightsAboveIn(std::size_t points, const float* HWY_RESTRICT x_m,
                 const auto c =
                     hn::Add(hn::Mul(coordinate_m, hn::Set(d, 1 / GroundSurface::kCell_m)),
                             hn::Set(d, 0.5f * kCells - 0.5f));
-                const auto positive = hn::IfThenElseZero(hn::Gt(c, hn::Zero(d)), c);  // not NaN
+                const auto positive = hn::IfThenElseZero(hn::Gt(c, hn::Zero(d)), c);  // 0 for NaN
                 return hn::Min(positive, hn::Set(d, kCells - 1));
             };
             const auto u = cells(hn::LoadU(d, x_m + first + k));

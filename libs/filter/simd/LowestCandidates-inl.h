@@ -16,7 +16,6 @@ namespace {
 
 using namespace surface_rules;
 
-/// The lowest candidate of each cell.
 template <int kSide>
 void findLowest(GroundFit<kSide>& fit) {
     std::fill(fit.lowest_m.begin(), fit.lowest_m.end(), kNoHeight);

@@ -24,7 +24,7 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 
 /// Lists, in order, the pixels that may be a foot: ROU above kFootHeight_m with a RoI pixel among
-/// the next kFootRows in memory; and the last few pixels of the image.
+/// the next kFootRows in memory. Always includes the last few pixels of the image.
 std::size_t ListFeetIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
                        const std::uint8_t* HWY_RESTRICT label, std::int32_t* HWY_RESTRICT list) {
     std::int32_t* end = list;
@@ -102,7 +102,7 @@ void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Lab
     work.candidates.resize(std::max(work.candidates.size(), size));
     std::int32_t* const list = work.candidates.data();
     std::size_t n = HWY_DYNAMIC_DISPATCH(ListFeetIn)(size, height_m.data(), bytesOf(labels), list);
-    while (n > 0) growDown(pixels, height_m, list[--n], labels);  // from the top
+    while (n > 0) growDown(pixels, height_m, list[--n], labels);  // from the top down
 }
 
 }  // namespace hagen

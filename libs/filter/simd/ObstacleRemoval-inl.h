@@ -34,11 +34,11 @@ namespace hagen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Vectors of consecutive cells along a column.
+/// A vector of consecutive cells along a column.
 using Along = hn::CappedTag<float, 8>;
 using VA = hn::Vec<Along>;
 
-/// Prefix scan of a vector: each cell combined with all before it. `neutral` is the neutral
+/// Prefix scan of a vector: combines each cell with all cells before it. `neutral` is the neutral
 /// element.
 template <bool kForward, class Combine>
 HWY_INLINE VA combinedSoFar(VA cells, VA neutral, Combine combine) {
@@ -81,14 +81,14 @@ HWY_INLINE VA lastOf(VA cells) {
 #endif
 }
 
-/// The maximum climb of the ground along a column, from its edge to each cell: one step per cell
-/// with a height, a smaller one per cell without, in any order.
+/// The maximum climb of the ground along a column, from its edge to each cell: a step per cell with
+/// a height, and a smaller step per cell without a height.
 template <int kSide>
 HWY_INLINE void findRamp(const float* HWY_RESTRICT cleaned_m, float* HWY_RESTRICT ramp_m) {
     const Along d;
     const VA seen_m = hn::Set(d, kWidth_m<kSide> * kSteepest), one = hn::Set(d, 1.0f);
     const VA unseen_m = hn::Set(d, kWidth_m<kSide> * kSteepestUnseen);
-    VA seen = hn::Zero(d);  // cells in the previous vectors
+    VA seen = hn::Zero(d);  // number of cells with a height in the previous vectors
     ramp_m[-1] = 0;
     for (int i = 0; i < kSide; i += static_cast<int>(hn::Lanes(d))) {
         const auto is_seen = hn::Lt(hn::LoadU(d, cleaned_m + i), hn::Set(d, kNoHeight));
@@ -101,9 +101,8 @@ HWY_INLINE void findRamp(const float* HWY_RESTRICT cleaned_m, float* HWY_RESTRIC
     }
 }
 
-/// One column in a pass of the chamfer transform (Borgefors 1986). Along the column, a cell is
-/// reached from all previous cells. Relative to the ramp this is a minimum, independent of the
-/// order.
+/// Computes a column in a pass of the chamfer transform (Borgefors 1986). Along the column, a cell
+/// is reached from all previous cells. Relative to the ramp, this is a plain minimum.
 template <int kSide, bool kForward>
 HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* HWY_RESTRICT ramp_m,
                               const float* HWY_RESTRICT before_m, float* HWY_RESTRICT envelope_m) {
@@ -113,7 +112,7 @@ HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* 
     const VA seen_m = hn::Set(d, kWidth_m<kSide> * kSteepest);
     const VA unseen_m = hn::Set(d, kWidth_m<kSide> * kSteepestUnseen);
     const auto lower = [](VA a, VA b) HAGEN_INLINE { return hn::Min(a, b); };
-    VA lowest_m = none;  // of the previous vectors, relative to the ramp
+    VA lowest_m = none;  // minimum of the previous vectors, relative to the ramp
     for (int step = 0; step < kSide; step += lanes) {
         const int i = kForward ? step : kSide - lanes - step;
         const auto is_seen = hn::Lt(hn::LoadU(d, cleaned_m + i), none);
@@ -133,8 +132,8 @@ HWY_INLINE void chamferColumn(const float* HWY_RESTRICT cleaned_m, const float* 
     }
 }
 
-/// The envelope is the highest surface below `cleaned_m` that is nowhere too steep: kSteepest in
-/// cells with a height, kSteepestUnseen in others. Cells above it become empty.
+/// Computes the envelope, the highest surface below `cleaned_m` that is nowhere too steep:
+/// kSteepest in cells with a height, kSteepestUnseen in others. Cells above it become empty.
 template <int kSide>
 void removeObstacles(GroundFit<kSide>& fit) {
     std::copy(fit.cleaned_m.begin(), fit.cleaned_m.end(), fit.envelope_m.begin());

@@ -53,7 +53,6 @@ HWY_INLINE hn::Vec<hn::ScalableTag<float>> binomial(const float* HWY_RESTRICT ce
         hn::Mul(hn::Set(d, 0.0625f), corners));
 }
 
-/// Smooths weighted heights and weights.
 template <int kSide>
 void smoothHeights(const std::vector<float>& weighted_m, const std::vector<float>& weights,
                    HeightGrid& smooth) {
@@ -64,7 +63,7 @@ void smoothHeights(const std::vector<float>& weighted_m, const std::vector<float
             const int cell = gridColumn<kSide>(j) + i;
             const V weight = binomial<kSide>(weights.data() + cell);
             hn::StoreU(weight, d, smooth.weight.data() + cell);
-            const bool is_empty = hn::AllTrue(d, hn::Eq(weight, hn::Zero(d)));  // most vectors
+            const bool is_empty = hn::AllTrue(d, hn::Eq(weight, hn::Zero(d)));  // usually true
             const V smooth_m = is_empty ? hn::Zero(d) : binomial<kSide>(weighted_m.data() + cell);
             hn::StoreU(smooth_m, d, smooth.weighted_m.data() + cell);
         }
@@ -108,7 +107,7 @@ HWY_INLINE void pull(D d, const HeightGrid& fine, HeightGrid& coarse) {
 }
 
 /// Column j of a grid twice as fine, by bilinear interpolation between coarse cell centres: along
-/// each axis, 3/4 of the coarse cell around a fine cell and 1/4 of the next one.
+/// each axis, 3/4 of the coarse cell around a fine cell and 1/4 of the next coarse cell.
 template <class D>
 HWY_INLINE void refineColumn(D d, const HeightGrid& coarse, int j, float* HWY_RESTRICT fine_m) {
     using VD = hn::Vec<D>;
@@ -136,7 +135,7 @@ HWY_INLINE void push(D d, const HeightGrid& coarse, const HeightGrid& fine,
                      float* HWY_RESTRICT filled_m, int stride) {
     using VD = hn::Vec<D>;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    HWY_ALIGN float below_m[kGridStride + 64];  // of the fine grid's cells
+    HWY_ALIGN float below_m[kGridStride + 64];  // refined heights of the coarse grid
     for (int j = 0; j < fine.cells; ++j) {
         refineColumn(d, coarse, j, below_m);
         const float* HWY_RESTRICT weight = fine.weight.data() + fine.column(j);
@@ -158,7 +157,7 @@ HWY_INLINE void withVectorsFor(int cells, Visit visit) {
     visit(hn::CappedTag<float, 1>());
 }
 
-/// Pulls weighted heights up to a single cell and pushes them down again, so that every cell gets a
+/// Pulls weighted heights up to a single cell and pushes them down again, so that every cell has a
 /// height. Writes the finest grid to `surface_m`, with columns `surface_stride` apart.
 void fillHeights(std::vector<HeightGrid>& levels, float* HWY_RESTRICT surface_m,
                  int surface_stride) {

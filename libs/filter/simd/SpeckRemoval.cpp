@@ -13,7 +13,7 @@ namespace hagen {
 namespace {
 
 using namespace speck_rules;
-constexpr int kVote = 1, kVoteForRoi = 17;  // sums of 9 hold both counts, RoI votes in units of 16
+constexpr int kVote = 1, kVoteForRoi = 17;  // a sum of 9 contains both counts, RoI votes times 16
 
 }  // namespace
 }  // namespace hagen

@@ -15,12 +15,12 @@ namespace hagen::live {
 namespace {
 
 constexpr double kPeriod_s = 0.05;       // OBSTACLE_DISTANCE period
-constexpr std::size_t kOthersEvery = 2;  // periods between 3D and ground messages
+constexpr std::size_t kOthersEvery = 2;  // periods per 3D and ground message
 constexpr std::size_t kHeartbeatEvery = 20;
 constexpr double kMaxMessageWait_s = 0.01;
 constexpr std::size_t kMaxAtOnce = 1000;  // datagrams; a flood must not delay sending
-constexpr double kAttitudeWithin_s = 3;   // before a missing attitude is reported
-constexpr double kMaxBehind_s = 0.5;      // before periods are skipped
+constexpr double kAttitudeWithin_s = 3;   // time before a missing attitude is reported
+constexpr double kMaxBehind_s = 0.5;      // maximum delay before periods are skipped
 
 }  // namespace
 
@@ -114,7 +114,7 @@ class AutopilotLink::Work {
             attempt([&] { sendPeriod(period); });
             next_s = std::max(next_s + kPeriod_s, steadyNow_s() - kMaxBehind_s);
             double rest_s = 0;
-            do {  // also if late: unread messages become stale
+            do {  // receives even if late, because unread messages become stale
                 rest_s = std::max(next_s - steadyNow_s(), 0.0);
                 attempt([&] { receiveAll(rest_s); });
             } while (!is_at_end_ && rest_s > 0);
@@ -137,7 +137,7 @@ class AutopilotLink::Work {
     void sendPeriod(std::size_t period) {
         const double time_s = steadyNow_s();
         std::optional<float> below_m;
-        // Copied, so that computing the directions does not block labelling.
+        // Copies the state, so that computing directions does not block labelling.
         std::unique_lock lock(mutex_);
         const SectorDistances distances = *distances_;
         const VehicleMotion motion = motion_;
@@ -181,13 +181,12 @@ class AutopilotLink::Work {
                            : "MAVLink: sending directions again");
     }
 
-    /// Reads all waiting messages.
     void receiveAll(double longest_s) {
         for (std::size_t n = 0; n < kMaxAtOnce && receive(n == 0 ? longest_s : 0); ++n) {
         }
     }
 
-    /// Whether something was received.
+    /// Returns whether bytes were received.
     bool receive(double longest_s) {
         std::array<std::uint8_t, 65536>& buffer = buffer_;
         const std::size_t size =
@@ -270,7 +269,7 @@ class AutopilotLink::Work {
     Limits limits_;
     double start_s_ = 0;
 
-    // Used by the sending thread only.
+    // Used only by the sending thread.
     ObstacleNumbers numbers_;
     std::array<std::uint8_t, 65536> buffer_;
     std::uint8_t sequence_ = 0;

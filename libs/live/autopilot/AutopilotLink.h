@@ -22,9 +22,9 @@ namespace hagen::live {
 /// OBSTACLE_DISTANCE at 20 Hz, the nearest obstacles (OBSTACLE_DISTANCE_3D) and the ground below
 /// (DISTANCE_SENSOR) at 10 Hz, and HEARTBEAT at 1 Hz.
 ///
-/// Runs its own sending thread. If labelling stalls or the sensor is silent for 0.3 s, it sends all
-/// directions as unknown, no ground and a critical state, and reports the stall. All functions are
-/// thread-safe. Times are std::chrono::steady_clock seconds.
+/// Runs its own sending thread. If labelling stalls or the sensor is silent for 0.3 s, the link
+/// sends all directions as unknown, no ground and a critical state, and reports the stall. All
+/// functions are thread-safe. Times are std::chrono::steady_clock seconds.
 class AutopilotLink {
  public:
     struct Settings {
@@ -35,7 +35,7 @@ class AutopilotLink {
         bool is_simulated = false;  ///< the vehicle's clock may pause or run slow
         SectorDistances::Settings directions = aheadFirst();
     };
-    /// Counts of sent and received messages by name.
+    /// Numbers of sent and received messages by name.
     using Counts = std::vector<std::pair<std::string, std::size_t>>;
     /// Called by the sending thread.
     using Remark = std::function<void(const std::string&)>;
@@ -47,13 +47,13 @@ class AutopilotLink {
     AutopilotLink(const AutopilotLink&) = delete;
     AutopilotLink& operator=(const AutopilotLink&) = delete;
 
-    /// Starts sending. `limits.nearest_m` is taken from the sensor.
+    /// Starts sending. `limits.nearest_m` is overwritten with the sensor's minimum range.
     void begin(const SensorModel& sensor, Limits limits);
     /// Adds a labelled sector. Requires begin().
     void take(const LabelledSector& sector);
-    /// The sensor's motion as reported by the autopilot.
+    /// The sensor's motion, computed from the autopilot's messages.
     SensorMotion motionAt(double time_s) const;
-    /// Sends the last message and stops the thread.
+    /// Sends a last message with all directions unknown, and stops the thread.
     void stop();
     Counts counts() const;
 

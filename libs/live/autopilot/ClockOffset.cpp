@@ -7,26 +7,28 @@ namespace {
 
 constexpr double kDrift = 1e-3;  // maximum drift of a clock
 constexpr double kSlow = 0.5;    // minimum speed of a simulated clock
-constexpr double kJump_s = 1;    // larger changes are restarts, not drift
-// A single stamp this far ahead may be corrupt or from another vehicle; kInARow of them are valid.
+constexpr double kJump_s = 1;    // minimum change that is a restart, not drift
+// A single time stamp this far ahead may be corrupt or from another vehicle; kInARow consecutive
+// time stamps are valid.
 constexpr double kAhead_s = 0.1;
 constexpr int kInARow = 3;
 
-/// A larger offset is accepted once all messages for `time_s` agree within `spread_s`. Delayed
-/// messages do not agree, because a recovered link delivers them faster than they were sent.
+/// A larger offset is accepted once all messages for `time_s` agree on it within `spread_s`.
+/// Delayed messages do not agree, because a recovered link delivers them faster than they were
+/// sent.
 struct Patience {
     double time_s, spread_s;
 };
 constexpr Patience kWentBack{0.5, 0.3};
-// Stamps later than the previous ones may be from delayed messages.
+// Longer, because messages with increasing time stamps may be delayed ones.
 constexpr Patience kAfterGap{10, 0.2};
 
 }  // namespace
 
-/// Whether a message later than kJump_s is on time because the clock has restarted.
+/// Whether a message that is more than kJump_s late is on time because the clock has restarted.
 bool ClockOffset::isOther(double stamp_s, double arrival_s) {
     const double offset_s = arrival_s - stamp_s;
-    // A clock that did not restart has a later stamp; its messages are delayed.
+    // If the clock did not restart, its time stamp is later and the message is delayed.
     const bool may_be_anew = is_simulated_ || stamp_s < arrival_s - in_time_s_ + kJump_s;
     const bool went_back = may_be_anew && stamp_s < latest_stamp_s_ - kJump_s;
     const bool begins =

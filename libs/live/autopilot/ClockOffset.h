@@ -32,7 +32,7 @@ class ClockOffset {
     bool is_simulated_;
     std::optional<double> offset_s_;
     double last_arrival_s_ = 0,
-           in_time_s_ = 0;  ///< arrival of the last message, of the last on time
+           in_time_s_ = 0;  ///< arrival of the last message, and of the last message on time
     double latest_stamp_s_ = -std::numeric_limits<double>::infinity();
     std::optional<Other> other_;
     int ahead_ = 0;  ///< consecutive messages with a much smaller offset

@@ -6,9 +6,9 @@
 namespace hagen::live {
 
 /// Distance from the sensor to the ground surface along the vehicle's downward axis, as a
-/// rangefinder would measure it. Without beams in that direction, the filter's ground surface is
-/// extrapolated below the vehicle. nullopt if fewer than 20 pixels within 20 m look like ground, or
-/// the vehicle is tilted by more than 60 degrees against the ground.
+/// rangefinder would measure it. Below the vehicle, where there may be no beams, the filter's
+/// ground surface is extrapolated. Returns nullopt if fewer than 20 pixels within 20 m look like
+/// ground, or if the vehicle is tilted by more than 60 degrees relative to the ground.
 std::optional<float> groundBelow(const Ground& ground, const Eigen::Matrix3f& vehicle_from_sensor);
 
 }  // namespace hagen::live

@@ -8,13 +8,13 @@ namespace hagen::live {
 namespace {
 
 constexpr std::uint16_t kUnknown_cm = std::numeric_limits<std::uint16_t>::max();
-constexpr float kMax_cm = 65533;  // the next value means "nothing", the last one "unknown"
+constexpr float kMax_cm = 65533;  // 65534 is reserved for "nothing", 65535 for "unknown"
 constexpr float kGroundReach_m = 40;
 constexpr std::uint8_t kStep_deg = 5;
 constexpr std::uint8_t kMavlinkVersion = 3;
 constexpr std::uint8_t kUnknownVariance = 255;
 
-/// Rounds down, which is the safe side.
+/// Rounds down, to be on the safe side.
 std::uint16_t centimetres(float metres, float min_cm, float max_cm) {
     return static_cast<std::uint16_t>(std::clamp(std::floor(100 * metres), min_cm, max_cm));
 }

@@ -11,16 +11,16 @@ namespace hagen::live {
 
 /// Sensor limits reported in the messages.
 struct Limits {
-    float zone_m = 20;       ///< obstacles beyond are ignored
+    float zone_m = 20;       ///< farther obstacles are ignored
     float nearest_m = 0.5f;  ///< minimum range of the sensor
 };
 
-/// OBSTACLE_DISTANCE: 72 directions of 5 degrees, the first straight ahead. Distances are
-/// horizontal, from 1 cm to the zone; zone + 1 cm: no obstacle; 65535: unknown.
+/// OBSTACLE_DISTANCE: 72 directions of 5 degrees, the first centred straight ahead. Distances are
+/// horizontal, from 1 cm to the zone; zone + 1 cm means no obstacle, 65535 unknown.
 mavlink::ObstacleDistance obstacleDistance(const Directions& directions, const Limits& limits,
                                            double time_s);
 
-/// OBSTACLE_DISTANCE_3D of each obstacle, in the body frame, which tilts with the vehicle. All
+/// One OBSTACLE_DISTANCE_3D per obstacle, in the body frame, which tilts with the vehicle. All
 /// messages have the same time.
 std::vector<mavlink::ObstacleDistance3d> obstacleDistances3d(const std::vector<Obstacle>& obstacles,
                                                              const std::optional<VehiclePose>& pose,
@@ -30,7 +30,7 @@ std::vector<mavlink::ObstacleDistance3d> obstacleDistances3d(const std::vector<O
 /// above the stated maximum.
 mavlink::DistanceSensor distanceBelow(float distance_m, const Limits& limits, double time_s);
 
-/// HEARTBEAT of an onboard computer; `state`: one of mavlink::kState...
+/// HEARTBEAT of an onboard computer; `state` is one of mavlink::kState...
 mavlink::Heartbeat heartbeat(std::uint8_t state);
 
 }  // namespace hagen::live

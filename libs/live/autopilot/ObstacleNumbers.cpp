@@ -14,12 +14,12 @@ bool isObstacle(const Direction& direction) { return direction.state == Directio
 /// The nearest point of each run of directions with the same obstacle.
 std::vector<Obstacle> obstaclesOf(const Directions& directions) {
     const std::size_t size = directions.size();
-    const auto goesOn = [&](std::size_t k) {  // continues the previous direction
+    const auto goesOn = [&](std::size_t k) {  // same obstacle as in the previous direction
         const Direction& before = directions[(k + size - 1) % size];
         const Direction& here = directions[k];
         return isObstacle(before) && isObstacle(here) && (before.at_m - here.at_m).norm() < kGap_m;
     };
-    std::size_t begin = 0;  // start of a run, unless one spans the full circle
+    std::size_t begin = 0;  // start of a run, unless a run spans the full circle
     while (begin < size && goesOn(begin)) ++begin;
     std::vector<Obstacle> obstacles;
     float nearest_m = 0;

@@ -14,7 +14,7 @@ constexpr double kTurnOn_s = 0.1, kMoveOn_s = 0.2;
 constexpr double kJump_m = 2;  // maximum deviation of the position from its prediction
 constexpr double kNormError = 0.05;
 
-/// Forward-right-down to forward-left-up, and north-east-down to north-west-up.
+/// Converts forward-right-down to forward-left-up, and north-east-down to north-west-up.
 Eigen::Vector3d flipped(double x, double y, double z) { return {x, -y, -z}; }
 
 Eigen::Quaterniond turnBy(const Eigen::Vector3d& rotation_rad) {
@@ -23,12 +23,12 @@ Eigen::Quaterniond turnBy(const Eigen::Vector3d& rotation_rad) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, rotation_rad / angle_rad));
 }
 
-// No multirotor exceeds these speeds, and no gyroscope measures such rates. Moving a direction at a
-// higher speed could free a direction with an obstacle.
+// No multirotor exceeds these speeds, and no gyroscope measures such rates. At higher speeds,
+// moving an obstacle to another direction could make its direction free.
 constexpr double kMaxAngle_rad = 10, kMaxRate_rad_s = 50;
 constexpr double kMaxCoordinate_m = 1e7, kMaxSpeed_m_s = 100;
 
-/// False for NaN.
+/// Whether all values are in range; false for NaN.
 template <class... Value>
 bool areWithin(double max, Value... values) {
     return ((std::abs(static_cast<double>(values)) <= max) && ...);
@@ -39,7 +39,6 @@ void forget(std::deque<Sample>& samples) {
     while (samples.back().time_s - samples.front().time_s > kKept_s) samples.pop_front();
 }
 
-/// The first sample after a time.
 template <class Sample>
 auto after(const std::deque<Sample>& samples, double time_s) {
     return std::upper_bound(samples.begin(), samples.end(), time_s,
@@ -58,7 +57,7 @@ double VehicleMotion::ourTime(std::uint32_t boot_ms, double arrival_s) {
     return result.time_s;
 }
 
-/// Ignores late samples and repetitions in another message.
+/// Ignores late samples, and samples repeated by the other attitude message.
 void VehicleMotion::add(const Attitude& attitude) {
     if (!attitudes_.empty() && attitude.time_s <= attitudes_.back().time_s) return;
     attitudes_.push_back(attitude);
@@ -73,7 +72,7 @@ void VehicleMotion::add(Place place) {
         if (passed_s <= 0) return;
         const Eigen::Vector3d jump_m = place.place_m - last.place_m - passed_s * last.speed_m_s;
         if (passed_s > kStale_s) {
-            places_.clear();  // the estimate may have jumped meanwhile
+            places_.clear();  // the position estimate may have jumped meanwhile
         } else if (jump_m.norm() > kJump_m) {
             origin_m_ -= jump_m;
             place.place_m -= jump_m;
@@ -103,7 +102,7 @@ VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arr
             !areWithin(kMaxRate_rad_s, m->rollspeed, m->pitchspeed, m->yawspeed)) {
             return Taken::Refused;
         }
-        // The vector part of a quaternion is flipped like any other vector.
+        // The vector part of a quaternion is flipped like other vectors.
         const Eigen::Quaterniond turn(m->q1, m->q2, -m->q3, -m->q4);
         if (std::abs(turn.norm() - 1) > kNormError) return Taken::Refused;
         add({ourTime(m->time_boot_ms, arrival_s), turn.normalized(),
@@ -122,7 +121,6 @@ VehicleMotion::Taken VehicleMotion::take(const mavlink::Frame& frame, double arr
     return Taken::Other;
 }
 
-/// Adds the position if known.
 void VehicleMotion::placeAt(double time_s, VehiclePose& pose) const {
     const auto next = after(places_, time_s);
     if (next == places_.begin()) return;

@@ -18,14 +18,14 @@ class VehicleMotion {
  public:
     enum class Taken { Attitude, Place, Other, Refused };
 
-    /// The clock of a simulated vehicle may pause or run slow.
+    /// `is_simulated` means that the vehicle's clock may pause or run slow.
     explicit VehicleMotion(bool is_simulated) : clock_(is_simulated) {}
     VehicleMotion() = default;
 
-    /// Adds a message received at `arrival_s`. Refuses values that are not finite, and quaternions
+    /// Adds a message received at `arrival_s`. Rejects values that are not finite, and quaternions
     /// that are not rotations.
     Taken take(const mavlink::Frame& frame, double arrival_s);
-    /// The pose at a local time; nullopt if unknown or the last attitude is 0.5 s old.
+    /// The pose at a local time; nullopt if unknown, or if the last attitude is 0.5 s old.
     std::optional<VehiclePose> at(double time_s) const;
     /// Number of restarts of the vehicle's clock.
     std::size_t restarts() const { return restarts_; }
@@ -34,7 +34,7 @@ class VehicleMotion {
     struct Attitude {
         double time_s;
         Eigen::Quaterniond map_from_vehicle;
-        Eigen::Vector3d rates_rad_s;  ///< about the vehicle's axes
+        Eigen::Vector3d rates_rad_s;  ///< rates about the vehicle's axes
     };
     struct Place {
         double time_s;
@@ -49,7 +49,7 @@ class VehicleMotion {
     ClockOffset clock_;
     std::deque<Attitude> attitudes_;
     std::deque<Place> places_;
-    Eigen::Vector3d origin_m_ = Eigen::Vector3d::Zero();  ///< of the map; added to positions
+    Eigen::Vector3d origin_m_ = Eigen::Vector3d::Zero();  ///< origin of the map; added to positions
     std::size_t restarts_ = 0;
 };
 

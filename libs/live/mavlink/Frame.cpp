@@ -23,7 +23,7 @@ std::vector<std::uint8_t> encode(const Frame& frame, std::size_t payload_bytes) 
         throw std::invalid_argument("MAVLink: unknown message " + std::to_string(frame.id) +
                                     " of " + std::to_string(payload_bytes) + " bytes");
     }
-    // At least one byte remains.
+    // MAVLink 2 keeps at least one byte.
     while (payload_bytes > 1 && frame.payload[payload_bytes - 1] == 0) --payload_bytes;
     std::vector<std::uint8_t> bytes{kStart,
                                     static_cast<std::uint8_t>(payload_bytes),

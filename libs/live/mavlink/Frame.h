@@ -9,31 +9,31 @@
 
 namespace hagen::mavlink {
 
-/// The checksum of MAVLink: CRC-16/MCRF4XX, which is X.25 without its final inversion. `crc`:
+/// The checksum of MAVLink: CRC-16/MCRF4XX, which is X.25 without its final inversion. `crc` is the
 /// checksum of the preceding bytes.
 std::uint16_t checksum(const std::uint8_t* bytes, std::size_t size, std::uint16_t crc = 0xffff);
 
 /// The byte that a message definition adds to the checksum as a version check of its fields.
-/// nullopt: not in the dialects common and ardupilotmega.
+/// nullopt for messages that are not in the dialects common and ardupilotmega.
 std::optional<std::uint8_t> crcExtra(std::uint32_t id);
 
-/// A MAVLink 2 message of any kind.
+/// A MAVLink 2 message.
 struct Frame {
     static constexpr std::size_t kMaxPayload = 255;
-    /// Header, payload, checksum and signature.
+    /// Size of header, payload, checksum and signature.
     static constexpr std::size_t kMaxLength = 10 + kMaxPayload + 2 + 13;
 
     std::uint8_t sequence = 0;   ///< message counter of the component, modulo 256
     std::uint8_t system = 0;     ///< ID of the sending vehicle
     std::uint8_t component = 0;  ///< ID of the sending component
     std::uint32_t id = 0;        ///< message ID, 24 bits
-    /// Zero-padded, because senders omit trailing zeros.
+    /// Padded with zeros, because senders omit trailing zeros.
     std::array<std::uint8_t, kMaxPayload> payload{};
     bool is_signed = false;  ///< has a signature, which is not checked
 };
 
 /// The bytes of an unsigned frame on the wire, without trailing zeros in `payload_bytes`. Throws
-/// std::invalid_argument if crcExtra() does not know the message.
+/// std::invalid_argument if crcExtra() has no value for the message.
 std::vector<std::uint8_t> encode(const Frame& frame, std::size_t payload_bytes);
 
 /// Encodes the fields of a message (Messages.h) in a frame.

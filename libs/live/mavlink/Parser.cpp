@@ -18,7 +18,8 @@ void Parser::countLost(const Frame& frame) {
     sequences_[sender] = frame.sequence;
 }
 
-/// Number of bytes processed from `at` on; 0: incomplete.
+/// Processes the frame at `at`. Returns the number of bytes processed; 0 if the frame is
+/// incomplete.
 std::size_t Parser::takeOne(std::size_t at, bool is_at_end, const Take& take) {
     const std::uint8_t* const bytes = &waiting_[at];
     const std::size_t size = waiting_.size() - at;

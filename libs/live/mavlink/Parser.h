@@ -11,20 +11,21 @@
 namespace hagen::mavlink {
 
 /// Finds MAVLink 2 messages in a byte stream. A frame with a wrong checksum or an unknown message
-/// ID is skipped by one byte only, so that a message inside is not lost. No input makes it throw.
+/// ID is skipped by one byte only, so that a message inside is not lost. Does not throw on invalid
+/// input.
 class Parser {
  public:
     struct Counts {
         std::size_t messages = 0;
-        std::size_t is_signed = 0;      ///< signatures are not checked
-        std::size_t lost = 0;           ///< gaps in the components' sequences
+        std::size_t is_signed = 0;      ///< messages with a signature, which is not checked
+        std::size_t lost = 0;           ///< messages missing from the components' sequences
         std::size_t bad_checksum = 0;   ///< frames with a wrong checksum
-        std::size_t incompatible = 0;   ///< skipped: unknown incompatibility flags
-        std::size_t skipped_bytes = 0;  ///< outside messages, or MAVLink 1
+        std::size_t incompatible = 0;   ///< frames skipped because of unknown incompatibility flags
+        std::size_t skipped_bytes = 0;  ///< bytes outside messages, or of MAVLink 1
     };
     using Take = std::function<void(const Frame&)>;
 
-    /// Adds bytes of a stream; calls `take` for each completed message.
+    /// Parses bytes of a stream; calls `take` for each completed message.
     void add(const std::uint8_t* bytes, std::size_t size, const Take& take);
     /// Discards a partial message, as at the end of a datagram.
     void end(const Take& take);

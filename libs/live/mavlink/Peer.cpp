@@ -14,7 +14,6 @@ constexpr int kMinBaud = 115200;
     throw std::runtime_error("'" + text + "': " + what);
 }
 
-/// Splits a text at colons.
 std::vector<std::string> partsOf(const std::string& text) {
     std::vector<std::string> parts;
     std::size_t at = 0;

@@ -13,7 +13,7 @@ struct PeerAddress {
     Kind kind = Kind::Udp;
     std::string host;              ///< IPv4 address or name
     std::uint16_t port = 0;        ///< remote port
-    std::uint16_t local_port = 0;  ///< local port; 0: any
+    std::uint16_t local_port = 0;  ///< local port; 0 if arbitrary
     std::string device;            ///< serial device
     int baud = 0;
 };
@@ -22,8 +22,8 @@ struct PeerAddress {
 /// "serial:/dev/ttyAMA0:921600". Throws std::runtime_error describing the error.
 PeerAddress parsePeer(const std::string& text);
 
-/// A UDP or serial connection, which may be interrupted. Sending never blocks: a delayed message
-/// would be stale.
+/// A UDP or serial connection, which may be interrupted. Sending never blocks, because a delayed
+/// message would be stale.
 class Peer {
  public:
     /// Throws std::runtime_error naming the host or device if it is unknown or cannot be opened.
@@ -32,14 +32,14 @@ class Peer {
 
     /// Sends a complete message, or returns false.
     virtual bool send(const std::vector<std::uint8_t>& bytes) = 0;
-    /// Waits up to this long for bytes (at most an hour; negative: not at all); returns their
+    /// Waits up to `longest_s` for bytes (at most an hour; not at all if negative); returns their
     /// number.
     virtual std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) = 0;
     /// Whether each receive() returns one datagram of complete messages.
     virtual bool hasDatagrams() const = 0;
     /// Host and port, or device.
     virtual std::string name() const = 0;
-    /// The current error with the peer's name; "" if none.
+    /// The current error with the peer's name; empty if none.
     virtual std::string trouble() const = 0;
 };
 

@@ -16,7 +16,7 @@ bool isBaud(int baud);
 
 using Clock = std::chrono::steady_clock;
 
-/// The timeout for poll(), at least 0 because negative values would block forever.
+/// The timeout for poll(); not negative, which would block forever.
 inline int waitMs(double longest_s) {
     constexpr double kMaxDuration_s = 3600;
     if (!(longest_s > 0)) return 0;

@@ -32,8 +32,8 @@ const Speed* speedOf(int baud) {
     return found == std::end(kSpeeds) ? nullptr : found;
 }
 
-constexpr std::chrono::milliseconds kOpenEvery{500};    // between attempts to reopen
-constexpr std::chrono::milliseconds kTakesWithin{300};  // without progress, the line is stuck
+constexpr std::chrono::milliseconds kOpenEvery{500};    // time between attempts to reopen
+constexpr std::chrono::milliseconds kTakesWithin{300};  // longest time without progress
 constexpr std::chrono::milliseconds kStuckFor{1000};    // duration of the error report
 
 class SerialPeer : public Peer {
@@ -56,7 +56,7 @@ class SerialPeer : public Peer {
             if (errno != EAGAIN && errno != EINTR) leave(errno);
             return false;
         }
-        // The rest of a partly written message precedes the next one.
+        // The rest of a partly written message is sent before the next message.
         rest_.assign(bytes.begin() + sent, bytes.end());
         noteWaiting();
         return true;
@@ -98,7 +98,7 @@ class SerialPeer : public Peer {
         }
         termios settings{};
         if (tcgetattr(line_, &settings) != 0) return leave(errno);
-        cfmakeraw(&settings);  // 8N1 without translation
+        cfmakeraw(&settings);  // 8N1 without character translation
         settings.c_cflag |= CLOCAL | CREAD;
         settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
         settings.c_cc[VMIN] = 1;
@@ -111,7 +111,7 @@ class SerialPeer : public Peer {
         moved_ = Clock::now();
     }
     void leave(int error) {
-        // Otherwise close() would wait for unsent data.
+        // Discards unsent data, for which close() would wait.
         if (line_ >= 0 && isStuck()) tcflush(line_, TCOFLUSH);
         if (line_ >= 0) close(line_);
         line_ = -1;
@@ -134,13 +134,13 @@ class SerialPeer : public Peer {
         int bytes = 0;
         return ioctl(line_, TIOCOUTQ, &bytes) == 0 ? bytes : 0;
     }
-    /// Called after bytes were accepted. Some drivers (pseudoterminals) always report an empty
-    /// queue; then each accepted write counts as progress.
+    /// Called after the line accepted bytes. Some drivers (pseudoterminals) always report an empty
+    /// queue; each accepted write then counts as progress.
     void noteWaiting() {
         waiting_ = waitingBytes();
         if (waiting_ == 0) moved_ = Clock::now();
     }
-    /// Drops queued messages of a stuck line; they would be sent late.
+    /// Drops queued messages of a stuck line, because they would be sent late.
     void dropOld() {
         const int waiting = waitingBytes();
         if (waiting < waiting_ || (waiting == 0 && !isFull())) moved_ = Clock::now();
@@ -151,7 +151,7 @@ class SerialPeer : public Peer {
         rest_.clear();
         waiting_ = 0;
     }
-    /// Whether the line accepts no data now.
+    /// Whether the line currently accepts no data.
     bool isFull() const {
         pollfd line{line_, POLLOUT, 0};
         return poll(&line, 1, 0) == 0;
@@ -162,7 +162,7 @@ class SerialPeer : public Peer {
     int line_ = -1, error_ = 0;
     Clock::time_point tried_;
     std::vector<std::uint8_t> rest_;
-    int waiting_ = 0;          ///< output queue at the last check
+    int waiting_ = 0;          ///< size of the output queue at the last check
     Clock::time_point moved_;  ///< last time the queue shrank or was empty
     std::optional<Clock::time_point> stuck_;
 };

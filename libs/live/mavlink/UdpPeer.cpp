@@ -13,10 +13,11 @@
 namespace hagen::mavlink {
 namespace {
 
-// A refused message is reported by the next send. After this time without errors, it is back.
+// The send after a refused message reports the refusal. After this time without errors, the
+// connection is restored.
 constexpr std::chrono::milliseconds kRefusedFor{1000};
-// A connected socket keeps its local address. If no replies arrive, another interface may be right:
-// it was down before, or its address changed. Reconnects after this time.
+// A connected socket keeps its local address. If no replies arrive, another interface may be right,
+// because it was down before or its address changed. Reconnects after this time.
 constexpr std::chrono::milliseconds kSilent{2000};
 
 class UdpPeer : public Peer {
@@ -51,7 +52,7 @@ class UdpPeer : public Peer {
         if (!is_connected_) return false;
         if (::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) return true;
         note(errno);
-        // The error may belong to an earlier message, so this one is sent again.
+        // The error may belong to an earlier message, so this message is sent again.
         return errno == ECONNREFUSED &&
                ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0;
     }
@@ -64,7 +65,8 @@ class UdpPeer : public Peer {
         const ssize_t got = recvfrom(socket_, buffer, size, MSG_DONTWAIT,
                                      reinterpret_cast<sockaddr*>(&from), &from_size);
         if (got > 0) {
-            // Datagrams queued before the socket was connected may come from other senders.
+            // Datagrams that were queued before the socket was connected may come from other
+            // senders.
             if (from.sin_addr.s_addr != peer_.sin_addr.s_addr || from.sin_port != peer_.sin_port) {
                 return 0;
             }
@@ -100,16 +102,16 @@ class UdpPeer : public Peer {
         freeaddrinfo(found);
         return ip;
     }
-    /// Fails while the network is down.
+    /// Tries to connect, which fails while the network is down.
     void tryToConnect() {
         is_connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&to_), sizeof to_) == 0;
         if (!is_connected_) note(errno);
         socklen_t size = sizeof peer_;
-        // May differ from to_: 0.0.0.0 means this machine.
+        // May differ from `to_`, because 0.0.0.0 means this machine.
         if (getpeername(socket_, reinterpret_cast<sockaddr*>(&peer_), &size) != 0) peer_ = {};
         heard_or_connected_ = Clock::now();
     }
-    /// Keeps the local port, which the peer replies to.
+    /// Disconnects, but keeps the local port, which the peer replies to.
     void disconnect() {
         sockaddr_in own{}, none{};
         socklen_t size = sizeof own;
@@ -118,7 +120,7 @@ class UdpPeer : public Peer {
         if (connect(socket_, reinterpret_cast<const sockaddr*>(&none), sizeof none) != 0) return;
         is_connected_ = false;
         own.sin_addr.s_addr = INADDR_ANY;
-        // Fails if the port is still bound.
+        // bind() fails harmlessly if the port is still bound.
         static_cast<void>(bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own));
     }
     void note(int error) {
@@ -128,7 +130,7 @@ class UdpPeer : public Peer {
     }
 
     std::string name_;
-    sockaddr_in to_{}, peer_{};  ///< requested, and last connected
+    sockaddr_in to_{}, peer_{};  ///< requested address, and last connected address
     int socket_ = -1, error_ = 0;
     bool is_connected_ = false;
     Clock::time_point error_time_, heard_or_connected_;

@@ -7,7 +7,7 @@
 namespace hagen::mavlink {
 
 constexpr std::uint8_t kStart = 0xfd;
-constexpr std::uint8_t kSigned = 0x01;  // incompatibility flag
+constexpr std::uint8_t kSigned = 0x01;  // incompatibility flag of signed messages
 constexpr std::size_t kHeaderBytes = 10, kChecksumBytes = 2, kSignatureBytes = 13;
 
 }  // namespace hagen::mavlink

@@ -8,7 +8,7 @@
 namespace hagen::live {
 namespace {
 
-// For sensors without a rotating head. A 20 ms frame is as old as its last packet.
+// Context of sensors without a rotating head. A 20 ms frame is as old as its last packet.
 constexpr double kFrameContext_s = 0.1 - 0.02 / 2;
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace hagen::live {
 namespace {
 
 constexpr double kPart_rad = kTurn_rad / 360;
-// Maximum time that an obstacle stays in doubt if packets keep getting lost.
+// Maximum time for which an obstacle is doubtful if packets keep getting lost.
 constexpr double kMaxDoubt_s = 0.7;
 
 /// The swept directions without the stale part before `since_rad`.
@@ -18,7 +18,7 @@ TurnCoverage::Swept freshPart(TurnCoverage::Swept swept, double since_rad) {
     return swept;
 }
 
-/// Rotation of the sensor at the last completion of an arc by any of the sweeps; nullopt: never.
+/// The sensor's rotation when a sweep last completed an arc; nullopt if none did.
 std::optional<double> lastEndOfArc(const std::vector<TurnCoverage::Swept>& all, double since_rad,
                                    const TurnCoverage::Arc& arc) {
     std::optional<double> last_rad;
@@ -43,11 +43,11 @@ struct SectorDistances::Look {
     const PoseAt& pose_at;
     std::optional<VehiclePose> now;
     double fresh_rad = std::numeric_limits<double>::infinity();  ///< earlier sweeps are stale
-    /// Per degree of the vehicle: rotation of the sensor at the last pass, and arrival of its
-    /// sector.
+    /// For each degree of the vehicle, the sensor's rotation when it last passed, and the arrival
+    /// time of that sector.
     std::array<double, kBins> passed_rad, passed_s{};
-    /// Per degree of the current sensor frame. A tilted sensor looks below the horizon and at the
-    /// horizon straight above at different times.
+    /// Like passed_rad, but for each degree of the current sensor frame. A tilted sensor looks
+    /// below the horizon and at the horizon straight above at different times.
     std::array<double, kBins> passed_by_sensor_rad;
     std::array<bool, kSectors> is_doubtful{};  ///< unconfirmed old obstacle
     Sectors sectors;
@@ -65,7 +65,7 @@ struct SectorDistances::Look {
 struct SectorDistances::Frames {
     Eigen::Isometry3d level_from_sensor;      ///< from the former sensor frame to the current level
     Eigen::Isometry3d level_from_sensor_now;  ///< from the current sensor frame
-    double yawed_rad;                         ///< yaw of the sensor since then
+    double yawed_rad;                         ///< yaw of the sensor since the sector
 };
 
 SectorDistances::SectorDistances(const SensorModel& sensor, const Settings& settings)
@@ -109,8 +109,8 @@ bool SectorDistances::isFresh(const Seen& seen, double now_s) const {
     return age_s >= 0 && age_s <= settings_.stale_s && matters(seen, now_s);
 }
 
-/// Whether a sector is still used. Until the sensor looks again, old obstacles make directions
-/// unknown, never free.
+/// Whether a sector is still used. Old obstacles make directions unknown, never free, until the
+/// sensor looks again.
 bool SectorDistances::matters(const Seen& seen, double now_s) const {
     constexpr double kForgotten_s = FrameCoverage::kForgotten_s;
     const double age_s = now_s - seen.first_time_s;
@@ -140,7 +140,7 @@ SectorDistances::Frames SectorDistances::framesOf(const Seen& seen, const Look& 
     return frames;
 }
 
-/// The azimuth at which the sensor then saw an edge between two degrees; NaN: outside its beams.
+/// The azimuth at which the sensor then saw an edge between two degrees; NaN if outside its beams.
 double SectorDistances::azimuthOf(const Eigen::Matrix3d& sensor_from_level, int edge) const {
     const double clockwise_rad = edge * kPart_rad + settings_.begin_rad;
     const Eigen::Vector3d ahead =
@@ -160,7 +160,7 @@ double SectorDistances::firstLook_s(double rad) const {
 }
 
 /// Records the degrees of the vehicle that a sector has completely swept at the horizon, without
-/// stale parts, unless a later sector has.
+/// stale parts, unless a later sector has swept them, too.
 void SectorDistances::noteHorizon(const Seen& seen, const Frames& frames, Look& look) const {
     const Eigen::Matrix3d sensor_from_level = frames.level_from_sensor.linear().transpose();
     double next_rad = 0;
@@ -184,14 +184,14 @@ void SectorDistances::noteHorizon(const Seen& seen, const Frames& frames, Look& 
     }
 }
 
-/// The same for the sensor's degrees, corrected for its yaw since then.
+/// Like noteHorizon(), but for the sensor's degrees, corrected for its yaw since then.
 void SectorDistances::noteSensor(const Seen& seen, const Frames& frames, Look& look) const {
     if (!seen.turns) {
         for (double& rad : look.passed_by_sensor_rad) rad = std::max(rad, seen.to_rad);
         return;
     }
     for (const TurnCoverage::Swept& swept : seen.swept) {
-        // Other degrees do not end within this sweep.
+        // Skips degrees that do not end within this sweep.
         const double last = std::ceil((swept.to_rad - frames.yawed_rad) / kPart_rad);
         const double first = std::floor((swept.from_rad - frames.yawed_rad) / kPart_rad) - 1;
         for (double k = std::max(first, last - kBins); k < last; ++k) {
@@ -236,7 +236,7 @@ void SectorDistances::addObstacles(const Seen& seen, const Frames& frames, Look&
 
 SectorDistances::Sectors SectorDistances::at(double now_s, const PoseAt& poseAt) const {
     Look look(now_s, poseAt);
-    if (now_s < latest_s_ - settings_.stale_s) return look.sectors;  // the clock went back
+    if (now_s < latest_s_ - settings_.stale_s) return look.sectors;  // because the clock went back
     for (const auto& seen : seen_) {
         if (isFresh(*seen, now_s)) look.fresh_rad = std::min(look.fresh_rad, seen->from_rad);
     }
@@ -244,8 +244,8 @@ SectorDistances::Sectors SectorDistances::at(double now_s, const PoseAt& poseAt)
         const Seen& seen = **each;
         if (!matters(seen, now_s)) continue;
         const bool is_fresh = isFresh(seen, now_s);
-        // A later turn has swept everything again. If it did not see the horizon, no direction is
-        // free anyway, so doubts do not matter.
+        // The sector is obsolete if a later turn has swept everything again. If that turn did not
+        // see the horizon, no direction is free anyway, so doubts do not matter.
         const auto areAllPassed = [&](const std::array<double, kBins>& all_rad) {
             return seen.isPassed(*std::min_element(all_rad.begin(), all_rad.end()));
         };
@@ -253,7 +253,7 @@ SectorDistances::Sectors SectorDistances::at(double now_s, const PoseAt& poseAt)
             continue;
         const Frames frames = framesOf(seen, look);
         const auto since_s = seen.all_around_since_s;
-        // Later observations are at least as fresh.
+        // Without turns, all observations of the period are at least as new as its start.
         const bool is_swept =
             seen.turns ? is_fresh : (since_s && now_s - *since_s <= settings_.stale_s);
         if (is_swept) {

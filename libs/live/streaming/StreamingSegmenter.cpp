@@ -16,14 +16,14 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::size_t kMaxPackets = 4000;  // independent of the clock; a turn has up to 600
+constexpr std::size_t kMaxPackets = 4000;  // maximum even if the clock stops; a turn has up to 600
 constexpr double kPacketEnd_rad = 0.01;    // tolerance of packet boundaries
-// A beam's correction may add half a turn; nearestColumn() wraps once.
+// A beam's correction may add half a turn, and nearestColumn() wraps only once.
 constexpr float kMaxAzimuth_rad = 7.8F;
 constexpr double kMaxRotation_rad = 1e12;  // 250 years at 20 Hz; still exact to 0.1 mrad
-constexpr double kMargin_rad = 0.02;       // of the sector's image, ahead of the sector
-constexpr int kEmptyColumns = 16;  // column group where no returns are kept; two columns wide
-// Smaller motions leave all returns in their pixels.
+constexpr double kMargin_rad = 0.02;       // added to the sector's image ahead of the sector
+constexpr int kEmptyColumns = 16;  // group width where no returns are kept; shown as two columns
+// With smaller motions, all returns stay in their pixels.
 constexpr double kMinMotion_m = 0.01, kMinMotion_rad = 1e-3;
 
 template <class Value>
@@ -31,7 +31,7 @@ void append(const std::vector<Value>& from, std::vector<Value>& to) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Calls visit(a, b) for each array of two scans.
+/// Calls visit(a, b) for each pair of corresponding arrays of two scans.
 template <class A, class B, class Visit>
 void forEachArray(A& a, B& b, Visit visit) {
     visit(a.x_m, b.x_m);
@@ -47,7 +47,7 @@ void append(const Scan& from, Scan& to) {
     forEachArray(from, to, [](const auto& values, auto& all) { append(values, all); });
 }
 
-/// Moves the returns from index `first` on. Coordinates that overflow get no range.
+/// Moves the returns from index `first` on. Returns whose coordinates overflow have no range.
 void moveReturns(const Eigen::Isometry3d& motion, std::size_t first, Scan& scan) {
     const Eigen::Matrix3f turn = motion.linear().cast<float>();
     const Eigen::Vector3f way_m = motion.translation().cast<float>();
@@ -60,7 +60,7 @@ void moveReturns(const Eigen::Isometry3d& motion, std::size_t first, Scan& scan)
         x_m[i] = turn(0, 0) * x + turn(0, 1) * y + turn(0, 2) * z + way_m.x();
         y_m[i] = turn(1, 0) * x + turn(1, 1) * y + turn(1, 2) * z + way_m.y();
         z_m[i] = turn(2, 0) * x + turn(2, 1) * y + turn(2, 2) * z + way_m.z();
-        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN if one is not finite
+        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN unless all are finite
         range_m[i] += zero;
     }
 }
@@ -289,8 +289,8 @@ void StreamingSegmenter::restart() {
     packets_.clear();
 }
 
-/// Removes packets that are too old or that the latest turn has overwritten. If the clock went
-/// back, their age is unknown.
+/// Removes packets that are too old, that the latest turn has overwritten, or whose age is unknown
+/// because the clock went back.
 void StreamingSegmenter::forget(double now_s) {
     while (packets_.size() > open_) {
         const Packet& oldest = packets_.front();
@@ -302,7 +302,7 @@ void StreamingSegmenter::forget(double now_s) {
     }
 }
 
-/// Merges contiguous stretches into one copy. An empty stretch flushes the last one.
+/// Merges contiguous stretches into one copy. An empty stretch flushes the last stretch.
 void StreamingSegmenter::addThinned(std::size_t first, std::size_t end) {
     if (first != pending_end_ || first == end) {
         window_.append(thinned_, pending_first_, pending_end_);
@@ -311,20 +311,22 @@ void StreamingSegmenter::addThinned(std::size_t first, std::size_t end) {
     pending_end_ = end;
 }
 
-/// The transform of a packet's returns to the current sensor frame, if the motion since is known.
+/// The transform of a packet's returns to the current sensor frame, if the motion since the packet
+/// is known.
 std::optional<Eigen::Isometry3d> StreamingSegmenter::motionSince(const Packet& packet) const {
     const Packet& latest = packets_.back();
     if (!packet.pose && !latest.pose && packet.sweep) {
         const double middle_rad = (packet.sweep->from_rad + packet.sweep->to_rad) / 2;
         return turn_motion_.since((head_rad_ - middle_rad) / kTurn_rad);
     }
-    // Tilt and pose are not comparable: only the pose has heading and position.
+    // Poses without position are not comparable to others.
     if (!packet.pose || !latest.pose || packet.has_place != latest.has_place) return std::nullopt;
     return latest.pose->inverse() * *packet.pose;
 }
 
-/// Returns of a turn keep the pixels in which they were measured, and thereby their neighbours.
-/// Returns of frames, which cover all directions, get new pixels.
+/// Adds returns moved to the current sensor frame. Returns of a turn keep the pixels in which they
+/// were measured, and thereby their neighbours. Returns of frames, which cover all directions, get
+/// new pixels.
 void StreamingSegmenter::addMoved(const Returns& returns, std::size_t first, std::size_t end,
                                   const Eigen::Isometry3d& motion, bool keeps_pixels) {
     Returns& to = keeps_pixels ? window_ : moved_;
@@ -383,14 +385,14 @@ bool StreamingSegmenter::knowsEnough() const {
     return known_rad >= streaming_.min_known_rad - kPacketEnd_rad;
 }
 
-/// Selects the image columns: all in and beside the sector, and a fraction elsewhere. All sectors
-/// have the same image size, unless late packets widen one. Returns false if the image spans the
-/// turn.
+/// Selects the image columns: all columns in and beside the sector, and a fraction of the others.
+/// All sectors have the same image size, unless late packets widen a sector. Returns false if the
+/// image spans the turn.
 bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     const int columns = filter_.options().columns;
     const Sweep& latest = *packets_.back().sweep;
     const double beside_rad = streaming_.window_rad + (latest.to_rad - latest.from_rad);
-    // Without known motion, nothing ahead needs narrow columns.
+    // If the motion is unknown, nothing ahead needs narrow columns.
     const bool has_motion = packets_.back().pose || turn_motion_.since(1);
     const bool has_ahead = has_motion || streaming_.skip_ahead_rad < beside_rad;
     const double usual_rad =
@@ -399,7 +401,7 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     const int group = streaming_.keep_every > 0 ? streaming_.keep_every : kEmptyColumns;
     const int groups = (columns + group - 1) / group;
     const double group_rad = kTurn_rad * group / columns;
-    const double stretch = std::ceil(width_rad / group_rad) + 1;  // unlimited for late packets
+    const double stretch = std::ceil(width_rad / group_rad) + 1;  // not limited for late packets
     if (stretch >= groups) return false;
     const int count = static_cast<int>(stretch);
     const double end_rad = sector.to_rad + (has_ahead ? beside_rad : kMargin_rad);
@@ -408,7 +410,7 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
     return true;
 }
 
-/// Labels the sector, and keeps what later sectors need as context.
+/// Labels the sector, and keeps the context for later sectors.
 const SegmentationResult& StreamingSegmenter::judge() {
     const bool is_upright = postureOf(tilt()) == Posture::Upright;
     const std::optional<Sweep>& sweep = packets_.back().sweep;
@@ -427,7 +429,7 @@ const SegmentationResult& StreamingSegmenter::judge() {
     return result;
 }
 
-/// Turns the sector's packets into context.
+/// Stores the results of the sector's packets, which become context.
 void StreamingSegmenter::keepFound() {
     forgetThinned();
     auto from = found_.begin();
@@ -446,9 +448,9 @@ void StreamingSegmenter::label(bool is_cut) {
     const Packet& first = packets_[first_open];
     const Packet& last = packets_.back();
     const Sweep sector{start_rad_, head_rad_};
-    if (first_open == 0) turn_motion_.forget();  // first sector, or first after a silence
+    if (first_open == 0) turn_motion_.forget();  // first sector, or first sector after a silence
 
-    // The sector's returns come first, and therefore also its labels.
+    // The sector's returns come first, and so do its labels.
     sector_.clear();
     sweeps_.clear();
     for (std::size_t i = first_open; i < packets_.size(); ++i) {

@@ -39,7 +39,7 @@ const std::vector<std::size_t>& Thinning::of(const Scan& packet, float up) {
     }
     for (std::size_t i = 0; i < packet.size(); ++i) {
         const std::size_t at = at_pixel_[pixel_[i]];
-        if (at == kNone || !hasValue(packet.range_m[i])) continue;  // or masked
+        if (at == kNone || !hasValue(packet.range_m[i])) continue;  // includes masked returns
         if (!(up * packet.z_m[i] < kept_pixels_[at].below_m)) continue;
         kept_[at] = i;
         kept_pixels_[at].below_m = up * packet.z_m[i];

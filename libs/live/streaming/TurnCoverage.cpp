@@ -7,11 +7,11 @@
 namespace hagen::live {
 namespace {
 
-// 0.06 degrees: less than a firing interval (HDL-32E at 5 Hz: 0.083), more than the 0.025 degrees
-// between consecutive packets caused by azimuth rounding.
+// 0.06 degrees: less than a firing interval (0.083 degrees for an HDL-32E at 5 Hz), but more than
+// the gaps of 0.025 degrees that azimuth rounding causes between packets.
 constexpr double kGap_rad = 0.001;
-constexpr double kRounding_rad = 1e-5;  // of float matrices
-// Covers gaps of up to 3 degrees between sectors, seen by a yawing vehicle.
+constexpr double kRounding_rad = 1e-5;  // rounding error of float matrices
+// Covers gaps of up to 3 degrees between sectors if the vehicle yaws.
 constexpr double kBeside_rad = 0.05;
 
 }  // namespace
@@ -31,7 +31,7 @@ const std::vector<TurnCoverage::Swept>& TurnCoverage::add(const LabelledSector& 
     swept_.clear();
     const double to_rad = sector.sweep->to_rad + added_rad_;
     if (to_rad < head_rad_) {
-        // The sensor has restarted: leave at least a full turn to the angles before.
+        // The sensor has restarted. Leaves a gap of at least a full turn after the previous angles.
         added_rad_ += kTurn_rad * (std::ceil((head_rad_ - to_rad) / kTurn_rad) + 1);
         stretches_.clear();
     }
@@ -50,7 +50,7 @@ void TurnCoverage::add(const Sweep& sweep, const BeamOffsets& offsets) {
     const Sweep added{sweep.from_rad + added_rad_, sweep.to_rad + added_rad_};
     Sweep stretch = added;
     const auto isJoined = [&](const Sweep& other) {
-        if (other.to_rad < head_rad_ - kTurn_rad) return true;  // obsolete
+        if (other.to_rad < head_rad_ - kTurn_rad) return true;  // removes obsolete stretches
         const bool is_near =
             other.from_rad <= added.to_rad + kGap_rad && other.to_rad >= added.from_rad - kGap_rad;
         if (!is_near) return false;

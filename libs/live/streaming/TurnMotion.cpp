@@ -10,13 +10,13 @@ namespace hagen::live {
 namespace {
 
 constexpr int kEvery = 4;                                   // compares every n-th column
-constexpr double kMemory_rad = 0.8;                         // decay angle of the weights
-constexpr double kMisfit_m = 0.3;                           // misfit with weight 1/2
-constexpr double kUsualRise_m = 0.1, kUsualTilt_rad = 0.1;  // prior per turn
-constexpr double kMinWeight = 10;    // minimum total weight; an exact return has 1
+constexpr double kMemory_rad = 0.8;                         // decay angle of weights
+constexpr double kMisfit_m = 0.3;                           // misfit of a return with weight 1/2
+constexpr double kUsualRise_m = 0.1, kUsualTilt_rad = 0.1;  // prior motion per turn
+constexpr double kMinWeight = 10;    // minimum total weight; an exact return has weight 1
 constexpr double kSteepest = 0.6;    // maximum slope between rings
 constexpr float kMinApart_m = 0.2F;  // minimum distance of rings that define a slope
-constexpr double kTurnBefore_rad[] = {kPi, 3 * kPi};  // range of ages of the previous turn
+constexpr double kTurnBefore_rad[] = {kPi, 3 * kPi};  // range of the previous turn's age
 
 }  // namespace
 
@@ -44,8 +44,8 @@ bool TurnMotion::isOfTurnBefore(const Ground& ground) const {
     return ground.radius_m > 0 && ago_rad > kTurnBefore_rad[0] && ago_rad < kTurnBefore_rad[1];
 }
 
-/// Outward slope of the previous turn's ground: towards the ring on the side of the return,
-/// otherwise towards the other one.
+/// Outward slope of the previous turn's ground: towards the adjacent ring on the return's side if
+/// known, otherwise towards the other ring.
 std::optional<double> TurnMotion::slopeAt(const Pixel& now) const {
     const Ground& then = groundOf(now.row, now.column);
     const int side = now.ground.radius_m >= then.radius_m ? 1 : -1;
@@ -105,7 +105,7 @@ void TurnMotion::add(const Scan& sector, const std::vector<Label>& label, double
         Ground& ground =
             ground_[static_cast<std::size_t>(pixel.column) * static_cast<std::size_t>(rows_) +
                     static_cast<std::size_t>(pixel.row)];
-        // If a pixel has several returns, ground is kept.
+        // If a pixel has several returns, the ground return is kept.
         if (pixel.ground.radius_m > 0 || ground.head_rad < head_rad) ground = pixel.ground;
     }
     const Eigen::Vector3d usual(kUsualRise_m, kUsualTilt_rad, kUsualTilt_rad);

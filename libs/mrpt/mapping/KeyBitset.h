@@ -24,7 +24,7 @@ class KeyBitset {
         words_.assign(bits / 64 + 1, 0);
     }
 
-    /// Inserts a key; true if it is new. Keys must lie in the box.
+    /// Inserts a key, which must lie in the box; returns true if it is new.
     bool add(const octomap::OcTreeKey& key) {
         const std::size_t i = indexOf(key);
         const std::uint64_t bit = std::uint64_t{1} << (i % 64);

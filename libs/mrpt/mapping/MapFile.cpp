@@ -52,7 +52,7 @@ observations::viz::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
 void saveScene(const octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
     observations::Scene scene;
     scene.insert(voxelsOf(tree));
-    // MRPT's own streams do not report a full disk.
+    // MRPT's streams do not report a full disk.
     mrpt::io::CMemoryStream bytes;
     mrpt::serialization::archiveFrom(bytes) << scene;
     errno = 0;
@@ -67,7 +67,7 @@ void saveScene(const octomap::OcTree& tree, const fs::path& file, const fs::path
     if (!is_written || !is_closed) throwWriteError(named);
 }
 
-/// Writes the header of OctoMap's files. OctoMap's own writers print to standard error.
+/// Writes the header of OctoMap's files. OctoMap's writers print to standard error.
 void writeHead(const std::string& kind, const octomap::OcTree& tree, std::ostream& out) {
     out << kind << "\nid " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
         << tree.getResolution() << "\ndata\n";
@@ -108,7 +108,7 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file) {
 void saveMapInPlace(octomap::OcTree& whole, const fs::path& file, const fs::path& named) {
     checkMapFile(named);
     if (named.extension() == ".3Dscene") return saveScene(whole, file, named);
-    whole.updateInnerOccupancy();  // stale while a map is being built
+    whole.updateInnerOccupancy();  // inner nodes are stale while a map is being built
     errno = 0;
     std::ofstream out(file, std::ios::binary);
     if (!out) throwWriteError(named);

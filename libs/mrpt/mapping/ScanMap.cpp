@@ -16,8 +16,8 @@ namespace {
 
 octomap::point3d pointOf(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
 
-// Memory limits: for the voxels around the sensor, one bit each in three sets (512 MiB per set),
-// and for the map (about 3 GiB, or half of the process's limit).
+// Memory limits: for the voxels around the sensor, with one bit per voxel in three sets (512 MiB
+// per set), and for the map (about 3 GiB, or half of the process's limit).
 constexpr double kMaxVoxelsInReach = 4294967296.0;
 constexpr std::size_t kMaxNodes = 50'000'000, kBytesPerNode = 64;
 
@@ -89,13 +89,13 @@ class ScanMap::RayTraversal {
     }
 
     void hit(const Eigen::Vector3f& point_m) {
-        if (!((point_m - origin_m_).norm() <= max_range_m_)) return;  // or is not finite
+        if (!((point_m - origin_m_).norm() <= max_range_m_)) return;  // true if not finite
         const octomap::OcTreeKey key = tree_->coordToKey(pointOf(point_m));
         if (hit_.add(key)) voxels_.occupied.push_back(key);
     }
 
     /// Marks the voxels before the point's voxel as free, up to the maximum range. Rays that end in
-    /// the same voxel count as one ray to its centre.
+    /// the same voxel are merged into a ray to its centre.
     void pass(const Eigen::Vector3f& point_m) {
         const Eigen::Vector3f ray = point_m - origin_m_;
         const float range_m = ray.norm();
@@ -122,7 +122,7 @@ class ScanMap::RayTraversal {
     Eigen::Vector3f origin_m_{0, 0, 0};
     float max_range_m_ = 0;
     KeyBitset passed_, hit_, ends_;
-    octomap::KeyRay ray_;  // large: reused across scans
+    octomap::KeyRay ray_;  // reused across scans because it is large
     ScanVoxels voxels_;
 };
 

@@ -18,9 +18,9 @@ namespace hagen::convert {
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
     std::filesystem::path input;        ///< see openRecording()
-    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag; empty: none
-    std::filesystem::path calibration;  ///< of the HDL-64E of a capture; empty: none
-    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty: all
+    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag, or empty
+    std::filesystem::path calibration;  ///< HDL-64E calibration of a capture, or empty
+    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty for all topics
 
     std::filesystem::path rawlog;  ///< segmented rawlog
     std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR
@@ -28,20 +28,20 @@ struct Conversion {
     OutputFormat cloud_format = OutputFormat::Ply;
     std::filesystem::path mcap;      ///< labelled clouds, boxes and poses as ROS 2 messages
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
-    std::vector<std::filesystem::path> octomaps;  ///< .bt, .ot, .3Dscene: one map in each format
+    std::vector<std::filesystem::path> octomaps;  ///< the map in each format: .bt, .ot, .3Dscene
     observations::ScanMapOptions octomap;         ///< resolution and contents of the map
     std::filesystem::path stats;                  ///< JSON: settings, counts, one line per scan
     bool overwrite = false;                       ///< replace existing outputs
 
-    std::filesystem::path poses;  ///< vehicle poses (TUM, KITTI); empty: those of the log
+    std::filesystem::path poses;  ///< vehicle poses (TUM, KITTI); empty for the poses of the log
     std::size_t from = 0;         ///< first and last entry to convert, both inclusive
     std::size_t to = std::numeric_limits<std::size_t>::max();
-    std::vector<std::string> sensor_labels;  ///< LiDARs to segment; empty: all
+    std::vector<std::string> sensor_labels;  ///< LiDARs to segment; empty for all LiDARs
     observations::CloudClass cloud_class = observations::CloudClass::Simple;
-    std::size_t jobs = 0;  ///< threads; 0: all cores. Outputs do not depend on it
-    bool preview = false;  ///< add a coloured scene after each pair of clouds
+    std::size_t jobs = 0;  ///< number of threads, 0 for all cores; does not affect outputs
+    bool preview = false;  ///< add a coloured scene per scan to the rawlog
     std::optional<float>
-        picture_azimuth_deg;  ///< column to draw; nullopt: column of the nearest obstacle
+        picture_azimuth_deg;  ///< column to draw; default: column of the nearest obstacle
     Settings settings;
 };
 
@@ -49,47 +49,47 @@ struct Conversion {
 struct ScanReport {
     std::size_t entry;         ///< index of the entry in the input, or of the scan in a scan folder
     std::string sensor_label;  ///< "velodyne" for a scan folder, "lidar" for cloud files
-    std::string name;          ///< of its files, without extension
+    std::string name;          ///< name of the scan's files, without extension
     double time_s;
     std::size_t returns, roi, rou, unclassified;
-    std::size_t returns_masked;  ///< unclassified returns of the settings' airframe
-    std::size_t obstacles;       ///< RoI components
+    std::size_t returns_masked;  ///< unclassified returns from the airframe in the settings
+    std::size_t obstacles;       ///< number of RoI components
     float nearest_roi_m;         ///< NaN if the scan has no RoI
-    double latency_ms;           ///< from the observation in memory to its labels
+    double latency_ms;           ///< time from the observation in memory to its labels
 };
 
 /// Results of a conversion.
 struct ConversionReport {
-    std::size_t entries = 0;  ///< entries converted; all are in the output
-    std::size_t scans = 0;    ///< segmented LiDAR scans in these entries
+    std::size_t entries = 0;  ///< converted entries, which are all in the output
+    std::size_t scans = 0;    ///< segmented LiDAR scans in the converted entries
     std::size_t returns = 0, roi = 0, rou = 0, unclassified = 0;
     std::size_t returns_masked = 0;    ///< unclassified airframe returns
-    std::size_t unreadable_scans = 0;  ///< kept but not segmented; each was reported
+    std::size_t unreadable_scans = 0;  ///< scans kept but not segmented, and reported
     std::size_t results_replaced = 0;  ///< clouds and previews of an earlier run, not in the output
     std::size_t left_out_before = 0;   ///< entries skipped before `from`
-    /// Sensor description by sensor label: "VLP-16, 16 beams", or how it was recovered
+    /// Sensor description by sensor label: "VLP-16, 16 beams", or how the sensor was recovered
     /// (CloudSensors.h).
     std::map<std::string, std::string> sensors;
-    /// Sensors named by neither log nor settings, and their image columns.
+    /// Sensors that neither the log nor the settings name, and their image columns.
     struct Recovered {
         observations::SharedBeams beams;
         int columns = 0;
     };
     std::map<std::string, Recovered> recovered;  ///< by sensor label
-    std::string poses;  ///< source of the poses; empty: not needed or not available
+    std::string poses;  ///< source of the poses; empty if not needed or not available
     std::size_t scans_with_pose = 0;
-    std::size_t clouds = 0, cloud_points = 0;  ///< files and points of the labelled clouds
+    std::size_t clouds = 0, cloud_points = 0;  ///< numbers of labelled clouds and of their points
     struct Mcap {
         std::size_t scans = 0, points = 0, boxes = 0, messages = 0;
     };
     Mcap mcap;                            ///< contents of the MCAP
-    std::size_t scans_in_map = 0;         ///< scans with a pose, in the OctoMap
+    std::size_t scans_in_map = 0;         ///< scans in the OctoMap (those with a pose)
     std::size_t scans_with_attitude = 0;  ///< scans with known roll and pitch
-    std::string first_without_attitude;   ///< "entry 0 (lidar)"; empty: all have one
-    bool is_attitude_of_poses = false;    ///< interpolated; otherwise the latest of the log
+    std::string first_without_attitude;   ///< "entry 0 (lidar)"; empty if there is none
+    bool is_attitude_of_poses = false;    ///< interpolated poses; otherwise the log's latest
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
-    Settings settings;    ///< of the conversion, merged with a scan folder's sensor.yaml
+    Settings settings;    ///< settings of the conversion, merged with a scan folder's sensor.yaml
 };
 
 /// Callbacks of a conversion, called in log order and never concurrently, but possibly on different
@@ -104,27 +104,27 @@ struct ConversionListener {
     /// kept.
     std::function<void(const std::string& entry, const std::string& why)> unreadable =
         [](const auto&, const auto&) {};
-    /// Called before reading each entry. False ends the conversion with Interrupted after
+    /// Called before reading each entry. Returning false ends the conversion with Interrupted after
     /// converting the entries already read.
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// Segments a whole log. Holds an entry per thread in memory. Pictures are drawn on one thread.
+/// Segments a log. Holds one entry per thread in memory. Pictures are drawn on one thread.
 ///
-/// A segmented rawlog keeps every entry of the input, in order (only scans of a capture or bag).
-/// Each LiDAR observation is followed, in the same sensory frame if any, by its `_roi` and
-/// `_non_roi` clouds and the preview, if requested. They replace results of an earlier run. Scan
-/// folders and labelled clouds keep the names of an input folder; scans of other recordings are
-/// numbered.
+/// A segmented rawlog keeps every entry of a rawlog, in order, but only the scans of a capture or
+/// bag. Each LiDAR observation is followed, in the same sensory frame if any, by its `_roi` and
+/// `_non_roi` clouds and the preview, if requested. The new results replace those of an earlier
+/// run. Scan folders and labelled clouds keep the names of an input folder; scans of other
+/// recordings are numbered.
 ///
 /// An OctoMap needs poses. Each return is placed with the pose at its own time, if known. Scans
 /// without a pose are skipped, with a remark.
 ///
 /// Outputs are renamed into place when complete. Throws recordings::BrokenRecording if the
 /// recording or a later step fails, and recordings::Interrupted if the listener stops the
-/// conversion: preceding entries are then kept in OUT.partial.rawlog (DIR.partial), which the
-/// message names. Throws SettingsError if options do not fit a sensor, and std::runtime_error if an
-/// output failed or no entry was converted.
+/// conversion; both messages name the partial output, OUT.partial.rawlog or DIR.partial, with the
+/// preceding entries. Throws SettingsError if options do not fit a sensor, and std::runtime_error
+/// if an output failed or no entry was converted.
 ConversionReport convert(const Conversion& conversion, const ConversionListener& listener = {});
 
 }  // namespace hagen::convert

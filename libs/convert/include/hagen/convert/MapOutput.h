@@ -17,13 +17,13 @@ namespace hagen::convert {
 /// A scan in the map frame.
 struct PlacedScan {
     observations::MappedScan mapped;
-    /// All returns are placed with the scan's pose, because their times are missing or invalid, or
-    /// because the vehicle's poses end before the scan or have a gap.
+    /// Whether all returns are placed with the scan's pose, because the times of returns are
+    /// missing or invalid, or because the vehicle's poses end before the scan or have a gap.
     bool is_by_one_pose;
 };
 
-/// Places the classified returns of a scan: each with the pose at its own time if `vehicle` and the
-/// scan provide it, otherwise with the scan's pose. nullopt without a pose.
+/// Places the classified returns of a scan, each with the pose at its own time if `vehicle` and the
+/// scan provide it, otherwise with the scan's pose. Returns nullopt without a pose.
 std::optional<PlacedScan> placeInMap(const observations::ObservationSegmenter::Output& segmented,
                                      const mrpt::obs::CObservation& observation,
                                      const observations::Trajectory& vehicle);
@@ -31,19 +31,19 @@ std::optional<PlacedScan> placeInMap(const observations::ObservationSegmenter::O
 /// An OctoMap of the scans of a log, written to one or several files.
 class MapOutput {
  public:
-    /// Throws std::runtime_error naming a file with an unknown map format or that cannot be
-    /// written, std::invalid_argument for options out of range.
+    /// Throws std::runtime_error naming a file that has an unknown map format or cannot be written,
+    /// and std::invalid_argument if options are out of range.
     MapOutput(const std::vector<std::filesystem::path>& files,
               const observations::ScanMapOptions& options, bool overwrite);
 
     void insert(const observations::MappedScan& scan) { map_.insert(scan); }
 
-    /// Writes to temporary names. A failed file does not affect the others.
+    /// Writes the map under temporary names. A failed file does not affect the others.
     void write();
     /// Throws std::runtime_error naming the files that could not be written, after renaming the
     /// others into place.
     void commit();
-    /// The names of the partial files, separated by spaces. Throws like commit().
+    /// Keeps partial files; returns their names, separated by spaces. Throws like commit().
     std::string keepPartial();
 
  private:

@@ -5,7 +5,6 @@
 
 namespace hagen::convert {
 
-/// Converts a pose to MRPT's type.
 mrpt::poses::CPose3D mrptPose(const simulation::SensorPose& pose);
 
 /// Encodes a simulated scan as raw packets. Decoding them yields the scan's returns in the same

@@ -10,7 +10,7 @@ struct HeightGrid {
     int cells = 0;                  ///< per side, without the border
     std::vector<float> weighted_m;  ///< height times weight
     std::vector<float> weight;      ///< confidence in the height, 0 to 1
-    std::vector<float> height_m;    ///< of every cell, after filling cells without weight
+    std::vector<float> height_m;    ///< height of every cell; cells without weight are filled
 
     /// The index of cell (0, j).
     int column(int j) const { return (j + 1) * (cells + 2) + 1; }
@@ -22,7 +22,7 @@ template <int kSide>
 struct GroundFit {
     static constexpr int kSize = (kSide + 2) * (kSide + 2);
 
-    // The pixels that may be ground. Lists may be longer than their contents.
+    // The pixels that may be ground. Lists may have unused entries at the end.
     std::size_t candidates = 0;
     std::vector<std::int32_t> cell;
     std::vector<float> z_m;

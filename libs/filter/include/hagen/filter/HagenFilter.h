@@ -10,8 +10,8 @@
 namespace hagen {
 
 /// The Hagen filter for one sensor: separates near obstacles (RoI) from ground and distant returns
-/// (ROU). It keeps no state between scans, only memory to reuse. Filters do not depend on each
-/// other or on the thread that runs them.
+/// (ROU). It keeps no state between scans, only reusable memory. Filters are independent of each
+/// other and of the thread that runs them.
 ///
 ///     HagenFilter filter(sensorModel("VLP-16"));
 ///     Scan scan = ...;                       // coordinates; locateBeams() for the rest
@@ -23,15 +23,15 @@ class HagenFilter {
     explicit HagenFilter(SensorModel sensor, Options options = {});
 
     /// Segments one scan, which may be empty. `attitude` is the sensor's tilt, if known; the sensor
-    /// may then be mounted at any angle. The images of a sensor that is upside down or on its side
-    /// have the rows of its posture (Posture.h). The result is valid until the next call. Throws
-    /// std::invalid_argument if the scan lacks ranges, azimuths and rows, or has rows of another
-    /// sensor (checkLocated()); the result is then unchanged.
+    /// may then be mounted at an arbitrary angle. The images of a sensor that is upside down or on
+    /// its side have the rows of its posture (Posture.h). The result is valid until the next call.
+    /// Throws std::invalid_argument, and leaves the result unchanged, if the scan lacks ranges,
+    /// azimuths and rows, or has rows of another sensor (checkLocated()).
     const SegmentationResult& segment(const Scan& scan,
                                       const std::optional<Attitude>& attitude = {});
 
-    /// Swaps the filter's result with `result`, to keep it beyond the next call without a copy. The
-    /// filter reuses the memory of `result`.
+    /// Swaps the filter's result with `result`, to keep the result beyond the next call without a
+    /// copy. The filter reuses the memory of `result`.
     void exchangeResult(SegmentationResult& result);
 
     const SensorModel& sensor() const;

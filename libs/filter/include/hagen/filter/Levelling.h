@@ -7,8 +7,8 @@
 namespace hagen {
 
 /// The sensor's tilt against the horizon, in the aeronautical convention: the sensor frame (x
-/// forward, y left, z up) is rotated about y by `pitch_rad`, nose down positive, then about the
-/// rotated x by `roll_rad`, left side up positive. Heading does not matter.
+/// forward, y left, z up) is rotated about y by `pitch_rad` (nose down is positive), then about the
+/// rotated x by `roll_rad` (left side up is positive). The heading does not matter.
 struct Attitude {
     float roll_rad = 0, pitch_rad = 0;
 };
@@ -21,7 +21,7 @@ Eigen::Matrix3f levelFromSensor(const Attitude& attitude);
 ///
 ///   alpha = atan2(|dz|, |(dx, dy)|)
 ///
-/// in the level frame. Without an attitude: identical to RangeAngle.h.
+/// in the level frame. Without an attitude, the result is identical to RangeAngle.h.
 void rangeAngles(const Image<float>& depth_m, const PixelDirections& directions,
                  const std::optional<Attitude>& attitude, Image<float>& range_angle_rad);
 

@@ -15,7 +15,7 @@ struct OwnLabels {
     ///     Rou, Roi      the return's own label; overruled only outside the zone (ROU) or the
     ///                   image (RoI)
     std::vector<Label> label;
-    std::vector<std::int32_t> returns;  ///< returns with their own label, ascending
+    std::vector<std::int32_t> returns;  ///< indices of returns with their own label, ascending
 };
 
 }  // namespace hagen

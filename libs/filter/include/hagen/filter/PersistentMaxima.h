@@ -10,7 +10,7 @@ namespace hagen {
 struct Maximum {
     int row, column;
     float birth_m;  ///< proximity of the pixel itself
-    float death_m;  ///< level at which its component meets an older one; 0 if never
+    float death_m;  ///< level at which its component meets an older component; 0 if never
 
     float persistence_m() const { return birth_m - death_m; }
 };
@@ -27,7 +27,7 @@ struct MaximaWorkspace {
     FramedLevels proximity_m;
     CriticalPixels critical;
     std::vector<Meeting> meetings;
-    std::vector<std::int32_t> elder;  ///< for each maximum, an older one that it met, or itself
+    std::vector<std::int32_t> elder;  ///< for each maximum, an older maximum that it met, or itself
     std::vector<float> birth_m, death_m;
     std::vector<std::uint64_t> order, swap;
 };
@@ -37,11 +37,11 @@ struct MaximaWorkspace {
 void proximityOf(const Image<float>& depth_m, float zone_m, Image<float>& proximity_m);
 
 /// Stage 3, local maxima by 0-dimensional persistent homology: the components of {proximity >=
-/// level}, 8-neighbourhood, azimuth wrapped, as the level sinks from the highest pixel to 0, the
-/// edge of the zone. A component is born at its highest pixel; when two meet, the younger one dies
-/// (elder rule). Between equally high pixels or components, the smaller pixel index (column * rows
-/// + row) is older, so a plateau has one maximum and the result is unique. A component that meets
-/// no older one dies at 0. Empty pixels and pixels with proximity 0 are ignored.
+/// level}, 8-neighbourhood, azimuth wrapped, as the level decreases from the highest pixel to 0,
+/// the edge of the zone. A component is born at its highest pixel; when two meet, the younger one
+/// dies (elder rule). Between equally high pixels or components, the smaller pixel index (column *
+/// rows + row) is older, so a plateau has one maximum and the result is unique. A component that
+/// meets no older component dies at 0. Empty pixels and pixels with proximity 0 are ignored.
 ///
 /// Returns in `maxima` the maxima with a persistence of at least `min_persistence_m` and above 0,
 /// oldest first.

@@ -20,8 +20,8 @@ struct PixelPoints {
     }
 };
 
-/// The pixels in the sensor frame: each at its closest return or, if it was repaired, at `depth_m`
-/// along its beam. Requires `image` of this scan.
+/// Locates the pixels in the sensor frame: at their closest return or, if repaired, at `depth_m`
+/// along their beam. Requires `image` of this scan.
 void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
                   const Image<float>& depth_m, PixelPoints& pixels);
 

@@ -13,10 +13,10 @@
 
 namespace hagen {
 
-/// The result for a return of a sector, kept for later sectors that have it as context.
+/// The result for a return of a sector, kept as context for later sectors.
 struct ContextReturn {
     Label region = Label::Unclassified;  ///< its pixel's label from the paper's stages
-    /// Height of the highest return in its ground cell (CellTops.h); NaN: unknown. Later sectors
+    /// Height of the highest return in its ground cell (CellTops.h); NaN if unknown. Later sectors
     /// contain only a few returns of that cell.
     float cell_height_m = kNoValue;
 };
@@ -25,32 +25,32 @@ struct ContextReturn {
 struct SectorOfInterest {
     const Scan& returns;       ///< to be labelled: the first returns of the scan
     const ColumnMap& columns;  ///< of the image: dense around the sector, sparse elsewhere
-    /// Per return of the scan: SectorFilter::found() from its own sector; entries of `returns` are
-    /// not read.
+    /// For each return of the scan, SectorFilter::found() from its own sector; entries of `returns`
+    /// are not read.
     const std::vector<ContextReturn>& context;
 };
 
 /// The stages of HagenFilter for a part of a turn. Stages 3 to 8, which compare neighbouring
-/// pixels, run on the columns of the sector and a few on both sides; other returns keep the region
-/// from their own sector. The ground is fitted under all columns, but only the sector is
-/// relabelled: nearly all labels equal those of a whole scan. A canopy is detected from the cell
-/// heights of the context in its own sectors. Obstacles are not numbered.
+/// pixels, run on the columns of the sector and a few columns on both sides; other returns keep the
+/// region from their own sector. The ground is fitted under all columns, but only the sector is
+/// relabelled. Nearly all labels equal HagenFilter's labels of the whole scan. A canopy is detected
+/// from the cell heights of the context in its own sectors. Obstacles are not numbered.
 class SectorFilter {
  public:
-    /// Like HagenFilter.
+    /// Throws like HagenFilter.
     SectorFilter(const SensorModel& sensor, const Options& options);
     SectorFilter(SectorFilter&& other) noexcept;
     SectorFilter& operator=(SectorFilter&& other) noexcept;
     ~SectorFilter();
 
     /// Labels the sector's returns. Requires an upright sensor (postureOf()). The result's images
-    /// have the columns of the map, with labels in the sector; results of stages 3 to 7 are not
+    /// have the columns of the map, but labels only in the sector; results of stages 3 to 7 are not
     /// included. The result is valid until the next call. Throws std::invalid_argument like
     /// HagenFilter::segment().
     const SegmentationResult& segment(const Scan& scan, const std::optional<Attitude>& attitude,
                                       const SectorOfInterest& sector);
 
-    /// Per return of the sector, its future entry in `SectorOfInterest::context`.
+    /// For each return of the sector, its future entry in `SectorOfInterest::context`.
     const std::vector<ContextReturn>& found() const;
 
  private:

@@ -17,14 +17,14 @@ struct SegmentationResult {
     Image<float> proximity_m;        ///< zone_m - depth, at least 0
     std::vector<Maximum> maxima;     ///< stage 3, with birth, death and persistence
     Image<float> sharpened_m;        ///< stage 4, proximity or depth
-    Image<float> merged_m;           ///< stage 5, depth again
+    Image<float> merged_m;           ///< stage 5, converted back to depth
     Image<float> range_angle_rad;    ///< stage 6
     Image<float> smoothed_rad;       ///< stage 7
     Image<float> pixel_angle_rad;    ///< the angle of each pixel, used for labelling
     Image<Label> labels;             ///< stage 8, relabelled by height, limited to the zone
     Ground ground;                   ///< beyond the paper, see Ground.h
     Image<std::int32_t> components;  ///< obstacles, numbered from the nearest
-    OwnLabels own_labels;            ///< for returns behind the closest one of their pixel
+    OwnLabels own_labels;            ///< for returns behind the closest return of their pixel
     LabelledReturns returns;         ///< stage 9, for each return of the scan
 };
 

@@ -4,16 +4,16 @@
 
 namespace hagen::live {
 
-/// Latency statistics of a run of any length in constant memory: 1 us to 100 s in steps of 2 %.
+/// Latency statistics in constant memory, however long the run: 1 us to 100 s in steps of 2 %.
 class LatencyHistogram {
  public:
-    /// Adds a time; values that are not positive count as the minimum.
+    /// Adds a time; values that are not positive are treated as the minimum.
     void add(double seconds);
 
     std::size_t count() const { return count_; }
     /// The quantile for a fraction (0 to 1), at most 2 % too high; NaN if empty.
     double quantile_s(double share) const;
-    double max_s() const { return max_s_; }  ///< exact; 0 if empty
+    double max_s() const { return max_s_; }  ///< the exact maximum; 0 if empty
 
  private:
     static constexpr std::size_t kBins = 932;

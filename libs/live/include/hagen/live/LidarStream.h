@@ -13,25 +13,25 @@ namespace hagen::live {
 /// rotating head, frame by frame with the returns of the last 0.1 s as context.
 class LidarStream : private sensors::ReturnSink {
  public:
-    /// `settings`: options, range limits, airframe and mount. Throws SettingsError if the options
-    /// do not fit the sensor.
+    /// Uses the options, range limits, airframe and mount of `settings`. Throws SettingsError if
+    /// the options do not fit the sensor.
     LidarStream(std::unique_ptr<sensors::LidarDriver> driver, const Settings& settings,
                 StreamingSegmenter::Take take, const StreamingOptions& streaming = {});
 
-    /// Adds a datagram that arrived at `arrival_s`, in seconds of any monotonic clock. Throws
+    /// Adds a datagram that arrived at `arrival_s`, in seconds of a monotonic clock. Throws
     /// std::invalid_argument unless the time is finite.
     sensors::Taken add(const sensors::Datagram& datagram, double arrival_s);
-    /// Labels the sector in progress, because the sensor is silent.
+    /// Labels the sector in progress, for use when the sensor is silent.
     void flush() override;
 
-    /// Sets tilt and pose of the sensor (StreamingSegmenter). While the tilt is unknown, the
+    /// Sets the sensor's tilt and pose; see StreamingSegmenter. While the tilt is unknown, the
     /// mount's tilt on a level vehicle is used.
     void move(const SensorMotion& motion);
 
     sensors::LidarDriver& driver() { return *driver_; }
     const sensors::LidarDriver& driver() const { return *driver_; }
     const sensors::PacketCounts& counts() const { return driver_->counts(); }
-    /// Number of returns from the airframe.
+    /// Number of returns masked as airframe.
     std::size_t returnsMasked() const { return returns_masked_; }
     const StreamingSegmenter& segmenter() const { return *segmenter_; }
 

@@ -20,50 +20,49 @@
 
 namespace hagen::live {
 
-/// Options of a live session.
 struct LiveOptions {
-    /// "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
+    /// The sensor model: "VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "HDL-64E" or "Mid-360".
     std::string model;
-    std::filesystem::path calibration;  ///< HDL-64E only
+    std::filesystem::path calibration;  ///< only for an HDL-64E
     Settings settings;
     StreamingOptions streaming;
     RecordingOptions recording;
-    std::filesystem::path stats;  ///< JSON; empty: none
+    std::filesystem::path stats;  ///< JSON file, or empty
     bool overwrite = false;       ///< replaces an existing `stats` file
     double duration_s = std::numeric_limits<double>::infinity();
     std::filesystem::path sensor_json;  ///< Ouster metadata; requires an empty `model`
-    std::filesystem::path replay;       ///< the capture being replayed; empty: none
+    std::filesystem::path replay;       ///< the capture being replayed, or empty
 };
 
-/// Session statistics; packet counts come from the driver. Data packets from the wrong address
-/// count as from another sensor.
+/// Session statistics; packet counts come from the driver. Data packets from other addresses are
+/// counted as packets of other sensors.
 struct LiveReport : sensors::PacketCounts {
-    std::size_t datagrams = 0;     ///< without dropped ones
-    std::size_t dropped = 0;       ///< waited too long, or the queue was full
-    std::size_t silences = 0;      ///< of 1 s
-    std::size_t rate_changes = 0;  ///< of the motor
+    std::size_t datagrams = 0;     ///< datagrams without the dropped ones
+    std::size_t dropped = 0;       ///< datagrams that waited too long or found the queue full
+    std::size_t silences = 0;      ///< silences of at least 1 s
+    std::size_t rate_changes = 0;  ///< changes of the motor speed
     /// Counts of the states of SectorDistances directions, sampled at 20 Hz.
     std::size_t times_unknown = 0, times_seen_nothing = 0, times_obstacle = 0;
     std::size_t sectors = 0, sectors_cut = 0;
-    std::size_t sectors_doubtful = 0;  ///< too little context: all near returns are RoI
+    std::size_t sectors_doubtful = 0;  ///< too little context, so all near returns are RoI
     std::size_t returns = 0, roi = 0;
-    LatencyHistogram latency;  ///< from a sector's last packet to its labels, without cut sectors
+    LatencyHistogram latency;  ///< from a sector's last packet to its labels; without cut sectors
     /// Distance to the nearest RoI return of the run in each direction, as in SectorDistances,
-    /// without doubtful sectors; infinity: none.
+    /// without doubtful sectors; infinity if there was none.
     std::array<float, SectorDistances::kSectors> nearest_m{};
     std::array<SectorDistances::Sector, SectorDistances::kSectors> latest{};
     double seconds = 0;         ///< duration
     double filter_cpu_s = 0;    ///< CPU time of the labelling thread
     double process_cpu_s = 0;   ///< CPU time of all threads
     std::string stats_failure;  ///< why LiveOptions::stats could not be written
-    Recorded recorded;          ///< empty without recording
+    Recorded recorded;          ///< empty if nothing was recorded
 };
 
-/// Figures since the last status.
+/// Statistics since the last status.
 struct LiveStatus {
     double turns_per_s = 0;
-    double p50_s = 0, p99_s = 0, max_s = 0;                     ///< latency; NaN: no sector
-    float nearest_m = std::numeric_limits<float>::quiet_NaN();  ///< NaN: no obstacle is known
+    double p50_s = 0, p99_s = 0, max_s = 0;                     ///< latency; NaN without sectors
+    float nearest_m = std::numeric_limits<float>::quiet_NaN();  ///< NaN if no obstacle is known
     bool is_silent = false;
 };
 
@@ -71,30 +70,30 @@ struct LiveStatus {
 struct LiveListener {
     /// Called first, with the sensor and the filter options.
     std::function<void(const SensorModel&, const Options&)> begin = [](const auto&, const auto&) {};
-    /// Returns the motion at a steadyNow_s() time; called for each packet. Empty: unknown.
+    /// Returns the motion at a steadyNow_s() time; called for each packet. Empty if unknown.
     std::function<SensorMotion(double time_s)> motion;
-    /// Returns more counts for `stats`, called at the end: a section name and its values.
+    /// Functions that return more counts for `stats`, by section name; called at the end.
     std::map<std::string, std::function<std::vector<std::pair<std::string, std::size_t>>()>> counts;
-    /// Messages for the user: silence, changed mode, changed rate.
+    /// Called with messages for the user, such as silence, a changed mode or a changed rate.
     std::function<void(const std::string& remark)> remark = [](const auto&) {};
     /// Called every 0.5 s.
     std::function<void(const LiveReport&, const LiveStatus&)> status = [](const auto&,
                                                                           const auto&) {};
-    /// Called with each labelled sector; keep it short.
+    /// Called with each labelled sector; must return quickly.
     std::function<void(const LabelledSector&)> sector = [](const auto&) {};
     /// Returns false to end the session.
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// "a VLP-16" or "the Ouster of FILE".
+/// The sensor's name in messages: "a VLP-16" or "the Ouster of FILE".
 std::string sensorName(const LiveOptions& options);
 
-/// Labels the packets of a source until it ends, the duration is over or the listener stops it. One
-/// thread receives, the caller labels (its real-time priority, if any, is permanently lowered by
-/// one), and one thread records. If recording fails, the failure is reported and the session
-/// continues. No packet content ends the session.
+/// Labels the packets of a source until the source ends, the duration is over or the listener ends
+/// the session. One thread receives, the caller labels (its real-time priority, if any, is
+/// permanently lowered by one), and one thread records. If recording fails, the failure is reported
+/// and the session continues. No packet content ends the session.
 ///
-/// Throws std::runtime_error naming the file or address that failed, also if recording cannot
+/// Throws std::runtime_error naming the file or address that failed, even if only recording cannot
 /// start, and SettingsError.
 LiveReport runLive(PacketSource& source, const LiveOptions& options,
                    const LiveListener& listener = {});

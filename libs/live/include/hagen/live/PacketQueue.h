@@ -13,12 +13,12 @@ namespace hagen::live {
 /// A received datagram.
 struct Packet {
     std::vector<std::uint8_t> bytes;
-    std::int64_t time_ns = 0;              ///< since 1970: arrival, or recording time in a capture
-    double arrival_s = 0;                  ///< arrival by steadyNow_s()
-    std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4
+    std::int64_t time_ns = 0;              ///< arrival, or recording time in a capture, since 1970
+    double arrival_s = 0;                  ///< arrival on the clock of steadyNow_s()
+    std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4 addresses
     std::uint16_t from_port = 0, to_port = 0;
 
-    /// Valid as long as the packet.
+    /// The result is valid as long as the packet.
     sensors::Datagram datagram() const {
         return {time_ns, from_ip, to_ip, from_port, to_port, bytes.data(), bytes.size()};
     }
@@ -27,8 +27,8 @@ struct Packet {
 /// Seconds of a monotonic clock.
 double steadyNow_s();
 
-/// Passes packets from the receiving to the labelling thread. Bounded; buffers are reused, so
-/// memory grows only to the maximum number of waiting packets.
+/// Passes packets from the receiving to the labelling thread. The queue is bounded and reuses
+/// buffers, so its memory grows only with the maximum number of waiting packets.
 class PacketQueue {
  public:
     explicit PacketQueue(std::size_t max);
@@ -38,13 +38,12 @@ class PacketQueue {
     bool push(Packet& packet);
     /// Waits while the queue is full; returns false if it was closed.
     bool pushOrWait(Packet& packet);
-    /// Marks the end: no more packets follow.
+    /// Marks the end of the stream.
     void close();
 
     enum class Popped { Packet, Nothing, Closed };
-    /// Takes the oldest packet; waits up to this long if there is none.
+    /// Takes the oldest packet; waits up to `longest` if the queue is empty.
     Popped pop(Packet& packet, std::chrono::microseconds longest);
-    /// Number of waiting packets.
     std::size_t size() const;
 
  private:
@@ -53,7 +52,7 @@ class PacketQueue {
     mutable std::mutex mutex_;
     std::condition_variable has_packet_, has_place_;
     std::vector<Packet> ring_;
-    std::vector<std::vector<std::uint8_t>> spare_;  ///< buffers, used from the back
+    std::vector<std::vector<std::uint8_t>> spare_;  ///< free buffers, used from the back
     std::size_t first_ = 0, size_ = 0;
     bool is_closed_ = false;
 };

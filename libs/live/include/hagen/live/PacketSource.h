@@ -10,9 +10,8 @@
 
 namespace hagen::live {
 
-/// An IPv4 address and a port.
 struct Address {
-    std::uint32_t ip = 0;  ///< 0: all local interfaces
+    std::uint32_t ip = 0;  ///< 0 for all local interfaces
     std::uint16_t port = 0;
 
     bool isMulticast() const { return (ip >> 28) == 0xe; }
@@ -20,7 +19,6 @@ struct Address {
 /// Parses "192.168.1.77:2368" or "0.0.0.0:2368". Throws std::runtime_error describing the error.
 Address parseAddress(const std::string& text);
 
-/// A source of packets.
 class PacketSource {
  public:
     enum class Next { Packet, Nothing, End };
@@ -29,7 +27,7 @@ class PacketSource {
     /// Waits up to 0.1 s for the next packet. Throws std::runtime_error naming the source if it
     /// cannot be read.
     virtual Next next(Packet& packet) = 0;
-    /// Whether packets are lost unless they are read in time.
+    /// Whether packets are lost if they are not read in time.
     virtual bool isLive() const = 0;
 };
 

@@ -8,7 +8,7 @@ namespace hagen::live {
 
 /// Options of a recording: a capture of all received datagrams.
 struct RecordingOptions {
-    std::filesystem::path file;  ///< .pcap; empty: no recording
+    std::filesystem::path file;  ///< .pcap; empty for no recording
     bool overwrite = false;      ///< replaces existing files
     std::size_t queue = 4096;    ///< maximum number of datagrams waiting for the disk
 
@@ -19,9 +19,8 @@ struct RecordingOptions {
     }
 };
 
-/// The result of a recording.
 struct Recorded {
-    std::size_t packets = 0, poses = 0;        ///< written
+    std::size_t packets = 0, poses = 0;        ///< numbers written
     std::size_t left_out = 0;                  ///< datagrams dropped because the disk was too slow
     std::vector<std::filesystem::path> files;  ///< completed files
     /// Why recording stopped early, with the file and its partial copy; empty otherwise.

@@ -14,8 +14,8 @@
 
 namespace hagen::live {
 
-/// The nearest obstacle in each direction around the vehicle, from labelled sectors, as in
-/// autopilot protocols: 72 directions of 5 degrees, clockwise in the vehicle's level frame (x
+/// The nearest obstacle in each direction around the vehicle, computed from labelled sectors. Like
+/// autopilot protocols, uses 72 directions of 5 degrees, clockwise in the vehicle's level frame (x
 /// forward, y left, z up).
 ///
 /// **Stale is never free.** A direction is unknown if the sensor has not swept it for 0.3 s, or
@@ -41,8 +41,8 @@ class SectorDistances {
     struct Sector {
         State state = State::Unknown;
         /// Horizontal distance of the nearest RoI return from the vehicle's origin; NaN unless
-        /// there is an obstacle. If the direction is only partly swept, the rest may hold a nearer
-        /// one.
+        /// there is an obstacle. If the direction is only partly swept, the rest may contain a
+        /// nearer obstacle.
         float distance_m = std::numeric_limits<float>::quiet_NaN();
         /// Position of the obstacle in the vehicle's current level frame (with its heading).
         Eigen::Vector3f at_m = Eigen::Vector3f::Zero();
@@ -58,8 +58,8 @@ class SectorDistances {
         float low_m = -std::numeric_limits<float>::infinity();
         float high_m = std::numeric_limits<float>::infinity();
         double stale_s = 0.3;
-        /// Start of the first direction, clockwise from ahead. 0: as in MAVLink's OBSTACLE_DISTANCE
-        /// with angle_offset 2.5 degrees.
+        /// Start of the first direction, clockwise from ahead. The default corresponds to MAVLink's
+        /// OBSTACLE_DISTANCE with angle_offset 2.5 degrees.
         double begin_rad = 0;
     };
     /// Returns the vehicle's pose at a time, if known.
@@ -71,13 +71,13 @@ class SectorDistances {
 
     /// If the clock goes back, earlier sectors are dropped because their age is unknown.
     void take(const LabelledSector& sector);
-    /// The directions at a time of the packet arrival clock.
+    /// The directions at a time on the packet arrival clock.
     Sectors at(double now_s, const PoseAt& poseAt = {}) const;
-    /// Arrival of the latest packet of any sector; -infinity before the first.
+    /// Arrival of the latest packet of any sector; -infinity before the first sector.
     double latest_s() const { return latest_s_; }
 
  private:
-    static constexpr int kParts = 5;  ///< of 1 degree in each direction
+    static constexpr int kParts = 5;  ///< parts of 1 degree in each direction
     static constexpr int kBins = kSectors * kParts;
     static constexpr double kNever = -std::numeric_limits<double>::infinity();
 
@@ -85,11 +85,11 @@ class SectorDistances {
     struct Seen {
         double first_time_s = 0, last_time_s = 0;
         bool turns = false;
-        std::vector<TurnCoverage::Swept> swept;  ///< by its packets
+        std::vector<TurnCoverage::Swept> swept;  ///< directions swept by its packets
         double ahead_rad = 0;                    ///< beam offset
-        /// Without a rotating head: when the period began that FrameCoverage found complete.
+        /// Without a rotating head, the start of the period that FrameCoverage found complete.
         std::optional<double> all_around_since_s;
-        double from_rad = 0, to_rad = 0;     ///< total rotation before and after
+        double from_rad = 0, to_rad = 0;     ///< total rotation before and after the sector
         std::vector<Eigen::Vector3f> roi_m;  ///< in the sensor's frame
 
         bool isPassed(double at_rad) const { return at_rad - to_rad > kLaterTurn_rad; }
@@ -114,8 +114,8 @@ class SectorDistances {
     double latest_s_ = kNever;
 };
 
-/// Returns in which of `number` equal directions a point is, clockwise; the first one begins at
-/// `begin_rad`, clockwise from ahead.
+/// Returns in which of `number` equal directions, counted clockwise, a point is. The first
+/// direction begins at `begin_rad`, clockwise from ahead.
 int directionOf(const Eigen::Vector2f& at_m, int number, double begin_rad = 0);
 
 }  // namespace hagen::live

@@ -5,7 +5,7 @@
 
 namespace hagen::live {
 
-/// Tilt and pose of a sensor, if known: the input of StreamingSegmenter.
+/// Tilt and pose of a sensor, if known, for StreamingSegmenter.
 struct SensorMotion {
     std::optional<Attitude> attitude;
     std::optional<Eigen::Isometry3d> map_from_sensor;

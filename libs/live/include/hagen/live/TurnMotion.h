@@ -8,30 +8,32 @@
 
 namespace hagen::live {
 
-/// Estimates tilt and climb of a rotating sensor: compares each ROU return in the zone with the
+/// Estimates tilt and climb of a rotating sensor: each ROU return in the zone is compared with the
 /// return of the same pixel one turn before. (Beyond the zone, ROU is not only ground.)
 ///
 /// Point-to-plane registration (Chen and Medioni 1992) with three unknowns: height, roll and pitch;
 /// level ground does not determine heading and position. The plane at a return contains the next
-/// ring of its column, and is level across. Outliers (Cauchy weights) and older returns weigh less.
+/// ring of its column, and is level across. Outliers (Cauchy weights) and older returns have lower
+/// weights.
 class TurnMotion {
  public:
-    /// Rows of the sensor, columns of the image, and zone of the filter.
+    /// `rows` of the sensor, `columns` of the image, and zone of the filter.
     TurnMotion(int rows, int columns, float zone_m);
 
-    /// Compares a sector with the turn before, and stores it for the next. One label per return;
-    /// `head_rad`: total rotation of the sensor over all turns.
+    /// Compares a sector with the turn before, and stores the sector for the next turn. `label` has
+    /// one entry per return; `head_rad` is the total rotation of the sensor over all turns.
     void add(const Scan& sector, const std::vector<Label>& label, double head_rad);
     void forget();
 
     /// Transforms a point measured this many turns ago (up to about one) to the current sensor
-    /// frame, assuming motion as in the latest turn. nullopt: too little ground was compared.
+    /// frame, assuming motion as in the latest turn. Returns nullopt if too little ground was
+    /// compared.
     std::optional<Eigen::Isometry3d> since(double turns) const;
 
  private:
     struct Ground {
         Eigen::Vector3f point_m;
-        float radius_m = 0;   ///< distance from the sensor's axis; 0: no ground
+        float radius_m = 0;   ///< distance from the sensor's axis; 0 without ground
         double head_rad = 0;  ///< rotation of the sensor
     };
     struct Pixel {
@@ -46,10 +48,10 @@ class TurnMotion {
     int rows_, columns_;
     float zone_m_;
     std::vector<Ground> ground_;  ///< latest ground of each pixel in the compared columns
-    std::vector<Pixel> sector_;   ///< reused
+    std::vector<Pixel> sector_;   ///< pixels of a sector; reused
     double head_rad_ = 0;
-    /// Least squares of height, roll and pitch of the previous frame relative to the current one:
-    /// normal equations, in units of a return's variance.
+    /// Normal equations of the least-squares fit of height, roll and pitch of the previous frame
+    /// relative to the current frame, in units of a return's variance.
     Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right_ = Eigen::Vector3d::Zero(), per_turn_ = Eigen::Vector3d::Zero();
     double weight_ = 0;  ///< total weight of all returns

@@ -12,25 +12,27 @@
 
 namespace hagen::observations {
 
-/// Null: unknown.
+/// Recovered beams; null if unknown.
 using SharedBeams = std::shared_ptr<const RecoveredBeams>;
 
-/// Recovers the unnamed sensors of clouds, one per sensor label.
+/// Recovers unnamed sensors, one per sensor label, from their clouds.
 ///
 /// A label's beams come from the cloud with the most returns among its first five with at least
-/// kMinReturnsForBeams returns (ties: the first). After five, they do not change.
+/// kMinReturnsForBeams returns (the first in case of a tie). After five clouds, the beams do not
+/// change.
 class CloudSensors {
  public:
     static constexpr int kClouds = 5;
 
-    /// Uses an observation if it is a readable cloud (not packets) and the label is not complete.
+    /// Uses an observation if it is a readable cloud (not packets) and the label needs further
+    /// clouds.
     void see(const mrpt::obs::CObservation& observation);
-    /// The same for the coordinates of a cloud. Rings of its returns, if given, define the beams if
-    /// they agree with the elevations (ringBeams()).
+    /// Like above, for the coordinates of a cloud. Rings of its returns, if given, define the beams
+    /// if they agree with the elevations (ringBeams()).
     void see(const std::string& label, const Scan& scan,
              const std::vector<std::int32_t>& rings = {});
 
-    /// Whether further clouds of this label are ignored.
+    /// Whether further clouds with this label are ignored.
     bool isSettled(const std::string& label) const;
 
     /// The beams of this label so far; null until a cloud has enough returns and three beams.
@@ -38,8 +40,8 @@ class CloudSensors {
 
  private:
     struct Seen {
-        int clouds = 0;           ///< with enough returns
-        std::size_t returns = 0;  ///< maximum of a cloud
+        int clouds = 0;           ///< number of clouds with enough returns
+        std::size_t returns = 0;  ///< maximum number of returns of a cloud
         SharedBeams beams;        ///< from that cloud
     };
     std::map<std::string, Seen> seen_;

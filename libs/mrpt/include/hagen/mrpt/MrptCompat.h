@@ -23,9 +23,9 @@
 namespace hagen::observations {
 
 /// Registers every class of mrpt-obs and mrpt-maps so that it can be read from a rawlog. Linking
-/// the libraries is not enough: the linker drops a library without referenced symbols.
+/// the libraries is not enough, because the linker drops libraries without referenced symbols.
 inline void registerMrptClasses() {
-    // Once only: later calls must not modify the registry while threads use it.
+    // Registers only once, because later calls must not modify the registry while threads use it.
     static const bool is_done = [] {
         mrpt::obs::registerAllClasses_mrpt_obs();
         mrpt::maps::registerAllClasses_mrpt_maps();
@@ -36,10 +36,10 @@ inline void registerMrptClasses() {
     static_cast<void>(is_done);
 }
 
-/// The cloud class readable by every MRPT from 2.5 to 3.
+/// The cloud class that all versions of MRPT from 2.5 to 3 can read.
 using PortableCloud = mrpt::maps::CSimplePointsMap;
-/// The cloud class with intensities: CPointsMapXYZI; from 2.15 on, the generic class, because MRPT
-/// 3 reads no other.
+/// The cloud class with intensities: CPointsMapXYZI before 2.15, then the generic class, because
+/// MRPT 3 reads no other cloud with intensities.
 #if MRPT_VERSION < 0x020f00
 using IntensityCloud = mrpt::maps::CPointsMapXYZI;
 #else

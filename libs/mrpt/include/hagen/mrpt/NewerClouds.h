@@ -14,11 +14,11 @@ namespace hagen::observations {
 /// (registerMrptClasses()).
 void registerNewerClouds();
 
-/// The fields of a cloud read as CGenericPointsMap, except coordinates and intensity. Writing the
-/// cloud loses them.
+/// The fields of a cloud read as CGenericPointsMap, except coordinates and intensity. These fields
+/// are lost when the cloud is written.
 std::vector<std::string> fieldsNotKept(const mrpt::maps::CPointsMap& cloud);
-/// The same fields as a table, one row per point of the cloud, without fields of other sizes. Null
-/// if the cloud was read as another class.
+/// Like fieldsNotKept(), as a table with one row per point of the cloud, without fields whose size
+/// differs. Null if the cloud was read as another class.
 const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud);
 
 /// Fields (uint8) that RawLogViewer shows as the colours of points, from MRPT 2.15 on.
@@ -27,10 +27,12 @@ constexpr std::array<const char*, 3> kColorFields{"color_r", "color_g", "color_b
 /// A cloud that is written as a CGenericPointsMap (version 3; readable from MRPT 2.15 on) with all
 /// fields of a checked table in little-endian order: uint8, uint16, float32 and float64 unchanged,
 /// other numbers as float64, several numbers per point as fields NAME_0, NAME_1. Throws
-/// std::invalid_argument if x, y or z is missing. renderOptions have the colour of the first point.
+/// std::invalid_argument if x, y or z is missing. Sets renderOptions to the colour of the first
+/// point.
 mrpt::maps::CPointsMap::Ptr genericCloudOf(const PointTable& table);
 
-/// Makes a cloud that was read as CGenericPointsMap be written as one. Ignores other clouds.
+/// Lets a cloud that was read as a CGenericPointsMap be written as the same class. Ignores other
+/// clouds.
 void writeAsGeneric(mrpt::maps::CPointsMap& cloud);
 
 }  // namespace hagen::observations

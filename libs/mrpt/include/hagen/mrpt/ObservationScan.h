@@ -22,25 +22,25 @@ namespace hagen::observations {
 /// not a result of the filter (isResult()).
 bool isLidarScan(const mrpt::obs::CObservation& observation);
 
-/// True if it is a LiDAR scan that does not identify its sensor: without packets, not a
-/// LocatedCloud, and not a rotating scan without points.
+/// True if the observation is a LiDAR scan that does not identify its sensor: it has no packets and
+/// is neither a LocatedCloud nor a rotating scan without points.
 bool isCloud(const mrpt::obs::CObservation& observation);
 
 /// A LiDAR scan read from an observation.
 struct ObservedScan {
     Scan scan;
     SensorModel sensor;
-    /// The beams of `sensor`, if neither the recording nor the settings name it. Null otherwise.
+    /// The beams of `sensor` if neither the recording nor the settings name it; otherwise null.
     SharedBeams recovered;
-    bool is_sensor_assumed = false;  ///< unnamed sensor without known beams: VLP-16
-    /// Warnings: skipped packet blocks, settings overridden by the recording. Empty: none.
+    bool is_sensor_assumed = false;  ///< whether a VLP-16 is assumed for lack of a name and beams
+    /// Warnings: skipped packet blocks, settings overridden by the recording. May be empty.
     std::string remark;
 
     /// Buffers of readObservation(), reused across scans.
     struct Workspace {
         ObservationWorkspace decoder;
         RotatingReturns rotating;
-        /// The sensor for these settings and beams; rebuilt only if they change.
+        /// The sensor for these settings and beams; rebuilt only if these change.
         std::optional<Settings::Sensor> settings;
         SharedBeams beams;
         SensorModel sensor_of_settings;
@@ -49,22 +49,22 @@ struct ObservedScan {
 };
 
 /// Reads a scan in its sensor's frame. The sensor comes from the recording (packets), the settings,
-/// or the recovered `beams`, in this order; the fallback is a VLP-16. A Velodyne scan without
-/// packets returns its stored cloud. Throws std::runtime_error if packets cannot be decoded or the
+/// or the recovered `beams`, in this order; the fallback is a VLP-16. If a Velodyne scan has no
+/// packets, its stored cloud is read. Throws std::runtime_error if packets cannot be decoded or the
 /// cloud is missing. Reuses the memory of `observed`.
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,
                      ObservedScan& observed, const SharedBeams& beams = nullptr);
 
-/// Reads the coordinates and intensities of a cloud, and its ring numbers, if any. Returns false
-/// unless isCloud(). Throws like readObservation().
+/// Reads the coordinates and intensities of a cloud, and its ring numbers, if any. Returns false if
+/// not isCloud(). Throws like readObservation().
 bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan,
                      std::vector<std::int32_t>* rings = nullptr);
 
 /// Point type of a cloud.
 enum class CloudClass {
-    Simple,         ///< CSimplePointsMap: coordinates only; readable by every MRPT from 2.5 to 3
+    Simple,         ///< CSimplePointsMap: coordinates only; readable by MRPT 2.5 to 3
     WithIntensity,  ///< CPointsMapXYZI: coordinates and intensities
-    Generic  ///< CGenericPointsMap: all fields; readable by MRPT from 2.15 on (NewerClouds.h)
+    Generic  ///< CGenericPointsMap: all fields; readable by MRPT 2.15 or later (NewerClouds.h)
 };
 
 /// Converts all returns, or those with these indices, to an MRPT cloud.

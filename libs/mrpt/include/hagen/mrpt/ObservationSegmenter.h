@@ -26,7 +26,7 @@ namespace hagen::observations {
 ///     hagen::observations::ObservationSegmenter::Output out;
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
-/// Accepts the LiDAR scans of a log from any number of sensors: each sensor label has its own
+/// Accepts the LiDAR scans of a log with one or several sensors. Each sensor label has its own
 /// filter. Results do not depend on previous scans, except that the beams of a sensor named by
 /// neither the recording nor the settings are recovered from its first clouds (CloudSensors.h).
 class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
@@ -35,17 +35,17 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
  public:
     struct Output {
         /// RoI and ROU of the scan, with its time stamp, sensor pose, and label plus `_roi` or
-        /// `_non_roi`. Points as measured, in the sensor frame. Every return with a range is in one
-        /// of the clouds, except returns of the settings' airframe.
+        /// `_non_roi`. Points are as measured, in the sensor frame. Every return with a range is in
+        /// one of the clouds, except returns from the airframe in the settings.
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
         /// The scan's returns, and the result of each stage; valid until the next process().
         const Scan* scan = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
-        std::size_t returns_masked = 0;    ///< airframe returns: without a range in `scan`
-        const Options* options = nullptr;  ///< of the filter: the settings' options, adapted to it
-        /// The beams of `sensor` if neither the recording nor the settings name it; if null, a
+        std::size_t returns_masked = 0;    ///< airframe returns, which have no range in `scan`
+        const Options* options = nullptr;  ///< options of the filter, adapted to the sensor
+        /// The beams of `sensor` if neither the recording nor the settings name it. If null, a
         /// VLP-16 is assumed.
         SharedBeams recovered;
         bool is_sensor_assumed = false;
@@ -63,8 +63,9 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     ObservationSegmenter() : COutputLogger("hagen::ObservationSegmenter") {}
 
-    /// Applies new settings and forgets the last attitude and recovered sensors. Default: default
-    /// settings. Throws SettingsError if the options do not fit the sensor of the settings.
+    /// Applies new settings and forgets the last attitude and recovered sensors. Without a call,
+    /// default settings apply. Throws SettingsError if the options do not fit the sensor of the
+    /// settings.
     void initialize(const Settings& settings);
 
     /// Segments one observation. Returns false and leaves `out` unchanged if it is not a LiDAR
@@ -74,9 +75,9 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     bool process(const mrpt::obs::CObservation& observation, Output& out,
                  const Trajectory& vehicle = Trajectory());
 
-    /// The same for a scan with a known pose and, for a cloud of an unnamed sensor, known `beams`
-    /// (null: not found; omitted: recovers them). Such scans can be segmented in any order and by
-    /// several segmenters concurrently.
+    /// Like above, for a scan with a known pose and, for a cloud of an unnamed sensor, known
+    /// `beams` (null if not found; if omitted, recovers them). Such scans can be segmented in an
+    /// arbitrary order and by several segmenters concurrently.
     bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose,
                  const std::optional<SharedBeams>& beams = std::nullopt);
 
@@ -87,7 +88,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
     /// Class of the output clouds.
     CloudClass cloud_class = CloudClass::Simple;
 
-    /// Times of each part of process(). Disabled by default; prints a report on destruction.
+    /// Measures the time of each part of process(). Disabled by default; prints a report on
+    /// destruction.
     mrpt::system::CTimeLogger profiler = idleProfiler();
 
  private:
@@ -103,7 +105,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 };
 
 /// Registers this project's classes with mrpt::rtti::classFactory(). Automatic in programs that use
-/// one of them.
+/// one of these classes.
 void registerHagenClasses();
 
 }  // namespace hagen::observations

@@ -20,10 +20,9 @@ enum class NumberType : std::uint8_t {
 };
 
 std::size_t bytesOf(NumberType type);
-/// "uint16", "float64".
+/// The name of a type, such as "uint16" or "float64".
 const char* nameOf(NumberType type);
 
-/// A field of all points of a table.
 struct PointField {
     std::string name;
     NumberType type = NumberType::Float32;
@@ -41,25 +40,25 @@ struct PointTable {
     std::vector<std::uint8_t> bytes;
 };
 
-/// Maximum numbers per point, over all fields.
+/// Maximum number of numbers per point, over all fields.
 constexpr std::size_t kMaxNumbersPerPoint = 65536;
 
 /// Checks a table from a file; call it before any other access. Throws std::runtime_error, naming
 /// the field, for fields without name or numbers, duplicate names, fields that exceed a point, more
-/// than kMaxNumbersPerPoint, and points that exceed the data.
+/// than kMaxNumbersPerPoint numbers, and points that exceed the data.
 void check(const PointTable& table);
 
 /// The field with exactly this name; null if not found.
 const PointField* findExactly(const PointTable& table, const std::string& name);
-/// The field with the first matching name, exact match preferred to case-insensitive. Null if not
-/// found.
+/// The field with the first name that matches; an exact match is preferred to a case-insensitive
+/// match. Null if not found.
 const PointField* findField(const PointTable& table, const std::vector<std::string>& names);
 
 /// The numbers of a field of a checked table, one per point, at index `element` of its count.
 std::vector<double> columnOf(const PointTable& table, const PointField& field,
                              std::size_t element = 0);
 
-/// The numbers of these points, in this order.
+/// Like above, for these points in this order.
 std::vector<double> columnOf(const PointTable& table, const PointField& field,
                              const std::vector<std::uint32_t>& points);
 
@@ -74,7 +73,7 @@ PointTable pointsOf(const PointTable& table, const std::vector<std::uint32_t>& p
 /// The table in the byte order of this machine.
 PointTable inNativeOrder(PointTable table);
 
-/// "x, y, z, intensity": for messages.
+/// The field names for messages, such as "x, y, z, intensity".
 std::string namesOf(const PointTable& table);
 
 }  // namespace hagen::observations

@@ -14,12 +14,12 @@ namespace hagen::observations {
 /// The points of a range image's pixels, row by row.
 struct OrganizedPoints {
     int rows = 0, columns = 0;
-    std::vector<float> x_m, y_m, z_m;  ///< in the sensor's frame; 0, 0, 0 or not finite: no point
+    std::vector<float> x_m, y_m, z_m;  ///< in the sensor's frame; all 0 or not finite if missing
 };
 
 /// Lets older MRPTs read the CObservationRotatingScan of MRPT 2.9 to 3, whose layout differs under
 /// the same version 0. The position of the image size distinguishes the layouts; an image without
-/// pixels counts as the older layout. Scans are written in the older layout, without their points.
+/// pixels is read as the older layout. Scans are written in the older layout, without their points.
 /// Call once, after registering MRPT's own classes (registerMrptClasses()).
 ///
 /// Reading throws std::runtime_error, naming the file, for a scan that is stored outside the log.
@@ -30,12 +30,12 @@ void registerNewerScans();
 const mrpt::obs::CObservationRotatingScan* rotatingScanOf(
     const mrpt::obs::CObservation& observation);
 
-/// The points of the scan's pixels, which newer MRPTs can store; null if missing.
+/// The points of the scan's pixels, which newer MRPTs can store; null if the scan has none.
 const OrganizedPoints* organizedPointsOf(const mrpt::obs::CObservationRotatingScan& observation);
 
 /// Further results of reading a rotating scan.
 struct RotatingReturns {
-    std::vector<std::int32_t> image_row;  ///< of each return
+    std::vector<std::int32_t> image_row;  ///< image row of each return
     std::string remark;                   ///< warning for the user, or empty
 };
 
@@ -64,7 +64,7 @@ void readRangeImage(const mrpt::obs::CObservationRotatingScan& observation,
                     const Settings& settings, Scan& scan, SensorModel& sensor,
                     RotatingReturns& returns);
 
-/// Copies the range limits of the observation if valid.
+/// Copies the range limits of the observation if they are valid.
 void takeLimits(const mrpt::obs::CObservationRotatingScan& observation, SensorModel& sensor);
 
 }  // namespace hagen::observations

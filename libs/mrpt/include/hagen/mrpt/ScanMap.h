@@ -9,26 +9,27 @@ namespace hagen::observations {
 
 /// The returns that are inserted into an OctoMap.
 enum class MapContent {
-    Full,       ///< all returns are hits, all rays clear (O-Full)
-    Roi,        ///< only RoI returns, hits and rays (O-RoI)
-    RoiAndRays  ///< RoI returns are hits, the rays of all returns clear (O-RoI+rays)
+    Full,       ///< all returns are hits, and all rays clear (O-Full)
+    Roi,        ///< only RoI returns are hits, and only their rays clear (O-RoI)
+    RoiAndRays  ///< RoI returns are hits, and all rays clear (O-RoI+rays)
 };
 
-/// How rays are inserted. All update a voxel once per scan and never clear a voxel with a hit.
+/// How rays are inserted. All methods update a voxel once per scan and never clear a voxel with a
+/// hit.
 enum class RayInsertion {
-    OneRayPerVoxel,   ///< own traversal with bit sets; one ray per end voxel
+    OneRayPerVoxel,   ///< our traversal with bit sets; one ray per end voxel
     OctoMap,          ///< OctoMap's insertPointCloud()
-    OctoMapDiscrete,  ///< the same with its discretization: one ray per end voxel
+    OctoMapDiscrete,  ///< insertPointCloud() with discretization: one ray per end voxel
 };
 
 struct ScanMapOptions {
     MapContent content = MapContent::RoiAndRays;
-    double resolution_m = 0.2;  ///< edge of a voxel; > 0
-    double max_range_m = 20;    ///< farther returns clear up to here and are not hits
-    // OctoMap's defaults.
+    double resolution_m = 0.2;  ///< edge length of a voxel; > 0
+    double max_range_m = 20;    ///< farther returns are not hits, but clear up to this range
+    // The defaults are OctoMap's.
     double hit_probability = 0.7, miss_probability = 0.4;
     double min_probability = 0.1192, greatest_probability = 0.971;  ///< clamping limits
-    RayInsertion insertion = RayInsertion::OneRayPerVoxel;  ///< others require MapContent::Full
+    RayInsertion insertion = RayInsertion::OneRayPerVoxel;  ///< the others require MapContent::Full
 };
 
 /// The map has reached its maximum size, 50 million nodes (about 3 GiB).
@@ -39,9 +40,9 @@ struct MapFull : std::runtime_error {
 /// An OctoMap built from segmented scans.
 class ScanMap {
  public:
-    /// Throws std::invalid_argument unless resolution and range are positive, and the probabilities
-    /// are in the order 0 < least < miss < 0.5 < hit < greatest < 1, or if more than 2^32 voxels
-    /// are within the range.
+    /// Throws std::invalid_argument unless resolution and range are positive and the probabilities
+    /// satisfy 0 < min < miss < 0.5 < hit < greatest < 1, or if more than 2^32 voxels are within
+    /// the range.
     explicit ScanMap(const ScanMapOptions& options);
 
     ~ScanMap();
@@ -53,10 +54,10 @@ class ScanMap {
     /// Updates leaves only; inner nodes are updated when the map is saved. Voxels outside the
     /// tree's bounding box (OctoMap's setBBXMin() etc.), if any, are not updated. Throws
     /// std::runtime_error, naming the position, for a scan outside the extent of an OctoMap (32768
-    /// voxels from the origin). Throws MapFull.
+    /// voxels from the origin), and MapFull.
     void insert(const MappedScan& scan);
 
-    /// Memory of the tree, from the sizes of its parts, and of the buffers.
+    /// Memory of the tree, computed from the sizes of its parts, and of the buffers.
     std::size_t bytes() const;
 
     const octomap::OcTree& tree() const { return *tree_; }

@@ -9,7 +9,7 @@ namespace hagen::observations {
 /// times overflow in MRPT.
 constexpr double kEarliest_s = -11644473600.0, kLatest_s = 1e11;
 
-/// secondsOf(INVALID_TIMESTAMP): means "no time" in files.
+/// secondsOf(INVALID_TIMESTAMP), which means "no time" in files.
 constexpr double kNoTime_s = kEarliest_s;
 
 /// Whether a number of seconds since 1970 is a plausible time; false for NaN.
@@ -17,7 +17,7 @@ inline bool isTime(double since_1970_s) {
     return since_1970_s > kEarliest_s && since_1970_s < kLatest_s;
 }
 
-/// Seconds since 1970, for any time stamp.
+/// Seconds since 1970, even for implausible time stamps.
 inline double secondsOf(mrpt::Clock::time_point time) {
     const double ticks_s = 1e-7 * static_cast<double>(time.time_since_epoch().count());
     const double since_1970_s = ticks_s + kEarliest_s;

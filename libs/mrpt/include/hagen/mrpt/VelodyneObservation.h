@@ -10,32 +10,32 @@
 
 namespace hagen::observations {
 
-/// Converts an observation's calibration without checks into `calibration`, reusing its memory.
+/// Converts an observation's calibration, without checks, and reuses the memory of `calibration`.
 void readCalibration(const mrpt::obs::VelodyneCalibration& of_observation,
                      sensors::VelodyneCalibration& calibration);
-/// The inverse.
+/// The inverse of readCalibration().
 mrpt::obs::VelodyneCalibration mrptCalibration(const sensors::VelodyneCalibration& calibration);
 
-/// Buffers of decodePackets() and sensorOf(). Reuse them across scans to avoid allocation; no state
-/// carries over.
+/// Buffers of decodePackets() and sensorOf(). Reuse them across scans to avoid allocation; they
+/// have no state.
 struct ObservationWorkspace {
     sensors::DecoderWorkspace packets;
-    sensors::VelodyneCalibration calibration;  ///< of the observation
+    sensors::VelodyneCalibration calibration;  ///< calibration of the observation
 };
 
 /// Returns the sensor of these packets: the beams of the calibration (default: the model's) and the
 /// observation's range limits. Throws std::runtime_error for an unknown model, and for an HDL-64E
 /// without calibration.
 SensorModel sensorOf(const mrpt::obs::CObservationVelodyneScan& observation);
-/// The same, into `sensor`, reusing its memory.
+/// Like above, but writes to `sensor` and reuses its memory.
 void sensorOf(const mrpt::obs::CObservationVelodyneScan& observation, SensorModel& sensor,
               ObservationWorkspace& work);
 
 /// Decodes all raw packets of an observation with its calibration (sensors::decodePackets()),
-/// regardless of its range limits. (MRPT's own generatePointCloud() decodes half of each block.)
+/// regardless of its range limits. (MRPT's generatePointCloud() decodes only half of each block.)
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan,
                           ObservationWorkspace& work);
-/// The same with temporary buffers.
+/// Like above, with temporary buffers.
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan);
 
 }  // namespace hagen::observations
