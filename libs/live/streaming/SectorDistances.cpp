@@ -185,7 +185,7 @@ void SectorDistances::noteHorizon(const Seen& seen, const Frames& frames, Look& 
 }
 
 /// Like noteHorizon(), but for the sensor's degrees, corrected for its yaw since then.
-void SectorDistances::noteSensor(const Seen& seen, const Frames& frames, Look& look) const {
+void SectorDistances::noteSensor(const Seen& seen, const Frames& frames, Look& look) {
     if (!seen.turns) {
         for (double& rad : look.passed_by_sensor_rad) rad = std::max(rad, seen.to_rad);
         return;

@@ -102,7 +102,7 @@ class SectorDistances {
     double azimuthOf(const Eigen::Matrix3d& sensor_from_level, int edge) const;
     double firstLook_s(double rad) const;
     void noteHorizon(const Seen& seen, const Frames& frames, Look& look) const;
-    void noteSensor(const Seen& seen, const Frames& frames, Look& look) const;
+    static void noteSensor(const Seen& seen, const Frames& frames, Look& look);
     void addObstacles(const Seen& seen, const Frames& frames, Look& look) const;
 
     Settings settings_;
