@@ -144,8 +144,8 @@ std::string hardSetTable(const Summary& summary, std::size_t method) {
     const MethodTotals& recorded = summary.methods[method];
     const std::size_t width = widthOf("degradation", names);
     std::string text = "\nOn degraded scans: " + recorded.name +
-                       " (change of F1 in points of 0.01)\n" + left("", width) +
-                       left("   RoI", 22) + left("ROU", 16) + "obstacle returns above 0.5 m\n" +
+                       " (change of F1 in units of 0.01)\n" + left("", width) + left("   RoI", 22) +
+                       left("ROU", 16) + "obstacle returns above 0.5 m\n" +
                        left("degradation", width) +
                        "       F1   change        F1   change    missed        of       %\n";
     const Scores& scores = recorded.returns.all.scores;

@@ -114,7 +114,7 @@ std::string hardSection(const std::vector<Measured>& all) {
     if (data.empty()) return "";
     return "## Hard sets\n\n"
            "Scores of `default` on degraded copies of the scans "
-           "([degradations](evaluation.md#hard-sets)). Changes in F1 are in points of 0.01.\n\n"
+           "([degradations](evaluation.md#hard-sets)). Changes in F1 are in units of 0.01.\n\n"
            "Degradations that reduce the F1 of RoI by more than " +
            cell(kCostly_points, 1) + " points:\n\n" + costlyList(data, &Degraded::roi_points) +
            "The F1 of ROU:\n\n" + costlyList(data, &Degraded::rou_points) + "The " +

@@ -8,7 +8,7 @@
 
 namespace hagen {
 
-/// Minimum loss of F1 for a degradation to be listed, in points of 0.01.
+/// Minimum loss of F1 for a degradation to be listed, in units of 0.01.
 constexpr double kCostly_points = 1.5;
 
 /// The scores of `default` with the worst degradations of each degraded set.

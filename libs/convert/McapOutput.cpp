@@ -101,7 +101,7 @@ std::vector<std::string> McapOutput::remarks() const {
     std::vector<std::string> remarks = changes_.texts(scans_);
     if (untimed_ > 0) {
         remarks.push_back(std::to_string(untimed_) + " of " + std::to_string(scans_) +
-                          " scans have no time from 1970 to 2038, as ROS requires; set to 0");
+                          " scans have no time within the range of ROS (1970 to 2038); set to 0");
     }
     for (const auto& [label, lidar] : lidars_) {
         if (lidar.name == label) continue;

@@ -33,7 +33,8 @@ constexpr double kStatus_s = 0.5;
 // SectorDistances treats a direction as unknown if its turn is 0.3 s old. Packets that waited
 // longer than kTooOld_s are therefore dropped, until a packet has waited less than kNew_s.
 constexpr double kTooOld_s = 0.15, kNew_s = 0.05;
-constexpr int kKeepsUp = 4;  // statuses without dropped packets that end an overload
+// An overload ends after this many consecutive statuses without dropped packets.
+constexpr int kKeepsUp = 4;
 
 double processCpu_s() {
     return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);

@@ -5,8 +5,8 @@
 namespace hagen {
 
 /// For each byte: the indices of its set bits, lowest first (padded with zeros), and their number.
-/// Moves selected lanes to the front of a vector. Replaces Highway 1.0's Compress(), because GCC 12
-/// copies its table to the stack on every call for AVX2.
+/// Used to move selected lanes to the front of a vector. Replaces Highway 1.0's Compress(), because
+/// GCC 12 copies its table to the stack on every call for AVX2.
 struct SetBits {
     std::array<std::array<std::uint8_t, 8>, 256> place{};
     std::array<std::uint8_t, 256> count{};

@@ -94,8 +94,8 @@ std::string airframeBinsText(const Image<float>& bin_range_m, const std::string&
         }
     }
     return text + (bins.empty() ? "bins: []\n"
-                                : "bins:  # azimuth and elevation where a bin starts [deg], the "
-                                  "range that is masked [m]\n" +
+                                : "bins:  # start azimuth and elevation of the bin [deg], "
+                                  "masked up to this range [m]\n" +
                                       bins);
 }
 

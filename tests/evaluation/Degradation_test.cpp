@@ -159,7 +159,8 @@ TEST(Degradation, KeepsReturnsNearerThanDrops) {
     EXPECT_GT(degraded(scan, "noise_m=10").input.scan.range_m[0], 0.0f);
 }
 
-/// Expects points to be rotated and cropped to the field of view. The attitude is optional.
+/// Expects points to be rotated and cropped to the field of view. The attitude is
+/// known only with ",attitude".
 void expectTilted(const std::string& text, const Attitude& attitude) {
     const auto scan = randomScan();
     const auto tilted = degraded(scan, text);

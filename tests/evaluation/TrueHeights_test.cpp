@@ -121,7 +121,7 @@ TEST(TrueHeights, SkipReturnsBeyondRange) {
     EXPECT_TRUE(std::isnan(heights_m[2]));
 }
 
-// Such returns have no cell; sanitizers would report the overflow of a cell index.
+// Very distant returns have no cell; sanitizers would report the overflow of a cell index.
 TEST(TrueHeights, SkipImplausiblyFarReturns) {
     const auto scan = scanOf({{4, 0, -2}, {5, 0, 0}, {20000, 0, 0}, {20000, 0, -2}}, {G, O, O, G});
     const std::vector<float> heights_m = heightsOf(scan, 1e6f);

@@ -358,7 +358,7 @@ TEST_F(StreamingSegmenterTest, RejectsReturnsWithoutAzimuth) {
     }
 }
 
-TEST_F(StreamingSegmenterTest, RejectsUnsoundSweepsAndTimes) {
+TEST_F(StreamingSegmenterTest, RejectsInvalidSweepsAndTimes) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});

@@ -184,7 +184,7 @@ TEST_F(ObservationSegmenterTest, AdaptsToChangedSensor) {
     EXPECT_EQ(out_.result->labels.rows(), 32);
 }
 
-/// A cloud of a pole at (12, 2) on flat ground that does not name its sensor.
+/// A cloud without a sensor name: a pole at (12, 2) on flat ground.
 mrpt::obs::CObservationPointCloud::Ptr cloudFrom(const SensorModel& sensor, int columns) {
     test::SimpleScene scene;
     scene.poles.push_back({12, 2, 0.15, 8});

@@ -268,10 +268,11 @@ TEST_F(BagPosesTest, SkipsUnreadableTransform) {
         const ReadBag bag = read(messages);
         EXPECT_NEAR(CPose3D(bag.of("front")[0]->sensorPose()).x(), 1, 1e-9) << topic;
         EXPECT_NEAR(CPose3D(bag.of("rear")[0]->sensorPose()).x(), -1, 1e-9) << topic;
-        EXPECT_THAT(bag.scans->remarks(),
-                    Contains(topic + ": 1 transform that could not be read, left out; the first: "
-                                     "message 0 (recorded at 1700000000.000 s): from 'base_link' "
-                                     "to 'broken': it is not finite or has no rotation"));
+        EXPECT_THAT(
+            bag.scans->remarks(),
+            Contains(topic + ": 1 transform that could not be read, left out; the first: "
+                             "message 0 (recorded at 1700000000.000 s): from 'base_link' "
+                             "to 'broken': it has non-finite values or an invalid quaternion"));
     }
 }
 

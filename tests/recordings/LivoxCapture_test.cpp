@@ -71,7 +71,7 @@ class LivoxCaptureTest : public testing::Test {
 
 TEST_F(LivoxCaptureTest, LimitsSearchForSensorKind) {
     const auto file = CaptureWriter().write(folder_ / "a.pcap");
-    std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse: frames without content
+    std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse; zeros are empty frames
     const auto start = std::chrono::steady_clock::now();
     EXPECT_TRUE(openCapture(file));
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));

@@ -14,7 +14,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Clearance = std::function<float(const Vector3f&)>;
 
-/// The limits of a flight: a horizontal rectangle, between heights below and above all its ground.
+/// The limits of a flight: a horizontal rectangle, from below its lowest ground to above its
+/// highest.
 Eigen::AlignedBox3d boundsOver(const simulation::Terrain& terrain) {
     constexpr double kLeft_m = -6, kRight_m = 46, kHalfWidth_m = 15;
     constexpr double kBelow_m = 1, kAbove_m = 6;

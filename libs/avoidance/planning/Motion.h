@@ -29,10 +29,11 @@ struct CommandPaths {
     std::vector<Eigen::Vector3f> held_m, broken_off_m;
 };
 
-/// Checks a command: held for `hold_s` and followed by braking, and interrupted after one period,
-/// so that braking will still be possible then. If the vehicle is too close to an obstacle, the
-/// command must lead away. Returns the minimum clearance of both paths, or nullopt if either is not
-/// free. `paths` is working memory reused by the planner.
+/// Checks two paths: the command is held for `hold_s` or for one period only, and the vehicle then
+/// brakes. The short path ensures that the vehicle can still brake after one period. If the
+/// vehicle is too close to an obstacle, the command must lead away. Returns the minimum clearance
+/// of both paths, or nullopt if either is not free. `paths` is working memory reused by the
+/// planner.
 std::optional<float> checkCommand(const WorldModel& world, const PlanningTask& task,
                                   const Eigen::Vector3d& command_m_s, double hold_s,
                                   CommandPaths& paths);

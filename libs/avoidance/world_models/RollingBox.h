@@ -57,7 +57,8 @@ class RollingBox {
     const std::uint32_t* part(int axis) const {
         return parts_[static_cast<std::size_t>(axis)].data() + 1;
     }
-    /// Part of a group's number by the group's position along an axis, in groups of the map.
+    /// The part of a group's number that one axis contributes. `group` is the group's position in
+    /// the map along this axis, in groups.
     std::uint32_t groupPart(int axis, int group) const;
     /// Position of a block's first voxel.
     Eigen::Array3i placeOf(std::uint32_t block) const;

@@ -107,8 +107,8 @@ void proximityOf(const Image<float>& depth_m, float zone_m, Image<float>& proxim
 }
 
 // Fast because few pixels matter: components are born where no neighbour is older, and meet only
-// where the older neighbours of a pixel are not adjacent. These pixels are found with vectors, and
-// only the meetings are sorted.
+// where the older neighbours of a pixel are not adjacent. SIMD finds these pixels,
+// and only the meetings need sorting.
 void findPersistentMaxima(const Image<float>& proximity_m, float min_persistence_m,
                           std::vector<Maximum>& maxima, MaximaWorkspace& w) {
     frameLevels(proximity_m, w.proximity_m);

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxOusterMetadata = 1 << 20;
 
 void addPose(const PoseMessage& message, std::int64_t recorded_ns, PoseSeries& series) {
     const auto pose = message.pose();
-    if (!pose) throw std::runtime_error("its pose is not finite or has no rotation");
+    if (!pose) throw std::runtime_error("its pose has non-finite values or an invalid quaternion");
     const std::int64_t time_ns = message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
     // Uses doubles, because times in a broken file may overflow integers.
     const auto apart_ns = [&] {
@@ -132,7 +132,7 @@ class BagSurveyor {
             const auto pose = transform.pose();
             if (!pose) {
                 count(survey_.left_out[topic.topic.name].transforms, message, topic,
-                      which + ": it is not finite or has no rotation");
+                      which + ": it has non-finite values or an invalid quaternion");
                 continue;
             }
             if (is_static) {

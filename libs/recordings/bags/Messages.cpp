@@ -41,8 +41,8 @@ std::string withoutSlash(std::string frame) {
 
 NumberType pointFieldType(std::uint8_t datatype) {
     if (datatype >= 1 && datatype <= kPointFieldTypes.size()) return kPointFieldTypes[datatype - 1];
-    throw std::runtime_error("a field of its points has the type " + std::to_string(datatype) +
-                             ", which does not exist");
+    throw std::runtime_error("one of its point fields has the unknown type " +
+                             std::to_string(datatype));
 }
 
 template <std::size_t N>

@@ -135,8 +135,8 @@ class SqliteBag : public BagFile {
     using Query = std::unique_ptr<sqlite3_stmt, Close>;
 
     void open() {
-        // Rolling back the journal requires write permission; without it, old and new pages are
-        // mixed.
+        // The file contains both old and new pages until the journal is rolled back, which requires
+        // write permission.
         const std::string journal = file_.string() + "-journal";
         if (hasHotJournal(journal)) {
             fail("it is being written, or its writer was interrupted: " + journal +

@@ -279,7 +279,7 @@ void readRows(const std::filesystem::path& file, const PlyHeader& header, Rows r
             if (!has_vertices) rows.read(element, nullptr);
             continue;
         }
-        if (has_vertices) throw BrokenRecording(file.string() + ": has 'vertex' elements twice");
+        if (has_vertices) throw BrokenRecording(file.string() + ": has two 'vertex' elements");
         has_vertices = true;
         cloud.table = vertexTableOf(element);
         for (const PlyProperty& property : element.properties) {

@@ -150,8 +150,11 @@ std::size_t readScan(const fs::path& file, Scan& scan) {
         const Bytes bytes = readBytes(file);
         std::size_t numbers = binNumbersPerPoint(bytes);
         if (numbers == 0) {
-            std::string other_kind = otherKindOf(bytes);
-            if (mayBeBin(bytes)) other_kind = "its points have a fifth number that is not a ring";
+            if (mayBeBin(bytes)) {
+                throw BrokenRecording(file.string() +
+                                      ": the fifth number of its points is not a ring");
+            }
+            const std::string other_kind = otherKindOf(bytes);
             if (!other_kind.empty()) {
                 throw BrokenRecording(file.string() + ": has no points: " + other_kind);
             }

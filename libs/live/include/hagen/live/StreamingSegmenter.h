@@ -183,8 +183,8 @@ class StreamingSegmenter {
 
     std::deque<Packet> packets_;  ///< packets of the latest turn, in order of arrival
     std::vector<Packet> spare_;   ///< reused packet buffers
-    /// Context returns far from a sector, packet by packet, because most sectors use long stretches
-    /// of them.
+    /// The returns used as context far from a sector. Those of successive packets are contiguous,
+    /// because most sectors copy long stretches of them.
     Returns thinned_;
     std::size_t pending_first_ = 0, pending_end_ = 0;  ///< stretch to be added next
     std::size_t open_ = 0;                             ///< packets of the sector in progress

@@ -12,9 +12,9 @@ namespace hagen::live {
 /// return of the same pixel one turn before. (Beyond the zone, ROU is not only ground.)
 ///
 /// Point-to-plane registration (Chen and Medioni 1992) with three unknowns: height, roll and pitch;
-/// level ground does not determine heading and position. The plane at a return contains the next
-/// ring of its column, and is level across. Outliers (Cauchy weights) and older returns have lower
-/// weights.
+/// level ground does not determine heading and position. The plane at a return has the slope from
+/// there to the next ring in its column, and is level across the column. Outliers (Cauchy weights)
+/// and older returns have lower weights.
 class TurnMotion {
  public:
     /// `rows` of the sensor, `columns` of the image, and zone of the filter.

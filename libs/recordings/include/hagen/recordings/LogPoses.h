@@ -14,8 +14,8 @@ namespace hagen::recordings {
 struct LogPoses {
     observations::Trajectory vehicle;
     std::string source;  ///< for messages, such as "flight.tum"; empty if there are no poses
-    /// True if the poses are sensor poses, which include the mount, for all scans or for those with
-    /// these labels.
+    /// True if the poses of all scans are sensor poses, which include the mount. Otherwise, this
+    /// applies only to the LiDARs with the labels `of_sensors`.
     bool are_of_sensor = false;
     std::set<std::string> of_sensors = {};
     std::set<std::string> vehicles = {};  ///< labels of LiDARs whose frame is the vehicle frame
