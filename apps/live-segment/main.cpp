@@ -30,7 +30,7 @@ struct Flags {
     std::string listen;
     std::filesystem::path replay;
     double speed = 1;
-    std::vector<std::string> configs;
+    std::vector<std::string> configs, keys;
     bool overwrite = false, is_quiet = false;
     AutopilotFlags autopilot;
 };
@@ -78,6 +78,9 @@ void declare(Program& app, Flags& flags) {
     app.option("-c,--config", flags.configs,
                "settings file or preset such as hdl32e; may be repeated, later files override "
                "earlier ones")
+        .once()
+        .group("Settings");
+    app.option("--set", flags.keys, "KEY=VALUE: one key of the settings; may be repeated")
         .once()
         .group("Settings");
     app.version(HAGEN_VERSION);
@@ -181,6 +184,7 @@ int run(const Program& program, Flags& flags) {
             const std::filesystem::path file = presetFile(config);
             mergeSettings(file, flags.live.settings);
         }
+        for (const std::string& key : flags.keys) mergeKey(key, flags.live.settings);
         std::unique_ptr<live::PacketSource> source;
         if (!flags.replay.empty()) {
             source = std::make_unique<live::ReplaySource>(flags.replay, flags.speed);

@@ -19,7 +19,7 @@ namespace {
 
 struct Flags {
     avoidance::OpenLoop open_loop;
-    std::vector<std::string> configs;
+    std::vector<std::string> configs, keys;
     std::string folder, scenario;
     std::uint64_t seed = 1;
     bool overwrites = false, is_quiet = false;
@@ -69,6 +69,7 @@ int run(Flags flags) {
     for (const std::string& config : flags.configs) {
         mergeSettings(presetFile(config), open_loop.source.settings);
     }
+    for (const std::string& key : flags.keys) mergeKey(key, open_loop.source.settings);
     std::vector<std::filesystem::path> inputs = open_loop.source.settings.files;
     inputs.insert(inputs.end(),
                   {open_loop.source.log, open_loop.source.poses, open_loop.source.sensor_json});
@@ -149,6 +150,7 @@ void addOpenLoop(Program& program) {
                "settings file, or the name of a preset such as hdl32e; repeatable, later ones "
                "override earlier ones")
         .once();
+    sub.option("--set", flags->keys, "KEY=VALUE: one key of the settings; repeatable").once();
     sub.option("-o,--output", flags->folder, "folder for tables and summary.json").required();
     sub.flag("--overwrite", flags->overwrites, "replace existing tables");
     sub.flag("-q,--quiet", flags->is_quiet, "print errors only");

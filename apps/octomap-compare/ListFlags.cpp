@@ -14,7 +14,7 @@ void takesWorldModels(Flag flag, const std::vector<std::string>& also) {
         if (isIn(known) || isIn(also)) return "";
         return "unknown world model '" + name + "'; known: " + avoidance::worldModelList();
     };
-    flag.transform(avoidance::worldModelFrom).check(errorOf, "");
+    flag.transform(avoidance::worldModelFrom).check(errorOf);
 }
 
 std::vector<std::string> namesFrom(const std::string& flag, const std::vector<std::string>& names,

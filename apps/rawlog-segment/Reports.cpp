@@ -13,6 +13,7 @@
 #include <iostream>
 #include <limits>
 #include <string>
+#include <vector>
 
 // Labels, frames and names are untrusted: print them to std::cout, which keepTerminalSafe() guards,
 // never with printf().
@@ -76,6 +77,44 @@ std::string whyNotAll(const ConversionReport& report) {
                 : ": the log has no attitude in the preceding 0.2 s)");
 }
 
+template <class Number>
+Number medianOf(std::vector<Number> numbers) {
+    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return *middle;
+}
+
+/// The nearest obstacle, and medians over the scans.
+void printObstacles(const ConversionReport& report) {
+    const std::vector<hagen::convert::ScanReport>& scans = report.scan_reports;
+    if (scans.empty()) return;
+    const auto distance_m = [](const hagen::convert::ScanReport& scan) {
+        return scan.obstacles > 0 ? scan.nearest_roi_m : std::numeric_limits<float>::infinity();
+    };
+    const auto nearest = std::min_element(
+        scans.begin(), scans.end(),
+        [&](const auto& a, const auto& b) { return distance_m(a) < distance_m(b); });
+    std::vector<std::size_t> obstacles;
+    std::vector<double> latencies_ms;
+    for (const auto& scan : scans) {
+        obstacles.push_back(scan.obstacles);
+        latencies_ms.push_back(scan.latency_ms);
+    }
+    using hagen::base::fixedText;
+    if (nearest->obstacles > 0) {
+        std::cout << "nearest obstacle: " << fixedText(distance_m(*nearest), 2) << " m, "
+                  << fixedText(nearest->time_s - scans.front().time_s, 1)
+                  << " s after the first scan (entry " << nearest->entry << ")\n";
+    }
+    std::cout << "obstacles per scan: " << medianOf(obstacles)
+              << " (median); time per scan: " << fixedText(medianOf(latencies_ms), 2)
+              << " ms (median)\n";
+    if (report.scans_without_ground > 0) {
+        std::cout << "no ground found: " << report.scans_without_ground << " of "
+                  << counted(report.scans, "scan", "scans") << "\n";
+    }
+}
+
 }  // namespace
 
 void printSummary(const Conversion& conversion, const ConversionReport& report) {
@@ -95,6 +134,7 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     if (report.returns_masked > 0) {
         line(report.returns_masked, "  of these: the settings' airframe, masked");
     }
+    printObstacles(report);
     if (report.unreadable_scans > 0) {
         std::cout << counted(report.unreadable_scans, "scan", "scans")
                   << " unreadable, kept unchanged\n";

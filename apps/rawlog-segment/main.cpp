@@ -32,9 +32,6 @@ convert::ConversionReport convertAloud(const convert::Conversion& conversion, bo
         throw;
     }
     progress.finish();
-    if (!quiet && report.scans == 0) {
-        std::cerr << conversion.input.string() << ": no LiDAR scan was segmented\n";
-    }
     if (!quiet && !conversion.poses.empty() && report.poses.empty()) {
         std::cerr << conversion.poses.string()
                   << ": ignored: only --kitti, --mcap and --octomap use poses; angles are "
@@ -54,7 +51,7 @@ void printSettings(const convert::Conversion& conversion) {
 
 struct Flags {
     convert::Conversion conversion;
-    std::vector<std::string> configs;
+    std::vector<std::string> configs, keys;
     bool is_quiet = false, dumps_settings = false;
     std::filesystem::path learned_airframe;
     double learn_seconds = convert::AirframeLearning().seconds;
@@ -63,7 +60,7 @@ struct Flags {
 void declare(Program& app, Flags& flags) {
     convert::Conversion& conversion = flags.conversion;
 
-    app.option("-i,--input", conversion.input,
+    app.option("PATH,-i,--input", conversion.input,
                "a rawlog, a network capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 "
                "or its folder), a scan folder (KITTI layout), a point cloud (.pcd, .ply, .las, "
                ".npy, .bin) or a folder of them")
@@ -98,6 +95,7 @@ void declare(Program& app, Flags& flags) {
 
     const Flag rawlog = app.option("-o,--output", conversion.rawlog,
                                    "segmented rawlog: all entries, plus two clouds per scan")
+                            .extension({".rawlog", ""})
                             .group("Output");
     app.flag("--preview", conversion.preview, "add a coloured scene for RawLogViewer to each scan")
         .needs(rawlog)
@@ -131,13 +129,7 @@ void declare(Program& app, Flags& flags) {
     app.option("--mcap", conversion.mcap,
                "MCAP for Foxglove and ROS 2: clouds with all fields, label and obstacle, obstacle "
                "boxes, and poses if known")
-        .check(
-            [](const std::string& name) {
-                return std::filesystem::path(name).extension() == ".mcap"
-                           ? ""
-                           : name + " does not end in .mcap";
-            },
-            "PATH")
+        .extension({".mcap"})
         .group("Output");
     const Flag pictures = app.option("--pictures", conversion.pictures,
                                      "folder of PNGs of each stage, one subfolder per scan")
@@ -153,13 +145,7 @@ void declare(Program& app, Flags& flags) {
                    "OctoMap of the scans (requires poses): .bt, .ot, or .3Dscene for "
                    "SceneViewer3D; may be repeated")
             .once()
-            .check(
-                [](const std::string& name) {
-                    return observations::isMapFile(name)
-                               ? ""
-                               : name + " does not end in .bt, .ot or .3Dscene";
-                },
-                "PATH")
+            .extension({".bt", ".ot", ".3Dscene"})
             .group("Output");
     app.choice<observations::MapContent>(
            "--octomap-content", conversion.octomap.content,
@@ -177,19 +163,14 @@ void declare(Program& app, Flags& flags) {
         .valueName("M")
         .needs(octomap)
         .group("Output");
-    app.option("--stats", conversion.stats, "JSON: settings, counts, latencies, per-scan data")
+    app.option("--stats", conversion.stats,
+               "JSON: settings, counts, latencies, per-scan data; -: standard output")
         .group("Output");
     const Flag learn =
         app.option("--learn-airframe", flags.learned_airframe,
                    "learn the vehicle's own returns from a flight, for 'airframe:' in "
                    "settings: writes FILE.yaml and a picture, no other output")
-            .check(
-                [](const std::string& name) {
-                    return std::filesystem::path(name).extension() == ".yaml"
-                               ? ""
-                               : name + " does not end in .yaml";
-                },
-                "PATH")
+            .extension({".yaml"})
             .group("Output");
     app.option("--learn-seconds", flags.learn_seconds,
                "duration to learn from, after --from [s] (default: 10)")
@@ -208,6 +189,9 @@ void declare(Program& app, Flags& flags) {
     app.option("-c,--config", flags.configs,
                "settings file, or the name of a preset such as hdl32e; may be repeated, later ones "
                "override earlier ones")
+        .once()
+        .group("Settings");
+    app.option("--set", flags.keys, "KEY=VALUE: one key of the settings; may be repeated")
         .once()
         .group("Settings");
     app.flag("--config-dump", flags.dumps_settings, "print the current settings and exit")
@@ -284,6 +268,7 @@ int run(const Program& program, Flags& flags) {
         for (const std::string& config : flags.configs) {
             mergeSettings(presetFile(config), flags.conversion.settings);
         }
+        for (const std::string& key : flags.keys) mergeKey(key, flags.conversion.settings);
         if (flags.dumps_settings) {
             printSettings(flags.conversion);
             return kDone;
@@ -294,9 +279,14 @@ int run(const Program& program, Flags& flags) {
             return kDone;
         }
         const convert::ConversionReport report = convertAloud(flags.conversion, flags.is_quiet);
-        if (!flags.is_quiet) printSummary(flags.conversion, report);
-        if (report.scans > 0 || report.unreadable_scans == 0) return kDone;
-        return program.fail(kFailed, "no LiDAR scan could be read");
+        if (!flags.is_quiet && flags.conversion.stats != "-") {
+            printSummary(flags.conversion, report);
+        }
+        if (report.scans > 0) return kDone;
+        return program.fail(
+            kFailed, flags.conversion.input.string() + (report.unreadable_scans == 0
+                                                            ? ": no LiDAR scan was segmented"
+                                                            : ": no LiDAR scan could be read"));
     } catch (const SettingsError& e) {
         return program.fail(kWrongUsage, e.what());
     }

@@ -29,9 +29,9 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
         return "unknown scenario '" + name + "'; known: " + known;
     };
 
-    app.option("--scenario", log.scenario, "the scene")
+    app.option("--scenario", log.scenario, "the scene: " + known)
         .required()
-        .check(known_scenario, "{" + known + "}")
+        .check(known_scenario)
         .group("Flight");
     app.option("--scans", log.scans, "number of scans")
         .required()

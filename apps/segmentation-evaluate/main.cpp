@@ -31,7 +31,7 @@ using namespace hagen::base;
 namespace fs = std::filesystem;
 
 struct Flags {
-    std::vector<std::string> folders, configs, sweeps, labels, degradations;
+    std::vector<std::string> folders, configs, keys, sweeps, labels, degradations;
     std::string label_map, camera, overlay, json, charts;
     float max_range_m = 20.0f;
     int resamples = 1000;
@@ -43,6 +43,7 @@ void addFlags(Command& app, Flags& flags) {
     app.option("-c,--config", flags.configs,
                "settings file, or the name of a preset such as hdl32e; may be repeated, later ones "
                "override earlier ones");
+    app.option("--set", flags.keys, "KEY=VALUE: one key of the settings; may be repeated").once();
     app.option("--sweep", flags.sweeps,
                "KEY=VALUE,VALUE,...: one row per value; sweeps are independent");
     app.flag("--baselines", flags.with_baselines,
@@ -142,6 +143,7 @@ int run(const Flags& flags, evaluation::Summary summary) {
     catchSignals();
     for (const std::string& config : flags.configs)
         mergeSettings(presetFile(config), summary.settings);
+    for (const std::string& key : flags.keys) mergeKey(key, summary.settings);
     evaluation::MethodSet rows;
     rows.filter = evaluation::rowsOf(summary.settings, flags.sweeps);
     if (flags.with_baselines) rows.baselines = summary.settings;

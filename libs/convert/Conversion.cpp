@@ -20,6 +20,7 @@
 #include <thread>
 
 #include "convert/ConversionOutputs.h"
+#include "convert/GroundCheck.h"
 #include "convert/OrderedPipeline.h"
 #include "convert/SegmentEntry.h"
 #include "recordings/SensorCheck.h"
@@ -233,6 +234,7 @@ class Converter {
         ScanReport report = reportOf(scan);
         report.name = outputs_.writeScan(scan.segmented, scan.recorded, settings_);
         count(scan.segmented, report, title, report_);
+        ground_check_.see(scan.segmented);
     }
 
     void remarkOn(const ConvertedScan& scan, const std::string& title) const {
@@ -336,7 +338,10 @@ class Converter {
     }
 
     /// Reports results that suggest wrong settings or coordinates.
-    void remarkOnLabels() const {
+    void remarkOnLabels() {
+        report_.scans_without_ground = ground_check_.scans() - ground_check_.scansWithGround();
+        const std::string no_ground = ground_check_.warning();
+        if (!no_ground.empty()) listener_.remark("WARNING", no_ground);
         if (!settings_.airframe.parts.isEmpty() && report_.scans > 0 &&
             report_.returns_masked == 0) {
             listener_.remark("the log",
@@ -407,6 +412,7 @@ class Converter {
     /// Time of the last segmented scan, by sensor label.
     std::map<std::string, mrpt::Clock::time_point> last_segmented_;
     recordings::SensorCheck sensor_check_;
+    GroundCheck ground_check_;
     ConversionReport report_;
 };
 

@@ -31,6 +31,8 @@ std::string lastNameOf(const fs::path& input) {
     return (input.has_filename() ? input : input.parent_path()).filename().string();
 }
 
+const fs::path kStandardOutput = "-";
+
 std::string textOfNames(const fs::path& name) { return name.string(); }
 std::string textOfNames(const std::string& names) { return names; }
 
@@ -40,6 +42,7 @@ std::vector<fs::path> outputsOf(const Conversion& conversion) {
     std::vector<fs::path> outputs{conversion.rawlog, conversion.folder,   conversion.clouds,
                                   conversion.mcap,   conversion.pictures, conversion.stats};
     outputs.insert(outputs.end(), conversion.octomaps.begin(), conversion.octomaps.end());
+    if (conversion.stats == kStandardOutput) outputs[5].clear();
     outputs.erase(std::remove(outputs.begin(), outputs.end(), fs::path()), outputs.end());
     return outputs;
 }
@@ -68,7 +71,7 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion)
     if (!conversion.octomaps.empty()) {
         map_.emplace(conversion.octomaps, conversion.octomap, overwrite);
     }
-    if (!conversion.stats.empty()) {
+    if (!conversion.stats.empty() && conversion.stats != kStandardOutput) {
         stats_.emplace(conversion.stats, base::kFile, overwrite);
     }
 }
@@ -217,9 +220,9 @@ void ConversionOutputs::finish(const ConversionReport& report) {
         });
     }
     if (map_) attempt(kMap, [&] { map_->write(); });
-    if (stats_) {
-        attempt(kStats,
-                [&] { writeConversionStatistics(stats_->temporary(), conversion_, report); });
+    if (!conversion_.stats.empty()) {
+        const fs::path file = stats_ ? stats_->temporary() : fs::path("/dev/stdout");
+        attempt(kStats, [&] { writeConversionStatistics(file, conversion_, report); });
     }
 }
 

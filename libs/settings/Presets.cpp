@@ -126,6 +126,9 @@ fs::path presetFile(const std::string& name, const std::function<bool(const fs::
     if (exists && !fs::is_directory(name, error)) return name;
     if (const fs::path preset = findPreset(name); !preset.empty()) return preset;
     if (exists) return name;
+    if (name.find('=') != std::string::npos) {
+        throw SettingsError(name + ": no such file or preset; to set a key: --set " + name);
+    }
     const std::string preset = presetName(fs::path(name).filename());
     if (!findPreset(preset).empty()) {  // probably a path from a guide
         throw SettingsError(name + ": no such file; the preset's name is '" + preset + "'");

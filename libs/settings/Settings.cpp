@@ -256,15 +256,9 @@ void mergeIncludes(const fs::path& file, const YAML::Node& node, Includes& inclu
     for (const YAML::Node& name : names) merge(name.as<std::string>(""));
 }
 
-void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
-    const YAML::Node document = parseFile(file, kMaxFileBytes);
-    settings.files.push_back(file);
-    if (document.IsNull()) return;  // empty, or only comments
-    if (!document.IsMap()) {
-        throw SettingsError(file.string() + ": not a settings file: expected 'key: value' lines");
-    }
+void mergeKeys(const fs::path& file, const YAML::Node& document, Includes& includes,
+               Settings& settings) {
     if (document["include"]) mergeIncludes(file, document["include"], includes, settings);
-
     std::vector<std::string> known{"include", "sensor", "airframe", kPaper};
     for (const OptionKey& key : optionKeys()) known.push_back(key.name);
     std::set<std::string> seen;
@@ -287,6 +281,16 @@ void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
         }
     };
     forEachKey(file, document, "", "", read);
+}
+
+void mergeFile(const fs::path& file, Includes& includes, Settings& settings) {
+    const YAML::Node document = parseFile(file, kMaxFileBytes);
+    settings.files.push_back(file);
+    if (document.IsNull()) return;  // empty, or only comments
+    if (!document.IsMap()) {
+        throw SettingsError(file.string() + ": not a settings file: expected 'key: value' lines");
+    }
+    mergeKeys(file, document, includes, settings);
 }
 
 }  // namespace
@@ -351,6 +355,32 @@ void mergeSettings(const std::filesystem::path& file, Settings& settings, Settin
     Settings merged = settings;
     Includes includes{origin};
     mergeFile(file, includes, merged);
+    settings = merged;
+}
+
+void mergeKey(const std::string& assignment, Settings& settings) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        throw SettingsError("--set " + assignment + ": expected KEY=VALUE, such as zone_m=10");
+    }
+    const std::string key = assignment.substr(0, equals);
+    const std::size_t dot = key.find('.');
+    YAML::Node document;
+    try {
+        const std::string text = assignment.substr(equals + 1);
+        const bool is_list = !text.empty() && text[0] == '[';
+        const YAML::Node value = is_list ? YAML::Load(text) : YAML::Node(text);
+        if (dot == std::string::npos) {
+            document[key] = value;
+        } else {
+            document[key.substr(0, dot)][key.substr(dot + 1)] = value;
+        }
+    } catch (const YAML::Exception& e) {
+        throw SettingsError("--set " + assignment + ": " + e.msg);
+    }
+    Settings merged = settings;
+    Includes includes{SettingsOrigin::User};
+    mergeKeys("--set " + assignment, document, includes, merged);
     settings = merged;
 }
 

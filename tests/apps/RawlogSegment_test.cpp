@@ -60,6 +60,35 @@ constexpr int kGolden[10][2] = {{1730, 13883}, {1857, 13775}, {1864, 13767}, {18
                                 {1897, 13754}, {1967, 13751}, {2057, 13724}, {2066, 13735},
                                 {2070, 13736}, {2127, 13707}};
 
+TEST_F(RawlogSegment, AcceptsInputWithoutFlagAndSingleKeys) {
+    const auto outcome =
+        expectSuccess({recording(), "--stats", "-", "--set", "zone_m=7", "--set", "seeds=every"});
+    const auto stats = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(stats["settings"]["zone_m"], 7);
+    EXPECT_EQ(stats["settings"]["seeds"], "every");
+    EXPECT_FALSE(fs::exists("-"));
+    expectFailure({"-i", recording(), "--stats", "-", "-c", "zone_m=7"}, 2, "--set zone_m=7");
+    expectFailure({"-i", recording(), "-o", path("out.mcap")}, 2, "does not end in .rawlog");
+}
+
+TEST_F(RawlogSegment, WarnsIfUpsideDown) {
+    expectSuccess({"-q", "-i", recording(), "--kitti", path("scans")});
+    for (const auto& file : fs::directory_iterator(path("scans/velodyne"))) {
+        Scan scan;
+        recordings::readScan(file.path(), scan);
+        for (float& y_m : scan.y_m) y_m = -y_m;
+        for (float& z_m : scan.z_m) z_m = -z_m;
+        recordings::writeScan(file.path(), scan);
+    }
+    const Arguments convert{"-i", path("scans"), "--stats", path("a.json")};
+    EXPECT_THAT(expectSuccess(convert).err,
+                HasSubstr("no ground was found in 10 of 10 scans: all their returns within 20 m "
+                          "count as obstacles. With --set sensor.mount_roll_deg=180, 10 of 10"));
+    EXPECT_EQ(
+        expectSuccess(with(convert, {"--overwrite", "--set", "sensor.mount_roll_deg=180"})).err,
+        "");
+}
+
 TEST_F(RawlogSegment, LabelsSampleRecordingAsPublished) {
     const auto outcome =
         expectSuccess({"-i", recording(), "-o", path("out.rawlog"), "--preview", "--kitti",

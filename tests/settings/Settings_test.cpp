@@ -56,6 +56,28 @@ class SettingsTest : public testing::Test {
     test::TemporaryFolder folder_;
 };
 
+TEST_F(SettingsTest, MergesSingleKeys) {
+    Settings settings;
+    mergeKey("zone_m=10", settings);
+    mergeKey("paper.seeds=every", settings);
+    mergeKey("sensor.model=OS1-64", settings);
+    mergeKey("airframe=[sphere: {centre_m: [0, 0, 0], radius_m: 1}]", settings);
+    EXPECT_EQ(settings.options.zone_m, 10.0f);
+    EXPECT_EQ(settings.options.seeds, Seeds::Every);
+    EXPECT_EQ(settings.sensor.model, "OS1-64");
+    EXPECT_EQ(settings.airframe.parts.spheres.size(), 1u);
+    for (const auto& [wrong, words] : std::map<std::string, std::string>{
+             {"zone_n=1", "--set zone_n=1: unknown key 'zone_n'; did you mean 'zone_m'?"},
+             {"zone_m=-1", "--set zone_m=-1: zone_m is -1"},
+             {"zone_m", "expected KEY=VALUE"},
+             {"=1", "expected KEY=VALUE"},
+             {"airframe=[", "--set airframe=["}}) {
+        EXPECT_THAT(test::messageOf([&, key = wrong] { mergeKey(key, settings); }),
+                    HasSubstr(words));
+        EXPECT_EQ(settings.options.zone_m, 10.0f);
+    }
+}
+
 TEST_F(SettingsTest, Vlp16PresetMatchesDefaults) {
     Settings preset;
     mergeSettings(kConfig / "vlp16.yaml", preset);

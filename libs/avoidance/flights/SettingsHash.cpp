@@ -62,7 +62,7 @@ std::string sensorText() {
     for (const Air air : {Air::Dusty, Air::Clear}) {
         const simulation::SensorErrorModel faults = trialErrorModel(air);
         airs[nameOf(air)] = {{"footprint_rad", faults.footprint_rad},
-                             {"min_noise_m", faults.min_noise_m},
+                             {"least_noise_m", faults.min_noise_m},
                              {"half_range_m", faults.half_range_m},
                              {"lost", faults.lost},
                              {"mixed", faults.mixed},

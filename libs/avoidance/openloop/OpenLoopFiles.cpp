@@ -33,7 +33,7 @@ void writeCounts(std::ostream& out, const DirectionCounts& counts) {
 }
 
 void writeModels(std::ostream& out, const OpenLoopResult& result) {
-    out << "model,scans,obstacles,bytes,max_bytes,blocked,precision,recall,level_precision,"
+    out << "model,scans,obstacles,bytes,most_bytes,blocked,precision,recall,level_precision,"
            "level_recall,scored,hits,false_alarms,misses,level_scored,level_hits,"
            "level_false_alarms,level_misses\n";
     for (const OpenLoopModel& model : result.models) {
@@ -111,7 +111,7 @@ Json json(const OpenLoopModel& model) {
         {"name", model.name},
         {"obstacles", number(median(model.obstacles))},
         {"bytes", number(median(model.bytes))},
-        {"max_bytes", number(most(model.bytes))},
+        {"most_bytes", number(most(model.bytes))},
         {"blocked", number(median(model.blocked))},
         {"directions",
          {{"all", json(model.all)}, {"level", json(model.level)}, {"by_elevation", by_elevation}}}};

@@ -54,6 +54,16 @@ class HelpText : public CLI::Formatter {
  public:
     HelpText() { column_width(kHelpColumn); }
 
+    /// The name of the value only; CLI11 would add types, limits and requirements.
+    std::string make_option_opts(const CLI::Option* option) const override {
+        const std::string& name = option->get_option_text();
+        return name.empty() ? "" : " " + name;
+    }
+    std::string make_option_desc(const CLI::Option* option) const override {
+        const std::string& standard = option->get_default_str();
+        return option->get_description() + (option->get_required() ? " (required)" : "") +
+               (standard.empty() ? "" : " (default: " + standard + ")");
+    }
     std::string make_help(const CLI::App* app, std::string name,
                           CLI::AppFormatMode mode) const override {
         std::istringstream lines(CLI::Formatter::make_help(app, std::move(name), mode));
@@ -113,8 +123,18 @@ Flag& Flag::existingPath() {
     option_->check(CLI::ExistingPath);
     return *this;
 }
-Flag& Flag::check(std::function<std::string(const std::string&)> errorOf, const std::string& type) {
-    option_->check(CLI::Validator(std::move(errorOf), type));
+Flag& Flag::extension(const std::vector<std::string>& extensions) {
+    std::vector<std::string> named = extensions;
+    named.erase(std::remove(named.begin(), named.end(), ""), named.end());
+    return check([extensions, named](const std::string& name) -> std::string {
+        const std::string own = fs::path(name).extension().string();
+        const bool is_one =
+            std::find(extensions.begin(), extensions.end(), own) != extensions.end();
+        return is_one ? "" : name + " does not end in " + CLI::detail::join(named, ", ");
+    });
+}
+Flag& Flag::check(std::function<std::string(const std::string&)> errorOf) {
+    option_->check(CLI::Validator(std::move(errorOf), ""));
     return *this;
 }
 Flag& Flag::transform(std::function<std::string(const std::string&)> rewrite) {
@@ -177,6 +197,12 @@ template <class Value>
 Flag Command::option(const std::string& names, Value& value, const std::string& help) {
     CLI::Option* const option = app_->add_option(names, value, help);
     using Number = typename NumberIn<Value>::Type;
+    constexpr bool is_path =
+        std::is_same_v<Value, fs::path> || std::is_same_v<Value, std::vector<fs::path>>;
+    option->option_text(std::is_floating_point_v<Number> ? "X"
+                        : std::is_integral_v<Number>     ? "N"
+                        : is_path                        ? "PATH"
+                                                         : "NAME");
     if constexpr (std::is_arithmetic_v<Number>) {
         option->check(CLI::Validator(errorOfNumber<Number>, ""));
     } else {
@@ -225,7 +251,9 @@ Flag Command::choice(const std::string& names, const std::vector<std::string>& w
                    ? ""
                    : "'" + word + "' is not one of " + CLI::detail::join(words, ", ");
     };
-    return Flag(*app_->add_option_function(names, set, help)->check(CLI::Validator(errorOf, "")));
+    return Flag(*app_->add_option_function(names, set, help)
+                     ->check(CLI::Validator(errorOf, ""))
+                     ->option_text(CLI::detail::join(words, "|")));
 }
 
 void Command::does(std::function<int()> work) {

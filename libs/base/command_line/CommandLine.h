@@ -47,14 +47,16 @@ class Flag {
     Flag& existingFile();
     Flag& existingFolder();
     Flag& existingPath();
-    /// `errorOf` returns the error in a value, or "". --help shows `type`.
-    Flag& check(std::function<std::string(const std::string&)> errorOf, const std::string& type);
+    /// The name of a file must have one of these extensions (".mcap"; "": none).
+    Flag& extension(const std::vector<std::string>& extensions);
+    /// `errorOf` returns the error in a value, or "".
+    Flag& check(std::function<std::string(const std::string&)> errorOf);
     Flag& mayBeEmpty();  ///< texts must not be empty by default
     /// Rewrites values before they are checked.
     Flag& transform(std::function<std::string(const std::string&)> rewrite);
 
     Flag& group(const std::string& name);      ///< heading in --help
-    Flag& valueName(const std::string& name);  ///< replaces the type shown by --help
+    Flag& valueName(const std::string& name);  ///< replaces NAME, PATH, N or X in --help
     Flag& showDefault();                       ///< shows the variable's current value in --help
 
     bool isGiven() const;  ///< valid after parsing

@@ -30,8 +30,9 @@ struct Conversion {
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
     std::vector<std::filesystem::path> octomaps;  ///< the map in each format: .bt, .ot, .3Dscene
     observations::ScanMapOptions octomap;         ///< resolution and contents of the map
-    std::filesystem::path stats;                  ///< JSON: settings, counts, one line per scan
-    bool overwrite = false;                       ///< replace existing outputs
+    std::filesystem::path
+        stats;               ///< JSON: settings, counts, one line per scan; "-": standard output
+    bool overwrite = false;  ///< replace existing outputs
 
     std::filesystem::path poses;  ///< vehicle poses (TUM, KITTI); empty for the poses of the log
     std::size_t from = 0;         ///< first and last entry to convert, both inclusive
@@ -82,11 +83,12 @@ struct ConversionReport {
     struct Mcap {
         std::size_t scans = 0, points = 0, boxes = 0, messages = 0;
     };
-    Mcap mcap;                            ///< contents of the MCAP
-    std::size_t scans_in_map = 0;         ///< scans in the OctoMap (those with a pose)
-    std::size_t scans_with_attitude = 0;  ///< scans with known roll and pitch
-    std::string first_without_attitude;   ///< "entry 0 (lidar)"; empty if there is none
-    bool is_attitude_of_poses = false;    ///< interpolated poses; otherwise the log's latest
+    Mcap mcap;                             ///< contents of the MCAP
+    std::size_t scans_without_ground = 0;  ///< their returns in the zone are RoI
+    std::size_t scans_in_map = 0;          ///< scans in the OctoMap (those with a pose)
+    std::size_t scans_with_attitude = 0;   ///< scans with known roll and pitch
+    std::string first_without_attitude;    ///< "entry 0 (lidar)"; empty if there is none
+    bool is_attitude_of_poses = false;     ///< interpolated poses; otherwise the log's latest
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
     Settings settings;    ///< settings of the conversion, merged with a scan folder's sensor.yaml

@@ -81,6 +81,10 @@ enum class SettingsOrigin {
 void mergeSettings(const std::filesystem::path& file, Settings& settings,
                    SettingsOrigin origin = SettingsOrigin::User);
 
+/// Merges one key, such as "zone_m=10", "sensor.model=OS1-64" or "airframe=[]", like a file with
+/// this key. Throws SettingsError and leaves `settings` unchanged.
+void mergeKey(const std::string& assignment, Settings& settings);
+
 /// Returns an angle in degrees with the fewest decimals that convert back to the same angle.
 std::string degreesText(float angle_rad);
 
