@@ -238,7 +238,7 @@ class GenericCloud : public CPointsMapXYZI {
                     throw std::runtime_error("a cloud has too many fields");
                 }
                 const std::string why = keep<Number>(name, {values.begin(), values.end()});
-                const std::string unless = " (except this one: " + why + ")";
+                const std::string unless = " (not kept: " + why + ")";
                 fields_not_kept.push_back(why.empty() ? name : name + unless);
                 continue;
             }

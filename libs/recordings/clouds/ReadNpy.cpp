@@ -80,8 +80,7 @@ ItemType itemTypeOf(const std::filesystem::path& file, const std::string& text) 
         end > 1 ? base::numberFrom<std::uint32_t>(std::string_view(name).substr(1, end - 1))
                 : std::nullopt;
     if (!size || name[0] == 'O') {
-        throw BrokenRecording(file.string() + ": the type '" + text.substr(0, 40) +
-                              "' of its numbers is unknown");
+        throw BrokenRecording(file.string() + ": unknown number type '" + text.substr(0, 40) + "'");
     }
     item.bytes = name[0] == 'U' ? std::size_t{4} * *size : *size;
     item.order = '|';
@@ -105,7 +104,7 @@ std::size_t productOf(const std::filesystem::path& file, const YAML::Node& sizes
 void takeOrder(const std::filesystem::path& file, char order, char& all) {
     if (order == '|') return;
     if (all != '|' && all != order) {
-        throw BrokenRecording(file.string() + ": has numbers of both byte orders");
+        throw BrokenRecording(file.string() + ": mixes little-endian and big-endian numbers");
     }
     all = order;
 }
@@ -156,7 +155,8 @@ void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
     constexpr std::size_t kMaxColumns = 1024;
     const ItemType item = itemTypeOf(file, descr);
     if (!item.type) {
-        throw BrokenRecording(file.string() + ": its numbers are '" + descr.substr(0, 40) +
+        throw BrokenRecording(file.string() + ": its numbers have the unsupported type '" +
+                              descr.substr(0, 40) +
                               "'; convert them, for example with .astype(numpy.float32)");
     }
     if (columns < 3 || columns > kMaxColumns) {
