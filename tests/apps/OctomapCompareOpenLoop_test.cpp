@@ -89,7 +89,7 @@ TEST_F(OpenLoopCommand, LogAndScanFolderYieldSameResults) {
     }
     const auto folder = run(with({"-i", path("gap"), "-o", path("c")}, kModels));
     ASSERT_EQ(folder.exit_code, 0) << folder.err;
-    EXPECT_THAT(folder.err, HasSubstr("4 scans were placed with one pose each"));
+    EXPECT_THAT(folder.err, HasSubstr("4 scans placed with a single pose"));
 }
 
 TEST_F(OpenLoopCommand, UsesPosesFromLog) {

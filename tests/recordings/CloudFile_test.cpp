@@ -431,9 +431,9 @@ TEST_F(CloudFileTest, NpyChecksHeader) {
     EXPECT_THAT(complaintOn("{'descr': '<f2'" + rest), HasSubstr("'<f2'"));
     EXPECT_THAT(complaintOn("{'descr': '|O'" + rest), HasSubstr("'|O'"));
     EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "(5, 3)", "(15,)")),
-                HasSubstr("1 dimensions"));
+                HasSubstr("at least two dimensions"));
     EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "5, 2")),
-                HasSubstr("2 numbers per point"));
+                HasSubstr("3 to 1024 columns (x, y, z, ...), not 2"));
     EXPECT_THAT(
         complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "9999999999, 9999999999, 3")),
         HasSubstr("too large"));

@@ -279,7 +279,8 @@ TEST_F(Rawlog, RejectsCountBeyondFile) {
         EXPECT_EQ(entries, 1u);
         EXPECT_THAT(why, HasSubstr("entry 1 at byte " + std::to_string(second)));
 #ifndef __SANITIZE_ADDRESS__  // shadow memory counts towards the limit
-        EXPECT_THAT(why, HasSubstr("requests too much memory at byte " + std::to_string(count + 4)));
+        EXPECT_THAT(why,
+                    HasSubstr("requests too much memory at byte " + std::to_string(count + 4)));
 #endif
     }
 }

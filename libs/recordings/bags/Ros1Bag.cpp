@@ -154,9 +154,9 @@ class Ros1Bag : public RecordFile {
             throw std::runtime_error("the bag ends here without an index: it was not closed");
         }
         if (chunks_ != chunks_due_ || chunk_infos_ != chunks_due_) {
-            throw std::runtime_error("the bag ends here with " + std::to_string(chunks_) +
-                                     " chunks, " + std::to_string(chunk_infos_) +
-                                     " of them described; its header says " +
+            throw std::runtime_error("the bag ends here, but is incomplete: chunk count " +
+                                     std::to_string(chunks_) + ", chunk info count " +
+                                     std::to_string(chunk_infos_) + ", both expected to be " +
                                      std::to_string(chunks_due_));
         }
     }

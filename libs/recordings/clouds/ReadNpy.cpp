@@ -160,8 +160,9 @@ void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
                               "'; convert them, for example with .astype(numpy.float32)");
     }
     if (columns < 3 || columns > kMaxColumns) {
-        throw BrokenRecording(file.string() + ": has " + std::to_string(columns) +
-                              " numbers per point: the array must be N x 3 or more (x, y, z, ...)");
+        throw BrokenRecording(file.string() + ": the array must have 3 to " +
+                              std::to_string(kMaxColumns) + " columns (x, y, z, ...), not " +
+                              std::to_string(columns));
     }
     takeOrder(file, item.order, order);
     for (std::size_t column = 0; column < columns; ++column) {
@@ -213,8 +214,9 @@ CloudFile readNpy(const std::filesystem::path& file, Bytes bytes) {
         throw BrokenRecording(file.string() + ": its NPY header has an invalid 'shape' or 'descr'");
     }
     if (is_plain && dimensions < 2) {
-        throw BrokenRecording(file.string() + ": has " + std::to_string(dimensions) +
-                              " dimensions: the array must be N x 3 or more (x, y, z, ...)");
+        throw BrokenRecording(file.string() +
+                              ": the array must have at least two dimensions, N x 3 or more "
+                              "(x, y, z, ...)");
     }
     const std::size_t point_dimensions = is_plain ? dimensions - 1 : dimensions;
     if (is_by_column && point_dimensions > 1) {

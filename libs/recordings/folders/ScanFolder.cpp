@@ -33,7 +33,7 @@ std::size_t checkedCount(const fs::path& file, std::size_t bytes, std::size_t by
     }
     if (bytes / bytes_per_point > kMaxReturns) {
         throw BrokenRecording(file.string() + ": has more than " + std::to_string(kMaxReturns) +
-                              " points, the maximum of a scan");
+                              " points, the maximum for a scan");
     }
     return bytes / bytes_per_point;
 }
