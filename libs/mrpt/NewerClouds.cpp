@@ -216,8 +216,8 @@ class GenericCloud : public CPointsMapXYZI {
         if (name.empty()) return "no name";
         if (findExactly(other_fields, name) != nullptr) return "duplicate name";
         if (values.size() != size()) {
-            return std::to_string(values.size()) + " values for " + std::to_string(size()) +
-                   " points";
+            return "expected one value per point (" + std::to_string(size()) + "), found " +
+                   std::to_string(values.size());
         }
         addColumn(name, typeOf<Number>(), values, other_fields);
         return "";

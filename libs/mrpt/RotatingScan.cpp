@@ -381,8 +381,7 @@ void readOrganizedPoints(const CObservationRotatingScan& observation, Scan& scan
     }
     returns.remark = "output rawlogs contain the ranges of this scan, not the points";
     if (without_point > 0) {
-        returns.remark +=
-            "; " + std::to_string(without_point) + " ranges without a point are dropped";
+        returns.remark += "; ranges without a point (dropped): " + std::to_string(without_point);
     }
 }
 

@@ -158,8 +158,9 @@ class McapFile : public RecordFile {
             throw std::runtime_error("the magic bytes at the end are missing");
         }
         if (file_.left() > 0) {
-            throw std::runtime_error("the file has " + std::to_string(file_.left()) +
-                                     " more bytes after its end; was another file appended?");
+            throw std::runtime_error("data after the end of the recording (" +
+                                     std::to_string(file_.left()) +
+                                     " B); was another file appended?");
         }
         is_at_end_ = true;
         return false;
