@@ -28,7 +28,7 @@ void warnIfBusy() {
     double load = 0;
     if (getloadavg(&load, 1) == 1 && load > 0.5) {
         std::cerr << "octomap-compare: this machine is busy (load " << load
-                  << "); measured latencies may be too long\n";
+                  << "); measured latencies may be too high\n";
     }
 }
 
@@ -108,7 +108,7 @@ void addCalibrate(Program& program) {
     takesWorldModels(
         sub.option("--models", flags->models, "world models (default: all)").delimiter(','),
         {"all"});
-    sub.option("--path-m", flags->path_m, "length of that flight [m]")
+    sub.option("--path-m", flags->path_m, "length of the flight for --memory [m]")
         .between(10.0, 10000.0)
         .needs(memory)
         .showDefault();

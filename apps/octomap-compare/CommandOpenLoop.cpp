@@ -36,25 +36,27 @@ std::vector<std::string> standardModels(bool has_scene) {
     return models;
 }
 
-void print(std::size_t count, const std::string& what) {
-    if (count > 0) std::cerr << "octomap-compare: " << count << " " << oneLine(what) << "\n";
+void print(std::size_t count, const std::string& one, const std::string& what) {
+    if (count == 0) return;
+    std::cerr << "octomap-compare: " << count << " " << one << (count == 1 ? " " : "s ")
+              << oneLine(what) << "\n";
 }
 
 void printLosses(const avoidance::OpenLoopResult& result) {
-    print(result.scans_without_pose, "scans skipped: no pose within 0.2 s");
-    print(result.unreadable_scans,
-          "scans skipped: unreadable; the first: " + result.why_unreadable);
+    print(result.scans_without_pose, "scan", "skipped: no pose within 0.2 s");
+    print(result.unreadable_scans, "scan",
+          "skipped: unreadable; the first: " + result.why_unreadable);
     for (const std::string& remark : result.remarks) {
         std::cerr << "octomap-compare: " << oneLine(remark) << "\n";
     }
 }
 
 void printLimits(const avoidance::OpenLoopResult& result) {
-    print(result.scans_placed_by_one_pose,
-          "scans were placed with one pose each, because their returns have no times or the "
-          "poses do not cover the whole scan");
-    print(result.model_resets,
-          "resets of all models, because the flight exceeds the size of the maps");
+    print(result.scans_placed_by_one_pose, "scan",
+          "placed with a single pose, because the returns have no times or the poses do not "
+          "cover the whole scan");
+    print(result.model_resets, "reset",
+          "of all models, because the flight exceeds the size of the maps");
     if (!result.poses_have_horizon) {
         std::cerr << "octomap-compare: poses and level directions are relative to the first "
                      "scan\n";

@@ -130,12 +130,12 @@ bool isLeftBehind(const fs::path& file, const std::string& output) {
 OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     : path_(std::move(path)), kind_(kind), overwrites_(overwrite) {
     if (!path_.has_filename() && kind_.holds == nullptr) {
-        failAt(path_, "ends with '/', but will be a file");
+        failAt(path_, "ends with '/', but the output is a file");
     }
     path_ = withoutSlash(path_);
     checkFree();
     const fs::path folder = parentOf(path_);
-    if (!fs::is_directory(folder)) failAt(folder, "no such folder to write to");
+    if (!fs::is_directory(folder)) failAt(folder, "no such folder");
     temporary_ = secretName(path_, kTemporaryMark);
 }
 

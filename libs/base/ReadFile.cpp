@@ -20,7 +20,7 @@ void checkIsFile(const std::filesystem::path& file) {
     const std::filesystem::file_status status = std::filesystem::status(file, error);
     if (std::filesystem::is_directory(status)) failAt(file, "is a folder, not a file");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        failAt(file, "is a pipe or a device; store it in a file first");
+        failAt(file, "is a pipe or a device; save its content to a file first");
     }
 }
 
@@ -43,7 +43,7 @@ std::string readText(const std::filesystem::path& file, std::size_t max_bytes) {
         text.append(block, static_cast<std::size_t>(in.gcount()));
         if (text.size() > max_bytes) {
             failAt(file, "is larger than " + std::to_string(max_bytes >> 20) +
-                             " MiB, too large for a text");
+                             " MiB, too large for a text file");
         }
     }
     if (in.bad()) failAt(file, "cannot be read");
@@ -55,7 +55,7 @@ bool nextLine(std::ifstream& in, std::string& line, const std::filesystem::path&
     for (int c = in.get(); c != std::ifstream::traits_type::eof(); c = in.get()) {
         if (c == '\n') return true;
         if (line.size() == kMaxLineLength)
-            failAt(file, "has a line longer than 1 MiB and is not text");
+            failAt(file, "has a line longer than 1 MiB, so it is not a text file");
         line += static_cast<char>(c);
     }
     return !line.empty();

@@ -45,8 +45,9 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
         if (report.scans + report.unreadable_scans == 0) report.sensor_label = label;
         if (label != report.sensor_label) {
             throw std::runtime_error(learning.input.string() + ": has scans of '" +
-                                     report.sensor_label + "' and of '" + label +
-                                     "'; an airframe belongs to one sensor: add --sensor-label");
+                                     report.sensor_label + "' and '" + label +
+                                     "', but an airframe belongs to one sensor; select it with "
+                                     "--sensor-label");
         }
         try {
             observations::readObservation(*scan->observation, settings, observed, scan->beams);
@@ -86,8 +87,9 @@ AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeLis
     try {
         learned = learner.learn();
     } catch (const std::invalid_argument& e) {
-        throw std::runtime_error(learning.input.string() + ": " + e.what() + " (read: the first " +
-                                 base::shortestText(learning.seconds) + " s; see --learn-seconds)");
+        throw std::runtime_error(learning.input.string() + ": " + e.what() +
+                                 " (read only the first " + base::shortestText(learning.seconds) +
+                                 " s; see --learn-seconds)");
     }
     report.bins = learned.bins;
     report.share_of_sphere = learned.share_of_sphere;

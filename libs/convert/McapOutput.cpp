@@ -105,8 +105,8 @@ std::vector<std::string> McapOutput::remarks() const {
     }
     for (const auto& [label, lidar] : lidars_) {
         if (lidar.name == label) continue;
-        remarks.push_back("the LiDAR '" + label + "' is named '" + lidar.name +
-                          "' to conform to ROS");
+        remarks.push_back("the LiDAR '" + label + "' is renamed to '" + lidar.name +
+                          "' to conform to ROS naming rules");
     }
     return remarks;
 }

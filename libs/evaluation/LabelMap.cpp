@@ -36,7 +36,7 @@ LabelMap readLabelMap(const std::filesystem::path& file) {
     forEachYamlEntry(file, kExample, [&](const std::string& key, const YAML::Node& value) {
         const SemanticClass kind = classOf(value);
         if (!names.insert(kind.name).second) {
-            throw std::invalid_argument("two classes are called '" + kind.name + "'");
+            throw std::invalid_argument("two classes are named '" + kind.name + "'");
         }
         map.emplace(kindNumber(key), kind);
     });

@@ -12,8 +12,8 @@ constexpr float kMaxBands = 1e6f;  // because each band stores scores
 
 void checkSizes(std::size_t returns, std::size_t labels, const std::string& what) {
     if (labels == returns) return;
-    throw std::invalid_argument("has " + std::to_string(labels) + " " + what + " for " +
-                                std::to_string(returns) + " returns");
+    throw std::invalid_argument("the numbers of " + what + " (" + std::to_string(labels) +
+                                ") and returns (" + std::to_string(returns) + ") differ");
 }
 
 Eigen::Matrix3f GroundTruthScan::levelFromSensor() const {

@@ -208,25 +208,24 @@ void Session::reportUncertain() {
     restarts_ = counts.restarts;
     if (is_uncertain_ && !is_restarted) return;
     is_uncertain_ = true;
-    const std::string columns = "the columns of " + options_.sensor_json.string();
-    listener_.remark(is_restarted
-                         ? "the sensor restarted: its packets are dropped until its turns have " +
-                               columns
-                         : "the sensor's turns do not have " + columns +
-                               ": its packets are dropped. Is it in another mode?");
+    const std::string columns = "the columns in " + options_.sensor_json.string();
+    listener_.remark(
+        is_restarted ? "the sensor restarted; dropping its packets until its turns match " + columns
+                     : "the sensor's turns do not match " + columns +
+                           "; dropping its packets. Is the sensor in another mode?");
 }
 
 void Session::reportChanges() {
     if (is_uncertain_) {
         is_uncertain_ = false;
-        listener_.remark("the sensor's turns have the columns of its metadata again");
+        listener_.remark("the sensor's turns match its metadata again");
     }
     reportReturn();
     const std::size_t changes = stream_->counts().mode_changes;
     if (changes == mode_changes_) return;
     mode_changes_ = changes;
-    listener_.remark(stream_->driver().isDual() ? "the sensor sends two returns per firing now"
-                                                : "the sensor sends one return per firing now");
+    listener_.remark(stream_->driver().isDual() ? "the sensor now sends two returns per firing"
+                                                : "the sensor now sends one return per firing");
 }
 
 void Session::reportReturn() {
@@ -307,7 +306,7 @@ void Session::reportRecording() {
         listener_.remark("recording stopped: " + failure);
     } else if (recorder_->leftOut() > 0 && !is_slow_recording_reported_) {
         is_slow_recording_reported_ = true;
-        listener_.remark("the disk is too slow: datagrams are missing in the recording");
+        listener_.remark("the disk is too slow: datagrams are missing from the recording");
     }
 }
 

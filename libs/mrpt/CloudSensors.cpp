@@ -68,12 +68,15 @@ SharedBeams CloudSensors::beamsOf(const std::string& label) const {
 }
 
 std::string textOf(const SharedBeams& beams) {
-    if (!beams) return "too few returns or beams to recover: VLP-16 assumed; set sensor.model";
+    if (!beams) {
+        return "too few returns or beams to recover the elevations; assuming VLP-16 "
+               "(set sensor.model)";
+    }
     const SensorModel& sensor = beams->sensor;
     const std::string unfit =
-        beams->has_unfit_rings ? "; ring numbers do not agree with elevations: not used" : "";
+        beams->has_unfit_rings ? "; ring numbers contradict the elevations and are ignored" : "";
     if (!sensor.has_rings) {
-        return "no beams found: " + std::to_string(sensor.rows()) + " virtual rows" + unfit;
+        return "no beams found, using " + std::to_string(sensor.rows()) + " virtual rows" + unfit;
     }
     const std::size_t seen = beams->seen_rad.size();
     std::string text = std::to_string(seen) + " beams " +

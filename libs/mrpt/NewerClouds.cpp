@@ -216,8 +216,8 @@ class GenericCloud : public CPointsMapXYZI {
         if (name.empty()) return "no name";
         if (findExactly(other_fields, name) != nullptr) return "duplicate name";
         if (values.size() != size()) {
-            return std::to_string(values.size()) + " values for " + std::to_string(size()) +
-                   " points";
+            return "expected one value per point (" + std::to_string(size()) + "), found " +
+                   std::to_string(values.size());
         }
         addColumn(name, typeOf<Number>(), values, other_fields);
         return "";
@@ -238,7 +238,7 @@ class GenericCloud : public CPointsMapXYZI {
                     throw std::runtime_error("a cloud has too many fields");
                 }
                 const std::string why = keep<Number>(name, {values.begin(), values.end()});
-                const std::string unless = " (except this one: " + why + ")";
+                const std::string unless = " (not kept: " + why + ")";
                 fields_not_kept.push_back(why.empty() ? name : name + unless);
                 continue;
             }

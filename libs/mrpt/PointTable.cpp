@@ -43,7 +43,7 @@ void check(const PointTable& table) {
         if (field.name.empty()) throw std::runtime_error("a field has no name");
         const std::string title = "the field '" + field.name + "'";
         if (!names.insert(field.name).second) throw std::runtime_error(title + " occurs twice");
-        if (field.count == 0) throw std::runtime_error(title + " has no numbers");
+        if (field.count == 0) throw std::runtime_error(title + " has a count of 0");
         // If there are no points, the data size does not limit the counts in a header.
         if (field.count > kMaxNumbersPerPoint - numbers) {
             throw std::runtime_error(title + " (" + std::to_string(field.count) + " times " +
@@ -63,7 +63,7 @@ void check(const PointTable& table) {
         }
     }
     if (table.points == 0) return;
-    if (table.bytes_per_point == 0) throw std::runtime_error("the points have no bytes");
+    if (table.bytes_per_point == 0) throw std::runtime_error("the size of a point is 0 bytes");
     if (table.points > table.bytes.size() / table.bytes_per_point) {
         throw std::runtime_error(std::to_string(table.points) + " points of " +
                                  std::to_string(table.bytes_per_point) +

@@ -89,7 +89,7 @@ void NewerRotatingScan::serializeFrom(CArchive& in, std::uint8_t version) {
         readNumbers(in, letters, file);
         throw std::runtime_error(
             "the scan is stored outside the log, in the file '" + file +
-            "'; include it with 'rawlog-edit --de-externalize' of the MRPT that wrote it");
+            "'; include it with 'rawlog-edit --de-externalize' of the MRPT version that wrote it");
     }
     readMatrix(in, intensityImage);
     rangeOtherLayers.clear();
@@ -132,7 +132,7 @@ void checkSizes(const CObservationRotatingScan& scan, const OrganizedPoints* poi
                            std::ptrdiff_t its_columns) {
         if (its_rows == rows && its_columns == columns) return;
         throw std::runtime_error(what + " has " + sizeText(its_rows, its_columns) +
-                                 " pixels, but the range image " + sizeText(rows, columns));
+                                 " pixels, but the range image has " + sizeText(rows, columns));
     };
     if (scan.intensityImage.size() > 0) {
         check("the intensity image", scan.intensityImage.rows(), scan.intensityImage.cols());
@@ -381,8 +381,7 @@ void readOrganizedPoints(const CObservationRotatingScan& observation, Scan& scan
     }
     returns.remark = "output rawlogs contain the ranges of this scan, not the points";
     if (without_point > 0) {
-        returns.remark +=
-            "; " + std::to_string(without_point) + " ranges without a point are dropped";
+        returns.remark += "; ranges without a point (dropped): " + std::to_string(without_point);
     }
 }
 

@@ -67,9 +67,8 @@ std::string whyNoRecording(const fs::path& folder) {
     }
     const fs::path scans = scansWithin(folder);
     return "not a scan folder (no subfolder 'velodyne' with .bin files), not a folder of point "
-           "clouds "
-           "(.pcd, .ply, .las, .npy, .bin), and without recordings (.rawlog, .pcap, .bag, .mcap, "
-           ".db3)" +
+           "clouds (.pcd, .ply, .las, .npy, .bin), and contains no recordings "
+           "(.rawlog, .pcap, .bag, .mcap, .db3)" +
            (scans.empty() ? "" : "; there are scans in " + scans.string());
 }
 
@@ -93,8 +92,8 @@ RecordingKind detectKind(const fs::path& recording) {
     if (fs::is_directory(recording)) return kindOfFolder(recording);
     if (!fs::is_regular_file(recording)) {
         throw std::runtime_error(recording.string() +
-                                 ": is a pipe or a device; recordings are read more than once: "
-                                 "store it in a file first");
+                                 ": is a pipe or a device; save its content to a file first, "
+                                 "because recordings are read more than once");
     }
     if (isBag(recording)) return RecordingKind::Bag;
     if (sensors::isCapture(recording)) return RecordingKind::Capture;

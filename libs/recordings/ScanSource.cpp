@@ -50,7 +50,7 @@ Settings ScanSource::settingsFor(const Settings& settings) const { return settin
 
 void ScanSource::brokeOffAhead(std::size_t entries, const std::string& why) {
     if (!break_ahead_.empty() && break_ahead_at_ <= entries) return;
-    break_ahead_ = why + " (read in advance)";
+    break_ahead_ = why + " (found while reading ahead)";
     break_ahead_at_ = entries;
 }
 
@@ -115,8 +115,8 @@ void checkOptions(const std::string& recording, RecordingKind kind, const Source
     if (!options.calibration.empty() && !is_capture) {
         throw std::runtime_error(recording + ": is not a capture (.pcap, .pcapng), so " +
                                  options.calibration.string() +
-                                 " is not used; rawlogs have their calibration, and packets of an "
-                                 "HDL-64E in bags are not supported");
+                                 " does not apply; rawlogs contain their calibration, and "
+                                 "HDL-64E packets in bags are not supported");
     }
     if (!options.topics.empty() && !is_bag) {
         throw std::runtime_error(recording +
@@ -128,9 +128,8 @@ void checkOptions(const std::string& recording, RecordingKind kind, const Source
         const bool are_exchanged = sensors::isCapture(options.sensor_json);
         throw std::runtime_error(
             recording +
-            ": is neither a capture (.pcap, .pcapng) nor a ROS recording, so there is no "
-            "sensor for the metadata " +
-            options.sensor_json.string() +
+            ": is neither a capture (.pcap, .pcapng) nor a ROS recording, so the metadata " +
+            options.sensor_json.string() + " do not apply" +
             (are_exchanged ? ", which is a capture: are the two files swapped?" : ""));
     }
 }

@@ -24,25 +24,25 @@ std::string SensorCheck::judge(const std::string& title, const Seen& seen) const
     if (share >= kRemarkBelow && fit.filled >= kFilledBelow) return "";
     if (share >= kRemarkBelow) {
         return "most pixels of " + seen.sensor + " with its " + std::to_string(seen.rows) +
-               " beams are empty: three quarters of the rows have returns in " +
+               " beams are empty: three quarters of the rows have returns in at most " +
                base::percentText(fit.filled) +
-               " of their columns or less. Is it a sensor with fewer beams?";
+               " of their columns. Is it a sensor with fewer beams?";
     }
     std::string text = base::percentText(share) + " of the cloud fits " + seen.sensor +
                        " with its " + std::to_string(seen.rows) +
                        " beams: " + base::percentText(fit.returns_share) +
                        " of the returns lie on them";
     if (fit.beams_shown > 0) {
-        text += ", and of " + std::to_string(fit.beams) + " beams in view, the cloud shows " +
-                std::to_string(fit.beams_seen);
+        text += ", and the cloud shows " + std::to_string(fit.beams_seen) + " of the " +
+                std::to_string(fit.beams) + " beams in view";
         const std::size_t others = fit.beams_shown - fit.beams_seen;
-        if (others > 0) text += ", besides " + counted(others, "other beam");
+        if (others > 0) text += " and " + counted(others, "other beam");
     }
     if (share >= kErrorBelow) return text + ". Is it this sensor?";
     throw std::runtime_error(
         recording_ + ": " + title + ": only " + text +
         ". The cloud is from another sensor, its points are not in the sensor frame, or "
-        "its elevations are not in degrees. Name the right sensor, or add "
+        "its elevations are not in degrees. Specify the correct sensor, or add "
         "'sensor: {model: recovered}' in a later settings file");
 }
 

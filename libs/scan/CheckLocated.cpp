@@ -85,7 +85,7 @@ void checkRows(const Scan& scan, const SensorModel& sensor) {
 void checkLocated(const Scan& scan, const SensorModel& sensor) {
     checkRows(scan, sensor);
     if (!havePlaces(scan)) {
-        refuse("a return has a range, but coordinates that are not finite");
+        refuse("a return has a range, but non-finite coordinates");
     }
 }
 

@@ -37,7 +37,8 @@ struct RowTable {
             if (row + 1 >= midpoint_sine.size() || !std::isfinite(sensor.elevations_rad[row]) ||
                 !std::isfinite(sensor.elevations_rad[row + 1])) {
                 throw std::invalid_argument("sensor " + sensor.name +
-                                            ": needs at most 256 beams with finite elevations");
+                                            ": must have at most 256 beams, "
+                                            "with finite elevations");
             }
             const double lower_rad = static_cast<double>(sensor.elevations_rad[row]);
             const double upper_rad = static_cast<double>(sensor.elevations_rad[row + 1]);

@@ -93,9 +93,9 @@ SensorModel customSensorModel(const std::vector<double>& elevations_deg) {
         }
         const float elevation_rad = static_cast<float>(radians(elevation_deg));
         if (!sensor.elevations_rad.empty() && elevation_rad <= sensor.elevations_rad.back()) {
-            throw std::invalid_argument("elevations must go from the lowest beam to the highest; " +
-                                        std::to_string(elevation_deg) +
-                                        " degrees is not above the previous one");
+            throw std::invalid_argument(
+                "elevations must ascend from the lowest beam to the highest; " +
+                std::to_string(elevation_deg) + " degrees is not above the previous one");
         }
         sensor.elevations_rad.push_back(elevation_rad);
     }

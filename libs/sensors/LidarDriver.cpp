@@ -32,7 +32,7 @@ std::string driverModels(const std::string& separator) {
 void checkDriver(const std::string& model, const std::filesystem::path& sensor_json,
                  const std::filesystem::path& calibration) {
     if (!sensor_json.empty() && !model.empty()) {
-        throw std::runtime_error("Ouster metadata contain the model: omit --model");
+        throw std::runtime_error("Ouster metadata contain the model; omit --model");
     }
     if (!calibration.empty() && !isHdl64(model)) {
         throw std::runtime_error(calibration.string() +
@@ -41,13 +41,13 @@ void checkDriver(const std::string& model, const std::filesystem::path& sensor_j
     if (!sensor_json.empty() || familyOf(model) != nullptr) return;
     if (isHdl64(model)) {
         if (!calibration.empty()) return;
-        throw std::runtime_error("an HDL-64E needs its calibration: --calibration FILE");
+        throw std::runtime_error("an HDL-64E requires its calibration; pass --calibration FILE");
     }
     for (const VelodyneModel& known : velodyneModels()) {
         if (known.name == model) return;
     }
     throw std::runtime_error("'" + model + "' is not supported live; supported: " + driverModels() +
-                             ". An Ouster needs its metadata: --sensor-json FILE");
+                             ". For an Ouster, pass its metadata with --sensor-json FILE");
 }
 
 std::unique_ptr<LidarDriver> makeDriver(const std::string& model,

@@ -87,7 +87,7 @@ void parsePart(const fs::path& file, const YAML::Node& part, SettingsOrigin orig
         if (origin == SettingsOrigin::Recording && fs::path(value.Scalar()).has_parent_path()) {
             throw SettingsError(
                 "airframe.learned is '" + value.Scalar() +
-                "'; settings that come with a recording may name only files of their own folder");
+                "'; settings stored with a recording may refer only to files in their own folder");
         }
         mask.learned = fs::absolute(file.parent_path() / value.Scalar()).lexically_normal();
         mask.parts.bin_range_m = readAirframeBins(mask.learned);

@@ -312,10 +312,10 @@ SimulatedScan simulateFirings(const Scene& scene, const SensorModel& sensor, con
     const FiringPattern pattern = firingPattern(sensor);
     if (firings.first < 0 || firings.end <= firings.first ||
         firings.end > pattern.firings_per_revolution) {
-        throw std::invalid_argument("firings " + std::to_string(firings.first) + " to " +
-                                    std::to_string(firings.end - 1) + " are not in 0 to " +
-                                    std::to_string(pattern.firings_per_revolution - 1) + " of a " +
-                                    sensor.name);
+        throw std::invalid_argument(
+            "firings " + std::to_string(firings.first) + " to " + std::to_string(firings.end - 1) +
+            " are outside the range 0 to " + std::to_string(pattern.firings_per_revolution - 1) +
+            " of the " + sensor.name);
     }
     const Scene::Snapshot snapshot = scene.snapshotOver(time_s, pattern.revolutionPeriod_s());
     const PoseAt sensor_at = [&](double at_s) {

@@ -234,7 +234,7 @@ TEST(ClosedLoopFlights, KeepsFinishedRunsWhenInterrupted) {
     EXPECT_THAT(readFile(folder / "err"),
                 AllOf(HasSubstr("octomap-compare: interrupted; "),
                       HasSubstr(" of 6 runs are kept in " + (folder / "stopped/runs.csv").string() +
-                                "; the same command resumes there\n")));
+                                "; rerun the same command to resume\n")));
 }
 
 TEST(ClosedLoopFlights, KeepsFinishedRunsOnFullDisk) {

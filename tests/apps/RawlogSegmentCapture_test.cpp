@@ -93,7 +93,7 @@ TEST_F(RawlogSegmentCapture, RejectsUnsupportedCaptures) {
     ouster.to_port = 7502;
     const std::string capture = test::CaptureWriter().datagram(ouster).write(path("ouster.pcap"));
     expectFailure({"-i", capture, "-o", path("out.rawlog")}, 1,
-                  "ouster.pcap: has no data packets of a known Velodyne");
+                  "ouster.pcap: has no data packets from a known Velodyne");
     const std::string wifi = test::CaptureWriter(105).write(path("wifi.pcap"));
     expectFailure({"-i", wifi, "-o", path("out.rawlog")}, 1, "on a link of type IEEE802_11");
 }

@@ -196,7 +196,7 @@ TEST_F(RawlogSegmentClouds, KeepsMrpt3Fields) {
         ASSERT_NEAR(elevation_deg, laser % 2 == 0 ? laser - 15 : laser, 0.1);
     }
     const auto again = run({"-i", path("out") + "/cloud", "--clouds", path("again")});
-    EXPECT_THAT(again.out, HasSubstr("ring numbers do not agree with elevations"));
+    EXPECT_THAT(again.out, HasSubstr("ring numbers contradict the elevations"));
 }
 
 TEST_F(RawlogSegmentClouds, ReportsErrorLocations) {

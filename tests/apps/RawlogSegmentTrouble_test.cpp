@@ -156,7 +156,7 @@ TEST_F(RawlogSegmentTrouble, OmitsNullObjectsInSensoryFrames) {
     const std::string log = folder_.write("in.rawlog", bytes);
     const auto outcome = expectSuccess({"-i", log, "-o", path("out.rawlog"), "--cloud", "generic",
                                         "--octomap", path("map.bt"), "--poses", still(1)});
-    EXPECT_THAT(outcome.err, HasSubstr("have 1 null objects"));
+    EXPECT_THAT(outcome.err, HasSubstr("dropped 1 null object from sensory frames"));
     const auto written = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(
         recordings::RawlogReader(path("out.rawlog")).next());
     ASSERT_TRUE(written);
@@ -310,7 +310,8 @@ TEST_F(RawlogSegmentTrouble, LimitsIncludesInRecordedSettings) {
         {"include: [next.yaml]\n", "nested too deeply"},
         {flat, "include more than 32 files"},
         {"include: ../secret.yaml\n", "only files of their own folder"},
-        {"airframe:\n  - learned: " + path("secret.yaml") + "\n", "only files of their own folder"},
+        {"airframe:\n  - learned: " + path("secret.yaml") + "\n",
+         "only to files in their own folder"},
         {"# " + std::string(1 << 20, 'x'), "larger than 1 MiB"}};
     for (const auto& [text, words] : cases) {
         folder_.write("scans/sensor.yaml", text);
@@ -387,7 +388,7 @@ TEST_F(RawlogSegmentTrouble, IgnoresNonFinitePoses) {
         writer.write(pose);
     });
     const auto outcome = expectSuccess({"-i", log, "--to", "9", "--kitti", path("scans")});
-    EXPECT_THAT(outcome.err, HasSubstr("poses that are not finite are left out: 1"));
+    EXPECT_THAT(outcome.err, HasSubstr("skipped 1 non-finite pose"));
     EXPECT_THAT(test::readFile(path("scans/poses.tum")), Not(HasSubstr("nan")));
     expectSuccess({"-i", path("scans"), "--kitti", path("again")});
 }

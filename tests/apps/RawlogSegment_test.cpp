@@ -202,14 +202,14 @@ TEST_F(RawlogSegment, RecoversUnnamedSensor) {
 TEST_F(RawlogSegment, ReportsCloudsWithoutBeams) {
     writeScan(randomScan(5000, {2, -9, -2}, {9, 9, 2}));
     const auto none = run({"-i", path("scans"), "--stats", path("a.json")});
-    EXPECT_THAT(none.out, HasSubstr("sensor velodyne: no beams found: "));
+    EXPECT_THAT(none.out, HasSubstr("sensor velodyne: no beams found, using "));
     EXPECT_THAT(none.out, HasSubstr(" virtual rows\n"));
     EXPECT_EQ(readJson("a.json")["recovered_sensors"]["velodyne"]["has_rings"], false);
 
     writeScan(randomScan(399, {2, -9, -2}, {9, 9, 2}));
     const auto few = expectSuccess({"-i", path("scans"), "--stats", path("b.json")});
     EXPECT_THAT(few.out, HasSubstr("sensor velodyne: too few returns"));
-    EXPECT_THAT(few.out, HasSubstr("VLP-16 assumed"));
+    EXPECT_THAT(few.out, HasSubstr("assuming VLP-16"));
 
     writeScan(randomScan(1000, {130, -60, 10}, {150, -40, 14}));  // in map coordinates
     const auto far = expectSuccess({"-i", path("scans"), "--stats", path("c.json")});
@@ -230,7 +230,7 @@ TEST_F(RawlogSegment, ComparesCloudsWithNamedSensor) {
                   "3, 5, 8, 9, 11, 14, 15]}\n");
     const auto partly = expectSuccess(flags);
     EXPECT_THAT(partly.err,
-                HasSubstr("of 16 beams in view, the cloud shows 11, besides 5 other beams. "
+                HasSubstr("the cloud shows 11 of the 16 beams in view and 5 other beams. "
                           "Is it this sensor?"));
     fs::remove_all(path("labels"));
 
@@ -431,7 +431,7 @@ TEST_F(RawlogSegment, RejectsUnreadableInputs) {
     };
     fails(folder_.write("a.rawlog", ""), "is empty");
     fails(folder_.write("text.rawlog", "this is no rawlog, whatever its name says\n"),
-          "text.rawlog: is not a recording: it seems to be text. Known are rawlogs, captures");
+          "text.rawlog: is not a recording: it seems to be text. Supported: rawlogs, captures");
     fails(folder_.write("a.rawlog", "\x89PNG\r\n\x1a\n" + std::string(99, '\x81')),
           "it seems to be a PNG picture");
     fails(folder_.write("b.rawlog", std::string(99, '\x81')), "its format is unknown");

@@ -133,9 +133,10 @@ TEST_F(SegmentationEvaluate, ReportsUnusedFiles) {
     fs::copy(folder_ / "pole/labels/000000.label", folder_ / "pole/labels/000007.label");
     const auto outcome = run({"-i", pole, "--json", (folder_ / "told.json").string()});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.err, HasSubstr("do not end in .bin, such as 000001.BIN"));
-    EXPECT_THAT(outcome.err, HasSubstr("pole/labels have no scan, such as 000007.label"));
-    EXPECT_THAT(outcome.err, HasSubstr("has no times.txt: " + pole + "/poses.tum is not used"));
+    EXPECT_THAT(outcome.err, HasSubstr("without the extension .bin, such as 000001.BIN"));
+    EXPECT_THAT(outcome.err, HasSubstr("pole/labels: 1, such as 000007.label"));
+    EXPECT_THAT(outcome.err, HasSubstr(pole + "/poses.tum is ignored, because there is no "
+                                              "times.txt"));
     const auto report = readJson("told.json");
     EXPECT_EQ(report["folders"][0]["remarks"].size(), 3u);
     folder_.write("pole/times.txt", "9\n");
@@ -557,7 +558,7 @@ TEST_F(SegmentationEvaluate, ReportsUnnamedClasses) {
     expectFailure({"-i", pole}, 1, "kinds.yaml:1: expected name and label");
     fs::remove(folder_ / "pole/kinds.yaml");
     folder_.write("pole/altitudes.txt", "1\n2\n");
-    expectFailure({"-i", pole}, 1, "altitudes.txt: has 2 lines for 1 scans");
+    expectFailure({"-i", pole}, 1, "altitudes.txt: has 2 lines for 1 scan");
 }
 
 TEST_F(SegmentationEvaluate, RejectsPredictionsAsTruth) {

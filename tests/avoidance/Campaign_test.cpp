@@ -109,12 +109,13 @@ TEST_F(Campaign, RefusesOtherSettings) {
     plan_.last_seed = 0;
     fly("c");
     const std::string before = table("c");
-    EXPECT_THAT(messageOf([&] { fly("c", 2); }), HasSubstr("campaign.json: has other settings"));
+    EXPECT_THAT(messageOf([&] { fly("c", 2); }), HasSubstr("campaign.json: was flown with other "
+                                                           "settings"));
     EXPECT_EQ(table("c"), before);
     fly("d", 2);
     fs::copy_file(place_ / "d/runs.csv", place_ / "c/runs.csv",
                   fs::copy_options::overwrite_existing);
-    EXPECT_THAT(messageOf([&] { fly("c"); }), HasSubstr("runs.csv: has other settings"));
+    EXPECT_THAT(messageOf([&] { fly("c"); }), HasSubstr("runs.csv: was flown with other settings"));
     options_.overwrites = true;
     fly("c");
     EXPECT_EQ(table("c"), before);

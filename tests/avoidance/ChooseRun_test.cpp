@@ -37,14 +37,14 @@ TEST(ChooseRun, ListsAvailableRuns) {
         }
     };
     EXPECT_EQ(refusal(runs),
-              "has no run with seed 77; there are:\n  gap: seeds 0-9, 4 m/s, O-Full-0.4,W-RoI, "
+              "has no run with seed 77; available:\n  gap: seeds 0-9, 4 m/s, O-Full-0.4,W-RoI, "
               "astar,straight");
     wanted.seed = 3;
     wanted.model = "G-Full";
     EXPECT_EQ(refusal(runs),
               "has no run with seed 3 and these flags; available:\n  gap: seed 3, 4 m/s, "
               "O-Full-0.4,W-RoI, astar,straight");
-    EXPECT_EQ(refusal({}), "has no run with seed 3, nor any other");
+    EXPECT_EQ(refusal({}), "contains no runs");
 }
 
 TEST(ChooseRun, ListsDistinguishingFlags) {

@@ -138,15 +138,15 @@ TEST_F(LoggedScansTest, ReportsMissingData) {
                 HasSubstr("none.rawlog: no such file"));
     EXPECT_THAT(messageOf({poleLog(1), "", "", {}}), HasSubstr("has no poses; provide them"));
     EXPECT_THAT(messageOf({poleLog(3), posesAt({5, 6}), "", {}}),
-                HasSubstr("has no pose near any of the 3 scans"));
+                HasSubstr("covers none of the scans in "));
     EXPECT_THAT(messageOf({poleLog(5), posesAt({10, 11}), "", {}}),
-                HasSubstr("has poses near 2 of the 5 scans, fewer than half, of "));
+                HasSubstr("covers only 2 of 5 scans in "));
     EXPECT_THAT(messageOf({poleLog(1), posesAt({10}), "roof", {}}),
-                HasSubstr("has no LiDAR scan of 'roof'; there are 'lidar'"));
+                HasSubstr("has no LiDAR scans labelled 'roof'; found: 'lidar'"));
     fs::create_directories(folder_ / "scans/velodyne");
     folder_.write("scans/velodyne/0.bin", "");
     EXPECT_THAT(messageOf({folder_ / "scans", posesAt({10}), "roof", {}}),
-                HasSubstr("has no LiDAR scan of 'roof'; there are 'velodyne'"));
+                HasSubstr("has no LiDAR scans labelled 'roof'; found: 'velodyne'"));
     mrpt::obs::CObservationComment comment;
     convert::RawlogWriter writer(folder_ / "words.rawlog", true);
     writer.write(comment);

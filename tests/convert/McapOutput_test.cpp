@@ -168,8 +168,8 @@ TEST_F(McapOutputTest, WritesTopicsPerLidar) {
     }
     EXPECT_THAT(names, ElementsAre("/a_b/points", "/a_b_2/points", "/front/points", "/lidar/points",
                                    "/lidar_3_d/points", "/map_lidar/points"));
-    EXPECT_THAT(remarks_, Contains("the MCAP: the LiDAR 'a/b' is named 'a_b_2' to conform "
-                                   "to ROS"));
+    EXPECT_THAT(remarks_, Contains("the MCAP: the LiDAR 'a/b' is renamed to 'a_b_2' to conform "
+                                   "to ROS naming rules"));
 }
 
 TEST_F(McapOutputTest, ReportsTimesOutsideRosRange) {

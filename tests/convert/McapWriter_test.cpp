@@ -172,7 +172,7 @@ TEST_F(McapWriterTest, ReportsTrailingBytes) {
         const fs::path file = test::writeBytes(folder_ / "b.mcap", whole + more);
         EXPECT_THAT(
             test::messageOf([&] { readAll(file); }),
-            HasSubstr("the file has " + std::to_string(more.size()) + " more bytes after its end"));
+            HasSubstr("after the end of the recording (" + std::to_string(more.size()) + " B)"));
     }
 }
 

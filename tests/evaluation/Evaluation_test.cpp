@@ -110,7 +110,7 @@ TEST(Evaluation, ReportsScanWithWrongLabels) {
         evaluate(sourcesOf(obstacles("a", {2, 2}, {one_too_few})));
     });
     EXPECT_THAT(message, HasSubstr("a/1: "));
-    EXPECT_THAT(message, HasSubstr("1 found labels for 2 returns"));
+    EXPECT_THAT(message, HasSubstr("the numbers of found labels (1) and returns (2) differ"));
 }
 
 TEST(Evaluation, ReadsRecordedLabelsOnceUntimed) {

@@ -61,7 +61,7 @@ TEST_F(LabelMapFile, RejectsInvalidFiles) {
     expectRefused("tree: {name: tree, label: 2}", "'tree' is not a class number");
     expectRefused("70000: {name: tree, label: 2}", "'70000' is not a class number");
     expectRefused("7: {name: a, label: 2}\n7: {name: b, label: 1}", "map.yaml:2: '7' occurs twice");
-    expectRefused("7: {name: a, label: 2}\n8: {name: a, label: 1}", "two classes are called 'a'");
+    expectRefused("7: {name: a, label: 2}\n8: {name: a, label: 1}", "two classes are named 'a'");
     expectRefused("[1, 2]", "expected lines such as '70: {name: vegetation, label: 2}'");
     expectRefused("", "expected lines such as");
     expectRefused("7: {name", "not YAML");

@@ -155,9 +155,9 @@ TEST_F(LiveSessionTest, ReportsOtherOusterMode) {
     EXPECT_GE(report.uncertain, 32u + 64u);
     EXPECT_EQ(report.packets + report.uncertain, 6 * 64u + 32u);
     ASSERT_EQ(remarks_.size(), 4u);
-    EXPECT_THAT(remarks_[0], HasSubstr("turns do not have the columns of "));
-    EXPECT_THAT(remarks_[1], HasSubstr("turns have the columns of its metadata again"));
-    EXPECT_THAT(remarks_[2], HasSubstr("the sensor restarted: its packets are dropped until "));
+    EXPECT_THAT(remarks_[0], HasSubstr("turns do not match the columns in "));
+    EXPECT_THAT(remarks_[1], HasSubstr("turns match its metadata again"));
+    EXPECT_THAT(remarks_[2], HasSubstr("the sensor restarted; dropping its packets until "));
     EXPECT_EQ(remarks_[3], remarks_[1]);
 }
 

@@ -173,8 +173,8 @@ TEST(CloudSensors, DescribesRecoveredBeams) {
               "3 beams recovered, 100.0 % of the returns lie on them");
     const SharedBeams none = beamsOf(withoutRings(20000));
     EXPECT_EQ(textOf(none),
-              "no beams found: " + std::to_string(none->sensor.rows()) + " virtual rows");
-    EXPECT_THAT(textOf(nullptr), HasSubstr("VLP-16 assumed"));
+              "no beams found, using " + std::to_string(none->sensor.rows()) + " virtual rows");
+    EXPECT_THAT(textOf(nullptr), HasSubstr("assuming VLP-16"));
     RecoveredBeams nearly = *beamsOf(scanOfModel("VLP-16"));
     nearly.share = 0.9999f;
     EXPECT_THAT(textOf(std::make_shared<RecoveredBeams>(nearly)), HasSubstr(" 99.9 %"));

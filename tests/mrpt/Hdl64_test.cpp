@@ -155,7 +155,7 @@ TEST(Hdl64, ReportsInvalidCalibration) {
     std::string within;
     for (int i = 0; i < 250000; ++i) within += "<b/>";
     const std::string error = errorOf("<" + name + ">" + within);
-    EXPECT_THAT(error, reports("aaa...' of an element has more than 64 characters"));
+    EXPECT_THAT(error, reports("aaa...' has more than 64 characters"));
     EXPECT_LT(error.size(), 400u);
     EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_>8</id_>")), reports("laser 8 occurs twice"));
     EXPECT_THAT(errorOf(replaced("<id_>7</id_>", "<id_/>")), reports("no id_"));

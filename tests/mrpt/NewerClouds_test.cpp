@@ -178,8 +178,8 @@ TEST(NewerClouds, ReportsUnusableFields) {
     EXPECT_EQ(namesOf(others), "T, t");
     EXPECT_THAT(columnOf(others, others.fields[0]), ElementsAre(20, 21));
     EXPECT_THAT(fieldsNotKept(*cloud),
-                ElementsAre("T", "t", "short (except this one: 1 values for 2 points)",
-                            "T (except this one: duplicate name)"));
+                ElementsAre("T", "t", "short (not kept: expected one value per point (2), found 1)",
+                            "T (not kept: duplicate name)"));
     mrpt::obs::CObservationPointCloud observation;
     observation.pointcloud = cloud;
     ObservedScan observed;

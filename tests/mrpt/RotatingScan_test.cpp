@@ -165,7 +165,7 @@ TEST(RotatingScan, ReadsAllPixelRanges) {
     const auto with_points = scanOf(test::newerBytesOf(scan, points));
     const ObservedScan observed = readWith(*with_points, threeBeams());
     EXPECT_THAT(observed.scan.x_m, ElementsAre(2, 4.5f));
-    EXPECT_THAT(observed.remark, HasSubstr("1 ranges without a point"));
+    EXPECT_THAT(observed.remark, HasSubstr("ranges without a point (dropped): 1"));
 }
 
 TEST(RotatingScan, UsesModelElevations) {

@@ -260,7 +260,7 @@ TEST(TableCloud, IgnoresContradictingRings) {
         readBack(sphereOf(vlp16_deg(), [](int beam, int column) { return (beam + column) % 4; }));
     for (const auto* observed : {&interleaved, &overlapping}) {
         EXPECT_EQ(observed->sensor.name, "VLP-16");  // as without rings
-        EXPECT_THAT(textOf(observed->recovered), HasSubstr("do not agree"));
+        EXPECT_THAT(textOf(observed->recovered), HasSubstr("contradict the elevations"));
         EXPECT_THAT(textOf(observed->recovered), Not(HasSubstr("by ring")));
         for (std::size_t i = 0; i < observed->scan.size(); ++i) {
             ASSERT_EQ(observed->scan.row[i], i % 16);

@@ -269,7 +269,7 @@ TEST_F(BagFileTest, RejectsOtherDatabases) {
     const Read read = readAll(file);
     EXPECT_EQ(read.messages.size(), 4u);
     EXPECT_THAT(read.broken_because,
-                HasSubstr("after 4 messages (id 5): this message is of topic 9"));
+                HasSubstr("after 4 messages (id 5): this message belongs to topic 9"));
 }
 
 TEST_F(BagFileTest, AcceptsPathWithTwoSlashes) {
@@ -454,7 +454,7 @@ TEST_F(BagFileTest, RejectsZeroedChunk) {
     const ByteString chunk = ByteString(16, '\0') + little64(900) + ByteString(8, '\0') +
                              little64(900) + ByteString(900, '\0');
     expectBroken(ByteString("\x89MCAP0\r\n", 8) + test::mcapRecord(6, chunk),
-                 "the chunk at byte 8: it contains a record of the invalid kind 0");
+                 "the chunk at byte 8: it contains a record of the invalid type 0");
 }
 
 TEST_F(BagFolderTest, ReportsIgnoredMetadata) {
@@ -476,8 +476,8 @@ TEST_F(BagFolderTest, ReportsIgnoredMetadata) {
 TEST_F(BagFolderTest, ReportsUnlistedAndRepeatedFiles) {
     writeMetadata("", "[bag_9.mcap]");
     EXPECT_THAT(openBag(folder_ / "bag")->remarks(),
-                testing::ElementsAre(HasSubstr("does not list files of the folder: 'bag_8.mcap', "
-                                               "'bag_10.mcap'; they are ignored")));
+                testing::ElementsAre(HasSubstr("does not list all files in the folder: "
+                                               "'bag_8.mcap', 'bag_10.mcap' are ignored")));
     writeMetadata("", "[bag_8.mcap, bag_8.mcap, bag_9.mcap, bag/bag_8.mcap, bag_10.mcap]");
     EXPECT_EQ(readAll(folder_ / "bag").messages, expected(false));
     EXPECT_THAT(

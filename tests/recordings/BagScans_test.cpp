@@ -230,7 +230,7 @@ TEST_F(BagScansTest, PrefersPacketsToClouds) {
     const ReadBag none =
         read({test::velodyneMessage("/velodyne_packets", kStart_s, "velodyne", unknown, 1.3e-3)},
              {{"/velodyne_packets"}, {}});
-    EXPECT_THAT(none.failed_because, HasSubstr("packets of an unknown Velodyne (model id 0x61)"));
+    EXPECT_THAT(none.failed_because, HasSubstr("packets from an unknown Velodyne (model id 0x61)"));
 }
 
 TEST_F(BagScansTest, DetectsVelodyneByMajority) {
@@ -277,11 +277,12 @@ TEST_F(BagScansTest, ReportsUnreadableMessages) {
     EXPECT_EQ(bag.observations.size(), 2u);
     EXPECT_THAT(bag.scans->remarks(),
                 Contains(HasSubstr("points (/points): 5 messages, 3 messages that could not be "
-                                   "read, left out; the first: message 1 (recorded at "
+                                   "read, skipped; the first: message 1 (recorded at "
                                    "1700000000.100 s): it claims 32 elements, but has only ")));
     EXPECT_THAT(read({lying}).failed_because,
-                HasSubstr("no scan could be read; /points: 1 message, 1 message that could not be "
-                          "read, left out; the first: message 0 (recorded at 1700000000.200 s): it "
+                HasSubstr("no scan could be read; /points: 1 message, 1 message that could not "
+                          "be read, skipped; the first: "
+                          "message 0 (recorded at 1700000000.200 s): it "
                           "claims 4294967295 x 1 points of 16 bytes, but has 32 bytes"));
 }
 
@@ -303,7 +304,7 @@ TEST_F(BagScansTest, RejectsUnknownSerialisations) {
         folder_ / "flight.db3",
         {test::sentMessage("/points", "sensor_msgs/PointCloud2", kStart_s,
                            [](test::MessageBytes& bytes) { bytes.number(std::uint32_t{0}); })}));
-    EXPECT_THAT(cut.failed_because, HasSubstr("bytes too short"));
+    EXPECT_THAT(cut.failed_because, HasSubstr("bytes missing at its end"));
 }
 
 TEST_F(BagScansTest, ReadsOusterMetadataFromBag) {
@@ -323,7 +324,8 @@ TEST_F(BagScansTest, ReadsOusterMetadataFromBag) {
     EXPECT_THAT(read(messages).labels(), ElementsAre("ouster_points"));
     EXPECT_THAT(read(messages).scans->remarks(),
                 Contains(HasSubstr("/ouster/lidar_packets is not read: Ouster packets require "
-                                   "metadata, which the bag lacks: --sensor-json FILE")));
+                                   "metadata, which the bag lacks; pass them with --sensor-json "
+                                   "FILE")));
     EXPECT_THAT(read(messages, {{"/ouster/lidar_packets"}, {}}).failed_because,
                 HasSubstr("the bag has no topic '/ouster/metadata'"));
     const fs::path json = folder_.write("os.json", test::ousterJson());
@@ -380,8 +382,8 @@ TEST_F(BagScansTest, ReportsUnusedFieldsAndPoints) {
     EXPECT_EQ(xOf(bag.of("points")[1]), std::vector<float>{1});
     EXPECT_THAT(
         bag.scans->remarks(),
-        Contains("points (/points): 3 messages, 4 points with a coordinate that is not finite, "
-                 "left out of the scans (--clouds writes them, with the label 0); the field 'ring' "
+        Contains("points (/points): 3 messages, 4 points with non-finite coordinates, dropped "
+                 "from the scans (--clouds writes them with label 0); the field 'ring' "
                  "is not used: some values are not beam numbers (1 of 3 clouds)"));
 }
 
@@ -405,7 +407,7 @@ TEST_F(BagScansTest, CountsLivoxPointsWithoutRange) {
         EXPECT_EQ(xOf(bag.of(driver).at(0)), std::vector<float>{4});
         EXPECT_THAT(
             bag.scans->remarks(),
-            Contains(driver + " (/" + driver + "): 1 message, 2 points without a range, left out"));
+            Contains(driver + " (/" + driver + "): 1 message, 2 points without a range, skipped"));
     }
     const auto& cloud =
         dynamic_cast<const CObservationPointCloud&>(*bag.of("livox_ros_driver2")[0]);

@@ -160,7 +160,7 @@ TEST_F(BagSourceTest, ReportsLookAheadErrors) {
         }
         const std::string message = test::messageOf([&] { source->nextScan(); });
         const bool is_needed = last > 0;
-        EXPECT_THAT(message, HasSubstr(is_needed ? "(read in advance)" : ""));
+        EXPECT_THAT(message, HasSubstr(is_needed ? "(found while reading ahead)" : ""));
         EXPECT_EQ(message.empty(), !is_needed) << message;
     }
 }

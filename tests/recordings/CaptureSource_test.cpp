@@ -207,7 +207,7 @@ TEST_F(OusterSourceTest, RejectsMetadataWithoutCapture) {
     writer.commit();
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "a.rawlog", options_); }),
                 HasSubstr("a.rawlog: is neither a capture (.pcap, .pcapng) nor a ROS recording, so "
-                          "there is no sensor "));
+                          "the metadata "));
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_.path(), options_); }),
                 HasSubstr("is a folder with 2 recordings"));
     options_.sensor_json = capture_;
@@ -240,7 +240,7 @@ TEST_F(CaptureSourceTest, ReportsLookAheadErrors) {
         }
         const std::string message = test::messageOf([&] { source->nextScan(); });
         const bool is_needed = last > 0;
-        EXPECT_THAT(message, HasSubstr(is_needed ? "(read in advance)" : ""));
+        EXPECT_THAT(message, HasSubstr(is_needed ? "(found while reading ahead)" : ""));
         EXPECT_EQ(message.empty(), !is_needed) << message;
         fs::remove(capture_);
         std::ofstream(capture_, std::ios::binary) << bytes;

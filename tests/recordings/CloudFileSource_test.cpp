@@ -235,8 +235,7 @@ TEST_F(CloudFileSourceTest, ReportsIgnoredContent) {
     SourceOptions options;
     options.folder_objects = observations::CloudClass::Simple;
     const auto remarks = remarksOn(folder_ / "clouds", options);
-    EXPECT_THAT(remarks,
-                Contains(HasSubstr("2 points with a coordinate that is not finite, in 1 cloud")));
+    EXPECT_THAT(remarks, Contains(HasSubstr("2 points with non-finite coordinates in 1 cloud")));
     EXPECT_THAT(remarks, Contains(AllOf(HasSubstr("4 extra bytes"), HasSubstr("(1 of 2 clouds)"))));
     EXPECT_THAT(remarks, Contains(HasSubstr("1 file in the folder")));
     EXPECT_THAT(remarks,

@@ -241,7 +241,8 @@ TEST_F(CloudFileTest, PcdErrorsIncludeLine) {
     };
     EXPECT_THAT(complaintOn("DATA ascii", "DATA binary_zip"),
                 AllOf(HasSubstr("line 11"), HasSubstr("binary_zip")));
-    EXPECT_THAT(complaintOn("SIZE 4 4", "SIZE 4"), HasSubstr("line 4: 5 values for 6 fields"));
+    EXPECT_THAT(complaintOn("SIZE 4 4", "SIZE 4"), HasSubstr("line 4: expected one value per "
+                                                             "field (6), found 5"));
     EXPECT_THAT(complaintOn("SIZE 4", "SIZE 3"), HasSubstr("TYPE F and SIZE 3"));
     EXPECT_THAT(complaintOn("COUNT 1", "COUNT x"), HasSubstr("'x' is not a valid COUNT"));
     EXPECT_THAT(complaintOn("WIDTH 12", "WIDTH 13"), HasSubstr("WIDTH times HEIGHT is 13"));
@@ -251,7 +252,7 @@ TEST_F(CloudFileTest, PcdErrorsIncludeLine) {
                 HasSubstr("line 12: '1.5x' is not a valid float32"));
     EXPECT_THAT(complaintOn(" 70000\n", " 7e10\n"),
                 HasSubstr("line 13: '7e10' is not a valid uint32"));
-    EXPECT_THAT(complaintOn(" 70000\n", "\n"), HasSubstr("line 13: 8 numbers instead of 9"));
+    EXPECT_THAT(complaintOn(" 70000\n", "\n"), HasSubstr("line 13: expected 9 numbers, found 8"));
     EXPECT_THAT(complaintOn("x y z", "x x z"), HasSubstr("'x' occurs twice"));
     EXPECT_THAT(complaintOn("COUNT 1", "COUNT 4294967295"), HasSubstr("bytes are left"));
 }
@@ -267,7 +268,7 @@ TEST_F(CloudFileTest, PcdChecksCompressedSizes) {
     EXPECT_THAT(with(4, "\xff\xff\xff\xff"), HasSubstr("cannot expand to 4294967295"));
     EXPECT_THAT(with(4, std::string("\x10\0\0\0", 4)), HasSubstr("bytes are left"));
     EXPECT_THAT(with(4, std::string("\x10\x7f\0\0", 4)),
-                HasSubstr("but the header claims 12 of 22"));
+                HasSubstr("but the header claims 12 points of 22 bytes"));
     EXPECT_THAT(with(8, "\xff\xff"), HasSubstr("cannot be decompressed"));
 }
 
@@ -430,14 +431,14 @@ TEST_F(CloudFileTest, NpyChecksHeader) {
     EXPECT_THAT(complaintOn("{'descr': '<f2'" + rest), HasSubstr("'<f2'"));
     EXPECT_THAT(complaintOn("{'descr': '|O'" + rest), HasSubstr("'|O'"));
     EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "(5, 3)", "(15,)")),
-                HasSubstr("1 dimensions"));
+                HasSubstr("at least two dimensions"));
     EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "5, 2")),
-                HasSubstr("2 numbers per point"));
+                HasSubstr("3 to 1024 columns (x, y, z, ...), not 2"));
     EXPECT_THAT(
         complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "9999999999, 9999999999, 3")),
         HasSubstr("too large"));
     EXPECT_THAT(complaintOn("{'descr': [('x', '<f4'), ('y', '>f4')]" + rest),
-                HasSubstr("both byte orders"));
+                HasSubstr("mixes little-endian and big-endian numbers"));
     EXPECT_THAT(complaintOn("{'descr': [('x', '<f4', (9999999999, 9999999999))]" + rest),
                 HasSubstr("too large"));
     EXPECT_THAT(complaintOn("{'shape': (5, 3)}"), HasSubstr("'descr'"));

@@ -176,7 +176,7 @@ TEST_F(OusterCaptureTest, ReportsOtherFusaSensor) {
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("FUSA_RNG15_RFL8_NIR8_DUAL", "123"));
     EXPECT_TRUE(read(bytes).empty());
-    EXPECT_THAT(broken_, HasSubstr("8 packets of the sensor with serial number 992137000142"));
+    EXPECT_THAT(broken_, HasSubstr("8 packets from the sensor with serial number 992137000142"));
 }
 
 TEST_F(OusterCaptureTest, FirstColumnLooksForward) {
@@ -270,7 +270,7 @@ TEST_F(OusterCaptureTest, CountsIgnoredDatagrams) {
     EXPECT_THAT(remarks_[0],
                 HasSubstr("1 column missing, 1 column with an invalid number, dropped"));
     EXPECT_EQ(remarks_[1],
-              "7 frames; ignored: 1 IMU packet, 1 packet of the sensor with serial number "
+              "7 frames; ignored: 1 IMU packet, 1 packet from the sensor with serial number "
               "992137000143, 1 other UDP datagram (most: 1 of 5 bytes to port 7502)");
 }
 
@@ -280,8 +280,8 @@ TEST_F(OusterCaptureTest, ReportsMetadataFromOtherSensor) {
     json_ = folder_.write("other.json", test::ousterJson("RNG19_RFL8_SIG16_NIR16", "123"));
     EXPECT_TRUE(read(bytes).empty());
     EXPECT_THAT(broken_,
-                HasSubstr("a.pcap: has no packets of the OS-0-32-U1 with serial number 123 in "));
-    EXPECT_THAT(broken_, HasSubstr("8 packets of the sensor with serial number 992137000142"));
+                HasSubstr("a.pcap: has no packets from the OS-0-32-U1 with serial number 123 in "));
+    EXPECT_THAT(broken_, HasSubstr("8 packets from the sensor with serial number 992137000142"));
     json_ = folder_.write("other.json", test::ousterJson("RNG15_RFL8_NIR8"));
     EXPECT_TRUE(read(bytes).empty());
     EXPECT_THAT(broken_,
@@ -305,7 +305,7 @@ TEST_F(OusterCaptureTest, DropsTurnsInOtherMode) {
     add({2048, 10}, 2);
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 3u);
     EXPECT_THAT(remarks_[0],
-                HasSubstr("2 turns dropped: their columns may not match the metadata"));
+                HasSubstr("2 turns dropped, because columns may not match the metadata"));
     json_ = folder_.write("other.json", test::ousterJsonOf({512, 10}));
     EXPECT_EQ(read(captureOf(packets).bytes()).size(), 0u);
     EXPECT_THAT(broken_, HasSubstr("a.pcap: its turns do not have the 512 columns in "));

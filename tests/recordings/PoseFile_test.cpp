@@ -142,7 +142,7 @@ TEST_F(PoseFile, RejectsKittiFileWithOtherLength) {
     const auto file = folder_.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
     RawlogSurvey survey = surveyOfTwoScans();
     EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
-                HasSubstr("1 poses for 2 scans"));
+                HasSubstr("1 pose for 2 scans"));
     survey.scans["rear"] = {};
     EXPECT_THAT(test::messageOf([&] { posesOfRawlog(survey, file); }),
                 HasSubstr("scan of a single LiDAR"));

@@ -153,7 +153,7 @@ TEST_F(ScanFolderTest, RejectsOtherFiles) {
     Scan scan;
     const auto picture = folder_.write("a.bin", "\xff\xd8\xff\xe0" + std::string(28, '\xee'));
     EXPECT_THAT(test::messageOf([&] { readScan(picture, scan); }),
-                HasSubstr("a.bin: has no points: it seems to be a JPEG picture"));
+                HasSubstr("a.bin: is not a KITTI scan: it seems to be a JPEG picture"));
     // Valid points that exceed the range of a LiDAR.
     Scan far;
     for (auto* numbers : {&far.x_m, &far.y_m, &far.z_m, &far.intensity}) *numbers = {1e5f, 2e5f};
@@ -202,7 +202,7 @@ TEST_F(ScanFolderTest, RejectsInvalidTimes) {
     folder_.write("velodyne/000000.bin", "");
     folder_.write("times.txt", "0.0\n0.1\n");
     const ScanFolder scans(folder_.path());
-    EXPECT_THAT(test::messageOf([&] { scans.times(); }), HasSubstr("2 lines for 1 scans"));
+    EXPECT_THAT(test::messageOf([&] { scans.times(); }), HasSubstr("2 lines for 1 scan"));
     folder_.write("times.txt", "soon\n");
     EXPECT_THAT(test::messageOf([&] { scans.times(); }), HasSubstr("times.txt:1"));
     folder_.write("altitudes.txt", "1 2\n");

@@ -409,7 +409,7 @@ TEST_F(ScanSourceTest, ReportsRawlogLookAheadErrors) {
         }
         const std::string message = test::messageOf([&] { source->nextEntry(); });
         const bool is_needed = last > 2;
-        EXPECT_THAT(message, HasSubstr(is_needed ? "(read in advance)" : ""));
+        EXPECT_THAT(message, HasSubstr(is_needed ? "(found while reading ahead)" : ""));
         EXPECT_EQ(message.empty(), !is_needed) << message;
         fs::remove(rawlog);
     }
@@ -464,8 +464,8 @@ TEST_F(ScanSourceTest, ReadsCloudsBesideRecording) {
     const auto source = openRecording(folder_ / "clouds");
     EXPECT_EQ(source->entriesKnown(), 1u);
     EXPECT_THAT(source->remarks(),
-                testing::Contains(HasSubstr("1 file in the folder with an extension")));
-    EXPECT_THAT(source->remarks(), testing::Contains("1 folder in the folder: ignored"));
+                testing::Contains(HasSubstr("ignored 1 file without the extension")));
+    EXPECT_THAT(source->remarks(), testing::Contains("ignored 1 subfolder"));
 }
 
 TEST_F(ScanSourceTest, ReportsOtherFilesInScanFolder) {
@@ -474,7 +474,7 @@ TEST_F(ScanSourceTest, ReportsOtherFilesInScanFolder) {
     folder_.write("scans/velodyne/000003.BIN", "");
     const auto source = openRecording(folder);
     EXPECT_EQ(source->entriesKnown(), 2u);
-    EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("2 of the entries in ")));
+    EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("ignored 2 files in ")));
     EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("such as 000002.bin.gz")));
 }
 
@@ -526,7 +526,7 @@ TEST_F(ScanSourceTest, ReportsUnreadableInputs) {
     EXPECT_THAT(test::messageOf([&] { openRecording(folder_ / "empty"); }),
                 Not(HasSubstr("there are scans in")));
     EXPECT_THAT(test::messageOf([&] { openRecording(scanFolderOf(2, "1001\n")); }),
-                HasSubstr("times.txt: has 1 lines for 2 scans"));
+                HasSubstr("times.txt: has 1 line for 2 scans"));
 }
 
 }  // namespace

@@ -304,12 +304,11 @@ TEST_F(VelodyneCaptureTest, CountsIgnoredDatagrams) {
     writer.datagram(sent(hdl64)).datagram(sent(hdl64));
     writer.frame("arp");
     EXPECT_EQ(read(writer.bytes()).size(), 1u);
-    EXPECT_EQ(
-        remarks_[1],
-        "12 frames; ignored: 2 position packets (GPS), 2 packets of an HDL-64E, which "
-        "require its calibration: --calibration FILE, 1 packet of an unknown Velodyne (model id "
-        "0xa1), 1 other UDP datagram "
-        "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
+    EXPECT_EQ(remarks_[1],
+              "12 frames; ignored: 2 position packets (GPS), 2 packets from an HDL-64E (unreadable "
+              "without --calibration FILE), 1 packet from an unknown Velodyne (model id "
+              "0xa1), 1 other UDP datagram "
+              "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
 }
 
 TEST_F(VelodyneCaptureTest, LimitsNumberOfSensors) {
@@ -321,7 +320,7 @@ TEST_F(VelodyneCaptureTest, LimitsNumberOfSensors) {
         writer.datagram(datagram);
     }
     EXPECT_EQ(read(writer.bytes()).size(), 16u);
-    EXPECT_THAT(remarks_.back(), HasSubstr("84 packets of further sensors"));
+    EXPECT_THAT(remarks_.back(), HasSubstr("84 packets from further sensors"));
 }
 
 TEST_F(VelodyneCaptureTest, ReportsCaptureWithoutPackets) {
@@ -329,7 +328,7 @@ TEST_F(VelodyneCaptureTest, ReportsCaptureWithoutPackets) {
     ouster.to_port = 7502;
     EXPECT_TRUE(read(CaptureWriter().datagram(ouster).datagram(ouster).bytes()).empty());
     EXPECT_THAT(broken_,
-                HasSubstr("a.pcap: has no data packets of a known Velodyne (VLP-16 (0x22)"));
+                HasSubstr("a.pcap: has no data packets from a known Velodyne (VLP-16 (0x22)"));
     EXPECT_THAT(broken_, HasSubstr("2 other UDP datagrams (most: 2 of 8448 bytes to port 7502)"));
     EXPECT_THAT(broken_, HasSubstr("--sensor-json FILE"));
     EXPECT_TRUE(read(CaptureWriter().bytes()).empty());

@@ -120,7 +120,7 @@ TEST(CheckLocated, RejectsRangeWithoutPosition) {
         Scan scan = locatedWith(sensor);
         for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) {
             const float good = std::exchange(values->back(), bad);
-            EXPECT_THAT(objection(scan, sensor), HasSubstr("coordinates that are not finite"));
+            EXPECT_THAT(objection(scan, sensor), HasSubstr("non-finite coordinates"));
             values->back() = good;
         }
         EXPECT_EQ(objection(scan, sensor), "");

@@ -174,7 +174,7 @@ TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
                 HasSubstr("not Ouster metadata: it seems to be a JPEG picture"));
     EXPECT_THAT(messageWith("[40.0", "[140.0"), HasSubstr("outside +-90"));
     EXPECT_THAT(messageWith("[-1, 0, 0, 0,", "[-2, 0, 0, 0,"), HasSubstr("not a rigid"));
-    EXPECT_THAT(messageWith("27.67", "1e300"), HasSubstr("not within a metre"));
+    EXPECT_THAT(messageWith("27.67", "1e300"), HasSubstr("exceeds 1 m"));
 }
 
 TEST_F(OusterSensorTest, RejectsTruncatedMetadata) {

@@ -41,8 +41,8 @@ std::vector<Run> openFolder(const fs::path& folder, const LatencyProfile& profil
     const fs::path campaign = folder / "campaign.json", table = folder / "runs.csv";
     const auto refuse = [](const fs::path& file) {
         throw std::runtime_error(file.string() +
-                                 ": has other settings (version or latency profile); choose "
-                                 "another folder, or discard its runs with --overwrite");
+                                 ": was flown with other settings (version or latency profile); "
+                                 "choose another folder, or discard its runs with --overwrite");
     };
     fs::create_directories(folder);
     const std::size_t partial = base::partialOutputs(campaign).size();  // left by a killed command
@@ -164,7 +164,7 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
     if (done < all) {
         throw CampaignStopped("interrupted; " + std::to_string(done) + " of " +
                               std::to_string(all) + " runs are kept in " + file.string() +
-                              "; the same command resumes there");
+                              "; rerun the same command to resume");
     }
     std::vector<Run> runs = readRuns(file);
     writeTable(file, runs, has_updates);

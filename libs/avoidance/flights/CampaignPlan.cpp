@@ -56,8 +56,8 @@ void checkNumberOfFlights(const CampaignPlan& plan) {
         flights *= static_cast<double>(values);
     }
     if (flights <= kMaxFlights) return;
-    throw std::invalid_argument("at most " + std::to_string(kMaxFlights) +
-                                " flights in a plan; split them over several folders");
+    throw std::invalid_argument("the plan has more than " + std::to_string(kMaxFlights) +
+                                " flights; split it over several folders");
 }
 
 void check(const CampaignPlan& plan, const Shard& shard) {
@@ -77,7 +77,7 @@ void check(const CampaignPlan& plan, const Shard& shard) {
     checkUpdates(plan);
     checkGiven("pose error", plan.pose_errors);
     if (plan.last_seed < plan.first_seed) {
-        throw std::invalid_argument("the last seed is before the first");
+        throw std::invalid_argument("the last seed must not be less than the first");
     }
     checkNumberOfFlights(plan);
     if (shard.of < 1 || shard.number < 1 || shard.number > shard.of) {

@@ -124,8 +124,8 @@ Course makeCourse(const std::string& scenario, std::uint64_t seed) {
         }
     }
     throw std::runtime_error("course '" + scenario + "', seed " + std::to_string(seed) +
-                             ": no scene of " + std::to_string(kMaxAttempts) +
-                             " has a path; choose another seed");
+                             ": none of " + std::to_string(kMaxAttempts) +
+                             " scenes has a path; choose another seed");
 }
 
 }  // namespace hagen::avoidance

@@ -37,7 +37,9 @@ std::vector<double> quantilesFrom(const nlohmann::json& value) {
 LatencyProfile profileFrom(const nlohmann::json& root) {
     const auto by_stage = root.find("quantiles_ms");
     if (by_stage == root.end() || !by_stage->is_object()) {
-        throw std::runtime_error("has no key 'quantiles_ms'; expected a file of `calibrate`");
+        throw std::runtime_error(
+            "has no key 'quantiles_ms'; expected a file written by "
+            "`octomap-compare calibrate`");
     }
     LatencyProfile profile;
     for (const auto& [key, text] : {std::pair{"machine", &profile.machine},
@@ -45,7 +47,7 @@ LatencyProfile profileFrom(const nlohmann::json& root) {
                                     {"date", &profile.date}}) {
         const auto value = root.find(key);
         if (value == root.end()) continue;
-        if (!value->is_string()) throw std::runtime_error(std::string(key) + ": must be a text");
+        if (!value->is_string()) throw std::runtime_error(std::string(key) + ": must be a string");
         *text = *value;
     }
     for (const auto& [stage, value] : by_stage->items()) {

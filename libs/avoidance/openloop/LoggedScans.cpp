@@ -67,10 +67,10 @@ LoggedScans::LoggedScans(const LogSource& source, const std::function<bool()>& k
     }
     const std::string name = source.log.string();
     if (times.empty() && !labels.empty()) {
-        throw std::runtime_error(name + ": has no LiDAR scan of '" + source.sensor_label +
-                                 "'; there are " + labels);
+        throw std::runtime_error(name + ": has no LiDAR scans labelled '" + source.sensor_label +
+                                 "'; found: " + labels);
     }
-    if (times.empty()) throw std::runtime_error(name + ": has no LiDAR scan");
+    if (times.empty()) throw std::runtime_error(name + ": has no LiDAR scans");
     source_->usePoses(source.poses);
     if (poseSource().empty()) {
         throw std::runtime_error(name +
@@ -92,12 +92,10 @@ void LoggedScans::placeAll(const std::vector<TimePoint>& times, const std::strin
     }
     const std::size_t placed = scans_ - without_pose_;
     if (2 * placed >= scans_) return;
-    const std::string which = placed == 0
-                                  ? "has no pose near any of the " + std::to_string(scans_)
-                                  : "has poses near " + std::to_string(placed) + " of the " +
-                                        std::to_string(scans_) + " scans, fewer than half,";
-    throw std::runtime_error(poseSource() + ": " + which + (placed == 0 ? " scans" : "") + " of " +
-                             log + ", whose first scan is at " +
+    const std::string number =
+        placed == 0 ? "none" : "only " + std::to_string(placed) + " of " + std::to_string(scans_);
+    throw std::runtime_error(poseSource() + ": covers " + number + (placed == 0 ? " of the" : "") +
+                             " scans in " + log + ", whose first scan is at " +
                              std::to_string(observations::secondsOf(times.front())) +
                              " s; check that both belong to the same flight and clock");
 }

@@ -58,8 +58,8 @@ class SceneTruth {
         std::nth_element(off_m.begin(), middle, off_m.end());
         if (*middle < kMaxSceneDistance_m) return;
         throw std::runtime_error("the log was not simulated in " + name_ +
-                                 ": half of a scan's obstacles are at least " +
-                                 std::to_string(*middle) + " m from those of the scene");
+                                 ": half of the obstacle returns in a scan are at least " +
+                                 std::to_string(*middle) + " m from the obstacles in the scene");
     }
 
  private:

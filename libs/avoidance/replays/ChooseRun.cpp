@@ -133,9 +133,9 @@ Run chooseRun(const std::vector<Run>& runs, const RunWanted& wanted) {
         throw std::invalid_argument("has no run " + seed +
                                     " and these flags; available:" + overviewOf(of_seed));
     }
-    throw std::invalid_argument("has no run " + seed +
-                                (runs.empty() ? ", nor any other" : "; there are:") +
-                                overviewOf(runs));
+    throw std::invalid_argument(runs.empty()
+                                    ? "contains no runs"
+                                    : "has no run " + seed + "; available:" + overviewOf(runs));
 }
 
 }  // namespace hagen::avoidance

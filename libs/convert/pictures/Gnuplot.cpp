@@ -131,7 +131,7 @@ std::string gnuplotString(const std::string& text) {
 void runGnuplot(const std::string& script, const fs::path& folder,
                 const std::vector<std::string>& pictures) {
     if (!fs::is_directory(folder)) {
-        throw std::runtime_error(folder.string() + ": no such folder to write pictures to");
+        throw std::runtime_error(folder.string() + ": no such folder");
     }
     for (const std::string& picture : pictures) {  // removes old pictures
         std::error_code error;

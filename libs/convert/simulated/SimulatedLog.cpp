@@ -191,8 +191,10 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
     for (int scan = 0; scan < log.scans; ++scan) {
         if (!keep_going()) {
             if (scan == 0) throw std::runtime_error("interrupted before the first scan");
-            throw std::runtime_error("interrupted; the first " + std::to_string(scan) +
-                                     " scans are in" + outputs.keepPartial());
+            throw std::runtime_error(
+                "interrupted; the first " +
+                (scan == 1 ? "scan is in" : std::to_string(scan) + " scans are in") +
+                outputs.keepPartial());
         }
         const double time_s = log.every_s * scan, next_s = log.every_s * (scan + 1);
         const simulation::SimulatedScan made =

@@ -65,15 +65,15 @@ fs::path labelFilesOf(const LabelRow& row, const recordings::ScanFolder& scans,
     std::error_code no_such_folder;
     if (fs::equivalent(folder, scans.path() / "labels", no_such_folder)) {
         throw std::runtime_error(folder.string() + ": is the ground truth itself; --labels " +
-                                 row.name + "=DIR needs the folder with the labels to score");
+                                 row.name + "=DIR requires the folder with the labels to score");
     }
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const fs::path file = folder / (scans.name(i) + ".label");
         if (fs::is_regular_file(file)) continue;
         throw std::runtime_error(file.string() + ": no such file; --labels " + row.name +
-                                 "=DIR needs one for " + scans.scanFile(i).string() +
-                                 ", in DIR with a single input folder, otherwise in DIR/" +
-                                 scans_name);
+                                 "=DIR requires a label file for " + scans.scanFile(i).string() +
+                                 " (in DIR for a single input folder, otherwise in DIR/" +
+                                 scans_name + ")");
     }
     return folder;
 }

@@ -144,8 +144,8 @@ std::vector<std::string> LabelledFolder::labelsWithoutScans() const {
             if (others++ == 0 || name < first) first = name;
         }
         if (others == 0) continue;
-        remarks.push_back(std::to_string(others) + " of the files in " +
-                          (folder_.path() / labels).string() + " have no scan, such as " + first);
+        remarks.push_back("files without a scan in " + (folder_.path() / labels).string() + ": " +
+                          std::to_string(others) + ", such as " + first);
     }
     return remarks;
 }
@@ -156,7 +156,7 @@ std::vector<std::string> LabelledFolder::remarks() const {
     if (!fs::exists(folder_.tumFile())) return remarks;
     const std::string poses = folder_.tumFile().string();
     if (folder_.times().empty()) {
-        remarks.push_back("has no times.txt: " + poses + " is not used");
+        remarks.push_back(poses + " is ignored, because there is no times.txt");
     } else if (with_pose_ < read_) {
         remarks.push_back(
             poses + " covers " + std::to_string(with_pose_) + " of " + std::to_string(read_) +

@@ -49,7 +49,7 @@ PeerAddress parsePeer(const std::string& text) {
         address.baud = base::numberFrom<int>(parts.back()).value_or(0);
         if (!isBaud(address.baud)) fail(text, "unsupported baud rate");
         if (address.baud < kMinBaud) {
-            fail(text, "messages need 6 kB/s, that is at least 115200 baud");
+            fail(text, "messages need 6 kB/s, which requires at least 115200 baud");
         }
         return address;
     }

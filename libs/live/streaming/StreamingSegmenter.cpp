@@ -96,8 +96,8 @@ void checkSweep(const Sweep& sweep) {
                           swept_rad <= kTurn_rad + kPacketEnd_rad;
     if (!is_sound) {
         throw std::invalid_argument(
-            "streaming: the sweep of a packet must be clockwise, at most a turn, and start within "
-            "1e12 rad");
+            "streaming: the sweep of a packet must be clockwise, span at most one turn, and start "
+            "within 1e12 rad");
     }
 }
 

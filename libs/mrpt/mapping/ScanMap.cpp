@@ -53,8 +53,8 @@ void checkProbabilities(const ScanMapOptions& options) {
     const double hit = options.hit_probability, miss = options.miss_probability;
     if (0 < min && min < miss && miss < 0.5 && 0.5 < hit && hit < max && max < 1) return;
     throw std::invalid_argument(
-        "the probabilities of an OctoMap must be in the order 0 < least < miss < 0.5 < hit < "
-        "greatest < 1, but are " +
+        "the probabilities of an OctoMap must be in the order 0 < min < miss < 0.5 < hit < max "
+        "< 1, but are " +
         std::to_string(min) + ", " + std::to_string(miss) + ", " + std::to_string(hit) + ", " +
         std::to_string(max));
 }

@@ -44,8 +44,8 @@ std::vector<fs::path> listedFiles(const fs::path& folder, const YAML::Node& bag)
             bag["compression_mode"].as<std::string>() == "FILE") {
             throw std::runtime_error("its files are compressed as a whole (" +
                                      bag["compression_format"].as<std::string>() +
-                                     "): decompress them, for example with 'zstd -d', and set "
-                                     "compression_mode to NONE and the new file names");
+                                     "): decompress them, for example with 'zstd -d', set "
+                                     "compression_mode to NONE, and update the file names");
         }
         for (const YAML::Node& name : bag["relative_file_paths"]) {
             // Old versions prepend the folder's own name. Ignoring folders keeps files within the
@@ -176,8 +176,8 @@ class BagFolder : public BagFile {
         }
         if (!unlisted.empty()) {
             remarks_.push_back(std::string(kMetadata) +
-                               " does not list files of the folder: " + textOfNames(unlisted) +
-                               "; they are ignored ('ros2 bag reindex' creates a new list)");
+                               " does not list all files in the folder: " + textOfNames(unlisted) +
+                               " are ignored ('ros2 bag reindex' creates a new list)");
         }
     }
 

@@ -138,8 +138,8 @@ class Planner {
         if (without_metadata != nullptr) {
             if (plan_.sensors.empty()) failOuster(*without_metadata);
             plan_.remarks.push_back(without_metadata->topic.name +
-                                    " is not read: Ouster packets require metadata, which "
-                                    "the bag lacks: --sensor-json FILE");
+                                    " is not read: Ouster packets require metadata, which the "
+                                    "bag lacks; pass them with --sensor-json FILE");
         }
         if (!plan_.sensors.empty()) return;
         if (!lidars.empty()) {
@@ -242,7 +242,8 @@ class Planner {
     [[noreturn]] void failOuster(const Topic& topic) const {
         fail("the packets on " + topic.topic.name +
              " require Ouster metadata, but the bag has no topic '" +
-             namespaceOf(topic.topic.name) + "/metadata' (std_msgs/String): --sensor-json FILE");
+             namespaceOf(topic.topic.name) +
+             "/metadata' (std_msgs/String); pass them with --sensor-json FILE");
     }
 
     void checkJson() const {

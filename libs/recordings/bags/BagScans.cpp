@@ -358,23 +358,24 @@ std::string BagScans::Reader::describe(const TopicState& state) {
     } else if (state.frames) {
         text += ", " + state.sensor->ouster->name + ", " + sensors::textOf(state.frames->counts());
     }
-    addCount(state.hdl64_packets, "packet", "of an HDL-64E, which is not supported in bags", text);
+    addCount(state.hdl64_packets, "packet", "from an HDL-64E, which is not supported in bags",
+             text);
     for (const auto& [id, packets] : state.unknown_ids) {
         char hex[8];
         std::snprintf(hex, sizeof hex, "0x%02x", id);
         addCount(packets, "packet",
-                 "of " + std::string(state.turns ? "another" : "an unknown") +
-                     " Velodyne (model id " + hex + "), left out",
+                 "from " + std::string(state.turns ? "another" : "an unknown") +
+                     " Velodyne (model id " + hex + "), skipped",
                  text);
     }
-    addCount(state.imu_packets, "IMU packet", "left out", text);
-    addCount(state.other_packets, "packet", "of another kind, left out", text);
-    addCount(state.points_without_range, "point", "without a range, left out", text);
+    addCount(state.imu_packets, "IMU packet", "skipped", text);
+    addCount(state.other_packets, "packet", "of another kind, skipped", text);
+    addCount(state.points_without_range, "point", "without a range, skipped", text);
     addCount(state.points_not_finite, "point",
-             "with a coordinate that is not finite, left out of the scans (--clouds writes them, "
-             "with the label 0)",
+             "with non-finite coordinates, dropped from the scans (--clouds writes them with "
+             "label 0)",
              text);
-    addCount(state.unreadable, "message", "that could not be read, left out", text);
+    addCount(state.unreadable, "message", "that could not be read, skipped", text);
     if (state.unreadable > 0) text += "; the first: " + state.first_unreadable;
     for (const auto& [remark, clouds] : state.clouds_with) {
         text += "; " + remark;
@@ -446,14 +447,14 @@ std::vector<std::string> BagScans::remarks() const {
                                                const std::string& why) {
             if (kind.number == 0) return;
             remarks.push_back(name + ": " + counted(kind.number, one) + why +
-                              ", left out; the first: " + kind.first);
+                              ", skipped; the first: " + kind.first);
         };
         report(left_out.messages, "message", " that could not be read");
         report(left_out.transforms, "transform", " that could not be read");
-        report(left_out.other_parents, "transform", " of a frame that had another parent before");
+        report(left_out.other_parents, "transform", " of a frame that already has another parent");
         report(left_out.further, "transform",
-               " of frames beyond the first " + std::to_string(kMaxMovingFrames) +
-                   " (of tf_static " + std::to_string(FrameTree::kMaxFrames) + ")");
+               " of frames beyond the limit of " + std::to_string(kMaxMovingFrames) +
+                   " (tf_static: " + std::to_string(FrameTree::kMaxFrames) + ")");
     }
     BagSurvey others;  // messages of unused topics
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",
@@ -472,7 +473,7 @@ std::vector<std::string> BagScans::remarks() const {
     }
     if (!others.topics.empty()) {
         constexpr std::size_t kMax = 12;
-        remarks.push_back("topics that are not used: " + textOfTopics(others, kMax));
+        remarks.push_back("unused topics: " + textOfTopics(others, kMax));
     }
     return remarks;
 }

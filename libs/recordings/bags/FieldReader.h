@@ -66,7 +66,7 @@ class FieldReader {
     /// Returns the next bytes unparsed.
     ByteView take(std::size_t size) {
         if (size > left()) {
-            throw TooShort("it is " + std::to_string(size - left()) + " bytes too short");
+            throw TooShort("bytes missing at its end: " + std::to_string(size - left()));
         }
         const ByteView taken{bytes_.data + at_, size};
         at_ += size;

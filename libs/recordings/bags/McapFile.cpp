@@ -43,7 +43,7 @@ class McapFile : public RecordFile {
  private:
     bool readRecord(BagMessage& message) override {
         const std::uint32_t crc_before = file_.crc();
-        file_.read(9, "the head of a record", head_);
+        file_.read(9, "a record header", head_);
         FieldReader head({head_.data(), head_.size()});
         const auto op = head.number<std::uint8_t>();
         const auto size = head.number<std::uint64_t>();
@@ -74,7 +74,7 @@ class McapFile : public RecordFile {
     bool readInChunk(BagMessage& message) override {
         const auto op = in_chunk_.number<std::uint8_t>();
         if (op == 0) failKind();
-        if (op == kMcapChunk) throw std::runtime_error("it contains a chunk");
+        if (op == kMcapChunk) throw std::runtime_error("it contains another chunk");
         const auto size = in_chunk_.number<std::uint64_t>();
         if (size > in_chunk_.left()) {
             throw TooShort(mcapRecordName(op) + " in it claims " + std::to_string(size) +
@@ -84,7 +84,7 @@ class McapFile : public RecordFile {
     }
 
     [[noreturn]] static void failKind() {
-        throw std::runtime_error("it contains a record of the invalid kind 0");
+        throw std::runtime_error("it contains a record of the invalid type 0");
     }
 
     bool takeRecord(std::uint8_t op, ByteView content, BagMessage& message) {
@@ -158,8 +158,9 @@ class McapFile : public RecordFile {
             throw std::runtime_error("the magic bytes at the end are missing");
         }
         if (file_.left() > 0) {
-            throw std::runtime_error("the file has " + std::to_string(file_.left()) +
-                                     " more bytes after its end; was another file appended?");
+            throw std::runtime_error("data after the end of the recording (" +
+                                     std::to_string(file_.left()) +
+                                     " B); was another file appended?");
         }
         is_at_end_ = true;
         return false;

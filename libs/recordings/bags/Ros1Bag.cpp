@@ -22,7 +22,7 @@ std::string ros1RecordName(std::uint8_t op) {
     static const std::map<std::uint8_t, const char*> kNames{
         {kRos1Message, "a message"},       {kRos1BagHeader, "the bag's header"},
         {kRos1Index, "an index"},          {kRos1Chunk, "a chunk"},
-        {kRos1Connection, "a connection"}, {kRos1ChunkInfo, "the description of a chunk"}};
+        {kRos1Connection, "a connection"}, {kRos1ChunkInfo, "a chunk info"}};
     const auto name = kNames.find(op);
     return name == kNames.end() ? "a record" : name->second;
 }
@@ -35,7 +35,7 @@ class RecordHeader {
             const std::string field = reader.text();
             const std::size_t equals = field.find('=');
             if (equals == std::string::npos) {
-                throw std::runtime_error("a field of its header has no '='");
+                throw std::runtime_error("a header field has no '='");
             }
             fields_[field.substr(0, equals)] = field.substr(equals + 1);
         }
@@ -154,9 +154,9 @@ class Ros1Bag : public RecordFile {
             throw std::runtime_error("the bag ends here without an index: it was not closed");
         }
         if (chunks_ != chunks_due_ || chunk_infos_ != chunks_due_) {
-            throw std::runtime_error("the bag ends here with " + std::to_string(chunks_) +
-                                     " chunks, " + std::to_string(chunk_infos_) +
-                                     " of them described; its header says " +
+            throw std::runtime_error("the bag ends here, but is incomplete: chunk count " +
+                                     std::to_string(chunks_) + ", chunk info count " +
+                                     std::to_string(chunk_infos_) + ", both expected to be " +
                                      std::to_string(chunks_due_));
         }
     }

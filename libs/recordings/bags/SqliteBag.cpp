@@ -102,7 +102,8 @@ class SqliteBag : public BagFile {
         const std::int64_t topic_id = sqlite3_column_int64(row, 1);
         const auto topic = topic_of_.find(topic_id);
         if (topic == topic_of_.end()) {
-            fail("this message is of topic " + std::to_string(topic_id) + ", which does not exist");
+            fail("this message belongs to topic " + std::to_string(topic_id) +
+                 ", which does not exist");
         }
         message.topic = topic->second;
         message.time_ns = sqlite3_column_int64(row, 2);

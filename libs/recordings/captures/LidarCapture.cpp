@@ -49,9 +49,9 @@ std::unique_ptr<sensors::SweepReader> readerFor(const std::filesystem::path& fil
     const sensors::LidarFamily* const family = is_ouster ? nullptr : familyOf(file, check);
     if (!calibration.empty() && (is_ouster || family != nullptr)) {
         throw std::runtime_error(file.string() + ": is read as a capture of " +
-                                 (is_ouster ? "an Ouster" : family->called) + ", which " +
-                                 calibration.string() +
-                                 " cannot describe, because it is an HDL-64E calibration");
+                                 (is_ouster ? "an Ouster" : family->called) +
+                                 "; the HDL-64E calibration " + calibration.string() +
+                                 " does not apply");
     }
     if (is_ouster) return sensors::makeOusterSweeps(sensor_json);
     if (family != nullptr) return family->makeSweeps();
@@ -94,7 +94,7 @@ std::vector<std::string> LidarCapture::remarks() const {
     const sensors::FrameCounts& counts = capture_.counts();
     std::string frames = counted(counts.frames, "frame");
     addCount(counts.tagged, "frame", "with a VLAN tag", frames);
-    addCount(counts.fragments, "frame", "that are IP fragments", frames);
+    addCount(counts.fragments, "frame", "with IP fragments", frames);
     const std::string ignored = sensors::joined(reader_->ignored(), textOfLosses(counts));
     std::vector<std::string> remarks = reader_->remarks();
     remarks.push_back(frames + "; ignored: " + (ignored.empty() ? "none" : ignored));

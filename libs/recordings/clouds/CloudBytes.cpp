@@ -4,6 +4,7 @@
 #include "base/NumberText.h"
 #include "base/ReadFile.h"
 #include "mrpt/NumberTypes.h"
+#include "recordings/Remarks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -120,7 +121,7 @@ void checkRoom(const std::filesystem::path& file, std::size_t points, std::size_
 
 std::vector<std::string> remarkOnRest(std::size_t bytes) {
     if (bytes == 0) return {};
-    return {std::to_string(bytes) + " bytes after its last point are not read"};
+    return {counted(bytes, "byte") + " after its last point not read"};
 }
 
 }  // namespace hagen::recordings

@@ -96,8 +96,8 @@ std::string whyNoCloud(const Bytes& start) {
     const std::string known = otherKindOf(start);
     return "is not a point cloud: " +
            (known.empty() ? "its first numbers are not points of a LiDAR" : known) +
-           ". Known are PCD, PLY, LAS, NPY, and .bin of float32 x, y, z, intensity (KITTI), or "
-           "also ring (nuScenes)";
+           ". Supported: PCD, PLY, LAS, NPY, and .bin of float32 x, y, z, intensity (KITTI), "
+           "optionally with ring (nuScenes)";
 }
 
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file) {

@@ -70,18 +70,15 @@ class CloudFileSource : public FileListSource {
         }
         if (points_not_finite_ > 0) {
             remarks.push_back(counted(points_not_finite_, "point") +
-                              " with a coordinate that is not finite, in " +
+                              " with non-finite coordinates in " +
                               counted(clouds_not_finite_, "cloud") +
-                              ": left out of the scans (--clouds writes them, with the label 0)");
+                              ": dropped from the scans (--clouds writes them with label 0)");
         }
         if (other_files_ > 0) {
-            remarks.push_back(
-                counted(other_files_, "file") +
-                " in the folder with an extension other than .pcd, .ply, .las, .npy and "
-                ".bin: ignored");
+            remarks.push_back("ignored " + counted(other_files_, "file") +
+                              " without the extension .pcd, .ply, .las, .npy or .bin");
         }
-        if (folders_ > 0)
-            remarks.push_back(counted(folders_, "folder") + " in the folder: ignored");
+        if (folders_ > 0) remarks.push_back("ignored " + counted(folders_, "subfolder"));
         return remarks;
     }
 

@@ -60,8 +60,8 @@ void takePcdFields(const std::filesystem::path& file, const PcdLines& entries, P
          {&sizes, &types, counts == entries.end() ? &sizes : &counts->second}) {
         if (each->values.size() == fields) continue;
         failAt(file, each->place,
-               std::to_string(each->values.size()) + " values for " + std::to_string(fields) +
-                   " fields");
+               "expected one value per field (" + std::to_string(fields) + "), found " +
+                   std::to_string(each->values.size()));
     }
     for (std::size_t i = 0; i < fields; ++i) {
         PointField field;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "recordings/Remarks.h"
 #include "recordings/clouds/Readers.h"
 
 namespace hagen::recordings {
@@ -186,7 +187,7 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
             std::isfinite(scaling.offset[axis])) {
             continue;
         }
-        failAt(file, "byte 131", "a scale or offset of its coordinates is 0 or not finite");
+        failAt(file, "byte 131", "a coordinate scale or offset is 0 or not finite");
     }
     constexpr std::size_t kMaxBytes = 3 * 8 + 2 + 8 + 4 + 2 + 8 + 8;
     LasColumns columns(points, kMaxBytes);
@@ -204,10 +205,10 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
         cloud.table.bytes.clear();
     }
     cloud.remarks = remarksOnRecords(bytes, is_of_14, bytes.size() - start - points * record);
-    if (format.has_waves) cloud.remarks.push_back("wave packets of its points are not read");
+    if (format.has_waves) cloud.remarks.push_back("its wave packets are not read");
     if (record > format.size) {
-        cloud.remarks.push_back(std::to_string(record - format.size) +
-                                " extra bytes of each point are not read");
+        cloud.remarks.push_back(counted(record - format.size, "extra byte") +
+                                " per point not read");
     }
     return cloud;
 }

@@ -80,8 +80,7 @@ ItemType itemTypeOf(const std::filesystem::path& file, const std::string& text) 
         end > 1 ? base::numberFrom<std::uint32_t>(std::string_view(name).substr(1, end - 1))
                 : std::nullopt;
     if (!size || name[0] == 'O') {
-        throw BrokenRecording(file.string() + ": the type '" + text.substr(0, 40) +
-                              "' of its numbers is unknown");
+        throw BrokenRecording(file.string() + ": unknown number type '" + text.substr(0, 40) + "'");
     }
     item.bytes = name[0] == 'U' ? std::size_t{4} * *size : *size;
     item.order = '|';
@@ -105,7 +104,7 @@ std::size_t productOf(const std::filesystem::path& file, const YAML::Node& sizes
 void takeOrder(const std::filesystem::path& file, char order, char& all) {
     if (order == '|') return;
     if (all != '|' && all != order) {
-        throw BrokenRecording(file.string() + ": has numbers of both byte orders");
+        throw BrokenRecording(file.string() + ": mixes little-endian and big-endian numbers");
     }
     all = order;
 }
@@ -156,12 +155,14 @@ void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
     constexpr std::size_t kMaxColumns = 1024;
     const ItemType item = itemTypeOf(file, descr);
     if (!item.type) {
-        throw BrokenRecording(file.string() + ": its numbers are '" + descr.substr(0, 40) +
+        throw BrokenRecording(file.string() + ": its numbers have the unsupported type '" +
+                              descr.substr(0, 40) +
                               "'; convert them, for example with .astype(numpy.float32)");
     }
     if (columns < 3 || columns > kMaxColumns) {
-        throw BrokenRecording(file.string() + ": has " + std::to_string(columns) +
-                              " numbers per point: the array must be N x 3 or more (x, y, z, ...)");
+        throw BrokenRecording(file.string() + ": the array must have 3 to " +
+                              std::to_string(kMaxColumns) + " columns (x, y, z, ...), not " +
+                              std::to_string(columns));
     }
     takeOrder(file, item.order, order);
     for (std::size_t column = 0; column < columns; ++column) {
@@ -213,8 +214,9 @@ CloudFile readNpy(const std::filesystem::path& file, Bytes bytes) {
         throw BrokenRecording(file.string() + ": its NPY header has an invalid 'shape' or 'descr'");
     }
     if (is_plain && dimensions < 2) {
-        throw BrokenRecording(file.string() + ": has " + std::to_string(dimensions) +
-                              " dimensions: the array must be N x 3 or more (x, y, z, ...)");
+        throw BrokenRecording(file.string() +
+                              ": the array must have at least two dimensions, N x 3 or more "
+                              "(x, y, z, ...)");
     }
     const std::size_t point_dimensions = is_plain ? dimensions - 1 : dimensions;
     if (is_by_column && point_dimensions > 1) {

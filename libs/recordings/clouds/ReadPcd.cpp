@@ -35,8 +35,8 @@ void readAsciiPcd(const std::filesystem::path& file, const PcdHeader& header, co
         }
         if (words.size() != words_per_point) {
             failAt(file, lines.place(),
-                   std::to_string(words.size()) + " numbers instead of " +
-                       std::to_string(words_per_point));
+                   "expected " + std::to_string(words_per_point) + " numbers, found " +
+                       std::to_string(words.size()));
         }
         std::size_t word = 0;
         for (const PointField& field : header.fields) {
@@ -87,7 +87,7 @@ void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& heade
     if (header.points * header.bytes_per_point != unpacked) {
         throw BrokenRecording(file.string() + ": its points have " + std::to_string(unpacked) +
                               " bytes, but the header claims " + std::to_string(header.points) +
-                              " of " + std::to_string(header.bytes_per_point));
+                              " points of " + std::to_string(header.bytes_per_point) + " bytes");
     }
     cloud.remarks = remarkOnRest(there - packed);
     if (header.points == 0) return;

@@ -65,7 +65,7 @@ NumberType plyTypeOf(const std::filesystem::path& file, const TextLines& lines,
 
 void takeProperty(const std::filesystem::path& file, const TextLines& lines,
                   const std::vector<std::string_view>& words, PlyHeader& header) {
-    if (header.elements.empty()) failAt(file, lines.place(), "a property before any element");
+    if (header.elements.empty()) failAt(file, lines.place(), "a property must follow an element");
     const bool is_list = words.size() == 5 && words[1] == "list";
     if (!is_list && words.size() != 3) failAt(file, lines.place(), "is not a valid PLY property");
     PlyProperty property;
@@ -135,7 +135,7 @@ PointTable vertexTableOf(const PlyElement& vertices) {
 [[noreturn]] void failCut(const std::filesystem::path& file, const PlyElement& element,
                           std::size_t row) {
     throw BrokenRecording(file.string() + ": the header claims " + std::to_string(element.count) +
-                          " '" + element.name + "', but " + std::to_string(row) +
+                          " '" + element.name + "' elements, but " + std::to_string(row) +
                           " are present; is it truncated?");
 }
 
@@ -238,7 +238,8 @@ class AsciiRows {
  private:
     [[noreturn]] void failLine(std::size_t words) {
         failAt(file_, lines_.place(),
-               std::to_string(words) + " numbers, which do not fit the properties in the header");
+               "the number of values (" + std::to_string(words) +
+                   ") does not match the properties in the header");
     }
 
     void readProperty(const PlyProperty& property, const std::vector<std::string_view>& words,
@@ -284,8 +285,7 @@ void readRows(const std::filesystem::path& file, const PlyHeader& header, Rows r
         cloud.table = vertexTableOf(element);
         for (const PlyProperty& property : element.properties) {
             if (!property.length) continue;
-            cloud.remarks.push_back("list properties of its vertices are not read: " +
-                                    property.name);
+            cloud.remarks.push_back("list properties of vertices are not read: " + property.name);
         }
         rows.read(element, &cloud.table);
     }

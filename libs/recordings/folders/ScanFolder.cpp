@@ -13,6 +13,7 @@
 #include "base/Folder.h"
 #include "base/WriteFile.h"
 #include "recordings/CloudTimes.h"
+#include "recordings/Remarks.h"
 #include "recordings/clouds/Readers.h"
 
 namespace hagen::recordings {
@@ -32,7 +33,7 @@ std::size_t checkedCount(const fs::path& file, std::size_t bytes, std::size_t by
     }
     if (bytes / bytes_per_point > kMaxReturns) {
         throw BrokenRecording(file.string() + ": has more than " + std::to_string(kMaxReturns) +
-                              " points, the maximum of a scan");
+                              " points, the maximum for a scan");
     }
     return bytes / bytes_per_point;
 }
@@ -55,8 +56,8 @@ std::vector<double> readNumberPerScan(const fs::path& file, const std::string& u
         numbers.push_back(line.numbers[0]);
     }
     if (numbers.size() != scans) {
-        throw std::runtime_error(file.string() + ": has " + std::to_string(numbers.size()) +
-                                 " lines for " + std::to_string(scans) + " scans");
+        throw std::runtime_error(file.string() + ": has " + counted(numbers.size(), "line") +
+                                 " for " + counted(scans, "scan"));
     }
     return numbers;
 }
@@ -156,7 +157,7 @@ std::size_t readScan(const fs::path& file, Scan& scan) {
             }
             const std::string other_kind = otherKindOf(bytes);
             if (!other_kind.empty()) {
-                throw BrokenRecording(file.string() + ": has no points: " + other_kind);
+                throw BrokenRecording(file.string() + ": is not a KITTI scan: " + other_kind);
             }
             numbers = 4;
         }

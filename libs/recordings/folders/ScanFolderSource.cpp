@@ -2,6 +2,7 @@
 #include <hagen/recordings/ScanFolder.h>
 
 #include "recordings/FileListSource.h"
+#include "recordings/Remarks.h"
 #include "recordings/Sources.h"
 
 namespace hagen::recordings {
@@ -24,14 +25,13 @@ class ScanFolderSource : public FileListSource {
         std::vector<std::string> remarks;
         const std::string scans = (folder_.path() / "velodyne").string();
         if (has_rings_) {
-            remarks.push_back("the rings of its points (nuScenes) are ignored; to use them, pass " +
-                              scans + " as a folder of point clouds");
+            remarks.push_back("ring numbers (nuScenes) are ignored; to use them, pass " + scans +
+                              " as a folder of point clouds");
         }
         const std::vector<std::string>& others = folder_.otherFiles();
         if (!others.empty()) {
-            remarks.push_back(std::to_string(others.size()) + " of the entries in " + scans +
-                              " do not end in .bin, such as " + others.front() +
-                              ": they are ignored");
+            remarks.push_back("ignored " + counted(others.size(), "file") + " in " + scans +
+                              " without the extension .bin, such as " + others.front());
         }
         return remarks;
     }

@@ -33,8 +33,8 @@ std::string whyNone(const std::filesystem::path& file) {
     const bool is_packed = kind.what == "gzip-compressed" || kind.what == "zstd-compressed";
     if (is_packed) return "it is " + kind.what + ", but contains no rawlog; " + kind.advice;
     return (known.empty() ? "its format is unknown" : known) +
-           ". Known are rawlogs, captures (.pcap, .pcapng), ROS recordings (.bag, .mcap, .db3) and "
-           "point clouds (.pcd, .ply, .las, .npy, .bin)";
+           ". Supported: rawlogs, captures (.pcap, .pcapng), ROS recordings (.bag, .mcap, .db3) "
+           "and point clouds (.pcd, .ply, .las, .npy, .bin)";
 }
 
 }  // namespace
@@ -62,11 +62,11 @@ mrpt::serialization::CSerializable::Ptr EntryReader::next() {
         return nullptr;
     } catch (const std::bad_alloc&) {
         if (!stream_.fault().empty()) throw broken("");
-        throw OutOfMemory(
-            broken("it requests more memory at byte " + std::to_string(stream_.getPosition()) +
-                   " than the entry can need: a count is wrong, or the entry exceeds " +
-                   std::to_string(kMaxEntryBytes >> 20) + " MiB")
-                .what());
+        throw OutOfMemory(broken("it requests too much memory at byte " +
+                                 std::to_string(stream_.getPosition()) +
+                                 ": a count is wrong, or the entry exceeds " +
+                                 std::to_string(kMaxEntryBytes >> 20) + " MiB")
+                              .what());
     } catch (const std::exception& e) {
         const std::string reason = reasonOf(e);
         if (entries_ == 0 && reason == kNoObject && stream_.fault().empty()) {

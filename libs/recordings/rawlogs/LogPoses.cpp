@@ -1,6 +1,7 @@
 #include <hagen/mrpt/TimeStamp.h>
 #include <hagen/recordings/LogPoses.h>
 #include "recordings/PoseFile.h"
+#include "recordings/Remarks.h"
 
 #include <map>
 #include <stdexcept>
@@ -26,8 +27,8 @@ observations::Trajectory trajectoryOfKitti(const fs::path& file,
     const bool fits =
         are_all_scans ? sensor_poses.size() == scans.size() : sensor_poses.size() >= scans.size();
     if (!fits) {
-        throw std::runtime_error(file.string() + ": has " + std::to_string(sensor_poses.size()) +
-                                 " poses for " + std::to_string(scans.size()) + " scans");
+        throw std::runtime_error(file.string() + ": has " + counted(sensor_poses.size(), "pose") +
+                                 " for " + counted(scans.size(), "scan"));
     }
     observations::Trajectory trajectory;
     trajectory.has_horizon = false;  // poses are relative to the first scan, which may be tilted

@@ -2,6 +2,7 @@
 #include <hagen/recordings/RawlogReader.h>
 #include "mrpt/Results.h"
 #include "recordings/PoseFile.h"
+#include "recordings/Remarks.h"
 
 #include <utility>
 
@@ -58,12 +59,11 @@ class RawlogSource : public ScanSource {
     std::vector<std::string> remarks() const override {
         std::vector<std::string> remarks;
         if (null_objects_ > 0) {
-            remarks.push_back("its sensory frames have " + std::to_string(null_objects_) +
-                              " null objects, which MRPT cannot write: they are left out");
+            remarks.push_back("dropped " + counted(null_objects_, "null object") +
+                              " from sensory frames, because MRPT cannot write null objects");
         }
         if (poses_not_finite_ > 0) {
-            remarks.push_back("poses that are not finite are left out: " +
-                              std::to_string(poses_not_finite_));
+            remarks.push_back("skipped " + counted(poses_not_finite_, "non-finite pose"));
         }
         if (has_scans_ || has_.empty()) return remarks;
         std::string found;

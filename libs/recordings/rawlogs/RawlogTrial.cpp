@@ -108,7 +108,7 @@ bool limitMemory(const PackedInput& stream, const rlimit& of_program) {
             send(pipe, EntryVerdict::Kind::Sound, end);
         }
     } catch (const OutOfMemory& e) {
-        const char* const limit = is_limit_of_program ? ", or more than --memory-limit allows" : "";
+        const char* const limit = is_limit_of_program ? " or --memory-limit" : "";
         send(pipe, EntryVerdict::Kind::Broken, 0, std::string(e.what()) + limit);
     } catch (const std::exception& e) {
         send(pipe, EntryVerdict::Kind::Broken, 0, e.what());
@@ -214,7 +214,7 @@ EntryVerdict RawlogTrial::receiveVerdict() {
     }
     EntryVerdict verdict{header.kind, header.end, std::string(header.text, '\0')};
     if (!transfer(read, verdicts_, verdict.why.data(), header.text)) {
-        verdict.why = "the reason was lost";
+        verdict.why = "unknown error";
     }
     ++received_;
     return verdict;

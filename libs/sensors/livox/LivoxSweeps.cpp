@@ -58,7 +58,7 @@ class LivoxSweeps : public SweepReader {
 
     std::string ignored() const override {
         std::string text;
-        addCount(sensors_.further(), "packet", "of further sensors", text);
+        addCount(sensors_.further(), "packet", "from further sensors", text);
         addCount(imu_packets_, "IMU packet", "(rates and accelerations, no attitude)", text);
         others_.describe(text);
         return text;

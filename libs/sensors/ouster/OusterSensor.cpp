@@ -130,7 +130,7 @@ std::size_t columnsOfMode(const std::string& mode) {
     for (const std::size_t columns : {512, 1024, 2048, 4096}) {
         if (mode.rfind(std::to_string(columns) + "x", 0) == 0) return columns;
     }
-    throw std::runtime_error("'lidar_mode' is '" + mode + "', not like '1024x10'");
+    throw std::runtime_error("'lidar_mode' is '" + mode + "'; expected a mode such as '1024x10'");
 }
 
 /// The duration of a turn in a mode such as "1024x10"; 0 for other texts.
@@ -208,7 +208,7 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
     } else if (metadata.find("lidar_origin_to_beam_origin_mm") != nullptr) {
         const double origin_mm = metadata.number("lidar_origin_to_beam_origin_mm");
         if (!(std::abs(origin_mm) <= 1000)) {
-            throw std::runtime_error("'lidar_origin_to_beam_origin_mm' is not within a metre");
+            throw std::runtime_error("'lidar_origin_to_beam_origin_mm' exceeds 1 m");
         }
         sensor.beam_origin_m = 1e-3 * origin_mm;
     }

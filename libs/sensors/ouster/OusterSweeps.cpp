@@ -59,8 +59,8 @@ class OusterSweeps : public SweepReader {
         addCount(imu_packets_, "IMU packet", "", text);
         for (const auto& [serial, count] : other_serials_) {
             addCount(count, "packet",
-                     serial == 0 ? "of further sensors"
-                                 : "of the sensor with serial number " + std::to_string(serial),
+                     serial == 0 ? "from further sensors"
+                                 : "from the sensor with serial number " + std::to_string(serial),
                      text);
         }
         addCount(other_sources_, "packet", "from another address", text);
@@ -75,7 +75,7 @@ class OusterSweeps : public SweepReader {
                    " columns in " + json_.string() + ". Are the metadata from another mode?";
         }
         const std::string found = joined(ignored(), losses);
-        return "has no packets of the " + sensor_.name +
+        return "has no packets from the " + sensor_.name +
                (sensor_.serial.empty() ? "" : " with serial number " + sensor_.serial) + " in " +
                json_.string() + " (" + std::to_string(sensor_.packetBytes()) + " bytes, profile " +
                sensor_.profile.name + "); it has " + (found.empty() ? "no frames" : found) +
@@ -113,7 +113,7 @@ LidarSweep sweepOf(const OusterFrame& frame, const OusterSensor& sensor) {
 std::string textOf(const OusterFrames::Counts& counts) {
     std::string text = counted(counts.packets, "packet") + " in " + counted(counts.frames, "turn");
     addCount(counts.lost_frames, "turn", "lost", text);
-    addCount(counts.uncertain_frames, "turn", "dropped: their columns may not match the metadata",
+    addCount(counts.uncertain_frames, "turn", "dropped, because columns may not match the metadata",
              text);
     addCount(counts.missing_columns, "column", "missing", text);
     addCount(counts.invalid_columns, "column", "marked invalid by the sensor, dropped", text);

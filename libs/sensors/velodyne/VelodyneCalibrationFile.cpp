@@ -63,9 +63,9 @@ class Elements {
             }
             const std::string_view name = tag.substr(1, tag.find_first_of(" \t\r\n/>", 1) - 1);
             if (name.size() > kMaxNameBytes) {
-                throw std::runtime_error("the name '" + std::string(name.substr(0, 40)) +
-                                         "...' of an element has more than " +
-                                         std::to_string(kMaxNameBytes) + " characters");
+                throw std::runtime_error("the element name '" + std::string(name.substr(0, 40)) +
+                                         "...' has more than " + std::to_string(kMaxNameBytes) +
+                                         " characters");
             }
             names_.emplace_back(name);
             if (names_.size() > kMaxDepth) throw std::runtime_error("it is nested too deeply");

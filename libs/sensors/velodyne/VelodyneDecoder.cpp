@@ -93,7 +93,8 @@ const VelodyneCalibration& checked(const VelodyneCalibration& calibration) {
             continue;
         }
         throw std::runtime_error("the scan's own calibration is corrupt: laser " +
-                                 std::to_string(i) + " has no direction, or offsets beyond " +
+                                 std::to_string(i) +
+                                 " has an invalid direction, or offsets beyond " +
                                  std::to_string(std::lround(kMaxCorrection_m)) + " m");
     }
     return calibration;
@@ -116,7 +117,7 @@ const VelodyneModel& modelOf(const VelodynePackets& packets, std::size_t packet)
     }
     if (id != Packet(packets.at(0)).modelId()) {
         throw std::runtime_error("packet " + std::to_string(packet) + ": model id " + hex(id) +
-                                 " differs from the first packet's");
+                                 " differs from that of the first packet");
     }
     return *model;
 }

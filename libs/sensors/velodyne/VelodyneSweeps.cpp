@@ -77,9 +77,9 @@ class VelodyneSweeps : public SweepReader {
         if (packets_ > 0) return "";
         std::string found = joined(unknown(), losses);
         addCount(position_packets_, "position packet", "", found);
-        return "has no data packets of a known Velodyne (" + knownVelodynes().substr(1) +
+        return "has no data packets from a known Velodyne (" + knownVelodynes().substr(1) +
                "); it has " + (found.empty() ? "no frames" : found) +
-               ". Ouster packets require metadata: --sensor-json FILE";
+               ". For Ouster packets, pass the metadata with --sensor-json FILE";
     }
 
  private:
@@ -109,15 +109,15 @@ class VelodyneSweeps : public SweepReader {
         std::string text;
         if (!calibration_) {
             addCount(hdl64_packets_, "packet",
-                     "of an HDL-64E, which require its calibration: --calibration FILE", text);
+                     "from an HDL-64E (unreadable without --calibration FILE)", text);
         }
         for (const auto& [id, count] : unknown_ids_) {
             char hex[8];
             std::snprintf(hex, sizeof hex, "0x%02x", id);
-            addCount(count, "packet", "of an unknown Velodyne (model id " + std::string(hex) + ")",
-                     text);
+            addCount(count, "packet",
+                     "from an unknown Velodyne (model id " + std::string(hex) + ")", text);
         }
-        addCount(sensors_.further(), "packet", "of further sensors", text);
+        addCount(sensors_.further(), "packet", "from further sensors", text);
         others_.describe(text);
         return text;
     }
