@@ -310,7 +310,7 @@ int command(int argc, char** argv) {
         "  rawlog-segment -i ouster.pcap --sensor-json ouster.json -o segmented.rawlog\n"
         "  rawlog-segment -i flight.bag --topic /velodyne_points -o segmented.rawlog\n"
         "  rawlog-segment -i flight.rawlog --learn-airframe airframe.yaml\n"
-        "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
+        "Exit codes: 0 success; 1 runtime error, or no LiDAR scan; 2 wrong usage.");
     Flags flags;
     declare(program, flags);
     return program.run(argc, argv, [&] { return run(program, flags); });

@@ -19,20 +19,32 @@ const std::pair<const char*, Attitude> kMounts[] = {
     {"sensor.mount_pitch_deg=90", {0, static_cast<float>(radians(90))}},
     {"sensor.mount_pitch_deg=-90", {0, static_cast<float>(radians(-90))}}};
 
+/// Whether a share of the returns in the zone is ground.
+bool hasGround(const Scan& scan, const LabelledReturns& returns, float zone_m) {
+    constexpr double kMinGround = 0.01;
+    std::size_t ground = 0, others = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        if (!(scan.range_m[i] <= zone_m)) continue;
+        ++(returns.label[i] == Label::Rou ? ground : others);
+    }
+    return static_cast<double>(ground) >= kMinGround * static_cast<double>(ground + others);
+}
+
 }  // namespace
 
 void GroundCheck::see(const observations::ObservationSegmenter::Output& segmented) {
     if (!segmented.options->ground_surface || segmented.scan->size() == 0) return;
     ++scans_;
     zone_m_ = segmented.options->zone_m;
-    if (segmented.result->ground.is_seen) {
+    if (hasGround(*segmented.scan, segmented.result->returns, zone_m_)) {
         ++with_ground_;
         return;
     }
     if (++tried_ > kTried) return;
     HagenFilter filter(*segmented.sensor, *segmented.options);
     for (const auto& [setting, mount] : kMounts) {
-        found_[setting] += filter.segment(*segmented.scan, mount).ground.is_seen;
+        const SegmentationResult& result = filter.segment(*segmented.scan, mount);
+        found_[setting] += hasGround(*segmented.scan, result.returns, zone_m_);
     }
 }
 
@@ -48,7 +60,7 @@ std::string GroundCheck::warning() const {
     if (static_cast<double>(best->second) >= kMinShare * static_cast<double>(tried)) {
         return text + "With --set " + best->first + ", " + std::to_string(best->second) + " of " +
                std::to_string(tried) +
-               " of them have ground: is the sensor mounted so, or are the axes others than x "
+               " of them have ground: is the sensor mounted so, or are its axes not x "
                "forward, z up?";
     }
     return text +

@@ -6,9 +6,8 @@
 
 namespace hagen::convert {
 
-/// Counts the scans in which no ground was found: all their returns in the zone are RoI. Labels
-/// such scans again as if the sensor was mounted otherwise, to tell a wrong mount from missing
-/// ground.
+/// Counts the scans without ground, in which all returns in the zone are RoI. Labels some of them
+/// again with other mounts of the sensor, to distinguish a wrong mount from missing ground.
 class GroundCheck {
  public:
     /// Adds a segmented scan. Scans of options without a ground surface do not count.

@@ -189,7 +189,7 @@ TEST_F(AirframeMask, LearnsFromOneSensorOnly) {
     }
     writer.commit();
     expectFailure({"-i", path("two.rawlog"), "--learn-airframe", path("a.yaml")}, 1,
-                  "scans of 'front' and of 'rear'");
+                  "scans of 'front' and 'rear'");
     const auto outcome = expectSuccess(
         {"-i", path("two.rawlog"), "--learn-airframe", path("b.yaml"), "--sensor-label", "rear"});
     EXPECT_THAT(outcome.out, HasSubstr("12 LiDAR scans of 'rear':\n  1 bin masked"));

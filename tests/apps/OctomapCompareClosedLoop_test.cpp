@@ -270,7 +270,7 @@ TEST(ClosedLoop, RejectsInvalidArgumentsBeforeWriting) {
     failsInstead("--models", "RoI window,RoI windows", "'RoI windows'");
     failsInstead("--guidance", "psychic", "'psychic'");
     failsInstead("--seeds", "7-3", "seed");
-    failsInstead("--seeds", "0-18446744073709551615", "at most 1000000 flights");
+    failsInstead("--seeds", "0-18446744073709551615", "more than 1000000 flights");
     failsInstead("--seeds", "a-b", "'a-b'");
     failsInstead("--seeds", "-1", "seed");
     failsInstead("--speed", "0", "speed");

@@ -218,7 +218,7 @@ TEST_F(RawlogSegmentTrouble, OutputsDoNotReplaceSettings) {
     const std::string inner = folder_.write("inner.yaml", "beta_deg: 7\n").string();
     const std::string outer = folder_.write("outer.yaml", "include: inner.yaml\n").string();
     for (const std::string& file : {inner, outer}) {
-        for (const std::string flag : {"-o", "--stats", "--learn-airframe"}) {
+        for (const std::string flag : {"--kitti", "--stats", "--learn-airframe"}) {
             expectFailure({"-i", recording(), "-c", outer, "--overwrite", flag, file}, 1,
                           "is or contains the input");
         }

@@ -82,12 +82,12 @@ TEST(CampaignPlan, RejectsInvalidPlans) {
     EXPECT_THAT(fails([](CampaignPlan& plan) { plan.speeds_m_s = {0}; }), HasSubstr("speed"));
     EXPECT_THAT(fails([](CampaignPlan& plan) { plan.updates.clear(); }), HasSubstr("update"));
     EXPECT_THAT(fails([](CampaignPlan& plan) { plan.last_seed = 1'000'000; }),
-                HasSubstr("at most 1000000 flights"));
+                HasSubstr("more than 1000000 flights"));
     EXPECT_THAT(fails([](CampaignPlan& plan) {
                     plan.speeds_m_s.assign(100'000, 4);
                     plan.latency_scales.assign(100'000, 1);
                 }),
-                HasSubstr("at most 1000000 flights"));
+                HasSubstr("more than 1000000 flights"));
     EXPECT_THAT(fails([](CampaignPlan&) {}, {5, 4}), HasSubstr("shard"));
     EXPECT_THAT(fails([](CampaignPlan&) {}, {0, 4}), HasSubstr("shard"));
 }

@@ -96,7 +96,7 @@ TEST(BagScans, ReportsOtherTypesOnTopic) {
         const ReadBag read = readBag(file);
         EXPECT_EQ(read.of("points").size(), 1u);
         EXPECT_THAT(read.scans->remarks(),
-                    Contains(HasSubstr("not used: /points (std_msgs/String, 1 message)")));
+                    Contains(HasSubstr("unused topics: /points (std_msgs/String, 1 message)")));
     }
 }
 
@@ -133,7 +133,7 @@ TEST_P(Fixture, ReadsEveryMessageType) {
     EXPECT_EQ(test::bytesOf(velodyne->scan_packets[0]).substr(1100 + 4, 3), "\xc4\x09\x64");
     EXPECT_DOUBLE_EQ(mrpt::Clock::toDouble(velodyne->timestamp), kStart_s + 0.35);
     EXPECT_THAT(read.scans->remarks(),
-                Contains(HasSubstr("not used: /ouster/lidar_packets (ouster_ros/PacketMsg, 1 "
+                Contains(HasSubstr("unused topics: /ouster/lidar_packets (ouster_ros/PacketMsg, 1 "
                                    "message), /camera/image (std_msgs/String, 1 message)")));
 }
 
@@ -184,7 +184,7 @@ TEST_F(BagScansTest, LabelsEveryLidarTopic) {
     EXPECT_THAT(one.labels(), ElementsAre("b"));
     EXPECT_EQ(one.observations.size(), 1u);
     EXPECT_THAT(one.scans->remarks(),
-                Contains(HasSubstr("not used: /a (sensor_msgs/PointCloud2, 2 messages)")));
+                Contains(HasSubstr("unused topics: /a (sensor_msgs/PointCloud2, 2 messages)")));
 }
 
 TEST_F(BagScansTest, RejectsMissingTopics) {

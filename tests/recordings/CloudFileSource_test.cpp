@@ -237,7 +237,7 @@ TEST_F(CloudFileSourceTest, ReportsIgnoredContent) {
     const auto remarks = remarksOn(folder_ / "clouds", options);
     EXPECT_THAT(remarks, Contains(HasSubstr("2 points with non-finite coordinates in 1 cloud")));
     EXPECT_THAT(remarks, Contains(AllOf(HasSubstr("4 extra bytes"), HasSubstr("(1 of 2 clouds)"))));
-    EXPECT_THAT(remarks, Contains(HasSubstr("1 file in the folder")));
+    EXPECT_THAT(remarks, Contains(HasSubstr("ignored 1 file without the extension")));
     EXPECT_THAT(remarks,
                 Contains(HasSubstr("cannot store (--cloud generic and --clouds can): ring, t")));
     EXPECT_THAT(remarksOn(folder_ / "clouds"), Not(Contains(HasSubstr("cannot store"))));

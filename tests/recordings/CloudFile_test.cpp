@@ -311,8 +311,8 @@ TEST_F(CloudFileTest, PlyErrorsIncludeLine) {
                 HasSubstr("line 5: the length of a list"));
     EXPECT_THAT(complaintOn("element vertex", "element points"), HasSubstr("no 'vertex'"));
     EXPECT_THAT(complaintOn("element camera", "elements camera"), HasSubstr("line 4: 'elements'"));
-    EXPECT_THAT(complaintOn(" 70000\n", "\n"), HasSubstr("line 17: 4 numbers, which do not fit"));
-    EXPECT_THAT(complaintOn(" 70000\n", " 1 2\n"), HasSubstr("line 17: 6 numbers"));
+    EXPECT_THAT(complaintOn(" 70000\n", "\n"), HasSubstr("line 17: the number of values (4)"));
+    EXPECT_THAT(complaintOn(" 70000\n", " 1 2\n"), HasSubstr("line 17: the number of values (6)"));
     EXPECT_THAT(complaintOn(" 70000\n", " -1\n"), HasSubstr("'-1' is not a valid uint32"));
     EXPECT_THAT(complaintOn("2 1 2\n", "99 1 2\n"), HasSubstr("line 15"));
 }
@@ -470,7 +470,8 @@ TEST_F(CloudFileTest, BinAcceptsEmptyRejectsTruncated) {
     EXPECT_THAT(complaint("a.bin", std::string(15, '\0')), HasSubstr("15 bytes"));
     EXPECT_THAT(complaint("a.bin", std::string(16, '\xee')),
                 HasSubstr("not a point cloud: its first numbers are not points of a LiDAR"));
-    EXPECT_THAT(complaint("a.bin", std::string(16, 'x')), HasSubstr("it seems to be text. Known"));
+    EXPECT_THAT(complaint("a.bin", std::string(16, 'x')),
+                HasSubstr("it seems to be text. Supported"));
     // A picture is not reported as a truncated .bin, whatever its size.
     EXPECT_THAT(complaint("a.bin", "\xff\xd8\xff\xe0" + std::string(13, '\xee')),
                 HasSubstr("it seems to be a JPEG picture"));

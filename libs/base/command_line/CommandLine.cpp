@@ -54,6 +54,13 @@ class HelpText : public CLI::Formatter {
  public:
     HelpText() { column_width(kHelpColumn); }
 
+    /// Without options that also have a flag.
+    std::string make_positionals(const CLI::App* app) const override {
+        const auto all = app->get_options([](const CLI::Option* option) {
+            return option->get_positional() && !option->nonpositional();
+        });
+        return all.empty() ? "" : make_group(get_label("Positionals"), true, all);
+    }
     /// The name of the value only; CLI11 would add types, limits and requirements.
     std::string make_option_opts(const CLI::Option* option) const override {
         const std::string& name = option->get_option_text();
