@@ -326,7 +326,7 @@ int run(int argc, char** argv) {
     for (const auto& options : all) {
         Figures sum;
         double worst = 100;
-        Confusion whole_of_worst, streamed_of_worst;  // the flight in which sectors lose most
+        Confusion whole_of_worst, streamed_of_worst;  // for the flight with the largest F1 loss
         double max_lost = -100;
         for (const Recording& recording : recordings) {
             const std::size_t same = sum.same, different = sum.different;

@@ -26,8 +26,8 @@ Sets those(const std::vector<Measured>& all, bool (*choose)(const DataSet&));
 /// Returns the names of the two filters and the baselines.
 std::vector<std::string> headlineNames(const std::vector<Measured>& all);
 
-/// The data of the tables on missed obstacles, by name: each set that has all rows; the altitude
-/// series within the default zone is merged.
+/// Returns the named data sets in the tables of missed obstacles: every set that has all rows. The
+/// flights of the altitude series (`is_altitude`) are merged into one entry.
 std::vector<std::pair<std::string, Sets>> mainData(const std::vector<Measured>& all);
 
 }  // namespace hagen

@@ -42,9 +42,9 @@ class ScanFolderWriter {
     /// Scans written so far.
     std::size_t scans() const { return times_s_.size(); }
 
-    /// Writes times.txt (seconds, by the recording's clock); poses.tum with the known poses, if all
-    /// have a horizon, because readers use them for levelling; and poses.txt if all poses are
-    /// known.
+    /// Writes times.txt (seconds on the recording's clock). Writes poses.tum with the known poses
+    /// if all of them are gravity-aligned, because readers use them for levelling, and poses.txt if
+    /// all poses are known.
     void finish() const;
 
  private:

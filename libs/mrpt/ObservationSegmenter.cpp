@@ -30,7 +30,7 @@ bool isSameSensor(const SensorModel& a, const SensorModel& b) {
            a.max_range_m == b.max_range_m && a.has_rings == b.has_rings;
 }
 
-/// Whether two options, which may differ only by the sensor, are equal.
+/// Whether two sets of options are equal. Compares only the options that depend on the sensor.
 bool areSameFor(const Options& a, const Options& b) {
     return a.columns == b.columns && a.window_size == b.window_size &&
            a.principal_components == b.principal_components;

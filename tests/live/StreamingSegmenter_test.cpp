@@ -321,7 +321,7 @@ TEST_F(StreamingSegmenterTest, ContextFollowsTilt) {
     EXPECT_LT(errorsWith(false, radians(30.0)), without_tilt);
     // Motion is estimated from the first sectors that contain ground.
     EXPECT_LT(4 * errorsWith(false, 0, true), without_tilt);
-    // A mount is a tilt, but does not imply that the sensor is static.
+    // A mount provides a tilt, but the vehicle need not stay level.
     mount = Attitude{};
     EXPECT_GT(errorsWith(false, 0), 50u);
     EXPECT_LT(2 * errorsWith(false, radians(30.0)), errorsWith(false, 0));

@@ -451,7 +451,7 @@ TEST(VelodyneStreams, Hdl64NeedsCalibration) {
     EXPECT_THROW(sensors::makeVelodyneDriver(sensors::hdl64Model()), std::invalid_argument);
 }
 
-/// Lower blocks identify an HDL-64E, even if their azimuths are unsound.
+/// Lower blocks identify an HDL-64E, even if their azimuths are invalid.
 TEST(VelodyneStreams, SurvivesUnsoundLowerHdl64Blocks) {
     sensors::VelodyneCalibration calibration;
     for (int laser = 0; laser < 64; ++laser) {

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-/// The entries of a log: comments with random text, about 600 KB in total.
+/// The entries of a log: comments with random text, 30 kB each.
 std::string plainLog(int entries) {
     mrpt::io::CMemoryStream stream;
     auto archive = mrpt::serialization::archiveFrom(stream);

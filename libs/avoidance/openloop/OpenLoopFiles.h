@@ -22,8 +22,8 @@ namespace hagen::avoidance {
 /// Except for the measured values, the files are reproducible. They appear only when complete.
 class OpenLoopFiles {
  public:
-    /// Throws std::runtime_error naming a file that exists without `overwrite` or is one of the
-    /// inputs, or a folder that cannot be created.
+    /// Throws std::runtime_error naming the path if a file exists and `overwrite` is false, if a
+    /// file is one of the inputs, or if the folder cannot be created.
     OpenLoopFiles(const std::filesystem::path& folder, bool overwrite,
                   const std::vector<std::filesystem::path>& inputs = {});
     ~OpenLoopFiles();

@@ -16,7 +16,7 @@ namespace {
 
 using namespace evidence_rules;
 
-/// A pixel's mark has one bit per possible upper pixel of a step.
+/// Bit `above - 1` of a pixel's mark: the step to the pixel `above` rows higher is level.
 constexpr std::uint8_t markOf(int above) { return static_cast<std::uint8_t>(1 << (above - 1)); }
 
 }  // namespace

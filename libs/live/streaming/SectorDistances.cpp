@@ -63,7 +63,7 @@ struct SectorDistances::Look {
 
 /// Transforms for a sector.
 struct SectorDistances::Frames {
-    Eigen::Isometry3d level_from_sensor;      ///< from the former sensor frame to the current level
+    Eigen::Isometry3d level_from_sensor;      ///< from the sensor frame of the past sector
     Eigen::Isometry3d level_from_sensor_now;  ///< from the current sensor frame
     double yawed_rad;                         ///< yaw of the sensor since the sector
 };

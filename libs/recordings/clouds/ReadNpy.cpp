@@ -40,7 +40,7 @@ YAML::Node npyValueOf(const std::filesystem::path& file, const YAML::Node& heade
     throw BrokenRecording(file.string() + ": its NPY header has no '" + key + "'");
 }
 
-/// True for texts, which are quoted. Numbers are not; in old Python versions, they may end in L.
+/// True for strings, which are quoted. Numbers are not; in old Python versions, they may end in L.
 bool isQuoted(const YAML::Node& node) { return node.IsScalar() && node.Tag() == "!"; }
 
 std::optional<std::uint64_t> sizeIn(const YAML::Node& node) {

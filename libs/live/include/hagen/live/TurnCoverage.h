@@ -17,7 +17,7 @@ class TurnCoverage {
         double since_rad;  ///< start of the gapless sweep up to `to_rad`
     };
 
-    /// Directions of the sensor, in an arbitrary turn; invalid if NaN.
+    /// A range of azimuths in the sensor frame, modulo full turns; invalid if NaN.
     struct Arc {
         double begin_rad, width_rad;
     };

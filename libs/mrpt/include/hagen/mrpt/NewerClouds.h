@@ -24,9 +24,9 @@ const PointTable* otherFieldsOf(const mrpt::maps::CPointsMap& cloud);
 /// Fields (uint8) that RawLogViewer shows as the colours of points, from MRPT 2.15 on.
 constexpr std::array<const char*, 3> kColorFields{"color_r", "color_g", "color_b"};
 
-/// A cloud that is written as a CGenericPointsMap (version 3; readable from MRPT 2.15 on) with all
-/// fields of a checked table in little-endian order: uint8, uint16, float32 and float64 unchanged,
-/// other numbers as float64, several numbers per point as fields NAME_0, NAME_1. Throws
+/// A cloud that is serialized as a CGenericPointsMap (version 3, requires MRPT 2.15 or later), with
+/// all fields of a checked little-endian table. uint8, uint16, float32 and float64 keep their
+/// types; other numbers become float64. Several numbers per point become NAME_0, NAME_1. Throws
 /// std::invalid_argument if x, y or z is missing. Sets renderOptions to the colour of the first
 /// point.
 mrpt::maps::CPointsMap::Ptr genericCloudOf(const PointTable& table);
