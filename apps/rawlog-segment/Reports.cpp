@@ -2,6 +2,7 @@
 
 #include "base/Folder.h"
 #include "base/NumberText.h"
+#include "base/Quantile.h"
 #include "base/command_line/Terminal.h"
 
 #include <algorithm>
@@ -77,13 +78,6 @@ std::string whyNotAll(const ConversionReport& report) {
                 : ": the log has no attitude in the preceding 0.2 s)");
 }
 
-template <class Number>
-Number medianOf(std::vector<Number> numbers) {
-    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-    std::nth_element(numbers.begin(), middle, numbers.end());
-    return *middle;
-}
-
 /// The nearest obstacle, and medians over the scans.
 void printObstacles(const ConversionReport& report) {
     const std::vector<hagen::convert::ScanReport>& scans = report.scan_reports;
@@ -94,10 +88,9 @@ void printObstacles(const ConversionReport& report) {
     const auto nearest = std::min_element(
         scans.begin(), scans.end(),
         [&](const auto& a, const auto& b) { return distance_m(a) < distance_m(b); });
-    std::vector<std::size_t> obstacles;
-    std::vector<double> latencies_ms;
+    std::vector<double> obstacles, latencies_ms;
     for (const auto& scan : scans) {
-        obstacles.push_back(scan.obstacles);
+        obstacles.push_back(static_cast<double>(scan.obstacles));
         latencies_ms.push_back(scan.latency_ms);
     }
     using hagen::base::fixedText;
@@ -106,9 +99,9 @@ void printObstacles(const ConversionReport& report) {
                   << fixedText(nearest->time_s - scans.front().time_s, 1)
                   << " s after the first scan (entry " << nearest->entry << ")\n";
     }
-    std::cout << "obstacles per scan: " << medianOf(obstacles)
-              << " (median); time per scan: " << fixedText(medianOf(latencies_ms), 2)
-              << " ms (median)\n";
+    std::cout << "obstacles per scan: " << fixedText(hagen::base::quantile(obstacles, 0.5), 0)
+              << " (median); time per scan: "
+              << fixedText(hagen::base::quantile(latencies_ms, 0.5), 2) << " ms (median)\n";
     if (report.scans_without_ground > 0) {
         std::cout << "no ground found: " << report.scans_without_ground << " of "
                   << counted(report.scans, "scan", "scans") << "\n";

@@ -9,6 +9,7 @@
 #include "mrpt/Mount.h"
 
 #include <algorithm>
+#include <iostream>
 #include <new>
 #include <stdexcept>
 
@@ -39,10 +40,10 @@ std::string textOfNames(const std::string& names) { return names; }
 }  // namespace
 
 std::vector<fs::path> outputsOf(const Conversion& conversion) {
-    std::vector<fs::path> outputs{conversion.rawlog, conversion.folder,   conversion.clouds,
-                                  conversion.mcap,   conversion.pictures, conversion.stats};
+    std::vector<fs::path> outputs{conversion.rawlog, conversion.folder, conversion.clouds,
+                                  conversion.mcap, conversion.pictures};
+    if (conversion.stats != kStandardOutput) outputs.push_back(conversion.stats);
     outputs.insert(outputs.end(), conversion.octomaps.begin(), conversion.octomaps.end());
-    if (conversion.stats == kStandardOutput) outputs[5].clear();
     outputs.erase(std::remove(outputs.begin(), outputs.end(), fs::path()), outputs.end());
     return outputs;
 }
@@ -221,8 +222,13 @@ void ConversionOutputs::finish(const ConversionReport& report) {
     }
     if (map_) attempt(kMap, [&] { map_->write(); });
     if (!conversion_.stats.empty()) {
-        const fs::path file = stats_ ? stats_->temporary() : fs::path("/dev/stdout");
-        attempt(kStats, [&] { writeConversionStatistics(file, conversion_, report); });
+        attempt(kStats, [&] {
+            if (stats_) {
+                writeConversionStatistics(stats_->temporary(), conversion_, report);
+            } else {
+                printConversionStatistics(std::cout, conversion_, report);
+            }
+        });
     }
 }
 

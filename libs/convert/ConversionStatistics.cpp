@@ -63,7 +63,7 @@ Json lineOf(const ScanReport& scan) {
 
 }  // namespace
 
-void writeConversionStatistics(const std::filesystem::path& file, const Conversion& conversion,
+void printConversionStatistics(std::ostream& out, const Conversion& conversion,
                                const ConversionReport& report) {
     Json json{{"hagen", HAGEN_VERSION}, {"input", conversion.input.string()}};
     for (const auto& [what, path] : {std::pair{"rawlog", conversion.rawlog},
@@ -102,13 +102,18 @@ void writeConversionStatistics(const std::filesystem::path& file, const Conversi
 
     // Scans are written one by one, because a single JSON value would take about 1 kB of memory per
     // scan.
-    std::ofstream out(file);
     const std::string head = base::dumpJson(json, 1);
     out << head.substr(0, head.rfind("\n}")) << ",\n \"scans\": [";
     for (std::size_t i = 0; i < report.scan_reports.size(); ++i) {
         out << (i == 0 ? "\n  " : ",\n  ") << base::dumpJson(lineOf(report.scan_reports[i]));
     }
     out << "]\n}\n";
+}
+
+void writeConversionStatistics(const std::filesystem::path& file, const Conversion& conversion,
+                               const ConversionReport& report) {
+    std::ofstream out(file);
+    printConversionStatistics(out, conversion, report);
     base::closeWritten(out, file);
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 #include <hagen/convert/Conversion.h>
 #include <filesystem>
+#include <ostream>
 
 namespace hagen::convert {
 
-/// Writes the results of a conversion as JSON:
+/// Prints the results of a conversion as JSON:
 ///
 ///     {"hagen": version, "input": ..., "outputs": {...}, "settings": {key: value, ...},
 ///      "sensors": {label: text},
@@ -24,7 +25,10 @@ namespace hagen::convert {
 ///
 /// Latency is the time from the complete observation in memory to its labels, without creating the
 /// clouds. Scans segmented concurrently (see Conversion::jobs) slow each other down slightly.
-/// Everything except latencies is reproducible. Throws std::runtime_error naming the file.
+/// Everything except latencies is reproducible.
+void printConversionStatistics(std::ostream& out, const Conversion& conversion,
+                               const ConversionReport& report);
+/// The same into a file. Throws std::runtime_error naming the file.
 void writeConversionStatistics(const std::filesystem::path& file, const Conversion& conversion,
                                const ConversionReport& report);
 

@@ -363,7 +363,7 @@ void mergeKey(const std::string& assignment, Settings& settings) {
     if (equals == std::string::npos || equals == 0) {
         throw SettingsError("--set " + assignment + ": expected KEY=VALUE, such as zone_m=10");
     }
-    const std::string key = assignment.substr(0, equals);
+    const std::string key = assignment.substr(0, equals), place = "--set " + key;
     const std::size_t dot = key.find('.');
     YAML::Node document;
     try {
@@ -376,11 +376,11 @@ void mergeKey(const std::string& assignment, Settings& settings) {
             document[key.substr(0, dot)][key.substr(dot + 1)] = value;
         }
     } catch (const YAML::Exception& e) {
-        throw SettingsError("--set " + assignment + ": " + e.msg);
+        throw SettingsError(place + ": " + e.msg);
     }
     Settings merged = settings;
     Includes includes{SettingsOrigin::User};
-    mergeKeys("--set " + assignment, document, includes, merged);
+    mergeKeys(place, document, includes, merged);
     settings = merged;
 }
 

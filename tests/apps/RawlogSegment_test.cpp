@@ -67,6 +67,10 @@ TEST_F(RawlogSegment, AcceptsInputWithoutFlagAndSingleKeys) {
     EXPECT_EQ(stats["settings"]["zone_m"], 7);
     EXPECT_EQ(stats["settings"]["seeds"], "every");
     EXPECT_FALSE(fs::exists("-"));
+    test::run("/bin/bash", {"-c", "echo first >\"$1\"; \"$0\" \"$2\" --stats - >>\"$1\"",
+                            HAGEN_RAWLOG_SEGMENT, path("log"), recording()});
+    EXPECT_THAT(test::readFile(path("log")), testing::StartsWith("first\n{"));
+    fs::remove(path("log"));
     expectFailure({"-i", recording(), "--stats", "-", "-c", "zone_m=7"}, 2, "--set zone_m=7");
     expectFailure({"-i", recording(), "-o", path("out.mcap")}, 2, "does not end in .rawlog");
 }

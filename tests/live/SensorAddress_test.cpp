@@ -20,7 +20,7 @@ void expectTaken(const std::vector<Sent>& all) {
     }
 }
 
-/// The other sensor is of the same model, but mounted elsewhere.
+/// The other sensor has the same model, but another mount.
 TEST(SensorAddress, OtherSensorNeverReplacesOurs) {
     expectTaken({{1, 10, true}, {2, 10.1, false}, {2, 11.6, false}, {1, 11.7, true}});
 }

@@ -67,11 +67,11 @@ TEST_F(SettingsTest, MergesSingleKeys) {
     EXPECT_EQ(settings.sensor.model, "OS1-64");
     EXPECT_EQ(settings.airframe.parts.spheres.size(), 1u);
     for (const auto& [wrong, words] : std::map<std::string, std::string>{
-             {"zone_n=1", "--set zone_n=1: unknown key 'zone_n'; did you mean 'zone_m'?"},
-             {"zone_m=-1", "--set zone_m=-1: zone_m is -1"},
+             {"zone_n=1", "--set zone_n: unknown key 'zone_n'; did you mean 'zone_m'?"},
+             {"zone_m=-1", "--set zone_m: zone_m is -1"},
              {"zone_m", "expected KEY=VALUE"},
              {"=1", "expected KEY=VALUE"},
-             {"airframe=[", "--set airframe=["}}) {
+             {"airframe=[", "--set airframe: "}}) {
         EXPECT_THAT(test::messageOf([&, key = wrong] { mergeKey(key, settings); }),
                     HasSubstr(words));
         EXPECT_EQ(settings.options.zone_m, 10.0f);
