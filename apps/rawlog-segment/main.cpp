@@ -140,6 +140,18 @@ void declare(Program& app, Flags& flags) {
         .between(-360.0, 360.0)
         .needs(pictures)
         .group("Output");
+    const Flag view = app.option("--view", conversion.view,
+                                 "HTML page that plays the scans in a browser, offline: returns, "
+                                 "obstacles, ground, stages, statistics")
+                          .extension({".html"})
+                          .group("Output");
+    app.option("--view-every", conversion.view_every,
+               "show every Nth scan (default: all, or every 2nd, 4th ... so that the page has at "
+               "most 500 scans and 40 MB)")
+        .between(1, 1000000)
+        .valueName("N")
+        .needs(view)
+        .group("Output");
     const Flag octomap =
         app.option("--octomap", conversion.octomaps,
                    "OctoMap of the scans (requires poses): .bt, .ot, or .3Dscene for "
@@ -209,10 +221,10 @@ void check(const Flags& flags) {
     const bool has_output = !conversion.rawlog.empty() || !conversion.folder.empty() ||
                             !conversion.pictures.empty() || !conversion.octomaps.empty() ||
                             !conversion.clouds.empty() || !conversion.mcap.empty() ||
-                            !conversion.stats.empty();
+                            !conversion.stats.empty() || !conversion.view.empty();
     if (!has_output && flags.learned_airframe.empty()) {
         throw UsageError(
-            "an output (-o, --kitti, --clouds, --mcap, --pictures, --octomap, --stats or "
+            "an output (-o, --view, --kitti, --clouds, --mcap, --pictures, --octomap, --stats or "
             "--learn-airframe) is required");
     }
     if (has_output && !flags.learned_airframe.empty()) {
@@ -299,6 +311,7 @@ int command(int argc, char** argv) {
         "log.");
     program.footer(
         "Examples:\n"
+        "  rawlog-segment flight.rawlog --view flight.html\n"
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog --preview\n"
         "  rawlog-segment -i flight.rawlog --kitti labels -c paper\n"
         "  rawlog-segment -i flight.rawlog --pictures pictures --from 100 --to 110\n"

@@ -1,5 +1,6 @@
 """A headless Chromium, controlled via chromedriver (WebDriver protocol) with only the standard
 library. Exits with 77 (skipped) if either is not installed."""
+import base64
 import json
 import pathlib
 import re
@@ -80,6 +81,10 @@ class Browser:
         while not self.run(script):
             assert time.monotonic() < end, f"timeout waiting for: {script}"
             time.sleep(0.1)
+
+    def screenshot(self, file):
+        picture = self.call("GET", self.session + "/screenshot")
+        pathlib.Path(file).write_bytes(base64.b64decode(picture))
 
     def errors(self):
         """Errors on the console; warnings about slow software WebGL are ignored."""
