@@ -17,6 +17,7 @@
 #include "base/command_line/BackgroundPrinter.h"
 #include "base/command_line/CommandLine.h"
 #include "base/command_line/Interrupt.h"
+#include "base/command_line/Terminal.h"
 
 #include "Autopilot.h"
 
@@ -113,18 +114,38 @@ class StatusLine {
  public:
     explicit StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
+    /// `autopilot`: the state of the link; empty without one. `yaw_deg`: the sensor's.
     void show(const live::LiveReport& report, const live::LiveStatus& status,
-              BackgroundPrinter& printer) const {
+              const std::string& autopilot, double yaw_deg, BackgroundPrinter& printer) const {
         if (!is_shown_) return;
-        char text[240];
-        std::snprintf(text, sizeof text,
-                      "%.1f turns/s, latency p50 %.2f p99 %.2f max %.2f ms, lost %zu, dropped %zu, "
-                      "late %zu, foreign %zu, nearest %.1f m%s",
-                      status.turns_per_s, 1e3 * status.p50_s, 1e3 * status.p99_s,
-                      1e3 * status.max_s, report.lost, report.dropped, report.late,
-                      report.other_sensor + report.wrong_size,
-                      static_cast<double>(status.nearest_m), status.is_silent ? ", silent" : "");
-        printer.printIfIdle(To::ErrorsInPlace, text);
+        std::vector<std::string> parts{"nearest: none"};
+        if (status.nearest_m > 0) {  // not NaN
+            const long bearing_deg = (std::lround(status.nearest_deg + yaw_deg) + 720) % 360;
+            char text[40];
+            std::snprintf(text, sizeof text, "nearest %.1f m at %03ld°",
+                          static_cast<double>(status.nearest_m), bearing_deg);
+            parts[0] = text;
+        }
+        const auto add = [&](const std::string& part) { parts.push_back(part); };
+        const bool has_latency = status.p50_s > 0;
+        if (status.is_silent) add("silent");
+        if (has_latency) {
+            add(fixedText(status.turns_per_s, 1) + " Hz");
+            add(fixedText(1e3 * status.p50_s, 1) + " ms");
+        }
+        if (!autopilot.empty()) add("autopilot " + autopilot);
+        const auto addCount = [&](const std::string& what, std::size_t number) {
+            if (number > 0) add(what + " " + std::to_string(number));
+        };
+        addCount("lost", report.lost);
+        addCount("dropped", report.dropped);
+        addCount("late", report.late);
+        addCount("foreign", report.other_sensor + report.wrong_size);
+        if (has_latency) {
+            add("p99 " + fixedText(1e3 * status.p99_s, 1) + " ms");
+            add("max " + fixedText(1e3 * status.max_s, 1) + " ms");
+        }
+        printer.printIfIdle(To::ErrorsInPlace, lineOf(parts, terminalColumns()));
     }
     /// The target for output that replaces the status line.
     To instead() const { return is_shown_ ? To::ErrorsInPlace : To::Errors; }
@@ -201,15 +222,16 @@ int run(const Program& program, Flags& flags) {
         catchSignals();
         BackgroundPrinter printer;  // a suspended terminal must not stop labelling
         const StatusLine line(flags.is_quiet);
+        std::unique_ptr<live::AutopilotLink> link;
         live::LiveListener listener;
         listener.keep_going = [] { return !isInterrupted(); };
         listener.status = [&](const auto& report, const auto& status) {
-            line.show(report, status, printer);
+            line.show(report, status, link ? link->state() : "", flags.autopilot.sensor_yaw_deg,
+                      printer);
         };
         listener.remark = [&](const std::string& remark) {  // may run on the autopilot's thread
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
-        std::unique_ptr<live::AutopilotLink> link;
         std::string failure, left;  // `left` lists outputs of earlier runs
         try {
             left = base::leftBehind(

@@ -89,7 +89,9 @@ LiveStatus SectorFigures::status(double passed_s, bool turns) const {
     status.max_s = recent_.count() > 0 ? recent_.max_s() : std::nan("");
     for (const auto& sector : report_.latest) {
         if (sector.state != SectorDistances::State::Obstacle) continue;
-        if (!(sector.distance_m >= status.nearest_m)) status.nearest_m = sector.distance_m;
+        if (sector.distance_m >= status.nearest_m) continue;
+        status.nearest_m = sector.distance_m;
+        status.nearest_deg = degrees(std::atan2(-sector.at_m.y(), sector.at_m.x()));
     }
     return status;
 }

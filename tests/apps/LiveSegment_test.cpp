@@ -254,6 +254,23 @@ TEST_F(LiveSegment, FullDiskEndsRecordingOnly) {
     EXPECT_THAT(json["recorded"]["failure"].get<std::string>(), HasSubstr(path("a.pcap")));
 }
 
+TEST_F(LiveSegment, StatusLineFitsTerminal) {
+    const auto lastLine = [&](int columns) {
+        const auto outcome = test::run(
+            "script", {"-qec",
+                       "stty cols " + std::to_string(columns) + "; '" + HAGEN_LIVE_SEGMENT +
+                           "' --model VLP-16 --replay '" + capture() + "' > /dev/null",
+                       "/dev/null"});
+        const std::size_t at = outcome.out.rfind("nearest");
+        EXPECT_NE(at, std::string::npos) << outcome.out;
+        return outcome.out.substr(at, outcome.out.find_first_of("\r\n", at) - at);
+    };
+    const std::string line = lastLine(200);
+    EXPECT_THAT(line, testing::MatchesRegex("nearest [0-9.]+ m at [0-9]+° [|] [0-9.]+ Hz [|] "
+                                            "[0-9.]+ ms [|] .*max [0-9.]+ ms"));
+    EXPECT_THAT(lastLine(35), testing::MatchesRegex("nearest [0-9.]+ m at [0-9]+° [|] [0-9.]+ Hz"));
+}
+
 /// A stopped terminal, or a pipe that is not read.
 TEST_F(LiveSegment, EndsDespiteBlockedTerminal) {
     const std::string command =
