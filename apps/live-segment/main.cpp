@@ -2,10 +2,15 @@
 #include <hagen/live/LiveSession.h>
 #include <hagen/settings/Presets.h>
 
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -25,6 +30,7 @@ namespace {
 
 using namespace hagen;
 using namespace hagen::base;
+namespace fs = std::filesystem;
 
 struct Flags {
     live::LiveOptions live;
@@ -42,8 +48,11 @@ void declare(Program& app, Flags& flags) {
                "multicast groups")
         .valueName("ADDRESS:PORT")
         .group("Input");
-    app.option("--replay", flags.replay, "network capture (.pcap, .pcapng) instead of a sensor")
-        .existingFile()
+    app.option("--replay", flags.replay,
+               "recording with packets instead of a sensor: network capture (.pcap, .pcapng), "
+               "rawlog or "
+               "ROS recording (.bag, .mcap, .db3 or its folder)")
+        .existingPath()
         .group("Input");
     app.option("--speed", flags.speed, "replay speed; requires --replay")
         .between(0.001, 1e6)
@@ -107,6 +116,52 @@ void check(Flags& flags) {
         throw UsageError(e.what());
     }
 }
+
+/// A capture of the replayed recording. rawlog-segment extracts the packets of rawlogs and bags,
+/// because live-segment does not load MRPT.
+class PacketsOf {
+ public:
+    explicit PacketsOf(const Flags& flags) : capture_(flags.replay) {
+        if (sensors::isCapture(flags.replay)) return;
+        std::string name = (fs::temp_directory_path() / "live-segment-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) {
+            throw std::runtime_error(name + ": " + std::strerror(errno));
+        }
+        folder_ = name;
+        capture_ = folder_ / "packets.pcap";
+        const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+        std::vector<std::string> words{program / "rawlog-segment", "-q", flags.replay, "--pcap",
+                                       capture_};
+        if (!flags.live.sensor_json.empty()) {
+            words.insert(words.end(), {"--sensor-json", flags.live.sensor_json});
+        }
+        if (!flags.is_quiet) std::cerr << "reading packets from " << flags.replay.string() << "\n";
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        pid_t process = 0;
+        const int error =
+            posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ);
+        int status = 0;
+        if (error != 0 || waitpid(process, &status, 0) != process || status != 0) {
+            fs::remove_all(folder_);
+            throw std::runtime_error(flags.replay.string() + ": is not a network capture, and " +
+                                     words[0] + " could not extract packets" +
+                                     (error != 0 ? std::string(": ") + std::strerror(error) : ""));
+        }
+    }
+    ~PacketsOf() {
+        std::error_code ignored;
+        if (!folder_.empty()) fs::remove_all(folder_, ignored);  // the open capture stays readable
+    }
+    PacketsOf(const PacketsOf&) = delete;
+    PacketsOf& operator=(const PacketsOf&) = delete;
+
+    const fs::path& capture() const { return capture_; }
+
+ private:
+    fs::path folder_, capture_;
+};
 
 using To = BackgroundPrinter::To;
 
@@ -206,9 +261,11 @@ int run(const Program& program, Flags& flags) {
             mergeSettings(file, flags.live.settings);
         }
         for (const std::string& key : flags.keys) mergeKey(key, flags.live.settings);
+        catchSignals();
         std::unique_ptr<live::PacketSource> source;
         if (!flags.replay.empty()) {
-            source = std::make_unique<live::ReplaySource>(flags.replay, flags.speed);
+            const PacketsOf packets(flags);
+            source = std::make_unique<live::ReplaySource>(packets.capture(), flags.speed);
         } else {
             live::Address address;
             try {
@@ -219,7 +276,6 @@ int run(const Program& program, Flags& flags) {
             source = std::make_unique<live::UdpSource>(address);
             if (!flags.is_quiet) std::cerr << "listening on " << flags.listen << "\n";
         }
-        catchSignals();
         BackgroundPrinter printer;  // a suspended terminal must not stop labelling
         const StatusLine line(flags.is_quiet);
         std::unique_ptr<live::AutopilotLink> link;

@@ -16,8 +16,10 @@
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
+#include "support/BagWriter.h"
 #include "support/CaptureWriter.h"
 #include "support/LivoxPackets.h"
 #include "support/LocalUdp.h"
@@ -252,6 +254,38 @@ TEST_F(LiveSegment, FullDiskEndsRecordingOnly) {
     const auto json = stats();
     EXPECT_EQ(json["packets"]["taken"], json["packets"]["datagrams"]);
     EXPECT_THAT(json["recorded"]["failure"].get<std::string>(), HasSubstr(path("a.pcap")));
+}
+
+TEST_F(LiveSegment, ReplaysCapturesRawlogsAndBags) {
+    const auto made = test::run(HAGEN_RAWLOG_SIMULATE,
+                                {"--scenario", "orchard", "--scans", "3", "--altitude", "2",
+                                 "--seed", "1", "--pcap", path("a.pcap"), "-o", path("a.rawlog")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    std::vector<test::SentMessage> messages;
+    recordings::RawlogReader reader(path("a.rawlog"));
+    while (const auto entry = reader.next()) {
+        const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
+        if (!scan) continue;
+        const double time_s = mrpt::Clock::toDouble(scan->timestamp);
+        messages.push_back(test::velodyneMessage("/packets", time_s, "lidar", *scan, 1.3e-3));
+    }
+    folder_.write("a.bag", test::ros1BagOf(messages));
+    std::set<std::size_t> roi;
+    for (const char* name : {"a.pcap", "a.rawlog", "a.bag"}) {
+        const auto outcome = run(
+            with(sensor_, {"--replay", path(name), "--stats", path("stats.json"), "--overwrite"}));
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(stats()["packets"]["taken"], 228) << name;
+        roi.insert(stats()["roi"].get<std::size_t>());
+    }
+    EXPECT_EQ(roi.size(), 1u);
+    EXPECT_GT(*roi.begin(), 10000u);
+}
+
+TEST_F(LiveSegment, RefusesToReplayDecodedScans) {
+    folder_.write("a.bag", test::ros1BagOf({test::cloudMessage("/points", 1, "a", {1, 2, 3, 4})}));
+    expectFailure(with(sensor_, {"--replay", path("a.bag")}), 1,
+                  "a.bag: has no packets of a LiDAR, only decoded scans");
 }
 
 TEST_F(LiveSegment, StatusLineFitsTerminal) {
