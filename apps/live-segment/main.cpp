@@ -2,10 +2,15 @@
 #include <hagen/live/LiveSession.h>
 #include <hagen/settings/Presets.h>
 
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -17,6 +22,7 @@
 #include "base/command_line/BackgroundPrinter.h"
 #include "base/command_line/CommandLine.h"
 #include "base/command_line/Interrupt.h"
+#include "base/command_line/Terminal.h"
 
 #include "Autopilot.h"
 
@@ -24,6 +30,7 @@ namespace {
 
 using namespace hagen;
 using namespace hagen::base;
+namespace fs = std::filesystem;
 
 struct Flags {
     live::LiveOptions live;
@@ -41,8 +48,11 @@ void declare(Program& app, Flags& flags) {
                "multicast groups")
         .valueName("ADDRESS:PORT")
         .group("Input");
-    app.option("--replay", flags.replay, "network capture (.pcap, .pcapng) instead of a sensor")
-        .existingFile()
+    app.option("--replay", flags.replay,
+               "recording with packets instead of a sensor: network capture (.pcap, .pcapng), "
+               "rawlog or "
+               "ROS recording (.bag, .mcap, .db3 or its folder)")
+        .existingPath()
         .group("Input");
     app.option("--speed", flags.speed, "replay speed; requires --replay")
         .between(0.001, 1e6)
@@ -107,24 +117,90 @@ void check(Flags& flags) {
     }
 }
 
+/// A capture of the replayed recording. rawlog-segment extracts the packets of rawlogs and bags,
+/// because live-segment does not load MRPT.
+class PacketsOf {
+ public:
+    explicit PacketsOf(const Flags& flags) : capture_(flags.replay) {
+        if (sensors::isCapture(flags.replay)) return;
+        std::string name = (fs::temp_directory_path() / "live-segment-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) {
+            throw std::runtime_error(name + ": " + std::strerror(errno));
+        }
+        folder_ = name;
+        capture_ = folder_ / "packets.pcap";
+        const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+        std::vector<std::string> words{program / "rawlog-segment", "-q", flags.replay, "--pcap",
+                                       capture_};
+        if (!flags.live.sensor_json.empty()) {
+            words.insert(words.end(), {"--sensor-json", flags.live.sensor_json});
+        }
+        if (!flags.is_quiet) std::cerr << "reading packets from " << flags.replay.string() << "\n";
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        pid_t process = 0;
+        const int error =
+            posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ);
+        int status = 0;
+        if (error != 0 || waitpid(process, &status, 0) != process || status != 0) {
+            fs::remove_all(folder_);
+            throw std::runtime_error(flags.replay.string() + ": is not a network capture, and " +
+                                     words[0] + " could not extract packets" +
+                                     (error != 0 ? std::string(": ") + std::strerror(error) : ""));
+        }
+    }
+    ~PacketsOf() {
+        std::error_code ignored;
+        if (!folder_.empty()) fs::remove_all(folder_, ignored);  // the open capture stays readable
+    }
+    PacketsOf(const PacketsOf&) = delete;
+    PacketsOf& operator=(const PacketsOf&) = delete;
+
+    const fs::path& capture() const { return capture_; }
+
+ private:
+    fs::path folder_, capture_;
+};
+
 using To = BackgroundPrinter::To;
 
 class StatusLine {
  public:
     explicit StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
+    /// `autopilot`: the state of the link; empty without one. `yaw_deg`: the sensor's.
     void show(const live::LiveReport& report, const live::LiveStatus& status,
-              BackgroundPrinter& printer) const {
+              const std::string& autopilot, double yaw_deg, BackgroundPrinter& printer) const {
         if (!is_shown_) return;
-        char text[240];
-        std::snprintf(text, sizeof text,
-                      "%.1f turns/s, latency p50 %.2f p99 %.2f max %.2f ms, lost %zu, dropped %zu, "
-                      "late %zu, foreign %zu, nearest %.1f m%s",
-                      status.turns_per_s, 1e3 * status.p50_s, 1e3 * status.p99_s,
-                      1e3 * status.max_s, report.lost, report.dropped, report.late,
-                      report.other_sensor + report.wrong_size,
-                      static_cast<double>(status.nearest_m), status.is_silent ? ", silent" : "");
-        printer.printIfIdle(To::ErrorsInPlace, text);
+        std::vector<std::string> parts{"nearest: none"};
+        if (status.nearest_m > 0) {  // not NaN
+            const long bearing_deg = (std::lround(status.nearest_deg + yaw_deg) + 720) % 360;
+            char text[40];
+            std::snprintf(text, sizeof text, "nearest %.1f m at %03ld°",
+                          static_cast<double>(status.nearest_m), bearing_deg);
+            parts[0] = text;
+        }
+        const auto add = [&](const std::string& part) { parts.push_back(part); };
+        const bool has_latency = status.p50_s > 0;
+        if (status.is_silent) add("silent");
+        if (has_latency) {
+            add(fixedText(status.turns_per_s, 1) + " Hz");
+            add(fixedText(1e3 * status.p50_s, 1) + " ms");
+        }
+        if (!autopilot.empty()) add("autopilot " + autopilot);
+        const auto addCount = [&](const std::string& what, std::size_t number) {
+            if (number > 0) add(what + " " + std::to_string(number));
+        };
+        addCount("lost", report.lost);
+        addCount("dropped", report.dropped);
+        addCount("late", report.late);
+        addCount("foreign", report.other_sensor + report.wrong_size);
+        if (has_latency) {
+            add("p99 " + fixedText(1e3 * status.p99_s, 1) + " ms");
+            add("max " + fixedText(1e3 * status.max_s, 1) + " ms");
+        }
+        printer.printIfIdle(To::ErrorsInPlace, lineOf(parts, terminalColumns()));
     }
     /// The target for output that replaces the status line.
     To instead() const { return is_shown_ ? To::ErrorsInPlace : To::Errors; }
@@ -185,9 +261,11 @@ int run(const Program& program, Flags& flags) {
             mergeSettings(file, flags.live.settings);
         }
         for (const std::string& key : flags.keys) mergeKey(key, flags.live.settings);
+        catchSignals();
         std::unique_ptr<live::PacketSource> source;
         if (!flags.replay.empty()) {
-            source = std::make_unique<live::ReplaySource>(flags.replay, flags.speed);
+            const PacketsOf packets(flags);
+            source = std::make_unique<live::ReplaySource>(packets.capture(), flags.speed);
         } else {
             live::Address address;
             try {
@@ -198,18 +276,18 @@ int run(const Program& program, Flags& flags) {
             source = std::make_unique<live::UdpSource>(address);
             if (!flags.is_quiet) std::cerr << "listening on " << flags.listen << "\n";
         }
-        catchSignals();
         BackgroundPrinter printer;  // a suspended terminal must not stop labelling
         const StatusLine line(flags.is_quiet);
+        std::unique_ptr<live::AutopilotLink> link;
         live::LiveListener listener;
         listener.keep_going = [] { return !isInterrupted(); };
         listener.status = [&](const auto& report, const auto& status) {
-            line.show(report, status, printer);
+            line.show(report, status, link ? link->state() : "", flags.autopilot.sensor_yaw_deg,
+                      printer);
         };
         listener.remark = [&](const std::string& remark) {  // may run on the autopilot's thread
             if (!flags.is_quiet) printer.print(line.instead(), remark + "\n");
         };
-        std::unique_ptr<live::AutopilotLink> link;
         std::string failure, left;  // `left` lists outputs of earlier runs
         try {
             left = base::leftBehind(

@@ -20,12 +20,9 @@
 // never with printf().
 namespace {
 
+using hagen::base::counted;
 using hagen::convert::Conversion;
 using hagen::convert::ConversionReport;
-
-std::string counted(std::size_t number, const std::string& one, const std::string& many) {
-    return std::to_string(number) + " " + (number == 1 ? one : many);
-}
 
 /// Size of a file or of all files in a folder, in bytes. Ignores files removed concurrently.
 double bytesOf(const std::filesystem::path& path) {
@@ -58,7 +55,7 @@ void printEntries(const Conversion& conversion, const ConversionReport& report) 
     const std::size_t last = report.left_out_before + report.entries - 1;
     // If the recording ends before --to, no later entries were skipped.
     const bool is_cut = report.left_out_before > 0 || last == conversion.to;
-    std::cout << counted(report.scans, "LiDAR scan", "LiDAR scans") << " in "
+    std::cout << counted(report.scans, "LiDAR scan") << " in "
               << counted(report.entries, "entry", "entries");
     if (is_cut) {
         std::cout << " (" << report.left_out_before << " to " << last
@@ -104,7 +101,7 @@ void printObstacles(const ConversionReport& report) {
               << fixedText(hagen::base::quantile(latencies_ms, 0.5), 2) << " ms (median)\n";
     if (report.scans_without_ground > 0) {
         std::cout << "no ground found: " << report.scans_without_ground << " of "
-                  << counted(report.scans, "scan", "scans") << "\n";
+                  << counted(report.scans, "scan") << "\n";
     }
 }
 
@@ -129,27 +126,25 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     }
     printObstacles(report);
     if (report.unreadable_scans > 0) {
-        std::cout << counted(report.unreadable_scans, "scan", "scans")
-                  << " unreadable, kept unchanged\n";
+        std::cout << counted(report.unreadable_scans, "scan") << " unreadable, kept unchanged\n";
     }
     if (report.results_replaced > 0) {
-        std::cout << counted(report.results_replaced, "result", "results")
-                  << " of an earlier run replaced\n";
+        std::cout << counted(report.results_replaced, "result") << " of an earlier run replaced\n";
     }
     for (const auto& [label, sensor] : report.sensors) {
         std::cout << hagen::base::oneLine("sensor " + label + ": " + sensor) << "\n";
     }
     if (!report.poses.empty()) {
         std::cout << "poses of " << report.scans_with_pose << " of "
-                  << counted(report.scans, "scan", "scans") << ": " << report.poses << "\n";
+                  << counted(report.scans, "scan") << ": " << report.poses << "\n";
     }
     if (!conversion.octomaps.empty()) {
         std::cout << "in the OctoMap: " << report.scans_in_map << " of "
-                  << counted(report.scans, "scan", "scans") << "\n";
+                  << counted(report.scans, "scan") << "\n";
     }
     if (report.scans_with_attitude > 0 && report.settings.options.level_by_attitude) {
         std::cout << "gravity-aligned by the vehicle's attitude: " << report.scans_with_attitude
-                  << " of " << counted(report.scans, "scan", "scans") << whyNotAll(report) << "\n";
+                  << " of " << counted(report.scans, "scan") << whyNotAll(report) << "\n";
     }
     const auto output = [](const char* what, const std::filesystem::path& path) {
         if (path.empty()) return;
@@ -162,8 +157,8 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     }
     if (report.clouds > 0) {
         std::cout << "labelled clouds: " << conversion.clouds.string() << " ("
-                  << sizeText(conversion.clouds) << ", " << counted(report.clouds, "file", "files")
-                  << ", " << report.cloud_points << " points)\n";
+                  << sizeText(conversion.clouds) << ", " << counted(report.clouds, "file") << ", "
+                  << report.cloud_points << " points)\n";
     }
     if (report.view_frames > 0) {
         std::cout << "view: " << conversion.view.string() << " ("
@@ -175,9 +170,9 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     }
     if (report.mcap.scans > 0) {
         std::cout << "MCAP: " << conversion.mcap.string() << " ("
-                  << counted(report.mcap.scans, "scan", "scans") << ", " << report.mcap.points
-                  << " points, " << counted(report.mcap.boxes, "box", "boxes") << ", "
-                  << report.mcap.messages << " messages)\n";
+                  << counted(report.mcap.scans, "scan") << ", " << report.mcap.points << " points, "
+                  << counted(report.mcap.boxes, "box", "boxes") << ", " << report.mcap.messages
+                  << " messages)\n";
     }
     for (const auto& octomap : conversion.octomaps) output("OctoMap", octomap);
     output("statistics", conversion.stats);
@@ -186,13 +181,13 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
 void printAirframe(const hagen::convert::AirframeLearning& learning,
                    const hagen::convert::AirframeReport& report) {
     const auto percent = [](double share) { return hagen::base::fixedText(100 * share, 2) + " %"; };
-    std::cout << counted(report.scans, "LiDAR scan", "LiDAR scans") << " of '"
+    std::cout << counted(report.scans, "LiDAR scan") << " of '"
               << hagen::base::oneLine(report.sensor_label) << "':\n  "
-              << counted(static_cast<std::size_t>(report.bins), "bin", "bins")
+              << counted(static_cast<std::size_t>(report.bins), "bin")
               << " masked: " << percent(report.share_of_sphere) << " of the sphere, "
               << percent(report.share_of_seen) << " of the directions with returns\n";
     if (report.unreadable_scans > 0) {
-        std::cout << counted(report.unreadable_scans, "scan", "scans") << " unreadable, skipped\n";
+        std::cout << counted(report.unreadable_scans, "scan") << " unreadable, skipped\n";
     }
     std::cout << "airframe: " << learning.file.string() << "\npicture: " << report.picture.string()
               << "\n"

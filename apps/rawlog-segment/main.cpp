@@ -3,6 +3,7 @@
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/settings/Presets.h>
 #include "convert/LearnAirframe.h"
+#include "convert/PacketCapture.h"
 
 #include <cstdio>
 #include <iostream>
@@ -11,6 +12,7 @@
 
 #include "Progress.h"
 #include "Reports.h"
+#include "base/NumberText.h"
 #include "base/command_line/CommandLine.h"
 #include "base/command_line/Interrupt.h"
 #include "base/command_line/Terminal.h"
@@ -53,7 +55,7 @@ struct Flags {
     convert::Conversion conversion;
     std::vector<std::string> configs, keys;
     bool is_quiet = false, dumps_settings = false;
-    std::filesystem::path learned_airframe;
+    std::filesystem::path learned_airframe, capture;
     double learn_seconds = convert::AirframeLearning().seconds;
 };
 
@@ -190,6 +192,10 @@ void declare(Program& app, Flags& flags) {
         .valueName("S")
         .needs(learn)
         .group("Output");
+    app.option("--pcap", flags.capture,
+               "network capture of the packets in a rawlog or ROS recording, no other output")
+        .extension({".pcap"})
+        .group("Output");
     app.flag("--overwrite", conversion.overwrite, "replace existing outputs").group("Output");
     app.option("--jobs", conversion.jobs,
                "threads (default: all cores); does not affect the output")
@@ -222,10 +228,14 @@ void check(const Flags& flags) {
                             !conversion.pictures.empty() || !conversion.octomaps.empty() ||
                             !conversion.clouds.empty() || !conversion.mcap.empty() ||
                             !conversion.stats.empty() || !conversion.view.empty();
-    if (!has_output && flags.learned_airframe.empty()) {
+    if (!has_output && flags.learned_airframe.empty() && flags.capture.empty()) {
         throw UsageError(
-            "an output (-o, --view, --kitti, --clouds, --mcap, --pictures, --octomap, --stats or "
+            "an output (-o, --view, --kitti, --clouds, --mcap, --pictures, --octomap, --stats, "
+            "--pcap or "
             "--learn-airframe) is required");
+    }
+    if (!flags.capture.empty() && (has_output || !flags.learned_airframe.empty())) {
+        throw UsageError("--pcap", "excludes other outputs; run rawlog-segment again for them");
     }
     if (has_output && !flags.learned_airframe.empty()) {
         throw UsageError("--learn-airframe",
@@ -274,6 +284,22 @@ void learn(const Flags& flags) {
     if (!flags.is_quiet) tellLeftBehind({learning.file, report.picture});
 }
 
+void capture(const Flags& flags) {
+    const convert::Conversion& conversion = flags.conversion;
+    recordings::SourceOptions options;
+    options.sensor_labels = conversion.sensor_labels;
+    options.first_entry = conversion.from;
+    options.last_entry = conversion.to;
+    options.sensor_json = conversion.sensor_json;
+    options.topics = conversion.topics;
+    options.keep_going = [] { return !isInterrupted(); };
+    const std::size_t packets =
+        convert::capturePackets(conversion.input, options, flags.capture, conversion.overwrite);
+    if (flags.is_quiet) return;
+    std::cout << flags.capture.string() << ": " << counted(packets, "packet") << "\n";
+    tellLeftBehind({flags.capture});
+}
+
 int run(const Program& program, Flags& flags) {
     check(flags);
     try {
@@ -288,6 +314,10 @@ int run(const Program& program, Flags& flags) {
         catchSignals();
         if (!flags.learned_airframe.empty()) {
             learn(flags);
+            return kDone;
+        }
+        if (!flags.capture.empty()) {
+            capture(flags);
             return kDone;
         }
         const convert::ConversionReport report = convertAloud(flags.conversion, flags.is_quiet);

@@ -80,6 +80,10 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
                "scan folder with ground truth: labels/, semantic/, kinds.yaml, altitudes.txt")
         .group("Output");
     app.option("--poses", log.poses, "vehicle trajectory (TUM)").group("Output");
+    app.option("--pcap", log.capture,
+               "network capture of the packets (VLP-16, HDL-32E), for live-segment --replay")
+        .extension({".pcap"})
+        .group("Output");
     app.flag("--overwrite", log.overwrite, "replace existing outputs").group("Output");
     app.flag("-q,--quiet", is_quiet, "print errors only").group("Output");
     app.version(HAGEN_VERSION);
@@ -87,8 +91,11 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
 
 /// Rejects invalid combinations of flags.
 void check(const convert::SimulatedLog& log) {
-    if (log.rawlog.empty() && log.folder.empty() && log.poses.empty()) {
-        throw UsageError("an output (-o, --kitti or --poses) is required");
+    if (log.rawlog.empty() && log.folder.empty() && log.poses.empty() && log.capture.empty()) {
+        throw UsageError("an output (-o, --kitti, --poses or --pcap) is required");
+    }
+    if (!log.capture.empty() && log.sensor != "VLP-16" && log.sensor != "HDL-32E") {
+        throw UsageError("--pcap", "does not support " + log.sensor);
     }
     if (log.sensor == "HDL-64E" && !log.rawlog.empty()) {
         throw UsageError("-o", "does not support HDL-64E; use only --kitti");
@@ -99,7 +106,7 @@ void printSummary(const convert::SimulatedLog& log, const convert::SimulationRep
     std::cout << report.scans << " scans of " << log.scenario << " with " << report.returns
               << " returns: " << report.roi << " RoI, " << report.rou << " ROU, "
               << report.unclassified << " unclassified\n";
-    for (const auto& output : {log.rawlog, log.folder, log.poses}) {
+    for (const auto& output : {log.rawlog, log.folder, log.poses, log.capture}) {
         if (!output.empty()) std::cout << output.string() << "\n";
     }
 }
@@ -118,7 +125,7 @@ int run(const convert::SimulatedLog& log, bool is_quiet) {
     };
     const convert::SimulationReport report = convert::simulateLog(log, keep_going);
     if (!is_quiet) printSummary(log, report);
-    if (!is_quiet) tellLeftBehind({log.rawlog, log.folder, log.poses});
+    if (!is_quiet) tellLeftBehind({log.rawlog, log.folder, log.poses, log.capture});
     return kDone;
 }
 
@@ -133,6 +140,8 @@ int command(int argc, char** argv) {
         "    -o flight.rawlog\n"
         "  rawlog-simulate --scenario wires --scans 12 --every-s 2 --altitude 4 --seed 7\n"
         "    --kitti wires\n"
+        "  rawlog-simulate --scenario orchard --scans 300 --altitude 2 --seed 1\n"
+        "    --pcap flight.pcap\n"
         "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     convert::SimulatedLog log;
     bool is_quiet = false;

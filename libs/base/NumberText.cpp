@@ -33,4 +33,8 @@ std::string percentText(float share) {
     return fixedText(0.1 * std::floor(1000.0 * static_cast<double>(share)), 1) + " %";
 }
 
+std::string counted(std::size_t number, const std::string& one, const std::string& many) {
+    return std::to_string(number) + " " + (number == 1 ? one : many.empty() ? one + "s" : many);
+}
+
 }  // namespace hagen::base

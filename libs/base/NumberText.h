@@ -16,6 +16,9 @@ std::string shortestText(float value);
 /// if all digits are zero.
 std::string fixedText(double value, int decimals);
 
+/// Such as "1 packet", "3 packets". `many`: the plural, by default with an s.
+std::string counted(std::size_t number, const std::string& one, const std::string& many = "");
+
 /// Formats a share from 0 to 1 as "99.9 %". Rounds down, so that 100.0 % means all.
 std::string percentText(float share);
 

@@ -94,6 +94,7 @@ class Session {
     bool is_uncertain_ = false;
     bool is_flushed_ = true, is_silent_ = false, is_empty_ = false;
     bool is_recording_reported_ = false, is_slow_recording_reported_ = false;
+    bool is_airframe_reported_ = false;
     bool has_place_ = false;
     std::size_t foreign_ip_ = 0;
     std::size_t dropped_ = 0, dropped_before_ = 0;  ///< total, and total at the last status
@@ -118,6 +119,10 @@ void Session::takeSector(const LabelledSector& sector) {
     figures_->take(sector, steadyNow_s());
     listener_.sector(sector);
     reportEmptiness(sector.returns);
+    if (is_airframe_reported_) return;
+    const std::string warning = figures_->airframeWarning(sector.last_time_s);
+    is_airframe_reported_ = !warning.empty();
+    if (is_airframe_reported_) listener_.remark(warning);
 }
 
 /// Reports that returns are missing, because a covered window looks like open air.

@@ -1,6 +1,7 @@
 #include "live/SectorFigures.h"
 
 #include <hagen/scan/Angle.h>
+#include "base/NumberText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,8 @@ namespace {
 constexpr double kDirections_s = 0.05;
 constexpr double kMinTime_s = 0.125;  // minimum time for a rate
 constexpr double kOtherRate = 0.2;    // minimum relative change that is reported
+constexpr float kAirframe_m = 1;
+constexpr double kAirframe_s = 10, kAirframeGap_s = 0.5;  // legs are not hit in every turn
 
 SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor) {
     SectorDistances::Settings settings;
@@ -59,7 +62,34 @@ void SectorFigures::noteNearest(const LabelledSector& sector) {
             vehicle_from_sensor_ * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
         const int k = directionOf(at_m.head<2>(), SectorDistances::kSectors);
         report_.nearest_m[k] = std::min(report_.nearest_m[k], at_m.head<2>().norm());
+        const float range_m = at_m.norm();
+        if (range_m > kAirframe_m) continue;
+        Near& near = near_[k];
+        if (sector.last_time_s - near.last_s > kAirframeGap_s)
+            near = {sector.last_time_s, 0, range_m};
+        near.last_s = sector.last_time_s;
+        near.nearest_m = std::min(near.nearest_m, range_m);
     }
+}
+
+std::string SectorFigures::airframeWarning(double now_s) const {
+    std::size_t directions = 0;
+    float nearest_m = kAirframe_m;
+    bool is_due = false;
+    for (const Near& near : near_) {
+        const double stayed_s = near.last_s - near.since_s;
+        if (now_s - near.last_s > kAirframeGap_s || stayed_s < kAirframe_s) continue;
+        ++directions;
+        nearest_m = std::min(nearest_m, near.nearest_m);
+        // Waits for directions that were first seen a turn later.
+        is_due = is_due || stayed_s >= kAirframe_s + kAirframeGap_s;
+    }
+    if (!is_due) return "";
+    return "obstacles stay within 1 m of the sensor for 10 s, in " +
+           base::counted(directions, "direction") + " of 5 degrees, the nearest at " +
+           base::fixedText(static_cast<double>(nearest_m), 2) +
+           " m: if they are the vehicle's legs or arms, mask them with rawlog-segment "
+           "--learn-airframe (docs/autopilot.md)";
 }
 
 void SectorFigures::countDirections(double now_s) {
@@ -89,7 +119,9 @@ LiveStatus SectorFigures::status(double passed_s, bool turns) const {
     status.max_s = recent_.count() > 0 ? recent_.max_s() : std::nan("");
     for (const auto& sector : report_.latest) {
         if (sector.state != SectorDistances::State::Obstacle) continue;
-        if (!(sector.distance_m >= status.nearest_m)) status.nearest_m = sector.distance_m;
+        if (sector.distance_m >= status.nearest_m) continue;
+        status.nearest_m = sector.distance_m;
+        status.nearest_deg = degrees(std::atan2(-sector.at_m.y(), sector.at_m.x()));
     }
     return status;
 }

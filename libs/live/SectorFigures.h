@@ -1,7 +1,9 @@
 #pragma once
 #include <hagen/live/LiveSession.h>
 
+#include <array>
 #include <optional>
+#include <string>
 
 namespace hagen::live {
 
@@ -29,6 +31,9 @@ class SectorFigures {
     /// Returns a change of motor speed confirmed by two statuses, because packets may arrive in
     /// bursts.
     std::optional<RateChange> rateChange();
+    /// Returns a warning if RoI returns stay within 1 m in the same direction for 10 s, as those of
+    /// the vehicle itself do; empty otherwise.
+    std::string airframeWarning(double now_s) const;
     /// Resets status and rate.
     void next();
 
@@ -38,6 +43,11 @@ class SectorFigures {
     LiveReport& report_;
     Eigen::Matrix3f vehicle_from_sensor_;
     SectorDistances distances_;
+    struct Near {
+        double since_s = 0, last_s = -1e9;
+        float nearest_m = 0;
+    };
+    std::array<Near, SectorDistances::kSectors> near_;
     double counted_s_ = 0;
     LatencyHistogram recent_;
     double recent_sweep_rad_ = 0, recent_first_s_ = 0, recent_last_s_ = 0, reported_rate_ = 0;

@@ -1,6 +1,10 @@
 #include <hagen/mrpt/VelodyneObservation.h>
 
+#include <hagen/sensors/VelodynePacket.h>
+
+#include <chrono>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -86,6 +90,26 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
 std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& scan) {
     ObservationWorkspace work;
     return decodePackets(observation, scan, work);
+}
+
+void forEachPacket(const CObservationVelodyneScan& observation,
+                   const std::function<void(const sensors::Datagram&)>& take) {
+    sensors::Datagram datagram;
+    datagram.from_port = datagram.to_port = 2368;
+    datagram.size = sensors::kVelodynePacketBytes;
+    const auto start_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        observation.timestamp - mrpt::Clock::fromDouble(0));
+    double first_us = 0;
+    for (const auto& raw : observation.scan_packets) {
+        sensors::VelodynePacket packet;
+        std::memcpy(packet.bytes.data(), &raw, packet.bytes.size());
+        const double time_us = packet.sensorTimeUs();
+        if (&raw == observation.scan_packets.data()) first_us = time_us;
+        datagram.time_ns =
+            start_ns.count() + std::llround(1e3 * sensors::elapsedUs(first_us, time_us));
+        datagram.bytes = packet.bytes.data();
+        take(datagram);
+    }
 }
 
 }  // namespace hagen::observations

@@ -1,5 +1,6 @@
 #include <hagen/recordings/ScanSource.h>
 
+#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/recordings/BrokenRecording.h>
 #include <hagen/sensors/CaptureFile.h>
 
@@ -83,6 +84,14 @@ void ScanSource::see(const CObservation& observation) {
     if (!is_levelled_by_file_) horizon_.see(observation);
 }
 
+void ScanSource::passPackets(const CObservation& observation) const {
+    const auto* const scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation);
+    if (scan == nullptr) return;
+    observations::forEachPacket(*scan, [&](const sensors::Datagram& datagram) {
+        options_.packet(observation.sensorLabel, datagram);
+    });
+}
+
 void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std::string& name,
                            RecordedEntry& entry) {
     if (!observations::isLidarScan(*observation)) return;
@@ -91,6 +100,7 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
         return;
     }
     labels_.insert(observation->sensorLabel);
+    if (options_.packet) passPackets(*observation);
     if (labels_.size() > kMaxLabels) {
         throw BrokenRecording(recording_.string() + ": entry " + std::to_string(entry.number) +
                               ": the recording has more than " + std::to_string(kMaxLabels) +

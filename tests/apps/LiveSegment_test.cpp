@@ -16,8 +16,10 @@
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
+#include "support/BagWriter.h"
 #include "support/CaptureWriter.h"
 #include "support/LivoxPackets.h"
 #include "support/LocalUdp.h"
@@ -252,6 +254,55 @@ TEST_F(LiveSegment, FullDiskEndsRecordingOnly) {
     const auto json = stats();
     EXPECT_EQ(json["packets"]["taken"], json["packets"]["datagrams"]);
     EXPECT_THAT(json["recorded"]["failure"].get<std::string>(), HasSubstr(path("a.pcap")));
+}
+
+TEST_F(LiveSegment, ReplaysCapturesRawlogsAndBags) {
+    const auto made = test::run(HAGEN_RAWLOG_SIMULATE,
+                                {"--scenario", "orchard", "--scans", "3", "--altitude", "2",
+                                 "--seed", "1", "--pcap", path("a.pcap"), "-o", path("a.rawlog")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    std::vector<test::SentMessage> messages;
+    recordings::RawlogReader reader(path("a.rawlog"));
+    while (const auto entry = reader.next()) {
+        const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
+        if (!scan) continue;
+        const double time_s = mrpt::Clock::toDouble(scan->timestamp);
+        messages.push_back(test::velodyneMessage("/packets", time_s, "lidar", *scan, 1.3e-3));
+    }
+    folder_.write("a.bag", test::ros1BagOf(messages));
+    std::set<std::size_t> roi;
+    for (const char* name : {"a.pcap", "a.rawlog", "a.bag"}) {
+        const auto outcome = run(
+            with(sensor_, {"--replay", path(name), "--stats", path("stats.json"), "--overwrite"}));
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(stats()["packets"]["taken"], 228) << name;
+        roi.insert(stats()["roi"].get<std::size_t>());
+    }
+    EXPECT_EQ(roi.size(), 1u);
+    EXPECT_GT(*roi.begin(), 10000u);
+}
+
+TEST_F(LiveSegment, RefusesToReplayDecodedScans) {
+    folder_.write("a.bag", test::ros1BagOf({test::cloudMessage("/points", 1, "a", {1, 2, 3, 4})}));
+    expectFailure(with(sensor_, {"--replay", path("a.bag")}), 1,
+                  "a.bag: has no packets of a LiDAR, only decoded scans");
+}
+
+TEST_F(LiveSegment, StatusLineFitsTerminal) {
+    const auto lastLine = [&](int columns) {
+        const auto outcome = test::run(
+            "script", {"-qec",
+                       "stty cols " + std::to_string(columns) + "; '" + HAGEN_LIVE_SEGMENT +
+                           "' --model VLP-16 --replay '" + capture() + "' > /dev/null",
+                       "/dev/null"});
+        const std::size_t at = outcome.out.rfind("nearest");
+        EXPECT_NE(at, std::string::npos) << outcome.out;
+        return outcome.out.substr(at, outcome.out.find_first_of("\r\n", at) - at);
+    };
+    const std::string line = lastLine(200);
+    EXPECT_THAT(line, testing::MatchesRegex("nearest [0-9.]+ m at [0-9]+° [|] [0-9.]+ Hz [|] "
+                                            "[0-9.]+ ms [|] .*max [0-9.]+ ms"));
+    EXPECT_THAT(lastLine(35), testing::MatchesRegex("nearest [0-9.]+ m at [0-9]+° [|] [0-9.]+ Hz"));
 }
 
 /// A stopped terminal, or a pipe that is not read.

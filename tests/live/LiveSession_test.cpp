@@ -21,7 +21,9 @@ namespace hagen::live {
 namespace {
 
 using sensors::velodyneModel;
+using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -86,6 +88,14 @@ class GivenPackets : public PacketSource {
     double later_s_ = 0;
     const double start_s_ = steadyNow_s();
 };
+
+std::vector<std::string> packetsOf(const observations::Firings& firings) {
+    std::vector<std::string> packets;
+    for (const auto& packet : encodePackets(velodyneModel("VLP-16"), firings)) {
+        packets.push_back(test::bytesOf(packet));
+    }
+    return packets;
+}
 
 std::vector<std::string> turnsOf(int turns, std::uint32_t first_us = 1000000,
                                  const char* name = "VLP-16", bool is_dual = false) {
@@ -268,6 +278,26 @@ TEST_F(LiveSessionTest, ReportsMissingReturns) {
 }
 
 /// Packets before a pause are labelled even if other sensors send to the port.
+TEST_F(LiveSessionTest, WarnsAboutUnmaskedAirframeOnce) {
+    test::SimpleScene scene;
+    scene.poles.push_back({0.7, 0, 0.05, 3});
+    observations::Firings firings = test::fireAt(scene, velodyneModel("VLP-16"), {0, 0, 2});
+    const auto turns = [&](int number) {
+        remarks_.clear();
+        GivenPackets source;
+        for (int turn = 0; turn < number; ++turn) {
+            firings.first_time_us = 1000000 + 100000 * static_cast<std::uint32_t>(turn);
+            source.addAll(packetsOf(firings)).later(0.1);
+        }
+        run(source);
+    };
+    turns(95);
+    EXPECT_THAT(remarks_, IsEmpty());
+    turns(140);
+    EXPECT_THAT(remarks_, ElementsAre(AllOf(HasSubstr("within 1 m of the sensor for 10 s"),
+                                            HasSubstr("--learn-airframe"))));
+}
+
 TEST_F(LiveSessionTest, ForeignPacketsDoNotDelayLabels) {
     GivenPackets source;
     auto turn = turnsOf(1);

@@ -1,5 +1,8 @@
 #include "base/command_line/Terminal.h"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <iostream>
@@ -91,6 +94,28 @@ std::ostream& clearLine(std::ostream& out) {
         return out;
     }
     return out << "\r\033[K";
+}
+
+std::size_t terminalColumns() {
+    winsize size{};
+    const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return is_known ? size.ws_col : 80;
+}
+
+std::string lineOf(const std::vector<std::string>& parts, std::size_t columns) {
+    std::string line;
+    std::size_t used = 0;
+    for (const std::string& part : parts) {
+        const std::string text = (line.empty() ? "" : " | ") + part;
+        for (std::size_t at = 0; at < text.size(); at += bytesOfCharacter(text, at)) ++used;
+        // Some terminals wrap after the last column.
+        if (used < columns) {
+            line += text;
+        } else {
+            return line.empty() ? part.substr(0, columns - 1) : line;
+        }
+    }
+    return line;
 }
 
 }  // namespace hagen::base

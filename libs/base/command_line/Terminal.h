@@ -1,6 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace hagen::base {
 
@@ -13,5 +15,12 @@ std::string oneLine(std::string message);
 
 /// Erases the current line of a terminal: the only terminal command that keepTerminalSafe() passes.
 std::ostream& clearLine(std::ostream& out);
+
+/// Width of the terminal of standard error; 80 if unknown.
+std::size_t terminalColumns();
+
+/// Joins the leading parts that fit into a line of this width by " | ". Cuts the first part if it
+/// does not fit.
+std::string lineOf(const std::vector<std::string>& parts, std::size_t columns);
 
 }  // namespace hagen::base

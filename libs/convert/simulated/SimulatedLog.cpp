@@ -7,6 +7,7 @@
 #include <hagen/simulation/Scenarios.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include "base/OutputSet.h"
+#include "convert/PacketCapture.h"
 #include "convert/RawlogWriter.h"
 
 #include <cmath>
@@ -54,14 +55,24 @@ class SimulatedOutputs {
         if (!log.rawlog.empty()) rawlog_.emplace(log.rawlog, log.overwrite);
         if (!log.folder.empty()) folder_.emplace(log.folder, log.overwrite, mount);
         if (!log.poses.empty()) poses_.emplace(log.poses, log.overwrite);
+        if (!log.capture.empty()) capture_.emplace(log.capture, log.overwrite);
         if (folder_) all_.add(folder_->place(), *folder_);
         if (poses_) all_.add(poses_->place(), *poses_);
+        if (capture_) all_.add(capture_->place(), *capture_);
         if (rawlog_) all_.add(rawlog_->place(), *rawlog_);
     }
 
     bool hasRawlog() const { return rawlog_.has_value(); }
     void write(const mrpt::serialization::CSerializable& entry) {
         if (rawlog_) all_.write(rawlog_->place(), [&] { rawlog_->write(entry); });
+    }
+    void writePackets(const mrpt::obs::CObservationVelodyneScan& scan) {
+        if (!capture_) return;
+        all_.write(capture_->place(), [&] {
+            observations::forEachPacket(scan, [&](const sensors::Datagram& datagram) {
+                capture_->add(scan.sensorLabel, datagram);
+            });
+        });
     }
     void writePose(double time_s, const mrpt::poses::CPose3D& pose) {
         if (poses_) all_.write(poses_->place(), [&] { poses_->add(time_s, pose); });
@@ -83,6 +94,7 @@ class SimulatedOutputs {
         };
         keep(folder_);
         keep(poses_);
+        keep(capture_);
         keep(rawlog_);
         const std::string& failures = all_.failures();
         return (names.empty() ? " no output" : names) + (failures.empty() ? "" : "; " + failures);
@@ -92,6 +104,7 @@ class SimulatedOutputs {
     std::optional<RawlogWriter> rawlog_;
     std::optional<GroundTruthFolder> folder_;
     std::optional<PoseOutput> poses_;
+    std::optional<PacketCapture> capture_;
     base::OutputSet all_;
 };
 
@@ -141,6 +154,7 @@ MeasuredScan writeScanEntry(const simulation::SimulatedScan& made, const SensorM
         throw std::logic_error("the packets do not contain the simulated returns");
     }
     outputs.write(*observation);
+    outputs.writePackets(*observation);
     return measured;
 }
 
@@ -164,7 +178,11 @@ SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()
             "there is no packet format for '" + sensor.name +
             "', so it cannot be written to a rawlog; request only a scan folder");
     }
-    base::checkApart({log.rawlog, log.folder, log.poses}, {});
+    if (!log.capture.empty() && !hasPackets(sensor)) {
+        throw std::invalid_argument("there is no packet format for '" + sensor.name +
+                                    "', so it cannot be written to a capture");
+    }
+    base::checkApart({log.rawlog, log.folder, log.poses, log.capture}, {});
     const double roll_rad = radians(log.mount_roll_deg), pitch_rad = radians(log.mount_pitch_deg);
     const Eigen::Quaterniond mount = Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
                                      Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());

@@ -17,7 +17,7 @@ struct SimulatedLog {
     bool clear_air = false;  ///< without dust and returns from the vehicle itself
     double mount_roll_deg = 0, mount_pitch_deg = 0;  ///< tilt of the sensor on the level vehicle
 
-    std::filesystem::path rawlog, folder, poses;
+    std::filesystem::path rawlog, folder, poses, capture;
     bool overwrite = false;
 };
 
@@ -36,7 +36,8 @@ struct SimulationReport {
 /// - a scan folder with ground truth (GroundTruthFolder.h), with the returns as decoded from the
 ///   packets if the sensor has a packet format. Poses are the sensor's; its mount is in
 ///   sensor.yaml,
-/// - the vehicle's poses as a TUM file.
+/// - the vehicle's poses as a TUM file,
+/// - the packets as a network capture, for sensors with a packet format.
 ///
 /// The same seed produces the same bytes. Throws std::invalid_argument for an unknown scenario or
 /// sensor, and std::runtime_error if a file cannot be written or if `keep_going` returns false: the

@@ -42,6 +42,8 @@ class AutopilotLink::Work {
         thread_ = std::thread([this] { work(); });
     }
 
+    const char* state() const { return state_; }
+
     void stop() {
         is_at_end_ = true;
         if (thread_.joinable()) thread_.join();
@@ -120,6 +122,11 @@ class AutopilotLink::Work {
             } while (!is_at_end_ && rest_s > 0);
             attempt([&] { reportPeer(); });
             attempt([&] { reportAttitude(); });
+            state_ = !trouble_.empty()  ? "unreachable"
+                     : is_stalled_      ? "without labels"
+                     : !knows_attitude_ ? "waiting"
+                     : *knows_attitude_ ? "ok"
+                                        : "without attitude";
         }
         attempt([&] { send(obstacleDistance({}, limits_, steadyNow_s()), sent_distance_); });
     }
@@ -289,6 +296,7 @@ class AutopilotLink::Work {
     std::size_t attitudes_ = 0, places_ = 0, others_ = 0, foreign_ = 0, refused_ = 0;
 
     std::atomic<bool> is_at_end_ = false;
+    std::atomic<const char*> state_ = "waiting";
     std::thread thread_;
 };
 
@@ -308,5 +316,7 @@ SensorMotion AutopilotLink::motionAt(double time_s) const { return work_->motion
 void AutopilotLink::stop() { work_->stop(); }
 
 AutopilotLink::Counts AutopilotLink::counts() const { return work_->counts(); }
+
+std::string AutopilotLink::state() const { return work_->state(); }
 
 }  // namespace hagen::live

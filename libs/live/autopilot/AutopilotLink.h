@@ -56,6 +56,8 @@ class AutopilotLink {
     /// Sends a last message with all directions unknown, and stops the thread.
     void stop();
     Counts counts() const;
+    /// A short text for a status line: "ok", or the problem.
+    std::string state() const;
 
  private:
     class Work;

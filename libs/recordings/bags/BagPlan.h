@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/sensors/Datagram.h>
 #include <hagen/sensors/VelodyneModel.h>
 #include <mrpt/poses/CPose3D.h>
 #include "recordings/bags/BagSurvey.h"
@@ -6,6 +7,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -17,6 +19,8 @@ namespace hagen::recordings {
 struct BagOptions {
     std::vector<std::string> topics;  ///< LiDAR topics, with or without leading slash; all if empty
     std::filesystem::path sensor_json;  ///< Ouster metadata file; if empty, from the bag
+    /// If set, called with each accepted Ouster packet.
+    std::function<void(const std::string& label, const sensors::Datagram&)> packet = nullptr;
 };
 
 struct BagSensor {

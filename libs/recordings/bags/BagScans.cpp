@@ -100,6 +100,7 @@ struct BagScans::Reader {
     const BagSurvey& survey;
     BagPlan plan;
     std::unique_ptr<BagFile> bag;
+    decltype(BagOptions::packet) pass;
     std::map<std::string, TopicState> states;  ///< by topic
     std::vector<TopicState*> state_of;  ///< by topic index in the bag; null if not a LiDAR topic
     std::vector<std::uint8_t> unpacked;
@@ -112,7 +113,11 @@ struct BagScans::Reader {
     std::string broken_because;
 
     Reader(const std::filesystem::path& name, const BagSurvey& surveyed, const BagOptions& options)
-        : file(name), survey(surveyed), plan(planOf(name, survey, options)), bag(openBag(name)) {
+        : file(name),
+          survey(surveyed),
+          plan(planOf(name, survey, options)),
+          bag(openBag(name)),
+          pass(options.packet) {
         for (const auto& [topic, sensor] : plan.sensors) {
             TopicState& state = states[topic];
             state.name = topic;
@@ -295,6 +300,7 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
                                      ", but the metadata are from " + sensor.serial);
         }
     }
+    if (pass) pass(state.sensor->label, {recorded_ns, 0, 0, 7502, 7502, packet.data, packet.size});
     state.frames->add(packet.data, recorded_ns);
     addComplete(state);
 }

@@ -12,7 +12,7 @@ namespace {
 class BagSource : public ScanSource {
  public:
     BagSource(const std::filesystem::path& bag, const SourceOptions& options)
-        : ScanSource(options), file_(bag), survey_(surveyInAdvance()), scans_(openScans()) {}
+        : ScanSource(options), file_(bag), survey_(surveyInAdvance()), scans_(openScans(true)) {}
 
     std::optional<RecordedEntry> nextEntry() override {
         while (scans_read_ <= options_.last_entry) {
@@ -59,9 +59,15 @@ class BagSource : public ScanSource {
         return survey;
     }
 
-    std::unique_ptr<BagScans> openScans() const {
-        auto scans = std::make_unique<BagScans>(file_, survey_,
-                                                BagOptions{options_.topics, options_.sensor_json});
+    std::unique_ptr<BagScans> openScans(bool passes_packets = false) const {
+        BagOptions options{options_.topics, options_.sensor_json};
+        if (passes_packets && options_.packet) {
+            options.packet = [this](const std::string& label, const sensors::Datagram& datagram) {
+                const bool is_skipped = scans_read_ < options_.first_entry;
+                if (!is_skipped && isSelected(label)) options_.packet(label, datagram);
+            };
+        }
+        auto scans = std::make_unique<BagScans>(file_, survey_, options);
         scans->checkWhileReading([this] { checkInterruption(); });
         return scans;
     }

@@ -4,10 +4,6 @@
 
 namespace hagen::sensors {
 
-std::string counted(std::size_t number, const std::string& one) {
-    return std::to_string(number) + " " + one + (number == 1 ? "" : "s");
-}
-
 void addCount(std::size_t number, const std::string& one, const std::string& more,
               std::string& text) {
     if (number == 0) return;

@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/sensors/Datagram.h>
+#include "base/NumberText.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -9,8 +10,7 @@
 
 namespace hagen::sensors {
 
-/// Such as "1 packet", "3 packets".
-std::string counted(std::size_t number, const std::string& one);
+using base::counted;
 
 /// Appends ", 3 packets MORE" unless the number is 0.
 void addCount(std::size_t number, const std::string& one, const std::string& more,

@@ -63,6 +63,7 @@ struct LiveStatus {
     double turns_per_s = 0;
     double p50_s = 0, p99_s = 0, max_s = 0;                     ///< latency; NaN without sectors
     float nearest_m = std::numeric_limits<float>::quiet_NaN();  ///< NaN if no obstacle is known
+    double nearest_deg = 0;  ///< its direction, clockwise from ahead
     bool is_silent = false;
 };
 

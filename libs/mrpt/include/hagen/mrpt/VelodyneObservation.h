@@ -2,11 +2,13 @@
 // Conversions between CObservationVelodyneScan and the decoder of libs/sensors.
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
+#include <hagen/sensors/Datagram.h>
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <hagen/sensors/VelodyneDecoder.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/VelodyneCalibration.h>
 #include <cstddef>
+#include <functional>
 
 namespace hagen::observations {
 
@@ -37,5 +39,10 @@ std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation
                           ObservationWorkspace& work);
 /// Like above, with temporary buffers.
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan);
+
+/// Calls `take` with each packet as a datagram to port 2368, timed by the observation and the clock
+/// of the sensor.
+void forEachPacket(const mrpt::obs::CObservationVelodyneScan& observation,
+                   const std::function<void(const sensors::Datagram&)>& take);
 
 }  // namespace hagen::observations

@@ -3,6 +3,7 @@
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/ScanPose.h>
 #include <hagen/recordings/LogPoses.h>
+#include <hagen/sensors/Datagram.h>
 #include <hagen/settings/Settings.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/serialization/CSerializable.h>
@@ -53,6 +54,9 @@ struct SourceOptions {
     std::filesystem::path sensor_json;  ///< Ouster metadata for a capture or bag
     std::filesystem::path calibration;  ///< HDL-64E calibration for a capture
     std::vector<std::string> topics;    ///< LiDAR topics to read from a bag; all if empty
+    /// If set, called with the packets of the selected LiDARs of a rawlog or bag. The datagrams
+    /// have no addresses.
+    std::function<void(const std::string& sensor_label, const sensors::Datagram&)> packet;
     /// Called before each entry is read, even in advance. Returning false throws Interrupted.
     std::function<bool()> keep_going = [] { return true; };
 };
@@ -146,6 +150,7 @@ class ScanSource {
     bool isSelected(const std::string& sensor_label) const;
     /// Uses the attitude in an observation, unless a pose file provides it.
     void see(const mrpt::obs::CObservation& observation);
+    void passPackets(const mrpt::obs::CObservation& observation) const;
     /// Adds the observation to its entry if it is a scan of a selected LiDAR.
     void addIfScan(const mrpt::obs::CObservation::ConstPtr& observation, const std::string& name,
                    RecordedEntry& entry);

@@ -1,0 +1,40 @@
+#include "convert/PacketCapture.h"
+
+#include <hagen/sensors/CaptureFile.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace hagen::convert {
+
+void PacketCapture::add(const std::string& sensor_label, sensors::Datagram datagram) {
+    const auto number = static_cast<std::uint32_t>(ip_of_.size());
+    datagram.from_ip = ip_of_.emplace(sensor_label, 0x0a000064 + number).first->second;
+    datagram.to_ip = 0x0a000001;
+    writer_.add(datagram);
+    ++packets_;
+}
+
+std::size_t capturePackets(const std::filesystem::path& recording,
+                           recordings::SourceOptions options, const std::filesystem::path& capture,
+                           bool overwrite) {
+    const std::string name = recording.string();
+    base::checkApart({capture}, {recording, options.sensor_json});
+    PacketCapture output(capture, overwrite);
+    options.packet = [&](const std::string& label, const sensors::Datagram& datagram) {
+        output.add(label, datagram);
+    };
+    if (sensors::isCapture(recording)) throw std::runtime_error(name + ": is a capture already");
+    const auto source = recordings::openRecording(recording, std::move(options));
+    while (source->nextEntry()) {
+    }
+    if (output.packets() == 0) {
+        throw std::runtime_error(name +
+                                 ": has no packets of a LiDAR, only decoded scans; segment them "
+                                 "with rawlog-segment");
+    }
+    output.commit();
+    return output.packets();
+}
+
+}  // namespace hagen::convert
