@@ -40,9 +40,8 @@ std::string textOfNames(const std::string& names) { return names; }
 }  // namespace
 
 std::vector<fs::path> outputsOf(const Conversion& conversion) {
-    std::vector<fs::path> outputs{conversion.rawlog, conversion.folder, conversion.clouds,
-                                  conversion.mcap, conversion.pictures,
-                                  conversion.view};
+    std::vector<fs::path> outputs{conversion.rawlog, conversion.folder,   conversion.clouds,
+                                  conversion.mcap,   conversion.pictures, conversion.view};
     if (conversion.stats != kStandardOutput) outputs.push_back(conversion.stats);
     outputs.insert(outputs.end(), conversion.octomaps.begin(), conversion.octomaps.end());
     outputs.erase(std::remove(outputs.begin(), outputs.end(), fs::path()), outputs.end());

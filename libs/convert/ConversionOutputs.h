@@ -37,8 +37,8 @@ class ConversionOutputs {
     void pack(const Bytes& member, Bytes& packed);
     void writeMember(const Bytes& packed);
 
-    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, to the MCAP and to the page. An
-    /// empty name is replaced by the next number. Returns the name used.
+    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, to the MCAP and to
+    /// the page. An empty name is replaced by the next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const recordings::RecordedScan& recorded, const Settings& settings);
 

@@ -17,7 +17,7 @@ using base::Json;
 using observations::ObservationSegmenter;
 
 constexpr std::size_t kMaxFrames = 500, kMaxBytes = 39'000'000;  // the page itself has 1 MB
-constexpr int kMaxAngleColumns = 450, kMaxBoxes = 40;
+constexpr int kMaxAngleColumns = 450, kMaxBoxes = 30;
 constexpr double kGroundStep_m = 1.5, kMaxGap_s = 5, kAssumedPeriod_s = 0.1;
 
 double rounded(double value) { return std::round(1000 * value) / 1000; }
@@ -32,6 +32,19 @@ Json json(const Matrix& transform) {
         }
     }
     return rows;
+}
+
+/// The scan in the image frame, which differs from the sensor's if that is not upright.
+Scan turned(const Scan& scan, const Eigen::Matrix3f& image_from_sensor) {
+    Scan image = scan;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const Eigen::Vector3f at_m =
+            image_from_sensor * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+        image.x_m[i] = at_m.x();
+        image.y_m[i] = at_m.y();
+        image.z_m[i] = at_m.z();
+    }
+    return image;
 }
 
 /// Returns by pixel, nearest first. Leaves out those without a range.
@@ -49,6 +62,8 @@ base::ViewReturns returnsOf(const Scan& scan, const SegmentationResult& result) 
     std::sort(order.begin(), order.end(),
               [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     base::ViewReturns returns;
+    returns.rows = rows;
+    returns.columns = static_cast<int>(result.labels.cols());
     for (const std::uint32_t i : order) {
         const float flat_m = std::hypot(scan.x_m[i], scan.y_m[i]);
         returns.azimuth_rad.push_back(std::atan2(scan.y_m[i], scan.x_m[i]));
@@ -94,8 +109,7 @@ Json boxesOf(const Scan& scan, const LabelledReturns& returns) {
 }
 
 /// The ground within the zone, as a square grid of heights in cm in the ground frame.
-Json groundOf(const Ground& ground, const Eigen::Matrix3f& image_from_sensor, float zone_m,
-              base::ViewArrays& arrays) {
+Json groundOf(const Ground& ground, float zone_m, base::ViewArrays& arrays) {
     const int half = static_cast<int>(std::ceil(static_cast<double>(zone_m) / kGroundStep_m));
     std::vector<std::int16_t> heights;
     for (int j = -half; j <= half; ++j) {
@@ -109,9 +123,7 @@ Json groundOf(const Ground& ground, const Eigen::Matrix3f& image_from_sensor, fl
         }
     }
     arrays.add("ground", heights, true);
-    Eigen::Isometry3f from_sensor = ground.from_sensor;
-    from_sensor.linear() *= image_from_sensor;
-    return {{"from_sensor", json(from_sensor.matrix())},
+    return {{"from_sensor", json(ground.from_sensor.matrix())},
             {"min_m", -half * kGroundStep_m},
             {"step_m", kGroundStep_m},
             {"side", 2 * half + 1}};
@@ -121,26 +133,24 @@ Json valuesOf(const std::string& name, const std::string& sensor_label,
               const ObservationSegmenter::Output& segmented) {
     const SegmentationResult& result = *segmented.result;
     const std::size_t returns = segmented.scan->size();
-    const double share =
-        100.0 * static_cast<double>(result.returns.roi.size()) /
-        static_cast<double>(std::max<std::size_t>(1, returns));
+    const double share = 100.0 * static_cast<double>(result.returns.roi.size()) /
+                         static_cast<double>(std::max<std::size_t>(1, returns));
     const auto time_ms =
         std::chrono::duration<double, std::milli>(segmented.time_to_labels).count();
-    const auto nearest =
-        std::min_element(result.returns.roi.begin(), result.returns.roi.end(), [&](auto a, auto b) {
-            return segmented.scan->range_m[a] < segmented.scan->range_m[b];
-        });
-    return {{"scan", name},
-            {"sensor", sensor_label},
-            {"nearest obstacle",
-             nearest == result.returns.roi.end()
-                 ? "none"
-                 : base::fixedText(static_cast<double>(segmented.scan->range_m[*nearest]), 1) +
-                       " m"},
-            {"obstacles", std::to_string(result.components.maxCoeff())},
-            {"RoI returns", base::fixedText(share, 1) + " %"},
-            {"ground", result.ground.is_seen ? "seen" : "not seen"},
-            {"time per scan", base::fixedText(time_ms, 1) + " ms"}};
+    const auto nearest = std::min_element(
+        result.returns.roi.begin(), result.returns.roi.end(),
+        [&](auto a, auto b) { return segmented.scan->range_m[a] < segmented.scan->range_m[b]; });
+    return {
+        {"scan", name},
+        {"sensor", sensor_label},
+        {"nearest obstacle",
+         nearest == result.returns.roi.end()
+             ? "none"
+             : base::fixedText(static_cast<double>(segmented.scan->range_m[*nearest]), 1) + " m"},
+        {"obstacles", std::to_string(result.components.maxCoeff())},
+        {"RoI returns", base::fixedText(share, 1) + " %"},
+        {"ground", result.ground.is_seen ? "seen" : "not seen"},
+        {"time per scan", base::fixedText(time_ms, 1) + " ms"}};
 }
 
 /// Times from the first scan [s]. Scans without a valid time, out of order or after a gap follow
@@ -171,37 +181,40 @@ Json chart(const char* label, const std::vector<double>& times_s,
 }  // namespace
 
 ViewOutput::ViewOutput(const std::filesystem::path& file, std::size_t every, bool overwrite)
-    : path_(file, base::kFile, overwrite), is_thinned_(every == 0), every_(std::max<std::size_t>(1, every)) {}
+    : path_(file, base::kFile, overwrite),
+      is_thinned_(every == 0),
+      every_(std::max<std::size_t>(1, every)) {}
 
-/// The sensor's pose in the page: that in the map, otherwise its attitude. Empty if unknown.
-Json ViewOutput::poseOf(const ObservationSegmenter::Output& segmented) {
+/// The pose of the image frame in the page: from the map, otherwise from the attitude. Empty if
+/// unknown.
+Json ViewOutput::poseOf(const ObservationSegmenter::Output& segmented,
+                        const Eigen::Matrix3f& image_from_sensor) {
+    Eigen::Isometry3d from_sensor = Eigen::Isometry3d::Identity();
     if (segmented.pose.sensor_pose) {
         const mrpt::poses::CPose3D& pose = *segmented.pose.sensor_pose;
-        Eigen::Isometry3d from_sensor = Eigen::Isometry3d::Identity();
-        for (int row = 0; row < 3; ++row) {
-            for (int column = 0; column < 3; ++column) {
-                from_sensor(row, column) = pose.getRotationMatrix()(row, column);
-            }
-        }
+        from_sensor.linear() = pose.getRotationMatrix().asEigen();
         from_sensor.translation() = Eigen::Vector3d(pose.x(), pose.y(), pose.z());
         if (!origin_m_) origin_m_ = from_sensor.translation();
         from_sensor.translation() -= *origin_m_;
-        return json(from_sensor.matrix());
+    } else if (segmented.pose.attitude) {
+        from_sensor.linear() = levelFromSensor(*segmented.pose.attitude).cast<double>();
+    } else {
+        return {};
     }
-    if (!segmented.pose.attitude) return {};
-    Eigen::Isometry3f level = Eigen::Isometry3f::Identity();
-    level.linear() = levelFromSensor(*segmented.pose.attitude);
-    return json(level.matrix());
+    from_sensor.linear() *= image_from_sensor.cast<double>().transpose();
+    return json(from_sensor.matrix());
 }
 
 void ViewOutput::write(const std::string& name, const ObservationSegmenter::Output& segmented,
                        const std::string& sensor_label) {
     if (scans_++ % every_ != 0) return;
     const SegmentationResult& result = *segmented.result;
-    const int step =
-        1 + static_cast<int>(result.range_angle_rad.cols() - 1) / kMaxAngleColumns;
+    const int step = 1 + static_cast<int>(result.range_angle_rad.cols() - 1) / kMaxAngleColumns;
+    const std::optional<Attitude>& attitude = segmented.pose.attitude;
+    const Eigen::Matrix3f image_from_sensor = imageFromSensor(postureOf(attitude), attitude);
+    const Scan scan = turned(*segmented.scan, image_from_sensor);
     base::ViewArrays arrays;
-    addReturns(returnsOf(*segmented.scan, result), arrays);
+    addReturns(returnsOf(scan, result), arrays);
     std::vector<std::int32_t> maxima;
     for (const Maximum& maximum : result.maxima) {
         maxima.push_back(static_cast<std::int32_t>(maximum.column * result.labels.rows()) +
@@ -214,17 +227,14 @@ void ViewOutput::write(const std::string& name, const ObservationSegmenter::Outp
     Json frame = {{"image", {result.labels.rows(), result.labels.cols()}},
                   {"angle_step", step},
                   {"values", valuesOf(name, sensor_label, segmented)},
-                  {"boxes", boxesOf(*segmented.scan, result.returns)}};
-    const Json pose = poseOf(segmented);
+                  {"boxes", boxesOf(scan, result.returns)}};
+    const Json pose = poseOf(segmented, image_from_sensor);
     if (!pose.is_null()) {
         frame["pose"] = pose;
         frame["is_placed"] = segmented.pose.sensor_pose.has_value();
     }
     if (result.ground.is_seen) {
-        const std::optional<Attitude>& attitude = segmented.pose.attitude;
-        frame["ground"] =
-            groundOf(result.ground, imageFromSensor(postureOf(attitude), attitude),
-                     segmented.options->zone_m, arrays);
+        frame["ground"] = groundOf(result.ground, segmented.options->zone_m, arrays);
     }
     frame.update(arrays.json());
     frames_.push_back(base::dumpJson(frame));
@@ -235,8 +245,9 @@ void ViewOutput::write(const std::string& name, const ObservationSegmenter::Outp
         std::vector<std::string> kept;
         for (std::size_t i = 0; i < frames_.size(); i += 2) kept.push_back(std::move(frames_[i]));
         frames_ = std::move(kept);
-        bytes_ = std::accumulate(frames_.begin(), frames_.end(), std::size_t{0},
-                                 [](std::size_t sum, const auto& text) { return sum + text.size(); });
+        bytes_ =
+            std::accumulate(frames_.begin(), frames_.end(), std::size_t{0},
+                            [](std::size_t sum, const auto& text) { return sum + text.size(); });
     }
 }
 
@@ -251,17 +262,17 @@ void ViewOutput::finish(const Conversion& conversion, const ConversionReport& re
         notes.push_back((label.empty() ? "" : label + ": ") + sensor);
     }
     if (every_ > 1) {
-        notes.push_back("1 of " + std::to_string(every_) + " scans is shown; statistics are of all " +
-                        std::to_string(scans.size()));
+        notes.push_back("1 of " + std::to_string(every_) +
+                        " scans is shown; statistics are of all " + std::to_string(scans.size()));
     }
     if (report.scans_without_ground * 2 > report.scans) {
-        notes.push_back({{"text", "No ground in most scans: everything near is RoI."},
-                         {"is_alarm", true}});
+        notes.push_back(
+            {{"text", "No ground in most scans: everything near is RoI."}, {"is_alarm", true}});
     }
-    const std::string name = (conversion.input.has_filename() ? conversion.input
-                                                              : conversion.input.parent_path())
-                                 .filename()
-                                 .string();
+    const std::string name =
+        (conversion.input.has_filename() ? conversion.input : conversion.input.parent_path())
+            .filename()
+            .string();
     const Json data = {
         {"format", "hagen-view-1"},
         {"heading", name},

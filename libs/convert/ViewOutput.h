@@ -30,7 +30,8 @@ class ViewOutput {
     std::filesystem::path keepPartial() { return path_.keepPartial(); }
 
  private:
-    base::Json poseOf(const observations::ObservationSegmenter::Output& segmented);
+    base::Json poseOf(const observations::ObservationSegmenter::Output& segmented,
+                      const Eigen::Matrix3f& image_from_sensor);
 
     base::OutputPath path_;
     bool is_thinned_;

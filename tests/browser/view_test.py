@@ -69,7 +69,8 @@ def check_data(folder):
     """The page has every return of the labelled clouds, rounded, with its label."""
     page = folder / "orchard.html"
     view(ORCHARD, page, "--clouds", folder / "clouds", "--from", "0", "--to", "4")
-    frame = unpacked(data_of(page)["frames"][0])
+    packed = data_of(page)["frames"][0]
+    frame, (rows, columns) = unpacked(packed), packed["image"]
     cloud = [point for point in cloud_of(sorted((folder / "clouds").glob("*.ply"))[0])
              if point[3] != 0]
     check(len(frame["range"]) == len(cloud), f"the page has all {len(cloud)} returns")
@@ -77,12 +78,18 @@ def check_data(folder):
     for x, y, z, label in cloud:
         cells.setdefault((round(x), round(y), round(z)), []).append((x, y, z, label))
     lost = 0
-    for range_, azimuth, elevation, label in zip(*(frame[name] for name in (
-            "range", "azimuth", "elevation", "label"))):
-        range_m, azimuth_rad, elevation_rad = range_ * 0.03, azimuth * math.pi / 8192, elevation * 0.0005
+    azimuths, offsets = iter(frame["azimuth"]), iter(frame["offset"])
+    for range_, elevation, label, pixel in zip(*(frame[name] for name in (
+            "range", "elevation", "label", "pixel"))):
+        range_m, elevation_rad = range_ * 0.04, elevation * 0.0005
+        if pixel < 0:
+            azimuth_rad = next(azimuths) * math.pi / 8192
+        else:
+            azimuth_rad = math.pi - 2 * math.pi / columns * (
+                pixel // rows + 0.5 - (next(offsets) - 128) / 8)
         at = (range_m * math.cos(elevation_rad) * math.cos(azimuth_rad),
               range_m * math.cos(elevation_rad) * math.sin(azimuth_rad), range_m * math.sin(elevation_rad))
-        tolerance = 0.016 + 0.0005 * range_m
+        tolerance = 0.021 + 0.001 * range_m
         around = [point for dx in (-1, 0, 1) for dy in (-1, 0, 1) for dz in (-1, 0, 1)
                   for point in cells.get((round(at[0]) + dx, round(at[1]) + dy, round(at[2]) + dz), [])]
         lost += not any(point[3] == label and math.dist(point[:3], at) < tolerance for point in around)

@@ -131,8 +131,8 @@ class PageWriter {
         }
         Numbers heights;
         for (const double height_m : scene.ground.heights_m) {
-            heights.push_back(base::roundedTo<std::int16_t>(
-                (height_m - recording_.start_m.z()) / kUnit_m));
+            heights.push_back(
+                base::roundedTo<std::int16_t>((height_m - recording_.start_m.z()) / kUnit_m));
         }
         arrays_.add("ground", heights, true);
         return {{"unit_m", kShapeUnit_m},

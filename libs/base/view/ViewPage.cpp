@@ -13,7 +13,9 @@ namespace hagen::base {
 namespace {
 
 constexpr double kTurn_rad = 6.283185307179586;
-constexpr double kAzimuths = 16384, kElevationUnit_rad = 0.0005, kRangeUnit_m = 0.03;  // as in view.js
+constexpr double kAzimuths = 16384, kElevationUnit_rad = 0.0005, kRangeUnit_m = 0.04;
+constexpr double kOffsets = 8,
+                 kNoOffset = 128;  // so that the upper byte is usually 0  // as in view.js
 
 std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes, int level) {
     const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
@@ -71,8 +73,8 @@ template <class Integer>
 Integer roundedTo(double value) {
     using Limits = std::numeric_limits<Integer>;
     if (std::isnan(value)) return 0;
-    return static_cast<Integer>(std::lround(std::clamp(
-        value, static_cast<double>(Limits::min()), static_cast<double>(Limits::max()))));
+    return static_cast<Integer>(std::lround(
+        std::clamp(value, static_cast<double>(Limits::min()), static_cast<double>(Limits::max()))));
 }
 template std::uint8_t roundedTo(double);
 template std::int16_t roundedTo(double);
@@ -83,12 +85,22 @@ Json ViewArrays::json(int level) const {
 }
 
 void addReturns(const ViewReturns& returns, ViewArrays& arrays) {
-    std::vector<std::uint16_t> azimuth(returns.azimuth_rad.size());
-    std::transform(returns.azimuth_rad.begin(), returns.azimuth_rad.end(), azimuth.begin(),
-                   [](float azimuth_rad) {
-                       return static_cast<std::uint16_t>(
-                           std::lround(static_cast<double>(azimuth_rad) / kTurn_rad * kAzimuths));
-                   });
+    // Relative to the column, azimuths take half the space.
+    std::vector<std::int16_t> offset;
+    std::vector<std::uint16_t> azimuth;
+    for (std::size_t i = 0; i < returns.size(); ++i) {
+        const double turns = static_cast<double>(returns.azimuth_rad[i]) / kTurn_rad;
+        if (returns.pixel.empty() || returns.pixel[i] < 0) {
+            azimuth.push_back(static_cast<std::uint16_t>(std::lround(turns * kAzimuths)));
+            continue;
+        }
+        // The column's centre: column 0 faces backwards, columns run clockwise.
+        const int column = returns.pixel[i] / returns.rows;
+        const double centre = 0.5 - (column + 0.5) / returns.columns;
+        const double columns = std::remainder(turns - centre, 1.0) * returns.columns;
+        offset.push_back(roundedTo<std::int16_t>(kOffsets * columns + kNoOffset));
+    }
+    arrays.add("offset", offset);
     arrays.add("azimuth", azimuth, true);
     arrays.add("elevation", inUnits<std::int16_t>(returns.elevation_rad, kElevationUnit_rad), true);
     arrays.add("range", inUnits<std::uint16_t>(returns.range_m, kRangeUnit_m), true);

@@ -46,16 +46,17 @@ class ViewArrays {
 /// the quantity is unknown.
 struct ViewReturns {
     std::vector<float> azimuth_rad, elevation_rad, range_m;
-    std::vector<float> intensity;         ///< 0 to 1
-    std::vector<std::uint8_t> label;      ///< 0 unclassified, 1 ROU, 2 RoI
-    std::vector<std::int32_t> obstacle;   ///< of RoI returns; 0: none
-    std::vector<std::int32_t> pixel;      ///< column * rows + row; -1: none
+    std::vector<float> intensity;        ///< 0 to 1
+    std::vector<std::uint8_t> label;     ///< 0 unclassified, 1 ROU, 2 RoI
+    std::vector<std::int32_t> obstacle;  ///< of RoI returns; 0: none
+    std::vector<std::int32_t> pixel;     ///< column * rows + row; -1: none
+    int rows = 0, columns = 0;           ///< of the image of `pixel`
 
     std::size_t size() const { return range_m.size(); }
 };
 
-/// Adds the returns, rounded: angles to 0.02 and 0.03 degrees, ranges to 3 cm (up to 1966 m),
-/// intensities to 16 levels.
+/// Adds the returns, rounded: azimuths to 1/8 column or 0.02 degrees, elevations to 0.03 degrees,
+/// ranges to 4 cm (up to 2621 m), intensities to 16 levels.
 void addReturns(const ViewReturns& returns, ViewArrays& arrays);
 
 /// Rounds a value and limits it to the range of an integer.

@@ -130,7 +130,7 @@ const groundWires = placed(new THREE.LineSegments(new THREE.BufferGeometry(),
     new THREE.LineBasicMaterial({color: colors.ground, transparent: true, opacity: 0.5})), groundFrame);
 const groundFaces = placed(new THREE.Mesh(new THREE.BufferGeometry(), surface(colors.ground, 0.18)), groundFrame);
 const directions = new THREE.Group();
-sensor.add(directions);
+scene.add(directions);  // level, around the vehicle
 const marker = placed(new THREE.Mesh(new THREE.SphereGeometry(0.18, 16, 12), new THREE.MeshBasicMaterial({color: 0xff00aa})), sensor);
 marker.visible = false;
 const vehicle = new THREE.Group();
@@ -138,7 +138,7 @@ scene.add(vehicle);
 
 const matrixOf = rows => new THREE.Matrix4().set(...(rows || [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]), 0, 0, 0, 1);
 
-const rangeUnit = 0.03;
+const rangeUnit = 0.04;
 /// Coordinates, heights above the ground, and the colour of each obstacle.
 function complete(frame, arrays) {
   if (arrays.obstacle) {  // stored for RoI returns only
@@ -146,12 +146,18 @@ function complete(frame, arrays) {
     let at = 0;
     arrays.obstacle = Uint16Array.from(arrays.label, label => label === 2 ? stored[at++] : 0);
   }
+  let explicit = 0;  // returns with a pixel have an offset from its column instead, in 1/8 columns
+  const azimuthOf = i => {
+    if (!arrays.pixel || arrays.pixel[i] < 0) return arrays.azimuth[explicit++] * Math.PI / 8192;
+    const [rows, columns] = frame.image, column = Math.floor(arrays.pixel[i] / rows);
+    return Math.PI * (1 - 2 * (column + 0.5 - (arrays.offset[i - explicit] - 128) / 8) / columns);
+  };
   const count = arrays.label.length, xyz = new Float32Array(3 * count);
   for (let i = 0; i < count; ++i) {
     if (arrays.xyz) {
       for (let k = 0; k < 3; ++k) xyz[3 * i + k] = arrays.xyz[3 * i + k] * data.unit_m;
     } else {
-      const range = arrays.range[i] * rangeUnit, elevation = arrays.elevation[i] * 0.0005, azimuth = arrays.azimuth[i] * Math.PI / 8192;
+      const range = arrays.range[i] * rangeUnit, elevation = arrays.elevation[i] * 0.0005, azimuth = azimuthOf(i);
       const flat = range * Math.cos(elevation);
       xyz.set([flat * Math.cos(azimuth), flat * Math.sin(azimuth), range * Math.sin(elevation)], 3 * i);
     }
@@ -276,7 +282,7 @@ function showGround(frame, arrays) {
 function showDirections({directions: d}) {
   directions.children.slice().forEach(child => { child.geometry.dispose(); directions.remove(child); });
   (d ? d.distance_m : []).forEach((distance, i, all) => {
-    const begin = (d.begin_deg + i * 360 / all.length) * Math.PI / 180, width = 2 * Math.PI / all.length;
+    const width = 2 * Math.PI / all.length, begin = -d.begin_deg * Math.PI / 180 - (i + 1) * width;  // clockwise
     const color = {occupied: colors.roi, free: colors.free}[d.state[i]] || colors.unknown;
     const outer = d.state[i] === 'occupied' ? distance : data.zone_m;
     const wedge = new THREE.Mesh(new THREE.RingGeometry(outer * 0.94, outer, 4, 1, begin, width * 0.92),
@@ -582,8 +588,8 @@ if (window.flight) {
 }
 layer('roi', 'regions of interest', colors.roi, [roi.object]);
 layer('rou', 'other returns', colors.rou, [rou.object]);
-if (data.live || frames.some(frame => frame.boxes)) layer('boxes', 'nearest obstacles', colors.box, [boxes.object]);
-if (data.live || frames.some(frame => frame.ground)) layer('ground', 'ground surface', colors.ground, [groundWires, groundFaces]);
+if (frames.some(frame => frame.boxes)) layer('boxes', 'nearest obstacles', colors.box, [boxes.object]);
+if (frames.some(frame => frame.ground)) layer('ground', 'ground surface', colors.ground, [groundWires, groundFaces]);
 if (flown) layer('flown', 'trajectory', colors.track, [flown.object]);
 if (data.live) layer('directions', 'directions for the autopilot', colors.free, [directions]);
 byId('stages').open = window.matchMedia('(min-width: 900px) and (min-height: 700px)').matches;
