@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Opens pages of rawlog-segment --view in a browser, and compares their data with --clouds.
-Usage: view_test.py RAWLOG-SEGMENT SOURCE-FOLDER"""
+Usage: view_test.py PROGRAMS-FOLDER SOURCE-FOLDER"""
 import base64
 import json
 import math
@@ -15,7 +15,8 @@ import zlib
 
 from webdriver import Browser, changed
 
-program, source = (pathlib.Path(name).resolve() for name in sys.argv[1:3])
+programs, source = (pathlib.Path(name).resolve() for name in sys.argv[1:3])
+program = programs / "rawlog-segment"
 ORCHARD = source / "rawlogs/orchard.rawlog"
 SIZES = {"u8": 1, "u16": 2, "i16": 2, "i32": 4}
 
@@ -138,11 +139,25 @@ def check_page(page):
         check(browser.errors() == [], "no errors")
 
 
+def write_las(file):
+    """LAS 1.2, point format 0: a wall and the ground, in millimetres."""
+    points = [(6000, y, z) for y in range(-3000, 3000, 50) for z in range(-1500, 2000, 100)]
+    points += [(x, y, -1500) for x in range(500, 6000, 100) for y in range(-3000, 3000, 100)]
+    head = struct.pack("<4sHHIHH8sBB32s32sHHHIIBHI5I", b"LASF", 0, 0, 0, 0, 0, b"", 1, 2, b"", b"",
+                       1, 2026, 227, 227, 0, 0, 20, len(points), len(points), 0, 0, 0, 0)
+    head += struct.pack("<12d", *[0.001] * 3, *[0.0] * 3, 6, 0.5, 3, -3, 2, -1.5)
+    file.write_bytes(head + b"".join(struct.pack("<3iHBBbBH", *point, 100, 9, 0, 0, 0, 0) for point in points))
+
+
 def check_inputs(folder):
     """Every kind of input opens without an error."""
-    subprocess.run([program, ORCHARD, "--kitti", folder / "kitti", "--clouds", folder / "clouds",
-                    "--mcap", folder / "orchard.mcap", "--overwrite", "-q", "--to", "9"], check=True)
-    inputs = [folder / "kitti", folder / "clouds", folder / "orchard.mcap"]
+    for flags in (("--kitti", folder / "kitti", "--clouds", folder / "clouds"),
+                  ("--mcap", folder / "orchard.mcap", "--clouds", folder / "pcd", "--cloud-format", "pcd")):
+        subprocess.run([program, ORCHARD, *flags, "--overwrite", "-q", "--to", "9"], check=True)
+    subprocess.run([programs / "make-recordings", source / "rawlogs/poles_and_wall.rawlog", folder], check=True)
+    write_las(folder / "wall.las")
+    inputs = [folder / name for name in ("kitti", "kitti/velodyne", "clouds", "pcd", "wall.las", "orchard.mcap", "flight.pcap",
+                                         "livox.pcap", "flight.bag", "flight.mcap", "flight.db3")]
     for variable, names in (("HAGEN_VELODYNE_DATA", ("*vlp16_gps.pcap", "*hdl32.pcap")),
                             ("HAGEN_OUSTER_DATA", ("OS-0-32*.pcap", "OS-1-128*.pcap")),
                             ("HAGEN_FIELD_DATA", ("*.bag", "*.npy", "scalar*.ply"))):
