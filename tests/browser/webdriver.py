@@ -124,9 +124,9 @@ class Browser:
             assert time.monotonic() < end, f"timeout waiting for: {script}"
             time.sleep(0.1)
 
-    def screenshot(self, file):
-        picture = self.call("GET", self.session + "/screenshot")
-        pathlib.Path(file).write_bytes(base64.b64decode(picture))
+    def screenshot(self):
+        """A picture of the window (PNG)."""
+        return base64.b64decode(self.call("GET", self.session + "/screenshot"))
 
     def errors(self):
         """Errors on the console; warnings about slow software WebGL are ignored."""

@@ -458,6 +458,7 @@ function frameAt(when) {
 }
 async function showFrame(index) {
   wanted = index;
+  state.wanted = String(index);
   const arrays = index >= 0 ? await arraysOf(index) : null;
   if (wanted !== index || state.frame === String(index)) return;
   state.frame = String(index);
