@@ -3,7 +3,6 @@
 Reads jobs from standard input: a line of JSON, then the arrays listed in it (type, shape). Answers each with a line,
 which is empty or says what went wrong. `kind` names the function that draws a job.
 """
-import gc
 import json
 import logging
 import os
@@ -19,6 +18,8 @@ try:
     from matplotlib.figure import Figure
     from matplotlib.legend_handler import HandlerTuple
     from matplotlib.lines import Line2D
+    from matplotlib.patches import Circle
+    from matplotlib.ticker import LogLocator, NullFormatter
 except ImportError:
     with open("/proc/self/cmdline", encoding="utf-8") as file:
         words = file.read().split("\0")[1:-1]
@@ -30,6 +31,7 @@ except ImportError:
 INK, FAINT, LINES, EMPTY, ROU = "#333333", "#666666", "#DDDDDD", "#E9E9E9", "#A9BCCB"
 # Colour-blind safe (Okabe and Ito).
 COLOURS = ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#7A1F5C"]
+LONE = "#777777"  # RoI returns of no obstacle
 CHART_COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", INK, "#56B4E9"]
 LABELLED = 5  # obstacles with their distance
 MAX_BARS, MAX_COMPONENTS = 60, 12
@@ -99,7 +101,7 @@ class Scan:
         self.label_image = rgb([EMPTY, ROU, ROU])[self.labels]
         is_roi = self.labels == 2
         number = np.minimum(number, len(self.boxes))  # pixels whose returns are all ROU
-        self.label_image[is_roi] = rgb(COLOURS)[self.colour[number[self.components[is_roi]]]]
+        self.label_image[is_roi] = rgb([*COLOURS, LONE])[self.colour[number[self.components[is_roi]]]]
         # The top view shows the obstacles and the near ground, and at most the zone.
         far = np.maximum(np.abs(self.x_m), np.abs(self.y_m))
         far[~np.isfinite(far)] = np.inf
@@ -129,6 +131,7 @@ class Scan:
             distance = np.minimum(gap, 5 * np.maximum(turn, 0)) + 1e-3 * np.hypot(*(middle[others] - middle[i]).T)
             nearest = [distance[colour[others + 1] == c].min(initial=np.inf) for c in range(len(COLOURS))]
             colour[i + 1] = int(np.argmax(nearest))
+        colour[0] = len(COLOURS)
         return colour
 
     def save(self, name, page):
@@ -235,7 +238,8 @@ class Scan:
         def mark(shape, colour):
             return Line2D([], [], ls="", marker=shape, color=colour, ms=7)
         handles = {"obstacles (RoI)": tuple(mark("s", colour) for colour in COLOURS),
-                   "ground, far (ROU)": mark("s", ROU), "no return": mark("s", EMPTY), "unclassified": mark("x", INK)}
+                   "ground, far (ROU)": mark("s", ROU), "no return": mark("s", EMPTY),
+                   "lone returns (RoI)": mark("s", LONE), "unclassified": mark("x", INK)}
         names = ["obstacles (RoI)", "ground, far (ROU)", *more]
         axes.legend([handles[name] for name in names], names, ncol=len(names), borderpad=0, handletextpad=0.5,
                     handler_map={tuple: HandlerTuple(ndivide=None, pad=0.1)}, **where)
@@ -245,19 +249,23 @@ class Scan:
         axes.set_xlim(self.half, -self.half)
         axes.set_ylim(-self.half, self.half)
         axes.grid()
-        axes.add_patch(matplotlib.patches.Circle((0, 0), self.zone_m, fill=False, ec="#888888", ls="--"))
+        axes.add_patch(Circle((0, 0), self.zone_m, fill=False, ec="#888888", ls="--"))
         axes.set_xlabel("to the left [m]")
         axes.set_ylabel("forward [m]")
         x, y, label, component = (values[self.shown] for values in (self.x_m, self.y_m, self.label, self.component))
         axes.plot(y[label == 1], x[label == 1], "o", ms=1.8, mew=0, color=ROU)
         colour = self.colour[component]
-        for c, name in enumerate(COLOURS):
+        for c, name in [(len(COLOURS), LONE), *enumerate(COLOURS)]:
             some = (label == 2) & (colour == c)
-            axes.plot(y[some], x[some], "o", ms=3, mew=0, color=name)
+            axes.plot(y[some], x[some], "o", ms=2 if name == LONE else 3, mew=0, color=name)
         axes.plot(y[label == 0], x[label == 0], "x", ms=4, color=INK)
         axes.plot(0, 0, "x", ms=10, mew=2.5, color="black")
-        self.legend(axes, *(["unclassified"] if (label == 0).any() else []), loc="lower left", bbox_to_anchor=(0, 1))
-        self.label_obstacles(axes, x[label == 2], y[label == 2])
+        more = [name for name, some in (("lone returns (RoI)", (label == 2) & (component == 0)),
+                                        ("unclassified", label == 0)) if some.any()]
+        self.legend(axes, *more, loc="lower left", bbox_to_anchor=(0, 1))
+        some = np.flatnonzero(label == 2)
+        some = some[::1 + len(some) // 2000]  # enough to find room for labels
+        self.label_obstacles(axes, x[some], y[some])
 
     def label_obstacles(self, axes, x, y):
         """Writes distances and heights of the nearest obstacles where they hide little."""
@@ -435,14 +443,16 @@ def chart(job):
             low, high = (np.array(line.get(end, line["y"]), float) for end in ("low", "high"))
             if "categories" in panel:  # so that intervals do not overlap
                 x += 0.08 * (l - (len(panel["lines"]) - 1) / 2)
-            axes.errorbar(x, y, [np.maximum(y - low, 0), np.maximum(high - y, 0)], fmt="os^vDPX"[l % 7], ms=3.5,
-                          ls=panel.get("ls", "-"), lw=1.3, elinewidth=0.7, color=CHART_COLOURS[l % 7],
-                          label=plain(line["name"]))
+            axes.errorbar(x, y, [np.maximum(y - low, 0), np.maximum(high - y, 0)], fmt="os^vDPX"[l % 7],
+                          ms=3.5 if len(x) < 50 else 2.5, ls=panel.get("ls", "-"), lw=1.3, elinewidth=0.7,
+                          color=CHART_COLOURS[l % 7], label=plain(line["name"]))
         log = panel.get("log", "")
         for name, axis in (("x", axes.xaxis), ("y", axes.yaxis)):
             if name in log:
                 getattr(axes, f"set_{name}scale")("log")
+                axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
                 axis.set_major_formatter(lambda value, _: f"{value:g}")
+                axis.set_minor_formatter(NullFormatter())
         if "y" not in log:
             axes.set_ylim(lowest, 1.02 - 0.02 * lowest)  # shows whole marks at 1
         if "categories" in panel:
@@ -468,7 +478,6 @@ def main():
         "font.size": 9.5, "axes.edgecolor": INK, "axes.titlesize": 10, "axes.titleweight": "bold",
         "axes.titlelocation": "left", "axes.axisbelow": True, "axes.unicode_minus": False, "grid.color": LINES,
         "legend.frameon": False, "svg.fonttype": "none", "svg.hashsalt": "hagen"})
-    gc.freeze()  # the modules
     jobs = sys.stdin.buffer
     for line in iter(jobs.readline, b""):
         job = json.loads(line)
