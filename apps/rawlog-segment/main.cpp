@@ -133,9 +133,11 @@ void declare(Program& app, Flags& flags) {
                "boxes, and poses if known")
         .extension({".mcap"})
         .group("Output");
-    const Flag pictures = app.option("--pictures", conversion.pictures,
-                                     "folder of PNGs of each stage, one subfolder per scan")
-                              .group("Output");
+    const Flag pictures =
+        app.option("--pictures", conversion.pictures,
+                   "folder of PNGs, one subfolder per scan: overview with the "
+                   "nearest obstacles, and each stage; requires python3-matplotlib")
+            .group("Output");
     app.option("--picture-azimuth", conversion.picture_azimuth_deg,
                "column whose principal components are drawn: degrees left of straight ahead "
                "(default: column of the nearest obstacle)")

@@ -23,7 +23,7 @@ namespace hagen::convert {
 std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
 
 /// The requested outputs of a conversion. If an output fails (full disk, full map, missing
-/// gnuplot), it is aborted and commit() reports it; the others are not affected.
+/// matplotlib), it is aborted and commit() reports it; the others are not affected.
 class ConversionOutputs {
  public:
     /// Throws std::runtime_error naming an output that cannot be written.
