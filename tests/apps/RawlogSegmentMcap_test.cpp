@@ -129,7 +129,7 @@ TEST_F(RawlogSegmentMcap, RejectsInvalidOutputs) {
     expectFailures(log, 1,
                    {{{"--mcap", path("out.mcap")}, "out.mcap exists; use --overwrite"},
                     {{"--mcap", path("folder.mcap"), "--overwrite"}, "not a file"},
-                    {{"--mcap", path("none/out.mcap")}, "none: no such folder"}});
+                    {{"--mcap", path("in.mcap/out.mcap")}, "in.mcap: cannot be created"}});
     expectFailures(log, 2,
                    {{{"--mcap", path("out.bag")}, "does not end in .mcap"},
                     {{"--mcap", ""}, "must not be empty"}});

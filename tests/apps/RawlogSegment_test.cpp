@@ -479,8 +479,7 @@ TEST_F(RawlogSegment, KeepsReadablePartOfTruncatedLog) {
 TEST_F(RawlogSegment, ReportsUnwritableOutputs) {
     const Arguments log{"-i", recording()};
     expectFailures(log, 1,
-                   {{{"-o", path("none/out.rawlog")}, "no such folder"},
-                    {{"-o", "/proc/self/out"}, "/proc/self/out"},
+                   {{{"-o", "/proc/self/out"}, "/proc/self/out"},
                     {{"--kitti", "/proc/self/out"}, "/proc/self/out"}});
     // A file size limit of 64 kB simulates a full disk.
     for (const Arguments& output : {Arguments{"-o", path("out.rawlog")},
