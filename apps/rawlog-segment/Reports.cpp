@@ -52,13 +52,12 @@ std::string sizeText(const std::filesystem::path& path) {
 }
 
 void printEntries(const Conversion& conversion, const ConversionReport& report) {
-    const std::size_t last = report.left_out_before + report.entries - 1;
-    // If the recording ends before --to, no later entries were skipped.
-    const bool is_cut = report.left_out_before > 0 || last == conversion.to;
     std::cout << counted(report.scans, "LiDAR scan") << " in "
               << counted(report.entries, "entry", "entries");
-    if (is_cut) {
-        std::cout << " (" << report.left_out_before << " to " << last
+    // If the recording ends before --to, no later scans were skipped.
+    const auto& scans = report.scan_reports;
+    if (!scans.empty() && (conversion.from > 0 || scans.back().entry == conversion.to)) {
+        std::cout << " (scans " << scans.front().entry << " to " << scans.back().entry
                   << " of the input; the rest was skipped)";
     }
     std::cout << ", " << report.returns << " returns:\n";
@@ -94,7 +93,7 @@ void printObstacles(const ConversionReport& report) {
     if (nearest->obstacles > 0) {
         std::cout << "nearest obstacle: " << fixedText(distance_m(*nearest), 2) << " m, "
                   << fixedText(nearest->time_s - scans.front().time_s, 1)
-                  << " s after the first scan (entry " << nearest->entry << ")\n";
+                  << " s after the first scan (scan " << nearest->entry << ")\n";
     }
     std::cout << "obstacles per scan: " << fixedText(hagen::base::quantile(obstacles, 0.5), 0)
               << " (median); time per scan: "

@@ -79,11 +79,13 @@ void declare(Program& app, Flags& flags) {
                "read only this LiDAR topic of a ROS recording; may be repeated")
         .once()
         .group("Input");
-    app.option("--from", conversion.from,
-               "first entry to convert, counted from 0 (folder or bag: scan; capture: turn)")
+    app.option(
+           "--from", conversion.from,
+           "first scan to convert, counted from 0 (a turn of a capture, or an entry with scans of "
+           "a rawlog)")
         .notNegative()
         .group("Input");
-    app.option("--to", conversion.to, "last entry to convert").notNegative().group("Input");
+    app.option("--to", conversion.to, "last scan to convert").notNegative().group("Input");
     app.option("--sensor-label", conversion.sensor_labels,
                "segment only this LiDAR; may be repeated")
         .once()
@@ -290,8 +292,8 @@ void capture(const Flags& flags) {
     const convert::Conversion& conversion = flags.conversion;
     recordings::SourceOptions options;
     options.sensor_labels = conversion.sensor_labels;
-    options.first_entry = conversion.from;
-    options.last_entry = conversion.to;
+    options.first_scan = conversion.from;
+    options.last_scan = conversion.to;
     options.sensor_json = conversion.sensor_json;
     options.topics = conversion.topics;
     options.keep_going = [] { return !isInterrupted(); };
@@ -346,7 +348,7 @@ int command(int argc, char** argv) {
         "  rawlog-segment flight.rawlog --view flight.html\n"
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog --preview\n"
         "  rawlog-segment -i flight.rawlog --kitti labels -c paper\n"
-        "  rawlog-segment -i flight.rawlog --pictures pictures --from 100 --to 110\n"
+        "  rawlog-segment -i flight.rawlog --pictures pictures --from 20 --to 25\n"
         "  rawlog-segment -i flight.rawlog --octomap map.bt --poses flight.tum\n"
         "  rawlog-segment -i scan_folder --kitti labels -c hdl64e\n"
         "  rawlog-segment -i flight.pcap -o segmented.rawlog\n"

@@ -135,11 +135,20 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
     path_ = withoutSlash(path_);
     checkFree();
     const fs::path folder = parentOf(path_);
-    if (!fs::is_directory(folder)) failAt(folder, "no such folder");
+    std::error_code error;
+    for (fs::path missing = folder; !fs::exists(missing, error); missing = missing.parent_path()) {
+        created_.push_back(missing);
+    }
+    fs::create_directories(folder, error);
+    if (error) failAt(folder, "cannot be created: " + error.message());
     temporary_ = secretName(path_, kTemporaryMark);
 }
 
-OutputPath::~OutputPath() { removeAll(temporary_); }
+OutputPath::~OutputPath() {
+    removeAll(temporary_);
+    std::error_code not_empty;
+    for (const fs::path& folder : created_) fs::remove(folder, not_empty);
+}
 
 void OutputPath::checkFree() const {
     if (!fs::exists(fs::symlink_status(path_))) return;

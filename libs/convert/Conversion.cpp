@@ -6,6 +6,7 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/lazy_load_path.h>
 #include "base/MemoryLimit.h"
+#include "base/NumberText.h"
 #include "mrpt/Results.h"
 #include "recordings/PoseFile.h"
 #include "recordings/bags/BagFile.h"
@@ -148,8 +149,8 @@ class Converter {
         options.sensor_json = conversion_.sensor_json;
         options.calibration = conversion_.calibration;
         options.topics = conversion_.topics;
-        options.first_entry = conversion_.from;
-        options.last_entry = conversion_.to;
+        options.first_scan = conversion_.from;
+        options.last_scan = conversion_.to;
         if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;
         options.keep_going = listener_.keep_going;
         return options;
@@ -277,10 +278,11 @@ class Converter {
     }
 
     ConversionReport finish() {
-        if (report_.entries == 0) {
-            throw std::runtime_error(
-                conversion_.input.string() + ": has " + std::to_string(source_->entriesKnown()) +
-                " entries, none at or after " + std::to_string(conversion_.from));
+        const std::size_t from = conversion_.from, known = source_->scansKnown();
+        if (report_.entries == 0 || (from > 0 && from >= known)) {
+            throw std::runtime_error(conversion_.input.string() + ": has " +
+                                     base::counted(known, "scan") + ", none at or after " +
+                                     std::to_string(from));
         }
         checkLabels();
         finishSensorCheck();

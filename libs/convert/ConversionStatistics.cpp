@@ -47,7 +47,7 @@ double inMillimetres(float metres) {
 
 Json lineOf(const ScanReport& scan) {
     const bool has_roi = !std::isnan(scan.nearest_roi_m);
-    return {{"entry", scan.entry},
+    return {{"scan", scan.entry},
             {"sensor", scan.sensor_label},
             {"name", scan.name},
             {"time_s", scan.time_s},

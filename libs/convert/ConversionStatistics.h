@@ -19,7 +19,7 @@ namespace hagen::convert {
 ///      "returns": {"all": n, "roi": n, "rou": n, "unclassified": n},
 ///      "returns_masked": n (of the unclassified: the airframe's),
 ///      "latency_ms": {"scans": n, "p50": ..., "p95": ..., "p99": ..., "max": ...},
-///      "scans": [{"entry": n, "sensor": label, "name": ..., "time_s": ..., "returns": n, "roi": n,
+///      "scans": [{"scan": n, "sensor": label, "name": ..., "time_s": ..., "returns": n, "roi": n,
 ///                 "rou": n, "unclassified": n, "returns_masked": n, "obstacles": n,
 ///                 "nearest_roi_m": x or null, "latency_ms": ...}, ...]}
 ///

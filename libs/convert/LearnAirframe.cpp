@@ -28,8 +28,8 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
     options.sensor_json = learning.sensor_json;
     options.calibration = learning.calibration;
     options.topics = learning.topics;
-    options.first_entry = learning.from;
-    options.last_entry = learning.to;
+    options.first_scan = learning.from;
+    options.last_scan = learning.to;
     options.keep_going = listener.keep_going;
     const auto source = openRecording(learning.input, options);
     const Settings settings = source->useSettings(learning.settings);

@@ -13,7 +13,7 @@ CaptureSource::CaptureSource(const std::filesystem::path& capture, const SourceO
                                        [this] { checkInterruption(); })) {}
 
 std::optional<RecordedEntry> CaptureSource::nextEntry() {
-    while (turns_ <= options_.last_entry) {
+    while (turns_ <= options_.last_scan) {
         checkInterruption();
         const auto turn = capture_->nextScan();
         is_read_to_end_ = turn == nullptr;
@@ -68,7 +68,7 @@ std::map<std::string, std::vector<mrpt::Clock::time_point>> CaptureSource::scanT
 
 std::vector<std::string> CaptureSource::remarks() const {
     std::vector<std::string> remarks = capture_->remarks();
-    if (!is_read_to_end_ && turns_ > options_.last_entry) {
+    if (!is_read_to_end_ && turns_ > options_.last_scan) {
         for (std::string& remark : remarks) remark += " (up to the last entry converted)";
     }
     return remarks;

@@ -12,7 +12,7 @@ class CaptureSource : public ScanSource {
 
     std::optional<RecordedEntry> nextEntry() override;
     std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
-    std::size_t entriesKnown() const override { return turns_; }
+    std::size_t scansKnown() const override { return turns_; }
     std::vector<std::string> remarks() const override;
 
  protected:

@@ -5,7 +5,7 @@
 namespace hagen::recordings {
 
 std::optional<RecordedEntry> FileListSource::nextEntry() {
-    while (next_ < names_.size() && next_ <= options_.last_entry) {
+    while (next_ < names_.size() && next_ <= options_.last_scan) {
         const std::size_t i = next_++;
         checkInterruption();
         if (skips(i)) continue;
@@ -26,7 +26,7 @@ bool FileListSource::showClouds(observations::CloudSensors& sensors) {
     try {
         sensors.see(*read(i));
     } catch (const BrokenRecording& e) {
-        if (i >= options_.first_entry) brokeOffAhead(i, e.what());
+        if (i >= options_.first_scan) brokeOffAhead(i, e.what());
     }
     return true;
 }

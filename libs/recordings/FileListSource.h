@@ -12,7 +12,7 @@ class FileListSource : public ScanSource {
  public:
     std::optional<RecordedEntry> nextEntry() override;
     std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override;
-    std::size_t entriesKnown() const override { return names_.size(); }
+    std::size_t scansKnown() const override { return names_.size(); }
 
  protected:
     using Cloud = mrpt::obs::CObservationPointCloud::Ptr;

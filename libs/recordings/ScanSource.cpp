@@ -70,7 +70,7 @@ void ScanSource::checkInterruption() const {
 }
 
 bool ScanSource::skips(std::size_t entry) {
-    const bool is_before = entry < options_.first_entry;
+    const bool is_before = entry < options_.first_scan;
     entries_skipped_ += is_before;
     return is_before;
 }
@@ -102,7 +102,7 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
     labels_.insert(observation->sensorLabel);
     if (options_.packet) passPackets(*observation);
     if (labels_.size() > kMaxLabels) {
-        throw BrokenRecording(recording_.string() + ": entry " + std::to_string(entry.number) +
+        throw BrokenRecording(recording_.string() + ": scan " + std::to_string(entry.number) +
                               ": the recording has more than " + std::to_string(kMaxLabels) +
                               " LiDAR labels; select some of them (--sensor-label)");
     }
@@ -176,7 +176,7 @@ std::string titleOf(const RecordedScan& scan) {
     std::string name = scan.name.empty() ? scan.observation->sensorLabel : scan.name;
     const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
     std::replace_if(name.begin(), name.end(), isControl, '?');
-    return "entry " + std::to_string(scan.entry) + " (" + name + ")";
+    return "scan " + std::to_string(scan.entry) + " (" + name + ")";
 }
 
 }  // namespace hagen::recordings

@@ -193,7 +193,7 @@ the scan's time to the map frame. None if unknown.)")
 the horizon [rad]; None if unknown. See Filter.segment().)")
         .def_property_readonly(
             "entry", [](const PythonScan& scan) { return scan.recorded.entry; },
-            "Index of the entry in the recording.")
+            "Index of the scan in the recording; all scans of a sensory frame share it.")
         .def_property_readonly(
             "name", [](const PythonScan& scan) { return fileText(scan.recorded.name); },
             "File name without extension; empty for rawlogs, captures and bags.")
@@ -216,7 +216,7 @@ of a simulated scene [m]; otherwise None.)")
         .def("__repr__", [](const PythonScan& scan) {
             return shownText("<hagen.Scan: " + std::to_string(scan.xyz.shape(0)) + " returns of '" +
                              scan.recorded.observation->sensorLabel + "' (" + scan.sensor.name +
-                             "), entry " + std::to_string(scan.recorded.entry) + ">");
+                             "), scan " + std::to_string(scan.recorded.entry) + ">");
         });
 }
 
@@ -335,8 +335,8 @@ void defineSources(py::module_& m) {
                  options.sensor_json = sensor_json;
                  options.calibration = calibration;
                  options.topics = std::move(topics);
-                 options.first_entry = first;
-                 if (last) options.last_entry = *last;
+                 options.first_scan = first;
+                 if (last) options.last_scan = *last;
                  return std::make_unique<Recording>(file, options, poses);
              }),
              py::arg("file"), py::kw_only(), py::arg("sensor_labels") = std::vector<std::string>(),

@@ -110,7 +110,7 @@ TEST_F(RawlogSegmentBag, SummaryListsTopicsAndPoses) {
     const auto clouds =
         run({"-i", bag, "--topic", "velodyne_points", "-o", path("clouds.rawlog"), "--to", "1"});
     ASSERT_EQ(clouds.exit_code, 0) << clouds.err;
-    EXPECT_THAT(clouds.out, HasSubstr("2 LiDAR scans in 2 entries (0 to 1 of the input"));
+    EXPECT_THAT(clouds.out, HasSubstr("2 LiDAR scans in 2 entries (scans 0 to 1 of the input"));
     EXPECT_THAT(clouds.out, HasSubstr("sensor velodyne_points: 16 beams recovered (VLP-16)"));
 }
 

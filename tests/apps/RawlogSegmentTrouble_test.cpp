@@ -170,7 +170,7 @@ TEST_F(RawlogSegmentTrouble, LimitsNumberOfSensors) {
     });
     const auto outcome = run({"-i", log, "-o", path("out.rawlog")});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("entry 100: the recording has more than 100 LiDAR labels"));
+    EXPECT_THAT(outcome.err, HasSubstr("scan 100: the recording has more than 100 LiDAR labels"));
     EXPECT_TRUE(fs::exists(path("out.partial.rawlog")));
     expectSuccess({"-i", log, "-o", path("out.rawlog"), "--sensor-label", "lidar119"});
 }

@@ -68,6 +68,18 @@ TEST_F(OutputPathTest, NumbersPartialNames) {
     EXPECT_EQ(test::readFile(folder_ / "a.partial.rawlog"), "a.partial.rawlog");
 }
 
+TEST_F(OutputPathTest, CreatesParentFolders) {
+    const fs::path file = folder_ / "new/more/a";
+    { const OutputPath given_up(file, kFile, false); }
+    EXPECT_FALSE(fs::exists(folder_ / "new"));
+    {
+        OutputPath output(file, kFile, false);
+        std::ofstream(output.temporary()) << "new";
+        output.commit();
+    }
+    EXPECT_EQ(test::readFile(file), "new");
+}
+
 TEST_F(OutputPathTest, FindsPartialOutputsFromEarlierRuns) {
     const fs::path directory = folder_ / "out.v2";
     for (const fs::path& none : {file_, fs::path(), folder_ / "none/a.rawlog"}) {
@@ -110,7 +122,7 @@ TEST_F(OutputPathTest, RefusesToReplaceOtherTypes) {
     EXPECT_THAT(errorOf(folder_ / "file", kAnyFolder), HasSubstr("not a folder"));
     EXPECT_THAT(errorOf("/proc", kAnyFolder), HasSubstr("/proc: is a mount point"));
     EXPECT_THAT(errorOf(folder_ / "new/"), HasSubstr("/new/: ends with '/'"));
-    EXPECT_THAT(errorOf(folder_ / "none/a"), HasSubstr("none: no such folder"));
+    EXPECT_THAT(errorOf(folder_ / "file/a"), HasSubstr("file: cannot be created"));
 }
 
 TEST_F(OutputPathTest, KeepsFileThatAppearsMeanwhile) {

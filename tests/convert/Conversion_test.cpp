@@ -371,8 +371,8 @@ TEST_P(ConversionTest, KeepsPosesFromLog) {
     EXPECT_NEAR(poses[1].pose.x(), 0.1, 1e-6);
     // One remark per scan without a nearby pose.
     ASSERT_EQ(remarks.size(), 2u);
-    EXPECT_EQ(remarks[0].rfind("entry 6 (lidar): ", 0), 0u) << remarks[0];
-    EXPECT_EQ(remarks[1].rfind("entry 7 (lidar): no pose", 0), 0u) << remarks[1];
+    EXPECT_EQ(remarks[0].rfind("scan 2 (lidar): ", 0), 0u) << remarks[0];
+    EXPECT_EQ(remarks[1].rfind("scan 3 (lidar): no pose", 0), 0u) << remarks[1];
 }
 
 TEST_P(ConversionTest, ReportsScanWithoutTime) {
@@ -384,7 +384,7 @@ TEST_P(ConversionTest, ReportsScanWithoutTime) {
     to_folder.rawlog.clear();
     to_folder.folder = folder_ / "scans";
     convert(to_folder, remarksInto(remarks));
-    EXPECT_THAT(remarks, testing::ElementsAre("entry 0 (lidar): no valid time"));
+    EXPECT_THAT(remarks, testing::ElementsAre("scan 0 (lidar): no valid time"));
     Conversion back = nothing();
     back.input = folder_ / "scans";
     back.rawlog = folder_ / "back.rawlog";
@@ -485,7 +485,7 @@ TEST_P(ConversionTest, SegmentsRangeImages) {
     EXPECT_EQ(report.scans, 3u);
     EXPECT_EQ(report.unreadable_scans, 1u);
     EXPECT_EQ(report.returns, 2 * scan.size() + 500);
-    EXPECT_EQ(remarks.rfind("entry 2 (unknown): the 5 rows have no elevations", 0), 0u) << remarks;
+    EXPECT_EQ(remarks.rfind("scan 2 (unknown): the 5 rows have no elevations", 0), 0u) << remarks;
     EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
               (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi", "lidar", "lidar_roi",
                                         "lidar_non_roi", "unknown", "camera", "camera_roi",
@@ -521,7 +521,7 @@ TEST_P(ConversionTest, ReportsUnreadableScan) {
     const ConversionReport report = convert(conversion(), listener);
     EXPECT_EQ(report.unreadable_scans, 1u);
     EXPECT_EQ(report.scans, 1u);
-    EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar)"));
+    EXPECT_THAT(remarks, HasSubstr("scan 0 (lidar)"));
     EXPECT_THAT(remarks, HasSubstr("0x99"));
     EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
               (std::vector<std::string>{"pose", "lidar", "lidar", "lidar_roi", "lidar_non_roi"}));
@@ -546,7 +546,7 @@ TEST_P(ConversionTest, ReportsScanWithInvalidLimits) {
         const ConversionReport report = convert(again, listener);
         EXPECT_EQ(report.unreadable_scans, 1u);
         EXPECT_EQ(report.scans, 2u);
-        EXPECT_THAT(remarks, HasSubstr("entry 1 (lidar): invalid range limits"));
+        EXPECT_THAT(remarks, HasSubstr("scan 1 (lidar): invalid range limits"));
     }
 }
 
@@ -634,17 +634,16 @@ TEST_P(ConversionTest, ReportsLogWithoutScans) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(pose());
     frame->insert(mrpt::obs::CObservationIMU::Create());
-    writeLog({pose(), mrpt::obs::CActionCollection::Create(), frame, pose(), scanFrom(0)});
+    writeLog({pose(), mrpt::obs::CActionCollection::Create(), frame, pose()});
     std::vector<std::string> remarks;
-    Conversion before_the_scan = conversion();
-    before_the_scan.to = 3;
-    convert(before_the_scan, remarksInto(remarks));
+    convert(conversion(), remarksInto(remarks));
     EXPECT_THAT(remarks, testing::ElementsAre(
                              "the recording: no converted entry has a LiDAR scan "
                              "(CObservationVelodyneScan, CObservationRotatingScan, "
                              "CObservationPointCloud, CObservation3DRangeScan); they have "
                              "1 CActionCollection, 1 CObservationIMU, 3 CObservationRobotPose"));
     remarks.clear();
+    writeLog({pose(), scanFrom(0)});
     Conversion whole = conversion();
     whole.overwrite = true;
     convert(whole, remarksInto(remarks));
@@ -658,7 +657,7 @@ TEST_P(ConversionTest, ReportsScanBeforeFirstAttitude) {
     writeLog({first, attitude, second});
     const ConversionReport report = convert(conversion());
     EXPECT_EQ(report.scans_with_attitude, 1u);
-    EXPECT_EQ(report.first_without_attitude, "entry 0 (lidar)");
+    EXPECT_EQ(report.first_without_attitude, "scan 0 (lidar)");
     EXPECT_FALSE(report.is_attitude_of_poses);
     writeLog({attitude, second});
     Conversion again = conversion();
@@ -682,21 +681,20 @@ TEST_P(ConversionTest, ReportsEarlierPartialOutputs) {
     EXPECT_TRUE(fs::exists(folder_ / "out.partial.rawlog"));
 }
 
-TEST_P(ConversionTest, IncludesFirstAndLastEntry) {
+TEST_P(ConversionTest, IncludesFirstAndLastScan) {
     writeLog({pose(), scanFrom(0), pose(), scanFrom(1), pose()});
     Conversion part = conversion();
-    part.from = 1;
-    part.to = 3;
+    part.from = part.to = 1;
     const ConversionReport report = convert(part);
-    EXPECT_EQ(report.entries, 3u);
-    EXPECT_EQ(report.left_out_before, 1u);
-    EXPECT_EQ(report.scan_reports.at(1).entry, 3u);
+    EXPECT_EQ(report.entries, 2u);
+    EXPECT_EQ(report.left_out_before, 2u);
+    EXPECT_EQ(report.scan_reports.at(0).entry, 1u);
     EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
-              (std::vector<std::string>{"lidar", "lidar_roi", "lidar_non_roi", "pose", "lidar",
-                                        "lidar_roi", "lidar_non_roi"}));
+              (std::vector<std::string>{"pose", "lidar", "lidar_roi", "lidar_non_roi"}));
     part.overwrite = true;
-    part.from = part.to = 5;
-    EXPECT_THROW(convert(part), std::runtime_error);
+    part.from = part.to = 2;
+    EXPECT_THAT(test::messageOf([&] { convert(part); }),
+                HasSubstr("has 2 scans, none at or after 2"));
 }
 
 TEST_P(ConversionTest, AddsPreviewAfterClouds) {

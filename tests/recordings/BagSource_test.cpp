@@ -59,7 +59,7 @@ TEST_F(BagSourceTest, ReturnsEntryPerScan) {
         EXPECT_EQ(entry->scans[0].observation->sensorLabel, i % 2 == 0 ? "front" : "rear");
     }
     EXPECT_FALSE(source->nextEntry());
-    EXPECT_EQ(source->entriesKnown(), 6u);
+    EXPECT_EQ(source->scansKnown(), 6u);
 }
 
 TEST_F(BagSourceTest, UsesPosesAndMountFromBag) {
@@ -116,13 +116,13 @@ TEST_F(BagSourceTest, PrefersPosesFromFile) {
 
 TEST_F(BagSourceTest, ReadsSelectedEntriesLabelsAndTopics) {
     SourceOptions options;
-    options.first_entry = 2;
-    options.last_entry = 3;
+    options.first_scan = 2;
+    options.last_scan = 3;
     options.sensor_labels = {"rear"};
     auto source = open(options);
     const auto scan = source->nextScan();
     ASSERT_TRUE(scan);
-    EXPECT_EQ(titleOf(*scan), "entry 3 (rear)");
+    EXPECT_EQ(titleOf(*scan), "scan 3 (rear)");
     EXPECT_FALSE(source->nextScan());
     EXPECT_EQ(source->entriesSkipped(), 2u);
     EXPECT_THAT(source->remarks(), Each(HasSubstr("(up to the last entry converted)")));
@@ -148,7 +148,7 @@ TEST_F(BagSourceTest, ReportsLookAheadErrors) {
     for (const std::size_t last : {0u, 5u, 100u}) {
         test::writeBytes(bag, whole.substr(0, whole.size() / 2));
         SourceOptions options;
-        options.last_entry = last;
+        options.last_scan = last;
         options.keep_going = [&] {  // replaces the file during reading
             fs::remove(bag);
             test::writeBytes(bag, whole);

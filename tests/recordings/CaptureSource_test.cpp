@@ -71,18 +71,18 @@ TEST_F(CaptureSourceTest, TurnsAreEntries) {
         EXPECT_EQ(found.sensor.name, "VLP-16");
     }
     EXPECT_FALSE(source->nextEntry());
-    EXPECT_EQ(source->entriesKnown(), 3u);
+    EXPECT_EQ(source->scansKnown(), 3u);
     EXPECT_THAT(source->remarks(),
                 ElementsAre(HasSubstr(" in 3 turns"), HasSubstr("ignored: none")));
 }
 
 TEST_F(CaptureSourceTest, SelectsEntriesAndLabels) {
     SourceOptions options;
-    options.first_entry = options.last_entry = 1;
+    options.first_scan = options.last_scan = 1;
     auto source = open(options);
     const auto scan = source->nextScan();
     ASSERT_TRUE(scan);
-    EXPECT_EQ(titleOf(*scan), "entry 1 (velodyne)");
+    EXPECT_EQ(titleOf(*scan), "scan 1 (velodyne)");
     EXPECT_FALSE(source->nextScan());
     EXPECT_EQ(source->entriesSkipped(), 1u);
     EXPECT_THAT(source->remarks()[0], HasSubstr("up to the last entry converted"));
@@ -230,7 +230,7 @@ TEST_F(CaptureSourceTest, ReportsLookAheadErrors) {
     const std::string bytes = test::readFile(capture_);
     for (const std::size_t last : {0u, 2u, 100u}) {
         SourceOptions options;
-        options.last_entry = last;
+        options.last_scan = last;
         const auto source = open(options);  // opens the file replaced below
         fs::remove(capture_);
         std::ofstream(capture_, std::ios::binary) << bytes.substr(0, bytes.size() / 2);

@@ -185,14 +185,14 @@ TEST_F(CloudFileSourceTest, ReadsSelectedEntries) {
     const fs::path folder = folderOf({"1.bin", "2.bin", "3.bin", "4.bin"});
     write("clouds/1.bin", "x");  // broken, but not selected
     SourceOptions options;
-    options.first_entry = 1;
-    options.last_entry = 2;
+    options.first_scan = 1;
+    options.last_scan = 2;
     const auto source = openRecording(folder, options);
     EXPECT_EQ(source->nextScan()->name, "2");
     EXPECT_EQ(source->nextScan()->name, "3");
     EXPECT_FALSE(source->nextScan());
     EXPECT_EQ(source->entriesSkipped(), 1u);
-    EXPECT_EQ(source->entriesKnown(), 4u);
+    EXPECT_EQ(source->scansKnown(), 4u);
 }
 
 TEST_F(CloudFileSourceTest, ReportsBrokenFile) {

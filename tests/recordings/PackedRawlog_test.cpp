@@ -105,7 +105,7 @@ TEST(PackedRawlog, ReadsMrpt3Logs) {
         const auto cloud = source->nextScan();
         ASSERT_TRUE(packets && cloud);
         EXPECT_FALSE(source->nextScan());
-        EXPECT_EQ(source->entriesKnown(), 5u);
+        EXPECT_EQ(source->scansKnown(), 2u);
         EXPECT_EQ(cloud->observation->sensorLabel, "cloud");
         // MRPT created the cloud from these packets.
         auto scan = *std::dynamic_pointer_cast<const mrpt::obs::CObservationVelodyneScan>(

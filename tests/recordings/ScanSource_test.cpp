@@ -102,9 +102,9 @@ class ScanSourceTest : public testing::Test {
 TEST_F(ScanSourceTest, ReadsScansInOrder) {
     const auto source = openRecording(rawlogOf(mixed()));
     EXPECT_THAT(pulledFrom(*source),
-                ElementsAre("0:front:1", "2:front:3", "2:rear:4", "3:rear:5", "4:front:6"));
+                ElementsAre("0:front:1", "1:front:3", "1:rear:4", "2:rear:5", "3:front:6"));
     EXPECT_FALSE(source->nextScan());
-    EXPECT_EQ(source->entriesKnown(), 5u);
+    EXPECT_EQ(source->scansKnown(), 4u);
 }
 
 /// A cloud of this model's beams, some of which point at the sky.
@@ -146,7 +146,7 @@ TEST_F(ScanSourceTest, RecoversSameBeamsForAnyRange) {
     EXPECT_EQ(whole->beamsOf("a")->sensor.name, "HDL-32E");
     for (const std::size_t first : {0, 4, 5}) {
         SourceOptions options;
-        options.first_entry = first;
+        options.first_scan = first;
         const auto part = openRecording(rawlog, options);
         part->useSettings({});
         const auto scan = part->nextScan();
@@ -169,7 +169,7 @@ TEST_F(ScanSourceTest, SkipsRecoveryForNamedSensor) {
 TEST_F(ScanSourceTest, RecoversBeamsFromScanFolder) {
     const fs::path folder = scanFolderOf(3);
     SourceOptions options;
-    options.first_entry = options.last_entry = 0;
+    options.first_scan = options.last_scan = 0;
     Scan scan;
     const auto full = spin(0, "", "HDL-32E");
     observations::readCloudPoints(*full, scan);
@@ -220,33 +220,35 @@ TEST_F(ScanSourceTest, ReturnsEveryEntry) {
     const auto source = openRecording(rawlog);
     RawlogReader reader(rawlog);
     std::size_t scans = 0;
+    std::vector<std::size_t> numbers;
     while (const auto expected = reader.next()) {
         const auto entry = source->nextEntry();
         ASSERT_TRUE(entry);
-        EXPECT_EQ(entry->number, reader.entries() - 1);
+        numbers.push_back(entry->number);
         EXPECT_EQ(entry->object->GetRuntimeClass(), expected->GetRuntimeClass());
         EXPECT_DOUBLE_EQ(entry->fraction_read, reader.fractionRead());
         scans += entry->scans.size();
     }
     EXPECT_FALSE(source->nextEntry());
     EXPECT_EQ(scans, 5u);
+    EXPECT_THAT(numbers, ElementsAre(0, 1, 1, 2, 3));  // a comment precedes the second scan
 }
 
-TEST_F(ScanSourceTest, ReadsSelectedLidarsAndEntries) {
+TEST_F(ScanSourceTest, ReadsSelectedLidarsAndScans) {
     SourceOptions options;
     options.sensor_labels = {"front"};
-    options.first_entry = 1;
-    options.last_entry = 3;
+    options.first_scan = 1;
+    options.last_scan = 2;
     const auto source = openRecording(rawlogOf(mixed()), options);
-    EXPECT_THAT(pulledFrom(*source), ElementsAre("2:front:3"));
+    EXPECT_THAT(pulledFrom(*source), ElementsAre("1:front:3"));
     EXPECT_THAT(source->otherLabels(), ElementsAre("rear"));
     EXPECT_EQ(source->entriesSkipped(), 1u);
-    EXPECT_EQ(source->entriesKnown(), 4u);
+    EXPECT_EQ(source->scansKnown(), 3u);
 }
 
 TEST_F(ScanSourceTest, ReadsScanFolder) {
     const auto source = openRecording(scanFolderOf(3, "1001\n1002\n1004\n"));
-    EXPECT_EQ(source->entriesKnown(), 3u);
+    EXPECT_EQ(source->scansKnown(), 3u);
     for (int i = 0; i < 3; ++i) {
         const auto entry = source->nextEntry();
         ASSERT_TRUE(entry);
@@ -254,8 +256,7 @@ TEST_F(ScanSourceTest, ReadsScanFolder) {
         ASSERT_EQ(entry->scans.size(), 1u);
         const RecordedScan& scan = entry->scans[0];
         EXPECT_EQ(scan.name, "00000" + std::to_string(i));
-        EXPECT_EQ(titleOf(scan),
-                  "entry " + std::to_string(i) + " (00000" + std::to_string(i) + ")");
+        EXPECT_EQ(titleOf(scan), "scan " + std::to_string(i) + " (00000" + std::to_string(i) + ")");
         EXPECT_EQ(scan.observation->sensorLabel, "velodyne");
         observations::ObservedScan observed;
         observations::readObservation(*scan.observation, {}, observed);
@@ -300,10 +301,11 @@ TEST_F(ScanSourceTest, UsesLaterPosesFromRawlog) {
 
 TEST_F(ScanSourceTest, UsesAttitudeFromSkippedEntries) {
     SourceOptions options;
-    options.first_entry = 2;
-    const auto source = openRecording(
-        rawlogOf({pose(0.9, 0, 0.1), pose(0.95, 0, 0.2), cloud(1, "front"), pose(1.05, 0, 0.3)}),
-        options);
+    options.first_scan = 1;
+    const auto source =
+        openRecording(rawlogOf({pose(0.9, 0, 0.1), pose(0.95, 0, 0.2), cloud(0.96, "front"),
+                                cloud(1, "front"), pose(1.05, 0, 0.3)}),
+                      options);
     const auto scan = source->nextScan();
     ASSERT_TRUE(scan && scan->pose.attitude);
     EXPECT_NEAR(scan->pose.attitude->pitch_rad, 0.2, 1e-6);
@@ -396,19 +398,17 @@ TEST_F(ScanSourceTest, ReportsRawlogLookAheadErrors) {
     std::string bytes(1 << 16, '\0');
     bytes.resize(stream.Read(bytes.data(), bytes.size()));
     const fs::path rawlog = folder_ / "plain.rawlog";
-    for (const std::size_t last : {2u, 4u, 100u}) {
+    for (const std::size_t last : {1u, 3u, 100u}) {
         std::ofstream(rawlog, std::ios::binary) << bytes;
         SourceOptions options;
-        options.last_entry = last;
+        options.last_scan = last;
         const auto source = openRecording(rawlog, options);  // opens the file replaced below
         fs::remove(rawlog);
         std::ofstream(rawlog, std::ios::binary) << bytes.substr(0, bytes.size() - 10);
         source->scanTimes();
-        for (std::size_t i = 0; i <= std::min<std::size_t>(last, 4); ++i) {
-            EXPECT_TRUE(source->nextEntry());
-        }
+        for (int i = 0; i < (last == 1 ? 3 : 5); ++i) EXPECT_TRUE(source->nextEntry());
         const std::string message = test::messageOf([&] { source->nextEntry(); });
-        const bool is_needed = last > 2;
+        const bool is_needed = last > 1;
         EXPECT_THAT(message, HasSubstr(is_needed ? "(found while reading ahead)" : ""));
         EXPECT_EQ(message.empty(), !is_needed) << message;
         fs::remove(rawlog);
@@ -420,7 +420,7 @@ TEST_F(ScanSourceTest, ReportsFolderLookAheadErrors) {
     for (const std::size_t first : {0u, 2u}) {
         int asked = 0;
         SourceOptions options;
-        options.first_entry = first;
+        options.first_scan = first;
         options.keep_going = [&] {  // called before each file; single returns never settle beams
             ++asked;
             const int shown = asked - static_cast<int>(first) - 1;
@@ -462,7 +462,7 @@ TEST_F(ScanSourceTest, ReadsCloudsBesideRecording) {
     folder_.write("clouds/segmented.mcap", "\x89MCAP0\r\n");
     std::filesystem::create_directory(folder_ / "clouds/more");
     const auto source = openRecording(folder_ / "clouds");
-    EXPECT_EQ(source->entriesKnown(), 1u);
+    EXPECT_EQ(source->scansKnown(), 1u);
     EXPECT_THAT(source->remarks(),
                 testing::Contains(HasSubstr("ignored 1 file without the extension")));
     EXPECT_THAT(source->remarks(), testing::Contains("ignored 1 subfolder"));
@@ -473,7 +473,7 @@ TEST_F(ScanSourceTest, ReportsOtherFilesInScanFolder) {
     folder_.write("scans/velodyne/000002.bin.gz", "");
     folder_.write("scans/velodyne/000003.BIN", "");
     const auto source = openRecording(folder);
-    EXPECT_EQ(source->entriesKnown(), 2u);
+    EXPECT_EQ(source->scansKnown(), 2u);
     EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("ignored 2 files in ")));
     EXPECT_THAT(source->remarks(), ElementsAre(HasSubstr("such as 000002.bin.gz")));
 }

@@ -15,7 +15,7 @@ class BagSource : public ScanSource {
         : ScanSource(options), file_(bag), survey_(surveyInAdvance()), scans_(openScans(true)) {}
 
     std::optional<RecordedEntry> nextEntry() override {
-        while (scans_read_ <= options_.last_entry) {
+        while (scans_read_ <= options_.last_scan) {
             checkInterruption();
             const auto observation = scans_->next();
             is_read_to_end_ = observation == nullptr;
@@ -37,11 +37,11 @@ class BagSource : public ScanSource {
     std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override {
         return scanTimesOf(surveyScans());
     }
-    std::size_t entriesKnown() const override { return scans_read_; }
+    std::size_t scansKnown() const override { return scans_read_; }
 
     std::vector<std::string> remarks() const override {
         std::vector<std::string> remarks = scans_->remarks();
-        if (!is_read_to_end_ && scans_read_ > options_.last_entry) {
+        if (!is_read_to_end_ && scans_read_ > options_.last_scan) {
             for (std::string& remark : remarks) remark += " (up to the last entry converted)";
         }
         return remarks;
@@ -63,7 +63,7 @@ class BagSource : public ScanSource {
         BagOptions options{options_.topics, options_.sensor_json};
         if (passes_packets && options_.packet) {
             options.packet = [this](const std::string& label, const sensors::Datagram& datagram) {
-                const bool is_skipped = scans_read_ < options_.first_entry;
+                const bool is_skipped = scans_read_ < options_.first_scan;
                 if (!is_skipped && isSelected(label)) options_.packet(label, datagram);
             };
         }

@@ -4,6 +4,7 @@
 #include "recordings/PoseFile.h"
 #include "recordings/Remarks.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "recordings/ScanObject.h"
@@ -25,9 +26,9 @@ class RawlogSource : public ScanSource {
         : ScanSource(options), rawlog_(rawlog), reader_(rawlog) {}
 
     std::optional<RecordedEntry> nextEntry() override {
-        while (reader_.entries() <= options_.last_entry) {
+        while (scans_read_ <= options_.last_scan) {
             RecordedEntry entry;
-            entry.number = reader_.entries();
+            entry.number = scans_read_;
             checkInterruption();
             entry.object = reader_.next();
             if (!entry.object) return endAfter(reader_.entries() + 1);
@@ -36,6 +37,9 @@ class RawlogSource : public ScanSource {
             // Skipped entries may contain the attitude for the first scan.
             const auto all = observationsOf(entry.object);
             for (const auto& observation : all) see(*observation);
+            scans_read_ += std::any_of(all.begin(), all.end(), [](const auto& observation) {
+                return observations::isLidarScan(*observation);
+            });
             if (is_skipped) continue;
             null_objects_ += nulls;
             if (all.empty()) ++has_[classOf(*entry.object)];
@@ -54,7 +58,7 @@ class RawlogSource : public ScanSource {
     std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override {
         return scanTimesOf(survey());
     }
-    std::size_t entriesKnown() const override { return reader_.entries(); }
+    std::size_t scansKnown() const override { return scans_read_; }
 
     std::vector<std::string> remarks() const override {
         std::vector<std::string> remarks;
@@ -120,6 +124,7 @@ class RawlogSource : public ScanSource {
     RawlogReader reader_;
     std::unique_ptr<RawlogReader> ahead_;  ///< for showClouds(), created on demand
     std::optional<RawlogSurvey> survey_;
+    std::size_t scans_read_ = 0;  ///< entries with scans
     // Counts over the selected entries:
     std::size_t null_objects_ = 0, poses_not_finite_ = 0;
     bool has_scans_ = false;

@@ -21,11 +21,13 @@ constexpr OutputKind kFile{"a file", nullptr};
 /// complete.
 class OutputPath {
  public:
-    /// Throws std::runtime_error if the path exists and `overwrite` is not set, or if its parent
-    /// folder is missing. Never replaces a mount point or anything of another type, such as a
-    /// device or a folder with other files. The message names the path.
+    /// Creates missing parent folders. Throws std::runtime_error if the path exists and `overwrite`
+    /// is not set, or if a parent folder cannot be created. Never replaces a mount point or
+    /// anything of another type, such as a device or a folder with other files. The message names
+    /// the path.
     OutputPath(std::filesystem::path path, const OutputKind& kind, bool overwrite);
-    /// Removes the temporary file unless commit() or keepPartial() was called.
+    /// Removes the temporary file unless commit() or keepPartial() was called, and empty parent
+    /// folders that the constructor created.
     ~OutputPath();
     OutputPath(const OutputPath&) = delete;
     OutputPath& operator=(const OutputPath&) = delete;
@@ -47,7 +49,8 @@ class OutputPath {
     std::filesystem::path replace() const;
 
     std::filesystem::path path_, temporary_;
-    std::filesystem::path kept_;  ///< final path, once renamed
+    std::filesystem::path kept_;                  ///< final path, once renamed
+    std::vector<std::filesystem::path> created_;  ///< parent folders, deepest first
     OutputKind kind_;
     bool overwrites_;
 };

@@ -90,7 +90,7 @@ struct ConversionReport {
     std::size_t scans_without_ground = 0;  ///< their returns in the zone are RoI
     std::size_t scans_in_map = 0;          ///< scans in the OctoMap (those with a pose)
     std::size_t scans_with_attitude = 0;   ///< scans with known roll and pitch
-    std::string first_without_attitude;    ///< "entry 0 (lidar)"; empty if there is none
+    std::string first_without_attitude;    ///< "scan 0 (lidar)"; empty if there is none
     bool is_attitude_of_poses = false;     ///< interpolated poses; otherwise the log's latest
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
@@ -102,7 +102,7 @@ struct ConversionReport {
 struct ConversionListener {
     /// Called after each entry.
     std::function<void(const ConversionReport&)> progress = [](const auto&) {};
-    /// Called with the title of an entry ("entry 12 (lidar)") and a remark for the user.
+    /// Called with the title of an entry ("scan 12 (lidar)") and a remark for the user.
     std::function<void(const std::string& entry, const std::string& remark)> remark =
         [](const auto&, const auto&) {};
     /// Called with the title of a scan that could not be segmented, and the reason. The scan is

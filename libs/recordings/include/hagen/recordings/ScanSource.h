@@ -27,7 +27,7 @@ namespace hagen::recordings {
 struct RecordedScan {
     mrpt::obs::CObservation::ConstPtr observation;  ///< has sensor label, time and mounting pose
     observations::ScanPose pose;
-    std::size_t entry = 0;  ///< index of the scan's entry in the recording
+    std::size_t entry = 0;  ///< index of the scan's entry among the entries with scans
     std::string name;       ///< file name without extension; empty for rawlogs and captures
     /// The recovered beams, if the cloud's sensor is not named (useSettings()); otherwise null.
     observations::SharedBeams beams;
@@ -36,7 +36,8 @@ struct RecordedScan {
 /// An entry of a recording: an object of a rawlog, a sensor turn in a capture, or a scan of another
 /// recording.
 struct RecordedEntry {
-    std::size_t number = 0;  ///< index in the recording
+    /// Index of its scan among all entries with scans; without a scan, that of the next one.
+    std::size_t number = 0;
     /// The rawlog's object, the packets of a capture or bag, or a cloud of the requested class.
     mrpt::serialization::CSerializable::Ptr object;
     std::vector<RecordedScan> scans;  ///< scans of the selected LiDARs
@@ -46,8 +47,9 @@ struct RecordedEntry {
 /// The options of a source.
 struct SourceOptions {
     std::vector<std::string> sensor_labels;  ///< LiDARs to read; all if empty
-    std::size_t first_entry = 0;             ///< first and last entry to read, both inclusive
-    std::size_t last_entry = std::numeric_limits<std::size_t>::max();
+    /// First and last scan to read, both inclusive, as in RecordedEntry::number.
+    std::size_t first_scan = 0;
+    std::size_t last_scan = std::numeric_limits<std::size_t>::max();
     /// Class of clouds in RecordedEntry::object; if unset, clouds have no objects. Rawlogs and
     /// Velodyne packets stay unchanged.
     std::optional<observations::CloudClass> folder_objects;
@@ -114,8 +116,8 @@ class ScanSource {
     /// Returns the settings merged with those of the recording's own sensor.
     virtual Settings settingsFor(const Settings& settings) const;
 
-    /// Number of entries read so far, including skipped entries. For a scan folder, the total.
-    virtual std::size_t entriesKnown() const = 0;
+    /// Number of entries with scans read so far, even skipped ones. For a folder, the total.
+    virtual std::size_t scansKnown() const = 0;
     /// Remarks for the user, such as lost packets. Complete after the last entry.
     virtual std::vector<std::string> remarks() const { return {}; }
 
@@ -183,7 +185,7 @@ class ScanSource {
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});
 
-/// A scan's name in messages, such as "entry 12 (lidar)".
+/// A scan's name in messages, such as "scan 12 (lidar)".
 std::string titleOf(const RecordedScan& scan);
 
 }  // namespace hagen::recordings
