@@ -1,5 +1,5 @@
 """Takes a screenshot of a page of the viewer in a browser; a .webp is an animation that begins at this time.
-Usage: view_picture.py PAGE.html TIME_S PICTURE [WIDTHxHEIGHT] [JAVASCRIPT]"""
+Usage: view_picture.py PAGE TIME_S PICTURE [WIDTHxHEIGHT] [JAVASCRIPT]"""
 import io
 import sys
 from pathlib import Path
@@ -11,7 +11,7 @@ from webdriver import Browser  # noqa: E402
 
 FRAMES, PERIOD_MS = 24, 200
 SEEK = """const time = document.getElementById('time'); time.value = arguments[0];
-          time.dispatchEvent(new Event('input'));"""
+          if (!time.hidden) time.dispatchEvent(new Event('input'));"""
 
 page, time_s, picture = sys.argv[1], float(sys.argv[2]), Path(sys.argv[3])
 width, height = map(int, sys.argv[4].split("x")) if len(sys.argv) > 4 else (1000, 760)
@@ -19,7 +19,7 @@ width, height = map(int, sys.argv[4].split("x")) if len(sys.argv) > 4 else (1000
 
 def shot(browser, at_s):
     browser.run(SEEK, at_s)
-    browser.wait_for("return document.body.dataset.frame === document.body.dataset.wanted;")
+    browser.wait_for("return [undefined, document.body.dataset.frame].includes(document.body.dataset.wanted);")
     return Image.open(io.BytesIO(browser.screenshot())).convert("RGB")
 
 
