@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include "convert/pictures/Drawing.h"
 
@@ -34,7 +35,7 @@ std::vector<std::string> sensorsOf(const Performance& p) {
 
 /// "1.59 to 2.37": the default pipeline's median over another pipeline's, across the sensors.
 std::string defaultOver(const Performance& p, const std::string& what) {
-    double low = INFINITY, high = -INFINITY;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const std::string& sensor : sensorsOf(p)) {
         const double ratio = medianOf(p, sensor, kDefault) / medianOf(p, sensor, what);
         low = std::fmin(low, ratio);  // skips NaN

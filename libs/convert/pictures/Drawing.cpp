@@ -39,8 +39,9 @@ class DrawingProcess {
         posix_spawnattr_t attributes;
         posix_spawnattr_init(&attributes);
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-        std::string program = "python3", flag = "-c", script(texts::draw_py);
-        char* const arguments[] = {program.data(), flag.data(), script.data(), nullptr};
+        std::string program = "python3", utf8 = "-Xutf8", flag = "-c", script(texts::draw_py);
+        char* const arguments[] = {program.data(), utf8.data(), flag.data(), script.data(),
+                                   nullptr};
         const int error =
             posix_spawnp(&process_, program.c_str(), &actions, &attributes, arguments, environ);
         posix_spawnattr_destroy(&attributes);

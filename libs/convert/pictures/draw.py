@@ -10,6 +10,8 @@ import sys
 import warnings
 
 sys.path[:] = [folder for folder in sys.path if folder]  # never import from the working folder
+logging.disable()  # for example of a home folder that is not writable
+warnings.simplefilter("ignore")
 DEBIAN = "/usr/bin/python3"
 try:
     import matplotlib
@@ -23,7 +25,7 @@ try:
 except ImportError:
     with open("/proc/self/cmdline", encoding="utf-8") as file:
         words = file.read().split("\0")[1:-1]
-    if len(words) == 2 and os.path.exists(DEBIAN):  # another Python comes first in PATH
+    if len(sys.argv) == 1 and os.path.exists(DEBIAN):  # another Python comes first in PATH
         os.execv(DEBIAN, [DEBIAN, *words, "again"])
     print("pictures require matplotlib, which python3 does not find; on Debian: apt-get install python3-matplotlib")
     sys.exit()
@@ -62,7 +64,8 @@ class Page:
     def heading(self, heading, remark, title):
         y = self.height - 24
         drawn = self.text(12, y, heading, fontsize=13, weight="bold")
-        self.text(drawn.get_window_extent().x1 + 12, y, remark, fontsize=8.5, color=FAINT)
+        end = drawn.get_window_extent(self.figure.canvas.get_renderer()).x1
+        self.text(end + 12, y, remark, fontsize=8.5, color=FAINT)
         self.text(self.width - 12, y, plain(title), color=FAINT, ha="right")
 
     def axes(self, left, right, bottom, top, title=""):
@@ -133,9 +136,6 @@ class Scan:
             colour[i + 1] = int(np.argmax(nearest))
         colour[0] = len(COLOURS)
         return colour
-
-    def save(self, name, page):
-        page.save(os.path.join(self.folder, name))
 
     def image_axes(self, page, box, title="", has_azimuth=True, is_zoomed=False, beams=6):
         axes = page.axes(*box, title)
@@ -316,13 +316,12 @@ class Scan:
         return f"the nearest is {self.boxes[0, 0]:.1f} m away, {where}"
 
 
-def stages(job):
-    scan = Scan(job)
-    heading = f"Obstacles within {scan.zone_m:g} m"
-    wide = (84, 1095)
+WIDE = (84, 1095)
 
+
+def overview(scan):
     page = Page(1400, 850)
-    page.heading(heading, scan.summary(), scan.title)
+    page.heading(f"Obstacles within {scan.zone_m:g} m", scan.summary(), scan.title)
     scan.top_view(page, (64, 784, 52, 772))
     rows = [(880, 1316, top - 74, top) for top in range(772, 0, -124)]
     few = {"has_azimuth": False, "beams": 4}
@@ -332,50 +331,73 @@ def stages(job):
     scan.angles(page, rows[3], scan.angle_rad, "Range angle", rows[4][2], **few)
     scan.angles(page, rows[4], scan.smoothed_rad, "Smoothed by SSA", **few)
     scan.label_panel(page, rows[5], "Labels", beams=4)
-    scan.save("overview.png", page)
+    return page
 
+
+def depth(scan):
     page = Page(1200, 330)
     page.heading("1  Distance image", "paper: III-A", scan.title)
-    scan.distances(page, (*wide, 60, 280), scan.depth_m, bar_bottom=60)
-    scan.save("1_depth.png", page)
+    scan.distances(page, (*WIDE, 60, 280), scan.depth_m, bar_bottom=60)
+    return page
 
+
+def maxima(scan):
     page = Page(1200, 860)
     page.heading("2  Persistent maxima", "of proximity; paper: III-B", scan.title)
-    scan.maxima_image(page, (*wide, 590, 810), bar_bottom=590)
-    scan.barcode(page, (*wide, 60, 490))
-    scan.save("2_maxima.png", page)
+    scan.maxima_image(page, (*WIDE, 590, 810), bar_bottom=590)
+    scan.barcode(page, (*WIDE, 60, 490))
+    return page
 
+
+def merged(scan):
     page = Page(1200, 660)
     page.heading("3  After sharpening", "maxima sharpened and merged; paper: III-B", scan.title)
-    scan.distances(page, (*wide, 390, 610), scan.merged_m, bar_bottom=390)
+    scan.distances(page, (*WIDE, 390, 610), scan.merged_m, bar_bottom=390)
     where = f"Around the column at {scan.azimuth:.1f}°, "
     scan.distances(page, (84, 570, 60, 280), scan.repaired_m, where + "before", is_zoomed=True)
     scan.distances(page, (650, 1136, 60, 280), scan.merged_m, "after", is_zoomed=True)
-    scan.save("3_merged.png", page)
+    return page
 
+
+def range_angle(scan):
     page = Page(1200, 330)
     page.heading("4  Range angle", "paper: III-C", scan.title)
-    scan.angles(page, (*wide, 60, 280), scan.angle_rad, bar_bottom=60)
-    scan.save("4_range_angle.png", page)
+    scan.angles(page, (*WIDE, 60, 280), scan.angle_rad, bar_bottom=60)
+    return page
 
+
+def smoothed(scan):
     page = Page(1200, 860)
     page.heading("5  Smoothed by SSA", "singular spectrum analysis; paper: III-D", scan.title)
-    scan.angles(page, (*wide, 590, 800), scan.smoothed_rad, bar_bottom=590, has_mark=True)
+    scan.angles(page, (*WIDE, 590, 800), scan.smoothed_rad, bar_bottom=590, has_mark=True)
     scan.series(page, (84, 560, 60, 480))
     scan.principal_components(page, (760, 1170, 60, 480))
-    scan.save("5_smoothed.png", page)
+    return page
 
+
+def labels(scan):
     page = Page(1200, 660)
     page.heading("6  Labels", "regions of interest and uninterest; paper: III-E", scan.title)
-    axes = scan.label_panel(page, (*wide, 390, 590))
+    axes = scan.label_panel(page, (*WIDE, 390, 590))
     scan.legend(axes, "no return", loc="lower right", bbox_to_anchor=(1, 1))
-    scan.label_panel(page, (*wide, 60, 280), f"Around the column at {scan.azimuth:.1f}°", is_zoomed=True)
-    scan.save("6_labels.png", page)
+    scan.label_panel(page, (*WIDE, 60, 280), f"Around the column at {scan.azimuth:.1f}°", is_zoomed=True)
+    return page
 
+
+def top_view(scan):
     page = Page(900, 960)
-    page.heading(heading, "from above", scan.title)
+    page.heading(f"Obstacles within {scan.zone_m:g} m", "from above", scan.title)
     scan.top_view(page, (70, 880, 60, 870))
-    scan.save("7_top_view.png", page)
+    return page
+
+
+def stages(job):
+    """The pictures of a scan, in `folder`."""
+    scan = Scan(job)
+    for name, picture in (("overview", overview), ("1_depth", depth), ("2_maxima", maxima), ("3_merged", merged),
+                          ("4_range_angle", range_angle), ("5_smoothed", smoothed), ("6_labels", labels),
+                          ("7_top_view", top_view)):
+        picture(scan).save(os.path.join(scan.folder, name + ".png"))
 
 
 def airframe(job):
@@ -403,7 +425,8 @@ def overlay(job):
     page = Page(width, height + 2 * margin)
     page.text(8, height + margin + 14, plain(job["title"]))
     axes = page.axes(0, width, margin, margin + height)
-    axes.spines[:].set(visible=True, color="#BBBBBB")
+    axes.spines[:].set_visible(True)
+    axes.spines[:].set_color("#BBBBBB")
     axes.set_xlim(-0.5, job["width"] - 0.5)
     axes.set_ylim(job["height"] - 0.5, -0.5)
     axes.set_xticks([])
@@ -471,8 +494,6 @@ def chart(job):
 
 
 def main():
-    logging.disable()
-    warnings.simplefilter("ignore")
     matplotlib.rcdefaults()  # not the user's settings
     matplotlib.rcParams.update({
         "font.size": 9.5, "axes.edgecolor": INK, "axes.titlesize": 10, "axes.titleweight": "bold",
