@@ -5,6 +5,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -18,6 +19,7 @@
 
 #include <hagen/base/OutputPath.h>
 #include "base/NumberText.h"
+#include "base/Text.h"
 #include "base/TextStream.h"
 #include "base/command_line/BackgroundPrinter.h"
 #include "base/command_line/CommandLine.h"
@@ -86,8 +88,8 @@ void declare(Program& app, Flags& flags) {
     app.flag("-q,--quiet", flags.is_quiet, "print errors only").group("Output");
     declareAutopilot(app, flags.autopilot);
     app.option("-c,--config", flags.configs,
-               "settings file or preset such as hdl32e; may be repeated, later files override "
-               "earlier ones")
+               "settings file or preset; may be repeated, later files override earlier ones and "
+               "the preset of --model")
         .once()
         .group("Settings");
     app.option("--set", flags.keys, "KEY=VALUE: one key of the settings; may be repeated")
@@ -253,12 +255,21 @@ std::string failureOf(const live::LiveReport& report, const live::LiveOptions& o
     return problem;
 }
 
+/// The preset of a model, such as vlp16 of a VLP-16; empty if there is none.
+fs::path presetOf(const std::string& model) {
+    std::string name = lowerCase(model);
+    name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+    return findPreset(name);
+}
+
 int run(const Program& program, Flags& flags) {
     check(flags);
     try {
+        if (const fs::path preset = presetOf(flags.live.model); !preset.empty()) {
+            mergeSettings(preset, flags.live.settings);
+        }
         for (const std::string& config : flags.configs) {
-            const std::filesystem::path file = presetFile(config);
-            mergeSettings(file, flags.live.settings);
+            mergeSettings(presetFile(config), flags.live.settings);
         }
         for (const std::string& key : flags.keys) mergeKey(key, flags.live.settings);
         catchSignals();
@@ -336,7 +347,7 @@ int command(int argc, char** argv) {
     program.footer(
         "Examples:\n"
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --record flight.pcap\n"
-        "  live-segment --replay flight.pcap --model HDL-32E -c hdl32e --stats flight.json\n"
+        "  live-segment --replay flight.pcap --model HDL-32E --stats flight.json\n"
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --mavlink udp:192.168.1.10:14550\n"
         "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;
