@@ -213,13 +213,14 @@ class StatusLine {
 
 std::string summaryOf(const live::LiveReport& r) {
     base::TextStream text;
-    text << r.packets << " packets in " << r.scans << " turns, " << r.lost << " lost, " << r.late
-         << " late, " << r.duplicate << " duplicate, " << r.dropped
-         << " dropped\nignored: " << r.wrong_size << " datagrams of wrong size, " << r.other_sensor
-         << " from other sensors, " << r.auxiliary << " position or IMU, " << r.unsound
-         << " without valid data, " << r.too_late << " too late, " << r.uncertain
+    text << counted(r.packets, "packet") << " in " << counted(r.scans, "turn") << ", " << r.lost
+         << " lost, " << r.late << " late, " << r.duplicate << " duplicate, " << r.dropped
+         << " dropped\nignored: " << counted(r.wrong_size, "datagram") << " of wrong size, "
+         << r.other_sensor << " from other sensors, " << r.auxiliary << " position or IMU, "
+         << r.unsound << " without valid data, " << r.too_late << " too late, " << r.uncertain
          << " with unknown mode\n"
-         << r.sectors << " sectors, " << r.returns << " returns, " << r.roi << " RoI\n";
+         << counted(r.sectors, "sector") << ", " << counted(r.returns, "return") << ", " << r.roi
+         << " RoI\n";
     if (r.latency.count() > 0) {
         const auto ms = [](double time_s) { return base::fixedText(1e3 * time_s, 2); };
         text << "latency from last packet to labels: p50 " << ms(r.latency.quantile_s(0.5))
@@ -235,7 +236,7 @@ std::string failureOf(const live::LiveReport& report, const live::LiveOptions& o
     std::string failure = report.recorded.failure;
     if (report.recorded.left_out > 0) {
         failure += (failure.empty() ? "" : "; ") + options.recording.file.string() + ": " +
-                   std::to_string(report.recorded.left_out) + " datagrams missing" +
+                   counted(report.recorded.left_out, "datagram") + " missing" +
                    (failure.empty() ? ": the disk was too slow" : "");
     }
     if (!report.stats_failure.empty()) {

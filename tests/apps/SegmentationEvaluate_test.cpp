@@ -141,7 +141,7 @@ TEST_F(SegmentationEvaluate, ReportsUnusedFiles) {
     EXPECT_EQ(report["folders"][0]["remarks"].size(), 3u);
     folder_.write("pole/times.txt", "9\n");
     EXPECT_THAT(run({"-i", pole}).err,
-                HasSubstr("poses.tum covers 0 of 1 scans; the others are not levelled"));
+                HasSubstr("poses.tum covers 0 of 1 scan; the others are not levelled"));
 }
 
 /// A label map allows scoring such a folder, but its obstacle numbers are predictions.
