@@ -112,3 +112,16 @@ endif()
 if(NOT HAGEN_FILTER_ONLY)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hagen/config COMPONENT tools)
 endif()
+# The service is not enabled, because each LiDAR has an instance with its own flags. CPack installs
+# into a temporary prefix.
+if(HAGEN_BUILD_APPS)
+  set(unit live-segment@.service)
+  set(bindir "\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}")
+  if(HAGEN_DEBIAN_PACKAGES)
+    set(bindir ${CMAKE_INSTALL_FULL_BINDIR})
+  endif()
+  install(CODE "set(HAGEN_UNIT_BINDIR \"${bindir}\")
+  configure_file(\"${PROJECT_SOURCE_DIR}/cmake/systemd/${unit}.in\" \"${PROJECT_BINARY_DIR}/package/${unit}\" @ONLY)"
+          COMPONENT tools)
+  install(FILES ${PROJECT_BINARY_DIR}/package/${unit} DESTINATION lib/systemd/system COMPONENT tools)
+endif()

@@ -112,12 +112,6 @@ if(HAGEN_BUILD_PYTHON)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/rawlogs DESTINATION ${CMAKE_INSTALL_DATADIR}/hagen COMPONENT tools)
 
-# The service is not enabled, because each LiDAR has an instance with its own flags.
-set(HAGEN_UNIT_BINDIR ${CMAKE_INSTALL_FULL_BINDIR})
-configure_file(${PROJECT_SOURCE_DIR}/cmake/systemd/live-segment@.service.in
-               ${PROJECT_BINARY_DIR}/package/live-segment@.service @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/package/live-segment@.service DESTINATION lib/systemd/system COMPONENT tools)
-
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE BSD_TEXT)
 string(REGEX REPLACE "^.*reserved\\.\n+|^[^\n]*\n+Copyright[^\n]*\n+" "" BSD_TEXT "${BSD_TEXT}")
 string(REGEX REPLACE "\n+$" "" BSD_TEXT "${BSD_TEXT}")

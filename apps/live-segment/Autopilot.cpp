@@ -1,6 +1,7 @@
 #include "Autopilot.h"
 
 #include <hagen/scan/Angle.h>
+#include "base/NumberText.h"
 
 #include <map>
 #include <stdexcept>
@@ -120,7 +121,7 @@ std::string summaryOf(const live::AutopilotLink& link) {
     for (const auto& [name, number] : link.counts()) n[name] = number;
     const std::size_t sent =
         n["obstacle_distance"] + n["obstacle_distance_3d"] + n["distance_sensor"] + n["heartbeat"];
-    return "MAVLink: " + std::to_string(sent) + " messages sent (" +
+    return "MAVLink: " + base::counted(sent, "message") + " sent (" +
            std::to_string(n["obstacle_distance"]) + " OBSTACLE_DISTANCE, " +
            std::to_string(n["all_unknown"]) + " with all directions unknown), " +
            std::to_string(n["not_sent"]) + " not sent; " + std::to_string(n["received"]) +

@@ -5,6 +5,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -18,6 +19,7 @@
 
 #include <hagen/base/OutputPath.h>
 #include "base/NumberText.h"
+#include "base/Text.h"
 #include "base/TextStream.h"
 #include "base/command_line/BackgroundPrinter.h"
 #include "base/command_line/CommandLine.h"
@@ -92,8 +94,8 @@ void declare(Program& app, Flags& flags) {
     app.flag("-q,--quiet", flags.is_quiet, "print errors only").group("Output");
     declareAutopilot(app, flags.autopilot);
     app.option("-c,--config", flags.configs,
-               "settings file or preset such as hdl32e; may be repeated, later files override "
-               "earlier ones")
+               "settings file or preset; may be repeated, later files override earlier ones and "
+               "the preset of --model")
         .once()
         .group("Settings");
     app.option("--set", flags.keys, "KEY=VALUE: one key of the settings; may be repeated")
@@ -217,13 +219,14 @@ class StatusLine {
 
 std::string summaryOf(const live::LiveReport& r) {
     base::TextStream text;
-    text << r.packets << " packets in " << r.scans << " turns, " << r.lost << " lost, " << r.late
-         << " late, " << r.duplicate << " duplicate, " << r.dropped
-         << " dropped\nignored: " << r.wrong_size << " datagrams of wrong size, " << r.other_sensor
-         << " from other sensors, " << r.auxiliary << " position or IMU, " << r.unsound
-         << " without valid data, " << r.too_late << " too late, " << r.uncertain
+    text << counted(r.packets, "packet") << " in " << counted(r.scans, "turn") << ", " << r.lost
+         << " lost, " << r.late << " late, " << r.duplicate << " duplicate, " << r.dropped
+         << " dropped\nignored: " << counted(r.wrong_size, "datagram") << " of wrong size, "
+         << r.other_sensor << " from other sensors, " << r.auxiliary << " position or IMU, "
+         << r.unsound << " without valid data, " << r.too_late << " too late, " << r.uncertain
          << " with unknown mode\n"
-         << r.sectors << " sectors, " << r.returns << " returns, " << r.roi << " RoI\n";
+         << counted(r.sectors, "sector") << ", " << counted(r.returns, "return") << ", " << r.roi
+         << " RoI\n";
     if (r.latency.count() > 0) {
         const auto ms = [](double time_s) { return base::fixedText(1e3 * time_s, 2); };
         text << "latency from last packet to labels: p50 " << ms(r.latency.quantile_s(0.5))
@@ -239,7 +242,7 @@ std::string failureOf(const live::LiveReport& report, const live::LiveOptions& o
     std::string failure = report.recorded.failure;
     if (report.recorded.left_out > 0) {
         failure += (failure.empty() ? "" : "; ") + options.recording.file.string() + ": " +
-                   std::to_string(report.recorded.left_out) + " datagrams missing" +
+                   counted(report.recorded.left_out, "datagram") + " missing" +
                    (failure.empty() ? ": the disk was too slow" : "");
     }
     if (!report.stats_failure.empty()) {
@@ -289,12 +292,21 @@ std::unique_ptr<LiveView> viewLive(const Flags& flags, const live::AutopilotLink
     return view;
 }
 
+/// The preset of a model, such as vlp16 of a VLP-16; empty if there is none.
+fs::path presetOf(const std::string& model) {
+    std::string name = lowerCase(model);
+    name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+    return findPreset(name);
+}
+
 int run(const Program& program, Flags& flags) {
     check(flags);
     try {
+        if (const fs::path preset = presetOf(flags.live.model); !preset.empty()) {
+            mergeSettings(preset, flags.live.settings);
+        }
         for (const std::string& config : flags.configs) {
-            const std::filesystem::path file = presetFile(config);
-            mergeSettings(file, flags.live.settings);
+            mergeSettings(presetFile(config), flags.live.settings);
         }
         for (const std::string& key : flags.keys) mergeKey(key, flags.live.settings);
         catchSignals();
@@ -383,7 +395,7 @@ int command(int argc, char** argv) {
     program.footer(
         "Examples:\n"
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --record flight.pcap\n"
-        "  live-segment --replay flight.pcap --model HDL-32E -c hdl32e --stats flight.json\n"
+        "  live-segment --replay flight.pcap --model HDL-32E --stats flight.json\n"
         "  live-segment --listen 0.0.0.0:2368 --model VLP-16 --mavlink udp:192.168.1.10:14550\n"
         "Exit codes: 0 success, 1 runtime error, 2 wrong usage.");
     Flags flags;

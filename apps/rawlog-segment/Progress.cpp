@@ -1,4 +1,5 @@
 #include "Progress.h"
+#include "base/NumberText.h"
 #include "base/command_line/Terminal.h"
 
 #include <unistd.h>
@@ -90,8 +91,8 @@ void Progress::show(const hagen::convert::ConversionReport& report) {
     if (now - shown_ < kBetweenLines) return;
     shown_ = now;
     const double elapsed_s = Seconds(now - start_).count();
-    std::cerr << hagen::base::clearLine << report.entries << " entries, " << report.scans
-              << " scans";
+    std::cerr << hagen::base::clearLine << hagen::base::counted(report.entries, "entry", "entries")
+              << ", " << hagen::base::counted(report.scans, "scan");
     if (elapsed_s > kBeforeRate.count() && report.fraction > 0) {
         char rate[64];
         std::snprintf(rate, sizeof rate, ", %.0f scans/s, %.0f %%, ",

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <string>
 
+#include "base/NumberText.h"
 #include "base/command_line/CommandLine.h"
 #include "base/command_line/Interrupt.h"
 #include "base/command_line/ProgressLine.h"
@@ -103,9 +104,9 @@ void check(const convert::SimulatedLog& log) {
 }
 
 void printSummary(const convert::SimulatedLog& log, const convert::SimulationReport& report) {
-    std::cout << report.scans << " scans of " << log.scenario << " with " << report.returns
-              << " returns: " << report.roi << " RoI, " << report.rou << " ROU, "
-              << report.unclassified << " unclassified\n";
+    std::cout << counted(static_cast<std::size_t>(report.scans), "scan") << " of " << log.scenario
+              << " with " << report.returns << " returns: " << report.roi << " RoI, " << report.rou
+              << " ROU, " << report.unclassified << " unclassified\n";
     for (const auto& output : {log.rawlog, log.folder, log.poses, log.capture}) {
         if (!output.empty()) std::cout << output.string() << "\n";
     }

@@ -39,7 +39,7 @@ struct Flags {
 };
 
 void addFlags(Command& app, Flags& flags) {
-    app.option("-i,--input", flags.folders, "labelled scan folders").required();
+    app.option("DIR,-i,--input", flags.folders, "labelled scan folders").required().existingPath();
     app.option("-c,--config", flags.configs,
                "settings file, or the name of a preset such as hdl32e; may be repeated, later ones "
                "override earlier ones");
@@ -155,6 +155,13 @@ int run(const Flags& flags, evaluation::Summary summary) {
     evaluation::EvaluationOptions options;
     options.range.max_range_m = flags.max_range_m;
     options.camera = fromFlag(flags.camera, evaluation::readCamera, settings_files);
+    for (const evaluation::SweepPoint& row : rows.filter) {
+        const float zone_m = row.settings.options.zone_m;
+        if (zone_m >= flags.max_range_m) continue;
+        std::cerr << row.name << ": WARNING: obstacles beyond zone_m (" << zone_m
+                  << " m) count as missed; to score only nearer returns: --max-range-m " << zone_m
+                  << "\n";
+    }
     const evaluation::LabelledScanSources sources =
         evaluation::sourcesOf(inputs.folders, inputs.rows, inputs.label_map);
     const std::vector<evaluation::Degradation> degradations =
@@ -218,8 +225,8 @@ int command(int argc, char** argv) {
         "Prints precision, recall and F1 of each class over all returns of all scans;\n"
         "returns with ground-truth label 0 are excluded.\n"
         "Example:\n"
-        "  segmentation-evaluate -i scans/* -c paper --sweep beta_deg=5,7.5,10\n"
-        "  segmentation-evaluate -i scans/* --baselines --json all.json");
+        "  segmentation-evaluate scans/* -c paper --sweep beta_deg=5,7.5,10\n"
+        "  segmentation-evaluate scans/* --baselines --json all.json");
     program.version(HAGEN_VERSION);
     Flags flags;
     addFlags(program, flags);

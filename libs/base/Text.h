@@ -30,6 +30,10 @@ inline std::string lowerCase(std::string text) {
     return text;
 }
 
+/// Such as "; did you mean 'VLP-16'?", with the known word most similar to `word`, ignoring case;
+/// empty if no words are known.
+std::string didYouMean(const std::string& word, const std::vector<std::string>& known);
+
 /// True if the text has this ending.
 inline bool endsWith(const std::string& text, const std::string& ending) {
     return text.size() >= ending.size() &&

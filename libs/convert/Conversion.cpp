@@ -332,7 +332,7 @@ class Converter {
     void checkMap() {
         if (!outputs_.wantsMap() || report_.scans == 0 || report_.scans_in_map > 0) return;
         const std::string scans =
-            std::to_string(report_.scans) + " scans of " + conversion_.input.string();
+            base::counted(report_.scans, "scan") + " of " + conversion_.input.string();
         outputs_.giveUpMap(report_.scans_with_pose == 0
                                ? report_.poses + ": has no pose near any of the " + scans +
                                      "; do the times come from another clock? No map is written"

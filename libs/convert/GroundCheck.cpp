@@ -55,7 +55,7 @@ std::string GroundCheck::warning() const {
         std::max_element(found_.begin(), found_.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
     std::string text = "no ground was found in " + std::to_string(scans_ - with_ground_) + " of " +
-                       std::to_string(scans_) + " scans: all their returns within " +
+                       base::counted(scans_, "scan") + ": all their returns within " +
                        base::shortestText(zone_m_) + " m count as obstacles. ";
     if (static_cast<double>(best->second) >= kMinShare * static_cast<double>(tried)) {
         return text + "With --set " + best->first + ", " + std::to_string(best->second) + " of " +

@@ -82,7 +82,7 @@ AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeLis
     const fs::path& input = learning.input;  // "folder/" has no file name
     const fs::path named = input.has_filename() ? input : input.parent_path();
     const std::string origin = named.filename().string() + ", " + report.sensor_label + ", " +
-                               std::to_string(report.scans) + " scans";
+                               base::counted(report.scans, "scan");
     LearnedAirframe learned;
     try {
         learned = learner.learn();

@@ -12,7 +12,6 @@ void PacketCapture::add(const std::string& sensor_label, sensors::Datagram datag
     datagram.from_ip = ip_of_.emplace(sensor_label, 0x0a000064 + number).first->second;
     datagram.to_ip = 0x0a000001;
     writer_.add(datagram);
-    ++packets_;
 }
 
 std::size_t capturePackets(const std::filesystem::path& recording,
@@ -21,20 +20,22 @@ std::size_t capturePackets(const std::filesystem::path& recording,
     const std::string name = recording.string();
     base::checkApart({capture}, {recording, options.sensor_json});
     PacketCapture output(capture, overwrite);
+    std::size_t packets = 0;
     options.packet = [&](const std::string& label, const sensors::Datagram& datagram) {
         output.add(label, datagram);
+        ++packets;
     };
     if (sensors::isCapture(recording)) throw std::runtime_error(name + ": is a capture already");
     const auto source = recordings::openRecording(recording, std::move(options));
     while (source->nextEntry()) {
     }
-    if (output.packets() == 0) {
+    if (packets == 0) {
         throw std::runtime_error(name +
                                  ": has no packets of a LiDAR, only decoded scans; segment them "
                                  "with rawlog-segment");
     }
     output.commit();
-    return output.packets();
+    return packets;
 }
 
 }  // namespace hagen::convert

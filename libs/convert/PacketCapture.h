@@ -19,7 +19,6 @@ class PacketCapture {
 
     const base::OutputPath& place() const { return path_; }
     void add(const std::string& sensor_label, sensors::Datagram datagram);
-    std::size_t packets() const { return packets_; }
     void commit() {
         writer_.flush();
         path_.commit();
@@ -33,7 +32,6 @@ class PacketCapture {
     base::OutputPath path_;
     sensors::CaptureWriter writer_;
     std::map<std::string, std::uint32_t> ip_of_;  ///< by label
-    std::size_t packets_ = 0;
 };
 
 /// Writes the packets of a rawlog or bag to a capture; returns their number. Throws

@@ -92,19 +92,21 @@ std::size_t decodePackets(const CObservationVelodyneScan& observation, Scan& sca
     return decodePackets(observation, scan, work);
 }
 
-void forEachPacket(const CObservationVelodyneScan& observation,
+void forEachPacket(const mrpt::obs::CObservation& observation,
                    const std::function<void(const sensors::Datagram&)>& take) {
+    const auto* const scan = dynamic_cast<const CObservationVelodyneScan*>(&observation);
+    if (scan == nullptr) return;
     sensors::Datagram datagram;
     datagram.from_port = datagram.to_port = 2368;
     datagram.size = sensors::kVelodynePacketBytes;
     const auto start_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
         observation.timestamp - mrpt::Clock::fromDouble(0));
     double first_us = 0;
-    for (const auto& raw : observation.scan_packets) {
+    for (const auto& raw : scan->scan_packets) {
         sensors::VelodynePacket packet;
         std::memcpy(packet.bytes.data(), &raw, packet.bytes.size());
         const double time_us = packet.sensorTimeUs();
-        if (&raw == observation.scan_packets.data()) first_us = time_us;
+        if (&raw == scan->scan_packets.data()) first_us = time_us;
         datagram.time_ns =
             start_ns.count() + std::llround(1e3 * sensors::elapsedUs(first_us, time_us));
         datagram.bytes = packet.bytes.data();

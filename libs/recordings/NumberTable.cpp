@@ -60,7 +60,7 @@ void checkColumns(const std::filesystem::path& file, const NumberLine& line, std
                   const std::string& what) {
     if (line.numbers.size() == columns) return;
     failNumber(file, line.line,
-               "expected " + std::to_string(columns) + " numbers (" + what + "), found " +
+               "expected " + base::counted(columns, "number") + " (" + what + "), found " +
                    std::to_string(line.numbers.size()));
 }
 

@@ -84,14 +84,6 @@ void ScanSource::see(const CObservation& observation) {
     if (!is_levelled_by_file_) horizon_.see(observation);
 }
 
-void ScanSource::passPackets(const CObservation& observation) const {
-    const auto* const scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation);
-    if (scan == nullptr) return;
-    observations::forEachPacket(*scan, [&](const sensors::Datagram& datagram) {
-        options_.packet(observation.sensorLabel, datagram);
-    });
-}
-
 void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std::string& name,
                            RecordedEntry& entry) {
     if (!observations::isLidarScan(*observation)) return;
@@ -100,7 +92,11 @@ void ScanSource::addIfScan(const CObservation::ConstPtr& observation, const std:
         return;
     }
     labels_.insert(observation->sensorLabel);
-    if (options_.packet) passPackets(*observation);
+    if (options_.packet) {
+        observations::forEachPacket(*observation, [&](const sensors::Datagram& datagram) {
+            options_.packet(observation->sensorLabel, datagram);
+        });
+    }
     if (labels_.size() > kMaxLabels) {
         throw BrokenRecording(recording_.string() + ": scan " + std::to_string(entry.number) +
                               ": the recording has more than " + std::to_string(kMaxLabels) +

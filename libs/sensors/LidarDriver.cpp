@@ -1,9 +1,11 @@
 #include <hagen/sensors/LidarDriver.h>
 #include <hagen/sensors/VelodyneModel.h>
+#include "base/Text.h"
 #include "sensors/LidarFamily.h"
 #include "sensors/ouster/OusterSensor.h"
 #include "sensors/velodyne/VelodyneCalibrationFile.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace hagen::sensors {
@@ -43,10 +45,10 @@ void checkDriver(const std::string& model, const std::filesystem::path& sensor_j
         if (!calibration.empty()) return;
         throw std::runtime_error("an HDL-64E requires its calibration; pass --calibration FILE");
     }
-    for (const VelodyneModel& known : velodyneModels()) {
-        if (known.name == model) return;
-    }
-    throw std::runtime_error("'" + model + "' is not supported live; supported: " + driverModels() +
+    const std::vector<std::string> known = base::split(driverModels("|"), '|');
+    if (std::find(known.begin(), known.end(), model) != known.end()) return;
+    throw std::runtime_error("'" + model + "' is not supported live" +
+                             base::didYouMean(model, known) + " Supported: " + driverModels() +
                              ". For an Ouster, pass its metadata with --sensor-json FILE");
 }
 

@@ -136,9 +136,7 @@ fs::path presetFile(const std::string& name, const std::function<bool(const fs::
     if (!isPlain(name)) throw SettingsError(name + ": no such file");
 
     const std::vector<std::string> known = presetNames(isUsable);
-    const std::string hint =
-        known.empty() ? "" : "; did you mean '" + nearestOf(preset, known) + "'?";
-    throw SettingsError(name + ": no such file or preset" + hint +
+    throw SettingsError(name + ": no such file or preset" + base::didYouMean(preset, known) +
                         " (presets: " + (known.empty() ? "none" : base::joined(known)) +
                         "; searched: " + searchedFolders() + "; " + kVariable + " adds folders)");
 }

@@ -141,8 +141,8 @@ void checkModel(const std::string& name) {
     try {
         hagen::sensorModel(name);
     } catch (const std::invalid_argument& e) {
-        throw std::invalid_argument(std::string(e.what()) + "; '" + kRecoveredName +
-                                    "' recovers the beams from the clouds");
+        throw std::invalid_argument(e.what() + base::didYouMean(name, knownSensorModels()) + " '" +
+                                    kRecoveredName + "' recovers the beams from the clouds");
     }
 }
 

@@ -1,10 +1,9 @@
 #include "settings/YamlParts.h"
+#include "base/Text.h"
 
 #include <yaml-cpp/eventhandler.h>
 #include "base/ReadFile.h"
 
-#include <algorithm>
-#include <numeric>
 #include <sstream>
 
 namespace hagen {
@@ -17,21 +16,6 @@ std::string at(const fs::path& file, const YAML::Node& node) {
 }
 
 namespace {
-
-std::size_t editDistance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
-}
 
 /// Ignores the content of a document.
 struct NoNodes : YAML::EventHandler {
@@ -59,14 +43,8 @@ bool hasSeveralDocuments(const std::string& text) {
 
 }  // namespace
 
-std::string nearestOf(const std::string& word, const std::vector<std::string>& known) {
-    return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-        return editDistance(word, a) < editDistance(word, b);
-    });
-}
-
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known) {
-    return "unknown key '" + key + "'; did you mean '" + nearestOf(key, known) + "'?";
+    return "unknown key '" + key + "'" + base::didYouMean(key, known);
 }
 
 YAML::Node parseFile(const fs::path& file, std::size_t max_bytes) {

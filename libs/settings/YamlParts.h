@@ -17,9 +17,6 @@ namespace hagen {
 /// The location of a value in a file, for messages.
 std::string at(const std::filesystem::path& file, const YAML::Node& node);
 
-/// The known word most similar to `word`; `known` must not be empty.
-std::string nearestOf(const std::string& word, const std::vector<std::string>& known);
-
 /// The message for an unknown key, with the most similar known key.
 std::string unknownKey(const std::string& key, const std::vector<std::string>& known);
 

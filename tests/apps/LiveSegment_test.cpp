@@ -115,8 +115,8 @@ TEST_F(LiveSegment, Mid360RecordingKeepsLabels) {
         writer.datagram(datagram);
     }
     const std::string file = writer.write(path("flight.pcap"));
-    const auto outcome = run({"--model", "Mid-360", "-c", "mid360", "--replay", file, "--record",
-                              path("live.pcap"), "--stats", path("stats.json")});
+    const auto outcome = run({"--model", "Mid-360", "--replay", file, "--record", path("live.pcap"),
+                              "--stats", path("stats.json")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     expectSameLabels(file, {"-c", "mid360"});
     EXPECT_EQ(stats()["packets"]["taken"], 700);
@@ -422,7 +422,8 @@ TEST_F(LiveSegment, RejectsInvalidFlags) {
     expectFailure({"--replay", file, "--listen", "1.2.3.4:5", "--model", "VLP-16"}, 2,
                   "one of --listen and --replay is required");
     expectFailure({"--replay", file}, 2, "is required; models: VLP-16");
-    expectFailure({"--replay", file, "--model", "OS1-64"}, 2, "supported: VLP-16");
+    expectFailure({"--replay", file, "--model", "OS1-64"}, 2, "Supported: VLP-16");
+    expectFailure({"--replay", file, "--model", "vlp16"}, 2, "did you mean 'VLP-16'?");
     expectFailure({"--replay", file, "--model", "HDL-64E"}, 2, "--calibration FILE");
     expectFailure({"--listen", "here", "--model", "VLP-16"}, 2, "'here' is not an IPv4 address");
     expectFailure({"--listen", "0.0.0.0:2368", "--speed", "2", "--model", "VLP-16"}, 2, "--speed");

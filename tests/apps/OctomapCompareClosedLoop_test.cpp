@@ -233,7 +233,7 @@ TEST(ClosedLoopFlights, KeepsFinishedRunsWhenInterrupted) {
     EXPECT_EQ(exitCodeOf(pid), 1);
     EXPECT_THAT(readFile(folder / "err"),
                 AllOf(HasSubstr("octomap-compare: interrupted; "),
-                      HasSubstr(" of 6 runs are kept in " + (folder / "stopped/runs.csv").string() +
+                      HasSubstr(" of 6 runs kept in " + (folder / "stopped/runs.csv").string() +
                                 "; rerun the same command to resume\n")));
 }
 

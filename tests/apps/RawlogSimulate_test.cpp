@@ -296,8 +296,9 @@ TEST_F(RawlogSimulate, RejectsInvalidArguments) {
         expectFailure(with(one, {wrong}), 2, wrong.substr(0, wrong.find('=')));
     }
     expectFailures(wires_, 2,
-                   {{{}, "an output (-o, --kitti or --poses)"},
-                    {{"--sensor", "HDL-64E", "-o", path("a.rawlog")}, "HDL-64E"}});
+                   {{{}, "an output (-o, --kitti, --poses or --pcap)"},
+                    {{"--sensor", "HDL-64E", "-o", path("a.rawlog")}, "HDL-64E"},
+                    {{"--sensor", "Mid-360", "--pcap", path("a.pcap")}, "Mid-360"}});
 }
 
 TEST_F(RawlogSimulate, KeepsExistingFiles) {
@@ -307,8 +308,6 @@ TEST_F(RawlogSimulate, KeepsExistingFiles) {
         wires_, 1,
         {{{"-o", path("a.rawlog"), "--kitti", path("a")}, "a.rawlog exists; use --overwrite"},
          {{"--kitti", path("work"), "--overwrite"}, "thesis.txt"},
-         {{"--kitti", path("missing/a")}, path("missing")},
-         {{"--poses", path("missing/a.tum")}, path("missing")},
          {{"-o", "/dev/full", "--overwrite"}, "/dev/full"}});
     EXPECT_EQ(test::readFile(path("a.rawlog")), "mine");
 }

@@ -141,7 +141,7 @@ TEST_F(SegmentationEvaluate, ReportsUnusedFiles) {
     EXPECT_EQ(report["folders"][0]["remarks"].size(), 3u);
     folder_.write("pole/times.txt", "9\n");
     EXPECT_THAT(run({"-i", pole}).err,
-                HasSubstr("poses.tum covers 0 of 1 scans; the others are not levelled"));
+                HasSubstr("poses.tum covers 0 of 1 scan; the others are not levelled"));
 }
 
 /// A label map allows scoring such a folder, but its obstacle numbers are predictions.
@@ -180,8 +180,10 @@ TEST_F(SegmentationEvaluate, RecoversUnnamedSensor) {
 }
 
 TEST_F(SegmentationEvaluate, SweepHasRowPerValue) {
-    const auto outcome = expectSuccess({"-i", labelledPole(), "--sweep", "zone_m=5,20", "--sweep",
+    const auto outcome = expectSuccess({labelledPole(), "--sweep", "zone_m=5,20", "--sweep",
                                         "beta_deg=10", "--sweep", "ground_tolerance_m=0.1,0.25"});
+    EXPECT_THAT(outcome.err, HasSubstr("zone_m=5: WARNING: obstacles beyond zone_m (5 m)"));
+    EXPECT_THAT(outcome.err, Not(HasSubstr("zone_m=20: WARNING")));
     EXPECT_EQ(row(outcome.out, "zone_m=5").at(1), 0.0) << outcome.out;  // excludes the pole
     EXPECT_EQ(row(outcome.out, "zone_m=20").at(1), 1.0);
     EXPECT_EQ(row(outcome.out, "beta_deg=10").at(1), 1.0);
@@ -576,11 +578,11 @@ TEST_F(SegmentationEvaluate, RejectsPredictionsAsTruth) {
 
 TEST_F(SegmentationEvaluate, RejectsWrongScansAndLabels) {
     fs::create_directories(folder_ / "empty/velodyne");
-    expectFailures({}, 1,
-                   {{{"-i", path("none")}, "not a scan folder"},
-                    {{"-i", folder_.path()}, "velodyne"},
-                    {{"-i", path("empty")}, "contains no .bin files"}});
     const std::string pole = labelledPole();
+    expectFailure({"-i", path("none")}, 2, path("none"));
+    expectFailures({}, 1,
+                   {{{folder_.path().string()}, "there are scans in " + pole},
+                    {{"-i", path("empty")}, "not a scan folder"}});
     folder_.write("pole/labels/000000.label", std::string("\1\0\0\0", 4));
     expectFailure({"-i", pole}, 1, "000000.label");
     const auto returns = fs::file_size(folder_ / "pole/velodyne/000000.bin") / 16;

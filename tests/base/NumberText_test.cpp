@@ -4,9 +4,17 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include "base/Text.h"
 
 namespace hagen::base {
 namespace {
+
+TEST(NumberText, CountsUsePlural) {
+    EXPECT_EQ(counted(0, "scan") + counted(1, "scan") + counted(2, "scan"), "0 scans1 scan2 scans");
+    EXPECT_EQ(counted(2, "entry", "entries"), "2 entries");
+    EXPECT_EQ(didYouMean("VLP16", {"HDL-32E", "VLP-16"}), "; did you mean 'VLP-16'?");
+    EXPECT_EQ(didYouMean("a", {}), "");
+}
 
 TEST(NumberText, ShortestTextRoundTrips) {
     EXPECT_EQ(shortestText(0.1), "0.1");

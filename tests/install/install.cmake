@@ -88,3 +88,7 @@ run("optional convert: FALSE" ${finds} ${without_mrpt} -B ${work}/optional -DCOM
 run("optional convert: TRUE" ${finds} -B ${work}/optional_found -DCOMPONENTS=filter -DOPTIONAL=convert)
 run("hagen has no component 'filtre'; available: " ERROR ${finds} -B ${work}/unknown -DCOMPONENTS=filtre)
 run("" ${finds} -B ${work}/all)
+
+# The service starts the program of its prefix.
+run("" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component tools)
+run("ExecStart=${prefix}/bin/live-segment" grep ExecStart ${prefix}/lib/systemd/system/live-segment@.service)

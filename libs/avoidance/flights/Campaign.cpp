@@ -4,6 +4,7 @@
 #include "avoidance/flights/SettingsHash.h"
 #include "base/Folder.h"
 #include "base/Json.h"
+#include "base/NumberText.h"
 #include "base/ReadFile.h"
 #include "base/WriteFile.h"
 
@@ -163,7 +164,7 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
     for (std::future<void>& job : jobs) job.get();
     if (done < all) {
         throw CampaignStopped("interrupted; " + std::to_string(done) + " of " +
-                              std::to_string(all) + " runs are kept in " + file.string() +
+                              base::counted(all, "run") + " kept in " + file.string() +
                               "; rerun the same command to resume");
     }
     std::vector<Run> runs = readRuns(file);

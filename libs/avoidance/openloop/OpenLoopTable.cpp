@@ -1,4 +1,5 @@
 #include "avoidance/openloop/OpenLoopFiles.h"
+#include "base/NumberText.h"
 #include "base/TextStream.h"
 
 #include <algorithm>
@@ -74,8 +75,8 @@ void addAgreement(std::ostream& out, const OpenLoopResult& result) {
 std::string tableOf(const OpenLoop& open_loop, const OpenLoopResult& result) {
     const evaluation::Latency filter = evaluation::latencyOf(result.filter_ms);
     base::TextStream out;
-    out << result.scans << " scans of " << open_loop.source.log.string() << ", poses from "
-        << result.poses << "\n"
+    out << base::counted(result.scans, "scan") << " of " << open_loop.source.log.string()
+        << ", poses from " << result.poses << "\n"
         << "per scan: " << cell(evaluation::latencyOf(result.returns).p50_ms, 0, 0) << " returns, "
         << cell(evaluation::latencyOf(result.roi).p50_ms, 0, 0) << " of them RoI; filter "
         << cell(filter.p50_ms, 2, 0) << " ms (p95 " << cell(filter.p95_ms, 2, 0) << ", max "

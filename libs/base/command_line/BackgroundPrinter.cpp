@@ -1,4 +1,5 @@
 #include "base/command_line/BackgroundPrinter.h"
+#include "base/NumberText.h"
 #include "base/command_line/Terminal.h"
 
 #include <condition_variable>
@@ -28,9 +29,8 @@ struct BackgroundPrinter::Waiting {
         }
         if (dropped > 0) {
             const std::size_t count = std::exchange(dropped, 0);
-            texts.emplace_back(
-                To::Errors,
-                std::to_string(count) + " messages dropped: the terminal or pipe was blocked\n");
+            texts.emplace_back(To::Errors, counted(count, "message") +
+                                               " dropped: the terminal or pipe was blocked\n");
         }
         texts.emplace_back(to, std::move(text));
         changed.notify_all();

@@ -173,14 +173,11 @@ void count(const std::vector<simulation::ObjectClass>& kinds, SimulationReport& 
 
 SimulationReport simulateLog(const SimulatedLog& log, const std::function<bool()>& keep_going) {
     const SensorModel sensor = sensorModel(log.sensor);
-    if (!log.rawlog.empty() && !hasPackets(sensor) && !hasClouds(sensor)) {
+    const bool needs_packets = (!log.rawlog.empty() && !hasClouds(sensor)) || !log.capture.empty();
+    if (needs_packets && !hasPackets(sensor)) {
         throw std::invalid_argument(
             "there is no packet format for '" + sensor.name +
-            "', so it cannot be written to a rawlog; request only a scan folder");
-    }
-    if (!log.capture.empty() && !hasPackets(sensor)) {
-        throw std::invalid_argument("there is no packet format for '" + sensor.name +
-                                    "', so it cannot be written to a capture");
+            "', so it cannot be written to a rawlog or capture; request only a scan folder");
     }
     base::checkApart({log.rawlog, log.folder, log.poses, log.capture}, {});
     const double roll_rad = radians(log.mount_roll_deg), pitch_rad = radians(log.mount_pitch_deg);

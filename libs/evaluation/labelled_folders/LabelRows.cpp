@@ -1,4 +1,5 @@
 #include "evaluation/labelled_folders/LabelRows.h"
+#include "base/NumberText.h"
 
 #include <hagen/settings/Settings.h>
 #include <algorithm>
@@ -20,9 +21,9 @@ bool hasLabelFiles(const fs::path& folder) {
 std::vector<Label> readFoundLabels(const fs::path& file, std::size_t returns) {
     const std::vector<std::uint16_t> numbers = recordings::readLabels(file);
     if (numbers.size() != returns) {
-        throw std::runtime_error(file.string() + ": has " + std::to_string(numbers.size()) +
-                                 " labels for " + std::to_string(returns) +
-                                 " returns; write one per return, in the order of the scan's file");
+        throw std::runtime_error(file.string() + ": has " + base::counted(numbers.size(), "label") +
+                                 " for " + base::counted(returns, "return") +
+                                 "; write one per return, in the order of the scan's file");
     }
     std::vector<Label> labels;
     labels.reserve(numbers.size());

@@ -1,4 +1,5 @@
 #include "evaluation/labelled_folders/LabelledFolders.h"
+#include "base/NumberText.h"
 
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
@@ -16,8 +17,8 @@ namespace fs = std::filesystem;
 
 void checkSize(const Scan& scan, std::size_t labels, const fs::path& file) {
     if (labels == scan.size()) return;
-    throw std::runtime_error(file.string() + ": has " + std::to_string(labels) + " labels for " +
-                             std::to_string(scan.size()) + " returns");
+    throw std::runtime_error(file.string() + ": has " + base::counted(labels, "label") + " for " +
+                             base::counted(scan.size(), "return"));
 }
 
 std::vector<std::uint16_t> readLabelsOf(const Scan& scan, const fs::path& file) {
@@ -65,8 +66,8 @@ class LabelledFolder : public LabelledScanSource {
     std::vector<std::string> labelsWithoutScans() const;
 
     std::string name_;
+    std::unique_ptr<recordings::ScanSource> scans_;  ///< opened first: suggests other folders
     recordings::ScanFolder folder_;
-    std::unique_ptr<recordings::ScanSource> scans_;
     MethodSet methods_;
     std::vector<fs::path> label_folders_;  ///< label files for methods_.labels
     Settings settings_;
@@ -83,8 +84,8 @@ LabelledFolder::LabelledFolder(const std::string& path, const std::string& name,
                                const MethodSet& methods, const std::optional<LabelMap>& label_map,
                                bool is_only)
     : name_(name),
-      folder_(path),
       scans_(recordings::openRecording(path)),
+      folder_(path),
       methods_(methods),
       settings_(scans_->useSettings(methods.filter.front().settings)),
       has_label_map_(label_map.has_value()),
@@ -159,8 +160,8 @@ std::vector<std::string> LabelledFolder::remarks() const {
         remarks.push_back(poses + " is ignored, because there is no times.txt");
     } else if (with_pose_ < read_) {
         remarks.push_back(
-            poses + " covers " + std::to_string(with_pose_) + " of " + std::to_string(read_) +
-            " scans; the others are " +
+            poses + " covers " + std::to_string(with_pose_) + " of " +
+            base::counted(read_, "scan") + "; the others are " +
             (settings_.tiltOnLevelVehicle() ? "levelled by the mount only" : "not levelled"));
     }
     return remarks;

@@ -1,4 +1,6 @@
 #pragma once
+#include "base/NumberText.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -51,8 +53,8 @@ class FieldReader {
     std::size_t count(std::size_t min_bytes) {
         const auto elements = number<std::uint32_t>();
         if (elements > left() / min_bytes) {
-            throw TooShort("it claims " + std::to_string(elements) + " elements, but has only " +
-                           std::to_string(left()) + " more bytes");
+            throw TooShort("it claims " + base::counted(elements, "element") + ", but has only " +
+                           base::counted(left(), "more byte"));
         }
         return elements;
     }

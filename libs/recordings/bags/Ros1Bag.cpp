@@ -52,7 +52,7 @@ class RecordHeader {
         const std::string& value = at(name);
         if (value.size() != sizeof(Number)) {
             throw std::runtime_error("'" + name + "' in its header has " +
-                                     std::to_string(value.size()) + " bytes, not " +
+                                     base::counted(value.size(), "byte") + ", not " +
                                      std::to_string(sizeof(Number)));
         }
         return FieldReader({reinterpret_cast<const std::uint8_t*>(value.data()), value.size()})

@@ -568,8 +568,8 @@ chart.addEventListener('pointerdown', jump);
 chart.addEventListener('pointermove', event => { if (event.buttons) jump(event); });
 
 function draw() {
-  placeLabels();
   renderer.render(scene, camera);
+  placeLabels();  // rendering updates the camera's matrices
 }
 controls.addEventListener('change', draw);
 function resize() {

@@ -40,9 +40,9 @@ std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation
 /// Like above, with temporary buffers.
 std::size_t decodePackets(const mrpt::obs::CObservationVelodyneScan& observation, Scan& scan);
 
-/// Calls `take` with each packet as a datagram to port 2368, timed by the observation and the clock
-/// of the sensor.
-void forEachPacket(const mrpt::obs::CObservationVelodyneScan& observation,
+/// Calls `take` with each packet of a CObservationVelodyneScan as a datagram to port 2368, timed by
+/// the observation and the clock of the sensor. Other observations have no packets.
+void forEachPacket(const mrpt::obs::CObservation& observation,
                    const std::function<void(const sensors::Datagram&)>& take);
 
 }  // namespace hagen::observations

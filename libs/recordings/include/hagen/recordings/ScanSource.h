@@ -152,7 +152,6 @@ class ScanSource {
     bool isSelected(const std::string& sensor_label) const;
     /// Uses the attitude in an observation, unless a pose file provides it.
     void see(const mrpt::obs::CObservation& observation);
-    void passPackets(const mrpt::obs::CObservation& observation) const;
     /// Adds the observation to its entry if it is a scan of a selected LiDAR.
     void addIfScan(const mrpt::obs::CObservation::ConstPtr& observation, const std::string& name,
                    RecordedEntry& entry);
