@@ -18,7 +18,7 @@ endfunction()
 function(hagen_find_script variable file package)
   find_file(${variable} ${file} PATHS /usr/share/javascript/three
                                       /usr/share/javascript/three/examples/js/controls
-            DOC "For the replays of octomap-compare" NO_DEFAULT_PATH)
+            DOC "For the viewer" NO_DEFAULT_PATH)
   if(NOT ${variable})
     message(FATAL_ERROR "${file} is missing: install the Debian package ${package}, or pass "
                         "-D${variable}=FILE")

@@ -83,7 +83,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS
     "libhagen-mrpt ${same}, hagen-tools ${same}, libmrpt-obs-dev, libmrpt-maps-dev, libmrpt-opengl-dev, liboctomap-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS python3-matplotlib)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS mrpt-apps)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 # A module is built for one minor version of Python.

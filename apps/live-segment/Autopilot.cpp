@@ -82,6 +82,11 @@ void checkAutopilot(const AutopilotFlags& flags) {
     }
 }
 
+Eigen::Matrix3d bodyFromSensor(const AutopilotFlags& flags, const Settings& settings) {
+    const Eigen::AngleAxisd yaw(-radians(flags.sensor_yaw_deg), Eigen::Vector3d::UnitZ());
+    return yaw * levelFromSensor(settings.mount).cast<double>();
+}
+
 std::unique_ptr<live::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
                                                    const Settings& settings,
                                                    live::LiveListener& listener) {
@@ -92,9 +97,7 @@ std::unique_ptr<live::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
     link.has_ground = !flags.has_no_ground;
     link.is_simulated = flags.is_simulated;
     link.nearest = static_cast<std::size_t>(flags.nearest);
-    const Eigen::AngleAxisd yaw(-radians(flags.sensor_yaw_deg), Eigen::Vector3d::UnitZ());
-    link.directions.body_from_sensor.linear() =
-        yaw * levelFromSensor(settings.mount).cast<double>();
+    link.directions.body_from_sensor.linear() = bodyFromSensor(flags, settings);
     if (flags.height_m) {
         link.directions.low_m = -*flags.height_m;
         link.directions.high_m = *flags.height_m;

@@ -29,6 +29,9 @@ void checkAutopilot(const AutopilotFlags& flags);
 std::unique_ptr<live::AutopilotLink> linkAutopilot(const AutopilotFlags& flags,
                                                    const Settings& settings,
                                                    live::LiveListener& listener);
+/// The rotation from the sensor to the level vehicle.
+Eigen::Matrix3d bodyFromSensor(const AutopilotFlags& flags, const Settings& settings);
+
 std::string summaryOf(const live::AutopilotLink& link);
 
 }  // namespace hagen

@@ -27,6 +27,7 @@
 #include "base/command_line/Terminal.h"
 
 #include "Autopilot.h"
+#include "LiveView.h"
 
 namespace {
 
@@ -36,7 +37,7 @@ namespace fs = std::filesystem;
 
 struct Flags {
     live::LiveOptions live;
-    std::string listen;
+    std::string listen, view;
     std::filesystem::path replay;
     double speed = 1;
     std::vector<std::string> configs, keys;
@@ -81,6 +82,11 @@ void declare(Program& app, Flags& flags) {
                "network capture of all received datagrams; with --mavlink, vehicle poses as "
                "FILE.tum beside FILE.pcap")
         .valueName("FILE.pcap")
+        .group("Output");
+    app.option("--view", flags.view,
+               "serve a page that shows labels, directions and latency in a browser, on this "
+               "computer, or on the given address")
+        .valueName("[ADDRESS:]PORT")
         .group("Output");
     app.option("--stats", flags.live.stats, "JSON: packets, losses, latencies, nearest obstacles")
         .group("Output");
@@ -263,6 +269,36 @@ fs::path presetOf(const std::string& model) {
     return findPreset(name);
 }
 
+/// Serves the viewer and connects it to a session's listener.
+std::unique_ptr<LiveView> viewLive(const Flags& flags, const live::AutopilotLink* link,
+                                   live::LiveListener& listener) {
+    LiveView::Settings settings;
+    settings.address = flags.view;
+    settings.heading = "live: " + live::sensorName(flags.live);
+    settings.directions.body_from_sensor.linear() =
+        bodyFromSensor(flags.autopilot, flags.live.settings);
+    if (link != nullptr) {
+        settings.directions_sent = [link] { return link->directions(); };
+        settings.motion = [link] { return link->motionAt(live::steadyNow_s()); };
+    }
+    auto view = std::make_unique<LiveView>(std::move(settings));
+    LiveView* const to = view.get();
+    const live::LiveListener others = listener;
+    listener.begin = [to, others](const SensorModel& sensor, const Options& options) {
+        others.begin(sensor, options);
+        to->begin(sensor, options);
+    };
+    listener.sector = [to, others](const live::LabelledSector& sector) {
+        others.sector(sector);
+        to->take(sector);
+    };
+    listener.status = [to, others, link](const auto& report, const auto& status) {
+        others.status(report, status);
+        to->show(report, status, link != nullptr ? link->state() : "");
+    };
+    return view;
+}
+
 int run(const Program& program, Flags& flags) {
     check(flags);
     try {
@@ -291,6 +327,7 @@ int run(const Program& program, Flags& flags) {
         BackgroundPrinter printer;  // a suspended terminal must not stop labelling
         const StatusLine line(flags.is_quiet);
         std::unique_ptr<live::AutopilotLink> link;
+        std::unique_ptr<LiveView> view;
         live::LiveListener listener;
         listener.keep_going = [] { return !isInterrupted(); };
         listener.status = [&](const auto& report, const auto& status) {
@@ -309,6 +346,16 @@ int run(const Program& program, Flags& flags) {
         int failed = kFailed;
         try {
             link = linkAutopilot(flags.autopilot, flags.live.settings, listener);
+            if (!flags.view.empty()) {
+                view = viewLive(flags, link.get(), listener);
+                if (!flags.is_quiet) {
+                    printer.print(line.instead(), "view: http://" +
+                                                      (flags.view.find(':') == std::string::npos
+                                                           ? "127.0.0.1:" + flags.view
+                                                           : flags.view) +
+                                                      "\n");
+                }
+            }
             const live::LiveReport report = live::runLive(*source, flags.live, listener);
             printer.print(line.instead(), "");
             if (!flags.is_quiet) {

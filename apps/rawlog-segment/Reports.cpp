@@ -159,6 +159,14 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
                   << sizeText(conversion.clouds) << ", " << counted(report.clouds, "file") << ", "
                   << report.cloud_points << " points)\n";
     }
+    if (report.view_frames > 0) {
+        std::cout << "view: " << conversion.view.string() << " ("
+                  << counted(report.view_frames, "scan", "scans")
+                  << (report.view_every > 1
+                          ? ", 1 of " + std::to_string(report.view_every)
+                          : "")
+                  << ", " << sizeText(conversion.view) << "); open it in a browser\n";
+    }
     if (report.mcap.scans > 0) {
         std::cout << "MCAP: " << conversion.mcap.string() << " ("
                   << counted(report.mcap.scans, "scan") << ", " << report.mcap.points << " points, "

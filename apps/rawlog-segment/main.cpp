@@ -135,14 +135,28 @@ void declare(Program& app, Flags& flags) {
                "boxes, and poses if known")
         .extension({".mcap"})
         .group("Output");
-    const Flag pictures = app.option("--pictures", conversion.pictures,
-                                     "folder of PNGs of each stage, one subfolder per scan")
-                              .group("Output");
+    const Flag pictures =
+        app.option("--pictures", conversion.pictures,
+                   "folder of PNGs, one subfolder per scan: overview with the "
+                   "nearest obstacles, and each stage; requires python3-matplotlib")
+            .group("Output");
     app.option("--picture-azimuth", conversion.picture_azimuth_deg,
                "column whose principal components are drawn: degrees left of straight ahead "
                "(default: column of the nearest obstacle)")
         .between(-360.0, 360.0)
         .needs(pictures)
+        .group("Output");
+    const Flag view = app.option("--view", conversion.view,
+                                 "HTML page that plays the scans in a browser, offline: returns, "
+                                 "obstacles, ground, stages, statistics")
+                          .extension({".html"})
+                          .group("Output");
+    app.option("--view-every", conversion.view_every,
+               "show every Nth scan (default: all, or every 2nd, 4th ... so that the page has at "
+               "most 500 scans and 40 MB)")
+        .between(1, 1000000)
+        .valueName("N")
+        .needs(view)
         .group("Output");
     const Flag octomap =
         app.option("--octomap", conversion.octomaps,
@@ -217,10 +231,11 @@ void check(const Flags& flags) {
     const bool has_output = !conversion.rawlog.empty() || !conversion.folder.empty() ||
                             !conversion.pictures.empty() || !conversion.octomaps.empty() ||
                             !conversion.clouds.empty() || !conversion.mcap.empty() ||
-                            !conversion.stats.empty();
+                            !conversion.stats.empty() || !conversion.view.empty();
     if (!has_output && flags.learned_airframe.empty() && flags.capture.empty()) {
         throw UsageError(
-            "an output (-o, --kitti, --clouds, --mcap, --pictures, --octomap, --stats, --pcap or "
+            "an output (-o, --view, --kitti, --clouds, --mcap, --pictures, --octomap, --stats, "
+            "--pcap or "
             "--learn-airframe) is required");
     }
     if (!flags.capture.empty() && (has_output || !flags.learned_airframe.empty())) {
@@ -330,6 +345,7 @@ int command(int argc, char** argv) {
         "log.");
     program.footer(
         "Examples:\n"
+        "  rawlog-segment flight.rawlog --view flight.html\n"
         "  rawlog-segment -i flight.rawlog -o segmented.rawlog --preview\n"
         "  rawlog-segment -i flight.rawlog --kitti labels -c paper\n"
         "  rawlog-segment -i flight.rawlog --pictures pictures --from 20 --to 25\n"

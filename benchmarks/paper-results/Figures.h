@@ -12,7 +12,7 @@ namespace hagen {
 ///     by_scan.svg      F1 of RoI of each scan, one line per method
 ///     by_returns.svg   run time over the number of returns, one point per scan
 ///
-/// for the filters and the published baselines. Throws std::runtime_error like runGnuplot().
+/// for the filters and the published baselines. Throws std::runtime_error like Drawing::draw().
 void drawResults(const std::filesystem::path& folder, const std::vector<Measured>& scores,
                  const std::vector<Measured>& times);
 

@@ -1,16 +1,12 @@
 // Measures the results in docs/results.md and writes that page. Run by scripts/reproduce-paper.
 #include <hagen/base/OutputPath.h>
-#include <fstream>
 #include <iostream>
-#include <iterator>
-#include <optional>
 #include <thread>
 #include "base/WriteFile.h"
 #include "evaluation/labelled_folders/Charts.h"
 
 #include "Document.h"
 #include "Figures.h"
-#include "ReadmeBlock.h"
 #include "base/command_line/CommandLine.h"
 
 namespace {
@@ -20,7 +16,7 @@ using namespace hagen::base;
 namespace fs = std::filesystem;
 
 struct Flags {
-    std::string labelled, data, config, output, selection, readme;
+    std::string labelled, data, config, output, selection;
     std::string revision = "unknown", simulation = "unknown";
     bool is_quick = false, overwrite = false;
 };
@@ -39,7 +35,6 @@ void addFlags(Command& app, Flags& flags) {
                "folder with beams16/ and beams64/: labelled real scans (optional)");
     app.option("--selection", flags.selection, "record of scripts/select-settings (optional)")
         .existingFile();
-    app.option("--readme", flags.readme, "README.md whose results are replaced").existingFile();
     app.option("--revision", flags.revision, "revision of the project, for the document");
     app.option("--simulation", flags.simulation,
                "version of the simulation; scans of other versions are simulated again");
@@ -53,28 +48,9 @@ constexpr base::OutputKind kFigures{"a folder of charts and tables", [](const fs
                                                evaluation::kCharts.holds(within);
                                     }};
 
-std::string contentOf(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// README.md with new results.
-std::string readmeOf(const fs::path& file, const std::string& block) {
-    try {
-        return withBlock(contentOf(file), block);
-    } catch (const std::runtime_error& e) {
-        throw std::runtime_error(file.string() + ": " + e.what());
-    }
-}
-
 int run(const Flags& flags) {
     base::OutputPath document(fs::path(flags.output) / "results.md", base::kFile, flags.overwrite);
     base::OutputPath charts(fs::path(flags.output) / "results", kFigures, flags.overwrite);
-    std::optional<base::OutputPath> readme;
-    if (!flags.readme.empty()) {
-        readme.emplace(flags.readme, base::kFile, true);
-        readmeOf(flags.readme, "");  // throws before the long measurement
-    }
     Provenance provenance{flags.revision, {101, 102, 103, 104, 105, 106}, flags.is_quick, {}};
     if (!flags.selection.empty()) provenance.selection = selection::readRecord(flags.selection);
     SimulationSize size{provenance.seeds, 4};
@@ -96,13 +72,8 @@ int run(const Flags& flags) {
     }
     const std::string text = documentOf(scores, times, provenance);
     base::writeText(text, document.temporary(), document.path());
-    if (readme) {
-        base::writeText(readmeOf(flags.readme, readmeBlock(scores, provenance.selection)),
-                        readme->temporary(), readme->path());
-    }
     charts.commit();
     document.commit();
-    if (readme) readme->commit();
     std::cout << text;
     return 0;
 }

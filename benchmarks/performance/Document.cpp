@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <locale>
+#include <limits>
 #include <numeric>
-#include <sstream>
-#include "convert/pictures/Gnuplot.h"
+#include "convert/pictures/Drawing.h"
 
 #include "support/Processor.h"
 #include "support/Tables.h"
@@ -36,7 +35,7 @@ std::vector<std::string> sensorsOf(const Performance& p) {
 
 /// "1.59 to 2.37": the default pipeline's median over another pipeline's, across the sensors.
 std::string defaultOver(const Performance& p, const std::string& what) {
-    double low = INFINITY, high = -INFINITY;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const std::string& sensor : sensorsOf(p)) {
         const double ratio = medianOf(p, sensor, kDefault) / medianOf(p, sensor, what);
         low = std::fmin(low, ratio);  // skips NaN
@@ -204,35 +203,27 @@ std::string documentOf(const Performance& performance) {
 }
 
 void drawFlights(const std::filesystem::path& folder, const std::vector<FlightTimes>& flights) {
-    // Colour-blind safe palette (Okabe and Ito).
-    constexpr std::array<const char*, 6> kColours{"#D55E00", "#0072B2", "#009E73",
-                                                  "#CC79A7", "#E69F00", "#333333"};
-    std::ostringstream script;
-    script.imbue(std::locale::classic());
-    script << "set terminal svg size 1100," << 300 * flights.size()
-           << " font 'sans,14' background '#FFFFFF'\nset output 'by_flight.svg'\n"
-              "set grid y lc rgb '#DDDDDD' lw 1 lt 1\nset tics nomirror out scale 0.5\n"
-              "set border 3 lc rgb '#333333'\nset logscale y\nset ylabel 'run time [ms]'\n"
-              "set key outside right top noenhanced samplen 1.5\nset multiplot layout "
-           << flights.size() << ",1\n";
+    base::Json panels;
     for (const FlightTimes& flight : flights) {
-        std::string plot;
-        for (std::size_t m = 0; m < flight.methods.size(); ++m) {
-            script << "$line" << m << " << EOD\n";
-            const std::vector<double> medians = mediansOfTen(flight.methods[m].runs_ms);
+        base::Json panel{{"title", flight.scenario}, {"y", "run time [ms]"}, {"log", "y"}};
+        if (&flight == &flights.back()) panel["x"] = "scan";
+        for (const auto& method : flight.methods) {
+            const std::vector<double> medians = mediansOfTen(method.runs_ms);
+            std::vector<double> scans;
             for (std::size_t i = 0; i < medians.size(); ++i) {
-                script << 10 * i + 5 << " " << medians[i] << "\n";
+                scans.push_back(10 * static_cast<double>(i) + 5);
             }
-            script << "EOD\n";
-            plot += (m == 0 ? "plot " : ", ") + ("$line" + std::to_string(m)) +
-                    " using 1:2 with lines lw 1.5 lc rgb '" + kColours[m % kColours.size()] +
-                    "' title " + convert::gnuplotString(flight.methods[m].name);
+            panel["lines"].push_back({{"name", method.name}, {"x", scans}, {"y", medians}});
         }
-        script << "set title " << convert::gnuplotString(flight.scenario) << " noenhanced\n"
-               << (&flight == &flights.back() ? "set xlabel 'scan'\n" : "") << plot << "\n";
+        panels.push_back(panel);
     }
-    script << "unset multiplot\nunset output\n";
-    convert::runGnuplot(script.str(), folder, {"by_flight.svg"});
+    convert::Drawing({{"kind", "chart"},
+                      {"file", (folder / "by_flight.svg").string()},
+                      {"width", 1100},
+                      {"height", 300 * flights.size()},
+                      {"is_stacked", true},
+                      {"panels", panels}})
+        .draw();
 }
 
 }  // namespace hagen

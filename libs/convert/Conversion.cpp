@@ -55,7 +55,8 @@ bool needsPoses(const Conversion& conversion) {
     const bool is_tum = !conversion.poses.empty() && recordings::kindOfPoseFile(conversion.poses) ==
                                                          recordings::PoseFileKind::Tum;
     return fs::is_directory(conversion.input) || !conversion.folder.empty() ||
-           !conversion.octomaps.empty() || !conversion.mcap.empty() || is_tum ||
+           !conversion.octomaps.empty() || !conversion.mcap.empty() || !conversion.view.empty() ||
+           is_tum ||
            recordings::isBag(conversion.input);
 }
 
@@ -368,6 +369,10 @@ class Converter {
             report_.clouds = clouds->files();
             report_.cloud_points = clouds->points();
             remark("the labelled clouds", clouds->remarks());
+        }
+        if (const ViewOutput* const view = outputs_.view()) {
+            report_.view_frames = view->frames();
+            report_.view_every = view->every();
         }
         if (const McapOutput* const mcap = outputs_.mcap()) {
             report_.mcap = {mcap->scans(), mcap->points(), mcap->boxes(), mcap->messages()};

@@ -40,8 +40,8 @@ std::string textOfNames(const std::string& names) { return names; }
 }  // namespace
 
 std::vector<fs::path> outputsOf(const Conversion& conversion) {
-    std::vector<fs::path> outputs{conversion.rawlog, conversion.folder, conversion.clouds,
-                                  conversion.mcap, conversion.pictures};
+    std::vector<fs::path> outputs{conversion.rawlog, conversion.folder,   conversion.clouds,
+                                  conversion.mcap,   conversion.pictures, conversion.view};
     if (conversion.stats != kStandardOutput) outputs.push_back(conversion.stats);
     outputs.insert(outputs.end(), conversion.octomaps.begin(), conversion.octomaps.end());
     outputs.erase(std::remove(outputs.begin(), outputs.end(), fs::path()), outputs.end());
@@ -55,6 +55,7 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion)
              conversion.clouds,
              conversion.mcap,
              conversion.pictures,
+             conversion.view,
              conversion.octomaps.empty() ? fs::path() : conversion.octomaps.front(),
              conversion.stats} {
     const bool overwrite = conversion.overwrite;
@@ -68,6 +69,9 @@ ConversionOutputs::ConversionOutputs(const Conversion& conversion)
     if (!conversion.mcap.empty()) mcap_.emplace(conversion.mcap, overwrite);
     if (!conversion.pictures.empty()) {
         pictures_.emplace(conversion.pictures, kStagePictures, overwrite);
+    }
+    if (!conversion.view.empty()) {
+        view_.emplace(conversion.view, conversion.view_every, overwrite);
     }
     if (!conversion.octomaps.empty()) {
         map_.emplace(conversion.octomaps, conversion.octomap, overwrite);
@@ -111,6 +115,7 @@ void ConversionOutputs::forEach(Do act) {
     if (clouds_) act(kClouds, *clouds_);
     if (mcap_) act(kMcap, *mcap_);
     if (pictures_) act(kPictures, *pictures_);
+    if (view_) act(kView, *view_);
     if (map_) act(kMap, *map_);
     if (stats_) act(kStats, *stats_);
 }
@@ -177,6 +182,10 @@ std::string ConversionOutputs::writeScan(
     }
     if (mcap_) attempt(kMcap, [&] { mcap_->write(segmented, *recorded.observation); });
     if (pictures_) attempt(kPictures, [&] { drawPictures(segmented, recorded); });
+    if (view_) {
+        attempt(kView,
+                [&] { view_->write(own_name, segmented, recorded.observation->sensorLabel); });
+    }
     return own_name;
 }
 
@@ -221,6 +230,7 @@ void ConversionOutputs::finish(const ConversionReport& report) {
         });
     }
     if (map_) attempt(kMap, [&] { map_->write(); });
+    if (view_) attempt(kView, [&] { view_->finish(conversion_, report); });
     if (!conversion_.stats.empty()) {
         attempt(kStats, [&] {
             if (stats_) {

@@ -15,6 +15,7 @@
 
 #include "convert/CloudOutput.h"
 #include "convert/McapOutput.h"
+#include "convert/ViewOutput.h"
 
 namespace hagen::convert {
 
@@ -22,7 +23,7 @@ namespace hagen::convert {
 std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
 
 /// The requested outputs of a conversion. If an output fails (full disk, full map, missing
-/// gnuplot), it is aborted and commit() reports it; the others are not affected.
+/// matplotlib), it is aborted and commit() reports it; the others are not affected.
 class ConversionOutputs {
  public:
     /// Throws std::runtime_error naming an output that cannot be written.
@@ -36,14 +37,16 @@ class ConversionOutputs {
     void pack(const Bytes& member, Bytes& packed);
     void writeMember(const Bytes& packed);
 
-    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, and to the MCAP. An
-    /// empty name is replaced by the next number. Returns the name used.
+    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, to the MCAP and to
+    /// the page. An empty name is replaced by the next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const recordings::RecordedScan& recorded, const Settings& settings);
 
     /// The output of labelled clouds; null if not requested.
     const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }
     const McapOutput* mcap() const { return mcap_ ? &*mcap_ : nullptr; }
+
+    const ViewOutput* view() const { return view_ ? &*view_ : nullptr; }
 
     bool wantsMap() const { return map_.has_value(); }
     /// Throws std::runtime_error if the scan does not fit into the map.
@@ -60,7 +63,7 @@ class ConversionOutputs {
     std::string keepPartial(const ConversionReport& report);
 
  private:
-    enum Part { kRawlog, kFolders, kClouds, kMcap, kPictures, kMap, kStats, kParts };
+    enum Part { kRawlog, kFolders, kClouds, kMcap, kPictures, kView, kMap, kStats, kParts };
     /// Runs a step of an output; if it fails, marks the output as failed.
     template <class Step>
     void attempt(Part part, Step step);
@@ -84,6 +87,7 @@ class ConversionOutputs {
     std::optional<SensorFolders> folders_, pictures_;
     std::optional<CloudOutput> clouds_;
     std::optional<McapOutput> mcap_;
+    std::optional<ViewOutput> view_;
     std::optional<MapOutput> map_;
     std::optional<base::OutputPath> stats_;
     std::array<std::atomic<bool>, kParts> is_given_up_{};  ///< read on several threads

@@ -103,9 +103,7 @@ AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeLis
                         file.path());
     });
     outputs.write(picture, [&] {
-        const fs::path folder = fs::absolute(picture.temporary()).parent_path();
-        drawAirframe(learned.bin_range_m, "airframe in " + origin, folder,
-                     picture.temporary().filename().string());
+        drawAirframe(learned.bin_range_m, "airframe in " + origin, picture.temporary());
     });
     outputs.commit();
     return report;

@@ -374,7 +374,7 @@ TEST_F(RawlogSegment, DrawsScanStages) {
                        "1", "--picture-azimuth", "-90", "-c", settings, "--overwrite"});
         for (const char* name :
              {"1_depth.png", "2_maxima.png", "3_merged.png", "4_range_angle.png", "5_smoothed.png",
-              "6_labels.png", "7_top_view.png", "stages.png"}) {
+              "6_labels.png", "7_top_view.png", "overview.png"}) {
             EXPECT_GT(fs::file_size(folder_ / "pictures/000001" / name), 5000u) << name << mount;
         }
     }

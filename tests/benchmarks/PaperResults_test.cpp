@@ -11,7 +11,6 @@
 #include "paper-results/Document.h"
 #include "paper-results/HardSection.h"
 #include "paper-results/LeftOutSection.h"
-#include "paper-results/ReadmeBlock.h"
 #include "paper-results/Rows.h"
 #include "paper-results/Sums.h"
 #include "support/ProgramTest.h"
@@ -216,18 +215,6 @@ TEST(LeftOutSection, ReportsMissingOrOutdatedRecord) {
     EXPECT_THAT(leftOutSection({twoDrives()}, record), HasSubstr("v1-selected. Run"));
 }
 
-TEST(ReadmeBlock, ReplacesTextBetweenMarks) {
-    const std::string first = "<!-- results: written -->\n", last = "<!-- end of results -->";
-    EXPECT_EQ(withBlock("a\n" + first + "old\n" + last + "\nb\n", "new\n"),
-              "a\n" + first + "\nnew\n" + last + "\nb\n");
-    for (const std::string& text :
-         {first, last, last + "\n" + first, first + first + last, first + last + last}) {
-        EXPECT_THAT(test::messageOf([&] { withBlock(text, ""); }), HasSubstr("end of results"))
-            << text;
-    }
-    EXPECT_NO_THROW(withBlock(test::readFile(HAGEN_SOURCE_DIR "/README.md"), ""));
-}
-
 class PaperResults : public test::ProgramTest {
  protected:
     test::Outcome run(const std::vector<std::string>& arguments) const override {
@@ -287,9 +274,6 @@ TEST_F(PaperResults, ReportsBrokenInputs) {
     folder_.write("selection.json", "{}");
     expectFailure({"-o", folder_.path(), "--selection", path("selection.json")}, 1,
                   "selection.json: invalid record");
-    folder_.write("readme.md", "no results");
-    expectFailure({"-o", folder_.path(), "--readme", path("readme.md")}, 1,
-                  "readme.md: needs one line");
 }
 
 TEST_F(PaperResults, KeepsExistingOutputs) {

@@ -33,26 +33,6 @@ def check_offline(page):
           f"{page.name} is self-contained")
 
 
-# Pixels of the view that change when a layer is toggled, in per mille.
-TOGGLED = """
-const picture = () => {
-  document.getElementById('time').dispatchEvent(new Event('input'));  // draws
-  const copy = document.createElement('canvas');
-  copy.width = 200; copy.height = 120;
-  const pen = copy.getContext('2d');
-  pen.drawImage(document.querySelector('#view canvas'), 0, 0, 200, 120);
-  return pen.getImageData(0, 0, 200, 120).data;
-};
-const box = document.querySelector(`[data-layer=${arguments[0]}]`), before = picture();
-box.click();
-const after = picture();
-box.click();
-let changed = 0;
-for (let i = 0; i < before.length; i += 4) {
-  if ([0, 1, 2].some(k => Math.abs(before[i + k] - after[i + k]) > 8)) ++changed;
-}
-return 1000 * changed / (200 * 120);"""
-
 # Open panels that overlap or extend beyond the window.
 OVERLAPS = """
 document.getElementById('layers').open = true;
@@ -74,7 +54,7 @@ def check_panels(page):
     for width, height in ((1280, 800), (400, 900), (400, 500), (800, 450)):
         with Browser(width, height) as browser:
             browser.open(page)
-            browser.wait_for("return document.body.dataset.step !== undefined;")
+            browser.wait_for("return document.body.dataset.frame !== undefined;")
             wrong = browser.run(OVERLAPS)
             check(wrong == [], f"{width} x {height} px: panels do not overlap {wrong}")
 
@@ -89,8 +69,8 @@ def check_crash(folder):
     page = folder / f"replay-forest-0.10-{row['seed']}-W-RoI-straight-14mps-latency16.html"
     with Browser() as browser:
         browser.open(page)
-        browser.wait_for("return document.body.dataset.step !== undefined;")
-        ending = browser.run("return document.getElementById('ending').textContent;")
+        browser.wait_for("return document.body.dataset.frame !== undefined;")
+        ending = browser.run("return document.querySelector('#notes p').textContent;")
         check(re.fullmatch(rf"Hit a tree at {float(row['time_s']):.2f} s: "
                            rf"{float(row['min_clearance_m']):.2f} m from .*", ending), ending)
         browser.press("\ue010")  # End
@@ -100,11 +80,11 @@ def check_crash(folder):
               f"the final clearance matches the table: {end['clearance']} m")
         browser.press("\ue012")  # left arrow
         last = browser.run(STATE)
-        check(last["step"] == end["step"] and float(last["time"]) < float(end["time"]),
+        check(last["frame"] == end["frame"] and float(last["time"]) < float(end["time"]),
               "the last plan precedes the impact")
         browser.press("\ue014")  # right arrow
         check(browser.run(STATE) == end, "the step after the last plan is the end")
-        check(browser.run(TOGGLED, "scene") > 50, "the true scene can be toggled")
+        check(browser.toggled("scene") > 50, "the true scene can be toggled")
         check(browser.errors() == [], "no errors")
 
 
@@ -115,15 +95,15 @@ def check_replay(folder, model):
     check(page.stat().st_size < 15e6, f"{model}: {page.stat().st_size / 1e6:.1f} MB")
     with Browser() as browser:
         browser.open(page)
-        browser.wait_for("return document.body.dataset.step !== undefined;")
+        browser.wait_for("return document.body.dataset.frame !== undefined;")
         begin = browser.run(STATE)
         browser.press("\ue014")  # right arrow
         stepped = browser.run(STATE)
-        check(int(stepped["step"]) == int(begin["step"]) + 1, f"{model}: a key advances one step")
+        check(int(stepped["frame"]) == int(begin["frame"]) + 1, f"{model}: a key advances one step")
         browser.run("""const slider = document.getElementById('time');
             slider.value = slider.max / 2; slider.dispatchEvent(new Event('input'));""")
         middle = browser.run(STATE)
-        check(int(middle["step"]) > 10 and int(middle["held"]) > 10,
+        check(int(middle["frame"]) > 10 and int(middle["held"]) > 10,
               f"{model}: the slider moves ({middle})")
         colors = browser.run("""
             const slider = document.getElementById('time');

@@ -1,5 +1,6 @@
 """A headless Chromium, controlled via chromedriver (WebDriver protocol) with only the standard
 library. Exits with 77 (skipped) if either is not installed."""
+import base64
 import json
 import pathlib
 import re
@@ -12,6 +13,22 @@ import urllib.error
 import urllib.request
 
 SKIPPED = 77
+
+# The view as 200 x 120 pixels.
+PICTURE = """
+  document.querySelector('#follow').dispatchEvent(new Event('change'));  // draws
+  const copy = document.createElement('canvas');
+  copy.width = 200; copy.height = 120;
+  const pen = copy.getContext('2d');
+  pen.drawImage(document.querySelector('#view canvas'), 0, 0, 200, 120);
+  return [...pen.getImageData(0, 0, 200, 120).data];"""
+
+
+def changed(before, after):
+    """Per mille of the pixels that differ visibly."""
+    different = sum(any(abs(before[i + k] - after[i + k]) > 8 for k in range(3))
+                    for i in range(0, len(before), 4))
+    return 1000 * different / (len(before) / 4)
 
 
 class Browser:
@@ -58,12 +75,38 @@ class Browser:
         except urllib.error.HTTPError as error:
             raise RuntimeError(error.read().decode()) from None
 
-    def open(self, file):
-        self.call("POST", self.session + "/url", {"url": pathlib.Path(file).resolve().as_uri()})
+    def open(self, page):
+        """Opens a file or an address."""
+        is_address = str(page).startswith("http")
+        url = page if is_address else pathlib.Path(page).resolve().as_uri()
+        self.call("POST", self.session + "/url", {"url": url})
 
     def run(self, script, *arguments):
         return self.call("POST", self.session + "/execute/sync",
                          {"script": script, "args": list(arguments)})
+
+    def picture(self):
+        return self.run(PICTURE)
+
+    def toggled(self, layer):
+        """Per mille of the pixels that change when a layer is toggled."""
+        click = f"document.querySelector('[data-layer={layer}]').click();"
+        before = self.picture()
+        self.run(click)
+        after = self.picture()
+        self.run(click)
+        return changed(before, after)
+
+    def drag(self, selector, start, end, kind="mouse"):
+        """Moves a pressed pointer between two places, in pixels from the element's centre."""
+        element = self.call("POST", self.session + "/element",
+                            {"using": "css selector", "value": selector})
+        move = [{"type": "pointerMove", "duration": 50, "x": x, "y": y, "origin": element}
+                for x, y in (start, end)]
+        self.call("POST", self.session + "/actions", {"actions": [
+            {"type": "pointer", "id": kind, "parameters": {"pointerType": kind}, "actions": [
+                move[0], {"type": "pointerDown", "button": 0}, move[1],
+                {"type": "pointerUp", "button": 0}]}]})
 
     def press(self, key):
         self.call("POST", self.session + "/actions", {"actions": [
@@ -80,6 +123,10 @@ class Browser:
         while not self.run(script):
             assert time.monotonic() < end, f"timeout waiting for: {script}"
             time.sleep(0.1)
+
+    def screenshot(self):
+        """A picture of the window (PNG)."""
+        return base64.b64decode(self.call("GET", self.session + "/screenshot"))
 
     def errors(self):
         """Errors on the console; warnings about slow software WebGL are ignored."""

@@ -9,6 +9,7 @@
 
 #include "support/BagWriter.h"
 #include "support/Hdl64.h"
+#include "support/LivoxPackets.h"
 
 namespace {
 
@@ -42,6 +43,7 @@ void writeVelodyne(const fs::path& rawlog, const fs::path& folder) {
     capture.write(folder / "flight.pcap");
     test::writeBytes(folder / "flight.bag", test::ros1BagOf(messages));
     test::writeBytes(folder / "flight.mcap", test::mcapOf(messages));
+    test::writeDb3(folder / "flight.db3", messages);
 }
 
 /// Flat ground 1.7 m below the sensor, and a surrounding wall 15 m away.
@@ -63,6 +65,20 @@ void writeHdl64(const fs::path& folder) {
     test::writeBytes(folder / "db.xml", test::hdl64Xml(lasers));
 }
 
+/// Flat ground 2 m below the sensor, and a wall 6 m away, for 0.5 s.
+void writeLivox(const fs::path& folder) {
+    test::CaptureWriter capture;
+    for (int number = 0; number < 1000; ++number) {
+        test::SentDatagram datagram;
+        const std::int64_t time_ns = 500000 * std::int64_t{number};
+        datagram.content = test::livoxPacketOfWall(number, time_ns);
+        datagram.time_s += 1e-9 * static_cast<double>(time_ns);
+        datagram.to_port = 56301;
+        capture.datagram(datagram);
+    }
+    capture.write(folder / "livox.pcap");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -72,6 +88,7 @@ int main(int argc, char** argv) try {
     }
     writeVelodyne(argv[1], argv[2]);
     writeHdl64(argv[2]);
+    writeLivox(argv[2]);
     return 0;
 } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());

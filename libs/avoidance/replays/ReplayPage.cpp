@@ -1,9 +1,9 @@
 #include <hagen/avoidance/WorldModel.h>
-#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <stdexcept>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,67 +11,12 @@
 #include "avoidance/replays/ReplayTexts.h"
 #include "base/Json.h"
 #include "base/NumberText.h"
+#include "base/view/ViewPage.h"
 
 namespace hagen::avoidance {
 namespace {
 
 using base::Json;
-
-/// 16-bit integers, little-endian, embedded in pages as base64.
-class PackedNumbers {
- public:
-    /// Rounds the value and clamps it to 16 bits.
-    void add(double value);
-    std::string text() const;
-
- private:
-    std::vector<std::uint8_t> bytes_;
-};
-
-void PackedNumbers::add(double value) {
-    const auto whole =
-        static_cast<std::int16_t>(std::lround(std::fmax(-32768, std::fmin(32767, value))));
-    bytes_.push_back(static_cast<std::uint8_t>(whole & 0xff));
-    bytes_.push_back(static_cast<std::uint8_t>((whole >> 8) & 0xff));
-}
-
-std::string PackedNumbers::text() const {
-    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes_.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes_.size(); i += 3) {
-        const std::size_t left = std::min<std::size_t>(3, bytes_.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) group = (group << 8) | (k < left ? bytes_[i + k] : 0u);
-        for (std::size_t digit = 0; digit < 4; ++digit) {
-            text += digit <= left ? kDigits[(group >> (18 - 6 * digit)) & 63u] : '=';
-        }
-    }
-    return text;
-}
-
-std::string filled(std::string_view page, const std::map<std::string, std::string_view>& values) {
-    std::string text;
-    for (;;) {
-        const std::size_t begin = page.find("{{");
-        if (begin == std::string_view::npos) return text.append(page);
-        const std::size_t end = page.find("}}", begin);
-        const std::string name(page.substr(begin + 2, end - begin - 2));
-        const auto value = values.find(name);
-        if (value == values.end()) throw std::logic_error("the page has no value for " + name);
-        text.append(page.substr(0, begin)).append(value->second);
-        page.remove_prefix(end + 2);
-    }
-}
-
-std::string scriptText(std::string json) {
-    // In a string, "</script>" would end the element, and "<!--<script>" would hide its end. JSON
-    // contains '<' only in strings.
-    const std::string escaped = "\\u003c";
-    for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos; at += escaped.size())
-        json.replace(at, 1, escaped);
-    return json;
-}
 
 /// Pages store coordinates as 16-bit centimetres from the start, up to 327 m.
 constexpr double kUnit_m = 0.01;
@@ -82,66 +27,94 @@ class PageWriter {
  public:
     explicit PageWriter(const FlightRecording& recording) : recording_(recording) {}
 
-    Json data() const {
-        Json data = head();
-        addTrack(data);
-        data["scene"] = scene();
-        PackedNumbers lives;
-        std::vector<Eigen::Vector3f> middles;
-        for (const ModelCell& cell : recording_.model) {
-            middles.push_back(cell.centre_m);
-            lives.add(cell.from_step);
-            lives.add(cell.until_step);
-        }
-        data["model"] = {{"edge_m", recording_.model_edge_m},
-                         {"middles", points(middles)},
-                         {"lives", lives.text()}};
-        data["steps"] = Json::array();
-        for (const RecordedStep& step : recording_.steps) data["steps"].push_back(json(step));
-        data["events"] = Json::array();
+    Json head(const std::string& heading) {
+        const Run& run = recording_.run;
+        Json times = Json::array(), events = Json::array();
+        for (const RecordedStep& step : recording_.steps) times.push_back(step.time_s);
         for (const RecordedEvent& event : recording_.events) {
-            data["events"].push_back({{"time_s", event.time_s}, {"what", event.what}});
+            events.push_back({{"time_s", event.time_s}, {"what", event.what}});
         }
-        return data;
+        std::string ending = recording_.ending;
+        if (!ending.empty()) ending[0] = static_cast<char>(std::toupper(ending[0]));
+        Json notes = {{{"text", ending}, {"is_alarm", run.result.outcome != Outcome::Success}}};
+        if (!recording_.is_same) {
+            notes.push_back({{"text",
+                              "Flown again, the result differs from the table: another version or "
+                              "machine?"},
+                             {"is_alarm", true}});
+        }
+        return {{"format", "hagen-view-1"},
+                {"heading", heading},
+                {"notes", notes},
+                {"events", events},
+                {"unit_m", kUnit_m},
+                {"ground_m", rounded(recording_.ground_m - recording_.start_m.z())},
+                {"frame_times_s", times},
+                {"charts", charts()},
+                {"flight", flight()}};
+    }
+
+    std::vector<std::string> frames() const {
+        std::vector<std::string> texts;
+        for (const RecordedStep& step : recording_.steps) texts.push_back(frame(step).dump());
+        return texts;
     }
 
  private:
-    Json head() const {
+    using Numbers = std::vector<std::int16_t>;
+
+    /// What changes from moment to moment, and what never changes.
+    Json flight() {
         const Run& run = recording_.run;
-        return {
-            {"scenario", run.scenario},
-            {"seed", run.seed},
-            {"model_name", displayName(run.setup.model)},
-            {"guidance", run.setup.guidance},
-            {"speed_m_s", run.setup.speed_m_s},
-            {"outcome", nameOf(run.result.outcome)},
-            {"ending", recording_.ending},
-            {"is_same", recording_.is_same},
-            {"unit_m", kUnit_m},
-            {"control_step_s", kControlStep_s},
-            {"start_m", {recording_.start_m.x(), recording_.start_m.y(), recording_.start_m.z()}},
-            {"ground_m", rounded(recording_.ground_m - recording_.start_m.z())},
-            {"goal", points(std::vector<Eigen::Vector3d>{recording_.goal_m})},
-            {"radius_m", run.setup.limits.radius_m}};
+        Numbers track, speeds, clearances, lives, middles;
+        for (const RecordedMoment& moment : recording_.track) {
+            add(moment.at_m, track);
+            speeds.push_back(base::roundedTo<std::int16_t>(moment.speed_m_s / kUnit_m));
+            clearances.push_back(base::roundedTo<std::int16_t>(moment.clearance_m / kUnit_m));
+        }
+        for (const ModelCell& cell : recording_.model) {
+            add(cell.centre_m, middles);
+            lives.push_back(base::roundedTo<std::int16_t>(cell.from_step));
+            lives.push_back(base::roundedTo<std::int16_t>(cell.until_step));
+        }
+        arrays_.add("track", track);
+        arrays_.add("speeds", speeds);
+        arrays_.add("clearances", clearances);
+        arrays_.add("middles", middles);
+        arrays_.add("lives", lives);
+        Json json = {{"scenario", run.scenario},
+                     {"seed", run.seed},
+                     {"model_name", displayName(run.setup.model)},
+                     {"model_edge_m", recording_.model_edge_m},
+                     {"outcome", nameOf(run.result.outcome)},
+                     {"control_step_s", kControlStep_s},
+                     {"goal_m", fromStart(recording_.goal_m)},
+                     {"radius_m", run.setup.limits.radius_m},
+                     {"scene", scene()}};
+        json.update(arrays_.json());
+        return json;
     }
 
-    void addTrack(Json& data) const {
-        PackedNumbers places, speeds, clearances;
-        for (const RecordedMoment& moment : recording_.track) {
-            add(moment.at_m, places);
-            speeds.add(moment.speed_m_s / kUnit_m);
-            clearances.add(moment.clearance_m / kUnit_m);
+    Json charts() const {
+        Json times = Json::array(), clearances = Json::array(), speeds = Json::array();
+        for (std::size_t i = 0; i < recording_.track.size(); ++i) {
+            times.push_back(rounded(static_cast<double>(i) * kControlStep_s));
+            clearances.push_back(rounded(recording_.track[i].clearance_m));
+            speeds.push_back(rounded(recording_.track[i].speed_m_s));
         }
-        data["track"] = places.text();
-        data["speeds"] = speeds.text();
-        data["clearances"] = clearances.text();
+        return {{{"label", "clearance [m]"}, {"times_s", times}, {"values", clearances}},
+                {{"label", "speed [m/s]"}, {"times_s", times}, {"values", speeds}}};
     }
 
     /// Each shape once, and the poses of its instances.
-    Json scene() const {
+    Json scene() {
         const TrueScene& scene = recording_.scene;
         Json shapes = Json::array(), things = Json::array(), movers = Json::array();
-        for (const simulation::Shape& shape : scene.shapes) shapes.push_back(cornersOf(shape));
+        for (const simulation::Shape& shape : scene.shapes) {
+            const std::string name = "shape" + std::to_string(shapes.size());
+            arrays_.add(name, cornersOf(shape));
+            shapes.push_back(name);
+        }
         std::map<std::pair<std::size_t, simulation::ObjectClass>, Json> poses;
         for (const simulation::SceneObject& object : scene.objects) {
             poses[{object.shape, object.kind}].push_back(json(object.pose));
@@ -152,28 +125,42 @@ class PageWriter {
                               {"poses", places}});
         }
         for (const TrueScene::Mover& mover : scene.movers) {
-            movers.push_back({{"shape", mover.shape}, {"poses", json(mover.poses)}});
+            const std::string name = "mover" + std::to_string(movers.size());
+            arrays_.add(name, placesOf(mover.poses));
+            movers.push_back({{"shape", mover.shape}, {"poses", name}});
         }
+        Numbers heights;
+        for (const double height_m : scene.ground.heights_m) {
+            heights.push_back(
+                base::roundedTo<std::int16_t>((height_m - recording_.start_m.z()) / kUnit_m));
+        }
+        arrays_.add("ground", heights, true);
         return {{"unit_m", kShapeUnit_m},
                 {"shapes", shapes},
                 {"things", things},
                 {"mover_step_s", TrueScene::kMoverStep_s},
                 {"turn_unit_rad", kTurnUnit_rad},
                 {"movers", movers},
-                {"ground", json(scene.ground)}};
+                {"ground",
+                 {{"x_m", rounded(scene.ground.min_m.x() - recording_.start_m.x())},
+                  {"y_m", rounded(scene.ground.min_m.y() - recording_.start_m.y())},
+                  {"step_m", scene.ground.step_m},
+                  {"along_x", scene.ground.along_x},
+                  {"along_y", scene.ground.along_y}}}};
     }
 
     /// The corners of a shape's triangles, in its own frame.
-    static std::string cornersOf(const simulation::Shape& shape) {
-        PackedNumbers numbers;
+    static Numbers cornersOf(const simulation::Shape& shape) {
+        Numbers numbers;
         for (const auto& triangle : shape.triangles) {
             for (const std::uint32_t corner : triangle) {
                 for (int axis = 0; axis < 3; ++axis) {
-                    numbers.add(static_cast<double>(shape.vertices_m[corner][axis]) / kShapeUnit_m);
+                    numbers.push_back(base::roundedTo<std::int16_t>(
+                        static_cast<double>(shape.vertices_m[corner][axis]) / kShapeUnit_m));
                 }
             }
         }
-        return numbers.text();
+        return numbers;
     }
 
     /// The pose as three rows of four numbers.
@@ -189,70 +176,62 @@ class PageWriter {
     }
 
     /// Positions and headings, alternating.
-    std::string json(const std::vector<Eigen::Affine3f>& poses) const {
-        PackedNumbers numbers;
+    Numbers placesOf(const std::vector<Eigen::Affine3f>& poses) const {
+        Numbers numbers;
         for (const Eigen::Affine3f& pose : poses) {
             add(Eigen::Vector3f(pose.translation()), numbers);
             const double heading_rad =
                 std::atan2(static_cast<double>(pose(1, 0)), static_cast<double>(pose(0, 0)));
-            numbers.add(heading_rad / kTurnUnit_rad);
+            numbers.push_back(base::roundedTo<std::int16_t>(heading_rad / kTurnUnit_rad));
         }
-        return numbers.text();
-    }
-
-    Json json(const TrueScene::Ground& ground) const {
-        PackedNumbers heights;
-        for (const double height_m : ground.heights_m) {
-            heights.add((height_m - recording_.start_m.z()) / kUnit_m);
-        }
-        return {{"x_m", rounded(ground.min_m.x() - recording_.start_m.x())},
-                {"y_m", rounded(ground.min_m.y() - recording_.start_m.y())},
-                {"step_m", ground.step_m},
-                {"along_x", ground.along_x},
-                {"along_y", ground.along_y},
-                {"heights", heights.text()}};
+        return numbers;
     }
 
     template <class Point>
-    void add(const Point& at, PackedNumbers& numbers) const {
+    void add(const Point& at, Numbers& numbers) const {
         for (int axis = 0; axis < 3; ++axis) {
             const double from_start_m = static_cast<double>(at[axis]) - recording_.start_m[axis];
-            numbers.add(from_start_m / kUnit_m);
+            numbers.push_back(base::roundedTo<std::int16_t>(from_start_m / kUnit_m));
         }
     }
-    template <class Point>
-    std::string points(const std::vector<Point>& all) const {
-        PackedNumbers numbers;
-        for (const Point& at : all) add(at, numbers);
-        return numbers.text();
+    Json fromStart(const Eigen::Vector3d& at) const {
+        const Eigen::Vector3d from_start_m = at - recording_.start_m;
+        return {rounded(from_start_m.x()), rounded(from_start_m.y()), rounded(from_start_m.z())};
     }
 
-    Json json(const RecordedStep& step) const {
-        PackedNumbers ways;
-        Json sizes = Json::array();
+    Json frame(const RecordedStep& step) const {
+        Numbers xyz, path, ways, sizes;
+        std::vector<std::uint8_t> labels(step.roi_m.size(), 2);
+        labels.resize(step.roi_m.size() + step.rou_m.size(), 1);
+        for (const Eigen::Vector3f& at : step.roi_m) add(at, xyz);
+        for (const Eigen::Vector3f& at : step.rou_m) add(at, xyz);
+        for (const Eigen::Vector3f& at : step.path_m) add(at, path);
         for (const RecordedMotion& motion : step.motions) {
             for (const Eigen::Vector3f& at : motion.path_m) add(at, ways);
-            const int points = static_cast<int>(motion.path_m.size());
-            sizes.push_back(motion.is_free ? points : -points);  // negative: not free
+            const auto points = static_cast<std::int16_t>(motion.path_m.size());
+            sizes.push_back(motion.is_free ? points : static_cast<std::int16_t>(-points));
         }
-        return {{"time_s", step.time_s},
-                {"latency_ms", rounded(step.latency_ms)},
-                {"carrot", points(std::vector<Eigen::Vector3d>{step.carrot_m})},
-                {"command_m_s",
-                 {rounded(step.command_m_s.x()), rounded(step.command_m_s.y()),
-                  rounded(step.command_m_s.z())}},
-                {"emergency", step.is_emergency},
-                {"model_size", step.model_size},
-                {"roi", points(step.roi_m)},
-                {"rou", points(step.rou_m)},
-                {"path", points(step.path_m)},
-                {"ways", ways.text()},
-                {"way_sizes", sizes}};
+        base::ViewArrays arrays;
+        arrays.add("xyz", xyz);
+        arrays.add("label", labels);
+        arrays.add("path", path);
+        arrays.add("ways", ways);
+        arrays.add("way_sizes", sizes);  // negative: not free
+        Json json = {{"latency_ms", rounded(step.latency_ms)},
+                     {"carrot_m", fromStart(step.carrot_m)},
+                     {"command_m_s",
+                      {rounded(step.command_m_s.x()), rounded(step.command_m_s.y()),
+                       rounded(step.command_m_s.z())}},
+                     {"is_emergency", step.is_emergency},
+                     {"model_size", step.model_size}};
+        json.update(arrays.json());
+        return json;
     }
 
     static double rounded(double value) { return std::round(1000 * value) / 1000; }
 
     const FlightRecording& recording_;
+    base::ViewArrays arrays_;
 };
 
 /// The heading: scenario, seed, model, guidance, speed, non-default conditions, outcome.
@@ -275,32 +254,14 @@ std::string headingOf(const Run& run) {
     return text + ": " + nameOf(run.result.outcome);
 }
 
-/// Escapes text for an HTML element.
-std::string htmlText(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '&') {
-            escaped += "&amp;";
-        } else if (c == '<') {
-            escaped += "&lt;";
-        } else {
-            escaped += c;
-        }
-    }
-    return escaped;
-}
-
 }  // namespace
 
 std::string replayPage(const FlightRecording& recording) {
-    const std::string data = scriptText(PageWriter(recording).data().dump());
-    const std::string heading = htmlText(headingOf(recording.run));
-    return filled(texts::replay_html, {{"style", texts::replay_css},
-                                       {"heading", heading},
-                                       {"data", data},
-                                       {"three", texts::three_js},
-                                       {"controls", texts::orbit_controls_js},
-                                       {"script", texts::replay_js}});
+    PageWriter writer(recording);
+    std::ostringstream page;
+    base::writeViewPage(page, writer.head(headingOf(recording.run)), writer.frames(),
+                        texts::flight_js);
+    return page.str();
 }
 
 }  // namespace hagen::avoidance

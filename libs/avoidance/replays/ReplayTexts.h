@@ -1,9 +1,9 @@
 #pragma once
 #include <string_view>
 
-/// The files of the replay page, embedded in the program.
+/// The script that extends the viewer's page for replays, embedded in the program.
 namespace hagen::avoidance::texts {
 
-extern const std::string_view replay_html, replay_css, replay_js, three_js, orbit_controls_js;
+extern const std::string_view flight_js;
 
 }  // namespace hagen::avoidance::texts

@@ -5,11 +5,10 @@
 
 namespace hagen::convert {
 
-/// Draws the bins of an Airframe (Airframe::bin_range_m, at least one row) as the PNG `name` in the
-/// existing `folder`: azimuth against elevation in the sensor frame, left of the sensor on the
-/// left, coloured by masked range; unmasked bins are grey. Throws std::runtime_error like
-/// runGnuplot().
+/// Draws the bins of an Airframe (Airframe::bin_range_m, at least one row) as a PNG: azimuth
+/// against elevation in the sensor frame, left of the sensor on the left, coloured by masked range;
+/// unmasked bins are grey. Throws std::runtime_error like Drawing::draw().
 void drawAirframe(const Image<float>& bin_range_m, const std::string& title,
-                  const std::filesystem::path& folder, const std::string& name);
+                  const std::filesystem::path& file);
 
 }  // namespace hagen::convert

@@ -1,125 +1,126 @@
 #include "convert/pictures/StagePictures.h"
-#include "convert/pictures/Gnuplot.h"
+#include "convert/pictures/Drawing.h"
+#include "filter/RoiBoxes.h"
+#include "filter/paper/SingularSpectrumAnalysis.h"
 
+#include <hagen/scan/Angle.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
-#include <string>
-
-#include "convert/pictures/StageData.h"
-#include "convert/pictures/StagePanels.h"
+#include <tuple>
 
 namespace hagen::convert {
 namespace {
 
-constexpr int kWidth_px = StagePanelWriter::kWidth_px;
-
-void depthPicture(StagePanelWriter& panels) {
-    panels.beginPicture("1_depth.png", "1  depth image (III-A)", 330);
-    panels.depthImage({84, kWidth_px - 105, 60, 270}, "$depth", true);
-    panels.endPicture();
+/// The longest contiguous segment of a column's angles; empty if shorter than the window.
+struct Run {
+    int first_row = 0, rows = 0;
+};
+Run longestSmoothedRun(const Image<float>& angles, int column, int window_size) {
+    Run longest;
+    const int rows = static_cast<int>(angles.rows());
+    for (int row = 0, first = 0; row <= rows; ++row) {
+        if (row < rows && hasValue(angles(row, column))) continue;
+        if (row - first > longest.rows) longest = {first, row - first};
+        first = row + 1;
+    }
+    return longest.rows >= window_size ? longest : Run();
 }
 
-void maximaPicture(StagePanelWriter& panels) {
-    panels.beginPicture("2_maxima.png", "2  persistent maxima of proximity (III-B)", 860);
-    panels.maximaImage({84, kWidth_px - 105, 590, 800}, true);
-    panels.barcode({84, kWidth_px - 105, 60, 480});
-    panels.endPicture();
-}
-
-void mergedPicture(StagePanelWriter& panels) {
-    panels.beginPicture("3_merged.png", "3  maxima sharpened and merged (III-B)", 660);
-    panels.depthImage({84, kWidth_px - 105, 390, 600}, "$merged", true);
-    panels.angleBefore({84, 570, 60, 270});
-    panels.angleAfter({650, kWidth_px - 60, 60, 270});
-    panels.endPicture();
-}
-
-void rangeAnglePicture(StagePanelWriter& panels) {
-    panels.beginPicture("4_range_angle.png", "4  range angle image (III-C)", 330);
-    panels.angleImage({84, kWidth_px - 105, 60, 270}, "$angle", true, false);
-    panels.endPicture();
-}
-
-void smoothedPicture(StagePanelWriter& panels) {
-    panels.beginPicture("5_smoothed.png", "5  singular spectrum analysis (III-D)", 860);
-    panels.angleImage({84, kWidth_px - 105, 590, 800}, "$smoothed", true, true);
-    panels.series({84, 560, 60, 460});
-    panels.components({760, kWidth_px - 30, 60, 460});
-    panels.endPicture();
-}
-
-void labelPicture(StagePanelWriter& panels) {
-    panels.beginPicture("6_labels.png", "6  regions of interest (III-E)", 660);
-    panels.labelImage({84, kWidth_px - 105, 390, 580}, true);
-    panels.zoomLabels({84, kWidth_px - 105, 60, 270});
-    panels.endPicture();
-}
-
-void topPicture(StagePanelWriter& panels) {
-    panels.beginPicture("7_top_view.png", "7  the returns from above", 960, 900);
-    panels.topView({70, 880, 60, 870}, true);
-    panels.endPicture();
-}
-
-void overview(StagePanelWriter& panels) {
-    const int height = 1540;
-    panels.beginPicture("stages.png", "Stages of the segmentation", height);
-    const auto row = [&](int number) {
-        const double top = height - 64.0 - 134.0 * number;
-        return Box{84, kWidth_px - 105, top - 98, top};
-    };
-    panels.panelTitle("1  depth image (III-A)");
-    panels.depthImage(row(0), "$depth", false);
-    panels.panelTitle("2  persistent maxima of proximity (III-B)");
-    panels.maximaImage(row(1), false);
-    panels.panelTitle("3  maxima sharpened and merged (III-B)");
-    panels.depthImage(row(2), "$merged", false);
-    panels.panelTitle("4  range angle image (III-C)");
-    panels.angleImage(row(3), "$angle", false, false);
-    panels.panelTitle("5  smoothed by singular spectrum analysis (III-D)");
-    panels.angleImage(row(4), "$smoothed", false, true);
-    panels.panelTitle("6  regions of interest (III-E)");
-    panels.labelImage(row(5), true);
-    panels.panelTitle("2  ");
-    panels.barcode({84, 540, 390, 600});
-    panels.panelTitle("5  ");
-    panels.components({150, 540, 60, 290});
-    panels.panelTitle("7  the returns from above");
-    panels.topView({640, 1180, 60, 600}, false);
-    panels.endPicture();
+int selectedColumn(const StageView& view) {
+    const SegmentationResult& r = view.result;
+    const int columns = static_cast<int>(r.labels.cols());
+    const float azimuth_deg = view.azimuth_deg.value_or(0.0f);
+    int chosen =
+        nearestColumn(static_cast<float>(radians(std::remainder(azimuth_deg, 360.0f))), columns);
+    if (view.azimuth_deg) return chosen;
+    // Columns that are not smoothed come last.
+    std::tuple best(true, std::numeric_limits<float>::infinity());
+    for (int column = 0; column < columns; ++column) {
+        const bool is_unchanged =
+            longestSmoothedRun(r.range_angle_rad, column, view.options.window_size).rows == 0;
+        for (int row = 0; row < r.labels.rows(); ++row) {
+            if (r.labels(row, column) != Label::Roi) continue;
+            const std::tuple found(is_unchanged, r.repaired_m(row, column));
+            if (!(found < best)) continue;
+            chosen = column;
+            best = found;
+        }
+    }
+    return chosen;
 }
 
 }  // namespace
 
-const std::vector<std::string>& stagePictures() {
-    static const std::vector<std::string> kNames{
-        "1_depth.png",    "2_maxima.png", "3_merged.png",   "4_range_angle.png",
-        "5_smoothed.png", "6_labels.png", "7_top_view.png", "stages.png"};
-    return kNames;
-}
-
 const base::OutputKind kStagePictures{
     "a folder of pictures", [](const std::filesystem::path& within) {
-        const auto& pictures = stagePictures();
-        return std::find(pictures.begin(), pictures.end(), within.filename()) != pictures.end();
+        constexpr std::array kNames{"overview.png", "1_depth.png",       "2_maxima.png",
+                                    "3_merged.png", "4_range_angle.png", "5_smoothed.png",
+                                    "6_labels.png", "7_top_view.png"};
+        return std::find(kNames.begin(), kNames.end(), within.filename()) != kNames.end();
     }};
 
 void drawStages(const StageView& view, const std::filesystem::path& folder) {
-    if (view.result.labels.rows() != view.sensor.rows()) {
-        throw std::invalid_argument(
-            "drawStages: images of " + std::to_string(view.result.labels.rows()) +
-            " rows do not match a sensor with " + std::to_string(view.sensor.rows()) + " beams");
+    const SegmentationResult& r = view.result;
+    const Options& options = view.options;
+    if (r.labels.rows() != view.sensor.rows()) {
+        throw std::invalid_argument("drawStages: images of " + std::to_string(r.labels.rows()) +
+                                    " rows do not match a sensor with " +
+                                    std::to_string(view.sensor.rows()) + " beams");
     }
-    const StageData data = stageDataOf(view);
-    StagePanelWriter panels(view, data);
-    depthPicture(panels);
-    maximaPicture(panels);
-    mergedPicture(panels);
-    rangeAnglePicture(panels);
-    smoothedPicture(panels);
-    labelPicture(panels);
-    topPicture(panels);
-    overview(panels);
-    runGnuplot(panels.script(), folder, stagePictures());
+    const std::vector<RoiBox> boxes = boxRoiComponents(view.scan, r.returns);
+    std::vector<float> maxima, obstacles;
+    std::vector<std::int32_t> large;
+    for (const Maximum& m : r.maxima) {
+        maxima.insert(maxima.end(), {static_cast<float>(m.column), static_cast<float>(m.row),
+                                     m.birth_m, m.death_m});
+    }
+    for (const RoiBox& box : boxes) {
+        const auto &low = box.extents_m.min(), &high = box.extents_m.max();
+        obstacles.insert(obstacles.end(),
+                         {box.nearest_m, high.z() - low.z(), low.x(), low.y(), high.x(), high.y()});
+    }
+    for (const RoiBox& box : boxesToDraw(boxes)) large.push_back(box.component);
+
+    const int column = selectedColumn(view);
+    const Run run = longestSmoothedRun(r.range_angle_rad, column, options.window_size);
+    SeriesComponents components;
+    if (run.rows > 0) {
+        components = decomposeSeries(r.range_angle_rad.col(column).segment(run.first_row, run.rows),
+                                     options.window_size);
+    }
+    const std::vector<double> variances(components.eigenvalues.begin(),
+                                        components.eigenvalues.end());
+    Drawing drawing({{"kind", "stages"},
+                     {"folder", folder.string()},
+                     {"title", view.title},
+                     {"zone_m", options.zone_m},
+                     {"window_size", options.window_size},
+                     {"kept", options.principal_components},
+                     {"column", column},
+                     {"first_row", run.first_row},
+                     {"elevations_rad", view.sensor.elevations_rad},
+                     {"variances", variances},
+                     {"large", large}});
+    drawing.add("depth_m", r.range_image.depth_m);
+    drawing.add("repaired_m", r.repaired_m);
+    drawing.add("merged_m", r.merged_m);
+    drawing.add("angle_rad", r.range_angle_rad);
+    drawing.add("smoothed_rad", r.smoothed_rad);
+    drawing.add("labels", r.labels);
+    drawing.add("components", r.components);
+    drawing.add("pixel_of_return", r.range_image.depth_mapper);
+    drawing.add("x_m", view.scan.x_m);
+    drawing.add("y_m", view.scan.y_m);
+    drawing.add("label", r.returns.label);
+    drawing.add("component", r.returns.component);
+    drawing.add("maxima", maxima.data(), {r.maxima.size(), 4});
+    drawing.add("boxes", obstacles.data(), {boxes.size(), 6});
+    drawing.add("elementary", components.elementary.data(),
+                {variances.size(), static_cast<std::size_t>(run.rows)});
+    drawing.draw();
 }
 
 }  // namespace hagen::convert

@@ -25,26 +25,23 @@ struct StageView {
     std::optional<float> azimuth_deg = std::nullopt;
 };
 
-/// The pictures of drawStages(): one per stage, and an overview.
-const std::vector<std::string>& stagePictures();
-/// The output kind: a folder of these pictures, or a folder of such folders.
+/// The output kind: a folder of the pictures of drawStages(), or a folder of such folders.
 extern const base::OutputKind kStagePictures;
 
 /// Draws the result of each stage for a scan as PNGs in the existing `folder`:
 ///
-///   1_depth.png        the depth image
-///   2_maxima.png       its persistent maxima, and the barcode of their births and deaths
-///   3_merged.png       the depth image with sharpened maxima
-///   4_range_angle.png  the range angle image
-///   5_smoothed.png     the smoothed image, and the principal components of one column
-///   6_labels.png       RoI and ROU, one colour per obstacle
-///   7_top_view.png     the returns in top view, in the same colours
-///   stages.png         all of the above
+///     overview.png       top view with the nearest obstacles labelled, and the images below
+///     1_depth.png        the distance image
+///     2_maxima.png       its persistent maxima, and the barcode of their births and deaths
+///     3_merged.png       the distance image with sharpened maxima
+///     4_range_angle.png  the range angle image
+///     5_smoothed.png     the smoothed image, and the principal components of one column
+///     6_labels.png       RoI and ROU; neighbouring obstacles differ in colour
+///     7_top_view.png     the returns in top view, in the same colours
 ///
 /// Images show azimuths from +180 to -180 degrees, left of the sensor on the left, with the lowest
-/// beam at the bottom; pixels without a value are grey. Runs gnuplot once. Throws
-/// std::invalid_argument if the images do not have one row per beam, std::runtime_error like
-/// runGnuplot().
+/// beam at the bottom; pixels without a value are grey. Throws std::invalid_argument if the images
+/// do not have one row per beam, std::runtime_error like Drawing::draw().
 void drawStages(const StageView& view, const std::filesystem::path& folder);
 
 }  // namespace hagen::convert

@@ -16,7 +16,7 @@ extern const base::OutputKind kCharts;
 ///     by_kind.svg                     recall of each object class
 ///     sweep_KEY.svg                   F1 of RoI and ROU over the values of a sweep
 ///
-/// Charts without data are skipped. Throws std::runtime_error like runGnuplot().
+/// Charts without data are skipped. Throws std::runtime_error like Drawing::draw().
 void drawCharts(const std::filesystem::path& folder, const Summary& summary);
 
 }  // namespace hagen::evaluation

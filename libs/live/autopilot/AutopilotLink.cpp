@@ -43,6 +43,10 @@ class AutopilotLink::Work {
     }
 
     const char* state() const { return state_; }
+    Directions directions() const {
+        const std::lock_guard lock(mutex_);
+        return directions_;
+    }
 
     void stop() {
         is_at_end_ = true;
@@ -152,6 +156,9 @@ class AutopilotLink::Work {
         lock.unlock();
         const Directions directions =
             distances.at(time_s, [&](double at_s) { return motion.at(at_s); });
+        lock.lock();
+        directions_ = directions;
+        lock.unlock();
         const std::optional<VehiclePose> pose = motion.at(time_s);
         const double latest_s = distances.latest_s();
         watch(latest_s, time_s);
@@ -286,6 +293,7 @@ class AutopilotLink::Work {
 
     mutable std::mutex mutex_;  // guards all members below
     std::optional<SectorDistances> distances_;
+    Directions directions_;  ///< sent last
     VehicleMotion motion_;
     mavlink::Parser parser_;
     float below_m_ = 0;
@@ -318,5 +326,6 @@ void AutopilotLink::stop() { work_->stop(); }
 AutopilotLink::Counts AutopilotLink::counts() const { return work_->counts(); }
 
 std::string AutopilotLink::state() const { return work_->state(); }
+Directions AutopilotLink::directions() const { return work_->directions(); }
 
 }  // namespace hagen::live

@@ -58,6 +58,8 @@ class AutopilotLink {
     Counts counts() const;
     /// A short text for a status line: "ok", or the problem.
     std::string state() const;
+    /// The directions sent last; all unknown before the first message.
+    Directions directions() const;
 
  private:
     class Work;

@@ -28,6 +28,8 @@ struct Conversion {
     OutputFormat cloud_format = OutputFormat::Ply;
     std::filesystem::path mcap;      ///< labelled clouds, boxes and poses as ROS 2 messages
     std::filesystem::path pictures;  ///< pictures of each stage, one subfolder per scan
+    std::filesystem::path view;      ///< HTML page that plays the scans
+    std::size_t view_every = 0;      ///< show every Nth scan; 0: see ViewOutput.h
     std::vector<std::filesystem::path> octomaps;  ///< the map in each format: .bt, .ot, .3Dscene
     observations::ScanMapOptions octomap;         ///< resolution and contents of the map
     std::filesystem::path
@@ -84,6 +86,7 @@ struct ConversionReport {
         std::size_t scans = 0, points = 0, boxes = 0, messages = 0;
     };
     Mcap mcap;                             ///< contents of the MCAP
+    std::size_t view_frames = 0, view_every = 1;  ///< scans in the page, and their interval
     std::size_t scans_without_ground = 0;  ///< their returns in the zone are RoI
     std::size_t scans_in_map = 0;          ///< scans in the OctoMap (those with a pose)
     std::size_t scans_with_attitude = 0;   ///< scans with known roll and pitch
