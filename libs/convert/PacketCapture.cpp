@@ -1,8 +1,8 @@
 #include "convert/PacketCapture.h"
 
 #include <hagen/sensors/CaptureFile.h>
+#include "base/ReadFile.h"
 
-#include <stdexcept>
 #include <utility>
 
 namespace hagen::convert {
@@ -17,7 +17,6 @@ void PacketCapture::add(const std::string& sensor_label, sensors::Datagram datag
 std::size_t capturePackets(const std::filesystem::path& recording,
                            recordings::SourceOptions options, const std::filesystem::path& capture,
                            bool overwrite) {
-    const std::string name = recording.string();
     base::checkApart({capture}, {recording, options.sensor_json});
     PacketCapture output(capture, overwrite);
     std::size_t packets = 0;
@@ -25,14 +24,14 @@ std::size_t capturePackets(const std::filesystem::path& recording,
         output.add(label, datagram);
         ++packets;
     };
-    if (sensors::isCapture(recording)) throw std::runtime_error(name + ": is a capture already");
+    if (sensors::isCapture(recording)) base::failAt(recording, "is a capture already");
     const auto source = recordings::openRecording(recording, std::move(options));
     while (source->nextEntry()) {
     }
     if (packets == 0) {
-        throw std::runtime_error(name +
-                                 ": has no packets of a LiDAR, only decoded scans; segment them "
-                                 "with rawlog-segment");
+        base::failAt(recording,
+                     "has no packets of a LiDAR, only decoded scans; segment them with "
+                     "rawlog-segment");
     }
     output.commit();
     return packets;
