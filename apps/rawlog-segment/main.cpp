@@ -235,8 +235,7 @@ void check(const Flags& flags) {
     if (!has_output && flags.learned_airframe.empty() && flags.capture.empty()) {
         throw UsageError(
             "an output (-o, --view, --kitti, --clouds, --mcap, --pictures, --octomap, --stats, "
-            "--pcap or "
-            "--learn-airframe) is required");
+            "--pcap or --learn-airframe) is required");
     }
     if (!flags.capture.empty() && (has_output || !flags.learned_airframe.empty())) {
         throw UsageError("--pcap", "excludes other outputs; run rawlog-segment again for them");

@@ -407,7 +407,7 @@ TEST_F(RawlogSegment, RejectsInvalidArguments) {
     expectFailure({"-o", path("out"), recording(), "more"}, 2, "not expected: more");
     const Arguments log{"-i", recording()};
     expectFailures(log, 2,
-                   {{{}, "an output (-o, --kitti"},
+                   {{{}, "an output (-o, --view"},
                     {{"-o", ""}, "must not be empty"},
                     {{"--kitti", ""}, "must not be empty"},
                     {{"--kitti", path("out"), "--preview"}, "--output"}});

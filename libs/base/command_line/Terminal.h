@@ -19,8 +19,7 @@ std::ostream& clearLine(std::ostream& out);
 /// Width of the terminal of standard error; 80 if unknown.
 std::size_t terminalColumns();
 
-/// Joins the leading parts that fit into a line of this width by " | ". Cuts the first part if it
-/// does not fit.
+/// Joins the leading parts that fit into a line of this width by " | "; cuts a longer first part.
 std::string lineOf(const std::vector<std::string>& parts, std::size_t columns);
 
 }  // namespace hagen::base
