@@ -24,7 +24,7 @@ def faults(path, read=lambda path: path.read_text()):
         file = Path(os.path.normpath(path.parent / name)) if name else path
         if not file.exists():
             found.append(where + "no such file")
-        elif is_picture and (file.suffix not in (".png", ".svg") or file.stat().st_size == 0):
+        elif is_picture and (file.suffix not in (".png", ".svg", ".webp") or file.stat().st_size == 0):
             found.append(where + "not a picture")
         elif anchor and (file.suffix != ".md" or anchor not in pages.anchors(read(file))):
             found.append(where + "no such heading")
