@@ -25,7 +25,7 @@ def shot(browser, at_s):
 
 with Browser(width, height) as browser:
     browser.open(page)
-    browser.wait_for("return Number(document.body.dataset.frame) >= 0;")
+    browser.wait_for("return document.body.dataset.frame >= 0 && document.getElementById('figures').childNodes.length > 1;")
     browser.run("".join(sys.argv[5:]) or ";")
     first, *others = [shot(browser, time_s + PERIOD_MS / 1000 * i)
                       for i in range(FRAMES if picture.suffix == ".webp" else 1)]

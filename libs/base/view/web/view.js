@@ -247,10 +247,8 @@ function showObstacles(frame) {
   (frame.boxes || []).forEach(([number, , nearest, ...c], rank) => {
     const corner = bits => [c[bits & 1 ? 3 : 0], c[bits & 2 ? 4 : 1], c[bits & 4 ? 5 : 2]];
     for (let a = 0; a < 8; ++a) for (const bit of [1, 2, 4]) if (!(a & bit)) edges.push(...corner(a), ...corner(a | bit));
-    // The corner or side that faces the sensor; the middle of a box around it.
-    const facing = [0, 1, 2].map(k => Math.max(c[k], Math.min(c[k + 3], 0)));
-    const at = facing.some(x => x !== 0) ? facing : [0, 1, 2].map(k => (c[k] + c[k + 3]) / 2);
-    if (rank < 15) labels.push({text: nearest.toFixed(1) + ' m', at: new THREE.Vector3(...at).applyMatrix4(sensor.matrix)});
+    const top = new THREE.Vector3((c[0] + c[3]) / 2, (c[1] + c[4]) / 2, c[5]);
+    if (rank < 15) labels.push({text: nearest.toFixed(1) + ' m', at: top.applyMatrix4(sensor.matrix)});
   });
   boxes.set(new Float32Array(edges));
 }
