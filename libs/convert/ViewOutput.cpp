@@ -109,7 +109,8 @@ Json boxesOf(const Scan& scan, const LabelledReturns& returns) {
 }
 
 /// The ground within the zone, as a square grid of heights in cm in the ground frame.
-Json groundOf(const Ground& ground, float zone_m, base::ViewArrays& arrays) {
+Json groundOf(const Ground& ground, const Eigen::Matrix3f& image_from_sensor, float zone_m,
+              base::ViewArrays& arrays) {
     const int half = static_cast<int>(std::ceil(static_cast<double>(zone_m) / kGroundStep_m));
     std::vector<std::int16_t> heights;
     for (int j = -half; j <= half; ++j) {
@@ -123,7 +124,9 @@ Json groundOf(const Ground& ground, float zone_m, base::ViewArrays& arrays) {
         }
     }
     arrays.add("ground", heights, true);
-    return {{"from_sensor", json(ground.from_sensor.matrix())},
+    Eigen::Isometry3f from_image = ground.from_sensor;
+    from_image.linear() *= image_from_sensor.transpose();
+    return {{"from_scan", json(from_image.matrix())},
             {"min_m", -half * kGroundStep_m},
             {"step_m", kGroundStep_m},
             {"side", 2 * half + 1}};
@@ -234,7 +237,8 @@ void ViewOutput::write(const std::string& name, const ObservationSegmenter::Outp
         frame["is_placed"] = segmented.pose.sensor_pose.has_value();
     }
     if (result.ground.is_seen) {
-        frame["ground"] = groundOf(result.ground, segmented.options->zone_m, arrays);
+        frame["ground"] =
+            groundOf(result.ground, image_from_sensor, segmented.options->zone_m, arrays);
     }
     frame.update(arrays.json());
     frames_.push_back(base::dumpJson(frame));

@@ -1,4 +1,7 @@
 // The page written by rawlog-segment --view. tests/browser opens it.
+#include <hagen/scan/Angle.h>
+#include <algorithm>
+#include <cmath>
 #include "support/CloudFiles.h"
 #include "support/ReadView.h"
 #include "support/SegmentTest.h"
@@ -27,6 +30,43 @@ TEST_F(SegmentView, ShowsScansPosesAndStatistics) {
     EXPECT_EQ(data["charts"][0]["label"], "nearest obstacle [m]");
     const double nearest_m = frame["boxes"][0][2];
     EXPECT_NEAR(data["charts"][0]["values"][9], nearest_m, 0.002);
+}
+
+/// Heights of the ROU returns up to 10 m, above the plane of the page's ground.
+std::vector<double> groundHeights(const nlohmann::json& frame) {
+    auto arrays = test::viewArrays(frame);
+    const std::vector<double> m = frame["ground"]["from_scan"];
+    const int rows = frame["image"][0], columns = frame["image"][1];
+    std::vector<double> heights_m;
+    std::size_t with_pixel = 0;
+    for (std::size_t i = 0; i < arrays["range"].size(); ++i) {
+        if (arrays["pixel"][i] < 0) continue;
+        const double offset = static_cast<double>(arrays["offset"][with_pixel++] - 128) / 8;
+        const double column = static_cast<double>(arrays["pixel"][i] / rows) + 0.5 - offset;
+        const double azimuth_rad = kPi * (1 - 2 * column / columns);
+        const double elevation_rad = 0.0005 * static_cast<double>(arrays["elevation"][i]);
+        const double range_m = 0.04 * static_cast<double>(arrays["range"][i]);
+        if (arrays["label"][i] != 1 || range_m > 10) continue;
+        heights_m.push_back(m[8] * range_m * std::cos(elevation_rad) * std::cos(azimuth_rad) +
+                            m[9] * range_m * std::cos(elevation_rad) * std::sin(azimuth_rad) +
+                            m[10] * range_m * std::sin(elevation_rad) + m[11]);
+    }
+    std::sort(heights_m.begin(), heights_m.end());
+    return heights_m;
+}
+
+TEST_F(SegmentView, GroundFitsReturnsInEveryPosture) {
+    for (const char* const roll_deg : {"0", "90", "180"}) {
+        const auto made = test::run(
+            HAGEN_RAWLOG_SIMULATE,
+            {"--scenario", "field", "--scans", "1", "--altitude", "3", "--seed", "1", "--clear-air",
+             "--mount-roll-deg", roll_deg, "-o", path("flight.rawlog"), "--overwrite"});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        expectSuccess({path("flight.rawlog"), "--view", path("view.html"), "--overwrite"});
+        const auto heights_m = groundHeights(dataOf("view.html")["frames"][0]);
+        ASSERT_GT(heights_m.size(), 100u) << roll_deg;
+        EXPECT_NEAR(heights_m[heights_m.size() / 2], 0, 0.3) << roll_deg;
+    }
 }
 
 TEST_F(SegmentView, ShowsEveryNthScan) {

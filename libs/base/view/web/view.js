@@ -165,7 +165,7 @@ function complete(frame, arrays) {
   arrays.positions = xyz;
   const {ground} = frame;
   if (ground) {
-    const at = matrixOf(ground.from_sensor), point = new THREE.Vector3(), side = ground.side;
+    const at = matrixOf(ground.from_scan), point = new THREE.Vector3(), side = ground.side;
     const heights = Float32Array.from(arrays.ground, n => n * 0.01);
     arrays.groundHeights = heights;
     arrays.height = Float32Array.from({length: count}, (_, i) => {
@@ -270,8 +270,8 @@ function placeLabels() {
 function showGround(frame, arrays) {
   groundFrame.visible = Boolean(frame.ground);
   if (!frame.ground) return;
-  const {from_sensor, min_m, step_m, side} = frame.ground;
-  groundFrame.matrix.getInverse(matrixOf(from_sensor));
+  const {from_scan, min_m, step_m, side} = frame.ground;
+  groundFrame.matrix.getInverse(matrixOf(from_scan));
   groundFrame.matrixWorldNeedsUpdate = true;
   const {wires, faced} = grid(min_m, min_m, step_m, side, side, arrays.groundHeights);
   groundWires.geometry.dispose();
