@@ -11,7 +11,9 @@
 #include <cmath>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -40,32 +42,40 @@ void yieldToOthers() {
 
 /// A copy of a labelled sector.
 struct Sector {
-    base::ViewReturns returns;
+    std::vector<float> x_m, y_m, z_m, intensity;
+    std::vector<Label> label;
     double sweep_rad, time_s;
 };
 
 std::shared_ptr<const Sector> copyOf(const live::LabelledSector& sector) {
-    auto copy = std::make_shared<Sector>();
     const Scan& scan = sector.returns;
-    base::ViewReturns& returns = copy->returns;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (!hasValue(scan.range_m[i])) continue;
-        const float flat_m = std::hypot(scan.x_m[i], scan.y_m[i]);
-        returns.azimuth_rad.push_back(std::atan2(scan.y_m[i], scan.x_m[i]));
-        returns.elevation_rad.push_back(std::atan2(scan.z_m[i], flat_m));
-        returns.range_m.push_back(scan.range_m[i]);
-        returns.label.push_back(static_cast<std::uint8_t>(sector.label[i]));
-        if (!scan.intensity.empty()) returns.intensity.push_back(scan.intensity[i]);
-    }
-    copy->sweep_rad = sector.sweep ? sector.sweep->to_rad - sector.sweep->from_rad : 0;
-    copy->time_s = sector.last_time_s;
-    return copy;
+    return std::make_shared<const Sector>(Sector{
+        scan.x_m, scan.y_m, scan.z_m, scan.intensity, sector.label,
+        sector.sweep ? sector.sweep->to_rad - sector.sweep->from_rad : 0, sector.last_time_s});
 }
 
-template <class Value>
-void append(const std::vector<Value>& from, std::vector<Value>& to) {
-    to.insert(to.end(), from.begin(), from.end());
-}
+/// Blocks the accepting thread while all connections are in use, so that further clients wait in
+/// the kernel's queue and use no file descriptors.
+class BoundedPool : public httplib::ThreadPool {
+ public:
+    explicit BoundedPool(std::size_t connections) : ThreadPool(connections), free_(connections) {}
+    void enqueue(std::function<void()> serve) override {
+        std::unique_lock lock(mutex_);
+        freed_.wait(lock, [this] { return free_ > 0; });
+        --free_;
+        ThreadPool::enqueue([this, serve = std::move(serve)] {
+            serve();
+            const std::lock_guard done(mutex_);
+            ++free_;
+            freed_.notify_one();
+        });
+    }
+
+ private:
+    std::mutex mutex_;
+    std::condition_variable freed_;
+    std::size_t free_;
+};
 
 Json jsonOf(const live::Directions& directions, double begin_rad, double now_s) {
     Json distances = Json::array(), states = Json::array(), ages = Json::array();
@@ -95,7 +105,11 @@ live::Address addressOf(const std::string& text) {
 class LiveView::Work {
  public:
     explicit Work(Settings settings) : settings_(std::move(settings)) {
-        server_.new_task_queue = [] { return new httplib::ThreadPool(kMaxClients); };
+        server_.new_task_queue = [] { return new BoundedPool(kMaxClients); };
+        server_.set_socket_options([](int socket) {  // by default, programs may share a port
+            const int yes = 1;
+            setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+        });
         server_.set_keep_alive_timeout(1);
         server_.set_read_timeout(2s);
         server_.set_write_timeout(2s);
@@ -122,6 +136,10 @@ class LiveView::Work {
     ~Work() {
         is_at_end_ = true;
         next_.notify_all();
+        // Before the server runs, stop() has no effect.
+        while (server_thread_.joinable() && !server_.is_running() && !has_served_) {
+            std::this_thread::sleep_for(1ms);
+        }
         server_.stop();
         if (server_thread_.joinable()) server_thread_.join();
         if (frame_thread_.joinable()) frame_thread_.join();
@@ -133,6 +151,7 @@ class LiveView::Work {
         server_thread_ = std::thread([this] {
             yieldToOthers();
             server_.listen_after_bind();
+            has_served_ = true;
         });
         frame_thread_ = std::thread([this] {
             yieldToOthers();
@@ -155,20 +174,26 @@ class LiveView::Work {
         if (!lock) return;
         shared_.sectors = sectors_;
         shared_.distances = distances_;
+        // Asked here, because a thread of low priority must not lock the autopilot's state.
+        if (settings_.directions_sent) shared_.sent = settings_.directions_sent();
+        if (settings_.motion) shared_.attitude = settings_.motion().attitude;
     }
 
     void show(const live::LiveReport& report, const live::LiveStatus& status,
               const std::string& autopilot) {
         if (clients_ == 0) return;
         const bool is_near = status.nearest_m > 0;  // not NaN
+        const auto latency = [](double time_s) {
+            return time_s > 0 ? base::fixedText(1e3 * time_s, 2) + " ms" : "-";
+        };
         const std::unique_lock lock(shared_mutex_, std::try_to_lock);
         if (!lock) return;
         shared_.values = {
             {"nearest obstacle",
              is_near ? base::fixedText(static_cast<double>(status.nearest_m), 1) + " m" : "none"},
             {"rate", base::fixedText(status.turns_per_s, 1) + " Hz"},
-            {"latency p50", base::fixedText(1e3 * status.p50_s, 2) + " ms"},
-            {"latency p99", base::fixedText(1e3 * status.p99_s, 2) + " ms"},
+            {"latency p50", latency(status.p50_s)},
+            {"latency p99", latency(status.p99_s)},
             {"packets lost", std::to_string(report.lost)},
             {"packets dropped", std::to_string(report.dropped)},
             {"autopilot", autopilot.empty() ? "not connected" : autopilot},
@@ -211,11 +236,14 @@ class LiveView::Work {
         for (auto next = std::chrono::steady_clock::now(); !is_at_end_; next += kPeriod) {
             std::this_thread::sleep_until(next);
             if (clients_ == 0) continue;
-            auto text = std::make_shared<const std::string>("data: " + frameText() + "\n\n");
-            const std::lock_guard lock(frame_mutex_);
-            frame_ = std::move(text);
-            ++number_;
-            next_.notify_all();
+            try {
+                auto text = std::make_shared<const std::string>("data: " + frameText() + "\n\n");
+                const std::lock_guard lock(frame_mutex_);
+                frame_ = std::move(text);
+                ++number_;
+                next_.notify_all();
+            } catch (const std::bad_alloc&) {  // skips this frame
+            }
         }
     }
 
@@ -224,28 +252,27 @@ class LiveView::Work {
         const Shared shared = shared_;
         lock.unlock();
         const double now_s = live::steadyNow_s();
-        live::Directions directions;
-        if (settings_.directions_sent) {
-            directions = settings_.directions_sent();
-        } else if (shared.distances) {
+        live::Directions directions = shared.sent;
+        if (!settings_.directions_sent && shared.distances) {
             directions = shared.distances->at(now_s);
         }
         base::ViewReturns all;
         for (const auto& sector : shared.sectors) {
-            append(sector->returns.azimuth_rad, all.azimuth_rad);
-            append(sector->returns.elevation_rad, all.elevation_rad);
-            append(sector->returns.range_m, all.range_m);
-            append(sector->returns.intensity, all.intensity);
-            append(sector->returns.label, all.label);
+            for (std::size_t i = 0; i < sector->label.size(); ++i) {
+                if (sector->label[i] == Label::Unclassified) continue;  // without a range
+                all.add(sector->x_m[i], sector->y_m[i], sector->z_m[i],
+                        static_cast<std::uint8_t>(sector->label[i]));
+                if (!sector->intensity.empty()) all.intensity.push_back(sector->intensity[i]);
+            }
         }
         base::ViewArrays arrays;
         addReturns(all, arrays);
-        const live::SensorMotion motion =
-            settings_.motion ? settings_.motion() : live::SensorMotion();
+        const Eigen::Matrix3f mounted =
+            settings_.directions.body_from_sensor.linear().cast<float>();
+        const Eigen::AngleAxisf yaw(std::atan2(mounted(1, 0), mounted(0, 0)),
+                                    Eigen::Vector3f::UnitZ());
         const Eigen::Matrix3f turned =
-            motion.attitude
-                ? levelFromSensor(*motion.attitude)
-                : Eigen::Matrix3f(settings_.directions.body_from_sensor.linear().cast<float>());
+            shared.attitude ? Eigen::Matrix3f(yaw * levelFromSensor(*shared.attitude)) : mounted;
         Json pose = Json::array();
         for (int row = 0; row < 3; ++row) {
             for (int column = 0; column < 3; ++column) {
@@ -263,7 +290,7 @@ class LiveView::Work {
     const Settings settings_;
     httplib::Server server_;
     std::atomic<int> clients_ = 0;
-    std::atomic<bool> is_at_end_ = false;
+    std::atomic<bool> is_at_end_ = false, has_served_ = false;
     float zone_m_ = 0;
 
     using Sectors = std::deque<std::shared_ptr<const Sector>>;
@@ -275,6 +302,8 @@ class LiveView::Work {
     struct Shared {
         Sectors sectors;
         std::optional<live::SectorDistances> distances;
+        live::Directions sent{};
+        std::optional<Attitude> attitude;
         Json values = Json::object();
     };
     std::mutex shared_mutex_;

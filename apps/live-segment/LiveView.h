@@ -16,11 +16,11 @@ class LiveView {
     struct Settings {
         std::string address;  ///< "8080" (this computer only) or "192.168.1.7:8080"
         std::string heading;
-        /// Directions if there is no autopilot.
+        /// For directions without an autopilot.
         live::SectorDistances::Settings directions = live::aheadFirst();
-        /// The directions sent to the autopilot; empty without one.
+        /// Returns the directions sent to the autopilot; empty without one. Called by take().
         std::function<live::Directions()> directions_sent;
-        std::function<live::SensorMotion()> motion;  ///< empty if unknown
+        std::function<live::SensorMotion()> motion;  ///< empty if unknown; called by take()
     };
 
     /// Throws std::runtime_error naming the address if it is not valid or in use.

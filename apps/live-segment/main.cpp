@@ -153,9 +153,9 @@ class PacketsOf {
         int status = 0;
         if (error != 0 || waitpid(process, &status, 0) != process || status != 0) {
             fs::remove_all(folder_);
-            throw std::runtime_error(flags.replay.string() + ": is not a network capture, and " +
-                                     words[0] + " could not extract packets" +
-                                     (error != 0 ? std::string(": ") + std::strerror(error) : ""));
+            throw std::runtime_error(
+                flags.replay.string() + ": cannot extract its packets" +
+                (error != 0 ? ": " + words[0] + ": " + std::strerror(error) : " (see above)"));
         }
     }
     ~PacketsOf() {
@@ -377,6 +377,7 @@ int run(const Program& program, Flags& flags) {
         if (!printer.finish()) {
             // The terminal is blocked, so exit() would hang flushing stdout. All files are
             // complete.
+            view.reset();
             link.reset();
             const bool is_done = failure.empty() && printer.isOutputPrinted();
             std::_Exit(is_done ? kDone : failure.empty() ? kFailed : failed);

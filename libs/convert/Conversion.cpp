@@ -56,8 +56,7 @@ bool needsPoses(const Conversion& conversion) {
                                                          recordings::PoseFileKind::Tum;
     return fs::is_directory(conversion.input) || !conversion.folder.empty() ||
            !conversion.octomaps.empty() || !conversion.mcap.empty() || !conversion.view.empty() ||
-           is_tum ||
-           recordings::isBag(conversion.input);
+           is_tum || recordings::isBag(conversion.input);
 }
 
 ScanReport reportOf(const ConvertedScan& scan) {
@@ -235,6 +234,7 @@ class Converter {
         if (outputs_.wantsMap()) insertIntoMap(scan, title);
         ScanReport report = reportOf(scan);
         report.name = outputs_.writeScan(scan.segmented, scan.recorded, settings_);
+        outputs_.show(report, scan.segmented);
         count(scan.segmented, report, title, report_);
         ground_check_.see(scan.segmented);
     }

@@ -182,23 +182,22 @@ std::string ConversionOutputs::writeScan(
     }
     if (mcap_) attempt(kMcap, [&] { mcap_->write(segmented, *recorded.observation); });
     if (pictures_) attempt(kPictures, [&] { drawPictures(segmented, recorded); });
-    if (view_) {
-        attempt(kView,
-                [&] { view_->write(own_name, segmented, recorded.observation->sensorLabel); });
-    }
     return own_name;
+}
+
+void ConversionOutputs::show(const ScanReport& report,
+                             const observations::ObservationSegmenter::Output& segmented) {
+    if (view_) attempt(kView, [&] { view_->write(report, segmented); });
 }
 
 /// The folder is named after the entry, for use with --from.
 void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::Output& segmented,
                                      const recordings::RecordedScan& recorded) {
     const std::string& label = recorded.observation->sensorLabel;
-    const bool is_named = !recorded.name.empty();
-    const std::string name = is_named ? recorded.name : scanName(recorded.entry);
+    const std::string name = recorded.name.empty() ? scanName(recorded.entry) : recorded.name;
     fs::path folder = pictures_->folderOf(label) / name;
     while (!fs::create_directory(folder)) folder += "_";  // used by another scan
-    const std::string title =
-        lastNameOf(conversion_.input) + ", " + label + (is_named ? ", scan " : ", entry ") + name;
+    const std::string title = lastNameOf(conversion_.input) + ", " + label + ", scan " + name;
     // The view in which the filter processes a sensor that is not upright: image rows differ from
     // the sensor's.
     const std::optional<Attitude>& attitude = segmented.pose.attitude;

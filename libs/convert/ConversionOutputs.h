@@ -37,10 +37,14 @@ class ConversionOutputs {
     void pack(const Bytes& member, Bytes& packed);
     void writeMember(const Bytes& packed);
 
-    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, to the MCAP and to
-    /// the page. An empty name is replaced by the next number. Returns the name used.
+    /// Adds a segmented scan to the sensor's scan folder, clouds and pictures, and to the MCAP. An
+    /// empty name is replaced by the next number. Returns the name used.
     std::string writeScan(const observations::ObservationSegmenter::Output& segmented,
                           const recordings::RecordedScan& recorded, const Settings& settings);
+
+    /// Adds a written scan to the page.
+    void show(const ScanReport& report,
+              const observations::ObservationSegmenter::Output& segmented);
 
     /// The output of labelled clouds; null if not requested.
     const CloudOutput* clouds() const { return clouds_ ? &*clouds_ : nullptr; }

@@ -3,7 +3,6 @@
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include "base/NumberText.h"
 #include "base/WriteFile.h"
 #include "base/view/ViewPage.h"
@@ -18,7 +17,8 @@ using observations::ObservationSegmenter;
 
 constexpr std::size_t kMaxFrames = 500, kMaxBytes = 39'000'000;  // the page itself has 1 MB
 constexpr int kMaxAngleColumns = 450, kMaxBoxes = 30;
-constexpr double kGroundStep_m = 1.5, kMaxGap_s = 5, kAssumedPeriod_s = 0.1;
+constexpr double kGroundStep_m = 1.5;
+constexpr double kMaxBack_s = 1, kMaxGap_s = 3600, kAssumedPeriod_s = 0.1, kMinApart_s = 0.001;
 
 double rounded(double value) { return std::round(1000 * value) / 1000; }
 
@@ -65,11 +65,8 @@ base::ViewReturns returnsOf(const Scan& scan, const SegmentationResult& result) 
     returns.rows = rows;
     returns.columns = static_cast<int>(result.labels.cols());
     for (const std::uint32_t i : order) {
-        const float flat_m = std::hypot(scan.x_m[i], scan.y_m[i]);
-        returns.azimuth_rad.push_back(std::atan2(scan.y_m[i], scan.x_m[i]));
-        returns.elevation_rad.push_back(std::atan2(scan.z_m[i], flat_m));
-        returns.range_m.push_back(std::hypot(flat_m, scan.z_m[i]));
-        returns.label.push_back(static_cast<std::uint8_t>(result.returns.label[i]));
+        returns.add(scan.x_m[i], scan.y_m[i], scan.z_m[i],
+                    static_cast<std::uint8_t>(result.returns.label[i]));
         returns.obstacle.push_back(result.returns.component[i]);
         returns.pixel.push_back(pixel[i]);
         if (scan.intensity.empty()) continue;
@@ -132,39 +129,35 @@ Json groundOf(const Ground& ground, const Eigen::Matrix3f& image_from_sensor, fl
             {"side", 2 * half + 1}};
 }
 
-Json valuesOf(const std::string& name, const std::string& sensor_label,
-              const ObservationSegmenter::Output& segmented) {
-    const SegmentationResult& result = *segmented.result;
-    const std::size_t returns = segmented.scan->size();
-    const double share = 100.0 * static_cast<double>(result.returns.roi.size()) /
-                         static_cast<double>(std::max<std::size_t>(1, returns));
-    const auto time_ms =
-        std::chrono::duration<double, std::milli>(segmented.time_to_labels).count();
-    const auto nearest = std::min_element(
-        result.returns.roi.begin(), result.returns.roi.end(),
-        [&](auto a, auto b) { return segmented.scan->range_m[a] < segmented.scan->range_m[b]; });
+Json valuesOf(const ScanReport& report, bool is_ground_seen) {
+    const double share = 100 * static_cast<double>(report.roi) /
+                         static_cast<double>(std::max<std::size_t>(1, report.returns));
+    const auto nearest_m = static_cast<double>(report.nearest_roi_m);
     return {
-        {"scan", name},
-        {"sensor", sensor_label},
-        {"nearest obstacle",
-         nearest == result.returns.roi.end()
-             ? "none"
-             : base::fixedText(static_cast<double>(segmented.scan->range_m[*nearest]), 1) + " m"},
-        {"obstacles", std::to_string(result.components.maxCoeff())},
+        {"scan", report.name},
+        {"sensor", report.sensor_label},
+        {"nearest obstacle", std::isnan(nearest_m) ? "none" : base::fixedText(nearest_m, 1) + " m"},
+        {"obstacles", std::to_string(report.obstacles)},
         {"RoI returns", base::fixedText(share, 1) + " %"},
-        {"ground", result.ground.is_seen ? "seen" : "not seen"},
-        {"time per scan", base::fixedText(time_ms, 1) + " ms"}};
+        {"ground", is_ground_seen ? "seen" : "not seen"},
+        {"time per scan", base::fixedText(report.latency_ms, 1) + " ms"}};
 }
 
-/// Times from the first scan [s]. Scans without a valid time, out of order or after a gap follow
-/// their predecessor.
+/// Increasing times from the first scan [s]. Scans of one LiDAR at the same time are assumed to be
+/// 0.1 s apart, also scans after a jump of the clock.
 std::vector<double> timesOf(const std::vector<ScanReport>& scans) {
     std::vector<double> times_s;
+    double time_s = 0;
     for (std::size_t i = 0; i < scans.size(); ++i) {
-        const double apart_s = i == 0 ? 0 : scans[i].time_s - scans[i - 1].time_s;
-        const bool is_plausible = i == 0 || (apart_s > 0 && apart_s < kMaxGap_s);
-        times_s.push_back(i == 0 ? 0
-                                 : times_s.back() + (is_plausible ? apart_s : kAssumedPeriod_s));
+        if (i == 0) {
+            times_s.push_back(0);
+            continue;
+        }
+        const double apart_s = scans[i].time_s - scans[i - 1].time_s;
+        const bool is_jump = !(apart_s > -kMaxBack_s && apart_s < kMaxGap_s);
+        const bool is_untimed = apart_s == 0 && scans[i].sensor_label == scans[i - 1].sensor_label;
+        time_s += is_jump || is_untimed ? kAssumedPeriod_s : apart_s;
+        times_s.push_back(std::max(time_s, times_s.back() + kMinApart_s));
     }
     return times_s;
 }
@@ -208,9 +201,9 @@ Json ViewOutput::poseOf(const ObservationSegmenter::Output& segmented,
     return json(from_sensor.matrix());
 }
 
-void ViewOutput::write(const std::string& name, const ObservationSegmenter::Output& segmented,
-                       const std::string& sensor_label) {
-    if (scans_++ % every_ != 0) return;
+void ViewOutput::write(const ScanReport& report, const ObservationSegmenter::Output& segmented) {
+    const std::size_t number = scans_++, of_lidar = scans_of_lidar_[report.sensor_label]++;
+    if (of_lidar % every_ != 0) return;
     const SegmentationResult& result = *segmented.result;
     const int step = 1 + static_cast<int>(result.range_angle_rad.cols() - 1) / kMaxAngleColumns;
     const std::optional<Attitude>& attitude = segmented.pose.attitude;
@@ -229,7 +222,7 @@ void ViewOutput::write(const std::string& name, const ObservationSegmenter::Outp
     arrays.add("smoothed", bytesOf(result.smoothed_rad, step), true);
     Json frame = {{"image", {result.labels.rows(), result.labels.cols()}},
                   {"angle_step", step},
-                  {"values", valuesOf(name, sensor_label, segmented)},
+                  {"values", valuesOf(report, result.ground.is_seen)},
                   {"boxes", boxesOf(scan, result.returns)}};
     const Json pose = poseOf(segmented, image_from_sensor);
     if (!pose.is_null()) {
@@ -241,17 +234,16 @@ void ViewOutput::write(const std::string& name, const ObservationSegmenter::Outp
             groundOf(result.ground, image_from_sensor, segmented.options->zone_m, arrays);
     }
     frame.update(arrays.json());
-    frames_.push_back(base::dumpJson(frame));
-    bytes_ += frames_.back().size();
-    while (is_thinned_ && frames_.size() > 1 &&
-           (frames_.size() > kMaxFrames || bytes_ > kMaxBytes)) {
+    frames_.push_back({number, of_lidar, base::dumpJson(frame)});
+    bytes_ += frames_.back().json.size();
+    while (is_thinned_ && every_ < scans_ && (frames_.size() > kMaxFrames || bytes_ > kMaxBytes)) {
         every_ *= 2;
-        std::vector<std::string> kept;
-        for (std::size_t i = 0; i < frames_.size(); i += 2) kept.push_back(std::move(frames_[i]));
-        frames_ = std::move(kept);
-        bytes_ =
-            std::accumulate(frames_.begin(), frames_.end(), std::size_t{0},
-                            [](std::size_t sum, const auto& text) { return sum + text.size(); });
+        frames_.erase(
+            std::remove_if(frames_.begin(), frames_.end(),
+                           [&](const Frame& each) { return each.scan_of_lidar % every_ != 0; }),
+            frames_.end());
+        bytes_ = 0;
+        for (const Frame& each : frames_) bytes_ += each.json.size();
     }
 }
 
@@ -259,15 +251,18 @@ void ViewOutput::finish(const Conversion& conversion, const ConversionReport& re
     const std::vector<ScanReport>& scans = report.scan_reports;
     const std::vector<double> times_s = timesOf(scans);
     Json frame_times = Json::array(), notes = Json::array();
-    for (std::size_t i = 0; i < frames_.size(); ++i) {
-        frame_times.push_back(rounded(times_s.at(i * every_)));
+    std::vector<std::string> frames;
+    for (Frame& frame : frames_) {
+        frame_times.push_back(rounded(times_s.at(frame.scan)));
+        frames.push_back(std::move(frame.json));
     }
     for (const auto& [label, sensor] : report.sensors) {
         notes.push_back((label.empty() ? "" : label + ": ") + sensor);
     }
     if (every_ > 1) {
         notes.push_back("1 of " + std::to_string(every_) +
-                        " scans is shown; statistics are of all " + std::to_string(scans.size()));
+                        " scans is shown; the statistics cover all " +
+                        std::to_string(scans.size()) + " scans");
     }
     if (report.scans_without_ground * 2 > report.scans) {
         notes.push_back(
@@ -290,7 +285,7 @@ void ViewOutput::finish(const Conversion& conversion, const ConversionReport& re
           chart("time per scan [ms]", times_s, scans,
                 [](const ScanReport& scan) { return scan.latency_ms; })}}};
     std::ofstream out = base::openToWrite(path_.temporary(), path_.path());
-    base::writeViewPage(out, data, frames_);
+    base::writeViewPage(out, data, frames);
     base::closeWritten(out, path_.path());
 }
 

@@ -4,6 +4,7 @@
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <Eigen/Core>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,11 +16,12 @@ namespace hagen::convert {
 class ViewOutput {
  public:
     /// If `every` is 0, the page shows every scan, or every 2nd, 4th, 8th ... scan, so that it has
-    /// at most 500 scans and 40 MB. Throws std::runtime_error naming the file; see OutputPath.
+    /// at most 500 scans and 40 MB; with several LiDARs, that is of each LiDAR. Throws
+    /// std::runtime_error naming the file; see OutputPath.
     ViewOutput(const std::filesystem::path& file, std::size_t every, bool overwrite);
 
-    void write(const std::string& name, const observations::ObservationSegmenter::Output& segmented,
-               const std::string& sensor_label);
+    void write(const ScanReport& report,
+               const observations::ObservationSegmenter::Output& segmented);
     /// Writes the page. Statistics are those of all scans.
     void finish(const Conversion& conversion, const ConversionReport& report);
 
@@ -36,7 +38,13 @@ class ViewOutput {
     base::OutputPath path_;
     bool is_thinned_;
     std::size_t every_, scans_ = 0, bytes_ = 0;
-    std::vector<std::string> frames_;
+    struct Frame {
+        std::size_t scan;  ///< its index in ConversionReport::scan_reports
+        std::size_t scan_of_lidar;
+        std::string json;
+    };
+    std::vector<Frame> frames_;
+    std::map<std::string, std::size_t> scans_of_lidar_;  ///< by sensor label
     std::optional<Eigen::Vector3d> origin_m_;  ///< of the page, in the map: the first position
 };
 

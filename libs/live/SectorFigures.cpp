@@ -85,7 +85,7 @@ std::string SectorFigures::airframeWarning(double now_s) const {
         is_due = is_due || stayed_s >= kAirframe_s + kAirframeGap_s;
     }
     if (!is_due) return "";
-    return "obstacles stay within 1 m of the sensor for 10 s, in " +
+    return "obstacles within 1 m of the sensor for 10 s in " +
            base::counted(directions, "direction") + " of 5 degrees, the nearest at " +
            base::fixedText(static_cast<double>(nearest_m), 2) +
            " m: if they are the vehicle's legs or arms, mask them with rawlog-segment "

@@ -416,9 +416,32 @@ TEST_F(LiveSegment, FailsWithoutPackets) {
                   1, "no packet from a VLP-16 received");
 }
 
+TEST_F(LiveSegment, ReportsUsedViewPort) {
+    const int listener = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
+    ASSERT_EQ(listen(listener, 1), 0);
+    getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size);
+    const std::string port = std::to_string(ntohs(address.sin_port));
+    expectFailure(with(sensor_, {"--replay", capture(), "--view", port}), 1,
+                  "127.0.0.1:" + port + "; is the port in use?");
+    close(listener);
+}
+
+TEST_F(LiveSegment, FailedStartEndsViewer) {
+    folder_.write("there.pcap", "");
+    expectFailure(with(sensor_, {"--replay", capture(), "--view", std::to_string(freePort()),
+                                 "--record", path("there.pcap")}),
+                  1, "there.pcap");
+}
+
 TEST_F(LiveSegment, RejectsInvalidFlags) {
     const std::string file = capture();
     expectFailure({"--model", "VLP-16"}, 2, "one of --listen and --replay is required");
+    expectFailure({"--replay", file, "--model", "VLP-16", "--view", "here"}, 1, "--view here");
     expectFailure({"--replay", file, "--listen", "1.2.3.4:5", "--model", "VLP-16"}, 2,
                   "one of --listen and --replay is required");
     expectFailure({"--replay", file}, 2, "is required; models: VLP-16");

@@ -1,7 +1,10 @@
 // The page written by rawlog-segment --view. tests/browser opens it.
+#include <hagen/recordings/RawlogReader.h>
 #include <hagen/scan/Angle.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
 #include <algorithm>
 #include <cmath>
+#include "support/CaptureWriter.h"
 #include "support/CloudFiles.h"
 #include "support/ReadView.h"
 #include "support/SegmentTest.h"
@@ -94,6 +97,31 @@ TEST_F(SegmentView, ThinsMoreThan500Scans) {
     ASSERT_EQ(data["frames"].size(), 251u);
     EXPECT_EQ(data["frames"][250]["values"]["scan"], "000500");
     EXPECT_NEAR(data["frame_times_s"][250], 50, 1e-9);  // without times, 10 Hz
+}
+
+TEST_F(SegmentView, ShowsEachLidarWhenThinned) {
+    recordings::RawlogReader reader(recording());
+    test::CaptureWriter capture;
+    double time_s = 1700000000;
+    while (const auto entry = reader.next()) {
+        const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(entry);
+        if (!scan) continue;
+        for (const auto& packet : scan->scan_packets) {
+            capture.datagram({test::bytesOf(packet), time_s += 1.3e-3, 0x0a000001});
+            capture.datagram({test::bytesOf(packet), time_s, 0x0a000002});
+        }
+    }
+    expectSuccess(
+        {capture.write(path("two.pcap")), "--view", path("view.html"), "--view-every", "2"});
+    const auto data = dataOf("view.html");
+    std::vector<std::string> labels;
+    for (const auto& frame : data["frames"]) labels.push_back(frame["values"]["sensor"]);
+    EXPECT_GT(std::count(labels.begin(), labels.end(), "velodyne"), 3);
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), "velodyne"),
+              std::count(labels.begin(), labels.end(), "velodyne_2"));
+    const std::vector<double> all_s = data["charts"][0]["times_s"];
+    EXPECT_TRUE(std::is_sorted(all_s.begin(), all_s.end()));
+    EXPECT_NEAR(all_s.back(), time_s - 1700000000 - 0.1, 0.1);
 }
 
 TEST_F(SegmentView, RejectsOtherExtensions) {

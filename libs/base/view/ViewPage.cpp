@@ -13,9 +13,9 @@ namespace hagen::base {
 namespace {
 
 constexpr double kTurn_rad = 6.283185307179586;
+// The units of view.js and docs/view.md. The bias makes the upper byte 0 in most cases.
 constexpr double kAzimuths = 16384, kElevationUnit_rad = 0.0005, kRangeUnit_m = 0.04;
-constexpr double kOffsets = 8,
-                 kNoOffset = 128;  // so that the upper byte is usually 0  // as in view.js
+constexpr double kOffsets = 8, kOffsetBias = 128;
 
 std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes, int level) {
     const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
@@ -84,6 +84,14 @@ Json ViewArrays::json(int level) const {
     return {{"arrays", directory_}, {"data", base64(deflated(bytes_, level))}};
 }
 
+void ViewReturns::add(float x_m, float y_m, float z_m, std::uint8_t new_label) {
+    const float flat_m = std::hypot(x_m, y_m);
+    azimuth_rad.push_back(std::atan2(y_m, x_m));
+    elevation_rad.push_back(std::atan2(z_m, flat_m));
+    range_m.push_back(std::hypot(flat_m, z_m));
+    label.push_back(new_label);
+}
+
 void addReturns(const ViewReturns& returns, ViewArrays& arrays) {
     // Relative to the column, azimuths take half the space.
     std::vector<std::int16_t> offset;
@@ -98,7 +106,7 @@ void addReturns(const ViewReturns& returns, ViewArrays& arrays) {
         const int column = returns.pixel[i] / returns.rows;
         const double centre = 0.5 - (column + 0.5) / returns.columns;
         const double columns = std::remainder(turns - centre, 1.0) * returns.columns;
-        offset.push_back(roundedTo<std::int16_t>(kOffsets * columns + kNoOffset));
+        offset.push_back(roundedTo<std::int16_t>(kOffsets * columns + kOffsetBias));
     }
     arrays.add("offset", offset);
     arrays.add("azimuth", azimuth, true);

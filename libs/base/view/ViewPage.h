@@ -52,6 +52,8 @@ struct ViewReturns {
     std::vector<std::int32_t> pixel;     ///< column * rows + row; -1: none
     int rows = 0, columns = 0;           ///< of the image of `pixel`
 
+    /// Adds a return at this position, without pixel, obstacle and intensity.
+    void add(float x_m, float y_m, float z_m, std::uint8_t new_label);
     std::size_t size() const { return range_m.size(); }
 };
 

@@ -219,7 +219,7 @@ let mode = 'obstacle', current = null;  // the frame shown and its arrays
 
 function paint() {
   if (!current) return;
-  const {frame, arrays} = current, {of} = modes[mode];
+  const {frame, arrays} = current, of = arrays[modes[mode].needs] ? modes[mode].of : plain;
   for (const [shown, wanted] of [[roi, label => label !== 1], [rou, label => label === 1]]) {
     shown.indices = [];
     arrays.label.forEach((label, i) => { if (wanted(label)) shown.indices.push(i); });
@@ -404,10 +404,16 @@ for (const event of data.events || []) {
   button.addEventListener('click', () => { pause(); seek(event.time_s); });
 }
 const modeBox = byId('mode');
+/// Offers the modes of all frames so far.
+const offered = new Set();
 function offerModes(arrays) {
-  if (modeBox.options.length > 0) return;
-  for (const [name, {needs}] of Object.entries(modes)) if (arrays[needs]) made('option', modeBox, name);
-  mode = modeBox.value;
+  const before = offered.size;
+  for (const [name, {needs}] of Object.entries(modes)) if (arrays[needs]) offered.add(name);
+  if (offered.size === before) return;
+  const chosen = offered.has(mode) ? mode : [...offered][0];
+  modeBox.replaceChildren();
+  for (const name of Object.keys(modes)) if (offered.has(name)) made('option', modeBox, name);
+  mode = modeBox.value = chosen;
   byId('colouring').hidden = modeBox.options.length < 2;
 }
 function setMode(name) {
@@ -418,7 +424,7 @@ function setMode(name) {
 modeBox.addEventListener('change', () => { setMode(modeBox.value); modeBox.blur(); });
 
 // ---- time
-const slider = byId('time'), play = byId('play'), follow = byId('follow'), times = data.frame_times_s || [];
+const slider = byId('time'), play = byId('play'), follow = byId('follow'), times = data.frame_times_s || [], charts = data.charts || [];
 let time = 0, playing = false, before = 0, wanted = -1;
 state.frame = '-1';
 const path = frames.map(frame => frame.pose && frame.is_placed ? [3, 7, 11].map(k => frame.pose[k]) : null).filter(Boolean);
@@ -468,7 +474,7 @@ async function showFrame(index) {
   if (index + 1 < frames.length) arraysOf(index + 1);
 }
 const nothing = () => { roi.set(new Float32Array(), new Float32Array()); rou.set(new Float32Array(), new Float32Array()); };
-let hooks = null, ends = times.length > 0 ? times[times.length - 1] : 0;
+let hooks = null, ends = Math.max(0, ...times.slice(-1), ...charts.map(({times_s}) => times_s[times_s.length - 1] || 0));
 function seek(when) {
   time = Math.max(0, Math.min(ends, when));
   const index = frameAt(time);
@@ -534,7 +540,7 @@ document.addEventListener('keydown', event => {
 });
 
 // ---- statistics over time; a click jumps there
-const chart = byId('chart'), charts = data.charts || [];
+const chart = byId('chart');
 chart.hidden = charts.length === 0;
 const chartColors = ['#d55e00', '#0072b2', '#009e73'];
 function drawChart() {
