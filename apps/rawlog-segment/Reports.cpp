@@ -74,6 +74,8 @@ std::string whyNotAll(const ConversionReport& report) {
                 : ": the log has no attitude in the preceding 0.2 s)");
 }
 
+constexpr float kMaxAirframe_m = 1;
+
 /// The nearest obstacle, and medians over the scans.
 void printObstacles(const ConversionReport& report) {
     const std::vector<hagen::convert::ScanReport>& scans = report.scan_reports;
@@ -93,10 +95,14 @@ void printObstacles(const ConversionReport& report) {
     if (nearest->obstacles > 0) {
         std::cout << "nearest obstacle: " << fixedText(distance_m(*nearest), 2) << " m, "
                   << fixedText(nearest->time_s - scans.front().time_s, 1)
-                  << " s after the first scan (scan " << nearest->entry << ")\n";
+                  << " s after the first scan (scan " << nearest->entry << ")"
+                  << (distance_m(*nearest) < kMaxAirframe_m && report.returns_masked == 0
+                          ? "; the vehicle itself? See --learn-airframe"
+                          : "")
+                  << "\n";
     }
-    std::cout << "obstacles per scan: " << fixedText(hagen::base::quantile(obstacles, 0.5), 0)
-              << " (median); time per scan: "
+    std::cout << "groups of obstacle returns per scan: "
+              << fixedText(hagen::base::quantile(obstacles, 0.5), 0) << " (median); time per scan: "
               << fixedText(hagen::base::quantile(latencies_ms, 0.5), 2) << " ms (median)\n";
     if (report.scans_without_ground > 0) {
         std::cout << "no ground found: " << report.scans_without_ground << " of "
@@ -162,9 +168,7 @@ void printSummary(const Conversion& conversion, const ConversionReport& report) 
     if (report.view_frames > 0) {
         std::cout << "view: " << conversion.view.string() << " ("
                   << counted(report.view_frames, "scan", "scans")
-                  << (report.view_every > 1
-                          ? ", 1 of " + std::to_string(report.view_every)
-                          : "")
+                  << (report.view_every > 1 ? ", 1 of " + std::to_string(report.view_every) : "")
                   << ", " << sizeText(conversion.view) << "); open it in a browser\n";
     }
     if (report.mcap.scans > 0) {
@@ -189,7 +193,8 @@ void printAirframe(const hagen::convert::AirframeLearning& learning,
         std::cout << counted(report.unreadable_scans, "scan") << " unreadable, skipped\n";
     }
     std::cout << "airframe: " << learning.file.string() << "\npicture: " << report.picture.string()
-              << "\n"
+              << "\nto use it, add a settings file with -c: airframe: [{learned: "
+              << learning.file.string() << "}]\n"
               << std::flush;
     const std::string input = learning.input.string();
     if (report.bins == 0) {

@@ -9,7 +9,8 @@ namespace hagen::convert {
 namespace {
 
 constexpr std::size_t kTried = 10;  // scans labelled again
-constexpr double kMinShare = 0.8;   // of these with ground, for a mount to be proposed
+// The share of these with ground, for a mount to be proposed; indoors, a wall can look like ground.
+constexpr double kMinShare = 1;
 
 /// Mounts of the sensor that are not upright. A camera frame (z forward, y down) is on its side.
 const std::pair<const char*, Attitude> kMounts[] = {

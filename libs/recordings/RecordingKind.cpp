@@ -69,7 +69,7 @@ std::string whyNoRecording(const fs::path& folder) {
     return "not a scan folder (no subfolder 'velodyne' with .bin files), not a folder of point "
            "clouds (.pcd, .ply, .las, .npy, .bin), and contains no recordings "
            "(.rawlog, .pcap, .bag, .mcap, .db3)" +
-           (scans.empty() ? "" : "; there are scans in " + scans.string());
+           (scans.empty() ? "" : "; there are scans in " + scans.string() + ": pass such a folder");
 }
 
 RecordingKind kindOfFolder(const fs::path& folder) {

@@ -541,7 +541,7 @@ document.addEventListener('keydown', event => {
 
 // ---- statistics over time; a click jumps there
 const chart = byId('chart');
-chart.hidden = charts.length === 0;
+chart.hidden = !charts.some(({values}) => values.length > 1);
 const chartColors = ['#d55e00', '#0072b2', '#009e73'];
 function drawChart() {
   if (chart.hidden) return;
@@ -598,7 +598,7 @@ layer('rou', 'other returns', colors.rou, [rou.object]);
 if (frames.some(frame => frame.boxes)) layer('boxes', 'nearest obstacles', colors.box, [boxes.object]);
 if (frames.some(frame => frame.ground)) layer('ground', 'ground surface', colors.ground, [groundWires, groundFaces]);
 if (flown) layer('flown', 'trajectory', colors.track, [flown.object]);
-if (data.live) layer('directions', 'directions for the autopilot', colors.free, [directions]);
+if (data.live) layer('directions', 'directions for the autopilot (green: free, orange: occupied, grey: unknown)', colors.free, [directions]);
 byId('stages').open = window.matchMedia('(min-width: 900px) and (min-height: 700px)').matches;
 byId('stages').hidden = !frames.some(frame => frame.image);
 slider.max = String(ends);
