@@ -9,7 +9,6 @@
 #include <sys/stat.h>
 #include "convert/RawlogWriter.h"
 
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <fstream>

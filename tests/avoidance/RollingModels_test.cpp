@@ -5,7 +5,6 @@
 #include <hagen/simulation/Random.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <string>

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "avoidance/SimpleCourse.h"

@@ -1,6 +1,5 @@
 #include "base/NumberText.h"
 #include <gtest/gtest.h>
-#include <clocale>
 #include <cstdint>
 #include <limits>
 #include <random>

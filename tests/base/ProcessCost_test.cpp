@@ -3,7 +3,6 @@
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <memory>
 #include <thread>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
 #include <regex>
 #include <stdexcept>

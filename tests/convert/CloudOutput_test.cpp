@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "support/BagWriter.h"
+#include "support/PointColumn.h"
 #include "support/PoleConversion.h"
 
 namespace hagen::convert {

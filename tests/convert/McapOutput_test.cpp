@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
-#include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -11,6 +10,7 @@
 #include <limits>
 #include <map>
 
+#include "support/PointColumn.h"
 #include "support/PoleConversion.h"
 
 namespace hagen::convert {

@@ -1,8 +1,6 @@
 // The order of pipeline steps for any number of threads.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <random>
 #include <stdexcept>
 #include <thread>

@@ -6,7 +6,6 @@
 #include <ctime>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <set>
 #include <stdexcept>
 

@@ -4,7 +4,6 @@
 #include <hagen/base/OutputPath.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <fstream>
-#include <stdexcept>
 #include "convert/pictures/StagePictures.h"
 #include "evaluation/labelled_folders/Charts.h"
 #include "evaluation/labelled_folders/Overlay.h"

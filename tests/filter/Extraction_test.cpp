@@ -2,7 +2,6 @@
 #include <hagen/filter/Extraction.h>
 #include "filter/FilterWorkspace.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>

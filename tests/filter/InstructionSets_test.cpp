@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 
-#include <cstring>
 #include <random>
 #include <string>
 #include <vector>

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "support/InstructionSets.h"
 #include "support/Random.h"
 #include "support/SimpleScene.h"
 

@@ -1,6 +1,5 @@
 #include "filter/paper/SingularSpectrumAnalysis.h"
 #include <gtest/gtest.h>
-#include <hagen/scan/Angle.h>
 
 #include <Eigen/SVD>
 #include <cmath>

@@ -9,8 +9,6 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
-#include <new>
-
 #include "fuzz/Target.h"
 #include "recordings/rawlogs/EntryReader.h"
 #include "support/RotatingScans.h"

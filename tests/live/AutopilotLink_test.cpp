@@ -1,12 +1,10 @@
 #include "live/autopilot/AutopilotLink.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/filter/HagenFilter.h>
 #include <hagen/scan/Angle.h>
 #include "live/mavlink/Parser.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <map>

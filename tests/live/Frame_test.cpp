@@ -1,5 +1,4 @@
 #include "live/mavlink/Frame.h"
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include "live/autopilot/Messages.h"
 

@@ -1,7 +1,6 @@
 #include "live/autopilot/GroundBelow.h"
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/scan/Angle.h>
 #include <Eigen/Geometry>
 
 #include <cmath>

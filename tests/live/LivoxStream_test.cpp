@@ -2,7 +2,6 @@
 #include <hagen/live/LidarStream.h>
 #include <hagen/live/SectorDistances.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>

@@ -1,6 +1,5 @@
 #include "live/autopilot/ObstacleMessages.h"
 #include <gtest/gtest.h>
-#include <hagen/scan/Angle.h>
 
 #include "live/Vehicle.h"
 

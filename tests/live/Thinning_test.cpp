@@ -1,11 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/live/Thinning.h>
-#include <hagen/scan/Angle.h>
 #include <hagen/scan/RangeImage.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>

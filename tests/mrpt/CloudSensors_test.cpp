@@ -5,8 +5,6 @@
 #include <hagen/scan/Angle.h>
 #include "mrpt/Results.h"
 
-#include <limits>
-
 #include "support/Random.h"
 #include "support/SimpleFirings.h"
 #include "support/SimpleScene.h"

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/VelodyneObservation.h>
-#include <hagen/sensors/VelodyneModel.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include "sensors/velodyne/VelodyneCalibrationFile.h"
 
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>

@@ -10,13 +10,11 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "support/Program.h"
 #include "support/Random.h"
-#include "support/SimpleFirings.h"
 #include "support/SimpleScene.h"
 
 namespace hagen::observations {

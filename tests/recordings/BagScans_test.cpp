@@ -6,7 +6,6 @@
 #include "mrpt/TableCloud.h"
 
 #include <limits>
-#include <map>
 
 #include "support/BagWriter.h"
 #include "support/OusterPackets.h"

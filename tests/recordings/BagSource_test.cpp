@@ -5,7 +5,6 @@
 #include "recordings/bags/BagFile.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "support/BagWriter.h"
 #include "support/Program.h"

@@ -1,7 +1,6 @@
 // Rawlogs with the compression of different MRPT versions: none, gzip, zstd.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hagen/mrpt/NewerClouds.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanSource.h>

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <hagen/recordings/LogPoses.h>
 
-#include <stdexcept>
-
 #include "support/Program.h"
 #include "support/Random.h"
 

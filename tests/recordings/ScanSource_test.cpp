@@ -12,7 +12,6 @@
 #include "recordings/rawlogs/PackedInput.h"
 
 #include <fstream>
-#include <stdexcept>
 
 #include "support/Program.h"
 #include "support/SimpleFirings.h"

@@ -5,7 +5,6 @@
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <vector>
 
 namespace hagen {
 namespace {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/PixelDirections.h>
-#include <hagen/scan/RangeImage.h>
 #include <cmath>
 
 namespace hagen {

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <hagen/scan/Angle.h>
 #include <hagen/scan/Scan.h>
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "sensors/captures/CaptureWriter.h"
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 

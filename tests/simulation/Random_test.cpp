@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <hagen/simulation/Random.h>
 
-#include <cmath>
 #include <functional>
 
 namespace hagen::simulation {

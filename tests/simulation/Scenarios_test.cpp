@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
-#include <hagen/simulation/Lidar.h>
 #include <hagen/simulation/Scenarios.h>
 
 #include <map>

@@ -2,7 +2,6 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <vector>

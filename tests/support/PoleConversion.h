@@ -3,14 +3,12 @@
 #include <gtest/gtest.h>
 #include <hagen/convert/Conversion.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/PointTable.h>
 #include "convert/RawlogWriter.h"
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "support/PointColumn.h"
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
 

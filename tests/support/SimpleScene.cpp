@@ -1,6 +1,5 @@
 #include "support/SimpleScene.h"
 
-#include <hagen/scan/Angle.h>
 #include <hagen/scan/RangeImage.h>
 #include <cmath>
 
