@@ -68,14 +68,9 @@ TEST(CampaignPlan, RejectsInvalidPlans) {
     const auto fails = [&](const std::function<void(CampaignPlan&)>& change, Shard shard = {}) {
         CampaignPlan plan = good;
         change(plan);
-        try {
-            flightsOf(plan, shard);
-        } catch (const std::invalid_argument& e) {
-            return std::string(e.what());
-        }
-        return std::string("nothing");
+        return test::messageOf<std::invalid_argument>([&] { flightsOf(plan, shard); });
     };
-    EXPECT_EQ(fails([](CampaignPlan&) {}), "nothing");
+    EXPECT_EQ(fails([](CampaignPlan&) {}), "");
     EXPECT_THAT(fails([](CampaignPlan& plan) { plan.scenarios = {"moon"}; }), HasSubstr("'moon'"));
     EXPECT_THAT(fails([](CampaignPlan& plan) { plan.models = {"X"}; }), HasSubstr("W-RoI"));
     EXPECT_THAT(fails([](CampaignPlan& plan) { plan.first_seed = 3; }), HasSubstr("seed"));

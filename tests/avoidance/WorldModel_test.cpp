@@ -12,6 +12,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "support/Program.h"
+
 namespace hagen::avoidance {
 namespace {
 
@@ -473,12 +475,8 @@ TEST(WorldModel, OnlyMotionModelsPredictMotion) {
 TEST(WorldModel, RejectsUnknownNames) {
     for (const std::string bad : {"", "w-roi", "O-Full", "W-RoI "}) {
         EXPECT_THROW(needsLabels(bad), std::invalid_argument);
-        try {
-            makeWorldModel(bad, setting());
-            ADD_FAILURE() << bad;
-        } catch (const std::invalid_argument& error) {
-            EXPECT_THAT(error.what(), HasSubstr("O-RoI+rays-0.4"));
-        }
+        EXPECT_THAT(test::messageOf<std::invalid_argument>([&] { makeWorldModel(bad, setting()); }),
+                    HasSubstr("O-RoI+rays-0.4"));
     }
 }
 

@@ -174,12 +174,10 @@ TEST(ScanFolderWriter, ReportsWriteError) {
     const test::TemporaryFolder folder;
     ScanFolderWriter writer(folder.path());
     fs::remove(folder / "labels");
-    try {
-        writer.write("0", threePoints(), labels(), sensorModel("VLP-16"), 0.0);
-        FAIL();
-    } catch (const std::runtime_error& e) {
-        EXPECT_THAT(e.what(), HasSubstr("labels/0.label"));
-    }
+    EXPECT_THAT(test::messageOf([&] {
+                    writer.write("0", threePoints(), labels(), sensorModel("VLP-16"), 0.0);
+                }),
+                HasSubstr("labels/0.label"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "evaluation/TrueHeights.h"
 
 #include "support/PointScan.h"
+#include "support/Program.h"
 #include "support/Random.h"
 
 namespace hagen::evaluation {
@@ -359,12 +360,7 @@ TEST(Degradation, StandardSetsFitSensor) {
 }
 
 std::string problemOf(const std::string& text) {
-    try {
-        Degradation(text).checkSensor(kSensor);
-    } catch (const std::invalid_argument& e) {
-        return e.what();
-    }
-    return "";
+    return test::messageOf<std::invalid_argument>([&] { Degradation(text).checkSensor(kSensor); });
 }
 
 TEST(Degradation, RejectsUnknownNames) {

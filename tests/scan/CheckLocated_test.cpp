@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "support/Program.h"
+
 namespace hagen {
 namespace {
 
@@ -32,12 +34,7 @@ Scan locatedWith(const SensorModel& sensor, std::size_t returns = 3) {
 
 /// The error message of checkLocated(); empty if it accepts the scan.
 std::string objection(const Scan& scan, const SensorModel& sensor) {
-    try {
-        checkLocated(scan, sensor);
-        return "";
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
+    return test::messageOf<std::invalid_argument>([&] { checkLocated(scan, sensor); });
 }
 
 TEST(CheckLocated, RejectsTooManyReturns) {

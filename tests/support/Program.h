@@ -22,12 +22,12 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-/// The message of the std::runtime_error thrown by a call; empty if nothing is thrown.
-template <class Call>
+/// The message of the exception thrown by a call; empty if nothing is thrown.
+template <class Exception = std::runtime_error, class Call>
 std::string messageOf(Call call) {
     try {
         call();
-    } catch (const std::runtime_error& e) {
+    } catch (const Exception& e) {
         return e.what();
     }
     return "";
