@@ -17,11 +17,9 @@ namespace hagen {
 namespace {
 
 test::SimpleScene street() {
-    test::SimpleScene scene;
-    scene.boxes = {
-        {{6, -8, 0}, {10, -5, 2}}, {{-15, 5, 0}, {15, 6, 4}}, {{3, 1, 0}, {3.5, 1.5, 0.3}}};
-    scene.poles = {{8, 2, 0.1, 5}, {-6, -3, 0.2, 3}};
-    return scene;
+    return test::sceneOf(
+        {{{6, -8, 0}, {10, -5, 2}}, {{-15, 5, 0}, {15, 6, 4}}, {{3, 1, 0}, {3.5, 1.5, 0.3}}},
+        {{8, 2, 0.1, 5}, {-6, -3, 0.2, 3}});
 }
 
 /// Scans of a moving sensor.

@@ -72,8 +72,7 @@ class RawlogSegmentClouds : public test::SegmentTest {
  protected:
     /// Poles on the ground, as a VLP-16 sees them.
     static Scan poles() {
-        test::SimpleScene scene;
-        scene.poles = {{6, 1, 0.2, 4}, {-4, 3, 0.3, 3}};
+        const test::SimpleScene scene = test::sceneOf({}, {{6, 1, 0.2, 4}, {-4, 3, 0.3, 3}});
         Scan scan = scanScene(scene, sensorModel("VLP-16"), 900, {0, 0, 1.5}).scan;
         scan.intensity.assign(scan.size(), 0.5f);
         return scan;

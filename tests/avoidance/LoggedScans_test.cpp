@@ -29,8 +29,7 @@ class LoggedScansTest : public testing::Test {
     /// A log of clouds of a pole at 1 Hz from time 10 s, by a sensor 0.5 m ahead of the vehicle's
     /// origin and turned left by 90 degrees.
     fs::path poleLog(int scans) const {
-        test::SimpleScene scene;
-        scene.poles.push_back({6, 1, 0.2, 5});
+        const test::SimpleScene scene = test::sceneOf({}, {{6, 1, 0.2, 5}});
         const auto labelled = test::scanScene(scene, sensorModel("VLP-16"), 870, {0, 0, 2});
         const fs::path file = folder_ / "pole.rawlog";
         convert::RawlogWriter writer(file, true);

@@ -49,8 +49,7 @@ class OpenLoopTest : public testing::Test {
     /// A scan folder of a flight towards the wall x = 6 over flat ground.
     fs::path wallFlight(int scans, double step_m = 0.1, double period_s = 0.1,
                         int columns = 870) const {
-        test::SimpleScene scene;
-        scene.boxes.push_back({{kWall_m, -60, 0}, {kWall_m + 1, 60, 20}});
+        const test::SimpleScene scene = test::sceneOf({{{kWall_m, -60, 0}, {kWall_m + 1, 60, 20}}});
         const fs::path folder = folder_ / "flight";
         fs::create_directories(folder / "velodyne");
         std::vector<recordings::TimedPose> poses;

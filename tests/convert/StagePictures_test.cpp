@@ -97,11 +97,7 @@ Scan scanOf(const SimpleScene& scene, const char* sensor = "VLP-16") {
 }
 
 /// A pole at this position in the sensor frame.
-SimpleScene poleAt(double x_m, double y_m) {
-    SimpleScene scene;
-    scene.poles.push_back({x_m, y_m, 0.3, 8});
-    return scene;
-}
+SimpleScene poleAt(double x_m, double y_m) { return test::sceneOf({}, {{x_m, y_m, 0.3, 8}}); }
 
 // Positions of the full images and of the top view as fractions of a picture, below the legend.
 constexpr double kImageTop = 0.11, kImageBottom = 0.4, kImageLeft = 0.07, kImageMiddle = 0.4913;

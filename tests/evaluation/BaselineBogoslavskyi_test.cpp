@@ -73,9 +73,8 @@ double recall(const LabelledScan& scene, const std::vector<Label>& labels, Label
 }
 
 TEST(BogoslavskyiLabels, SeparatesObstaclesFromFlatGround) {
-    SimpleScene scene;
-    scene.poles.push_back({6.0, 3.0, 0.3, 4.0});
-    scene.boxes.push_back({{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}});
+    const SimpleScene scene =
+        test::sceneOf({{{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}}}, {{6.0, 3.0, 0.3, 4.0}});
     const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
     const std::vector<Label> labels = bogoslavskyiLabels(labelled.scan, kSensor);
     EXPECT_EQ(recall(labelled, labels, Label::Roi), 1.0);
@@ -85,8 +84,7 @@ TEST(BogoslavskyiLabels, SeparatesObstaclesFromFlatGround) {
 
 TEST(BogoslavskyiLabels, SmoothsAngles) {
     // The angles have a step at a box's foot, which smoothing spreads to its neighbours.
-    SimpleScene scene;
-    scene.boxes.push_back({{4.0, -3.0, 0.0}, {5.0, 3.0, 1.0}});
+    const SimpleScene scene = test::sceneOf({{{4.0, -3.0, 0.0}, {5.0, 3.0, 1.0}}});
     const LabelledScan labelled = test::scanScene(scene, kSensor, 870, {0.0, 0.0, 1.5});
     BogoslavskyiOptions rough;
     rough.smoothing_window = 1;

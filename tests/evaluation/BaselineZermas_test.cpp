@@ -34,9 +34,8 @@ Scan scanOf(const std::vector<Eigen::Vector3f>& points_m) {
 }
 
 TEST(ZermasGroundFit, SeparatesObstaclesFromFlatGround) {
-    SimpleScene scene;
-    scene.poles.push_back({6.0, 3.0, 0.3, 4.0});
-    scene.boxes.push_back({{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}});
+    const SimpleScene scene =
+        test::sceneOf({{{-9.0, -8.0, 0.0}, {-8.5, 8.0, 3.0}}}, {{6.0, 3.0, 0.3, 4.0}});
     const LabelledScan labelled = test::scanScene(scene, kSensor, 720, {0.0, 0.0, 1.5});
     const std::vector<Label> labels = zermasLabels(labelled.scan, kSensor);
     // Only returns near the height threshold Th_dist may be wrong.

@@ -80,8 +80,8 @@ TEST(FindLevelPixels, GroundIsLevel) {
 }
 
 TEST(FindLevelPixels, WallIsNotLevel) {
-    test::SimpleScene scene;
-    scene.boxes = {{{8, -9, 0}, {9, 9, 9}}, {{-9, -9, 0}, {-8, 9, 9}}};
+    const test::SimpleScene scene =
+        test::sceneOf({{{8, -9, 0}, {9, 9, 9}}, {{-9, -9, 0}, {-8, 9, 9}}});
     const PixelPoints pixels = seen(scene, sensorModel("VLP-16"), 1.5);
     // The step from the ground to the lowest pixel of the wall may be level.
     const LevelShare walls = levelBetween(0.6f, 8.9f, pixels);
@@ -93,8 +93,7 @@ TEST(FindLevelPixels, WallIsNotLevel) {
 }
 
 TEST(FindLevelPixels, CeilingIsNotLevel) {
-    test::SimpleScene scene;
-    scene.boxes = {{{-40, -40, 3}, {40, 40, 4}}};
+    const test::SimpleScene scene = test::sceneOf({{{-40, -40, 3}, {40, 40, 4}}});
     const PixelPoints pixels = seen(scene, sensorModel("VLP-16"), 1.5);
     const LevelShare ceiling = levelBetween(2.9f, 3.1f, pixels);
     EXPECT_GT(ceiling.pixels, 500);

@@ -64,8 +64,7 @@ TEST(HagenFilter, PlaneIsRou) {
 }
 
 TEST(HagenFilter, WallIsRoiAndGroundIsRou) {
-    SimpleScene scene;
-    scene.boxes.push_back({{10, -5, 0}, {11, 5, 30}});
+    const SimpleScene scene = test::sceneOf({{{10, -5, 0}, {11, 5, 30}}});
     const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
     EXPECT_GT(count(wall, Label::Roi), 1500);
     HagenFilter papers(sensorModel("VLP-16"), paperOptions());
@@ -81,8 +80,7 @@ TEST(HagenFilter, WallIsRoiAndGroundIsRou) {
 }
 
 TEST(HagenFilter, FloatingBoxIsRoi) {
-    SimpleScene scene;
-    scene.boxes.push_back({{9, -1, 1.8}, {10, 1, 2.4}});
+    const SimpleScene scene = test::sceneOf({{{9, -1, 1.8}, {10, 1, 2.4}}});
     const auto box = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
     EXPECT_GT(count(box, Label::Roi), 20);
     for (const Options& options : {paperOptions(), Options()}) {
@@ -93,8 +91,7 @@ TEST(HagenFilter, FloatingBoxIsRoi) {
 
 // Limitation of the paper's seeds: the lowest return of each column is labelled ground.
 TEST(HagenFilter, NearWallIsRouOnlyInPaper) {
-    SimpleScene scene;
-    scene.boxes.push_back({{5, -2, 0}, {6, 2, 4}});
+    const SimpleScene scene = test::sceneOf({{{5, -2, 0}, {6, 2, 4}}});
     const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
     ASSERT_GT(count(wall, Label::Roi), 1500);
     HagenFilter papers(sensorModel("VLP-16"), paperOptions());
@@ -129,8 +126,7 @@ TEST(HagenFilter, LoneReturnIsRoi) {
 }
 
 TEST(HagenFilter, TiltedSensorWithAttitudeFindsHorizon) {
-    SimpleScene scene;
-    scene.boxes.push_back({{10, -5, 0}, {11, 5, 6}});
+    const SimpleScene scene = test::sceneOf({{{10, -5, 0}, {11, 5, 6}}});
     const SensorModel sensor = sensorModel("HDL-64E");
     auto wall = test::scanScene(scene, sensor, 870, kTwoMetresUp);
     const Attitude attitude{0.1f, 0.15f};
@@ -144,8 +140,7 @@ TEST(HagenFilter, TiltedSensorWithAttitudeFindsHorizon) {
 
 TEST(HagenFilter, IgnoresUnusedAttitude) {
     const SensorModel sensor = sensorModel("VLP-16");
-    SimpleScene scene;
-    scene.poles.push_back({12, 2, 0.15, 8});
+    const SimpleScene scene = test::sceneOf({}, {{12, 2, 0.15, 8}});
     const auto pole = test::scanScene(scene, sensor, 870, kTwoMetresUp);
     Options options;
     options.level_by_attitude = false;
@@ -160,8 +155,7 @@ TEST(HagenFilter, IgnoresUnusedAttitude) {
 /// The mount determines the image rows, even if angles are relative to the airframe.
 TEST(HagenFilter, UpsideDownLabelsMatchUpright) {
     const SensorModel sensor = sensorModel("VLP-16");
-    SimpleScene scene;
-    scene.boxes.push_back({{15, -20, 0}, {16, 20, 6}});
+    const SimpleScene scene = test::sceneOf({{{15, -20, 0}, {16, 20, 6}}});
     const auto upright = test::scanScene(scene, sensor, 870, {0, 0, 3});
     const Attitude mount{static_cast<float>(kPi), 0};
     const Scan hanging = tilted(upright.scan, sensor, mount);
@@ -180,8 +174,7 @@ TEST(HagenFilter, UpsideDownLabelsMatchUpright) {
 /// The result of another filter has fewer returns behind pixels.
 TEST(HagenFilter, IgnoresResultFromOtherFilter) {
     const SensorModel sensor = sensorModel("VLP-16");
-    SimpleScene scene;
-    scene.boxes.push_back({{10, -5, 0}, {11, 5, 30}});
+    const SimpleScene scene = test::sceneOf({{{10, -5, 0}, {11, 5, 30}}});
     const auto small = test::scanScene({}, sensor, 200, kTwoMetresUp);
     const auto large = test::scanScene(scene, sensor, 870, kTwoMetresUp);
     const std::vector<Label> expected =
@@ -241,8 +234,7 @@ TEST(HagenFilter, ReturnBehindPixelHasOwnLabel) {
 }
 
 TEST(HagenFilter, BeyondZoneIsNeverRoi) {
-    SimpleScene scene;
-    scene.boxes.push_back({{25, -50, 0}, {26, 50, 30}});
+    const SimpleScene scene = test::sceneOf({{{25, -50, 0}, {26, 50, 30}}});
     const auto wall = test::scanScene(scene, sensorModel("VLP-16"), 870, kTwoMetresUp);
     for (const float context_m : {20.0f, 100.0f}) {
         for (Options options : {paperOptions(), Options()}) {
@@ -344,10 +336,8 @@ double changedByTurning(const Scan& scan, const SensorModel& sensor, const Optio
 }
 
 TEST(HagenFilter, HeadingBarelyAffectsLabels) {
-    SimpleScene scene;
-    scene.boxes.push_back({{8, -5, 0}, {9, 5, 3}});
-    scene.boxes.push_back({{-6, 3, 0}, {-5, 9, 0.4}});
-    scene.poles.push_back({4, 6, 0.15, 8});
+    const SimpleScene scene =
+        test::sceneOf({{{8, -5, 0}, {9, 5, 3}}, {{-6, 3, 0}, {-5, 9, 0.4}}}, {{4, 6, 0.15, 8}});
     const SensorModel sensor = sensorModel("VLP-16");
     const Scan scan = test::scanScene(scene, sensor, 870, kTwoMetresUp).scan;
     for (const int columns : {1, 37, 435, 700}) {
@@ -389,8 +379,7 @@ TEST(HagenFilter, KeepsNoStateBetweenScans) {
 TEST(HagenFilter, ExchangedResultStaysValid) {
     const SensorModel sensor = sensorModel("VLP-16");
     const auto plane = test::scanScene({}, sensor, 870, kTwoMetresUp);
-    SimpleScene with_wall;
-    with_wall.boxes.push_back({{8, -3, 0}, {8.5, 3, 3}});
+    const SimpleScene with_wall = test::sceneOf({{{8, -3, 0}, {8.5, 3, 3}}});
     const auto wall = test::scanScene(with_wall, sensor, 870, kTwoMetresUp);
     HagenFilter fresh(sensor);
     const SegmentationResult of_wall = fresh.segment(wall.scan);

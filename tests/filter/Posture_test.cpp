@@ -103,9 +103,7 @@ TEST(Posture, TurningKeepsMissingRanges) {
 
 /// Ground, a wall and a pole, seen from 2 m by a sensor with this tilt.
 test::LabelledScan sceneFrom(const SensorModel& sensor, const Attitude& attitude) {
-    test::SimpleScene scene;
-    scene.boxes = {{{8, -4, 0}, {9, 4, 3}}};
-    scene.poles = {{-6, 5, 0.2, 4}};
+    const test::SimpleScene scene = test::sceneOf({{{8, -4, 0}, {9, 4, 3}}}, {{-6, 5, 0.2, 4}});
     return test::scanScene(scene, sensor, 870, {0, 0, 2}, levelFromSensor(attitude).cast<double>());
 }
 

@@ -1,11 +1,9 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
 #include <hagen/filter/SectorFilter.h>
 #include <hagen/scan/Angle.h>
 #include "scan/AppendReturn.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -62,12 +60,7 @@ ColumnMap windowInFront() {
     return map;
 }
 
-SimpleScene sceneWithPole() {
-    SimpleScene scene;
-    scene.poles.push_back({5, 0.5, 0.3, 4});
-    scene.poles.push_back({-8, 2, 0.3, 4});
-    return scene;
-}
+SimpleScene sceneWithPole() { return test::sceneOf({}, {{5, 0.5, 0.3, 4}, {-8, 2, 0.3, 4}}); }
 
 TEST(SectorFilter, MatchesWholeScan) {
     for (const char* name : {"VLP-16", "HDL-32E"}) {
@@ -101,8 +94,7 @@ TEST(SectorFilter, MatchesWholeScan) {
 
 /// If a sector contains only a wall, the context shows the ground.
 TEST(SectorFilter, ContextRevealsGround) {
-    SimpleScene scene;
-    scene.boxes.push_back({{2, -20, 0}, {3, 20, 6}});
+    const SimpleScene scene = test::sceneOf({{{2, -20, 0}, {3, 20, 6}}});
     const SensorModel sensor = sensorModel("VLP-16");
     const Turn turn = turnOf(scene, sensor, radians(8.0));
     const ColumnMap columns = windowInFront();

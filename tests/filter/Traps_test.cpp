@@ -2,7 +2,6 @@
 // foliage in the zone must be RoI. If the floor is clearly visible, most of it must be ROU.
 #include <gtest/gtest.h>
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/scan/Angle.h>
 
 #include <functional>
 #include <string>
@@ -379,11 +378,10 @@ TEST(Traps, LeavesBeforeFirstGroundRingAreRoi) {
 
 // The tops of cars and boxes before the first ring look like rising ground; the ring is evidence.
 TEST(Traps, DISABLED_CarBeforeFirstGroundRingIsRoi) {
-    SimpleScene car;
-    car.boxes = {{{9, -2.2, 0}, {12, 2.2, 1.5}}, {{-2.2, 9, 0}, {2.2, 10.8, 1.5}}};
+    const SimpleScene car =
+        test::sceneOf({{{9, -2.2, 0}, {12, 2.2, 1.5}}, {{-2.2, 9, 0}, {2.2, 10.8, 1.5}}});
     EXPECT_EQ(outcome({car, {0, 0, 4}}, "VLP-16").missed_dangers, 0);
-    SimpleScene crate;
-    crate.boxes = {{{5, -2.2, 0}, {8, 2.2, 0.8}}};
+    const SimpleScene crate = test::sceneOf({{{5, -2.2, 0}, {8, 2.2, 0.8}}});
     EXPECT_EQ(outcome({crate, {0, 0, 2.5}}, "VLP-16").missed_dangers, 0);
 }
 
@@ -420,10 +418,8 @@ auto water(double reach_m) {
 
 /// Posts in the water and a house on the bank.
 SimpleScene lake() {
-    SimpleScene scene;
-    scene.poles = {{6, 1, 0.1, 3}, {-3, -5, 0.1, 1.5}, {4, 9, 0.4, 5}};
-    scene.boxes = {{{17, -3, 0}, {19, 3, 4}}};
-    return scene;
+    return test::sceneOf({{{17, -3, 0}, {19, 3, 4}}},
+                         {{6, 1, 0.1, 3}, {-3, -5, 0.1, 1.5}, {4, 9, 0.4, 5}});
 }
 
 TEST(Traps, ObstaclesAreRoiInWaterUpToBank) {
@@ -457,9 +453,9 @@ TEST(Traps, DISABLED_PontoonInWaterIsRoi) {
 }
 
 TEST(Traps, ObstaclesAreRoiWhenHoveringLow) {
-    SimpleScene scene;
-    scene.poles = {{3, 1, 0.1, 2}, {-4, 2, 0.05, 1}, {1, -2, 0.05, 1}};
-    scene.boxes = {{{5, -4, 0}, {6, 0, 2}}, {{-3, -3, 0}, {-2.5, -2.5, 0.5}}};
+    const SimpleScene scene =
+        test::sceneOf({{{5, -4, 0}, {6, 0, 2}}, {{-3, -3, 0}, {-2.5, -2.5, 0.5}}},
+                      {{3, 1, 0.1, 2}, {-4, 2, 0.05, 1}, {1, -2, 0.05, 1}});
     forEachSensor({scene, {0, 0, 0.3}}, [](const Outcome& o, const std::string&) {
         EXPECT_GT(o.dangers, 100);
         EXPECT_EQ(o.missed_dangers, 0);
@@ -469,8 +465,7 @@ TEST(Traps, ObstaclesAreRoiWhenHoveringLow) {
 }
 
 TEST(Traps, TowerIsRoi) {
-    SimpleScene scene;
-    scene.boxes = {{{10, -8, 0}, {20, 8, 60}}};
+    const SimpleScene scene = test::sceneOf({{{10, -8, 0}, {20, 8, 60}}});
     forEachSensor({scene, {0, 0, 30}}, [](const Outcome& o, const std::string&) {
         EXPECT_GT(o.dangers, 2500);
         EXPECT_EQ(o.rou, 0);

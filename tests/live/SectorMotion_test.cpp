@@ -16,9 +16,7 @@ constexpr int kPackets = 75;
 
 /// The packets of a turn over flat ground with a pole and a wall.
 std::vector<Scan> packetsOfATurn(const SensorModel& sensor) {
-    test::SimpleScene scene;
-    scene.poles.push_back({8, 3, 0.2, 6});
-    scene.boxes.push_back({{-12, -6, 0}, {-11, 6, 4}});
+    const test::SimpleScene scene = test::sceneOf({{{-12, -6, 0}, {-11, 6, 4}}}, {{8, 3, 0.2, 6}});
     const Scan turn = test::scanScene(scene, sensor, 870, {0, 0, 2}).scan;
     std::vector<Scan> packets(kPackets);
     for (std::size_t i = 0; i < turn.size(); ++i) {

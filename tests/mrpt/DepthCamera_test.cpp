@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -190,8 +189,7 @@ struct Seen {
 };
 Seen groundAndPole(double down_deg) {
     constexpr int kTall = 120, kWide = 160;
-    test::SimpleScene scene;
-    scene.poles.push_back({6, 1, 0.15, 4});
+    const test::SimpleScene scene = test::sceneOf({}, {{6, 1, 0.15, 4}});
     Seen seen;
     CObservation3DRangeScan& observation = *seen.observation;
     observation.rangeUnits = 0.001f;

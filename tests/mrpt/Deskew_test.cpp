@@ -25,8 +25,7 @@ Trajectory flight(double vx_m_s, double vz_m_s) {
 
 /// A full revolution during this flight over flat ground, with a wall 10 m ahead of the start.
 Scan scanOnTheWay(double vx_m_s, double vz_m_s) {
-    test::SimpleScene scene;
-    scene.boxes.push_back({{10, -30, 0}, {11, 30, 10}});
+    const test::SimpleScene scene = test::sceneOf({{{10, -30, 0}, {11, 30, 10}}});
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     Scan scan;
     decodePackets(*encodeScan(model, test::fireAt(scene, model, {0, 0, 2}, {vx_m_s, 0, vz_m_s})),

@@ -186,8 +186,7 @@ TEST_F(ObservationSegmenterTest, AdaptsToChangedSensor) {
 
 /// A cloud without a sensor name: a pole at (12, 2) on flat ground.
 mrpt::obs::CObservationPointCloud::Ptr cloudFrom(const SensorModel& sensor, int columns) {
-    test::SimpleScene scene;
-    scene.poles.push_back({12, 2, 0.15, 8});
+    const test::SimpleScene scene = test::sceneOf({}, {{12, 2, 0.15, 8}});
     return observationOf(test::scanScene(scene, sensor, columns, {0, 0, 2}).scan, "front",
                          mrpt::Clock::fromDouble(100));
 }

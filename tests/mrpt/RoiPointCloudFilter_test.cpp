@@ -2,8 +2,6 @@
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/RoiPointCloudFilter.h>
 
-#include <stdexcept>
-
 #include "support/SimpleScene.h"
 
 namespace hagen::observations {
@@ -18,8 +16,7 @@ struct Example {
     mrpt::maps::CSimplePointsMap cloud;
 
     explicit Example(const CPose3D& sensor_pose = {}) {
-        test::SimpleScene scene;
-        scene.poles.push_back({12, 2, 0.15, 8});
+        const test::SimpleScene scene = test::sceneOf({}, {{12, 2, 0.15, 8}});
         scan = test::scanScene(scene, sensorModel("VLP-16"), 870, {0, 0, 2}).scan;
         HagenFilter filter(sensorModel("VLP-16"));
         expected = filter.segment(scan).returns;
@@ -40,8 +37,7 @@ TEST(RoiPointCloudFilter, KeepsRoiPoints) {
 }
 
 TEST(RoiPointCloudFilter, RecoversUnnamedSensor) {
-    test::SimpleScene scene;
-    scene.poles.push_back({12, 2, 0.15, 8});
+    const test::SimpleScene scene = test::sceneOf({}, {{12, 2, 0.15, 8}});
     const SensorModel sensor = sensorModel("HDL-64E");
     const Scan scan = test::scanScene(scene, sensor, 600, {0, 0, 2}).scan;
     Options options;

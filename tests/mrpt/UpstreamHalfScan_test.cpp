@@ -29,8 +29,7 @@ std::size_t readingsIn(const CObservationVelodyneScan& scan, int readings) {
 TEST(UpstreamHalfScan, MrptDecodesHalfOfEachBlock) {
     const sensors::VelodyneModel& model = sensors::velodyneModel("HDL-32E");
     // From 2 m, lasers above and below the horizon hit a wall or the ground.
-    test::SimpleScene scene;
-    scene.boxes.push_back({{12, -10, 0}, {13, 10, 20}});
+    const test::SimpleScene scene = test::sceneOf({{{12, -10, 0}, {13, 10, 20}}});
     const auto scan = encodeScan(model, test::fireAt(scene, model, {0, 0, 2}));
     const std::size_t first_half = readingsIn(*scan, 16), all = readingsIn(*scan, 32);
     ASSERT_GT(all, first_half + 1000);

@@ -16,8 +16,7 @@ inline void expectBaselineRules(const evaluation::Baseline& baseline, float zone
     const SensorModel sensor = sensorModel("VLP-16");
     EXPECT_TRUE(baseline.segment({}, sensor).empty());
 
-    SimpleScene scene;
-    scene.poles.push_back({5.0, 2.0, 0.2, 4.0});
+    const SimpleScene scene = sceneOf({}, {{5.0, 2.0, 0.2, 4.0}});
     Scan scan = scanScene(scene, sensor, 360, {0.0, 0.0, 1.5}).scan;
     Random random(11);
     for (int i = 0; i < 500; ++i) {  // random returns unlike any scene

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace hagen::test {
@@ -28,6 +29,12 @@ struct SimpleScene {
     std::vector<Floor> floors;
     bool has_ground = true;
 };
+
+/// Obstacles on flat ground.
+inline SimpleScene sceneOf(std::vector<SimpleScene::Box> boxes,
+                           std::vector<SimpleScene::Pole> poles = {}) {
+    return {std::move(boxes), std::move(poles), {}, true};
+}
 
 /// The first hit of a ray.
 struct Hit {
