@@ -42,12 +42,7 @@ constexpr auto now_s = test::steadyNow_s;
 using test::freePort;
 
 /// Two poles on flat ground, seen from 2 m: one 20 degrees left of ahead, one on the right.
-test::SimpleScene poles() {
-    test::SimpleScene scene;
-    scene.poles.push_back({8, 3, 0.2, 6});
-    scene.poles.push_back({-1, -6, 0.2, 6});
-    return scene;
-}
+test::SimpleScene poles() { return test::sceneOf({}, {{8, 3, 0.2, 6}, {-1, -6, 0.2, 6}}); }
 
 /// A local UDP socket that stores the bytes it receives.
 class Autopilot {
@@ -349,9 +344,7 @@ class FlyingSensor {
         firings_.first_time_us =
             static_cast<std::uint32_t>(24.0 * model.firing_period_us * packet_);
         measure(model, vehicleAt(now_s()));
-        const auto packets = encodePackets(model, firings_);
-        const std::string bytes = test::bytesOf(packets[0]);
-        socket_.send(bytes, to_);
+        socket_.send(test::packetsOf(model, firings_)[0], to_);
         ++packet_;
     }
 
@@ -460,9 +453,7 @@ class FaultyNetwork {
         : start_s_(now_s()), to_(test::localAddress(port)), random_(1) {
         const auto& model = sensors::velodyneModel("VLP-16");
         observations::Firings firings = test::fireAt(poles(), model, {0, 0, 2});
-        for (const auto& packet : encodePackets(model, firings)) {
-            packets_.push_back(test::bytesOf(packet));
-        }
+        packets_ = test::packetsOf(model, firings);
         packet_rad_ = radians(24 * firings.azimuth_step_deg);
     }
 

@@ -24,6 +24,7 @@
 #include "support/LivoxPackets.h"
 #include "support/LocalUdp.h"
 #include "support/ProgramTest.h"
+#include "support/ReadRawlog.h"
 
 namespace hagen {
 namespace {
@@ -55,6 +56,13 @@ class LiveSegment : public test::ProgramTest {
                 std::memcpy(at, &time_us, sizeof time_us);
             }
             all.push_back(scan);
+        }
+        return all;
+    }
+    static std::vector<std::string> packets() {
+        std::vector<std::string> all;
+        for (const auto& scan : scans()) {
+            for (const auto& packet : scan->scan_packets) all.push_back(test::bytesOf(packet));
         }
         return all;
     }
@@ -106,24 +114,20 @@ TEST_F(LiveSegment, RecordingConvertsToSameLabels) {
 }
 
 TEST_F(LiveSegment, Mid360RecordingKeepsLabels) {
-    test::CaptureWriter writer;
+    std::vector<std::string> packets;
     for (int k = 0; k < 700; ++k) {
-        const std::int64_t time_ns = k * test::kLivoxPacket_ns;
-        test::SentDatagram datagram{test::livoxPacketOfWall(k, time_ns)};
-        datagram.time_s += 1e-9 * static_cast<double>(time_ns);
-        datagram.to_port = 56301;
-        writer.datagram(datagram);
+        packets.push_back(test::livoxPacketOfWall(k, k * test::kLivoxPacket_ns));
     }
-    const std::string file = writer.write(path("flight.pcap"));
+    const std::string file = test::CaptureWriter()
+                                 .datagrams(packets, 1e-9 * test::kLivoxPacket_ns, 56301)
+                                 .write(path("flight.pcap"));
     const auto outcome = run({"--model", "Mid-360", "--replay", file, "--record", path("live.pcap"),
                               "--stats", path("stats.json")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     expectSameLabels(file, {"-c", "mid360"});
     EXPECT_EQ(stats()["packets"]["taken"], 700);
-    recordings::RawlogReader reader(path("recorded.rawlog"));
-    std::size_t entries = 0;
-    while (reader.next()) ++entries;
-    EXPECT_EQ(entries, 3 * 4);  // 4 scans in 0.336 s, each with its RoI and its ROU
+    // 4 scans in 0.336 s, each with its RoI and its ROU
+    EXPECT_EQ(test::readLog(path("recorded.rawlog")).first, 3u * 4);
 }
 
 TEST_F(LiveSegment, OusterRecordingKeepsLabels) {
@@ -161,18 +165,6 @@ TEST_F(LiveSegment, RefusesToOverwriteInputs) {
     EXPECT_TRUE(test::readFile(file) == before);
 }
 
-TEST_F(LiveSegment, FailedRecordingKeepsStatistics) {
-    const auto outcome =
-        test::run("/bin/bash", {"-c", "ulimit -f 8; exec \"" + std::string(HAGEN_LIVE_SEGMENT) +
-                                          "\" --model VLP-16 --speed 50 --replay \"" + capture() +
-                                          "\" --record \"" + path("a.pcap") + "\" --stats \"" +
-                                          path("stats.json") + "\""});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("a.pcap"));
-    EXPECT_FALSE(fs::exists(path("a.pcap")));
-    EXPECT_GT(stats()["packets"]["taken"], 0);
-}
-
 TEST_F(LiveSegment, FailedStatisticsKeepSummary) {
     const auto outcome =
         test::run("/bin/bash", {"-c", "(ulimit -f 0; exec \"" + std::string(HAGEN_LIVE_SEGMENT) +
@@ -187,11 +179,8 @@ TEST_F(LiveSegment, FailedStatisticsKeepSummary) {
 
 TEST_F(LiveSegment, ReceivesFromNetwork) {
     const std::uint16_t port = freePort();
-    std::vector<std::string> packets;
-    for (const auto& scan : scans()) {
-        for (const auto& packet : scan->scan_packets) packets.push_back(test::bytesOf(packet));
-    }
-    packets.erase(packets.begin() + 40, packets.begin() + 43);
+    std::vector<std::string> sent = packets();
+    sent.erase(sent.begin() + 40, sent.begin() + 43);
     std::atomic<bool> is_done = false;
     // Sends until the program ends, because the time when it starts listening is unknown.
     std::thread sender([&] {
@@ -200,10 +189,10 @@ TEST_F(LiveSegment, ReceivesFromNetwork) {
             out.send(bytes, test::localAddress(port));
         };
         for (std::size_t i = 0; !is_done; ++i) {
-            send(packets[i % packets.size()]);
+            send(sent[i % sent.size()]);
             if (i % 50 == 7) send("noise");
             if (i % 50 == 9) {  // another sensor model
-                std::string other = packets[i % packets.size()];
+                std::string other = sent[i % sent.size()];
                 other.back() = '\x21';
                 send(other);
             }
@@ -243,17 +232,20 @@ TEST_F(LiveSegment, DoesNotLoadMrpt) {
 }
 
 TEST_F(LiveSegment, FullDiskEndsRecordingOnly) {
-    const auto outcome =
-        test::run("bash", {"-c", "ulimit -f 200; exec \"$0\" \"$@\"", HAGEN_LIVE_SEGMENT, "--model",
-                           "VLP-16", "--replay", capture(), "--speed", "20", "--record",
-                           path("a.pcap"), "--stats", path("stats.json")});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("partial recording kept in " + path("a.partial.pcap")));
-    EXPECT_FALSE(fs::exists(path("a.pcap")));
-    EXPECT_TRUE(fs::exists(path("a.partial.pcap")));
-    const auto json = stats();
-    EXPECT_EQ(json["packets"]["taken"], json["packets"]["datagrams"]);
-    EXPECT_THAT(json["recorded"]["failure"].get<std::string>(), HasSubstr(path("a.pcap")));
+    for (const std::string limit_kib : {"8", "200"}) {
+        const auto outcome = test::run(
+            "bash", {"-c", "ulimit -f " + limit_kib + "; exec \"$0\" \"$@\"", HAGEN_LIVE_SEGMENT,
+                     "--model", "VLP-16", "--replay", capture(), "--speed", "20", "--record",
+                     path("a.pcap"), "--stats", path("stats.json"), "--overwrite"});
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_THAT(outcome.err, HasSubstr("partial recording kept in " + path("a.partial.pcap")));
+        EXPECT_FALSE(fs::exists(path("a.pcap")));
+        const auto json = stats();
+        EXPECT_GT(json["packets"]["taken"], 0);
+        EXPECT_EQ(json["packets"]["taken"], json["packets"]["datagrams"]);
+        EXPECT_THAT(json["recorded"]["failure"].get<std::string>(), HasSubstr(path("a.pcap")));
+        EXPECT_TRUE(fs::remove(path("a.partial.pcap")));
+    }
 }
 
 TEST_F(LiveSegment, ReplaysCapturesRawlogsAndBags) {
@@ -335,16 +327,10 @@ class LiveSegmentKilled : public LiveSegment {
             execv(arguments[0], arguments.data());
             _exit(127);
         }
-        sender_ = std::thread([this, port, all = scans()] {
+        sender_ = std::thread([this, port, sent = packets()] {
             const test::LocalUdp out;
-            std::vector<std::string> packets;
-            for (const auto& scan : all) {
-                for (const auto& packet : scan->scan_packets) {
-                    packets.push_back(test::bytesOf(packet));
-                }
-            }
             for (std::size_t i = 0; !is_done_; ++i) {
-                out.send(packets[i % packets.size()], test::localAddress(port));
+                out.send(sent[i % sent.size()], test::localAddress(port));
                 std::this_thread::sleep_for(std::chrono::microseconds(1300));
             }
         });

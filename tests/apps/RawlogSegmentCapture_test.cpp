@@ -5,6 +5,7 @@
 
 #include "support/CaptureWriter.h"
 #include "support/OusterPackets.h"
+#include "support/ReadRawlog.h"
 #include "support/SegmentTest.h"
 
 namespace hagen {
@@ -52,22 +53,17 @@ TEST_F(RawlogSegmentCapture, KeepsReadablePartOfTruncatedCapture) {
         if (cut != 3) continue;
         EXPECT_THAT(outcome.err, HasSubstr("preceding entries are in " + path("out.partial")));
     }
-    recordings::RawlogReader reader(path("out.partial.rawlog"));  // from the first truncation
-    while (reader.next()) {
-    }
-    EXPECT_GE(reader.entries(), 12u);  // four scans, each with two clouds
+    // From the first truncation: four scans, each with two clouds.
+    EXPECT_GE(test::readLog(path("out.partial.rawlog")).first, 12u);
 }
 
 TEST_F(RawlogSegmentCapture, OusterRequiresMetadata) {
     const std::string json = folder_.write("ouster.json", test::ousterJson());
     const auto sensor = sensors::readOusterSensor(json);
-    test::CaptureWriter writer;
-    for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, 1))) {
-        test::SentDatagram datagram;
-        datagram.content = packet;
-        writer.datagram(datagram);
-    }
-    const std::string capture = writer.write(path("ouster.pcap"));
+    const std::string capture =
+        test::CaptureWriter()
+            .datagrams(test::packetsOf(sensor, test::randomFrame(sensor, 1)))
+            .write(path("ouster.pcap"));
     const std::string settings =
         folder_.write("four_beams.yaml", "window_size: 2\nprincipal_components: 1\n");
     const auto outcome = expectSuccess(
@@ -88,10 +84,9 @@ TEST_F(RawlogSegmentCapture, OusterRequiresMetadata) {
 }
 
 TEST_F(RawlogSegmentCapture, RejectsUnsupportedCaptures) {
-    test::SentDatagram ouster;
-    ouster.content = std::string(8448, '\0');
-    ouster.to_port = 7502;
-    const std::string capture = test::CaptureWriter().datagram(ouster).write(path("ouster.pcap"));
+    const std::string capture = test::CaptureWriter()
+                                    .datagrams({std::string(8448, '\0')}, 0, 7502)
+                                    .write(path("ouster.pcap"));
     expectFailure({"-i", capture, "-o", path("out.rawlog")}, 1,
                   "ouster.pcap: has no data packets from a known Velodyne");
     const std::string wifi = test::CaptureWriter(105).write(path("wifi.pcap"));

@@ -9,11 +9,11 @@
 #include "filter/OptionKeys.h"
 
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "support/PolesAndWall.h"
 #include "support/Random.h"
+#include "support/ReadRawlog.h"
 #include "support/SegmentTest.h"
 
 namespace hagen {
@@ -24,13 +24,6 @@ using testing::HasSubstr;
 using testing::Not;
 
 namespace fs = std::filesystem;
-
-std::size_t entriesOf(const fs::path& log) {
-    recordings::RawlogReader reader(log);
-    while (reader.next()) {
-    }
-    return reader.entries();
-}
 
 class RawlogSegment : public test::SegmentTest {
  protected:
@@ -348,7 +341,7 @@ TEST_F(RawlogSegment, CopiesLogWithoutLidar) {
     EXPECT_THAT(outcome.err, HasSubstr("no LiDAR scan"));
     EXPECT_FALSE(fs::exists(path("scans")));
     EXPECT_FALSE(fs::exists(path("pictures")));
-    EXPECT_EQ(entriesOf(path("out.rawlog")), entriesOf(log));
+    EXPECT_EQ(test::readLog(path("out.rawlog")).first, test::readLog(log).first);
 }
 
 TEST_F(RawlogSegment, ConvertsScanRange) {
@@ -473,7 +466,7 @@ TEST_F(RawlogSegment, KeepsReadablePartOfTruncatedLog) {
     EXPECT_THAT(outcome.err, HasSubstr("cut.rawlog: entry"));
     EXPECT_THAT(outcome.err, HasSubstr("out.partial.rawlog"));
     EXPECT_FALSE(fs::exists(path("out.rawlog")));
-    EXPECT_GE(entriesOf(path("out.partial.rawlog")), 12u);
+    EXPECT_GE(test::readLog(path("out.partial.rawlog")).first, 12u);
 }
 
 TEST_F(RawlogSegment, ReportsUnwritableOutputs) {
@@ -511,7 +504,7 @@ TEST_F(RawlogSegment, KeepsOutputOnInterrupt) {
         EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
         EXPECT_THAT(outcome.err, HasSubstr("interrupted; the "));
         EXPECT_FALSE(fs::exists(path("out.rawlog")));
-        EXPECT_GT(entriesOf(path("out.partial.rawlog")), 4u);
+        EXPECT_GT(test::readLog(path("out.partial.rawlog")).first, 4u);
         fs::remove(path("out.partial.rawlog"));
         EXPECT_EQ(files(), std::set<fs::path>{log});
     }

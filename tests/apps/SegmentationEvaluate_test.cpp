@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "support/ProgramTest.h"
+#include "support/RawBytes.h"
 #include "support/SimpleScene.h"
 
 namespace hagen {
@@ -45,8 +46,7 @@ class SegmentationEvaluate : public test::ProgramTest {
     }
     /// A folder with a scan of a pole on flat ground and its ground-truth labels.
     std::string labelledPole(const std::string& name = "pole") const {
-        test::SimpleScene scene;
-        scene.poles.push_back({12, 2, 0.15, 8});
+        const test::SimpleScene scene = test::sceneOf({}, {{12, 2, 0.15, 8}});
         const SensorModel sensor = sensorModel("VLP-16");
         const auto labelled = test::scanScene(scene, sensor, 870, {0, 0, 2});
         LabelledReturns truth;
@@ -65,8 +65,7 @@ class SegmentationEvaluate : public test::ProgramTest {
         const auto truth = recordings::readLabels(folder_ / "pole/labels/000000.label");
         std::vector<std::uint32_t> kinds;
         for (const auto label : truth) kinds.push_back(label == 2 ? 4 : label);
-        folder_.write("pole/semantic/000000.label",
-                      std::string(reinterpret_cast<const char*>(kinds.data()), 4 * kinds.size()));
+        folder_.write("pole/semantic/000000.label", test::raw(kinds));
         folder_.write("pole/kinds.yaml",
                       "1: {name: terrain, label: 1}\n4: {name: pole, label: 2}\n");
         folder_.write("pole/altitudes.txt", "2.0\n");
@@ -75,8 +74,7 @@ class SegmentationEvaluate : public test::ProgramTest {
     void writeLabelFile(const std::string& file, const std::vector<std::uint16_t>& labels) const {
         fs::create_directories((folder_ / file).parent_path());
         const std::vector<std::uint32_t> entries(labels.begin(), labels.end());
-        folder_.write(
-            file, std::string(reinterpret_cast<const char*>(entries.data()), 4 * entries.size()));
+        folder_.write(file, test::raw(entries));
     }
     nlohmann::json json(std::vector<std::string> arguments) const {
         const std::string file = (folder_ / "report.json").string();
@@ -329,8 +327,7 @@ TEST_F(SegmentationEvaluate, ScoresTallObstacles) {
     EXPECT_TRUE(drone["obstacles"].is_null());  // obstacles are not numbered yet
     std::vector<std::uint32_t> numbered;
     for (const std::uint16_t label : truth) numbered.push_back(label == 2 ? 7 << 16 | 2 : label);
-    folder_.write("pole/labels/000000.label",
-                  std::string(reinterpret_cast<const char*>(numbered.data()), 4 * numbered.size()));
+    folder_.write("pole/labels/000000.label", test::raw(numbered));
     EXPECT_EQ(json(flags)["methods"][0]["drone"]["obstacles"]["missed"], 0);
     EXPECT_EQ(json(flags)["methods"][1]["drone"]["obstacles"]["missed"], 1);
     EXPECT_EQ(json(flags)["methods"][1]["drone"]["obstacles"]["of"], 1);

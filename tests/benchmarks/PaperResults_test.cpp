@@ -8,12 +8,12 @@
 #include <set>
 
 #include "paper-results/DataSets.h"
-#include "paper-results/Document.h"
 #include "paper-results/HardSection.h"
 #include "paper-results/LeftOutSection.h"
 #include "paper-results/Rows.h"
 #include "paper-results/Sums.h"
 #include "support/ProgramTest.h"
+#include "support/RawBytes.h"
 #include "support/SimpleScene.h"
 #include "support/Tables.h"
 
@@ -223,8 +223,7 @@ class PaperResults : public test::ProgramTest {
     }
     /// Recordings of a pole on flat ground, with SemanticKITTI's classes for road and pole.
     std::string labelledPoles() const {
-        test::SimpleScene scene;
-        scene.poles.push_back({12, 2, 0.15, 8});
+        const test::SimpleScene scene = test::sceneOf({}, {{12, 2, 0.15, 8}});
         const SensorModel sensor = sensorModel("VLP-16");
         const auto labelled = test::scanScene(scene, sensor, 870, {0, 0, 2});
         LabelledReturns truth;
@@ -237,9 +236,7 @@ class PaperResults : public test::ProgramTest {
             convert::ScanFolderWriter writer(folder_ / name);
             writer.write("000000", labelled.scan, truth, sensor, 0.0);
             writer.finish();
-            folder_.write(
-                std::string(name) + "/semantic/000000.label",
-                std::string(reinterpret_cast<const char*>(classes.data()), 4 * classes.size()));
+            folder_.write(std::string(name) + "/semantic/000000.label", test::raw(classes));
         }
         return (folder_ / "labelled").string();
     }

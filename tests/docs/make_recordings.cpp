@@ -49,34 +49,22 @@ void writeVelodyne(const fs::path& rawlog, const fs::path& folder) {
 /// Flat ground 1.7 m below the sensor, and a surrounding wall 15 m away.
 void writeHdl64(const fs::path& folder) {
     const auto lasers = test::hdl64Lasers();
-    test::CaptureWriter capture;
-    double time_s = 1700000000;
-    for (const auto& packet : test::hdl64Packets(2 * 2000, [&](int laser, double azimuth_deg) {
-             const auto direction = lasers[static_cast<std::size_t>(laser)].direction(azimuth_deg);
-             const double wall_m = 15 / std::hypot(direction.x(), direction.y());
-             return direction.z() < 0 ? std::min(wall_m, -1.7 / direction.z()) : wall_m;
-         })) {
-        test::SentDatagram datagram;
-        datagram.content = packet;
-        datagram.time_s = time_s += 288e-6;
-        capture.datagram(datagram);
-    }
-    capture.write(folder / "hdl64.pcap");
+    const auto packets = test::hdl64Packets(2 * 2000, [&](int laser, double azimuth_deg) {
+        const auto direction = lasers[static_cast<std::size_t>(laser)].direction(azimuth_deg);
+        const double wall_m = 15 / std::hypot(direction.x(), direction.y());
+        return direction.z() < 0 ? std::min(wall_m, -1.7 / direction.z()) : wall_m;
+    });
+    test::CaptureWriter().datagrams(packets, 288e-6).write(folder / "hdl64.pcap");
     test::writeBytes(folder / "db.xml", test::hdl64Xml(lasers));
 }
 
 /// Flat ground 2 m below the sensor, and a wall 6 m away, for 0.5 s.
 void writeLivox(const fs::path& folder) {
-    test::CaptureWriter capture;
+    std::vector<std::string> packets;
     for (int number = 0; number < 1000; ++number) {
-        test::SentDatagram datagram;
-        const std::int64_t time_ns = 500000 * std::int64_t{number};
-        datagram.content = test::livoxPacketOfWall(number, time_ns);
-        datagram.time_s += 1e-9 * static_cast<double>(time_ns);
-        datagram.to_port = 56301;
-        capture.datagram(datagram);
+        packets.push_back(test::livoxPacketOfWall(number, 500000 * std::int64_t{number}));
     }
-    capture.write(folder / "livox.pcap");
+    test::CaptureWriter().datagrams(packets, 5e-4, 56301).write(folder / "livox.pcap");
 }
 
 }  // namespace

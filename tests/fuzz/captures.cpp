@@ -41,8 +41,7 @@ void readCapture(std::string_view input) {
 Seeds captureSeeds() {
     auto scan = test::poleScanFrom(0, "velodyne");
     scan->scan_packets.resize(2);
-    test::SentDatagram velodyne;
-    velodyne.content = test::bytesOf(scan->scan_packets[0]);
+    const test::SentDatagram velodyne{test::bytesOf(scan->scan_packets[0])};
     const std::string two = test::CaptureWriter().packets(*scan, 1700000000).bytes();
     test::CaptureWriter fragments;
     for (const auto& part : test::fragmentsOf(velodyne, 800)) {
@@ -54,12 +53,7 @@ Seeds captureSeeds() {
     raw.frame(test::ipOf(velodyne));
     const auto sensor = sensors::ousterSensorOf(test::ousterJson(), "metadata");
     test::CaptureWriter ouster;
-    for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, 3))) {
-        test::SentDatagram sent;
-        sent.content = packet;
-        sent.to_port = 7502;
-        ouster.datagram(sent);
-    }
+    ouster.datagrams(test::packetsOf(sensor, test::randomFrame(sensor, 3)), 0, 7502);
     test::SentDatagram livox;
     livox.content = std::string(36, '\0') + std::string(140, '\x11');
     livox.content[1] = static_cast<char>(176);

@@ -16,16 +16,9 @@ namespace {
 class Turns : public PacketSource {
  public:
     Turns() {
-        const auto& model = sensors::velodyneModel("VLP-16");
-        test::SimpleScene scene;
-        scene.poles.push_back({8, 3, 0.2, 6});
-        observations::Firings firings = test::fireAt(scene, model, {0, 0, 2});
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            firings.first_time_us = 1000000 + 100000 * k;
-            for (const auto& packet : encodePackets(model, firings)) {
-                packets_.push_back(test::bytesOf(packet));
-            }
-        }
+        const test::SimpleScene scene = test::sceneOf({}, {{8, 3, 0.2, 6}});
+        const auto packets = test::turnsOf(scene, sensors::velodyneModel("VLP-16"), 3);
+        packets_.assign(packets.begin(), packets.end());
     }
     Next next(Packet& packet) override {
         if (packets_.empty()) return Next::End;

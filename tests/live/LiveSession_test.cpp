@@ -42,11 +42,7 @@ class GivenPackets : public PacketSource {
         packets_.push_back(packet);
         return *this;
     }
-    GivenPackets& addAll(const std::vector<std::string>& packets) {
-        for (const std::string& packet : packets) add(packet);
-        return *this;
-    }
-    GivenPackets& addFrom(std::uint32_t ip, const std::vector<std::string>& packets) {
+    GivenPackets& addAll(const std::vector<std::string>& packets, std::uint32_t ip = 0x0a000064) {
         for (const std::string& packet : packets) add(packet, ip);
         return *this;
     }
@@ -89,29 +85,10 @@ class GivenPackets : public PacketSource {
     const double start_s_ = steadyNow_s();
 };
 
-std::vector<std::string> packetsOf(const observations::Firings& firings) {
-    std::vector<std::string> packets;
-    for (const auto& packet : encodePackets(velodyneModel("VLP-16"), firings)) {
-        packets.push_back(test::bytesOf(packet));
-    }
-    return packets;
-}
-
 std::vector<std::string> turnsOf(int turns, std::uint32_t first_us = 1000000,
                                  const char* name = "VLP-16", bool is_dual = false) {
-    test::SimpleScene scene;
-    scene.poles.push_back({8, 3, 0.2, 6});
-    const auto& model = velodyneModel(name);
-    observations::Firings firings = test::fireAt(scene, model, {0, 0, 2});
-    if (is_dual) firings.last_range_m = firings.range_m;
-    std::vector<std::string> packets;
-    for (int k = 0; k < turns; ++k) {
-        firings.first_time_us = first_us + 100000 * static_cast<std::uint32_t>(k);
-        for (const auto& packet : encodePackets(model, firings)) {
-            packets.push_back(test::bytesOf(packet));
-        }
-    }
-    return packets;
+    const test::SimpleScene scene = test::sceneOf({}, {{8, 3, 0.2, 6}});
+    return test::turnsOf(scene, velodyneModel(name), turns, first_us, is_dual);
 }
 
 constexpr std::uint32_t kOurs = 0x0a000064, kOther = 0x0a000065;
@@ -279,15 +256,15 @@ TEST_F(LiveSessionTest, ReportsMissingReturns) {
 
 /// Packets before a pause are labelled even if other sensors send to the port.
 TEST_F(LiveSessionTest, WarnsAboutUnmaskedAirframeOnce) {
-    test::SimpleScene scene;
-    scene.poles.push_back({0.7, 0, 0.05, 3});
-    observations::Firings firings = test::fireAt(scene, velodyneModel("VLP-16"), {0, 0, 2});
+    const test::SimpleScene scene = test::sceneOf({}, {{0.7, 0, 0.05, 3}});
+    const auto& model = velodyneModel("VLP-16");
+    observations::Firings firings = test::fireAt(scene, model, {0, 0, 2});
     const auto turns = [&](int number) {
         remarks_.clear();
         GivenPackets source;
         for (int turn = 0; turn < number; ++turn) {
             firings.first_time_us = 1000000 + 100000 * static_cast<std::uint32_t>(turn);
-            source.addAll(packetsOf(firings)).later(0.1);
+            source.addAll(test::packetsOf(model, firings)).later(0.1);
         }
         run(source);
     };
@@ -303,8 +280,8 @@ TEST_F(LiveSessionTest, ForeignPacketsDoNotDelayLabels) {
     auto turn = turnsOf(1);
     turn.resize(74);  // not a whole number of sectors
     const std::vector<std::string> others(10, turnsOf(1, 900000000)[0]);
-    source.addFrom(kOurs, turn).addFrom(kOther, others);
-    source.later(0.03).addFrom(kOther, others).addFrom(kOurs, turnsOf(1, 1140000));
+    source.addAll(turn).addAll(others, kOther);
+    source.later(0.03).addAll(others, kOther).addAll(turnsOf(1, 1140000));
     std::size_t packets = 0, cut_after = 0;
     LiveListener listener;
     listener.motion = [&](double) {

@@ -130,10 +130,7 @@ TEST(ReplaySource, ReplaysAtRecordedPace) {
     const test::TemporaryFolder folder;
     test::CaptureWriter writer;
     for (int i = 0; i < 5; ++i) {
-        test::SentDatagram datagram;
-        datagram.content = std::string(10, static_cast<char>('a' + i));
-        datagram.time_s = 1700000000 + 0.1 * i;
-        writer.datagram(datagram);
+        writer.datagram({std::string(10, static_cast<char>('a' + i)), 1700000000 + 0.1 * i});
     }
     const auto file = writer.write(folder / "a.pcap");
     for (const double speed : {1.0, 10.0}) {
@@ -173,10 +170,7 @@ TEST(ReplaySource, SkipsLongPauses) {
     const test::TemporaryFolder folder;
     test::CaptureWriter writer;
     for (const double time_s : {1.7e9, 1.7e9 + 1e6, 1.7e9 + 1e6 + 0.2, 1.0, 4e9, 4e9 + 0.2}) {
-        test::SentDatagram datagram;
-        datagram.content = "a";
-        datagram.time_s = time_s;
-        writer.datagram(datagram);
+        writer.datagram({"a", time_s});
     }
     ReplaySource source(writer.write(folder / "a.pcap"), 1);
     const double start_s = steadyNow_s();

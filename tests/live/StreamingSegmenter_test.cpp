@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/PointScan.h"
+#include "support/Program.h"
 #include "support/SimpleScene.h"
 
 namespace hagen::live {
@@ -22,10 +23,7 @@ constexpr int kColumns = 870, kPackets = 75;
 
 /// Flat ground with a pole and a wall.
 test::SimpleScene sceneWithPole() {
-    test::SimpleScene scene;
-    scene.poles.push_back({8, 3, 0.2, 6});
-    scene.boxes.push_back({{-12, -6, 0}, {-11, 6, 4}});
-    return scene;
+    return test::sceneOf({{{-12, -6, 0}, {-11, 6, 4}}}, {{8, 3, 0.2, 6}});
 }
 
 /// The returns of each packet of a turn, clockwise from behind, as a sensor sends them.
@@ -141,7 +139,6 @@ TEST_F(StreamingSegmenterTest, FullContextMatchesWholeScan) {
     addTurn(1, packets, segmenter);
     segmenter.flush();
     HagenFilter filter(sensor_);
-    std::vector<Label> whole(turn.scan.size());
     const auto& of_turn = filter.segment(turn.scan).returns.label;
     std::size_t roi = 0, roi_streamed = 0;
     for (const Label label : of_turn) roi += label == Label::Roi;
@@ -508,12 +505,8 @@ TEST_F(StreamingSegmenterTest, RejectsInvalidOptionsAndScans) {
     const auto messageWith = [&](auto change) {
         StreamingOptions options;
         change(options);
-        try {
-            const StreamingSegmenter segmenter(sensor_, {}, take(), options);
-        } catch (const std::invalid_argument& e) {
-            return std::string(e.what());
-        }
-        return std::string();
+        return test::messageOf<std::invalid_argument>(
+            [&] { const StreamingSegmenter segmenter(sensor_, {}, take(), options); });
     };
     EXPECT_THAT(messageWith([](auto& o) { o.sector_rad = 0; }), HasSubstr("sector_rad"));
     EXPECT_THAT(messageWith([](auto& o) { o.window_rad = -1; }), HasSubstr("window_rad"));

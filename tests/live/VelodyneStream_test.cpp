@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "support/CaptureWriter.h"
-#include "support/Captures.h"
 #include "support/Datagrams.h"
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
@@ -53,21 +52,8 @@ StreamingSegmenter::Take into(Labelled& all) {
 /// Packets of several turns of a static VLP-16 2 m above flat ground with a pole and a wall.
 std::vector<ByteString> turnsOf(int turns, std::uint32_t first_us = 1000000, bool is_dual = false,
                                 const char* name = "VLP-16") {
-    test::SimpleScene scene;
-    scene.poles.push_back({8, 3, 0.2, 6});
-    scene.boxes.push_back({{-12, -6, 0}, {-11, 6, 4}});
-    const auto& model = velodyneModel(name);
-    observations::Firings firings = test::fireAt(scene, model, {0, 0, 2});
-    if (is_dual) firings.last_range_m = firings.range_m;
-    std::vector<ByteString> packets;
-    for (int k = 0; k < turns; ++k) {
-        firings.first_time_us =
-            static_cast<std::uint32_t>((first_us + 100000ull * k) % 3600000000ull);
-        for (const auto& packet : encodePackets(model, firings)) {
-            packets.push_back(test::bytesOf(packet));
-        }
-    }
-    return packets;
+    const test::SimpleScene scene = test::sceneOf({{{-12, -6, 0}, {-11, 6, 4}}}, {{8, 3, 0.2, 6}});
+    return test::turnsOf(scene, velodyneModel(name), turns, first_us, is_dual);
 }
 
 Taken add(const ByteString& packet, double time_s, LidarStream& stream) {
@@ -433,11 +419,11 @@ TEST(VelodyneStreams, LaggingBeamKeepsObstacle) {
     });
     for (int turn = 0; turn < 4; ++turn) {
         firings.first_time_us = 1000000 + 100000 * static_cast<std::uint32_t>(turn);
-        const auto packets = encodePackets(model, firings);
+        const auto packets = test::packetsOf(model, firings);
         for (std::size_t i = 0; i < packets.size(); ++i) {
             const double part = static_cast<double>(i) / static_cast<double>(packets.size());
             const double time_s = 0.1 * (turn + part);
-            add(test::bytesOf(packets[i]), time_s, stream);
+            add(packets[i], time_s, stream);
             if (turn < 2) continue;
             ASSERT_EQ(distances.at(time_s)[12].state, SectorDistances::State::Obstacle) << time_s;
             ASSERT_EQ(distances.at(time_s)[40].state, SectorDistances::State::SeenNothing);

@@ -4,16 +4,16 @@
 
 #include <sqlite3.h>
 
-#include <map>
-
 #include "support/BagWriter.h"
 #include "support/Program.h"
+#include "support/RawBytes.h"
 
 namespace hagen::recordings {
 namespace {
 
 using test::BagShape;
 using test::ByteString;
+using test::raw;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
@@ -45,10 +45,6 @@ Read readAll(const fs::path& file) {
         read.broken_because = e.what();
     }
     return read;
-}
-
-ByteString little64(std::uint64_t number) {
-    return {reinterpret_cast<const char*>(&number), sizeof number};
 }
 
 std::vector<test::SentMessage> someMessages() {
@@ -423,11 +419,11 @@ TEST_F(BagFileTest, InterruptsBetweenMessages) {
     const ByteString magic("\x89MCAP0\r\n", 8);
     ByteString schemas;
     for (int i = 0; i < 50; ++i) schemas += test::mcapRecord(3, ByteString(14, '\0'));
-    const ByteString chunk = ByteString(16, '\0') + little64(schemas.size()) + ByteString(8, '\0') +
-                             little64(schemas.size()) + schemas;
+    const ByteString chunk = ByteString(16, '\0') + raw(std::uint64_t{schemas.size()}) +
+                             ByteString(8, '\0') + raw(std::uint64_t{schemas.size()}) + schemas;
     // Tests records of a file and of a chunk, an attachment, and sections of a ROS 1 bag.
     const fs::path attachment =
-        test::writeBytes(folder_ / "a", magic + '\x09' + little64(4000000000u));
+        test::writeBytes(folder_ / "a", magic + '\x09' + raw(std::uint64_t{4000000000}));
     fs::resize_file(attachment, 4000000017u);  // sparse
     const fs::path ros1 = test::writeBytes(
         folder_ / "r",
@@ -451,8 +447,8 @@ TEST_F(BagFileTest, InterruptsQuery) {
 }
 
 TEST_F(BagFileTest, RejectsZeroedChunk) {
-    const ByteString chunk = ByteString(16, '\0') + little64(900) + ByteString(8, '\0') +
-                             little64(900) + ByteString(900, '\0');
+    const ByteString chunk = ByteString(16, '\0') + raw(std::uint64_t{900}) + ByteString(8, '\0') +
+                             raw(std::uint64_t{900}) + ByteString(900, '\0');
     expectBroken(ByteString("\x89MCAP0\r\n", 8) + test::mcapRecord(6, chunk),
                  "the chunk at byte 8: it contains a record of the invalid type 0");
 }

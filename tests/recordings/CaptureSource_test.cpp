@@ -30,8 +30,7 @@ constexpr double kStart_s = 1700000000;
 class CaptureSourceTest : public testing::Test {
  protected:
     CaptureSourceTest() {
-        test::SimpleScene scene;
-        scene.poles.push_back({12, 2, 0.15, 8});
+        const test::SimpleScene scene = test::sceneOf({}, {{12, 2, 0.15, 8}});
         const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
         test::CaptureWriter writer;
         for (int i = 0; i < 3; ++i) {
@@ -129,10 +128,7 @@ class OusterSourceTest : public testing::Test {
         test::CaptureWriter writer;
         for (std::uint16_t id = 1; id <= 3; ++id) {
             for (const auto& packet : test::packetsOf(sensor, test::randomFrame(sensor, id))) {
-                test::SentDatagram datagram;
-                datagram.content = packet;
-                datagram.time_s = kStart_s + 0.1 * (id - 1);
-                writer.datagram(datagram);
+                writer.datagram({packet, kStart_s + 0.1 * (id - 1)});
             }
         }
         capture_ = writer.write(folder_ / "ouster.pcap");

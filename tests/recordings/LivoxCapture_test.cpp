@@ -1,18 +1,12 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/LocatedCloud.h>
-#include <hagen/mrpt/ObservationScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include "recordings/captures/LidarCapture.h"
 
 #include <chrono>
-#include <cmath>
 #include <string>
 #include <vector>
 
-#include "support/CaptureWriter.h"
+#include "support/CaptureTest.h"
 #include "support/LivoxPackets.h"
-#include "support/Program.h"
 #include "support/Random.h"
 
 namespace hagen::recordings {
@@ -25,21 +19,10 @@ using testing::HasSubstr;
 
 using Point = test::LivoxPoint;
 
-class LivoxCaptureTest : public testing::Test {
+class LivoxCaptureTest : public test::CaptureTest {
  protected:
-    using Scans = std::vector<mrpt::obs::CObservation::Ptr>;
-
     static CaptureWriter captureOf(const std::vector<std::string>& packets) {
-        CaptureWriter writer;
-        double time_s = 1700000000;
-        for (const std::string& packet : packets) {
-            test::SentDatagram datagram;
-            datagram.content = packet;
-            datagram.time_s = time_s += 480e-6;
-            datagram.to_port = 56301;
-            writer.datagram(datagram);
-        }
-        return writer;
+        return CaptureWriter().datagrams(packets, 480e-6, 56301);
     }
     /// `count` packets of 480 us with one point each, whose x is the packet's number.
     static std::vector<std::string> packets(int count, std::int64_t first_ns = 5000) {
@@ -50,23 +33,6 @@ class LivoxCaptureTest : public testing::Test {
         }
         return all;
     }
-    Scans read(const std::string& bytes) {
-        const auto capture = openCapture(test::writeBytes(folder_ / "a.pcap", bytes));
-        Scans scans;
-        broken_ = test::messageOf([&] {
-            while (const auto scan = capture->nextScan()) scans.push_back(scan);
-        });
-        remarks_ = capture->remarks();
-        return scans;
-    }
-    static observations::ObservedScan observedOf(const mrpt::obs::CObservation& observation) {
-        observations::ObservedScan observed;
-        observations::readObservation(observation, {}, observed);
-        return observed;
-    }
-    test::TemporaryFolder folder_;
-    std::string broken_;
-    std::vector<std::string> remarks_;
 };
 
 TEST_F(LivoxCaptureTest, LimitsSearchForSensorKind) {

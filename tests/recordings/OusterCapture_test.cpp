@@ -1,23 +1,16 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <hagen/mrpt/LocatedCloud.h>
-#include <hagen/mrpt/ObservationScan.h>
 #include <hagen/scan/Angle.h>
-#include "recordings/captures/LidarCapture.h"
 #include "sensors/ouster/OusterFrames.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <string>
 #include <vector>
 
-#include "support/CaptureWriter.h"
+#include "support/CaptureTest.h"
 #include "support/OusterModes.h"
 #include "support/OusterPackets.h"
-#include "support/Program.h"
 #include "support/Random.h"
+#include "support/RawBytes.h"
 
 namespace hagen::recordings {
 namespace {
@@ -26,25 +19,14 @@ using test::CaptureWriter;
 using testing::HasSubstr;
 using testing::Not;
 
-using Scans = std::vector<mrpt::obs::CObservation::Ptr>;
-
-class OusterCaptureTest : public testing::Test {
+class OusterCaptureTest : public test::CaptureTest {
  protected:
     sensors::OusterSensor sensorOf(const std::string& profile) {
         json_ = folder_.write("sensor.json", test::ousterJson(profile));
         return sensors::readOusterSensor(json_);
     }
     static CaptureWriter captureOf(const std::vector<std::string>& packets) {
-        CaptureWriter writer;
-        double time_s = 1700000000;
-        for (const std::string& packet : packets) {
-            test::SentDatagram datagram;
-            datagram.content = packet;
-            datagram.time_s = time_s += 0.001;
-            datagram.to_port = 7502;
-            writer.datagram(datagram);
-        }
-        return writer;
+        return CaptureWriter().datagrams(packets, 1e-3, 7502);
     }
     std::vector<std::string> packetsOfFrames(const sensors::OusterSensor& sensor, int count,
                                              std::uint16_t first_id = 100) const {
@@ -56,25 +38,9 @@ class OusterCaptureTest : public testing::Test {
         }
         return packets;
     }
-    Scans read(const std::string& bytes) {
-        const auto capture = openCapture(test::writeBytes(folder_ / "a.pcap", bytes), json_);
-        Scans scans;
-        broken_ = test::messageOf([&] {
-            while (const auto scan = capture->nextScan()) scans.push_back(scan);
-        });
-        remarks_ = capture->remarks();
-        return scans;
-    }
     static Scan scanOf(const mrpt::obs::CObservation& observation) {
-        observations::ObservedScan observed;
-        observations::readObservation(observation, {}, observed);
-        return observed.scan;
+        return observedOf(observation).scan;
     }
-
-    test::TemporaryFolder folder_;
-    std::filesystem::path json_;
-    std::string broken_;
-    std::vector<std::string> remarks_;
 };
 
 const char* const kProfiles[] = {"LEGACY",
@@ -203,7 +169,7 @@ TEST_F(OusterCaptureTest, FrameIdsWrap) {
     EXPECT_EQ(remarks_[1], "20 frames; ignored: none");
     for (std::size_t i = 0; i < 5; ++i) {
         EXPECT_NEAR(mrpt::Clock::toDouble(scans[i]->timestamp),
-                    1700000000.001 + 0.004 * static_cast<double>(i), 1e-4);
+                    1700000000 + 0.004 * static_cast<double>(i), 1e-4);
     }
 }
 
@@ -346,10 +312,8 @@ TEST_F(OusterCaptureTest, SurvivesCorruptData) {
 /// The MD5 sum of these numbers, computed by md5sum.
 template <class Number>
 std::string md5Of(const std::vector<Number>& numbers, const test::TemporaryFolder& folder) {
-    const std::string bytes(reinterpret_cast<const char*>(numbers.data()),
-                            numbers.size() * sizeof(Number));
-    const auto outcome =
-        test::run("/usr/bin/md5sum", {test::writeBytes(folder / "numbers", bytes).string()});
+    const auto file = test::writeBytes(folder / "numbers", test::raw(numbers));
+    const auto outcome = test::run("/usr/bin/md5sum", {file.string()});
     return outcome.out.substr(0, 32);
 }
 
@@ -387,8 +351,7 @@ TEST_F(OusterCaptureTest, ReadsRealCapture) {
     for (int i = 0; i < 3; ++i) {
         const auto scan = capture->nextScan();
         ASSERT_TRUE(scan);
-        observations::ObservedScan observed;
-        observations::readObservation(*scan, {}, observed);
+        const auto observed = observedOf(*scan);
         EXPECT_EQ(observed.sensor.rows(), 128);
         EXPECT_GT(observed.scan.size(), 30000u);
         EXPECT_NEAR(observed.scan.time_s.back(), 0.1, 0.01);

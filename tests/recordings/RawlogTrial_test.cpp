@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <mrpt/obs/CObservationComment.h>
 #include <signal.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -11,11 +10,11 @@
 #include <chrono>
 #include <fstream>
 #include <future>
-#include <thread>
 #include <vector>
 
 #include "recordings/rawlogs/RawlogTrial.h"
 #include "support/Program.h"
+#include "support/ReadRawlog.h"
 
 namespace hagen::recordings {
 namespace {
@@ -24,13 +23,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
-
-mrpt::obs::CObservationComment comment(const std::string& text) {
-    mrpt::obs::CObservationComment observation;
-    observation.text = text;
-    observation.timestamp = mrpt::Clock::fromDouble(1.0);
-    return observation;
-}
 
 /// An object that takes more CPU time to read than the idle timeout.
 class SlowObject : public mrpt::serialization::CSerializable {
@@ -70,10 +62,10 @@ class RawlogTrialTest : public testing::Test {
         locks = folder_ / "locks";
         fs::create_directory(locks);
         convert::RawlogWriter writer(folder_ / "a.rawlog", false);
-        writer.write(comment("before"));
-        writer.write(comment("before, too"));
+        writer.write(test::comment("before"));
+        writer.write(test::comment("before, too"));
         writer.write(LockedObject());
-        writer.write(comment("after"));
+        writer.write(test::comment("after"));
         writer.commit();
     }
 

@@ -3,13 +3,11 @@
 #include <gtest/gtest.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/io/CFileOutputStream.h>
-#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CRawlog.h>
 #include "convert/RawlogWriter.h"
 
 #include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 
 #include "support/Program.h"
@@ -18,18 +16,12 @@
 namespace hagen::recordings {
 namespace {
 
+using test::comment;
 using test::readLog;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 using mrpt::obs::CObservationComment;
-
-CObservationComment comment(const std::string& text) {
-    CObservationComment observation;
-    observation.text = text;
-    observation.timestamp = mrpt::Clock::fromDouble(1.0);
-    return observation;
-}
 
 /// A log of comments "0", "1", ... with incompressible random text.
 void writeLog(const fs::path& file, int entries) {

@@ -2,12 +2,10 @@
 #include <gtest/gtest.h>
 #include <hagen/recordings/ScanFolder.h>
 
-#include <cstring>
-#include <stdexcept>
-
 #include "support/CloudFiles.h"
 #include "support/Program.h"
 #include "support/Random.h"
+#include "support/RawBytes.h"
 
 namespace hagen::recordings {
 namespace {
@@ -121,10 +119,8 @@ TEST_F(ScanFolderTest, DetectsFifthNumberByWholeFile) {
             for (int k = 0; k < 3; ++k) numbers.push_back(is * random.real(1, 50));
             numbers.insert(numbers.end(), {is * 7, is * fifth(i)});
         }
-        const std::string text(reinterpret_cast<const char*>(numbers.data()),
-                               numbers.size() * sizeof(float));
         Scan scan;
-        return readScan(folder_.write("a.bin", text), scan);
+        return readScan(folder_.write("a.bin", test::raw(numbers)), scan);
     };
     const auto all = [](int) { return true; };
     const auto few = [](int i) { return i % 60 == 20; };

@@ -1,19 +1,15 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/VelodyneObservation.h>
-#include "mrpt/VelodyneEncoder.h"
-#include "recordings/captures/LidarCapture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "support/CaptureWriter.h"
+#include "support/CaptureTest.h"
 #include "support/Captures.h"
 #include "support/Hdl64.h"
-#include "support/Program.h"
 #include "support/Random.h"
+#include "support/SimpleFirings.h"
 
 namespace hagen::recordings {
 namespace {
@@ -43,9 +39,7 @@ Packets packetsOf(const std::string& model_name, int firings, double first_azimu
     all.first_azimuth_deg = first_azimuth_deg;
     all.azimuth_step_deg = 360.0 * model.firing_period_us / 100e3;
     all.first_time_us = first_time_us;
-    Packets packets;
-    for (const auto& packet : encodePackets(model, all)) packets.push_back(test::bytesOf(packet));
-    return packets;
+    return test::packetsOf(model, all);
 }
 
 double azimuthDegOf(const ByteString& packet) {
@@ -61,42 +55,22 @@ Packets packetsOf(const Turns& turns) {
     return packets;
 }
 
-CObservationVelodyneScan::Ptr nextTurn(LidarCapture& capture) {
-    return std::dynamic_pointer_cast<CObservationVelodyneScan>(capture.nextScan());
-}
-
-class VelodyneCaptureTest : public testing::Test {
+class VelodyneCaptureTest : public test::CaptureTest {
  protected:
-    static SentDatagram sent(const ByteString& packet, double time_s = 1700000000) {
-        SentDatagram datagram;
-        datagram.content = packet;
-        datagram.time_s = time_s;
-        return datagram;
-    }
+    static SentDatagram sent(const ByteString& packet) { return {packet}; }
     static CaptureWriter captureOf(const Packets& packets) {
-        CaptureWriter writer;
-        double time_s = 1700000000;
-        for (const ByteString& packet : packets) {
-            writer.datagram(sent(packet, time_s));
-            time_s += 0.001;
-        }
-        return writer;
+        return CaptureWriter().datagrams(packets);
     }
     Turns read(const ByteString& bytes) {
         return readFile(test::writeBytes(folder_ / "a.pcap", bytes));
     }
     Turns readFile(const std::filesystem::path& file) {
-        const auto capture = openCapture(file);
         Turns turns;
-        broken_ = test::messageOf([&] {
-            while (const auto turn = nextTurn(*capture)) turns.push_back(turn);
-        });
-        remarks_ = capture->remarks();
+        for (const auto& scan : CaptureTest::readFile(file)) {
+            turns.push_back(std::dynamic_pointer_cast<CObservationVelodyneScan>(scan));
+        }
         return turns;
     }
-    std::string broken_;
-    std::vector<std::string> remarks_;
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(VelodyneCaptureTest, TurnEndsWhereAzimuthWraps) {
@@ -245,9 +219,7 @@ TEST_F(VelodyneCaptureTest, StalledSensorHasBoundedScans) {
     firings.range_m.setConstant(16, 24 * 1000, 5.0f);
     firings.intensity.setZero(16, 24 * 1000);
     firings.azimuth_step_deg = 0;
-    Packets packets;
-    for (const auto& packet : encodePackets(model, firings))
-        packets.push_back(test::bytesOf(packet));
+    const Packets packets = test::packetsOf(model, firings);
     const Turns turns = read(captureOf(packets).bytes());
     EXPECT_EQ(packetsOf(turns), packets);
     for (const auto& turn : turns) EXPECT_LE(turn->scan_packets.size(), 190u);
@@ -415,15 +387,8 @@ TEST_F(VelodyneCaptureTest, ReadsRawPackets) {
 
 /// A capture of an HDL-64E with all returns at 5 m.
 CaptureWriter hdl64Capture(int firings) {
-    CaptureWriter capture;
-    double time_s = 1700000000;
-    for (const auto& packet : test::hdl64Packets(firings, [](int, double) { return 5.0; })) {
-        SentDatagram sent;
-        sent.content = packet;
-        sent.time_s = time_s += 288e-6;
-        capture.datagram(sent);
-    }
-    return capture;
+    return CaptureWriter().datagrams(test::hdl64Packets(firings, [](int, double) { return 5.0; }),
+                                     288e-6);
 }
 
 TEST_F(VelodyneCaptureTest, Hdl64NeedsCalibration) {
@@ -431,9 +396,9 @@ TEST_F(VelodyneCaptureTest, Hdl64NeedsCalibration) {
     const auto xml = test::writeBytes(folder_ / "db.xml", test::hdl64Xml());
     const auto capture = openCapture(file, {}, xml);
     std::size_t returns = 0, turns = 0;
-    while (const auto turn = nextTurn(*capture)) {
+    while (const auto turn = capture->nextScan()) {
         Scan scan;
-        EXPECT_EQ(decodePackets(*turn, scan), 0u);
+        EXPECT_EQ(decodePackets(dynamic_cast<CObservationVelodyneScan&>(*turn), scan), 0u);
         returns += scan.size();
         ++turns;
     }
@@ -445,13 +410,7 @@ TEST_F(VelodyneCaptureTest, Hdl64NeedsCalibration) {
 
     EXPECT_THAT(test::messageOf([&] { openCapture(file)->nextScan(); }),
                 HasSubstr("--calibration FILE"));
-    CaptureWriter vlp16;
-    for (const ByteString& packet : packetsOf("VLP-16", 48)) {
-        SentDatagram sent;
-        sent.content = packet;
-        vlp16.datagram(sent);
-    }
-    const auto other = vlp16.write(folder_ / "vlp16.pcap");
+    const auto other = captureOf(packetsOf("VLP-16", 48)).write(folder_ / "vlp16.pcap");
     const auto without_hdl64 = openCapture(other, {}, xml);
     while (without_hdl64->nextScan()) {
     }

@@ -27,15 +27,12 @@ class CaptureFileTest : public testing::Test {
         CaptureFile capture(test::writeBytes(folder_ / "a.pcap", bytes));
         std::vector<ByteString> contents;
         Datagram datagram;
-        try {
+        broken_ = test::messageOf<BrokenCapture>([&] {
             while (capture.next(datagram)) {
                 contents.emplace_back(reinterpret_cast<const char*>(datagram.bytes), datagram.size);
                 last_ = datagram;
             }
-            broken_ = "";
-        } catch (const BrokenCapture& e) {
-            broken_ = e.what();
-        }
+        });
         counts_ = capture.counts();
         return contents;
     }
@@ -51,11 +48,7 @@ class CaptureFileTest : public testing::Test {
     std::string broken_;
 };
 
-SentDatagram sent(const ByteString& content) {
-    SentDatagram datagram;
-    datagram.content = content;
-    return datagram;
-}
+SentDatagram sent(const ByteString& content) { return {content}; }
 
 TEST_F(CaptureFileTest, CheckInterruptsSearch) {
     CaptureWriter writer;

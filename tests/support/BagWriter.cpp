@@ -10,13 +10,10 @@
 #include <map>
 #include <stdexcept>
 
+#include "support/RawBytes.h"
+
 namespace hagen::test {
 namespace {
-
-template <class Number>
-ByteString little(Number value) {
-    return {reinterpret_cast<const char*>(&value), sizeof value};
-}
 
 std::uint64_t nanoseconds(double time_s) {
     return static_cast<std::uint64_t>(std::llround(1e6 * time_s)) * 1000;
@@ -28,7 +25,7 @@ std::uint32_t crcOf(const ByteString& bytes) {
 }
 
 ByteString mcapText(const std::string& text) {
-    return little(static_cast<std::uint32_t>(text.size())) + text;
+    return raw(static_cast<std::uint32_t>(text.size())) + text;
 }
 
 /// Converts a type name to the form "sensor_msgs/msg/PointCloud2".
@@ -79,7 +76,7 @@ SentMessage cloudMessage(const std::string& topic, double time_s, const std::str
             offset += 4;
         }
         bytes.number(std::uint8_t{0}).number(std::uint32_t{16}).number(16 * points);
-        bytes.counted({reinterpret_cast<const char*>(xyzi.data()), 4 * xyzi.size()});
+        bytes.counted(raw(xyzi));
         bytes.number(std::uint8_t{1});
     });
 }
@@ -183,7 +180,7 @@ ByteString ros1BagOf(const std::vector<SentMessage>& messages, const BagShape& s
     const ByteString magic = "#ROSBAG V2.0\n";
     const auto headerWith = [&](std::uint64_t index_at) {
         return ros1Record({{"op", "\x03"},
-                           {"index_pos", little(index_at)},
+                           {"index_pos", raw(index_at)},
                            {"conn_count", little32(static_cast<std::uint32_t>(numbers.size()))},
                            {"chunk_count", little32(chunk_count)}},
                           ByteString(4000, ' '));
@@ -194,8 +191,8 @@ ByteString ros1BagOf(const std::vector<SentMessage>& messages, const BagShape& s
 }
 
 ByteString mcapRecord(unsigned op, const ByteString& content) {
-    return ByteString(1, static_cast<char>(op)) +
-           little(static_cast<std::uint64_t>(content.size())) + content;
+    return ByteString(1, static_cast<char>(op)) + raw(static_cast<std::uint64_t>(content.size())) +
+           content;
 }
 
 ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shape, bool is_ros1) {
@@ -209,7 +206,7 @@ ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shap
         for (std::size_t k = i; k < std::min(messages.size(), i + per_chunk); ++k) {
             const SentMessage& message = messages[k];
             const std::string key = message.topic + " " + message.type;
-            const ByteString id = little(numbers.at(key));
+            const ByteString id = raw(numbers.at(key));
             if (!is_described[key]) {
                 is_described[key] = true;
                 records +=
@@ -218,7 +215,7 @@ ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shap
                 records += mcapRecord(4, id + id + mcapText(message.topic) +
                                              mcapText(is_ros1 ? "ros1" : "cdr") + little32(0));
             }
-            const ByteString time = little(nanoseconds(message.time_s));
+            const ByteString time = raw(nanoseconds(message.time_s));
             records += mcapRecord(5, id + little32(static_cast<std::uint32_t>(k)) + time + time +
                                          (is_ros1 ? message.ros1 : message.cdr));
         }
@@ -228,18 +225,18 @@ ByteString mcapOf(const std::vector<SentMessage>& messages, const BagShape& shap
         }
         const ByteString content = packed(records, shape.compression);
         const std::string name = shape.compression == "none" ? "" : shape.compression;
-        all += mcapRecord(6, ByteString(16, '\0') +
-                                 little(static_cast<std::uint64_t>(records.size())) +
-                                 little32(crcOf(records)) + mcapText(name) +
-                                 little(static_cast<std::uint64_t>(content.size())) + content);
+        all +=
+            mcapRecord(6, ByteString(16, '\0') + raw(static_cast<std::uint64_t>(records.size())) +
+                              little32(crcOf(records)) + mcapText(name) +
+                              raw(static_cast<std::uint64_t>(content.size())) + content);
         all += mcapRecord(7, "an index");
     }
     all += mcapRecord(0x0f, little32(crcOf(all)));
     const std::uint64_t summary_at = all.size();
     ByteString summary = mcapRecord(0x0b, "statistics");
     // The CRC covers the summary and the footer up to the CRC.
-    summary += ByteString(1, '\2') + little(std::uint64_t{20}) + little(summary_at) +
-               little(std::uint64_t{0});
+    summary +=
+        ByteString(1, '\2') + raw(std::uint64_t{20}) + raw(summary_at) + raw(std::uint64_t{0});
     return all + summary + little32(crcOf(summary)) + magic;
 }
 

@@ -79,13 +79,22 @@ CaptureWriter& CaptureWriter::datagram(const SentDatagram& datagram) {
     return frame(ethernet(ipOf(datagram)), datagram.time_s);
 }
 
+CaptureWriter& CaptureWriter::datagrams(const std::vector<ByteString>& contents, double period_s,
+                                        std::uint16_t to_port) {
+    SentDatagram sent;
+    sent.to_port = to_port;
+    for (const ByteString& content : contents) {
+        sent.content = content;
+        datagram(sent);
+        sent.time_s += period_s;
+    }
+    return *this;
+}
+
 CaptureWriter& CaptureWriter::packets(const CObservationVelodyneScan& scan, double time_s,
                                       double period_s) {
     for (const auto& packet : scan.scan_packets) {
-        SentDatagram sent;
-        sent.content = bytesOf(packet);
-        sent.time_s = time_s;
-        datagram(sent);
+        datagram({bytesOf(packet), time_s});
         time_s += period_s;
     }
     return *this;

@@ -42,6 +42,8 @@ class CaptureWriter {
     /// Writes a frame that was captured only up to `kept` bytes.
     CaptureWriter& cutFrame(const ByteString& frame, std::size_t kept);
     CaptureWriter& datagram(const SentDatagram& datagram);
+    CaptureWriter& datagrams(const std::vector<ByteString>& contents, double period_s = 1e-3,
+                             std::uint16_t to_port = 2368);
     CaptureWriter& packets(const mrpt::obs::CObservationVelodyneScan& scan, double time_s,
                            double period_s = 1e-3);
 

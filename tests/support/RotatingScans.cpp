@@ -6,19 +6,10 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
-#include <cstring>
+
+#include "support/RawBytes.h"
 
 namespace hagen::test {
-namespace {
-
-template <class Number>
-std::string raw(Number number) {
-    std::string bytes(sizeof number, '\0');
-    std::memcpy(bytes.data(), &number, sizeof number);
-    return bytes;
-}
-
-}  // namespace
 
 std::string bytesOf(const mrpt::serialization::CSerializable& object) {
     mrpt::io::CMemoryStream stream;
@@ -45,8 +36,7 @@ std::string newerBytesOf(const mrpt::obs::CObservationRotatingScan& scan,
     bytes.insert(bytes.size() - 1 - images, 1, '\0');  // stored inside the log
     std::string more =
         points.empty() ? raw(std::uint32_t{0}) : raw(scan.columnCount) + raw(scan.rowCount);
-    for (const float coordinate : points) more += raw(coordinate);
-    return bytes.insert(bytes.size() - 1, more);
+    return bytes.insert(bytes.size() - 1, more + raw(points));
 }
 
 RotatingImage rotatingImageOf(const mrpt::obs::CObservationVelodyneScan& packets, const Scan& scan,

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "support/CaptureWriter.h"
+
 namespace hagen::test {
 
 observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneModel& model,
@@ -34,9 +36,29 @@ observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneMo
     return firings;
 }
 
+std::vector<std::string> packetsOf(const sensors::VelodyneModel& model,
+                                   const observations::Firings& firings) {
+    std::vector<std::string> packets;
+    for (const auto& packet : encodePackets(model, firings)) packets.push_back(bytesOf(packet));
+    return packets;
+}
+
+std::vector<std::string> turnsOf(const SimpleScene& scene, const sensors::VelodyneModel& model,
+                                 int turns, std::uint32_t first_us, bool is_dual) {
+    observations::Firings firings = fireAt(scene, model, {0, 0, 2});
+    if (is_dual) firings.last_range_m = firings.range_m;
+    std::vector<std::string> packets;
+    for (int k = 0; k < turns; ++k) {
+        firings.first_time_us =
+            static_cast<std::uint32_t>((first_us + 100000ull * k) % 3600000000ull);
+        const auto turn = packetsOf(model, firings);
+        packets.insert(packets.end(), turn.begin(), turn.end());
+    }
+    return packets;
+}
+
 mrpt::obs::CObservationVelodyneScan::Ptr poleScanFrom(double x_m, const std::string& label) {
-    SimpleScene scene;
-    scene.poles.push_back({12, 2, 0.15, 8});
+    const SimpleScene scene = sceneOf({}, {{12, 2, 0.15, 8}});
     const sensors::VelodyneModel& model = sensors::velodyneModel("VLP-16");
     auto scan = observations::encodeScan(model, fireAt(scene, model, {x_m, 0, 2}));
     scan->sensorLabel = label;

@@ -12,6 +12,13 @@ observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneMo
                              const Eigen::Vector3d& velocity_m_s = Eigen::Vector3d::Zero(),
                              double range_limit_m = 100.0);
 
+std::vector<std::string> packetsOf(const sensors::VelodyneModel& model,
+                                   const observations::Firings& firings);
+
+/// Packets of several turns of a static sensor 2 m above the scene's ground.
+std::vector<std::string> turnsOf(const SimpleScene& scene, const sensors::VelodyneModel& model,
+                                 int turns, std::uint32_t first_us = 1000000, bool is_dual = false);
+
 /// A VLP-16 scan of a pole at (12, 2) on flat ground, measured from (x_m, 0, 2), x_m seconds after
 /// a fixed time.
 mrpt::obs::CObservationVelodyneScan::Ptr poleScanFrom(double x_m, const std::string& label);

@@ -1,0 +1,43 @@
+#pragma once
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hagen/mrpt/ObservationScan.h>
+#include "recordings/captures/LidarCapture.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/CaptureWriter.h"
+#include "support/Program.h"
+
+namespace hagen::test {
+
+/// Tests that read captures with recordings::openCapture().
+class CaptureTest : public testing::Test {
+ protected:
+    using Scans = std::vector<mrpt::obs::CObservation::Ptr>;
+
+    Scans read(const ByteString& bytes) { return readFile(writeBytes(folder_ / "a.pcap", bytes)); }
+    Scans readFile(const std::filesystem::path& file) {
+        const auto capture = recordings::openCapture(file, json_);
+        Scans scans;
+        broken_ = messageOf([&] {
+            while (const auto scan = capture->nextScan()) scans.push_back(scan);
+        });
+        remarks_ = capture->remarks();
+        return scans;
+    }
+    static observations::ObservedScan observedOf(const mrpt::obs::CObservation& observation) {
+        observations::ObservedScan observed;
+        observations::readObservation(observation, {}, observed);
+        return observed;
+    }
+
+    TemporaryFolder folder_;
+    std::filesystem::path json_;  ///< Ouster metadata
+    std::string broken_;
+    std::vector<std::string> remarks_;
+};
+
+}  // namespace hagen::test
