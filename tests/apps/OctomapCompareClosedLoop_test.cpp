@@ -7,7 +7,7 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <thread>
 
@@ -42,22 +42,14 @@ fs::path someProfile(const TemporaryFolder& folder) {
 
 /// Arguments of a few short flights, with additional arguments.
 std::vector<std::string> flying(const TemporaryFolder& folder, const std::string& into,
-                                const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments{"closedloop",
-                                       "--scenario",
-                                       "forest-0.02",
-                                       "--speed",
-                                       "10",
-                                       "--seeds",
-                                       "1000-1002",
-                                       "--models",
-                                       "W-RoI,oracle",
-                                       "--guidance",
-                                       "straight",
-                                       "--profile",
-                                       someProfile(folder).string(),
-                                       "-o",
-                                       (folder / into).string()};
+                                const std::vector<std::string>& more = {},
+                                const std::string& flights =
+                                    "--scenario forest-0.02 --speed 10 --seeds 1000-1002 "
+                                    "--models W-RoI,oracle --guidance straight") {
+    std::istringstream words("closedloop " + flights + " --profile");
+    std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+    arguments.insert(arguments.end(),
+                     {someProfile(folder).string(), "-o", (folder / into).string()});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
@@ -184,23 +176,10 @@ TEST(ClosedLoopFlights, SectorsDoNotChangeScanRows) {
 TEST(ClosedLoopFlights, CoversMapsAndPathSearches) {
     const TemporaryFolder folder;
     const auto fly = [&](const std::string& into, const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"closedloop",
-                                           "--scenario",
-                                           "forest-0.05",
-                                           "--speed",
-                                           "10",
-                                           "--seeds",
-                                           "1000-1001",
-                                           "--models",
-                                           "W-Full,G-Full,O-Full-0.4",
-                                           "--guidance",
-                                           "astar",
-                                           "--profile",
-                                           someProfile(folder).string(),
-                                           "-o",
-                                           (folder / into).string()};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        const Outcome outcome = octomapCompare(arguments);
+        const Outcome outcome =
+            octomapCompare(flying(folder, into, more,
+                                  "--scenario forest-0.05 --speed 10 --seeds 1000-1001 "
+                                  "--models W-Full,G-Full,O-Full-0.4 --guidance astar"));
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         return readFile(folder / into / "runs.csv");
     };
