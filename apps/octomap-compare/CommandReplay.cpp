@@ -1,9 +1,9 @@
 // octomap-compare replay: repeats a run and shows it in 3D.
 #include <hagen/avoidance/WorldModel.h>
+#include <hagen/base/OutputPath.h>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
-#include "base/OutputSet.h"
 #include "base/WriteFile.h"
 #include "base/command_line/Interrupt.h"
 
@@ -46,27 +46,18 @@ int run(const Flags& flags) {
     fs::create_directories(into);
     const std::string name = "replay-" + avoidance::fileNameOf(wanted);
     base::OutputPath page(into / (name + ".html"), base::kFile, flags.overwrite);
-    base::OutputPath scene(into / (name + ".3Dscene"), base::kFile, flags.overwrite);
 
     endIfInterrupted();
     const avoidance::FlightRecording recording =
         avoidance::record(wanted, profile, {}, endIfInterrupted);
     endIfInterrupted();
-    base::OutputSet outputs;
-    outputs.add(page);
-    outputs.add(scene);
-    outputs.write(page, [&] {
-        base::writeText(avoidance::replayPage(recording), page.temporary(), page.path());
-    });
-    outputs.write(scene,
-                  [&] { avoidance::writeReplayScene(recording, scene.temporary(), scene.path()); });
+    base::writeText(avoidance::replayPage(recording), page.temporary(), page.path());
     endIfInterrupted();
-    outputs.commit();
+    page.commit();
     std::cout << avoidance::choiceOf(wanted, {wanted}) << "\n"
               << recording.ending << "\n"
-              << page.path().string() << "\n"
-              << scene.path().string() << "\n";
-    tellLeftBehind({page.path(), scene.path()});
+              << page.path().string() << "\n";
+    tellLeftBehind({page.path()});
     if (recording.is_same) return 0;
     std::cerr << "octomap-compare: the result differs from the table (program version "
               << HAGEN_VERSION << ", table version " << wanted.version << ")\n";
@@ -79,7 +70,7 @@ void addReplay(Program& program) {
     const auto flags = std::make_shared<Flags>();
     avoidance::RunWanted& wanted = flags->wanted;
     Command sub = program.subcommand(
-        "replay", "repeat one run; writes replay-RUN.html and replay-RUN.3Dscene");
+        "replay", "repeat one run; writes replay-RUN.html");
     sub.option("DIR", flags->folder, "folder of `closedloop`").required();
     sub.option("--seed", wanted.seed, "seed of the run").required();
     sub.option("--scenario", wanted.scenario, "required if several runs have that seed");

@@ -6,7 +6,6 @@
 #include "avoidance/flights/Calibration.h"
 #include "avoidance/replays/FlightRecording.h"
 #include "avoidance/replays/Replay.h"
-#include "mrpt/MrptScene.h"
 #include "support/Program.h"
 #include "support/ReadView.h"
 
@@ -63,29 +62,6 @@ TEST(Replay, RecordingIsInterruptible) {
     EXPECT_THROW(avoidance::record(run, profile, {}, endAtTheThird), Interrupted);
 }
 
-TEST(Replay, SceneShowsFinalModel) {
-    const test::TemporaryFolder folder;
-    avoidance::writeReplayScene(smallRecording(), folder / "a.3Dscene", "a");
-    observations::Scene scene;
-    ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
-    const auto voxels = std::dynamic_pointer_cast<observations::viz::COctoMapVoxels>(
-        scene.getByName("obstacles of the model"));
-    ASSERT_NE(voxels, nullptr);
-    EXPECT_EQ(voxels->getVoxelCount(0), 1u);
-    const auto roi = std::dynamic_pointer_cast<observations::viz::CPointCloud>(
-        scene.getByName("last scan: regions of interest"));
-    ASSERT_NE(roi, nullptr);
-    EXPECT_EQ(roi->size(), 1u);
-    ASSERT_NE(scene.getByName("vehicle"), nullptr);
-    EXPECT_EQ(scene.getByName("vehicle")->getPose().x, 6);
-    avoidance::writeReplayScene(avoidance::FlightRecording{}, folder / "empty.3Dscene", "empty");
-    // The error names the requested file, not its temporary name.
-    EXPECT_EQ(test::messageOf([&] {
-                  avoidance::writeReplayScene({}, folder / "no/a.partial", "no/a.3Dscene");
-              }),
-              "no/a.3Dscene: cannot be written: No such file or directory");
-}
-
 /// A triangle at x = 7 m, and another that moves from 7 to 8 m in one step.
 avoidance::TrueScene smallScene() {
     avoidance::TrueScene scene;
@@ -113,26 +89,6 @@ TEST(Replay, PageStoresShapesAndPoses) {
     EXPECT_THAT(flight[scene["movers"][0]["poses"]], ElementsAre(200, 0, 0, 0, 300, 0, 0, 0));
     EXPECT_EQ(scene["ground"]["along_x"], 1);
     EXPECT_THAT(flight["ground"], ElementsAre(-50));
-}
-
-TEST(Replay, SceneContainsTrueObstacles) {
-    const test::TemporaryFolder folder;
-    avoidance::FlightRecording recording = smallRecording();
-    recording.scene = smallScene();
-    recording.scene.ground = {{0, 0}, 2, 3, 2, {1.5, 2.5, 3.5, 1.5, 2.5, 3.5}};
-    avoidance::writeReplayScene(recording, folder / "a.3Dscene", "a");
-    observations::Scene scene;
-    ASSERT_TRUE(scene.loadFromFile((folder / "a.3Dscene").string()));
-    const auto truth = std::dynamic_pointer_cast<observations::viz::CSetOfTriangles>(
-        scene.getByName("true scene"));
-    ASSERT_NE(truth, nullptr);
-    EXPECT_EQ(truth->getTrianglesCount(), 2u);
-    // The slope has six corners and seven lines.
-    const auto ground =
-        std::dynamic_pointer_cast<observations::viz::CSetOfLines>(scene.getByName("ground"));
-    ASSERT_NE(ground, nullptr);
-    EXPECT_EQ(ground->size(), 7u);
-    EXPECT_EQ(ground->getBoundingBox().max.z, 3.5f);
 }
 
 TEST(TrueScene, MatchesCourse) {
