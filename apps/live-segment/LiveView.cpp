@@ -1,8 +1,8 @@
 #include "LiveView.h"
 
 #include <httplib.h>
-#include <sys/resource.h>
-#include <unistd.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <hagen/live/PacketSource.h>
 #include <hagen/scan/Angle.h>
@@ -21,7 +21,6 @@
 
 #include "base/NumberText.h"
 #include "base/view/ViewPage.h"
-#include "live/Priority.h"
 
 namespace hagen {
 namespace {
@@ -31,13 +30,13 @@ using namespace std::chrono_literals;
 
 constexpr auto kPeriod = 100ms;
 constexpr std::size_t kMaxClients = 16;  // each has a thread
-constexpr int kFastDeflate = 1, kLowestPriority = 19;
+constexpr int kFastDeflate = 1;
 constexpr double kFrame_s = 0.1;  // shown at once, without a rotating head
 
-/// Applies to the calling thread and to the threads that it starts.
+/// Runs the calling thread, and the threads that it starts, only if nothing else wants to run.
 void yieldToOthers() {
-    live::leaveRealTime();
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLowestPriority);
+    const sched_param none{};
+    pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
 }
 
 /// A copy of a labelled sector.
@@ -127,7 +126,7 @@ class LiveView::Work {
         const std::string host =
             std::to_string(address.ip >> 24) + "." + std::to_string(address.ip >> 16 & 0xff) + "." +
             std::to_string(address.ip >> 8 & 0xff) + "." + std::to_string(address.ip & 0xff);
-        if (!server_.bind_to_port(host.c_str(), address.port)) {
+        if (!server_.bind_to_port(host, address.port)) {
             throw std::runtime_error("--view: cannot listen on " + host + ":" +
                                      std::to_string(address.port) + "; is the port in use?");
         }
@@ -167,15 +166,20 @@ class LiveView::Work {
         while (sweep_rad_ - sectors_.front()->sweep_rad >= 2 * kPi ||
                (sweep_rad_ == 0 && sectors_.front()->time_s < sectors_.back()->time_s - kFrame_s)) {
             sweep_rad_ -= sectors_.front()->sweep_rad;
+            old_.push_back(std::move(sectors_.front()));
             sectors_.pop_front();
         }
+        // Freed here only, because the other thread would lock the allocator's memory of this one.
+        while (!old_.empty() && old_.front().use_count() == 1) old_.pop_front();
         // The other thread has a lower priority, so labelling must not wait for it.
         const std::unique_lock lock(shared_mutex_, std::try_to_lock);
         if (!lock) return;
         shared_.sectors = sectors_;
-        shared_.distances = distances_;
-        // Asked here, because a thread of low priority must not lock the autopilot's state.
-        if (settings_.directions_sent) shared_.sent = settings_.directions_sent();
+        const double now_s = live::steadyNow_s();
+        if (now_s - shared_.time_s < kFrame_s) return;
+        shared_.time_s = now_s;
+        shared_.directions =
+            settings_.directions_sent ? settings_.directions_sent() : distances_->at(now_s);
         if (settings_.motion) shared_.attitude = settings_.motion().attitude;
     }
 
@@ -252,10 +256,7 @@ class LiveView::Work {
         const Shared shared = shared_;
         lock.unlock();
         const double now_s = live::steadyNow_s();
-        live::Directions directions = shared.sent;
-        if (!settings_.directions_sent && shared.distances) {
-            directions = shared.distances->at(now_s);
-        }
+        const bool is_stale = now_s - shared.time_s > settings_.directions.stale_s;  // all unknown
         base::ViewReturns all;
         for (const auto& sector : shared.sectors) {
             for (std::size_t i = 0; i < sector->label.size(); ++i) {
@@ -282,7 +283,8 @@ class LiveView::Work {
         }
         Json frame = {{"values", shared.values},
                       {"pose", pose},
-                      {"directions", jsonOf(directions, settings_.directions.begin_rad, now_s)}};
+                      {"directions", jsonOf(is_stale ? live::Directions{} : shared.directions,
+                                            settings_.directions.begin_rad, now_s)}};
         frame.update(arrays.json(kFastDeflate));
         return base::dumpJson(frame);
     }
@@ -296,13 +298,14 @@ class LiveView::Work {
     using Sectors = std::deque<std::shared_ptr<const Sector>>;
     // Of the labelling thread.
     Sectors sectors_;       ///< of the latest turn
+    Sectors old_;           ///< before, still in use
     double sweep_rad_ = 0;  ///< of these sectors
     std::optional<live::SectorDistances> distances_;
 
     struct Shared {
         Sectors sectors;
-        std::optional<live::SectorDistances> distances;
-        live::Directions sent{};
+        live::Directions directions{};
+        double time_s = 0;  ///< of the directions
         std::optional<Attitude> attitude;
         Json values = Json::object();
     };

@@ -69,8 +69,7 @@ int run(const Flags& flags) {
 void addReplay(Program& program) {
     const auto flags = std::make_shared<Flags>();
     avoidance::RunWanted& wanted = flags->wanted;
-    Command sub = program.subcommand(
-        "replay", "repeat one run; writes replay-RUN.html");
+    Command sub = program.subcommand("replay", "repeat one run; writes replay-RUN.html");
     sub.option("DIR", flags->folder, "folder of `closedloop`").required();
     sub.option("--seed", wanted.seed, "seed of the run").required();
     sub.option("--scenario", wanted.scenario, "required if several runs have that seed");

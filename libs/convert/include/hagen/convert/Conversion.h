@@ -85,13 +85,13 @@ struct ConversionReport {
     struct Mcap {
         std::size_t scans = 0, points = 0, boxes = 0, messages = 0;
     };
-    Mcap mcap;                             ///< contents of the MCAP
+    Mcap mcap;                                    ///< contents of the MCAP
     std::size_t view_frames = 0, view_every = 1;  ///< scans in the page, and their interval
-    std::size_t scans_without_ground = 0;  ///< their returns in the zone are RoI
-    std::size_t scans_in_map = 0;          ///< scans in the OctoMap (those with a pose)
-    std::size_t scans_with_attitude = 0;   ///< scans with known roll and pitch
-    std::string first_without_attitude;    ///< "scan 0 (lidar)"; empty if there is none
-    bool is_attitude_of_poses = false;     ///< interpolated poses; otherwise the log's latest
+    std::size_t scans_without_ground = 0;         ///< their returns in the zone are RoI
+    std::size_t scans_in_map = 0;                 ///< scans in the OctoMap (those with a pose)
+    std::size_t scans_with_attitude = 0;          ///< scans with known roll and pitch
+    std::string first_without_attitude;           ///< "scan 0 (lidar)"; empty if there is none
+    bool is_attitude_of_poses = false;  ///< interpolated poses; otherwise the log's latest
     std::vector<ScanReport> scan_reports;
     double fraction = 0;  ///< fraction of the input read so far, 0 ... 1
     Settings settings;    ///< settings of the conversion, merged with a scan folder's sensor.yaml
