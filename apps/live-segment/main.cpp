@@ -370,7 +370,7 @@ int run(const Program& program, Flags& flags) {
             failed = kWrongUsage;
         } catch (const std::exception& e) {  // the background printer prints the message
             printer.print(line.instead(), "");
-            failure = program.messageOf(e);
+            failure = Program::messageOf(e);
         }
         if (!flags.is_quiet && !left.empty()) printer.print(To::Errors, left + "\n");
         if (!failure.empty()) printer.print(To::Errors, "live-segment: " + failure + "\n");

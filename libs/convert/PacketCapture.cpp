@@ -3,7 +3,6 @@
 #include <hagen/sensors/CaptureFile.h>
 #include "base/ReadFile.h"
 
-#include <utility>
 
 namespace hagen::convert {
 
@@ -25,7 +24,7 @@ std::size_t capturePackets(const std::filesystem::path& recording,
         ++packets;
     };
     if (sensors::isCapture(recording)) base::failAt(recording, "is a capture already");
-    const auto source = recordings::openRecording(recording, std::move(options));
+    const auto source = recordings::openRecording(recording, options);
     while (source->nextEntry()) {
     }
     if (packets == 0) {
