@@ -3,7 +3,6 @@
 #include <hagen/sensors/CaptureFile.h>
 #include "base/ReadFile.h"
 
-
 namespace hagen::convert {
 
 void PacketCapture::add(const std::string& sensor_label, sensors::Datagram datagram) {
