@@ -256,9 +256,10 @@ class LiveView::Work {
         const Shared shared = shared_;
         lock.unlock();
         const double now_s = live::steadyNow_s();
-        const bool is_stale = now_s - shared.time_s > settings_.directions.stale_s;  // all unknown
+        // A silent sensor: all directions are unknown, and old returns are not shown.
+        const bool is_stale = now_s - shared.time_s > settings_.directions.stale_s;
         base::ViewReturns all;
-        for (const auto& sector : shared.sectors) {
+        for (const auto& sector : is_stale ? Sectors() : shared.sectors) {
             for (std::size_t i = 0; i < sector->label.size(); ++i) {
                 if (sector->label[i] == Label::Unclassified) continue;  // without a range
                 all.add(sector->x_m[i], sector->y_m[i], sector->z_m[i],

@@ -120,7 +120,7 @@ void addReturns(const ViewReturns& returns, ViewArrays& arrays) {
         std::vector<std::uint16_t> obstacles;
         for (std::size_t i = 0; i < returns.size(); ++i) {
             if (returns.label[i] != 2) continue;
-            obstacles.push_back(static_cast<std::uint16_t>(returns.obstacle[i]));
+            obstacles.push_back(roundedTo<std::uint16_t>(returns.obstacle[i]));
         }
         arrays.add("obstacle", obstacles);
     }

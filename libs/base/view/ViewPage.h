@@ -61,7 +61,7 @@ struct ViewReturns {
 /// ranges to 4 cm (up to 2621 m), intensities to 16 levels.
 void addReturns(const ViewReturns& returns, ViewArrays& arrays);
 
-/// Rounds a value and limits it to the range of an integer.
+/// Rounds a value and limits it to the range of an integer; NaN becomes 0.
 template <class Integer>
 Integer roundedTo(double value);
 
