@@ -35,6 +35,8 @@ class SweepReader {
  public:
     virtual ~SweepReader() = default;
 
+    /// Learns the field of view from the start of the recording, before add().
+    virtual void preview(const Datagram& /*datagram*/) {}
     virtual void add(const Datagram& datagram) = 0;
     /// Ends the sweeps in progress.
     virtual void finish() = 0;

@@ -167,6 +167,45 @@ TEST_F(VelodyneStreamTest, CountsLostPackets) {
     EXPECT_EQ(stream_.counts().interruptions, 0u);
 }
 
+TEST_F(VelodyneStreamTest, SilentSectorKeepsContext) {
+    constexpr int kTurns = 12, kLearned = 9;
+    const auto rou = [](const std::vector<Label>& labels, std::size_t first) {
+        const auto from = labels.begin() + static_cast<std::ptrdiff_t>(first);
+        return static_cast<double>(std::count(from, labels.end(), Label::Rou));
+    };
+    using View = std::pair<double, double>;  // start and width of the sector
+    for (const auto& [from_deg, width_deg] : {View(90, 180), View(300, 100), View(5, 280)}) {
+        SCOPED_TRACE(width_deg);
+        const auto packets = test::withSilentSector(turnsOf(kTurns), from_deg, width_deg);
+        Labelled live;
+        LidarStream stream(sensors::makeDriver("VLP-16"), {}, into(live));
+        sensors::PacketCounts learned;
+        for (const ByteString& packet : packets) {
+            std::uint32_t time_us = 0;
+            std::memcpy(&time_us, &packet[sensors::kVelodyneTimeAt], sizeof time_us);
+            if (time_us < 1600000) learned = stream.counts();
+            add(packet, 1e-6 * time_us, stream);
+        }
+        stream.flush();
+        EXPECT_EQ(stream.counts().lost, learned.lost);
+        EXPECT_EQ(stream.counts().interruptions, learned.interruptions);
+
+        std::string turn;
+        for (const auto& packet : test::withSilentSector(turnsOf(1), from_deg, width_deg)) {
+            turn += packet;
+        }
+        Scan scan;
+        sensors::DecoderWorkspace work;
+        sensors::decodePackets({reinterpret_cast<const std::uint8_t*>(turn.data()),
+                                turn.size() / sensors::kVelodynePacketBytes},
+                               sensors::defaultCalibration(velodyneModel("VLP-16")), scan, work);
+        const double whole =
+            rou(HagenFilter(stream.segmenter().sensor()).segment(scan).returns.label, 0);
+        const std::size_t first = live.label.size() * kLearned / kTurns;
+        EXPECT_NEAR(rou(live.label, first) / (kTurns - kLearned), whole, 0.01 * whole);
+    }
+}
+
 TEST_F(VelodyneStreamTest, DropsDuplicates) {
     auto packets = turnsOf(2);
     packets.insert(packets.begin() + 40, packets[38]);

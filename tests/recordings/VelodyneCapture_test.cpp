@@ -128,6 +128,38 @@ TEST_F(VelodyneCaptureTest, LostTurnDoesNotJoinNeighbours) {
     EXPECT_THAT(remarks_[0], HasSubstr(", 100 packets lost"));
 }
 
+TEST_F(VelodyneCaptureTest, SilentSectorKeepsSweepsWhole) {
+    constexpr int kSweeps = 5;
+    const sensors::VelodyneModel& model = velodyneModel("VLP-16");
+    test::Random random(7);
+    for (int trial = 0; trial < 60; ++trial) {
+        const double turn_us = 1e6 / random.whole(5, 20);
+        const double from_deg = 0.1 * random.whole(0, 3599);
+        const double width_deg = random.whole(10, 350);
+        SCOPED_TRACE(testing::Message() << turn_us << " us, silent from " << from_deg << " over "
+                                        << width_deg << " degrees");
+        observations::Firings all;
+        const int firings = static_cast<int>(kSweeps * turn_us / model.firing_period_us) / 24 * 24;
+        all.range_m = random.image(model.lasers, firings, 1.0f, 50.0f, 0.1);
+        all.intensity.setZero(model.lasers, firings);
+        all.azimuth_step_deg = 360.0 * model.firing_period_us / turn_us;
+        const Packets packets = test::packetsOf(model, all);
+        const Packets sent = test::withSilentSector(packets, from_deg, width_deg);
+        const Turns turns = read(captureOf(sent).bytes());
+        EXPECT_EQ(turns.size(), std::size_t{kSweeps});
+        EXPECT_EQ(packetsOf(turns), sent);
+        EXPECT_THAT(remarks_[0], Not(HasSubstr("lost")));
+    }
+}
+
+TEST_F(VelodyneCaptureTest, SilentSectorHidesNoLoss) {
+    Packets packets = test::withSilentSector(packetsOf("VLP-16", 24 * 400), 90, 180);
+    packets.erase(packets.begin() + 80, packets.begin() + 83);
+    packets.erase(packets.begin() + 20);
+    read(captureOf(packets).bytes());
+    EXPECT_THAT(remarks_[0], HasSubstr(", 4 packets lost"));
+}
+
 TEST_F(VelodyneCaptureTest, ReordersPackets) {
     const Packets packets = packetsOf("VLP-16", 24 * 200);
     Packets mixed = packets;

@@ -2,8 +2,10 @@
 
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/VelodyneCalibration.h>
+#include <hagen/sensors/VelodynePacket.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "support/CaptureWriter.h"
 
@@ -55,6 +57,36 @@ std::vector<std::string> turnsOf(const SimpleScene& scene, const sensors::Velody
         packets.insert(packets.end(), turn.begin(), turn.end());
     }
     return packets;
+}
+
+std::vector<std::string> withSilentSector(const std::vector<std::string>& packets, double from_deg,
+                                          double width_deg) {
+    const double block_us = sensors::velodyneModel("VLP-16").blockPeriodUs();
+    std::vector<std::string> limited;
+    int blocks = 0;
+    for (const std::string& bytes : packets) {
+        sensors::VelodynePacket packet;
+        std::memcpy(packet.bytes.data(), bytes.data(), bytes.size());
+        for (int b = 0; b < sensors::kVelodyneBlocks; ++b) {
+            if (packet.azimuthOf(b) < 0) continue;
+            const double after_deg = 0.01 * packet.azimuthOf(b) - from_deg;
+            if (after_deg - 360 * std::floor(after_deg / 360) < width_deg) continue;
+            const auto place = static_cast<std::size_t>(blocks % sensors::kVelodyneBlocks);
+            ++blocks;
+            if (place == 0) {
+                const double time_us = packet.sensorTimeUs() + b * block_us;
+                const auto rounded_us = static_cast<std::uint32_t>(std::lround(time_us));
+                std::string next(bytes.size(), '\0');
+                next.replace(sensors::kVelodyneTimeAt, 6, bytes.substr(sensors::kVelodyneTimeAt));
+                std::memcpy(&next[sensors::kVelodyneTimeAt], &rounded_us, sizeof rounded_us);
+                limited.push_back(next);
+            }
+            const auto size = static_cast<std::size_t>(sensors::kVelodyneBlockBytes);
+            limited.back().replace(size * place, size,
+                                   bytes.substr(size * static_cast<std::size_t>(b), size));
+        }
+    }
+    return limited;
 }
 
 mrpt::obs::CObservationVelodyneScan::Ptr poleScanFrom(double x_m, const std::string& label) {

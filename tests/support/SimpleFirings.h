@@ -19,6 +19,11 @@ std::vector<std::string> packetsOf(const sensors::VelodyneModel& model,
 std::vector<std::string> turnsOf(const SimpleScene& scene, const sensors::VelodyneModel& model,
                                  int turns, std::uint32_t first_us = 1000000, bool is_dual = false);
 
+/// The packets that a VLP-16 sends if it is configured to be silent in a sector, clockwise from
+/// `from_deg`: the other blocks, 12 per packet, whose times are those of their first blocks.
+std::vector<std::string> withSilentSector(const std::vector<std::string>& packets, double from_deg,
+                                          double width_deg);
+
 /// A VLP-16 scan of a pole at (12, 2) on flat ground, measured from (x_m, 0, 2), x_m seconds after
 /// a fixed time.
 mrpt::obs::CObservationVelodyneScan::Ptr poleScanFrom(double x_m, const std::string& label);

@@ -44,6 +44,7 @@ void LidarStream::move(const SensorMotion& motion) {
 
 void LidarStream::add(Scan& returns, const sensors::Sweep& sweep, double arrival_s) {
     returns_masked_ += maskAirframe(settings_.airframe.parts, returns);
+    segmenter_->setView(driver_->view_rad());
     segmenter_->add(returns, sweep, arrival_s);
 }
 

@@ -17,6 +17,7 @@ namespace hagen::live {
 namespace {
 
 constexpr std::size_t kMaxPackets = 4000;  // maximum even if the clock stops; a turn has up to 600
+constexpr double kEnoughOfView = 0.9;      // of a limited field of view
 constexpr double kPacketEnd_rad = 0.01;    // tolerance of packet boundaries
 // A beam's correction may add half a turn, and nearestColumn() wraps only once.
 constexpr float kMaxAzimuth_rad = 7.8F;
@@ -382,7 +383,8 @@ bool StreamingSegmenter::knowsEnough() const {
             std::min(measured_s, packets_.back().time_s - packets_.front().time_s);
         known_rad = kTurn_rad * known_s / streaming_.context_s;
     }
-    return known_rad >= streaming_.min_known_rad - kPacketEnd_rad;
+    const double enough_rad = std::min(streaming_.min_known_rad, kEnoughOfView * view_rad_);
+    return known_rad >= enough_rad - kPacketEnd_rad;
 }
 
 /// Selects the image columns: all columns in and beside the sector, and a fraction of the others.

@@ -214,7 +214,10 @@ class Planner {
         sensor.kind = topic.kind;
         sensor.label = labelOf(topic.topic.name, labels_);
         if (topic.kind == LidarKind::Ouster) sensor.ouster = findOuster(topic);
-        if (topic.kind == LidarKind::Velodyne) sensor.velodyne = findVelodyne(topic);
+        if (topic.kind == LidarKind::Velodyne) {
+            sensor.velodyne = findVelodyne(topic);
+            sensor.silence = topic.velodyne_view.silence().value_or(sensors::SilentSector());
+        }
         frame_of_[topic.topic.name] = topic.kind == LidarKind::Ouster ? kOusterFrame : topic.frame;
     }
 

@@ -31,6 +31,7 @@ struct BagSensor {
     bool is_vehicle = false;          ///< whether its own frame is the moving vehicle frame
     std::shared_ptr<const sensors::OusterSensor> ouster;  ///< set for Ouster packets
     const sensors::VelodyneModel* velodyne = nullptr;     ///< set for Velodyne packets
+    sensors::SilentSector silence;                        ///< of a Velodyne
 };
 
 struct BagPlan {

@@ -261,7 +261,10 @@ void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns
         } else if (model == nullptr || model != state.sensor->velodyne) {
             ++state.unknown_ids[id];
         } else {
-            if (!state.turns) state.turns.emplace(*model, state.sensor->label);
+            if (!state.turns) {
+                const BagSensor& sensor = *state.sensor;
+                state.turns.emplace(*model, sensor.label, nullptr, sensor.silence);
+            }
             sensors::VelodynePacket packet;
             std::copy_n(sent.bytes, packet.bytes.size(), packet.bytes.begin());
             packet.time_ns = sent.time_ns != 0             ? sent.time_ns

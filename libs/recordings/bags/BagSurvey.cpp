@@ -2,6 +2,7 @@
 #include <hagen/sensors/VelodynePacket.h>
 #include "recordings/Remarks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -107,7 +108,11 @@ class BagSurveyor {
             if (!is_data || sensors::isOfHdl64(packet.bytes)) continue;
             const std::uint8_t id = packet.bytes[sensors::kVelodyneModelAt];
             ++topic.velodyne_ids[id];
-            names_model = names_model || sensors::findVelodyneModel(id) != nullptr;
+            if (sensors::findVelodyneModel(id) == nullptr) continue;
+            names_model = true;
+            sensors::VelodynePacket of_model;
+            std::copy_n(packet.bytes, of_model.bytes.size(), of_model.bytes.begin());
+            topic.velodyne_view.add(of_model);
         }
         topic.velodyne_messages += names_model ? 1 : 0;
     }

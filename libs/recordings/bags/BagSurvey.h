@@ -1,6 +1,7 @@
 #pragma once
 #include "recordings/bags/BagFile.h"
 #include "recordings/bags/FrameTree.h"
+#include "sensors/AzimuthView.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -61,6 +62,7 @@ struct BagSurvey {
         /// Number of packets per model ID in the first messages of a Velodyne topic.
         std::map<std::uint8_t, std::size_t> velodyne_ids;
         std::size_t velodyne_messages = 0;  ///< number of messages with these packets
+        sensors::AzimuthView velodyne_view;
     };
     std::vector<Topic> topics;  ///< in bag order
     /// By topic: nav_msgs/Odometry, and geometry_msgs/PoseStamped or PoseWithCovarianceStamped.

@@ -2,6 +2,8 @@
 #include "recordings/Remarks.h"
 #include "sensors/LidarFamily.h"
 
+#include <cstdint>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -17,10 +19,10 @@ std::string textOfLosses(const sensors::FrameCounts& counts) {
     return text;
 }
 
-/// The family of the first datagrams; null: Velodyne. Read errors are reported later.
-const sensors::LidarFamily* familyOf(const std::filesystem::path& file,
-                                     const std::function<void()>& check) {
-    constexpr int kDatagrams = 1000;
+/// Calls visit() with the datagrams at the start of a capture until it returns false. Read errors
+/// are reported later.
+template <class Visit>
+void preview(const std::filesystem::path& file, const std::function<void()>& check, Visit visit) {
     constexpr std::size_t kMaxFrames = 1000000;  // a file may have no datagrams
     struct TooManyFrames {};
     sensors::CaptureFile capture(file);
@@ -30,15 +32,26 @@ const sensors::LidarFamily* familyOf(const std::filesystem::path& file,
     });
     sensors::Datagram datagram;
     try {
-        for (int i = 0; i < kDatagrams && capture.next(datagram); ++i) {
-            for (const sensors::LidarFamily& family : sensors::lidarFamilies()) {
-                if (family.isData(datagram)) return &family;
-            }
+        while (capture.next(datagram) && visit(datagram)) {
         }
     } catch (const sensors::BrokenCapture&) {
     } catch (const TooManyFrames&) {
     }
-    return nullptr;
+}
+
+/// The family of the first datagrams; null: Velodyne.
+const sensors::LidarFamily* familyOf(const std::filesystem::path& file,
+                                     const std::function<void()>& check) {
+    constexpr int kDatagrams = 1000;
+    const sensors::LidarFamily* found = nullptr;
+    int datagrams = 0;
+    preview(file, check, [&](const sensors::Datagram& datagram) {
+        for (const sensors::LidarFamily& family : sensors::lidarFamilies()) {
+            if (found == nullptr && family.isData(datagram)) found = &family;
+        }
+        return found == nullptr && ++datagrams < kDatagrams;
+    });
+    return found;
 }
 
 std::unique_ptr<sensors::SweepReader> readerFor(const std::filesystem::path& file,
@@ -55,7 +68,15 @@ std::unique_ptr<sensors::SweepReader> readerFor(const std::filesystem::path& fil
     }
     if (is_ouster) return sensors::makeOusterSweeps(sensor_json);
     if (family != nullptr) return family->makeSweeps();
-    return sensors::makeVelodyneSweeps(calibration);
+    auto velodynes = sensors::makeVelodyneSweeps(calibration);
+    constexpr std::int64_t kTwoTurns_ns = 500000000;  // at 5 Hz or faster
+    std::int64_t first_ns = 0;
+    preview(file, check, [&](const sensors::Datagram& datagram) {
+        if (first_ns == 0) first_ns = datagram.time_ns;
+        velodynes->preview(datagram);
+        return std::abs(datagram.time_ns - first_ns) < kTwoTurns_ns;
+    });
+    return velodynes;
 }
 
 }  // namespace

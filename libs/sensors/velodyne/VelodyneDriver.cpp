@@ -5,6 +5,7 @@
 #include <hagen/sensors/VelodyneModel.h>
 #include <hagen/sensors/VelodynePacket.h>
 #include "scan/AppendReturn.h"
+#include "sensors/AzimuthView.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,7 @@ namespace {
 
 constexpr int kMaxLate = 16;
 constexpr double kInterruptionUs = 50e3;
+constexpr double kTwoTurnsUs = 450e3;   // at 5 Hz
 constexpr double kForgottenUs = 250e3;  // earlier returns are no longer used as context
 constexpr double kOverlap_rad = 0.2;    // tolerated overlap of packets
 constexpr double kNearest_m = 0.5;
@@ -61,7 +63,8 @@ std::uint64_t keyOf(const VelodynePacket& packet) {
     return std::hash<std::string_view>()({bytes, packet.bytes.size()});
 }
 
-/// Reads the packets of one Velodyne. Gaps of more than 50 ms and clock jumps are interruptions.
+/// Reads the packets of one Velodyne. Gaps of more than 50 ms, except silent sectors, and clock
+/// jumps are interruptions.
 class VelodyneDriver : public LidarDriver {
  public:
     explicit VelodyneDriver(const VelodyneModel& model, const VelodyneCalibration* calibration)
@@ -95,6 +98,7 @@ class VelodyneDriver : public LidarDriver {
     }
 
     bool isDual() const override { return is_dual_; }
+    double view_rad() const override { return kTurn_rad - radians(0.01 * silence_.width); }
     bool isData(const Datagram& datagram) const override {
         return isVelodyneData(datagram.bytes, datagram.size) &&
                velodyneModelOf(datagram.bytes) == &model_;
@@ -168,10 +172,13 @@ class VelodyneDriver : public LidarDriver {
         const bool is_dual = packet.isDual();
         const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : is_dual);
         const double elapsed_us = has_last_ ? elapsedUs(last_us_, time_us) : 0;
-        if (elapsed_us > kInterruptionUs) {
+        const double silent = silence_.shareOf(last_azimuth_, packet.azimuth());
+        const double sending_us = elapsed_us * (1 - silent);
+        if (silent > 0 && elapsed_us > 0) sink.flush();
+        if (sending_us > kInterruptionUs) {
             ++counts_.interruptions;
             if (elapsed_us < 1e6) {
-                counts_.lost += static_cast<std::size_t>(std::lround(elapsed_us / period_us)) - 1;
+                counts_.lost += static_cast<std::size_t>(std::lround(sending_us / period_us)) - 1;
             }
             sink.flush();
             if (elapsed_us > kForgottenUs) {
@@ -192,15 +199,17 @@ class VelodyneDriver : public LidarDriver {
             ++counts_.late;
             if (counts_.lost > 0) --counts_.lost;
         } else {
-            if (has_last_ && elapsed_us > 1.5 * period_us && elapsed_us <= kInterruptionUs) {
-                counts_.lost += static_cast<std::size_t>(std::lround(elapsed_us / period_us)) - 1;
+            if (has_last_ && sending_us > 1.5 * period_us && sending_us <= kInterruptionUs) {
+                counts_.lost += static_cast<std::size_t>(std::lround(sending_us / period_us)) - 1;
             }
             if (has_last_) {
                 counts_.scans += static_cast<std::size_t>(
                     std::max(0.0, std::floor(sweep.from_rad / kTurn_rad) -
                                       std::floor(last_sweep_.from_rad / kTurn_rad)));
             }
+            learnView(packet, time_us);
             last_us_ = time_us;
+            last_azimuth_ = packet.azimuth();
             last_sweep_ = sweep;
             has_last_ = true;
         }
@@ -209,6 +218,18 @@ class VelodyneDriver : public LidarDriver {
         ++counts_.packets;
         addRuns(packet, sweep, arrival_s, sink);
         return Taken::Yes;
+    }
+
+    /// Updates the silent sector after each skipped part of a turn, and at least every two turns.
+    void learnView(const VelodynePacket& packet, double time_us) {
+        if (!has_last_) view_start_us_ = time_us;
+        const std::size_t skips = view_.skips();
+        view_.add(packet);
+        const bool is_over = std::abs(elapsedUs(view_start_us_, time_us)) > kTwoTurnsUs;
+        if (is_over || view_.skips() > skips) silence_ = view_.silence().value_or(silence_);
+        if (!is_over) return;
+        view_ = AzimuthView();
+        view_start_us_ = time_us;
     }
 
     /// Finds runs of firings with valid blocks and steady rotation. No sweep covers an invalid
@@ -314,6 +335,10 @@ class VelodyneDriver : public LidarDriver {
     std::vector<Held> held_;  ///< consecutive late packets
     bool has_last_ = false, is_dual_ = false;
     double last_us_ = 0;  ///< sensor time of the latest packet
+    int last_azimuth_ = -1;
+    AzimuthView view_;
+    SilentSector silence_;
+    double view_start_us_ = 0;
     Sweep last_sweep_{};
 };
 

@@ -30,6 +30,12 @@ class VelodyneSweeps : public SweepReader {
         if (!calibration.empty()) calibration_ = readVelodyneCalibration(calibration);
     }
 
+    void preview(const Datagram& datagram) override {
+        if (!isVelodyneData(datagram.bytes, datagram.size)) return;
+        const VelodyneModel* const model = velodyneModelOf(datagram.bytes);
+        if (model != nullptr) views_[keyOf(datagram, *model)].add(packetOf(datagram));
+    }
+
     void add(const Datagram& datagram) override {
         if (datagram.size == kPositionBytes && datagram.to_port == kPositionPort) {
             ++position_packets_;
@@ -85,17 +91,26 @@ class VelodyneSweeps : public SweepReader {
  private:
     using Key = std::tuple<std::uint32_t, std::uint16_t, std::uint8_t>;
 
-    void add(const Datagram& datagram, const VelodyneModel& model) {
-        const Key key{datagram.from_ip, datagram.to_port, model.id};
-        VelodyneTurns* const turns = sensors_.find(key, [&](const std::string& label) {
-            return VelodyneTurns(model, label, &model == &hdl64Model() ? &*calibration_ : nullptr);
-        });
-        if (turns == nullptr) return;
+    static Key keyOf(const Datagram& datagram, const VelodyneModel& model) {
+        return {datagram.from_ip, datagram.to_port, model.id};
+    }
+
+    static VelodynePacket packetOf(const Datagram& datagram) {
         VelodynePacket packet;
         std::copy_n(datagram.bytes, packet.bytes.size(), packet.bytes.begin());
         packet.time_ns = datagram.time_ns;
+        return packet;
+    }
+
+    void add(const Datagram& datagram, const VelodyneModel& model) {
+        const Key key = keyOf(datagram, model);
+        VelodyneTurns* const turns = sensors_.find(key, [&](const std::string& label) {
+            return VelodyneTurns(model, label, &model == &hdl64Model() ? &*calibration_ : nullptr,
+                                 views_[key].silence().value_or(SilentSector()));
+        });
+        if (turns == nullptr) return;
         ++packets_;
-        turns->add(packet);
+        turns->add(packetOf(datagram));
         collect(*turns);
     }
 
@@ -124,6 +139,7 @@ class VelodyneSweeps : public SweepReader {
 
     std::filesystem::path calibration_file_;
     std::optional<VelodyneCalibration> calibration_;
+    std::map<Key, AzimuthView> views_;
     SensorTable<Key, VelodyneTurns> sensors_{"velodyne"};
     std::size_t packets_ = 0, position_packets_ = 0, hdl64_packets_ = 0;
     std::map<unsigned, std::size_t> unknown_ids_;

@@ -20,11 +20,12 @@ constexpr int kMinWrap = 100;                  // 0.01 degrees; smaller steps ar
 }  // namespace
 
 VelodyneTurns::VelodyneTurns(const VelodyneModel& model, std::string label,
-                             const VelodyneCalibration* calibration)
+                             const VelodyneCalibration* calibration, SilentSector silence)
     : model_(model),
       label_(std::move(label)),
       sensor_(std::make_shared<const SensorModel>(sensorModel(model.name))),
-      calibration_(calibration != nullptr ? *calibration : defaultCalibration(model)) {}
+      calibration_(calibration != nullptr ? *calibration : defaultCalibration(model)),
+      silence_(silence) {}
 
 void VelodyneTurns::add(const VelodynePacket& packet) {
     const double time_us = packet.sensorTimeUs();
@@ -88,11 +89,13 @@ void VelodyneTurns::checkGap(const VelodynePacket& packet) {
     if (!has_last_) return;
     const double gap_us = elapsedUs(last_us_, packet.sensorTimeUs());
     const double period_us = model_.packetPeriodUs(packet.isDual());
-    if (std::abs(gap_us) > kEndOfTurnUs) endTurn();
+    const double silent = silence_.shareOf(last_azimuth_, packet.azimuth());
+    const double sending_us = gap_us * (1 - silent);
+    if (std::abs(sending_us) > kEndOfTurnUs) endTurn();
     if (std::abs(gap_us) > kSecondUs) {
         ++counts_.interruptions;
-    } else if (gap_us > 1.5 * period_us) {
-        counts_.lost += static_cast<std::size_t>(std::lround(gap_us / period_us)) - 1;
+    } else if (sending_us > 1.5 * period_us) {
+        counts_.lost += static_cast<std::size_t>(std::lround(sending_us / period_us)) - 1;
     }
 }
 
@@ -100,7 +103,8 @@ void VelodyneTurns::append(const VelodynePacket& packet) {
     checkGap(packet);
     const double time_us = packet.sensorTimeUs();
     const int azimuth = packet.azimuth();
-    const bool wraps = azimuth >= 0 && azimuth < last_azimuth_ - kMinWrap;
+    const int turned = (azimuth - silence_.cut + kReadingsOfTurn) % kReadingsOfTurn;
+    const bool wraps = azimuth >= 0 && turned < turned_ - kMinWrap;
     std::vector<std::uint8_t>& packets = turn_.packets;
     const bool is_long = std::abs(elapsedUs(turn_start_us_, time_us)) > kMaxTurnUs ||
                          packets.size() >= kMaxTurnPackets * kVelodynePacketBytes;
@@ -112,11 +116,13 @@ void VelodyneTurns::append(const VelodynePacket& packet) {
     packets.insert(packets.end(), packet.bytes.begin(), packet.bytes.end());
     has_last_ = true;
     last_us_ = time_us;
-    if (azimuth >= 0) last_azimuth_ = azimuth;
+    if (azimuth < 0) return;
+    last_azimuth_ = azimuth;
+    turned_ = turned;
 }
 
 void VelodyneTurns::endTurn() {
-    last_azimuth_ = -1;
+    turned_ = -1;
     if (turn_.packets.empty()) return;
     ++counts_.scans;
     turn_.label = label_;

@@ -3,6 +3,7 @@
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <hagen/sensors/VelodyneModel.h>
 #include <hagen/sensors/VelodynePacket.h>
+#include "sensors/AzimuthView.h"
 #include "sensors/SweepReader.h"
 
 #include <cstddef>
@@ -14,7 +15,8 @@
 
 namespace hagen::sensors {
 
-/// Groups the packets of one sensor into turns. A turn ends where the azimuth wraps.
+/// Groups the packets of one sensor into turns. A turn ends where the azimuth wraps or, with a
+/// limited field of view, in the silent sector, which does not count as lost.
 ///
 /// Packets up to 16 packets late are reordered by sensor time. Older packets are dropped, unless 16
 /// arrive in a row or at the end, which means that the clock was set. A turn also ends at a gap of
@@ -29,7 +31,7 @@ class VelodyneTurns {
 
     /// `calibration`: null selects the model's default.
     VelodyneTurns(const VelodyneModel& model, std::string label,
-                  const VelodyneCalibration* calibration = nullptr);
+                  const VelodyneCalibration* calibration = nullptr, SilentSector silence = {});
 
     void add(const VelodynePacket& packet);
     /// Ends the last turn.
@@ -52,6 +54,7 @@ class VelodyneTurns {
     std::string label_;
     std::shared_ptr<const SensorModel> sensor_;  ///< contains the range limits
     VelodyneCalibration calibration_;
+    SilentSector silence_;
     std::deque<VelodynePacket> waiting_;  ///< sorted by sensor time
     std::vector<VelodynePacket> held_;    ///< consecutive late packets
     LidarSweep turn_;                     ///< turn in progress, if it has packets
@@ -59,6 +62,7 @@ class VelodyneTurns {
     bool has_last_ = false;
     double last_us_ = 0;  ///< sensor time of the last appended packet
     int last_azimuth_ = -1;
+    int turned_ = -1;  ///< azimuth of the turn's last packet relative to the cut
     std::deque<LidarSweep> complete_;
     Counts counts_;
 };

@@ -3,6 +3,7 @@
 #include <hagen/filter/SectorFilter.h>
 #include <hagen/live/Thinning.h>
 #include <hagen/live/TurnMotion.h>
+#include <hagen/scan/Angle.h>
 #include <hagen/scan/ColumnMap.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
@@ -108,6 +109,10 @@ class StreamingSegmenter {
     /// there are none. Throws std::invalid_argument unless both are between 0 and a full turn.
     void setBeamOffsets(const BeamOffsets& offsets);
 
+    /// Sets the angle of a turn that the sensor sees, if its field of view is limited. The returns
+    /// then suffice to find the ground once they cover most of it.
+    void setView(double view_rad) { view_rad_ = view_rad; }
+
     /// Adds the returns of a packet, with ranges, azimuths and rows (checkLocated()), and its
     /// arrival time in seconds. Throws std::invalid_argument for invalid values. A late packet's
     /// `sweep` may precede earlier sweeps; its returns are labelled with the sector in progress.
@@ -179,6 +184,7 @@ class StreamingSegmenter {
     Take take_;
     std::optional<Attitude> attitude_, mount_;
     BeamOffsets offsets_;
+    double view_rad_ = kTurn_rad;
     std::optional<Eigen::Isometry3d> pose_;
 
     std::deque<Packet> packets_;  ///< packets of the latest turn, in order of arrival

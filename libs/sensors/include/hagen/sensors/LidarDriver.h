@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/scan/Angle.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
 #include <hagen/sensors/Datagram.h>
@@ -71,6 +72,8 @@ class LidarDriver {
     /// The sensor's beam offsets. `min_range_m`: the sensor's minimum range.
     virtual BeamOffsets beamOffsets(double /*min_range_m*/) const { return {}; }
     virtual bool turns() const { return true; }
+    /// Horizontal field of view: the angle per turn in which the sensor sends packets, 0 ... 2 pi.
+    virtual double view_rad() const { return kTurn_rad; }
     /// True if the latest packet has two returns per firing.
     virtual bool isDual() const { return false; }
 
