@@ -263,13 +263,69 @@ TEST_F(BagScansTest, IgnoresCloudsInFixedFrames) {
     EXPECT_EQ(read({cloud("/map_cloud", 0, "map")}, {{"/map_cloud"}, {}}).observations.size(), 1u);
 }
 
+SentMessage imuMessage(double since_s, const std::array<double, 4>& xyzw, double up_m_s2 = 9.81,
+                       const std::string& frame = "imu") {
+    return test::sentMessage("/imu", "sensor_msgs/Imu", kStart_s + since_s, [&](auto& bytes) {
+        bytes.header(kStart_s + since_s, frame);
+        for (const double part : xyzw) bytes.number(part);
+        for (int i = 0; i < 9 + 3 + 9 + 2; ++i) bytes.number(0.0);
+        bytes.number(up_m_s2);
+        for (int i = 0; i < 9; ++i) bytes.number(0.0);
+    });
+}
+
+TEST_F(BagScansTest, SortsMessagesByTime) {
+    std::vector<SentMessage> by_topic;
+    for (const char* topic : {"/b", "/a"}) {
+        for (int i = 0; i < 5; ++i) by_topic.push_back(cloud(topic, 0.1 * i));
+    }
+    for (int i = 0; i < 5; ++i) {
+        by_topic.push_back(
+            imuMessage(0.1 * i - 0.01, {std::sin(0.1 * i), 0, 0, std::cos(0.1 * i)}));
+    }
+    const ReadBag bag = read(by_topic);
+    ASSERT_EQ(bag.observations.size(), 20u);
+    for (std::size_t i = 0; i < 20; ++i) {
+        const double since_s = 0.1 * static_cast<double>(i / 4) - (i % 2 == 0 ? 0.01 : 0);
+        EXPECT_NEAR(mrpt::Clock::toDouble(bag.observations[i]->timestamp), kStart_s + since_s,
+                    1e-6);
+        EXPECT_EQ(bag.observations[i]->sensorLabel, i % 2 == 0 ? "/imu" : i % 4 == 1 ? "b" : "a");
+    }
+    EXPECT_THAT(bag.scans->remarks(), testing::Not(Contains(HasSubstr("out of order"))));
+}
+
+TEST_F(BagScansTest, DistrustsDefaultOrientation) {
+    const std::array<double, 4> none{0, 0, 0, 1}, turned{1, 0, 0, 0};
+    const auto imuOf = [&](const SentMessage& imu) { return read({imu, cloud("/a")}); };
+    EXPECT_EQ(imuOf(imuMessage(0, none)).scans->plan().imu_topic, "/imu");
+    EXPECT_EQ(imuOf(imuMessage(0, turned, -9.81)).scans->plan().imu_topic, "/imu");
+    EXPECT_EQ(imuOf(imuMessage(0, none, -9.81)).scans->plan().imu_topic, "");
+    EXPECT_THAT(
+        imuOf(imuMessage(0, none, -9.81)).scans->remarks(),
+        Contains(HasSubstr("all orientations are (0, 0, 0, 1), but gravity is 180 degrees")));
+}
+
+TEST_F(BagScansTest, ImuInLidarFrameContainsMount) {
+    const auto hasImu = [&](const std::vector<SentMessage>& messages) {
+        const ReadBag bag = read(messages);
+        return bag.scans->plan().sensors.at("/points").has_imu;
+    };
+    const SentMessage points = cloud("/points"), imu = imuMessage(0, {1, 0, 0, 0});
+    EXPECT_TRUE(hasImu({points, imuMessage(0, {1, 0, 0, 0}, 9.81, "lidar")}));
+    EXPECT_FALSE(hasImu({points, imu}));
+    EXPECT_TRUE(hasImu({points, imu, transform("/tf_static", "housing", "lidar", 0),
+                        transform("/tf_static", "housing", "imu", 1)}));
+    EXPECT_FALSE(hasImu({points, imu, transform("/tf_static", "base_link", "lidar", 0),
+                         transform("/tf_static", "base_link", "imu", 1)}));
+}
+
 TEST_F(BagScansTest, ReportsUnreadableMessages) {
     SentMessage cut = cloud("/points", 0.1), lying = cloud("/points", 0.2);
     cut.ros1.resize(cut.ros1.size() - 10);
     // The width follows the sequence number, time, frame and height.
     const std::size_t width_at = 4 + 8 + 4 + 5 + 4;
     lying.ros1.replace(width_at, 4, "\xff\xff\xff\xff");
-    SentMessage text = test::stringMessage("/points", kStart_s, "no cloud at all");
+    SentMessage text = test::stringMessage("/points", kStart_s + 0.25, "no cloud at all");
     text.type = "sensor_msgs/PointCloud2";
     const ReadBag bag = read({cloud("/points"), cut, lying, text, cloud("/points", 0.3)});
     EXPECT_EQ(bag.failed_because, "");

@@ -1,7 +1,10 @@
 #include "recordings/bags/BagPlan.h"
+#include <hagen/scan/Angle.h>
 #include "recordings/Remarks.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <initializer_list>
 #include <set>
 #include <stdexcept>
@@ -512,12 +515,42 @@ class Planner {
             if (!is_mounted && (!plan_.imu_topic.empty() || plan_.poses != nullptr)) return;
             for (const auto& [topic, imu] : survey_.imus) {
                 const auto pose = onVehicle(imu.frame);
-                if (pose.has_value() != is_mounted || imu.orientations <= most) continue;
-                most = imu.orientations;
+                const std::size_t orientations = imu.orientations.size();
+                if (pose.has_value() != is_mounted || orientations <= most) continue;
+                if (!showsAttitude(topic, imu)) continue;
+                most = orientations;
                 plan_.imu_topic = topic;
                 plan_.imu_on_vehicle = pose.value_or(CPose3D());
+                for (auto& [name, sensor] : plan_.sensors) {
+                    sensor.has_imu = sharesMount(frame_of_[name], imu.frame);
+                }
             }
         }
+    }
+
+    /// False if all orientations are the default (0, 0, 0, 1) and the acceleration contradicts
+    /// them.
+    bool showsAttitude(const std::string& topic, const BagSurvey::Imu& imu) {
+        constexpr double kMaxTilt_rad = 0.35;
+        const auto isDefault = [](const auto& one) {
+            return one.wxyz == std::array<double, 4>{1, 0, 0, 0};
+        };
+        if (!std::all_of(imu.orientations.begin(), imu.orientations.end(), isDefault)) return true;
+        const Eigen::Vector3d& up = imu.acceleration_m_s2;
+        const double tilt_rad = std::atan2(up.head<2>().norm(), up.z());
+        if (!(tilt_rad > kMaxTilt_rad)) return true;
+        plan_.remarks.push_back(topic + ": all orientations are (0, 0, 0, 1), but gravity is " +
+                                std::to_string(std::lround(degrees(tilt_rad))) +
+                                " degrees off the z axis: not used as attitude");
+        return false;
+    }
+
+    /// Whether a LiDAR and an IMU are fixed to each other and neither to the vehicle, as far as is
+    /// known. The mount of the settings is then part of the orientation.
+    bool sharesMount(const std::string& lidar, const std::string& imu) const {
+        const std::string root = frames_.rootOf(lidar);
+        return lidar == imu || (root == frames_.rootOf(imu) && root.find("base_") != 0 &&
+                                (plan_.poses == nullptr || root != plan_.poses->child));
     }
 
     const std::filesystem::path& file_;

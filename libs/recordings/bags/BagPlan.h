@@ -28,6 +28,7 @@ struct BagSensor {
     std::string label;                ///< sensor label of the topic's scans
     mrpt::poses::CPose3D on_vehicle;  ///< from the bag's static transforms; identity if unknown
     bool has_its_own_poses = false;   ///< whether BagPlan::poses are used as sensor poses
+    bool has_imu = false;             ///< whether the IMU's orientation is the sensor's attitude
     bool is_vehicle = false;          ///< whether its own frame is the moving vehicle frame
     std::shared_ptr<const sensors::OusterSensor> ouster;  ///< set for Ouster packets
     const sensors::VelodyneModel* velodyne = nullptr;     ///< set for Velodyne packets

@@ -20,6 +20,7 @@
 #include <optional>
 #include <set>
 
+#include "recordings/bags/MessageOrder.h"
 #include "recordings/bags/Messages.h"
 
 namespace hagen::recordings {
@@ -100,6 +101,7 @@ struct BagScans::Reader {
     const BagSurvey& survey;
     BagPlan plan;
     std::unique_ptr<BagFile> bag;
+    std::optional<MessageOrder> order;  ///< if messages are stored out of order
     decltype(BagOptions::packet) pass;
     std::map<std::string, TopicState> states;  ///< by topic
     std::vector<TopicState*> state_of;  ///< by topic index in the bag; null if not a LiDAR topic
@@ -126,15 +128,27 @@ struct BagScans::Reader {
                 state.frames = std::make_unique<sensors::OusterFrames>(*sensor.ouster);
             }
         }
+        if (!survey.is_out_of_order) return;
+        order.emplace(*bag, [this](const BagMessage& message) {
+            ++messages;
+            return stateOf(message) != nullptr;
+        });
     }
 
+    bool next(BagMessage& message) {
+        if (order) return order->next(message);
+        if (!bag->next(message)) return false;
+        ++messages;
+        return true;
+    }
+    TopicState* stateOf(const BagMessage& message);
     void take(const BagMessage& message);
     void takeLidar(const BagMessage& message, const BagTopic& topic, TopicState& state);
     void takeCloud(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
     void takeLivox(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
     void takeVelodyne(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
     void takeOuster(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
-    void takeImu(const BagMessage& message, const BagTopic& topic);
+    void addAttitude(std::int64_t recorded_ns);
     void add(const CObservation::Ptr& scan, TopicState& state);
     void addComplete(TopicState& state);
     void finish();
@@ -142,7 +156,8 @@ struct BagScans::Reader {
     std::string whyEmpty() const;
 };
 
-void BagScans::Reader::take(const BagMessage& message) {
+/// The state of a message's topic; null if it is not read.
+TopicState* BagScans::Reader::stateOf(const BagMessage& message) {
     const std::vector<BagTopic>& topics = bag->topics();
     while (state_of.size() < topics.size()) {
         const BagTopic& topic = topics[state_of.size()];
@@ -151,12 +166,14 @@ void BagScans::Reader::take(const BagMessage& message) {
             state != states.end() && lidarKindOf(topic) == state->second.sensor->kind;
         state_of.push_back(is_read ? &state->second : nullptr);
     }
-    const BagTopic& topic = topics[message.topic];
-    if (TopicState* const state = state_of[message.topic]) {
-        takeLidar(message, topic, *state);
-    } else if (topic.type == "sensor_msgs/Imu" && topic.name == plan.imu_topic) {
-        takeImu(message, topic);
-    }
+    return state_of[message.topic];
+}
+
+void BagScans::Reader::take(const BagMessage& message) {
+    TopicState* const state = stateOf(message);
+    if (state == nullptr) return;
+    addAttitude(message.time_ns);
+    takeLidar(message, bag->topics()[message.topic], *state);
 }
 
 void BagScans::Reader::takeLidar(const BagMessage& message, const BagTopic& topic,
@@ -328,27 +345,26 @@ void BagScans::Reader::addComplete(TopicState& state) {
     }
 }
 
-void BagScans::Reader::takeImu(const BagMessage& message, const BagTopic& topic) {
+/// Adds the last orientation of the IMU that was recorded before a message.
+void BagScans::Reader::addAttitude(std::int64_t recorded_ns) {
     using namespace mrpt::obs;
-    try {
-        FieldReader fields = fieldsOf(message, topic.encoding, unpacked);
-        const ImuMessage imu = readImu(fields);
-        if (!imu.rotation_wxyz) return;
-        auto observation = CObservationIMU::Create();
-        observation->timestamp =
-            timeOf(imu.header.time_ns != 0 ? imu.header.time_ns : message.time_ns);
-        observation->sensorLabel = topic.name;
-        observation->sensorPose = plan.imu_on_vehicle;
-        observation->set(IMU_ORI_QUAT_W, (*imu.rotation_wxyz)[0]);
-        observation->set(IMU_ORI_QUAT_X, (*imu.rotation_wxyz)[1]);
-        observation->set(IMU_ORI_QUAT_Y, (*imu.rotation_wxyz)[2]);
-        observation->set(IMU_ORI_QUAT_Z, (*imu.rotation_wxyz)[3]);
-        complete.push_back(observation);
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception&) {
-        // The survey counts unreadable messages.
-    }
+    const auto imu = survey.imus.find(plan.imu_topic);
+    if (imu == survey.imus.end()) return;
+    const auto& all = imu->second.orientations;
+    const auto after = std::upper_bound(
+        all.begin(), all.end(), recorded_ns,
+        [](std::int64_t time_ns, const auto& one) { return time_ns < one.recorded_ns; });
+    if (after == all.begin()) return;
+    const BagSurvey::Imu::Orientation& latest = *std::prev(after);
+    auto observation = CObservationIMU::Create();
+    observation->timestamp = timeOf(latest.time_ns);
+    observation->sensorLabel = plan.imu_topic;
+    observation->sensorPose = plan.imu_on_vehicle;
+    observation->set(IMU_ORI_QUAT_W, latest.wxyz[0]);
+    observation->set(IMU_ORI_QUAT_X, latest.wxyz[1]);
+    observation->set(IMU_ORI_QUAT_Y, latest.wxyz[2]);
+    observation->set(IMU_ORI_QUAT_Z, latest.wxyz[3]);
+    complete.push_back(observation);
 }
 
 void BagScans::Reader::finish() {
@@ -411,8 +427,7 @@ CObservation::Ptr BagScans::next() {
     BagMessage message;
     while (r.complete.empty() && !r.is_at_end) {
         try {
-            if (r.bag->next(message)) {
-                ++r.messages;
+            if (r.next(message)) {
                 r.take(message);
             } else {
                 r.finish();
@@ -447,6 +462,12 @@ double BagScans::fractionRead() const {
 std::vector<std::string> BagScans::remarks() const {
     const Reader& r = *reader_;
     std::vector<std::string> remarks = r.bag->remarks();
+    if (r.order && r.order->late() > 0) {
+        remarks.push_back(
+            counted(r.order->late(), "LiDAR message") + " stored more than " +
+            std::to_string(MessageOrder::kMaxHeldBytes >> 20) +
+            " MB after later messages, read out of order; sort the recording by time");
+    }
     remarks.insert(remarks.end(), r.plan.remarks.begin(), r.plan.remarks.end());
     for (const auto& [topic, state] : r.states) {
         remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::describe(state));

@@ -109,7 +109,7 @@ class BagSource : public ScanSource {
         }
         for (const auto& [topic, sensor] : plan.sensors) {
             if (sensor.has_its_own_poses) poses.of_sensors.insert(sensor.label);
-            if (sensor.is_vehicle) poses.vehicles.insert(sensor.label);
+            if (sensor.is_vehicle || sensor.has_imu) poses.vehicles.insert(sensor.label);
         }
         return poses;
     }

@@ -38,6 +38,10 @@ class BagSurveyor {
         BagSurvey::Topic& topic = survey_.topics[message.topic];
         ++topic.messages;
         ++survey_.messages;
+        if (topic.kind != LidarKind::None) {
+            survey_.is_out_of_order |= message.time_ns < latest_ns_;
+            latest_ns_ = std::max(latest_ns_, message.time_ns);
+        }
         try {
             read(message, topic);
         } catch (const std::bad_alloc&) {
@@ -53,7 +57,14 @@ class BagSurveyor {
         added.topic = topic;
         added.kind = lidarKindOf(topic);
     }
-    BagSurvey survey() && { return std::move(survey_); }
+    BagSurvey survey() && {
+        for (auto& [topic, imu] : survey_.imus) {
+            std::stable_sort(
+                imu.orientations.begin(), imu.orientations.end(),
+                [](const auto& a, const auto& b) { return a.recorded_ns < b.recorded_ns; });
+        }
+        return std::move(survey_);
+    }
 
  private:
     static void count(LeftOut::Kind& kind, const BagMessage& message, const BagSurvey::Topic& topic,
@@ -80,7 +91,12 @@ class BagSurveyor {
             const ImuMessage imu = readImu(fields);
             if (!imu.rotation_wxyz) return;
             BagSurvey::Imu& seen = survey_.imus[topic.topic.name];
-            if (seen.orientations++ == 0) seen.frame = imu.header.frame;
+            if (seen.orientations.empty()) seen.frame = imu.header.frame;
+            const std::int64_t time_ns = imu.header.time_ns;
+            seen.orientations.push_back(
+                {message.time_ns, time_ns != 0 ? time_ns : message.time_ns, *imu.rotation_wxyz});
+            seen.acceleration_m_s2 +=
+                Eigen::Map<const Eigen::Vector3d>(imu.acceleration_m_s2.data());
         } else if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") {
             readFrames(message, topic);
         } else if (type == "std_msgs/String" && base::endsWith(topic.topic.name, "metadata") &&
@@ -172,6 +188,7 @@ class BagSurveyor {
     }
 
     BagSurvey survey_;
+    std::int64_t latest_ns_ = INT64_MIN;  ///< latest time of a LiDAR message
     std::vector<std::uint8_t> unpacked_;
 };
 

@@ -1,8 +1,10 @@
 #pragma once
+#include <Eigen/Core>
 #include "recordings/bags/BagFile.h"
 #include "recordings/bags/FrameTree.h"
 #include "sensors/AzimuthView.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -69,14 +71,21 @@ struct BagSurvey {
     std::map<std::string, PoseSeries> odometry, poses;
     std::map<std::string, PoseSeries> transforms;  ///< from tf, by child frame
     FrameTree frames;                              ///< from tf_static
+    /// Orientations may be stored after the scans that need them.
     struct Imu {
+        struct Orientation {
+            std::int64_t recorded_ns, time_ns;
+            std::array<double, 4> wxyz;
+        };
         std::string frame;
-        std::size_t orientations = 0;  ///< number of messages with an orientation
+        std::vector<Orientation> orientations;                        ///< by recording time
+        Eigen::Vector3d acceleration_m_s2 = Eigen::Vector3d::Zero();  ///< sum over the messages
     };
     std::map<std::string, Imu> imus;                     ///< by topic
     std::map<std::string, std::string> ouster_metadata;  ///< by topic
     std::map<std::string, LeftOut> left_out;             ///< by topic
     std::size_t messages = 0;                            ///< number of messages read, of all topics
+    bool is_out_of_order = false;  ///< whether a LiDAR message has an earlier time than the last
     bool is_whole = true;
     std::string broken_because;  ///< empty if read to its end or stopped by the caller
 };

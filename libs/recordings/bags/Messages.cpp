@@ -1,6 +1,7 @@
 #include "recordings/bags/Messages.h"
 
 #include <mrpt/math/CQuaternion.h>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,15 @@ std::array<double, N> readDoubles(FieldReader& fields) {
 std::array<double, 4> readRotation(FieldReader& fields) {
     const auto xyzw = readDoubles<4>(fields);
     return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
+}
+
+double normOf(const std::array<double, 4>& quaternion) {
+    return Eigen::Map<const Eigen::Vector4d>(quaternion.data()).norm();
+}
+
+bool isRotation(const std::array<double, 4>& quaternion) {
+    const double norm = normOf(quaternion);
+    return norm > 0.5 && std::isfinite(norm);
 }
 
 /// Removes the padding between the rows of a cloud.
@@ -194,10 +204,8 @@ LivoxMessage readLivox(FieldReader& fields) {
 }
 
 std::optional<mrpt::poses::CPose3D> PoseMessage::pose() const {
-    double norm = 0;
-    for (const double part : rotation_wxyz) norm += part * part;
-    norm = std::sqrt(norm);
-    const bool is_sound = norm > 0.5 && std::isfinite(norm) && std::isfinite(position_m[0]) &&
+    const double norm = normOf(rotation_wxyz);
+    const bool is_sound = isRotation(rotation_wxyz) && std::isfinite(position_m[0]) &&
                           std::isfinite(position_m[1]) && std::isfinite(position_m[2]);
     if (!is_sound) return std::nullopt;
     const mrpt::math::CQuaternionDouble rotation(rotation_wxyz[0] / norm, rotation_wxyz[1] / norm,
@@ -235,8 +243,9 @@ ImuMessage readImu(FieldReader& fields) {
     const auto rotation = readRotation(fields);
     const auto covariance = readDoubles<9>(fields);
     // -1 means no orientation, as documented in sensor_msgs/Imu. Many drivers set zeros instead.
-    const bool is_zero = rotation == std::array<double, 4>{};
-    if (covariance[0] != -1 && !is_zero) message.rotation_wxyz = rotation;
+    if (covariance[0] != -1 && isRotation(rotation)) message.rotation_wxyz = rotation;
+    readDoubles<3 + 9>(fields);  // angular velocity
+    message.acceleration_m_s2 = readDoubles<3>(fields);
     return message;
 }
 

@@ -79,10 +79,11 @@ PoseMessage readOdometry(FieldReader& fields);
 PoseMessage readPoseStamped(FieldReader& fields);
 std::vector<PoseMessage> readTransforms(FieldReader& fields);
 
-/// The orientation in a sensor_msgs/Imu; nullopt if marked as missing.
+/// sensor_msgs/Imu. The orientation is nullopt if it is marked as missing or invalid.
 struct ImuMessage {
     Header header;
     std::optional<std::array<double, 4>> rotation_wxyz;
+    std::array<double, 3> acceleration_m_s2;
 };
 ImuMessage readImu(FieldReader& fields);
 
