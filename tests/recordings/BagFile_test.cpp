@@ -27,10 +27,12 @@ struct Read {
 
 Read readAll(const fs::path& file) {
     Read read;
+    std::unique_ptr<BagFile> bag;
     try {
-        const auto bag = openBag(file);
+        bag = openBag(file);
         BagMessage message;
         while (bag->next(message)) {
+            if (read.broken_because.empty()) read.broken_because = bag->takeDamage();
             const BagTopic& topic = bag->topics().at(message.topic);
             read.messages.push_back(
                 topic.name + " " + topic.type + " " + topic.encoding + " " +
@@ -40,9 +42,11 @@ Read readAll(const fs::path& file) {
             read.fraction = bag->fractionRead();
         }
         read.fraction = bag->fractionRead();
+        if (read.broken_because.empty()) read.broken_because = bag->takeDamage();
         EXPECT_FALSE(bag->next(message));
     } catch (const BrokenRecording& e) {
-        read.broken_because = e.what();
+        if (bag) read.broken_because += bag->takeDamage();
+        if (read.broken_because.empty()) read.broken_because = e.what();
     }
     return read;
 }
@@ -207,7 +211,7 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
     expectBroken(chunk(far, "zstd"), "it claims a size of 9223372036854775807 bytes, more than");
     expectBroken(
         chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "brotli"),
-        "a record at byte 8: cannot be decompressed: its compression 'brotli' is not supported");
+        "the chunk at byte 8: cannot be decompressed: its compression 'brotli' is not supported");
     expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "zstd"), "cannot be decompressed: ");
     expectBroken(chunk(ByteString("\4\0\0\0\0\0\0\0", 8), "lz4"), "cannot be decompressed: ");
     expectBroken(chunk(ByteString("\5\0\0\0\0\0\0\0", 8), ""), "it has 4 bytes, but claims 5");

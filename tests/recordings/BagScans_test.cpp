@@ -20,6 +20,7 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
 using mrpt::obs::CObservationVelodyneScan;
 using mrpt::poses::CPose3D;
+using test::ByteString;
 using test::ReadBag;
 using test::readBag;
 using test::SentMessage;
@@ -317,6 +318,68 @@ TEST_F(BagScansTest, ImuInLidarFrameContainsMount) {
                         transform("/tf_static", "housing", "imu", 1)}));
     EXPECT_FALSE(hasImu({points, imu, transform("/tf_static", "base_link", "lidar", 0),
                          transform("/tf_static", "base_link", "imu", 1)}));
+}
+
+/// A cloud of 2 rows of 10 points (i, 2, -3).
+SentMessage cloudOf(std::uint32_t row_step, bool is_flagged_big_endian, bool is_big_endian) {
+    return test::sentMessage("/points", "sensor_msgs/PointCloud2", kStart_s, [&](auto& bytes) {
+        bytes.header(kStart_s, "lidar").number(std::uint32_t{2}).number(std::uint32_t{10});
+        bytes.number(std::uint32_t{3});
+        for (const std::uint32_t i : {0u, 1u, 2u}) {
+            bytes.text(std::string(1, "xyz"[i])).number(4 * i);
+            bytes.number(std::uint8_t{7}).number(std::uint32_t{1});
+        }
+        bytes.number(static_cast<std::uint8_t>(is_flagged_big_endian));
+        bytes.number(std::uint32_t{12}).number(row_step);
+        ByteString data;
+        for (int i = 0; i < 20; ++i) {
+            for (const float at_m : {static_cast<float>(i), 2.0f, -3.0f}) {
+                ByteString number(reinterpret_cast<const char*>(&at_m), sizeof at_m);
+                if (is_big_endian) std::reverse(number.begin(), number.end());
+                data += number;
+            }
+        }
+        bytes.counted(data).number(std::uint8_t{1});
+    });
+}
+
+TEST_F(BagScansTest, CorrectsRowStepAndByteOrder) {
+    for (const std::uint32_t row_step : {0u, 10u, 120u, 240u}) {
+        for (const bool flag : {false, true}) {
+            for (const bool is_big : {false, true}) {
+                SCOPED_TRACE(testing::Message() << row_step << " " << flag << is_big);
+                const ReadBag bag = read({cloudOf(row_step, flag, is_big)});
+                ASSERT_EQ(bag.failed_because, "");
+                mrpt::math::TPoint3D last;
+                const auto& points =
+                    *dynamic_cast<CObservationPointCloud&>(*bag.observations.at(0)).pointcloud;
+                points.getPoint(points.size() - 1, last.x, last.y, last.z);
+                EXPECT_EQ(last, mrpt::math::TPoint3D(19, 2, -3));
+                const auto reported = Contains(HasSubstr("is_bigendian is wrong"));
+                EXPECT_EQ(testing::Matches(reported)(bag.scans->remarks()), flag != is_big);
+            }
+        }
+    }
+}
+
+TEST_F(BagScansTest, SkipsDamagedChunk) {
+    std::vector<SentMessage> messages;
+    for (int i = 0; i < 10; ++i) messages.push_back(cloud("/points", 0.1 * i));
+    for (const char* compression : {"none", "zstd"}) {
+        ByteString mcap = test::mcapOf(messages, {compression, 2});
+        const auto path = folder_ / "flight.mcap";
+        mcap[mcap.size() / 2] = static_cast<char>(~mcap[mcap.size() / 2]);
+        test::writeBytes(path, mcap);
+        const ReadBag bag = readBag(path);
+        EXPECT_EQ(bag.of("points").size(), 8u) << bag.failed_because;
+        EXPECT_THAT(bag.failed_because, HasSubstr("the chunk at byte"));
+        BagOptions options;
+        options.first_scan = 6;
+        const ReadBag later = readBag(path, options);
+        EXPECT_EQ(later.failed_because, "");
+        EXPECT_EQ(later.of("points").size(), 8u);
+        EXPECT_THAT(later.scans->remarks(), Contains(HasSubstr("; skipped ")));
+    }
 }
 
 TEST_F(BagScansTest, ReportsUnreadableMessages) {

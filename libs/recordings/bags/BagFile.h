@@ -40,6 +40,8 @@ class BagFile {
     virtual const std::vector<BagTopic>& topics() const = 0;
     /// Fraction of the recording read so far, 0 ... 1.
     virtual double fractionRead() const = 0;
+    /// Describes a damaged chunk that next() has skipped since the last call; "" if there is none.
+    virtual std::string takeDamage() { return ""; }
     /// Remarks for the user on how the bag was read.
     virtual std::vector<std::string> remarks() const { return {}; }
     /// Calls `check` repeatedly during next(), because next() may search the whole file for a

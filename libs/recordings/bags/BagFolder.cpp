@@ -148,6 +148,7 @@ class BagFolder : public BagFile {
         return false;
     }
 
+    std::string takeDamage() override { return open_ ? open_->takeDamage() : ""; }
     const std::vector<BagTopic>& topics() const override { return topics_.all(); }
 
     double fractionRead() const override {

@@ -21,6 +21,7 @@ struct BagOptions {
     std::filesystem::path sensor_json;  ///< Ouster metadata file; if empty, from the bag
     /// If set, called with each accepted Ouster packet.
     std::function<void(const std::string& label, const sensors::Datagram&)> packet = nullptr;
+    std::size_t first_scan = 0;  ///< damaged chunks before this scan are remarks, later ones errors
 };
 
 struct BagSensor {

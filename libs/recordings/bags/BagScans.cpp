@@ -110,7 +110,7 @@ struct BagScans::Reader {
     std::shared_ptr<const SensorModel> mid360 =
         std::make_shared<const SensorModel>(sensorModel("Mid-360"));
     bool is_at_end = false;
-    std::size_t scans = 0, messages = 0;
+    std::size_t scans = 0, messages = 0, first_scan;
     std::size_t bytes_untrimmed = 0;  ///< size of the scans read since trimHeap()
     std::string broken_because;
 
@@ -119,7 +119,8 @@ struct BagScans::Reader {
           survey(surveyed),
           plan(planOf(name, survey, options)),
           bag(openBag(name)),
-          pass(options.packet) {
+          pass(options.packet),
+          first_scan(options.first_scan) {
         for (const auto& [topic, sensor] : plan.sensors) {
             TopicState& state = states[topic];
             state.name = topic;
@@ -136,10 +137,19 @@ struct BagScans::Reader {
     }
 
     bool next(BagMessage& message) {
-        if (order) return order->next(message);
-        if (!bag->next(message)) return false;
-        ++messages;
-        return true;
+        const bool is_read = order ? order->next(message) : bag->next(message);
+        if (!order) messages += is_read;
+        noteDamage();
+        return is_read;
+    }
+    void noteDamage() {
+        const std::string damage = bag->takeDamage();
+        if (damage.empty()) return;
+        if (scans < first_scan) {
+            plan.remarks.push_back(damage);
+        } else if (broken_because.empty()) {
+            broken_because = damage;
+        }
     }
     TopicState* stateOf(const BagMessage& message);
     void take(const BagMessage& message);
@@ -222,6 +232,10 @@ void BagScans::Reader::add(const CObservation::Ptr& scan, TopicState& state) {
 
 void BagScans::Reader::takeCloud(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
     PointCloud2 cloud = readPointCloud2(fields);
+    if (hasWrongByteOrder(cloud.table)) {
+        cloud.table.is_big_endian = !cloud.table.is_big_endian;
+        ++state.clouds_with["is_bigendian is wrong, read in the other byte order"];
+    }
     const std::int64_t time_ns = cloud.header.time_ns != 0 ? cloud.header.time_ns : recorded_ns;
     auto scan = observations::observationOf(
         std::make_shared<const PointTable>(std::move(cloud.table)), "", timeOf(time_ns));
@@ -433,7 +447,8 @@ CObservation::Ptr BagScans::next() {
                 r.finish();
             }
         } catch (const BrokenRecording& e) {
-            r.broken_because = e.what();
+            r.noteDamage();
+            if (r.broken_because.empty()) r.broken_because = e.what();
             r.finish();
         }
     }

@@ -61,6 +61,7 @@ class BagSource : public ScanSource {
 
     std::unique_ptr<BagScans> openScans(bool passes_packets = false) const {
         BagOptions options{options_.topics, options_.sensor_json};
+        options.first_scan = options_.first_scan;
         if (passes_packets && options_.packet) {
             options.packet = [this](const std::string& label, const sensors::Datagram& datagram) {
                 const bool is_skipped = scans_read_ < options_.first_scan;

@@ -202,6 +202,7 @@ LidarKind lidarKindOf(const BagTopic& topic) {
         {"ouster_msgs/PacketMsg", LidarKind::Ouster},
         {"ouster_sensor_msgs/PacketMsg", LidarKind::Ouster},
         {"livox_ros_driver2/CustomMsg", LidarKind::Livox2},
+        {"livox_interfaces/CustomMsg", LidarKind::Livox1},
         {"livox_ros_driver/CustomMsg", LidarKind::Livox1}};
     const auto found = kinds.find(topic.type);
     if (found == kinds.end()) return LidarKind::None;

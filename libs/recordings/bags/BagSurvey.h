@@ -22,7 +22,7 @@ enum class LidarKind {
     Velodyne,  ///< velodyne_msgs/VelodyneScan
     Ouster,    ///< PacketMsg of ouster_ros, ouster_msgs and ouster_sensor_msgs
     Livox2,    ///< livox_ros_driver2/CustomMsg
-    Livox1     ///< livox_ros_driver/CustomMsg
+    Livox1     ///< CustomMsg of livox_ros_driver and livox_interfaces (older models)
 };
 LidarKind lidarKindOf(const BagTopic& topic);
 

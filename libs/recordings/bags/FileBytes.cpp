@@ -22,9 +22,13 @@ double FileBytes::fractionRead() const {
     return size_ == 0 ? 1.0 : static_cast<double>(position_) / static_cast<double>(size_);
 }
 
+std::string FileBytes::textOf(const std::string& what, std::uint64_t byte,
+                              const std::string& why) const {
+    return path_.string() + ": " + what + " at byte " + std::to_string(byte) + ": " + why;
+}
+
 void FileBytes::fail(const std::string& what, std::uint64_t byte, const std::string& why) const {
-    throw BrokenRecording(path_.string() + ": " + what + " at byte " + std::to_string(byte) + ": " +
-                          why);
+    throw BrokenRecording(textOf(what, byte, why));
 }
 
 void FileBytes::checkLeft(std::uint64_t count, const std::string& what) const {

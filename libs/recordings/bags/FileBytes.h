@@ -32,7 +32,9 @@ class FileBytes {
     std::uint32_t crc() const { return crc_; }
     void restartCrc() { crc_ = 0; }
 
-    /// Throws BrokenRecording with the message "FILE: WHAT at byte N: WHY".
+    /// "FILE: WHAT at byte N: WHY"
+    std::string textOf(const std::string& what, std::uint64_t byte, const std::string& why) const;
+    /// Throws BrokenRecording with this text.
     [[noreturn]] void fail(const std::string& what, std::uint64_t byte,
                            const std::string& why) const;
 

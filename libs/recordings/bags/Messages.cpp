@@ -86,7 +86,9 @@ void takeImage(ByteView data, std::uint64_t width, std::uint64_t height, std::ui
     table.points = 0;
     if (width == 0 || height == 0) return;
     const std::uint64_t row_bytes = width * table.bytes_per_point;  // cannot overflow: both 32-bit
-    const bool is_joined = height == 1 || row_step == 0 || row_step == row_bytes;
+    // Some drivers set row_step to the size of the whole cloud.
+    const bool is_joined =
+        height == 1 || row_step == 0 || row_step == row_bytes || row_bytes * height == data.size;
     if (!is_joined && row_step < row_bytes) {
         throw std::runtime_error("its header claims rows of " + std::to_string(row_step) +
                                  " bytes, too few for " + std::to_string(width) + " points of " +
@@ -164,6 +166,32 @@ PointCloud2 readPointCloud2(FieldReader& fields) {
     const ByteView data = fields.take(fields.count(1));
     takeImage(data, width, height, row_step, table);
     return cloud;
+}
+
+bool hasWrongByteOrder(const PointTable& table) {
+    constexpr std::size_t kMaxExamined = 1000;
+    const auto plausible = [](const PointTable& some) {
+        std::size_t count = 0;
+        for (const char* name : {"x", "y", "z"}) {
+            const observations::PointField* const field = findExactly(some, name);
+            if (field == nullptr) continue;
+            for (const double at_m : columnOf(some, *field)) {
+                const double size_m = std::abs(at_m);
+                count += at_m == 0 || (size_m > 1e-4 && size_m < 1e4);
+            }
+        }
+        return count;
+    };
+    check(table);
+    std::vector<std::uint32_t> examined;
+    const std::size_t step = table.points / kMaxExamined + 1;
+    for (std::size_t i = 0; i < table.points; i += step) {
+        examined.push_back(static_cast<std::uint32_t>(i));
+    }
+    PointTable some = pointsOf(table, examined);
+    const std::size_t as_stated = plausible(some);
+    some.is_big_endian = !some.is_big_endian;
+    return 2 * as_stated < plausible(some);
 }
 
 VelodyneScanMessage readVelodyneScan(FieldReader& fields) {

@@ -38,6 +38,8 @@ struct PointCloud2 {
     observations::PointTable table;
 };
 PointCloud2 readPointCloud2(FieldReader& fields);
+/// Whether the coordinates are plausible, from 0.1 mm to 10 km, only in the other byte order.
+bool hasWrongByteOrder(const observations::PointTable& table);
 
 /// velodyne_msgs/VelodyneScan.
 struct VelodyneScanMessage {

@@ -2,6 +2,8 @@
 #include "recordings/bags/BagFile.h"
 
 #include <map>
+#include <string>
+#include <utility>
 
 #include "recordings/bags/FieldReader.h"
 #include "recordings/bags/FileBytes.h"
@@ -13,6 +15,7 @@ namespace hagen::recordings {
 class RecordFile : public BagFile {
  public:
     bool next(BagMessage& message) final;
+    std::string takeDamage() final;
     const std::vector<BagTopic>& topics() const final { return topics_.all(); }
     double fractionRead() const final { return file_.fractionRead(); }
 
@@ -34,6 +37,10 @@ class RecordFile : public BagFile {
     std::uint64_t record_at_ = 0;                    ///< byte offset of the record or its chunk
     std::vector<std::uint8_t> head_, content_, chunk_;
     FieldReader in_chunk_{ByteView()};  ///< rest of the chunk, which is in the buffers above
+    bool is_chunk_ = false;    ///< whether the record that begins at record_at_ is a whole chunk
+    bool is_damaged_ = false;  ///< whether a damaged chunk was skipped
+    std::string damage_;       ///< the first damaged chunk since takeDamage()
+    std::size_t further_ = 0;  ///< damaged chunks after it
     bool is_at_end_ = false;
 };
 

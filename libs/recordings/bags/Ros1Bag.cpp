@@ -103,6 +103,7 @@ class Ros1Bag : public RecordFile {
         const ByteView data{content_.data(), content_.size()};
         if (op != kRos1Chunk) return takeRecord(header, data, message);
         ++chunks_;
+        is_chunk_ = true;
         in_chunk_ = FieldReader(
             unpack(header.at("compression"), data, header.number<std::uint32_t>("size"), chunk_));
         return false;
