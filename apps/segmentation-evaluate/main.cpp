@@ -1,5 +1,6 @@
 // Scores the filter on labelled scan folders, with one set of settings or a sweep.
 #include <hagen/evaluation/Evaluation.h>
+#include <hagen/filter/ResultCheck.h>
 #include <hagen/settings/Presets.h>
 #include <filesystem>
 #include <functional>
@@ -170,11 +171,17 @@ int run(const Flags& flags, evaluation::Summary summary) {
 
     std::vector<evaluation::MethodScores> methods;
     std::vector<evaluation::HardSet> hard_sets;
+    std::vector<ResultCheck> checks(sources.size());  // of the filter's first row
     {
         Progress progress(sources, 1 + degradations.size());
         methods = evaluation::evaluate(sources, options, [&](const evaluation::MethodOutput& view) {
             endIfInterrupted();
             progress.show(view);
+            if (view.method == 0 && !rows.filter.empty()) {
+                checks[view.source].add(view.truth.input.scan, view.found,
+                                        sources[view.source]->sensor(),
+                                        rows.filter.front().settings.options);
+            }
             outputs.write(outputs.overlay, [&](const fs::path& folder) {
                 evaluation::drawOverlay(folder, sources[view.source]->name(), view, options);
             });
@@ -209,6 +216,9 @@ int run(const Flags& flags, evaluation::Summary summary) {
     for (std::size_t f = 0; f < summary.folders.size(); ++f) {
         for (const std::string& remark : summary.folder_remarks[f]) {
             std::cerr << summary.folders[f] << ": " << oneLine(remark) << "\n";
+        }
+        for (const std::string& warning : checks[f].warnings()) {
+            std::cerr << summary.folders[f] << ": WARNING: " << warning << "\n";
         }
     }
     std::cout << reportOf(summary) << std::flush;

@@ -1,6 +1,7 @@
 #include <hagen/base/OutputPath.h>
 #include <hagen/convert/Conversion.h>
 #include <hagen/convert/MapOutput.h>
+#include <hagen/filter/ResultCheck.h>
 #include <hagen/mrpt/MrptMessage.h>
 #include <hagen/mrpt/TimeStamp.h>
 #include <mrpt/img/CImage.h>
@@ -21,7 +22,6 @@
 #include <thread>
 
 #include "convert/ConversionOutputs.h"
-#include "convert/GroundCheck.h"
 #include "convert/OrderedPipeline.h"
 #include "convert/SegmentEntry.h"
 #include "recordings/SensorCheck.h"
@@ -236,7 +236,8 @@ class Converter {
         report.name = outputs_.writeScan(scan.segmented, scan.recorded, settings_);
         outputs_.show(report, scan.segmented);
         count(scan.segmented, report, title, report_);
-        ground_check_.see(scan.segmented);
+        const observations::ObservationSegmenter::Output& out = scan.segmented;
+        result_check_.add(*out.scan, out.result->returns.label, *out.sensor, *out.options);
     }
 
     void remarkOn(const ConvertedScan& scan, const std::string& title) const {
@@ -342,22 +343,19 @@ class Converter {
 
     /// Reports results that suggest wrong settings or coordinates.
     void remarkOnLabels() {
-        report_.scans_without_ground = ground_check_.scans() - ground_check_.scansWithGround();
-        const std::string no_ground = ground_check_.warning();
-        if (!no_ground.empty()) listener_.remark("WARNING", no_ground);
+        report_.scans_without_ground = result_check_.scansWithoutGround();
+        for (const std::string& warning : result_check_.warnings()) {
+            listener_.remark("WARNING", warning);
+        }
         if (!settings_.airframe.parts.isEmpty() && report_.scans > 0 &&
             report_.returns_masked == 0) {
             listener_.remark("the log",
                              "the settings' airframe masks no returns; does it belong to "
                              "this vehicle, in the sensor frame?");
         }
-        if (report_.returns == 0 || report_.roi > 0) return;
-        listener_.remark("the log",
-                         report_.rou == 0
-                             ? "no return has a range: all are unclassified"
-                             : "no return is RoI. If obstacles are expected: are the "
-                               "coordinates in metres, relative to the sensor (x forward, z up) "
-                               "and not to a map?");
+        if (report_.returns > 0 && report_.roi + report_.rou == 0) {
+            listener_.remark("the log", "no return has a range: all are unclassified");
+        }
     }
 
     void remarkOnRecording() {
@@ -419,7 +417,7 @@ class Converter {
     /// Time of the last segmented scan, by sensor label.
     std::map<std::string, mrpt::Clock::time_point> last_segmented_;
     recordings::SensorCheck sensor_check_;
-    GroundCheck ground_check_;
+    ResultCheck result_check_;
     ConversionReport report_;
 };
 

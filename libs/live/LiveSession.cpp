@@ -94,7 +94,7 @@ class Session {
     bool is_uncertain_ = false;
     bool is_flushed_ = true, is_silent_ = false, is_empty_ = false;
     bool is_recording_reported_ = false, is_slow_recording_reported_ = false;
-    bool is_airframe_reported_ = false;
+    bool is_airframe_reported_ = false, is_result_reported_ = false;
     bool has_place_ = false;
     std::size_t foreign_ip_ = 0;
     std::size_t dropped_ = 0, dropped_before_ = 0;  ///< total, and total at the last status
@@ -109,7 +109,7 @@ Session::Session(const LiveOptions& options, const LiveListener& listener, bool 
         options.settings, [this](const LabelledSector& sector) { takeSector(sector); },
         options.streaming);
     const StreamingSegmenter& segmenter = stream_->segmenter();
-    figures_.emplace(segmenter.sensor(), options_.settings.mount, report_);
+    figures_.emplace(segmenter.sensor(), options_.settings, report_);
     listener_.begin(segmenter.sensor(), segmenter.options());
     if (options.recording.file.empty()) return;
     recorder_ = std::make_unique<Recorder>(options.recording, bool{listener_.motion}, !is_live);
@@ -119,6 +119,11 @@ void Session::takeSector(const LabelledSector& sector) {
     figures_->take(sector, steadyNow_s());
     listener_.sector(sector);
     reportEmptiness(sector.returns);
+    if (!is_result_reported_) {
+        const std::vector<std::string> warnings = figures_->resultWarnings();
+        is_result_reported_ = !warnings.empty();
+        for (const std::string& warning : warnings) listener_.remark("WARNING: " + warning);
+    }
     if (is_airframe_reported_) return;
     const std::string warning = figures_->airframeWarning(sector.last_time_s);
     is_airframe_reported_ = !warning.empty();

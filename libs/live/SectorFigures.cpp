@@ -2,6 +2,7 @@
 
 #include <hagen/scan/Angle.h>
 #include "base/NumberText.h"
+#include "scan/AppendReturn.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,8 @@ namespace hagen::live {
 namespace {
 
 constexpr double kDirections_s = 0.05;
+constexpr double kTurn_s = 0.1;
+constexpr std::size_t kTurnsChecked = 10;
 constexpr double kMinTime_s = 0.125;  // minimum time for a rate
 constexpr double kOtherRate = 0.2;    // minimum relative change that is reported
 constexpr float kAirframe_m = 1;
@@ -24,9 +27,12 @@ SectorDistances::Settings settingsFor(const Eigen::Matrix3f& vehicle_from_sensor
 
 }  // namespace
 
-SectorFigures::SectorFigures(const SensorModel& sensor, const Attitude& mount, LiveReport& report)
+SectorFigures::SectorFigures(const SensorModel& sensor, const Settings& settings,
+                             LiveReport& report)
     : report_(report),
-      vehicle_from_sensor_(levelFromSensor(mount)),
+      sensor_(sensor),
+      options_(settings.options),
+      vehicle_from_sensor_(levelFromSensor(settings.mount)),
       distances_(sensor, settingsFor(vehicle_from_sensor_)) {
     report_.nearest_m.fill(std::numeric_limits<float>::infinity());
 }
@@ -51,6 +57,27 @@ void SectorFigures::take(const LabelledSector& sector, double now_s) {
     distances_.take(sector);
     report_.sectors_doubtful += sector.is_doubtful;
     noteNearest(sector);
+    if (turns_checked_ < kTurnsChecked) checkTurn(sector);
+}
+
+/// Checks a turn per second. Nothing is known of ground until half a turn is.
+void SectorFigures::checkTurn(const LabelledSector& sector) {
+    if (sector.is_doubtful || sector.first_time_s < turn_from_s_) return;
+    if (turn_.size() == 0) turn_from_s_ = sector.first_time_s;
+    for (std::size_t i = 0; i < sector.returns.size(); ++i) {
+        appendReturn(sector.returns, i, turn_);
+    }
+    turn_labels_.insert(turn_labels_.end(), sector.label.begin(), sector.label.end());
+    if (sector.last_time_s - turn_from_s_ < kTurn_s) return;
+    check_.add(turn_, turn_labels_, sensor_, options_);
+    ++turns_checked_;
+    turn_from_s_ += 1;
+    turn_.clear();
+    turn_labels_.clear();
+}
+
+std::vector<std::string> SectorFigures::resultWarnings() const {
+    return turns_checked_ < kTurnsChecked ? std::vector<std::string>() : check_.warnings();
 }
 
 void SectorFigures::noteNearest(const LabelledSector& sector) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <hagen/filter/ResultCheck.h>
 #include <hagen/live/LiveSession.h>
 
 #include <array>
@@ -16,7 +17,7 @@ struct RateChange {
 class SectorFigures {
  public:
     /// Directions are relative to the vehicle; `mount` is the sensor's tilt on it.
-    SectorFigures(const SensorModel& sensor, const Attitude& mount, LiveReport& report);
+    SectorFigures(const SensorModel& sensor, const Settings& settings, LiveReport& report);
 
     /// Adds a sector labelled at `now_s`.
     void take(const LabelledSector& sector, double now_s);
@@ -34,13 +35,18 @@ class SectorFigures {
     /// Returns a warning if RoI returns stay within 1 m in the same direction for 10 s, as those of
     /// the vehicle itself do; empty otherwise.
     std::string airframeWarning(double now_s) const;
+    /// Warnings about the labels of ten turns, one per second; empty until then.
+    std::vector<std::string> resultWarnings() const;
     /// Resets status and rate.
     void next();
 
  private:
     void noteNearest(const LabelledSector& sector);
+    void checkTurn(const LabelledSector& sector);
 
     LiveReport& report_;
+    SensorModel sensor_;
+    Options options_;
     Eigen::Matrix3f vehicle_from_sensor_;
     SectorDistances distances_;
     struct Near {
@@ -48,6 +54,11 @@ class SectorFigures {
         float nearest_m = 0;
     };
     std::array<Near, SectorDistances::kSectors> near_;
+    ResultCheck check_;
+    Scan turn_;  ///< returns of the turn to be checked, and their labels
+    std::vector<Label> turn_labels_;
+    std::size_t turns_checked_ = 0;
+    double turn_from_s_ = 0;
     double counted_s_ = 0;
     LatencyHistogram recent_;
     double recent_sweep_rad_ = 0, recent_first_s_ = 0, recent_last_s_ = 0, reported_rate_ = 0;

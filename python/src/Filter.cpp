@@ -2,6 +2,7 @@
 
 #include <hagen/scan/Airframe.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -113,6 +114,7 @@ std::shared_ptr<Segmented> Filter::segment(const PointsView& points,
     filter.segment(segmented->scan, attitude ? attitude : otherwise);
     filter.exchangeResult(segmented->result);
     segmented->sensor = filter.sensor().name;
+    check(*segmented, filter.sensor(), filter.options());
     giveBack(std::move(filter), generation);
     return segmented;
 }
@@ -147,7 +149,26 @@ std::shared_ptr<Segmented> Filter::segment(const PythonScan& scan,
     segmented->result = *out.result;
     segmented->sensor = out.sensor->name;
     segmented->remark = out.remark;
+    check(*segmented, *out.sensor, *out.options);
     return segmented;
+}
+
+void Filter::check(const Segmented& segmented, const SensorModel& sensor, const Options& options) {
+    const std::lock_guard lock(mutex_);
+    check_.add(segmented.scan, segmented.result.returns.label, sensor, options);
+    ++scans_;
+}
+
+std::vector<std::string> Filter::newWarnings() {
+    const std::lock_guard lock(mutex_);
+    if (scans_ != 1 && scans_ != 10 && scans_ % 100 != 0) return {};
+    std::vector<std::string> warnings = check_.warnings();
+    const auto isKnown = [this](const std::string& warning) {
+        constexpr std::size_t kKind = 20;  // characters before the number of scans
+        return !warned_.insert(warning.substr(0, kKind)).second;
+    };
+    warnings.erase(std::remove_if(warnings.begin(), warnings.end(), isKnown), warnings.end());
+    return warnings;
 }
 
 }  // namespace hagen::python

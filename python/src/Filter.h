@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/filter/HagenFilter.h>
+#include <hagen/filter/ResultCheck.h>
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <hagen/settings/Settings.h>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,10 @@ class Filter {
     std::shared_ptr<Segmented> segment(const PythonScan& scan,
                                        const std::optional<Attitude>& attitude);
 
+    /// Warnings about the results (ResultCheck) after the first, 10th and every 100th scan, each
+    /// kind once.
+    std::vector<std::string> newWarnings();
+
     const Settings& settings() const { return settings_; }
     SensorModel sensor() const;
 
@@ -57,7 +63,12 @@ class Filter {
     const Settings settings_;
     std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
 
+    void check(const Segmented& segmented, const SensorModel& sensor, const Options& options);
+
     mutable std::mutex mutex_;  ///< guards all members below
+    ResultCheck check_;
+    std::size_t scans_ = 0;
+    std::set<std::string> warned_;  ///< kinds of the warnings given
     std::vector<HagenFilter> idle_;
     int generation_ = 0;  ///< number of sensor changes; filters of earlier sensors are dropped
     observations::CloudSensors sensors_;

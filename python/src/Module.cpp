@@ -65,15 +65,21 @@ std::optional<Attitude> attitudeFrom(const py::object& attitude) {
 std::shared_ptr<Segmented> segment(Filter& filter, const py::object& scan,
                                    const py::object& attitude) {
     const std::optional<Attitude> tilt = attitudeFrom(attitude);
+    std::shared_ptr<Segmented> segmented;
     if (py::isinstance<PythonScan>(scan)) {
         const auto& recorded = scan.cast<const PythonScan&>();
         const GilRelease gil_release;
-        return filter.segment(recorded, tilt);
+        segmented = filter.segment(recorded, tilt);
+    } else {
+        const py::array_t<float> points = pointsFrom(scan);
+        const PointsView view = viewOf(points);
+        const GilRelease gil_release;
+        segmented = filter.segment(view, tilt);
     }
-    const py::array_t<float> points = pointsFrom(scan);
-    const PointsView view = viewOf(points);
-    const GilRelease gil_release;
-    return filter.segment(view, tilt);
+    for (const std::string& warning : filter.newWarnings()) {
+        if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
+    }
+    return segmented;
 }
 
 /// Measures the C++ filter alone on these points [s], for benchmarks/python/python_speed.py.

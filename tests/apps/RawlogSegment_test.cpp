@@ -211,7 +211,7 @@ TEST_F(RawlogSegment, ReportsCloudsWithoutBeams) {
 
     writeScan(randomScan(1000, {130, -60, 10}, {150, -40, 14}));  // in map coordinates
     const auto far = expectSuccess({"-i", path("scans"), "--stats", path("c.json")});
-    EXPECT_THAT(far.err, HasSubstr("no return is RoI"));
+    EXPECT_THAT(far.err, HasSubstr("no obstacle was found in 1 of 1 scan"));
     EXPECT_THAT(far.err, HasSubstr("relative to the sensor"));
 }
 

@@ -705,9 +705,8 @@ TEST_P(ConversionTest, FindsExternalClouds) {
     std::vector<std::string> remarks;
     const ConversionReport report = convert(conversion(), remarksInto(remarks));
     EXPECT_EQ(report.returns, 2u);
-    ASSERT_EQ(remarks.size(), 2u);
+    ASSERT_EQ(remarks.size(), 1u);
     EXPECT_THAT(remarks[0], HasSubstr((folder_ / "out_Images").string()));
-    EXPECT_THAT(remarks[1], HasSubstr("no ground was found in 1 of 1 scan"));
 }
 
 TEST_P(ConversionTest, NeverReplacesInput) {

@@ -29,6 +29,8 @@ std::vector<Read> readAll(const fs::path& file) {
         messages.emplace_back(topic.name, topic.type, message.time_ns,
                               Bytes(message.bytes, message.bytes + message.size));
     }
+    const std::string damage = bag->takeDamage();
+    if (!damage.empty()) throw std::runtime_error(damage);
     return messages;
 }
 

@@ -100,6 +100,12 @@ void LoggedScans::placeAll(const std::vector<TimePoint>& times, const std::strin
                              " s; check that both belong to the same flight and clock");
 }
 
+std::vector<std::string> LoggedScans::remarks() const {
+    std::vector<std::string> remarks = source_->remarks();
+    for (const std::string& warning : check_.warnings()) remarks.push_back("WARNING: " + warning);
+    return remarks;
+}
+
 bool LoggedScans::next(LoggedScan& scan) {
     const observations::Trajectory& vehicle = source_->poses().vehicle;
     while (const auto recorded = source_->nextScan()) {
@@ -118,6 +124,7 @@ bool LoggedScans::next(LoggedScan& scan) {
             }
             continue;
         }
+        check_.add(*out.scan, out.result->returns.label, *out.sensor, *out.options);
         scan.entry = recorded->entry;
         scan.filter_ms = std::chrono::duration<double, std::milli>(out.filter_cpu_time).count();
         place(out, *recorded->observation, vehicle, own_reach_m_, scan);

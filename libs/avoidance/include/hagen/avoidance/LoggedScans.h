@@ -1,5 +1,6 @@
 #pragma once
 #include <hagen/mrpt/MappedScan.h>
+#include <hagen/filter/ResultCheck.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/settings/Settings.h>
@@ -57,8 +58,8 @@ class LoggedScans {
     /// Number of unreadable scans so far, and the first error.
     std::size_t unreadableScans() const { return unreadable_; }
     const std::string& whyUnreadable() const { return why_unreadable_; }
-    /// Remarks about the log as a whole (ScanSource::remarks()).
-    std::vector<std::string> remarks() const { return source_->remarks(); }
+    /// Remarks about the log as a whole (ScanSource::remarks(), ResultCheck::warnings()).
+    std::vector<std::string> remarks() const;
     /// Contains the vehicle's position at every scan.
     const Eigen::AlignedBox3f& flight_m() const { return flight_m_; }
 
@@ -67,6 +68,7 @@ class LoggedScans {
 
     std::unique_ptr<recordings::ScanSource> source_;
     observations::ObservationSegmenter segmenter_;
+    ResultCheck check_;
     float own_reach_m_;
     std::size_t scans_ = 0, without_pose_ = 0, unreadable_ = 0;
     std::string why_unreadable_;
