@@ -19,7 +19,8 @@ enum class LidarKind {
     Velodyne,  ///< velodyne_msgs/VelodyneScan
     Ouster,    ///< PacketMsg of ouster_ros, ouster_msgs and ouster_sensor_msgs
     Livox2,    ///< livox_ros_driver2/CustomMsg
-    Livox1     ///< livox_ros_driver/CustomMsg
+    Livox1,    ///< livox_ros_driver/CustomMsg
+    Hesai      ///< pandar_msgs/PandarScan
 };
 LidarKind lidarKindOf(const BagTopic& topic);
 
