@@ -27,7 +27,8 @@ struct VelodyneModel {
     double blockPeriodUs() const { return firings_per_block * firing_period_us; }
     /// Time between packets.
     double packetPeriodUs(bool is_dual) const {
-        return 12 / blocksAtOnce(is_dual) * blockPeriodUs();
+        const int azimuths = usedBlocks(is_dual) / blocksAtOnce(is_dual);
+        return azimuths * blockPeriodUs();
     }
     /// Time from a firing's first laser to this laser. A VLS-128 pauses after 64 lasers.
     double delayUs(int laser) const {
