@@ -1,6 +1,7 @@
 #include "mrpt/VelodyneEncoder.h"
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/sensors/VelodyneCalibration.h>
+#include <hagen/sensors/VelodynePacket.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -83,22 +84,24 @@ double firingAzimuthDeg(const sensors::VelodyneModel& model, const Firings& firi
 std::vector<Packet> encodePackets(const sensors::VelodyneModel& model, const Firings& firings) {
     checkSizes(model, firings);
     const bool dual = firings.last_range_m.size() != 0;
-    const int blocks_per_firing = dual ? 2 : 1;
+    const int at_once = model.blocksAtOnce(dual), used = model.usedBlocks(dual);
     const int firing_count = static_cast<int>(firings.range_m.cols());
-    const int firings_per_packet = kBlocks / blocks_per_firing * model.firings_per_block;
+    const int firings_per_packet = used / at_once * model.firings_per_block;
 
     std::vector<Packet> packets;
     for (int first = 0; first < firing_count; first += firings_per_packet) {
         PacketWriter bytes;
         for (int b = 0; b < kBlocks; ++b) {
-            const int block_firing = first + b / blocks_per_firing * model.firings_per_block;
+            const int block_firing = first + b / at_once * model.firings_per_block;
+            const int bank = b % at_once / (dual ? 2 : 1);
             // In dual mode, a block of last returns precedes a block of strongest returns.
             const auto& range_m = dual && b % 2 == 0 ? firings.last_range_m : firings.range_m;
-            bytes.put16(CObservationVelodyneScan::UPPER_BANK);
+            bytes.put16(b < used ? sensors::kBankHeaders[bank] : 0);
             bytes.put16(azimuthUnits(readingOf(model, firings, 0, block_firing)));
             for (int i = 0; i < kReturns; ++i) {
-                const int laser = i % model.lasers, firing = block_firing + i / model.lasers;
-                const bool fired = firing < firing_count;
+                const int laser = (kReturns * bank + i) % model.lasers;
+                const int firing = block_firing + i / model.lasers;
+                const bool fired = b < used && firing < firing_count;
                 bytes.put16(fired ? distanceUnits(range_m(laser, firing), model) : 0);
                 bytes.put8(fired ? intensityUnits(firings.intensity(laser, firing)) : 0);
             }

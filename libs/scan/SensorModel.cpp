@@ -14,6 +14,18 @@ std::vector<double> evenly(int count, double lowest_deg, double step_deg) {
     return elevations_deg;
 }
 
+std::vector<double> vls128Elevations() {
+    std::vector<double> elevations_deg{-25.0,  -19.582, -16.042, -13.565, -11.742, -10.346,
+                                       -9.244, -8.352,  -7.65,   -7.15,   -6.85,   -6.65};
+    const std::vector<double> dense = evenly(104, -6.5, 0.11);
+    elevations_deg.insert(elevations_deg.end(), dense.begin(), dense.end());
+    for (const double elevation_deg :
+         {4.98, 5.18, 5.43, 5.73, 6.08, 6.48, 6.98, 7.58, 8.43, 9.7, 11.75, 15.0}) {
+        elevations_deg.push_back(elevation_deg);
+    }
+    return elevations_deg;
+}
+
 std::vector<double> hdl64Elevations() {
     std::vector<double> elevations_deg = evenly(32, -24.33, 0.5);               // lower block
     const std::vector<double> upper = evenly(32, -8.0 - 1.0 / 3.0, 1.0 / 3.0);  // upper block
@@ -40,6 +52,9 @@ const std::vector<KnownSensor>& knownSensors() {
           0.667, 1.0,     1.333,  1.667,  2.333,  3.333,  4.667,  7.0,    10.333, 15.0},
          0.5f,
          200.0f},
+        {"VLS-128", vls128Elevations(), 0.5f, 245.0f},
+        {"XT32", evenly(32, -16.0, 1.0), 0.05f, 120.0f},
+        {"XT16", evenly(16, -15.0, 2.0), 0.05f, 120.0f},
         {"OS0-128", evenly(128, -45.0, 90.0 / 127), 0.5f, 100.0f},
         {"OS1-64", evenly(64, -21.2, 42.4 / 63), 0.5f, 200.0f},
         {"Mid-360", evenly(24, -6.5, 2.5), 0.1f, 70.0f, false}};  // centres of 2.5-degree bands

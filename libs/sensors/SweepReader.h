@@ -56,8 +56,8 @@ class SweepReader {
     OtherDatagrams others_;
 };
 
-/// Reads Velodyne sensors, distinguished by address, port and model: VLP-16, Puck Hi-Res, HDL-32E
-/// and VLP-32C by the ID in their packets, HDL-64E by their blocks. `calibration`: HDL-64E
+/// Reads Velodyne sensors, distinguished by address, port and model: the HDL-64E by its
+/// blocks, the others by the ID in their packets. `calibration`: HDL-64E
 /// calibration file (readVelodyneCalibration()); if empty, HDL-64E packets are ignored. Throws
 /// std::runtime_error naming the file if it is invalid.
 std::unique_ptr<SweepReader> makeVelodyneSweeps(const std::filesystem::path& calibration = {});
@@ -69,5 +69,9 @@ std::unique_ptr<SweepReader> makeOusterSweeps(const std::filesystem::path& senso
 /// Reads Livox Mid-360 sensors (Livox SDK 2, Cartesian data), distinguished by address. A sweep
 /// lasts 0.1 s of the sensor's clock; late packets join the sweep in progress.
 std::unique_ptr<SweepReader> makeLivoxSweeps();
+
+/// Reads Hesai XT32 and XT16 sensors, distinguished by address. A sweep ends where the azimuth
+/// wraps; late packets join the sweep in progress.
+std::unique_ptr<SweepReader> makeHesaiSweeps();
 
 }  // namespace hagen::sensors

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "support/HesaiPackets.h"
 #include "support/OusterPackets.h"
 #include "support/SimpleFirings.h"
 
@@ -62,6 +63,7 @@ std::vector<test::SentMessage> everyMessage() {
     const auto sensor = sensors::ousterSensorOf(test::ousterJson(), "metadata");
     const std::string packet = test::packetsOf(sensor, test::randomFrame(sensor, 3))[0];
     return {test::cloudMessage("/points", kTime_s, "lidar", {1, 2, 3, 0.5f, 4, 5, 6, 0.25f}),
+            test::hesaiMessage("/hesai", kTime_s, "hesai", test::hesaiPackets(32, 1, 2), 4e-4),
             test::velodyneMessage("/velodyne", kTime_s, "velodyne", *scan, 1e-3),
             test::odometryMessage("/odom", kTime_s, "odom", "base_link", 1, 2, 3),
             test::transformMessage("/tf", kTime_s, "odom", "base_link", 1, 2, 3),

@@ -5,6 +5,7 @@
 
 #include "fuzz/Target.h"
 #include "support/CaptureWriter.h"
+#include "support/HesaiPackets.h"
 #include "support/OusterPackets.h"
 #include "support/SimpleFirings.h"
 
@@ -23,7 +24,7 @@ void readAll(const std::filesystem::path& file, std::unique_ptr<sensors::SweepRe
 
 void readCapture(std::string_view input) {
     Parts parts(input);
-    const std::size_t kind = parts.below(3);
+    const std::size_t kind = parts.below(4);
     const InputFile file(parts.rest(), "input.pcap");
     sensors::isCapture(file.path());
     mayRefuse([&] {
@@ -31,6 +32,8 @@ void readCapture(std::string_view input) {
             readAll(file.path(), sensors::makeVelodyneSweeps());
         } else if (kind == 1) {
             readAll(file.path(), sensors::makeLivoxSweeps());
+        } else if (kind == 3) {
+            readAll(file.path(), sensors::makeHesaiSweeps());
         } else {
             const InputFile json(test::ousterJson(), "sensor.json");
             readAll(file.path(), sensors::makeOusterSweeps(json.path()));
@@ -60,7 +63,10 @@ Seeds captureSeeds() {
     livox.content[5] = 10;
     livox.content[10] = 1;
     livox.to_port = 56301;
+    test::CaptureWriter hesai;
+    hesai.datagrams(test::hesaiPackets(16, 2, 3), 2e-4);
     return {'\0' + two,
+            '\3' + hesai.bytes(),
             '\0' + fragments.bytes(),
             '\0' + cooked.bytes(),
             '\0' + raw.bytes(),

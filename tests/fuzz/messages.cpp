@@ -19,7 +19,8 @@ const char* const kTypes[] = {"sensor_msgs/PointCloud2",
                               "livox_ros_driver2/CustomMsg",
                               "livox_ros_driver/CustomMsg",
                               "geometry_msgs/PoseStamped",
-                              "geometry_msgs/PoseWithCovarianceStamped"};
+                              "geometry_msgs/PoseWithCovarianceStamped",
+                              "pandar_msgs/PandarScan"};
 
 void readMessage(std::string_view input) {
     Parts parts(input);
@@ -30,7 +31,7 @@ void readMessage(std::string_view input) {
     std::vector<std::uint8_t> unpacked;
     mayRefuse([&] {
         recordings::FieldReader fields = fieldsOf(message, first >= 128 ? "cdr" : "ros1", unpacked);
-        switch (first % 11) {
+        switch (first % 12) {
             case 0: {
                 auto cloud = readPointCloud2(fields);
                 check(cloud.table);
@@ -61,6 +62,9 @@ void readMessage(std::string_view input) {
             case 8:
                 readLivox(fields);
                 return;
+            case 11:
+                readPandarScan(fields);
+                return;
             default:
                 readPoseStamped(fields).pose();
         }
@@ -74,7 +78,7 @@ Seeds messageSeeds() {
             if (message.type != kTypes[type]) continue;
             seeds.push_back(static_cast<char>(type) + message.ros1);
             std::size_t cdr = type;
-            while (cdr < 128) cdr += 11;
+            while (cdr < 128) cdr += 12;
             seeds.push_back(static_cast<char>(cdr) + message.cdr);
         }
     }

@@ -51,14 +51,25 @@ Seeds packetSeeds() {
                             test::bytesOf(scan->scan_packets[first + 1]));
         }
     }
+    observations::Firings firings;
+    firings.range_m.setConstant(128, 3, 5.0f);
+    firings.intensity.setConstant(128, 3, 1.0f);
+    for (const bool is_dual : {false, true}) {
+        if (is_dual) firings.last_range_m = firings.range_m;
+        seeds.push_back('\2' + bytesOf(0.5f, 100.0f));
+        for (const auto& packet : test::packetsOf(sensors::velodyneModel("VLS-128"), firings)) {
+            seeds.back() += packet;
+        }
+    }
     return seeds;
 }
 
-const bool kAdded = add({"velodyne_packets",
-                         decode,
-                         packetSeeds,
-                         {"\xff\xee", "\xff\xdd", "\x37\x22", "\x39\x22", "\x38\x21", "\xa0\x8c"},
-                         4000});
+const bool kAdded =
+    add({"velodyne_packets",
+         decode,
+         packetSeeds,
+         {"\xff\xee", "\xff\xdd", "\xff\xcc", "\x37\x22", "\x39\x22", "\x38\x21", "\xa0\x8c"},
+         4000});
 
 }  // namespace
 }  // namespace hagen::fuzz

@@ -440,36 +440,49 @@ TEST_F(VelodyneStreamTest, NoisyPacketsNeverThrow) {
     EXPECT_GT(counts.packets, 500u);  // the order is random, so many packets are too late
 }
 
-/// The sensor has a single beam: laser 9 of a VLP-32C points 4.2 degrees behind the head.
-TEST(VelodyneStreams, LaggingBeamKeepsObstacle) {
-    const auto& model = velodyneModel("VLP-32C");
+struct LaggingBeam {
+    std::string model;
+    int laser;  ///< the sensor's only beam
+    double offset_deg;
+    bool is_dual;
+};
+
+class LaggingBeams : public testing::TestWithParam<LaggingBeam> {};
+INSTANTIATE_TEST_SUITE_P(Models, LaggingBeams,
+                         testing::Values(LaggingBeam{"VLP-32C", 9, 4.2, false},
+                                         LaggingBeam{"VLS-128", 103, 6.354, true}));
+
+TEST_P(LaggingBeams, KeepObstacle) {
+    const auto& model = velodyneModel(GetParam().model);
+    const int laser = GetParam().laser;
     observations::Firings firings = test::fireAt({}, model, {0, 0, 2});
     firings.range_m.setZero();
     for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
-        const double azimuth_deg = observations::firingAzimuthDeg(model, firings, 9, firing);
+        const double azimuth_deg = observations::firingAzimuthDeg(model, firings, laser, firing);
         const bool is_hit = std::abs(std::remainder(azimuth_deg - 62.5, 360.0)) < 0.8;
-        if (is_hit) firings.range_m(9, firing) = 5;
+        if (is_hit) firings.range_m(laser, firing) = 5;
     }
-    SectorDistances distances(sensorModel("VLP-32C"));
+    if (GetParam().is_dual) firings.last_range_m = firings.range_m;
+    SectorDistances distances(sensorModel(model.name));
     BeamOffsets offsets;
-    LidarStream stream(sensors::makeDriver("VLP-32C"), {}, [&](const LabelledSector& sector) {
+    LidarStream stream(sensors::makeDriver(model.name), {}, [&](const LabelledSector& sector) {
         distances.take(sector);
         offsets = sector.offsets;
     });
-    for (int turn = 0; turn < 4; ++turn) {
+    for (int turn = 0; turn < 3; ++turn) {
         firings.first_time_us = 1000000 + 100000 * static_cast<std::uint32_t>(turn);
         const auto packets = test::packetsOf(model, firings);
         for (std::size_t i = 0; i < packets.size(); ++i) {
             const double part = static_cast<double>(i) / static_cast<double>(packets.size());
             const double time_s = 0.1 * (turn + part);
             add(packets[i], time_s, stream);
-            if (turn < 2) continue;
+            if (turn < 2 || i % 16 != 0) continue;
             ASSERT_EQ(distances.at(time_s)[12].state, SectorDistances::State::Obstacle) << time_s;
             ASSERT_EQ(distances.at(time_s)[40].state, SectorDistances::State::SeenNothing);
         }
     }
-    EXPECT_NEAR(degrees(offsets.behind_rad), 4.2, 1e-9);
-    EXPECT_NEAR(degrees(offsets.ahead_rad), 4.2, 1e-9);
+    EXPECT_NEAR(degrees(offsets.behind_rad), GetParam().offset_deg, 1e-9);
+    EXPECT_NEAR(degrees(offsets.ahead_rad), GetParam().offset_deg, 1e-9);
 }
 
 TEST(VelodyneStreams, Hdl64NeedsCalibration) {

@@ -129,7 +129,7 @@ void expectReturns(const sensors::VelodyneModel& model, const Firings& firings, 
 }
 
 TEST(VelodyneObservation, InvertsEncoding) {
-    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "VLS-128"}) {
         const sensors::VelodyneModel& model = sensors::velodyneModel(name);
         for (unsigned seed = 51; seed < 55; ++seed) {
             const Firings firings = randomFirings(seed, model, 24 * 40, 0.3);
@@ -141,7 +141,7 @@ TEST(VelodyneObservation, InvertsEncoding) {
 }
 
 TEST(VelodyneObservation, DecodesDualReturns) {
-    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "VLS-128"}) {
         const sensors::VelodyneModel& model = sensors::velodyneModel(name);
         Firings firings = randomFirings(55, model, 240, 0.0);
         firings.last_range_m = firings.range_m + 1.0f;
@@ -239,8 +239,8 @@ void expectDecodedAsPlainly(const CObservationVelodyneScan& observation, Scan& s
 /// A random scan: any part of a revolution and any share of missing returns. Half of the scans have
 /// dual returns, half a calibration with all corrections.
 CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
-    const char* const names[] = {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"};
-    const sensors::VelodyneModel& model = sensors::velodyneModel(names[random.whole(0, 3)]);
+    const char* const names[] = {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "VLS-128"};
+    const sensors::VelodyneModel& model = sensors::velodyneModel(names[random.whole(0, 4)]);
     const double missing = random.chance(0.2) ? 1.0 : static_cast<double>(random.real(0.0f, 0.9f));
     Firings firings = randomFirings(static_cast<unsigned>(random.whole(0, 1000000)), model,
                                     random.whole(1, 600), missing);

@@ -74,7 +74,7 @@ class VelodyneCaptureTest : public test::CaptureTest {
 };
 
 TEST_F(VelodyneCaptureTest, TurnEndsWhereAzimuthWraps) {
-    for (const std::string model : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
+    for (const std::string model : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "VLS-128"}) {
         SCOPED_TRACE(model);
         const double period_us = sensors::velodyneModel(model).firing_period_us;
         const Packets packets = packetsOf(model, static_cast<int>(310e3 / period_us), 200.0);
@@ -301,7 +301,7 @@ TEST_F(VelodyneCaptureTest, CountsIgnoredDatagrams) {
     ouster.to_port = 7502;
     writer.datagram(ouster);
     ByteString other_model = packetsOf("VLP-16", 24)[0];
-    other_model[1205] = '\xa1';
+    other_model[1205] = '\x63';
     writer.datagram(sent(other_model));
     ByteString hdl64 = packetsOf("VLP-16", 24)[0];
     for (std::size_t block = 1; block < 12; block += 2) hdl64[100 * block + 1] = '\xdd';
@@ -310,9 +310,37 @@ TEST_F(VelodyneCaptureTest, CountsIgnoredDatagrams) {
     EXPECT_EQ(read(writer.bytes()).size(), 1u);
     EXPECT_EQ(remarks_[1],
               "12 frames; ignored: 2 position packets (GPS), 2 packets from an HDL-64E (unreadable "
-              "without --calibration FILE), 1 packet from an unknown Velodyne (model id "
-              "0xa1), 1 other UDP datagram "
+              "without --calibration FILE), 1 packet from an unsupported sensor (VLS-128 "
+              "prototype, model id 0x63), 1 other UDP datagram "
               "(most: 1 of 8448 bytes to port 7502), 1 frame of other traffic");
+}
+
+TEST_F(VelodyneCaptureTest, NamesUnsupportedSensors) {
+    const auto starting = [](const std::string& start, std::size_t size) {
+        return sent(start + ByteString(size - start.size(), '\0'));
+    };
+    SentDatagram livox = starting("\x05\x01", 1362);
+    livox.content[9] = 2;
+    SentDatagram leishen = starting("\xff\xee", 1212),
+                 leishen_16 = sent(packetsOf("VLP-16", 24)[0]);
+    leishen.content.replace(100, 2, "\xff\xee");
+    leishen_16.content[1205] = '\x10';
+    CaptureWriter writer;
+    for (const auto& datagram : {starting("\x55\xaa\x05\x0a\x5a\xa5\x50\xa0", 1248),
+                                 starting("\x55\xaa\x05\x5a", 1248), livox, leishen, leishen_16}) {
+        writer.datagram(datagram);
+    }
+    EXPECT_TRUE(read(writer.bytes()).empty());
+    EXPECT_THAT(broken_,
+                HasSubstr("it has 1 packet from an unsupported sensor (Leishen C16, model id "
+                          "0x10), 1 packet from a Leishen (not supported), 1 packet from a "
+                          "Livox with SDK 1 (not supported), 2 packets from a RoboSense"));
+    EXPECT_THAT(broken_, Not(HasSubstr("Ouster")));
+    // Similar datagrams of other senders.
+    livox.content[9] = 3;
+    leishen.content[100] = '\0';
+    read(CaptureWriter().datagram(livox).datagram(leishen).bytes());
+    EXPECT_THAT(broken_, HasSubstr("it has 2 other UDP datagrams"));
 }
 
 TEST_F(VelodyneCaptureTest, LimitsNumberOfSensors) {

@@ -21,7 +21,8 @@ TEST(SensorModel, KnownSensorsMatchDataSheets) {
     };
     const std::vector<DataSheet> sensors{
         {"VLP-16", 16, -15, 15},      {"HDL-32E", 32, -30.67, 10.67}, {"HDL-64E", 64, -24.33, 2},
-        {"Puck Hi-Res", 16, -10, 10}, {"VLP-32C", 32, -25, 15},       {"OS0-128", 128, -45, 45},
+        {"Puck Hi-Res", 16, -10, 10}, {"VLP-32C", 32, -25, 15},       {"VLS-128", 128, -25, 15},
+        {"XT32", 32, -16, 15},        {"XT16", 16, -15, 15},          {"OS0-128", 128, -45, 45},
         {"OS1-64", 64, -21.2, 21.2},  {"Mid-360", 24, -6.5, 51}};
     ASSERT_EQ(knownSensorModels().size(), sensors.size());
     for (const auto& [name, count, lowest_deg, highest_deg] : sensors) {

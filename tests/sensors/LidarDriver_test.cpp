@@ -13,7 +13,8 @@ TEST(LidarDriver, RejectsUnsupportedSensors) {
     };
     for (const auto& [model, sensor_json, calibration, message] :
          {Choice{"OS1-64", "", "",
-                 "Supported: VLP-16, Puck Hi-Res, HDL-32E, VLP-32C, HDL-64E, Mid-360"},
+                 "Supported: VLP-16, Puck Hi-Res, HDL-32E, VLP-32C, VLS-128, HDL-64E, Mid-360, "
+                 "XT32, XT16"},
           {"HDL-64E", "", "", "--calibration FILE"},
           {"VLP-16", "", "db.xml", "db.xml"},
           {"VLP-16", "os.json", "", "--model"},

@@ -117,7 +117,23 @@ TEST_F(OusterSensorTest, ReadsMetadataWithoutFormat) {
     EXPECT_EQ(sensor.profile.name, "LEGACY");
     EXPECT_EQ(sensor.columns_per_frame, 2048u);
     EXPECT_EQ(sensor.columns_per_packet, 16u);
-    EXPECT_EQ(sensor.pixels, 3u);
+    EXPECT_EQ(sensor.packetBytes(), 12608u);  // 64 pixels, whatever the number of beams
+}
+
+TEST_F(OusterSensorTest, FindsPixelsOfFewerBeams) {
+    const auto withBeams = [&](const std::string& altitudes, const std::string& azimuths) {
+        return read(R"({"lidar_mode": "1024x10", "data_format": {"columns_per_frame": 1024,
+            "columns_per_packet": 16, "pixels_per_column": 8}, "beam_altitude_angles": [)" +
+                    altitudes + R"(], "beam_azimuth_angles": [)" + azimuths + "]}");
+    };
+    for (const OusterSensor& sensor :
+         {withBeams("0, 10, 0, 0, 0, -3, 0, -9", "0, -3, 0, 2, 0, -3, 0, -3"),
+          withBeams("10, 0, -3, -9", "-3, 2, -3, -3")}) {
+        EXPECT_THAT(sensor.beam_pixels, ElementsAre(1, 3, 5, 7));
+        EXPECT_EQ(sensor.row[1], 3);
+        EXPECT_EQ(sensor.row[7], 0);
+        EXPECT_EQ(sensor.model->rows(), 4);
+    }
 }
 
 TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {

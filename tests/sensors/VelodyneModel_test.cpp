@@ -9,7 +9,7 @@ namespace hagen::sensors {
 namespace {
 
 TEST(VelodyneModel, DefaultBeamsMatchDataSheets) {
-    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "VLS-128"}) {
         const auto& calibration = defaultCalibration(velodyneModel(name));
         const SensorModel expected = sensorModel(name), found = sensorOf(calibration, name);
         ASSERT_EQ(found.rows(), expected.rows());
@@ -27,9 +27,9 @@ TEST(VelodyneModel, RowsFollowElevation) {
 }
 
 TEST(VelodyneModel, BlockHasThirtyTwoReturns) {
-    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C"}) {
+    for (const char* name : {"VLP-16", "Puck Hi-Res", "HDL-32E", "VLP-32C", "VLS-128"}) {
         const VelodyneModel& model = velodyneModel(name);
-        EXPECT_EQ(model.lasers * model.firings_per_block, 32);
+        EXPECT_EQ(model.lasers * model.firings_per_block, 32 * model.banks());
         EXPECT_EQ(model.turnWithinBlock(0, 0), 0.0);
         EXPECT_LT(model.turnWithinBlock(model.firings_per_block - 1, model.lasers - 1), 1.0);
         EXPECT_EQ(findVelodyneModel(model.id), &model);
@@ -44,6 +44,12 @@ TEST(VelodyneModel, FiringTimesMatchManuals) {
     // A VLP-32C fires two lasers at a time; the last pair fires 15 periods after the first.
     EXPECT_EQ(velodyneModel("VLP-32C").delayUs(1), 0.0);
     EXPECT_DOUBLE_EQ(velodyneModel("VLP-32C").delayUs(31), 15 * 2.304);
+    // A VLS-128 fires eight, and pauses for one period after 64.
+    EXPECT_DOUBLE_EQ(velodyneModel("VLS-128").delayUs(63), 7 * 2.665);
+    EXPECT_DOUBLE_EQ(velodyneModel("VLS-128").delayUs(64), 9 * 2.665);
+    EXPECT_DOUBLE_EQ(velodyneModel("VLS-128").packetPeriodUs(false), 3 * 53.3);
+    EXPECT_DOUBLE_EQ(velodyneModel("VLS-128").packetPeriodUs(true), 53.3);
+    EXPECT_DOUBLE_EQ(hdl64Model().packetPeriodUs(false), 288.0);
     EXPECT_DOUBLE_EQ(velodyneModel("VLP-16").packetPeriodUs(false), 1327.104);
     EXPECT_DOUBLE_EQ(velodyneModel("VLP-16").packetPeriodUs(true), 663.552);
     EXPECT_DOUBLE_EQ(velodyneModel("HDL-32E").packetPeriodUs(false), 552.96);
@@ -74,7 +80,7 @@ TEST(VelodyneModel, AzimuthReadingsAreClockwise) {
 }
 
 TEST(VelodyneModel, RejectsOtherModels) {
-    EXPECT_EQ(findVelodyneModel(0xa1), nullptr);  // VLS-128: its packets differ
+    EXPECT_EQ(findVelodyneModel(0x63), nullptr);
     EXPECT_THROW(velodyneModel("HDL-64E"), std::invalid_argument);
 }
 

@@ -112,8 +112,9 @@ TEST_F(SettingsTest, PaperPresetHasOnlyPaperStages) {
 TEST_F(SettingsTest, PresetsDifferOnlyWhereDocumented) {
     Settings vlp16;
     mergeSettings(kConfig / "vlp16.yaml", vlp16);
-    for (const std::string file : {"hdl32e.yaml", "hdl64e.yaml", "mid360.yaml",
-                                   "ouster_os0_128.yaml", "ouster_os1_64.yaml", "common.yaml"}) {
+    for (const std::string file :
+         {"hdl32e.yaml", "hdl64e.yaml", "vls128.yaml", "xt32.yaml", "xt16.yaml", "mid360.yaml",
+          "ouster_os0_128.yaml", "ouster_os1_64.yaml", "common.yaml"}) {
         Settings preset;
         mergeSettings(kConfig / file, preset);
         for (const OptionKey& key : optionKeys()) {
@@ -134,6 +135,9 @@ TEST_F(SettingsTest, PresetsFitSensors) {
     for (const auto& [file, name, beams, columns] : {std::tuple{"vlp16.yaml", "VLP-16", 16, 870},
                                                      {"hdl32e.yaml", "HDL-32E", 32, 870},
                                                      {"hdl64e.yaml", "HDL-64E", 64, 870},
+                                                     {"vls128.yaml", "VLS-128", 128, 870},
+                                                     {"xt32.yaml", "XT32", 32, 870},
+                                                     {"xt16.yaml", "XT16", 16, 870},
                                                      {"mid360.yaml", "Mid-360", 24, 360},
                                                      {"ouster_os0_128.yaml", "OS0-128", 128, 870},
                                                      {"ouster_os1_64.yaml", "OS1-64", 64, 870}}) {

@@ -94,6 +94,19 @@ SentMessage velodyneMessage(const std::string& topic, double time_s, const std::
     });
 }
 
+SentMessage hesaiMessage(const std::string& topic, double time_s, const std::string& frame,
+                         const std::vector<std::string>& packets, double period_s) {
+    return sentMessage(topic, "pandar_msgs/PandarScan", time_s, [&](MessageBytes& bytes) {
+        bytes.header(time_s, frame).number(static_cast<std::uint32_t>(packets.size()));
+        double packet_s = time_s;
+        for (const std::string& packet : packets) {
+            bytes.time(packet_s).raw(packet + std::string(1500 - packet.size(), '\0'));
+            bytes.number(static_cast<std::uint32_t>(packet.size()));
+            packet_s += period_s;
+        }
+    });
+}
+
 SentMessage odometryMessage(const std::string& topic, double time_s, const std::string& frame,
                             const std::string& child, double x, double y, double z) {
     return sentMessage(topic, "nav_msgs/Odometry", time_s, [&](MessageBytes& bytes) {

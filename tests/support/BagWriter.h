@@ -74,6 +74,9 @@ SentMessage cloudMessage(const std::string& topic, double time_s, const std::str
 /// A velodyne_msgs/VelodyneScan with the packets of a scan.
 SentMessage velodyneMessage(const std::string& topic, double time_s, const std::string& frame,
                             const mrpt::obs::CObservationVelodyneScan& scan, double period_s);
+/// A pandar_msgs/PandarScan.
+SentMessage hesaiMessage(const std::string& topic, double time_s, const std::string& frame,
+                         const std::vector<std::string>& packets, double period_s);
 SentMessage odometryMessage(const std::string& topic, double time_s, const std::string& frame,
                             const std::string& child, double x, double y, double z);
 /// A single transform on /tf or /tf_static.

@@ -25,9 +25,8 @@ class Packet {
     explicit Packet(const CObservationVelodyneScan::TVelodyneRawPacket& raw)
         : bytes_(reinterpret_cast<const std::uint8_t*>(&raw)) {}
 
-    bool isSound(int block) const {
-        return number(block * kBlockBytes, 2) == CObservationVelodyneScan::UPPER_BANK &&
-               azimuth(block) < kTurn;
+    bool isSound(int block, unsigned bank = 0) const {
+        return number(block * kBlockBytes, 2) == 0xeeff - 0x1100 * bank && azimuth(block) < kTurn;
     }
     int azimuth(int block) const { return static_cast<int>(number(block * kBlockBytes + 2, 2)); }
     unsigned distance(int block, int i) const { return number(returnAt(block, i), 2); }
@@ -96,16 +95,18 @@ const VelodyneCalibration& calibrationOf(const CObservationVelodyneScan& observa
 
 /// The sensor's rotation between the blocks of consecutive firings, in 0.01 degrees. The median
 /// over the scan prevents rounded azimuths and broken blocks from shifting returns.
-int turnOfBlocks(const CObservationVelodyneScan& observation) {
+int turnOfBlocks(const CObservationVelodyneScan& observation, int banks) {
     std::vector<int> turns;
-    for (const auto& raw : observation.scan_packets) {
-        const Packet packet(raw);
-        const int step = packet.blocksPerFiring();
-        for (int b = 0; b + step < kBlocks; ++b) {
-            if (!packet.isSound(b) || !packet.isSound(b + step)) continue;
-            const int turn = wrapTurn(packet.azimuth(b + step) - packet.azimuth(b));
-            turns.push_back(turn > kTurn / 2 ? turn - kTurn : turn);
-        }
+    const auto compare = [&](const Packet& from, int a, const Packet& to, int b) {
+        if (!from.isSound(a) || !to.isSound(b)) return;
+        const int turn = wrapTurn(to.azimuth(b) - from.azimuth(a));
+        turns.push_back(turn > kTurn / 2 ? turn - kTurn : turn);
+    };
+    for (std::size_t p = 0; p < observation.scan_packets.size(); ++p) {
+        const Packet packet(observation.scan_packets[p]);
+        const int step = banks * packet.blocksPerFiring();
+        for (int b = 0; b + step < kBlocks; ++b) compare(packet, b, packet, b + step);
+        if (p > 0 && step == 8) compare(Packet(observation.scan_packets[p - 1]), 0, packet, 0);
     }
     if (turns.empty()) return 0;
     const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
@@ -160,8 +161,9 @@ std::size_t decodePlainly(const CObservationVelodyneScan& observation, Scan& sca
     const sensors::VelodyneModel& model =
         *sensors::findVelodyneModel(Packet(observation.scan_packets.front()).modelId());
     const std::vector<Laser> lasers = lasersOf(calibrationOf(observation, model));
-    const int turn = turnOfBlocks(observation);
-    const float unit_m = model.name == "VLP-32C" ? 0.004f : 0.002f;
+    const int banks = model.name == "VLS-128" ? 4 : 1;
+    const int turn = turnOfBlocks(observation, banks);
+    const float unit_m = model.name == "VLP-32C" || banks == 4 ? 0.004f : 0.002f;
     const unsigned first_us = Packet(observation.scan_packets.front()).time_us();
     scan.reserve(observation.scan_packets.size() * CObservationVelodyneScan::SCANS_PER_PACKET);
 
@@ -170,16 +172,17 @@ std::size_t decodePlainly(const CObservationVelodyneScan& observation, Scan& sca
         const Packet packet(observation.scan_packets[p]);
         double packet_us = static_cast<double>(packet.time_us()) - first_us;
         if (packet_us < 0) packet_us += kHourUs;  // time stamps wrap around every hour
-        for (int b = 0; b < kBlocks; ++b) {
-            if (!packet.isSound(b)) {
+        const int returns = packet.blocksPerFiring(), at_once = banks * returns;
+        for (int b = 0; b < (at_once == 8 ? 8 : kBlocks); ++b) {
+            const int bank = b % at_once / returns;
+            if (!packet.isSound(b, static_cast<unsigned>(bank))) {
                 ++unsound_blocks;
                 continue;
             }
-            const double block_us =
-                packet_us + b / packet.blocksPerFiring() * model.blockPeriodUs();
+            const double block_us = packet_us + b / at_once * model.blockPeriodUs();
             for (int i = 0; i < CObservationVelodyneScan::SCANS_PER_BLOCK; ++i) {
                 if (packet.distance(b, i) == 0) continue;  // no return
-                const int laser = i % model.lasers;
+                const int laser = (32 * bank + i) % model.lasers;
                 const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
                 appendReturn(lasers[laser], packet.azimuth(b) + turn * turn_in_block,
                              static_cast<float>(packet.distance(b, i)) * unit_m, scan);

@@ -97,7 +97,7 @@ class Planner {
 
     static std::string textOfKnownTypes() {
         return "sensor_msgs/PointCloud2, velodyne_msgs/VelodyneScan, Ouster PacketMsg, "
-               "Livox CustomMsg";
+               "Livox CustomMsg, pandar_msgs/PandarScan";
     }
 
     void chooseNamed() {
@@ -160,8 +160,12 @@ class Planner {
     /// Why a topic is not read unless it is selected; empty if it is read.
     std::string whyNot(const Topic& topic, const std::vector<const Topic*>& lidars) const {
         if (topic.kind == LidarKind::Velodyne && !isReadable(topic)) {
+            std::string found;
+            for (const auto& [id, packets] : topic.velodyne_ids) {
+                found += (found.empty() ? ", but from " : ", ") + sensors::describeUnsupported(id);
+            }
             return "its packets are not from a known Velodyne (" +
-                   sensors::knownVelodynes().substr(1) + ")";
+                   sensors::knownVelodynes().substr(1) + ")" + found;
         }
         if (topic.kind != LidarKind::Cloud) return "";
         for (const Topic* other : lidars) {

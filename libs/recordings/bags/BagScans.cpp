@@ -43,6 +43,7 @@ struct TopicState {
     // Only for packets:
     std::optional<sensors::VelodyneTurns> turns;
     std::unique_ptr<sensors::OusterFrames> frames;
+    std::unique_ptr<sensors::SweepReader> sweeps;  ///< Hesai
     std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
     std::map<unsigned, std::size_t> unknown_ids;
 };
@@ -86,6 +87,12 @@ PointTable livoxTableOf(const std::vector<LivoxPoint>& points) {
     return table;
 }
 
+std::int64_t timeOfPacket(const PacketsMessage::Packet& packet, const PacketsMessage& message,
+                          std::int64_t recorded_ns) {
+    if (packet.time_ns != 0) return packet.time_ns;
+    return message.header.time_ns != 0 ? message.header.time_ns : recorded_ns;
+}
+
 /// Returns freed memory to the system. glibc keeps it per thread, so memory use would grow with
 /// large clouds that one thread allocates and another frees.
 void trimHeap() {
@@ -125,6 +132,7 @@ struct BagScans::Reader {
             TopicState& state = states[topic];
             state.name = topic;
             state.sensor = &sensor;
+            if (sensor.kind == LidarKind::Hesai) state.sweeps = sensors::makeHesaiSweeps();
             if (sensor.ouster) {
                 state.frames = std::make_unique<sensors::OusterFrames>(*sensor.ouster);
             }
@@ -157,6 +165,7 @@ struct BagScans::Reader {
     void takeCloud(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
     void takeLivox(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
     void takeVelodyne(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
+    void takeHesai(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
     void takeOuster(FieldReader fields, std::int64_t recorded_ns, TopicState& state);
     void addAttitude(std::int64_t recorded_ns);
     void add(const CObservation::Ptr& scan, TopicState& state);
@@ -203,6 +212,9 @@ void BagScans::Reader::takeLidar(const BagMessage& message, const BagTopic& topi
                 break;
             case LidarKind::Velodyne:
                 takeVelodyne(fields, message.time_ns, state);
+                break;
+            case LidarKind::Hesai:
+                takeHesai(fields, message.time_ns, state);
                 break;
             case LidarKind::Ouster:
                 takeOuster(fields, message.time_ns, state);
@@ -281,8 +293,8 @@ void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, T
 
 void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns,
                                     TopicState& state) {
-    const VelodyneScanMessage message = readVelodyneScan(fields);
-    for (const VelodyneScanMessage::Packet& sent : message.packets) {
+    const PacketsMessage message = readVelodyneScan(fields);
+    for (const PacketsMessage::Packet& sent : message.packets) {
         const std::uint8_t id = sent.bytes[sensors::kVelodyneModelAt];
         const auto* const model = sensors::velodyneModelOf(sent.bytes);
         if (!sensors::isVelodyneData(sent.bytes, sensors::kVelodynePacketBytes)) {
@@ -298,11 +310,21 @@ void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns
             }
             sensors::VelodynePacket packet;
             std::copy_n(sent.bytes, packet.bytes.size(), packet.bytes.begin());
-            packet.time_ns = sent.time_ns != 0             ? sent.time_ns
-                             : message.header.time_ns != 0 ? message.header.time_ns
-                                                           : recorded_ns;
+            packet.time_ns = timeOfPacket(sent, message, recorded_ns);
             state.turns->add(packet);
         }
+    }
+    addComplete(state);
+}
+
+void BagScans::Reader::takeHesai(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
+    constexpr std::uint16_t kPort = 2368;
+    const PacketsMessage message = readPandarScan(fields);
+    for (const PacketsMessage::Packet& sent : message.packets) {
+        const sensors::Datagram datagram{
+            timeOfPacket(sent, message, recorded_ns), 0, 0, kPort, kPort, sent.bytes, sent.size};
+        if (pass) pass(state.sensor->label, datagram);
+        state.sweeps->add(datagram);
     }
     addComplete(state);
 }
@@ -340,14 +362,16 @@ void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, 
 }
 
 void BagScans::Reader::addComplete(TopicState& state) {
-    if (state.turns) {
-        for (const sensors::LidarSweep& turn : state.turns->complete()) {
-            const CObservation::Ptr scan = observationOf(turn);
+    const auto addSweeps = [&](std::deque<sensors::LidarSweep>& sweeps) {
+        for (const sensors::LidarSweep& sweep : sweeps) {
+            const CObservation::Ptr scan = observationOf(sweep);
             scan->setSensorPose(state.sensor->on_vehicle);
             add(scan, state);
         }
-        state.turns->complete().clear();
-    }
+        sweeps.clear();
+    };
+    if (state.turns) addSweeps(state.turns->complete());
+    if (state.sweeps) addSweeps(state.sweeps->complete());
     if (state.frames) {
         for (const sensors::OusterFrame& frame : state.frames->complete()) {
             const CObservation::Ptr scan = observationOf(sweepOf(frame, *state.sensor->ouster));
@@ -385,6 +409,7 @@ void BagScans::Reader::finish() {
     is_at_end = true;
     for (auto& [topic, state] : states) {
         if (state.turns) state.turns->finish();
+        if (state.sweeps) state.sweeps->finish();
         if (state.frames) state.frames->finish();
         addComplete(state);
     }
@@ -397,14 +422,21 @@ std::string BagScans::Reader::describe(const TopicState& state) {
     } else if (state.frames) {
         text += ", " + state.sensor->ouster->name + ", " + sensors::textOf(state.frames->counts());
     }
+    if (state.sweeps) {
+        for (const std::string& remark : state.sweeps->remarks()) text += ", " + remark;
+        const std::string ignored = state.sweeps->ignored();
+        if (!ignored.empty()) text += ", ignored: " + ignored;
+    }
     addCount(state.hdl64_packets, "packet", "from an HDL-64E, which is not supported in bags",
              text);
     for (const auto& [id, packets] : state.unknown_ids) {
-        char hex[8];
-        std::snprintf(hex, sizeof hex, "0x%02x", id);
+        const sensors::VelodyneModel* const other =
+            sensors::findVelodyneModel(static_cast<std::uint8_t>(id));
         addCount(packets, "packet",
-                 "from " + std::string(state.turns ? "another" : "an unknown") +
-                     " Velodyne (model id " + hex + "), skipped",
+                 "from " +
+                     (other != nullptr ? "another Velodyne (" + other->name + ")"
+                                       : sensors::describeUnsupported(id)) +
+                     ", skipped",
                  text);
     }
     addCount(state.imu_packets, "IMU packet", "skipped", text);

@@ -13,9 +13,10 @@ namespace hagen::recordings {
 
 /// Reads the scans of a bag, and the attitudes of its IMU.
 ///
-/// A cloud becomes a CObservationPointCloud with the time in its header. Velodyne packets are
-/// grouped into turns and Ouster packets into frames, as in captures; a turn may span two messages.
-/// A Livox message is a scan; messages of livox_ros_driver2 are decoded as those of a Mid-360.
+/// A cloud becomes a CObservationPointCloud with the time in its header. Velodyne and Hesai packets
+/// are grouped into turns and Ouster packets into frames, as in captures; a turn may span two
+/// messages. A Livox message is a scan; messages of livox_ros_driver2 are decoded as those of a
+/// Mid-360.
 class BagScans {
  public:
     /// Throws BrokenRecording naming the file if it cannot be opened. `survey` must outlive this

@@ -115,10 +115,10 @@ class BagSurveyor {
             topic.frame = readHeader(fields).frame;
             return;
         }
-        const VelodyneScanMessage scan = readVelodyneScan(fields);
+        const PacketsMessage scan = readVelodyneScan(fields);
         if (topic.frame.empty()) topic.frame = scan.header.frame;
         bool names_model = false;
-        for (const VelodyneScanMessage::Packet& packet : scan.packets) {
+        for (const PacketsMessage::Packet& packet : scan.packets) {
             const bool is_data =
                 sensors::isVelodyneData(packet.bytes, sensors::kVelodynePacketBytes);
             if (!is_data || sensors::isOfHdl64(packet.bytes)) continue;
@@ -203,7 +203,8 @@ LidarKind lidarKindOf(const BagTopic& topic) {
         {"ouster_sensor_msgs/PacketMsg", LidarKind::Ouster},
         {"livox_ros_driver2/CustomMsg", LidarKind::Livox2},
         {"livox_interfaces/CustomMsg", LidarKind::Livox1},
-        {"livox_ros_driver/CustomMsg", LidarKind::Livox1}};
+        {"livox_ros_driver/CustomMsg", LidarKind::Livox1},
+        {"pandar_msgs/PandarScan", LidarKind::Hesai}};
     const auto found = kinds.find(topic.type);
     if (found == kinds.end()) return LidarKind::None;
     const bool is_of_imu =

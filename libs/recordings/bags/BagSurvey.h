@@ -22,7 +22,8 @@ enum class LidarKind {
     Velodyne,  ///< velodyne_msgs/VelodyneScan
     Ouster,    ///< PacketMsg of ouster_ros, ouster_msgs and ouster_sensor_msgs
     Livox2,    ///< livox_ros_driver2/CustomMsg
-    Livox1     ///< CustomMsg of livox_ros_driver and livox_interfaces (older models)
+    Livox1,    ///< CustomMsg of livox_ros_driver and livox_interfaces (older models)
+    Hesai      ///< pandar_msgs/PandarScan
 };
 LidarKind lidarKindOf(const BagTopic& topic);
 

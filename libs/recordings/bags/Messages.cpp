@@ -194,13 +194,27 @@ bool hasWrongByteOrder(const PointTable& table) {
     return 2 * as_stated < plausible(some);
 }
 
-VelodyneScanMessage readVelodyneScan(FieldReader& fields) {
-    VelodyneScanMessage scan;
+PacketsMessage readVelodyneScan(FieldReader& fields) {
+    PacketsMessage scan;
     scan.header = readHeader(fields);
     scan.packets.resize(fields.count(8 + kVelodyneMessageBytes));
-    for (VelodyneScanMessage::Packet& packet : scan.packets) {
+    for (PacketsMessage::Packet& packet : scan.packets) {
         packet.time_ns = readTime(fields);
         packet.bytes = fields.take(kVelodyneMessageBytes).data;
+        packet.size = kVelodyneMessageBytes;
+    }
+    return scan;
+}
+
+PacketsMessage readPandarScan(FieldReader& fields) {
+    constexpr std::size_t kBytes = 1500;
+    PacketsMessage scan;
+    scan.header = readHeader(fields);
+    scan.packets.resize(fields.count(8 + kBytes + 4));
+    for (PacketsMessage::Packet& packet : scan.packets) {
+        packet.time_ns = readTime(fields);
+        packet.bytes = fields.take(kBytes).data;
+        packet.size = std::min<std::size_t>(fields.number<std::uint32_t>(), kBytes);
     }
     return scan;
 }

@@ -41,16 +41,18 @@ PointCloud2 readPointCloud2(FieldReader& fields);
 /// Whether the coordinates are plausible, from 0.1 mm to 10 km, only in the other byte order.
 bool hasWrongByteOrder(const observations::PointTable& table);
 
-/// velodyne_msgs/VelodyneScan.
-struct VelodyneScanMessage {
+/// velodyne_msgs/VelodyneScan (packets of 1206 bytes) or pandar_msgs/PandarScan (Hesai).
+struct PacketsMessage {
     struct Packet {
         std::int64_t time_ns;
-        const std::uint8_t* bytes;  ///< 1206 bytes in the message
+        const std::uint8_t* bytes;
+        std::size_t size;
     };
     Header header;
     std::vector<Packet> packets;
 };
-VelodyneScanMessage readVelodyneScan(FieldReader& fields);
+PacketsMessage readVelodyneScan(FieldReader& fields);
+PacketsMessage readPandarScan(FieldReader& fields);
 
 /// Reads the packet in a PacketMsg of ouster_ros, ouster_msgs or ouster_sensor_msgs.
 ByteView readPacket(FieldReader& fields);

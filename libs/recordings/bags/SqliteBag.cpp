@@ -225,8 +225,9 @@ class SqliteBag : public BagFile {
     void readTopics() {
         const Query topics = prepare("SELECT id, name, type, serialization_format FROM topics");
         while (step(topics)) {
-            const BagTopic topic{textAt(topics.get(), 1), typeAsInRos1(textAt(topics.get(), 2)),
-                                 textAt(topics.get(), 3)};
+            BagTopic topic{textAt(topics.get(), 1), typeAsInRos1(textAt(topics.get(), 2)),
+                           textAt(topics.get(), 3)};
+            if (topic.encoding.empty()) topic.encoding = "cdr";
             topic_of_[sqlite3_column_int64(topics.get(), 0)] = topics_.indexOf(topic);
         }
     }

@@ -46,10 +46,10 @@ class LidarCapture {
     std::string broken_because_;
 };
 
-/// Opens a capture of Velodyne or Livox sensors (detected by their first packets), or of the Ouster
-/// described by a metadata file. `calibration`: HDL-64E calibration. Throws std::runtime_error
-/// naming the file if it cannot be opened, or if a calibration is given for another kind of sensor.
-/// Calls `check` like checkWhileReading(), and also while opening.
+/// Opens a capture of Velodyne, Livox or Hesai sensors (detected by their first packets), or of the
+/// Ouster described by a metadata file. `calibration`: HDL-64E calibration. Throws
+/// std::runtime_error naming the file if it cannot be opened, or if a calibration is given for
+/// another kind of sensor. Calls `check` like checkWhileReading(), and also while opening.
 std::unique_ptr<LidarCapture> openCapture(const std::filesystem::path& file,
                                           const std::filesystem::path& sensor_json = {},
                                           const std::filesystem::path& calibration = {},

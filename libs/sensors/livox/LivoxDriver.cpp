@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "sensors/livox/LivoxSequence.h"
+#include "sensors/PacketSequence.h"
+#include "sensors/livox/LivoxPacket.h"
 
 namespace hagen::sensors {
 namespace {
@@ -36,10 +37,11 @@ class LivoxDriver : public LidarDriver {
             ++counts_.wrong_size;
             return Taken::WrongSize;
         }
-        const LivoxSequence::Step step = sequence_.add(*packet, arrival_s, counts_);
-        if (step == LivoxSequence::Step::Duplicate) return Taken::Duplicate;
-        if (step == LivoxSequence::Step::TooLate) return Taken::TooLate;
-        if (step == LivoxSequence::Step::Interruption) {
+        const PacketSequence::Step step =
+            sequence_.add(packet->number, packet->time_ns, arrival_s, counts_);
+        if (step == PacketSequence::Step::Duplicate) return Taken::Duplicate;
+        if (step == PacketSequence::Step::TooLate) return Taken::TooLate;
+        if (step == PacketSequence::Step::Interruption) {
             flush(sink);
             sink.restart();
         }
@@ -78,7 +80,7 @@ class LivoxDriver : public LidarDriver {
 
  private:
     const SensorModel model_ = sensor();
-    LivoxSequence sequence_{true};
+    PacketSequence sequence_{true};
     bool is_begun_ = false;
     std::uint64_t start_ns_ = 0;  ///< sensor time at which the frame starts
     std::size_t packets_of_frame_ = 0, frames_ = 0;

@@ -7,8 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "sensors/PacketSequence.h"
 #include "sensors/SensorTable.h"
-#include "sensors/livox/LivoxSequence.h"
+#include "sensors/livox/LivoxPacket.h"
 
 namespace hagen::sensors {
 namespace {
@@ -42,16 +43,8 @@ class LivoxSweeps : public SweepReader {
     std::vector<std::string> remarks() const override {
         std::vector<std::string> remarks;
         for (const auto& [ip, label, sensor] : sensors_.entries()) {
-            const PacketCounts& counts = sensor.counts;
-            std::string text = label + " (Livox, read as a Mid-360, at " + ipText(ip) +
-                               "): " + counted(counts.packets, "packet") + " in " +
-                               counted(counts.scans, "scan");
-            addCount(counts.lost, "packet", "lost", text);
-            addCount(counts.late, "packet", "out of order, kept in the scan in which it arrived",
-                     text);
-            addCount(counts.duplicate, "duplicate packet", "dropped", text);
-            addCount(counts.interruptions, "interruption", "(gap or clock jump)", text);
-            remarks.push_back(text);
+            remarks.push_back(label + " (Livox, read as a Mid-360, at " + ipText(ip) +
+                              "): " + describe(sensor.counts, "scan"));
         }
         return remarks;
     }
@@ -67,16 +60,16 @@ class LivoxSweeps : public SweepReader {
  private:
     struct Sensor {
         PacketCounts counts;
-        LivoxSequence sequence{false};
+        PacketSequence sequence{false};
         bool is_begun = false;
         std::uint64_t start_ns = 0;  ///< sensor time at which the sweep in progress starts
         std::size_t packets = 0;
         LidarSweep sweep;
     };
     void add(const LivoxPacket& packet, const Datagram& datagram, Sensor& sensor) {
-        using Step = LivoxSequence::Step;
+        using Step = PacketSequence::Step;
         const double time_s = 1e-9 * static_cast<double>(datagram.time_ns);
-        const Step step = sensor.sequence.add(packet, time_s, sensor.counts);
+        const Step step = sensor.sequence.add(packet.number, packet.time_ns, time_s, sensor.counts);
         if (step == Step::Duplicate) return;
         const bool is_complete =
             step == Step::Next && packet.time_ns - sensor.start_ns >= kSweep_ns;

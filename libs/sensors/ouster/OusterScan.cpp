@@ -62,7 +62,7 @@ void scanColumns(const OusterFrame& frame, const OusterSensor& sensor,
             frame.column_time_ns[column] - frame.column_time_ns[columns.front()];
         const ColumnPlace place{2 * kPi * (1 - turned),
                                 static_cast<float>(1e-9 * static_cast<double>(since_ns))};
-        for (std::size_t pixel = 0; pixel < sensor.pixels; ++pixel) {
+        for (const std::size_t pixel : sensor.beam_pixels) {
             const std::size_t at = frame.at(pixel, column);
             if (frame.range[at] > 0) {
                 add(sensor, pixel, place, unit_m * frame.range[at], frame.reflectivity[at], scan);

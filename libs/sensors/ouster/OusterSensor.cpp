@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -21,6 +22,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kLegacyColumnHeader = 16, kLegacyColumnFooter = 4;
+constexpr std::size_t kPixelsWithoutFormat = 64;  // generation 1
 constexpr std::size_t kColumnHeader = 12, kPacketHeader = 32, kPacketFooter = 32;
 
 const std::vector<OusterProfile>& profiles() {
@@ -167,12 +169,8 @@ bool hasFusaHeader(const Metadata& metadata, const OusterProfile& profile) {
 void readFormat(const Metadata& metadata, OusterSensor& sensor) {
     constexpr std::size_t kMaxFrameColumns = 4096, kMaxBeams = 256;
     const bool has_format = metadata.find("pixels_per_column") != nullptr;
-    sensor.pixels = has_format ? metadata.count("pixels_per_column", 3, kMaxBeams)
-                               : metadata.items("beam_altitude_angles");
-    if (sensor.pixels < 3 || sensor.pixels > kMaxBeams) {
-        throw std::runtime_error("'beam_altitude_angles' has " + std::to_string(sensor.pixels) +
-                                 " numbers, not 3 ... 256");
-    }
+    sensor.pixels =
+        has_format ? metadata.count("pixels_per_column", 3, kMaxBeams) : kPixelsWithoutFormat;
     sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMaxFrameColumns)
                                           : columnsOfMode(metadata.requiredText("lidar_mode"));
     sensor.turn_s = turnTimeOfMode(metadata);
@@ -192,9 +190,16 @@ void readFormat(const Metadata& metadata, OusterSensor& sensor) {
 }
 
 void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
+    // Packets of generation 1 have 64 pixels; those of 16 or 32 beams are the last of each group.
+    const std::size_t listed = metadata.items("beam_altitude_angles");
+    const bool is_spread = sensor.profile.is_legacy && listed > 0 && listed < sensor.pixels;
+    const std::size_t beams = is_spread ? listed : sensor.pixels;
     const auto in_radians = [&](const std::string& key, double max_deg) {
-        std::vector<double> angles = metadata.numbers(key, sensor.pixels, max_deg);
-        for (double& angle : angles) angle = radians(angle);
+        std::vector<double> angles(sensor.pixels);
+        const std::vector<double> of_beams = metadata.numbers(key, beams, max_deg);
+        for (std::size_t beam = 0; beam < beams; ++beam) {
+            angles[(beam + 1) * sensor.pixels / beams - 1] = radians(of_beams[beam]);
+        }
         return angles;
     };
     sensor.altitude_rad = in_radians("beam_altitude_angles", 90);
@@ -231,16 +236,25 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
     }
 }
 
+/// Finds the pixels with a beam. Unused pixels have two angles of 0, as one beam may have, too.
+void findBeams(OusterSensor& sensor) {
+    std::vector<std::size_t> pixels(sensor.pixels), used;
+    std::iota(pixels.begin(), pixels.end(), std::size_t{0});
+    std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(used), [&](std::size_t pixel) {
+        return sensor.altitude_rad[pixel] != 0 || sensor.azimuth_rad[pixel] != 0;
+    });
+    sensor.beam_pixels = used.size() + 1 == pixels.size() ? pixels : used;
+}
+
 /// Assigns rows to pixels and creates the sensor model.
 void sortBeams(OusterSensor& sensor) {
-    std::vector<std::size_t> by_altitude(sensor.pixels);
-    std::iota(by_altitude.begin(), by_altitude.end(), std::size_t{0});
+    std::vector<std::size_t> by_altitude = sensor.beam_pixels;
     std::sort(by_altitude.begin(), by_altitude.end(), [&](std::size_t a, std::size_t b) {
         return sensor.altitude_rad[a] < sensor.altitude_rad[b];
     });
     sensor.row.resize(sensor.pixels);
     std::vector<double> elevations_deg;
-    for (std::size_t row = 0; row < sensor.pixels; ++row) {
+    for (std::size_t row = 0; row < by_altitude.size(); ++row) {
         sensor.row[by_altitude[row]] = static_cast<std::uint8_t>(row);
         elevations_deg.push_back(degrees(sensor.altitude_rad[by_altitude[row]]));
     }
@@ -353,6 +367,7 @@ OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) 
         sensor.serial = metadata.text("prod_sn");
         readFormat(metadata, sensor);
         readGeometry(metadata, sensor);
+        findBeams(sensor);
         sortBeams(sensor);
         return sensor;
     } catch (const std::exception& e) {

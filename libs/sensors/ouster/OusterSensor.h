@@ -37,7 +37,8 @@ struct OusterSensor {
     std::size_t first_column = 0, last_column = 0;  ///< azimuth window; may wrap around
     std::vector<double> altitude_rad, azimuth_rad;  ///< per pixel; azimuth counter-clockwise
     std::vector<std::uint8_t> row;                  ///< per pixel; 0 is the lowest beam
-    double beam_origin_m = 0;  ///< horizontal offset of the beams from the axis
+    std::vector<std::size_t> beam_pixels;  ///< pixels with a beam, ascending; others are unused
+    double beam_origin_m = 0;              ///< horizontal offset of the beams from the axis
     double beam_origin_up_m = 0;
     Eigen::Isometry3d lidar_to_sensor = Eigen::Isometry3d::Identity();
     std::shared_ptr<const SensorModel> model;  ///< beams, lowest first

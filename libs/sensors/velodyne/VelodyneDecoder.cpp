@@ -24,17 +24,17 @@ class Packet {
  public:
     explicit Packet(const std::uint8_t* bytes) : bytes_(bytes) {}
 
-    bool isValid(int block) const { return header(block) == kUpperBlock && azimuth(block) < kTurn; }
-    bool isLower(int block) const { return header(block) == kLowerBlock && azimuth(block) < kTurn; }
+    /// Bank of a block; -1 if the block is invalid.
+    int bank(int block) const { return azimuth(block) < kTurn ? bankOf(bytes_, block) : -1; }
+    bool isValid(int block) const { return bank(block) == 0; }
     int azimuth(int block) const { return little<std::uint16_t>(at(block) + 2); }
     const std::uint8_t* returns(int block) const { return at(block) + kVelodyneHeaderBytes; }
     std::uint32_t time_us() const { return little<std::uint32_t>(bytes_ + kVelodyneTimeAt); }
-    int blocksPerFiring() const { return bytes_[kVelodyneModeAt] == kDualReturn ? 2 : 1; }
+    bool isDual() const { return !isOfHdl64(bytes_) && bytes_[kVelodyneModeAt] == kDualReturn; }
     std::uint8_t modelId() const { return bytes_[kVelodyneModelAt]; }
 
  private:
     const std::uint8_t* at(int block) const { return bytes_ + block * kVelodyneBlockBytes; }
-    unsigned header(int block) const { return little<std::uint16_t>(at(block)); }
 
     const std::uint8_t* bytes_;
 };
@@ -131,20 +131,29 @@ const VelodyneCalibration& calibrationOf(const VelodyneModel& model,
 /// Returns the rotation between the blocks of consecutive firings, in 0.01 degrees: the median over
 /// the scan, which ignores rounding and broken blocks. Never negative, although readings of a
 /// nearly stationary motor may decrease.
-int turnOfBlocks(const VelodynePackets& packets, std::vector<int>& turns) {
+int turnOfBlocks(const VelodynePackets& packets, const VelodyneModel& model,
+                 std::vector<int>& turns, int turn_between_packets) {
     turns.clear();
+    const auto compare = [&](const Packet& from, int a, const Packet& to, int b) {
+        if (!from.isValid(a) || !to.isValid(b)) return;
+        int turn = to.azimuth(b) - from.azimuth(a);
+        if (turn <= -kTurn / 2) turn += kTurn;
+        if (turn > kTurn / 2) turn -= kTurn;
+        turns.push_back(turn);
+    };
     for (std::size_t p = 0; p < packets.count; ++p) {
         const Packet packet(packets.at(p));
-        const int step = packet.blocksPerFiring();
-        for (int b = 0; b + step < kVelodyneBlocks; ++b) {
-            if (!packet.isValid(b) || !packet.isValid(b + step)) continue;
-            int turn = packet.azimuth(b + step) - packet.azimuth(b);
-            if (turn <= -kTurn / 2) turn += kTurn;
-            if (turn > kTurn / 2) turn -= kTurn;
-            turns.push_back(turn);
+        const bool is_dual = packet.isDual();
+        const int step = model.blocksAtOnce(is_dual), used = model.usedBlocks(is_dual);
+        for (int b = 0; b + step < used; ++b) compare(packet, b, packet, b + step);
+        if (p == 0 || step < used) continue;
+        const Packet before(packets.at(p - 1));
+        const double elapsed_us = elapsedUs(before.time_us(), packet.time_us());
+        if (std::abs(elapsed_us / model.packetPeriodUs(is_dual) - 1) < 0.5) {
+            compare(before, 0, packet, 0);
         }
     }
-    if (turns.empty()) return 0;
+    if (turns.empty()) return turn_between_packets;
     const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
     std::nth_element(turns.begin(), middle, turns.end());
     return std::max(*middle, 0);
@@ -176,11 +185,12 @@ void setTurnLimits(BlockOffsets& places) {
 }
 
 BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const VelodyneModel& model,
-                            int turn_of_blocks) {
+                            int turn_of_blocks, int bank) {
+    constexpr int kReturns = static_cast<int>(kReturnsOfBlock);
     BlockOffsets places;
     places.distance_unit_m = model.distance_unit_m;
-    for (int i = 0; i < static_cast<int>(kReturnsOfBlock); ++i) {
-        const int laser = i % model.lasers;
+    for (int i = 0; i < kReturns; ++i) {
+        const int laser = (bank * kReturns + i) % model.lasers;
         const double turn_in_block = model.turnWithinBlock(i / model.lasers, laser);
         setLaser(calibration, laser, turn_of_blocks * turn_in_block, i, places);
         places.time_s[i] = static_cast<float>(1e-6 * turn_in_block * model.blockPeriodUs());
@@ -191,12 +201,12 @@ BlockOffsets blockOffsetsOf(const VelodyneCalibration& calibration, const Velody
     return places;
 }
 
-/// Offsets of an upper or lower block of an HDL-64E. Treats its lasers as simultaneous.
-BlockOffsets hdl64Offsets(const VelodyneCalibration& calibration, bool is_lower) {
+/// Offsets of a bank of an HDL-64E. Treats its lasers as simultaneous.
+BlockOffsets hdl64Offsets(const VelodyneCalibration& calibration, int bank) {
     BlockOffsets places{};
     places.distance_unit_m = hdl64Model().distance_unit_m;
     for (std::size_t i = 0; i < kReturnsOfBlock; ++i) {
-        const std::size_t laser = i + (is_lower ? kReturnsOfBlock : 0);
+        const std::size_t laser = i + bank * kReturnsOfBlock;
         setLaser(calibration, laser, 0, i, places);
         const VelodyneLaser& correction = calibration.lasers[laser];
         const double offset_m = correction.vertical_offset_m;
@@ -217,9 +227,10 @@ std::size_t collectBlocks(const VelodynePackets& packets, const VelodyneModel& m
     for (std::size_t p = 0; p < packets.count; ++p) {
         const Packet packet(packets.at(p));
         const double packet_us = elapsedUs(first_us, packet.time_us());
+        const int at_once = model.blocksAtOnce(packet.isDual());
         for (int b = 0; b < kVelodyneBlocks; ++b) {
             if (!packet.isValid(b)) continue;
-            const int firing = b / packet.blocksPerFiring();
+            const int firing = b / at_once;
             const double block_us = packet_us + firing * model.blockPeriodUs();
             VelodyneBlock& block = *next++;
             block.returns = packet.returns(b);
@@ -259,14 +270,13 @@ ReturnArrays arraysFrom(std::size_t first, Scan& scan) {
             scan.time_s.data() + first,  scan.row.data() + first};
 }
 
-/// Decodes HDL-64E packets block by block.
-std::size_t decodeHdl64(const VelodynePackets& packets, const VelodyneCalibration& own, Scan& scan,
-                        DecoderWorkspace& work) {
+using BankOffsets = std::array<BlockOffsets, std::size(kBankHeaders)>;
+
+/// Decodes packets of a model with several banks, block by block.
+std::size_t decodeBanks(const VelodynePackets& packets, const VelodyneModel& model,
+                        const VelodyneCalibration& calibration, const BankOffsets& places,
+                        Scan& scan, DecoderWorkspace& work) {
     static const ReadingDirections directions;
-    const VelodyneCalibration& calibration = checkedOfHdl64(own);
-    const BlockOffsets upper = hdl64Offsets(calibration, false);
-    const BlockOffsets lower = hdl64Offsets(calibration, true);
-    const double firing_us = 2 * hdl64Model().blockPeriodUs();
     const unsigned first_us = Packet(packets.at(0)).time_us();
     std::size_t returns = 0, unsound_blocks = 0;
     resize(packets.count * kVelodyneBlocks * kReturnsOfBlock + kPaddingReturns, scan);
@@ -275,17 +285,18 @@ std::size_t decodeHdl64(const VelodynePackets& packets, const VelodyneCalibratio
     for (std::size_t p = 0; p < packets.count; ++p) {
         const Packet packet(packets.at(p));
         const double packet_us = elapsedUs(first_us, packet.time_us());
-        for (int b = 0; b < kVelodyneBlocks; ++b) {
-            if (!packet.isValid(b) && !packet.isLower(b)) {
+        const bool is_dual = packet.isDual();
+        for (int b = 0; b < model.usedBlocks(is_dual); ++b) {
+            const int bank = packet.bank(b);
+            if (bank < 0 || bank >= model.banks()) {
                 ++unsound_blocks;
                 continue;
             }
             block.returns = packet.returns(b);
-            const int firing = b / 2;  // an upper and a lower block
-            block.time_s = static_cast<float>(1e-6 * (packet_us + firing * firing_us));
+            const int firing = b / model.blocksAtOnce(is_dual);
+            block.time_s = static_cast<float>(1e-6 * (packet_us + firing * model.blockPeriodUs()));
             directions.setDirection(packet.azimuth(b), block);
-            locateReturns(work.blocks, packet.isLower(b) ? lower : upper,
-                          arraysFrom(returns, scan));
+            locateReturns(work.blocks, places[bank], arraysFrom(returns, scan));
             returns += countReturns(work.blocks);
         }
     }
@@ -312,22 +323,33 @@ void beamsOf(const VelodynePackets& packets, const VelodyneCalibration& calibrat
 // Blocks have the same firing pattern and differ only in their first direction. For each block,
 // looks up this direction and rotates the pattern, one SIMD vector at a time (locateReturns).
 std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibration& own,
-                          Scan& scan, DecoderWorkspace& work) {
+                          Scan& scan, DecoderWorkspace& work, int turn_between_packets) {
     if (packets.count == 0) {
         scan.clear();
         return 0;
     }
     checkReturns(packets.count * kVelodyneBlocks * kReturnsOfBlock);
-    if (areOfHdl64(packets)) return decodeHdl64(packets, own, scan, work);
+    if (areOfHdl64(packets)) {
+        const VelodyneCalibration& calibration = checkedOfHdl64(own);
+        const BankOffsets banks{hdl64Offsets(calibration, 0), hdl64Offsets(calibration, 1)};
+        return decodeBanks(packets, hdl64Model(), calibration, banks, scan, work);
+    }
     const VelodyneModel& model = modelOf(packets, 0);
     for (std::size_t p = 1; p < packets.count; ++p) {
         modelOf(packets, p);  // throws if models differ
     }
     const VelodyneCalibration& calibration = calibrationOf(model, own);
+    const int turn = turnOfBlocks(packets, model, work.turns, turn_between_packets);
+    if (model.banks() > 1) {
+        BankOffsets banks;
+        for (int bank = 0; bank < model.banks(); ++bank) {
+            banks[bank] = blockOffsetsOf(calibration, model, turn, bank);
+        }
+        return decodeBanks(packets, model, calibration, banks, scan, work);
+    }
     std::vector<VelodyneBlock>& blocks = work.blocks;
     const std::size_t unsound_blocks = collectBlocks(packets, model, blocks);
-    const BlockOffsets places =
-        blockOffsetsOf(calibration, model, turnOfBlocks(packets, work.turns));
+    const BlockOffsets places = blockOffsetsOf(calibration, model, turn, 0);
 
     // Count returns first, because growing arrays would fill them with zeros.
     const std::size_t returns = countReturns(blocks);

@@ -30,13 +30,8 @@ constexpr int kReadings = kReadingsOfTurn;
 // Azimuth jitter of a nearly stationary motor, and max. deviation within a packet, in 0.01 degrees.
 constexpr double kJitter = 10, kMaxOff = 100;
 
-int blocksPerFiring(const VelodynePacket& packet) {
-    return packet.isDual() || isOfHdl64(packet.bytes.data()) ? 2 : 1;
-}
-
-/// Azimuth of a firing; -1 if one of its blocks is invalid.
-int azimuthOfFiring(const VelodynePacket& packet, int firing) {
-    const int step = blocksPerFiring(packet);
+/// Azimuth of a firing of `step` blocks; -1 if one of them is invalid.
+int azimuthOfFiring(const VelodynePacket& packet, int firing, int step) {
     for (int b = firing * step; b < (firing + 1) * step; ++b) {
         if (packet.azimuthOf(b) < 0) return -1;
     }
@@ -69,7 +64,10 @@ class VelodyneDriver : public LidarDriver {
  public:
     explicit VelodyneDriver(const VelodyneModel& model, const VelodyneCalibration* calibration)
         : model_(model),
-          calibration_(calibration != nullptr ? *calibration : defaultCalibration(model)) {
+          calibration_(calibration != nullptr ? *calibration : defaultCalibration(model)),
+          turn_between_packets_(model.blocksAtOnce(true) == model.usedBlocks(true)
+                                    ? kReadings * model.packetPeriodUs(true) / 100e3
+                                    : 0) {
         if (&model == &hdl64Model() && calibration == nullptr) {
             throw std::invalid_argument("HDL-64E packets require a calibration");
         }
@@ -214,7 +212,8 @@ class VelodyneDriver : public LidarDriver {
             has_last_ = true;
         }
         counts_.unsound_blocks +=
-            decodePackets({packet.bytes.data(), 1}, calibration_, returns_, decoder_);
+            decodePackets({packet.bytes.data(), 1}, calibration_, returns_, decoder_,
+                          static_cast<int>(std::lround(turn_between_packets_)));
         ++counts_.packets;
         addRuns(packet, sweep, arrival_s, sink);
         return Taken::Yes;
@@ -232,13 +231,17 @@ class VelodyneDriver : public LidarDriver {
         view_start_us_ = time_us;
     }
 
+    int blocksPerFiring(const VelodynePacket& packet) const {
+        return model_.blocksAtOnce(packet.isDual());
+    }
+
     /// Finds runs of firings with valid blocks and steady rotation. No sweep covers an invalid
     /// block, because its direction is unknown.
     void findRuns(const VelodynePacket& packet) {
         runs_.clear();
         int before = -1;  // azimuth of the previous firing; -1 if invalid
         for (int f = 0; f < kVelodyneBlocks / blocksPerFiring(packet); ++f) {
-            const int azimuth = azimuthOfFiring(packet, f);
+            const int azimuth = azimuthOfFiring(packet, f, blocksPerFiring(packet));
             const double step = std::remainder(azimuth - before, kReadings);
             const bool goes_on = before >= 0 && step > -kJitter &&
                                  step * kVelodyneBlocks < kReadings / 8.0 * blocksPerFiring(packet);
@@ -277,10 +280,20 @@ class VelodyneDriver : public LidarDriver {
             from = first_azimuth - per_firing * longest.first;
             const auto isElsewhere = [&](const Run& run) {
                 const double expected = from + per_firing * run.first;
-                const double off = azimuthOfFiring(packet, run.first) - expected;
+                const double off = azimuthOfFiring(packet, run.first, step) - expected;
                 return std::abs(std::remainder(off, kReadings)) > kMaxOff;
             };
             runs_.erase(std::remove_if(runs_.begin(), runs_.end(), isElsewhere), runs_.end());
+        }
+        if (all_firings == 1) {
+            // Packets with one firing show the rotation only by their successors.
+            const double packets = elapsed_us / model_.packetPeriodUs(packet.isDual());
+            if (packets > 0.5 && packets < 10) {
+                const double last = 100 * degrees(last_sweep_.from_rad);
+                turn_between_packets_ =
+                    std::max(0.0, std::remainder(from - last, kReadings) / packets);
+            }
+            per_firing = turn_between_packets_;
         }
         const double swept_rad = radians(0.01 * per_firing * all_firings);
         sweep.from_rad = radians(0.01 * from);
@@ -340,6 +353,7 @@ class VelodyneDriver : public LidarDriver {
     SilentSector silence_;
     double view_start_us_ = 0;
     Sweep last_sweep_{};
+    double turn_between_packets_;  ///< 0.01 degrees; 0 if packets have several firings
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 namespace hagen::sensors {
 
@@ -10,7 +11,8 @@ const std::vector<VelodyneModel>& velodyneModels() {
         {"VLP-16", 0x22, 16, 2, 1, 2.304, 55.296, 0.002f},
         {"Puck Hi-Res", 0x24, 16, 2, 1, 2.304, 55.296, 0.002f},
         {"HDL-32E", 0x21, 32, 1, 1, 1.152, 46.080, 0.002f},
-        {"VLP-32C", 0x28, 32, 1, 2, 2.304, 55.296, 0.004f}};
+        {"VLP-32C", 0x28, 32, 1, 2, 2.304, 55.296, 0.004f},
+        {"VLS-128", 0xa1, 128, 1, 8, 2.665, 53.3, 0.004f}};
     return known;
 }
 
@@ -22,7 +24,7 @@ const VelodyneModel* findVelodyneModel(std::uint8_t id) {
 }
 
 const VelodyneModel& hdl64Model() {
-    static const VelodyneModel model{"HDL-64E", 0, 64, 1, 64, 0.0, 24.0, 0.002f};
+    static const VelodyneModel model{"HDL-64E", 0, 64, 1, 64, 0.0, 48.0, 0.002f};
     return model;
 }
 
@@ -32,6 +34,19 @@ const VelodyneModel& velodyneModel(const std::string& name) {
     }
     throw std::invalid_argument("there is no packet format for '" + name + "', only for" +
                                 knownVelodynes());
+}
+
+std::string describeUnsupported(unsigned id) {
+    char text[16];
+    std::snprintf(text, sizeof text, "model id 0x%02x", id);
+    // Leishen's packets have the format of Velodyne's.
+    for (const auto& [known, name] : {std::pair{0x31u, "Velarray"},
+                                      {0x63u, "VLS-128 prototype"},
+                                      {0x10u, "Leishen C16"},
+                                      {0x20u, "Leishen C32"}}) {
+        if (known == id) return "an unsupported sensor (" + std::string(name) + ", " + text + ")";
+    }
+    return "an unknown Velodyne (" + std::string(text) + ")";
 }
 
 std::string knownVelodynes() {

@@ -1,15 +1,17 @@
 #include <hagen/sensors/VelodynePacket.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "sensors/LittleEndian.h"
 
 namespace hagen::sensors {
-namespace {
 
-unsigned headerOf(const std::uint8_t* packet, int block) {
-    return little<std::uint16_t>(packet + block * kVelodyneBlockBytes);
+int bankOf(const std::uint8_t* packet, int block) {
+    const unsigned header = little<std::uint16_t>(packet + block * kVelodyneBlockBytes);
+    const auto* const found = std::find(std::begin(kBankHeaders), std::end(kBankHeaders), header);
+    return found == std::end(kBankHeaders) ? -1 : static_cast<int>(found - kBankHeaders);
 }
-
-}  // namespace
 
 double VelodynePacket::sensorTimeUs() const {
     return little<std::uint32_t>(bytes.data() + kVelodyneTimeAt);
@@ -21,15 +23,12 @@ bool VelodynePacket::isDual() const {
 
 int VelodynePacket::azimuthOf(int block) const {
     const int azimuth = little<std::uint16_t>(bytes.data() + block * kVelodyneBlockBytes + 2);
-    const unsigned header = headerOf(bytes.data(), block);
-    const bool is_block = header == kUpperBlock || header == kLowerBlock;
-    return is_block && azimuth < kReadingsOfTurn ? azimuth : -1;
+    return bankOf(bytes.data(), block) >= 0 && azimuth < kReadingsOfTurn ? azimuth : -1;
 }
 
 int VelodynePacket::azimuth() const {
     for (int block = 0; block < kVelodyneBlocks; ++block) {
-        const bool is_upper = headerOf(bytes.data(), block) == kUpperBlock;
-        if (is_upper && azimuthOf(block) >= 0) return azimuthOf(block);
+        if (bankOf(bytes.data(), block) == 0 && azimuthOf(block) >= 0) return azimuthOf(block);
     }
     return -1;
 }
@@ -37,17 +36,17 @@ int VelodynePacket::azimuth() const {
 bool isVelodyneData(const std::uint8_t* bytes, std::size_t size) {
     if (size != kVelodynePacketBytes) return false;
     for (int block = 0; block < kVelodyneBlocks; ++block) {
-        const unsigned header = headerOf(bytes, block);
-        if (header == kUpperBlock || header == kLowerBlock) return true;
+        if (bankOf(bytes, block) >= 0) return true;
     }
     return false;
 }
 
 bool isOfHdl64(const std::uint8_t* packet) {
+    int highest = -1;
     for (int block = 0; block < kVelodyneBlocks; ++block) {
-        if (headerOf(packet, block) == kLowerBlock) return true;
+        highest = std::max(highest, bankOf(packet, block));
     }
-    return false;
+    return highest == 1;
 }
 
 const VelodyneModel* velodyneModelOf(const std::uint8_t* packet) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -85,7 +84,9 @@ class VelodyneSweeps : public SweepReader {
         addCount(position_packets_, "position packet", "", found);
         return "has no data packets from a known Velodyne (" + knownVelodynes().substr(1) +
                "); it has " + (found.empty() ? "no frames" : found) +
-               ". For Ouster packets, pass the metadata with --sensor-json FILE";
+               (others_.haveVendor()
+                    ? ""
+                    : ". For Ouster packets, pass the metadata with --sensor-json FILE");
     }
 
  private:
@@ -127,10 +128,7 @@ class VelodyneSweeps : public SweepReader {
                      "from an HDL-64E (unreadable without --calibration FILE)", text);
         }
         for (const auto& [id, count] : unknown_ids_) {
-            char hex[8];
-            std::snprintf(hex, sizeof hex, "0x%02x", id);
-            addCount(count, "packet",
-                     "from an unknown Velodyne (model id " + std::string(hex) + ")", text);
+            addCount(count, "packet", "from " + describeUnsupported(id), text);
         }
         addCount(sensors_.further(), "packet", "from further sensors", text);
         others_.describe(text);

@@ -14,7 +14,7 @@ constexpr double kFollows = 2.5;  // max. gap, in packet periods
 constexpr double kSecondUs = 1e6;
 constexpr double kEndOfTurnUs = 50e3;          // max. gap within a turn
 constexpr double kMaxTurnUs = 250e3;           // the slowest sensors turn at 5 Hz
-constexpr std::size_t kMaxTurnPackets = 2000;  // exceeds the rate of every sensor
+constexpr std::size_t kMaxTurnPackets = 4000;  // exceeds the rate of every sensor
 constexpr int kMinWrap = 100;                  // 0.01 degrees; smaller steps are jitter
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace hagen::sensors {
 /// Packets up to 16 packets late are reordered by sensor time. Older packets are dropped, unless 16
 /// arrive in a row or at the end, which means that the clock was set. A turn also ends at a gap of
 /// more than 50 ms (a turn at maximum speed), after 250 ms (a stationary sensor never wraps) and,
-/// to limit memory, after 2000 packets.
+/// to limit memory, after 4000 packets.
 class VelodyneTurns {
  public:
     /// `late`: reordered packets.

@@ -27,9 +27,9 @@ struct SensorModel {
 };
 
 /// Returns a known sensor by its name in settings files: "VLP-16", "HDL-32E", "HDL-64E", "Puck
-/// Hi-Res", "VLP-32C", "OS0-128", "OS1-64", "Mid-360". Elevations and range limits are from the
-/// manufacturer's data sheets. Throws std::invalid_argument listing the known names for any other
-/// name.
+/// Hi-Res", "VLP-32C", "VLS-128", "XT32", "XT16", "OS0-128", "OS1-64", "Mid-360". Elevations and
+/// range limits are from the manufacturer's data sheets. Throws std::invalid_argument listing the
+/// known names for any other name.
 ///
 /// - OS0-128 and OS1-64: data sheets of revision 7. Beams are evenly spaced over +-45 and +-21.2
 ///   degrees, ranges 0.5 to 100 m and 0.5 to 200 m. (0.5 m is the default; the sensors can be

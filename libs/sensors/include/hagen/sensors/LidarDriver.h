@@ -103,6 +103,8 @@ std::unique_ptr<LidarDriver> makeVelodyneDriver(const VelodyneModel& model,
 std::unique_ptr<LidarDriver> makeOusterDriver(const OusterSensor& sensor);
 /// Creates a driver of the Livox Mid-360 (Livox SDK 2, Cartesian data) with frames of 20 ms.
 std::unique_ptr<LidarDriver> makeLivoxDriver();
+/// `model`: "XT32" or "XT16".
+std::unique_ptr<LidarDriver> makeHesaiDriver(const std::string& model);
 
 /// The models that makeDriver() accepts, except Ousters: "VLP-16, ...".
 std::string driverModels(const std::string& separator = ", ");

@@ -45,11 +45,14 @@ struct DecoderWorkspace {
 /// correction. Close-range corrections (distCorrectionX and Y) and intensity corrections are not
 /// applied.
 ///
-/// Returns the number of skipped blocks: those with an invalid azimuth or a wrong header (other
-/// than 0xEEFF, or 0xDDFF for an HDL-64E). If a packet is from an unknown model, or from another
+/// `turn_between_packets`: rotation in 0.01 degrees, for a single packet with one firing (VLS-128
+/// in dual mode).
+///
+/// Returns the number of skipped blocks: those with an invalid azimuth or the header of a bank that
+/// the model lacks. If a packet is from an unknown model, or from another
 /// model than the first packet, throws std::runtime_error naming the packet and leaves `scan`
 /// unchanged. Reuses the memory of `scan`.
 std::size_t decodePackets(const VelodynePackets& packets, const VelodyneCalibration& own,
-                          Scan& scan, DecoderWorkspace& work);
+                          Scan& scan, DecoderWorkspace& work, int turn_between_packets = 0);
 
 }  // namespace hagen::sensors

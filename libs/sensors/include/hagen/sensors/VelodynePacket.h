@@ -15,8 +15,8 @@ constexpr int kVelodyneBlocks = 12;
 constexpr std::size_t kPositionBytes = 512;  ///< size of a position packet (GPS)
 constexpr int kVelodyneBlockBytes = 100, kVelodyneHeaderBytes = 4;  ///< header and azimuth
 constexpr std::size_t kReturnsOfBlock = 32;
-constexpr unsigned kUpperBlock = 0xeeff, kLowerBlock = 0xddff;  ///< headers
-constexpr int kReadingsOfTurn = 36000;                          ///< azimuths are in 0.01 degrees
+constexpr unsigned kBankHeaders[] = {0xeeff, 0xddff, 0xccff, 0xbbff};  ///< 32 lasers each
+constexpr int kReadingsOfTurn = 36000;  ///< azimuths are in 0.01 degrees
 constexpr std::size_t kVelodyneTimeAt = 1200, kVelodyneModeAt = 1204, kVelodyneModelAt = 1205;
 constexpr std::uint8_t kStrongestReturn = 0x37, kDualReturn = 0x39;  ///< modes
 
@@ -31,13 +31,15 @@ struct VelodynePacket {
     bool isDual() const;
     /// Azimuth of a block in 0.01 degrees; -1 if invalid.
     int azimuthOf(int block) const;
-    /// Azimuth of the first valid block, ignoring blocks of lower lasers; -1 if there is none.
+    /// Azimuth of the first valid block of the first bank; -1 if there is none.
     int azimuth() const;
 };
 
+/// The bank of a block's lasers; -1 if its header is invalid.
+int bankOf(const std::uint8_t* packet, int block);
 /// True for a data packet, which has the right size and at least one block with a header.
 bool isVelodyneData(const std::uint8_t* bytes, std::size_t size);
-/// True if the packet is from an HDL-64E, the only model with blocks of lower lasers.
+/// True if the packet is from an HDL-64E, the only model with two banks.
 bool isOfHdl64(const std::uint8_t* packet);
 /// The model of a packet's sensor; null if unknown.
 const VelodyneModel* velodyneModelOf(const std::uint8_t* packet);
