@@ -1,4 +1,4 @@
-// Network captures: libpcap files, fragments, datagram contents. Byte 0 selects the sensor.
+// Network captures: files, fragments, datagram contents. Byte 0 selects the sensor.
 #include "recordings/captures/LidarCapture.h"
 
 #include <memory>

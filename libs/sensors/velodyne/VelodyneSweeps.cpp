@@ -83,7 +83,7 @@ class VelodyneSweeps : public SweepReader {
     }
 
  private:
-    using Key = std::tuple<std::uint32_t, std::uint16_t, std::uint8_t>;
+    using Key = std::tuple<IpAddress, std::uint16_t, std::uint8_t>;
 
     void add(const Datagram& datagram, const VelodyneModel& model) {
         const Key key{datagram.from_ip, datagram.to_port, model.id};
