@@ -8,6 +8,7 @@
 #include "support/CloudFiles.h"
 #include "support/PointColumn.h"
 #include "support/Program.h"
+#include "support/Random.h"
 
 namespace hagen::recordings {
 namespace {
@@ -495,6 +496,79 @@ TEST_F(CloudFileTest, BinAcceptsLeadingZeros) {
     EXPECT_THAT(complaint("a", std::string(8000, '\0')), HasSubstr("not a point cloud"));
 }
 
+/// A turn of a sensor with 16 beams, column by column: x, y, z, intensity, beam, time and noise.
+std::vector<std::vector<float>> turn(bool is_shuffled) {
+    test::Random random(4);
+    std::vector<std::vector<float>> points;
+    for (int i = 0; i < 8000; ++i) {
+        const auto beam = static_cast<float>(i % 16), share = static_cast<float>(i) / 8000;
+        const float azimuth = 6.2831853f * share, elevation = (0.5f + beam) / 16 - 0.5f;
+        const float range_m = random.real(2, 60);
+        points.push_back({range_m * std::cos(azimuth), range_m * std::sin(azimuth),
+                          range_m * std::tan(elevation), random.real(0, 1), beam, 0.1f * share,
+                          random.real(0, 200), 0});
+    }
+    for (std::size_t i = points.size() - 1; is_shuffled && i > 0; --i) {
+        std::swap(points[i],
+                  points[static_cast<std::size_t>(random.whole(0, static_cast<int>(i)))]);
+    }
+    return points;
+}
+
+std::string binOf(const std::vector<std::vector<float>>& points, std::size_t numbers) {
+    test::Packed packed;
+    for (const auto& point : points) {
+        for (std::size_t k = 0; k < numbers; ++k) packed.add(point[k]);
+    }
+    return packed.text;
+}
+
+TEST_F(CloudFileTest, BinRefusesContradictedLayout) {
+    const auto points = turn(false);
+    const std::vector<std::string> fields{"x,y,z",          "", "", "x,y,z,i,-,-", "x,y,z,i,-,-,-",
+                                          "x,y,z,i,-,-,-,-"};
+    for (std::size_t numbers = 3; numbers <= 8; ++numbers) {
+        const std::string bytes = binOf(points, numbers), &layout = fields[numbers - 3];
+        if (layout.empty()) {
+            EXPECT_EQ(read("a.bin", bytes).table.fields.size(), numbers);
+            continue;
+        }
+        EXPECT_THAT(
+            complaint("a.bin", bytes),
+            HasSubstr("do not fit 4 numbers per point, but " + std::to_string(numbers) +
+                      "; state their meaning: rawlog-segment --bin-fields " + layout + " "));
+        const PointTable table = readCloud(write("a.bin", bytes), binFieldsOf(layout)).table;
+        EXPECT_EQ(table.points, points.size());
+        EXPECT_EQ(column(table, "z")[7999], points[7999][2]);
+    }
+    std::vector<std::vector<float>> timed = points;  // five numbers, but no ring
+    for (auto& point : timed) point[4] = point[5];
+    EXPECT_THAT(complaint("a.bin", binOf(timed, 5)), HasSubstr("--bin-fields x,y,z,i,- "));
+    for (auto& point : timed) point[4] *= 1e9f;
+    EXPECT_THAT(complaint("a.bin", binOf(timed, 5)), HasSubstr("--bin-fields x,y,z,i,- "));
+}
+
+TEST_F(CloudFileTest, BinReadsShuffledPoints) {
+    EXPECT_EQ(read("a.bin", binOf(turn(true), 4)).table.points, 8000u);
+    EXPECT_EQ(read("a.bin", binOf(turn(true), 5)).table.fields.size(), 5u);
+}
+
+TEST_F(CloudFileTest, BinFieldsNameNumbers) {
+    EXPECT_THAT(binFieldsOf("x,y,z,i,r,t,-,label"),
+                ElementsAre("x", "y", "z", "intensity", "ring", "time", "-", "label"));
+    EXPECT_THAT(binFieldsOf("_,z,y,x,-"), ElementsAre("-", "z", "y", "x", "-"));
+    for (const char* const wrong : {"", "x,y", "x,y,z,", "x,y,z,x", "x,y,z,i,intensity"}) {
+        EXPECT_THROW(binFieldsOf(wrong), std::runtime_error) << wrong;
+    }
+    test::Packed packed;
+    for (const float number : {9.0f, 3.0f, 2.0f, 1.0f, 8.0f, 7.0f}) packed.add(number);
+    const PointTable table =
+        readCloud(write("a.bin", packed.text), binFieldsOf("-,z,y,x,t,_")).table;
+    EXPECT_EQ(observations::namesOf(table), "z, y, x, time");
+    EXPECT_EQ(column(table, "x")[0], 1);
+    EXPECT_EQ(column(table, "time")[0], 8);
+}
+
 TEST_F(CloudFileTest, BinReadsRings) {
     for (const int count : {20, 21, 400}) {  // 20 points have a size that is also a multiple of 16
         SCOPED_TRACE(count);
@@ -522,8 +596,7 @@ TEST_F(CloudFileTest, BinRejectsOtherFifthNumbers) {
         for (const float of_point : {0.3f + number, 2.5f, 1.2f, 30000 + number}) add(of_point);
         add(i < 300 ? 0 : 1e-4f * number);
     }
-    EXPECT_THAT(complaint("a.bin", text),
-                HasSubstr("not a point cloud: its first numbers are not "));
+    EXPECT_THAT(complaint("a.bin", text), HasSubstr("--bin-fields x,y,z,i,- "));
 }
 
 TEST_F(CloudFileTest, BinDetectsPointsWithoutRings) {

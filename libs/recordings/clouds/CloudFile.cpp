@@ -53,8 +53,11 @@ std::string extensionOf(const std::filesystem::path& file) {
     return extension;
 }
 
-CloudFile readUnchecked(const std::filesystem::path& file) {
+CloudFile readUnchecked(const std::filesystem::path& file, const BinFields& bin_fields) {
     Bytes bytes = readBytes(file);
+    if (!bin_fields.empty() && extensionOf(file) == ".bin") {
+        return readBin(file, std::move(bytes), bin_fields);
+    }
     const Bytes start(bytes.begin(),
                       bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
     const auto format = formatOf(start, [&]() -> const Bytes& { return bytes; });
@@ -64,8 +67,9 @@ CloudFile readUnchecked(const std::filesystem::path& file) {
         const bool may_be_bin = bytes.size() % 16 != 0 || isAllZero(start);
         const bool is_bin =
             bytes.empty() || mayBeBin(start) || (may_be_bin && otherKindOf(start).empty());
-        if (extensionOf(file) == ".bin" && is_bin) {
-            return readBin(file, std::move(bytes));
+        if (extensionOf(file) == ".bin") {
+            if (is_bin) return readBin(file, std::move(bytes));
+            checkBinLayout(file, bytes, kKittiNumbers);
         }
         throw BrokenRecording(file.string() + ": " + whyNoCloud(start));
     }
@@ -123,8 +127,8 @@ bool hasCloudName(const std::filesystem::path& file) {
     return false;
 }
 
-CloudFile readCloud(const std::filesystem::path& file) {
-    CloudFile cloud = readUnchecked(file);
+CloudFile readCloud(const std::filesystem::path& file, const BinFields& bin_fields) {
+    CloudFile cloud = readUnchecked(file, bin_fields);
     try {
         check(cloud.table);
     } catch (const std::runtime_error& e) {

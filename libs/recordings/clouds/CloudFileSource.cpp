@@ -105,7 +105,7 @@ class CloudFileSource : public FileListSource {
             throw BrokenRecording(files_[file].string() + ": " + why);
         };
         try {
-            file_ = readCloud(files_[file]);
+            file_ = readCloud(files_[file], options_.bin_fields);
             return observations::observationOf(
                 std::make_shared<const PointTable>(std::move(file_.table)), kCloudLabel,
                 timeOf(file));
