@@ -99,7 +99,8 @@ FileKind kindOfText(std::string_view text) {
     for (const Magic& kind : kTexts) {
         if (hasAt(text, 0, kind.bytes)) return {kind.what, kind.advice};
     }
-    if (areNumbers(text)) {
+    const std::string_view below_header = text.substr(std::min(text.size(), text.find('\n')));
+    if (areNumbers(text) || areNumbers(below_header)) {
         return {"a table of numbers",
                 "if it has a point per line, convert it to PCD, PLY, LAS or NPY; pass poses with "
                 "--poses"};

@@ -266,6 +266,34 @@ TEST_F(CloudFileTest, PcdChecksCompressedSizes) {
     EXPECT_THAT(with(8, "\xff\xff"), HasSubstr("cannot be decompressed"));
 }
 
+TEST_F(CloudFileTest, PcdReadsUncompressedData) {
+    const std::vector<FilePoint> points = filePoints();
+    const std::string binary = test::binaryPcd(points), packed = test::compressedPcd(points);
+    const CloudFile plain =
+        read("a.pcd", replaced(binary, "DATA binary", "DATA binary_compressed"));
+    EXPECT_THAT(plain.remarks, ElementsAre(HasSubstr("read as binary")));
+    // Fields one after the other, with both sizes.
+    const PointTable whole = read("a.pcd", packed).table;
+    test::Packed columns;
+    columns.add(std::uint32_t{12 * 22}).add(std::uint32_t{12 * 22});
+    for (const char* const name : {"x", "y", "z"}) {
+        for (const double number : column(whole, name)) columns.add(static_cast<float>(number));
+    }
+    columns.text += std::string(12 * 4, '\7');
+    for (const double ring : column(whole, "ring")) columns.add(static_cast<std::uint16_t>(ring));
+    for (const double time : column(whole, "t")) columns.add(static_cast<std::uint32_t>(time));
+    const CloudFile by_field =
+        read("a.pcd", test::pcdHeader(12, "binary_compressed") + columns.text);
+    EXPECT_THAT(by_field.remarks, ElementsAre("its points are stored uncompressed"));
+    for (const CloudFile* const cloud : {&plain, &by_field}) {
+        for (const char* const name : {"x", "z", "ring", "t"}) {
+            EXPECT_EQ(column(cloud->table, name), column(whole, name));
+        }
+    }
+    EXPECT_THAT(complaint("a.pcd", replaced(binary, "DATA binary", "DATA binary_compressed") + "x"),
+                HasSubstr("or uncompressed (DATA binary)?"));
+}
+
 // PLY
 
 TEST_F(CloudFileTest, PlyReportsIgnoredElements) {
@@ -276,6 +304,25 @@ TEST_F(CloudFileTest, PlyReportsIgnoredElements) {
     EXPECT_THAT(column(cloud.table, "t"), ElementsAre(5));
     EXPECT_THAT(cloud.remarks,
                 ElementsAre(HasSubstr("'camera'"), HasSubstr("more"), HasSubstr("'face'")));
+}
+
+TEST_F(CloudFileTest, PlyReadsAllLineEnds) {
+    const std::vector<FilePoint> points = filePoints();
+    for (const std::string& text : {test::asciiPly(points), test::binaryPly(points, false)}) {
+        const std::size_t header = text.find("end_header\n") + 11;
+        for (const std::string end : {"\n", "\r\n", "\r", " \n"}) {
+            std::string changed;
+            for (std::size_t i = 0; i < text.size(); ++i) {
+                const bool is_end = text[i] == '\n' && (i < header || text.find("ascii") < header);
+                changed += is_end ? end : text.substr(i, 1);
+            }
+            const PointTable table = read("a.ply", changed).table;
+            ASSERT_EQ(table.points, points.size());
+            EXPECT_EQ(column(table, "t")[11], points[11].t_ns);
+        }
+    }
+    const std::string binary = "ply\nformat binary_little_endian 1.0\n\x01\xfe\xff\x80\x7f\n";
+    EXPECT_THAT(complaint("a.ply", binary), HasSubstr("line 3: binary data is not a line of"));
 }
 
 TEST_F(CloudFileTest, PlySkipsBinaryLists) {
@@ -417,6 +464,41 @@ TEST_F(CloudFileTest, NpyNamesColumnsByIndex) {
     EXPECT_THAT(column(image, "z"), ElementsAre(3, 8));
 }
 
+TEST_F(CloudFileTest, NpyReadsChannelsFirst) {
+    const auto arrayOf = [](const std::string& shape, int rows, int columns, bool is_by_column) {
+        test::Packed packed;  // each number is 1000 times its row plus its column
+        for (int i = 0; i < rows * columns; ++i) {
+            const int row = is_by_column ? i % rows : i / columns;
+            const int column = is_by_column ? i / rows : i % columns;
+            packed.add(static_cast<float>(1000 * row + column));
+        }
+        return test::npy(
+            "{'descr': '<f4', 'fortran_order': " + std::string(is_by_column ? "True" : "False") +
+                ", 'shape': " + shape + ", }",
+            packed.text);
+    };
+    for (const auto& [shape, is_by_column] :
+         std::vector<std::pair<std::string, bool>>{{"(4, 80)", false},
+                                                   {"(4, 80)", true},
+                                                   {"(4, 2, 40)", false},
+                                                   {"(1, 4, 2, 40)", false},
+                                                   {"(3, 80)", false}}) {
+        SCOPED_TRACE(shape);
+        const int rows = shape == "(3, 80)" ? 3 : 4;
+        const CloudFile cloud = read("a.npy", arrayOf(shape, rows, 80, is_by_column));
+        EXPECT_EQ(namesOf(cloud.table), rows == 3 ? "x, y, z" : "x, y, z, intensity");
+        ASSERT_EQ(cloud.table.points, 80u);
+        EXPECT_EQ(column(cloud.table, "x")[79], 79);
+        EXPECT_EQ(column(cloud.table, "z")[7], 2007);
+        EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("read as 80 points of")));
+    }
+    EXPECT_EQ(read("a.npy", arrayOf("(4, 8)", 4, 8, false)).table.points, 4u);
+    for (const std::string shape : {"(4, 12)", "(400, 160)", "(5, 100, 160)"}) {
+        EXPECT_THAT(complaint("a.npy", arrayOf(shape, 400, 200, false)),
+                    HasSubstr("array.T or numpy.moveaxis(array, 0, -1)"));
+    }
+}
+
 TEST_F(CloudFileTest, NpyChecksHeader) {
     const auto complaintOn = [&](const std::string& header) {
         return complaint("a.npy", test::npy(header, std::string(240, '\0')));
@@ -427,7 +509,7 @@ TEST_F(CloudFileTest, NpyChecksHeader) {
     EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "(5, 3)", "(15,)")),
                 HasSubstr("at least two dimensions"));
     EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "5, 2")),
-                HasSubstr("3 to 1024 columns (x, y, z, ...), not 2"));
+                HasSubstr("3 to 32 columns (x, y, z, ...), not 2"));
     EXPECT_THAT(
         complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "9999999999, 9999999999, 3")),
         HasSubstr("too large"));

@@ -17,6 +17,11 @@ bool startsWith(const Bytes& bytes, std::string_view text) {
            });
 }
 
+bool isPly(const Bytes& bytes) {
+    const auto line = TextLines(bytes).next();
+    return line && startsWith(bytes, "ply") && wordsOf(*line)[0] == "ply";
+}
+
 /// True if the first line that is not a comment starts like a PCD header.
 bool isPcd(const Bytes& bytes) {
     TextLines lines(bytes);
@@ -34,7 +39,7 @@ bool isPcd(const Bytes& bytes) {
 /// Detects the format by the first bytes of a file. A .bin requires all bytes, read by `read_all`.
 template <class ReadAll>
 std::optional<CloudFormat> formatOf(const Bytes& start, const ReadAll& read_all) {
-    if (startsWith(start, "ply\n") || startsWith(start, "ply\r")) return CloudFormat::Ply;
+    if (isPly(start)) return CloudFormat::Ply;
     if (startsWith(start, "LASF")) return CloudFormat::Las;
     if (startsWith(start, "\x93NUMPY")) return CloudFormat::Npy;
     if (isPcd(start)) return CloudFormat::Pcd;

@@ -62,7 +62,8 @@ bool hasCloudName(const std::filesystem::path& file);
 ///   edge_of_flight_line (0, 1) (uint8), scan_angle [degrees] (float32), point_source_id (uint16),
 ///   and, depending on the point format, scanner_channel (uint8), gps_time (float64), red, green,
 ///   blue, nir (uint16). Extra bytes and variable length records are listed in the remarks.
-/// - NPY: columns of a plain array are x, y, z, intensity, field_4 and so on. Fields of a
+/// - NPY: columns of a plain array are x, y, z, intensity, field_4 and so on. Arrays (3, N), (4, N)
+///   and (4, H, W) have their channels first if the last size exceeds 32. Fields of a
 ///   structured array keep their names; fields that are not plain numbers are omitted and listed.
 CloudFile readCloud(const std::filesystem::path& file, const BinFields& bin_fields = {});
 
