@@ -65,7 +65,8 @@ void declare(Program& app, Flags& flags) {
     convert::Conversion& conversion = flags.conversion;
 
     app.option("PATH,-i,--input", conversion.input,
-               "a rawlog, a network capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 "
+               "a rawlog, a network capture (.pcap, .pcapng, .lvx2), a ROS recording (.bag, .mcap, "
+               ".db3 "
                "or its folder), a scan folder (KITTI layout), a point cloud (.pcd, .ply, .las, "
                ".npy, .bin) or a folder of them")
         .existingPath()

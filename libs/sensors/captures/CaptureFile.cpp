@@ -10,6 +10,7 @@
 #include "sensors/captures/Fragments.h"
 #include "sensors/captures/FrameFile.h"
 #include "sensors/captures/IpFrames.h"
+#include "sensors/livox/Lvx2File.h"
 
 namespace hagen::sensors {
 
@@ -25,11 +26,14 @@ std::string ipText(const IpAddress& ip) {
     return text.data() + (ip.isIpv4() ? kPrefix : 0);
 }
 
-bool isCapture(const std::filesystem::path& file) { return FrameFile::isCapture(file); }
+bool isCapture(const std::filesystem::path& file) {
+    return FrameFile::isCapture(file) || Lvx2File::isLvx2(file);
+}
 
 struct CaptureFile::Reader {
     std::filesystem::path file;
     std::optional<FrameFile> capture;
+    std::optional<Lvx2File> lvx2;  ///< read instead of `capture`
     double file_bytes;
     FrameCounts counts;
     Fragments fragments;
@@ -38,7 +42,11 @@ struct CaptureFile::Reader {
     explicit Reader(const std::filesystem::path& name) : file(name) {
         base::checkIsFile(file);
         try {
-            capture.emplace(file);
+            if (Lvx2File::isLvx2(file)) {
+                lvx2.emplace(file);
+            } else {
+                capture.emplace(file);
+            }
             file_bytes = static_cast<double>(std::filesystem::file_size(file));
         } catch (const std::runtime_error& e) {
             throw BrokenCapture(file.string() + ": cannot be read as a capture: " + e.what());
@@ -51,14 +59,16 @@ struct CaptureFile::Reader {
         counts.fragments_lost = fragments.lost();
     }
 
-    /// Reads the next frame; returns false at the end of the file.
-    bool nextFrame(Frame& frame) {
+    /// Reads the next frame, or package of a Livox Viewer 2 recording, from its file; returns false
+    /// at the end.
+    template <class File, class Item>
+    bool readNext(File& from, Item& item) {
         try {
-            if (capture->next(frame)) return true;
+            if (from.next(item)) return true;
         } catch (const std::runtime_error& e) {
             end();
             throw BrokenCapture(file.string() + ": frame " + std::to_string(counts.frames) +
-                                " at byte " + std::to_string(capture->position()) +
+                                " at byte " + std::to_string(from.position()) +
                                 " cannot be read: " + e.what());
         }
         end();
@@ -108,7 +118,13 @@ bool CaptureFile::next(Datagram& datagram) {
     while (true) {
         const std::size_t frames = r.counts.frames;
         if (r.check && frames > 0 && frames % kFramesPerCheck == 0) r.check();
-        if (!r.nextFrame(frame)) return false;
+        if (r.lvx2) {
+            if (!r.readNext(*r.lvx2, datagram)) return false;
+            ++r.counts.frames;
+            ++r.counts.datagrams;
+            return true;
+        }
+        if (!r.readNext(*r.capture, frame)) return false;
         r.checkLink(frame);
         ++r.counts.frames;
         const IpPacket packet = readFrame(frame.link_type, frame.bytes);
@@ -132,7 +148,8 @@ void CaptureFile::checkWhileReading(const std::function<void()>& check) { reader
 const FrameCounts& CaptureFile::counts() const { return reader_->counts; }
 
 double CaptureFile::fractionRead() const {
-    const auto byte = static_cast<double>(reader_->capture->bytesRead());
+    const auto byte = static_cast<double>(reader_->lvx2 ? reader_->lvx2->position()
+                                                        : reader_->capture->bytesRead());
     return reader_->file_bytes > 0 ? std::min(byte / reader_->file_bytes, 1.0) : 1.0;
 }
 

@@ -30,12 +30,13 @@ struct FrameCounts {
     std::size_t tagged = 0;          ///< frames with a VLAN tag
 };
 
-/// True if the file starts like a capture (.pcap or .pcapng, also gzipped), regardless of its name.
+/// True if the file starts like a capture (.pcap or .pcapng, also gzipped, or .lvx2), regardless of
+/// its name.
 bool isCapture(const std::filesystem::path& file);
 
 /// Reads the UDP datagrams of a capture one by one: Ethernet (with VLAN tags), Linux "any" device
-/// and raw IP, which may differ between the interfaces of a pcapng file. Memory use does not grow
-/// with the file.
+/// and raw IP, which may differ between the interfaces of a pcapng file. The packages of a Livox
+/// Viewer 2 recording (.lvx2) are frames with a datagram. Memory use does not grow with the file.
 class CaptureFile {
  public:
     /// Throws BrokenCapture naming the file if it is not a readable capture.
