@@ -5,6 +5,7 @@
 
 #include "fuzz/Target.h"
 #include "support/CaptureWriter.h"
+#include "support/LivoxPackets.h"
 #include "support/OusterPackets.h"
 #include "support/SimpleFirings.h"
 
@@ -60,7 +61,10 @@ Seeds captureSeeds() {
     livox.content[5] = 10;
     livox.content[10] = 1;
     livox.to_port = 56301;
-    return {'\0' + two,
+    const std::vector<std::string> packets{test::livoxPacketOfWall(0, 5),
+                                           test::livoxPacketOfWall(1, 480005)};
+    return {'\1' + test::lvx2Of(packets),
+            '\0' + two,
             '\0' + fragments.bytes(),
             '\0' + cooked.bytes(),
             '\0' + raw.bytes(),

@@ -35,36 +35,13 @@ class LivoxCaptureTest : public test::CaptureTest {
     }
 };
 
-/// A .lvx2 file with these packets, five per frame, of the sensor 192.168.1.12.
-std::string lvx2Of(const std::vector<std::string>& packets) {
-    const auto little = [](std::uint64_t value, int size) {
-        std::string bytes;
-        for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
-        return bytes;
-    };
-    std::string file = "livox_tech" + std::string(6, '\0') + std::string("\2\0\0\0", 4) +
-                       little(0xac0ea767, 4) + little(50, 4) + '\1' + std::string(63, 's');
-    for (std::size_t first = 0; first < packets.size(); first += 5) {
-        std::string frame;
-        for (std::size_t i = first; i < std::min(first + 5, packets.size()); ++i) {
-            const std::string& packet = packets[i];
-            frame += '\0' + std::string("\xc0\xa8\x01\x0c", 4) + std::string(2, '\0') +
-                     packet.substr(28, 8) + packet.substr(7, 2) + packet[10] +
-                     little(packet.size() - 36, 4) + std::string(5, '\0') + packet.substr(36);
-        }
-        file += little(file.size(), 8) + little(file.size() + 24 + frame.size(), 8) +
-                little(first / 5, 8) + frame;
-    }
-    return file;
-}
-
 TEST_F(LivoxCaptureTest, ReadsLivoxViewerLikePackets) {
     std::vector<std::string> all;
     for (int i = 0; i < 500; ++i) {
         all.push_back(test::livoxPacketOfWall(i, 1700000000000000000 + i * test::kLivoxPacket_ns));
     }
     all.push_back(test::livoxPacket({{100, 200, 300, 7}}, 1700000000000000000 + 250000000, 500, 2));
-    const std::string lvx2 = lvx2Of(all);
+    const std::string lvx2 = test::lvx2Of(all);
     const auto turnsOf = [&](const std::string& bytes) {
         std::vector<std::vector<float>> turns;
         for (const auto& scan : read(bytes)) {

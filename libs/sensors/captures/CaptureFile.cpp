@@ -51,6 +51,7 @@ struct CaptureFile::Reader {
         } catch (const std::runtime_error& e) {
             throw BrokenCapture(file.string() + ": cannot be read as a capture: " + e.what());
         }
+        if (capture) checkLink();
     }
 
     /// Counts the fragments of datagrams that are still incomplete at the end.
@@ -76,10 +77,11 @@ struct CaptureFile::Reader {
     }
 
     /// Throws BrokenCapture if the frames of all interfaces are unreadable.
-    void checkLink(const Frame& frame) const {
-        if (capture->hasKnownLink()) return;
+    void checkLink() const {
+        const auto link = capture->unknownLink();
+        if (!link) return;
         throw BrokenCapture(file.string() + ": was captured on a link of type " +
-                            std::to_string(frame.link_type) +
+                            std::to_string(*link) +
                             ", which is not supported; known: Ethernet, Linux 'any' and raw IP");
     }
 
@@ -125,7 +127,7 @@ bool CaptureFile::next(Datagram& datagram) {
             return true;
         }
         if (!r.readNext(*r.capture, frame)) return false;
-        r.checkLink(frame);
+        r.checkLink();
         ++r.counts.frames;
         const IpPacket packet = readFrame(frame.link_type, frame.bytes);
         r.counts.tagged += packet.is_tagged;

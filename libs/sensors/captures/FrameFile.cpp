@@ -103,9 +103,12 @@ std::int64_t FrameFile::bytesRead() const {
     return gzdirect(file_.get()) != 0 ? gztell(file_.get()) : gzoffset(file_.get());
 }
 
-bool FrameFile::hasKnownLink() const {
-    return std::any_of(interfaces_.begin(), interfaces_.end(),
-                       [](const Interface& one) { return isKnownLink(one.link_type); });
+std::optional<int> FrameFile::unknownLink() const {
+    const bool has_known =
+        std::any_of(interfaces_.begin(), interfaces_.end(),
+                    [](const Interface& one) { return isKnownLink(one.link_type); });
+    return has_known || interfaces_.empty() ? std::nullopt
+                                            : std::optional(interfaces_[0].link_type);
 }
 
 bool FrameFile::nextOfPcap(Frame& frame) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -28,8 +29,8 @@ class FrameFile {
     /// Reads the next frame; returns false at the end.
     bool next(Frame& frame);
 
-    /// True if frames of an interface described so far can be read.
-    bool hasKnownLink() const;
+    /// The link type of the first interface if no interface so far has a known one.
+    std::optional<int> unknownLink() const;
     /// Position of the last frame, in the uncompressed file.
     std::int64_t position() const { return position_; }
     /// Bytes of the file read so far, approximate if it is compressed.
