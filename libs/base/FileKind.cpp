@@ -90,7 +90,7 @@ std::size_t bytesOfCharacter(char first) {
 
 bool areNumbers(std::string_view text) {
     return text.find_first_of("0123456789") != std::string_view::npos &&
-           text.find_first_not_of("0123456789+-.eE \t,;\r\n") == std::string_view::npos;
+           text.find_first_not_of("0123456789+-.eEnaifNAIF \t,;\r\n") == std::string_view::npos;
 }
 
 FileKind kindOfText(std::string_view text) {

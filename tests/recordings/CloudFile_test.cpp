@@ -323,6 +323,8 @@ TEST_F(CloudFileTest, PlyReadsAllLineEnds) {
     }
     const std::string binary = "ply\nformat binary_little_endian 1.0\n\x01\xfe\xff\x80\x7f\n";
     EXPECT_THAT(complaint("a.ply", binary), HasSubstr("line 3: binary data is not a line of"));
+    EXPECT_THAT(complaint("a.ply", "ply\nelement vertex 1\nproperty float \x81\x82\n"),
+                HasSubstr("line 3: is not a valid PLY property"));
 }
 
 TEST_F(CloudFileTest, PlySkipsBinaryLists) {

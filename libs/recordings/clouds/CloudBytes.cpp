@@ -68,9 +68,10 @@ Bytes readBytes(const std::filesystem::path& file) {
 }
 
 void failAt(const std::filesystem::path& file, const std::string& place, const std::string& what) {
-    std::string text = file.string() + ": " + place + ": " + what;
-    std::replace(text.begin(), text.end(), '\0', '?');  // a NUL would truncate the message
-    throw BrokenRecording(text);
+    std::string text = what;
+    const auto isBinary = [](unsigned char c) { return c < 0x20 || c >= 0x7f; };
+    if (!base::isText(text)) std::replace_if(text.begin(), text.end(), isBinary, '?');
+    throw BrokenRecording(file.string() + ": " + place + ": " + text);
 }
 
 std::string quoted(std::string_view word) {

@@ -151,8 +151,8 @@ class CloudFileSource : public FileListSource {
         for (const std::string& remark : remarks) {
             if (with_remark_[remark]++ == 0) remarks_.push_back(remark);
         }
-        if (const auto* const field = observations::timeFieldOf(cloud.table())) {
-            time_field_ = field->name;
+        if (!cloud.times_s().empty()) {
+            time_field_ = observations::timeFieldOf(cloud.table())->name;
         }
         ++clouds_;
         points_not_finite_ += cloud.pointsNotFinite();

@@ -1,3 +1,4 @@
+#include "base/FileKind.h"
 #include "base/NumberText.h"
 
 #include <algorithm>
@@ -67,7 +68,9 @@ void takeProperty(const std::filesystem::path& file, const TextLines& lines,
                   const std::vector<std::string_view>& words, PlyHeader& header) {
     if (header.elements.empty()) failAt(file, lines.place(), "a property must follow an element");
     const bool is_list = words.size() == 5 && words[1] == "list";
-    if (!is_list && words.size() != 3) failAt(file, lines.place(), "is not a valid PLY property");
+    if ((!is_list && words.size() != 3) || !base::isText(words.back())) {
+        failAt(file, lines.place(), "is not a valid PLY property");
+    }
     PlyProperty property;
     property.name = std::string(words.back());
     property.type = plyTypeOf(file, lines, words[words.size() - 2]);

@@ -12,7 +12,7 @@ CloudFile readPcd(const std::filesystem::path& file, Bytes bytes);
 CloudFile readPly(const std::filesystem::path& file, const Bytes& bytes);
 CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes);
 CloudFile readNpy(const std::filesystem::path& file, Bytes bytes);
-CloudFile readBin(const std::filesystem::path& file, Bytes bytes, const BinFields& fields = {});
+CloudFile readBin(const std::filesystem::path& file, Bytes bytes, const BinFields& stated = {});
 
 /// True if a file that starts with these bytes may be a .bin.
 bool mayBeBin(const Bytes& start);
