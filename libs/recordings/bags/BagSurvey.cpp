@@ -35,7 +35,8 @@ class BagSurveyor {
     void see(const BagMessage& message, const std::vector<BagTopic>& topics) {
         while (survey_.topics.size() < topics.size()) addTopic(topics[survey_.topics.size()]);
         BagSurvey::Topic& topic = survey_.topics[message.topic];
-        ++topic.messages;
+        if (topic.messages++ == 0) topic.first_ns = message.time_ns;
+        topic.last_ns = message.time_ns;
         ++survey_.messages;
         try {
             read(message, topic);

@@ -201,7 +201,8 @@ CloudFile readBin(const std::filesystem::path& file, Bytes bytes, const BinField
     if (bytes.size() % bytes_per_point != 0) {
         throw BrokenRecording(file.string() + ": " + std::to_string(bytes.size()) +
                               " bytes are not a multiple of " + std::to_string(bytes_per_point) +
-                              "-byte points; is it truncated?");
+                              "-byte points; is it truncated, or does it have other fields "
+                              "(rawlog-segment --bin-fields)?");
     }
     checkNumber(file, bytes.size() / bytes_per_point);
     cloud.table.bytes_per_point = bytes_per_point;
