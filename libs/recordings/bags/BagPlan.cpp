@@ -1,4 +1,5 @@
 #include "recordings/bags/BagPlan.h"
+#include "base/Text.h"
 #include "recordings/Remarks.h"
 
 #include <algorithm>
