@@ -4,6 +4,7 @@
 #include <hagen/settings/Presets.h>
 #include "convert/LearnAirframe.h"
 #include "convert/PacketCapture.h"
+#include "recordings/clouds/CloudFile.h"
 
 #include <cstdio>
 #include <iostream>
@@ -54,6 +55,7 @@ void printSettings(const convert::Conversion& conversion) {
 struct Flags {
     convert::Conversion conversion;
     std::vector<std::string> configs, keys;
+    std::string bin_fields;
     bool is_quiet = false, dumps_settings = false;
     std::filesystem::path learned_airframe, capture;
     double learn_seconds = convert::AirframeLearning().seconds;
@@ -63,7 +65,8 @@ void declare(Program& app, Flags& flags) {
     convert::Conversion& conversion = flags.conversion;
 
     app.option("PATH,-i,--input", conversion.input,
-               "a rawlog, a network capture (.pcap, .pcapng), a ROS recording (.bag, .mcap, .db3 "
+               "a rawlog, a network capture (.pcap, .pcapng, .lvx2), a ROS recording (.bag, .mcap, "
+               ".db3 "
                "or its folder), a scan folder (KITTI layout), a point cloud (.pcd, .ply, .las, "
                ".npy, .bin) or a folder of them")
         .existingPath()
@@ -78,6 +81,11 @@ void declare(Program& app, Flags& flags) {
     app.option("--topic", conversion.topics,
                "read only this LiDAR topic of a ROS recording; may be repeated")
         .once()
+        .group("Input");
+    app.option("--bin-fields", flags.bin_fields,
+               "float32 numbers per point of .bin files, such as x,y,z,i,r,t: intensity, ring, "
+               "time; -: skipped (default: x,y,z,i, with r if detected)")
+        .valueName("LIST")
         .group("Input");
     app.option(
            "--from", conversion.from,
@@ -224,8 +232,15 @@ void declare(Program& app, Flags& flags) {
 }
 
 /// Rejects invalid combinations of flags.
-void check(const Flags& flags) {
-    const convert::Conversion& conversion = flags.conversion;
+void check(Flags& flags) {
+    convert::Conversion& conversion = flags.conversion;
+    try {
+        if (!flags.bin_fields.empty()) {
+            conversion.bin_fields = recordings::binFieldsOf(flags.bin_fields);
+        }
+    } catch (const std::runtime_error& e) {
+        throw UsageError("--bin-fields", e.what());
+    }
     if (flags.dumps_settings) return;
     if (conversion.input.empty()) throw UsageError("--input is required");
     const bool has_output = !conversion.rawlog.empty() || !conversion.folder.empty() ||
@@ -264,6 +279,7 @@ void learn(const Flags& flags) {
     learning.sensor_json = conversion.sensor_json;
     learning.calibration = conversion.calibration;
     learning.topics = conversion.topics;
+    learning.bin_fields = conversion.bin_fields;
     learning.file = flags.learned_airframe;
     learning.overwrite = conversion.overwrite;
     learning.seconds = flags.learn_seconds;

@@ -36,8 +36,8 @@ constexpr Magic kMagics[] = {
     {0, "BZh"sv, "bzip2-compressed", kUnpack},
     {0, "\x89HDF"sv, "an HDF5 file", kConvert},
     {0, "ASTM-E57"sv, "an E57 point cloud file", kConvert},
-    {0, "livox_tech"sv, "a Livox Viewer recording (LVX)",
-     "record a network capture or a bag instead, or convert this file"},
+    {0, "livox_tech"sv, "a recording of the first Livox Viewer (LVX)",
+     "record a network capture, a bag or a .lvx2 instead, or convert this file"},
     {0, "ULog\1"sv, "a PX4 flight log (ULog), which has no LiDAR scans", ""},
     {0, "SQLite format 3\0"sv, "an SQLite database", ""},
     {0, "#ROSBAG"sv, "a ROS 1 bag", "pass it with -i"},
@@ -90,7 +90,7 @@ std::size_t bytesOfCharacter(char first) {
 
 bool areNumbers(std::string_view text) {
     return text.find_first_of("0123456789") != std::string_view::npos &&
-           text.find_first_not_of("0123456789+-.eE \t,;\r\n") == std::string_view::npos;
+           text.find_first_not_of("0123456789+-.eEnaifNAIF \t,;\r\n") == std::string_view::npos;
 }
 
 FileKind kindOfText(std::string_view text) {
@@ -99,7 +99,8 @@ FileKind kindOfText(std::string_view text) {
     for (const Magic& kind : kTexts) {
         if (hasAt(text, 0, kind.bytes)) return {kind.what, kind.advice};
     }
-    if (areNumbers(text)) {
+    const std::string_view below_header = text.substr(std::min(text.size(), text.find('\n')));
+    if (areNumbers(text) || areNumbers(below_header)) {
         return {"a table of numbers",
                 "if it has a point per line, convert it to PCD, PLY, LAS or NPY; pass poses with "
                 "--poses"};

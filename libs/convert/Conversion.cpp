@@ -148,6 +148,7 @@ class Converter {
         options.sensor_json = conversion_.sensor_json;
         options.calibration = conversion_.calibration;
         options.topics = conversion_.topics;
+        options.bin_fields = conversion_.bin_fields;
         options.first_scan = conversion_.from;
         options.last_scan = conversion_.to;
         if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;

@@ -28,6 +28,7 @@ void addScans(const AirframeLearning& learning, const AirframeListener& listener
     options.sensor_json = learning.sensor_json;
     options.calibration = learning.calibration;
     options.topics = learning.topics;
+    options.bin_fields = learning.bin_fields;
     options.first_scan = learning.from;
     options.last_scan = learning.to;
     options.keep_going = listener.keep_going;

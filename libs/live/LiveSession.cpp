@@ -149,7 +149,7 @@ void Session::reportEmptiness(const Scan& returns) {
 bool Session::isOfSensor(const Packet& packet) {
     const sensors::LidarDriver& driver = stream_->driver();
     if (driver.hasSerial() || !driver.isData(packet.datagram())) return true;
-    const std::uint32_t before = address_.ip().value_or(packet.from_ip);
+    const sensors::IpAddress before = address_.ip().value_or(packet.from_ip);
     if (!address_.take(packet.from_ip, packet.arrival_s)) {
         ++foreign_ip_;
         return false;

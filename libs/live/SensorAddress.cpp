@@ -4,13 +4,13 @@
 
 namespace hagen::live {
 
-bool SensorAddress::take(std::uint32_t ip, double arrival_s) {
+bool SensorAddress::take(sensors::IpAddress ip, double arrival_s) {
     const bool is_own = choose(ip, arrival_s - heard_s_ >= kSilence_s);
     if (is_own) heard_s_ = arrival_s;
     return is_own;
 }
 
-bool SensorAddress::choose(std::uint32_t ip, bool is_silent) {
+bool SensorAddress::choose(sensors::IpAddress ip, bool is_silent) {
     if (own_.empty()) own_.push_back(ip);
     if (ip == own_[current_]) return true;
     if (std::find(others_.begin(), others_.end(), ip) != others_.end()) return false;

@@ -1,6 +1,7 @@
 #pragma once
+#include <hagen/sensors/Datagram.h>
+
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -13,23 +14,23 @@ constexpr double kSilence_s = 1.0;  // a longer silence is reported, and a new a
 class SensorAddress {
  public:
     /// Whether a packet from this address belongs to the sensor. Counts invalid packets, too.
-    bool take(std::uint32_t ip, double arrival_s);
+    bool take(sensors::IpAddress ip, double arrival_s);
     /// The current address; nullopt before the first packet.
-    std::optional<std::uint32_t> ip() const {
+    std::optional<sensors::IpAddress> ip() const {
         return own_.empty() ? std::nullopt : std::optional(own_[current_]);
     }
 
  private:
-    bool choose(std::uint32_t ip, bool is_silent);
+    bool choose(sensors::IpAddress ip, bool is_silent);
 
     static constexpr std::size_t kMaxAddresses = 64;
 
     /// Addresses of the sensor in order of appearance; it may return to an earlier address.
-    std::vector<std::uint32_t> own_;
+    std::vector<sensors::IpAddress> own_;
     std::size_t current_ = 0;  ///< index into `own_`
     double heard_s_ = 0;       ///< time of the latest packet from the current address
     /// Addresses that sent at the same time as the sensor and therefore belong to other sensors.
-    std::vector<std::uint32_t> others_;
+    std::vector<sensors::IpAddress> others_;
 };
 
 }  // namespace hagen::live

@@ -81,9 +81,11 @@ const PointField* findExactly(const PointTable& table, const std::string& name) 
 const PointField* findField(const PointTable& table, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         if (const PointField* const field = findExactly(table, name)) return field;
-        const std::string sought = base::lowerCase(name);
-        for (const PointField& field : table.fields) {
-            if (base::lowerCase(field.name) == sought) return &field;
+        for (const std::string& sought :
+             {base::lowerCase(name), "scalar_" + base::lowerCase(name)}) {
+            for (const PointField& field : table.fields) {
+                if (base::lowerCase(field.name) == sought) return &field;
+            }
         }
     }
     return nullptr;

@@ -11,7 +11,8 @@ namespace hagen::observations {
 
 constexpr double kMaxRange_m = 1000.0;  // more than all sensors measure
 
-TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::move(table)) {
+TableCloud::TableCloud(std::shared_ptr<const PointTable> table, double period_s)
+    : table_(std::move(table)) {
     check(*table_);
     if (table_->points > std::numeric_limits<std::uint32_t>::max()) {
         throw std::runtime_error("more than 4294967295 points");
@@ -43,18 +44,18 @@ TableCloud::TableCloud(std::shared_ptr<const PointTable> table) : table_(std::mo
     }
     takeIntensities();
     PointFieldValues<std::int32_t> rings = ringsOf(*table_, point_of_return_);
-    PointFieldValues<float> times = timesOf(*table_, point_of_return_);
+    PointFieldValues<float> times = timesOf(*table_, point_of_return_, period_s);
     rings_ = std::move(rings.values);
     times_s_ = std::move(times.values);
     for (const std::string& remark : {rings.remark, times.remark}) {
         if (!remark.empty()) remarks_.push_back(remark);
     }
+    for (std::string& remark : remarksOnLookAlikes(*table_)) remarks_.push_back(std::move(remark));
     mark_as_modified();
 }
 
 void TableCloud::takeIntensities() {
-    const PointField* const field =
-        findField(*table_, {"intensity", "i", "reflectivity", "remission"});
+    const PointField* const field = intensityFieldOf(*table_);
     if (field == nullptr) return;
     const std::vector<double> intensities = columnOf(*table_, *field, point_of_return_);
     double full = 0.0;
@@ -74,11 +75,12 @@ void TableCloud::takeIntensities() {
 
 mrpt::obs::CObservationPointCloud::Ptr observationOf(std::shared_ptr<const PointTable> table,
                                                      const std::string& label,
-                                                     mrpt::Clock::time_point time) {
+                                                     mrpt::Clock::time_point time,
+                                                     double period_s) {
     auto observation = mrpt::obs::CObservationPointCloud::Create();
     observation->timestamp = time;
     observation->sensorLabel = label;
-    observation->pointcloud = std::make_shared<TableCloud>(std::move(table));
+    observation->pointcloud = std::make_shared<TableCloud>(std::move(table), period_s);
     return observation;
 }
 

@@ -26,9 +26,9 @@ namespace hagen::observations {
 /// Points with non-finite coordinates stay in the table, but are not in the cloud.
 class TableCloud : public IntensityCloud {
  public:
-    /// Throws std::runtime_error with the reason if the table is invalid (check()), has no x, y or
-    /// z, or more than 2^32 - 1 points.
-    explicit TableCloud(std::shared_ptr<const PointTable> table);
+    /// `period_s`: time between scans; 0 if unknown. Throws std::runtime_error with the reason if
+    /// the table is invalid (check()), has no x, y or z, or more than 2^32 - 1 points.
+    explicit TableCloud(std::shared_ptr<const PointTable> table, double period_s = 0);
 
     const PointTable& table() const { return *table_; }
     /// The table row of each return, ascending.
@@ -53,7 +53,8 @@ class TableCloud : public IntensityCloud {
 /// An observation with a TableCloud. Throws like the constructor of TableCloud.
 mrpt::obs::CObservationPointCloud::Ptr observationOf(std::shared_ptr<const PointTable> table,
                                                      const std::string& label,
-                                                     mrpt::Clock::time_point time);
+                                                     mrpt::Clock::time_point time,
+                                                     double period_s = 0);
 
 /// The cloud of an observation if it is a TableCloud, otherwise null.
 const TableCloud* tableCloudOf(const mrpt::obs::CObservation& observation);

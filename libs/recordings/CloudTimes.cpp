@@ -133,6 +133,7 @@ CloudTimes timesOfNames(const std::vector<std::string>& names) {
         if (time_s && observations::isTime(*time_s)) times.times_s.push_back(*time_s);
     }
     if (times.times_s.size() == names.size() && ascend(times.times_s)) {
+        times.are_of_names = true;
         times.how = "cloud times are taken from the file names";
         return times;
     }
@@ -147,13 +148,13 @@ CloudTimes timesOfNames(const std::vector<std::string>& names) {
     }
     if (are_numbers && ascend(times.times_s)) {
         times.how =
-            "its clouds have no times; assuming 0.1 s per step of the numbers in their names";
+            "its file names are not times; assuming 0.1 s per step of the numbers in their names";
         return times;
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
         times.times_s[i] = kPeriod_s * static_cast<double>(i);
     }
-    times.how = "its clouds have no times; assuming 0.1 s between them";
+    times.how = "its file names are not times; assuming 0.1 s between clouds";
     return times;
 }
 

@@ -7,6 +7,7 @@ namespace hagen::recordings {
 
 struct CloudTimes {
     std::vector<double> times_s;  ///< one per name
+    bool are_of_names = false;    ///< not assumed
     std::string how;              ///< how the times were derived, for messages
 };
 

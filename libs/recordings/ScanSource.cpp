@@ -130,6 +130,12 @@ void checkOptions(const std::string& recording, RecordingKind kind, const Source
                                  "folder), so it has no topic '" +
                                  options.topics.front() + "'");
     }
+    if (!options.bin_fields.empty() && kind != RecordingKind::Clouds &&
+        kind != RecordingKind::ScanFolder) {
+        throw std::runtime_error(recording +
+                                 ": is not a .bin file or a folder of them, so "
+                                 "--bin-fields does not apply");
+    }
     if (!options.sensor_json.empty() && !is_capture && !is_bag) {
         const bool are_exchanged = sensors::isCapture(options.sensor_json);
         throw std::runtime_error(

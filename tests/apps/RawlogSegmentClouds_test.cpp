@@ -221,6 +221,29 @@ TEST_F(RawlogSegmentClouds, ReportsErrorLocations) {
           "is not a point cloud: it seems to be a JPEG picture");
 }
 
+TEST_F(RawlogSegmentClouds, ReadsStatedBinFields) {
+    test::Packed packed;
+    const Scan scan = poles();
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        for (const float number : {scan.x_m[i], scan.y_m[i], scan.z_m[i]}) packed.add(number);
+    }
+    const std::string file = write("a.bin", packed.text);
+    write("folder/velodyne/a.bin", packed.text);
+    for (const std::string& input : {file, path("folder")}) {
+        expectFailure({"-i", input, "--kitti", path("out"), "--overwrite"}, 1,
+                      "fit 4 numbers per point, but 3; state their meaning: rawlog-segment "
+                      "--bin-fields x,y,z ");
+        EXPECT_THAT(
+            run({"-i", input, "--kitti", path("out"), "--overwrite", "--bin-fields", "x,y,z"}).out,
+            HasSubstr(std::to_string(scan.size()) + " returns"));
+    }
+    expectFailure({"-i", file, "--kitti", path("new"), "--bin-fields", "x,y"}, 2,
+                  "--bin-fields: the field z is missing");
+    expectFailure({"-i", write("a.pcap", std::string("\xd4\xc3\xb2\xa1")), "--kitti", path("new"),
+                   "--bin-fields", "x,y,z"},
+                  1, "--bin-fields does not apply");
+}
+
 TEST_F(RawlogSegmentClouds, KeepsCloudsBeforeBrokenOne) {
     write("in/1.pcd", pcdOf(poles()));
     write("in/2.pcd", pcdOf(poles()).substr(0, 1000));

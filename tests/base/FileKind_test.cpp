@@ -30,6 +30,11 @@ TEST(FileKind, RecognisesTexts) {
     EXPECT_EQ(kindOfBytes(std::string(100, ' ')).what, "text");
     EXPECT_THAT(kindOfBytes("\xef\xbb\xbf\n {\"a\": 1}").text(), HasSubstr("--sensor-json"));
     EXPECT_THAT(kindOfBytes("1.5 2 -3e1\n4,5,6\n").text(), HasSubstr("a table of numbers"));
+    for (const char* const header : {"a,b,c\n", "//X Y Z Intensity\r\n", "x;y;z;id2\n"}) {
+        EXPECT_EQ(kindOfBytes(header + std::string("1,2,3\n4,nan,6\n")).text(),
+                  kindOfBytes("1,2,3\n4,5,6\n").text());
+        EXPECT_EQ(kindOfBytes(header).what, "text");
+    }
     EXPECT_THAT(kindOfBytes("<!DOCTYPE html>").text(), HasSubstr("did its download fail?"));
 }
 

@@ -1,4 +1,4 @@
-// Network captures: libpcap files, fragments, datagram contents. Byte 0 selects the sensor.
+// Network captures: files, fragments, datagram contents. Byte 0 selects the sensor.
 #include "recordings/captures/LidarCapture.h"
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include "fuzz/Target.h"
 #include "support/CaptureWriter.h"
 #include "support/HesaiPackets.h"
+#include "support/LivoxPackets.h"
 #include "support/OusterPackets.h"
 #include "support/SimpleFirings.h"
 
@@ -65,7 +66,10 @@ Seeds captureSeeds() {
     livox.to_port = 56301;
     test::CaptureWriter hesai;
     hesai.datagrams(test::hesaiPackets(16, 2, 3), 2e-4);
-    return {'\0' + two,
+    const std::vector<std::string> packets{test::livoxPacketOfWall(0, 5),
+                                           test::livoxPacketOfWall(1, 480005)};
+    return {'\1' + test::lvx2Of(packets),
+            '\0' + two,
             '\3' + hesai.bytes(),
             '\0' + fragments.bytes(),
             '\0' + cooked.bytes(),

@@ -85,9 +85,9 @@ TEST(UdpSource, ReceivesDatagrams) {
     sender.send(std::string(9000, 'x'), test::localAddress(port));
     ASSERT_EQ(source.next(packet), Next::Packet);
     EXPECT_EQ(std::string(packet.bytes.begin(), packet.bytes.end()), "abc");
-    EXPECT_EQ(packet.from_ip, 0x7f000001u);
+    EXPECT_EQ(sensors::ipText(packet.from_ip), "127.0.0.1");
     EXPECT_EQ(packet.to_port, port);
-    EXPECT_EQ(packet.to_ip, 0x7f000001u);
+    EXPECT_EQ(sensors::ipText(packet.to_ip), "127.0.0.1");
     EXPECT_NE(packet.from_port, 0);
     EXPECT_GE(packet.arrival_s, before_s - 0.001);
     EXPECT_LE(packet.arrival_s, steadyNow_s());

@@ -102,6 +102,58 @@ TEST(TableCloud, GuessesTimeUnits) {
     EXPECT_THAT(times("other", NumberType::Float64, {0, 0.1}), IsEmpty());
 }
 
+TEST(TableCloud, UnwrapsTimes) {
+    const TableCloud cloud =
+        cloudWith("offset_time", NumberType::UInt32, {4294967296.0 - 40e6, 4294967295.0, 60e6});
+    EXPECT_THAT(cloud.times_s(), ElementsAre(0, FloatNear(0.04f, 1e-6f), FloatNear(0.1f, 1e-6f)));
+}
+
+TEST(TableCloud, ScalesNormalizedTimes) {
+    PointTable table = tableAt({1, 2, 3});
+    addColumn("time", NumberType::Float32, {0, 0.5, 0.99}, table);
+    const auto with = [&](double period_s) {
+        return TableCloud(std::make_shared<const PointTable>(table), period_s);
+    };
+    EXPECT_THAT(with(0.1).times_s(), ElementsAre(0, FloatNear(0.05f, 1e-6f), 0.099f));
+    EXPECT_THAT(with(0.1).remarks(), IsEmpty());
+    EXPECT_THAT(with(0).times_s(), ElementsAre(0, 0.5f, 0.99f));
+    EXPECT_THAT(with(0).remarks(), ElementsAre(HasSubstr("'time' spans 0 to 1: read as seconds")));
+    EXPECT_THAT(with(1.0).times_s(), ElementsAre(0, 0.5f, 0.99f));
+    EXPECT_THAT(with(1.0).remarks(), IsEmpty());
+}
+
+TEST(TableCloud, ReadsFieldsRenamedByCloudCompare) {
+    PointTable table = tableAt({1, 2});
+    addColumn("scalar_Intensity", NumberType::Float32, {1, 0.5}, table);
+    addColumn("scalar_ring", NumberType::Float32, {3, 4}, table);
+    addColumn("scalar_GpsTime", NumberType::Float64, {1e5, 1e5 + 0.1}, table);
+    const TableCloud cloud = cloudOf(table);
+    EXPECT_THAT(cloud.rings(), ElementsAre(3, 4));
+    EXPECT_THAT(cloud.times_s(), ElementsAre(0, FloatNear(0.1f, 1e-6f)));
+    EXPECT_EQ((*intensitiesOf(cloud))[1], 0.5f);
+    EXPECT_THAT(cloud.remarks(), IsEmpty());
+}
+
+TEST(TableCloud, ReportsFieldsLikeStandardOnes) {
+    const auto remarksOn = [](const char* name, NumberType type, const Numbers& numbers) {
+        return cloudWith(name, type, numbers).remarks();
+    };
+    EXPECT_THAT(
+        remarksOn("laser_id", NumberType::UInt8, {0, 1, 2, 3, 4}),
+        ElementsAre("the field 'laser_id' may contain beam numbers, but is not used; rename "
+                    "it to 'ring'"));
+    EXPECT_THAT(remarksOn("pointTime", NumberType::Float64, {0, 1, 2, 3, 4}),
+                ElementsAre(HasSubstr("rename it to 'time'")));
+    EXPECT_THAT(remarksOn("amplitude", NumberType::UInt16, {0, 1, 2, 3, 4}),
+                ElementsAre(HasSubstr("rename it to 'intensity'")));
+    EXPECT_THAT(remarksOn("edge_of_flight_line", NumberType::UInt8, {0, 1, 0, 1, 0}), IsEmpty());
+    EXPECT_THAT(remarksOn("beam_width", NumberType::Float32, {0.5, 1, 2, 3, 4}), IsEmpty());
+    PointTable table = tableAt({1, 2, 3, 4, 5});
+    addColumn("intensity", NumberType::UInt8, {1, 2, 3, 4, 5}, table);
+    addColumn("reflectance", NumberType::UInt8, {1, 2, 3, 4, 5}, table);
+    EXPECT_THAT(cloudOf(table).remarks(), IsEmpty());
+}
+
 TEST(TableCloud, ReportsImplausibleTimes) {
     for (const double last : {kNan, 3600.0}) {
         const TableCloud cloud = cloudWith("gps_time", NumberType::Float64, {0, last});

@@ -413,6 +413,24 @@ TEST_F(BagScansTest, UnpacksDatabaseMessages) {
     EXPECT_EQ(xOf(bag.observations[0]), (std::vector<float>{1, 5}));
 }
 
+TEST_F(BagScansTest, ScalesNormalizedTimesByPeriod) {
+    const auto lastTime = [&](const std::vector<double>& since_s) {
+        std::vector<SentMessage> messages;
+        for (const double at_s : since_s) {
+            messages.push_back(test::cloudMessage("/points", kStart_s + at_s, "lidar",
+                                                  {1, 2, 3, 0, 4, 5, 6, 0.95f}));
+            test::ByteString& bytes = messages.back().ros1;
+            const test::ByteString name("\x09\0\0\0intensity", 13);
+            bytes.replace(bytes.find(name), name.size(), test::ByteString("\x04\0\0\0time", 8));
+        }
+        const auto scan = read(messages).of("points").at(0);
+        return observations::tableCloudOf(*scan)->times_s()[1];
+    };
+    EXPECT_NEAR(lastTime({0, 0.11, 0.2}), 0.095, 1e-6);
+    EXPECT_FLOAT_EQ(lastTime({0, 1, 2}), 0.95f);
+    EXPECT_FLOAT_EQ(lastTime({0}), 0.95f);
+}
+
 TEST_F(BagScansTest, RejectsUnknownSerialisations) {
     SentMessage message = cloud("/points");
     message.cdr[1] = '\7';  // XCDR2

@@ -16,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::filePoints;
 using testing::AllOf;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -125,6 +124,26 @@ TEST_F(CloudFileSourceTest, AssumesPeriodWithoutTimes) {
     }
     EXPECT_THAT(scansOf(folderOf({"same.bin", "same.pcd"})).second,
                 ElementsAre(0.0, testing::DoubleNear(0.1, 1e-6)));
+}
+
+TEST_F(CloudFileSourceTest, ScalesNormalizedTimesByPeriod) {
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float time\nend_header\n1 2 3 0\n1 2 3 0.95\n";
+    const auto lastTime = [&](const std::string& name) {
+        const auto scan = openRecording(folder_ / name)->nextScan();
+        return observations::tableCloudOf(*scan->observation)->times_s()[1];
+    };
+    for (const char* const name :
+         {"known/1700000000.25.ply", "known/1700000000.35.ply", "a/1.ply"}) {
+        write(name, ply);
+    }
+    EXPECT_NEAR(lastTime("known"), 0.095, 1e-6);
+    EXPECT_FLOAT_EQ(lastTime("a"), 0.95f);
+    EXPECT_THAT(remarksOn(folder_ / "a"),
+                ElementsAre(AllOf(HasSubstr("assuming 0.1 s"), HasSubstr("the field 'time' times")),
+                            HasSubstr("'time' spans 0 to 1")));
+    EXPECT_THAT(remarksOn(folder_ / "known"), ElementsAre(HasSubstr("from the file names")));
 }
 
 TEST_F(CloudFileSourceTest, ReadsPaddedNumbersAsCounters) {

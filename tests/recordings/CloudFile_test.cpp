@@ -8,6 +8,7 @@
 #include "support/CloudFiles.h"
 #include "support/PointColumn.h"
 #include "support/Program.h"
+#include "support/Random.h"
 
 namespace hagen::recordings {
 namespace {
@@ -265,6 +266,34 @@ TEST_F(CloudFileTest, PcdChecksCompressedSizes) {
     EXPECT_THAT(with(8, "\xff\xff"), HasSubstr("cannot be decompressed"));
 }
 
+TEST_F(CloudFileTest, PcdReadsUncompressedData) {
+    const std::vector<FilePoint> points = filePoints();
+    const std::string binary = test::binaryPcd(points), packed = test::compressedPcd(points);
+    const CloudFile plain =
+        read("a.pcd", replaced(binary, "DATA binary", "DATA binary_compressed"));
+    EXPECT_THAT(plain.remarks, ElementsAre(HasSubstr("read as binary")));
+    // Fields one after the other, with both sizes.
+    const PointTable whole = read("a.pcd", packed).table;
+    test::Packed columns;
+    columns.add(std::uint32_t{12 * 22}).add(std::uint32_t{12 * 22});
+    for (const char* const name : {"x", "y", "z"}) {
+        for (const double number : column(whole, name)) columns.add(static_cast<float>(number));
+    }
+    columns.text += std::string(12 * 4, '\7');
+    for (const double ring : column(whole, "ring")) columns.add(static_cast<std::uint16_t>(ring));
+    for (const double time : column(whole, "t")) columns.add(static_cast<std::uint32_t>(time));
+    const CloudFile by_field =
+        read("a.pcd", test::pcdHeader(12, "binary_compressed") + columns.text);
+    EXPECT_THAT(by_field.remarks, ElementsAre("its points are stored uncompressed"));
+    for (const CloudFile* const cloud : {&plain, &by_field}) {
+        for (const char* const name : {"x", "z", "ring", "t"}) {
+            EXPECT_EQ(column(cloud->table, name), column(whole, name));
+        }
+    }
+    EXPECT_THAT(complaint("a.pcd", replaced(binary, "DATA binary", "DATA binary_compressed") + "x"),
+                HasSubstr("or uncompressed (DATA binary)?"));
+}
+
 // PLY
 
 TEST_F(CloudFileTest, PlyReportsIgnoredElements) {
@@ -275,6 +304,27 @@ TEST_F(CloudFileTest, PlyReportsIgnoredElements) {
     EXPECT_THAT(column(cloud.table, "t"), ElementsAre(5));
     EXPECT_THAT(cloud.remarks,
                 ElementsAre(HasSubstr("'camera'"), HasSubstr("more"), HasSubstr("'face'")));
+}
+
+TEST_F(CloudFileTest, PlyReadsAllLineEnds) {
+    const std::vector<FilePoint> points = filePoints();
+    for (const std::string& text : {test::asciiPly(points), test::binaryPly(points, false)}) {
+        const std::size_t header = text.find("end_header\n") + 11;
+        for (const std::string end : {"\n", "\r\n", "\r", " \n"}) {
+            std::string changed;
+            for (std::size_t i = 0; i < text.size(); ++i) {
+                const bool is_end = text[i] == '\n' && (i < header || text.find("ascii") < header);
+                changed += is_end ? end : text.substr(i, 1);
+            }
+            const PointTable table = read("a.ply", changed).table;
+            ASSERT_EQ(table.points, points.size());
+            EXPECT_EQ(column(table, "t")[11], points[11].t_ns);
+        }
+    }
+    const std::string binary = "ply\nformat binary_little_endian 1.0\n\x01\xfe\xff\x80\x7f\n";
+    EXPECT_THAT(complaint("a.ply", binary), HasSubstr("line 3: binary data is not a line of"));
+    EXPECT_THAT(complaint("a.ply", "ply\nelement vertex 1\nproperty float \x81\x82\n"),
+                HasSubstr("line 3: is not a valid PLY property"));
 }
 
 TEST_F(CloudFileTest, PlySkipsBinaryLists) {
@@ -416,6 +466,41 @@ TEST_F(CloudFileTest, NpyNamesColumnsByIndex) {
     EXPECT_THAT(column(image, "z"), ElementsAre(3, 8));
 }
 
+TEST_F(CloudFileTest, NpyReadsChannelsFirst) {
+    const auto arrayOf = [](const std::string& shape, int rows, int columns, bool is_by_column) {
+        test::Packed packed;  // each number is 1000 times its row plus its column
+        for (int i = 0; i < rows * columns; ++i) {
+            const int row = is_by_column ? i % rows : i / columns;
+            const int column = is_by_column ? i / rows : i % columns;
+            packed.add(static_cast<float>(1000 * row + column));
+        }
+        return test::npy(
+            "{'descr': '<f4', 'fortran_order': " + std::string(is_by_column ? "True" : "False") +
+                ", 'shape': " + shape + ", }",
+            packed.text);
+    };
+    for (const auto& [shape, is_by_column] :
+         std::vector<std::pair<std::string, bool>>{{"(4, 80)", false},
+                                                   {"(4, 80)", true},
+                                                   {"(4, 2, 40)", false},
+                                                   {"(1, 4, 2, 40)", false},
+                                                   {"(3, 80)", false}}) {
+        SCOPED_TRACE(shape);
+        const int rows = shape == "(3, 80)" ? 3 : 4;
+        const CloudFile cloud = read("a.npy", arrayOf(shape, rows, 80, is_by_column));
+        EXPECT_EQ(namesOf(cloud.table), rows == 3 ? "x, y, z" : "x, y, z, intensity");
+        ASSERT_EQ(cloud.table.points, 80u);
+        EXPECT_EQ(column(cloud.table, "x")[79], 79);
+        EXPECT_EQ(column(cloud.table, "z")[7], 2007);
+        EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("read as 80 points of")));
+    }
+    EXPECT_EQ(read("a.npy", arrayOf("(4, 8)", 4, 8, false)).table.points, 4u);
+    for (const std::string shape : {"(4, 12)", "(400, 160)", "(5, 100, 160)"}) {
+        EXPECT_THAT(complaint("a.npy", arrayOf(shape, 400, 200, false)),
+                    HasSubstr("array.T or numpy.moveaxis(array, 0, -1)"));
+    }
+}
+
 TEST_F(CloudFileTest, NpyChecksHeader) {
     const auto complaintOn = [&](const std::string& header) {
         return complaint("a.npy", test::npy(header, std::string(240, '\0')));
@@ -426,7 +511,7 @@ TEST_F(CloudFileTest, NpyChecksHeader) {
     EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "(5, 3)", "(15,)")),
                 HasSubstr("at least two dimensions"));
     EXPECT_THAT(complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "5, 2")),
-                HasSubstr("3 to 1024 columns (x, y, z, ...), not 2"));
+                HasSubstr("3 to 32 columns (x, y, z, ...), not 2"));
     EXPECT_THAT(
         complaintOn("{'descr': '<f4'" + replaced(rest, "5, 3", "9999999999, 9999999999, 3")),
         HasSubstr("too large"));
@@ -495,6 +580,79 @@ TEST_F(CloudFileTest, BinAcceptsLeadingZeros) {
     EXPECT_THAT(complaint("a", std::string(8000, '\0')), HasSubstr("not a point cloud"));
 }
 
+/// A turn of a sensor with 16 beams, column by column: x, y, z, intensity, beam, time and noise.
+std::vector<std::vector<float>> turn(bool is_shuffled) {
+    test::Random random(4);
+    std::vector<std::vector<float>> points;
+    for (int i = 0; i < 8000; ++i) {
+        const auto beam = static_cast<float>(i % 16), share = static_cast<float>(i) / 8000;
+        const float azimuth = 6.2831853f * share, elevation = (0.5f + beam) / 16 - 0.5f;
+        const float range_m = random.real(2, 60);
+        points.push_back({range_m * std::cos(azimuth), range_m * std::sin(azimuth),
+                          range_m * std::tan(elevation), random.real(0, 1), beam, 0.1f * share,
+                          random.real(0, 200), 0});
+    }
+    for (std::size_t i = points.size() - 1; is_shuffled && i > 0; --i) {
+        std::swap(points[i],
+                  points[static_cast<std::size_t>(random.whole(0, static_cast<int>(i)))]);
+    }
+    return points;
+}
+
+std::string binOf(const std::vector<std::vector<float>>& points, std::size_t numbers) {
+    test::Packed packed;
+    for (const auto& point : points) {
+        for (std::size_t k = 0; k < numbers; ++k) packed.add(point[k]);
+    }
+    return packed.text;
+}
+
+TEST_F(CloudFileTest, BinRefusesContradictedLayout) {
+    const auto points = turn(false);
+    const std::vector<std::string> fields{"x,y,z",          "", "", "x,y,z,i,-,-", "x,y,z,i,-,-,-",
+                                          "x,y,z,i,-,-,-,-"};
+    for (std::size_t numbers = 3; numbers <= 8; ++numbers) {
+        const std::string bytes = binOf(points, numbers), &layout = fields[numbers - 3];
+        if (layout.empty()) {
+            EXPECT_EQ(read("a.bin", bytes).table.fields.size(), numbers);
+            continue;
+        }
+        EXPECT_THAT(
+            complaint("a.bin", bytes),
+            HasSubstr("do not fit 4 numbers per point, but " + std::to_string(numbers) +
+                      "; state their meaning: rawlog-segment --bin-fields " + layout + " "));
+        const PointTable table = readCloud(write("a.bin", bytes), binFieldsOf(layout)).table;
+        EXPECT_EQ(table.points, points.size());
+        EXPECT_EQ(column(table, "z")[7999], points[7999][2]);
+    }
+    std::vector<std::vector<float>> timed = points;  // five numbers, but no ring
+    for (auto& point : timed) point[4] = point[5];
+    EXPECT_THAT(complaint("a.bin", binOf(timed, 5)), HasSubstr("--bin-fields x,y,z,i,- "));
+    for (auto& point : timed) point[4] *= 1e9f;
+    EXPECT_THAT(complaint("a.bin", binOf(timed, 5)), HasSubstr("--bin-fields x,y,z,i,- "));
+}
+
+TEST_F(CloudFileTest, BinReadsShuffledPoints) {
+    EXPECT_EQ(read("a.bin", binOf(turn(true), 4)).table.points, 8000u);
+    EXPECT_EQ(read("a.bin", binOf(turn(true), 5)).table.fields.size(), 5u);
+}
+
+TEST_F(CloudFileTest, BinFieldsNameNumbers) {
+    EXPECT_THAT(binFieldsOf("x,y,z,i,r,t,-,label"),
+                ElementsAre("x", "y", "z", "intensity", "ring", "time", "-", "label"));
+    EXPECT_THAT(binFieldsOf("_,z,y,x,-"), ElementsAre("-", "z", "y", "x", "-"));
+    for (const char* const wrong : {"", "x,y", "x,y,z,", "x,y,z,x", "x,y,z,i,intensity"}) {
+        EXPECT_THROW(binFieldsOf(wrong), std::runtime_error) << wrong;
+    }
+    test::Packed packed;
+    for (const float number : {9.0f, 3.0f, 2.0f, 1.0f, 8.0f, 7.0f}) packed.add(number);
+    const PointTable table =
+        readCloud(write("a.bin", packed.text), binFieldsOf("-,z,y,x,t,_")).table;
+    EXPECT_EQ(observations::namesOf(table), "z, y, x, time");
+    EXPECT_EQ(column(table, "x")[0], 1);
+    EXPECT_EQ(column(table, "time")[0], 8);
+}
+
 TEST_F(CloudFileTest, BinReadsRings) {
     for (const int count : {20, 21, 400}) {  // 20 points have a size that is also a multiple of 16
         SCOPED_TRACE(count);
@@ -522,8 +680,7 @@ TEST_F(CloudFileTest, BinRejectsOtherFifthNumbers) {
         for (const float of_point : {0.3f + number, 2.5f, 1.2f, 30000 + number}) add(of_point);
         add(i < 300 ? 0 : 1e-4f * number);
     }
-    EXPECT_THAT(complaint("a.bin", text),
-                HasSubstr("not a point cloud: its first numbers are not "));
+    EXPECT_THAT(complaint("a.bin", text), HasSubstr("--bin-fields x,y,z,i,- "));
 }
 
 TEST_F(CloudFileTest, BinDetectsPointsWithoutRings) {

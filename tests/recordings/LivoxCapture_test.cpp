@@ -35,6 +35,37 @@ class LivoxCaptureTest : public test::CaptureTest {
     }
 };
 
+TEST_F(LivoxCaptureTest, ReadsLivoxViewerLikePackets) {
+    std::vector<std::string> all;
+    for (int i = 0; i < 500; ++i) {
+        all.push_back(test::livoxPacketOfWall(i, 1700000000000000000 + i * test::kLivoxPacket_ns));
+    }
+    all.push_back(test::livoxPacket({{100, 200, 300, 7}}, 1700000000000000000 + 250000000, 500, 2));
+    const std::string lvx2 = test::lvx2Of(all);
+    const auto turnsOf = [&](const std::string& bytes) {
+        std::vector<std::vector<float>> turns;
+        for (const auto& scan : read(bytes)) {
+            const auto observed = observedOf(*scan);
+            turns.push_back(observed.scan.x_m);
+            const auto& more = observed.scan;
+            for (const auto* const column : {&more.y_m, &more.z_m, &more.intensity, &more.time_s}) {
+                turns.push_back(*column);
+            }
+        }
+        return turns;
+    };
+    const auto turns = turnsOf(lvx2);
+    EXPECT_EQ(turns.size(), 5 * 3u);
+    EXPECT_EQ(turns, turnsOf(captureOf(all).bytes()));
+    EXPECT_TRUE(sensors::isCapture(test::writeBytes(folder_ / "a", lvx2)));
+    read(lvx2);
+    EXPECT_THAT(remarks_, testing::Contains(HasSubstr("at 192.168.1.12): 501 packets in 3 scans")));
+    for (const std::size_t size : {lvx2.size() - 1, lvx2.size() / 2}) {
+        read(lvx2.substr(0, size));
+        EXPECT_THAT(broken_, HasSubstr("truncated?"));
+    }
+}
+
 TEST_F(LivoxCaptureTest, LimitsSearchForSensorKind) {
     const auto file = CaptureWriter().write(folder_ / "a.pcap");
     std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse; zeros are empty frames

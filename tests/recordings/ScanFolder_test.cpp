@@ -133,6 +133,17 @@ TEST_F(ScanFolderTest, DetectsFifthNumberByWholeFile) {
     EXPECT_EQ(numbersOf(all, [](int i) { return i < 3000 ? 3.0f : 0.5f; }), 4u);
 }
 
+TEST_F(ScanFolderTest, ReadsStatedFields) {
+    Scan scan;
+    const auto file = folder_.write("a.bin", test::raw(std::vector<float>{7, 3, 2, 51, 1, 9}));
+    EXPECT_EQ(readScan(file, scan, {"-", "z", "y", "intensity", "x", "time"}), 6u);
+    EXPECT_THAT(scan.x_m, testing::ElementsAre(1));
+    EXPECT_THAT(scan.z_m, testing::ElementsAre(3));
+    EXPECT_THAT(scan.intensity, testing::ElementsAre(0.2f));
+    readScan(folder_.write("b.bin", test::raw(std::vector<float>{1, 2, 3})), scan, {"x", "y", "z"});
+    EXPECT_THAT(scan.intensity, testing::ElementsAre(0));
+}
+
 TEST_F(ScanFolderTest, OrdersGrowingCounters) {
     for (const char* name : {"999700000000", "999900000000", "1000100000000", "1000300000000"}) {
         fs::create_directories(folder_ / "s/velodyne");

@@ -35,10 +35,30 @@ TEST(CaptureWriter, WritesFilesReadableByCaptureFile) {
         ASSERT_TRUE(capture.next(read));
         EXPECT_EQ(std::string(reinterpret_cast<const char*>(read.bytes), read.size), content);
         EXPECT_EQ(read.time_ns, 1700000000123456789);
-        EXPECT_EQ(read.from_ip, 0x0a000064u);
-        EXPECT_EQ(read.to_ip, 0xc0a80101u);
+        EXPECT_EQ(ipText(read.from_ip), "10.0.0.100");
+        EXPECT_EQ(ipText(read.to_ip), "192.168.1.1");
         EXPECT_EQ(read.from_port, 40000);
         EXPECT_EQ(read.to_port, 2368);
+    }
+    EXPECT_FALSE(capture.next(read));
+}
+
+TEST(CaptureWriter, WritesIpv6) {
+    const test::TemporaryFolder folder;
+    CaptureWriter writer(folder / "a.pcap");
+    Datagram sent = datagramOf("hello");
+    sent.from_ip = {0xfe80000000000000, 0x0123456789abcdef};
+    sent.to_ip = {0xff02000000000000, 1};
+    writer.add(sent);
+    writer.add(sent);
+    writer.flush();
+    CaptureFile capture(folder / "a.pcap");
+    Datagram read;
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_TRUE(capture.next(read));
+        EXPECT_EQ(read.size, 5u);
+        EXPECT_EQ(ipText(read.from_ip), "fe80::123:4567:89ab:cdef");
+        EXPECT_EQ(read.to_ip, sent.to_ip);
     }
     EXPECT_FALSE(capture.next(read));
 }

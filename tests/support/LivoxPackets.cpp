@@ -2,6 +2,7 @@
 
 #include <hagen/scan/Angle.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -52,6 +53,28 @@ std::string livoxPacketOfWall(int number, std::int64_t time_ns) {
         points.push_back({mm(x), mm(y), mm(z), 100});
     }
     return livoxPacket(points, time_ns, number);
+}
+
+std::string lvx2Of(const std::vector<std::string>& packets) {
+    const auto little = [](std::uint64_t value, int size) {
+        std::string bytes;
+        put(bytes, static_cast<std::int64_t>(value), size);
+        return bytes;
+    };
+    std::string file = "livox_tech" + std::string(6, '\0') + std::string("\2\0\0\0", 4) +
+                       little(0xac0ea767, 4) + little(50, 4) + '\1' + std::string(63, 's');
+    for (std::size_t first = 0; first < packets.size(); first += 5) {
+        std::string frame;
+        for (std::size_t i = first; i < std::min(first + 5, packets.size()); ++i) {
+            const std::string& packet = packets[i];
+            frame += '\0' + std::string("\xc0\xa8\x01\x0c", 4) + std::string(2, '\0') +
+                     packet.substr(28, 8) + packet.substr(7, 2) + packet[10] +
+                     little(packet.size() - 36, 4) + std::string(5, '\0') + packet.substr(36);
+        }
+        file += little(file.size(), 8) + little(file.size() + 24 + frame.size(), 8) +
+                little(first / 5, 8) + frame;
+    }
+    return file;
 }
 
 }  // namespace hagen::test

@@ -1,5 +1,6 @@
 #include "recordings/bags/BagPlan.h"
 #include <hagen/scan/Angle.h>
+#include "base/Text.h"
 #include "recordings/Remarks.h"
 
 #include <algorithm>
@@ -220,6 +221,11 @@ class Planner {
         BagSensor& sensor = plan_.sensors[topic.topic.name];
         sensor.kind = topic.kind;
         sensor.label = labelOf(topic.topic.name, labels_);
+        if (topic.messages > 1) {
+            const auto duration_ns =
+                static_cast<double>(topic.last_ns) - static_cast<double>(topic.first_ns);
+            sensor.period_s = 1e-9 * duration_ns / static_cast<double>(topic.messages - 1);
+        }
         if (topic.kind == LidarKind::Ouster) sensor.ouster = findOuster(topic);
         if (topic.kind == LidarKind::Velodyne) {
             sensor.velodyne = findVelodyne(topic);

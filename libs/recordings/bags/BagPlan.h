@@ -27,6 +27,7 @@ struct BagOptions {
 struct BagSensor {
     LidarKind kind = LidarKind::None;
     std::string label;                ///< sensor label of the topic's scans
+    double period_s = 0;              ///< mean time between messages; 0 if unknown
     mrpt::poses::CPose3D on_vehicle;  ///< from the bag's static transforms; identity if unknown
     bool has_its_own_poses = false;   ///< whether BagPlan::poses are used as sensor poses
     bool has_imu = false;             ///< whether the IMU's orientation is the sensor's attitude

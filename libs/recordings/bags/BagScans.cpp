@@ -249,8 +249,9 @@ void BagScans::Reader::takeCloud(FieldReader fields, std::int64_t recorded_ns, T
         ++state.clouds_with["is_bigendian is wrong, read in the other byte order"];
     }
     const std::int64_t time_ns = cloud.header.time_ns != 0 ? cloud.header.time_ns : recorded_ns;
-    auto scan = observations::observationOf(
-        std::make_shared<const PointTable>(std::move(cloud.table)), "", timeOf(time_ns));
+    auto scan =
+        observations::observationOf(std::make_shared<const PointTable>(std::move(cloud.table)), "",
+                                    timeOf(time_ns), state.sensor->period_s);
     scan->sensorPose = state.sensor->on_vehicle;
     add(scan, state);
 }

@@ -36,7 +36,8 @@ class BagSurveyor {
     void see(const BagMessage& message, const std::vector<BagTopic>& topics) {
         while (survey_.topics.size() < topics.size()) addTopic(topics[survey_.topics.size()]);
         BagSurvey::Topic& topic = survey_.topics[message.topic];
-        ++topic.messages;
+        if (topic.messages++ == 0) topic.first_ns = message.time_ns;
+        topic.last_ns = message.time_ns;
         ++survey_.messages;
         if (topic.kind != LidarKind::None) {
             survey_.is_out_of_order |= message.time_ns < latest_ns_;

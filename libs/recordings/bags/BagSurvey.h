@@ -60,6 +60,7 @@ struct BagSurvey {
     struct Topic {
         BagTopic topic;
         std::size_t messages = 0;
+        std::int64_t first_ns = 0, last_ns = 0;  ///< recording times of its messages
         LidarKind kind = LidarKind::None;
         std::string frame;  ///< frame of the first readable message; LiDAR topics only
         /// Number of packets per model ID in the first messages of a Velodyne topic.

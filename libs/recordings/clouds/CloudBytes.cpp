@@ -1,6 +1,7 @@
 #include "recordings/clouds/CloudBytes.h"
 
 #include <hagen/scan/MostReturns.h>
+#include "base/FileKind.h"
 #include "base/NumberText.h"
 #include "base/ReadFile.h"
 #include "mrpt/NumberTypes.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 
@@ -66,16 +68,29 @@ Bytes readBytes(const std::filesystem::path& file) {
 }
 
 void failAt(const std::filesystem::path& file, const std::string& place, const std::string& what) {
-    std::string text = file.string() + ": " + place + ": " + what;
-    std::replace(text.begin(), text.end(), '\0', '?');  // a NUL would truncate the message
-    throw BrokenRecording(text);
+    std::string text = what;
+    const auto isBinary = [](unsigned char c) { return c < 0x20 || c >= 0x7f; };
+    if (!base::isText(text)) std::replace_if(text.begin(), text.end(), isBinary, '?');
+    throw BrokenRecording(file.string() + ": " + place + ": " + text);
+}
+
+std::string quoted(std::string_view word) {
+    const std::string_view start = word.substr(0, 40);
+    return base::isText(start) ? "'" + std::string(start) + "'" : "binary data";
+}
+
+TextLines::TextLines(const Bytes& bytes) : bytes_(bytes) {
+    const auto end = std::find_if(bytes.begin(), bytes.end(),
+                                  [](std::uint8_t byte) { return byte == '\n' || byte == '\r'; });
+    if (end == bytes.end() || *end == '\n') return;
+    if (std::next(end) == bytes.end() || *std::next(end) != '\n') ending_ = '\r';
 }
 
 std::optional<std::string_view> TextLines::next() {
     if (at_ >= bytes_.size()) return std::nullopt;
     const std::uint8_t* const start = bytes_.data() + at_;
     const auto* const end =
-        static_cast<const std::uint8_t*>(std::memchr(start, '\n', bytes_.size() - at_));
+        static_cast<const std::uint8_t*>(std::memchr(start, ending_, bytes_.size() - at_));
     std::size_t size = end == nullptr ? bytes_.size() - at_ : static_cast<std::size_t>(end - start);
     at_ += size + (end == nullptr ? 0 : 1);
     ++number_;

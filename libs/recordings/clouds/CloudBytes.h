@@ -31,10 +31,10 @@ Number numberAt(const Bytes& bytes, std::size_t at) {
     return number;
 }
 
-/// Iterates over the lines of a text file. Lines end in " " or "\r ".
+/// Iterates over the lines of a text file. Lines end in LF, CRLF or, if the first one does, CR.
 class TextLines {
  public:
-    explicit TextLines(const Bytes& bytes) : bytes_(bytes) {}
+    explicit TextLines(const Bytes& bytes);
 
     /// Returns the next line without its ending; nullopt at the end of the file.
     std::optional<std::string_view> next();
@@ -45,8 +45,12 @@ class TextLines {
 
  private:
     const Bytes& bytes_;
+    char ending_ = '\n';
     std::size_t at_ = 0, number_ = 0;
 };
+
+/// The start of a word in quotes for messages, or "binary data".
+std::string quoted(std::string_view word);
 
 /// Splits a line at white space.
 std::vector<std::string_view> wordsOf(std::string_view line);

@@ -17,6 +17,11 @@ bool startsWith(const Bytes& bytes, std::string_view text) {
            });
 }
 
+bool isPly(const Bytes& bytes) {
+    const auto line = TextLines(bytes).next();
+    return line && startsWith(bytes, "ply") && wordsOf(*line)[0] == "ply";
+}
+
 /// True if the first line that is not a comment starts like a PCD header.
 bool isPcd(const Bytes& bytes) {
     TextLines lines(bytes);
@@ -34,7 +39,7 @@ bool isPcd(const Bytes& bytes) {
 /// Detects the format by the first bytes of a file. A .bin requires all bytes, read by `read_all`.
 template <class ReadAll>
 std::optional<CloudFormat> formatOf(const Bytes& start, const ReadAll& read_all) {
-    if (startsWith(start, "ply\n") || startsWith(start, "ply\r")) return CloudFormat::Ply;
+    if (isPly(start)) return CloudFormat::Ply;
     if (startsWith(start, "LASF")) return CloudFormat::Las;
     if (startsWith(start, "\x93NUMPY")) return CloudFormat::Npy;
     if (isPcd(start)) return CloudFormat::Pcd;
@@ -53,8 +58,11 @@ std::string extensionOf(const std::filesystem::path& file) {
     return extension;
 }
 
-CloudFile readUnchecked(const std::filesystem::path& file) {
+CloudFile readUnchecked(const std::filesystem::path& file, const BinFields& bin_fields) {
     Bytes bytes = readBytes(file);
+    if (!bin_fields.empty() && extensionOf(file) == ".bin") {
+        return readBin(file, std::move(bytes), bin_fields);
+    }
     const Bytes start(bytes.begin(),
                       bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kStart)));
     const auto format = formatOf(start, [&]() -> const Bytes& { return bytes; });
@@ -64,8 +72,9 @@ CloudFile readUnchecked(const std::filesystem::path& file) {
         const bool may_be_bin = bytes.size() % 16 != 0 || isAllZero(start);
         const bool is_bin =
             bytes.empty() || mayBeBin(start) || (may_be_bin && otherKindOf(start).empty());
-        if (extensionOf(file) == ".bin" && is_bin) {
-            return readBin(file, std::move(bytes));
+        if (extensionOf(file) == ".bin") {
+            if (is_bin) return readBin(file, std::move(bytes));
+            checkBinLayout(file, bytes, kKittiNumbers);
         }
         throw BrokenRecording(file.string() + ": " + whyNoCloud(start));
     }
@@ -123,8 +132,8 @@ bool hasCloudName(const std::filesystem::path& file) {
     return false;
 }
 
-CloudFile readCloud(const std::filesystem::path& file) {
-    CloudFile cloud = readUnchecked(file);
+CloudFile readCloud(const std::filesystem::path& file, const BinFields& bin_fields) {
+    CloudFile cloud = readUnchecked(file, bin_fields);
     try {
         check(cloud.table);
     } catch (const std::runtime_error& e) {

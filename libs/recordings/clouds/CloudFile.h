@@ -20,6 +20,13 @@ enum class CloudFormat {
     Bin   ///< float32 x, y, z, intensity (KITTI), and optionally ring (nuScenes); no header
 };
 
+/// The names of the float32 numbers of a point in a .bin; "-": skipped. Empty: detected.
+using BinFields = std::vector<std::string>;
+
+/// Parses "x,y,z,i,r,t,-": i, r and t stand for intensity, ring and time; other names are kept.
+/// Throws std::runtime_error unless there are one x, y and z, and no name occurs twice.
+BinFields binFieldsOf(const std::string& text);
+
 /// A cloud as stored in a file.
 struct CloudFile {
     observations::PointTable table;  ///< validated, in the byte order of this machine
@@ -44,7 +51,9 @@ bool hasCloudName(const std::filesystem::path& file);
 /// size. Throws BrokenRecording if the file is invalid or has more than kMaxReturns points.
 ///
 /// - BIN: a file named .bin may also be empty or start with 4096 zero bytes (rows without returns).
-/// Its layout is then detected from the bytes that follow the first return.
+///   Its layout is then detected from the bytes that follow the first return. It is rejected if its
+///   points are not in scan order with 4 or 5 numbers, but are with 3 to 8. A file named .bin has
+///   `bin_fields` if these are given.
 /// - PCD: fields named "_" are padding and are omitted.
 /// - PLY: elements other than `vertex`, and lists, are omitted and listed in the remarks.
 /// - LAS: x, y, z are float64, scaled and shifted by the header; with the fields intensity
@@ -53,9 +62,10 @@ bool hasCloudName(const std::filesystem::path& file);
 ///   edge_of_flight_line (0, 1) (uint8), scan_angle [degrees] (float32), point_source_id (uint16),
 ///   and, depending on the point format, scanner_channel (uint8), gps_time (float64), red, green,
 ///   blue, nir (uint16). Extra bytes and variable length records are listed in the remarks.
-/// - NPY: columns of a plain array are x, y, z, intensity, field_4 and so on. Fields of a
+/// - NPY: columns of a plain array are x, y, z, intensity, field_4 and so on. Arrays (3, N), (4, N)
+///   and (4, H, W) have their channels first if the last size exceeds 32. Fields of a
 ///   structured array keep their names; fields that are not plain numbers are omitted and listed.
-CloudFile readCloud(const std::filesystem::path& file);
+CloudFile readCloud(const std::filesystem::path& file, const BinFields& bin_fields = {});
 
 /// Marks a folder of labelled clouds as an output of this project.
 constexpr const char* kCloudsMarker = "made_by.txt";

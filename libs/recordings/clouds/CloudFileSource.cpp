@@ -1,5 +1,6 @@
 #include <hagen/recordings/BrokenRecording.h>
 #include "base/Folder.h"
+#include "mrpt/PointFields.h"
 #include "mrpt/TableCloud.h"
 #include "recordings/Remarks.h"
 #include "recordings/clouds/CloudFile.h"
@@ -28,7 +29,7 @@ std::string fieldsNotInRawlog(const PointTable& table, observations::CloudClass 
     std::vector<const observations::PointField*> kept;
     for (const char* const name : {"x", "y", "z"}) kept.push_back(findField(table, {name}));
     if (cloud_class == observations::CloudClass::WithIntensity) {
-        kept.push_back(findField(table, {"intensity", "i", "reflectivity", "remission"}));
+        kept.push_back(observations::intensityFieldOf(table));
     }
     std::string names;
     for (const observations::PointField& field : table.fields) {
@@ -54,13 +55,18 @@ class CloudFileSource : public FileListSource {
         CloudTimes times = timesOfNames(stems);
         times_s_ = std::move(times.times_s);
         time_remark_ = std::move(times.how);
+        are_times_known_ = times.are_of_names;
         names_ = stems;
         if (std::set<std::string>(stems.begin(), stems.end()).size() == stems.size()) return;
         for (std::size_t i = 0; i < files_.size(); ++i) names_[i] = files_[i].filename().string();
     }
 
     std::vector<std::string> remarks() const override {
-        std::vector<std::string> remarks{time_remark_};
+        const std::string field =
+            are_times_known_ || time_field_.empty()
+                ? ""
+                : " (the field '" + time_field_ + "' times the points of a cloud only)";
+        std::vector<std::string> remarks{time_remark_ + field};
         for (const std::string& remark : remarks_) {
             const std::size_t with_it = with_remark_.at(remark);
             remarks.push_back(remark + (with_it == clouds_
@@ -100,15 +106,22 @@ class CloudFileSource : public FileListSource {
         for (const std::size_t i : orderOfNames(stems)) files_.push_back(found[i]);
     }
 
+    /// The time between a cloud and its neighbour; 0 if unknown.
+    double periodAt(std::size_t file) const {
+        if (!are_times_known_ || times_s_.size() < 2) return 0;
+        const std::size_t next = std::max<std::size_t>(file, 1);
+        return times_s_[next] - times_s_[next - 1];
+    }
+
     Cloud read(std::size_t file) override {
         const auto fail = [&](const std::string& why) {
             throw BrokenRecording(files_[file].string() + ": " + why);
         };
         try {
-            file_ = readCloud(files_[file]);
+            file_ = readCloud(files_[file], options_.bin_fields);
             return observations::observationOf(
                 std::make_shared<const PointTable>(std::move(file_.table)), kCloudLabel,
-                timeOf(file));
+                timeOf(file), periodAt(file));
         } catch (const BrokenRecording&) {
             throw;
         } catch (const std::runtime_error& e) {
@@ -138,6 +151,9 @@ class CloudFileSource : public FileListSource {
         for (const std::string& remark : remarks) {
             if (with_remark_[remark]++ == 0) remarks_.push_back(remark);
         }
+        if (!cloud.times_s().empty()) {
+            time_field_ = observations::timeFieldOf(cloud.table())->name;
+        }
         ++clouds_;
         points_not_finite_ += cloud.pointsNotFinite();
         clouds_not_finite_ += cloud.pointsNotFinite() > 0;
@@ -155,7 +171,8 @@ class CloudFileSource : public FileListSource {
     }
 
     std::vector<fs::path> files_;
-    std::string time_remark_;
+    std::string time_remark_, time_field_;
+    bool are_times_known_ = false;
     std::size_t other_files_ = 0, folders_ = 0;  ///< files and folders beside the clouds
     CloudFile file_;
     std::size_t clouds_ = 0, points_not_finite_ = 0, clouds_not_finite_ = 0;

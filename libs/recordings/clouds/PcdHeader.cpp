@@ -137,8 +137,7 @@ PcdHeader readPcdHeader(const std::filesystem::path& file, const Bytes& bytes) {
         bool is_known = false;
         for (const std::string_view known : kKeys) is_known = is_known || key == known;
         if (!is_known) {
-            failAt(file, lines.place(),
-                   "'" + std::string(key.substr(0, 40)) + "' is not a line of a PCD header");
+            failAt(file, lines.place(), quoted(key) + " is not a line of a PCD header");
         }
         words.erase(words.begin());
         if (!entries.emplace(std::string(key), PcdLine{std::move(words), lines.place()}).second) {
@@ -158,8 +157,7 @@ PcdHeader readPcdHeader(const std::filesystem::path& file, const Bytes& bytes) {
         header.data = PcdHeader::Data::Compressed;
     } else {
         failAt(file, data.place,
-               "DATA '" + std::string(kind.substr(0, 40)) +
-                   "' is not ascii, binary or binary_compressed");
+               "DATA " + quoted(kind) + " is not ascii, binary or binary_compressed");
     }
     header.size = lines.position();
     header.lines = lines.number();

@@ -1,7 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <set>
+#include <sstream>
+#include <stdexcept>
 
 #include "recordings/clouds/Readers.h"
 
@@ -88,7 +92,70 @@ Bytes startOfReturns(const Bytes& bytes) {
     return {start, start + static_cast<std::ptrdiff_t>(std::min(bytes.size() - from, kStart))};
 }
 
+/// The median angle between the azimuths of consecutive points with this number of float32 values;
+/// nullopt if there are too few returns. It is small if the points are in scan order.
+std::optional<double> azimuthStep(const Bytes& bytes, std::size_t numbers_per_point) {
+    constexpr std::size_t kMinPairs = 16, kMaxPairs = 2000;
+    constexpr float kFarthest_m = 1000.0f;
+    const std::size_t size = sizeof(float) * numbers_per_point, points = bytes.size() / size;
+    std::vector<double> steps;
+    for (std::size_t i = 0; i + 1 < points; i += 1 + points / kMaxPairs) {
+        const auto number = [&](std::size_t point, std::size_t k) {
+            const auto value = numberAt<float>(bytes, point * size + sizeof(float) * k);
+            return std::abs(value) <= kFarthest_m ? value : std::nanf("");
+        };
+        const double x = number(i, 0), y = number(i, 1);
+        const double next_x = number(i + 1, 0), next_y = number(i + 1, 1);
+        const double step = std::atan2(std::abs(x * next_y - y * next_x), x * next_x + y * next_y);
+        const bool are_returns = (x != 0 || y != 0) && (next_x != 0 || next_y != 0);
+        if (are_returns && !std::isnan(step)) steps.push_back(step);
+    }
+    if (steps.size() < kMinPairs) return std::nullopt;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle;
+}
+
 }  // namespace
+
+BinFields binFieldsOf(const std::string& text) {
+    static const std::map<std::string, std::string> kShort{
+        {"i", "intensity"}, {"r", "ring"}, {"t", "time"}, {"_", "-"}};
+    BinFields fields;
+    std::istringstream words(text + ",");
+    for (std::string word; std::getline(words, word, ',');) {
+        const auto known = kShort.find(word);
+        fields.push_back(known == kShort.end() ? word : known->second);
+    }
+    for (const std::string& field : fields) {
+        if (field.empty()) throw std::runtime_error("a field has no name");
+        if (field != "-" && std::count(fields.begin(), fields.end(), field) > 1) {
+            throw std::runtime_error("the field '" + field + "' occurs twice");
+        }
+    }
+    for (const char* const needed : {"x", "y", "z"}) {
+        if (std::count(fields.begin(), fields.end(), needed) == 1) continue;
+        throw std::runtime_error(std::string("the field ") + needed + " is missing");
+    }
+    return fields;
+}
+
+void checkBinLayout(const std::filesystem::path& file, const Bytes& bytes, std::size_t numbers) {
+    constexpr double kMaxInOrder = 0.1, kMinContradicted = 0.3;  // [rad]; in fact 0.01 and 1.5
+    constexpr std::size_t kMax = 8;
+    const auto step = azimuthStep(bytes, numbers);
+    if (step && *step < kMinContradicted) return;
+    for (std::size_t other = 3; other <= kMax; ++other) {
+        if (other == numbers || bytes.size() % (sizeof(float) * other) != 0) continue;
+        if (azimuthStep(bytes, other).value_or(kMaxInOrder) >= kMaxInOrder) continue;
+        std::string fields = other > 3 ? "x,y,z,i" : "x,y,z";
+        for (std::size_t i = kKittiNumbers; i < other; ++i) fields += ",-";
+        throw BrokenRecording(file.string() + ": neighbouring points do not fit " +
+                              std::to_string(numbers) + " numbers per point, but " +
+                              std::to_string(other) + "; state their meaning: rawlog-segment " +
+                              "--bin-fields " + fields + " (r: ring, t: time, -: skipped)");
+    }
+}
 
 bool isAllZero(const Bytes& bytes) {
     return std::all_of(bytes.begin(), bytes.end(), [](auto byte) { return byte == 0; });
@@ -111,27 +178,31 @@ std::size_t binNumbersPerPoint(const Bytes& bytes) {
     return may_have_rings && areRings(fifthsOf(bytes)) ? 5 : without_rings;
 }
 
-CloudFile readBin(const std::filesystem::path& file, Bytes bytes) {
-    const Bytes start = startOfReturns(bytes);
-    const std::size_t numbers = binNumbersPerPoint(bytes);
-    // A truncated file may lack complete points.
-    const bool may_be_cut = bytes.size() % 16 != 0;
-    if (numbers == 0 && !may_be_cut && !isAllZero(start)) {
-        throw BrokenRecording(file.string() + ": " + whyNoCloud(start));
+CloudFile readBin(const std::filesystem::path& file, Bytes bytes, const BinFields& stated) {
+    BinFields fields = stated;
+    if (fields.empty()) {
+        const Bytes start = startOfReturns(bytes);
+        const std::size_t numbers = binNumbersPerPoint(bytes);
+        checkBinLayout(file, bytes, numbers == 0 ? kKittiNumbers : numbers);
+        // A truncated file may lack complete points.
+        const bool may_be_cut = bytes.size() % 16 != 0;
+        if (numbers == 0 && !may_be_cut && !isAllZero(start)) {
+            throw BrokenRecording(file.string() + ": " + whyNoCloud(start));
+        }
+        fields = {"x", "y", "z", "intensity"};
+        if (numbers == 5) fields.emplace_back("ring");
     }
     CloudFile cloud;
-    cloud.table.fields = {{"x", NumberType::Float32, 0, 1},
-                          {"y", NumberType::Float32, 4, 1},
-                          {"z", NumberType::Float32, 8, 1},
-                          {"intensity", NumberType::Float32, 12, 1}};
-    if (numbers == 5) {
-        cloud.table.fields.push_back({"ring", NumberType::Float32, 16, 1});
+    const std::size_t bytes_per_point = sizeof(float) * fields.size();
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        if (fields[i] == "-") continue;
+        cloud.table.fields.push_back({fields[i], NumberType::Float32, sizeof(float) * i, 1});
     }
-    const std::size_t bytes_per_point = sizeof(float) * cloud.table.fields.size();
     if (bytes.size() % bytes_per_point != 0) {
         throw BrokenRecording(file.string() + ": " + std::to_string(bytes.size()) +
                               " bytes are not a multiple of " + std::to_string(bytes_per_point) +
-                              "-byte points; is it truncated?");
+                              "-byte points; is it truncated, or does it have other fields "
+                              "(rawlog-segment --bin-fields)?");
     }
     checkNumber(file, bytes.size() / bytes_per_point);
     cloud.table.bytes_per_point = bytes_per_point;

@@ -153,8 +153,8 @@ CloudFile readLas(const std::filesystem::path& file, const Bytes& bytes) {
     if ((number & 0xc0) != 0) {
         throw BrokenRecording(
             file.string() +
-            ": is compressed (LAZ), which is not supported: decompress it first, for example "
-            "with 'las2las' or 'pdal translate'");
+            ": is compressed (LAZ), which is not supported; convert it: 'laszip -i in.laz -o "
+            "out.las' or 'pdal translate in.laz out.las'");
     }
     if (number >= std::size(kLasFormats)) {
         failAt(file, "byte 104",

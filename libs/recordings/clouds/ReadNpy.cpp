@@ -12,7 +12,9 @@ namespace {
 using observations::NumberType;
 using observations::PointField;
 
-constexpr std::size_t kMaxNpyHeader = 1 << 20;
+constexpr std::size_t kMaxNpyHeader = 1 << 20, kMaxColumns = 32;
+constexpr const char* kTransposeAdvice =
+    "; transpose an array with its channels first: array.T or numpy.moveaxis(array, 0, -1)";
 
 /// Parses the header, a Python dictionary, as YAML. Converts tuples to lists.
 YAML::Node npyHeaderOf(const std::filesystem::path& file, std::string text) {
@@ -152,7 +154,6 @@ void takeNpyFields(const std::filesystem::path& file, const YAML::Node& descr, C
 /// Creates the columns of a plain array: x, y, z, intensity, field_4 and so on.
 void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
                     std::size_t columns, CloudFile& cloud, char& order) {
-    constexpr std::size_t kMaxColumns = 1024;
     const ItemType item = itemTypeOf(file, descr);
     if (!item.type) {
         throw BrokenRecording(file.string() + ": its numbers have the unsupported type '" +
@@ -162,7 +163,7 @@ void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
     if (columns < 3 || columns > kMaxColumns) {
         throw BrokenRecording(file.string() + ": the array must have 3 to " +
                               std::to_string(kMaxColumns) + " columns (x, y, z, ...), not " +
-                              std::to_string(columns));
+                              std::to_string(columns) + kTransposeAdvice);
     }
     takeOrder(file, item.order, order);
     for (std::size_t column = 0; column < columns; ++column) {
@@ -172,6 +173,16 @@ void takeNpyColumns(const std::filesystem::path& file, const std::string& descr,
              *item.type, column * item.bytes, 1});
     }
     cloud.table.bytes_per_point = columns * item.bytes;
+}
+
+/// True for the shape of x, y, z and perhaps intensity as separate arrays: (3, N), (4, H, W).
+/// Throws BrokenRecording if the shape could be either.
+bool hasChannelsFirst(const std::filesystem::path& file, std::size_t first, std::size_t last) {
+    constexpr std::size_t kMaxPlausibleColumns = 8;
+    if ((first != 3 && first != 4) || last <= kMaxPlausibleColumns) return false;
+    if (last > kMaxColumns) return true;
+    throw BrokenRecording(file.string() + ": its shape has " + std::to_string(first) +
+                          " channels or " + std::to_string(last) + " columns" + kTransposeAdvice);
 }
 
 /// Converts an array from column-major order to point records.
@@ -218,17 +229,22 @@ CloudFile readNpy(const std::filesystem::path& file, Bytes bytes) {
                               ": the array must have at least two dimensions, N x 3 or more "
                               "(x, y, z, ...)");
     }
-    const std::size_t point_dimensions = is_plain ? dimensions - 1 : dimensions;
-    if (is_by_column && point_dimensions > 1) {
+    if (is_by_column && dimensions > (is_plain ? 2 : 1)) {
         throw BrokenRecording(
             file.string() +
             ": is in Fortran order with several dimensions, which is not supported; save "
             "numpy.ascontiguousarray() of it");
     }
-    cloud.table.points = productOf(file, shape, 0, point_dimensions);
+    const auto sizeOf = [&](std::size_t i) { return productOf(file, shape, i, i + 1); };
+    std::size_t first = 0;  // of the dimensions, without a batch of one
+    while (is_plain && first + 2 < dimensions && sizeOf(first) == 1) ++first;
+    const bool are_channels_first =
+        is_plain && hasChannelsFirst(file, sizeOf(first), sizeOf(dimensions - 1));
+    cloud.table.points = productOf(file, shape, first + (are_channels_first ? 1 : 0),
+                                   dimensions - (is_plain && !are_channels_first ? 1 : 0));
     char order = '|';
     if (is_plain) {
-        takeNpyColumns(file, descr.Scalar(), productOf(file, shape, dimensions - 1, dimensions),
+        takeNpyColumns(file, descr.Scalar(), sizeOf(are_channels_first ? first : dimensions - 1),
                        cloud, order);
     } else {
         takeNpyFields(file, descr, cloud, order);
@@ -241,9 +257,14 @@ CloudFile readNpy(const std::filesystem::path& file, Bytes bytes) {
     }
     bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(start));
     bytes.resize(size);
-    if (is_plain && is_by_column) {
+    if (is_plain && is_by_column != are_channels_first) {
         bytes = transposed(bytes, cloud.table.points, cloud.table.fields.size(),
                            bytesOf(cloud.table.fields[0].type));
+    }
+    if (are_channels_first) {
+        cloud.remarks.push_back("channels first: read as " + std::to_string(cloud.table.points) +
+                                " points of " + std::to_string(cloud.table.fields.size()) +
+                                " numbers");
     }
     cloud.table.is_big_endian = order == '>';
     cloud.table.bytes = std::move(bytes);

@@ -44,8 +44,8 @@ void readAsciiPcd(const std::filesystem::path& file, const PcdHeader& header, co
             for (std::size_t k = 0; k < field.count; ++k, ++word, to += bytesOf(field.type)) {
                 if (putNumber(words[word], field.type, to)) continue;
                 failAt(file, lines.place(),
-                       "'" + std::string(words[word].substr(0, 40)) + "' is not a valid " +
-                           nameOf(field.type) + " for the field '" + field.name + "'");
+                       quoted(words[word]) + " is not a valid " + nameOf(field.type) +
+                           " for the field '" + field.name + "'");
             }
         }
     }
@@ -74,10 +74,20 @@ void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& heade
     const auto packed = numberAt<std::uint32_t>(bytes, header.size);
     const auto unpacked = numberAt<std::uint32_t>(bytes, header.size + sizeof(std::uint32_t));
     const std::size_t start = header.size + sizes, there = bytes.size() - start;
+    std::size_t plain = 0;
+    const bool is_huge = __builtin_mul_overflow(header.points, header.bytes_per_point, &plain);
+    if (!is_huge && there + sizes == plain && (packed > there || unpacked != plain)) {
+        readBinaryPcd(file, header, bytes, cloud);
+        cloud.remarks.emplace_back(
+            "its DATA is binary_compressed, but has the size of uncompressed points: read as "
+            "binary");
+        return;
+    }
     if (packed > there) {
-        throw BrokenRecording(file.string() + ": the header claims " + std::to_string(packed) +
-                              " compressed bytes, but " + std::to_string(there) +
-                              " are left; is it truncated?");
+        throw BrokenRecording(
+            file.string() + ": the header claims " + std::to_string(packed) +
+            " compressed bytes, but " + std::to_string(there) + " are left; is it truncated" +
+            (!is_huge && there + sizes >= plain ? ", or uncompressed (DATA binary)?" : "?"));
     }
     if (unpacked / kMaxPerByte > packed) {
         throw BrokenRecording(file.string() + ": " + std::to_string(packed) +
@@ -92,7 +102,12 @@ void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& heade
     cloud.remarks = remarkOnRest(there - packed);
     if (header.points == 0) return;
     Bytes by_field(unpacked);
-    if (lzf_decompress(bytes.data() + start, packed, by_field.data(), unpacked) != unpacked) {
+    const bool is_packed =
+        lzf_decompress(bytes.data() + start, packed, by_field.data(), unpacked) == unpacked;
+    if (!is_packed && packed == unpacked) {
+        std::copy_n(bytes.data() + start, unpacked, by_field.data());
+        cloud.remarks.emplace_back("its points are stored uncompressed");
+    } else if (!is_packed) {
         throw BrokenRecording(file.string() + ": byte " + std::to_string(start) +
                               ": its points cannot be decompressed (LZF)");
     }

@@ -1,3 +1,4 @@
+#include "base/FileKind.h"
 #include "base/NumberText.h"
 
 #include <algorithm>
@@ -58,7 +59,7 @@ NumberType plyTypeOf(const std::filesystem::path& file, const TextLines& lines,
         {"double", NumberType::Float64}, {"float64", NumberType::Float64}};
     const auto known = kTypes.find(name);
     if (known == kTypes.end()) {
-        failAt(file, lines.place(), "'" + std::string(name.substr(0, 40)) + "' is not a PLY type");
+        failAt(file, lines.place(), quoted(name) + " is not a PLY type");
     }
     return known->second;
 }
@@ -67,7 +68,9 @@ void takeProperty(const std::filesystem::path& file, const TextLines& lines,
                   const std::vector<std::string_view>& words, PlyHeader& header) {
     if (header.elements.empty()) failAt(file, lines.place(), "a property must follow an element");
     const bool is_list = words.size() == 5 && words[1] == "list";
-    if (!is_list && words.size() != 3) failAt(file, lines.place(), "is not a valid PLY property");
+    if ((!is_list && words.size() != 3) || !base::isText(words.back())) {
+        failAt(file, lines.place(), "is not a valid PLY property");
+    }
     PlyProperty property;
     property.name = std::string(words.back());
     property.type = plyTypeOf(file, lines, words[words.size() - 2]);
@@ -100,8 +103,7 @@ PlyHeader readPlyHeader(const std::filesystem::path& file, const Bytes& bytes) {
             } else if (words[1] == "binary_big_endian") {
                 header.data = PlyHeader::Data::Big;
             } else {
-                failAt(file, lines.place(),
-                       "format '" + std::string(words[1].substr(0, 40)) + "' is not supported");
+                failAt(file, lines.place(), "format " + quoted(words[1]) + " is not supported");
             }
         } else if (words[0] == "element" && words.size() == 3) {
             const auto count = base::numberFrom<std::uint64_t>(words[2]);
@@ -110,8 +112,7 @@ PlyHeader readPlyHeader(const std::filesystem::path& file, const Bytes& bytes) {
         } else if (words[0] == "property") {
             takeProperty(file, lines, words, header);
         } else {
-            failAt(file, lines.place(),
-                   "'" + std::string(words[0].substr(0, 40)) + "' is not a line of a PLY header");
+            failAt(file, lines.place(), quoted(words[0]) + " is not a line of a PLY header");
         }
     }
     if (!has_format) throw BrokenRecording(file.string() + ": its PLY header has no format");
@@ -254,8 +255,8 @@ class AsciiRows {
         std::array<std::uint8_t, 8> number{};
         if (!putNumber(words[word], property.type, number.data())) {
             failAt(file_, lines_.place(),
-                   "'" + std::string(words[word].substr(0, 40)) + "' is not a valid " +
-                       nameOf(property.type) + " for the property '" + property.name + "'");
+                   quoted(words[word]) + " is not a valid " + nameOf(property.type) +
+                       " for the property '" + property.name + "'");
         }
         ++word;
         if (table == nullptr) return;

@@ -146,35 +146,46 @@ void markAsPredictions(const fs::path& folder) {
     base::closeWritten(out, file);
 }
 
-std::size_t readScan(const fs::path& file, Scan& scan) {
+std::size_t readScan(const fs::path& file, Scan& scan, const std::vector<std::string>& bin_fields) {
     try {
         const Bytes bytes = readBytes(file);
-        std::size_t numbers = binNumbersPerPoint(bytes);
-        if (numbers == 0) {
-            if (mayBeBin(bytes)) {
+        std::vector<std::string> fields = bin_fields;
+        if (fields.empty()) {
+            const std::size_t numbers = binNumbersPerPoint(bytes);
+            checkBinLayout(file, bytes, numbers == 0 ? kKittiNumbers : numbers);
+            const std::string other_kind = numbers == 0 ? otherKindOf(bytes) : "";
+            if (numbers == 0 && mayBeBin(bytes)) {
                 throw BrokenRecording(file.string() +
                                       ": the fifth number of its points is not a ring");
             }
-            const std::string other_kind = otherKindOf(bytes);
             if (!other_kind.empty()) {
                 throw BrokenRecording(file.string() + ": is not a KITTI scan: " + other_kind);
             }
-            numbers = 4;
+            fields = {"x", "y", "z", "intensity"};
+            if (numbers > fields.size()) fields.resize(numbers);
         }
+        const std::size_t numbers = fields.size();
         const std::size_t points = checkedCount(file, bytes.size(), sizeof(float) * numbers);
         std::vector<float> values(points * numbers);
         if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
-        float max = 0;
-        for (std::size_t i = 3; i < values.size(); i += numbers) max = std::max(max, values[i]);
-        const float scale = numbers > 4 && max > 1 ? 255.0f : 1.0f;  // only files with rings
+        const auto columnOf = [&](const char* name) {
+            std::vector<float> column(points);
+            const auto at = std::find(fields.begin(), fields.end(), name) - fields.begin();
+            for (std::size_t i = 0, from = static_cast<std::size_t>(at);
+                 from < values.size() && at < static_cast<std::ptrdiff_t>(numbers);
+                 ++i, from += numbers) {
+                column[i] = values[from];
+            }
+            return column;
+        };
         scan.clear();
-        scan.reserve(points);
-        for (std::size_t i = 0; i < values.size(); i += numbers) {
-            scan.x_m.push_back(values[i]);
-            scan.y_m.push_back(values[i + 1]);
-            scan.z_m.push_back(values[i + 2]);
-            scan.intensity.push_back(values[i + 3] / scale);
-        }
+        scan.x_m = columnOf("x");
+        scan.y_m = columnOf("y");
+        scan.z_m = columnOf("z");
+        scan.intensity = columnOf("intensity");
+        const auto max = std::max_element(scan.intensity.begin(), scan.intensity.end());
+        const bool is_scaled = numbers > kKittiNumbers && max != scan.intensity.end() && *max > 1;
+        for (float& intensity : scan.intensity) intensity /= is_scaled ? 255.0f : 1.0f;
         return numbers;
     } catch (const std::bad_alloc&) {
         throw BrokenRecording(file.string() + ": does not fit into memory");

@@ -46,11 +46,11 @@ class ScanFolderSource : public FileListSource {
 
  private:
     Cloud read(std::size_t file) override {
-        floats_per_point_ = readScan(folder_.scanFile(file), scan_);
+        floats_per_point_ = readScan(folder_.scanFile(file), scan_, options_.bin_fields);
         return observations::observationOf(scan_, kFolderLabel, timeOf(file));
     }
     mrpt::serialization::CSerializable::Ptr take(const Cloud& cloud) override {
-        has_rings_ |= floats_per_point_ == 5;
+        has_rings_ |= floats_per_point_ == 5 && options_.bin_fields.empty();
         if (!options_.folder_objects) return nullptr;
         return observations::observationOf(scan_, kFolderLabel, cloud->timestamp,
                                            *options_.folder_objects);

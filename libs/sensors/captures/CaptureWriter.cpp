@@ -9,7 +9,7 @@ namespace hagen::sensors {
 namespace {
 
 constexpr std::size_t kBlockBytes = 1 << 16;
-constexpr std::size_t kEthernetHeader = 14, kIpHeader = 20;
+constexpr std::size_t kEthernetHeader = 14, kIpHeader = 20, kIpv6Header = 40;
 
 // pcap in little-endian byte order; network headers in network order.
 void append16(std::string& bytes, unsigned value) {
@@ -26,10 +26,19 @@ void appendLittle32(std::string& bytes, std::uint64_t value) {
     }
 }
 
+void appendIp(std::string& bytes, const IpAddress& ip) {
+    const auto low = static_cast<std::uint32_t>(ip.low);
+    if (ip.isIpv4()) return append32(bytes, low);
+    append32(bytes, static_cast<std::uint32_t>(ip.high >> 32));
+    append32(bytes, static_cast<std::uint32_t>(ip.high));
+    append32(bytes, static_cast<std::uint32_t>(ip.low >> 32));
+    append32(bytes, low);
+}
+
 /// Appends a locally administered MAC address; hosts are distinguished by IP address.
-void appendMac(std::string& bytes, std::uint32_t ip) {
+void appendMac(std::string& bytes, const IpAddress& ip) {
     append16(bytes, 0x0200);
-    append32(bytes, ip);
+    append32(bytes, static_cast<std::uint32_t>(ip.low));
 }
 
 /// The IPv4 header checksum: the complemented sum of the 16-bit words.
@@ -43,22 +52,35 @@ unsigned checksumOf(const std::string& bytes, std::size_t from, std::size_t size
     return ~(sum + (sum >> 16)) & 0xffff;
 }
 
+bool isIpv4(const Datagram& datagram) {
+    return datagram.from_ip.isIpv4() && datagram.to_ip.isIpv4();
+}
+
 void appendFrame(std::string& bytes, const Datagram& datagram) {
     const auto udp_bytes = static_cast<unsigned>(kUdpHeader + datagram.size);
     appendMac(bytes, datagram.to_ip);
     appendMac(bytes, datagram.from_ip);
-    append16(bytes, 0x0800);  // IPv4
-    const std::size_t ip = bytes.size();
-    append16(bytes, 0x4500);
-    append16(bytes, kIpHeader + udp_bytes);
-    append32(bytes, 0x00004000);  // not fragmented
-    append16(bytes, 0x4011);      // time to live 64, UDP
-    append16(bytes, 0);           // checksum
-    append32(bytes, datagram.from_ip);
-    append32(bytes, datagram.to_ip);
-    const unsigned checksum = checksumOf(bytes, ip, kIpHeader);
-    bytes[ip + 10] = static_cast<char>(checksum >> 8);
-    bytes[ip + 11] = static_cast<char>(checksum & 0xff);
+    if (isIpv4(datagram)) {
+        append16(bytes, 0x0800);
+        const std::size_t ip = bytes.size();
+        append16(bytes, 0x4500);
+        append16(bytes, kIpHeader + udp_bytes);
+        append32(bytes, 0x00004000);  // not fragmented
+        append16(bytes, 0x4011);      // time to live 64, UDP
+        append16(bytes, 0);           // checksum
+        appendIp(bytes, datagram.from_ip);
+        appendIp(bytes, datagram.to_ip);
+        const unsigned checksum = checksumOf(bytes, ip, kIpHeader);
+        bytes[ip + 10] = static_cast<char>(checksum >> 8);
+        bytes[ip + 11] = static_cast<char>(checksum & 0xff);
+    } else {
+        append16(bytes, 0x86dd);
+        append32(bytes, 0x60000000);
+        append16(bytes, udp_bytes);
+        append16(bytes, 0x1140);  // UDP, hop limit 64
+        appendIp(bytes, datagram.from_ip);
+        appendIp(bytes, datagram.to_ip);
+    }
     append16(bytes, datagram.from_port);
     append16(bytes, datagram.to_port);
     append16(bytes, udp_bytes);
@@ -81,7 +103,8 @@ CaptureWriter::CaptureWriter(const std::filesystem::path& file)
 
 bool CaptureWriter::add(const Datagram& datagram) {
     const auto time_ns = static_cast<std::uint64_t>(datagram.time_ns);
-    const std::uint64_t frame_bytes = kEthernetHeader + kIpHeader + kUdpHeader + datagram.size;
+    const std::uint64_t frame_bytes =
+        kEthernetHeader + (isIpv4(datagram) ? kIpHeader : kIpv6Header) + kUdpHeader + datagram.size;
     appendLittle32(block_, time_ns / 1000000000);
     appendLittle32(block_, time_ns % 1000000000);
     appendLittle32(block_, frame_bytes);  // captured length

@@ -25,8 +25,8 @@ class Fragments {
     static constexpr std::size_t kMaxOpen = 16;
     static constexpr std::size_t kUnit = 8;  ///< unit of fragment offsets, bytes
     struct Open {
-        std::uint32_t from_ip, to_ip;
-        std::uint16_t id;
+        IpAddress from_ip, to_ip;
+        std::uint32_t id;
         std::vector<std::uint8_t> bytes;
         std::bitset<65536 / kUnit> has_unit;
         std::size_t size = 0;  ///< size of the datagram; 0 until its last fragment arrives

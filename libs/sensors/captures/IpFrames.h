@@ -1,4 +1,6 @@
 #pragma once
+#include <hagen/sensors/Datagram.h>
+
 #include <cstddef>
 #include <cstdint>
 
@@ -27,8 +29,8 @@ struct IpPacket {
     };
     Kind kind = Kind::Other;
     bool is_tagged = false;  ///< the frame has a VLAN tag
-    std::uint32_t from_ip = 0, to_ip = 0;
-    std::uint16_t id = 0;    ///< shared by all fragments of a datagram
+    IpAddress from_ip, to_ip;
+    std::uint32_t id = 0;    ///< shared by all fragments of a datagram
     std::size_t offset = 0;  ///< position of the content in the datagram, bytes
     bool has_more = false;
     Bytes content;
@@ -36,7 +38,7 @@ struct IpPacket {
     bool isFragment() const { return has_more || offset > 0; }
 };
 
-/// True if frames of this link type (DLT_* of libpcap) can be read.
+/// True if frames of this link type (LINKTYPE_*) can be read.
 bool isKnownLink(int link_type);
 
 /// Returns the IP packet in a frame of this link type.

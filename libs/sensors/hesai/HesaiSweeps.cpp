@@ -92,7 +92,7 @@ class HesaiSweeps : public SweepReader {
         complete_.push_back(std::exchange(sensor.sweep, std::move(next)));
     }
 
-    SensorTable<std::pair<std::uint32_t, std::string>, Sensor> sensors_{"hesai"};
+    SensorTable<std::pair<IpAddress, std::string>, Sensor> sensors_{"hesai"};
 };
 
 }  // namespace

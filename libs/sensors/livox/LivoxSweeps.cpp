@@ -100,7 +100,7 @@ class LivoxSweeps : public SweepReader {
 
     const std::shared_ptr<const SensorModel> model_ =
         std::make_shared<const SensorModel>(sensorModel("Mid-360"));
-    SensorTable<std::uint32_t, Sensor> sensors_{"livox"};
+    SensorTable<IpAddress, Sensor> sensors_{"livox"};
     std::size_t imu_packets_ = 0;
 };
 

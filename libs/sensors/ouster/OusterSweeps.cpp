@@ -93,7 +93,7 @@ class OusterSweeps : public SweepReader {
     std::filesystem::path json_;
     OusterSensor sensor_;
     OusterFrames frames_{sensor_};
-    std::optional<std::uint32_t> from_ip_;  ///< the sensor's address, if known
+    std::optional<IpAddress> from_ip_;  ///< the sensor's address, if known
     std::size_t imu_packets_ = 0, other_sources_ = 0;
     std::map<std::uint64_t, std::size_t> other_serials_;
 };

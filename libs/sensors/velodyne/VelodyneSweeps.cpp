@@ -32,7 +32,8 @@ class VelodyneSweeps : public SweepReader {
     void preview(const Datagram& datagram) override {
         if (!isVelodyneData(datagram.bytes, datagram.size)) return;
         const VelodyneModel* const model = velodyneModelOf(datagram.bytes);
-        if (model != nullptr) views_[keyOf(datagram, *model)].add(packetOf(datagram));
+        AzimuthView* const view = model == nullptr ? nullptr : viewOf(keyOf(datagram, *model));
+        if (view != nullptr) view->add(packetOf(datagram));
     }
 
     void add(const Datagram& datagram) override {
@@ -90,10 +91,20 @@ class VelodyneSweeps : public SweepReader {
     }
 
  private:
-    using Key = std::tuple<std::uint32_t, std::uint16_t, std::uint8_t>;
+    using Key = std::tuple<IpAddress, std::uint16_t, std::uint8_t>;
 
     static Key keyOf(const Datagram& datagram, const VelodyneModel& model) {
         return {datagram.from_ip, datagram.to_port, model.id};
+    }
+
+    SilentSector silenceOf(const Key& key) {
+        const AzimuthView* const view = viewOf(key);
+        return view == nullptr ? SilentSector() : view->silence().value_or(SilentSector());
+    }
+
+    /// Null if there are too many sensors.
+    AzimuthView* viewOf(const Key& key) {
+        return views_.find(key, [](const std::string&) { return AzimuthView(); });
     }
 
     static VelodynePacket packetOf(const Datagram& datagram) {
@@ -107,7 +118,7 @@ class VelodyneSweeps : public SweepReader {
         const Key key = keyOf(datagram, model);
         VelodyneTurns* const turns = sensors_.find(key, [&](const std::string& label) {
             return VelodyneTurns(model, label, &model == &hdl64Model() ? &*calibration_ : nullptr,
-                                 views_[key].silence().value_or(SilentSector()));
+                                 silenceOf(key));
         });
         if (turns == nullptr) return;
         ++packets_;
@@ -137,7 +148,7 @@ class VelodyneSweeps : public SweepReader {
 
     std::filesystem::path calibration_file_;
     std::optional<VelodyneCalibration> calibration_;
-    std::map<Key, AzimuthView> views_;
+    SensorTable<Key, AzimuthView> views_{"velodyne"};
     SensorTable<Key, VelodyneTurns> sensors_{"velodyne"};
     std::size_t packets_ = 0, position_packets_ = 0, hdl64_packets_ = 0;
     std::map<unsigned, std::size_t> unknown_ids_;

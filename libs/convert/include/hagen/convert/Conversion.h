@@ -17,10 +17,11 @@ namespace hagen::convert {
 
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
-    std::filesystem::path input;        ///< see openRecording()
-    std::filesystem::path sensor_json;  ///< Ouster metadata of a capture or bag, or empty
-    std::filesystem::path calibration;  ///< HDL-64E calibration of a capture, or empty
-    std::vector<std::string> topics;    ///< LiDAR topics of a bag; empty for all topics
+    std::filesystem::path input;          ///< see openRecording()
+    std::filesystem::path sensor_json;    ///< Ouster metadata of a capture or bag, or empty
+    std::filesystem::path calibration;    ///< HDL-64E calibration of a capture, or empty
+    std::vector<std::string> topics;      ///< LiDAR topics of a bag; empty for all topics
+    std::vector<std::string> bin_fields;  ///< as in SourceOptions
 
     std::filesystem::path rawlog;  ///< segmented rawlog
     std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR

@@ -13,9 +13,9 @@ namespace hagen::live {
 /// A received datagram.
 struct Packet {
     std::vector<std::uint8_t> bytes;
-    std::int64_t time_ns = 0;              ///< arrival, or recording time in a capture, since 1970
-    double arrival_s = 0;                  ///< arrival on the clock of steadyNow_s()
-    std::uint32_t from_ip = 0, to_ip = 0;  ///< IPv4 addresses
+    std::int64_t time_ns = 0;  ///< arrival, or recording time in a capture, since 1970
+    double arrival_s = 0;      ///< arrival on the clock of steadyNow_s()
+    sensors::IpAddress from_ip, to_ip;
     std::uint16_t from_port = 0, to_port = 0;
 
     /// The result is valid as long as the packet.

@@ -51,7 +51,7 @@ void check(const PointTable& table);
 /// The field with exactly this name; null if not found.
 const PointField* findExactly(const PointTable& table, const std::string& name);
 /// The field with the first name that matches; an exact match is preferred to a case-insensitive
-/// match. Null if not found.
+/// match, and that to a match after "scalar_" (CloudCompare). Null if not found.
 const PointField* findField(const PointTable& table, const std::vector<std::string>& names);
 
 /// The numbers of a field of a checked table, one per point, at index `element` of its count.

@@ -76,10 +76,11 @@ class ScanFolder {
 void markAsPredictions(const std::filesystem::path& folder);
 
 /// Reads x, y, z and intensity, including points that are not finite. Does not assign beams. If
-/// points have a ring (nuScenes), ignores it and scales intensities to 0..1. Returns the number of
-/// values per point, 4 or 5. Throws BrokenRecording if the file is invalid or has another known
-/// format.
-std::size_t readScan(const std::filesystem::path& file, Scan& scan);
+/// points have more than 4 values (nuScenes), ignores the others and scales intensities to 0..1.
+/// `bin_fields`: as in SourceOptions. Returns the number of values per point. Throws
+/// BrokenRecording if the file is invalid, has another known format or seems to have other fields.
+std::size_t readScan(const std::filesystem::path& file, Scan& scan,
+                     const std::vector<std::string>& bin_fields = {});
 void writeScan(const std::filesystem::path& file, const Scan& scan);
 
 /// The highest component number in a label file; higher numbers are stored as this value.

@@ -56,6 +56,8 @@ struct SourceOptions {
     std::filesystem::path sensor_json;  ///< Ouster metadata for a capture or bag
     std::filesystem::path calibration;  ///< HDL-64E calibration for a capture
     std::vector<std::string> topics;    ///< LiDAR topics to read from a bag; all if empty
+    /// Meaning of the float32 numbers of a point in .bin files (binFieldsOf()); detected if empty.
+    std::vector<std::string> bin_fields;
     /// If set, called with the packets of the selected LiDARs of a rawlog or bag. The datagrams
     /// have no addresses.
     std::function<void(const std::string& sensor_label, const sensors::Datagram&)> packet;
@@ -180,7 +182,8 @@ class ScanSource {
 /// scan folder, or point clouds: a file (.pcd, .ply, .las, .npy, .bin) or a folder of them. File
 /// formats are detected by content. Throws std::runtime_error naming the recording if it does not
 /// exist or cannot be opened, or if an option does not apply to its kind: sensor_json (captures,
-/// bags), calibration (captures), topics (bags).
+/// bags), calibration (captures), topics (bags),
+/// bin_fields (scan folders, clouds).
 std::unique_ptr<ScanSource> openRecording(const std::filesystem::path& recording,
                                           const SourceOptions& options = {});
 

@@ -25,16 +25,18 @@ struct FrameCounts {
     std::size_t datagrams = 0;       ///< complete UDP datagrams
     std::size_t fragments = 0;       ///< frames with a fragment of a datagram
     std::size_t fragments_lost = 0;  ///< fragments of incomplete datagrams
-    std::size_t other_traffic = 0;   ///< frames that are not UDP over IPv4
+    std::size_t other_traffic = 0;   ///< frames that are not UDP over IP
     std::size_t cut_frames = 0;      ///< frames truncated by the capture's snap length
     std::size_t tagged = 0;          ///< frames with a VLAN tag
 };
 
-/// True if the file starts like a capture (.pcap or .pcapng), regardless of its name.
+/// True if the file starts like a capture (.pcap or .pcapng, also gzipped, or .lvx2), regardless of
+/// its name.
 bool isCapture(const std::filesystem::path& file);
 
 /// Reads the UDP datagrams of a capture one by one: Ethernet (with VLAN tags), Linux "any" device
-/// and raw IP. Memory use does not grow with the file.
+/// and raw IP, which may differ between the interfaces of a pcapng file. The packages of a Livox
+/// Viewer 2 recording (.lvx2) are frames with a datagram. Memory use does not grow with the file.
 class CaptureFile {
  public:
     /// Throws BrokenCapture naming the file if it is not a readable capture.
