@@ -21,9 +21,8 @@ struct SilentSector {
 
 /// Finds the silent sector of a sensor: the only part of the turn of at least 8 degrees that no
 /// block covers, if it was skipped twice, or once between two blocks of the same packet. Lost
-/// packets leave other gaps in the next turn. Turns end in the middle of the sector, so that the
-/// view is seen in one go, or at 0 if the first packet starts there, because a program has cut
-/// them.
+/// packets leave other gaps in the next turn. Turns end in the middle of the sector, or at 0 if the
+/// first packet starts there, because a program has then cut the recording into turns.
 class AzimuthView {
  public:
     void add(const VelodynePacket& packet);

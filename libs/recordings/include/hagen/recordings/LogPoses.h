@@ -18,7 +18,8 @@ struct LogPoses {
     /// applies only to the LiDARs with the labels `of_sensors`.
     bool are_of_sensor = false;
     std::set<std::string> of_sensors = {};
-    std::set<std::string> vehicles = {};  ///< labels of LiDARs whose recorded attitude contains the mount
+    /// Labels of the LiDARs whose recorded attitude includes the mount.
+    std::set<std::string> vehicles = {};
 };
 
 /// The poses of a rawlog: from `file` if it is given, otherwise from the log. A KITTI file must
