@@ -315,6 +315,7 @@ attitude: (roll, pitch) of the sensor relative to the horizon [rad], if known: p
 down is positive), then roll about x (left side up is positive). The sensor may then be mounted at
 an arbitrary angle.
 
+Warns (UserWarning) if most results so far are suspicious, such as scans without ground.
 Raises ValueError for other shapes and for angles beyond +-2 pi. Releases the GIL.)")
         .def_property_readonly(
             "sensor", [](const Filter& filter) { return shownText(filter.sensor().name); },

@@ -77,6 +77,19 @@ def test_labels_match_program(program, poles_labels, tmp_path):
         assert np.count_nonzero(result.labels == hagen.ROI) > 1000
 
 
+def test_warns_of_suspicious_results():
+    points, _ = ground_and_pillar()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        hagen.Filter("vlp16").segment(points)
+    upside_down = hagen.Filter("vlp16")
+    with pytest.warns(UserWarning, match="no ground .* --set sensor.mount_roll_deg=180"):
+        upside_down.segment(points * np.float32([1, -1, -1]))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # each kind once
+        upside_down.segment(points * np.float32([1, -1, -1]))
+
+
 @pytest.mark.parametrize(
     "convert",
     [
