@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Messages as on the wire. Field names, units and values follow the definitions
-/// (https://mavlink.io/en/messages/common.html, .../ardupilotmega.html).
+/// Messages as on the wire: little-endian, without padding. Field names, units and values follow
+/// the definitions (https://mavlink.io/en/messages/common.html, .../ardupilotmega.html).
 namespace hagen::mavlink {
 
 constexpr std::uint8_t kTypeOnboardController = 18;        ///< MAV_TYPE_ONBOARD_CONTROLLER
@@ -19,6 +19,8 @@ constexpr std::uint8_t kComponentObstacleAvoidance = 196;  ///< MAV_COMP_ID_OBST
 constexpr std::uint8_t kFrameBodyFrd = 12;                 ///< MAV_FRAME_BODY_FRD
 constexpr std::uint8_t kDistanceSensorLaser = 0;           ///< MAV_DISTANCE_SENSOR_LASER
 constexpr std::uint8_t kRotationPitch270 = 25;             ///< MAV_SENSOR_ROTATION_PITCH_270
+
+#pragma pack(push, 1)
 
 /// HEARTBEAT
 struct Heartbeat {
@@ -33,17 +35,6 @@ struct Heartbeat {
     std::uint8_t base_mode = 0;
     std::uint8_t system_status = 0;
     std::uint8_t mavlink_version = 0;
-
-    /// Calls `take` with the offset and the value of each field.
-    template <class Message, class Take>
-    static void eachField(Message& message, const Take& take) {
-        take(0, message.custom_mode);
-        take(4, message.type);
-        take(5, message.autopilot);
-        take(6, message.base_mode);
-        take(7, message.system_status);
-        take(8, message.mavlink_version);
-    }
 };
 
 /// ATTITUDE
@@ -60,18 +51,6 @@ struct Attitude {
     float rollspeed = 0;             ///< rad/s
     float pitchspeed = 0;            ///< rad/s
     float yawspeed = 0;              ///< rad/s
-
-    /// Calls `take` with the offset and the value of each field.
-    template <class Message, class Take>
-    static void eachField(Message& message, const Take& take) {
-        take(0, message.time_boot_ms);
-        take(4, message.roll);
-        take(8, message.pitch);
-        take(12, message.yaw);
-        take(16, message.rollspeed);
-        take(20, message.pitchspeed);
-        take(24, message.yawspeed);
-    }
 };
 
 /// ATTITUDE_QUATERNION
@@ -90,20 +69,6 @@ struct AttitudeQuaternion {
     float pitchspeed = 0;  ///< rad/s
     float yawspeed = 0;    ///< rad/s
     std::array<float, 4> repr_offset_q{};
-
-    /// Calls `take` with the offset and the value of each field.
-    template <class Message, class Take>
-    static void eachField(Message& message, const Take& take) {
-        take(0, message.time_boot_ms);
-        take(4, message.q1);
-        take(8, message.q2);
-        take(12, message.q3);
-        take(16, message.q4);
-        take(20, message.rollspeed);
-        take(24, message.pitchspeed);
-        take(28, message.yawspeed);
-        take(32, message.repr_offset_q);
-    }
 };
 
 /// LOCAL_POSITION_NED
@@ -120,18 +85,6 @@ struct LocalPositionNed {
     float vx = 0;                    ///< m/s
     float vy = 0;                    ///< m/s
     float vz = 0;                    ///< m/s
-
-    /// Calls `take` with the offset and the value of each field.
-    template <class Message, class Take>
-    static void eachField(Message& message, const Take& take) {
-        take(0, message.time_boot_ms);
-        take(4, message.x);
-        take(8, message.y);
-        take(12, message.z);
-        take(16, message.vx);
-        take(20, message.vy);
-        take(24, message.vz);
-    }
 };
 
 /// DISTANCE_SENSOR
@@ -153,23 +106,6 @@ struct DistanceSensor {
     float vertical_fov = 0;       ///< rad
     std::array<float, 4> quaternion{};
     std::uint8_t signal_quality = 0;  ///< %
-
-    /// Calls `take` with the offset and the value of each field.
-    template <class Message, class Take>
-    static void eachField(Message& message, const Take& take) {
-        take(0, message.time_boot_ms);
-        take(4, message.min_distance);
-        take(6, message.max_distance);
-        take(8, message.current_distance);
-        take(10, message.type);
-        take(11, message.id);
-        take(12, message.orientation);
-        take(13, message.covariance);
-        take(14, message.horizontal_fov);
-        take(18, message.vertical_fov);
-        take(22, message.quaternion);
-        take(38, message.signal_quality);
-    }
 };
 
 /// OBSTACLE_DISTANCE
@@ -188,20 +124,6 @@ struct ObstacleDistance {
     float increment_f = 0;       ///< deg
     float angle_offset = 0;      ///< deg
     std::uint8_t frame = 0;
-
-    /// Calls `take` with the offset and the value of each field.
-    template <class Message, class Take>
-    static void eachField(Message& message, const Take& take) {
-        take(0, message.time_usec);
-        take(8, message.distances);
-        take(152, message.min_distance);
-        take(154, message.max_distance);
-        take(156, message.sensor_type);
-        take(157, message.increment);
-        take(158, message.increment_f);
-        take(162, message.angle_offset);
-        take(166, message.frame);
-    }
 };
 
 /// OBSTACLE_DISTANCE_3D
@@ -220,20 +142,8 @@ struct ObstacleDistance3d {
     std::uint16_t obstacle_id = 0;
     std::uint8_t sensor_type = 0;
     std::uint8_t frame = 0;
-
-    /// Calls `take` with the offset and the value of each field.
-    template <class Message, class Take>
-    static void eachField(Message& message, const Take& take) {
-        take(0, message.time_boot_ms);
-        take(4, message.x);
-        take(8, message.y);
-        take(12, message.z);
-        take(16, message.min_distance);
-        take(20, message.max_distance);
-        take(24, message.obstacle_id);
-        take(26, message.sensor_type);
-        take(27, message.frame);
-    }
 };
+
+#pragma pack(pop)
 
 }  // namespace hagen::mavlink

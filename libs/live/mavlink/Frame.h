@@ -39,13 +39,10 @@ std::vector<std::uint8_t> encode(const Frame& frame, std::size_t payload_bytes);
 /// Encodes the fields of a message (Messages.h) in a frame.
 template <class Message>
 Frame frameOf(const Message& message) {
-    static_assert(std::is_trivially_copyable_v<Message>);
+    static_assert(std::is_trivially_copyable_v<Message> && sizeof message == Message::kBytes);
     Frame frame;
     frame.id = Message::kId;
-    // Fields are little-endian and never padded, as on all supported processors.
-    Message::eachField(message, [&](std::size_t offset, const auto& field) {
-        std::memcpy(frame.payload.data() + offset, &field, sizeof field);
-    });
+    std::memcpy(frame.payload.data(), &message, sizeof message);
     return frame;
 }
 
@@ -55,9 +52,7 @@ template <class Message>
 std::optional<Message> messageOf(const Frame& frame) {
     if (frame.id != Message::kId) return std::nullopt;
     Message message;
-    Message::eachField(message, [&](std::size_t offset, auto& field) {
-        std::memcpy(&field, frame.payload.data() + offset, sizeof field);
-    });
+    std::memcpy(&message, frame.payload.data(), sizeof message);
     return message;
 }
 
