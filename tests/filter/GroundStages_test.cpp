@@ -1,4 +1,4 @@
-// Compares the vectorised ground stages with their definitions and across instruction sets.
+// Compares the ground stages across instruction sets.
 #include <gtest/gtest.h>
 #include "filter/FilterWorkspace.h"
 #include "filter/simd/CanopyLayer.h"
@@ -136,15 +136,6 @@ void expectSame(const Judged& a, const Judged& b) {
     EXPECT_TRUE(test::same(a.tolerance_m, b.tolerance_m));
     EXPECT_EQ(a.has_evidence, b.has_evidence);
     EXPECT_TRUE((a.labels == b.labels).all());
-}
-
-TEST(GroundStages, MatchDefinitions) {
-    forManySights([](const Sight& sight) {
-        limitInstructionSets("plain");
-        const Judged plain = judged(sight);
-        limitInstructionSets("");
-        expectSame(judged(sight), plain);
-    });
 }
 
 TEST(GroundStages, MatchOnEveryInstructionSet) {

@@ -118,27 +118,6 @@ void expectOneResult(const std::string& sensor_name, const Options& options,
     }
 }
 
-/// The reference stages give the same labels, although sums may be rounded differently.
-TEST(InstructionSets, ReferenceStagesYieldSameLabels) {
-    for (const char* const name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
-        for (const unsigned seed : {3, 4, 5}) {
-            const SensorModel sensor = sensorModel(name);
-            Scan scan = noisyScan(sensor, 700, seed);
-            locateBeams(sensor, scan);
-            const Attitude attitude{0.05f, -0.04f};
-            limitInstructionSets("plain");
-            HagenFilter plain(sensor), fast(sensor);
-            const SegmentationResult& defined = plain.segment(scan, attitude);
-            limitInstructionSets("");
-            const SegmentationResult& result = fast.segment(scan, attitude);
-            EXPECT_TRUE((result.labels == defined.labels).all()) << name << ", " << seed;
-            EXPECT_EQ(result.own_labels.label, defined.own_labels.label);
-            EXPECT_EQ(result.returns.label, defined.returns.label);
-            EXPECT_EQ(result.returns.component, defined.returns.component);
-        }
-    }
-}
-
 TEST(InstructionSets, PaperFilterIsIdentical) {
     expectOneResult("VLP-16", test::paperOptions(), {});
     expectOneResult("HDL-32E", test::paperOptions(), {});
