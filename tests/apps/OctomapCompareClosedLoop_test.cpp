@@ -173,24 +173,6 @@ TEST(ClosedLoopFlights, SectorsDoNotChangeScanRows) {
     EXPECT_EQ(readFile(folder / "scans/runs.csv"), both);
 }
 
-TEST(ClosedLoopFlights, CoversMapsAndPathSearches) {
-    const TemporaryFolder folder;
-    const auto fly = [&](const std::string& into, const std::vector<std::string>& more) {
-        const Outcome outcome =
-            octomapCompare(flying(folder, into, more,
-                                  "--scenario forest-0.05 --speed 10 --seeds 1000-1001 "
-                                  "--models W-Full,G-Full,O-Full-0.4 --guidance astar"));
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return readFile(folder / into / "runs.csv");
-    };
-    const std::string runs = fly("one", {"--jobs", "1"});
-    EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 7);
-    fly("first", {"--shard", "1/2"});
-    fly("second", {"--shard", "2/2", "--jobs", "2"});
-    EXPECT_EQ(concatenated({folder / "first/runs.csv", folder / "second/runs.csv"}),
-              sortedLines(runs));
-}
-
 TEST(ClosedLoopFlights, ResumesAfterBeingKilled) {
     const TemporaryFolder folder;
     ASSERT_EQ(octomapCompare(flying(folder, "whole")).exit_code, 0);
@@ -202,18 +184,6 @@ TEST(ClosedLoopFlights, ResumesAfterBeingKilled) {
     ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
     EXPECT_EQ(resumed.err.find("run 0 of 6\n"), std::string::npos) << resumed.err;
     EXPECT_EQ(readFile(folder / "killed/runs.csv"), readFile(folder / "whole/runs.csv"));
-}
-
-TEST(ClosedLoopFlights, KeepsFinishedRunsWhenInterrupted) {
-    const TemporaryFolder folder;
-    const pid_t pid = start(flying(folder, "stopped", {"--jobs", "1"}), folder / "err");
-    waitForARow(folder / "stopped/runs.csv");
-    kill(pid, SIGTERM);
-    EXPECT_EQ(exitCodeOf(pid), 1);
-    EXPECT_THAT(readFile(folder / "err"),
-                AllOf(HasSubstr("octomap-compare: interrupted; "),
-                      HasSubstr(" of 6 runs kept in " + (folder / "stopped/runs.csv").string() +
-                                "; rerun the same command to resume\n")));
 }
 
 TEST(ClosedLoopFlights, KeepsFinishedRunsOnFullDisk) {
@@ -267,19 +237,6 @@ TEST(ClosedLoop, RejectsInvalidArgumentsBeforeWriting) {
     expectFailure(octomapCompare({"closedloop"}), 2, "required");
     expectFailure(octomapCompare({"hover"}), 2, "");
     expectFailure(octomapCompare({}), 2, "");
-}
-
-TEST(ClosedLoop, ReportsBrokenOrIncompleteProfile) {
-    const TemporaryFolder folder;
-    auto arguments = flying(folder, "none");
-    auto& profile = *(std::find(arguments.begin(), arguments.end(), "--profile") + 1);
-    profile = folder.write("broken.json", "{").string();
-    expectFailure(octomapCompare(arguments), 1, "broken.json");
-    profile = folder.write("poor.json", R"({"quantiles_ms": {"filter": [1]}})").string();
-    expectFailure(octomapCompare(arguments), 1, "W-RoI/update");
-    profile = (folder / "missing.json").string();
-    expectFailure(octomapCompare(arguments), 1, "missing.json");
-    EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
 TEST(ClosedLoop, KeepsForeignFolders) {

@@ -142,22 +142,6 @@ TEST_P(ConversionTest, AddsCloudsToSensoryFrame) {
                   "[ front pose rear front_roi front_non_roi rear_roi rear_non_roi ]"}));
 }
 
-TEST_P(ConversionTest, WritesReproducibleBytes) {
-    writeLog({scanFrom(0), scanFrom(1)});
-    Conversion first = conversion(), second = conversion();
-    first.folder = folder_ / "scans";
-    second.rawlog = folder_ / "again.rawlog";
-    second.folder = folder_ / "scans_again";
-    convert(first);
-    convert(second);
-    EXPECT_EQ(test::readFile(first.rawlog), test::readFile(second.rawlog));
-    for (const char* file :
-         {"velodyne/000001.bin", "labels/000001.label", "times.txt", "sensor.yaml"}) {
-        EXPECT_EQ(test::readFile(first.folder / file), test::readFile(second.folder / file))
-            << file;
-    }
-}
-
 TEST_P(ConversionTest, ReproducesOwnOutput) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(scanFrom(2, "rear"));
@@ -650,19 +634,6 @@ TEST_P(ConversionTest, IncludesFirstAndLastScan) {
                 HasSubstr("has 2 scans, none at or after 2"));
 }
 
-TEST_P(ConversionTest, AddsPreviewAfterClouds) {
-    writeLog({scanFrom(0)});
-    Conversion with_preview = conversion();
-    with_preview.preview = true;
-    convert(with_preview);
-    recordings::RawlogReader reader(folder_ / "out.rawlog");
-    for (int i = 0; i < 3; ++i) ASSERT_NE(reader.next(), nullptr);
-    const auto preview = std::dynamic_pointer_cast<mrpt::obs::CObservation3DScene>(reader.next());
-    ASSERT_NE(preview, nullptr);
-    EXPECT_NE(preview->scene, nullptr);
-    EXPECT_EQ(reader.next(), nullptr);
-}
-
 TEST_P(ConversionTest, KeepsPartialOutputOnInterrupt) {
     writeLog({pose(), scanFrom(0), pose()});
     int asked = 0;
@@ -708,22 +679,6 @@ TEST_P(ConversionTest, FindsExternalClouds) {
     ASSERT_EQ(remarks.size(), 2u);
     EXPECT_THAT(remarks[0], HasSubstr((folder_ / "out_Images").string()));
     EXPECT_THAT(remarks[1], HasSubstr("no ground was found in 1 of 1 scan"));
-}
-
-TEST_P(ConversionTest, NeverReplacesInput) {
-    writeLog({scanFrom(0)});
-    Conversion onto_itself = conversion();
-    onto_itself.rawlog = onto_itself.input;
-    onto_itself.overwrite = true;
-    EXPECT_THROW(convert(onto_itself), std::runtime_error);
-    EXPECT_EQ(entriesOf(folder_ / "in.rawlog").size(), 1u);
-}
-
-TEST_P(ConversionTest, RejectsExistingOutput) {
-    writeLog({scanFrom(0)});
-    folder_.write("out.rawlog", "old");
-    EXPECT_THROW(convert(conversion()), std::runtime_error);
-    EXPECT_EQ(test::readFile(folder_ / "out.rawlog"), "old");
 }
 
 TEST_P(ConversionTest, StopsAtUnsuitableSettings) {
