@@ -4,9 +4,8 @@
 
 namespace hagen::observations {
 
-/// True if the name has a map's extension: .bt, .ot, .3Dscene.
-bool isMapFile(const std::filesystem::path& file);
-/// Throws std::runtime_error, naming the file and the extensions, unless isMapFile().
+/// Throws std::runtime_error, naming the file and the extensions, unless the extension is a map's:
+/// .bt, .ot, .3Dscene.
 void checkMapFile(const std::filesystem::path& file);
 
 /// Writes the map in the format of the extension: .bt (occupied or free), .ot (probabilities),
