@@ -407,7 +407,7 @@ TEST(VelodyneStreams, LaggingBeamKeepsObstacle) {
     observations::Firings firings = test::fireAt({}, model, {0, 0, 2});
     firings.range_m.setZero();
     for (int firing = 0; firing < firings.range_m.cols(); ++firing) {
-        const double azimuth_deg = observations::firingAzimuthDeg(model, firings, 9, firing);
+        const double azimuth_deg = test::firingAzimuthDeg(model, firings, 9, firing);
         const bool is_hit = std::abs(std::remainder(azimuth_deg - 62.5, 360.0)) < 0.8;
         if (is_hit) firings.range_m(9, firing) = 5;
     }

@@ -13,6 +13,7 @@
 #include "support/InstructionSets.h"
 #include "support/Program.h"
 #include "support/Random.h"
+#include "support/SimpleFirings.h"
 
 namespace hagen::observations {
 namespace {
@@ -109,7 +110,8 @@ void expectReturns(const sensors::VelodyneModel& model, const Firings& firings, 
             const float range_m = firings.range_m(laser, firing);
             if (!hasValue(range_m)) continue;
             ASSERT_LT(i, scan.size());
-            const double azimuth_rad = -radians(firingAzimuthDeg(model, firings, laser, firing));
+            const double azimuth_rad =
+                -radians(test::firingAzimuthDeg(model, firings, laser, firing));
             const double turned =
                 std::remainder(static_cast<double>(scan.azimuth_rad[i]) - azimuth_rad, 2 * kPi);
             ASSERT_LT(std::abs(degrees(turned)), 0.016);  // azimuths are rounded to 0.01 twice
