@@ -94,12 +94,12 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file) {
     saveMapInPlace(copy, file, file);
 }
 
-void saveMapInPlace(octomap::OcTree& whole, const fs::path& file, const fs::path& named) {
+void saveMapInPlace(octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
     checkMapFile(named);
-    if (named.extension() == ".3Dscene") return saveScene(whole, file, named);
-    whole.updateInnerOccupancy();  // inner nodes are stale while a map is being built
+    if (named.extension() == ".3Dscene") return saveScene(tree, file, named);
+    tree.updateInnerOccupancy();  // inner nodes are stale while a map is being built
     std::ofstream out = base::openToWrite(file, named);
-    writeOctree(whole, named.extension() == ".bt", out);
+    writeOctree(tree, named.extension() == ".bt", out);
     base::closeWritten(out, named);
 }
 

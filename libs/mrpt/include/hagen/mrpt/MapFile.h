@@ -12,7 +12,7 @@ void checkMapFile(const std::filesystem::path& file);
 /// .3Dscene (occupied voxels, for SceneViewer3D). Throws std::runtime_error, naming the file, for
 /// other extensions, or if writing fails. Does not write atomically: callers use OutputPath.
 void saveMap(const octomap::OcTree& tree, const std::filesystem::path& file);
-/// Like writeMap(), but without copying the tree, and to an arbitrary file name, in the format of
+/// Like saveMap(), but without copying the tree, and to an arbitrary file name, in the format of
 /// `named`. Updates inner nodes and prunes the tree; for .bt, makes all voxels occupied or free.
 void saveMapInPlace(octomap::OcTree& tree, const std::filesystem::path& file,
                     const std::filesystem::path& named);
