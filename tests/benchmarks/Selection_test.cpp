@@ -288,7 +288,5 @@ TEST(SelectionTables, ListHeldOutScoresFirst) {
     EXPECT_THAT(foldTable(search).text(), HasSubstr("3 to 2, limit 3"));
 }
 
-// ---- the programs
-
 }  // namespace
 }  // namespace hagen::selection

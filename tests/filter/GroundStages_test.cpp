@@ -66,14 +66,12 @@ Sight randomSight(test::Random& random, int rows, int columns, float step_m, dou
 /// labels.
 Sight simulatedSight(test::Random& random, const char* sensor_name) {
     const SensorModel sensor = sensorModel(sensor_name);
-    test::SimpleScene scene;
-    scene.boxes = {{{4, -9, 0}, {12, -7, 3}}, {{-14, 4, 0}, {-6, 5, 2}}, {{5, 2, 0}, {6, 3, 0.4}}};
-    scene.poles = {{7, 1, 0.1, 4}, {-5, -3, 0.15, 5}, {3, -4, 0.05, 1}};
     const auto noise = [&](const Eigen::Vector3d&, test::Hit& hit) {
         hit.range_m = random.chance(0.06) ? 1e9 : hit.range_m + random.real(-0.03f, 0.03f);
     };
     const Scan scan =
-        test::scanScene(scene, sensor, 700, {0, 0, 2.1}, Eigen::Matrix3d::Identity(), noise).scan;
+        test::scanScene(test::yard(), sensor, 700, {0, 0, 2.1}, Eigen::Matrix3d::Identity(), noise)
+            .scan;
     HagenFilter filter(sensor);
     const SegmentationResult& result = filter.segment(scan, Attitude{});
     return {result.ground.pixels, result.labels};

@@ -16,10 +16,7 @@ namespace {
 
 /// A yard with poles and walls, seen by a tilted sensor with noise and missing returns.
 Scan noisyScan(const SensorModel& sensor, int columns, unsigned seed) {
-    test::SimpleScene scene;
-    scene.boxes = {{{4, -9, 0}, {12, -7, 3}}, {{-14, 4, 0}, {-6, 5, 2}}, {{5, 2, 0}, {6, 3, 0.4}}};
-    scene.poles = {{7, 1, 0.1, 4}, {-5, -3, 0.15, 5}, {3, -4, 0.05, 1}};
-    Scan scan = test::scanScene(scene, sensor, columns, {0, 0, 2.1}).scan;
+    Scan scan = test::scanScene(test::yard(), sensor, columns, {0, 0, 2.1}).scan;
     std::mt19937 engine(seed);
     std::normal_distribution<float> noise_m(0, 0.02f);
     Scan kept;

@@ -158,25 +158,6 @@ TEST_F(VelodyneStreamTest, LabelsSectorEveryThreePackets) {
     EXPECT_GT(std::count(all_.label.begin(), all_.label.end(), Label::Roi), 300);
 }
 
-TEST_F(VelodyneStreamTest, CountsLostPackets) {
-    auto packets = turnsOf(3);
-    packets.erase(packets.begin() + 100, packets.begin() + 103);
-    packets.erase(packets.begin() + 30);
-    addAll(packets, stream_);
-    EXPECT_EQ(stream_.counts().lost, 4u);
-    EXPECT_EQ(stream_.counts().interruptions, 0u);
-}
-
-TEST_F(VelodyneStreamTest, DropsDuplicates) {
-    auto packets = turnsOf(2);
-    packets.insert(packets.begin() + 40, packets[38]);
-    packets.insert(packets.begin() + 60, packets[59]);
-    addAll(packets, stream_);
-    EXPECT_EQ(stream_.counts().duplicate, 2u);
-    EXPECT_EQ(stream_.counts().packets, 2 * kPackets);
-    EXPECT_EQ(stream_.counts().late, 0u);
-}
-
 TEST_F(VelodyneStreamTest, LabelsLatePackets) {
     auto packets = turnsOf(2);
     std::swap(packets[50], packets[51]);

@@ -24,7 +24,8 @@ using Candidates = std::vector<Candidate>;
 /// The cell of a coordinate along one axis; -1 if it is NaN or beyond the grid.
 int cellOf(float coordinate_m, int cells) {
     const float per_m = static_cast<float>(cells) / (kCells * GroundSurface::kCell_m);
-    const float place = coordinate_m * per_m + static_cast<float>(cells / 2 + 1);
+    const int middle = cells / 2 + 1;
+    const float place = coordinate_m * per_m + static_cast<float>(middle);
     return place >= 1 && place < static_cast<float>(cells + 1) ? static_cast<int>(place) - 1 : -1;
 }
 
