@@ -91,9 +91,8 @@ void declare(Program& app, Flags& flags) {
            "--from", conversion.from,
            "first scan to convert, counted from 0 (a turn of a capture, or an entry with scans of "
            "a rawlog)")
-        .notNegative()
         .group("Input");
-    app.option("--to", conversion.to, "last scan to convert").notNegative().group("Input");
+    app.option("--to", conversion.to, "last scan to convert").group("Input");
     app.option("--sensor-label", conversion.sensor_labels,
                "segment only this LiDAR; may be repeated")
         .once()

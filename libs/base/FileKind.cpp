@@ -1,4 +1,5 @@
 #include "base/FileKind.h"
+#include "base/Text.h"
 
 #include <algorithm>
 #include <fstream>
@@ -78,16 +79,6 @@ bool areVelodynePackets(std::string_view bytes) {
     return true;
 }
 
-/// Length of the UTF-8 character that starts with this byte; 0 if the byte is a control character
-/// or cannot start a character.
-std::size_t bytesOfCharacter(char first) {
-    const auto code = static_cast<unsigned char>(first);
-    if (code < 0x20) return "\n\r\t\f"sv.find(first) == std::string_view::npos ? 0 : 1;
-    if (code < 0x7f) return 1;
-    if (code < 0xc2 || code > 0xf4) return 0;
-    return code < 0xe0 ? 2 : code < 0xf0 ? 3 : 4;
-}
-
 bool areNumbers(std::string_view text) {
     return text.find_first_of("0123456789") != std::string_view::npos &&
            text.find_first_not_of("0123456789+-.eEnaifNAIF \t,;\r\n") == std::string_view::npos;
@@ -118,12 +109,11 @@ std::string FileKind::text() const {
 bool isText(std::string_view bytes) {
     if (bytes.empty()) return false;
     for (std::size_t at = 0; at < bytes.size();) {
-        const std::size_t count = bytesOfCharacter(bytes[at]);
-        if (count == 0) return false;
-        for (std::size_t i = at + 1; i < std::min(at + count, bytes.size()); ++i) {
-            if ((static_cast<unsigned char>(bytes[i]) & 0xc0) != 0x80) return false;
-        }
-        at += count;
+        const auto code = static_cast<unsigned char>(bytes[at]);
+        const bool is_space = "\n\r\t\f"sv.find(bytes[at]) != std::string_view::npos;
+        const std::size_t length = utf8Length(bytes.substr(at));
+        if ((code < 0x20 && !is_space) || code == 0x7f || length == 0) return false;
+        at += length;
     }
     return true;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -12,8 +13,9 @@ std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder,
                                              std::error_code& error);
 
-/// Removes a file, or a folder with its contents, without following links. A missing path is not an
-/// error.
-std::error_code removeAll(const std::filesystem::path& path) noexcept;
+/// The last name of a path, even with a trailing separator ("folder/").
+inline std::string lastNameOf(const std::filesystem::path& path) {
+    return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
 
 }  // namespace hagen::base

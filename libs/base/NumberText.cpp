@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::size_t kMaxLength = 400;  // 1e308 has 309 digits before the decimal point
 
-template <class... Format>
-std::string textOf(double value, Format... format) {
+template <class Real, class... Format>
+std::string textOf(Real value, Format... format) {
     std::array<char, kMaxLength> text;
     return {text.data(),
             std::to_chars(text.data(), text.data() + text.size(), value, format...).ptr};
@@ -18,10 +18,7 @@ std::string textOf(double value, Format... format) {
 
 std::string shortestText(double value) { return textOf(value); }
 
-std::string shortestText(float value) {
-    std::array<char, kMaxLength> text;
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
+std::string shortestText(float value) { return textOf(value); }
 
 std::string fixedText(double value, int decimals) {
     const std::string text = textOf(value, std::chars_format::fixed, decimals);

@@ -13,6 +13,7 @@
 #include <string>
 #include "base/Folder.h"
 #include "base/ReadFile.h"
+#include "base/Text.h"
 #include "base/WriteFile.h"
 
 namespace hagen::base {
@@ -110,8 +111,8 @@ bool isNumber(const std::string& text) {
 
 /// Returns the part of a name between `start` and `end`; empty if the name does not match.
 std::string between(const std::string& start, const std::string& name, const std::string& end) {
-    const bool is_such = name.size() > start.size() + end.size() && name.rfind(start, 0) == 0 &&
-                         name.compare(name.size() - end.size(), end.size(), end) == 0;
+    const bool is_such =
+        name.size() > start.size() + end.size() && name.rfind(start, 0) == 0 && endsWith(name, end);
     return is_such ? name.substr(start.size(), name.size() - start.size() - end.size()) : "";
 }
 
@@ -145,8 +146,8 @@ OutputPath::OutputPath(fs::path path, const OutputKind& kind, bool overwrite)
 }
 
 OutputPath::~OutputPath() {
-    removeAll(temporary_);
     std::error_code not_empty;
+    fs::remove_all(temporary_, not_empty);
     for (const fs::path& folder : created_) fs::remove(folder, not_empty);
 }
 
@@ -188,7 +189,9 @@ void OutputPath::commit() {
     kept_ = path_;
     flushToDisk(parentOf(path_), path_);
     if (old.empty()) return;
-    if (const std::error_code error = removeAll(old)) {
+    std::error_code error;
+    fs::remove_all(old, error);
+    if (error) {
         failAt(path_, "is complete, but the previous output beside it cannot be removed: " +
                           error.message());
     }

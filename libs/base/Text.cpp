@@ -23,6 +23,17 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+std::size_t utf8Length(std::string_view text) {
+    const auto first = static_cast<unsigned char>(text[0]);
+    if (first < 0x80) return 1;
+    if (first < 0xc2 || first > 0xf4) return 0;
+    const std::size_t length = first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+    for (const char next : text.substr(1, length - 1)) {
+        if ((static_cast<unsigned char>(next) & 0xc0) != 0x80) return 0;
+    }
+    return length;
+}
+
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known) {
     const auto distance = [&](const std::string& other) {
         return editDistance(lowerCase(word), lowerCase(other));

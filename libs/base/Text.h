@@ -2,6 +2,7 @@
 #include <cctype>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hagen::base {
@@ -33,6 +34,10 @@ inline std::string lowerCase(std::string text) {
 /// Such as "; did you mean 'VLP-16'?", with the known word most similar to `word`, ignoring case;
 /// empty if no words are known.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known);
+
+/// Length of the UTF-8 character at the start of a text, which may be truncated; 0 if the bytes are
+/// not valid UTF-8.
+std::size_t utf8Length(std::string_view text);
 
 /// True if the text has this ending.
 inline bool endsWith(const std::string& text, const std::string& ending) {

@@ -2,6 +2,7 @@
 
 #include <hagen/mrpt/TimeStamp.h>
 #include <hagen/recordings/ScanFolder.h>
+#include "base/Folder.h"
 #include "base/MemoryLimit.h"
 #include "convert/ConversionStatistics.h"
 #include "convert/pictures/StagePictures.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <iostream>
 #include <new>
-#include <stdexcept>
 
 namespace hagen::convert {
 
@@ -25,11 +25,6 @@ Attitude mountOf(const mrpt::obs::CObservation& scan, const Settings& settings) 
     return observations::mountOf(
         {static_cast<float>(on_vehicle.roll), static_cast<float>(on_vehicle.pitch)},
         settings.mount);
-}
-
-/// The last name of a path, even with a trailing separator ("folder/").
-std::string lastNameOf(const fs::path& input) {
-    return (input.has_filename() ? input : input.parent_path()).filename().string();
 }
 
 const fs::path kStandardOutput = "-";
@@ -88,24 +83,20 @@ void ConversionOutputs::attempt(Part part, Step step) {
     if (is_given_up_[part]) return;
     try {
         step();
-    } catch (const std::bad_alloc&) {
-        giveUp(part, nullptr);
     } catch (const std::exception& e) {
-        giveUp(part, e.what());
+        giveUp(part, e);
     }
 }
 
-/// Keeps the first reason; without a text, the reason is lack of memory.
-void ConversionOutputs::giveUp(Part part, const char* why) noexcept {
+/// Keeps the first reason.
+void ConversionOutputs::giveUp(Part part, const std::exception& why) {
     const std::lock_guard lock(why_mutex_);
     if (is_given_up_[part]) return;
     is_given_up_[part] = true;
-    if (why == nullptr) return;
-    try {
-        why_[part] = base::withOutputNames(why);
-    } catch (const std::bad_alloc&) {
-        why_[part].clear();
-    }
+    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&why) != nullptr;
+    why_[part] = is_memory ? paths_[part].string() + ": " + base::outOfMemory() +
+                                 (part == kMap ? "; or use larger voxels" : "")
+                           : base::withOutputNames(why.what());
 }
 
 template <class Do>
@@ -143,9 +134,9 @@ void ConversionOutputs::insertIntoMap(const observations::MappedScan& scan) {
     try {
         map_->insert(scan);
     } catch (const observations::MapFull& e) {
-        giveUp(kMap, (paths_[kMap].string() + ": " + e.what()).c_str());
-    } catch (const std::bad_alloc&) {
-        giveUp(kMap, nullptr);
+        giveUpMap(paths_[kMap].string() + ": " + e.what());
+    } catch (const std::bad_alloc& e) {
+        giveUp(kMap, e);
     }
 }
 
@@ -197,7 +188,7 @@ void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::O
     const std::string name = recorded.name.empty() ? scanName(recorded.entry) : recorded.name;
     fs::path folder = pictures_->folderOf(label) / name;
     while (!fs::create_directory(folder)) folder += "_";  // used by another scan
-    const std::string title = lastNameOf(conversion_.input) + ", " + label + ", scan " + name;
+    const std::string title = base::lastNameOf(conversion_.input) + ", " + label + ", scan " + name;
     // The view in which the filter processes a sensor that is not upright: image rows differ from
     // the sensor's.
     const std::optional<Attitude>& attitude = segmented.pose.attitude;
@@ -256,10 +247,7 @@ std::string ConversionOutputs::whatFailed() {
     std::string text;
     forEach([&](Part part, auto& output) {
         if (!is_given_up_[part]) return;
-        text += text.empty() ? "" : "; ";
-        text += !why_[part].empty() ? why_[part]
-                                    : paths_[part].string() + ": " + base::outOfMemory() +
-                                          (part == kMap ? "; or use larger voxels" : "");
+        text += (text.empty() ? "" : "; ") + why_[part];
         if (!hasWholeParts(part)) return;
         try {
             if (part == kFolders) finishFolders();

@@ -1,14 +1,17 @@
 #pragma once
 #include <hagen/convert/Conversion.h>
-#include <hagen/convert/MapOutput.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
+#include <hagen/mrpt/ScanMap.h>
 #include <array>
 #include <atomic>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
+#include "base/OutputSet.h"
 #include "convert/RawlogWriter.h"
 #include "convert/ScanFolderWriter.h"
 #include "convert/SensorFolders.h"
@@ -21,6 +24,30 @@ namespace hagen::convert {
 
 /// The paths of the requested outputs.
 std::vector<std::filesystem::path> outputsOf(const Conversion& conversion);
+
+/// An OctoMap of the scans of a log, written to one or several files.
+class MapOutput {
+ public:
+    /// Throws std::runtime_error naming a file that has an unknown map format or cannot be written,
+    /// and std::invalid_argument if options are out of range.
+    MapOutput(const std::vector<std::filesystem::path>& files,
+              const observations::ScanMapOptions& options, bool overwrite);
+
+    void insert(const observations::MappedScan& scan) { map_.insert(scan); }
+
+    /// Writes the map under temporary names. A failed file does not affect the others.
+    void write();
+    /// Throws std::runtime_error naming the files that could not be written, after renaming the
+    /// others into place.
+    void commit();
+    /// Keeps partial files; returns their names, separated by spaces. Throws like commit().
+    std::string keepPartial();
+
+ private:
+    observations::ScanMap map_;
+    std::deque<base::OutputPath> files_;
+    base::OutputSet all_;
+};
 
 /// The requested outputs of a conversion. If an output fails (full disk, full map, missing
 /// matplotlib), it is aborted and commit() reports it; the others are not affected.
@@ -55,7 +82,7 @@ class ConversionOutputs {
     bool wantsMap() const { return map_.has_value(); }
     /// Throws std::runtime_error if the scan does not fit into the map.
     void insertIntoMap(const observations::MappedScan& scan);
-    void giveUpMap(const std::string& why) { giveUp(kMap, why.c_str()); }
+    void giveUpMap(const std::string& why) { giveUp(kMap, std::runtime_error(why)); }
 
     /// Returns false once all requested outputs have failed. Thread-safe.
     bool hasAny() const;
@@ -71,7 +98,7 @@ class ConversionOutputs {
     /// Runs a step of an output; if it fails, marks the output as failed.
     template <class Step>
     void attempt(Part part, Step step);
-    void giveUp(Part part, const char* why) noexcept;
+    void giveUp(Part part, const std::exception& why);
     template <class Do>
     void forEach(Do act);
 

@@ -1,10 +1,10 @@
 #include <libdeflate.h>
 #include <unistd.h>
 
+#include "base/WriteFile.h"
 #include "convert/GzipOutput.h"
 
 #include <cerrno>
-#include <cstring>
 #include <new>
 #include <stdexcept>
 
@@ -18,11 +18,6 @@ struct FreeCompressor {
         libdeflate_free_compressor(compressor);
     }
 };
-
-[[noreturn]] void failWrite(const std::filesystem::path& file) {
-    throw std::runtime_error(file.string() + ": cannot be written" +
-                             (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
-}
 
 }  // namespace
 
@@ -43,7 +38,7 @@ void packGzipMember(const Bytes& plain, Bytes& packed) {
 GzipOutput::GzipOutput(const std::filesystem::path& file) : path_(file) {
     errno = 0;
     file_.reset(std::fopen(file.c_str(), "wb"));
-    if (!file_) failWrite(path_);
+    if (!file_) base::throwWriteError(path_, errno);
     std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // unbuffered, because members are written whole
 }
 
@@ -57,12 +52,12 @@ void GzipOutput::write(const Bytes& member) {
     // Readers report a truncated member as damage.
     const bool is_cut = ftruncate(fileno(file_.get()), whole_) == 0;
     errno = is_cut ? error : errno;
-    failWrite(path_);
+    base::throwWriteError(path_, errno);
 }
 
 void GzipOutput::close() {
     errno = 0;
-    if (std::fclose(file_.release()) != 0) failWrite(path_);
+    if (std::fclose(file_.release()) != 0) base::throwWriteError(path_, errno);
 }
 
 }  // namespace hagen::convert

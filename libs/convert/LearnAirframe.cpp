@@ -4,6 +4,7 @@
 #include <hagen/mrpt/MrptMessage.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanSource.h>
+#include "base/Folder.h"
 #include "base/NumberText.h"
 #include "base/OutputSet.h"
 #include "base/WriteFile.h"
@@ -80,10 +81,8 @@ AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeLis
 
     AirframeLearner learner;
     addScans(learning, listener, learner, report);
-    const fs::path& input = learning.input;  // "folder/" has no file name
-    const fs::path named = input.has_filename() ? input : input.parent_path();
-    const std::string origin = named.filename().string() + ", " + report.sensor_label + ", " +
-                               base::counted(report.scans, "scan");
+    const std::string origin = base::lastNameOf(learning.input) + ", " + report.sensor_label +
+                               ", " + base::counted(report.scans, "scan");
     LearnedAirframe learned;
     try {
         learned = learner.learn();

@@ -1,12 +1,11 @@
 #include <hagen/convert/MapOutput.h>
 #include <hagen/mrpt/MapFile.h>
 #include <hagen/mrpt/TimeStamp.h>
-#include "base/MemoryLimit.h"
+#include "convert/ConversionOutputs.h"
 #include "mrpt/Deskew.h"
 
 #include <algorithm>
 #include <chrono>
-#include <new>
 #include <stdexcept>
 
 namespace hagen::convert {
@@ -68,63 +67,32 @@ MapOutput::MapOutput(const std::vector<std::filesystem::path>& files,
     : map_(options) {
     for (const auto& file : files) {
         observations::checkMapFile(file);
-        files_.emplace_back(file, base::kFile, overwrite);
+        all_.add(files_.emplace_back(file, base::kFile, overwrite));
     }
-}
-
-void MapOutput::giveUp(const base::OutputPath& file, const std::string& why) {
-    given_up_.insert(&file);
-    failures_ += (failures_.empty() ? "" : "; ") + why;
-}
-
-void MapOutput::throwFailures() const {
-    if (!failures_.empty()) throw std::runtime_error(failures_);
 }
 
 /// Writes the formats that modify the tree most last, because the tree is not copied: it may fill
 /// the memory.
 void MapOutput::write() {
-    std::vector<const base::OutputPath*> files;
     for (const char* ending : {".3Dscene", ".ot", ".bt"}) {
         for (const base::OutputPath& file : files_) {
-            if (file.path().extension() == ending) files.push_back(&file);
-        }
-    }
-    for (const base::OutputPath* const each : files) {
-        const base::OutputPath& file = *each;
-        try {
-            observations::saveMapInPlace(map_.tree(), file.temporary(), file.path());
-        } catch (const std::bad_alloc&) {
-            giveUp(file, file.path().string() + ": " + base::outOfMemory());
-        } catch (const std::runtime_error& e) {
-            giveUp(file, e.what());
+            if (file.path().extension() != ending) continue;
+            all_.write(file, [&] {
+                observations::saveMapInPlace(map_.tree(), file.temporary(), file.path());
+            });
         }
     }
 }
 
-void MapOutput::commit() {
-    for (base::OutputPath& file : files_) {
-        if (given_up_.count(&file) > 0) continue;
-        try {
-            file.commit();
-        } catch (const std::runtime_error& e) {
-            giveUp(file, e.what());
-        }
-    }
-    throwFailures();
-}
+void MapOutput::commit() { all_.commit(); }
 
 std::string MapOutput::keepPartial() {
     std::string names;
     for (base::OutputPath& file : files_) {
-        if (given_up_.count(&file) > 0) continue;
-        try {
-            names += (names.empty() ? "" : " ") + file.keepPartial().string();
-        } catch (const std::exception& e) {
-            giveUp(file, e.what());
-        }
+        all_.write(file,
+                   [&] { names += (names.empty() ? "" : " ") + file.keepPartial().string(); });
     }
-    throwFailures();
+    if (!all_.failures().empty()) throw std::runtime_error(all_.failures());
     return names;
 }
 

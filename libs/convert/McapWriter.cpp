@@ -94,10 +94,9 @@ void McapWriter::put(const Bytes& bytes) {
 }
 
 void McapWriter::putRecord(std::uint8_t op, const Bytes& content) {
-    Bytes head{op};
-    add(std::uint64_t{content.size()}, head);
-    put(head);
-    put(content);
+    Bytes record;
+    addRecord(op, content, record);
+    put(record);
 }
 
 std::uint16_t McapWriter::addTopic(const std::string& name, const RosType& type) {
@@ -156,17 +155,14 @@ void McapWriter::finishChunk() {
     add(crcOf(chunk_), head);
     add(std::string(kCompression), head);
     add(std::uint64_t{packed_.size()}, head);
+    head.insert(head.end(), packed_.begin(), packed_.end());
 
     ChunkIndex index{};
     index.times = chunk_times_;
     index.at = position_;
     index.plain_size = chunk_.size();
     index.packed_size = packed_.size();
-    Bytes record_head{kChunk};
-    add(std::uint64_t{head.size() + packed_.size()}, record_head);
-    put(record_head);
-    put(head);
-    put(packed_);
+    putRecord(kChunk, head);
     index.size = position_ - index.at;
     for (const auto& [topic, messages] : in_chunk_) {
         index.index_at[topic] = position_;

@@ -1,5 +1,5 @@
 #include "convert/RawlogWriter.h"
-#include <mrpt/io/CStream.h>
+#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <stdexcept>
@@ -10,35 +10,13 @@ namespace {
 /// Members of this size, about one scan with its clouds, compress as well as a whole file.
 constexpr std::size_t kMemberBytes = 1 << 18;
 
-/// A stream that appends to a buffer.
-class AppendingStream : public mrpt::io::CStream {
- public:
-    explicit AppendingStream(Bytes& bytes) : bytes_(bytes) {}
-
-    std::size_t Write(const void* buffer, std::size_t count) override {
-        const auto* first = static_cast<const std::uint8_t*>(buffer);
-        bytes_.insert(bytes_.end(), first, first + count);
-        return count;
-    }
-    std::uint64_t getPosition() const override { return bytes_.size(); }
-    std::uint64_t getTotalBytesCount() const override { return bytes_.size(); }
-
-    std::size_t Read(void*, std::size_t) override {
-        throw std::logic_error("an output cannot be read");
-    }
-    std::uint64_t Seek(std::int64_t, TSeekOrigin) override {
-        throw std::logic_error("an output cannot seek");
-    }
-
- private:
-    Bytes& bytes_;
-};
-
 }  // namespace
 
 void serialise(const mrpt::serialization::CSerializable& entry, Bytes& bytes) {
-    AppendingStream stream(bytes);
+    mrpt::io::CMemoryStream stream;
     mrpt::serialization::archiveFrom(stream) << entry;
+    const auto* const first = static_cast<const std::uint8_t*>(stream.getRawBufferData());
+    bytes.insert(bytes.end(), first, first + stream.getTotalBytesCount());
 }
 
 RawlogWriter::RawlogWriter(const std::filesystem::path& file, bool overwrite)

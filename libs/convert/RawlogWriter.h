@@ -38,8 +38,6 @@ class RawlogWriter {
     /// Completes the file as OUT.partial.rawlog and returns that name. After a failed write, the
     /// file ends with the last complete member. Throws std::runtime_error if it has no member.
     std::filesystem::path keepPartial();
-    /// Whether the file, under its final or partial name, contains all entries.
-    bool isWhole() const { return is_finished_ && !has_failed_; }
 
  private:
     void finish();

@@ -3,6 +3,7 @@
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>
+#include "base/Folder.h"
 #include "base/NumberText.h"
 #include "base/WriteFile.h"
 #include "base/view/ViewPage.h"
@@ -32,19 +33,6 @@ Json json(const Matrix& transform) {
         }
     }
     return rows;
-}
-
-/// The scan in the image frame, which differs from the sensor's if that is not upright.
-Scan turned(const Scan& scan, const Eigen::Matrix3f& image_from_sensor) {
-    Scan image = scan;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const Eigen::Vector3f at_m =
-            image_from_sensor * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
-        image.x_m[i] = at_m.x();
-        image.y_m[i] = at_m.y();
-        image.z_m[i] = at_m.z();
-    }
-    return image;
 }
 
 /// Returns by pixel, nearest first. Leaves out those without a range.
@@ -208,7 +196,8 @@ void ViewOutput::write(const ScanReport& report, const ObservationSegmenter::Out
     const int step = 1 + static_cast<int>(result.range_angle_rad.cols() - 1) / kMaxAngleColumns;
     const std::optional<Attitude>& attitude = segmented.pose.attitude;
     const Eigen::Matrix3f image_from_sensor = imageFromSensor(postureOf(attitude), attitude);
-    const Scan scan = turned(*segmented.scan, image_from_sensor);
+    Scan scan = *segmented.scan;
+    rotatePoints(image_from_sensor, *segmented.scan, scan);
     base::ViewArrays arrays;
     addReturns(returnsOf(scan, result), arrays);
     std::vector<std::int32_t> maxima;
@@ -268,13 +257,9 @@ void ViewOutput::finish(const Conversion& conversion, const ConversionReport& re
         notes.push_back(
             {{"text", "No ground in most scans: everything near is RoI."}, {"is_alarm", true}});
     }
-    const std::string name =
-        (conversion.input.has_filename() ? conversion.input : conversion.input.parent_path())
-            .filename()
-            .string();
     const Json data = {
         {"format", "hagen-view-1"},
-        {"heading", name},
+        {"heading", base::lastNameOf(conversion.input)},
         {"notes", notes},
         {"zone_m", report.settings.options.zone_m},
         {"frame_times_s", frame_times},

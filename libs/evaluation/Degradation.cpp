@@ -130,14 +130,7 @@ Function withRain(double probability) {
 /// original frame. Rows and azimuths keep their original values.
 GroundTruthScan turned(const GroundTruthScan& scan, const Eigen::Matrix3f& turn) {
     GroundTruthScan result = scan;
-    Scan& returns = result.input.scan;
-    for (std::size_t i = 0; i < returns.size(); ++i) {
-        const Eigen::Vector3f point_m =
-            turn.transpose() * Eigen::Vector3f(returns.x_m[i], returns.y_m[i], returns.z_m[i]);
-        returns.x_m[i] = point_m.x();
-        returns.y_m[i] = point_m.y();
-        returns.z_m[i] = point_m.z();
-    }
+    rotatePoints(turn.transpose(), scan.input.scan, result.input.scan);
     result.true_level_from_sensor = scan.levelFromSensor() * turn;
     return result;
 }
@@ -301,15 +294,6 @@ std::vector<int> rowsOf(const std::string& text, const std::string& values) {
     return rows;
 }
 
-/// Removes a suffix if present.
-bool takeEnding(const std::string& ending, std::string& text) {
-    if (text.size() < ending.size() ||
-        text.compare(text.size() - ending.size(), ending.size(), ending) != 0)
-        return false;
-    text.resize(text.size() - ending.size());
-    return true;
-}
-
 }  // namespace
 
 GroundTruthScan partOf(const GroundTruthScan& scan, const std::vector<bool>& is_kept) {
@@ -349,7 +333,9 @@ Degradation::Degradation(const std::string& text) : name_(text) {
     } else if (key == "rain") {
         function_ = withRain(number(0, 100) / 100);
     } else if (key == "roll_deg" || key == "pitch_deg") {
-        const bool is_known = takeEnding(",attitude", value);
+        const std::string known = ",attitude";
+        const bool is_known = base::endsWith(value, known);
+        if (is_known) value.resize(value.size() - known.size());
         const bool is_roll = key == "roll_deg";
         function_ = withTilt(is_roll ? Eigen::Vector3f::UnitX() : Eigen::Vector3f::UnitY(),
                              number(-90, 90), is_known);

@@ -2,30 +2,17 @@
 
 #include <set>
 #include <stdexcept>
-#include "base/ReadFile.h"
+#include "settings/YamlParts.h"
 
 namespace hagen::evaluation {
 
 namespace fs = std::filesystem;
 
-std::string yamlPlace(const fs::path& file, const YAML::Node& node) {
-    const YAML::Mark mark = node.Mark();
-    return file.string() + (mark.is_null() ? "" : ":" + std::to_string(mark.line + 1)) + ": ";
-}
-
 void forEachYamlEntry(
     const fs::path& file, const std::string& example,
     const std::function<void(const std::string& key, const YAML::Node& value)>& entry) {
     if (!fs::is_regular_file(file)) throw std::runtime_error(file.string() + ": no such file");
-    YAML::Node document;
-    try {
-        document = YAML::Load(base::readText(file));
-    } catch (const YAML::ParserException& e) {
-        throw std::runtime_error(file.string() + ":" + std::to_string(e.mark.line + 1) +
-                                 ": not YAML: " + e.msg);
-    } catch (const YAML::Exception&) {
-        throw std::runtime_error(file.string() + ": cannot be read");
-    }
+    const YAML::Node document = parseFile(file);
     if (!document.IsMap()) {
         throw std::runtime_error(file.string() + ": expected lines such as '" + example + "'");
     }
@@ -34,12 +21,12 @@ void forEachYamlEntry(
         const YAML::Node &key = pair.first, &value = pair.second;
         const std::string name = key.IsScalar() ? key.Scalar() : "";
         if (!seen.insert(name).second) {
-            throw std::runtime_error(yamlPlace(file, key) + "'" + name + "' occurs twice");
+            throw std::runtime_error(at(file, key) + "'" + name + "' occurs twice");
         }
         try {
             entry(name, value);
         } catch (const std::exception& e) {
-            throw std::runtime_error(yamlPlace(file, value) + e.what());
+            throw std::runtime_error(at(file, value) + e.what());
         }
     }
 }

@@ -7,9 +7,6 @@
 
 namespace hagen::evaluation {
 
-/// The prefix "file:line: " for messages.
-std::string yamlPlace(const std::filesystem::path& file, const YAML::Node& node);
-
 /// Calls `entry(key, key node, value node)` for each entry of the map in a file. Throws
 /// std::runtime_error naming file and line if the file cannot be read, is not YAML, contains no
 /// map, or contains a key twice. Exceptions of `entry` are rethrown with the place of the value

@@ -36,17 +36,7 @@ bool areSameFor(const Options& a, const Options& b) {
            a.principal_components == b.principal_components;
 }
 
-/// A profiler to copy: if allocating the name fails, MRPT's constructor terminates the program, but
-/// copying throws.
-const mrpt::system::CTimeLogger& profilerToCopy() {
-    static const mrpt::system::CTimeLogger profiler(false, "hagen::ObservationSegmenter");
-    return profiler;
-}
-[[maybe_unused]] const auto& kMadeBeforeMain = profilerToCopy();
-
 }  // namespace
-
-mrpt::system::CTimeLogger ObservationSegmenter::idleProfiler() { return profilerToCopy(); }
 
 void ObservationSegmenter::initialize(const Settings& settings) {
     if (settings.sensor.model) filterFor(settings.sensorModel(), settings.options);

@@ -74,13 +74,6 @@ double readingOf(const sensors::VelodyneModel& model, const Firings& firings, in
 
 }  // namespace
 
-double firingAzimuthDeg(const sensors::VelodyneModel& model, const Firings& firings, int laser,
-                        int firing) {
-    const auto& corrections = sensors::defaultCalibration(model).lasers[laser];
-    return sensors::azimuthOfReadingDeg(readingOf(model, firings, laser, firing) -
-                                        100.0 * corrections.azimuth_deg);
-}
-
 std::vector<Packet> encodePackets(const sensors::VelodyneModel& model, const Firings& firings) {
     checkSizes(model, firings);
     const bool dual = firings.last_range_m.size() != 0;

@@ -18,11 +18,6 @@ struct Firings {
     std::uint32_t first_time_us = 0;  ///< time of the first firing since the full hour
 };
 
-/// Returns the azimuth of a laser in a firing, in degrees clockwise from x, as decoded (up to
-/// rounding). Use it to compute the range to encode.
-double firingAzimuthDeg(const sensors::VelodyneModel& model, const Firings& firings, int laser,
-                        int firing);
-
 /// Encodes raw packets, the inverse of decodePackets(). Ranges are rounded to the model's unit (2
 /// or 4 mm); ranges above the packet's maximum (131.07 or 262.14 m) become missing returns. The
 /// last packet is padded. Throws std::invalid_argument if array sizes do not match the model.

@@ -2,7 +2,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <cstdint>
 #include <cstdio>
@@ -28,12 +27,8 @@ std::vector<std::int64_t> compiledSets() {
 
 std::string nameOf(std::int64_t set) { return lowerCase(hwy::TargetName(set)); }
 
-constexpr const char* kPlain = "plain";
-
 /// True for plain C++, which Highway names differently depending on the compiler.
 bool isScalar(const std::string& name) { return name == "scalar" || name == "emu128"; }
-
-std::atomic<bool> uses_plain_stages = false;
 
 }  // namespace
 
@@ -49,22 +44,18 @@ void limitInstructionSets(const std::string& best) {
     if (!wanted.empty()) {
         const std::vector<std::int64_t> sets = compiledSets();
         const auto named = std::find_if(sets.begin(), sets.end(), [&](std::int64_t set) {
-            return nameOf(set) == wanted || (isScalar(wanted) && isScalar(nameOf(set))) ||
-                   (wanted == kPlain && set == sets.back());
+            return nameOf(set) == wanted || (isScalar(wanted) && isScalar(nameOf(set)));
         });
         if (named == sets.end()) {
             std::string names;
             for (const std::int64_t set : sets) names += (names.empty() ? "" : ", ") + nameOf(set);
             throw std::invalid_argument("'" + best + "' is not an instruction set of this build (" +
-                                        names + ", " + kPlain + ")");
+                                        names + ")");
         }
         better = *named - 1;
     }
-    uses_plain_stages = wanted == kPlain;
     hwy::DisableTargets(better);
 }
-
-bool usesPlainStages() { return uses_plain_stages; }
 
 bool startWithInstructionSets() {
     const char* const name = std::getenv("HAGEN_SIMD");

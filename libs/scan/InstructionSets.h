@@ -12,15 +12,11 @@ std::vector<std::string> instructionSets();
 
 /// Limits all threads' loops to this instruction set or a simpler one, for debugging and
 /// sanitizers. Results are bit-identical on all sets; only run times differ. Case-insensitive; an
-/// empty name removes the limit. A known set that this machine lacks has no effect. "plain" uses
-/// the simplest set, and the reference definition (libs/filter/ground) of the ground stages. Throws
+/// empty name removes the limit. A known set that this machine lacks has no effect. Throws
 /// std::invalid_argument listing the names if the name is unknown.
 ///
 /// The environment variable HAGEN_SIMD sets the limit at program start. An unknown name there only
 /// prints a warning on standard error.
 void limitInstructionSets(const std::string& best);
-
-/// True if the last limit was "plain".
-bool usesPlainStages();
 
 }  // namespace hagen

@@ -207,24 +207,5 @@ float columnAzimuth(int column, int columns) {
     return static_cast<float>(kPi - 2.0 * kPi * (column + 0.5) / columns);
 }
 
-ReturnsByPixel returnsByPixel(const RangeImage& image) {
-    ReturnsByPixel by_pixel;
-    by_pixel.first.assign(image.depth_m.size() + 1, 0);
-    for (const std::int32_t pixel : image.depth_mapper) {
-        if (pixel != RangeImage::kNoPixel) ++by_pixel.first[pixel + 1];
-    }
-    for (std::size_t p = 1; p < by_pixel.first.size(); ++p)
-        by_pixel.first[p] += by_pixel.first[p - 1];
-    by_pixel.returns.resize(by_pixel.first.back());
-    std::vector<std::int32_t> next(by_pixel.first.begin(), by_pixel.first.end() - 1);
-    for (std::size_t i = 0; i < image.depth_mapper.size(); ++i) {
-        const std::int32_t pixel = image.depth_mapper[i];
-        if (pixel != RangeImage::kNoPixel) {
-            by_pixel.returns[next[pixel]++] = static_cast<std::int32_t>(i);
-        }
-    }
-    return by_pixel;
-}
-
 }  // namespace hagen
 #endif

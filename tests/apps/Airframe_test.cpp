@@ -149,23 +149,6 @@ TEST_F(AirframeMask, AppliesToEvaluation) {
     EXPECT_EQ(missed("airframe: [sphere: {centre_m: [0, 0, 0], radius_m: 20}]"), 1);
 }
 
-TEST_F(AirframeMask, WarnsIfMostReturnsAreMasked) {
-    fs::create_directories(path("scans/velodyne"));
-    for (int scan = 0; scan < 12; ++scan) {  // a wall all around a hovering vehicle
-        std::ofstream out(path("scans/velodyne/" + convert::scanName(scan) + ".bin"),
-                          std::ios::binary);
-        for (int azimuth_deg = 0; azimuth_deg < 360; ++azimuth_deg) {
-            const auto azimuth_rad = static_cast<float>(azimuth_deg) * 0.0174533f;
-            const float point[]{std::cos(azimuth_rad), std::sin(azimuth_rad), 0.02f, 0.5f};
-            out.write(reinterpret_cast<const char*>(point), sizeof point);
-        }
-    }
-    const auto outcome = run({"-i", path("scans"), "--learn-airframe", path("a.yaml")});
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.out, HasSubstr("180 bins masked: 1.74 % of the sphere, 100.00 %"));
-    EXPECT_THAT(outcome.err, HasSubstr("WARNING: more than 20 % is masked"));
-}
-
 TEST_F(AirframeMask, LearnsEmptyMaskInOpenSpace) {
     folder_.write("a.yaml", "mine");
     const auto outcome =

@@ -1,15 +1,9 @@
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 #include <iterator>
 #include <sstream>
-#include <thread>
 
 #include "support/Program.h"
 
@@ -57,37 +51,6 @@ std::vector<std::string> flying(const TemporaryFolder& folder, const std::string
 void expectFailure(const Outcome& outcome, int exit_code, const std::string& part) {
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(part));
-}
-
-/// Starts the program in the background with stderr in a file.
-pid_t start(std::vector<std::string> words, const fs::path& errors) {
-    words.insert(words.begin(), "octomap-compare");
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    const pid_t pid = fork();
-    if (pid == 0) {
-        dup2(open(errors.c_str(), O_WRONLY | O_CREAT, 0666), STDERR_FILENO);
-        execv(HAGEN_OCTOMAP_COMPARE, arguments.data());
-        _exit(127);
-    }
-    return pid;
-}
-
-int exitCodeOf(pid_t pid) {
-    int status = 0;
-    waitpid(pid, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-/// Waits up to 10 minutes for the first row of a table: a flight may take that long under
-/// sanitizers on a busy machine.
-void waitForARow(const fs::path& table) {
-    for (int i = 0; i < 60000; ++i) {
-        const std::string text = fs::exists(table) ? readFile(table) : "";
-        if (std::count(text.begin(), text.end(), '\n') > 1) return;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
 }
 
 /// The header, and the rows in alphabetical order.
@@ -173,49 +136,6 @@ TEST(ClosedLoopFlights, SectorsDoNotChangeScanRows) {
     EXPECT_EQ(readFile(folder / "scans/runs.csv"), both);
 }
 
-TEST(ClosedLoopFlights, CoversMapsAndPathSearches) {
-    const TemporaryFolder folder;
-    const auto fly = [&](const std::string& into, const std::vector<std::string>& more) {
-        const Outcome outcome =
-            octomapCompare(flying(folder, into, more,
-                                  "--scenario forest-0.05 --speed 10 --seeds 1000-1001 "
-                                  "--models W-Full,G-Full,O-Full-0.4 --guidance astar"));
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return readFile(folder / into / "runs.csv");
-    };
-    const std::string runs = fly("one", {"--jobs", "1"});
-    EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 7);
-    fly("first", {"--shard", "1/2"});
-    fly("second", {"--shard", "2/2", "--jobs", "2"});
-    EXPECT_EQ(concatenated({folder / "first/runs.csv", folder / "second/runs.csv"}),
-              sortedLines(runs));
-}
-
-TEST(ClosedLoopFlights, ResumesAfterBeingKilled) {
-    const TemporaryFolder folder;
-    ASSERT_EQ(octomapCompare(flying(folder, "whole")).exit_code, 0);
-    const pid_t pid = start(flying(folder, "killed", {"--jobs", "1", "-q"}), folder / "err");
-    waitForARow(folder / "killed/runs.csv");
-    kill(pid, SIGKILL);
-    EXPECT_EQ(exitCodeOf(pid), -1);
-    const Outcome resumed = octomapCompare(flying(folder, "killed"));
-    ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-    EXPECT_EQ(resumed.err.find("run 0 of 6\n"), std::string::npos) << resumed.err;
-    EXPECT_EQ(readFile(folder / "killed/runs.csv"), readFile(folder / "whole/runs.csv"));
-}
-
-TEST(ClosedLoopFlights, KeepsFinishedRunsWhenInterrupted) {
-    const TemporaryFolder folder;
-    const pid_t pid = start(flying(folder, "stopped", {"--jobs", "1"}), folder / "err");
-    waitForARow(folder / "stopped/runs.csv");
-    kill(pid, SIGTERM);
-    EXPECT_EQ(exitCodeOf(pid), 1);
-    EXPECT_THAT(readFile(folder / "err"),
-                AllOf(HasSubstr("octomap-compare: interrupted; "),
-                      HasSubstr(" of 6 runs kept in " + (folder / "stopped/runs.csv").string() +
-                                "; rerun the same command to resume\n")));
-}
-
 TEST(ClosedLoopFlights, KeepsFinishedRunsOnFullDisk) {
     const TemporaryFolder folder;
     auto arguments = flying(folder, "full", {"--jobs", "1"});
@@ -267,26 +187,6 @@ TEST(ClosedLoop, RejectsInvalidArgumentsBeforeWriting) {
     expectFailure(octomapCompare({"closedloop"}), 2, "required");
     expectFailure(octomapCompare({"hover"}), 2, "");
     expectFailure(octomapCompare({}), 2, "");
-}
-
-TEST(ClosedLoop, ReportsBrokenOrIncompleteProfile) {
-    const TemporaryFolder folder;
-    auto arguments = flying(folder, "none");
-    auto& profile = *(std::find(arguments.begin(), arguments.end(), "--profile") + 1);
-    profile = folder.write("broken.json", "{").string();
-    expectFailure(octomapCompare(arguments), 1, "broken.json");
-    profile = folder.write("poor.json", R"({"quantiles_ms": {"filter": [1]}})").string();
-    expectFailure(octomapCompare(arguments), 1, "W-RoI/update");
-    profile = (folder / "missing.json").string();
-    expectFailure(octomapCompare(arguments), 1, "missing.json");
-    EXPECT_FALSE(fs::exists(folder / "none"));
-}
-
-TEST(ClosedLoop, KeepsForeignFolders) {
-    const TemporaryFolder folder;
-    folder.write("mine/file.txt", "text");
-    expectFailure(octomapCompare(flying(folder, "mine", {"--overwrite"})), 1, "mine");
-    EXPECT_EQ(readFile(folder / "mine/file.txt"), "text");
 }
 
 TEST(Calibrate, RequiresOutputAndKnownModels) {

@@ -125,16 +125,6 @@ TEST_F(OpenLoopCommand, CountsScansWithoutPose) {
                   "contains no poses");
 }
 
-TEST_F(OpenLoopCommand, ReportsSkippedDataDespiteQuiet) {
-    simulate(4);
-    std::ofstream(path("gap/velodyne/000009.BIN")) << "1234";
-    const auto outcome = run(with({"-i", path("gap"), "-o", path("out"), "-q"}, kModels));
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("without the extension .bin, such as 000009.BIN"));
-    const auto summary = nlohmann::json::parse(test::readFile(path("out/summary.json")));
-    EXPECT_EQ(summary["remarks"].size(), 1u);
-}
-
 TEST_F(OpenLoopCommand, RejectsInvalidArguments) {
     const std::vector<std::string> orchard{"-i", kOrchard, "-o", path("no")};
     expectFailure(with(orchard, {"--models", "O-Full-0"}), 2, "O-Full-0");
@@ -154,12 +144,6 @@ TEST_F(OpenLoopCommand, RejectsInvalidArguments) {
     EXPECT_FALSE(fs::exists(path("no")));
 }
 
-TEST_F(OpenLoopCommand, RejectsSceneFromOtherLog) {
-    expectFailure({"-i", kOrchard, "--truth-scenario", "orchard", "--truth-seed", "2", "--models",
-                   "oracle", "-o", path("no")},
-                  1, "was not simulated in orchard with seed 2");
-}
-
 TEST_F(OpenLoopCommand, KeepsExistingFiles) {
     fs::create_directory(path("out"));
     folder_.write("out/scans.csv", "mine");
@@ -169,20 +153,6 @@ TEST_F(OpenLoopCommand, KeepsExistingFiles) {
     EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), fs::directory_iterator()), 1);
     folder_.write("file", "mine");
     expectFailure({"-i", kOrchard, "--models", "W-RoI", "-o", path("file")}, 1, "file");
-}
-
-TEST_F(OpenLoopCommand, KeepsScansFromTruncatedMcap) {
-    simulate(12);
-    const auto converted =
-        test::run(HAGEN_RAWLOG_SEGMENT, {"-i", path("gap.rawlog"), "--mcap", path("gap.mcap")});
-    ASSERT_EQ(converted.exit_code, 0) << converted.err;
-    fs::resize_file(path("gap.mcap"), fs::file_size(path("gap.mcap")) * 2 / 3);
-    auto arguments = gap("cut");
-    std::replace(arguments.begin(), arguments.end(), path("gap.rawlog"), path("gap.mcap"));
-    const auto outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("preceding scans are in"));
-    EXPECT_TRUE(fs::exists(path("cut/scans.partial.csv")));
 }
 
 TEST_F(OpenLoopCommand, KeepsScansFromTruncatedRawlog) {
@@ -209,15 +179,6 @@ TEST_F(OpenLoopCommand, KeepsScansFromTruncatedRawlog) {
         EXPECT_THAT(file.path().filename().string(), Not(HasSubstr("partial"))) << file;
     }
     EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), fs::directory_iterator()), 6);
-}
-
-TEST_F(OpenLoopCommand, PrintsPlainProgressWithoutTerminal) {
-    simulate(4);
-    const auto outcome = run(gap("out"));
-    EXPECT_EQ(outcome.err.rfind("scan 1 of 4, about ", 0), 0u) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("\nscan 4 of 4\n"));
-    EXPECT_THAT(outcome.err, Not(HasSubstr("\r")));
-    EXPECT_EQ(run(with(gap("quiet"), {"-q"})).err, "");
 }
 
 TEST_F(OpenLoopCommand, FailedOutputKeepsOthers) {

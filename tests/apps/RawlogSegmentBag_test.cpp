@@ -114,28 +114,6 @@ TEST_F(RawlogSegmentBag, SummaryListsTopicsAndPoses) {
     EXPECT_THAT(clouds.out, HasSubstr("sensor velodyne_points: 16 beams recovered (VLP-16)"));
 }
 
-TEST_F(RawlogSegmentBag, KeepsReadablePartOfTruncatedBag) {
-    test::BagShape shape;
-    shape.messages_per_chunk = 1;
-    for (const std::string name : {"flight.bag", "flight.mcap", "flight.db3"}) {
-        const auto messages = messagesOfRecording(true, false);
-        if (name == "flight.bag") test::writeBytes(path(name), test::ros1BagOf(messages, shape));
-        if (name == "flight.mcap") test::writeBytes(path(name), test::mcapOf(messages, shape));
-        if (name == "flight.db3") test::writeDb3(path(name), messages);
-        fs::resize_file(path(name), fs::file_size(path(name)) * 3 / 4);
-        const std::string out = path("of_" + name);
-        const auto outcome = run({"-i", path(name), "-o", out + ".rawlog"});
-        EXPECT_EQ(outcome.exit_code, 1);
-        EXPECT_THAT(outcome.err, HasSubstr(path(name) + ": "));
-        EXPECT_THAT(outcome.err, HasSubstr("are in " + out + ".partial.rawlog"));
-        EXPECT_FALSE(fs::exists(out + ".rawlog"));
-        recordings::RawlogReader reader(out + ".partial.rawlog");
-        while (reader.next()) {
-        }
-        EXPECT_GE(reader.entries(), 9u) << name;
-    }
-}
-
 TEST_F(RawlogSegmentBag, ReportsWrongTopics) {
     const std::string bag = test::writeBytes(
         path("flight.bag"), test::ros1BagOf({test::stringMessage("/text", 1700000000, "a")}));

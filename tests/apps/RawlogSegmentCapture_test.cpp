@@ -41,22 +41,6 @@ TEST_F(RawlogSegmentCapture, CaptureAndRawlogGetSameLabels) {
     EXPECT_GT(labelsOf("a").size(), 100000u);
 }
 
-TEST_F(RawlogSegmentCapture, KeepsReadablePartOfTruncatedCapture) {
-    const std::string capture = captureOfRecording();
-    const std::uintmax_t size = fs::file_size(capture);
-    for (std::uintmax_t cut = 5; cut > 0; --cut) {
-        fs::resize_file(capture, cut * size / 6 + 1);
-        const auto outcome = run({"-i", capture, "-o", path("out.rawlog"), "--overwrite"});
-        EXPECT_EQ(outcome.exit_code, 1);
-        EXPECT_THAT(outcome.err, HasSubstr("flight.pcap: frame "));
-        EXPECT_FALSE(fs::exists(path("out.rawlog")));
-        if (cut != 3) continue;
-        EXPECT_THAT(outcome.err, HasSubstr("preceding entries are in " + path("out.partial")));
-    }
-    // From the first truncation: four scans, each with two clouds.
-    EXPECT_GE(test::readLog(path("out.partial.rawlog")).first, 12u);
-}
-
 TEST_F(RawlogSegmentCapture, OusterRequiresMetadata) {
     const std::string json = folder_.write("ouster.json", test::ousterJson());
     const auto sensor = sensors::readOusterSensor(json);

@@ -130,29 +130,6 @@ TEST_F(RawlogSegmentClouds, EveryFormatGetsSameLabels) {
     }
 }
 
-TEST_F(RawlogSegmentClouds, RealScansGetSameLabelsInAnyFormat) {
-    const fs::path data = test::dataFolder("HAGEN_LABELLED_DATA");
-    if (data.empty()) GTEST_SKIP() << "HAGEN_LABELLED_DATA is not a folder of scans";
-    const recordings::ScanFolder scans(data / "beams16" / "00");
-    // The folder specifies its beams; for cloud files, the settings must.
-    const std::vector<std::string> settings{"-q", "-c", config("vlp16"), "-c",
-                                            scans.sensorFile().string()};
-    expectSuccess(
-        with(settings, {"-i", scans.path().string(), "--kitti", path("kitti"), "--to", "1"}));
-    const auto expected = labelsOfScanFolder(path("kitti"));
-    for (const Written& format : formats()) {
-        fs::remove_all(path("in"));
-        for (std::size_t i = 0; i < 2; ++i) {
-            Scan scan;
-            recordings::readScan(scans.scanFile(i), scan);
-            write("in/" + scans.name(i) + format.ending, format.text(scan));
-        }
-        expectSuccess(with(settings, {"-i", path("in"), "--clouds", path("out"), "--cloud-format",
-                                      "pcd", "--overwrite"}));
-        EXPECT_EQ(labelled("out"), expected) << format.ending;
-    }
-}
-
 TEST_F(RawlogSegmentClouds, RecoversSensorAndPrintsRemarks) {
     const std::string file = write("a.npy", npyOf(poles()));
     const auto outcome = expectSuccess({"-i", file, "-o", path("out.rawlog")});
@@ -177,50 +154,6 @@ TEST_F(RawlogSegmentClouds, ReadsOwnOutput) {
     EXPECT_EQ(stats["outputs"]["clouds"], path("b"));
 }
 
-TEST_F(RawlogSegmentClouds, KeepsMrpt3Fields) {
-    const fs::path data = test::dataFolder("HAGEN_MRPT3_DATA");
-    if (data.empty()) GTEST_SKIP() << "HAGEN_MRPT3_DATA is not a folder of MRPT 3 logs";
-    const std::string log = (data / "sample_mrpt3.rawlog").string();
-    expectSuccess({"-q", "-i", log, "--clouds", path("out")});
-    const auto table = recordings::readCloud(path("out") + "/cloud/000000.ply").table;
-    EXPECT_EQ(namesOf(table), "x, y, z, intensity, t, ring, label, obstacle");
-    // The log's rings are VLP-16 laser numbers, which do not increase with elevation.
-    const auto column = [&](const char* name) {
-        return columnOf(table, *findField(table, {name}));
-    };
-    const auto x_m = column("x"), y_m = column("y"), z_m = column("z"), rings = column("ring");
-    for (std::size_t i = 0; i < table.points; ++i) {
-        const int laser = static_cast<int>(rings[i]);
-        const double elevation_deg = degrees(std::atan2(z_m[i], std::hypot(x_m[i], y_m[i])));
-        ASSERT_NEAR(elevation_deg, laser % 2 == 0 ? laser - 15 : laser, 0.1);
-    }
-    const auto again = run({"-i", path("out") + "/cloud", "--clouds", path("again")});
-    EXPECT_THAT(again.out, HasSubstr("ring numbers contradict the elevations"));
-}
-
-TEST_F(RawlogSegmentClouds, ReportsErrorLocations) {
-    const auto fails = [&](const std::string& name, const std::string& text,
-                           const std::string& words) {
-        const std::string file = write(name, text);
-        expectFailure({"-i", file, "--clouds", path("out")}, 1, file + ": " + words);
-    };
-    const auto points = test::filePoints();
-    fails("a.pcd", "", "is empty");
-    fails("a.pcd", test::binaryPcd(points).substr(0, 300), "the header claims 12 points");
-    fails("a.pcd", "VERSION 0.7\nFIELDS x\nSIZE 4\nTYPE F\nWIDTH 1\nDATA zip\n",
-          "line 6: DATA 'zip'");
-    fails("a.ply", test::asciiPly(points).substr(0, 400), "the header claims 12 'vertex'");
-    fails("a.ply", test::binaryPly(points, true).substr(0, 60), "line 4: 'element' is not a line");
-    fails("a.las", test::las(points).substr(0, 300), "the header claims 12 points");
-    fails("a.laz", test::las(points).replace(104, 1, "\x81"), "is compressed (LAZ)");
-    fails("a.npy", test::structuredNpy(points).substr(0, 200), "the header claims 12 points");
-    fails("a.bin", test::bin(points) + "x", "193 bytes are not a multiple");
-    fails("a.bin", "A text of 32 bytes is no cloud.\n",
-          "is not a point cloud: it seems to be text");
-    fails("picture.pcd", "\xff\xd8\xff\xe0" + std::string(900, '\x81'),
-          "is not a point cloud: it seems to be a JPEG picture");
-}
-
 TEST_F(RawlogSegmentClouds, ReadsStatedBinFields) {
     test::Packed packed;
     const Scan scan = poles();
@@ -242,18 +175,6 @@ TEST_F(RawlogSegmentClouds, ReadsStatedBinFields) {
     expectFailure({"-i", write("a.pcap", std::string("\xd4\xc3\xb2\xa1")), "--kitti", path("new"),
                    "--bin-fields", "x,y,z"},
                   1, "--bin-fields does not apply");
-}
-
-TEST_F(RawlogSegmentClouds, KeepsCloudsBeforeBrokenOne) {
-    write("in/1.pcd", pcdOf(poles()));
-    write("in/2.pcd", pcdOf(poles()).substr(0, 1000));
-    write("in/3.pcd", pcdOf(poles()));
-    const auto outcome = run({"-i", path("in"), "--clouds", path("out")});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("2.pcd: the header claims"));
-    EXPECT_THAT(outcome.err, HasSubstr("out.partial"));
-    EXPECT_TRUE(fs::exists(path("out.partial") + "/1.ply"));
-    EXPECT_FALSE(fs::exists(path("out")));
 }
 
 TEST_F(RawlogSegmentClouds, RejectsInvalidOutputs) {

@@ -48,20 +48,6 @@ TEST_F(RawlogSegmentMcap, OwnOutputGetsSameLabels) {
     EXPECT_THAT(again.out, HasSubstr("poses of 5 of 5 scans: geometry_msgs/PoseStamped on "));
 }
 
-TEST_F(RawlogSegmentMcap, SummaryMatchesStatistics) {
-    const auto outcome =
-        expectSuccess({"-i", recording(), "--mcap", path("out.mcap"), "--stats", path("out.json")});
-    const auto stats = readJson("out.json");
-    EXPECT_EQ(stats["outputs"]["mcap"], path("out.mcap"));
-    EXPECT_EQ(stats["mcap"]["scans"], stats["scans"].size());
-    EXPECT_EQ(stats["mcap"]["points"], stats["returns"]["all"]);
-    EXPECT_EQ(stats["mcap"]["messages"], 40);
-    EXPECT_GT(stats["mcap"]["boxes"], 10);
-    EXPECT_THAT(outcome.out, HasSubstr("MCAP: " + path("out.mcap") + " (10 scans, " +
-                                       stats["mcap"]["points"].dump() + " points, " +
-                                       stats["mcap"]["boxes"].dump() + " boxes, 40 messages)"));
-}
-
 /// tests/recordings/read_mcap.mjs uses the npm packages of the format's authors.
 TEST_F(RawlogSegmentMcap, ReferenceReaderAgrees) {
     const fs::path modules = test::dataFolder("HAGEN_NODE_MODULES");
@@ -136,19 +122,6 @@ TEST_F(RawlogSegmentMcap, RejectsInvalidOutputs) {
     expectFailure({"-i", path("in.mcap"), "--mcap", path("in.mcap"), "--overwrite"}, 1,
                   "is or contains the input");
     EXPECT_EQ(test::readFile(path("out.mcap")), "mine");
-}
-
-TEST_F(RawlogSegmentMcap, KeepsReadablePartOfTruncatedInput) {
-    expectSuccess({"-q", "-i", recording(), "--mcap", path("in.mcap")});
-    fs::resize_file(path("in.mcap"), fs::file_size(path("in.mcap")) * 2 / 3);
-    const auto outcome = run({"-i", path("in.mcap"), "--mcap", path("out.mcap")});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("in.mcap: "), HasSubstr("is truncated"),
-                                   HasSubstr("out.partial.mcap")));
-    EXPECT_FALSE(fs::exists(path("out.mcap")));
-    expectSuccess({"-i", path("out.partial.mcap"), "--stats", path("out.json")});
-    EXPECT_GT(readJson("out.json")["scans"].size(), 2u);
-    EXPECT_LT(readJson("out.json")["scans"].size(), 10u);
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ std::vector<octomap::point3d> occupiedOf(const octomap::OcTree& tree) {
     return middles;
 }
 
-/// Distance to the axis of the nearest pole of the recording (tests/support/PolesAndWall.cpp).
+/// Distance to the axis of the nearest pole of the recording
+/// (tests/support/make_poles_and_wall.cpp).
 double distanceToPole(const octomap::point3d& p) {
     double min = 1e9;
     for (int i = -3; i <= 4; ++i) {
@@ -93,21 +94,6 @@ TEST_F(RawlogSegmentOctomap, StoresRequestedContent) {
     EXPECT_EQ(groundOf(rays), 0);
     EXPECT_GT(groundOf(full), 1000);
     EXPECT_LT(roi.size(), rays.size() / 2);
-}
-
-TEST_F(RawlogSegmentOctomap, ScanFolderYieldsSameObstacles) {
-    expectSuccess({"-i", recording(), "--kitti", path("scans")});
-    const octomap::OcTree of_log = mapOf({});
-    expectSuccess({"-i", path("scans"), "--octomap", path("of_folder.bt")});
-    octomap::OcTree of_folder(0.1);
-    ASSERT_TRUE(of_folder.readBinary(path("of_folder.bt")));
-    // The folder's returns have no times: a single pose per scan causes errors of up to 0.3 m.
-    for (const octomap::point3d& p : occupiedOf(of_folder)) {
-        EXPECT_TRUE(distanceToPole(p) < 0.65 || p.x() > 15.4) << p.x() << " " << p.y();
-    }
-    EXPECT_NEAR(static_cast<double>(occupiedOf(of_folder).size()),
-                static_cast<double>(occupiedOf(of_log).size()),
-                0.4 * static_cast<double>(occupiedOf(of_log).size()));
 }
 
 TEST_F(RawlogSegmentOctomap, OmitsScansWithoutUsablePose) {

@@ -2,16 +2,13 @@
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationComment.h>
-#include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 #include <sys/stat.h>
 #include "convert/RawlogWriter.h"
 
-#include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <map>
@@ -46,20 +43,6 @@ class RawlogSegmentTrouble : public test::SegmentTest {
         for (int i = 0; i < scans; ++i) {
             change(i, *scan);
             writer.write(*scan);
-        }
-        writer.commit();
-        return path("in.rawlog");
-    }
-    /// The sample recording, with each scan modified by a function.
-    std::string changedRecording(
-        const std::function<void(int, CObservationVelodyneScan&, convert::RawlogWriter&)>& change) {
-        recordings::RawlogReader reader(recording());
-        convert::RawlogWriter writer(path("in.rawlog"), false);
-        int scans = 0;
-        while (const auto entry = reader.next()) {
-            const auto scan = std::dynamic_pointer_cast<CObservationVelodyneScan>(entry);
-            if (scan) change(scans++, *scan, writer);
-            writer.write(*entry);
         }
         writer.commit();
         return path("in.rawlog");
@@ -117,20 +100,6 @@ TEST_F(RawlogSegmentTrouble, UnwritableOutputDoesNotAffectOthers) {
         EXPECT_EQ(fs::exists(path(name)), name != largest->second) << name << outcome.err;
     }
     expectNoTemporaryFiles();
-}
-
-TEST_F(RawlogSegmentTrouble, ReportsFullDiskForScene) {
-    const Arguments flags{"-i", recording(), "--octomap", path("map.3Dscene"), "--poses", still()};
-    expectSuccess(flags);
-    const auto size_kib = fs::file_size(path("map.3Dscene")) / 1024;
-    fs::remove(path("map.3Dscene"));
-    for (const auto limit_kib : {std::uintmax_t{2}, size_kib}) {
-        const auto outcome =
-            runAfter("trap '' XFSZ; ulimit -f " + std::to_string(limit_kib) + "; ", flags);
-        EXPECT_EQ(outcome.exit_code, 1) << limit_kib;
-        EXPECT_THAT(outcome.err, HasSubstr("cannot be written")) << limit_kib;
-        EXPECT_EQ(files().size(), 1u) << limit_kib;  // the poses
-    }
 }
 
 /// MRPT reads null objects in sensory frames, but cannot write them.
@@ -202,15 +171,6 @@ TEST_F(RawlogSegmentTrouble, AcceptsLabelNamedLikeMarkerFile) {
     expectSuccess({"-i", log, "--clouds", path("clouds")});
     EXPECT_TRUE(fs::is_regular_file(path("clouds/made_by.txt")));
     EXPECT_TRUE(fs::is_directory(path("clouds/made_by.txt_")));
-}
-
-/// A sparse file of zeros is a single line of 4 GiB.
-TEST_F(RawlogSegmentTrouble, LimitsLineAndMapSizes) {
-    std::ofstream(path("poses.tum")).close();
-    fs::resize_file(path("poses.tum"), std::uintmax_t{4} << 30);
-    const Arguments map{"-i", recording(), "--octomap", path("map.bt")};
-    expectFailure(with(map, {"--poses", path("poses.tum")}), 1, "has a line longer than 1 MiB");
-    expectFailure(with(map, {"--octomap-resolution", "0.01"}), 1, "use voxels of at least 0.0");
 }
 
 TEST_F(RawlogSegmentTrouble, OutputsDoNotReplaceSettings) {
@@ -342,58 +302,6 @@ TEST_F(RawlogSegmentTrouble, ReportsMemoryLimit) {
     EXPECT_THAT(outcome.err, HasSubstr("out of memory (--memory-limit: 0.06 GB)"));
     expectFailure({"-i", recording(), "-o", path("other.rawlog"), "--memory-limit", "0"}, 2,
                   "--memory-limit");
-}
-
-/// Ctrl-C in a terminal signals the program and all of its children.
-TEST_F(RawlogSegmentTrouble, InterruptedPicturesKeepRawlog) {
-    const std::string command = "set -m; \"" + std::string(HAGEN_RAWLOG_SEGMENT) + "\" -i \"" +
-                                recording() + "\" --pictures \"" + path("pictures") + "\" -o \"" +
-                                path("out.rawlog") + "\" & sleep 1; kill -INT -- -$!; wait $!";
-    const auto outcome = test::run("/bin/bash", {"-c", command});
-    if (outcome.exit_code == 0) GTEST_SKIP() << "the pictures were drawn within a second";
-    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("interrupted; the "));
-    EXPECT_TRUE(fs::exists(path("out.partial.rawlog"))) << outcome.err;
-}
-
-/// Simulates a disk unplugged during the conversion.
-TEST_F(RawlogSegmentTrouble, KeepsScansBeforeMissingOne) {
-    expectSuccess({"-i", recording(), "--kitti", path("scans")});
-    fs::remove(path("scans/poses.txt"));
-    fs::remove(path("scans/velodyne/000005.bin"));
-    fs::create_symlink("nowhere", path("scans/velodyne/000005.bin"));
-    const auto all = run({"-i", path("scans"), "-o", path("out.rawlog")});
-    EXPECT_EQ(all.exit_code, 1);
-    EXPECT_THAT(all.err, HasSubstr("000005.bin"));
-    EXPECT_THAT(all.err, HasSubstr("the 5 preceding scans are in"));
-    EXPECT_TRUE(fs::exists(path("out.partial.rawlog"))) << all.err;
-    // Scans outside the converted range may be missing.
-    expectSuccess({"-i", path("scans"), "--from", "6", "--to", "8", "-o", path("part.rawlog")});
-}
-
-TEST_F(RawlogSegmentTrouble, ReportsCorruptCalibration) {
-    const auto log = changedRecording([](int i, CObservationVelodyneScan& scan, auto&) {
-        if (i > 0) return;
-        scan.calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration("VLP16");
-        scan.calibration.laser_corrections.at(3).cosVertCorrection = std::nan("");
-    });
-    const auto outcome = expectSuccess(
-        {"-i", log, "-o", path("out.rawlog"), "--octomap", path("map.bt"), "--poses", still()});
-    EXPECT_THAT(outcome.err, HasSubstr("calibration is corrupt: laser 3"));
-}
-
-TEST_F(RawlogSegmentTrouble, IgnoresNonFinitePoses) {
-    const auto log = changedRecording([](int i, CObservationVelodyneScan& scan, auto& writer) {
-        mrpt::obs::CObservationRobotPose pose;
-        pose.sensorLabel = "pose";
-        pose.timestamp = scan.timestamp;
-        pose.pose.mean = {i == 2 ? std::nan("") : 0.1, 0, 0, 0, 0, 0};
-        writer.write(pose);
-    });
-    const auto outcome = expectSuccess({"-i", log, "--to", "9", "--kitti", path("scans")});
-    EXPECT_THAT(outcome.err, HasSubstr("skipped 1 non-finite pose"));
-    EXPECT_THAT(test::readFile(path("scans/poses.tum")), Not(HasSubstr("nan")));
-    expectSuccess({"-i", path("scans"), "--kitti", path("again")});
 }
 
 }  // namespace

@@ -72,14 +72,6 @@ TEST_F(SegmentView, GroundFitsReturnsInEveryPosture) {
     }
 }
 
-TEST_F(SegmentView, ShowsEveryNthScan) {
-    expectSuccess({recording(), "--view", path("view.html"), "--view-every", "4"});
-    const auto data = dataOf("view.html");
-    EXPECT_EQ(data["frames"].size(), 3u);
-    EXPECT_EQ(data["frames"][2]["values"]["scan"], "000008");
-    EXPECT_EQ(data["charts"][0]["values"].size(), 10u);  // of all scans
-}
-
 TEST_F(SegmentView, ThinsMoreThan500Scans) {
     std::filesystem::create_directory(folder_ / "clouds");
     test::Packed cloud;

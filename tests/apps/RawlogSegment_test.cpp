@@ -11,7 +11,6 @@
 #include <cmath>
 #include <limits>
 
-#include "support/PolesAndWall.h"
 #include "support/Random.h"
 #include "support/ReadRawlog.h"
 #include "support/SegmentTest.h"
@@ -136,22 +135,6 @@ TEST_F(RawlogSegment, LabelsSampleRecordingAsPublished) {
     EXPECT_LE(stats["latency_ms"]["p50"], stats["latency_ms"]["max"]);
 }
 
-TEST_F(RawlogSegment, LabelsWholeRealScan) {
-    if (test::realScan().empty()) GTEST_SKIP() << "mrpt-common is not installed";
-    expectSuccess({"-i", test::realScan(), "-o", path("out.rawlog"), "--kitti", path("scans")});
-    recordings::RawlogReader reader(path("out.rawlog"));
-    ASSERT_NE(reader.next(), nullptr);
-    std::size_t points = 0;
-    while (const auto entry = reader.next()) {
-        points += dynamic_cast<mrpt::obs::CObservationPointCloud&>(*entry).pointcloud->size();
-    }
-    EXPECT_EQ(points, 22591u);
-    EXPECT_EQ(reader.entries(), 3u);
-    const recordings::ScanFolder scans(path("scans"));
-    EXPECT_EQ(fs::file_size(scans.scanFile(0)), 22591u * 16);
-    EXPECT_EQ(fs::file_size(scans.labelFile(0)), 22591u * 4);
-}
-
 TEST_F(RawlogSegment, OutputsDoNotDependOnThreads) {
     const std::vector<std::string> outputs{".rawlog", ".mcap", ".bt", ".ot", ".3Dscene"};
     for (const std::string jobs : {"1", "3"}) {
@@ -245,29 +228,6 @@ TEST_F(RawlogSegment, ComparesCloudsWithNamedSensor) {
     EXPECT_FALSE(fs::exists(path("labels")));
 }
 
-TEST_F(RawlogSegment, RejectsSettingsUnfitForRecoveredBeams) {
-    Scan scan;
-    for (int column = 0; column < 400; ++column) {
-        for (const float slope : {-0.3f, -0.2f, -0.1f, 0.1f}) {
-            const float azimuth_rad = 0.0157f * static_cast<float>(column);
-            scan.x_m.push_back(9 * std::cos(azimuth_rad));
-            scan.y_m.push_back(9 * std::sin(azimuth_rad));
-            scan.z_m.push_back(9 * slope);
-        }
-    }
-    writeScan(scan);
-    EXPECT_THAT(run({"-i", path("scans"), "--stats", path("a.json")}).out,
-                HasSubstr("4 beams recovered, "));
-    for (const auto& [text, words] : {std::pair{"window_size: 8\n", "window_size (8)"},
-                                      std::pair{"sensor: {min_range_m: 1000}\n", "min_range_m"}}) {
-        const auto outcome = run(
-            {"-i", path("scans"), "--stats", path("b.json"), "-c", folder_.write("c.yaml", text)});
-        EXPECT_EQ(outcome.exit_code, 2);
-        EXPECT_THAT(outcome.err, HasSubstr(words));
-        EXPECT_FALSE(fs::exists(path("b.json")));
-    }
-}
-
 TEST_F(RawlogSegment, PrintsRepeatedRemarkOnce) {
     const auto elsewhen = folder_.write("elsewhen.tum", "0 0 0 0 0 0 0 1\n");
     const auto outcome =
@@ -330,18 +290,6 @@ TEST_F(RawlogSegment, PrintsHelpVersionAndSettings) {
     EXPECT_THAT(dump, HasSubstr("beta_deg: 7.5 "));
     EXPECT_THAT(dump, HasSubstr("# [deg]"));
     EXPECT_EQ(run({"--config-dump", "-c", folder_.write("dump.yaml", dump)}).out, dump);
-}
-
-TEST_F(RawlogSegment, CopiesLogWithoutLidar) {
-    const fs::path log = "/usr/share/mrpt/datasets/localization_demo.rawlog";
-    if (!fs::exists(log)) GTEST_SKIP() << "mrpt-common is not installed";
-    const auto outcome = run({"-i", log, "-o", path("out.rawlog"), "--kitti", path("scans"),
-                              "--pictures", path("pictures")});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("no LiDAR scan"));
-    EXPECT_FALSE(fs::exists(path("scans")));
-    EXPECT_FALSE(fs::exists(path("pictures")));
-    EXPECT_EQ(test::readLog(path("out.rawlog")).first, test::readLog(log).first);
 }
 
 TEST_F(RawlogSegment, ConvertsScanRange) {
@@ -445,30 +393,6 @@ TEST_F(RawlogSegment, RejectsUnreadableInputs) {
                     {{"--from", "10"}, "has 10 scans, none at or after 10"}});
 }
 
-TEST_F(RawlogSegment, ReportsUnreadableScanEvenIfQuiet) {
-    const auto scan = test::polesAndWallScan(0);
-    scan->scan_packets[0].velodyne_model_ID = 0x99;
-    convert::RawlogWriter writer(path("in.rawlog"), false);
-    writer.write(*scan);
-    writer.commit();
-    const auto outcome = run({"-q", "-i", path("in.rawlog"), "-o", path("out.rawlog")});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(
-        outcome.err,
-        HasSubstr("scan 0 (lidar): kept, but not segmented: packet 0: unknown model id 0x99"));
-}
-
-TEST_F(RawlogSegment, KeepsReadablePartOfTruncatedLog) {
-    const std::string bytes = test::readFile(recording());
-    const auto cut = folder_.write("cut.rawlog", bytes.substr(0, bytes.size() / 2));
-    const auto outcome = run({"-i", cut, "-o", path("out.rawlog")});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("cut.rawlog: entry"));
-    EXPECT_THAT(outcome.err, HasSubstr("out.partial.rawlog"));
-    EXPECT_FALSE(fs::exists(path("out.rawlog")));
-    EXPECT_GE(test::readLog(path("out.partial.rawlog")).first, 12u);
-}
-
 TEST_F(RawlogSegment, ReportsUnwritableOutputs) {
     const Arguments log{"-i", recording()};
     expectFailures(log, 1,
@@ -508,29 +432,6 @@ TEST_F(RawlogSegment, KeepsOutputOnInterrupt) {
         fs::remove(path("out.partial.rawlog"));
         EXPECT_EQ(files(), std::set<fs::path>{log});
     }
-}
-
-TEST(PolesAndWall, RecordingMatchesGenerator) {
-    recordings::RawlogReader reader(HAGEN_SOURCE_DIR "/rawlogs/poles_and_wall.rawlog");
-    for (int scan = 0; scan < test::kPolesAndWallScans; ++scan) {
-        ASSERT_NE(reader.next(), nullptr);
-        const auto recorded =
-            std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(reader.next());
-        const auto made = test::polesAndWallScan(scan);
-        ASSERT_NE(recorded, nullptr);
-        ASSERT_EQ(recorded->scan_packets.size(), made->scan_packets.size());
-        for (std::size_t p = 0; p < made->scan_packets.size(); ++p) {
-            for (int b = 0; b < 12; ++b) {
-                for (int i = 0; i < 32; ++i) {
-                    // Between machines, sines may differ in the last bit, ranges by one unit.
-                    ASSERT_NEAR(recorded->scan_packets[p].blocks[b].laser_returns[i].distance(),
-                                made->scan_packets[p].blocks[b].laser_returns[i].distance(), 1);
-                }
-            }
-        }
-    }
-    EXPECT_NE(reader.next(), nullptr);  // the last pose
-    EXPECT_EQ(reader.next(), nullptr);
 }
 
 }  // namespace

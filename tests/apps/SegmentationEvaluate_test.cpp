@@ -142,16 +142,6 @@ TEST_F(SegmentationEvaluate, ReportsUnusedFiles) {
                 HasSubstr("poses.tum covers 0 of 1 scan; the others are not levelled"));
 }
 
-/// A label map allows scoring such a folder, but its obstacle numbers are predictions.
-TEST_F(SegmentationEvaluate, DoesNotCountPredictedObstacles) {
-    const std::string pole = poleWithKinds();
-    const std::string found = (folder_ / "found").string();
-    ASSERT_EQ(test::run(HAGEN_RAWLOG_SEGMENT, {"-i", pole, "--kitti", found}).exit_code, 0);
-    fs::copy(folder_ / "pole/semantic", folder_ / "found/semantic");
-    const auto report = json({"-i", found, "--label-map", pole + "/kinds.yaml"});
-    EXPECT_TRUE(report["methods"][0]["drone"]["obstacles"].is_null());
-}
-
 TEST_F(SegmentationEvaluate, RecoversUnnamedSensor) {
     const std::string pole = labelledPole(), other = labelledPole("other");
     EXPECT_THAT(run({"-i", pole}).out, testing::Not(HasSubstr("recovered")));
@@ -201,20 +191,6 @@ TEST_F(SegmentationEvaluate, ListsBaselines) {
     names.resize(5);
     EXPECT_EQ(names, (std::vector<std::string>{"hagen", "zermas", "zermas tuned", "bogoslavskyi",
                                                "bogoslavskyi tuned"}));
-}
-
-TEST_F(SegmentationEvaluate, BaselinesUseZoneFromSettings) {
-    const std::string near = folder_.write("near.yaml", "zone_m: 5\n");  // excludes the pole
-    const auto report =
-        json({"-i", labelledPole(), "-c", near, "--sweep", "zone_m=5,20", "--baselines"});
-    const auto& methods = report["methods"];
-    ASSERT_GE(methods.size(), 6u);
-    EXPECT_EQ(methods[1]["name"], "zone_m=20");
-    EXPECT_EQ(methods[1]["returns"]["all"]["roi"]["recall"], 1.0);
-    for (std::size_t m = 2; m < methods.size(); ++m) {
-        EXPECT_TRUE(methods[m]["sweep"].is_null());
-        EXPECT_EQ(methods[m]["returns"]["all"]["roi"]["recall"], 0.0) << methods[m]["name"];
-    }
 }
 
 // Label files of another program.
@@ -368,17 +344,6 @@ TEST_F(SegmentationEvaluate, ScoresDegradedScans) {
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 
-TEST_F(SegmentationEvaluate, HardSetsAreStandardDegradations) {
-    const auto report = json({"-i", labelledPole(), "--hard-sets", "--degrade", "upside_down",
-                              "--degrade", "noise_m=0.01", "--bootstrap", "0"});
-    std::set<std::string> names;
-    for (const auto& set : report["hard_sets"]) names.insert(set["name"]);
-    EXPECT_EQ(names.size(), report["hard_sets"].size());  // no duplicates
-    for (const char* name : {"dead_beams=0", "dead_beams=15", "dead_beams=7,8", "dropout=50",
-                             "rain=3", "roll_deg=20", "upside_down", "rate_hz=20", "noise_m=0.01"})
-        EXPECT_EQ(names.count(name), 1u) << name;
-}
-
 // On labelled recordings, the published filter must reach these scores.
 TEST_F(SegmentationEvaluate, PaperPresetReachesRequiredScores) {
     std::vector<std::string> arguments = sixteenBeamScans();
@@ -411,17 +376,6 @@ TEST_F(SegmentationEvaluate, ShippedLabelMapMatchesData) {
               without["methods"][0]["returns"]["all"]["returns"].get<std::int64_t>());
 }
 
-TEST_F(SegmentationEvaluate, ReportsGroups) {
-    const auto outcome = run({"-i", poleWithKinds()});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    for (const std::string words : {"By range", "10-15 m", "By altitude", "2-3 m", "By folder",
-                                    "By object class", "terrain", "Run time"}) {
-        EXPECT_THAT(outcome.out, HasSubstr(words)) << words << "\n" << outcome.out;
-    }
-    std::istringstream lines(outcome.out);
-    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
-}
-
 TEST_F(SegmentationEvaluate, JsonCountsAddUp) {
     const auto report = json({"-i", poleWithKinds(), labelledPole("other"), "--bootstrap", "50"});
     EXPECT_EQ(report["scans"], 2);
@@ -445,22 +399,6 @@ TEST_F(SegmentationEvaluate, JsonCountsAddUp) {
     ASSERT_EQ(returns["by_altitude"].size(), 1u);
     EXPECT_EQ(returns["by_altitude"][0]["name"], "2-3 m");
     EXPECT_EQ(returns["by_altitude"][0]["scans"], 1);
-}
-
-TEST_F(SegmentationEvaluate, AppliesLabelMap) {
-    const std::string pole = poleWithKinds();
-    const std::string map = folder_.write(
-        "map.yaml",
-        "0: {name: nothing, label: 0}\n1: {name: soil, label: 2}\n4: {name: mast, label: 1}\n");
-    const auto upside_down = json({"-i", pole, "--label-map", map});
-    EXPECT_EQ(upside_down["methods"][0]["returns"]["all"]["roi"]["recall"], 0.0);
-    EXPECT_EQ(upside_down["methods"][0]["returns"]["by_kind"][0]["name"], "mast");
-    fs::remove_all(folder_ / "pole/semantic");  // then classes come from labels/
-    folder_.write("map.yaml",
-                  "1: {name: soil, label: 1}\n2: {name: obstacle, label: 2}\n"
-                  "0: {name: nothing, label: 0}\n");
-    EXPECT_EQ(json({"-i", pole, "--label-map", map})["methods"][0]["returns"]["all"]["roi"]["f1"],
-              1.0);
 }
 
 TEST_F(SegmentationEvaluate, ScoresCameraPixels) {
@@ -544,19 +482,6 @@ TEST_F(SegmentationEvaluate, KeepsExistingFiles) {
                    {{{"--json", path("report.json")}, "--overwrite"},
                     {{"--charts", path("charts"), "--overwrite"}, "contains 'holiday.svg'"}});
     EXPECT_EQ(test::readFile(path("report.json")), "mine");
-}
-
-TEST_F(SegmentationEvaluate, ReportsUnnamedClasses) {
-    const std::string pole = poleWithKinds();
-    const std::string map = folder_.write("map.yaml", "1: {name: soil, label: 1}\n");
-    expectFailure({"-i", pole, "--label-map", map}, 1, "class 4 is not in the label map");
-    folder_.write("pole/kinds.yaml", "1: {name: terrain, label: 1}\n");
-    expectFailure({"-i", pole}, 1, "class 4 has no name in the label map");
-    folder_.write("pole/kinds.yaml", "1: terrain\n");
-    expectFailure({"-i", pole}, 1, "kinds.yaml:1: expected name and label");
-    fs::remove(folder_ / "pole/kinds.yaml");
-    folder_.write("pole/altitudes.txt", "1\n2\n");
-    expectFailure({"-i", pole}, 1, "altitudes.txt: has 2 lines for 1 scan");
 }
 
 TEST_F(SegmentationEvaluate, RejectsPredictionsAsTruth) {

@@ -130,26 +130,6 @@ TEST(RollingModels, GridMatchesOctoMap) {
     }
 }
 
-/// OctoMap's log odds: -2 to 3.5, +0.85 per hit, -0.41 per miss.
-TEST(RollingModels, GridUpdatesAsFastAsOctoMap) {
-    const Eigen::Vector3f origin(0, 0, 0), here(3.15f, 0.05f, 0.05f), beyond = 2 * here;
-    for (const std::string name : {"R-Full-0.1", "R-Full-0.2"}) {
-        const auto model = make(name);
-        const auto scansUntil = [&](bool is_occupied, const Eigen::Vector3f& point) {
-            int scans = 0;
-            while ((model->clearance_m(here) == 0) != is_occupied && scans < 50) {
-                model->update(scanOf(origin, {point}));
-                ++scans;
-            }
-            return scans;
-        };
-        for (int i = 0; i < 10; ++i) model->update(scanOf(origin, {beyond}));
-        EXPECT_EQ(scansUntil(true, here), 3) << name;
-        for (int i = 0; i < 10; ++i) model->update(scanOf(origin, {here}));
-        EXPECT_EQ(scansUntil(false, beyond), 9) << name;
-    }
-}
-
 TEST(RollingModels, ForgetsOnlyVoxelsOutsideBox) {
     for (const std::string& name : kNames) {
         simulation::Random random(5);
@@ -301,19 +281,6 @@ TEST(DepthImageMap, KnownSpaceMatchesBruteForce) {
     EXPECT_GT(known, 300);
     EXPECT_GT(unknown, 1000);
     EXPECT_GT(must_be_known, 80);
-}
-
-TEST(DepthImageMap, IsUnknownBetweenRows) {
-    const auto model = make("D-Full");
-    const Eigen::Vector3f origin(0, 0, 0);
-    std::vector<Eigen::Vector3f> row;  // a single level row
-    for (float azimuth = -0.5f; azimuth < 0.5f; azimuth += 0.003f) {
-        row.emplace_back(14 * std::cos(azimuth), 14 * std::sin(azimuth), 0.01f);
-    }
-    model->update(scanOf(origin, row));
-    EXPECT_TRUE(model->isKnown({10.1f, 0.1f, 0.1f}));
-    EXPECT_FALSE(model->isKnown({10.1f, 0.1f, 1.1f}));
-    EXPECT_FALSE(model->isKnown({10.1f, 0.1f, -0.9f}));
 }
 
 TEST(DepthImageMap, KnownSpaceStaysKnown) {

@@ -27,18 +27,6 @@ using testing::Not;
 namespace fs = std::filesystem;
 const std::string kConfig = HAGEN_SOURCE_DIR "/config";
 
-TEST(Tables, AreAlignedMarkdown) {
-    Table table({"what", "n"});
-    table.add({"a", "1234"});
-    EXPECT_EQ(table.text(), "| what | n    |\n|------|------|\n| a    | 1234 |\n\n");
-}
-
-TEST(Tables, CsvHasNoMarkdown) {
-    Table table({"what", "n"});
-    table.add({"**`a`**, b", "12"});
-    EXPECT_EQ(table.csv(), "what,n\n\"a, b\",12\n");
-}
-
 TEST(Tables, MarkBestValuesBold) {
     EXPECT_EQ(pairCell(0.95801, 0.5, 0.95849, 0.6), "**0.958** / 0.500");
     EXPECT_EQ(pairCell(NAN, 0.5), "- / 0.500");
@@ -111,42 +99,6 @@ TEST(DataSets, UseGivenSeeds) {
             EXPECT_EQ(flight.tilt_sd_deg, 4);
         }
     }
-}
-
-class Flights : public testing::Test {
- protected:
-    Flights() {
-        for (DataSet& set : dataSets("", folder_.path(), {{101}, 1})) {
-            if (set.name == "field") field_ = set;
-        }
-    }
-    fs::file_time_type timeOfScan() const {
-        return fs::last_write_time(field_.flights.front().folder / "velodyne/000000.bin");
-    }
-    test::TemporaryFolder folder_;
-    DataSet field_;
-};
-
-TEST_F(Flights, AreReusedIfUnchanged) {
-    makeFlights(field_, "one");
-    EXPECT_EQ(scanFolders(field_).size(), 1u);
-    const auto made = timeOfScan();
-    makeFlights(field_, "one");
-    EXPECT_EQ(timeOfScan(), made);
-    makeFlights(field_, "two");  // another version of the simulation
-    const auto made_again = timeOfScan();
-    EXPECT_GT(made_again, made);
-    field_.flights.front().altitude_m = 3;
-    makeFlights(field_, "two");
-    EXPECT_GT(timeOfScan(), made_again);
-}
-
-TEST_F(Flights, AreRemadeIfIncomplete) {
-    makeFlights(field_, "one");
-    fs::remove(field_.flights.front().folder.string() + ".stamp");
-    const auto made = timeOfScan();
-    makeFlights(field_, "one");
-    EXPECT_GT(timeOfScan(), made);
 }
 
 evaluation::ScanScores scanOf(std::size_t folder, std::int64_t right, std::int64_t wrong) {
@@ -241,57 +193,6 @@ class PaperResults : public test::ProgramTest {
         return (folder_ / "labelled").string();
     }
 };
-
-TEST_F(PaperResults, RejectsInvalidArguments) {
-    expectFailure({}, 2, "--output");
-    expectFailure({"-o", (folder_ / "none").string()}, 2, "none");
-    expectFailure({"-o", folder_.path(), "--beta", "5"}, 2, "--beta");
-    expectFailure({"-o", folder_.path(), "--selection", path("none.json")}, 2, "none.json");
-}
-
-TEST_F(PaperResults, ReportsMissingRecording) {
-    expectFailure({"-o", folder_.path(), "--labelled", (folder_ / "labelled").string()}, 1,
-                  "beams16: no such folder; set HAGEN_LABELLED_DATA");
-    fs::create_directories(folder_ / "labelled/beams16");
-    fs::create_directories(folder_ / "labelled/beams64");
-    expectFailure({"-o", folder_.path(), "--labelled", (folder_ / "labelled").string()}, 1,
-                  "contains no scan folders");
-    EXPECT_FALSE(fs::exists(folder_ / "results.md"));
-}
-
-TEST_F(PaperResults, ReportsMissingSettings) {
-    const auto outcome = test::run(
-        HAGEN_PAPER_RESULTS,
-        {"-o", folder_.path(), "--data", folder_.path(), "--quick", "--config", folder_.path()});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, HasSubstr("vlp16.yaml"));
-}
-
-TEST_F(PaperResults, ReportsBrokenInputs) {
-    folder_.write("selection.json", "{}");
-    expectFailure({"-o", folder_.path(), "--selection", path("selection.json")}, 1,
-                  "selection.json: invalid record");
-}
-
-TEST_F(PaperResults, KeepsExistingOutputs) {
-    folder_.write("results.md", "mine");
-    expectFailure({"-o", folder_.path()}, 1, "--overwrite");
-    EXPECT_EQ(test::readFile(folder_ / "results.md"), "mine");
-    fs::create_directories(folder_ / "results");
-    folder_.write("results/holiday.svg", "mine");
-    expectFailure({"-o", folder_.path(), "--overwrite"}, 1, "holiday.svg");
-}
-
-TEST(ReproducePaper, RejectsInvalidArguments) {
-    const std::string script = HAGEN_SOURCE_DIR "/scripts/reproduce-paper";
-    for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"--fast"}, {"--data"}, {"--quick", "results.md"}}) {
-        const auto outcome = test::run(script, arguments);
-        EXPECT_EQ(outcome.exit_code, 2);
-        EXPECT_THAT(outcome.err, HasSubstr("Usage: scripts/reproduce-paper"));
-    }
-    EXPECT_EQ(test::run(script, {"--help"}).exit_code, 0);
-}
 
 using PaperResultsRun = PaperResults;
 

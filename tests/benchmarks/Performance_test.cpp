@@ -25,29 +25,6 @@ TimedRow rowOf(const std::string& sensor, const std::string& what, double median
     return row;
 }
 
-TEST(TimedRows, RoundTripThroughJson) {
-    test::TemporaryFolder folder;
-    const fs::path file =
-        folder.write("rows.json", jsonOf({rowOf("VLP-16", "floor", 0.002), rowOf("B", "c", 3)}));
-    const std::vector<TimedRow> rows = readTimedRows(file);
-    ASSERT_EQ(rows.size(), 2u);
-    EXPECT_EQ(find(rows, "VLP-16", "floor"), &rows[0]);
-    EXPECT_EQ(rows[0].latency.p50_ms, 0.002);
-    EXPECT_EQ(rows[1].latency.p99_ms, 3);
-    EXPECT_EQ(rows[1].latency.runs, 10u);
-    EXPECT_EQ(rows[1].allocations, 0.5);
-    EXPECT_EQ(find(rows, "VLP-16", "c"), nullptr);
-}
-
-TEST(TimedRows, ReportBrokenFiles) {
-    test::TemporaryFolder folder;
-    for (const char* text : {"", "[{", "[{\"sensor\": \"VLP-16\"}]", "[3]"}) {
-        const fs::path file = folder.write("rows.json", text);
-        const std::string message = test::messageOf([&] { readTimedRows(file); });
-        EXPECT_THAT(message, HasSubstr(file.string() + ": invalid list of times")) << text;
-    }
-}
-
 TEST(TimedRows, ExponentIsLogLogSlope) {
     const std::vector<double> x{16, 32, 64, 128};
     for (const double exponent : {0.0, 1.0, 1.5}) {

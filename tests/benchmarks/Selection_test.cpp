@@ -223,20 +223,6 @@ TEST(Plan, ProjectPlanHasValidValues) {
     EXPECT_EQ(chosen.options.ground_tolerance_m, preset.options.ground_tolerance_m);
 }
 
-TEST(Plan, IncludesCurrentValues) {
-    test::TemporaryFolder folder;
-    Plan plan = readPlan(folder.write("plan.yaml", "settings: {beta_deg: [5, 7.50]}\n"));
-    EXPECT_THAT(plan.settings[0].values, ElementsAre("5", "7.5"));
-    const fs::path preset = folder.write("preset.yaml", "beta_deg: 11\n");
-    EXPECT_THAT(presentChoice({preset}, plan), ElementsAre(0));
-    EXPECT_THAT(plan.settings[0].values, ElementsAre("11", "5", "7.5"));
-    const fs::path other = folder.write("other.yaml", "beta_deg: 12\n");
-    EXPECT_THAT(test::messageOf([&] {
-                    presentChoice({preset, other}, plan);
-                }),
-                HasSubstr("beta_deg is 11 in"));
-}
-
 TEST(Plan, PlainStartUsesOwnValues) {
     test::TemporaryFolder folder;
     Plan plan = readPlan(folder.write(
@@ -246,32 +232,6 @@ TEST(Plan, PlainStartUsesOwnValues) {
     const Choice present = presentChoice({preset}, plan);
     EXPECT_THAT(present, ElementsAre(0, 0));
     EXPECT_THAT(plainChoice(plan, present), ElementsAre(2, 0));
-}
-
-TEST(Plan, ReportsFileLineAndEntry) {
-    test::TemporaryFolder folder;
-    const auto errorOf = [&](const std::string& text) {
-        const fs::path file = folder.write("plan.yaml", text);
-        return test::messageOf([&] { readPlan(file); });
-    };
-    EXPECT_THAT(errorOf("rounds: 2\nsettings:\n  beta: [5]\n"), ContainsRegex("yaml:3: .*beta"));
-    EXPECT_THAT(errorOf("settings: {beta_deg: [5, 500]}"), ContainsRegex("yaml:1: .*beta_deg"));
-    EXPECT_THAT(errorOf("settings: {beta_deg: [5, 5.0]}"), HasSubstr("a value occurs twice"));
-    EXPECT_THAT(errorOf("settings: {beta_deg: 5}"), HasSubstr("beta_deg: expected a list"));
-    EXPECT_THAT(errorOf("settings: {beta_deg: [5], beta_deg: [6]}"), HasSubstr("occurs twice"));
-    EXPECT_THAT(errorOf("hard_sets: [hail=3]\nsettings: {beta_deg: [5]}"),
-                ContainsRegex("yaml:1: hard_sets: .*hail"));
-    EXPECT_THAT(errorOf("rounds: 0\nsettings: {beta_deg: [5]}"), HasSubstr("rounds"));
-    EXPECT_THAT(errorOf("turns: 1\nsettings: {beta_deg: [5]}"), HasSubstr("unknown key turns"));
-    for (const char* plain : {"{beta_deg: 6}", "{zone_m: 20}", "{beta_deg: [5]}"}) {
-        EXPECT_THAT(errorOf("settings: {beta_deg: [5]}\nplain: " + std::string(plain)),
-                    ContainsRegex("yaml:2: plain: .* must have one of its values"))
-            << plain;
-    }
-    EXPECT_THAT(errorOf("rounds: 1\n"), HasSubstr("has no settings"));
-    EXPECT_THAT(errorOf("settings: [\n"), HasSubstr("is not YAML"));
-    EXPECT_THAT(test::messageOf([&] { readPlan(folder / "none.yaml"); }),
-                HasSubstr("none.yaml: cannot be read"));
 }
 
 // ---- the record
@@ -312,18 +272,6 @@ TEST(Record, RoundTripsThroughJson) {
     EXPECT_EQ(record.find("real", "04"), nullptr);
 }
 
-TEST(Record, ReportsBrokenFiles) {
-    test::TemporaryFolder folder;
-    for (const char* text : {"", "{", "[]", "{\"revision\": 3}"}) {
-        const fs::path file = folder.write("selection.json", text);
-        EXPECT_THAT(test::messageOf([&] { readRecord(file); }),
-                    HasSubstr(file.string() + ": invalid record"))
-            << text;
-    }
-    EXPECT_THAT(test::messageOf([&] { readRecord(folder / "none.json"); }),
-                HasSubstr("none.json: cannot be read"));
-}
-
 TEST(SelectionTables, ListHeldOutScoresFirst) {
     const std::string text = scoreTable(twoDrives());
     EXPECT_THAT(text, HasSubstr("0.900 / 0.900"));
@@ -338,31 +286,6 @@ TEST(SelectionTables, ListHeldOutScoresFirst) {
                 ContainsRegex("beta_deg` \\| 10 +\\| 10 +\\| \\*\\*5\\*\\*"));
     EXPECT_THAT(foldTable(search).text(), HasSubstr("0.9000 to 0.9100"));
     EXPECT_THAT(foldTable(search).text(), HasSubstr("3 to 2, limit 3"));
-}
-
-// ---- the programs
-
-TEST(SelectSettings, RejectsInvalidArguments) {
-    test::TemporaryFolder folder;
-    const std::string output = (folder / "selection.json").string();
-    const std::vector<std::string> common{"-o",          output,     "--data",
-                                          folder.path(), "--config", kConfig.string()};
-    EXPECT_EQ(test::run(HAGEN_SELECT_SETTINGS, common).exit_code, 2);  // no drives
-    std::vector<std::string> arguments = common;
-    arguments.insert(arguments.end(), {"--labelled", (folder / "none").string()});
-    EXPECT_EQ(test::run(HAGEN_SELECT_SETTINGS, arguments).exit_code, 2);
-    arguments.back() = folder.path();
-    const test::Outcome missing = test::run(HAGEN_SELECT_SETTINGS, arguments);
-    EXPECT_EQ(missing.exit_code, 1);
-    EXPECT_THAT(missing.err, HasSubstr("beams16: no such folder"));
-    arguments.insert(arguments.end(), {"--plan", (folder / "plan.yaml").string()});
-    const test::Outcome no_plan = test::run(HAGEN_SELECT_SETTINGS, arguments);
-    EXPECT_EQ(no_plan.exit_code, 1);
-    EXPECT_THAT(no_plan.err, HasSubstr("plan.yaml: cannot be read"));
-    EXPECT_FALSE(fs::exists(output));
-    folder.write("selection.json", "mine");
-    EXPECT_EQ(test::run(HAGEN_SELECT_SETTINGS, arguments).exit_code, 1);
-    EXPECT_EQ(test::readFile(output), "mine");
 }
 
 }  // namespace

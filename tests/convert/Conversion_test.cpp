@@ -23,7 +23,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <stdexcept>
 
 #include "support/CaptureWriter.h"
 #include "support/Program.h"
@@ -140,22 +139,6 @@ TEST_P(ConversionTest, AddsCloudsToSensoryFrame) {
               (std::vector<std::string>{
                   "mrpt::obs::CActionCollection",
                   "[ front pose rear front_roi front_non_roi rear_roi rear_non_roi ]"}));
-}
-
-TEST_P(ConversionTest, WritesReproducibleBytes) {
-    writeLog({scanFrom(0), scanFrom(1)});
-    Conversion first = conversion(), second = conversion();
-    first.folder = folder_ / "scans";
-    second.rawlog = folder_ / "again.rawlog";
-    second.folder = folder_ / "scans_again";
-    convert(first);
-    convert(second);
-    EXPECT_EQ(test::readFile(first.rawlog), test::readFile(second.rawlog));
-    for (const char* file :
-         {"velodyne/000001.bin", "labels/000001.label", "times.txt", "sensor.yaml"}) {
-        EXPECT_EQ(test::readFile(first.folder / file), test::readFile(second.folder / file))
-            << file;
-    }
 }
 
 TEST_P(ConversionTest, ReproducesOwnOutput) {
@@ -650,19 +633,6 @@ TEST_P(ConversionTest, IncludesFirstAndLastScan) {
                 HasSubstr("has 2 scans, none at or after 2"));
 }
 
-TEST_P(ConversionTest, AddsPreviewAfterClouds) {
-    writeLog({scanFrom(0)});
-    Conversion with_preview = conversion();
-    with_preview.preview = true;
-    convert(with_preview);
-    recordings::RawlogReader reader(folder_ / "out.rawlog");
-    for (int i = 0; i < 3; ++i) ASSERT_NE(reader.next(), nullptr);
-    const auto preview = std::dynamic_pointer_cast<mrpt::obs::CObservation3DScene>(reader.next());
-    ASSERT_NE(preview, nullptr);
-    EXPECT_NE(preview->scene, nullptr);
-    EXPECT_EQ(reader.next(), nullptr);
-}
-
 TEST_P(ConversionTest, KeepsPartialOutputOnInterrupt) {
     writeLog({pose(), scanFrom(0), pose()});
     int asked = 0;
@@ -707,22 +677,6 @@ TEST_P(ConversionTest, FindsExternalClouds) {
     EXPECT_EQ(report.returns, 2u);
     ASSERT_EQ(remarks.size(), 1u);
     EXPECT_THAT(remarks[0], HasSubstr((folder_ / "out_Images").string()));
-}
-
-TEST_P(ConversionTest, NeverReplacesInput) {
-    writeLog({scanFrom(0)});
-    Conversion onto_itself = conversion();
-    onto_itself.rawlog = onto_itself.input;
-    onto_itself.overwrite = true;
-    EXPECT_THROW(convert(onto_itself), std::runtime_error);
-    EXPECT_EQ(entriesOf(folder_ / "in.rawlog").size(), 1u);
-}
-
-TEST_P(ConversionTest, RejectsExistingOutput) {
-    writeLog({scanFrom(0)});
-    folder_.write("out.rawlog", "old");
-    EXPECT_THROW(convert(conversion()), std::runtime_error);
-    EXPECT_EQ(test::readFile(folder_ / "out.rawlog"), "old");
 }
 
 TEST_P(ConversionTest, StopsAtUnsuitableSettings) {
@@ -781,66 +735,6 @@ TEST_P(ConversionTest, ReportsProgressPerEntry) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, ConversionTest, testing::Values(1, 4));
-
-/// All callback arguments and files of a conversion with `jobs` threads.
-std::string outputsOf(Conversion conversion, const test::TemporaryFolder& folder,
-                      std::size_t jobs) {
-    conversion.jobs = jobs;
-    conversion.overwrite = true;
-    conversion.rawlog = folder / "out.rawlog";
-    conversion.folder = folder / "scans";
-    std::string text;
-    ConversionListener listener;
-    listener.remark = [&](const auto& entry, const auto& what) { text += entry + what + "\n"; };
-    listener.unreadable = [&](const auto& entry, const auto& why) { text += entry + why + "\n"; };
-    listener.progress = [&](const ConversionReport& report) {
-        text += std::to_string(report.entries) + " " + std::to_string(report.fraction) + "\n";
-    };
-    for (const ScanReport& scan : convert(conversion, listener).scan_reports) {
-        text += std::to_string(scan.entry) + scan.sensor_label + scan.name + " " +
-                std::to_string(scan.roi) + "\n";
-    }
-    text += test::readFile(conversion.rawlog);
-    std::vector<fs::path> files{fs::recursive_directory_iterator(conversion.folder), {}};
-    std::sort(files.begin(), files.end());
-    for (const fs::path& file : files) {
-        if (fs::is_regular_file(file)) text += file.string() + test::readFile(file);
-    }
-    return text;
-}
-
-TEST(ConversionThreads, DoNotAffectResults) {
-    const test::TemporaryFolder folder;
-    {
-        RawlogWriter writer(folder / "in.rawlog", true);
-        for (int i = 0; i < 24; ++i) {
-            const double x_m = 0.1 * i;
-            auto pose = mrpt::obs::CObservationRobotPose::Create();
-            pose->sensorLabel = "pose";
-            pose->timestamp = scanFrom(x_m)->timestamp;
-            pose->pose.mean = mrpt::poses::CPose3D(x_m, 0, 2, 0, 0.01 * i, 0);
-            if (i % 5 != 3) writer.write(*pose);
-            auto frame = mrpt::obs::CSensoryFrame::Create();
-            frame->insert(scanFrom(x_m, "front"));
-            frame->insert(scanFrom(x_m, "rear"));
-            if (i % 7 == 2) writer.write(*frame);
-            const auto broken = scanFrom(x_m);
-            std::dynamic_pointer_cast<mrpt::obs::CObservationVelodyneScan>(broken)
-                ->scan_packets[0]
-                .velodyne_model_ID = 0x99;
-            if (i % 11 == 5) writer.write(*broken);
-            writer.write(*scanFrom(x_m));
-        }
-        writer.commit();
-    }
-    Conversion conversion;
-    conversion.input = folder / "in.rawlog";
-    const std::string alone = outputsOf(conversion, folder, 1);
-    EXPECT_THAT(alone, HasSubstr("0x99"));
-    for (const std::size_t jobs : {0, 2, 3, 8}) {
-        EXPECT_TRUE(outputsOf(conversion, folder, jobs) == alone) << jobs << " threads";
-    }
-}
 
 }  // namespace
 }  // namespace hagen::convert

@@ -263,21 +263,6 @@ TEST(StagePictures, OmitNonFiniteReturns) {
     EXPECT_NO_THROW(Drawn{scan});
 }
 
-TEST(StagePictures, DrawManyBeams) {
-    Options options;
-    options.context_m = std::numeric_limits<float>::infinity();
-    options.window_size = options.principal_components = 20;
-    options.persistence_m = 0.01f;
-    EXPECT_NO_THROW(Drawn(scanOf(poleAt(9, 4), "HDL-64E"), "", options, sensorModel("HDL-64E")));
-    options = {};
-    options.columns = 90;
-    options.window_size = options.principal_components = 2;
-    EXPECT_NO_THROW(Drawn(scanOf(poleAt(9, 4)), "", options));
-    const SensorModel few_beams = customSensorModel({-10.0, 0.0, 1.5});
-    EXPECT_NO_THROW(
-        Drawn(test::scanScene({}, few_beams, 90, {0, 0, 2}).scan, "", options, few_beams));
-}
-
 TEST(StagePictures, RejectOtherSensor) {
     HagenFilter filter(sensorModel("VLP-16"), {});
     const Scan scan = scanOf(poleAt(9, 4));
@@ -291,26 +276,6 @@ TEST(StagePictures, RejectOtherSensor) {
     EXPECT_NO_THROW(drawStages({scan, sensor, filter.options(), result, ""}, folder.path()));
 }
 
-TEST(StagePictures, AcceptAnyAzimuth) {
-    const Scan scan = scanOf(poleAt(9, 4));
-    HagenFilter filter(sensorModel("VLP-16"));
-    const SegmentationResult& result = filter.segment(scan);
-    const TemporaryFolder folder;
-    for (const float azimuth_deg : {-180.0f, 180.0f, 1e6f}) {
-        EXPECT_NO_THROW(drawStages(
-            {scan, filter.sensor(), filter.options(), result, "", azimuth_deg}, folder.path()));
-    }
-}
-
-TEST(StagePictures, ReplaceOldPictures) {
-    const TemporaryFolder folder;
-    folder.write("6_labels.png", "an old one");
-    const Scan scan = scanOf({});
-    HagenFilter filter(sensorModel("VLP-16"));
-    drawStages({scan, filter.sensor(), filter.options(), filter.segment(scan), ""}, folder.path());
-    EXPECT_GT(readPicture(folder / "6_labels.png").width, 0);
-}
-
 /// The error message from drawing a plane into a folder.
 std::string errorInto(const std::filesystem::path& folder) {
     const Scan scan = scanOf({});
@@ -319,11 +284,6 @@ std::string errorInto(const std::filesystem::path& folder) {
     return test::messageOf([&] {
         drawStages({scan, filter.sensor(), filter.options(), result, ""}, folder);
     });
-}
-
-TEST(StagePictures, RejectMissingFolder) {
-    const TemporaryFolder folder;
-    EXPECT_THAT(errorInto(folder / "none"), HasSubstr((folder / "none").string()));
 }
 
 TEST(StagePictures, ReportWriteError) {

@@ -1,17 +1,11 @@
 #include "filter/simd/CanopyLayer.h"
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "support/GroundPixels.h"
-#include "support/Random.h"
 
 namespace hagen {
 namespace {
 
-using test::cellFromSensor;
 using test::pixelsAt;
 
 constexpr float kBefore_m = 0.2f;  // tolerance without a canopy
@@ -115,71 +109,6 @@ TEST(CanopyLayer, NeverLowersTolerance) {
     findCellTops(cells, pixels.z_m, tops);
     tolerateCanopy(cells, tops, tolerance_m);
     EXPECT_TRUE((tolerance_m == 5.0f).all());
-}
-
-TEST(CanopyLayer, EmptyPixelsStayEmpty) {
-    const PixelPoints none = pixelsAt(std::vector<Eigen::Vector3f>(40, test::kEmptyPixel), 4);
-    EXPECT_TRUE(tolerated(none).isNaN().all());
-}
-
-TEST(CanopyLayer, MatchesBruteForce) {
-    test::Random random(96);
-    std::vector<Eigen::Vector3f> points;
-    std::map<std::pair<int, int>, float> tops_m;
-    std::map<std::pair<int, int>, std::vector<float>> in_cells_m;
-    for (int i = 0; i < 6000; ++i) {  // plants ahead, bare ground behind, up to the border
-        const float x_m = random.real(-47, 47), y_m = random.real(-47, 47);
-        const bool is_plant = random.chance(x_m > 5 ? 0.5 : 0.05);
-        points.emplace_back(x_m, y_m, is_plant ? random.real(0.2f, 1.2f) : 0.02f);
-        float& top_m = tops_m.emplace(std::pair{cellFromSensor(x_m), cellFromSensor(y_m)}, -1.0f)
-                           .first->second;
-        top_m = std::max(top_m, points.back().z());
-        in_cells_m[{cellFromSensor(x_m), cellFromSensor(y_m)}].push_back(points.back().z());
-    }
-    std::map<std::pair<int, int>, float> seconds_m;  // the second highest return, or the only one
-    for (auto& [cell, heights_m] : in_cells_m) {
-        std::sort(heights_m.rbegin(), heights_m.rend());
-        seconds_m[cell] = heights_m[heights_m.size() > 1 ? 1 : 0];
-    }
-    const auto blockOf = [](int cell) { return (cell + 64) / 4; };
-    std::map<std::pair<int, int>, float> canopies_m;
-    for (int a = 0; a < 32; ++a) {
-        for (int b = 0; b < 32; ++b) {
-            double seen = 0, plants = 0, sum_m = 0, deviations_m2 = 0;
-            const auto forAround = [&](auto visit) {
-                for (const auto& [cell, top_m] : tops_m) {
-                    const bool is_near = std::abs(blockOf(cell.first) - a) <= 6 &&
-                                         std::abs(blockOf(cell.second) - b) <= 6;
-                    if (is_near) visit(static_cast<double>(top_m));
-                }
-            };
-            forAround([&](double top_m) {
-                seen += 1;
-                if (!(top_m > 0.1 && top_m < 1.0)) return;
-                plants += 1;
-                sum_m += top_m;
-            });
-            if (seen < 30 || plants < 0.35 * seen) continue;
-            const double mean_m = sum_m / plants;
-            forAround([&](double top_m) {
-                if (top_m > 0.1 && top_m < 1.0) deviations_m2 += std::pow(top_m - mean_m, 2);
-            });
-            canopies_m[{a, b}] = static_cast<float>(
-                mean_m + std::min(2 * std::sqrt(deviations_m2 / plants), mean_m) + 0.1);
-        }
-    }
-    ASSERT_GT(canopies_m.size(), 100u);
-    ASSERT_LT(canopies_m.size(), 800u);
-    const Image<float> tolerance_m = tolerated(pixelsAt(points));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto canopy = canopies_m.find(
-            {blockOf(cellFromSensor(points[i].x())), blockOf(cellFromSensor(points[i].y()))});
-        const float stands_m =
-            seconds_m.at({cellFromSensor(points[i].x()), cellFromSensor(points[i].y())});
-        const bool has_canopy = canopy != canopies_m.end() && stands_m <= canopy->second + 0.1f;
-        const float expected_m = has_canopy ? canopy->second : kBefore_m;
-        ASSERT_NEAR(tolerance_m.data()[i], expected_m, 1e-3f);
-    }
 }
 
 }  // namespace

@@ -15,12 +15,10 @@ namespace {
 
 /// Scans of a yard along a path, with returns behind others.
 std::vector<Scan> drive(const SensorModel& sensor, int columns) {
-    test::SimpleScene yard;
-    yard.boxes = {{{4, -9, 0}, {12, -7, 3}}, {{-14, 4, 0}, {-6, 5, 2}}, {{5, 2, 0}, {6, 3, 0.4}}};
-    yard.poles = {{7, 1, 0.1, 4}, {-5, -3, 0.15, 5}, {3, -4, 0.05, 1}};
     std::vector<Scan> scans;
     for (int i = 0; i < 4; ++i) {
-        scans.push_back(test::scanScene(yard, sensor, columns, {0.7 * i, 0.3, 2.0 - 0.2 * i}).scan);
+        scans.push_back(
+            test::scanScene(test::yard(), sensor, columns, {0.7 * i, 0.3, 2.0 - 0.2 * i}).scan);
     }
     return scans;
 }

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "support/GroundPixels.h"
-#include "support/SimpleScene.h"
 
 namespace hagen {
 namespace {
@@ -17,7 +16,9 @@ constexpr float kWithdrawn = -std::numeric_limits<float>::infinity();
 
 GroundEvidenceWorkspace work;  // reused, as in a filter
 
-std::vector<int> level(const PixelPoints& pixels) {
+/// Flags of the level pixels in columns of `rows` pixels, lowest row first.
+std::vector<int> level(const std::vector<Eigen::Vector3f>& points_m, int rows) {
+    const PixelPoints pixels = pixelsAt(points_m, rows);
     Image<std::uint8_t> is_level;
     PixelCells cells;
     findPixelCells(pixels, cells);
@@ -26,78 +27,8 @@ std::vector<int> level(const PixelPoints& pixels) {
     EXPECT_EQ(is_level.cols(), pixels.x_m.cols());
     return {is_level.data(), is_level.data() + is_level.size()};
 }
-
-/// Flags of the level pixels in columns of `rows` pixels, lowest row first.
-std::vector<int> level(const std::vector<Eigen::Vector3f>& points_m, int rows) {
-    return level(pixelsAt(points_m, rows));
-}
 std::vector<int> levelInColumn(const std::vector<Eigen::Vector3f>& column_m) {
     return level(column_m, static_cast<int>(column_m.size()));
-}
-
-/// The pixels seen by a sensor at this height.
-PixelPoints seen(const test::SimpleScene& scene, const SensorModel& sensor, double height_m) {
-    constexpr int kColumns = 100;
-    const Eigen::Vector3d eye_m(0, 0, height_m);
-    std::vector<Eigen::Vector3f> points_m;
-    for (int column = 0; column < kColumns; ++column) {
-        for (const float elevation_rad : sensor.elevations_rad) {
-            const Eigen::Vector3d beam = test::directionOf(
-                0.05 + 2 * 3.14159265 * column / kColumns, static_cast<double>(elevation_rad));
-            const double range_m = test::castRay(scene, eye_m, beam).range_m;
-            points_m.push_back(range_m < 100 ? (eye_m + range_m * beam).cast<float>().eval()
-                                             : kEmptyPixel);
-        }
-    }
-    return pixelsAt(points_m, sensor.rows());
-}
-
-/// Numbers of level pixels and of all pixels in a height range.
-struct LevelShare {
-    int level = 0, pixels = 0;
-};
-LevelShare levelBetween(float low_m, float high_m, const PixelPoints& pixels) {
-    const std::vector<int> is_level = level(pixels);
-    LevelShare share;
-    for (Eigen::Index i = 0; i < pixels.z_m.size(); ++i) {
-        const float z_m = pixels.z_m.data()[i];
-        if (!(z_m > low_m && z_m < high_m)) continue;
-        ++share.pixels;
-        share.level += is_level[static_cast<std::size_t>(i)];
-    }
-    return share;
-}
-
-TEST(FindLevelPixels, GroundIsLevel) {
-    for (const char* name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
-        for (const double height_m : {0.3, 1.5, 10.0}) {
-            const LevelShare ground =
-                levelBetween(-0.1f, 0.1f, seen({}, sensorModel(name), height_m));
-            EXPECT_GE(ground.pixels, 500) << name;
-            EXPECT_EQ(ground.level, ground.pixels) << name;
-        }
-    }
-}
-
-TEST(FindLevelPixels, WallIsNotLevel) {
-    const test::SimpleScene scene =
-        test::sceneOf({{{8, -9, 0}, {9, 9, 9}}, {{-9, -9, 0}, {-8, 9, 9}}});
-    const PixelPoints pixels = seen(scene, sensorModel("VLP-16"), 1.5);
-    // The step from the ground to the lowest pixel of the wall may be level.
-    const LevelShare walls = levelBetween(0.6f, 8.9f, pixels);
-    EXPECT_GT(walls.pixels, 500);
-    EXPECT_EQ(walls.level, 0);
-    const LevelShare ground = levelBetween(-0.1f, 0.01f, pixels);
-    EXPECT_GT(ground.pixels, 200);
-    EXPECT_EQ(ground.level, ground.pixels);
-}
-
-TEST(FindLevelPixels, CeilingIsNotLevel) {
-    const test::SimpleScene scene = test::sceneOf({{{-40, -40, 3}, {40, 40, 4}}});
-    const PixelPoints pixels = seen(scene, sensorModel("VLP-16"), 1.5);
-    const LevelShare ceiling = levelBetween(2.9f, 3.1f, pixels);
-    EXPECT_GT(ceiling.pixels, 500);
-    EXPECT_EQ(ceiling.level, 0);
 }
 
 TEST(FindLevelPixels, StepSlopeIsBelowThreeTenths) {

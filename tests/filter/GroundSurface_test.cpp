@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <queue>
 
 #include "support/GroundPixels.h"
 #include "support/Random.h"
@@ -17,7 +15,6 @@ using test::pixelsAt;
 
 constexpr int kCells = GroundSurface::kCells;
 constexpr float kCell_m = GroundSurface::kCell_m;
-constexpr float kNone = std::numeric_limits<float>::infinity();
 using Grid = Eigen::ArrayXXf;
 GroundSurfaceWorkspace work;  // reused, as in a filter
 
@@ -30,7 +27,6 @@ GroundSurface surfaceUnder(const std::vector<Eigen::Vector3f>& points_m) {
 }
 
 float middleOf(int cell) { return (static_cast<float>(cell) + 0.5f) * kCell_m - 48.0f; }
-int cellOf(float coordinate_m) { return test::cellFromSensor(coordinate_m) + kCells / 2; }
 
 /// The maximum deviation of the surface from a height, within a square around the sensor.
 template <class Height>
@@ -92,102 +88,6 @@ TEST(GroundSurface, SingleHeightFillsSquare) {
     }
     EXPECT_LT((surfaceUnder(points).height_m - 0.7f).abs().maxCoeff(), 1e-5f);
     EXPECT_LT((surfaceUnder({points.front()}).height_m - 0.7f).abs().maxCoeff(), 1e-5f);
-}
-
-/// The definition in the header, for a square in which every cell is seen: the envelope by
-/// Dijkstra's algorithm from the lowest cells, means and binomial as defined. NaN where neighbours
-/// are not ground and coarser grids contribute.
-Grid slowSurface(const std::vector<Eigen::Vector3f>& points_m) {
-    Grid lowest_m = Grid::Constant(kCells, kCells, kNone);
-    for (const auto& p : points_m) {
-        float& low = lowest_m(cellOf(p.x()), cellOf(p.y()));
-        low = std::min(low, p.z());
-    }
-    const auto forNeighbours = [](int i, int j, auto visit) {
-        for (int x = i - 1; x <= i + 1; ++x) {
-            for (int y = j - 1; y <= j + 1; ++y) {
-                if (x < 0 || y < 0 || x >= kCells || y >= kCells || (x == i && y == j)) continue;
-                visit(x, y);
-            }
-        }
-    };
-    Grid cleaned_m = lowest_m;
-    for (int i = 0; i < kCells; ++i) {
-        for (int j = 0; j < kCells; ++j) {
-            std::vector<float> around;
-            forNeighbours(i, j, [&](int x, int y) { around.push_back(lowest_m(x, y)); });
-            std::sort(around.begin(), around.end());
-            const float third_highest = around[around.size() - 3];
-            if (third_highest > lowest_m(i, j) + 0.4f) {
-                cleaned_m(i, j) = std::max(lowest_m(i, j), around.front());
-            }
-        }
-    }
-    struct Reached {
-        float height_m;
-        int i, j;
-        bool operator<(const Reached& other) const { return height_m > other.height_m; }
-    };
-    std::priority_queue<Reached> queue;
-    Grid envelope_m = cleaned_m;
-    for (int i = 0; i < kCells; ++i) {
-        for (int j = 0; j < kCells; ++j) queue.push({cleaned_m(i, j), i, j});
-    }
-    while (!queue.empty()) {
-        const Reached from = queue.top();
-        queue.pop();
-        if (from.height_m > envelope_m(from.i, from.j)) continue;
-        forNeighbours(from.i, from.j, [&](int x, int y) {
-            const float step = x != from.i && y != from.j ? std::sqrt(2.0f) : 1.0f;
-            const float reached_m = from.height_m + 0.3f * kCell_m * step;
-            if (!(reached_m < envelope_m(x, y))) return;
-            envelope_m(x, y) = reached_m;
-            queue.push({reached_m, x, y});
-        });
-    }
-    Grid sum_m = Grid::Zero(kCells, kCells), number = Grid::Zero(kCells, kCells);
-    for (const auto& p : points_m) {
-        const int i = cellOf(p.x()), j = cellOf(p.y());
-        if (cleaned_m(i, j) > envelope_m(i, j) + 0.15f) continue;
-        if (p.z() > cleaned_m(i, j) + 0.05f || p.z() < cleaned_m(i, j) - 0.1f) continue;
-        sum_m(i, j) += p.z();
-        number(i, j) += 1;
-    }
-    Grid expected_m = Grid::Constant(kCells, kCells, kNoValue);
-    for (int i = 1; i + 1 < kCells; ++i) {
-        for (int j = 1; j + 1 < kCells; ++j) {
-            Eigen::Array33f kernel, means = sum_m.block<3, 3>(i - 1, j - 1);
-            kernel << 1, 2, 1, 2, 4, 2, 1, 2, 1;
-            kernel *= (number.block<3, 3>(i - 1, j - 1) / 5).min(1.0f) / 16;
-            if (kernel.sum() < 0.9999f) continue;  // less than full weight
-            means /= number.block<3, 3>(i - 1, j - 1);
-            expected_m(i, j) = (kernel * means).sum();
-        }
-    }
-    return expected_m;
-}
-
-TEST(GroundSurface, MatchesSlowFitInView) {
-    for (unsigned seed = 82; seed < 84; ++seed) {
-        test::Random random(seed);
-        std::vector<Eigen::Vector3f> points;
-        for (int i = 0; i < kCells; ++i) {
-            for (int j = 0; j < kCells; ++j) {
-                const bool is_obstacle = random.chance(0.05), is_stray = random.chance(0.01);
-                const float base_m = is_obstacle ? random.real(0, 1) : is_stray ? -1.0f : 0.0f;
-                for (int k = 0; k < 6; ++k) {
-                    const float x_m = middleOf(i) + random.real(-0.3f, 0.3f);
-                    const float y_m = middleOf(j) + random.real(-0.3f, 0.3f);
-                    points.emplace_back(
-                        x_m, y_m, base_m + 0.05f * x_m + random.real(0, k < 5 ? 0.04f : 0.3f));
-                }
-            }
-        }
-        const Grid expected_m = slowSurface(points), found_m = surfaceUnder(points).height_m;
-        ASSERT_GT((!expected_m.isNaN()).count(), 5000);
-        ASSERT_LT((!expected_m.isNaN()).count(), 13000);
-        EXPECT_LT(expected_m.isNaN().select(0.0f, (expected_m - found_m).abs()).maxCoeff(), 1e-4f);
-    }
 }
 
 /// Whether a cell with returns at `height_m`, `cells` away from a cell of level ground, is ground.

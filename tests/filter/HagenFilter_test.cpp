@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -125,19 +124,6 @@ TEST(HagenFilter, LoneReturnIsRoi) {
     EXPECT_EQ(filter.segment(scan).returns.label, std::vector<Label>{Label::Roi});
 }
 
-TEST(HagenFilter, TiltedSensorWithAttitudeFindsHorizon) {
-    const SimpleScene scene = test::sceneOf({{{10, -5, 0}, {11, 5, 6}}});
-    const SensorModel sensor = sensorModel("HDL-64E");
-    auto wall = test::scanScene(scene, sensor, 870, kTwoMetresUp);
-    const Attitude attitude{0.1f, 0.15f};
-    wall.scan = tilted(wall.scan, sensor, attitude);
-    HagenFilter filter(sensor);
-    const auto& r = filter.segment(wall.scan, attitude);
-    EXPECT_LT((r.ground.from_sensor.linear() - levelFromSensor(attitude)).norm(), 0.01f);
-    EXPECT_LT(mistakes(wall, r, Label::Roi), 0.01 * count(wall, Label::Roi));
-    EXPECT_LT(mistakes(wall, r, Label::Rou), 0.01 * count(wall, Label::Rou));
-}
-
 TEST(HagenFilter, IgnoresUnusedAttitude) {
     const SensorModel sensor = sensorModel("VLP-16");
     const SimpleScene scene = test::sceneOf({}, {{12, 2, 0.15, 8}});
@@ -188,17 +174,6 @@ TEST(HagenFilter, IgnoresResultFromOtherFilter) {
     EXPECT_EQ(r.returns.label, expected);
     EXPECT_FALSE(r.ground.has_surface);
     EXPECT_TRUE(r.own_labels.label.empty());
-}
-
-TEST(HagenFilter, TooCloseGroundIsRoi) {
-    const auto ground = test::scanScene({}, sensorModel("VLP-16"), 870, kTwoMetresUp);
-    Options options;
-    options.ground_is_roi_below_m = 1.9f;
-    HagenFilter high(sensorModel("VLP-16"), options);
-    EXPECT_TRUE(high.segment(ground.scan).returns.roi.empty());
-    options.ground_is_roi_below_m = 2.1f;
-    HagenFilter low(sensorModel("VLP-16"), options);
-    EXPECT_EQ(mistakes(ground, low.segment(ground.scan), Label::Rou), count(ground, Label::Rou));
 }
 
 TEST(HagenFilter, LowGroundAlarmWorksWithoutSurface) {
@@ -487,18 +462,6 @@ TEST(HagenFilter, EveryOptionReachesItsStage) {
     }
 }
 
-TEST(HagenFilter, RejectsUnlocatedScan) {
-    HagenFilter filter(sensorModel("VLP-16"));
-    Scan scan;
-    scan.x_m = {5.0f, 6.0f};
-    scan.y_m = {0.0f, 0.0f};
-    scan.z_m = {0.1f, 0.1f};
-    EXPECT_THAT([&] { filter.segment(scan); },
-                testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("locateBeams()")));
-    locateBeams(filter.sensor(), scan);
-    EXPECT_EQ(filter.segment(scan).returns.label.size(), 2u);
-}
-
 TEST(HagenFilter, RejectsRowsFromOtherSensor) {
     for (const auto& [own, other] : {std::pair{"VLP-16", "HDL-64E"}, {"HDL-64E", "VLP-16"}}) {
         HagenFilter filter(sensorModel(own));
@@ -512,15 +475,6 @@ TEST(HagenFilter, RejectsRowsFromOtherSensor) {
         EXPECT_EQ(filter.segment(ground.scan).returns.label, labels);
         locateBeams(filter.sensor(), others.scan);  // as the message suggests
         EXPECT_NO_THROW(filter.segment(others.scan));
-    }
-}
-
-TEST(HagenFilter, RejectsRangeWithoutPosition) {
-    HagenFilter filter(sensorModel("VLP-16"));
-    auto ground = test::scanScene({}, filter.sensor(), 870, kTwoMetresUp);
-    ground.scan.x_m.back() = std::numeric_limits<float>::quiet_NaN();
-    for (const float roll_rad : {0.0f, 0.7f, 3.1f}) {
-        EXPECT_THROW(filter.segment(ground.scan, Attitude{roll_rad, 0}), std::invalid_argument);
     }
 }
 

@@ -3,19 +3,14 @@
 #include "filter/simd/ObstacleFeet.h"
 #include "filter/simd/SpeckRemoval.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <utility>
 #include <vector>
 
 #include "support/GroundPixels.h"
-#include "support/Random.h"
 
 namespace hagen {
 namespace {
 
-using test::cellFromSensor;
 using test::kEmptyPixel;
 using test::pixelsAt;
 
@@ -51,41 +46,6 @@ TEST(HeightTolerance, IgnoresLoneHighReturns) {
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}}))(0, 0), 0.195f);
     EXPECT_FLOAT_EQ(tolerated(pixelsAt({{3, 4, 0}, {3, 4, 1}, {3, 4, 0.5f}}))(0, 0),
                     0.195f - 0.12f * 0.5f);
-}
-
-TEST(HeightTolerance, MatchesBruteForce) {
-    test::Random random(90);
-    std::vector<Eigen::Vector3f> points;
-    for (int i = 0; i < 600; ++i) {
-        points.emplace_back(random.real(-12, 12), random.real(-12, 12), random.real(-0.5f, 2));
-        if (random.chance(0.1)) points.back() = kEmptyPixel;
-    }
-    const HeightTolerance t{0.3f, 0.01f, 0.2f};
-    const Image<float> tolerance_m = tolerated(pixelsAt(points, 4), t, 2);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto& p = points[i];
-        if (!hasValue(p.x())) continue;
-        std::map<std::pair<int, int>, std::vector<float>> around_m;  // per cell, the highest first
-        for (const auto& q : points) {
-            if (!hasValue(q.x()) || q.z() >= 1.5f) continue;
-            const int u = static_cast<int>(cellFromSensor(q.x()));
-            const int v = static_cast<int>(cellFromSensor(q.y()));
-            if (std::abs(static_cast<int>(cellFromSensor(p.x())) - u) +
-                    std::abs(static_cast<int>(cellFromSensor(p.y())) - v) >
-                1)
-                continue;
-            around_m[{u, v}].push_back(q.z());
-        }
-        float tallest_m = 0;
-        for (auto& [cell, heights_m] : around_m) {
-            std::sort(heights_m.rbegin(), heights_m.rend());
-            const float top_m = heights_m[heights_m.size() > 1 ? 1 : 0];
-            tallest_m = std::max(tallest_m, std::min(top_m, 1.1f));
-        }
-        const float distance_m = p.head<2>().norm(), shallow = std::min(distance_m / 6, 1.0f);
-        const float expected_m = 0.3f + 0.01f * distance_m - 0.2f * shallow * tallest_m;
-        EXPECT_NEAR(tolerance_m.data()[i], std::max(0.04f, expected_m), 1e-5f);
-    }
 }
 
 TEST(LabelByHeight, OutsideToleranceIsRoi) {

@@ -16,10 +16,7 @@ namespace {
 
 /// A yard with poles and walls, seen by a tilted sensor with noise and missing returns.
 Scan noisyScan(const SensorModel& sensor, int columns, unsigned seed) {
-    test::SimpleScene scene;
-    scene.boxes = {{{4, -9, 0}, {12, -7, 3}}, {{-14, 4, 0}, {-6, 5, 2}}, {{5, 2, 0}, {6, 3, 0.4}}};
-    scene.poles = {{7, 1, 0.1, 4}, {-5, -3, 0.15, 5}, {3, -4, 0.05, 1}};
-    Scan scan = test::scanScene(scene, sensor, columns, {0, 0, 2.1}).scan;
+    Scan scan = test::scanScene(test::yard(), sensor, columns, {0, 0, 2.1}).scan;
     std::mt19937 engine(seed);
     std::normal_distribution<float> noise_m(0, 0.02f);
     Scan kept;
@@ -115,27 +112,6 @@ void expectOneResult(const std::string& sensor_name, const Options& options,
     for (const auto& [name, bytes] : results) {
         EXPECT_EQ(bytes.differenceFrom(results.front().second), "")
             << name << " differs from " << results.front().first;
-    }
-}
-
-/// The reference stages give the same labels, although sums may be rounded differently.
-TEST(InstructionSets, ReferenceStagesYieldSameLabels) {
-    for (const char* const name : {"VLP-16", "HDL-32E", "HDL-64E"}) {
-        for (const unsigned seed : {3, 4, 5}) {
-            const SensorModel sensor = sensorModel(name);
-            Scan scan = noisyScan(sensor, 700, seed);
-            locateBeams(sensor, scan);
-            const Attitude attitude{0.05f, -0.04f};
-            limitInstructionSets("plain");
-            HagenFilter plain(sensor), fast(sensor);
-            const SegmentationResult& defined = plain.segment(scan, attitude);
-            limitInstructionSets("");
-            const SegmentationResult& result = fast.segment(scan, attitude);
-            EXPECT_TRUE((result.labels == defined.labels).all()) << name << ", " << seed;
-            EXPECT_EQ(result.own_labels.label, defined.own_labels.label);
-            EXPECT_EQ(result.returns.label, defined.returns.label);
-            EXPECT_EQ(result.returns.component, defined.returns.component);
-        }
     }
 }
 

@@ -2,7 +2,6 @@
 #include <hagen/filter/PersistentMaxima.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -16,50 +15,6 @@ std::vector<Maximum> maximaOf(const Image<float>& proximity_m, float min_persist
     static MaximaWorkspace work;  // reused, as in a filter
     std::vector<Maximum> maxima;
     findPersistentMaxima(proximity_m, min_persistence_m, maxima, work);
-    return maxima;
-}
-
-/// The definition without sweep or union-find: a pixel dies at the highest level at which a path
-/// connects it to an older pixel, i.e. the maximum, over all paths to older pixels, of the lowest
-/// proximity on the path. Computed as widest paths between all pairs (Floyd and Warshall).
-std::vector<Maximum> bruteForceMaxima(const Image<float>& proximity_m, float min_persistence_m) {
-    const int rows = static_cast<int>(proximity_m.rows());
-    const int columns = static_cast<int>(proximity_m.cols());
-    const int pixels = rows * columns;
-    const auto level = [&](int p) { return proximity_m.data()[p]; };
-    const auto present = [&](int p) { return level(p) > 0.0f; };
-    Eigen::ArrayXXf widest = Eigen::ArrayXXf::Zero(pixels, pixels);
-    for (int a = 0; a < pixels; ++a) {
-        for (int b = 0; b < pixels; ++b) {
-            const int row_step = std::abs(a % rows - b % rows);
-            const int column_step = std::abs(a / rows - b / rows);
-            const bool beside = column_step <= 1 || column_step == columns - 1;
-            if (present(a) && present(b) && row_step <= 1 && beside) {
-                widest(a, b) = std::min(level(a), level(b));
-            }
-        }
-    }
-    for (int via = 0; via < pixels; ++via) {
-        for (int a = 0; a < pixels; ++a) {
-            for (int b = 0; b < pixels; ++b) {
-                widest(a, b) = std::max(widest(a, b), std::min(widest(a, via), widest(via, b)));
-            }
-        }
-    }
-    std::vector<Maximum> maxima;
-    for (int p = 0; p < pixels; ++p) {
-        if (!present(p)) continue;
-        float death_m = 0.0f;
-        for (int q = 0; q < pixels; ++q) {
-            const bool older =
-                present(q) && (level(q) > level(p) || (level(q) == level(p) && q < p));
-            if (older) death_m = std::max(death_m, widest(p, q));
-        }
-        const Maximum maximum{p % rows, p / rows, level(p), death_m};
-        if (maximum.persistence_m() > 0.0f && maximum.persistence_m() >= min_persistence_m) {
-            maxima.push_back(maximum);
-        }
-    }
     return maxima;
 }
 
@@ -114,25 +69,6 @@ void expectIdentical(const std::vector<Maximum>& found, const std::vector<Maximu
         ASSERT_EQ(found[i].column, expected[i].column) << i;
         ASSERT_EQ(found[i].birth_m, expected[i].birth_m) << i;
         ASSERT_EQ(found[i].death_m, expected[i].death_m) << i;
-    }
-}
-
-std::vector<Maximum> sortedByPixel(std::vector<Maximum> maxima) {
-    std::sort(maxima.begin(), maxima.end(), [](const Maximum& a, const Maximum& b) {
-        return std::pair(a.column, a.row) < std::pair(b.column, b.row);
-    });
-    return maxima;
-}
-
-TEST(PersistentMaxima, MatchBruteForce) {
-    test::Random random(9);
-    for (int round = 0; round < 120; ++round) {
-        Image<float> proximity_m =
-            random.image(random.whole(1, 5), random.whole(3, 8), -2.0f, 8.0f, 0.15).max(0.0f);
-        if (round % 2 == 0) proximity_m = proximity_m.round();  // ties
-        const float min = random.chance(0.5) ? 0.0f : 1.0f;
-        expectIdentical(sortedByPixel(maximaOf(proximity_m, min)),
-                        bruteForceMaxima(proximity_m, min));
     }
 }
 

@@ -126,29 +126,6 @@ TEST_F(StreamingSegmenterTest, StaticSensorMatchesWholeScan) {
     EXPECT_EQ(missed, 0u);
 }
 
-TEST_F(StreamingSegmenterTest, FullContextMatchesWholeScan) {
-    const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
-    const std::vector<Scan> packets = packetsOf(turn);
-    StreamingOptions options;
-    options.window_rad = kTurn_rad;
-    options.skip_ahead_rad = 0;
-    StreamingSegmenter segmenter(sensor_, {}, take(), options);
-    addTurn(0, packets, segmenter);
-    segmenter.flush();
-    taken_.clear();
-    addTurn(1, packets, segmenter);
-    segmenter.flush();
-    HagenFilter filter(sensor_);
-    const auto& of_turn = filter.segment(turn.scan).returns.label;
-    std::size_t roi = 0, roi_streamed = 0;
-    for (const Label label : of_turn) roi += label == Label::Roi;
-    for (const Label label : labels()) roi_streamed += label == Label::Roi;
-    EXPECT_EQ(labels().size(), of_turn.size());
-    // Columns at sector borders contain returns of both turns.
-    EXPECT_NEAR(static_cast<double>(roi_streamed), static_cast<double>(roi), 3);
-    EXPECT_GT(roi, 100u);
-}
-
 TEST_F(StreamingSegmenterTest, FullContextHasEachReturnOnce) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);

@@ -11,9 +11,9 @@
 
 #include "support/Captures.h"
 #include "support/InstructionSets.h"
-#include "support/PlainVelodyneDecoder.h"
 #include "support/Program.h"
 #include "support/Random.h"
+#include "support/SimpleFirings.h"
 
 namespace hagen::observations {
 namespace {
@@ -110,7 +110,8 @@ void expectReturns(const sensors::VelodyneModel& model, const Firings& firings, 
             const float range_m = firings.range_m(laser, firing);
             if (!hasValue(range_m)) continue;
             ASSERT_LT(i, scan.size());
-            const double azimuth_rad = -radians(firingAzimuthDeg(model, firings, laser, firing));
+            const double azimuth_rad =
+                -radians(test::firingAzimuthDeg(model, firings, laser, firing));
             const double turned =
                 std::remainder(static_cast<double>(scan.azimuth_rad[i]) - azimuth_rad, 2 * kPi);
             ASSERT_LT(std::abs(degrees(turned)), 0.016);  // azimuths are rounded to 0.01 twice
@@ -215,27 +216,6 @@ void setByte(CObservationVelodyneScan& observation, std::size_t packet, int byte
     std::memcpy(static_cast<void*>(&observation.scan_packets[packet]), bytes, sizeof bytes);
 }
 
-/// Expects a decoded scan to match the reference decoder, up to rounding.
-void expectDecodedAsPlainly(const CObservationVelodyneScan& observation, Scan& scan) {
-    Scan plain;
-    const std::size_t unsound_blocks = test::decodePlainly(observation, plain);
-    ASSERT_EQ(decodePackets(observation, scan), unsound_blocks);
-    ASSERT_EQ(scan.range_m, plain.range_m);
-    ASSERT_EQ(scan.row, plain.row);
-    ASSERT_EQ(scan.intensity, plain.intensity);
-    for (const auto* values : {&scan.x_m, &scan.y_m, &scan.z_m, &scan.azimuth_rad, &scan.time_s}) {
-        ASSERT_EQ(values->size(), plain.size());
-    }
-    for (std::size_t i = 0; i < plain.size(); ++i) {
-        const float rounding_m = 1e-6f * (1.0f + plain.range_m[i]);
-        ASSERT_NEAR(scan.x_m[i], plain.x_m[i], rounding_m);
-        ASSERT_NEAR(scan.y_m[i], plain.y_m[i], rounding_m);
-        ASSERT_NEAR(scan.z_m[i], plain.z_m[i], rounding_m);
-        ASSERT_NEAR(scan.azimuth_rad[i], plain.azimuth_rad[i], 2e-6);
-        ASSERT_NEAR(scan.time_s[i], plain.time_s[i], 1e-8f + 2e-7f * plain.time_s[i]);
-    }
-}
-
 /// A random scan: any part of a revolution and any share of missing returns. Half of the scans have
 /// dual returns, half a calibration with all corrections.
 CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
@@ -257,17 +237,6 @@ CObservationVelodyneScan::Ptr randomObservation(test::Random& random) {
         laser.horizontalOffsetCorrection = static_cast<double>(random.real(-0.05f, 0.05f));
     }
     return observation;
-}
-
-TEST(VelodyneObservation, MatchesReferenceDecoder) {
-    test::Random random(63);
-    Scan scan;  // reused across scans
-    for (int round = 0; round < 200; ++round) {
-        SCOPED_TRACE(round);
-        const auto observation = randomObservation(random);
-        if (random.chance(0.2)) setByte(*observation, 0, 100 * random.whole(0, 11), 0x12);
-        expectDecodedAsPlainly(*observation, scan);
-    }
 }
 
 TEST(VelodyneObservation, IsEqualOnAllInstructionSets) {

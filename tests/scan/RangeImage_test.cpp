@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "support/InstructionSets.h"
 #include "support/Random.h"
@@ -15,19 +14,6 @@ namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
 ProjectionWorkspace work;  // reused, as in a filter
-
-/// A scan with only the data that the projection uses.
-Scan randomScan(unsigned seed, int returns) {
-    test::Random random(seed);
-    Scan scan;
-    for (int i = 0; i < returns; ++i) {
-        scan.row.push_back(static_cast<std::uint8_t>(random.whole(0, 15)));
-        scan.azimuth_rad.push_back(random.real(-3.14159f, 3.14159f));
-        scan.range_m.push_back(random.chance(0.05) ? kNoValue : random.real(0.0f, 150.0f));
-        for (auto* values : {&scan.x_m, &scan.y_m, &scan.z_m}) values->push_back(0.0f);
-    }
-    return scan;
-}
 
 TEST(RangeImage, NearestColumnMatchesSearch) {
     test::Random random(3);
@@ -114,23 +100,6 @@ TEST(RangeImage, MatchesDefinition) {
         projectScan(scan, sensor, columns, context_m, image, work);
         expectSameImage(image, plain);
     }
-}
-
-TEST(RangeImage, ReturnsByPixelContainsEachOnce) {
-    const Scan scan = randomScan(7, 5000);
-    RangeImage image;
-    projectScan(scan, sensorModel("VLP-16"), 50, kFar, image, work);
-    const ReturnsByPixel by_pixel = returnsByPixel(image);
-    std::set<int> seen;
-    for (int pixel = 0; pixel < image.depth_m.size(); ++pixel) {
-        for (int k = by_pixel.first[pixel]; k < by_pixel.first[pixel + 1]; ++k) {
-            EXPECT_EQ(image.depth_mapper[by_pixel.returns[k]], pixel);
-            EXPECT_TRUE(seen.insert(by_pixel.returns[k]).second);
-        }
-    }
-    const auto mapped = std::count_if(image.depth_mapper.begin(), image.depth_mapper.end(),
-                                      [](int pixel) { return pixel != RangeImage::kNoPixel; });
-    EXPECT_EQ(seen.size(), static_cast<std::size_t>(mapped));
 }
 
 TEST(RangeImage, EmptyScanYieldsEmptyImage) {

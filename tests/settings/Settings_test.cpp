@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
@@ -601,25 +600,6 @@ TEST(Settings, TableListsEveryKey) {
     EXPECT_EQ(keys[0].name, "zone_m");
     EXPECT_EQ(keys[0].standard, "20");
     EXPECT_EQ(keys[0].range, "0.1 ... 1000");
-}
-
-/// The page must repeat each limit.
-TEST(Settings, RangesMatchDocumentation) {
-    std::ifstream page(std::filesystem::path(HAGEN_SOURCE_DIR) / "docs/settings.md");
-    std::map<std::string, std::string> ranges;
-    for (std::string line; std::getline(page, line);) {
-        if (line.rfind("| ", 0) != 0) continue;
-        std::vector<std::string> cells;
-        std::istringstream row(line);
-        for (std::string cell; std::getline(row, cell, '|');) {
-            const auto last = cell.find_last_not_of(' ');
-            cells.push_back(last == std::string::npos ? "" : cell.substr(1, last));
-        }
-        if (cells.size() > 4) ranges[cells[1]] = cells[4];
-    }
-    for (const SettingsKey& key : settingsKeys())
-        EXPECT_EQ(ranges[key.name], key.range)
-            << key.name << ": compare docs/settings.md with rawlog-segment --config-keys";
 }
 
 }  // namespace

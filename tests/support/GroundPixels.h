@@ -34,9 +34,4 @@ std::vector<Eigen::Vector3f> groundPoints(float reach_m, float step_m, Height he
     return points;
 }
 
-/// The index of the 0.75 m cell at a coordinate, counted from the sensor.
-inline int cellFromSensor(float coordinate_m) {
-    return static_cast<int>(std::floor(coordinate_m / 0.75f));
-}
-
 }  // namespace hagen::test

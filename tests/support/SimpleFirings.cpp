@@ -11,6 +11,14 @@
 
 namespace hagen::test {
 
+double firingAzimuthDeg(const sensors::VelodyneModel& model, const observations::Firings& firings,
+                        int laser, int firing) {
+    const double turn = firing + model.delayUs(laser) / model.firing_period_us;
+    const double reading_deg = firings.first_azimuth_deg + turn * firings.azimuth_step_deg;
+    const double correction_deg = sensors::defaultCalibration(model).lasers[laser].azimuth_deg;
+    return sensors::azimuthOfReadingDeg(100.0 * (reading_deg - correction_deg));
+}
+
 observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneModel& model,
                              const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
                              double range_limit_m) {
@@ -26,8 +34,7 @@ observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneMo
         const double time_s = 1e-6 * model.firing_period_us * firing;
         const Eigen::Vector3d from_m = position_m + time_s * velocity_m_s;
         for (int laser = 0; laser < model.lasers; ++laser) {
-            const double azimuth_rad =
-                -radians(observations::firingAzimuthDeg(model, firings, laser, firing));
+            const double azimuth_rad = -radians(firingAzimuthDeg(model, firings, laser, firing));
             const double elevation_rad = static_cast<double>(sensor.elevations_rad[rows[laser]]);
             const Hit hit = castRay(scene, from_m, directionOf(azimuth_rad, elevation_rad));
             if (!(hit.range_m < range_limit_m)) continue;

@@ -5,6 +5,10 @@
 
 namespace hagen::test {
 
+/// The azimuth of a laser in a firing, clockwise from x, as decoded (up to rounding).
+double firingAzimuthDeg(const sensors::VelodyneModel& model, const observations::Firings& firings,
+                        int laser, int firing);
+
 /// The measurements of a level Velodyne during a full revolution of 0.1 s, starting at `position_m`
 /// and moving at `velocity_m_s`. Omits returns beyond `range_limit_m`.
 observations::Firings fireAt(const SimpleScene& scene, const sensors::VelodyneModel& model,

@@ -36,6 +36,12 @@ inline SimpleScene sceneOf(std::vector<SimpleScene::Box> boxes,
     return {std::move(boxes), std::move(poles), {}, true};
 }
 
+/// A yard with two walls, a step and three poles.
+inline SimpleScene yard() {
+    return sceneOf({{{4, -9, 0}, {12, -7, 3}}, {{-14, 4, 0}, {-6, 5, 2}}, {{5, 2, 0}, {6, 3, 0.4}}},
+                   {{7, 1, 0.1, 4}, {-5, -3, 0.15, 5}, {3, -4, 0.05, 1}});
+}
+
 /// The first hit of a ray.
 struct Hit {
     double range_m = std::numeric_limits<double>::infinity();  ///< infinite if nothing is hit

@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "avoidance/flights/CourseScenes.h"
+#include "avoidance/planning/StraightWay.h"
+#include "base/Text.h"
 
 namespace hagen::avoidance {
 namespace {
@@ -30,28 +32,14 @@ Eigen::AlignedBox3d boundsOver(const simulation::Terrain& terrain) {
     return bounds;
 }
 
-/// Whether the straight line between two places is clear, by sphere tracing.
-bool isStraightWayClear(const Clearance& clearance_m, const Vector3d& from_m,
-                        const Vector3d& to_m) {
-    constexpr double kMinStep_m = 0.05;
-    const double length_m = (to_m - from_m).norm();
-    for (double at_m = 0; at_m < length_m;) {
-        const Vector3d place = from_m + at_m / length_m * (to_m - from_m);
-        const double spare_m =
-            static_cast<double>(clearance_m(place.cast<float>())) - kCourseClearance_m;
-        if (spare_m < 0) return false;
-        at_m += std::max(kMinStep_m, spare_m);
-    }
-    return true;
-}
-
 /// The length of a path after its corners are cut where the straight line is clear. The uncut path
 /// of a grid search is up to 8 % too long.
 double cutLength_m(const Clearance& clearance_m, const std::vector<Vector3d>& path) {
     double length_m = 0;
     for (std::size_t i = 0; i + 1 < path.size();) {
         std::size_t next = path.size() - 1;
-        while (next > i + 1 && !isStraightWayClear(clearance_m, path[i], path[next])) --next;
+        while (next > i + 1 && blockedAt_m(clearance_m, path[i], path[next], kCourseClearance_m))
+            --next;
         length_m += (path[next] - path[i]).norm();
         i = next;
     }
@@ -93,12 +81,11 @@ Course courseThrough(const CourseKind& kind, std::uint64_t seed, const simulatio
 }
 
 const CourseKind& kindNamed(const std::string& name) {
-    std::string known;
     for (const CourseKind& kind : courseKinds()) {
         if (kind.name == name) return kind;
-        known += (known.empty() ? "" : ", ") + kind.name;
     }
-    throw std::invalid_argument("unknown course '" + name + "'; known: " + known);
+    throw std::invalid_argument("unknown course '" + name +
+                                "'; known: " + base::joined(courseNames()));
 }
 
 }  // namespace

@@ -104,8 +104,7 @@ class TrialFlight {
         commands_.add(free_s_ + setup_.limits.actuation_delay_s, plan.command_m_s);
         note(plan, now, start_s);
         if (listener_.step) {
-            listener_.step({free_s_, now, believed, scan, *world_, carrot, plan,
-                            clearance_m(now, start_s), latency_ms_.back()});
+            listener_.step({free_s_, scan, *world_, carrot, plan, latency_ms_.back()});
         }
     }
 
@@ -115,10 +114,6 @@ class TrialFlight {
         state_ = commands_.advanced(state_, time_s, time_s + kControlStep_s, setup_.limits);
         result_.path_m += (state_.position_m - trace_.at(time_s).position_m).norm();
         trace_.add(state_, (state_.velocity_m_s - before_m_s) / kControlStep_s);
-    }
-
-    double clearance_m(const VehicleState& state, double time_s) const {
-        return static_cast<double>(course_.distance.at(state.position_m.cast<float>(), time_s));
     }
 
     /// Measured height above the ground.

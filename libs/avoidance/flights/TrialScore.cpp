@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "avoidance/planning/StraightWay.h"
 
 namespace hagen::avoidance {
 namespace {
@@ -45,16 +46,10 @@ bool TrialJudge::isLate(const Eigen::Vector3d& position_m, double time_s) {
 
 double freeDistance_m(const Course& course, const Eigen::Vector3d& position_m,
                       double clearance_radius_m, double time_s) {
-    constexpr double kMinStep_m = 0.05;
-    const Eigen::Vector3d to_goal = course.goal_m - position_m;
-    const double all_m = to_goal.norm();
-    for (double distance_m = 0; distance_m < all_m;) {
-        const Eigen::Vector3d at = position_m + to_goal * (distance_m / all_m);
-        const auto clearance_m = static_cast<double>(course.distance.at(at.cast<float>(), time_s));
-        if (clearance_m < clearance_radius_m) return distance_m;
-        distance_m += std::max(kMinStep_m, clearance_m - clearance_radius_m);
-    }
-    return kNone;
+    const auto clearance_m = [&](const Eigen::Vector3f& at_m) {
+        return course.distance.at(at_m, time_s);
+    };
+    return blockedAt_m(clearance_m, position_m, course.goal_m, clearance_radius_m).value_or(kNone);
 }
 
 bool leavesCourse(const Eigen::Vector3d& command_m_s, const Eigen::Vector3d& to_goal_m,

@@ -7,6 +7,7 @@
 #include "avoidance/openloop/LaterScansTruth.h"
 #include "base/MemoryLimit.h"
 #include "base/ProcessCost.h"
+#include "base/Text.h"
 
 #include <algorithm>
 #include <deque>
@@ -338,10 +339,8 @@ void checkOpenLoop(const OpenLoop& open_loop) {
     if (!open_loop.scene) return;
     const auto known = simulation::scenarioNames();
     if (std::find(known.begin(), known.end(), open_loop.scene->scenario) != known.end()) return;
-    std::string names;
-    for (const std::string& name : known) names += " " + name;
     throw std::invalid_argument("unknown scenario '" + open_loop.scene->scenario +
-                                "'; known:" + names);
+                                "'; known: " + base::joined(known, " "));
 }
 
 OpenLoopResult runOpenLoop(const OpenLoop& open_loop, const OpenLoopListener& listener) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include "avoidance/planning/StraightWay.h"
 
 namespace hagen::avoidance {
 namespace {
@@ -70,14 +71,8 @@ Eigen::Vector3d freePlaceNear(const WorldModel& world, const Eigen::Vector3d& go
 
 bool isInSight(const WorldModel& world, const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m,
                double min_m) {
-    const double length_m = (to_m - from_m).norm();
-    for (double at_m = 0; at_m < length_m;) {
-        const Eigen::Vector3d point_m = from_m + at_m / length_m * (to_m - from_m);
-        const double clearance_m = world.clearance_m(point_m.cast<float>());
-        if (clearance_m < min_m) return false;
-        at_m += std::max(clearance_m - min_m, 0.1);
-    }
-    return true;
+    const auto clearance_m = [&](const Eigen::Vector3f& at_m) { return world.clearance_m(at_m); };
+    return !blockedAt_m(clearance_m, from_m, to_m, min_m, 0.1);
 }
 
 /// The point at this distance along a path, or its end.

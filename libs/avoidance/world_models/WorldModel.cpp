@@ -63,14 +63,9 @@ struct Entry {
     enum { StandsStill, OwnMotion, MoversOverMap } motion = StandsStill;
 };
 
-template <bool kRoiOnly>
+template <class Window, bool kRoiOnly>
 std::unique_ptr<WorldModel> makeWindow(const WorldModelSetting& setting) {
-    return std::make_unique<WindowModel>(kRoiOnly, windowSizeFor(setting.pace));
-}
-
-template <bool kRoiOnly>
-std::unique_ptr<WorldModel> makeMotionWindow(const WorldModelSetting& setting) {
-    return std::make_unique<WindowWithMotion>(kRoiOnly, windowSizeFor(setting.pace));
+    return std::make_unique<Window>(kRoiOnly, windowSizeFor(setting.pace));
 }
 
 template <observations::MapContent kContent, int kResolution_cm>
@@ -102,12 +97,12 @@ std::unique_ptr<WorldModel> makeOracle(const WorldModelSetting& setting) {
 
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> entries = {
-        {"W-RoI", "RoI window", Entry::Labels, makeWindow<true>, -0.009f},
-        {"W-RoI+motion", "RoI window with motion", Entry::Labels, makeMotionWindow<true>, -0.009f,
-         Entry::OwnMotion},
-        {"W-Full", "full window", Entry::AllPoints, makeWindow<false>, -0.009f},
-        {"W-Full+motion", "full window with motion", Entry::Labels, makeMotionWindow<false>,
-         -0.009f, Entry::OwnMotion},
+        {"W-RoI", "RoI window", Entry::Labels, makeWindow<WindowModel, true>, -0.009f},
+        {"W-RoI+motion", "RoI window with motion", Entry::Labels,
+         makeWindow<WindowWithMotion, true>, -0.009f, Entry::OwnMotion},
+        {"W-Full", "full window", Entry::AllPoints, makeWindow<WindowModel, false>, -0.009f},
+        {"W-Full+motion", "full window with motion", Entry::Labels,
+         makeWindow<WindowWithMotion, false>, -0.009f, Entry::OwnMotion},
         {"O-Full-0.2", "OctoMap 0.2 m", Entry::AllPoints,
          makeOctoMap<observations::MapContent::Full, 20>, -0.150f},
         {"O-Full-0.4", "OctoMap 0.4 m", Entry::AllPoints,
@@ -178,8 +173,6 @@ std::string worldModelList() {
 }
 
 bool needsLabels(const std::string& model) { return entryOf(model).needs == Entry::Labels; }
-
-float distanceBias_m(const std::string& model) { return entryOf(model).distance_bias_m; }
 
 bool needsTruth(const std::string& model) {
     const Entry* entry = findEntry(model);

@@ -110,10 +110,6 @@ Flag& Flag::positive() {
     option_->check(CLI::PositiveNumber);
     return *this;
 }
-Flag& Flag::notNegative() {
-    option_->check(CLI::NonNegativeNumber);
-    return *this;
-}
 Flag& Flag::oneOf(const std::vector<std::string>& words) {
     option_->check(CLI::IsMember(words));
     return *this;

@@ -42,7 +42,6 @@ class Flag {
     Flag& between(int min, int max);
     Flag& between(double min, double max);
     Flag& positive();
-    Flag& notNegative();
     Flag& oneOf(const std::vector<std::string>& words);
     Flag& existingFile();
     Flag& existingFolder();

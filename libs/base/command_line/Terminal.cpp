@@ -8,21 +8,16 @@
 #include <iostream>
 #include <streambuf>
 #include <string>
+#include <string_view>
+#include "base/Text.h"
 
 namespace hagen::base {
 namespace {
 
 /// Length of the UTF-8 character at this position; 1 if the bytes are not valid UTF-8.
 std::size_t bytesOfCharacter(const std::string& text, std::size_t at) {
-    const auto first = static_cast<unsigned char>(text[at]);
-    const std::size_t bytes = first < 0xc2 || first > 0xf4 ? 1
-                              : first < 0xe0               ? 2
-                              : first < 0xf0               ? 3
-                                                           : 4;
-    for (std::size_t i = 1; i < bytes; ++i) {
-        if (at + i >= text.size() || (text[at + i] & 0xc0) != 0x80) return 1;
-    }
-    return bytes;
+    const std::size_t length = utf8Length(std::string_view(text).substr(at));
+    return at + length > text.size() ? 1 : std::max<std::size_t>(length, 1);
 }
 
 /// True for control characters, which send commands to a terminal (on some, even single bytes from

@@ -2,6 +2,7 @@
 
 #include <hagen/evaluation/Baselines.h>
 #include <hagen/filter/HagenFilter.h>
+#include "base/Text.h"
 #include "evaluation/Degradation.h"
 #ifdef HAGEN_HAS_PCL_BASELINE
 #include <hagen/pcl_baseline/BaselinePclEuclidean.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <sstream>
 
 namespace hagen::evaluation {
 namespace {
@@ -50,14 +50,6 @@ std::vector<Baseline> allBaselines(float zone_m) {
     return all;
 }
 
-/// Splits "5,7.5" into two texts. Empty texts are kept; they are rejected later as values.
-std::vector<std::string> valuesOf(const std::string& text) {
-    std::vector<std::string> values;
-    std::istringstream stream(text + ",");  // a trailing comma yields an empty value
-    for (std::string value; std::getline(stream, value, ',');) values.push_back(value);
-    return values;
-}
-
 /// Returns the settings merged with those of a recording, if any.
 Settings settingsFor(Settings settings, const std::filesystem::path& sensor_file) {
     if (std::filesystem::exists(sensor_file)) {
@@ -77,7 +69,7 @@ std::vector<SweepPoint> rowsOf(const Settings& settings, const std::vector<std::
             throw SettingsError("--sweep: expected KEY=VALUE,VALUE,..., not '" + sweep + "'");
         }
         const std::string key = sweep.substr(0, equals);
-        for (const std::string& value : valuesOf(sweep.substr(equals + 1))) {
+        for (const std::string& value : base::split(sweep.substr(equals + 1), ',')) {
             SweepPoint row{key + "=" + value, settings, key, value};
             setOption(key, value, row.settings);
             for (const SweepPoint& other : rows) {

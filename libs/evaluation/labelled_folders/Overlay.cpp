@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include "base/Text.h"
 #include "convert/pictures/Drawing.h"
 
 namespace hagen::evaluation {
@@ -28,12 +29,10 @@ std::string fileName(std::string name) {
 
 }  // namespace
 
-const base::OutputKind kOverlays{
-    "a folder of pictures", [](const std::filesystem::path& within) {
-        const std::string name = within.filename().string(), end = "_overlay.png";
-        return name.size() >= end.size() &&
-               name.compare(name.size() - end.size(), end.size(), end) == 0;
-    }};
+const base::OutputKind kOverlays{"a folder of pictures", [](const std::filesystem::path& within) {
+                                     return base::endsWith(within.filename().string(),
+                                                           "_overlay.png");
+                                 }};
 
 void drawOverlay(const fs::path& folder, const std::string& source, const MethodOutput& view,
                  const EvaluationOptions& options) {

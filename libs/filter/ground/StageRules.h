@@ -1,6 +1,6 @@
-// Constants of the ground stages, shared by their scalar and vectorised implementations. Distances
-// are in metres, slopes in metres per metre. [halved, doubled] is the change of RoI F1, in points,
-// on the data set where it changes most; missed returns and all sets: docs/results/sensitivity.csv.
+// Constants of the ground stages. Distances are in metres, slopes in metres per metre. [halved,
+// doubled] is the change of RoI F1, in points, on the data set where it changes most; missed
+// returns and all sets: docs/results/sensitivity.csv.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -69,14 +69,6 @@ constexpr float kMinCells = 30;       // nearby cells required for a canopy [0, 
 constexpr double kDeviations = 2.0;   // canopy height: mean + kDeviations * sd [-0.07, 0]
 constexpr double kMargin_m = 0.1;     // margin added to the canopy height [-0.01, 0]
 constexpr float kStandsOut_m = 0.1f;  // min. height of an obstacle above the canopy [0, 0]
-
-/// Whether cells with returns are a canopy. `tall` of the cells are higher than plants, `plants`
-/// are as high as plants.
-inline bool isCanopy(int seen, int tall, int plants) {
-    const auto all = static_cast<float>(seen);
-    return all >= kMinCells && static_cast<float>(plants) >= kMinShare * all &&
-           static_cast<float>(tall) <= kMaxTall * all;
-}
 
 /// The height that plants do not exceed, from the sums of their heights and squared heights.
 inline float canopyHeight_m(int plants, double sum_m, double sum_m2) {

@@ -57,15 +57,7 @@ void turnUpsideDown(const Scan& scan, const SensorModel& rows_of, Scan& turned) 
 
 void level(const Scan& scan, const Eigen::Matrix3f& level_from_sensor, const SensorModel& rows_of,
            Scan& turned) {
-    const std::size_t size = scan.size();
-    for (auto* coordinate : {&turned.x_m, &turned.y_m, &turned.z_m}) coordinate->resize(size);
-    for (std::size_t i = 0; i < size; ++i) {
-        const Eigen::Vector3f point_m =
-            level_from_sensor * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
-        turned.x_m[i] = point_m.x();
-        turned.y_m[i] = point_m.y();
-        turned.z_m[i] = point_m.z();
-    }
+    rotatePoints(level_from_sensor, scan, turned);
     locateBeams(rows_of, turned);
     // Rotation preserves ranges; returns without range (such as the airframe) stay without range.
     turned.range_m = scan.range_m;
@@ -116,6 +108,18 @@ std::optional<Attitude> attitudeIn(Posture posture, const std::optional<Attitude
             break;
     }
     return attitude;
+}
+
+void rotatePoints(const Eigen::Matrix3f& turn, const Scan& scan, Scan& turned) {
+    const std::size_t size = scan.size();
+    for (auto* coordinate : {&turned.x_m, &turned.y_m, &turned.z_m}) coordinate->resize(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const Eigen::Vector3f point_m =
+            turn * Eigen::Vector3f(scan.x_m[i], scan.y_m[i], scan.z_m[i]);
+        turned.x_m[i] = point_m.x();
+        turned.y_m[i] = point_m.y();
+        turned.z_m[i] = point_m.z();
+    }
 }
 
 void turnScan(const Scan& scan, Posture posture, const std::optional<Attitude>& attitude,

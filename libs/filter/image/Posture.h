@@ -30,6 +30,9 @@ Eigen::Matrix3f imageFromSensor(Posture posture, const std::optional<Attitude>& 
 /// The tilt of the image frame.
 std::optional<Attitude> attitudeIn(Posture posture, const std::optional<Attitude>& attitude);
 
+/// Rotates only the points of a scan.
+void rotatePoints(const Eigen::Matrix3f& turn, const Scan& scan, Scan& turned);
+
 /// Rotates a scan into the image frame and assigns the rows of `rows_of`, which is
 /// sensorIn(posture, sensor). Not for upright sensors. Returns keep their order.
 void turnScan(const Scan& scan, Posture posture, const std::optional<Attitude>& attitude,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <vector>
+#include "filter/FindColumnBits.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/paper/SingularSpectrumAnalysis.cpp"
@@ -14,7 +15,6 @@
 #include <hwy/highway.h>
 
 #include "filter/paper/EigenBatch-inl.h"
-#include "filter/simd/MaskBits.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
@@ -146,22 +146,6 @@ void smoothBatch(int principal_components, RunBatch<Real>& batch) {
 
 }  // namespace
 
-/// One bit per pixel, set if it has a value.
-void findValues(const float* pixels, std::size_t count, std::uint64_t* words) {
-    const hn::CappedTag<float, 64> d;
-    for (std::size_t first = 0; first < count; first += 64) {
-        std::uint64_t bits = 0;
-        const std::size_t end = std::min(count - first, std::size_t{64});
-        std::size_t n = 0;
-        for (; n + hn::Lanes(d) <= end; n += hn::Lanes(d)) {
-            const auto values = hn::LoadU(d, pixels + first + n);
-            bits |= BitsOf(d, hn::Eq(values, values)) << n;
-        }
-        for (; n < end; ++n) bits |= std::uint64_t{hasValue(pixels[first + n])} << n;
-        words[first / 64] = bits;
-    }
-}
-
 void smoothWithFloats(int principal_components, RunBatch<float>& batch) {
     smoothBatch(principal_components, batch);
     boundRoundingError(batch);
@@ -178,7 +162,6 @@ HWY_AFTER_NAMESPACE();
 namespace hagen {
 namespace {
 
-HWY_EXPORT(findValues);
 HWY_EXPORT(smoothWithFloats);
 HWY_EXPORT(smoothWithDoubles);
 
@@ -203,25 +186,24 @@ std::size_t otherBit(const std::uint64_t* words, std::size_t from, std::size_t e
 
 /// Fills work.runs with the runs of at least `fewest` values, sorted by length.
 void findRuns(Image<float>& image, int fewest, SsaWorkspace& work) {
-    std::vector<std::uint64_t>& words = work.has_value;
     std::vector<Run>&found = work.found, &runs = work.runs;
     std::vector<int>& start_of = work.next_of_length;
     const auto rows = static_cast<std::size_t>(image.rows());
     const auto pixels = static_cast<std::size_t>(image.size());
-    words.resize((pixels + 63) / 64);
-    HWY_DYNAMIC_DISPATCH(findValues)(image.data(), pixels, words.data());
+    findPresent(image, work.has_value, work.seam);
+    const std::uint64_t* words = work.has_value.data();
     found.clear();
     found.reserve(pixels / fewest);
     runs.reserve(pixels / fewest);
     start_of.assign(rows + 2, 0);
-    for (std::size_t column = 0; column < pixels; column += rows) {
-        const std::size_t end = column + rows;
-        for (std::size_t pixel = column; pixel + fewest <= end;) {
-            const std::size_t begin = otherBit(words.data(), pixel, end, 0);
-            pixel = otherBit(words.data(), begin, end, ~std::uint64_t{0});
-            const int values = static_cast<int>(pixel - begin);
+    for (std::size_t column = 0; column < pixels;
+         column += rows, words += wordsOf(static_cast<int>(rows))) {
+        for (std::size_t row = 0; row + fewest <= rows;) {
+            const std::size_t begin = otherBit(words, row, rows, 0);
+            row = otherBit(words, begin, rows, ~std::uint64_t{0});
+            const int values = static_cast<int>(row - begin);
             if (values < fewest) continue;
-            found.push_back({image.data() + begin, values});
+            found.push_back({image.data() + column + begin, values});
             ++start_of[values + 1];
         }
     }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
+#include "filter/ColumnBits.h"
 #include "filter/paper/RunBatch.h"
 
 namespace hagen {
@@ -15,9 +16,10 @@ struct SsaWorkspace {
         int values;
     };
 
-    std::vector<std::uint64_t> has_value;  ///< one bit per pixel
-    std::vector<Run> found, runs;          ///< runs in pixel order, and sorted by length
-    std::vector<int> next_of_length;       ///< for each length, index of the next run in `runs`
+    ColumnBits has_value;
+    std::vector<float> seam;
+    std::vector<Run> found, runs;     ///< runs in pixel order, and sorted by length
+    std::vector<int> next_of_length;  ///< for each length, index of the next run in `runs`
     RunBatch<float> floats;
     RunBatch<double> doubles;
 };

@@ -7,7 +7,6 @@
 #include "scan/InstructionSets.h"
 
 #include "filter/ground/BlockSums.h"
-#include "filter/ground/PlainStages.h"
 #include "filter/ground/StageRules.h"
 
 namespace hagen {
@@ -32,7 +31,11 @@ struct Census {
         tall -= other.tall;
         plants -= other.plants;
     }
-    bool isCanopy() const { return canopy_rules::isCanopy(seen, tall, plants); }
+    bool isCanopy() const {
+        const auto all = static_cast<float>(seen);
+        return all >= kMinCells && static_cast<float>(plants) >= kMinShare * all &&
+               static_cast<float>(tall) <= kMaxTall * all;
+    }
 };
 
 /// Heights of the plants in the cells of one or more blocks. Sums are doubles, to keep the rounding
@@ -110,7 +113,6 @@ void raiseTolerances(const PixelCells& cells, const CellTops& tops,
 
 void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m,
                     const CellArea& area) {
-    if (usesPlainStages()) return plain::tolerateCanopy(cells, tops, tolerance_m);
     static_assert(kCanopyReach == kReach * kBlockCells + kBlockCells);
     const BlockArea blocks = blocksIn(area);
     Blocks<Census> own{};

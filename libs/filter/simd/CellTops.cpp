@@ -4,7 +4,6 @@
 #include "scan/InstructionSets.h"
 
 #include "filter/ground/GroundGrid.h"
-#include "filter/ground/PlainStages.h"
 #include "filter/ground/StageRules.h"
 
 namespace hagen {
@@ -50,7 +49,6 @@ void forEachStretch(const CellArea& area, Visit visit) {
 void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTops& tops,
                   const CellArea& area) {
     tops.area = area;
-    if (usesPlainStages()) return plain::findCellTops(cells, height_m, tops);
     tops.two_m.resize(2 * kGridSize);
     float* const two_m = tops.two_m.data();
     const float* const h_m = height_m.data();

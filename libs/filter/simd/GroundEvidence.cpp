@@ -174,7 +174,6 @@ void countClose(const Image<std::uint16_t>& block, const std::uint8_t* close,
 
 void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
                      Image<std::uint8_t>& is_level, GroundEvidenceWorkspace& work) {
-    if (usesPlainStages()) return plain::findLevelPixels(pixels, cells, is_level);
     const Eigen::Index rows = pixels.x_m.rows(), columns = pixels.x_m.cols();
     const auto size = static_cast<std::size_t>(rows * columns);
     is_level.resize(rows, columns);
@@ -205,13 +204,20 @@ void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
     (size, z_m, cell, lowest_m, steps, is_level.data());
 }
 
+void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
+                  Image<Label>& candidates) {
+    candidates.resize(labels.rows(), labels.cols());
+    static_assert(static_cast<int>(Label::Rou) == 1 && static_cast<int>(Label::Unclassified) == 0);
+    for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
+        const int is_rou = labels.data()[pixel] == Label::Rou;
+        candidates.data()[pixel] = static_cast<Label>(is_rou & is_level.data()[pixel]);
+    }
+}
+
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
                      Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence,
                      GroundEvidenceWorkspace& work) {
-    if (usesPlainStages()) {
-        return plain::requireEvidence(pixels, cells, height_m, is_level, tolerance_m, has_evidence);
-    }
     const auto size = static_cast<std::size_t>(height_m.size());
     work.close.resize(size);
     HWY_DYNAMIC_DISPATCH(CloseIn)

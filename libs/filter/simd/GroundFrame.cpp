@@ -215,6 +215,26 @@ Eigen::Vector3d fitPlane(const Points& points) {
     return plane;
 }
 
+/// The shortest rotation that turns a vector upwards, unless it points straight down. Equals
+/// Eigen's FromTwoVectors, whose decomposition for opposite vectors is slow to compile.
+Eigen::Quaterniond turnUpwards(const Eigen::Vector3d& vector) {
+    const Eigen::Vector3d from = vector.normalized(), up = Eigen::Vector3d::UnitZ();
+    const double s = std::sqrt((1 + up.dot(from)) * 2);
+    Eigen::Quaterniond turn;
+    turn.vec() = from.cross(up) * (1 / s);
+    turn.w() = s * 0.5;
+    return turn;
+}
+
+/// The ground frame for the plane z = a x + b y + c in the level frame.
+Eigen::Isometry3f groundFrame(const Eigen::Vector3d& plane, const Eigen::Matrix3f& level) {
+    const Eigen::Vector3d normal = Eigen::Vector3d(-plane.x(), -plane.y(), 1).normalized();
+    Eigen::Isometry3f ground_from_sensor = Eigen::Isometry3f::Identity();
+    ground_from_sensor.linear() = turnUpwards(normal).toRotationMatrix().cast<float>() * level;
+    ground_from_sensor.translation().z() = static_cast<float>(-plane.z() * normal.z());
+    return ground_from_sensor;
+}
+
 }  // namespace
 
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
@@ -225,7 +245,6 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
         sampleColumns(pixels.x_m.cols(), kEnoughColumns, work.columns);
         columns = &work.columns;
     }
-    if (usesPlainStages()) return plain::fitGroundFrame(pixels, attitude, *columns);
     findLowestOfCells(pixels, level, *columns, work);
     const Points& points = work.points;
 

@@ -7,7 +7,6 @@
 #include "scan/SetBits.h"
 
 #include "filter/ground/GroundGrid.h"
-#include "filter/ground/PlainStages.h"
 #include "filter/ground/StageRules.h"
 #endif
 

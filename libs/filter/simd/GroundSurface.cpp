@@ -129,7 +129,6 @@ void fitCoarse(const PixelSpan& image, const Image<Label>& labels,
 void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate,
                       GroundSurface& surface, GroundSurfaceWorkspace& work) {
     static_assert(sizeof(bool) == 1);
-    if (usesPlainStages()) return plain::fitGroundSurface(pixels, is_candidate, surface);
     const PixelSpan image = spanOf(pixels);
     beginFit(image.size, work.fine);
     surface.height_m.resize(kCells, kCells);
@@ -145,7 +144,6 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels, Gro
         sampleColumns(labels.cols(), kEnoughColumns, work.columns);
         columns = &work.columns;
     }
-    if (usesPlainStages()) return plain::fitGroundSurface(pixels, labels, *columns, surface);
     fitCoarse(image, labels, *columns, work);
     beginFit(image.size, work.fine);
     surface.height_m.resize(kCells, kCells);

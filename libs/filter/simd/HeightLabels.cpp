@@ -107,10 +107,6 @@ HWY_EXPORT(LabelByHeightIn);
 void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, float sensor_height_m,
                       Image<float>& tolerance_m, ToleranceWorkspace& work, const CellArea& area) {
-    if (usesPlainStages()) {
-        return plain::toleratedHeights(pixels, cells, tops, tolerance, sensor_height_m,
-                                       tolerance_m);
-    }
     work.tallest_m.resize(kGridSize);
     HWY_DYNAMIC_DISPATCH(TallestAroundIn)(tops.top_m.data(), area, work.tallest_m.data());
     tolerance_m.resize(cells.cell.rows(), cells.cell.cols());
@@ -122,7 +118,6 @@ void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const 
 void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
                    Image<Label>& labels) {
     static_assert(sizeof(Label) == 1);
-    if (usesPlainStages()) return plain::labelByHeight(height_m, tolerance_m, labels);
     labels.resize(height_m.rows(), height_m.cols());
     HWY_DYNAMIC_DISPATCH(LabelByHeightIn)
     (height_m.size(), height_m.data(), tolerance_m.data(),

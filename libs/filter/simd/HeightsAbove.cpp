@@ -87,12 +87,6 @@ HWY_EXPORT(HeightsAboveIn);
 
 void heightsAbove(const GroundSurface& surface, std::size_t points, const float* x_m,
                   const float* y_m, const float* z_m, float* height_m) {
-    if (usesPlainStages()) {
-        for (std::size_t k = 0; k < points; ++k) {
-            height_m[k] = hasValue(x_m[k]) ? z_m[k] - surface.at(x_m[k], y_m[k]) : kNoValue;
-        }
-        return;
-    }
     HWY_DYNAMIC_DISPATCH(HeightsAboveIn)
     (points, x_m, y_m, z_m, surface.height_m.data(), height_m);
 }

@@ -97,7 +97,6 @@ void growDown(const PixelPoints& pixels, const Image<float>& height_m, Eigen::In
 
 void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels,
               FeetWorkspace& work) {
-    if (usesPlainStages()) return plain::growFeet(pixels, height_m, labels);
     const std::size_t size = static_cast<std::size_t>(labels.size());
     work.candidates.resize(std::max(work.candidates.size(), size));
     std::int32_t* const list = work.candidates.data();

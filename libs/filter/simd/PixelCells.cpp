@@ -42,7 +42,6 @@ namespace hagen {
 HWY_EXPORT(FindPixelCellsIn);
 
 void findPixelCells(const PixelPoints& pixels, PixelCells& cells) {
-    if (usesPlainStages()) return plain::findPixelCells(pixels, cells);
     for (auto* image : {&cells.cell, &cells.block}) {
         image->resize(pixels.x_m.rows(), pixels.x_m.cols());
     }

@@ -111,7 +111,6 @@ std::uint8_t* bytesOf(Image<Label>& labels) {
 
 void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
                   const Image<float>& tolerance_m, Image<Label>& labels, SpeckWorkspace& work) {
-    if (usesPlainStages()) return plain::removeSpecks(pixels, height_m, tolerance_m, labels);
     const int rows = static_cast<int>(labels.rows()), columns = static_cast<int>(labels.cols());
     const int stride = rows + 2;
     resize(static_cast<std::size_t>(stride) * (columns + 2), work);

@@ -3,11 +3,11 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
+#include "base/WriteFile.h"
 #include "mrpt/MrptScene.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
 
@@ -16,13 +16,6 @@ namespace hagen::observations {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Throws with the reason from errno, which must be 0 before the operation.
-[[noreturn]] void throwWriteError(const fs::path& file) {
-    throw std::runtime_error(
-        file.string() + ": cannot be written" +
-        (errno == 0 ? "; is the disk full?" : std::string(": ") + std::strerror(errno)));
-}
 
 /// Returns the occupied voxels as an MRPT object, coloured by height from blue (lowest) to red.
 observations::viz::COctoMapVoxels::Ptr voxelsOf(const octomap::OcTree& tree) {
@@ -57,14 +50,14 @@ void saveScene(const octomap::OcTree& tree, const fs::path& file, const fs::path
     mrpt::serialization::archiveFrom(bytes) << scene;
     errno = 0;
     const gzFile out = gzopen(file.c_str(), "wb1");
-    if (out == nullptr) throwWriteError(named);
+    if (out == nullptr) base::throwWriteError(named, errno);
     const auto* const data = static_cast<const std::uint8_t*>(bytes.getRawBufferData());
     const std::size_t size = bytes.getTotalBytesCount();
     const bool is_written = gzfwrite(data, 1, size, out) == size;
     const int error = errno;
     const bool is_closed = gzclose(out) == Z_OK;
     if (!is_written) errno = error;
-    if (!is_written || !is_closed) throwWriteError(named);
+    if (!is_written || !is_closed) base::throwWriteError(named, errno);
 }
 
 /// Writes the header of OctoMap's files. OctoMap's writers print to standard error.
@@ -87,13 +80,9 @@ void writeOctree(octomap::OcTree& tree, bool is_binary, std::ostream& out) {
 
 }  // namespace
 
-bool isMapFile(const fs::path& file) {
-    const std::string ending = file.extension().string();
-    return ending == ".bt" || ending == ".ot" || ending == ".3Dscene";
-}
-
 void checkMapFile(const fs::path& file) {
-    if (isMapFile(file)) return;
+    const std::string ending = file.extension().string();
+    if (ending == ".bt" || ending == ".ot" || ending == ".3Dscene") return;
     throw std::runtime_error(
         file.string() +
         ": unknown map format; use .bt (occupied or free), .ot (probabilities) "
@@ -105,15 +94,13 @@ void saveMap(const octomap::OcTree& tree, const fs::path& file) {
     saveMapInPlace(copy, file, file);
 }
 
-void saveMapInPlace(octomap::OcTree& whole, const fs::path& file, const fs::path& named) {
+void saveMapInPlace(octomap::OcTree& tree, const fs::path& file, const fs::path& named) {
     checkMapFile(named);
-    if (named.extension() == ".3Dscene") return saveScene(whole, file, named);
-    whole.updateInnerOccupancy();  // inner nodes are stale while a map is being built
-    errno = 0;
-    std::ofstream out(file, std::ios::binary);
-    if (!out) throwWriteError(named);
-    writeOctree(whole, named.extension() == ".bt", out);
-    if (!out.flush()) throwWriteError(named);
+    if (named.extension() == ".3Dscene") return saveScene(tree, file, named);
+    tree.updateInnerOccupancy();  // inner nodes are stale while a map is being built
+    std::ofstream out = base::openToWrite(file, named);
+    writeOctree(tree, named.extension() == ".bt", out);
+    base::closeWritten(out, named);
 }
 
 }  // namespace hagen::observations

@@ -59,12 +59,10 @@ struct TrialMeasurement {
 /// One planning step, for replays; valid during the call.
 struct TrialStep {
     double time_s;  ///< when the command is issued
-    VehicleState true_state, believed_state;
     const observations::MappedScan& scan;  ///< the scan used for planning
     const WorldModel& world;
     const Carrot& carrot;
     const Plan& plan;
-    double true_clearance_m;
     double latency_ms;
 };
 

@@ -112,11 +112,6 @@ bool needsTruth(const std::string& model);
 /// Whether a model predicts motion (clearanceAfter_m()). False for unknown names.
 bool predictsMotion(const std::string& model);
 
-/// Mean difference between a model's clearance and the true one [m], measured by
-/// tests/flights/DistanceBias_test.cpp; 0 for oracles. Throws std::invalid_argument for unknown
-/// names.
-float distanceBias_m(const std::string& model);
-
 /// Throws std::invalid_argument for unknown names, listing known names, and for an oracle
 /// without true clearances.
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,

@@ -90,10 +90,9 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     /// Measures the time of each part of process(). Disabled by default; prints a report on
     /// destruction.
-    mrpt::system::CTimeLogger profiler = idleProfiler();
+    mrpt::system::CTimeLogger profiler{false, "hagen::ObservationSegmenter"};
 
  private:
-    static mrpt::system::CTimeLogger idleProfiler();
     SharedBeams beamsOf(const mrpt::obs::CObservation& observation);
     HagenFilter& filterOf(const std::string& label);
 

@@ -15,7 +15,7 @@ struct RangeImage {
     Image<std::int32_t> closest_return;
     /// The inverse of the paper's depth_mapper: the pixel of each return (column * I_h + row), or
     /// kNoPixel if the return is beyond the context or outside the sensor's range limits. A pixel
-    /// may have several returns; see returnsByPixel().
+    /// may have several returns.
     std::vector<std::int32_t> depth_mapper;
 
     static constexpr std::int32_t kNoPixel = -1;
@@ -42,13 +42,5 @@ int nearestColumn(float azimuth_rad, int columns);
 
 /// The azimuth in (-pi, pi] at the centre of a column.
 float columnAzimuth(int column, int columns);
-
-/// The paper's depth_mapper, pixel -> returns: pixel p has returns[first[p]] ... returns[first[p +
-/// 1] - 1], in the scan's order.
-struct ReturnsByPixel {
-    std::vector<std::int32_t> first;    ///< pixels + 1 entries
-    std::vector<std::int32_t> returns;  ///< indices into the scan
-};
-ReturnsByPixel returnsByPixel(const RangeImage& image);
 
 }  // namespace hagen

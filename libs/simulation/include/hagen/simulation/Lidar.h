@@ -65,9 +65,6 @@ constexpr double kFirstAzimuth_deg = 180.0;
 /// The vehicle's pose as a function of time.
 using PoseAt = std::function<SensorPose(double time_s)>;
 
-/// Time after the end of a revolution for which interpolation needs poses.
-constexpr double kPosesBeyondTurn_s = 0.015;
-
 /// Simulates the revolution that begins at `time_s`, with the sensor at the vehicle's origin.
 ///
 /// Each beam is one ray at a random position in its footprint, so that the probability of hitting a
@@ -90,9 +87,9 @@ struct FiringRange {
 };
 
 /// Like simulateScan(), but for a part of the revolution that begins at `time_s`. Requires poses
-/// until kPosesBeyondTurn_s after the part. Parts draw separate random numbers, so they equal the
-/// whole revolution only without random errors. Throws std::invalid_argument for firings outside
-/// the pattern.
+/// until 15 ms after the part, for interpolation. Parts draw separate random numbers, so they equal
+/// the whole revolution only without random errors. Throws std::invalid_argument for firings
+/// outside the pattern.
 SimulatedScan simulateFirings(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
                               double time_s, const FiringRange& firings, Random& random,
                               const SensorErrorModel& faults = {},

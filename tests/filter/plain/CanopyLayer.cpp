@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "filter/ground/BlockSums.h"
-#include "filter/ground/PlainStages.h"
 #include "filter/ground/StageRules.h"
+#include "filter/plain/PlainStages.h"
 
 namespace hagen::plain {
 namespace {
@@ -29,7 +29,10 @@ struct Surroundings {
     }
     /// The height of the canopy; 0 if there is none.
     float canopy_m() const {
-        return isCanopy(seen, tall, plants) ? canopyHeight_m(plants, sum_m, sum_m2) : 0.0f;
+        const auto all = static_cast<float>(seen);
+        const bool is_canopy = all >= kMinCells && static_cast<float>(plants) >= kMinShare * all &&
+                               static_cast<float>(tall) <= kMaxTall * all;
+        return is_canopy ? canopyHeight_m(plants, sum_m, sum_m2) : 0.0f;
     }
 };
 

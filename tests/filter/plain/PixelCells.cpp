@@ -1,6 +1,6 @@
 #include "filter/ground/BlockSums.h"
 #include "filter/ground/GroundGrid.h"
-#include "filter/ground/PlainStages.h"
+#include "filter/plain/PlainStages.h"
 
 namespace hagen::plain {
 namespace {
@@ -12,9 +12,9 @@ struct Place {
 
 /// The place along one axis. Empty pixels are in cell 0.
 Place placeOf(float coordinate_m) {
+    constexpr int kMiddle = GroundSurface::kCells / 2 + 1;
     constexpr float kLast = kGridStride - 1;
-    const float place =
-        coordinate_m * (1 / GroundSurface::kCell_m) + (GroundSurface::kCells / 2 + 1);
+    const float place = coordinate_m * (1 / GroundSurface::kCell_m) + kMiddle;
     return {static_cast<int>(std::min(place > 0 ? place : 0.0f, kLast)),
             place >= 1 && place < kLast};
 }

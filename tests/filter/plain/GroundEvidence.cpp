@@ -1,15 +1,13 @@
-#include "filter/simd/GroundEvidence.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "filter/ground/BlockSums.h"
 #include "filter/ground/GroundGrid.h"
-#include "filter/ground/PlainStages.h"
 #include "filter/ground/StageRules.h"
+#include "filter/plain/PlainStages.h"
 
-namespace hagen {
-namespace plain {
+namespace hagen::plain {
 namespace {
 
 using namespace evidence_rules;
@@ -92,16 +90,4 @@ void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
     }
 }
 
-}  // namespace plain
-
-void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_level,
-                  Image<Label>& candidates) {
-    candidates.resize(labels.rows(), labels.cols());
-    static_assert(static_cast<int>(Label::Rou) == 1 && static_cast<int>(Label::Unclassified) == 0);
-    for (Eigen::Index pixel = 0; pixel < labels.size(); ++pixel) {
-        const int is_rou = labels.data()[pixel] == Label::Rou;
-        candidates.data()[pixel] = static_cast<Label>(is_rou & is_level.data()[pixel]);
-    }
-}
-
-}  // namespace hagen
+}  // namespace hagen::plain

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "filter/ground/GroundGrid.h"
-#include "filter/ground/PlainStages.h"
 #include "filter/ground/StageRules.h"
+#include "filter/plain/PlainStages.h"
 
 namespace hagen::plain {
 

@@ -1,6 +1,5 @@
-// Scalar reference implementations of the ground stages, used instead of the vectorised ones in
-// simd/ if HAGEN_SIMD=plain (InstructionSets.h). The headers of the stages document them. Both add
-// floats in the same order, so results are bit-identical except for sums of doubles.
+// Plain definitions of the ground stages: they define what libs/filter/simd computes. The headers
+// of the stages document them. Both add floats in the same order, so results are bit-identical.
 #pragma once
 #include <hagen/filter/CellTops.h>
 #include <hagen/filter/GroundSurface.h>
@@ -11,13 +10,7 @@
 #include "filter/simd/GroundFrame.h"
 #include "filter/simd/HeightLabels.h"
 
-namespace hagen {
-
-/// The transform from the sensor to the ground frame (GroundFrame.h) for the plane z = a x + b y +
-/// c in the level frame.
-Eigen::Isometry3f groundFrame(const Eigen::Vector3d& plane, const Eigen::Matrix3f& level);
-
-namespace plain {
+namespace hagen::plain {
 
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
                                  const std::vector<std::int32_t>& columns);
@@ -28,6 +21,7 @@ void fitGroundSurface(const PixelPoints& pixels, const Image<bool>& is_candidate
                       GroundSurface& surface);
 void fitGroundSurface(const PixelPoints& pixels, const Image<Label>& labels,
                       const std::vector<std::int32_t>& columns, GroundSurface& surface);
+void heightsAbove(const GroundSurface& surface, const PixelPoints& pixels, Image<float>& height_m);
 void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTops& tops);
 void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, float sensor_height_m,
@@ -42,5 +36,4 @@ void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Lab
 void removeSpecks(const PixelPoints& pixels, const Image<float>& height_m,
                   const Image<float>& tolerance_m, Image<Label>& labels);
 
-}  // namespace plain
-}  // namespace hagen
+}  // namespace hagen::plain

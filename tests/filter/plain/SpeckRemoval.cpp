@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "filter/ground/PlainStages.h"
 #include "filter/ground/StageRules.h"
+#include "filter/plain/PlainStages.h"
 
 namespace hagen::plain {
 

@@ -1,5 +1,5 @@
-#include "filter/ground/PlainStages.h"
 #include "filter/ground/StageRules.h"
+#include "filter/plain/PlainStages.h"
 
 namespace hagen::plain {
 
