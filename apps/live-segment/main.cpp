@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 
 struct Flags {
     live::LiveOptions live;
-    std::string listen, view;
+    std::string listen, from_address, view;
     std::filesystem::path replay;
     double speed = 1;
     std::vector<std::string> configs, keys;
@@ -50,6 +50,10 @@ void declare(Program& app, Flags& flags) {
                "local IPv4 address (0.0.0.0: all) and port, such as 0.0.0.0:2368; joins "
                "multicast groups")
         .valueName("ADDRESS:PORT")
+        .group("Input");
+    app.option("--from-address", flags.from_address,
+               "the sensor's IPv4 address (default: the first to send)")
+        .valueName("IP")
         .group("Input");
     app.option("--replay", flags.replay,
                "recording with packets instead of a sensor: network capture (.pcap, .pcapng), "
@@ -116,6 +120,10 @@ void check(Flags& flags) {
                          sensors::driverModels());
     }
     checkAutopilot(flags.autopilot);
+    flags.live.from_ip = live::ipFrom(flags.from_address);
+    if (!flags.from_address.empty() && !flags.live.from_ip) {
+        throw UsageError("--from-address", "'" + flags.from_address + "' is not an IPv4 address");
+    }
     flags.live.replay = flags.replay;
     flags.live.overwrite = flags.live.recording.overwrite = flags.overwrite;
     try {
@@ -252,7 +260,9 @@ std::string failureOf(const live::LiveReport& report, const live::LiveOptions& o
     std::string problem = "no packet from " + live::sensorName(options) + " received";
     if (report.other_sensor > 0) {
         problem += ", but " + std::to_string(report.other_sensor) + " from other sensors: check " +
-                   (options.model.empty() ? "--sensor-json" : "--model");
+                   (options.from_ip         ? "--from-address"
+                    : options.model.empty() ? "--sensor-json"
+                                            : "--model");
     }
     if (report.uncertain > 0) {
         problem += ", but " + std::to_string(report.uncertain) +

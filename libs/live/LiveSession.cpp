@@ -103,7 +103,11 @@ class Session {
 };
 
 Session::Session(const LiveOptions& options, const LiveListener& listener, bool is_live)
-    : options_(options), listener_(listener), start_s_(steadyNow_s()), status_s_(start_s_) {
+    : options_(options),
+      listener_(listener),
+      start_s_(steadyNow_s()),
+      status_s_(start_s_),
+      address_(options.from_ip) {
     stream_.emplace(
         sensors::makeDriver(options.model, options.sensor_json, options.calibration),
         options.settings, [this](const LabelledSector& sector) { takeSector(sector); },
@@ -148,9 +152,16 @@ void Session::reportEmptiness(const Scan& returns) {
 /// serial numbers.
 bool Session::isOfSensor(const Packet& packet) {
     const sensors::LidarDriver& driver = stream_->driver();
-    if (driver.hasSerial() || !driver.isData(packet.datagram())) return true;
+    if ((driver.hasSerial() && !options_.from_ip) || !driver.isData(packet.datagram())) return true;
     const sensors::IpAddress before = address_.ip().value_or(packet.from_ip);
-    if (!address_.take(packet.from_ip, packet.arrival_s)) {
+    const std::size_t others = address_.others().size();
+    const bool is_of_sensor = address_.take(packet.from_ip, packet.arrival_s);
+    if (address_.others().size() > others) {
+        listener_.remark("ignoring packets of another sensor from " +
+                         sensors::ipText(address_.others().back()) +
+                         (options_.from_ip ? "" : "; select a sensor with --from-address"));
+    }
+    if (!is_of_sensor) {
         ++foreign_ip_;
         return false;
     }
@@ -174,6 +185,9 @@ void Session::take(const Packet& packet) {
     if (stream_->add(packet.datagram(), packet.arrival_s) == sensors::Taken::Yes) {
         last_packet_s_ = packet.arrival_s;
         is_flushed_ = false;
+        if (stream_->counts().packets == 1) {
+            listener_.remark("receiving packets from " + sensors::ipText(packet.from_ip));
+        }
         reportChanges();
     } else {
         reportUncertain();
@@ -332,8 +346,9 @@ LiveReport Session::finish(double start_cpu_s) {
 }  // namespace
 
 std::string sensorName(const LiveOptions& options) {
-    if (options.sensor_json.empty()) return "a " + options.model;
-    return "the Ouster of " + options.sensor_json.string();
+    return (options.sensor_json.empty() ? "a " + options.model
+                                        : "the Ouster of " + options.sensor_json.string()) +
+           (options.from_ip ? " at " + sensors::ipText(*options.from_ip) : "");
 }
 
 LiveReport runLive(PacketSource& source, const LiveOptions& options, const LiveListener& listener) {

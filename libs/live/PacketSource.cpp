@@ -36,17 +36,22 @@ std::int64_t nanoseconds(const timespec& time) {
 
 }  // namespace
 
+std::optional<std::uint32_t> ipFrom(const std::string& text) {
+    in_addr ip{};
+    if (inet_pton(AF_INET, text.c_str(), &ip) != 1) return std::nullopt;
+    return ntohl(ip.s_addr);
+}
+
 Address parseAddress(const std::string& text) {
     const std::size_t colon = text.rfind(':');
-    const std::string host = text.substr(0, colon);
-    in_addr ip{};
-    if (colon == std::string::npos || inet_pton(AF_INET, host.c_str(), &ip) != 1) {
+    const auto ip = ipFrom(text.substr(0, colon));
+    if (colon == std::string::npos || !ip) {
         throw std::runtime_error("'" + text +
                                  "' is not an IPv4 address with a port, such as 0.0.0.0:2368");
     }
     const auto port = base::numberFrom<std::uint16_t>(text.substr(colon + 1)).value_or(0);
     if (port == 0) throw std::runtime_error("'" + text + "': the port must be 1 to 65535");
-    return {ntohl(ip.s_addr), port};
+    return {*ip, port};
 }
 
 UdpSource::UdpSource(const Address& address)

@@ -5,7 +5,7 @@
 namespace hagen::live {
 
 bool SensorAddress::take(sensors::IpAddress ip, double arrival_s) {
-    const bool is_own = choose(ip, arrival_s - heard_s_ >= kSilence_s);
+    const bool is_own = choose(ip, !is_fixed_ && arrival_s - heard_s_ >= kSilence_s);
     if (is_own) heard_s_ = arrival_s;
     return is_own;
 }

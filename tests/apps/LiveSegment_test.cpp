@@ -435,6 +435,10 @@ TEST_F(LiveSegment, RejectsInvalidFlags) {
     expectFailure({"--replay", file, "--model", "vlp16"}, 2, "did you mean 'VLP-16'?");
     expectFailure({"--replay", file, "--model", "HDL-64E"}, 2, "--calibration FILE");
     expectFailure({"--listen", "here", "--model", "VLP-16"}, 2, "'here' is not an IPv4 address");
+    expectFailure(with(sensor_, {"--replay", file, "--from-address", "1.2.3"}), 2,
+                  "--from-address");
+    expectFailure(with(sensor_, {"-q", "--replay", file, "--from-address", "1.2.3.4"}), 1,
+                  "no packet from a VLP-16 at 1.2.3.4 received, but");
     expectFailure({"--listen", "0.0.0.0:2368", "--speed", "2", "--model", "VLP-16"}, 2, "--speed");
     expectFailure({"--replay", file, "--sensor-json", file, "--model", "VLP-16"}, 2, "Ouster");
     expectFailure({"--replay", file, "--sensor-json", file}, 1, "flight.pcap");

@@ -80,6 +80,9 @@ class AutopilotLinkTest : public testing::Test {
  protected:
     AutopilotLinkTest() {
         settings_.peer = autopilot_.address();
+        open();
+    }
+    void open() {
         link_ = std::make_unique<AutopilotLink>(settings_, [this](const std::string& remark) {
             const std::lock_guard lock(mutex_);
             remarks_.push_back(remark);
@@ -263,6 +266,45 @@ TEST_F(AutopilotLinkTest, SensorMovesWithVehicle) {
     for (int i = 0; i < 100 && link_->motionAt(now_s()).attitude; ++i) autopilot_.receive();
     EXPECT_FALSE(link_->motionAt(now_s()).attitude);
     EXPECT_FALSE(link_->motionAt(now_s()).map_from_sensor);
+}
+
+/// The MAVLink 1 message is a HEARTBEAT of system 2, encoded by node-mavlink.
+TEST_F(AutopilotLinkTest, ReportsWhyAttitudeIsUnknown) {
+    const std::string port = std::to_string(settings_.peer.port);
+    settings_.peer.local_port = test::freePort();
+    const auto to = test::localAddress(settings_.peer.local_port);
+    open();
+    const auto waitForRemarks = [&](std::size_t number) {
+        for (int i = 0; i < 400 && remarks().size() < number; ++i) autopilot_.receive();
+        ASSERT_EQ(remarks().size(), number);
+    };
+    link_->begin(sensor_, {20, 0});
+    waitForRemarks(1);
+    const std::string begin =
+        "MAVLink: no attitude from vehicle 1, scans are not levelled; received from 127.0.0.1:" +
+        port + ": ";
+    EXPECT_EQ(remarks()[0], begin + "nothing");
+    autopilot_.sendRaw({"\xfe\x09\0\x02\x01\0\0\0\0\0\x02\x0c\x51\x03\x03\x73\x35", 17});
+    autopilot_.send(Vehicle().attitude(100), 3);
+    autopilot_.send(mavlink::frameOf(mavlink::Heartbeat()), 255, 190);
+    const test::LocalUdp stranger;
+    stranger.send(std::string("x"), to);
+    waitForRemarks(2);
+    const std::string other = "127.0.0.1:" + std::to_string(stranger.port());
+    EXPECT_EQ(remarks()[1],
+              begin +
+                  "system 2: MAVLink 1, no ATTITUDE, HEARTBEAT [set --mavlink-system 2, "
+                  "SERIALn_PROTOCOL = 2 (PX4: MAV_PROTO_VER = 2), SRn_EXTRA1 = 50 (PX4: "
+                  "MAV_n_MODE = Onboard)]; system 3: MAVLink 2, ATTITUDE, no HEARTBEAT [set "
+                  "--mavlink-system 3]; system 255, component 190: MAVLink 2, no ATTITUDE, "
+                  "HEARTBEAT; ignored from " +
+                  other + " [set --mavlink udp:" + other + ":" +
+                  std::to_string(ntohs(to.sin_port)) + "]");
+    EXPECT_EQ(count("mavlink_1") + count("other_addresses"), 2u);
+    EXPECT_EQ(count("attitude"), 0u);
+    autopilot_.send(Vehicle().attitude(100));
+    waitForRemarks(3);
+    EXPECT_EQ(remarks()[2], "MAVLink: receiving the attitude of vehicle 1");
 }
 
 /// With this many obstacles, a period takes too long.

@@ -97,7 +97,10 @@ class LiveSessionTest : public testing::Test {
  protected:
     LiveReport run(GivenPackets& packets) {
         LiveListener listener;
-        listener.remark = [this](const std::string& remark) { remarks_.push_back(remark); };
+        listener.remark = [this](const std::string& remark) {
+            (remark.rfind("receiving packets from ", 0) == 0 ? first_remark_
+                                                             : remarks_.emplace_back()) = remark;
+        };
         listener.sector = [this](const LabelledSector& sector) {
             if (returns_ == 0) std::this_thread::sleep_for(first_sector_takes_);
             returns_ += sector.returns.size();
@@ -110,6 +113,7 @@ class LiveSessionTest : public testing::Test {
         return options;
     }();
     std::vector<std::string> remarks_;
+    std::string first_remark_;
     std::size_t returns_ = 0;
     std::chrono::milliseconds first_sector_takes_{0};
 };
@@ -217,7 +221,27 @@ TEST_F(LiveSessionTest, CountsEachPacketOnce) {
     if (report.seconds > 0.25) GTEST_SKIP() << "this machine is too slow at the moment";
     EXPECT_EQ(report.other_sensor, 2u);
     EXPECT_EQ(report.latest[sector].state, SectorDistances::State::Obstacle);
-    EXPECT_THAT(remarks_, IsEmpty());
+    EXPECT_EQ(first_remark_, "receiving packets from 10.0.0.100");
+    EXPECT_THAT(remarks_, ElementsAre("ignoring packets of another sensor from 10.0.0.101; select "
+                                      "a sensor with --from-address"));
+}
+
+/// The other sensor sends first and alone, and is silent later.
+TEST_F(LiveSessionTest, UsesGivenAddressOnly) {
+    options_.from_ip = kOurs;
+    GivenPackets source;
+    source.later(0.01).addAll(turnsOf(1), kOther).addAll(turnsOf(1, 1100000), kOurs);
+    source.later(1.5).addAll(turnsOf(1, 1200000), kOther);
+    const LiveReport report = run(source);
+    EXPECT_EQ(report.packets, 76u);
+    EXPECT_EQ(report.other_sensor, 2u * 76);
+    EXPECT_EQ(first_remark_, "receiving packets from 10.0.0.100");
+    EXPECT_THAT(remarks_, Contains("ignoring packets of another sensor from 10.0.0.101"));
+    options_.from_ip = 0x0a000066;
+    remarks_.clear();
+    GivenPackets none;
+    EXPECT_EQ(run(none.addAll(turnsOf(1))).packets, 0u);
+    EXPECT_EQ(sensorName(options_), "a VLP-16 at 10.0.0.102");
 }
 
 TEST_F(LiveSessionTest, ReportsStartAndEndOfSilence) {

@@ -149,6 +149,26 @@ TEST_F(ParserTest, SkipsUnknownFormat) {
     EXPECT_EQ(parser_.counts().incompatible, 1u);
 }
 
+/// Encoded by node-mavlink: HEARTBEAT and ATTITUDE of system 2.
+const Bytes kMavlink1 = {0xfe, 0x09, 0x00, 0x02, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x02,
+                         0x0c, 0x51, 0x03, 0x03, 0x73, 0x35, 0xfe, 0x1c, 0x01, 0x02, 0x01,
+                         0x1e, 0xe8, 0x03, 0x00, 0x00, 0x00, 0x00, 0x00, 0x3f, 0x00, 0x00,
+                         0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
+                         0x00, 0x00, 0x00, 0x00, 0x00, 0x80, 0x3e, 0x7f, 0xf2};
+
+TEST_F(ParserTest, ReadsMavlink1) {
+    for (const std::uint8_t byte : joined({kMavlink1, attitude(2, 0.5f, 2)})) add({byte});
+    ASSERT_EQ(frames_.size(), 3u);
+    EXPECT_EQ(frames_[0].id, Heartbeat::kId);
+    EXPECT_EQ(frames_[1].version, 1);
+    EXPECT_EQ(frames_[1].system, 2);
+    EXPECT_EQ(messageOf<Attitude>(frames_[1])->roll, 0.5f);
+    EXPECT_EQ(messageOf<Attitude>(frames_[1])->yawspeed, 0.25f);
+    EXPECT_EQ(frames_[2].version, 2);
+    EXPECT_EQ(parser_.counts().version_1, 2u);
+    EXPECT_EQ(parser_.counts().skipped_bytes + parser_.counts().lost, 0u);
+}
+
 TEST_F(ParserTest, CountsLossesPerComponent) {
     add(joined({attitude(250), attitude(3, 0, 2), attitude(254), attitude(4, 0, 2), attitude(1)}));
     EXPECT_EQ(parser_.counts().lost, 3u + 2u);

@@ -38,6 +38,14 @@ TEST(SensorAddress, FollowsSuccessiveAddresses) {
     expectTaken({{1, 10, true}, {2, 11.5, true}, {3, 13, true}, {2, 14.5, true}, {3, 16, true}});
 }
 
+TEST(SensorAddress, GivenAddressNeverChanges) {
+    SensorAddress address(2);
+    EXPECT_FALSE(address.take(1, 10));
+    EXPECT_TRUE(address.take(2, 12));
+    EXPECT_FALSE(address.take(1, 14));
+    EXPECT_EQ(address.others(), std::vector<sensors::IpAddress>{1});
+}
+
 TEST(SensorAddress, LimitsNumberOfAddresses) {
     SensorAddress address;
     EXPECT_TRUE(address.take(1, 10));

@@ -1,6 +1,7 @@
 #include "live/autopilot/AutopilotLink.h"
 #include <hagen/live/PacketQueue.h>
 #include "live/autopilot/GroundBelow.h"
+#include "live/autopilot/Senders.h"
 #include "live/mavlink/Parser.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ class AutopilotLink::Work {
         limits_ = limits;
         limits_.nearest_m = sensor.min_range_m;
         distances_.emplace(sensor, settings_.directions);
-        start_s_ = steadyNow_s();
+        start_s_ = attitude_report_s_ = steadyNow_s();
         thread_ = std::thread([this] { work(); });
     }
 
@@ -100,6 +101,8 @@ class AutopilotLink::Work {
                 {"position", places_},
                 {"other_messages", others_},
                 {"other_systems", foreign_},
+                {"other_addresses", ignored_},
+                {"mavlink_1", c.version_1},
                 {"refused", refused_},
                 {"bad_checksum", c.bad_checksum},
                 {"incompatible", c.incompatible},
@@ -215,6 +218,8 @@ class AutopilotLink::Work {
     }
 
     void takeFrame(const mavlink::Frame& frame, double arrival_s) {
+        if (attitudes_ == 0) senders_.add(frame);
+        if (frame.version == 1) return;
         if (frame.system != settings_.system || frame.component != mavlink::kComponentAutopilot) {
             ++foreign_;
             return;
@@ -260,21 +265,42 @@ class AutopilotLink::Work {
         trouble_ = trouble;
     }
 
+    /// Reports whether the attitude is known and, until it is, changes of what is received instead.
     void reportAttitude() {
         const double time_s = steadyNow_s();
         bool is_known = false;
+        std::string instead;
         {
             const std::lock_guard lock(mutex_);
             is_known = motion_.at(time_s).has_value();
+            ignored_ = peer_->ignored().datagrams;
+            if (attitudes_ == 0) instead = received();
         }
-        if (is_known == knows_attitude_ ||
-            (!knows_attitude_.has_value() && !is_known && time_s - start_s_ < kAttitudeWithin_s)) {
+        const bool is_late = time_s - attitude_report_s_ >= kAttitudeWithin_s;
+        if (is_known == knows_attitude_.value_or(false) &&
+            (!is_late || instead.empty() || instead == instead_)) {
             return;
         }
         const std::string vehicle = "vehicle " + std::to_string(settings_.system);
         remark_(is_known ? "MAVLink: receiving the attitude of " + vehicle
-                         : "MAVLink: no attitude from " + vehicle + ", scans are not levelled");
+                         : "MAVLink: no attitude from " + vehicle + ", scans are not levelled" +
+                               instead);
         knows_attitude_ = is_known;
+        instead_ = instead;
+        attitude_report_s_ = time_s;
+    }
+
+    std::string received() const {
+        std::string text = senders_.text(settings_.system);
+        if (text.empty()) {
+            text = parser_.counts().skipped_bytes > 0 ? "no MAVLink message" : "nothing";
+        }
+        text = "; received from " + peer_->name() + ": " + text;
+        const std::string other = peer_->ignored().sender;
+        if (other.empty()) return text;
+        const std::uint16_t port = settings_.peer.local_port;
+        return text + "; ignored from " + other + " [set --mavlink udp:" + other +
+               (port > 0 ? ":" + std::to_string(port) : "") + "]";
     }
 
     const Settings settings_;
@@ -289,19 +315,21 @@ class AutopilotLink::Work {
     std::uint8_t sequence_ = 0;
     bool is_stalled_ = false;
     std::optional<bool> knows_attitude_;
-    std::string trouble_;
+    double attitude_report_s_ = 0;
+    std::string trouble_, instead_;
 
     mutable std::mutex mutex_;  // guards all members below
     std::optional<SectorDistances> distances_;
     Directions directions_;  ///< sent last
     VehicleMotion motion_;
     mavlink::Parser parser_;
+    Senders senders_;
     float below_m_ = 0;
     double below_s_ = -std::numeric_limits<double>::infinity();
     std::size_t sent_distance_ = 0, sent_3d_ = 0, sent_below_ = 0, sent_heartbeat_ = 0;
     std::size_t all_unknown_ = 0, not_sent_ = 0, stalls_ = 0, troubles_ = 0;
     std::size_t out_of_memory_ = 0;
-    std::size_t attitudes_ = 0, places_ = 0, others_ = 0, foreign_ = 0, refused_ = 0;
+    std::size_t attitudes_ = 0, places_ = 0, others_ = 0, foreign_ = 0, refused_ = 0, ignored_ = 0;
 
     std::atomic<bool> is_at_end_ = false;
     std::atomic<const char*> state_ = "waiting";

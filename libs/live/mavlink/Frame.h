@@ -17,12 +17,13 @@ std::uint16_t checksum(const std::uint8_t* bytes, std::size_t size, std::uint16_
 /// nullopt for messages that are not in the dialects common and ardupilotmega.
 std::optional<std::uint8_t> crcExtra(std::uint32_t id);
 
-/// A MAVLink 2 message.
+/// A MAVLink message.
 struct Frame {
     static constexpr std::size_t kMaxPayload = 255;
     /// Size of header, payload, checksum and signature.
     static constexpr std::size_t kMaxLength = 10 + kMaxPayload + 2 + 13;
 
+    int version = 2;             ///< of MAVLink: 1 or 2
     std::uint8_t sequence = 0;   ///< message counter of the component, modulo 256
     std::uint8_t system = 0;     ///< ID of the sending vehicle
     std::uint8_t component = 0;  ///< ID of the sending component
@@ -32,8 +33,8 @@ struct Frame {
     bool is_signed = false;  ///< has a signature, which is not checked
 };
 
-/// The bytes of an unsigned frame on the wire, without trailing zeros in `payload_bytes`. Throws
-/// std::invalid_argument if crcExtra() has no value for the message.
+/// The bytes of an unsigned MAVLink 2 frame on the wire, without trailing zeros in `payload_bytes`.
+/// Throws std::invalid_argument if crcExtra() has no value for the message.
 std::vector<std::uint8_t> encode(const Frame& frame, std::size_t payload_bytes);
 
 /// Encodes the fields of a message (Messages.h) in a frame.

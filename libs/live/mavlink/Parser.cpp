@@ -27,21 +27,27 @@ std::size_t Parser::takeOne(std::size_t at, bool is_at_end, const Take& take) {
         ++count;
         return std::size_t{1};
     };
-    if (bytes[0] != kStart) return none(counts_.skipped_bytes);
+    const bool is_old = bytes[0] == kStart1;
+    if (bytes[0] != kStart && !is_old) return none(counts_.skipped_bytes);
     const std::size_t incomplete = is_at_end ? 1 : 0;
-    if (size < kHeaderBytes) {
+    const std::size_t header = is_old ? kHeaderBytes1 : kHeaderBytes;
+    if (size < header) {
         counts_.skipped_bytes += incomplete;
         return incomplete;
     }
     Frame frame;
-    frame.sequence = bytes[4];
-    frame.system = bytes[5];
-    frame.component = bytes[6];
-    frame.id = bytes[7] | std::uint32_t{bytes[8]} << 8 | std::uint32_t{bytes[9]} << 16;
-    frame.is_signed = (bytes[2] & kSigned) != 0;
+    const std::uint8_t flags = is_old ? 0 : bytes[2];
+    const std::uint8_t* const sent = bytes + (is_old ? 2 : 4);
+    frame.version = is_old ? 1 : 2;
+    frame.sequence = sent[0];
+    frame.system = sent[1];
+    frame.component = sent[2];
+    frame.id = sent[3];
+    if (!is_old) frame.id |= std::uint32_t{sent[4]} << 8 | std::uint32_t{sent[5]} << 16;
+    frame.is_signed = (flags & kSigned) != 0;
     const auto extra = crcExtra(frame.id);
     if (!extra) return none(counts_.skipped_bytes);
-    const std::size_t checked = kHeaderBytes + bytes[1];
+    const std::size_t checked = header + bytes[1];
     const std::size_t length =
         checked + kChecksumBytes + (frame.is_signed ? kSignatureBytes : std::size_t{0});
     if (size < length) {
@@ -53,12 +59,13 @@ std::size_t Parser::takeOne(std::size_t at, bool is_at_end, const Take& take) {
         ++counts_.bad_checksum;
         return none(counts_.skipped_bytes);
     }
-    if ((bytes[2] & ~kSigned) != 0) {
+    if ((flags & ~kSigned) != 0) {
         ++counts_.incompatible;
         return length;
     }
-    std::copy(bytes + kHeaderBytes, bytes + checked, frame.payload.begin());
+    std::copy(bytes + header, bytes + checked, frame.payload.begin());
     ++counts_.messages;
+    counts_.version_1 += is_old ? 1 : 0;
     counts_.is_signed += frame.is_signed ? 1 : 0;
     countLost(frame);
     take(frame);

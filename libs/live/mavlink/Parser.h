@@ -10,18 +10,19 @@
 
 namespace hagen::mavlink {
 
-/// Finds MAVLink 2 messages in a byte stream. A frame with a wrong checksum or an unknown message
-/// ID is skipped by one byte only, so that a message inside is not lost. Does not throw on invalid
-/// input.
+/// Finds MAVLink 1 and 2 messages in a byte stream. A frame with a wrong checksum or an unknown
+/// message ID is skipped by one byte only, so that a message inside is not lost. Does not throw on
+/// invalid input.
 class Parser {
  public:
     struct Counts {
         std::size_t messages = 0;
+        std::size_t version_1 = 0;      ///< messages of MAVLink 1
         std::size_t is_signed = 0;      ///< messages with a signature, which is not checked
         std::size_t lost = 0;           ///< messages missing from the components' sequences
         std::size_t bad_checksum = 0;   ///< frames with a wrong checksum
         std::size_t incompatible = 0;   ///< frames skipped because of unknown incompatibility flags
-        std::size_t skipped_bytes = 0;  ///< bytes outside messages, or of MAVLink 1
+        std::size_t skipped_bytes = 0;  ///< bytes outside messages
     };
     using Take = std::function<void(const Frame&)>;
 

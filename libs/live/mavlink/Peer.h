@@ -37,6 +37,12 @@ class Peer {
     virtual std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) = 0;
     /// Whether each receive() returns one datagram of complete messages.
     virtual bool hasDatagrams() const = 0;
+    /// Received datagrams from other addresses than the peer's.
+    struct Ignored {
+        std::size_t datagrams = 0;
+        std::string sender;  ///< address and port of the first
+    };
+    virtual Ignored ignored() const { return {}; }
     /// Host and port, or device.
     virtual std::string name() const = 0;
     /// The current error with the peer's name; empty if none.

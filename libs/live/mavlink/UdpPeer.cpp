@@ -1,3 +1,5 @@
+#include <hagen/sensors/Datagram.h>
+
 #include <arpa/inet.h>
 #include <netdb.h>
 #include <netinet/in.h>
@@ -16,9 +18,7 @@ namespace {
 // The send after a refused message reports the refusal. After this time without errors, the
 // connection is restored.
 constexpr std::chrono::milliseconds kRefusedFor{1000};
-// A connected socket keeps its local address. If no replies arrive, another interface may be right,
-// because it was down before or its address changed. Reconnects after this time.
-constexpr std::chrono::milliseconds kSilent{2000};
+constexpr int kMaxIgnored = 1000;  // datagrams at once; a flood must not delay sending
 
 class UdpPeer : public Peer {
  public:
@@ -40,44 +40,48 @@ class UdpPeer : public Peer {
         to_.sin_family = AF_INET;
         to_.sin_port = htons(address.port);
         to_.sin_addr = to_ip;
-        tryToConnect();
+        // 0.0.0.0 means this machine, which replies from 127.0.0.1.
+        if (to_ip.s_addr == INADDR_ANY) to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        // Reports refused messages. Connecting would, too, but would hide other senders.
+        const int yes = 1;
+        setsockopt(socket_, IPPROTO_IP, IP_RECVERR, &yes, sizeof yes);
     }
     ~UdpPeer() override { close(socket_); }
     UdpPeer(const UdpPeer&) = delete;
     UdpPeer& operator=(const UdpPeer&) = delete;
 
     bool send(const std::vector<std::uint8_t>& bytes) override {
-        if (is_connected_ && Clock::now() - heard_or_connected_ > kSilent) disconnect();
-        if (!is_connected_) tryToConnect();
-        if (!is_connected_) return false;
-        if (::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) return true;
-        note(errno);
-        // The error may belong to an earlier message, so this message is sent again.
-        return errno == ECONNREFUSED &&
-               ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0;
+        // An error may belong to an earlier message, so this message is sent again.
+        return sendOnce(bytes) || sendOnce(bytes);
     }
 
     std::size_t receive(std::uint8_t* buffer, std::size_t size, double longest_s) override {
         pollfd waits{socket_, POLLIN, 0};
         if (poll(&waits, 1, waitMs(longest_s)) <= 0) return 0;
-        sockaddr_in from{};
-        socklen_t from_size = sizeof from;
-        const ssize_t got = recvfrom(socket_, buffer, size, MSG_DONTWAIT,
-                                     reinterpret_cast<sockaddr*>(&from), &from_size);
-        if (got > 0) {
-            // Datagrams that were queued before the socket was connected may come from other
-            // senders.
-            if (from.sin_addr.s_addr != peer_.sin_addr.s_addr || from.sin_port != peer_.sin_port) {
+        for (int n = 0; n < kMaxIgnored; ++n) {
+            sockaddr_in from{};
+            socklen_t from_size = sizeof from;
+            const ssize_t got = recvfrom(socket_, buffer, size, MSG_DONTWAIT,
+                                         reinterpret_cast<sockaddr*>(&from), &from_size);
+            if (got < 0) {
+                note(errno);
+                // poll() does not wait while the queue of errors has entries.
+                while (recv(socket_, nullptr, 0, MSG_ERRQUEUE | MSG_DONTWAIT) >= 0) {
+                }
                 return 0;
             }
-            error_ = 0;
-            heard_or_connected_ = Clock::now();
-            return static_cast<std::size_t>(got);
+            if (from.sin_addr.s_addr == to_.sin_addr.s_addr && from.sin_port == to_.sin_port) {
+                error_ = 0;
+                return static_cast<std::size_t>(got);
+            }
+            if (ignored_.datagrams++ > 0) continue;
+            ignored_.sender = sensors::ipText(ntohl(from.sin_addr.s_addr)) + ":" +
+                              std::to_string(ntohs(from.sin_port));
         }
-        if (got < 0) note(errno);
         return 0;
     }
 
+    Ignored ignored() const override { return ignored_; }
     bool hasDatagrams() const override { return true; }
     std::string name() const override { return name_; }
 
@@ -102,26 +106,11 @@ class UdpPeer : public Peer {
         freeaddrinfo(found);
         return ip;
     }
-    /// Tries to connect, which fails while the network is down.
-    void tryToConnect() {
-        is_connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&to_), sizeof to_) == 0;
-        if (!is_connected_) note(errno);
-        socklen_t size = sizeof peer_;
-        // May differ from `to_`, because 0.0.0.0 means this machine.
-        if (getpeername(socket_, reinterpret_cast<sockaddr*>(&peer_), &size) != 0) peer_ = {};
-        heard_or_connected_ = Clock::now();
-    }
-    /// Disconnects, but keeps the local port, which the peer replies to.
-    void disconnect() {
-        sockaddr_in own{}, none{};
-        socklen_t size = sizeof own;
-        getsockname(socket_, reinterpret_cast<sockaddr*>(&own), &size);
-        none.sin_family = AF_UNSPEC;
-        if (connect(socket_, reinterpret_cast<const sockaddr*>(&none), sizeof none) != 0) return;
-        is_connected_ = false;
-        own.sin_addr.s_addr = INADDR_ANY;
-        // bind() fails harmlessly if the port is still bound.
-        static_cast<void>(bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own));
+    bool sendOnce(const std::vector<std::uint8_t>& bytes) {
+        const bool is_sent = sendto(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL,
+                                    reinterpret_cast<const sockaddr*>(&to_), sizeof to_) >= 0;
+        if (!is_sent) note(errno);
+        return is_sent;
     }
     void note(int error) {
         if (error == EAGAIN || error == EINTR) return;
@@ -130,10 +119,10 @@ class UdpPeer : public Peer {
     }
 
     std::string name_;
-    sockaddr_in to_{}, peer_{};  ///< requested address, and last connected address
+    sockaddr_in to_{};
     int socket_ = -1, error_ = 0;
-    bool is_connected_ = false;
-    Clock::time_point error_time_, heard_or_connected_;
+    Clock::time_point error_time_;
+    Ignored ignored_;
 };
 
 }  // namespace

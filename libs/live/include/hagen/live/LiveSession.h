@@ -10,10 +10,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,8 +32,9 @@ struct LiveOptions {
     std::filesystem::path stats;  ///< JSON file, or empty
     bool overwrite = false;       ///< replaces an existing `stats` file
     double duration_s = std::numeric_limits<double>::infinity();
-    std::filesystem::path sensor_json;  ///< Ouster metadata; requires an empty `model`
-    std::filesystem::path replay;       ///< the capture being replayed, or empty
+    std::filesystem::path sensor_json;     ///< Ouster metadata; requires an empty `model`
+    std::filesystem::path replay;          ///< the capture being replayed, or empty
+    std::optional<sensors::IpAddress> from_ip;  ///< the sensor's; by default, that of the first packet
 };
 
 /// Session statistics; packet counts come from the driver. Data packets from other addresses are
@@ -86,7 +89,7 @@ struct LiveListener {
     std::function<bool()> keep_going = [] { return true; };
 };
 
-/// The sensor's name in messages: "a VLP-16" or "the Ouster of FILE".
+/// The sensor's name in messages: "a VLP-16 at 10.0.0.101" or "the Ouster of FILE".
 std::string sensorName(const LiveOptions& options);
 
 /// Labels the packets of a source until the source ends, the duration is over or the listener ends

@@ -16,6 +16,8 @@ struct Address {
 
     bool isMulticast() const { return (ip >> 28) == 0xe; }
 };
+/// Parses "192.168.1.201"; nullopt for other texts.
+std::optional<std::uint32_t> ipFrom(const std::string& text);
 /// Parses "192.168.1.77:2368" or "0.0.0.0:2368". Throws std::runtime_error describing the error.
 Address parseAddress(const std::string& text);
 
