@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/mrpt/MappedScan.h>
 #include <hagen/filter/ResultCheck.h>
+#include <hagen/mrpt/MappedScan.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <hagen/recordings/ScanSource.h>
 #include <hagen/settings/Settings.h>

@@ -58,7 +58,7 @@ struct TrialMeasurement {
 
 /// One planning step, for replays; valid during the call.
 struct TrialStep {
-    double time_s;  ///< when the command is issued
+    double time_s;                         ///< when the command is issued
     const observations::MappedScan& scan;  ///< the scan used for planning
     const WorldModel& world;
     const Carrot& carrot;

@@ -32,9 +32,10 @@ struct LiveOptions {
     std::filesystem::path stats;  ///< JSON file, or empty
     bool overwrite = false;       ///< replaces an existing `stats` file
     double duration_s = std::numeric_limits<double>::infinity();
-    std::filesystem::path sensor_json;     ///< Ouster metadata; requires an empty `model`
-    std::filesystem::path replay;          ///< the capture being replayed, or empty
-    std::optional<sensors::IpAddress> from_ip;  ///< the sensor's; by default, that of the first packet
+    std::filesystem::path sensor_json;  ///< Ouster metadata; requires an empty `model`
+    std::filesystem::path replay;       ///< the capture being replayed, or empty
+    std::optional<sensors::IpAddress>
+        from_ip;  ///< the sensor's; by default, that of the first packet
 };
 
 /// Session statistics; packet counts come from the driver. Data packets from other addresses are
