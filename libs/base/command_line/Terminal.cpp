@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <streambuf>
 #include <string>
@@ -11,12 +12,39 @@
 namespace hagen::base {
 namespace {
 
-bool isControl(char c) { return (c >= 0 && c < 0x20) || c == 0x7f; }
+/// Length of the UTF-8 character at this position; 1 if the bytes are not valid UTF-8.
+std::size_t bytesOfCharacter(const std::string& text, std::size_t at) {
+    const auto first = static_cast<unsigned char>(text[at]);
+    const std::size_t bytes = first < 0xc2 || first > 0xf4 ? 1
+                              : first < 0xe0               ? 2
+                              : first < 0xf0               ? 3
+                                                           : 4;
+    for (std::size_t i = 1; i < bytes; ++i) {
+        if (at + i >= text.size() || (text[at + i] & 0xc0) != 0x80) return 1;
+    }
+    return bytes;
+}
+
+/// True for control characters, which send commands to a terminal (on some, even single bytes from
+/// 0x80 up), and for bidirectional marks, which can disguise messages.
+bool isHarmful(const std::string& text, std::size_t at, std::size_t bytes) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
+    if (bytes == 1) {
+        return (byte(0) < 0x20 && text[at] != '\n' && text[at] != '\t') || byte(0) >= 0x7f;
+    }
+    if (bytes == 2) return byte(0) == 0xc2 && byte(1) < 0xa0;  // U+0080 to U+009F
+    const std::uint32_t code = byte(0) == 0xe2 ? byte(1) << 8 | byte(2) : 0;
+    return code == 0x808e || code == 0x808f ||    // U+200E, U+200F
+           (code >= 0x80a8 && code <= 0x80ae) ||  // U+2028 to U+202E
+           (code >= 0x81a6 && code <= 0x81a9);    // U+2066 to U+2069
+}
 
 std::string printable(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return isControl(c) && c != '\n' && c != '\t'; },
-        '?');
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t bytes = bytesOfCharacter(text, at);
+        if (isHarmful(text, at, bytes)) text.replace(at, bytes, bytes, '?');
+        at += bytes;
+    }
     return text;
 }
 
@@ -55,7 +83,8 @@ void keepTerminalSafe() {
 }
 
 std::string oneLine(std::string message) {
-    std::replace_if(message.begin(), message.end(), isControl, '?');
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    std::replace_if(message.begin(), message.end(), is_control, '?');
     return message;
 }
 
@@ -78,9 +107,7 @@ std::string lineOf(const std::vector<std::string>& parts, std::size_t columns) {
     std::size_t used = 0;
     for (const std::string& part : parts) {
         const std::string text = (line.empty() ? "" : " | ") + part;
-        // Counts the first byte of each UTF-8 character.
-        used += static_cast<std::size_t>(
-            std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+        for (std::size_t at = 0; at < text.size(); at += bytesOfCharacter(text, at)) ++used;
         // Some terminals wrap after the last column.
         if (used < columns) {
             line += text;
