@@ -25,15 +25,10 @@ constexpr Magic kMagics[] = {
     {4, "ftyp"sv, "a video (MP4)", ""},
     {0, "%PDF"sv, "a PDF document", ""},
     {0, "PK\3\4"sv, "a ZIP archive", "unpack it first (an .npz holds .npy files)"},
-    {0, "7z\xbc\xaf\x27\x1c"sv, "a 7z archive", kUnpack},
-    {0, "Rar!"sv, "a RAR archive", kUnpack},
     {257, "ustar"sv, "a tar archive", kUnpack},
     {0, "\x1f\x8b"sv, "gzip-compressed", kUnpack},
     {0, "\x28\xb5\x2f\xfd"sv, "zstd-compressed", kUnpack},
-    {0,
-     "\xfd"
-     "7zXZ"sv,
-     "xz-compressed", kUnpack},
+    {0, "\3757zXZ"sv, "xz-compressed", kUnpack},
     {0, "BZh"sv, "bzip2-compressed", kUnpack},
     {0, "\x89HDF"sv, "an HDF5 file", kConvert},
     {0, "ASTM-E57"sv, "an E57 point cloud file", kConvert},
@@ -44,60 +39,14 @@ constexpr Magic kMagics[] = {
     {0, "#ROSBAG"sv, "a ROS 1 bag", "pass it with -i"},
     {0, "\x89MCAP"sv, "an MCAP file", "pass it with -i"},
     {0, "\xd4\xc3\xb2\xa1"sv, "a network capture", "pass it with -i"},
-    {0, "\x4d\x3c\xb2\xa1"sv, "a network capture", "pass it with -i"},
     {0, "\x0a\x0d\x0d\x0a"sv, "a network capture", "pass it with -i"},
-};
-
-/// Text formats, detected by their first characters after white space.
-constexpr Magic kTexts[] = {
     {0, "version https://git-lfs"sv, "a Git LFS pointer, not the file itself",
      "fetch it with 'git lfs pull'"},
     {0, "<!DOCTYPE"sv, "a web page (HTML)", "did its download fail?"},
-    {0, "<!doctype"sv, "a web page (HTML)", "did its download fail?"},
     {0, "<html"sv, "a web page (HTML)", "did its download fail?"},
-    {0, "<?xml"sv, "XML", ""},
     {0, "{"sv, "text (JSON)",
      "if it is Ouster metadata, pass it with --sensor-json and the capture with -i"},
-    {0, "%YAML"sv, "text (YAML)", "pass settings with -c, and a bag's folder with -i"},
 };
-
-bool hasAt(std::string_view bytes, std::size_t at, std::string_view part) {
-    return bytes.size() >= at + part.size() && bytes.substr(at, part.size()) == part;
-}
-
-/// True if the bytes are concatenated Velodyne data packets.
-bool areVelodynePackets(std::string_view bytes) {
-    constexpr std::size_t kPacket = 1206, kBlock = 100, kBlocks = 12;
-    if (bytes.size() < kPacket) return false;
-    for (std::size_t packet = 0; packet + kPacket <= bytes.size(); packet += kPacket) {
-        for (std::size_t block = 0; block < kBlocks; ++block) {
-            // 0xddff marks the lower lasers of an HDL-64E.
-            const std::string_view flag = bytes.substr(packet + block * kBlock, 2);
-            if (flag != "\xff\xee"sv && flag != "\xff\xdd"sv) return false;
-        }
-    }
-    return true;
-}
-
-bool areNumbers(std::string_view text) {
-    return text.find_first_of("0123456789") != std::string_view::npos &&
-           text.find_first_not_of("0123456789+-.eEnaifNAIF \t,;\r\n") == std::string_view::npos;
-}
-
-FileKind kindOfText(std::string_view text) {
-    if (hasAt(text, 0, "\xef\xbb\xbf"sv)) text.remove_prefix(3);  // byte-order mark
-    text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t\r\n")));
-    for (const Magic& kind : kTexts) {
-        if (hasAt(text, 0, kind.bytes)) return {kind.what, kind.advice};
-    }
-    const std::string_view below_header = text.substr(std::min(text.size(), text.find('\n')));
-    if (areNumbers(text) || areNumbers(below_header)) {
-        return {"a table of numbers",
-                "if it has a point per line, convert it to PCD, PLY, LAS or NPY; pass poses with "
-                "--poses"};
-    }
-    return {"text", ""};
-}
 
 }  // namespace
 
@@ -120,13 +69,14 @@ bool isText(std::string_view bytes) {
 
 FileKind kindOfBytes(std::string_view start) {
     for (const Magic& kind : kMagics) {
-        if (hasAt(start, kind.at, kind.bytes)) return {kind.what, kind.advice};
+        if (start.substr(std::min(kind.at, start.size()), kind.bytes.size()) == kind.bytes) {
+            return {kind.what, kind.advice};
+        }
     }
-    if (areVelodynePackets(start)) {
-        return {"Velodyne data packets without capture headers",
-                "record a .pcap with Wireshark or tcpdump instead"};
-    }
-    return isText(start) ? kindOfText(start) : FileKind();
+    if (!isText(start)) return {};
+    return {"text",
+            "if it has a point per line, convert it to PCD, PLY, LAS or NPY; pass poses with "
+            "--poses"};
 }
 
 FileKind kindOfFile(const std::filesystem::path& file) {

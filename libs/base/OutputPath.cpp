@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <random>
 #include <regex>
 #include <stdexcept>
@@ -105,24 +106,12 @@ void flushToDisk(const fs::path& path, const fs::path& named) {
     if (error != 0 && error != EINVAL) throwWriteError(named, error);
 }
 
-bool isNumber(const std::string& text) {
-    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-}
-
-/// Returns the part of a name between `start` and `end`; empty if the name does not match.
-std::string between(const std::string& start, const std::string& name, const std::string& end) {
-    const bool is_such =
-        name.size() > start.size() + end.size() && name.rfind(start, 0) == 0 && endsWith(name, end);
-    return is_such ? name.substr(start.size(), name.size() - start.size() - end.size()) : "";
-}
-
 /// True for a temporary file of a process that has ended.
 bool isLeftBehind(const fs::path& file, const std::string& output) {
-    const std::string rest = between(output + kTemporaryMark, file.filename().string(), "");
-    const std::string process = rest.substr(0, rest.find('-'));
-    if (!isNumber(process) || process.size() > 9) return false;
+    const std::string name = file.filename().string(), start = output + kTemporaryMark;
+    if (name.rfind(start, 0) != 0) return false;
+    const int number = std::atoi(name.c_str() + start.size());
     // Runs in containers may all have the same process ID.
-    const int number = std::stoi(process);
     return number == getpid() || (kill(number, 0) != 0 && errno == ESRCH);
 }
 
@@ -251,9 +240,9 @@ std::vector<fs::path> partialOutputs(const fs::path& output) {
     std::error_code unreadable;
     for (const fs::path& entry : entriesOf(parentOf(path), unreadable)) {
         const std::string name = entry.filename().string();
-        const std::string number = between(stem + ".partial-", name, extension);
-        if (name == stem + ".partial" + extension || isNumber(number) ||
-            isLeftBehind(entry, path.filename().string())) {
+        const bool is_partial =
+            name.rfind(stem + ".partial", 0) == 0 && (is_folder || entry.extension() == extension);
+        if (is_partial || isLeftBehind(entry, path.filename().string())) {
             found.push_back(path.parent_path() / name);
         }
     }

@@ -17,11 +17,7 @@ std::optional<RecordedEntry> CaptureSource::nextEntry() {
         checkInterruption();
         const auto turn = capture_->nextScan();
         is_read_to_end_ = turn == nullptr;
-        if (!turn) {
-            const std::string missed = missedAhead(turns_ + 1);
-            if (!missed.empty()) throw sensors::BrokenCapture(missed);
-            return std::nullopt;
-        }
+        if (!turn) return endAfter(turns_ + 1);
         RecordedEntry entry;
         entry.number = turns_++;
         if (skips(entry.number)) continue;
@@ -30,9 +26,7 @@ std::optional<RecordedEntry> CaptureSource::nextEntry() {
         addIfScan(turn, "", entry);
         return entry;
     }
-    const std::string missed = missedAhead(turns_);
-    if (!missed.empty()) throw sensors::BrokenCapture(missed);
-    return std::nullopt;
+    return endAfter(turns_);
 }
 
 RawlogSurvey CaptureSource::survey() {

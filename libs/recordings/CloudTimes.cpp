@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <regex>
 #include <set>
 #include <string_view>
 
@@ -13,15 +14,6 @@ namespace hagen::recordings {
 namespace {
 
 constexpr double kPeriod_s = 0.1;
-
-std::size_t digitsAtEnd(std::string_view text) {
-    std::size_t digits = 0;
-    while (digits < text.size() && text[text.size() - 1 - digits] >= '0' &&
-           text[text.size() - 1 - digits] <= '9') {
-        ++digits;
-    }
-    return digits;
-}
 
 /// The number in a name: one group of digits, or two groups separated by a '.' or '_'.
 struct NameNumber {
@@ -37,23 +29,23 @@ bool areUnixSeconds(std::string_view digits) {
     return digits.size() == kDigitsOfSeconds && digits[0] != '0';
 }
 
-NameNumber numberIn(std::string_view name) {
-    NameNumber number;
-    number.whole = name.substr(name.size() - digitsAtEnd(name));
-    name.remove_suffix(number.whole.size());
-    number.is_whole_name = name.empty();
-    if (number.whole.empty() || name.empty() || (name.back() != '.' && name.back() != '_')) {
-        return number;
-    }
-    const char mark = name.back();
-    name.remove_suffix(1);
-    const std::string_view first = name.substr(name.size() - digitsAtEnd(name));
-    const std::size_t digits = number.whole.size();
+NameNumber numberIn(const std::string& name) {
+    static const std::regex kForm("([0-9]+)(?:([._])([0-9]+))?$");
+    std::smatch match;
+    if (!std::regex_search(name, match, kForm)) return {};
+    const auto group = [&](int i) {
+        return std::string_view(name).substr(static_cast<std::size_t>(match.position(i)),
+                                             static_cast<std::size_t>(match.length(i)));
+    };
+    const bool is_whole_name = match.position() == 0;
+    if (!match[2].matched) return {group(1), {}, '\0', is_whole_name};
+    const std::size_t digits = group(3).size();
     const bool are_nanoseconds = digits == kDigitsOfNanoseconds
-                                     ? first.size() >= kDigitsOfNanoseconds
-                                     : digits < kDigitsOfNanoseconds && areUnixSeconds(first);
-    if (first.empty() || (mark == '_' && !are_nanoseconds)) return number;
-    return {first, number.whole, mark, first.size() == name.size()};
+                                     ? group(1).size() >= kDigitsOfNanoseconds
+                                     : digits < kDigitsOfNanoseconds && areUnixSeconds(group(1));
+    const char mark = group(2)[0];
+    if (mark == '_' && !are_nanoseconds) return {group(3), {}, '\0', false};
+    return {group(1), group(3), mark, is_whole_name};
 }
 
 double valueOf(const NameNumber& number) {
@@ -116,9 +108,9 @@ std::vector<std::size_t> orderOfNames(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         const NameNumber number = numberIn(name);
         numbers.push_back(are_times ? *timeIn(number) : valueOf(number));
+        if (numbers.back() < 0) return order;
         before.insert(std::string_view(name).substr(
             0, static_cast<std::size_t>(number.whole.data() - name.data())));
-        if (numbers.back() < 0) return order;
     }
     if (before.size() > 1) return order;
     std::stable_sort(order.begin(), order.end(),

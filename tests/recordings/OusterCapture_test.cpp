@@ -142,7 +142,7 @@ TEST_F(OusterCaptureTest, ReportsOtherFusaSensor) {
     const std::string bytes = captureOf(packetsOfFrames(sensor, 2)).bytes();
     json_ = folder_.write("other.json", test::ousterJson("FUSA_RNG15_RFL8_NIR8_DUAL", "123"));
     EXPECT_TRUE(read(bytes).empty());
-    EXPECT_THAT(broken_, HasSubstr("8 packets from the sensor with serial number 992137000142"));
+    EXPECT_THAT(broken_, HasSubstr("8 packets from another sensor (serial number 992137000142)"));
 }
 
 TEST_F(OusterCaptureTest, FirstColumnLooksForward) {
@@ -236,8 +236,8 @@ TEST_F(OusterCaptureTest, CountsIgnoredDatagrams) {
     EXPECT_THAT(remarks_[0],
                 HasSubstr("1 column missing, 1 column with an invalid number, dropped"));
     EXPECT_EQ(remarks_[1],
-              "7 frames; ignored: 1 IMU packet, 1 packet from the sensor with serial number "
-              "992137000143, 1 other UDP datagram (most: 1 of 5 bytes to port 7502)");
+              "7 frames; ignored: 1 IMU packet, 1 packet from another sensor (serial "
+              "number 992137000143), 1 other UDP datagram (most: 1 of 5 bytes to port 7502)");
 }
 
 TEST_F(OusterCaptureTest, ReportsMetadataFromOtherSensor) {
@@ -247,7 +247,7 @@ TEST_F(OusterCaptureTest, ReportsMetadataFromOtherSensor) {
     EXPECT_TRUE(read(bytes).empty());
     EXPECT_THAT(broken_,
                 HasSubstr("a.pcap: has no packets from the OS-0-32-U1 with serial number 123 in "));
-    EXPECT_THAT(broken_, HasSubstr("8 packets from the sensor with serial number 992137000142"));
+    EXPECT_THAT(broken_, HasSubstr("8 packets from another sensor (serial number 992137000142)"));
     json_ = folder_.write("other.json", test::ousterJson("RNG15_RFL8_NIR8"));
     EXPECT_TRUE(read(bytes).empty());
     EXPECT_THAT(broken_,

@@ -133,7 +133,6 @@ TEST_F(Rawlog, IgnoresTrailingZeros) {
         while (reader.next()) {
         }
         EXPECT_EQ(reader.entries(), 20u);
-        EXPECT_EQ(reader.fractionRead(), 1.0);
     }
     RawlogReader other(folder_.write("other.rawlog", log + std::string(512, '\0') + "x"));
     EXPECT_THROW(while (other.next()){}, BrokenRecording);
@@ -265,7 +264,7 @@ TEST_F(Rawlog, RejectsCountBeyondFile) {
     convert::serialise(comment(std::string(1000, 'x')), bytes);
     std::string text(bytes.begin(), bytes.end());
     const std::size_t count = text.find("xxx") - 4;
-    for (const std::uint32_t wrong : {400'000'000u, 3'900'000'000u}) {
+    for (const std::uint32_t wrong : {1'400'000'000u, 3'900'000'000u}) {
         text.replace(count, 4, reinterpret_cast<const char*>(&wrong), 4);
         const auto [entries, why] = readLog(folder_.write("a.rawlog", text));
         EXPECT_EQ(entries, 1u);

@@ -160,7 +160,7 @@ TEST_F(ScanFolderTest, RejectsOtherFiles) {
     Scan scan;
     const auto picture = folder_.write("a.bin", "\xff\xd8\xff\xe0" + std::string(28, '\xee'));
     EXPECT_THAT(test::messageOf([&] { readScan(picture, scan); }),
-                HasSubstr("a.bin: is not a KITTI scan: it seems to be a JPEG picture"));
+                HasSubstr("a.bin: is not a point cloud: it seems to be a JPEG picture"));
     // Valid points that exceed the range of a LiDAR.
     Scan far;
     for (auto* numbers : {&far.x_m, &far.y_m, &far.z_m, &far.intensity}) *numbers = {1e5f, 2e5f};

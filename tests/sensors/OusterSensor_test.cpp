@@ -146,7 +146,7 @@ TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
     EXPECT_THAT(test::messageOf([&] { read("[1, 2]"); }),
                 HasSubstr("is this file Ouster metadata"));
     EXPECT_THAT(test::messageOf([&] { read(std::string(2000000, ' ')); }),
-                HasSubstr("larger than 1 MB"));
+                HasSubstr("larger than 1 M"));
     EXPECT_THAT(test::messageOf([&] { read(std::string(500000, '[')); }),
                 HasSubstr("nested too deeply"));
     EXPECT_THAT(test::messageOf([&] {
@@ -175,14 +175,11 @@ TEST_F(OusterSensorTest, ReportsMissingOrWrongKeys) {
                     HasSubstr("'lidar_to_sensor_transform' rotates about other axes than z"));
     }
     EXPECT_THAT(messageWith("[40.0", "[\"up\""),
-                HasSubstr("sensor.json: not Ouster metadata: 'beam_altitude_angles': "
-                          "expected numbers, not: \"up\""));
-    EXPECT_THAT(messageWith("\"OS-0-32-U1\"", "7"),
-                HasSubstr("'prod_line': expected text, not: 7"));
+                HasSubstr("sensor.json: not Ouster metadata: 'beam_altitude_angles': "));
+    EXPECT_THAT(messageWith("\"OS-0-32-U1\"", "7"), HasSubstr("'prod_line': "));
     EXPECT_THAT(messageWith("\"pixels_per_column\": 4", "\"pixels_per_column\": 4.5"),
-                HasSubstr("'pixels_per_column': expected an integer of at least 0, not: 4.5"));
-    EXPECT_THAT(messageWith("27.67", "\"far\""),
-                HasSubstr("'lidar_origin_to_beam_origin_mm': expected a number"));
+                HasSubstr("'pixels_per_column' is 4.5, not 3 ... 256"));
+    EXPECT_THAT(messageWith("27.67", "\"far\""), HasSubstr("'lidar_origin_to_beam_origin_mm': "));
     EXPECT_THAT(messageWith("\"prod_sn\"", "prod_sn"),
                 HasSubstr("sensor.json: not Ouster metadata: is not valid JSON: "
                           "parse error at line 1, column 29: "));

@@ -449,7 +449,7 @@ TEST_F(SettingsTest, RejectsInvalidAirframeParts) {
     EXPECT_THAT(refused("box: 3"), HasSubstr("airframe.box must contain low_m and high_m"));
     EXPECT_THAT(refused("box: {low_m: [0, 0, 0]}"), HasSubstr("low_m and high_m"));
     EXPECT_THAT(refused("box: {low_m: [0, 0, 0], hihg_m: [1, 1, 1]}"), HasSubstr("'high_m'"));
-    EXPECT_THAT(refused("box: {low_m: [0, 0, 0], low_m: [0, 0, 0]}"), HasSubstr("twice"));
+    EXPECT_THAT(refused("box: {low_m: [0, 0, 0], low_m: [0, 0, 0]}"), HasSubstr("once"));
     EXPECT_THAT(refused("box: {low_m: [0, 0], high_m: [1, 1, 1]}"), HasSubstr("[x, y, z]"));
     EXPECT_THAT(refused("box: {low_m: [0, 0, 2], high_m: [1, 1, 1]}"), HasSubstr("below"));
     EXPECT_THAT(refused("box: {low_m: [0, 0, 1], high_m: [1, 1, 1]}"), HasSubstr("below"));

@@ -69,15 +69,6 @@ bool isOfBag(const fs::path& file) {
     return ending == ".mcap" || ending == ".db3";
 }
 
-/// True if a file in a bag's folder may be a recording: it is not text.
-bool mayBeRecording(const fs::path& file) {
-    static const std::set<std::string> kTexts{".yaml", ".yml", ".json", ".txt",    ".md", ".csv",
-                                              ".tum",  ".log", ".xml",  ".launch", ".sh", ".rviz"};
-    const std::string name = file.filename().string();
-    return fs::is_regular_file(file) && !isOfBag(file) && name[0] != '.' &&
-           name.find(".db3-") == std::string::npos && kTexts.count(file.extension().string()) == 0;
-}
-
 std::vector<fs::path> foundFiles(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const fs::path& file : base::entriesOf(folder)) {
@@ -88,17 +79,6 @@ std::vector<fs::path> foundFiles(const fs::path& folder) {
         return a.filename().string().size() < b.filename().string().size();
     });
     return files;
-}
-
-/// Such as "'a_1.mcap', 'a_2.mcap' and 3 more".
-std::string textOfNames(const std::vector<fs::path>& files) {
-    constexpr std::size_t kMax = 5;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(kMax, files.size()); ++i) {
-        text += (i == 0 ? "'" : ", '") + files[i].filename().string() + "'";
-    }
-    if (files.size() > kMax) text += " and " + std::to_string(files.size() - kMax) + " more";
-    return text;
 }
 
 class BagFolder : public BagFile {
@@ -117,13 +97,6 @@ class BagFolder : public BagFile {
             remarks_.push_back(std::string(kMetadata) + " is ignored (" + metadata.why_none +
                                "): the .mcap and .db3 files of the folder are read in the order "
                                "of their numbers");
-        }
-        std::vector<fs::path> others = base::entriesOf(folder);
-        others.erase(std::remove_if(others.begin(), others.end(),
-                                    [](const fs::path& file) { return !mayBeRecording(file); }),
-                     others.end());
-        if (!others.empty()) {
-            remarks_.push_back("ignored other files in the folder: " + textOfNames(others));
         }
         for (const fs::path& file : files_) {
             bytes_before_.push_back(bytes_);
@@ -161,25 +134,20 @@ class BagFolder : public BagFile {
     std::vector<std::string> remarks() const override { return remarks_; }
 
  private:
-    /// Reads each listed file once. Reports duplicates and unlisted files.
+    /// Reads each listed file once. Reports unlisted files.
     void useList(const fs::path& folder, const std::vector<fs::path>& listed) {
         std::set<fs::path> known;
-        std::vector<fs::path> repeated, unlisted;
         for (const fs::path& file : listed) {
-            (known.insert(file).second ? files_ : repeated).push_back(file);
+            if (known.insert(file).second) files_.push_back(file);
         }
+        std::string unlisted;
         for (const fs::path& file : foundFiles(folder)) {
-            if (known.count(file) == 0) unlisted.push_back(file);
+            if (known.count(file) == 0) unlisted += " '" + file.filename().string() + "'";
         }
-        if (!repeated.empty()) {
-            remarks_.push_back(std::string(kMetadata) + " lists files repeatedly: " +
-                               textOfNames(repeated) + "; each is read once");
-        }
-        if (!unlisted.empty()) {
-            remarks_.push_back(std::string(kMetadata) +
-                               " does not list all files in the folder: " + textOfNames(unlisted) +
-                               " are ignored ('ros2 bag reindex' creates a new list)");
-        }
+        if (unlisted.empty()) return;
+        remarks_.push_back(std::string(kMetadata) +
+                           " does not list all files in the folder; ignored:" + unlisted +
+                           " ('ros2 bag reindex' creates a new list)");
     }
 
     void openFile() {

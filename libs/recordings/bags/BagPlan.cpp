@@ -68,7 +68,6 @@ class Planner {
         : file_(file), survey_(survey), options_(options), frames_(survey.frames) {}
 
     BagPlan plan() && {
-        if (options_.topics.empty()) checkNumberOfLidars();
         choosePoses();
         if (options_.topics.empty()) {
             chooseAll();
@@ -85,15 +84,6 @@ class Planner {
         const std::string& broken = survey_.broken_because;
         throw std::runtime_error(file_.string() + ": " + why +
                                  (broken.empty() ? "" : "; it is only partly readable: " + broken));
-    }
-
-    void checkNumberOfLidars() const {
-        const auto lidars = std::count_if(
-            survey_.topics.begin(), survey_.topics.end(),
-            [](const Topic& topic) { return topic.kind != LidarKind::None && topic.messages > 0; });
-        if (static_cast<std::size_t>(lidars) <= kMaxLidarTopics) return;
-        fail("has " + std::to_string(lidars) + " LiDAR topics, more than " +
-             std::to_string(kMaxLidarTopics) + "; select topics with --topic");
     }
 
     static std::string textOfKnownTypes() {

@@ -46,8 +46,6 @@ struct BagPlan {
     std::vector<std::string> remarks;  ///< topics that are not read, and why
 };
 
-constexpr std::size_t kMaxLidarTopics = 100;  ///< max. number of LiDAR topics if none are selected
-
 /// Plans what to read.
 ///
 /// Without BagOptions::topics, reads every LiDAR topic except clouds of a sensor that also sent
@@ -66,8 +64,8 @@ constexpr std::size_t kMaxLidarTopics = 100;  ///< max. number of LiDAR topics i
 /// to that frame, the poses are used as sensor poses, with a remark.
 ///
 /// Throws std::runtime_error naming the file if a requested topic is missing or is not a LiDAR
-/// topic, if the bag has no LiDAR topic, if it has more than kMaxLidarTopics and none are
-/// requested, or if Ouster metadata are missing or invalid. `survey` must outlive the plan.
+/// topic, if the bag has no LiDAR topic, or if Ouster metadata are missing or invalid. `survey`
+/// must outlive the plan.
 BagPlan planOf(const std::filesystem::path& file, const BagSurvey& survey,
                const BagOptions& options);
 

@@ -13,8 +13,6 @@
 #endif
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
 #include <deque>
 #include <iterator>
 #include <optional>
@@ -44,8 +42,7 @@ struct TopicState {
     std::optional<sensors::VelodyneTurns> turns;
     std::unique_ptr<sensors::OusterFrames> frames;
     std::unique_ptr<sensors::SweepReader> sweeps;  ///< Hesai
-    std::size_t hdl64_packets = 0, other_packets = 0, imu_packets = 0;
-    std::map<unsigned, std::size_t> unknown_ids;
+    std::map<std::string, std::size_t> skipped;    ///< packets by reason
 };
 
 /// Records which parts of a table are not used.
@@ -64,26 +61,26 @@ void addLivoxPoint(const LivoxPoint& point, Scan& scan) {
     scan.time_s.push_back(1e-9f * static_cast<float>(point.since_ns));
 }
 
-PointTable livoxTableOf(const std::vector<LivoxPoint>& points) {
+template <class Number>
+void addLivoxColumn(const char* name, NumberType type, const std::vector<LivoxPoint>& points,
+                    Number LivoxPoint::*number, PointTable& table) {
+    std::vector<double> numbers;
+    for (const LivoxPoint& point : points) numbers.push_back(static_cast<double>(point.*number));
+    addColumn(name, type, numbers, table);
+}
+
+PointTable livoxTableOf(const std::vector<LivoxPoint>& points, bool has_returns) {
     PointTable table;
-    table.fields = {
-        {"x", NumberType::Float32, 0, 1},           {"y", NumberType::Float32, 4, 1},
-        {"z", NumberType::Float32, 8, 1},           {"offset_time", NumberType::UInt32, 12, 1},
-        {"reflectivity", NumberType::UInt8, 16, 1}, {"tag", NumberType::UInt8, 17, 1},
-        {"line", NumberType::UInt8, 18, 1}};
-    table.bytes_per_point = 19;
-    for (const LivoxPoint& point : points) {
-        const std::size_t at = table.bytes.size();
-        table.bytes.resize(at + table.bytes_per_point);
-        std::memcpy(&table.bytes[at], &point.x_m, 4);
-        std::memcpy(&table.bytes[at + 4], &point.y_m, 4);
-        std::memcpy(&table.bytes[at + 8], &point.z_m, 4);
-        std::memcpy(&table.bytes[at + 12], &point.since_ns, 4);
-        table.bytes[at + 16] = point.reflectivity;
-        table.bytes[at + 17] = point.tag;
-        table.bytes[at + 18] = point.line;
-        ++table.points;
+    table.points = points.size();
+    if (has_returns) {
+        addLivoxColumn("x", NumberType::Float32, points, &LivoxPoint::x_m, table);
+        addLivoxColumn("y", NumberType::Float32, points, &LivoxPoint::y_m, table);
+        addLivoxColumn("z", NumberType::Float32, points, &LivoxPoint::z_m, table);
+        addLivoxColumn("offset_time", NumberType::UInt32, points, &LivoxPoint::since_ns, table);
+        addLivoxColumn("reflectivity", NumberType::UInt8, points, &LivoxPoint::reflectivity, table);
     }
+    addLivoxColumn("tag", NumberType::UInt8, points, &LivoxPoint::tag, table);
+    addLivoxColumn("line", NumberType::UInt8, points, &LivoxPoint::line, table);
     return table;
 }
 
@@ -268,24 +265,16 @@ void BagScans::Reader::takeLivox(FieldReader fields, std::int64_t recorded_ns, T
     CObservationPointCloud::Ptr scan;
     if (state.sensor->kind == LidarKind::Livox1) {
         scan = observations::observationOf(
-            std::make_shared<const PointTable>(livoxTableOf(message.points)), "", timeOf(time_ns));
+            std::make_shared<const PointTable>(livoxTableOf(message.points, true)), "",
+            timeOf(time_ns));
     } else {
         Scan points;
         for (const LivoxPoint& point : message.points) addLivoxPoint(point, points);
         locateBeams(*mid360, points);
-        PointTable others;
-        others.points = message.points.size();
-        std::vector<double> tags, lines;
-        for (const LivoxPoint& point : message.points) {
-            tags.push_back(point.tag);
-            lines.push_back(point.line);
-        }
-        addColumn("tag", NumberType::UInt8, tags, others);
-        addColumn("line", NumberType::UInt8, lines, others);
         scan = CObservationPointCloud::Create();
         scan->timestamp = timeOf(time_ns);
-        scan->pointcloud =
-            std::make_shared<observations::LocatedCloud>(points, mid360, std::move(others));
+        scan->pointcloud = std::make_shared<observations::LocatedCloud>(
+            points, mid360, livoxTableOf(message.points, false));
     }
     scan->sensorPose = state.sensor->on_vehicle;
     state.points_without_range += without_range;
@@ -299,11 +288,12 @@ void BagScans::Reader::takeVelodyne(FieldReader fields, std::int64_t recorded_ns
         const std::uint8_t id = sent.bytes[sensors::kVelodyneModelAt];
         const auto* const model = sensors::velodyneModelOf(sent.bytes);
         if (!sensors::isVelodyneData(sent.bytes, sensors::kVelodynePacketBytes)) {
-            ++state.other_packets;
+            ++state.skipped["of another kind"];
         } else if (model == &sensors::hdl64Model()) {
-            ++state.hdl64_packets;
+            ++state.skipped["from an HDL-64E, which is not supported in bags"];
         } else if (model == nullptr || model != state.sensor->velodyne) {
-            ++state.unknown_ids[id];
+            ++state.skipped["from " + (model != nullptr ? "another Velodyne (" + model->name + ")"
+                                                        : sensors::describeUnsupported(id))];
         } else {
             if (!state.turns) {
                 const BagSensor& sensor = *state.sensor;
@@ -331,33 +321,31 @@ void BagScans::Reader::takeHesai(FieldReader fields, std::int64_t recorded_ns, T
 }
 
 void BagScans::Reader::takeOuster(FieldReader fields, std::int64_t recorded_ns, TopicState& state) {
-    constexpr std::size_t kImuBytes = 48;
     const sensors::OusterSensor& sensor = *state.sensor->ouster;
     ByteView packet = readPacket(fields);
-    // The ROS 1 driver appends a byte to packets.
-    if (packet.size == sensor.packetBytes() + 1) --packet.size;
-    if (packet.size != sensor.packetBytes()) {
-        if (packet.size == kImuBytes || packet.size == kImuBytes + 1) {
-            ++state.imu_packets;
+    packet.size -= packet.size % 2;  // the ROS 1 driver appends a byte to packets
+    const sensors::Datagram datagram{recorded_ns, 0, 0, 7502, 7502, packet.data, packet.size};
+    switch (sensors::kindOf(datagram, sensor)) {
+        case sensors::OusterPacketKind::Imu:
+            ++state.skipped["from an IMU"];
             return;
-        }
-        throw std::runtime_error("its packet has " + std::to_string(packet.size) +
-                                 " bytes, but the sensor's packets have " +
-                                 std::to_string(sensor.packetBytes()) + " (profile " +
-                                 sensor.profile.name + "). Is it another sensor's metadata?");
-    }
-    if (!sensors::isOfLidar(packet.data, sensor)) {
-        ++state.other_packets;
-        return;
-    }
-    if (!sensor.profile.is_legacy && !sensor.serial.empty()) {
-        const std::string serial = std::to_string(sensors::serialOf(packet.data, sensor));
-        if (serial != sensor.serial) {
-            throw std::runtime_error("its packet is from the sensor with serial number " + serial +
+        case sensors::OusterPacketKind::OtherSensor:
+            throw std::runtime_error("its packet is from the sensor with serial number " +
+                                     std::to_string(sensors::serialOf(packet.data, sensor)) +
                                      ", but the metadata are from " + sensor.serial);
-        }
+        case sensors::OusterPacketKind::Other:
+            if (packet.size == sensor.packetBytes()) {
+                ++state.skipped["of another kind"];
+                return;
+            }
+            throw std::runtime_error("its packet has " + std::to_string(packet.size) +
+                                     " bytes, but the sensor's packets have " +
+                                     std::to_string(sensor.packetBytes()) + " (profile " +
+                                     sensor.profile.name + "). Is it another sensor's metadata?");
+        case sensors::OusterPacketKind::Lidar:
+            break;
     }
-    if (pass) pass(state.sensor->label, {recorded_ns, 0, 0, 7502, 7502, packet.data, packet.size});
+    if (pass) pass(state.sensor->label, datagram);
     state.frames->add(packet.data, recorded_ns);
     addComplete(state);
 }
@@ -428,20 +416,9 @@ std::string BagScans::Reader::describe(const TopicState& state) {
         const std::string ignored = state.sweeps->ignored();
         if (!ignored.empty()) text += ", ignored: " + ignored;
     }
-    addCount(state.hdl64_packets, "packet", "from an HDL-64E, which is not supported in bags",
-             text);
-    for (const auto& [id, packets] : state.unknown_ids) {
-        const sensors::VelodyneModel* const other =
-            sensors::findVelodyneModel(static_cast<std::uint8_t>(id));
-        addCount(packets, "packet",
-                 "from " +
-                     (other != nullptr ? "another Velodyne (" + other->name + ")"
-                                       : sensors::describeUnsupported(id)) +
-                     ", skipped",
-                 text);
+    for (const auto& [why, packets] : state.skipped) {
+        addCount(packets, "packet", why + ", skipped", text);
     }
-    addCount(state.imu_packets, "IMU packet", "skipped", text);
-    addCount(state.other_packets, "packet", "of another kind, skipped", text);
     addCount(state.points_without_range, "point", "without a range, skipped", text);
     addCount(state.points_not_finite, "point",
              "with non-finite coordinates, dropped from the scans (--clouds writes them with "
@@ -520,19 +497,9 @@ std::vector<std::string> BagScans::remarks() const {
     for (const auto& [topic, state] : r.states) {
         remarks.push_back(state.sensor->label + " (" + topic + "): " + Reader::describe(state));
     }
-    for (const auto& [topic, left_out] : r.survey.left_out) {
-        const auto report = [&, &name = topic](const LeftOut::Kind& kind, const std::string& one,
-                                               const std::string& why) {
-            if (kind.number == 0) return;
-            remarks.push_back(name + ": " + counted(kind.number, one) + why +
-                              ", skipped; the first: " + kind.first);
-        };
-        report(left_out.messages, "message", " that could not be read");
-        report(left_out.transforms, "transform", " that could not be read");
-        report(left_out.other_parents, "transform", " of a frame that already has another parent");
-        report(left_out.further, "transform",
-               " of frames beyond the limit of " + std::to_string(kMaxMovingFrames) +
-                   " (tf_static: " + std::to_string(FrameTree::kMaxFrames) + ")");
+    for (const auto& [topic, skipped] : r.survey.skipped) {
+        remarks.push_back(topic + ": " + counted(skipped.number, "message") +
+                          " skipped; the first: " + skipped.first);
     }
     BagSurvey others;  // messages of unused topics
     std::set<std::string> types{"nav_msgs/Odometry", "geometry_msgs/PoseStamped",

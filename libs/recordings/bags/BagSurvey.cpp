@@ -1,5 +1,6 @@
 #include "recordings/bags/BagSurvey.h"
 #include <hagen/sensors/VelodynePacket.h>
+#include "base/Text.h"
 #include "recordings/Remarks.h"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ class BagSurveyor {
         } catch (const std::exception& e) {
             // BagScans counts unreadable LiDAR messages.
             if (topic.kind != LidarKind::None) return;
-            count(survey_.left_out[topic.topic.name].messages, message, topic, e.what());
+            skip(message, topic, e.what());
         }
     }
     void addTopic(const BagTopic& topic) {
@@ -68,10 +69,10 @@ class BagSurveyor {
     }
 
  private:
-    static void count(LeftOut::Kind& kind, const BagMessage& message, const BagSurvey::Topic& topic,
-                      const std::string& why) {
-        if (kind.number++ > 0) return;
-        kind.first = nameOf(topic.messages - 1, message.time_ns) + why;
+    void skip(const BagMessage& message, const BagSurvey::Topic& topic, const std::string& why) {
+        Skipped& skipped = survey_.skipped[topic.topic.name];
+        if (skipped.number++ > 0) return;
+        skipped.first = nameOf(topic.messages - 1, message.time_ns) + why;
     }
 
     void read(const BagMessage& message, BagSurvey::Topic& topic) {
@@ -153,25 +154,19 @@ class BagSurveyor {
             const std::string which = "from '" + parent + "' to '" + transform.child + "'";
             const auto pose = transform.pose();
             if (!pose) {
-                count(survey_.left_out[topic.topic.name].transforms, message, topic,
-                      which + ": it has non-finite values or an invalid quaternion");
+                skip(message, topic, which + ": it has non-finite values or an invalid quaternion");
                 continue;
             }
-            if (is_static) {
-                if (survey_.frames.add(parent, transform.child, *pose)) continue;
-                if (parent == transform.child) {
-                    count(survey_.left_out[topic.topic.name].transforms, message, topic,
-                          which + ": a frame cannot be its own parent");
-                } else {
-                    count(survey_.left_out[topic.topic.name].further, message, topic, which);
-                }
+            if (parent == transform.child) {
+                skip(message, topic, which + ": a frame cannot be its own parent");
                 continue;
             }
             const bool is_known = survey_.transforms.count(transform.child) > 0;
-            if (!is_known && survey_.transforms.size() >= kMaxMovingFrames) {
-                count(survey_.left_out[topic.topic.name].further, message, topic, which);
-                continue;
-            }
+            const bool is_added = is_static
+                                      ? survey_.frames.add(parent, transform.child, *pose)
+                                      : is_known || survey_.transforms.size() < kMaxMovingFrames;
+            if (!is_added) skip(message, topic, which + ": too many frames");
+            if (!is_added || is_static) continue;
             PoseSeries& series = survey_.transforms[transform.child];
             if (series.poses.empty()) {
                 series.parent = parent;
@@ -180,8 +175,7 @@ class BagSurveyor {
             }
             // Skip other parents: mixing the poses of two publishers would cause jumps.
             if (series.parent != parent) {
-                count(survey_.left_out[topic.topic.name].other_parents, message, topic,
-                      which + ", before from '" + series.parent + "'");
+                skip(message, topic, which + ", before from '" + series.parent + "'");
                 continue;
             }
             addPose(transform, message.time_ns, series);

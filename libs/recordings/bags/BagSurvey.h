@@ -40,16 +40,10 @@ struct PoseSeries {
     std::vector<RecordedPose> poses;  ///< at most one pose per 10 ms, in bag order
 };
 
-/// Skipped messages of a pose or transform topic.
-struct LeftOut {
-    struct Kind {
-        std::size_t number = 0;
-        std::string first;  ///< first skipped message and the reason
-    };
-    Kind messages;
-    Kind transforms;     ///< transforms without a valid pose in readable messages
-    Kind other_parents;  ///< transforms of a frame that had another parent before
-    Kind further;        ///< transforms of frames beyond the maximum number
+/// Skipped messages and transforms of a pose or transform topic.
+struct Skipped {
+    std::size_t number = 0;
+    std::string first;  ///< first skipped message and the reason
 };
 
 constexpr std::size_t kMaxMovingFrames = 1000;  ///< for tf; FrameTree::kMaxFrames is for tf_static
@@ -85,7 +79,7 @@ struct BagSurvey {
     };
     std::map<std::string, Imu> imus;                     ///< by topic
     std::map<std::string, std::string> ouster_metadata;  ///< by topic
-    std::map<std::string, LeftOut> left_out;             ///< by topic
+    std::map<std::string, Skipped> skipped;              ///< by topic
     std::size_t messages = 0;                            ///< number of messages read, of all topics
     bool is_out_of_order = false;  ///< whether a LiDAR message has an earlier time than the last
     bool is_whole = true;

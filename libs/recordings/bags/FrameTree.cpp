@@ -24,33 +24,23 @@ bool FrameTree::has(const std::string& frame) const {
     return false;
 }
 
-std::string FrameTree::rootOf(const std::string& frame) const {
-    std::string root = frame;
+/// The root above a frame, and the frame's pose in it.
+FrameTree::Edge FrameTree::climb(const std::string& frame) const {
+    Edge root{frame, {}};
     for (int depth = 0; depth < kMaxTreeDepth; ++depth) {
-        const auto edge = edges_.find(root);
+        const auto edge = edges_.find(root.parent);
         if (edge == edges_.end()) break;
-        root = edge->second.parent;
+        root = {edge->second.parent, edge->second.pose + root.pose};
     }
     return root;
-}
-
-mrpt::poses::CPose3D FrameTree::poseInRoot(const std::string& frame) const {
-    mrpt::poses::CPose3D pose;
-    std::string at = frame;
-    for (int depth = 0; depth < kMaxTreeDepth; ++depth) {
-        const auto edge = edges_.find(at);
-        if (edge == edges_.end()) break;
-        pose = edge->second.pose + pose;
-        at = edge->second.parent;
-    }
-    return pose;
 }
 
 std::optional<mrpt::poses::CPose3D> FrameTree::poseIn(const std::string& frame,
                                                       const std::string& in) const {
     if (frame == in) return mrpt::poses::CPose3D();
-    if (rootOf(frame) != rootOf(in)) return std::nullopt;
-    return (-poseInRoot(in)) + poseInRoot(frame);
+    const Edge of_frame = climb(frame), of_other = climb(in);
+    if (of_frame.parent != of_other.parent) return std::nullopt;
+    return (-of_other.pose) + of_frame.pose;
 }
 
 }  // namespace hagen::recordings

@@ -19,7 +19,7 @@ class FrameTree {
 
     bool has(const std::string& frame) const;
     /// The root above a frame; the frame itself if it has no parent. Stops at a cycle.
-    std::string rootOf(const std::string& frame) const;
+    std::string rootOf(const std::string& frame) const { return climb(frame).parent; }
     /// The pose of a frame in another frame; nullopt if the frames are not connected.
     std::optional<mrpt::poses::CPose3D> poseIn(const std::string& frame,
                                                const std::string& in) const;
@@ -29,7 +29,7 @@ class FrameTree {
         std::string parent;
         mrpt::poses::CPose3D pose;
     };
-    mrpt::poses::CPose3D poseInRoot(const std::string& frame) const;
+    Edge climb(const std::string& frame) const;
 
     std::map<std::string, Edge> edges_;  ///< edge to the parent, by child
 };

@@ -17,7 +17,7 @@ class RecordFile : public BagFile {
     bool next(BagMessage& message) final;
     std::string takeDamage() final;
     const std::vector<BagTopic>& topics() const final { return topics_.all(); }
-    double fractionRead() const final { return file_.fractionRead(); }
+    double fractionRead() const final { return is_at_end_ ? 1.0 : file_.fractionRead(); }
 
  protected:
     RecordFile(const std::filesystem::path& file, bool has_crc) : file_(file, has_crc) {}

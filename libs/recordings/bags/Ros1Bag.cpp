@@ -12,20 +12,9 @@ constexpr std::uint64_t kMaxRecordHeader = 1 << 20;
 enum Ros1Op : std::uint8_t {
     kRos1Message = 0x02,
     kRos1BagHeader = 0x03,
-    kRos1Index = 0x04,
     kRos1Chunk = 0x05,
-    kRos1ChunkInfo = 0x06,
     kRos1Connection = 0x07
 };
-
-std::string ros1RecordName(std::uint8_t op) {
-    static const std::map<std::uint8_t, const char*> kNames{
-        {kRos1Message, "a message"},       {kRos1BagHeader, "the bag's header"},
-        {kRos1Index, "an index"},          {kRos1Chunk, "a chunk"},
-        {kRos1Connection, "a connection"}, {kRos1ChunkInfo, "a chunk info"}};
-    const auto name = kNames.find(op);
-    return name == kNames.end() ? "a record" : name->second;
-}
 
 /// The "name=value" fields in a record's header. Each field starts with its size.
 class RecordHeader {
@@ -89,20 +78,18 @@ class Ros1Bag : public RecordFile {
         file_.read(header_size, "the header of a record", head_);
         const RecordHeader header({head_.data(), head_.size()});
         const std::uint8_t op = header.op();
-        const std::uint64_t size = readSize("the size of " + ros1RecordName(op), content_);
+        const std::uint64_t size = readSize("the size of a record", content_);
         if (op != kRos1Chunk && op != kRos1Connection && op != kRos1Message) {
-            file_.beginSkip(size, ros1RecordName(op));
+            file_.beginSkip(size, "a record");
             if (op == kRos1BagHeader) takeBagHeader(header);
-            chunk_infos_ += op == kRos1ChunkInfo;
             return false;
         }
         if (size > kMaxUnpackedBytes) {
             throw std::runtime_error("it claims " + std::to_string(size) + " bytes");
         }
-        file_.read(size, ros1RecordName(op), content_);
+        file_.read(size, "a record", content_);
         const ByteView data{content_.data(), content_.size()};
         if (op != kRos1Chunk) return takeRecord(header, data, message);
-        ++chunks_;
         is_chunk_ = true;
         in_chunk_ = FieldReader(
             unpack(header.at("compression"), data, header.number<std::uint32_t>("size"), chunk_));
@@ -127,7 +114,6 @@ class Ros1Bag : public RecordFile {
         }
         has_header_ = true;
         index_at_ = header.number<std::uint64_t>("index_pos");
-        chunks_due_ = header.number<std::uint32_t>("chunk_count");
     }
 
     /// Reads a connection or a message. Returns true if it is a message.
@@ -154,17 +140,10 @@ class Ros1Bag : public RecordFile {
         if (index_at_ == 0) {
             throw std::runtime_error("the bag ends here without an index: it was not closed");
         }
-        if (chunks_ != chunks_due_ || chunk_infos_ != chunks_due_) {
-            throw std::runtime_error("the bag ends here, but is incomplete: chunk count " +
-                                     std::to_string(chunks_) + ", chunk info count " +
-                                     std::to_string(chunk_infos_) + ", both expected to be " +
-                                     std::to_string(chunks_due_));
-        }
     }
 
     bool has_header_ = false;
     std::uint64_t index_at_ = 0;
-    std::uint32_t chunks_due_ = 0, chunks_ = 0, chunk_infos_ = 0;
 };
 
 }  // namespace

@@ -1,10 +1,6 @@
 #include <sqlite3.h>
-#include "base/ReadFile.h"
 
 #include <algorithm>
-#include <array>
-#include <exception>
-#include <fstream>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -32,37 +28,6 @@ std::string uriOf(const fs::path& file) {
     return uri;
 }
 
-/// Returns an error if a database lacks pages at its end; "" if it is complete or its size is
-/// unknown.
-std::string whyCut(const fs::path& file) {
-    std::array<unsigned char, 100> header{};
-    std::ifstream stream = base::openToRead(file);
-    if (!stream.read(reinterpret_cast<char*>(header.data()), header.size())) {
-        return "its header is truncated";
-    }
-    const auto big32 = [&](std::size_t at) {
-        std::uint64_t value = 0;
-        for (std::size_t i = 0; i < 4; ++i) value = value << 8 | header[at + i];
-        return value;
-    };
-    const std::uint64_t page = header[16] << 8 | header[17];
-    const std::uint64_t due = big32(28) * (page == 1 ? 65536 : page);
-    const bool is_known = big32(24) == big32(92);
-    if (!is_known || fs::file_size(file) >= due) return "";
-    return "it is truncated: it has " + std::to_string(fs::file_size(file)) + " of " +
-           std::to_string(due) + " bytes";
-}
-
-/// True if the journal belongs to an unfinished transaction. Journals of finished transactions may
-/// remain, with zeros at their start.
-bool hasHotJournal(const fs::path& journal) {
-    constexpr std::string_view kJournal{"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8};
-    std::array<char, kJournal.size()> start{};
-    std::ifstream stream(journal, std::ios::binary);
-    stream.read(start.data(), start.size());
-    return stream && std::string_view(start.data(), start.size()) == kJournal;
-}
-
 std::string textAt(sqlite3_stmt* row, int column) {
     const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
     return text == nullptr ? "" : text;
@@ -70,10 +35,8 @@ std::string textAt(sqlite3_stmt* row, int column) {
 
 class SqliteBag : public BagFile {
  public:
-    explicit SqliteBag(const fs::path& file) : file_(file), cut_because_(whyCut(file)) {
+    explicit SqliteBag(const fs::path& file) : file_(file) {
         open();
-        checkTables();
-        checkColumns();
         readTopics();
         // Two subqueries, because a single query for both would read all messages.
         const Query range =
@@ -84,16 +47,12 @@ class SqliteBag : public BagFile {
         }
         // IDs are in recording order; sorting by ID requires neither an index nor memory.
         messages_ = prepare("SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
-        // A single step may sort all messages, or search damaged pages.
-        constexpr int kInstructionsPerCheck = 100000;
-        sqlite3_progress_handler(database_.get(), kInstructionsPerCheck, checkDuringQuery, this);
     }
 
     bool next(BagMessage& message) override {
         if (!messages_) return false;
         check();
         if (!step(messages_)) {
-            if (!cut_because_.empty()) fail(cut_because_);
             messages_.reset();
             return false;
         }
@@ -136,21 +95,14 @@ class SqliteBag : public BagFile {
     using Query = std::unique_ptr<sqlite3_stmt, Close>;
 
     void open() {
-        // The file contains both old and new pages until the journal is rolled back, which requires
-        // write permission.
-        const std::string journal = file_.string() + "-journal";
-        if (hasHotJournal(journal)) {
-            fail("it is being written, or its writer was interrupted: " + journal +
-                 " contains an unfinished transaction. Wait, or copy both into a writable "
-                 "folder "
-                 "and run there: sqlite3 " +
-                 file_.filename().string() + " 'SELECT count(*) FROM messages'");
-        }
         // If there are no pending changes, reading requires no write access.
         std::error_code none;
-        const fs::path log = file_.string() + "-wal";
-        const bool has_log = fs::exists(log, none) && fs::file_size(log, none) > 0;
-        const std::string uri = uriOf(file_) + (has_log ? "?mode=ro" : "?mode=ro&immutable=1");
+        bool has_changes = false;
+        for (const char* const suffix : {"-wal", "-journal"}) {
+            const fs::path log = file_.string() + suffix;
+            has_changes = has_changes || (fs::exists(log, none) && fs::file_size(log, none) > 0);
+        }
+        const std::string uri = uriOf(file_) + (has_changes ? "?mode=ro" : "?mode=ro&immutable=1");
         sqlite3* raw = nullptr;
         const int state =
             sqlite3_open_v2(uri.c_str(), &raw, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
@@ -163,19 +115,18 @@ class SqliteBag : public BagFile {
         // A small schema can define a blob of any size.
         sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(kMaxUnpackedBytes));
         // By default, SQLite rejects truncated files.
-        if (!cut_because_.empty()) {
-            sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
-        }
+        sqlite3_db_config(raw, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
     }
 
     Query prepare(const std::string& sql) const {
         sqlite3_stmt* raw = nullptr;
         const int state = sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &raw, nullptr);
         Query query(raw);
-        if ((state & 0xff) == SQLITE_CANTOPEN) {
-            // For a write-ahead log, SQLite must write an index file beside it.
-            fail(std::string(sqlite3_errmsg(database_.get())) + "; copy it and " + file_.string() +
-                 "-wal into a writable folder");
+        if ((state & 0xff) == SQLITE_CANTOPEN || (state & 0xff) == SQLITE_READONLY) {
+            fail(std::string(sqlite3_errmsg(database_.get())) +
+                 "; it is being written, or its writer was interrupted: copy it with its -wal and "
+                 "-journal files into a writable folder and run there: sqlite3 " +
+                 file_.filename().string() + " 'SELECT count(*) FROM messages'");
         }
         if (state != SQLITE_OK) fail(sqlite3_errmsg(database_.get()));
         return query;
@@ -184,42 +135,11 @@ class SqliteBag : public BagFile {
     bool step(const Query& query) const {
         const int state = sqlite3_step(query.get());
         if (state == SQLITE_ROW) return true;
-        if (interruption_) std::rethrow_exception(std::exchange(interruption_, nullptr));
         if (state == SQLITE_TOOBIG) {
             fail("a message has more than " + std::to_string(kMaxUnpackedBytes >> 20) + " MB");
         }
         if (state != SQLITE_DONE) fail(sqlite3_errmsg(database_.get()));
         return false;
-    }
-
-    void checkTables() const {
-        const Query tables = prepare(
-            "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('topics', "
-            "'messages') AND sql NOT LIKE 'CREATE VIRTUAL%'");
-        if (step(tables) && sqlite3_column_int(tables.get(), 0) == 2) return;
-        fail("it has no tables 'topics' and 'messages': is it a ROS 2 bag?");
-    }
-
-    /// Rejects computed columns, whose expressions could run arbitrarily long for each message.
-    void checkColumns() const {
-        const Query computed = prepare(
-            "SELECT m.name, c.name FROM sqlite_schema m, pragma_table_xinfo(m.name) c "
-            "WHERE m.type = 'table' AND m.name IN ('topics', 'messages') AND c.hidden > 0");
-        if (!step(computed)) return;
-        fail("the column '" + textAt(computed.get(), 1) + "' of the table '" +
-             textAt(computed.get(), 0) + "' is computed, which is not allowed in bags");
-    }
-
-    /// Stores exceptions of the check, because they must not propagate through SQLite.
-    static int checkDuringQuery(void* bag) {
-        auto* const self = static_cast<SqliteBag*>(bag);
-        try {
-            self->check();
-            return 0;
-        } catch (...) {
-            self->interruption_ = std::current_exception();
-            return 1;
-        }
     }
 
     void readTopics() {
@@ -236,20 +156,17 @@ class SqliteBag : public BagFile {
         const std::string where = messages_ ? "after " + std::to_string(rows_) + " messages (id " +
                                                   std::to_string(row_) + ")"
                                             : "at its start";
-        throw BrokenRecording(
-            file_.string() + ": the database cannot be read " + where + ": " + why +
-            (cut_because_.empty() || why == cut_because_ ? "" : "; " + cut_because_));
+        throw BrokenRecording(file_.string() + ": the database cannot be read " + where + ": " +
+                              why);
     }
 
     std::filesystem::path file_;
     std::unique_ptr<sqlite3, Close> database_;
     Query messages_;
-    mutable std::exception_ptr interruption_;
     TopicList topics_;
     std::map<std::int64_t, std::size_t> topic_of_;  ///< topic index by the topic's ID
     std::size_t rows_ = 0;
     std::int64_t row_ = 0, first_row_ = 0, last_row_ = 0;
-    std::string cut_because_;  ///< empty if the file has its full length
 };
 
 }  // namespace

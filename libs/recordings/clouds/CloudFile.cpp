@@ -1,5 +1,6 @@
 #include "recordings/clouds/CloudFile.h"
 #include "base/FileKind.h"
+#include "base/Text.h"
 
 #include <algorithm>
 #include <fstream>
@@ -51,11 +52,7 @@ std::optional<CloudFormat> formatOf(const Bytes& start, const ReadAll& read_all)
 }
 
 std::string extensionOf(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return extension;
+    return base::lowerCase(file.extension().string());
 }
 
 CloudFile readUnchecked(const std::filesystem::path& file, const BinFields& bin_fields) {

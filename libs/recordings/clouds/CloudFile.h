@@ -30,8 +30,6 @@ BinFields binFieldsOf(const std::string& text);
 /// A cloud as stored in a file.
 struct CloudFile {
     observations::PointTable table;  ///< validated, in the byte order of this machine
-    /// Position and orientation (w, x, y, z) of the sensor in a PCD; empty if it is at the origin.
-    std::string viewpoint;
     /// Remarks for the user on content of the file that is not in the table.
     std::vector<std::string> remarks;
 };

@@ -136,10 +136,6 @@ class CloudFileSource : public FileListSource {
         const observations::TableCloud& cloud = *observations::tableCloudOf(*observation);
         std::vector<std::string> remarks = file_.remarks;
         remarks.insert(remarks.end(), cloud.remarks().begin(), cloud.remarks().end());
-        if (!file_.viewpoint.empty()) {
-            remarks.push_back(
-                "its VIEWPOINT is ignored: points are assumed to be in the sensor frame");
-        }
         const std::string lost = options_.folder_objects
                                      ? fieldsNotInRawlog(cloud.table(), *options_.folder_objects)
                                      : "";

@@ -2,6 +2,7 @@
 
 #include "base/NumberText.h"
 
+#include <algorithm>
 #include <map>
 
 namespace hagen::recordings {
@@ -113,10 +114,7 @@ void takeViewpoint(const PcdLines& entries, PcdHeader& header) {
     for (std::size_t i = 0; is_origin && i < 7; ++i) {
         is_origin = base::numberFrom<double>(values[i]) == (i == 3 ? 1.0 : 0.0);
     }
-    if (is_origin) return;
-    for (const std::string_view value : values) {
-        header.viewpoint += (header.viewpoint.empty() ? "" : " ") + std::string(value);
-    }
+    header.has_viewpoint = !is_origin;
 }
 
 }  // namespace
@@ -134,9 +132,7 @@ PcdHeader readPcdHeader(const std::filesystem::path& file, const Bytes& bytes) {
         Words words = wordsOf(*line);
         if (words.empty() || words[0][0] == '#') continue;
         const std::string_view key = words[0];
-        bool is_known = false;
-        for (const std::string_view known : kKeys) is_known = is_known || key == known;
-        if (!is_known) {
+        if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
             failAt(file, lines.place(), quoted(key) + " is not a line of a PCD header");
         }
         words.erase(words.begin());

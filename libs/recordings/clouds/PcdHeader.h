@@ -11,7 +11,7 @@ struct PcdHeader {
     std::size_t bytes_per_point = 0;
     std::size_t points = 0;
     Data data = Data::Ascii;
-    std::string viewpoint;  ///< empty if the sensor is at the origin
+    bool has_viewpoint = false;  ///< whether the sensor is not at the origin
     std::size_t size = 0;
     std::size_t lines = 0;
 };

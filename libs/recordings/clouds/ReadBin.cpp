@@ -15,12 +15,7 @@ namespace {
 using observations::NumberType;
 
 bool isPacked(const Bytes& bytes) {
-    constexpr std::uint8_t kGzip[] = {0x1f, 0x8b}, kZstd[] = {0x28, 0xb5, 0x2f, 0xfd};
-    const auto starts = [&](const auto& magic) {
-        return bytes.size() >= std::size(magic) &&
-               std::equal(std::begin(magic), std::end(magic), bytes.begin());
-    };
-    return starts(kGzip) || starts(kZstd);
+    return otherKindOf(bytes).find("-compressed") != std::string::npos;
 }
 
 /// True for plausible LiDAR points with this number of float32 values: x, y, z, intensity, ...

@@ -118,19 +118,13 @@ void addLasPoint(const Bytes& bytes, std::size_t at, const LasFormat& format,
 
 /// Returns remarks on records before and after the points.
 std::vector<std::string> remarksOnRecords(const Bytes& bytes, bool is_of_14, std::size_t rest) {
-    std::vector<std::string> remarks;
-    const auto records = numberAt<std::uint32_t>(bytes, kRecords);
+    const std::uint32_t extended = is_of_14 ? numberAt<std::uint32_t>(bytes, kExtendedRecords) : 0;
+    std::vector<std::string> remarks = remarkOnRest(extended > 0 ? 0 : rest);
+    const std::size_t records = std::size_t{numberAt<std::uint32_t>(bytes, kRecords)} + extended;
     if (records > 0) {
         remarks.push_back("its variable length records (" + std::to_string(records) +
                           "), such as the coordinate system, are not read");
     }
-    const std::uint32_t extended = is_of_14 ? numberAt<std::uint32_t>(bytes, kExtendedRecords) : 0;
-    if (extended > 0) {
-        remarks.push_back("its extended variable length records (" + std::to_string(extended) +
-                          ") after the points are not read");
-        return remarks;
-    }
-    for (std::string& remark : remarkOnRest(rest)) remarks.push_back(std::move(remark));
     return remarks;
 }
 

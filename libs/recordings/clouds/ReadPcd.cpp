@@ -127,7 +127,6 @@ void readCompressedPcd(const std::filesystem::path& file, const PcdHeader& heade
 CloudFile readPcd(const std::filesystem::path& file, Bytes bytes) {
     const PcdHeader header = readPcdHeader(file, bytes);
     CloudFile cloud;
-    cloud.viewpoint = header.viewpoint;
     cloud.table.points = header.points;
     cloud.table.bytes_per_point = header.bytes_per_point;
     for (const PointField& field : header.fields) {
@@ -143,6 +142,10 @@ CloudFile readPcd(const std::filesystem::path& file, Bytes bytes) {
         case PcdHeader::Data::Compressed:
             readCompressedPcd(file, header, bytes, cloud);
             break;
+    }
+    if (header.has_viewpoint) {
+        cloud.remarks.emplace_back(
+            "its VIEWPOINT is ignored: points are assumed to be in the sensor frame");
     }
     return cloud;
 }

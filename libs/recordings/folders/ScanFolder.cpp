@@ -149,34 +149,16 @@ void markAsPredictions(const fs::path& folder) {
 std::size_t readScan(const fs::path& file, Scan& scan, const std::vector<std::string>& bin_fields) {
     try {
         const Bytes bytes = readBytes(file);
-        std::vector<std::string> fields = bin_fields;
-        if (fields.empty()) {
-            const std::size_t numbers = binNumbersPerPoint(bytes);
-            checkBinLayout(file, bytes, numbers == 0 ? kKittiNumbers : numbers);
-            const std::string other_kind = numbers == 0 ? otherKindOf(bytes) : "";
-            if (numbers == 0 && mayBeBin(bytes)) {
-                throw BrokenRecording(file.string() +
-                                      ": the fifth number of its points is not a ring");
-            }
-            if (!other_kind.empty()) {
-                throw BrokenRecording(file.string() + ": is not a KITTI scan: " + other_kind);
-            }
-            fields = {"x", "y", "z", "intensity"};
-            if (numbers > fields.size()) fields.resize(numbers);
-        }
-        const std::size_t numbers = fields.size();
-        const std::size_t points = checkedCount(file, bytes.size(), sizeof(float) * numbers);
-        std::vector<float> values(points * numbers);
-        if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+        // Points may exceed the range of a LiDAR.
+        const bool is_far = bin_fields.empty() && binNumbersPerPoint(bytes) == 0 &&
+                            !mayBeBin(bytes) && otherKindOf(bytes).empty();
+        const CloudFile cloud =
+            readBin(file, bytes, is_far ? BinFields{"x", "y", "z", "intensity"} : bin_fields);
         const auto columnOf = [&](const char* name) {
-            std::vector<float> column(points);
-            const auto at = std::find(fields.begin(), fields.end(), name) - fields.begin();
-            for (std::size_t i = 0, from = static_cast<std::size_t>(at);
-                 from < values.size() && at < static_cast<std::ptrdiff_t>(numbers);
-                 ++i, from += numbers) {
-                column[i] = values[from];
-            }
-            return column;
+            const auto* const field = findExactly(cloud.table, name);
+            if (field == nullptr) return std::vector<float>(cloud.table.points);
+            const std::vector<double> column = observations::columnOf(cloud.table, *field);
+            return std::vector<float>(column.begin(), column.end());
         };
         scan.clear();
         scan.x_m = columnOf("x");
@@ -184,6 +166,7 @@ std::size_t readScan(const fs::path& file, Scan& scan, const std::vector<std::st
         scan.z_m = columnOf("z");
         scan.intensity = columnOf("intensity");
         const auto max = std::max_element(scan.intensity.begin(), scan.intensity.end());
+        const std::size_t numbers = cloud.table.bytes_per_point / sizeof(float);
         const bool is_scaled = numbers > kKittiNumbers && max != scan.intensity.end() && *max > 1;
         for (float& intensity : scan.intensity) intensity /= is_scaled ? 255.0f : 1.0f;
         return numbers;

@@ -62,11 +62,7 @@ mrpt::serialization::CSerializable::Ptr EntryReader::next() {
         return nullptr;
     } catch (const std::bad_alloc&) {
         if (!stream_.fault().empty()) throw broken("");
-        throw OutOfMemory(broken("it requests too much memory at byte " +
-                                 std::to_string(stream_.getPosition()) +
-                                 ": a count is wrong, or the entry exceeds " +
-                                 std::to_string(kMaxEntryBytes >> 20) + " MiB")
-                              .what());
+        throw;
     } catch (const std::exception& e) {
         const std::string reason = reasonOf(e);
         if (entries_ == 0 && reason == kNoObject && stream_.fault().empty()) {

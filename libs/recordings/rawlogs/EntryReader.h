@@ -7,11 +7,6 @@ namespace hagen::recordings {
 /// Maximum memory for reading an entry: enough for 20 million returns with all fields.
 constexpr std::uint64_t kMaxEntryBytes = std::uint64_t{1} << 30;
 
-/// A rawlog entry does not fit into memory: a count is wrong, or the limit is too low.
-struct OutOfMemory : BrokenRecording {
-    using BrokenRecording::BrokenRecording;
-};
-
 /// Reads a rawlog with MRPT's reader, which does not validate its input: a wrong count may exhaust
 /// memory, and a missing object may crash the process. Use RawlogReader for safe reading.
 class EntryReader {
@@ -19,8 +14,8 @@ class EntryReader {
     /// `file`: name in messages. `opened`: path to open, which may be another name of the file.
     EntryReader(const std::filesystem::path& file, const std::filesystem::path& opened);
 
-    /// Returns the next entry, or nullptr at the end. Throws BrokenRecording, or its subclass
-    /// OutOfMemory if memory runs out and the file has no other fault.
+    /// Returns the next entry, or nullptr at the end. Throws BrokenRecording, or
+    /// std::bad_alloc if memory runs out and the file has no other fault.
     mrpt::serialization::CSerializable::Ptr next();
 
     std::size_t entries() const { return entries_; }

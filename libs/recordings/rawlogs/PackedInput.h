@@ -1,8 +1,15 @@
 #pragma once
 #include <mrpt/io/CStream.h>
+#include <zlib.h>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "recordings/Unpacker.h"
 
 namespace hagen::recordings {
 
@@ -23,26 +30,31 @@ class PackedInput : public mrpt::io::CStream {
     /// Bytes of the file consumed so far.
     std::uint64_t packedPosition() const;
     /// File size when opened; the file may have been renamed or removed since.
-    std::uint64_t packedBytes() const;
-
-    /// The maximum number of uncompressed bytes that can follow, from the maximum compression ratio
-    /// of the format.
-    std::uint64_t mostBytesLeft() const;
-    int descriptor() const;
+    std::uint64_t packedBytes() const { return size_; }
+    int descriptor() const { return fileno(file_.get()); }
 
     /// The error that stopped reading: the file is truncated or corrupt. Empty while data is left,
     /// and after a regular end.
-    std::string fault() const;
+    const std::string& fault() const { return fault_; }
 
     // Not supported, because the input is read once, from start to end.
-    std::size_t Write(const void* buffer, std::size_t count) override;
-    std::uint64_t Seek(std::int64_t offset, TSeekOrigin origin) override;
-    std::uint64_t getTotalBytesCount() const override;
+    std::size_t Write(const void*, std::size_t) override { throw std::logic_error("read-only"); }
+    std::uint64_t Seek(std::int64_t, TSeekOrigin) override { throw std::logic_error("no seek"); }
+    std::uint64_t getTotalBytesCount() const override { throw std::logic_error("no size"); }
 
  private:
-    struct Stream;
-    std::unique_ptr<Stream> stream_;
-    std::uint64_t position_ = 0;
+    std::size_t readGzip(unsigned char* to, std::size_t count);
+
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::unique_ptr<std::FILE, Close> file_;
+    std::vector<unsigned char> packed_;
+    z_stream gzip_{};
+    bool is_gzip_ = false, is_in_member_ = false;
+    std::optional<Unpacker> zstd_;
+    std::uint64_t size_ = 0, position_ = 0;
+    std::string fault_;
 };
 
 }  // namespace hagen::recordings

@@ -8,16 +8,12 @@
 namespace hagen::recordings {
 namespace {
 
-void checkReadable(const std::filesystem::path& file) {
+const std::filesystem::path& checked(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) throw std::runtime_error(file.string() + ": no such file");
     if (!std::ifstream(file)) throw std::runtime_error(file.string() + ": cannot be read");
     if (std::filesystem::file_size(file) == 0) {
         throw std::runtime_error(file.string() + ": is empty");
     }
-}
-
-const std::filesystem::path& checked(const std::filesystem::path& file) {
-    checkReadable(file);
     return file;
 }
 
@@ -47,12 +43,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     const EntryVerdict verdict = parts_->trial.next();
     if (verdict.kind == EntryVerdict::Kind::End) return nullptr;
     if (verdict.kind == EntryVerdict::Kind::Broken) throw BrokenRecording(verdict.why);
-    mrpt::serialization::CSerializable::Ptr object;
-    try {
-        object = parts_->reader.next();
-    } catch (const OutOfMemory&) {  // although the trial had enough memory
-        throw std::bad_alloc();
-    }
+    const auto object = parts_->reader.next();
     if (!object || parts_->reader.stream().getPosition() != verdict.end) {
         throw BrokenRecording(parts_->file.string() + ": changed while it was read, at entry " +
                               std::to_string(entries()));

@@ -9,7 +9,7 @@
 namespace hagen::recordings {
 
 struct EntryVerdict {
-    enum class Kind : std::uint8_t { Sound, End, Broken };
+    enum class Kind : std::uint8_t { Sound, End, Broken, OutOfMemory };
     Kind kind;
     std::uint64_t end;  ///< uncompressed position after the entry
     std::string why;    ///< message with file, entry and byte; only if Broken
@@ -30,7 +30,7 @@ class RawlogTrial {
     /// Starts the process. Throws std::runtime_error if it cannot be started. `file`: name in
     /// messages. `descriptor`: the open file, owned by the caller; must outlive this object.
     RawlogTrial(const std::filesystem::path& file, int descriptor,
-                std::chrono::milliseconds patience = kTimeout);
+                std::chrono::milliseconds max_idle = kTimeout);
     ~RawlogTrial();
     RawlogTrial(const RawlogTrial&) = delete;
     RawlogTrial& operator=(const RawlogTrial&) = delete;

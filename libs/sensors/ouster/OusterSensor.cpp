@@ -8,10 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <numeric>
-#include <sstream>
 #include <stdexcept>
 
 #include "sensors/LittleEndian.h"
@@ -40,12 +38,6 @@ const std::vector<OusterProfile>& profiles() {
     return known;
 }
 
-/// Throws an exception unless a value has the expected type.
-void checkType(bool is_expected, const std::string& key, const char* expected, const json& found) {
-    if (is_expected) return;
-    throw std::runtime_error("'" + key + "': expected " + expected + ", not: " + found.dump());
-}
-
 /// Returns a member; nullptr if `object` is not an object or lacks the key.
 const json* member(const json& object, const std::string& key) {
     const auto found = object.find(key);
@@ -71,46 +63,31 @@ class Metadata {
         if (const json* found = find(key)) return *found;
         throw std::runtime_error("the key '" + key + "' is missing");
     }
+    template <class Value>
+    Value value(const std::string& key) const {
+        try {
+            return at(key).get<Value>();
+        } catch (const json::exception& e) {
+            throw std::runtime_error("'" + key + "': " + e.what());
+        }
+    }
+    /// Returns "" if the key is missing.
     std::string text(const std::string& key) const {
-        const json* const found = find(key);
-        if (found == nullptr) return "";
-        checkType(found->is_string(), key, "text", *found);
-        return *found;
-    }
-    std::string requiredText(const std::string& key) const {
-        at(key);
-        return text(key);
-    }
-    double number(const std::string& key) const {
-        const json& found = at(key);
-        checkType(found.is_number(), key, "a number", found);
-        return found;
-    }
-    std::size_t items(const std::string& key) const {
-        const json& found = at(key);
-        checkType(found.is_array(), key, "an array", found);
-        return found.size();
+        return find(key) == nullptr ? "" : value<std::string>(key);
     }
     /// Reads an integer within limits.
     std::size_t count(const std::string& key, std::size_t min, std::size_t max) const {
-        const json& found = at(key);
-        checkType(found.is_number_unsigned(), key, "an integer of at least 0", found);
-        const std::uint64_t value = found;
-        if (value < min || value > max) {
-            throw std::runtime_error("'" + key + "' is " + std::to_string(value) + ", not " +
-                                     std::to_string(min) + " ... " + std::to_string(max));
+        const auto number = value<double>(key);
+        if (number >= static_cast<double>(min) && number <= static_cast<double>(max) &&
+            number == std::floor(number)) {
+            return static_cast<std::size_t>(number);
         }
-        return static_cast<std::size_t>(value);
+        throw std::runtime_error("'" + key + "' is " + at(key).dump() + ", not " +
+                                 std::to_string(min) + " ... " + std::to_string(max));
     }
     /// Reads numbers within +-`max`.
     std::vector<double> numbers(const std::string& key, std::size_t count, double max) const {
-        const json& found = at(key);
-        checkType(found.is_array(), key, "an array", found);
-        std::vector<double> values;
-        for (const json& item : found) {
-            checkType(item.is_number(), key, "numbers", item);
-            values.push_back(item);
-        }
+        const auto values = value<std::vector<double>>(key);
         if (values.size() != count) {
             throw std::runtime_error("'" + key + "' has " + std::to_string(values.size()) +
                                      " numbers, not " + std::to_string(count));
@@ -171,8 +148,9 @@ void readFormat(const Metadata& metadata, OusterSensor& sensor) {
     const bool has_format = metadata.find("pixels_per_column") != nullptr;
     sensor.pixels =
         has_format ? metadata.count("pixels_per_column", 3, kMaxBeams) : kPixelsWithoutFormat;
-    sensor.columns_per_frame = has_format ? metadata.count("columns_per_frame", 1, kMaxFrameColumns)
-                                          : columnsOfMode(metadata.requiredText("lidar_mode"));
+    sensor.columns_per_frame = has_format
+                                   ? metadata.count("columns_per_frame", 1, kMaxFrameColumns)
+                                   : columnsOfMode(metadata.value<std::string>("lidar_mode"));
     sensor.turn_s = turnTimeOfMode(metadata);
     const std::size_t max_of_packet = std::min<std::size_t>(64, sensor.columns_per_frame);
     sensor.columns_per_packet =
@@ -191,7 +169,7 @@ void readFormat(const Metadata& metadata, OusterSensor& sensor) {
 
 void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
     // Packets of generation 1 have 64 pixels; those of 16 or 32 beams are the last of each group.
-    const std::size_t listed = metadata.items("beam_altitude_angles");
+    const std::size_t listed = metadata.at("beam_altitude_angles").size();
     const bool is_spread = sensor.profile.is_legacy && listed > 0 && listed < sensor.pixels;
     const std::size_t beams = is_spread ? listed : sensor.pixels;
     const auto in_radians = [&](const std::string& key, double max_deg) {
@@ -211,7 +189,7 @@ void readGeometry(const Metadata& metadata, OusterSensor& sensor) {
         sensor.beam_origin_m = 1e-3 * to_lidar[3];
         sensor.beam_origin_up_m = 1e-3 * to_lidar[11];
     } else if (metadata.find("lidar_origin_to_beam_origin_mm") != nullptr) {
-        const double origin_mm = metadata.number("lidar_origin_to_beam_origin_mm");
+        const double origin_mm = metadata.value<double>("lidar_origin_to_beam_origin_mm");
         if (!(std::abs(origin_mm) <= 1000)) {
             throw std::runtime_error("'lidar_origin_to_beam_origin_mm' exceeds 1 m");
         }
@@ -273,14 +251,6 @@ void sortBeams(OusterSensor& sensor) {
 }
 
 constexpr std::size_t kMaxMetadataBytes = 1 << 20;
-
-std::string readText(const std::filesystem::path& file) {
-    std::ifstream stream = base::openToRead(file);
-    std::string text(kMaxMetadataBytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    return text;
-}
 
 /// Checks the text of metadata before parsing.
 void checkText(const std::string& text) {
@@ -376,7 +346,7 @@ OusterSensor ousterSensorOf(const std::string& text, const std::string& origin) 
 }
 
 OusterSensor readOusterSensor(const std::filesystem::path& file) {
-    return ousterSensorOf(readText(file), file.string());
+    return ousterSensorOf(base::readText(file, kMaxMetadataBytes), file.string());
 }
 
 }  // namespace hagen::sensors

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,12 +25,10 @@ class OusterSweeps : public SweepReader {
                 return;
             case OusterPacketKind::Other:
                 return others_.add(datagram);
-            case OusterPacketKind::OtherSensor: {
-                constexpr std::size_t kMaxSerials = 16;
-                const bool is_named = other_serials_.size() < kMaxSerials;
-                ++other_serials_[is_named ? serialOf(datagram.bytes, sensor_) : 0];
+            case OusterPacketKind::OtherSensor:
+                ++other_sensors_;
+                other_serial_ = serialOf(datagram.bytes, sensor_);
                 return;
-            }
             case OusterPacketKind::Lidar:
                 break;
         }
@@ -57,12 +54,8 @@ class OusterSweeps : public SweepReader {
     std::string ignored() const override {
         std::string text;
         addCount(imu_packets_, "IMU packet", "", text);
-        for (const auto& [serial, count] : other_serials_) {
-            addCount(count, "packet",
-                     serial == 0 ? "from further sensors"
-                                 : "from the sensor with serial number " + std::to_string(serial),
-                     text);
-        }
+        addCount(other_sensors_, "packet",
+                 "from another sensor (serial number " + std::to_string(other_serial_) + ")", text);
         addCount(other_sources_, "packet", "from another address", text);
         others_.describe(text);
         return text;
@@ -94,8 +87,8 @@ class OusterSweeps : public SweepReader {
     OusterSensor sensor_;
     OusterFrames frames_{sensor_};
     std::optional<IpAddress> from_ip_;  ///< the sensor's address, if known
-    std::size_t imu_packets_ = 0, other_sources_ = 0;
-    std::map<std::uint64_t, std::size_t> other_serials_;
+    std::uint64_t other_serial_ = 0;
+    std::size_t imu_packets_ = 0, other_sensors_ = 0, other_sources_ = 0;
 };
 
 }  // namespace

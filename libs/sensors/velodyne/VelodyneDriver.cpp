@@ -126,14 +126,9 @@ class VelodyneDriver : public LidarDriver {
         int first, end;
     };
 
-    struct Held {
-        VelodynePacket packet;
-        double arrival_s;
-    };
-
     Taken addPacket(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
         if (recent_.has(keyOf(packet), arrival_s)) {
-            held_.clear();  // late packets take another network path
+            late_in_a_row_ = 0;  // late packets take another network path
             ++counts_.duplicate;
             return Taken::Duplicate;
         }
@@ -141,28 +136,20 @@ class VelodyneDriver : public LidarDriver {
         const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : packet.isDual());
         const bool is_too_late =
             has_last_ && elapsedUs(last_us_, packet.sensorTimeUs()) < -kMaxLate * period_us;
-        if (is_too_late) return hold(packet, arrival_s, sink);
-        held_.clear();
-        return take(packet, arrival_s, sink);
-    }
-
-    /// Holds late packets. A packet that is a turn late is stale, but kMaxLate late packets in a
-    /// row mean that the sensor clock was set.
-    Taken hold(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
-        held_.push_back({packet, arrival_s});
-        ++counts_.late;
-        ++counts_.too_late;
-        if (held_.size() < std::size_t{kMaxLate}) return Taken::TooLate;
-        counts_.late -= held_.size();
-        counts_.too_late -= held_.size();
-        ++counts_.interruptions;
-        sink.restart();
-        has_last_ = false;
-        Taken taken = Taken::TooLate;
-        for (const auto& [held, held_s] : std::exchange(held_, {})) {
-            taken = addPacket(held, held_s, sink);
+        if (is_too_late) {
+            // A packet that is a turn late is stale, but so many in a row mean that the clock was
+            // set.
+            if (++late_in_a_row_ < kMaxLate) {
+                ++counts_.late;
+                ++counts_.too_late;
+                return Taken::TooLate;
+            }
+            ++counts_.interruptions;
+            sink.restart();
+            has_last_ = false;
         }
-        return taken;
+        late_in_a_row_ = 0;
+        return take(packet, arrival_s, sink);
     }
 
     Taken take(const VelodynePacket& packet, double arrival_s, ReturnSink& sink) {
@@ -345,7 +332,7 @@ class VelodyneDriver : public LidarDriver {
     Scan returns_, part_;
     std::vector<Run> runs_;
     RecentPackets recent_;
-    std::vector<Held> held_;  ///< consecutive late packets
+    int late_in_a_row_ = 0;
     bool has_last_ = false, is_dual_ = false;
     double last_us_ = 0;  ///< sensor time of the latest packet
     int last_azimuth_ = -1;
