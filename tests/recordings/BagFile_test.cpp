@@ -186,7 +186,7 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
     expectBroken(magic + '\x05' + far, "claims 9223372036854775807 bytes");
     expectBroken(magic + '\x0b' + far, "is truncated: expected 9223372036854775807 bytes, found 0");
     expectBroken(magic + '\x06' + ByteString("\0\0\0\x10\0\0\0\0", 8),
-                 "a record of type 6 at byte 17: is truncated");
+                 "a chunk at byte 17: is truncated");
     const auto chunk = [&](const ByteString& size, const ByteString& name) {
         return magic +
                test::mcapRecord(6, ByteString(16, '\0') + size + ByteString(4, '\0') +
@@ -202,7 +202,7 @@ TEST_F(BagFileTest, RejectsWrongSizesAndCounts) {
     expectBroken(chunk(ByteString("\5\0\0\0\0\0\0\0", 8), ""), "it has 4 bytes, but claims 5");
     expectBroken(magic + test::mcapRecord(5, ByteString(22, '\3')),
                  "to channel 771, which is not defined");
-    expectBroken(magic + test::mcapRecord(5, "a"), "a record of type 5 is too short");
+    expectBroken(magic + test::mcapRecord(5, "a"), "a message is too short");
 
     const ByteString ros1 = "#ROSBAG V2.0\n";
     expectBroken(ros1 + "\xff\xff\xff\xff", "its header claims 4294967295 bytes");

@@ -28,8 +28,9 @@ class FileBytes {
     bool isSkipping() const { return to_skip_ > 0; }
     void skipSome();
 
-    /// CRC-32 (as in zlib) of all bytes.
+    /// CRC-32 (as in zlib) of all bytes since it was last restarted.
     std::uint32_t crc() const { return crc_; }
+    void restartCrc() { crc_ = 0; }
 
     /// "FILE: WHAT at byte N: WHY"
     std::string textOf(const std::string& what, std::uint64_t byte, const std::string& why) const;

@@ -10,7 +10,9 @@ namespace hagen::recordings {
 namespace {
 
 constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
+constexpr std::uint64_t kMaxFooter = 1 << 16;  // currently 20 bytes; later versions may add fields
 enum McapOp : std::uint8_t {
+    kMcapFooter = 0x02,
     kMcapSchema = 0x03,
     kMcapChannel = 0x04,
     kMcapMessage = 0x05,
@@ -18,7 +20,14 @@ enum McapOp : std::uint8_t {
     kMcapDataEnd = 0x0f
 };
 
-std::string mcapRecordName(std::uint8_t op) { return "a record of type " + std::to_string(op); }
+std::string mcapRecordName(std::uint8_t op) {
+    static const std::map<std::uint8_t, const char*> kNames{
+        {kMcapFooter, "the footer"}, {kMcapSchema, "a schema"},
+        {kMcapChannel, "a channel"}, {kMcapMessage, "a message"},
+        {kMcapChunk, "a chunk"},     {kMcapDataEnd, "the end of the data"}};
+    const auto name = kNames.find(op);
+    return name == kNames.end() ? "a record (" + std::to_string(op) + ")" : name->second;
+}
 
 void checkCrc(std::uint32_t due, std::uint32_t found, const std::string& of) {
     if (due == 0 || due == found) return;  // 0: CRC not computed
@@ -39,8 +48,12 @@ class McapFile : public RecordFile {
         const auto op = head.number<std::uint8_t>();
         const auto size = head.number<std::uint64_t>();
         if (op == 0) failKind();
+        if (op == kMcapFooter) return readFooter(size);
+        if (is_data_ended_ && (op == kMcapMessage || op == kMcapChunk)) {
+            throw std::runtime_error(mcapRecordName(op) + " follows the end of the data");
+        }
         const bool is_read = op >= kMcapSchema && op <= kMcapChunk;
-        if (!is_read && op != kMcapDataEnd) {
+        if (is_data_ended_ || (!is_read && op != kMcapDataEnd)) {
             file_.beginSkip(size, mcapRecordName(op));
             return false;
         }
@@ -54,7 +67,9 @@ class McapFile : public RecordFile {
         if (op != kMcapDataEnd) return takeRecord(op, content, message);
         const auto due = FieldReader(content).number<std::uint32_t>();
         if (!is_damaged_) checkCrc(due, crc_before, "the data before it");
-        is_at_end_ = true;  // the summary repeats the data
+        is_data_ended_ = true;
+        summary_at_ = file_.position();
+        file_.restartCrc();
         return false;
     }
 
@@ -124,7 +139,38 @@ class McapFile : public RecordFile {
         topic_of_[id] = topics_.indexOf(topic);
     }
 
+    bool readFooter(std::uint64_t size) {
+        if (size < 20) throw TooShort("the footer is too short");
+        if (size > kMaxFooter) {
+            throw std::runtime_error("the footer claims " + std::to_string(size) + " bytes");
+        }
+        if (!is_data_ended_) {
+            throw std::runtime_error("the footer precedes the end of the data");
+        }
+        file_.read(16, "the footer", content_);
+        const std::uint32_t crc = file_.crc();
+        const auto summary_at = FieldReader({content_.data(), 8}).number<std::uint64_t>();
+        file_.read(4, "the footer", content_);
+        const auto due = FieldReader({content_.data(), 4}).number<std::uint32_t>();
+        // Without a summary, this CRC starts with the footer and does not cover messages.
+        if (summary_at == summary_at_) checkCrc(due, crc, "the summary");
+        file_.read(size - 20, "the footer", content_);
+        file_.read(kMcapMagic.size(), "the magic bytes at the end", content_);
+        if (std::string(content_.begin(), content_.end()) != kMcapMagic) {
+            throw std::runtime_error("the magic bytes at the end are missing");
+        }
+        if (file_.left() > 0) {
+            throw std::runtime_error("data after the end of the recording (" +
+                                     std::to_string(file_.left()) +
+                                     " B); was another file appended?");
+        }
+        is_at_end_ = true;
+        return false;
+    }
+
     std::map<std::uint16_t, std::string> schemas_;
+    bool is_data_ended_ = false;
+    std::uint64_t summary_at_ = 0;
 };
 
 }  // namespace
