@@ -546,7 +546,7 @@ TEST_F(CloudFileTest, BinAcceptsEmptyRejectsTruncated) {
     EXPECT_THAT(complaint("a.bin", std::string(16, '\xee')),
                 HasSubstr("not a point cloud: its first numbers are not points of a LiDAR"));
     EXPECT_THAT(complaint("a.bin", std::string(16, 'x')),
-                HasSubstr("it seems to be text. Supported"));
+                HasSubstr("it seems to be text: if it has a point per line, convert it"));
     // A picture is not reported as a truncated .bin, whatever its size.
     EXPECT_THAT(complaint("a.bin", "\xff\xd8\xff\xe0" + std::string(13, '\xee')),
                 HasSubstr("it seems to be a JPEG picture"));

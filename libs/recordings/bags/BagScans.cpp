@@ -18,7 +18,6 @@
 #include <optional>
 #include <set>
 
-#include "recordings/bags/MessageOrder.h"
 #include "recordings/bags/Messages.h"
 
 namespace hagen::recordings {
@@ -28,6 +27,8 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
+
+constexpr std::size_t kMaxHeldBytes = 256 << 20;
 
 struct TopicState {
     std::string name;
@@ -105,7 +106,15 @@ struct BagScans::Reader {
     const BagSurvey& survey;
     BagPlan plan;
     std::unique_ptr<BagFile> bag;
-    std::optional<MessageOrder> order;  ///< if messages are stored out of order
+    struct Held {
+        std::size_t topic;
+        std::vector<std::uint8_t> bytes;
+    };
+    std::multimap<std::int64_t, Held> held;  ///< by time; equal times keep their order
+    Held returned{};
+    std::size_t held_bytes = 0, late = 0;  ///< messages returned too late
+    std::int64_t latest_ns = INT64_MIN;
+    bool is_bag_at_end = false;
     decltype(BagOptions::packet) pass;
     std::map<std::string, TopicState> states;  ///< by topic
     std::vector<TopicState*> state_of;  ///< by topic index in the bag; null if not a LiDAR topic
@@ -134,18 +143,42 @@ struct BagScans::Reader {
                 state.frames = std::make_unique<sensors::OusterFrames>(*sensor.ouster);
             }
         }
-        if (!survey.is_out_of_order) return;
-        order.emplace(*bag, [this](const BagMessage& message) {
-            ++messages;
-            return stateOf(message) != nullptr;
-        });
     }
 
-    bool next(BagMessage& message) {
-        const bool is_read = order ? order->next(message) : bag->next(message);
-        if (!order) messages += is_read;
-        noteDamage();
+    /// Reads the next message of the bag. Returns false at its end, also if it is broken.
+    bool read(BagMessage& message) {
+        bool is_read = false;
+        try {
+            is_read = !is_bag_at_end && bag->next(message);
+            noteDamage();
+        } catch (const BrokenRecording& e) {
+            noteDamage();
+            if (broken_because.empty()) broken_because = e.what();
+        }
+        messages += is_read;
+        is_bag_at_end = !is_read;
         return is_read;
+    }
+    /// Like read(). LiDAR messages that are stored out of order, such as topic by topic, are put
+    /// into the order of their recording times by holding some; those stored even later keep their
+    /// place.
+    bool next(BagMessage& message) {
+        if (!survey.is_out_of_order) return read(message);
+        while (held_bytes < kMaxHeldBytes && read(message)) {
+            if (stateOf(message) == nullptr) continue;
+            held_bytes += message.size;
+            held.emplace(message.time_ns,
+                         Held{message.topic, {message.bytes, message.bytes + message.size}});
+        }
+        if (held.empty()) return false;
+        const auto first = held.begin();
+        late += first->first < latest_ns;
+        latest_ns = std::max(latest_ns, first->first);
+        returned = std::move(first->second);
+        message = {returned.topic, first->first, returned.bytes.data(), returned.bytes.size()};
+        held_bytes -= returned.bytes.size();
+        held.erase(first);
+        return true;
     }
     void noteDamage() {
         const std::string damage = bag->takeDamage();
@@ -450,15 +483,9 @@ CObservation::Ptr BagScans::next() {
     Reader& r = *reader_;
     BagMessage message;
     while (r.complete.empty() && !r.is_at_end) {
-        try {
-            if (r.next(message)) {
-                r.take(message);
-            } else {
-                r.finish();
-            }
-        } catch (const BrokenRecording& e) {
-            r.noteDamage();
-            if (r.broken_because.empty()) r.broken_because = e.what();
+        if (r.next(message)) {
+            r.take(message);
+        } else {
             r.finish();
         }
     }
@@ -487,10 +514,10 @@ double BagScans::fractionRead() const {
 std::vector<std::string> BagScans::remarks() const {
     const Reader& r = *reader_;
     std::vector<std::string> remarks = r.bag->remarks();
-    if (r.order && r.order->late() > 0) {
+    if (r.late > 0) {
         remarks.push_back(
-            counted(r.order->late(), "LiDAR message") + " stored more than " +
-            std::to_string(MessageOrder::kMaxHeldBytes >> 20) +
+            counted(r.late, "LiDAR message") + " stored more than " +
+            std::to_string(kMaxHeldBytes >> 20) +
             " MB after later messages, read out of order; sort the recording by time");
     }
     remarks.insert(remarks.end(), r.plan.remarks.begin(), r.plan.remarks.end());
