@@ -21,7 +21,6 @@
 #include "evaluation/labelled_folders/HardSets.h"
 #include "evaluation/labelled_folders/LabelledFolders.h"
 #include "evaluation/labelled_folders/Methods.h"
-#include "evaluation/labelled_folders/Overlay.h"
 #include "evaluation/labelled_folders/Summary.h"
 #include "evaluation/labelled_folders/SummaryJson.h"
 
@@ -33,7 +32,7 @@ namespace fs = std::filesystem;
 
 struct Flags {
     std::vector<std::string> folders, configs, keys, sweeps, labels, degradations;
-    std::string label_map, camera, overlay, json, charts;
+    std::string label_map, camera, json, charts;
     float max_range_m = 20.0f;
     int resamples = 1000;
     bool with_baselines = false, with_hard_sets = false, overwrite = false;
@@ -63,12 +62,8 @@ void addFlags(Command& app, Flags& flags) {
         .between(0.1, 1000.0);
     app.option("--label-map", flags.label_map,
                "YAML file or preset: maps the classes of semantic/ (or labels/) to RoI and ROU");
-    const Flag camera =
-        app.option("--camera", flags.camera,
-                   "camera (YAML file or preset): also score its pixels, as in the paper");
-    app.option("--overlay", flags.overlay,
-               "folder for one PNG per scan in the camera's view: hits, misses, false alarms")
-        .needs(camera);
+    app.option("--camera", flags.camera,
+               "camera (YAML file or preset): also score its pixels, as in the paper");
     app.option("--json", flags.json, "JSON file: scores, counts and intervals");
     app.option("--charts", flags.charts, "folder for SVG charts");
     app.option("--bootstrap", flags.resamples, "bootstrap resamples for intervals; 0: no intervals")
@@ -99,22 +94,13 @@ auto fromFlag(const std::string& name, Read read, std::vector<fs::path>& files)
     }
 }
 
-/// Rejects row names that cannot be names of picture subfolders of --overlay.
-void checkNames(const std::vector<evaluation::LabelRow>& rows) {
-    for (const evaluation::LabelRow& row : rows) {
-        if (row.name != "." && row.name != "..") continue;
-        throw SettingsError("--labels: '" + row.name +
-                            "' is not a valid row name; choose another name");
-    }
-}
-
 /// The outputs, which are renamed into place at the end. A failed output does not affect the
 /// others.
 struct Outputs {
     Outputs(const Flags& flags, const evaluation::MethodSet& rows, std::vector<fs::path> inputs) {
         inputs.insert(inputs.end(), flags.folders.begin(), flags.folders.end());
         for (const evaluation::LabelRow& row : rows.labels) inputs.push_back(row.folder);
-        base::checkApart({flags.json, flags.charts, flags.overlay}, inputs);
+        base::checkApart({flags.json, flags.charts}, inputs);
         const auto open = [&](const std::string& path, const base::OutputKind& kind,
                               std::optional<base::OutputPath>& output) {
             if (path.empty()) return;
@@ -124,7 +110,6 @@ struct Outputs {
         };
         open(flags.json, base::kFile, json);
         open(flags.charts, evaluation::kCharts, charts);
-        open(flags.overlay, evaluation::kOverlays, overlay);
     }
     /// Writes an output, or a part of it, if requested.
     void write(const std::optional<base::OutputPath>& output,
@@ -132,7 +117,7 @@ struct Outputs {
         if (output) all.write(*output, [&] { step(output->temporary()); });
     }
 
-    std::optional<base::OutputPath> json, charts, overlay;
+    std::optional<base::OutputPath> json, charts;
     base::OutputSet all;
 };
 
@@ -149,7 +134,6 @@ int run(const Flags& flags, evaluation::Summary summary) {
     rows.filter = evaluation::rowsOf(summary.settings, flags.sweeps);
     if (flags.with_baselines) rows.baselines = summary.settings;
     evaluation::addLabelRows(flags.labels, rows);
-    checkNames(rows.labels);
     std::vector<fs::path> settings_files = summary.settings.files;
     const evaluation::LabelledInputs inputs{
         flags.folders, rows, fromFlag(flags.label_map, evaluation::readLabelMap, settings_files)};
@@ -182,9 +166,6 @@ int run(const Flags& flags, evaluation::Summary summary) {
                                         sources[view.source]->sensor(),
                                         rows.filter.front().settings.options);
             }
-            outputs.write(outputs.overlay, [&](const fs::path& folder) {
-                evaluation::drawOverlay(folder, sources[view.source]->name(), view, options);
-            });
         });
         hard_sets = evaluation::scoreHardSets(
             inputs, degradations, options.range,
@@ -223,7 +204,7 @@ int run(const Flags& flags, evaluation::Summary summary) {
     }
     std::cout << reportOf(summary) << std::flush;
     outputs.all.commit();
-    tellLeftBehind({flags.json, flags.charts, flags.overlay});
+    tellLeftBehind({flags.json, flags.charts});
     return 0;
 }
 

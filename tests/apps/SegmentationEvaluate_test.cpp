@@ -402,14 +402,12 @@ TEST_F(SegmentationEvaluate, JsonCountsAddUp) {
 }
 
 TEST_F(SegmentationEvaluate, ScoresCameraPixels) {
-    const std::string overlays = (folder_ / "overlays").string();
-    const auto report = json({"-i", labelledPole(), "--camera", kCamera, "--overlay", overlays});
+    const auto report = json({"-i", labelledPole(), "--camera", kCamera});
     const auto& pixels = report["methods"][0]["pixels"]["all"];
     const auto& returns = report["methods"][0]["returns"]["all"];
     EXPECT_EQ(pixels["roi"]["f1"], 1.0);
     EXPECT_LT(pixels["returns"], returns["returns"]);  // the camera sees a quarter of the circle
     EXPECT_GT(pixels["returns"], 100);
-    EXPECT_TRUE(fs::exists(folder_ / "overlays/pole_000000_overlay.png"));
 }
 
 /// An evaluation may take hours, so failed pictures must not lose the scores.
@@ -420,14 +418,12 @@ TEST_F(SegmentationEvaluate, KeepsScoresWithoutPictures) {
         {"-c", "PATH=\"" + folder_.path().string() + ":$PATH\" exec \"" +
                    std::string(HAGEN_SEGMENTATION_EVALUATE) + "\" -i \"" + labelledPole() +
                    "\" --camera \"" + kCamera + "\" --json \"" + path("a.json") + "\" --charts \"" +
-                   path("charts") + "\" --overlay \"" + path("overlay") + "\""});
+                   path("charts") + "\""});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(path("charts") + ": python3 ended"));
-    EXPECT_THAT(outcome.err, HasSubstr(path("overlay") + ": python3 ended"));
     EXPECT_EQ(row(outcome.out, "hagen"), (std::vector<double>{1, 1, 1, 1, 1, 1})) << outcome.out;
     EXPECT_EQ(readJson("a.json")["methods"].size(), 1u);
     EXPECT_FALSE(fs::exists(path("charts")));
-    EXPECT_FALSE(fs::exists(path("overlay")));
 }
 
 TEST_F(SegmentationEvaluate, DrawsCharts) {
@@ -461,7 +457,6 @@ TEST_F(SegmentationEvaluate, RejectsInvalidArguments) {
                     {{"-c", "none.yaml"}, "none.yaml"},
                     {{"-i", pole + "/"}, "is given twice"},
                     {{"--bootstrap", "-1"}, "--bootstrap"},
-                    {{"--overlay", "x"}, "--camera"},
                     {{"--baselines", "zermas"}, "zermas"},
                     {{"--baselines", "--sweep", "zermas=1"}, "zermas"},
                     {{"--json", ""}, "--json: must not be empty"},

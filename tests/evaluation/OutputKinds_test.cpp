@@ -6,7 +6,6 @@
 #include <fstream>
 #include "convert/pictures/StagePictures.h"
 #include "evaluation/labelled_folders/Charts.h"
-#include "evaluation/labelled_folders/Overlay.h"
 
 #include "support/Program.h"
 
@@ -83,15 +82,9 @@ TEST(OutputKinds, IdentifyPicturesByName) {
     const test::TemporaryFolder folder;
     folder.write("charts/by_range.svg", "");
     folder.write("charts/sweep_beta_deg.svg", "");
-    folder.write("overlays/hagen/00_000000_overlay.png", "");
     EXPECT_TRUE(mayReplace(folder / "charts", kCharts));
-    EXPECT_TRUE(mayReplace(folder / "overlays", kOverlays));
-    EXPECT_FALSE(mayReplace(folder / "charts", kOverlays));
-    EXPECT_FALSE(mayReplace(folder / "overlays", kCharts));
     folder.write("charts/logo.svg", "mine");
-    folder.write("overlays/hagen/wedding.png", "mine");
     EXPECT_FALSE(mayReplace(folder / "charts", kCharts));
-    EXPECT_FALSE(mayReplace(folder / "overlays", kOverlays));
 }
 
 TEST(OutputKinds, KeepSimilarlyNamedNeighbours) {

@@ -418,30 +418,6 @@ def airframe(job):
     page.save(job["file"])
 
 
-def overlay(job):
-    """Pixels `u`, `v` of a camera of `width` x `height` pixels with their `outcome`, in drawing order."""
-    scale = 2 if job["width"] < 1000 else 1
-    width, height, margin = scale * job["width"], scale * job["height"], 40
-    page = Page(width, height + 2 * margin)
-    page.text(8, height + margin + 14, plain(job["title"]))
-    axes = page.axes(0, width, margin, margin + height)
-    axes.spines[:].set_visible(True)
-    axes.spines[:].set_color("#BBBBBB")
-    axes.set_xlim(-0.5, job["width"] - 0.5)
-    axes.set_ylim(job["height"] - 0.5, -0.5)
-    axes.set_xticks([])
-    axes.set_yticks([])
-    for outcome, (name, colour) in enumerate((
-            ("not scored or not labelled", LINES), ("ROU found", ROU), ("RoI found", "#0072B2"),
-            ("ROU labelled RoI", "#E69F00"), ("RoI missed", "#D00000"))):
-        some = job["outcome"] == outcome
-        axes.plot(job["u"][some], job["v"][some], "o", ms=1.5 * scale, mew=0, color=colour,
-                  label=f"{name} ({some.sum()})")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncol=5, markerscale=4 / scale, handletextpad=0,
-                columnspacing=1)
-    page.save(job["file"])
-
-
 def chart(job):
     """`panels` with `lines`: x, y, and intervals `low`, `high`; side by side or stacked. Scores end at 1."""
     panels, width, height = job["panels"], job["width"], job["height"]
@@ -506,7 +482,7 @@ def main():
             values = np.dtype(f"<{kind}")
             job[name] = np.frombuffer(jobs.read(int(np.prod(shape)) * values.itemsize), values).reshape(shape)
         try:
-            {"stages": stages, "airframe": airframe, "overlay": overlay, "chart": chart}[job["kind"]](job)
+            {"stages": stages, "airframe": airframe, "chart": chart}[job["kind"]](job)
             print(flush=True)
         except RuntimeError as error:
             print(plain(str(error), 1000), flush=True)

@@ -8,20 +8,11 @@
 #include "filter/simd/GroundGrid-inl.h"
 #include "filter/simd/MaskBits.h"
 
-#ifndef HAGEN_OBSTACLE_FEET
-#define HAGEN_OBSTACLE_FEET
-namespace hagen {
-namespace {
-
-using namespace feet_rules;
-
-}  // namespace
-}  // namespace hagen
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
+
+using namespace feet_rules;
 
 /// Lists, in order, the pixels that may be a foot: ROU above kFootHeight_m with a RoI pixel among
 /// the next kFootRows in memory. Always includes the last few pixels of the image.
@@ -72,7 +63,8 @@ bool isFoot(const PixelPoints& pixels, const Image<float>& height_m, Eigen::Inde
     const Eigen::Vector3f up_m = pixels.at(above) - pixels.at(pixel);
     const bool is_steep =
         up_m.z() * up_m.z() > up_m.x() * up_m.x() + up_m.y() * up_m.y();  // > 45 deg
-    return is_steep && above - pixel <= kFootRows && height_m.data()[pixel] > kFootHeight_m;
+    return is_steep && above - pixel <= feet_rules::kFootRows &&
+           height_m.data()[pixel] > feet_rules::kFootHeight_m;
 }
 
 /// Marks `pixel` if it is a foot, and the feet below it in its column.
