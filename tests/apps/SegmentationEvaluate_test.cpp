@@ -414,11 +414,10 @@ TEST_F(SegmentationEvaluate, ScoresCameraPixels) {
 TEST_F(SegmentationEvaluate, KeepsScoresWithoutPictures) {
     fs::permissions(folder_.write("python3", "#!/bin/sh\nexit 3\n"), fs::perms::owner_all);
     const auto outcome = test::run(
-        "/bin/bash",
-        {"-c", "PATH=\"" + folder_.path().string() + ":$PATH\" exec \"" +
-                   std::string(HAGEN_SEGMENTATION_EVALUATE) + "\" -i \"" + labelledPole() +
-                   "\" --camera \"" + kCamera + "\" --json \"" + path("a.json") + "\" --charts \"" +
-                   path("charts") + "\""});
+        "/bin/bash", {"-c", "PATH=\"" + folder_.path().string() + ":$PATH\" exec \"" +
+                                std::string(HAGEN_SEGMENTATION_EVALUATE) + "\" -i \"" +
+                                labelledPole() + "\" --camera \"" + kCamera + "\" --json \"" +
+                                path("a.json") + "\" --charts \"" + path("charts") + "\""});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(path("charts") + ": python3 ended"));
     EXPECT_EQ(row(outcome.out, "hagen"), (std::vector<double>{1, 1, 1, 1, 1, 1})) << outcome.out;

@@ -5,7 +5,7 @@
 
 namespace hagen::sensors {
 
-/// An IPv6 address, or an IPv4 address mapped to ::ffff:0:0/96.
+/// An IPv6 address, or an IPv4 address mapped to IPv6.
 struct IpAddress {
     std::uint64_t high = 0, low = 0;
 
