@@ -1,9 +1,9 @@
 #include <hagen/filter/ResultCheck.h>
 #include <hagen/scan/Angle.h>
-#include "base/NumberText.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -25,6 +25,11 @@ constexpr std::pair<const char*, Attitude> kMounts[] = {
     {"sensor.mount_roll_deg=-90", {static_cast<float>(radians(-90)), 0}},
     {"sensor.mount_pitch_deg=90", {0, static_cast<float>(radians(90))}},
     {"sensor.mount_pitch_deg=-90", {0, static_cast<float>(radians(-90))}}};
+
+std::string textOf(const char* format, float number) {
+    char text[32];
+    return {text, text + std::snprintf(text, sizeof text, format, static_cast<double>(number))};
+}
 
 /// Whether a share of the returns in the zone is ground.
 bool hasGround(const Scan& scan, const std::vector<Label>& label, float zone_m) {
@@ -106,7 +111,8 @@ void ResultCheck::Count::add(bool is_suspicious) {
 }
 
 std::string ResultCheck::Count::text() const {
-    return std::to_string(suspicious) + " of " + base::counted(scans, "scan");
+    return std::to_string(suspicious) + " of " + std::to_string(scans) +
+           (scans == 1 ? " scan" : " scans");
 }
 
 void ResultCheck::add(const Scan& scan, const std::vector<Label>& label, const SensorModel& sensor,
@@ -116,7 +122,7 @@ void ResultCheck::add(const Scan& scan, const std::vector<Label>& label, const S
     if (options.ground_surface) {
         const bool has_ground = hasGround(scan, label, zone_m_);
         ground_.add(!has_ground);
-        if (!has_ground && ++tried_ <= kTried) tryMounts(scan, sensor, options);
+        if (tries_mounts_ && !has_ground && ++tried_ <= kTried) tryMounts(scan, sensor, options);
     }
     obstacles_.add(std::find(label.begin(), label.end(), Label::Roi) == label.end());
     if (++seen_ > kDetailed && seen_ % kDetailed != 0) return;
@@ -154,9 +160,9 @@ std::string ResultCheck::groundWarning() const {
     const std::size_t tried = std::min(tried_, kTried);
     const auto best = std::max_element(found_.begin(), found_.end());
     const std::string text = "no ground was found in " + ground_.text() +
-                             ": all their returns within " + base::shortestText(zone_m_) +
+                             ": all their returns within " + textOf("%g", zone_m_) +
                              " m count as obstacles. ";
-    if (*best == tried) {
+    if (tried > 0 && *best == tried) {
         return text + "With --set " + kMounts[best - found_.begin()].first + ", " +
                std::to_string(tried) + " of " + std::to_string(tried) +
                " of them have ground: is the sensor mounted so, or are its axes not x "
@@ -172,13 +178,13 @@ std::vector<std::string> ResultCheck::warnings() const {
     if (ground_.isMost()) warnings.push_back(groundWarning());
     if (obstacles_.isMost()) {
         warnings.push_back("no obstacle was found in " + obstacles_.text() +
-                           ". If some are within " + base::shortestText(zone_m_) +
+                           ". If some are within " + textOf("%g", zone_m_) +
                            " m (zone_m): are the coordinates in metres, relative to the sensor (x "
                            "forward, z up) and not to a map?");
     }
     if (one_range_.isMost()) {
         warnings.push_back(
-            "most returns have the same range, " + base::shortestText(range_m_) + " m, in " +
+            "most returns have the same range, " + textOf("%g", range_m_) + " m, in " +
             one_range_.text() +
             ": are they missing returns, or a cover of the sensor? Exclude them with "
             "--set sensor.min_range_m or sensor.max_range_m");
@@ -202,8 +208,7 @@ std::vector<std::string> ResultCheck::warnings() const {
     if (times_.isMost()) {
         warnings.push_back(
             "the times of the returns contradict a sweep in " + times_.text() +
-            (time_s_ > 0 ? ": they span " + base::fixedText(static_cast<double>(time_s_), 2) + " s"
-                         : "") +
+            (time_s_ > 0 ? ": they span " + textOf("%.2f", time_s_) + " s" : "") +
             ". Are they normalised, or in another unit than the file states? Maps use them to "
             "correct "
             "the motion during a sweep");

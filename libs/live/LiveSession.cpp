@@ -123,6 +123,7 @@ void Session::takeSector(const LabelledSector& sector) {
     figures_->take(sector, steadyNow_s());
     listener_.sector(sector);
     reportEmptiness(sector.returns);
+    figures_->checkTurn(sector);
     if (!is_result_reported_) {
         const std::vector<std::string> warnings = figures_->resultWarnings();
         is_result_reported_ = !warnings.empty();

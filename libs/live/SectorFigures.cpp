@@ -57,12 +57,11 @@ void SectorFigures::take(const LabelledSector& sector, double now_s) {
     distances_.take(sector);
     report_.sectors_doubtful += sector.is_doubtful;
     noteNearest(sector);
-    if (turns_checked_ < kTurnsChecked) checkTurn(sector);
 }
 
-/// Checks a turn per second. Nothing is known of ground until half a turn is.
 void SectorFigures::checkTurn(const LabelledSector& sector) {
-    if (sector.is_doubtful || sector.first_time_s < turn_from_s_) return;
+    if (turns_checked_ == kTurnsChecked || sector.is_doubtful) return;
+    if (sector.first_time_s < turn_from_s_) return;
     if (turn_.size() == 0) turn_from_s_ = sector.first_time_s;
     for (std::size_t i = 0; i < sector.returns.size(); ++i) {
         appendReturn(sector.returns, i, turn_);

@@ -21,6 +21,8 @@ class SectorFigures {
 
     /// Adds a sector labelled at `now_s`.
     void take(const LabelledSector& sector, double now_s);
+    /// Checks the labels of a turn per second. Not urgent: call it after passing the sector on.
+    void checkTurn(const LabelledSector& sector);
     /// Counts the states of the directions, at 20 Hz.
     void countDirections(double now_s);
     /// Copies the latest distances into the report.
@@ -42,7 +44,6 @@ class SectorFigures {
 
  private:
     void noteNearest(const LabelledSector& sector);
-    void checkTurn(const LabelledSector& sector);
 
     LiveReport& report_;
     SensorModel sensor_;
@@ -54,7 +55,7 @@ class SectorFigures {
         float nearest_m = 0;
     };
     std::array<Near, SectorDistances::kSectors> near_;
-    ResultCheck check_;
+    ResultCheck check_{false};
     Scan turn_;  ///< returns of the turn to be checked, and their labels
     std::vector<Label> turn_labels_;
     std::size_t turns_checked_ = 0;

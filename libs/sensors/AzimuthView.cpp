@@ -70,8 +70,9 @@ std::optional<SilentSector> AzimuthView::silence() const {
     }
     if (first == bins || gaps > 1) return std::nullopt;
     if (gaps == 0) return gap;
-    const bool starts_at_0 = clockwise(-kMaxStart, first_) < 2 * kMaxStart;
-    gap.cut = starts_at_0 ? 0 : (gap.from + gap.width / 2) % kReadingsOfTurn;
+    const bool starts_at_sector = clockwise(gap.from + gap.width, first_) < kMaxBlockStep;
+    const bool is_cut = first_ < kMaxStart && !starts_at_sector;
+    gap.cut = is_cut ? 0 : (gap.from + gap.width / 2) % kReadingsOfTurn;
     const auto skipsGap = [&](const Skip& skip) {
         return clockwise(skip.from, gap.from) + gap.width <= skip.width &&
                skip.width <= gap.width + kMaxBeside;

@@ -11,8 +11,7 @@ namespace hagen::sensors {
 /// The part of each turn, clockwise in 0.01 degrees, in which a sensor with a limited field of view
 /// sends nothing. The width is 0 if there is none.
 struct SilentSector {
-    int from = 0, width = 0;
-    int cut = 0;  ///< azimuth at which turns end
+    int from = 0, width = 0, cut = 0;  ///< turns end at `cut`
 
     /// The share of the rotation between two azimuths, 0 ... 1, that lies in the sector; 0 if an
     /// azimuth is negative.

@@ -49,19 +49,6 @@ class RawlogSegmentTrouble : public test::SegmentTest {
     }
 };
 
-/// A new file could reuse a closed stream's descriptor, so that messages end up in the output.
-TEST_F(RawlogSegmentTrouble, ClosedStreamsDoNotChangeOutput) {
-    const Arguments flags{"-i", recording(), "--preview", "--overwrite", "-o"};
-    expectSuccess(with(flags, {path("open.rawlog")}));
-    for (const std::string closed : {">&- 2>&-", "<&- >&- 2>&-", "2>&-", "<&-"}) {
-        const auto outcome =
-            runAfter("exec " + closed + "; ", with(flags, {path("closed.rawlog")}));
-        EXPECT_EQ(outcome.exit_code, 0) << closed;
-        EXPECT_TRUE(test::readFile(path("closed.rawlog")) == test::readFile(path("open.rawlog")))
-            << closed;
-    }
-}
-
 /// Opening a pipe may block, and a device may be endless.
 TEST_F(RawlogSegmentTrouble, RejectsPipesAndDevices) {
     ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);

@@ -379,7 +379,7 @@ TEST_F(RawlogSegment, RejectsUnreadableInputs) {
     };
     fails(folder_.write("a.rawlog", ""), "is empty");
     fails(folder_.write("text.rawlog", "this is no rawlog, whatever its name says\n"),
-          "text.rawlog: is not a recording: it seems to be text. Supported: rawlogs, captures");
+          "text.rawlog: is not a recording: it seems to be text: if it has a point per line");
     fails(folder_.write("a.rawlog", "\x89PNG\r\n\x1a\n" + std::string(99, '\x81')),
           "it seems to be a PNG picture");
     fails(folder_.write("b.rawlog", std::string(99, '\x81')), "its format is unknown");

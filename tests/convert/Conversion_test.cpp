@@ -570,6 +570,9 @@ TEST_P(ConversionTest, ReportsLogWithoutScans) {
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(pose());
     frame->insert(mrpt::obs::CObservationIMU::Create());
+    auto row = mrpt::obs::CObservationRotatingScan::Create();
+    row->rowCount = 1;
+    frame->insert(row);
     writeLog({pose(), mrpt::obs::CActionCollection::Create(), frame, pose()});
     std::vector<std::string> remarks;
     convert(conversion(), remarksInto(remarks));
@@ -577,7 +580,8 @@ TEST_P(ConversionTest, ReportsLogWithoutScans) {
                              "the recording: no converted entry has a LiDAR scan "
                              "(CObservationVelodyneScan, CObservationRotatingScan, "
                              "CObservationPointCloud, CObservation3DRangeScan); they have "
-                             "1 CActionCollection, 1 CObservationIMU, 3 CObservationRobotPose"));
+                             "1 CActionCollection, 1 CObservationIMU, 3 CObservationRobotPose, "
+                             "1 CObservationRotatingScan of a single row"));
     remarks.clear();
     writeLog({pose(), scanFrom(0)});
     Conversion whole = conversion();

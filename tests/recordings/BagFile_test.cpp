@@ -332,6 +332,17 @@ TEST_F(BagFolderTest, ReadsFilesInOrder) {
     EXPECT_EQ(readAll(folder_ / "bag").messages.size(), 4u);
 }
 
+TEST_F(BagFolderTest, ReportsDamageAtEndOfFile) {
+    for (const char* name : {"bag/bag_8.mcap", "bag/bag_10.mcap"}) {
+        const ByteString whole = test::readFile(folder_ / name);
+        ByteString changed = whole;
+        changed[whole.size() / 3] = static_cast<char>(~changed[whole.size() / 3]);
+        test::writeBytes(folder_ / name, changed);
+        EXPECT_THAT(readAll(folder_ / "bag").broken_because, HasSubstr("the chunk at byte"));
+        test::writeBytes(folder_ / name, whole);
+    }
+}
+
 TEST_F(BagFolderTest, RejectsInvalidMetadata) {
     writeMetadata("", "[bag_8.mcap, bag_99.mcap]");
     EXPECT_THAT(readAll(folder_ / "bag").broken_because,

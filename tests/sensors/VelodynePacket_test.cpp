@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <hagen/sensors/VelodynePacket.h>
 
+#include <utility>
+
 namespace hagen::sensors {
 namespace {
 
@@ -27,6 +29,14 @@ TEST(VelodynePacket, ReadsFooter) {
     EXPECT_FALSE(packet.isDual());
     packet.bytes[1204] = 0x39;
     EXPECT_TRUE(packet.isDual());
+}
+
+TEST(VelodynePacket, BlocksOfOtherModelsHaveNoAzimuth) {
+    VelodynePacket packet = packetOf(0xccff);  // the third bank of a VLS-128
+    for (const auto& [id, azimuth] : {std::pair(0x22, -1), {0xa1, 40}}) {
+        packet.bytes[kVelodyneModelAt] = static_cast<std::uint8_t>(id);
+        EXPECT_EQ(packet.azimuthOf(1), azimuth);
+    }
 }
 
 TEST(VelodynePacket, OnlySoundBlocksHaveAzimuth) {

@@ -1,8 +1,5 @@
 #include "base/command_line/CommandLine.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
@@ -299,24 +296,10 @@ int guarded(int argc, char** argv, int (*program)(int argc, char** argv)) noexce
     return kFailed;
 }
 
-namespace {
-
-/// Opens /dev/null in place of a closed standard stream. Otherwise the next opened file would get
-/// the stream's descriptor, and messages would be written into that file.
-void reserveStandardStreams() {
-    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-        if (fcntl(stream, F_GETFD) != -1) continue;
-        [[maybe_unused]] const int lowest = open("/dev/null", O_RDWR);  // lowest free descriptor
-    }
-}
-
-}  // namespace
-
 Program::Program(std::string name, const std::string& description)
     : Program(std::make_unique<CLI::App>(description), std::move(name)) {}
 Program::Program(std::unique_ptr<CLI::App> app, std::string name)
     : Command(*app, work_), owned_(std::move(app)), name_(std::move(name)) {
-    reserveStandardStreams();
     ignoreWriteSignals();
     keepTerminalSafe();
     app_->formatter(std::make_shared<HelpText>());  // subcommands inherit it

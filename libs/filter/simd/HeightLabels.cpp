@@ -7,21 +7,12 @@
 #include <hwy/foreach_target.h>
 #include "filter/simd/GroundGrid-inl.h"
 
-#ifndef HAGEN_HEIGHT_LABELS
-#define HAGEN_HEIGHT_LABELS
-namespace hagen {
-namespace {
-
-constexpr int kCells = GroundSurface::kCells;
-using namespace tolerance_rules;
-
-}  // namespace
-}  // namespace hagen
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
+
+constexpr int kCells = GroundSurface::kCells;
+using namespace tolerance_rules;
 
 /// The maximum of each cell and its four neighbours, limited to 0...kTallest_m. The border gets the
 /// values of the adjacent cells.

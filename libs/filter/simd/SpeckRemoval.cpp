@@ -7,21 +7,12 @@
 #include <hwy/foreach_target.h>
 #include "filter/simd/GroundGrid-inl.h"
 
-#ifndef HAGEN_SPECK_REMOVAL
-#define HAGEN_SPECK_REMOVAL
-namespace hagen {
-namespace {
-
-using namespace speck_rules;
-constexpr int kVote = 1, kVoteForRoi = 17;  // a sum of 9 contains both counts, RoI votes times 16
-
-}  // namespace
-}  // namespace hagen
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
+
+using namespace speck_rules;
+constexpr int kVote = 1, kVoteForRoi = 17;  // a sum of 9 contains both counts, RoI votes times 16
 
 /// Fills one column of the images in SpeckWorkspace.
 void EnterColumnIn(std::size_t rows, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,

@@ -4,6 +4,9 @@
 namespace hagen::live {
 
 void Senders::add(const mavlink::Frame& frame) {
+    constexpr std::size_t kMaxSenders = 16;
+    if (senders_.size() == kMaxSenders && senders_.count({frame.system, frame.component}) == 0)
+        return;
     Sent& sent = senders_[{frame.system, frame.component}];
     sent.version = frame.version;
     sent.has_heartbeat = sent.has_heartbeat || frame.id == mavlink::Heartbeat::kId;

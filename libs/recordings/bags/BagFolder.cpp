@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "recordings/bags/BagFormats.h"
 #include "recordings/bags/TopicList.h"
@@ -115,13 +116,16 @@ class BagFolder : public BagFile {
                 message.topic = topic_of_[message.topic];
                 return true;
             }
+            damage_ += open_->takeDamage();
             open_.reset();
             if (++file_ < files_.size()) openFile();
         }
         return false;
     }
 
-    std::string takeDamage() override { return open_ ? open_->takeDamage() : ""; }
+    std::string takeDamage() override {
+        return std::exchange(damage_, "") + (open_ ? open_->takeDamage() : "");
+    }
     const std::vector<BagTopic>& topics() const override { return topics_.all(); }
 
     double fractionRead() const override {
@@ -157,6 +161,7 @@ class BagFolder : public BagFile {
     }
 
     std::vector<fs::path> files_;
+    std::string damage_;  ///< at the end of earlier files
     std::vector<std::string> remarks_;
     std::vector<double> bytes_before_;
     double bytes_ = 0;

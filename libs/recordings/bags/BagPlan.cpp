@@ -81,7 +81,8 @@ class Planner {
 
  private:
     [[noreturn]] void fail(const std::string& why) const {
-        const std::string& broken = survey_.broken_because;
+        const bool is_broken = !survey_.broken_because.empty();
+        const std::string& broken = is_broken ? survey_.broken_because : survey_.damage;
         throw std::runtime_error(file_.string() + ": " + why +
                                  (broken.empty() ? "" : "; it is only partly readable: " + broken));
     }
@@ -549,8 +550,9 @@ class Planner {
     /// known. The mount of the settings is then part of the orientation.
     bool sharesMount(const std::string& lidar, const std::string& imu) const {
         const std::string root = frames_.rootOf(lidar);
-        return lidar == imu || (root == frames_.rootOf(imu) && root.find("base_") != 0 &&
-                                (plan_.poses == nullptr || root != plan_.poses->child));
+        const bool is_vehicle = root.find("base") != std::string::npos ||
+                                (plan_.poses != nullptr && root == plan_.poses->child);
+        return !lidar.empty() && (lidar == imu || (root == frames_.rootOf(imu) && !is_vehicle));
     }
 
     const std::filesystem::path& file_;

@@ -28,7 +28,7 @@ using mrpt::obs::CObservationPointCloud;
 using observations::NumberType;
 using observations::PointTable;
 
-constexpr std::size_t kMaxHeldBytes = 256 << 20;
+constexpr std::size_t kMaxHeldBytes = 256 << 20, kHeldAround = 128;
 
 struct TopicState {
     std::string name;
@@ -166,7 +166,7 @@ struct BagScans::Reader {
         if (!survey.is_out_of_order) return read(message);
         while (held_bytes < kMaxHeldBytes && read(message)) {
             if (stateOf(message) == nullptr) continue;
-            held_bytes += message.size;
+            held_bytes += message.size + kHeldAround;
             held.emplace(message.time_ns,
                          Held{message.topic, {message.bytes, message.bytes + message.size}});
         }
@@ -176,14 +176,14 @@ struct BagScans::Reader {
         latest_ns = std::max(latest_ns, first->first);
         returned = std::move(first->second);
         message = {returned.topic, first->first, returned.bytes.data(), returned.bytes.size()};
-        held_bytes -= returned.bytes.size();
+        held_bytes -= returned.bytes.size() + kHeldAround;
         held.erase(first);
         return true;
     }
     void noteDamage() {
         const std::string damage = bag->takeDamage();
         if (damage.empty()) return;
-        if (scans < first_scan) {
+        if (scans < first_scan && !survey.is_out_of_order) {
             plan.remarks.push_back(damage);
         } else if (broken_because.empty()) {
             broken_because = damage;

@@ -79,7 +79,8 @@ class BagSurveyor {
         const std::string& type = topic.topic.type;
         if (topic.kind != LidarKind::None) {
             const bool lacks_model =
-                topic.kind == LidarKind::Velodyne && topic.velodyne_messages < kMaxExamined;
+                topic.kind == LidarKind::Velodyne &&
+                (topic.velodyne_messages < kMaxExamined || !topic.velodyne_view.silence());
             if (topic.frame.empty() || lacks_model) look(message, topic);
         } else if (type == "nav_msgs/Odometry") {
             FieldReader fields = fieldsOf(message, topic.topic.encoding, unpacked_);
@@ -227,6 +228,7 @@ BagSurvey surveyBag(const std::filesystem::path& file, const std::function<bool(
     }
     BagSurvey survey = std::move(surveyor).survey();
     survey.broken_because = broken_because;
+    survey.damage = bag->takeDamage();
     for (std::size_t i = survey.topics.size(); i < bag->topics().size(); ++i) {
         auto& topic = survey.topics.emplace_back();
         topic.topic = bag->topics()[i];

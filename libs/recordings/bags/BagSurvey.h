@@ -83,6 +83,7 @@ struct BagSurvey {
     std::size_t messages = 0;                            ///< number of messages read, of all topics
     bool is_out_of_order = false;  ///< whether a LiDAR message has an earlier time than the last
     bool is_whole = true;
+    std::string damage;          ///< a damaged chunk
     std::string broken_because;  ///< empty if read to its end or stopped by the caller
 };
 

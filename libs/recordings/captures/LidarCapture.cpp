@@ -1,9 +1,9 @@
 #include "recordings/captures/LidarCapture.h"
+#include <hagen/sensors/VelodynePacket.h>
 #include "recordings/Remarks.h"
 #include "sensors/LidarFamily.h"
 
-#include <cstdint>
-#include <cstdlib>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -69,12 +69,17 @@ std::unique_ptr<sensors::SweepReader> readerFor(const std::filesystem::path& fil
     if (is_ouster) return sensors::makeOusterSweeps(sensor_json);
     if (family != nullptr) return family->makeSweeps();
     auto velodynes = sensors::makeVelodyneSweeps(calibration);
-    constexpr std::int64_t kTwoTurns_ns = 500000000;  // at 5 Hz or faster
-    std::int64_t first_ns = 0;
+    constexpr double kTwoTurns_ns = 5e8;  // at 5 Hz or faster
+    constexpr int kMaxDatagrams = 100000;
+    double first_ns = 0;
+    int datagrams = 0;
     preview(file, check, [&](const sensors::Datagram& datagram) {
-        if (first_ns == 0) first_ns = datagram.time_ns;
+        const auto time_ns = static_cast<double>(datagram.time_ns);
+        const bool is_data = sensors::isVelodyneData(datagram.bytes, datagram.size);
+        if (is_data && first_ns == 0) first_ns = time_ns;
         velodynes->preview(datagram);
-        return std::abs(datagram.time_ns - first_ns) < kTwoTurns_ns;
+        return ++datagrams < kMaxDatagrams &&
+               (first_ns == 0 || std::abs(time_ns - first_ns) < kTwoTurns_ns);
     });
     return velodynes;
 }

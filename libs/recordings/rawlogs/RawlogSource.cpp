@@ -13,11 +13,12 @@
 namespace hagen::recordings {
 namespace {
 
-/// Class name without namespace: "CObservationImage".
+/// Class name without namespace of an object without scan, and what it lacks if it could have one.
 std::string classOf(const mrpt::rtti::CObject& object) {
-    const std::string name = object.GetRuntimeClass()->className;
-    const std::size_t colons = name.rfind("::");
-    return colons == std::string::npos ? name : name.substr(colons + 2);
+    const std::string full = object.GetRuntimeClass()->className;
+    const std::string name = full.substr(full.rfind(':') + 1);  // npos + 1 is 0
+    if (name == "CObservationRotatingScan") return name + " of a single row";
+    return name == "CObservation3DRangeScan" ? name + " without points or ranges" : name;
 }
 
 class RawlogSource : public ScanSource {

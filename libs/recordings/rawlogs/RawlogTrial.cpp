@@ -46,15 +46,17 @@ std::uint64_t dataBytes() {
 /// Reads all entries and sends a verdict on each of them.
 [[noreturn]] void tryAll(const std::filesystem::path& file, const std::filesystem::path& opened,
                          int socket) {
-    EntryReader reader(file, opened);
+    std::optional<EntryReader> opening;
     try {
+        EntryReader& reader = opening.emplace(file, opened);
         base::limitMemory(dataBytes() + kMaxEntryBytes);
         while (reader.next()) {
             sendVerdict(socket, EntryVerdict::Kind::Sound, reader.stream().getPosition());
         }
         sendVerdict(socket, EntryVerdict::Kind::End, reader.stream().getPosition());
     } catch (const std::bad_alloc&) {
-        sendVerdict(socket, EntryVerdict::Kind::OutOfMemory, reader.stream().getPosition());
+        const std::uint64_t at = opening ? opening->stream().getPosition() : 0;
+        sendVerdict(socket, EntryVerdict::Kind::OutOfMemory, at);
     } catch (const std::exception& e) {
         sendVerdict(socket, EntryVerdict::Kind::Broken, 0, e.what());
     }

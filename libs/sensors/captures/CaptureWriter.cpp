@@ -26,9 +26,9 @@ void appendLittle32(std::string& bytes, std::uint64_t value) {
     }
 }
 
-void appendIp(std::string& bytes, const IpAddress& ip) {
+void appendIp(std::string& bytes, const IpAddress& ip, bool is_ipv4) {
     const auto low = static_cast<std::uint32_t>(ip.low);
-    if (ip.isIpv4()) return append32(bytes, low);
+    if (is_ipv4) return append32(bytes, low);
     append32(bytes, static_cast<std::uint32_t>(ip.high >> 32));
     append32(bytes, static_cast<std::uint32_t>(ip.high));
     append32(bytes, static_cast<std::uint32_t>(ip.low >> 32));
@@ -68,8 +68,8 @@ void appendFrame(std::string& bytes, const Datagram& datagram) {
         append32(bytes, 0x00004000);  // not fragmented
         append16(bytes, 0x4011);      // time to live 64, UDP
         append16(bytes, 0);           // checksum
-        appendIp(bytes, datagram.from_ip);
-        appendIp(bytes, datagram.to_ip);
+        appendIp(bytes, datagram.from_ip, true);
+        appendIp(bytes, datagram.to_ip, true);
         const unsigned checksum = checksumOf(bytes, ip, kIpHeader);
         bytes[ip + 10] = static_cast<char>(checksum >> 8);
         bytes[ip + 11] = static_cast<char>(checksum & 0xff);
@@ -78,8 +78,8 @@ void appendFrame(std::string& bytes, const Datagram& datagram) {
         append32(bytes, 0x60000000);
         append16(bytes, udp_bytes);
         append16(bytes, 0x1140);  // UDP, hop limit 64
-        appendIp(bytes, datagram.from_ip);
-        appendIp(bytes, datagram.to_ip);
+        appendIp(bytes, datagram.from_ip, false);
+        appendIp(bytes, datagram.to_ip, false);
     }
     append16(bytes, datagram.from_port);
     append16(bytes, datagram.to_port);

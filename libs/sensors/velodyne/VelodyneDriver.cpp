@@ -29,6 +29,7 @@ constexpr double kNearest_m = 0.5;
 constexpr int kReadings = kReadingsOfTurn;
 // Azimuth jitter of a nearly stationary motor, and max. deviation within a packet, in 0.01 degrees.
 constexpr double kJitter = 10, kMaxOff = 100;
+constexpr double kMaxTurnBetweenPackets = 100;  // of a VLS-128 in dual mode: 38 at 20 Hz
 
 /// Azimuth of a firing of `step` blocks; -1 if one of them is invalid.
 int azimuthOfFiring(const VelodynePacket& packet, int firing, int step) {
@@ -157,7 +158,8 @@ class VelodyneDriver : public LidarDriver {
         const bool is_dual = packet.isDual();
         const double period_us = model_.packetPeriodUs(has_last_ ? is_dual_ : is_dual);
         const double elapsed_us = has_last_ ? elapsedUs(last_us_, time_us) : 0;
-        const double silent = silence_.shareOf(last_azimuth_, packet.azimuth());
+        const double silent =
+            elapsed_us > kForgottenUs ? 0 : silence_.shareOf(last_azimuth_, packet.azimuth());
         const double sending_us = elapsed_us * (1 - silent);
         if (silent > 0 && elapsed_us > 0) sink.flush();
         if (sending_us > kInterruptionUs) {
@@ -277,8 +279,8 @@ class VelodyneDriver : public LidarDriver {
             const double packets = elapsed_us / model_.packetPeriodUs(packet.isDual());
             if (packets > 0.5 && packets < 10) {
                 const double last = 100 * degrees(last_sweep_.from_rad);
-                turn_between_packets_ =
-                    std::max(0.0, std::remainder(from - last, kReadings) / packets);
+                const double turn = std::max(0.0, std::remainder(from - last, kReadings) / packets);
+                if (turn < kMaxTurnBetweenPackets) turn_between_packets_ = turn;
             }
             per_firing = turn_between_packets_;
         }

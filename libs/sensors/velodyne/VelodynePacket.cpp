@@ -23,7 +23,9 @@ bool VelodynePacket::isDual() const {
 
 int VelodynePacket::azimuthOf(int block) const {
     const int azimuth = little<std::uint16_t>(bytes.data() + block * kVelodyneBlockBytes + 2);
-    return bankOf(bytes.data(), block) >= 0 && azimuth < kReadingsOfTurn ? azimuth : -1;
+    const VelodyneModel* const model = velodyneModelOf(bytes.data());
+    const int bank = bankOf(bytes.data(), block), banks = model == nullptr ? 1 : model->banks();
+    return bank >= 0 && bank < banks && azimuth < kReadingsOfTurn ? azimuth : -1;
 }
 
 int VelodynePacket::azimuth() const {

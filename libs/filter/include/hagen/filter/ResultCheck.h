@@ -15,6 +15,9 @@ namespace hagen {
 /// count. Not thread-safe.
 class ResultCheck {
  public:
+    /// `tries_mounts`: labels some scans without ground again, which takes time.
+    explicit ResultCheck(bool tries_mounts = true) : tries_mounts_(tries_mounts) {}
+
     /// Adds a labelled scan: `label` has one label per return.
     void add(const Scan& scan, const std::vector<Label>& label, const SensorModel& sensor,
              const Options& options);
@@ -42,6 +45,7 @@ class ResultCheck {
     std::string groundWarning() const;
 
     Count ground_, obstacles_, one_range_, too_far_, too_near_, neighbours_, times_;
+    bool tries_mounts_;
     std::size_t seen_ = 0, tried_ = 0;
     float zone_m_ = 0, range_m_ = 0, time_s_ = 0;  ///< of the latest scan: range and time span
     std::array<std::size_t, 5> found_{};           ///< scans with ground, by mount tried
