@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include "recordings/bags/BagFile.h"
 #include "recordings/bags/FrameTree.h"
-#include "sensors/AzimuthView.h"
+#include "sensors/velodyne/AzimuthView.h"
 
 #include <array>
 #include <cstddef>

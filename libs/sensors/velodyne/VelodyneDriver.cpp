@@ -5,7 +5,7 @@
 #include <hagen/sensors/VelodyneModel.h>
 #include <hagen/sensors/VelodynePacket.h>
 #include "scan/AppendReturn.h"
-#include "sensors/AzimuthView.h"
+#include "sensors/velodyne/AzimuthView.h"
 
 #include <algorithm>
 #include <cmath>

@@ -23,9 +23,10 @@ bool VelodynePacket::isDual() const {
 
 int VelodynePacket::azimuthOf(int block) const {
     const int azimuth = little<std::uint16_t>(bytes.data() + block * kVelodyneBlockBytes + 2);
-    const VelodyneModel* const model = velodyneModelOf(bytes.data());
-    const int bank = bankOf(bytes.data(), block), banks = model == nullptr ? 1 : model->banks();
-    return bank >= 0 && bank < banks && azimuth < kReadingsOfTurn ? azimuth : -1;
+    const int bank = bankOf(bytes.data(), block);
+    const VelodyneModel* const model = bank > 0 ? velodyneModelOf(bytes.data()) : nullptr;
+    const bool is_block = bank == 0 || (model != nullptr && bank < model->banks());
+    return is_block && azimuth < kReadingsOfTurn ? azimuth : -1;
 }
 
 int VelodynePacket::azimuth() const {

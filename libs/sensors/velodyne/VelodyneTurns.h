@@ -3,8 +3,8 @@
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <hagen/sensors/VelodyneModel.h>
 #include <hagen/sensors/VelodynePacket.h>
-#include "sensors/AzimuthView.h"
 #include "sensors/SweepReader.h"
+#include "sensors/velodyne/AzimuthView.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,15 +1,14 @@
-#include "sensors/AzimuthView.h"
+#include "sensors/velodyne/AzimuthView.h"
 
 #include <algorithm>
 
 namespace hagen::sensors {
 namespace {
 
-constexpr int kBin = 10;
-constexpr int kMinWidth = 800;      // a lost packet of a VLP-16 leaves 4.8 degrees at 10 Hz
-constexpr int kMaxBlockStep = 300;  // larger steps skip blocks
-constexpr int kMaxBeside = 2000;    // a skip may include lost packets beside the sector
-constexpr int kMaxStart = 1000;     // a packet at 20 Hz
+constexpr int kBin = 10, kMaxStart = 1000;  // a packet covers up to 9.6 degrees at 20 Hz
+constexpr int kMinWidth = 800;              // a lost packet of a VLP-16 leaves 4.8 degrees at 10 Hz
+constexpr int kMaxBlockStep = 300;          // larger steps skip blocks
+constexpr int kMaxBeside = 2000;            // a skip may include lost packets beside the sector
 
 int clockwise(int from, int to) { return (to - from + kReadingsOfTurn) % kReadingsOfTurn; }
 
