@@ -60,6 +60,7 @@ Eigen::Vector3d fitPlane(const std::vector<Eigen::Vector3d>& points) {
     Eigen::Vector3d plane = planeThrough(points, nearness);
     double scale_m = kFirstScale_m;
     for (int round = 0; round < kRounds; ++round) {
+        plane.z() = std::min(plane.z(), 0.0);
         plane = planeThrough(points, [&](const Eigen::Vector3d& p) {
             const double residual_m = p.z() - plane.dot(Eigen::Vector3d(p.x(), p.y(), 1));
             const double step = residual_m / scale_m;
