@@ -40,7 +40,7 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
         .group("Flight");
     app.option("--altitude", log.altitude_m, "metres above the ground")
         .required()
-        .between(1.0, 15.0)
+        .between(0.2, 15.0)
         .group("Flight");
     app.option("--seed", log.seed, "the same seed gives the same scene, flight and scans")
         .required()

@@ -365,6 +365,14 @@ TEST(LidarTest, AirframeStaysWithVehicle) {
     }
 }
 
+TEST(LidarTest, NearerSoilHidesLegs) {
+    SensorErrorModel faults = noFaults();
+    faults.airframe = true;
+    const Simulation setup(level(), flightAt(0.15, 4, 0), "HDL-32E");
+    const SimulatedScan scan = setup.scan(0, faults);
+    for (std::size_t i = 0; i < scan.size(); ++i) ASSERT_GT(setup.inMap(scan, i, 0).z(), -0.01);
+}
+
 /// A Mid-360 inside a building, where every beam has a return.
 Simulation livoxIndoors() {
     const FlightSettings hover = flightAt(3, 1e-3, 0);
