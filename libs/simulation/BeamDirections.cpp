@@ -55,32 +55,41 @@ DirectionsOfFiring directionsOfRings(const SensorModel& sensor, const FiringPatt
     };
 }
 
-constexpr double kMinElevation_rad = radians(-7), kSpan_rad = radians(59);
-const double kTurns_hz = 25 * (1 + std::sqrt(5.0)), kSweeps_hz = 10 * std::sqrt(2.0);
+struct Angles {
+    double azimuth_deg, elevation_deg;
+};
 
 double fraction(double value) { return value - std::floor(value); }
 
+/// Rises from 0 to 1 and falls back, once per unit.
+double triangle(double value) { return 1 - std::abs(2 * fraction(value) - 1); }
+
+Angles anglesOfMid360(double time_s, int line) {
+    return {kFirstAzimuth_deg - 360 * fraction(105 * std::sqrt(3.0) * time_s),
+            -7.2 + 60.4 / 4 * (line + triangle(10 * std::sqrt(2.0) * time_s))};
+}
+
 DirectionsOfFiring directionsOfSweeps(const SensorModel& sensor, const FiringPattern& pattern,
                                       double time_s) {
-    return [sensor, pattern, time_s](int firing, std::vector<BeamDirection>& directions) {
-        for (int line = 0; line < pattern.lasers; ++line) {
-            const double at_s = time_s + 1e-6 * (firing * pattern.firing_period_us +
-                                                 line * pattern.laser_period_us);
-            const double azimuth_rad = std::remainder(
-                radians(kFirstAzimuth_deg) - 2 * kPi * fraction(kTurns_hz * at_s), 2 * kPi);
-            const double sweep = 1 - std::abs(2 * fraction(kSweeps_hz * at_s) - 1);
-            const double elevation_rad =
-                kMinElevation_rad + kSpan_rad / pattern.lasers * (line + sweep);
-            const double level = std::cos(elevation_rad);
-            const auto elevation = static_cast<float>(elevation_rad);
-            directions[static_cast<std::size_t>(line)] = {
-                Eigen::Vector3d(level * std::cos(azimuth_rad), level * std::sin(azimuth_rad),
-                                std::sin(elevation_rad))
-                    .cast<float>(),
-                static_cast<float>(azimuth_rad), elevation,
-                static_cast<std::uint8_t>(sensor.nearestRow(elevation))};
-        }
-    };
+    const auto angles_at = anglesOfMid360;
+    return
+        [sensor, pattern, angles_at, time_s](int firing, std::vector<BeamDirection>& directions) {
+            for (int line = 0; line < pattern.lasers; ++line) {
+                const double at_s = time_s + 1e-6 * (firing * pattern.firing_period_us +
+                                                     line * pattern.laser_period_us);
+                const Angles angles = angles_at(at_s, line);
+                const double azimuth_rad = std::remainder(radians(angles.azimuth_deg), 2 * kPi);
+                const double elevation_rad = radians(angles.elevation_deg);
+                const double level = std::cos(elevation_rad);
+                const auto elevation = static_cast<float>(elevation_rad);
+                directions[static_cast<std::size_t>(line)] = {
+                    Eigen::Vector3d(level * std::cos(azimuth_rad), level * std::sin(azimuth_rad),
+                                    std::sin(elevation_rad))
+                        .cast<float>(),
+                    static_cast<float>(azimuth_rad), elevation,
+                    static_cast<std::uint8_t>(sensor.nearestRow(elevation))};
+            }
+        };
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ FiringPattern firingPattern(const SensorModel& sensor) {
     } else if (sensor.name == "HDL-64E") {
         pattern = {{}, 0.720, 48.0, 2083, 64};
     } else if (sensor.name == "Mid-360") {
-        return {{}, 5.0, 20.0, 5000, 4};  // 200 000 points per second
+        return {{}, 1e5 / 19965, 4e5 / 19965, 4991, 4};  // 19 965 points per 0.1 s
     } else {
         throw std::invalid_argument("the sensor '" + sensor.name + "' cannot be simulated; " +
                                     "use VLP-16, HDL-32E, HDL-64E or Mid-360");

@@ -394,7 +394,7 @@ double elevationOf(const SimulatedScan& scan, std::size_t i) {
 TEST(Mid360, FillsFieldOfView) {
     const Simulation setup = livoxIndoors();
     const SimulatedScan scan = setup.scan(1.7, noFaults());
-    ASSERT_EQ(scan.size(), 20000u);
+    ASSERT_EQ(scan.size(), 19964u);  // whole firings of the 19 965 points of real frames
     double lowest = 90, highest = -90;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const double elevation = elevationOf(scan, i);
@@ -404,16 +404,21 @@ TEST(Mid360, FillsFieldOfView) {
             << elevation;
         ASSERT_EQ(scan.laser[i], i % 4);
         ASSERT_EQ(scan.firing[i], static_cast<int>(i / 4));
-        ASSERT_NEAR(scan.scan.time_s[i], 5e-6 * static_cast<double>(i), 1e-7);
+        ASSERT_NEAR(scan.scan.time_s[i], 0.1 / 19965 * static_cast<double>(i), 1e-7);
+        if (i >= 4) {
+            const auto step_rad =
+                static_cast<double>(scan.scan.azimuth_rad[i - 4] - scan.scan.azimuth_rad[i]);
+            ASSERT_NEAR(degrees(std::remainder(step_rad, 2 * kPi)), 1.31, 0.005);
+        }
         const Eigen::Vector3d at = pointOf(scan, i);
         const double turned = std::remainder(
             static_cast<double>(scan.scan.azimuth_rad[i]) - std::atan2(at.y(), at.x()), 2 * kPi);
         ASSERT_NEAR(turned, 0, 1e-5);
     }
-    EXPECT_NEAR(lowest, -7, 0.1);
-    EXPECT_GE(lowest, -7.0001);
-    EXPECT_NEAR(highest, 52, 0.1);
-    EXPECT_LE(highest, 52.0001);
+    EXPECT_NEAR(lowest, -7.2, 0.02);
+    EXPECT_GE(lowest, -7.2001);
+    EXPECT_NEAR(highest, 53.2, 0.02);
+    EXPECT_LE(highest, 53.2001);
 }
 
 TEST(Mid360, FramesBecomeUniform) {
@@ -428,7 +433,7 @@ TEST(Mid360, FramesBecomeUniform) {
             const double turned = degrees(static_cast<double>(scan.scan.azimuth_rad[i])) + 180;
             const int column = static_cast<int>(turned) % 360;
             const int band =
-                std::clamp(static_cast<int>((elevationOf(scan, i) + 7) / 59 * 40), 0, 39);
+                std::clamp(static_cast<int>((elevationOf(scan, i) + 7.2) / 60.4 * 40), 0, 39);
             is_met[static_cast<std::size_t>(band * 360 + column)] = true;
             ++by_azimuth[static_cast<std::size_t>(column / 10)];
             ++by_elevation[static_cast<std::size_t>(band)];
@@ -436,12 +441,11 @@ TEST(Mid360, FramesBecomeUniform) {
         filled.push_back(static_cast<double>(std::count(is_met.begin(), is_met.end(), true)) /
                          static_cast<double>(is_met.size()));
     }
-    EXPECT_GT(filled[0], 0.6);
-    EXPECT_LT(filled[0], 0.7);
-    EXPECT_NEAR(filled[1], 0.96, 0.01);
-    EXPECT_EQ(filled[2], 1.0);
-    for (const int count : by_azimuth) EXPECT_NEAR(count, 20000 * kFrames / 36.0, 250);
-    for (const int count : by_elevation) EXPECT_NEAR(count, 20000 * kFrames / 40.0, 250);
+    EXPECT_NEAR(filled[0], 0.825, 0.01);
+    EXPECT_NEAR(filled[1], 0.975, 0.01);
+    EXPECT_GT(filled[2], 0.998);
+    for (const int count : by_azimuth) EXPECT_NEAR(count, 19964 * kFrames / 36.0, 250);
+    for (const int count : by_elevation) EXPECT_NEAR(count, 19964 * kFrames / 40.0, 250);
 }
 
 TEST(Mid360, HasErrorsFromManual) {
