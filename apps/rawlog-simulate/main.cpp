@@ -40,7 +40,7 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
         .group("Flight");
     app.option("--altitude", log.altitude_m, "metres above the ground")
         .required()
-        .between(1.0, 15.0)
+        .between(0.2, 15.0)
         .group("Flight");
     app.option("--seed", log.seed, "the same seed gives the same scene, flight and scans")
         .required()
@@ -60,8 +60,8 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
         .between(0.1, 3600.0)
         .showDefault()
         .group("Flight");
-    app.option("--sensor", log.sensor, "rawlogs require VLP-16, HDL-32E or Mid-360")
-        .oneOf({"VLP-16", "HDL-32E", "HDL-64E", "Mid-360"})
+    app.option("--sensor", log.sensor, "rawlogs do not support HDL-64E")
+        .oneOf({"VLP-16", "HDL-32E", "HDL-64E", "Mid-360", "Avia", "HAP"})
         .showDefault()
         .group("Flight");
     app.option("--mount-roll-deg", log.mount_roll_deg,
@@ -75,7 +75,7 @@ void declare(Program& app, convert::SimulatedLog& log, bool& is_quiet) {
         .showDefault()
         .group("Flight");
 
-    app.option("-o,--output", log.rawlog, "rawlog with packets (Mid-360: clouds) and poses")
+    app.option("-o,--output", log.rawlog, "rawlog with packets (Livox: clouds) and poses")
         .group("Output");
     app.option("--kitti", log.folder,
                "scan folder with ground truth: labels/, semantic/, kinds.yaml, altitudes.txt")

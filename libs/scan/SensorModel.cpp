@@ -57,7 +57,9 @@ const std::vector<KnownSensor>& knownSensors() {
         {"XT16", evenly(16, -15.0, 2.0), 0.05f, 120.0f},
         {"OS0-128", evenly(128, -45.0, 90.0 / 127), 0.5f, 100.0f},
         {"OS1-64", evenly(64, -21.2, 42.4 / 63), 0.5f, 200.0f},
-        {"Mid-360", evenly(24, -6.5, 2.5), 0.1f, 70.0f, false}};  // centres of 2.5-degree bands
+        {"Mid-360", evenly(24, -6.5, 2.5), 0.1f, 70.0f, false},  // centres of bands
+        {"Avia", evenly(40, -37.635, 1.93), 1.0f, 450.0f, false},
+        {"HAP", evenly(16, -11.71875, 1.5625), 0.5f, 150.0f, false}};
     return sensors;
 }
 

@@ -55,22 +55,47 @@ DirectionsOfFiring directionsOfRings(const SensorModel& sensor, const FiringPatt
     };
 }
 
-constexpr double kMinElevation_rad = radians(-7), kSpan_rad = radians(59);
-const double kTurns_hz = 25 * (1 + std::sqrt(5.0)), kSweeps_hz = 10 * std::sqrt(2.0);
+struct Angles {
+    double azimuth_deg, elevation_deg;
+};
 
 double fraction(double value) { return value - std::floor(value); }
 
+/// Rises from 0 to 1 and falls back, once per unit.
+double triangle(double value) { return 1 - std::abs(2 * fraction(value) - 1); }
+
+Angles anglesOfMid360(double time_s, int line) {
+    return {kFirstAzimuth_deg - 360 * fraction(105 * std::sqrt(3.0) * time_s),
+            -7.2 + 60.4 / 4 * (line + triangle(10 * std::sqrt(2.0) * time_s))};
+}
+
+Angles anglesOfAvia(double time_s, int line) {
+    const double reach_deg = 35.2 * std::cos(2 * kPi * 80 * std::sqrt(2.0) * time_s);
+    const double turn_rad = 2 * kPi * 10 * std::sqrt(7.0) * time_s;
+    return {reach_deg * std::cos(turn_rad),
+            reach_deg * std::sin(turn_rad) + 6.8 / 5 * (line - 2.5)};
+}
+
+Angles anglesOfHap(double time_s, int line) {
+    return {60 - 120 * triangle(75 * std::sqrt(3.0) * time_s),
+            -12.5 + 25.0 / 4 * (line + triangle(20 * std::sqrt(2.0) * time_s))};
+}
+
+auto anglesOf(const SensorModel& sensor) {
+    if (sensor.name == "Avia") return anglesOfAvia;
+    return sensor.name == "HAP" ? anglesOfHap : anglesOfMid360;
+}
+
 DirectionsOfFiring directionsOfSweeps(const SensorModel& sensor, const FiringPattern& pattern,
                                       double time_s) {
-    return [sensor, pattern, time_s](int firing, std::vector<BeamDirection>& directions) {
+    return [sensor, pattern, time_s, angles_at = anglesOf(sensor)](
+               int firing, std::vector<BeamDirection>& directions) {
         for (int line = 0; line < pattern.lasers; ++line) {
             const double at_s = time_s + 1e-6 * (firing * pattern.firing_period_us +
                                                  line * pattern.laser_period_us);
-            const double azimuth_rad = std::remainder(
-                radians(kFirstAzimuth_deg) - 2 * kPi * fraction(kTurns_hz * at_s), 2 * kPi);
-            const double sweep = 1 - std::abs(2 * fraction(kSweeps_hz * at_s) - 1);
-            const double elevation_rad =
-                kMinElevation_rad + kSpan_rad / pattern.lasers * (line + sweep);
+            const Angles angles = angles_at(at_s, line);
+            const double azimuth_rad = std::remainder(radians(angles.azimuth_deg), 2 * kPi);
+            const double elevation_rad = radians(angles.elevation_deg);
             const double level = std::cos(elevation_rad);
             const auto elevation = static_cast<float>(elevation_rad);
             directions[static_cast<std::size_t>(line)] = {

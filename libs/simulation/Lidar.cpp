@@ -204,11 +204,10 @@ class Receiver {
           random_(random) {}
 
     Echo measure(const RayHit& hit, const Ray& ray, const Beam& beam) {
-        if (faults_.airframe) {
-            if (const AirframeSpot* spot = spotBefore(beam)) {
-                if (random_.chance(0.4)) return {};  // below the minimum range
-                return {withNoise(spot->range_m, 1.0f), 0.1f, ObjectClass::Airframe, 0};
-            }
+        const AirframeSpot* spot = faults_.airframe ? spotBefore(beam) : nullptr;
+        if (spot && !(hit.kind == ObjectClass::Terrain && hit.range_m < spot->range_m)) {
+            if (random_.chance(0.4)) return {};  // below the minimum range
+            return {withNoise(spot->range_m, 1.0f), 0.1f, ObjectClass::Airframe, 0};
         }
         const bool is_hit = hit.kind != ObjectClass::None;
         if (random_.chance(kDust_m * faults_.dust_per_m)) {  // dust may be anywhere along the beam

@@ -400,6 +400,32 @@ Scene makeMovers(std::uint64_t seed) {
     return builder.build();
 }
 
+Scene makeHall(std::uint64_t seed) {
+    const Path path{12, 6};
+    SceneBuilder builder(ground(0, 0, 0, 0), path, seed);
+    Random& random = builder.random();
+    const Vector2d corner{24, 13}, across{-24, 13};
+    for (const auto& [from, to] : {std::pair{corner, across},
+                                   {across, Vector2d(-corner)},
+                                   {Vector2d(-corner), Vector2d(-across)},
+                                   {Vector2d(-across), corner}}) {
+        addWall(builder, from, to, 6, 0.3);
+    }
+    Shape box;
+    box.addBox({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 1});
+    const std::size_t crate = builder.addShape(box), pillar = builder.addShape(makeRod(6, 0.2));
+    for (const double x : {-20.0, -10.0, 0.0, 10.0, 20.0}) {
+        for (const double y : {-10.0, 0.0, 10.0}) builder.place(ObjectClass::Pole, pillar, x, y, 0);
+    }
+    for (int i = 0; i < 40; ++i) {
+        const double x = random.uniform(-22, 22), y = random.uniform(-11, 11);
+        const double width_m = random.uniform(0.4, 1.6), height_m = random.uniform(0.3, 2.0);
+        if (!builder.isFree(x, y, 0.8 * width_m)) continue;
+        builder.placeRandomOf(ObjectClass::Wall, {crate}, x, y, {width_m, width_m, height_m});
+    }
+    return builder.build();
+}
+
 struct Scenario {
     std::string name;
     Scene (*make)(std::uint64_t seed);
@@ -417,7 +443,8 @@ const std::vector<Scenario>& scenarios() {
         {"street", makeStreet},
         {"terrain", makeTerrain},
         {"u-trap", makeTrap},
-        {"movers", makeMovers}};
+        {"movers", makeMovers},
+        {"hall", makeHall}};
     return known;
 }
 

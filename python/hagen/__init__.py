@@ -117,8 +117,8 @@ def simulate(
     scenario: the scene, one of scenarios().
     scans: number of scans.
     seed: the same seed produces the same scene, flight and scans.
-    altitude_m: height above the ground, 1 to 15.
-    sensor: 'VLP-16', 'HDL-32E', 'HDL-64E' or 'Mid-360'.
+    altitude_m: height above the ground, 0.2 to 15.
+    sensor: 'VLP-16', 'HDL-32E', 'HDL-64E', 'Mid-360', 'Avia' or 'HAP'.
     speed_m_s: speed on straights, 0.1 to 20.
     tilt_sd_deg: standard deviation of roll and of pitch, 0 (level flight) to 15.
     every_s: time between the starts of scans, at least 0.1.

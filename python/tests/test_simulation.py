@@ -98,12 +98,12 @@ def test_rejects_ranges_beyond_limits(max_range_m):
         assert hagen.evaluate([1], [1], np.full((1, 3), 0.05), max_range_m=limit_m).returns == 1
 
 
-@pytest.mark.parametrize("sensor, rows", [("HDL-64E", 64), ("Mid-360", 24)])
+@pytest.mark.parametrize("sensor, rows", [("HDL-64E", 64), ("Mid-360", 24), ("Avia", 40), ("HAP", 16)])
 def test_simulates_other_sensors(sensor, rows):
     scan = next(hagen.simulate("forest-0.05", seed=2, sensor=sensor))
     assert scan.sensor == sensor
-    assert (scan.ring is None) == (sensor == "Mid-360")
-    result = hagen.Filter("hdl64e" if sensor == "HDL-64E" else "mid360").segment(scan)
+    assert (scan.ring is None) == (sensor != "HDL-64E")
+    result = hagen.Filter(sensor.lower().replace("-", "")).segment(scan)
     assert result.stages["depth_m"].shape[0] == rows
     assert hagen.evaluate(result.labels, scan.truth, scan.xyz).roi.f1 > 0.8
 

@@ -260,7 +260,7 @@ TEST_F(RawlogSimulate, RejectsInvalidArguments) {
     const Arguments orchard{"--scenario", "orchard", "--seed", "1", "-o", path("a.rawlog")};
     expectFailures(orchard, 2,
                    {{{"--scans", "0", "--altitude", "2"}, "--scans"},
-                    {{"--scans", "1", "--altitude", "0.9"}, "--altitude"},
+                    {{"--scans", "1", "--altitude", "0.19"}, "--altitude"},
                     {{"--scans", "1", "--altitude", "15.1"}, "--altitude"},
                     {{"--altitude", "2"}, "--scans is required"}});
     const Arguments one = with(orchard, {"--scans", "1", "--altitude", "2"});

@@ -4,6 +4,7 @@
 #include <hagen/scan/SensorModel.h>
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "support/Random.h"
@@ -23,7 +24,9 @@ TEST(SensorModel, KnownSensorsMatchDataSheets) {
         {"VLP-16", 16, -15, 15},      {"HDL-32E", 32, -30.67, 10.67}, {"HDL-64E", 64, -24.33, 2},
         {"Puck Hi-Res", 16, -10, 10}, {"VLP-32C", 32, -25, 15},       {"VLS-128", 128, -25, 15},
         {"XT32", 32, -16, 15},        {"XT16", 16, -15, 15},          {"OS0-128", 128, -45, 45},
-        {"OS1-64", 64, -21.2, 21.2},  {"Mid-360", 24, -6.5, 51}};
+        {"OS1-64", 64, -21.2, 21.2},  {"Mid-360", 24, -6.5, 51},      {"Avia", 40, -37.635, 37.635},
+        {"HAP", 16, -11.719, 11.719}};
+    const std::set<std::string> without_rings{"Mid-360", "Avia", "HAP"};
     ASSERT_EQ(knownSensorModels().size(), sensors.size());
     for (const auto& [name, count, lowest_deg, highest_deg] : sensors) {
         const SensorModel sensor = sensorModel(name);
@@ -31,7 +34,7 @@ TEST(SensorModel, KnownSensorsMatchDataSheets) {
         EXPECT_EQ(sensor.rows(), count);
         EXPECT_NEAR(degrees(sensor.elevations_rad.front()), lowest_deg, 0.01) << name;
         EXPECT_NEAR(degrees(sensor.elevations_rad.back()), highest_deg, 0.01) << name;
-        EXPECT_EQ(sensor.has_rings, name != "Mid-360") << name;
+        EXPECT_EQ(sensor.has_rings, without_rings.count(name) == 0) << name;
         EXPECT_LT(sensor.min_range_m, sensor.max_range_m);
         EXPECT_TRUE(std::is_sorted(sensor.elevations_rad.begin(), sensor.elevations_rad.end()));
     }

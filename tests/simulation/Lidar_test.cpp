@@ -365,8 +365,16 @@ TEST(LidarTest, AirframeStaysWithVehicle) {
     }
 }
 
-/// A Mid-360 inside a building, where every beam has a return.
-Simulation livoxIndoors() {
+TEST(LidarTest, NearerSoilHidesLegs) {
+    SensorErrorModel faults = noFaults();
+    faults.airframe = true;
+    const Simulation setup(level(), flightAt(0.15, 4, 0), "HDL-32E");
+    const SimulatedScan scan = setup.scan(0, faults);
+    for (std::size_t i = 0; i < scan.size(); ++i) ASSERT_GT(setup.inMap(scan, i, 0).z(), -0.01);
+}
+
+/// A sensor inside a building, where every beam has a return.
+Simulation indoors(const std::string& sensor) {
     const FlightSettings hover = flightAt(3, 1e-3, 0);
     const SceneContent empty = emptyContent();
     const Eigen::Vector3f at =
@@ -375,7 +383,7 @@ Simulation livoxIndoors() {
     Shape walls;
     walls.addBox(at - Eigen::Vector3f(25, 25, 25), at + Eigen::Vector3f(25, 25, 25));
     put(content, ObjectClass::Building, 1, std::move(walls));
-    return {std::move(content), hover, "Mid-360"};
+    return {std::move(content), hover, sensor};
 }
 
 double elevationOf(const SimulatedScan& scan, std::size_t i) {
@@ -383,33 +391,79 @@ double elevationOf(const SimulatedScan& scan, std::size_t i) {
     return degrees(std::asin(at.z() / at.norm()));
 }
 
-TEST(Mid360, FillsFieldOfView) {
-    const Simulation setup = livoxIndoors();
-    const SimulatedScan scan = setup.scan(1.7, noFaults());
-    ASSERT_EQ(scan.size(), 20000u);
-    double lowest = 90, highest = -90;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        const double elevation = elevationOf(scan, i);
-        lowest = std::min(lowest, elevation);
-        highest = std::max(highest, elevation);
-        ASSERT_EQ(scan.scan.row[i], setup.sensor.nearestRow(static_cast<float>(radians(elevation))))
-            << elevation;
-        ASSERT_EQ(scan.laser[i], i % 4);
-        ASSERT_EQ(scan.firing[i], static_cast<int>(i / 4));
-        ASSERT_NEAR(scan.scan.time_s[i], 5e-6 * static_cast<double>(i), 1e-7);
-        const Eigen::Vector3d at = pointOf(scan, i);
-        const double turned = std::remainder(
-            static_cast<double>(scan.scan.azimuth_rad[i]) - std::atan2(at.y(), at.x()), 2 * kPi);
-        ASSERT_NEAR(turned, 0, 1e-5);
+double azimuthOf(const SimulatedScan& scan, std::size_t i) {
+    return degrees(static_cast<double>(scan.scan.azimuth_rad[i]));
+}
+
+struct FieldOfView {
+    std::string sensor;
+    std::size_t points, lines;
+    double period_s, half_width_deg, lowest_deg, highest_deg;
+};
+
+/// Published fields of view and rates, and those of real frames of a Mid-360, which have 19 965
+/// points (here: whole firings).
+class WithoutRings : public testing::TestWithParam<FieldOfView> {};
+
+TEST_P(WithoutRings, FillsFieldOfView) {
+    const FieldOfView& view = GetParam();
+    const Simulation setup = indoors(view.sensor);
+    double left = -180, right = 180, lowest = 90, highest = -90;
+    for (int frame = 0; frame < 10; ++frame) {
+        const SimulatedScan scan = setup.scan(1.7 + 0.1 * frame, noFaults());
+        ASSERT_EQ(scan.size(), view.points);
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            const double elevation = elevationOf(scan, i), azimuth = azimuthOf(scan, i);
+            lowest = std::min(lowest, elevation), highest = std::max(highest, elevation);
+            right = std::min(right, azimuth), left = std::max(left, azimuth);
+            ASSERT_EQ(scan.scan.row[i],
+                      setup.sensor.nearestRow(static_cast<float>(radians(elevation))))
+                << elevation;
+            ASSERT_EQ(scan.laser[i], i % view.lines);
+            ASSERT_EQ(scan.firing[i], static_cast<int>(i / view.lines));
+            ASSERT_NEAR(scan.scan.time_s[i], view.period_s * static_cast<double>(i), 1e-7);
+            const Eigen::Vector3d at = pointOf(scan, i);
+            ASSERT_NEAR(std::remainder(azimuth - degrees(std::atan2(at.y(), at.x())), 360), 0,
+                        1e-3);
+        }
     }
-    EXPECT_NEAR(lowest, -7, 0.1);
-    EXPECT_GE(lowest, -7.0001);
-    EXPECT_NEAR(highest, 52, 0.1);
-    EXPECT_LE(highest, 52.0001);
+    EXPECT_NEAR(left, view.half_width_deg, 0.1);
+    EXPECT_NEAR(right, -view.half_width_deg, 0.1);
+    EXPECT_NEAR(lowest, view.lowest_deg, 0.1);
+    EXPECT_NEAR(highest, view.highest_deg, 0.1);
+}
+
+TEST_P(WithoutRings, FramesDiffer) {
+    const Simulation setup = indoors(GetParam().sensor);
+    std::set<std::pair<int, int>> cells;  // of a tenth of a degree
+    std::size_t in_first = 0;
+    for (const double time_s : {0.4, 0.5}) {
+        in_first = cells.size();
+        const SimulatedScan scan = setup.scan(time_s, noFaults());
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            cells.emplace(static_cast<int>(10 * azimuthOf(scan, i) + 1800),
+                          static_cast<int>(10 * elevationOf(scan, i) + 900));
+        }
+    }
+    EXPECT_GT(cells.size(), in_first + in_first / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WithoutRings,
+    testing::Values(FieldOfView{"Mid-360", 19964, 4, 0.1 / 19965, 180, -7.2, 53.2},
+                    FieldOfView{"Avia", 24000, 6, 1 / 240e3, 35.2, -38.6, 38.6},
+                    FieldOfView{"HAP", 45200, 4, 1 / 452e3, 60, -12.5, 12.5}),
+    [](const auto& view) { return view.param.sensor.substr(0, 3); });
+
+TEST(Mid360, LinesTurnSteadily) {
+    const SimulatedScan scan = indoors("Mid-360").scan(1.7, noFaults());
+    for (std::size_t i = 4; i < scan.size(); ++i) {
+        ASSERT_NEAR(std::remainder(azimuthOf(scan, i - 4) - azimuthOf(scan, i), 360), 1.31, 0.005);
+    }
 }
 
 TEST(Mid360, FramesBecomeUniform) {
-    const Simulation setup = livoxIndoors();
+    const Simulation setup = indoors("Mid-360");
     std::vector<bool> is_met(40 * 360);
     std::vector<double> filled;
     std::vector<int> by_azimuth(36), by_elevation(40);
@@ -417,10 +471,9 @@ TEST(Mid360, FramesBecomeUniform) {
     for (int frame = 0; frame < kFrames; ++frame) {
         const SimulatedScan scan = setup.scan(0.1 * frame, noFaults());
         for (std::size_t i = 0; i < scan.size(); ++i) {
-            const double turned = degrees(static_cast<double>(scan.scan.azimuth_rad[i])) + 180;
-            const int column = static_cast<int>(turned) % 360;
+            const int column = static_cast<int>(azimuthOf(scan, i) + 180) % 360;
             const int band =
-                std::clamp(static_cast<int>((elevationOf(scan, i) + 7) / 59 * 40), 0, 39);
+                std::clamp(static_cast<int>((elevationOf(scan, i) + 7.2) / 60.4 * 40), 0, 39);
             is_met[static_cast<std::size_t>(band * 360 + column)] = true;
             ++by_azimuth[static_cast<std::size_t>(column / 10)];
             ++by_elevation[static_cast<std::size_t>(band)];
@@ -428,12 +481,11 @@ TEST(Mid360, FramesBecomeUniform) {
         filled.push_back(static_cast<double>(std::count(is_met.begin(), is_met.end(), true)) /
                          static_cast<double>(is_met.size()));
     }
-    EXPECT_GT(filled[0], 0.6);
-    EXPECT_LT(filled[0], 0.7);
-    EXPECT_NEAR(filled[1], 0.96, 0.01);
-    EXPECT_EQ(filled[2], 1.0);
-    for (const int count : by_azimuth) EXPECT_NEAR(count, 20000 * kFrames / 36.0, 250);
-    for (const int count : by_elevation) EXPECT_NEAR(count, 20000 * kFrames / 40.0, 250);
+    EXPECT_NEAR(filled[0], 0.825, 0.01);
+    EXPECT_NEAR(filled[1], 0.975, 0.01);
+    EXPECT_GT(filled[2], 0.998);
+    for (const int count : by_azimuth) EXPECT_NEAR(count, 19964 * kFrames / 36.0, 250);
+    for (const int count : by_elevation) EXPECT_NEAR(count, 19964 * kFrames / 40.0, 250);
 }
 
 TEST(Mid360, HasErrorsFromManual) {
@@ -442,7 +494,7 @@ TEST(Mid360, HasErrorsFromManual) {
     EXPECT_LT(errors.half_range_m, SensorErrorModel().half_range_m);
     EXPECT_EQ(sensorErrors(sensorModel("VLP-16")).half_range_m, SensorErrorModel().half_range_m);
     EXPECT_EQ(errors.min_noise_m, 0.018);
-    expectNoise(livoxIndoors(), errors.min_noise_m);  // walls are at 25 m and more
+    expectNoise(indoors("Mid-360"), errors.min_noise_m);  // walls are at 25 m and more
 }
 
 TEST(LidarTest, DependsOnSeedAndScene) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
+#include <hagen/simulation/Flight.h>
 #include <hagen/simulation/Scenarios.h>
 
 #include <map>
@@ -36,7 +37,8 @@ const std::map<std::string, std::set<ObjectClass>>& expectedKinds() {
           ObjectClass::Vehicle, ObjectClass::Wall}},
         {"terrain", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Wall}},
         {"u-trap", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Wall}},
-        {"movers", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Mover}}};
+        {"movers", {ObjectClass::Canopy, ObjectClass::Tree, ObjectClass::Mover}},
+        {"hall", {ObjectClass::Wall, ObjectClass::Pole}}};
     return expected;
 }
 
@@ -85,6 +87,25 @@ TEST_P(EachScenario, PathIsFree) {
                 << nameOf(hits[i].kind) << " at " << rays[i].origin_m.transpose();
         }
     }
+}
+
+TEST_P(EachScenario, TakeOffStaysAboveSoil) {
+    const Scene scene = makeScene(GetParam(), 2);
+    FlightSettings take_off;
+    take_off.altitude_m = 0.2;
+    const Flight flight(scene.terrain(), scene.path(), take_off, 2);
+    std::vector<Ray> rays;  // down, from 5 m above the sensor
+    for (double time_s = 0; time_s < 100; time_s += 0.05) {
+        const Eigen::Vector3d at = flight.at(time_s).position_m + 5 * Eigen::Vector3d::UnitZ();
+        rays.push_back({at.cast<float>(), -Eigen::Vector3f::UnitZ(), 0});
+    }
+    std::vector<RayHit> hits;
+    scene.snapshotOver(0, 0.1).cast(rays, 20, hits);
+    float lowest = 9;
+    for (const RayHit& hit : hits) {
+        if (hit.kind == ObjectClass::Terrain) lowest = std::min(lowest, hit.range_m - 5);
+    }
+    EXPECT_GT(lowest, 0.03f);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EachScenario, testing::ValuesIn(scenarioNames()),

@@ -31,7 +31,7 @@ struct SimulationReport {
 ///
 /// - a rawlog of CObservationVelodyneScan `lidar`, each at the time of its first firing, with
 ///   CObservationRobotPose `pose` of the vehicle at least every 50 ms during scans. The sensor is
-///   at the vehicle's origin; its mount is in sensorPose. Scans of a Mid-360 are
+///   at the vehicle's origin; its mount is in sensorPose. Scans without rings are
 ///   CObservationPointCloud (CPointsMapXYZI, without point times),
 /// - a scan folder with ground truth (GroundTruthFolder.h), with the returns as decoded from the
 ///   packets if the sensor has a packet format. Poses are the sensor's; its mount is in

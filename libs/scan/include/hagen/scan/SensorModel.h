@@ -27,9 +27,9 @@ struct SensorModel {
 };
 
 /// Returns a known sensor by its name in settings files: "VLP-16", "HDL-32E", "HDL-64E", "Puck
-/// Hi-Res", "VLP-32C", "VLS-128", "XT32", "XT16", "OS0-128", "OS1-64", "Mid-360". Elevations and
-/// range limits are from the manufacturer's data sheets. Throws std::invalid_argument listing the
-/// known names for any other name.
+/// Hi-Res", "VLP-32C", "VLS-128", "XT32", "XT16", "OS0-128", "OS1-64", "Mid-360", "Avia", "HAP".
+/// Elevations and range limits are from the manufacturer's data sheets. Throws
+/// std::invalid_argument listing the known names for any other name.
 ///
 /// - OS0-128 and OS1-64: data sheets of revision 7. Beams are evenly spaced over +-45 and +-21.2
 ///   degrees, ranges 0.5 to 100 m and 0.5 to 200 m. (0.5 m is the default; the sensors can be
@@ -38,6 +38,10 @@ struct SensorModel {
 /// - Mid-360: Livox Mid-360 User Manual (2023), specifications: 0.1 m (blind zone) to 70 m (80 %
 ///   reflectivity), -7 to 52 degrees. It has no rings; 24 virtual beams, 2.5 degrees apart, cover
 ///   that field of view. Elevations are relative to the sensor's own axes, upside down or not.
+/// - Avia and HAP: Livox User Manuals (2020, 2022): 1 m to 450 m (80 % reflectivity, in the dark)
+/// in
+///   70.4 x 77.2 degrees, 0.5 m to 150 m (10 %) in 120 x 25 degrees. Both have no rings; 40 and 16
+///   virtual beams. Smaller pixels lowered the scores of simulated flights.
 SensorModel sensorModel(const std::string& name);
 
 /// The names accepted by sensorModel().

@@ -23,8 +23,8 @@ struct FiringPattern {
     double azimuthStep_deg() const { return 360.0 * firing_period_us / 100e3; }
 };
 
-/// Returns the pattern of a VLP-16, HDL-32E, HDL-64E or Mid-360. Throws std::invalid_argument
-/// listing these for other sensors.
+/// Returns the pattern of a VLP-16, HDL-32E, HDL-64E, Mid-360, Avia or HAP. Throws
+/// std::invalid_argument listing these for other sensors.
 FiringPattern firingPattern(const SensorModel& sensor);
 
 /// Error sources of a real sensor.
@@ -39,10 +39,10 @@ struct SensorErrorModel {
     bool airframe = true;        ///< whether the vehicle's legs and rotors occlude beams
 };
 
-/// Returns the default error sources. For a Mid-360, they follow its manual (Livox Mid-360 User
-/// Manual, 2023): a standard deviation of 2 cm at 10 m and 80 % reflectivity, and 10 % of the
-/// returns lost at 40 m and 10 % reflectivity. Its angular error (below 0.15 degrees) is not
-/// simulated.
+/// Returns the default error sources. For a Livox, they follow its manual (Mid-360: 2023, Avia:
+/// 2020, HAP: 2022): a standard deviation of 2 cm at 10 m (Avia, HAP: 20 m) and 80 % reflectivity,
+/// and 10 % of the returns lost at 40 m (190 m, 150 m) and 10 % reflectivity. Angular errors (below
+/// 0.15 degrees) and the flat beams of Avia and HAP are not simulated.
 SensorErrorModel sensorErrors(const SensorModel& sensor);
 
 /// One revolution of the sensor, or one frame of a sensor without rings. Returns are in firing
@@ -73,7 +73,7 @@ using PoseAt = std::function<SensorPose(double time_s)>;
 /// more often. On grass, ranges end up to the grass height above the soil.
 ///
 /// `mount` rotates from the sensor frame to the vehicle frame (x forward, z up). Legs and rotors
-/// are fixed to the vehicle. The directions of a sensor without rings (Mid-360) depend on `time_s`.
+/// are fixed to the vehicle. The directions of a sensor without rings depend on `time_s`.
 SimulatedScan simulateScan(const Scene& scene, const SensorModel& sensor, const PoseAt& pose_at,
                            double time_s, Random& random, const SensorErrorModel& faults = {},
                            const Eigen::Quaterniond& mount = Eigen::Quaterniond::Identity());

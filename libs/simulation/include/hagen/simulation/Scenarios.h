@@ -18,6 +18,7 @@ namespace hagen::simulation {
 ///     terrain      slopes up to 15 degrees with rocks and trees
 ///     u-trap       U-shaped walls, open towards the path
 ///     movers       people, cars and drones moving among trees
+///     hall         walls, pillars and crates on a flat, bare floor; no roof
 std::vector<std::string> scenarioNames();
 
 /// Returns the scene of a scenario, identical for a seed on every machine. Throws
