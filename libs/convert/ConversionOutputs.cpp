@@ -192,7 +192,7 @@ void ConversionOutputs::drawPictures(const observations::ObservationSegmenter::O
     // The view in which the filter processes a sensor that is not upright: image rows differ from
     // the sensor's.
     const std::optional<Attitude>& attitude = segmented.pose.attitude;
-    const Posture posture = postureOf(attitude);
+    const Posture posture = postureOf(attitude, *segmented.sensor);
     const SensorModel sensor = sensorIn(posture, *segmented.sensor);
     Scan turned;
     if (posture != Posture::Upright) turnScan(*segmented.scan, posture, attitude, sensor, turned);

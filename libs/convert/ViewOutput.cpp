@@ -195,7 +195,8 @@ void ViewOutput::write(const ScanReport& report, const ObservationSegmenter::Out
     const SegmentationResult& result = *segmented.result;
     const int step = 1 + static_cast<int>(result.range_angle_rad.cols() - 1) / kMaxAngleColumns;
     const std::optional<Attitude>& attitude = segmented.pose.attitude;
-    const Eigen::Matrix3f image_from_sensor = imageFromSensor(postureOf(attitude), attitude);
+    const Eigen::Matrix3f image_from_sensor =
+        imageFromSensor(postureOf(attitude, *segmented.sensor), attitude);
     Scan scan = *segmented.scan;
     rotatePoints(image_from_sensor, *segmented.scan, scan);
     base::ViewArrays arrays;

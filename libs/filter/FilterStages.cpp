@@ -43,11 +43,12 @@ bool usesGround(const Options& o) { return o.ground_surface || o.ground_is_roi_b
 
 void findGroundPlane(const Scan& scan, const PixelDirections& directions,
                      const std::optional<Attitude>& horizon, const Options& o,
-                     const std::vector<std::int32_t>* columns, SegmentationResult& r,
+                     const std::vector<std::int32_t>* columns, float max_m, SegmentationResult& r,
                      FilterWorkspace& w) {
     Ground& g = r.ground;
     locatePixels(scan, directions, r.range_image, r.repaired_m, g.pixels);
-    g.from_sensor = fitGroundFrame(g.pixels, horizon.value_or(Attitude{}), w.ground_frame, columns);
+    g.from_sensor =
+        fitGroundFrame(g.pixels, horizon.value_or(Attitude{}), w.ground_frame, columns, max_m);
     movePixels(g.from_sensor, g.pixels);
     g.is_seen = canBeGround(g.from_sensor, horizon, r.labels);
     g.has_surface = g.is_seen && o.ground_surface;

@@ -25,12 +25,12 @@ void labelByAngles(const PixelDirections& directions, float min_range_m,
 /// Whether the options require the ground plane.
 bool usesGround(const Options& options);
 
-/// Finds the ground plane, transforms the pixels to its frame, and decides whether ground is
-/// visible and has a surface.
+/// Finds the ground plane under pixels up to `max_m` above the sensor, transforms the pixels to its
+/// frame, and decides whether ground is visible and has a surface.
 void findGroundPlane(const Scan& scan, const PixelDirections& directions,
                      const std::optional<Attitude>& horizon, const Options& options,
-                     const std::vector<std::int32_t>* columns, SegmentationResult& result,
-                     FilterWorkspace& work);
+                     const std::vector<std::int32_t>* columns, float max_m,
+                     SegmentationResult& result, FilterWorkspace& work);
 
 /// Fits the surface under the ROU pixels and computes the heights of all pixels above it.
 void findGroundSurface(const Image<Label>& labels, const Options& options,

@@ -64,7 +64,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
     const auto horizonOf = [&](const std::optional<Attitude>& of) {
         return s.options.level_by_attitude ? of : std::nullopt;
     };
-    const Posture posture = postureOf(attitude);
+    const Posture posture = postureOf(attitude, s.sensor);
     const View& view = s.viewIn(posture);
     if (posture == Posture::Upright) {
         s.runStages(scan, horizonOf(attitude), view);
@@ -73,7 +73,11 @@ const SegmentationResult& HagenFilter::segment(const Scan& scan,
 
     // The same scan in a frame whose image rows are in ascending elevation.
     turnScan(scan, posture, attitude, view.sensor, s.work.turned);
+    const Seeds seeds = s.options.seeds;
+    if (!s.sensor.has_rings && s.options.ground_surface && s.options.ground_evidence)
+        s.options.seeds = Seeds::Every;
     s.runStages(s.work.turned, horizonOf(attitudeIn(posture, attitude)), view);
+    s.options.seeds = seeds;
     Eigen::Isometry3f& from_sensor = s.result.ground.from_sensor;
     from_sensor = from_sensor * Eigen::Isometry3f(imageFromSensor(posture, attitude));
     return s.result;
@@ -104,7 +108,10 @@ void HagenFilter::State::runStages(const Scan& scan, const std::optional<Attitud
 void HagenFilter::State::judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon,
                                        const View& view) {
     Ground& g = result.ground;
-    findGroundPlane(scan, view.directions, horizon, options, nullptr, result, work);
+    // Without rings, part of the view may be high above the ground and show crowns only.
+    const bool is_partial = !view.sensor.has_rings && horizon;
+    findGroundPlane(scan, view.directions, horizon, options, nullptr, is_partial ? 0 : kNoLimit_m,
+                    result, work);
     if (g.has_surface) {
         findGroundSurface(result.labels, options, nullptr, g, work);
         findCellTops(g.cells, g.height_m, g.tops);

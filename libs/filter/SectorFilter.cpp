@@ -195,7 +195,7 @@ void SectorFilter::State::findGround(const Scan& scan, const SectorOfInterest& s
     plane_columns.clear();
     for (std::size_t k = 0; k < even.size(); k += kPlaneEvery) plane_columns.push_back(even[k]);
     Ground& g = result.ground;
-    findGroundPlane(scan, directions, horizon, options, &plane_columns, result, work);
+    findGroundPlane(scan, directions, horizon, options, &plane_columns, kNoLimit_m, result, work);
     if (!g.has_surface) return;
     findGroundSurface(result.labels, options, &even, g, work);
     const CellArea area = areaOf(g, judged, options);

@@ -272,7 +272,7 @@ TEST(StagePictures, RejectOtherSensor) {
     const TemporaryFolder folder;
     EXPECT_THROW(drawStages({scan, filter.sensor(), filter.options(), result, ""}, folder.path()),
                  std::invalid_argument);
-    const SensorModel sensor = sensorIn(postureOf(on_its_side), filter.sensor());
+    const SensorModel sensor = sensorIn(postureOf(on_its_side, filter.sensor()), filter.sensor());
     EXPECT_NO_THROW(drawStages({scan, sensor, filter.options(), result, ""}, folder.path()));
 }
 

@@ -107,6 +107,21 @@ TEST(GroundFrame, IgnoresStraysFarAndEmptyPixels) {
     EXPECT_LT(greatestHeight(fitGroundFrame(pixelsAt(points), Attitude{}, work), ground), 0.05f);
 }
 
+TEST(GroundFrame, IgnoresCrownsAboveTheLimit) {
+    const auto ground = ringsOnPlane({}, 2);
+    auto points = ground;
+    for (Eigen::Vector3f& p : points) {
+        if (p.x() > 0) p.z() += 3;  // no ground is visible there
+    }
+    const auto errorWith = [&](float max_m) {
+        const Eigen::Isometry3f frame =
+            fitGroundFrame(pixelsAt(points), Attitude{}, work, nullptr, max_m);
+        return greatestHeight(frame, ground);
+    };
+    EXPECT_LT(errorWith(0), 0.05f);
+    EXPECT_GT(errorWith(kNoLimit_m), 0.3f);
+}
+
 TEST(GroundFrame, WeighsPointsAboveLess) {
     const auto movedBy = [](float off_m) {  // moves every fourth point, one per cell
         auto points = test::groundPoints(36, 1.5f, [](float, float) { return -2.0f; });

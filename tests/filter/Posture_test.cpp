@@ -16,6 +16,10 @@ Attitude tilt(double roll_deg, double pitch_deg = 0) {
     return {static_cast<float>(radians(roll_deg)), static_cast<float>(radians(pitch_deg))};
 }
 
+Posture postureOf(const std::optional<Attitude>& attitude) {
+    return hagen::postureOf(attitude, sensorModel("VLP-16"));
+}
+
 TEST(Posture, FollowsSensorAxisTilt) {
     EXPECT_EQ(postureOf(std::nullopt), Posture::Upright);
     for (const auto& upright : {tilt(0), tilt(29), tilt(-29), tilt(0, 29), tilt(20, -20)})
@@ -24,6 +28,14 @@ TEST(Posture, FollowsSensorAxisTilt) {
         EXPECT_EQ(postureOf(side), Posture::OnItsSide);
     for (const auto& down : {tilt(180), tilt(-180), tilt(151), tilt(180, 29), tilt(-160, 10)})
         EXPECT_EQ(postureOf(down), Posture::UpsideDown);
+}
+
+TEST(Posture, LevelsRinglessSensorsEarlier) {
+    const SensorModel sensor = sensorModel("Mid-360");
+    EXPECT_EQ(postureOf(tilt(14), sensor), Posture::Upright);
+    EXPECT_EQ(postureOf(tilt(16), sensor), Posture::OnItsSide);
+    EXPECT_EQ(postureOf(tilt(164), sensor), Posture::OnItsSide);
+    EXPECT_EQ(postureOf(tilt(-166), sensor), Posture::UpsideDown);
 }
 
 TEST(Posture, ImageRowsRise) {

@@ -7,7 +7,8 @@
 namespace hagen {
 namespace {
 
-constexpr float kMaxTiltCosine = 0.8660254f;  // cosine of 30 degrees
+constexpr float kMaxTiltCosine = 0.8660254f;         // cosine of 30 degrees
+constexpr float kMaxVirtualTiltCosine = 0.9659258f;  // cosine of 15 degrees
 constexpr double kMinSpacing_deg = 1;
 
 double medianSpacing_deg(const SensorModel& sensor) {
@@ -65,11 +66,12 @@ void level(const Scan& scan, const Eigen::Matrix3f& level_from_sensor, const Sen
 
 }  // namespace
 
-Posture postureOf(const std::optional<Attitude>& attitude) {
+Posture postureOf(const std::optional<Attitude>& attitude, const SensorModel& sensor) {
     if (!attitude) return Posture::Upright;
+    const float max_cosine = sensor.has_rings ? kMaxTiltCosine : kMaxVirtualTiltCosine;
     const float up = levelFromSensor(*attitude)(2, 2);  // cosine of the tilt
-    if (up < -kMaxTiltCosine) return Posture::UpsideDown;
-    return up < kMaxTiltCosine ? Posture::OnItsSide : Posture::Upright;
+    if (up < -max_cosine) return Posture::UpsideDown;
+    return up < max_cosine ? Posture::OnItsSide : Posture::Upright;
 }
 
 SensorModel sensorIn(Posture posture, const SensorModel& sensor) {

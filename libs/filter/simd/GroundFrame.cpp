@@ -44,9 +44,9 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// Computes the cell and height of each pixel in a level frame, as integers; which preserve the
-/// order of heights. Pixels outside the grid get the cell kCells * kCells.
+/// order of heights. Pixels outside the grid or higher than `max_m` get the cell kCells * kCells.
 void LevelPixelsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
-                   const float* HWY_RESTRICT z_m, const Eigen::Matrix3f& level,
+                   const float* HWY_RESTRICT z_m, const Eigen::Matrix3f& level, float max_m,
                    std::int32_t* HWY_RESTRICT cell, std::int32_t* HWY_RESTRICT height) {
     forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
@@ -61,8 +61,10 @@ void LevelPixelsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const floa
             return hn::Mul(hn::Add(along(row), hn::Set(d, kReach_m)), hn::Set(d, 1 / kCell_m));
         };
         const auto u = cells(0), v = cells(1), end = hn::Set(d, kCells), zero = hn::Zero(d);
-        const auto is_within = hn::And(hn::And(hn::Ge(u, zero), hn::Lt(u, end)),
-                                       hn::And(hn::Ge(v, zero), hn::Lt(v, end)));
+        const auto up = along(2);
+        const auto is_within = hn::And(hn::And(hn::And(hn::Ge(u, zero), hn::Lt(u, end)),
+                                               hn::And(hn::Ge(v, zero), hn::Lt(v, end))),
+                                       hn::Le(up, hn::Set(d, max_m)));
         const auto whole = [&](auto value) HAGEN_INLINE {
             return hn::ConvertTo(di, hn::IfThenElseZero(is_within, value));
         };
@@ -71,7 +73,7 @@ void LevelPixelsIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const floa
         hn::StoreU(
             hn::IfThenElse(hn::RebindMask(di, is_within), place, hn::Set(di, kCells * kCells)), di,
             cell + pixel);
-        const auto bits = hn::BitCast(di, along(2));
+        const auto bits = hn::BitCast(di, up);
         const auto magnitude = hn::And(hn::ShiftRight<31>(bits), hn::Set(di, 0x7fffffff));
         hn::StoreU(hn::Xor(bits, magnitude), di, height + pixel);
     });
@@ -145,7 +147,8 @@ void weighByDistance(Points& points) {
 
 /// Finds the lowest point of each cell that has points, in work.points.
 void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
-                       const std::vector<std::int32_t>& columns, GroundFrameWorkspace& work) {
+                       const std::vector<std::int32_t>& columns, float max_m,
+                       GroundFrameWorkspace& work) {
     const Eigen::Index rows = pixels.x_m.rows();
     const std::size_t size = columns.size() * static_cast<std::size_t>(rows);
     work.cell.resize(std::max(work.cell.size(), size));
@@ -156,7 +159,7 @@ void findLowestOfCells(const PixelPoints& pixels, const Eigen::Matrix3f& level,
         const Eigen::Index first = column * rows;
         HWY_DYNAMIC_DISPATCH(LevelPixelsIn)
         (static_cast<std::size_t>(rows), pixels.x_m.data() + first, pixels.y_m.data() + first,
-         pixels.z_m.data() + first, level, cell + n_level, height + n_level);
+         pixels.z_m.data() + first, level, max_m, cell + n_level, height + n_level);
         n_level += rows;
     }
 
@@ -240,13 +243,13 @@ Eigen::Isometry3f groundFrame(const Eigen::Vector3d& plane, const Eigen::Matrix3
 
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
                                  GroundFrameWorkspace& work,
-                                 const std::vector<std::int32_t>* columns) {
+                                 const std::vector<std::int32_t>* columns, float max_m) {
     const Eigen::Matrix3f level = levelFromSensor(attitude);
     if (columns == nullptr) {
         sampleColumns(pixels.x_m.cols(), kEnoughColumns, work.columns);
         columns = &work.columns;
     }
-    findLowestOfCells(pixels, level, *columns, work);
+    findLowestOfCells(pixels, level, *columns, max_m, work);
     const Points& points = work.points;
 
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();

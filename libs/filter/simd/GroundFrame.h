@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct GroundFrameWorkspace {
     Points points;
 };
 
+constexpr float kNoLimit_m = std::numeric_limits<float>::infinity();
+
 /// The transform from the sensor frame to the ground frame: z is the height above the mean plane of
 /// the ground, x and y lie in it, the origin is on it below the sensor.
 ///
@@ -37,10 +40,11 @@ struct GroundFrameWorkspace {
 /// assumed. The search starts from ground that is level according to `attitude`; without an
 /// attitude, it finds tilts of up to 30 degrees. With fewer than three occupied cells, returns the
 /// frame of a level plane (by `attitude`) through the lowest point, or through the sensor if there
-/// are no points.
+/// are no points. Points more than `max_m` above the sensor, by `attitude`, are ignored.
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
                                  GroundFrameWorkspace& work,
-                                 const std::vector<std::int32_t>* columns = nullptr);
+                                 const std::vector<std::int32_t>* columns = nullptr,
+                                 float max_m = kNoLimit_m);
 
 /// Whether the fitted plane may be ground: the sensor is above it, tilted by less than 45 degrees
 /// relative to the horizon (to the airframe if the attitude is unknown), and at least 20 pixels are

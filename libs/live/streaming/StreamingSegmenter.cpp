@@ -73,8 +73,8 @@ std::optional<Attitude> ifFinite(const std::optional<Attitude>& attitude) {
 }
 
 /// Sign of the upward direction along the sensor's z axis; 0 for a sensor on its side.
-float upOf(const std::optional<Attitude>& tilt) {
-    const Posture posture = postureOf(tilt);
+float upOf(const std::optional<Attitude>& tilt, const SensorModel& sensor) {
+    const Posture posture = postureOf(tilt, sensor);
     if (posture == Posture::Upright) return 1;
     return posture == Posture::UpsideDown ? -1 : 0;
 }
@@ -216,7 +216,7 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
 
 void StreamingSegmenter::thin(Packet& packet) {
     packet.thinned_first = thinned_.scan.size();
-    for (const std::size_t i : thinning_.of(packet.all.scan, upOf(tilt()))) {
+    for (const std::size_t i : thinning_.of(packet.all.scan, upOf(tilt(), filter_.sensor()))) {
         thinned_.append(packet.all, i);
     }
     packet.thinned_end = thinned_.scan.size();
@@ -414,7 +414,7 @@ bool StreamingSegmenter::mapWindow(const Sweep& sector) {
 
 /// Labels the sector, and keeps the context for later sectors.
 const SegmentationResult& StreamingSegmenter::judge() {
-    const bool is_upright = postureOf(tilt()) == Posture::Upright;
+    const bool is_upright = postureOf(tilt(), filter_.sensor()) == Posture::Upright;
     const std::optional<Sweep>& sweep = packets_.back().sweep;
     if (sweep && is_upright && mapWindow({start_rad_, head_rad_})) {
         const SegmentationResult& result =
