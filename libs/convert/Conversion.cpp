@@ -55,8 +55,9 @@ bool needsPoses(const Conversion& conversion) {
     const bool is_tum = !conversion.poses.empty() && recordings::kindOfPoseFile(conversion.poses) ==
                                                          recordings::PoseFileKind::Tum;
     return fs::is_directory(conversion.input) || !conversion.folder.empty() ||
-           !conversion.octomaps.empty() || !conversion.mcap.empty() || !conversion.view.empty() ||
-           is_tum || recordings::isBag(conversion.input);
+           conversion.settings.options.window_scans > 1 || !conversion.octomaps.empty() ||
+           !conversion.mcap.empty() || !conversion.view.empty() || is_tum ||
+           recordings::isBag(conversion.input);
 }
 
 ScanReport reportOf(const ConvertedScan& scan) {
@@ -167,10 +168,11 @@ class Converter {
         }
     }
 
-    /// The number of threads. Pictures take about 1 s each and are drawn sequentially, so more
-    /// threads would only read ahead and delay an interruption.
+    /// The number of threads. A sliding window needs the scans in order. Pictures take about 1 s
+    /// each and are drawn sequentially, so more threads would only read ahead and delay an
+    /// interruption.
     std::size_t wantedThreads() const {
-        if (!conversion_.pictures.empty()) return 1;
+        if (!conversion_.pictures.empty() || settings_.options.window_scans > 1) return 1;
         if (conversion_.jobs > 0) return conversion_.jobs;
         return std::max(1u, std::thread::hardware_concurrency());
     }

@@ -95,11 +95,12 @@ std::unique_ptr<ObservationSegmenter> makeSegmenter(const Conversion& conversion
 }
 
 void segmentEntry(const Conversion& conversion, const Settings& settings, ConvertedEntry& entry) {
-    for (std::size_t i = 0; i < entry.scans.size(); ++i) {
-        if (i == entry.segmenters.size()) {
-            entry.segmenters.push_back(makeSegmenter(conversion, settings));
-        }
-        segmentScan(conversion, settings, *entry.segmenters[i], entry.scans[i]);
+    std::map<std::string, int> scans_of;
+    for (ConvertedScan& scan : entry.scans) {
+        const std::string& label = scan.recorded.observation->sensorLabel;
+        auto& segmenter = entry.segmenters[{label, scans_of[label]++}];
+        if (!segmenter) segmenter = makeSegmenter(conversion, settings);
+        segmentScan(conversion, settings, *segmenter, scan);
     }
     removeOldResults(entry);
     entry.bytes.clear();

@@ -4,8 +4,10 @@
 #include <hagen/recordings/ScanSource.h>
 #include "convert/GzipOutput.h"
 
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hagen::convert {
@@ -26,7 +28,9 @@ struct ConvertedEntry {
     std::vector<ConvertedScan> scans;
     std::size_t results_replaced = 0;  ///< results of an earlier run removed from the object
     Bytes bytes, member, packed;       ///< buffers of the output rawlog
-    std::vector<std::unique_ptr<observations::ObservationSegmenter>> segmenters;  ///< one per scan
+    /// One per scan, because results point into it, by sensor label and number in the entry.
+    std::map<std::pair<std::string, int>, std::unique_ptr<observations::ObservationSegmenter>>
+        segmenters;
 };
 
 /// Throws SettingsError if settings and sensor are inconsistent.

@@ -21,7 +21,7 @@ namespace hagen {
 /// avoid allocations. Workspaces have no state and may be replaced at any time, but threads must
 /// not share them.
 struct FilterWorkspace {
-    Scan turned;                     // the scan in the image frame if the sensor is not upright
+    Scan turned, turned_newest;      // scans in the image frame if the sensor is not upright
     PixelDirections directions;      // of a subset of the columns
     ProjectionWorkspace projection;  // stage 1
     DeadBeamsWorkspace dead_beams;   // stage 2

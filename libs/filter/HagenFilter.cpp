@@ -27,8 +27,10 @@ struct HagenFilter::State {
     FilterWorkspace work;
 
     const View& viewIn(Posture posture);
-    void runStages(const Scan& scan, const std::optional<Attitude>& horizon, const View& view);
-    void judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon, const View& view);
+    void runStages(const Scan& window, const Scan& newest, const std::optional<Attitude>& horizon,
+                   const View& view);
+    void judgeByGround(const Scan& window, const Scan& labelled,
+                       const std::optional<Attitude>& horizon, const View& view);
 };
 
 const View& HagenFilter::State::viewIn(Posture posture) {
@@ -59,32 +61,41 @@ const Options& HagenFilter::options() const { return state_->options; }
 
 const SegmentationResult& HagenFilter::segment(const Scan& scan,
                                                const std::optional<Attitude>& attitude) {
+    return segment(scan, attitude, scan);
+}
+
+const SegmentationResult& HagenFilter::segment(const Scan& window,
+                                               const std::optional<Attitude>& attitude,
+                                               const Scan& newest) {
     State& s = *state_;
-    checkLocated(scan, s.sensor);
+    checkLocated(window, s.sensor);
     const auto horizonOf = [&](const std::optional<Attitude>& of) {
         return s.options.level_by_attitude ? of : std::nullopt;
     };
     const Posture posture = postureOf(attitude, s.sensor);
     const View& view = s.viewIn(posture);
     if (posture == Posture::Upright) {
-        s.runStages(scan, horizonOf(attitude), view);
+        s.runStages(window, newest, horizonOf(attitude), view);
         return s.result;
     }
 
     // The same scan in a frame whose image rows are in ascending elevation.
-    turnScan(scan, posture, attitude, view.sensor, s.work.turned);
+    turnScan(window, posture, attitude, view.sensor, s.work.turned);
+    const bool is_window = newest.size() < window.size();
+    if (is_window) turnScan(newest, posture, attitude, view.sensor, s.work.turned_newest);
     const Seeds seeds = s.options.seeds;
     if (!s.sensor.has_rings && s.options.ground_surface && s.options.ground_evidence)
         s.options.seeds = Seeds::Every;
-    s.runStages(s.work.turned, horizonOf(attitudeIn(posture, attitude)), view);
+    s.runStages(s.work.turned, is_window ? s.work.turned_newest : s.work.turned,
+                horizonOf(attitudeIn(posture, attitude)), view);
     s.options.seeds = seeds;
     Eigen::Isometry3f& from_sensor = s.result.ground.from_sensor;
     from_sensor = from_sensor * Eigen::Isometry3f(imageFromSensor(posture, attitude));
     return s.result;
 }
 
-void HagenFilter::State::runStages(const Scan& scan, const std::optional<Attitude>& horizon,
-                                   const View& view) {
+void HagenFilter::State::runStages(const Scan& window, const Scan& newest,
+                                   const std::optional<Attitude>& horizon, const View& view) {
     const Options& o = options;
     SegmentationResult& r = result;
     r.own_labels.label.clear();  // exchangeResult() may have left another filter's labels
@@ -92,25 +103,28 @@ void HagenFilter::State::runStages(const Scan& scan, const std::optional<Attitud
     r.ground.has_surface = r.ground.is_seen = false;
 
     // III-A: depth image
-    projectScan(scan, view.sensor, o.columns, std::max(o.context_m, o.zone_m), r.range_image,
+    projectScan(window, view.sensor, o.columns, std::max(o.context_m, o.zone_m), r.range_image,
                 work.projection);
+    if (o.window_fills_gaps && newest.size() < window.size())
+        preferFirst(window, newest.size(), r.range_image);
     repairGaps(r.range_image.depth_m, o.repair_max_step_m, r.repaired_m);
     if (o.bridge_dead_beams)
         bridgeDeadBeams(r.range_image.depth_m, view.directions, r.repaired_m, work.dead_beams);
 
     labelByAngles(view.directions, view.sensor.min_range_m, horizon, o, r, work);
-    if (usesGround(o)) judgeByGround(scan, horizon, view);
+    const Scan& labelled = o.label_window ? window : newest;
+    if (usesGround(o)) judgeByGround(window, labelled, horizon, view);
     if (o.context_m > o.zone_m) limitToZone(r.repaired_m, o.zone_m, r.labels);
     numberRoiComponents(r.repaired_m, r.labels, o.component_gap_m, r.components, work.components);
-    labelReturns(scan, o, r, work);
+    labelReturns(labelled, o, r, work);
 }
 
-void HagenFilter::State::judgeByGround(const Scan& scan, const std::optional<Attitude>& horizon,
-                                       const View& view) {
+void HagenFilter::State::judgeByGround(const Scan& window, const Scan& labelled,
+                                       const std::optional<Attitude>& horizon, const View& view) {
     Ground& g = result.ground;
     // Without rings, part of the view may be high above the ground and show crowns only.
     const bool is_partial = !view.sensor.has_rings && horizon;
-    findGroundPlane(scan, view.directions, horizon, options, nullptr, is_partial ? 0 : kNoLimit_m,
+    findGroundPlane(window, view.directions, horizon, options, nullptr, is_partial ? 0 : kNoLimit_m,
                     result, work);
     if (g.has_surface) {
         findGroundSurface(result.labels, options, nullptr, g, work);
@@ -118,7 +132,7 @@ void HagenFilter::State::judgeByGround(const Scan& scan, const std::optional<Att
         findTolerances(options, {}, g, work);
     }
     relabelByGround(g, options, result.labels, work);
-    judgeClearance(scan, horizon, options, result, work);
+    judgeClearance(labelled, horizon, options, result, work);
 }
 
 }  // namespace hagen

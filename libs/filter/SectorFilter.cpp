@@ -161,6 +161,8 @@ void SectorFilter::State::project(const Scan& scan, const SectorOfInterest& sect
     const Image<float>& depth_m = r.range_image.depth_m;
     projectScan(scan, sensor, sector.columns, std::max(o.context_m, o.zone_m), r.range_image,
                 work.projection);
+    if (o.window_fills_gaps && sector.latest < scan.size())
+        preferFirst(scan, sector.latest, r.range_image);
     mapDirections(turn, sector.columns, directions);
     judged = judgedColumns(sector);
     const auto [first, count] = judged;

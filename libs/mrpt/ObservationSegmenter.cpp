@@ -41,7 +41,7 @@ bool areSameFor(const Options& a, const Options& b) {
 void ObservationSegmenter::initialize(const Settings& settings) {
     if (settings.sensor.model) filterFor(settings.sensorModel(), settings.options);
     settings_ = settings;
-    filters_.clear();
+    windows_.clear();
     horizon_.forget();
     sensors_ = {};
 }
@@ -52,18 +52,18 @@ SharedBeams ObservationSegmenter::beamsOf(const mrpt::obs::CObservation& observa
     return sensors_.beamsOf(observation.sensorLabel);
 }
 
-/// Returns the filter for the most recently read scan.
-HagenFilter& ObservationSegmenter::filterOf(const std::string& label) {
+/// Returns the window and filter for the most recently read scan.
+SlidingWindow& ObservationSegmenter::windowOf(const std::string& label) {
     const SensorModel& sensor = observed_.sensor;
     const Options options = settings_.optionsFor(observed_.recovered.get());
-    const auto known = filters_.find(label);
-    if (known != filters_.end()) {
-        const HagenFilter& filter = known->second;
+    const auto known = windows_.find(label);
+    if (known != windows_.end()) {
+        const HagenFilter& filter = known->second.filter();
         if (isSameSensor(filter.sensor(), sensor) && areSameFor(filter.options(), options))
             return known->second;
-        filters_.erase(known);  // another sensor with the same label
+        windows_.erase(known);  // another sensor with the same label
     }
-    return filters_.emplace(label, filterFor(sensor, options)).first->second;
+    return windows_.emplace(label, SlidingWindow(filterFor(sensor, options))).first->second;
 }
 
 bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, Output& out,
@@ -85,21 +85,32 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
         readObservation(observation, settings_, observed_, beams ? *beams : beamsOf(observation));
     }
     const std::size_t returns_masked = maskAirframe(settings_.airframe.parts, observed_.scan);
-    const Scan& scan = observed_.scan;
-    HagenFilter& filter = filterOf(observation.sensorLabel);
+    SlidingWindow& window = windowOf(observation.sensorLabel);
 
     const ScanPose mounted =
         mountedPose(pose, mrpt::poses::CPose3D(observation.sensorPose()), settings_.mount);
 
-    const std::string& remark = observed_.remark;
+    std::string& remark = observed_.remark;
+    std::optional<Eigen::Isometry3d> map_from_sensor;
+    if (mounted.sensor_pose) {
+        map_from_sensor = Eigen::Isometry3d(
+            mounted.sensor_pose->getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen());
+    }
     if (!remark.empty()) logStr(mrpt::system::LVL_WARN, observation.sensorLabel + ": " + remark);
 
     std::optional<mrpt::system::CTimeLoggerEntry> segmenting(std::in_place, profiler,
                                                              "process.segment");
     const auto cpu_start = base::threadCpuTime();
-    const SegmentationResult& result = filter.segment(scan, mounted.attitude);
+    const SegmentationResult& result =
+        window.segment(observed_.scan, mounted.attitude, map_from_sensor);
     const auto filter_cpu_time = base::threadCpuTime() - cpu_start;
     segmenting.reset();
+    const Scan& scan = window.labelled();
+    if (window.scansWithoutMotion() > 0) {
+        remark += std::string(remark.empty() ? "" : "; ") + "the motion since " +
+                  std::to_string(window.scansWithoutMotion()) +
+                  " older scans of the window is unknown (no poses, no ground)";
+    }
     const auto labelled = std::chrono::steady_clock::now();
 
     const mrpt::system::CTimeLoggerEntry part(profiler, "process.clouds");
@@ -107,8 +118,8 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     out.non_roi = resultOf(observation, false, cloudOf(scan, result.returns.rou, cloud_class));
     out.scan = &scan;
     out.result = &result;
-    out.sensor = &filter.sensor();
-    out.options = &filter.options();
+    out.sensor = &window.filter().sensor();
+    out.options = &window.filter().options();
     out.recovered = observed_.recovered;
     out.is_sensor_assumed = observed_.is_sensor_assumed;
     out.pose = mounted;

@@ -197,6 +197,19 @@ void projectScan(const Scan& scan, const SensorModel& sensor, const ColumnMap& m
             static_cast<int>(map.to_turn.size()), image, work);
 }
 
+void preferFirst(const Scan& scan, std::size_t first, RangeImage& image) {
+    const auto end = static_cast<std::int32_t>(first);
+    for (std::int32_t i = 0; i < end; ++i) {
+        const std::int32_t pixel = image.depth_mapper[i];
+        if (pixel == RangeImage::kNoPixel) continue;
+        std::int32_t& closest = image.closest_return.data()[pixel];
+        float& depth_m = image.depth_m.data()[pixel];
+        if (closest < end && scan.range_m[i] >= depth_m) continue;
+        closest = i;
+        depth_m = scan.range_m[i];
+    }
+}
+
 int nearestColumn(float azimuth_rad, int columns) {
     const float turn = 0.5f - azimuth_rad * kTurnsPerRadian;  // clockwise from behind
     const int column = static_cast<int>(std::floor(turn * static_cast<float>(columns)));

@@ -88,16 +88,6 @@ const OptionKey* findOption(const std::string& name) {
     return nullptr;
 }
 
-/// A removed option. Its value 1 has no effect and is accepted for old files.
-constexpr const char* kRemovedKey = "window_scans";
-
-/// The error message for an unknown or removed option.
-std::string refusalOf(const std::string& key, const std::vector<std::string>& known) {
-    if (key != kRemovedKey) return unknownKey(key, known);
-    return "window_scans was removed: each scan is segmented alone, because windows of several "
-           "scans lowered the scores of the presets (docs/paper.md). Delete this line";
-}
-
 constexpr const char* kPaper = "paper";
 
 /// Sets an option and marks it as given. `seen`: options given so far in this file.
@@ -276,8 +266,8 @@ void mergeKeys(const fs::path& file, const YAML::Node& document, Includes& inclu
             }
         } else if (const OptionKey* key = findOption(name)) {
             mergeOption(file, *key, value, seen, settings);
-        } else if (name != kRemovedKey || value.as<double>(0) != 1) {
-            throw SettingsError(place + refusalOf(name, known));
+        } else {
+            throw SettingsError(place + unknownKey(name, known));
         }
     };
     forEachKey(file, document, "", "", read);
@@ -465,7 +455,7 @@ void setOption(const std::string& key, const std::string& value, Settings& setti
         settings.given.insert(option.name);
         return;
     }
-    throw SettingsError(refusalOf(key, known));
+    throw SettingsError(unknownKey(key, known));
 }
 
 }  // namespace hagen

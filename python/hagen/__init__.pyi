@@ -67,7 +67,10 @@ class Result:
 class Filter:
     def __init__(self, *settings: str | PathLike[str], **options: bool | float | str) -> None: ...
     def segment(
-        self, scan: npt.ArrayLike | Scan, attitude: tuple[float, float] | None = None
+        self,
+        scan: npt.ArrayLike | Scan,
+        attitude: tuple[float, float] | None = None,
+        pose: npt.ArrayLike | None = None,
     ) -> Result: ...
     @property
     def sensor(self) -> str: ...

@@ -42,7 +42,7 @@ std::vector<float> heightsOf(const Segmented& segmented) {
 
 Filter::Filter(const Settings& settings) : settings_(settings) {
     if (settings.sensor.model) {
-        idle_.push_back(filterFor(settings.sensorModel(), settings.options));
+        idle_.emplace_back(filterFor(settings.sensorModel(), settings.options));
     }
 }
 
@@ -74,7 +74,7 @@ std::shared_ptr<Segmented> Filter::newResult() {
             }};
 }
 
-HagenFilter Filter::leaseFilter(const Scan& scan, int& generation) {
+SlidingWindow Filter::leaseFilter(const Scan& scan, int& generation) {
     const std::lock_guard lock(mutex_);
     if (!settings_.sensor.model && !sensors_.isSettled(kLabel)) {
         sensors_.see(kLabel, scan);
@@ -87,35 +87,39 @@ HagenFilter Filter::leaseFilter(const Scan& scan, int& generation) {
     }
     generation = generation_;
     if (!idle_.empty()) {
-        HagenFilter filter = std::move(idle_.back());
+        SlidingWindow filter = std::move(idle_.back());
         idle_.pop_back();
         return filter;
     }
-    return filterFor(settings_.sensorModel(beams_.get()), settings_.optionsFor(beams_.get()));
+    return SlidingWindow(
+        filterFor(settings_.sensorModel(beams_.get()), settings_.optionsFor(beams_.get())));
 }
 
-void Filter::giveBack(HagenFilter&& filter, int generation) {
+void Filter::giveBack(SlidingWindow&& filter, int generation) {
     const std::lock_guard lock(mutex_);
     if (generation == generation_ && idle_.size() < kMaxIdle) idle_.push_back(std::move(filter));
 }
 
-std::shared_ptr<Segmented> Filter::segment(const PointsView& points,
-                                           const std::optional<Attitude>& attitude) {
+std::shared_ptr<Segmented> Filter::segment(
+    const PointsView& points, const std::optional<Attitude>& attitude,
+    const std::optional<Eigen::Isometry3d>& map_from_sensor) {
     const std::shared_ptr<Segmented> segmented = newResult();
     copyPoints(points, segmented->scan);
     int generation = 0;
-    HagenFilter filter = leaseFilter(segmented->scan, generation);
+    SlidingWindow window = leaseFilter(segmented->scan, generation);
+    HagenFilter& filter = window.filter();
     locateBeams(filter.sensor(), segmented->scan);
     maskAirframe(settings_.airframe.parts, segmented->scan);
     const std::optional<Attitude> otherwise =
         isLevel(settings_.mount) ? std::nullopt : std::optional(settings_.mount);
     // Exchanged before segmenting, too, so that the filter reuses memory.
     filter.exchangeResult(segmented->result);
-    filter.segment(segmented->scan, attitude ? attitude : otherwise);
+    window.segment(segmented->scan, attitude ? attitude : otherwise, map_from_sensor);
     filter.exchangeResult(segmented->result);
+    if (filter.options().label_window) segmented->scan = window.labelled();
     segmented->sensor = filter.sensor().name;
     check(*segmented, filter.sensor(), filter.options());
-    giveBack(std::move(filter), generation);
+    giveBack(std::move(window), generation);
     return segmented;
 }
 

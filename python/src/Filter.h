@@ -1,6 +1,6 @@
 #pragma once
-#include <hagen/filter/HagenFilter.h>
 #include <hagen/filter/ResultCheck.h>
+#include <hagen/filter/SlidingWindow.h>
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <hagen/settings/Settings.h>
@@ -35,9 +35,11 @@ class Filter {
     explicit Filter(const Settings& settings);
 
     /// Segments the returns of one scan from the sensor in the settings, or with the beams
-    /// recovered from the first scans. Needs no GIL.
+    /// recovered from the first scans. `map_from_sensor` moves the scans of a sliding window. Needs
+    /// no GIL.
     std::shared_ptr<Segmented> segment(const PointsView& points,
-                                       const std::optional<Attitude>& attitude);
+                                       const std::optional<Attitude>& attitude,
+                                       const std::optional<Eigen::Isometry3d>& map_from_sensor);
     /// Segments a scan of a recording with its own sensor, beams, tilt and mount. Throws
     /// std::runtime_error with the reason if it cannot be read. Needs no GIL.
     std::shared_ptr<Segmented> segment(const PythonScan& scan,
@@ -57,8 +59,8 @@ class Filter {
         std::vector<std::unique_ptr<Segmented>> idle;
     };
     std::shared_ptr<Segmented> newResult();
-    HagenFilter leaseFilter(const Scan& scan, int& generation);
-    void giveBack(HagenFilter&& filter, int generation);
+    SlidingWindow leaseFilter(const Scan& scan, int& generation);
+    void giveBack(SlidingWindow&& filter, int generation);
 
     const Settings settings_;
     std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
@@ -69,7 +71,7 @@ class Filter {
     ResultCheck check_;
     std::size_t scans_ = 0;
     std::set<std::string> warned_;  ///< kinds of the warnings given
-    std::vector<HagenFilter> idle_;
+    std::vector<SlidingWindow> idle_;
     int generation_ = 0;  ///< number of sensor changes; filters of earlier sensors are dropped
     observations::CloudSensors sensors_;
     observations::SharedBeams beams_;

@@ -62,9 +62,26 @@ std::optional<Attitude> attitudeFrom(const py::object& attitude) {
     }
 }
 
+std::optional<Eigen::Isometry3d> poseFrom(const py::object& pose) {
+    if (pose.is_none()) return std::nullopt;
+    const auto matrix = py::array_t<double, py::array::forcecast>::ensure(pose);
+    if (!matrix || matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4) {
+        PyErr_Clear();
+        throw py::value_error("pose: expected a (4, 4) transform, not " + textOf(pose));
+    }
+    Eigen::Isometry3d map_from_sensor;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column)
+            map_from_sensor.matrix()(row, column) = matrix.at(row, column);
+    }
+    if (!map_from_sensor.matrix().allFinite()) throw py::value_error("pose: not finite");
+    return map_from_sensor;
+}
+
 std::shared_ptr<Segmented> segment(Filter& filter, const py::object& scan,
-                                   const py::object& attitude) {
+                                   const py::object& attitude, const py::object& pose) {
     const std::optional<Attitude> tilt = attitudeFrom(attitude);
+    const std::optional<Eigen::Isometry3d> map_from_sensor = poseFrom(pose);
     std::shared_ptr<Segmented> segmented;
     if (py::isinstance<PythonScan>(scan)) {
         const auto& recorded = scan.cast<const PythonScan&>();
@@ -74,7 +91,7 @@ std::shared_ptr<Segmented> segment(Filter& filter, const py::object& scan,
         const py::array_t<float> points = pointsFrom(scan);
         const PointsView view = viewOf(points);
         const GilRelease gil_release;
-        segmented = filter.segment(view, tilt);
+        segmented = filter.segment(view, tilt, map_from_sensor);
     }
     for (const std::string& warning : filter.newWarnings()) {
         if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
@@ -119,6 +136,18 @@ py::dict stagesOf(const py::object& self) {
         add("tolerance_m", r.ground.tolerance_m);
     }
     return stages;
+}
+
+py::array_t<float> xyzOf(const Segmented& segmented) {
+    const Scan& scan = segmented.scan;
+    py::array_t<float> xyz({static_cast<py::ssize_t>(scan.size()), py::ssize_t{3}});
+    auto to = xyz.mutable_unchecked<2>();
+    for (py::ssize_t i = 0; i < to.shape(0); ++i) {
+        to(i, 0) = scan.x_m[static_cast<std::size_t>(i)];
+        to(i, 1) = scan.y_m[static_cast<std::size_t>(i)];
+        to(i, 2) = scan.z_m[static_cast<std::size_t>(i)];
+    }
+    return xyz;
 }
 
 py::object groundOf(const Segmented& segmented) {
@@ -240,6 +269,10 @@ of many scans, copy them: result.labels.copy().)")
             R"((N,) uint8: the label of each return, in the scan's order: 0 unclassified (no range),
 1 ROU (ground, far returns), 2 RoI (a near obstacle).)")
         .def_property_readonly(
+            "xyz", [](const Segmented& segmented) { return xyzOf(segmented); },
+            R"((N, 3) float32: the labelled returns [m]: the scan or, with label_window, all scans of
+the window, newest first, in the frame of the newest.)")
+        .def_property_readonly(
             "obstacles",
             [](const py::object& self) {
                 return shared(self.cast<const Segmented&>().result.returns.component, self);
@@ -295,7 +328,8 @@ far returns (ROU) in a LiDAR scan, without a map.
     result = filter.segment(xyz)          # (N, 3) [m], x forward, y left, z up
     near = xyz[result.labels == hagen.ROI]
 
-Reuse a filter, because it keeps its memory. It has no other state and is thread-safe.)")
+Reuse a filter, because it keeps its memory. It has no other state, unless window_scans is above 1,
+and is thread-safe.)")
         .def(py::init([](const py::args& settings, const py::kwargs& options) {
                  return std::make_unique<Filter>(settingsFrom(settings, options));
              }),
@@ -306,6 +340,7 @@ named sensor, beams are estimated from the arrays of points.
 options: single options, such as zone_m=15 or beta_deg=7.5; see docs/settings.md.
 Raises hagen.SettingsError.)")
         .def("segment", &segment, py::arg("scan"), py::arg("attitude") = py::none(),
+             py::arg("pose") = py::none(),
              R"(Segments one scan, which may be empty.
 
 scan: an array of shape (N, 3) with x, y, z of each return in the sensor's frame [m], for the sensor
@@ -314,6 +349,8 @@ hagen.simulate(), which has its own sensor, beams, tilt and mount, as in rawlog-
 attitude: (roll, pitch) of the sensor relative to the horizon [rad], if known: pitch about y (nose
 down is positive), then roll about x (left side up is positive). The sensor may then be mounted at
 an arbitrary angle.
+pose: (4, 4) transform from the sensor's frame to the map, for the sliding window (window_scans) of
+arrays of points; recorded scans have their own.
 
 Warns (UserWarning) if most results so far are suspicious, such as scans without ground.
 Raises ValueError for other shapes and for angles beyond +-2 pi. Releases the GIL.)")

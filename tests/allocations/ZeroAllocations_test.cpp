@@ -1,7 +1,7 @@
 // After the first scans, segmentation does not allocate, from packets to labels and index lists.
 // This is a separate program because it replaces malloc().
 #include <gtest/gtest.h>
-#include <hagen/filter/HagenFilter.h>
+#include <hagen/filter/SlidingWindow.h>
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/sensors/VelodyneModel.h>
 
@@ -92,6 +92,21 @@ TEST(ZeroAllocationsPerScan, LocatingAndSegmentingNeverAllocate) {
         if (round == 2) before = allocations();
         locateBeams(sensor, seen.scan);
         filter.segment(seen.scan);
+    }
+    EXPECT_EQ(allocations() - before, 0u);
+}
+
+TEST(ZeroAllocationsPerScan, SlidingWindowNeverAllocates) {
+    if (!countsAllocations()) GTEST_SKIP() << "the sanitizer replaces malloc()";
+    Options options;
+    options.window_scans = 3;
+    const SensorModel sensor = sensorModel("HDL-64E");
+    const test::LabelledScan seen = test::scanScene(street(), sensor, 600, {0, 0, 1.7});
+    SlidingWindow window(HagenFilter(sensor, options));
+    std::size_t before = 0;
+    for (int round = 0; round < 8; ++round) {
+        if (round == 5) before = allocations();
+        window.segment(seen.scan, {}, Eigen::Isometry3d::Identity());
     }
     EXPECT_EQ(allocations() - before, 0u);
 }

@@ -367,8 +367,6 @@ TEST_F(RawlogSegment, RejectsInvalidArguments) {
                     {{"--poses", path("none.tum")}, "none.tum"},
                     {{"-c", path("none.yaml")}, "none.yaml"},
                     {{"-c", settings("mine.yaml", "zone: 20\n")}, "'zone_m'"},
-                    {{"-c", settings("old.yaml", "window_scans: 3\n")},
-                     "old.yaml:1: window_scans was removed"},
                     {{"-c", settings("beta.yaml", "beta_deg: 100\n")}, "beta_deg is 100"},
                     {{"-c", settings("window.yaml", "window_size: 20\n")}, "window_size (20)"}});
 }

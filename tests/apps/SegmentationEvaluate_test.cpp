@@ -450,7 +450,7 @@ TEST_F(SegmentationEvaluate, RejectsInvalidArguments) {
                     {{"--sweep", "zone_m=5,20,5"}, "zone_m=5 is given twice"},
                     {{"--sweep", "zone_m=5,"}, "zone_m"},
                     {{"--sweep", "window_size=16"}, "window_size (16)"},
-                    {{"--sweep", "window_scans=1,3"}, "was removed"},
+                    {{"--sweep", "window_scans=1,3"}, "each scan alone"},
                     {{"--max-range-m", "-3"}, "--max-range-m"},
                     {{"-c", "none.yaml"}, "none.yaml"},
                     {{"-i", pole + "/"}, "is given twice"},

@@ -508,23 +508,6 @@ TEST_F(SettingsTest, SimulatedAirframeIsReadable) {
     EXPECT_EQ(settings.airframe.parts.spheres.size(), 1u);
 }
 
-TEST_F(SettingsTest, AcceptsRemovedKeyOnlyWithoutEffect) {
-    for (const std::string one : {"1", "1.0"}) {
-        const Settings settings = settingsOf("window_scans: " + one + "\nbeta_deg: 12.5\n");
-        EXPECT_EQ(settings.options.beta_deg, 12.5f);
-    }
-    for (const std::string other : {"3", "0", "", "many", "[1]", "{1: 1}"}) {
-        const std::string message = refusalOf("beta_deg: 12.5\nwindow_scans: " + other);
-        EXPECT_THAT(message, HasSubstr("refused.yaml:2: window_scans was removed")) << other;
-        EXPECT_THAT(message, HasSubstr("Delete this line"));
-    }
-    EXPECT_THAT(refusalOf("window_scans: 1\nwindow_scans: 1"), HasSubstr("occurs twice"));
-    EXPECT_THAT(refusalOf("window_scan: 1"), HasSubstr("unknown key"));
-    Settings settings;
-    EXPECT_THAT(test::messageOf([&] { setOption("window_scans", "3", settings); }),
-                HasSubstr("was removed"));
-}
-
 TEST_F(SettingsTest, SetsOneOptionFromText) {
     Settings settings;
     setOption("beta_deg", "12.5", settings);

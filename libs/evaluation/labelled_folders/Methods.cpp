@@ -23,6 +23,9 @@ std::optional<Attitude> attitudeOf(const ScanInput& input) {
 }
 
 Method filterMethod(const std::string& name, const SensorModel& sensor, const Settings& settings) {
+    if (settings.options.window_scans > 1) {
+        throw SettingsError("window_scans: methods segment each scan alone");
+    }
     const auto filter = std::make_shared<HagenFilter>(filterFor(sensor, settings.options));
     // Scan folders store sensor poses, including the mount.
     const Attitude mount = settings.mount;

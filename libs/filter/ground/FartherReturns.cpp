@@ -14,8 +14,9 @@ void reserve(std::size_t size, FartherReturnsWorkspace& work) {
     for (auto* values : {&work.x_m, &work.y_m, &work.z_m, &work.height_m}) values->resize(size);
 }
 
-/// Lists the returns in the zone that lie behind the closest return of their pixel; returns their
-/// number. Branch-free, because these returns are few and scattered.
+/// Lists the returns in the zone that lie behind the pixel's depth, or in front of it (returns of a
+/// window that do not count); returns their number. Branch-free, because these returns are few and
+/// scattered.
 std::size_t listFarther(const Scan& scan, const RangeImage& image, float zone_m,
                         std::int32_t* list) {
     static_assert(RangeImage::kNoPixel == -1);
@@ -26,7 +27,8 @@ std::size_t listFarther(const Scan& scan, const RangeImage& image, float zone_m,
     std::size_t n = 0;
     for (std::int32_t i = 0; i < size; ++i) {
         const std::int32_t pixel = pixels[i], has_pixel = ~(pixel >> 31);  // 0, or all bits set
-        const std::int32_t is_farther = range_m[i] > depth_m[pixel & has_pixel] + kFarther_m;
+        const std::int32_t is_farther =
+            std::abs(range_m[i] - depth_m[pixel & has_pixel]) > kFarther_m;
         const std::int32_t is_in_zone = range_m[i] <= zone_m;
         list[n] = i;
         n += is_farther & is_in_zone & has_pixel;

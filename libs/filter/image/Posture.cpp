@@ -68,7 +68,11 @@ void level(const Scan& scan, const Eigen::Matrix3f& level_from_sensor, const Sen
 
 Posture postureOf(const std::optional<Attitude>& attitude, const SensorModel& sensor) {
     if (!attitude) return Posture::Upright;
-    const float max_cosine = sensor.has_rings ? kMaxTiltCosine : kMaxVirtualTiltCosine;
+    const std::vector<float>& rows_rad = sensor.elevations_rad;
+    const bool is_coarse =
+        degrees(static_cast<double>(rows_rad[1] - rows_rad[0])) > kMinSpacing_deg;
+    const float max_cosine =
+        sensor.has_rings || !is_coarse ? kMaxTiltCosine : kMaxVirtualTiltCosine;
     const float up = levelFromSensor(*attitude)(2, 2);  // cosine of the tilt
     if (up < -max_cosine) return Posture::UpsideDown;
     return up < max_cosine ? Posture::OnItsSide : Posture::Upright;

@@ -10,13 +10,14 @@ namespace hagen {
 
 /// The sensor's orientation. The stages need images whose rows rise against gravity.
 enum class Posture {
-    Upright,     ///< tilted by up to 30 degrees, without rings 15: the sensor's rows rise
+    Upright,     ///< tilted by up to 30 degrees: the sensor's rows rise
     UpsideDown,  ///< as far from upside down: the reversed rows rise
     OnItsSide    ///< in between: uses virtual rows in the level frame
 };
 
-/// The posture for a tilt; upright if the tilt is unknown. Without rings, the level frame's virtual
-/// rows are as good as the sensor's, so only small tilts are upright.
+/// The posture for a tilt; upright if the tilt is unknown. Virtual rows of the level frame are as
+/// good as those of a sensor without rings, unless its rows are finer (depth cameras), so such a
+/// sensor is upright only up to 15 degrees.
 Posture postureOf(const std::optional<Attitude>& attitude, const SensorModel& sensor);
 
 /// The sensor whose beams are the rows of the image. Upside down: the same beams with negated

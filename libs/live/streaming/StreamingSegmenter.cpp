@@ -3,6 +3,7 @@
 #include <hagen/scan/RangeImage.h>
 #include "filter/image/Posture.h"
 #include "scan/AppendReturn.h"
+#include "scan/MoveReturns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,8 @@
 namespace hagen::live {
 namespace {
 
-constexpr std::size_t kMaxPackets = 4000;  // maximum even if the clock stops; a turn has up to 600
+constexpr std::size_t kMaxPackets = 4000;  // of a turn, even if the clock stops; usually up to 600
+constexpr double kFrame_s = 0.1;           // a scan of a sensor without a rotating head
 constexpr double kEnoughOfView = 0.9;      // of a limited field of view
 constexpr double kPacketEnd_rad = 0.01;    // tolerance of packet boundaries
 // A beam's correction may add half a turn, and nearestColumn() wraps only once.
@@ -26,45 +28,6 @@ constexpr double kMargin_rad = 0.02;       // added to the sector's image ahead 
 constexpr int kEmptyColumns = 16;  // group width where no returns are kept; shown as two columns
 // With smaller motions, all returns stay in their pixels.
 constexpr double kMinMotion_m = 0.01, kMinMotion_rad = 1e-3;
-
-template <class Value>
-void append(const std::vector<Value>& from, std::vector<Value>& to) {
-    to.insert(to.end(), from.begin(), from.end());
-}
-
-/// Calls visit(a, b) for each pair of corresponding arrays of two scans.
-template <class A, class B, class Visit>
-void forEachArray(A& a, B& b, Visit visit) {
-    visit(a.x_m, b.x_m);
-    visit(a.y_m, b.y_m);
-    visit(a.z_m, b.z_m);
-    visit(a.intensity, b.intensity);
-    visit(a.range_m, b.range_m);
-    visit(a.azimuth_rad, b.azimuth_rad);
-    visit(a.row, b.row);
-}
-
-void append(const Scan& from, Scan& to) {
-    forEachArray(from, to, [](const auto& values, auto& all) { append(values, all); });
-}
-
-/// Moves the returns from index `first` on. Returns whose coordinates overflow have no range.
-void moveReturns(const Eigen::Isometry3d& motion, std::size_t first, Scan& scan) {
-    const Eigen::Matrix3f turn = motion.linear().cast<float>();
-    const Eigen::Vector3f way_m = motion.translation().cast<float>();
-    float* const x_m = scan.x_m.data();
-    float* const y_m = scan.y_m.data();
-    float* const z_m = scan.z_m.data();
-    float* const range_m = scan.range_m.data();
-    for (std::size_t i = first; i < scan.size(); ++i) {
-        const float x = x_m[i], y = y_m[i], z = z_m[i];
-        x_m[i] = turn(0, 0) * x + turn(0, 1) * y + turn(0, 2) * z + way_m.x();
-        y_m[i] = turn(1, 0) * x + turn(1, 1) * y + turn(1, 2) * z + way_m.y();
-        z_m[i] = turn(2, 0) * x + turn(2, 1) * y + turn(2, 2) * z + way_m.z();
-        const float zero = 0 * x_m[i] + 0 * y_m[i] + 0 * z_m[i];  // NaN unless all are finite
-        range_m[i] += zero;
-    }
-}
 
 std::optional<Attitude> ifFinite(const std::optional<Attitude>& attitude) {
     const bool is_known =
@@ -84,10 +47,10 @@ bool isStill(const Eigen::Isometry3d& motion) {
            Eigen::AngleAxisd(motion.linear()).angle() < kMinMotion_rad;
 }
 
-/// The smallest angle between two sweeps at most a turn apart.
+/// The smallest angle between two sweeps, in whatever turn.
 double between(const Sweep& a, const Sweep& b) {
-    const double apart_rad = std::abs(a.from_rad + a.to_rad - b.from_rad - b.to_rad) / 2;
-    const double middle_rad = std::min(apart_rad, std::abs(kTurn_rad - apart_rad));
+    const double apart_rad = (a.from_rad + a.to_rad - b.from_rad - b.to_rad) / 2;
+    const double middle_rad = std::abs(std::remainder(apart_rad, kTurn_rad));
     return middle_rad - (a.to_rad - a.from_rad + b.to_rad - b.from_rad) / 2;
 }
 
@@ -116,7 +79,10 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
       thinning_(filter_.sensor().rows(), filter_.options().columns,
                 std::max(streaming.keep_every, 0)),
       turn_motion_(filter_.sensor().rows(), filter_.options().columns, options.zone_m),
-      take_(std::move(take)) {
+      take_(std::move(take)),
+      turns_(options.window_scans),
+      max_age_s_(filter_.sensor().has_rings ? streaming.context_s * turns_
+                                            : std::max(streaming.context_s, kFrame_s * turns_)) {
     check(streaming.sector_rad > 0 && streaming.sector_rad <= kTurn_rad,
           "sector_rad must be above 0 and at most a turn");
     check(streaming.window_rad >= 0, "window_rad must not be negative");
@@ -186,7 +152,7 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
     if (!std::all_of(returns.azimuth_rad.begin(), returns.azimuth_rad.end(), isUsable)) {
         throw std::invalid_argument("streaming: a return has no azimuth, or one beyond 7.8 rad");
     }
-    if (packets_.size() >= kMaxPackets) restart();
+    if (packets_.size() >= kMaxPackets * static_cast<std::size_t>(turns_)) restart();
     if (spare_.empty()) {
         packets_.emplace_back();
     } else {
@@ -196,7 +162,7 @@ StreamingSegmenter::Packet& StreamingSegmenter::push(const Scan& returns, double
     ++open_;
     Packet& packet = packets_.back();
     packet.all.clear();
-    append(returns, packet.all.scan);
+    appendReturns(returns, packet.all.scan);
     packet.all.scan.intensity.resize(returns.size());
     packet.all.scan.beams = returns.beams;
     packet.all.found.resize(returns.size());
@@ -290,14 +256,15 @@ void StreamingSegmenter::restart() {
     packets_.clear();
 }
 
-/// Removes packets that are too old, that the latest turn has overwritten, or whose age is unknown
-/// because the clock went back.
+/// Removes packets that are too old, that the turns of the window have overwritten, or whose age is
+/// unknown because the clock went back.
 void StreamingSegmenter::forget(double now_s) {
     while (packets_.size() > open_) {
         const Packet& oldest = packets_.front();
-        const bool is_overwritten = oldest.sweep && oldest.sweep->to_rad <= head_rad_ - kTurn_rad;
+        const bool is_overwritten =
+            oldest.sweep && oldest.sweep->to_rad <= head_rad_ - kTurn_rad * turns_;
         const double age_s = now_s - oldest.time_s;
-        if (!is_overwritten && age_s >= 0 && age_s < streaming_.context_s) break;
+        if (!is_overwritten && age_s >= 0 && age_s < max_age_s_) break;
         spare_.push_back(std::move(packets_.front()));
         packets_.pop_front();
     }
@@ -346,6 +313,15 @@ void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
     const std::optional<Eigen::Isometry3d> motion = motionSince(packet);
     const bool has_moved = motion && !isStill(*motion);
     bool is_near = true;
+    if (packet.sweep && packet.sweep->to_rad <= head_rad_ - kTurn_rad) {  // an older turn
+        if (between(*packet.sweep, sector) > streaming_.window_rad) return;
+        if (motion) {
+            addMoved(packet.all, 0, packet.all.scan.size(), *motion, false);
+        } else if (!filter_.options().window_fills_gaps) {
+            moved_.append(packet.all, 0, packet.all.scan.size());
+        }
+        return;
+    }
     if (packet.sweep) {
         double skip_rad = motion ? 0 : streaming_.skip_ahead_rad;
         if (has_moved) skip_rad = streaming_.skip_ahead_moved_rad;
@@ -417,13 +393,13 @@ const SegmentationResult& StreamingSegmenter::judge() {
     const bool is_upright = postureOf(tilt(), filter_.sensor()) == Posture::Upright;
     const std::optional<Sweep>& sweep = packets_.back().sweep;
     if (sweep && is_upright && mapWindow({start_rad_, head_rad_})) {
-        const SegmentationResult& result =
-            sector_filter_.segment(window_.scan, tilt(), {sector_, columns_, window_.found});
+        const SegmentationResult& result = sector_filter_.segment(
+            window_.scan, tilt(), {sector_, columns_, window_.found, latest_});
         labels_ = result.returns.label;
         found_ = sector_filter_.found();
         return result;
     }
-    const SegmentationResult& result = filter_.segment(window_.scan, tilt());
+    const SegmentationResult& result = filter_.segment(window_.scan, tilt(), sector_);
     labels_.assign(result.returns.label.begin(),
                    result.returns.label.begin() + static_cast<std::ptrdiff_t>(sector_.size()));
     found_.assign(sector_.size(), {});
@@ -456,12 +432,12 @@ void StreamingSegmenter::label(bool is_cut) {
     sector_.clear();
     sweeps_.clear();
     for (std::size_t i = first_open; i < packets_.size(); ++i) {
-        append(packets_[i].all.scan, sector_);
+        appendReturns(packets_[i].all.scan, sector_);
         if (packets_[i].sweep) sweeps_.push_back(*packets_[i].sweep);
     }
     sector_.beams = last.all.scan.beams;
     window_.clear();
-    append(sector_, window_.scan);
+    appendReturns(sector_, window_.scan);
     window_.scan.beams = sector_.beams;
     window_.found.resize(sector_.size());
     moved_.clear();
@@ -469,6 +445,7 @@ void StreamingSegmenter::label(bool is_cut) {
     for (std::size_t i = 0; i < first_open; ++i) addContext(packets_[i], sector);
     addThinned(0, 0);
     locateBeams(filter_.sensor(), moved_.scan);
+    latest_ = window_.scan.size();
     window_.append(moved_, 0, moved_.scan.size());
 
     const SegmentationResult& result = judge();

@@ -30,6 +30,11 @@ class HagenFilter {
     const SegmentationResult& segment(const Scan& scan,
                                       const std::optional<Attitude>& attitude = {});
 
+    /// Segments the concatenated scans of a sliding window (SlidingWindow.h), which begin with the
+    /// returns of `newest`. Labels those returns only, unless the options ask for all.
+    const SegmentationResult& segment(const Scan& window, const std::optional<Attitude>& attitude,
+                                      const Scan& newest);
+
     /// Swaps the filter's result with `result`, to keep the result beyond the next call without a
     /// copy. The filter reuses the memory of `result`.
     void exchangeResult(SegmentationResult& result);

@@ -15,6 +15,13 @@ struct Options {
     float zone_m = 20.0f;
     /// Returns up to this range are projected, as context of the zone; at least zone_m.
     float context_m = 48.0f;
+    /// Scans of the paper's sliding window (SlidingWindow.h); 1 segments each scan alone.
+    int window_scans = 1;
+    /// Older scans of the window only fill pixels that the newest scan leaves empty; if false, the
+    /// closest return of all scans counts, as in the paper.
+    bool window_fills_gaps = true;
+    /// Label the returns of all scans of the window; if false, only of the newest.
+    bool label_window = false;
     /// I_w, image columns per revolution; not more than the sensor's firings per revolution,
     /// because a column without returns separates its neighbours.
     int columns = 870;

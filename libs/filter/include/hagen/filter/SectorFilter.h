@@ -7,6 +7,8 @@
 #include <hagen/scan/Label.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,6 +30,8 @@ struct SectorOfInterest {
     /// For each return of the scan, SectorFilter::found() from its own sector; entries of `returns`
     /// are not read.
     const std::vector<ContextReturn>& context;
+    /// Returns of the latest turn, which come first. Those of older turns (SlidingWindow.h) follow.
+    std::size_t latest = std::numeric_limits<std::size_t>::max();
 };
 
 /// The stages of HagenFilter for a part of a turn. Stages 3 to 8, which compare neighbouring

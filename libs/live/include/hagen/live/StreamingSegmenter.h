@@ -182,6 +182,8 @@ class StreamingSegmenter {
     Thinning thinning_;
     TurnMotion turn_motion_;  ///< updated while neither tilt nor pose is known
     Take take_;
+    int turns_;         ///< of the sliding window
+    double max_age_s_;  ///< of context
     std::optional<Attitude> attitude_, mount_;
     BeamOffsets offsets_;
     double view_rad_ = kTurn_rad;
@@ -197,7 +199,8 @@ class StreamingSegmenter {
     double head_rad_ = 0;                              ///< rotation of the sensor
     double start_rad_ = 0;                             ///< start of the sector in progress
     std::size_t sectors_ = 0;
-    Returns window_, moved_;  ///< reused; `moved_` only for frames
+    Returns window_, moved_;  ///< reused; `moved_` for frames and older turns
+    std::size_t latest_ = 0;  ///< returns of the latest turn, which begin `window_`
     ColumnMap columns_;       ///< reused
     Scan sector_;
     std::vector<Label> labels_;         ///< labels of the sector's returns

@@ -1,5 +1,5 @@
 #pragma once
-#include <hagen/filter/HagenFilter.h>
+#include <hagen/filter/SlidingWindow.h>
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/Horizon.h>
 #include <hagen/mrpt/ObservationScan.h>
@@ -27,8 +27,9 @@ namespace hagen::observations {
 ///     if (segmenter.process(*observation, out)) rawlog.insert(out.roi);
 ///
 /// Accepts the LiDAR scans of a log with one or several sensors. Each sensor label has its own
-/// filter. Results do not depend on previous scans, except that the beams of a sensor named by
-/// neither the recording nor the settings are recovered from its first clouds (CloudSensors.h).
+/// filter. Results do not depend on previous scans, except that the settings may ask for a sliding
+/// window, and that the beams of a sensor named by neither the recording nor the settings are
+/// recovered from its first clouds (CloudSensors.h).
 class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
     DEFINE_MRPT_OBJECT(ObservationSegmenter, hagen::observations)
 
@@ -39,7 +40,8 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
         /// one of the clouds, except returns from the airframe in the settings.
         mrpt::obs::CObservationPointCloud::Ptr roi, non_roi;
 
-        /// The scan's returns, and the result of each stage; valid until the next process().
+        /// The scan's returns (with `label_window`, those of the window, in the frame of the scan),
+        /// and the result of each stage; valid until the next process().
         const Scan* scan = nullptr;
         const SegmentationResult* result = nullptr;
         const SensorModel* sensor = nullptr;
@@ -76,8 +78,9 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
                  const Trajectory& vehicle = Trajectory());
 
     /// Like above, for a scan with a known pose and, for a cloud of an unnamed sensor, known
-    /// `beams` (null if not found; if omitted, recovers them). Such scans can be segmented in an
-    /// arbitrary order and by several segmenters concurrently.
+    /// `beams` (null if not found; if omitted, recovers them). Unless the settings ask for a
+    /// sliding window, such scans can be segmented in an arbitrary order and by several segmenters
+    /// concurrently.
     bool process(const mrpt::obs::CObservation& observation, Output& out, const ScanPose& pose,
                  const std::optional<SharedBeams>& beams = std::nullopt);
 
@@ -94,10 +97,10 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
  private:
     SharedBeams beamsOf(const mrpt::obs::CObservation& observation);
-    HagenFilter& filterOf(const std::string& label);
+    SlidingWindow& windowOf(const std::string& label);
 
     Settings settings_;
-    std::map<std::string, HagenFilter> filters_;  ///< by sensor label
+    std::map<std::string, SlidingWindow> windows_;  ///< by sensor label
     CloudSensors sensors_;
     Horizon horizon_;
     ObservedScan observed_;

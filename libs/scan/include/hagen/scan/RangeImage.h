@@ -2,6 +2,7 @@
 #include <hagen/scan/Image.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct ProjectionWorkspace {
 /// `image`.
 void projectScan(const Scan& scan, const SensorModel& sensor, int columns, float context_m,
                  RangeImage& image, ProjectionWorkspace& work);
+
+/// Lets the first `first` returns decide the pixels that they hit: the closest of them counts, even
+/// if another return is closer. For a sliding window, whose older scans then only fill gaps.
+void preferFirst(const Scan& scan, std::size_t first, RangeImage& image);
 
 /// The column whose centre is closest to this azimuth, in an image with `columns` columns.
 int nearestColumn(float azimuth_rad, int columns);
