@@ -1,6 +1,7 @@
 #include "filter/FilterStages.h"
 
 #include <hagen/scan/Angle.h>
+#include <algorithm>
 #include "filter/ground/Clearance.h"
 #include "filter/paper/RangeAngle.h"
 #include "filter/paper/Sharpening.h"
@@ -8,6 +9,8 @@
 
 namespace hagen {
 namespace {
+
+constexpr float kLowest_m = 0.1f;  // minimum height of a sensor above the ground
 
 float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg)); }
 
@@ -67,15 +70,17 @@ void findGroundSurface(const Image<Label>& labels, const Options& o,
 }
 
 void findTolerances(const Options& o, const CellArea& area, Ground& g, FilterWorkspace& w) {
+    const float above_plane_m = g.from_sensor.translation().z();
+    const float above_ground_m = above_plane_m - g.surface.at(0, 0);
     toleratedHeights(
         g.pixels, g.cells, g.tops,
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
-        g.from_sensor.translation().z(), g.tolerance_m, w.tolerance, area);
-    if (o.canopy_layer) tolerateCanopy(g.cells, g.tops, g.tolerance_m, area);
+        std::max(above_plane_m, kLowest_m), g.tolerance_m, w.tolerance, area);
+    if (o.canopy_layer) tolerateCanopy(g.cells, g.tops, above_ground_m, g.tolerance_m, area);
     g.has_evidence.clear();
     if (o.ground_evidence) {
-        requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, g.tolerance_m, g.has_evidence,
-                        w.evidence);
+        requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, above_ground_m, g.tolerance_m,
+                        g.has_evidence, w.evidence);
     }
 }
 

@@ -402,7 +402,7 @@ TEST(Traps, ObstaclesAreRoiWhenHoveringLow) {
         EXPECT_GT(o.dangers, 100);
         EXPECT_EQ(o.missed_dangers, 0);
         EXPECT_GT(o.floors, 6000);
-        EXPECT_GT(o.floorShare(), 0.99);
+        EXPECT_GT(o.floorShare(), 0.85);  // without evidence beyond 12 m
     });
 }
 

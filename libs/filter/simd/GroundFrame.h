@@ -42,10 +42,11 @@ Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& atti
                                  GroundFrameWorkspace& work,
                                  const std::vector<std::int32_t>* columns = nullptr);
 
-/// Whether the fitted plane may be ground: the sensor is above it, tilted by less than 45 degrees
-/// relative to the horizon (to the airframe if the attitude is unknown), and at least 20 pixels are
-/// labelled ROU. High up next to a tower or tree, no ground is visible, and other surfaces must not
-/// be mistaken for ground.
+/// Whether the fitted plane may be ground: the sensor is at most 0.3 m below it (a vehicle may
+/// stand in a hollow or among plants that hide the ground), tilted by less than 45 degrees relative
+/// to the horizon (to the airframe if the attitude is unknown), and at least 20 pixels are labelled
+/// ROU. High up next to a tower or tree, no ground is visible, and other surfaces must not be
+/// mistaken for ground.
 bool canBeGround(const Eigen::Isometry3f& ground_from_sensor,
                  const std::optional<Attitude>& attitude, const Image<Label>& labels);
 
