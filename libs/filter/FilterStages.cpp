@@ -3,14 +3,13 @@
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include "filter/ground/Clearance.h"
+#include "filter/ground/StageRules.h"
 #include "filter/paper/RangeAngle.h"
 #include "filter/paper/Sharpening.h"
 #include "filter/simd/CanopyLayer.h"
 
 namespace hagen {
 namespace {
-
-constexpr float kLowest_m = 0.1f;  // minimum height of a sensor above the ground
 
 float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg)); }
 
@@ -75,7 +74,7 @@ void findTolerances(const Options& o, const CellArea& area, Ground& g, FilterWor
     toleratedHeights(
         g.pixels, g.cells, g.tops,
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
-        std::max(above_plane_m, kLowest_m), g.tolerance_m, w.tolerance, area);
+        std::max(above_plane_m, evidence_rules::kLowest_m), g.tolerance_m, w.tolerance, area);
     if (o.canopy_layer) tolerateCanopy(g.cells, g.tops, above_ground_m, g.tolerance_m, area);
     g.has_evidence.clear();
     if (o.ground_evidence) {

@@ -194,12 +194,14 @@ TEST(RequireEvidence, ReachesFourBlocks) {
 }
 
 TEST(RequireEvidence, EndsAtGrazingAngles) {
-    // The block from 9 to 12 m is 10.61 m away, because its centre is also 1.5 m aside.
-    const auto isSeenFrom = [](float sensor_height_m) {
-        return required({{10, 1, 0, true}}, 1, sensor_height_m).front() == 0.5f;
+    const auto isSeen = [](float x_m, float sensor_height_m) {
+        return required({{x_m, 1, 0, true}}, 1, sensor_height_m).front() == 0.5f;
     };
-    EXPECT_TRUE(isSeenFrom(10.62f / 40));
-    EXPECT_FALSE(isSeenFrom(10.59f / 40));
+    // The block from 9 to 12 m is 10.61 m away, because its centre is also 1.5 m aside.
+    EXPECT_TRUE(isSeen(10, 10.62f / 40));
+    EXPECT_FALSE(isSeen(10, 10.59f / 40));
+    EXPECT_TRUE(isSeen(1, 0.11f));
+    EXPECT_FALSE(isSeen(1, 0.09f));  // the sensor is on a table
 }
 
 TEST(RequireEvidence, EndsAtGridEdge) {

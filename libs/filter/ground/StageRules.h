@@ -47,7 +47,8 @@ constexpr float kClose_m = 0.2f;        // max. distance to the surface [0, 0]
 constexpr float kClose_per_m = 0.005f;  // and per metre of range [0, 0]
 constexpr float kMinShare = 0.55f;      // level pixels / close pixels [-0.01, -42.9]
 constexpr int kReach = 4;               // blocks in each direction; fixed
-constexpr float kSight = 40;            // in sensor heights: maximum distance [0, 0]
+constexpr float kLowest_m = 0.1f;       // minimum height of the sensor above the surface [0, 0]
+constexpr float kSight = 40;            // maximum distance, in sensor heights [0, 0]
 }  // namespace evidence_rules
 
 namespace tops_rules {

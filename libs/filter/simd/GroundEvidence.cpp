@@ -231,7 +231,7 @@ void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
     constexpr float kNothing = -std::numeric_limits<float>::infinity();
     BlocksAndNone<float> min_m;
     has_evidence.assign(min_m.size(), 0);
-    const float sight_m = kSight * sensor_height_m;
+    const float sight_m = sensor_height_m > kLowest_m ? kSight * sensor_height_m : 0;
     for (std::size_t k = 0; k < blocks.size(); ++k) {
         has_evidence[k] = blocks[k].isGround() && blockDistance_m(static_cast<int>(k)) < sight_m;
     }

@@ -82,6 +82,7 @@ void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
     has_evidence.assign(kBlocks * kBlocks + 1, 0);  // last element: beyond the grid
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         has_evidence[block] = hasEvidence(close, level, block % kBlocks, block / kBlocks) &&
+                              sensor_height_m > kLowest_m &&
                               blockDistance_m(block) < kSight * sensor_height_m;
     }
     for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
