@@ -144,9 +144,9 @@ SimpleScene furnishedRoom() {
     return room;
 }
 
-const std::vector<Vector3d> kPlacesInRoom{{0.3, 0.2, 1.1},   {-1.5, -0.8, 1.1}, {-0.9, -0.5, 1.1},
-                                          {-0.3, -0.2, 1.1}, {0.9, -0.8, 1.1},  {1.5, -0.5, 1.1},
-                                          {0.3, 0.2, 1.5}};
+const std::vector<Vector3d> kPlacesInRoom{
+    {0.3, 0.2, 1.1},  {-1.5, -0.8, 1.1}, {-0.9, -0.5, 1.1}, {-0.3, -0.2, 1.1}, {0.9, -0.8, 1.1},
+    {1.5, -0.5, 1.1}, {0.3, 0.2, 1.5},   {0.3, 0.2, 0.3},   {-0.9, -0.5, 0.2}, {0.9, -0.8, 0.6}};
 
 TEST(Traps, ObstaclesAreRoiInFurnishedRoom) {
     forEachSensor({furnishedRoom(), kPlacesInRoom.front()},
