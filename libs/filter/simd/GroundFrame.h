@@ -35,10 +35,10 @@ struct GroundFrameWorkspace {
 /// plane, faster above than below, and with its distance from the sensor. Images of 400 columns or
 /// more are subsampled evenly to 200 to 400 columns, or to `columns`. The sensor height is not
 /// assumed, but each round starts from a plane below the sensor: on the forest floor, most cells
-/// contain only crowns. The search starts from ground that is level according to `attitude`; without an
-/// attitude, it finds tilts of up to 30 degrees. With fewer than three occupied cells, returns the
-/// frame of a level plane (by `attitude`) through the lowest point, or through the sensor if there
-/// are no points.
+/// contain only crowns. The search starts from ground that is level according to `attitude`;
+/// without an attitude, it finds tilts of up to 30 degrees. With fewer than three occupied cells,
+/// returns the frame of a level plane (by `attitude`) through the lowest point, or through the
+/// sensor if there are no points.
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
                                  GroundFrameWorkspace& work,
                                  const std::vector<std::int32_t>* columns = nullptr);
