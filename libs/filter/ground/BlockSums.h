@@ -23,8 +23,8 @@ using BlocksAndNone = std::array<Value, kBlocks * kBlocks + 1>;
 /// The distance of a block's centre from the middle of the grid.
 inline float blockDistance_m(int block) {
     constexpr float kWidth_m = kBlockCells * GroundSurface::kCell_m, kMiddle = 0.5f * (kBlocks - 1);
-    const float u = static_cast<float>(block % kBlocks) - kMiddle;
-    const float v = static_cast<float>(block / kBlocks) - kMiddle;
+    const int row = block % kBlocks, column = block / kBlocks;
+    const float u = static_cast<float>(row) - kMiddle, v = static_cast<float>(column) - kMiddle;
     return kWidth_m * std::sqrt(u * u + v * v);
 }
 
