@@ -45,14 +45,14 @@ TEST(CanopyLayer, ToleratesMeanPlusTwoDeviations) {
     EXPECT_LT((tolerated(pixelsAt(mixed)) - 1.1f).abs().maxCoeff(), 1e-3f);
 }
 
-TEST(CanopyLayer, IsBelowSensor) {
+TEST(CanopyLayer, IsAtMostThreeSensorHeights) {
     const PixelPoints plants = pixelsAt(field(20, [](int) { return 0.6f; }));
-    EXPECT_LT((tolerated(plants, 0.61f) - 0.7f).abs().maxCoeff(), 2e-3f);
-    EXPECT_TRUE((tolerated(plants, 0.59f) == kBefore_m).all());
+    EXPECT_LT((tolerated(plants, 0.61f / 3) - 0.7f).abs().maxCoeff(), 2e-3f);
+    EXPECT_TRUE((tolerated(plants, 0.59f / 3) == kBefore_m).all());
     // A quarter of the cells contain the lower part of a trunk.
     const auto trunks = pixelsAt(field(20, [](int k) { return k % 4 == 0 ? 0.5f : 0.15f; }));
-    EXPECT_GT(tolerated(trunks, 0.6f).minCoeff(), 0.3f);
-    EXPECT_TRUE((tolerated(trunks, 0.4f) == kBefore_m).all());
+    EXPECT_GT(tolerated(trunks, 0.2f).minCoeff(), 0.3f);
+    EXPECT_TRUE((tolerated(trunks, 0.13f) == kBefore_m).all());
 }
 
 TEST(CanopyLayer, TwoHighReturnsFormObstacle) {

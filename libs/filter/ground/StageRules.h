@@ -65,6 +65,7 @@ namespace canopy_rules {
 constexpr int kReach = 6;             // blocks in each direction; fixed
 constexpr float kMinHeight_m = 0.1f;  // minimum height of plants [-0.01, -3.92]
 constexpr float kTallest_m = 1.0f;    // maximum height of plants [-0.04, -15.9]
+constexpr float kTallestSeen = 3;     // and in sensor heights [0, 0]
 constexpr float kMinShare = 0.35f;    // share of plants among nearby cells [-0.68, -4.25]
 constexpr float kMaxTall = 0.2f;      // share of higher cells (walls, trees) [0, -0.01]
 constexpr float kMinCells = 30;       // nearby cells required for a canopy [0, 0]

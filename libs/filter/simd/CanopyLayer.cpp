@@ -116,7 +116,7 @@ void raiseTolerances(const PixelCells& cells, const CellTops& tops,
 void tolerateCanopy(const PixelCells& cells, const CellTops& tops, float sensor_height_m,
                     Image<float>& tolerance_m, const CellArea& area) {
     static_assert(kCanopyReach == kReach * kBlockCells + kBlockCells);
-    const float tallest_m = std::min(kTallest_m, sensor_height_m);
+    const float tallest_m = std::min(kTallest_m, kTallestSeen * sensor_height_m);
     const BlockArea blocks = blocksIn(area);
     Blocks<Census> own{};
     countCells(tops, tallest_m, blocks, own);

@@ -8,8 +8,8 @@ namespace hagen {
 /// Raises the tolerance over crops. If plants 0.1 to 1 m high cover 35 % of all cells (0.75 m) seen
 /// within 18 m, they are a canopy, which is treated like ground. Bushes, hedges and cars in a
 /// street cover less. If more than 20 % of these cells are higher, there is no canopy: in a room,
-/// desks are as high as crops, but surrounded by walls. Plants are also lower than the sensor: a
-/// standing drone sees only the lower part of trunks. In a canopy, only returns above the plants
+/// desks are as high as crops, but surrounded by walls. Plants are at most three times as high
+/// as the sensor: a standing drone sees only the lower part of trunks. In a canopy, only returns above the plants
 /// are obstacles; the limit is the mean + 2 standard deviations of the cells' highest returns,
 /// capped at twice the mean (short grass with trunks is not a high crop), + 0.1 m. A cell with two
 /// returns more than another 0.1 m higher is not raised, because its object stands on the ground.

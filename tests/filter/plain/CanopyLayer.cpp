@@ -58,7 +58,8 @@ void tolerateCanopy(const PixelCells& cells, const CellTops& tops, float sensor_
     std::vector<float> canopy_m(kBlocks * kBlocks + 1, 0.0f);  // last element: beyond the grid
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         canopy_m[block] =
-            surroundingsOf(block, tops, std::min(kTallest_m, sensor_height_m)).canopy_m();
+            surroundingsOf(block, tops, std::min(kTallest_m, kTallestSeen * sensor_height_m))
+                .canopy_m();
     }
     for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
         float& tolerated_m = tolerance_m.data()[pixel];
