@@ -126,7 +126,8 @@ const std::vector<StageRow>& ownStages() {
              findLevelPixels(g.pixels, g.cells, is_level, work().evidence);
              keepLevelRou(c.result.labels, is_level, work().candidates);
              tolerance_m = g.tolerance_m;
-             requireEvidence(g.pixels, g.cells, g.height_m, is_level, tolerance_m, g.has_evidence,
+             requireEvidence(g.pixels, g.cells, g.height_m, is_level,
+                             g.from_sensor.translation().z(), tolerance_m, g.has_evidence,
                              work().evidence);
          }},
         {"own: ground surface", false, false,
@@ -149,7 +150,7 @@ const std::vector<StageRow>& ownStages() {
         {"own: canopy", false, false,
          [](Case& c) {
              Ground& g = c.result.ground;
-             tolerateCanopy(g.cells, g.tops, g.tolerance_m);
+             tolerateCanopy(g.cells, g.tops, g.from_sensor.translation().z(), g.tolerance_m);
          }},
         {"own: labels, feet, specks", false, false,
          [](Case& c) {

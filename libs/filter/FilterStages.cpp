@@ -1,7 +1,9 @@
 #include "filter/FilterStages.h"
 
 #include <hagen/scan/Angle.h>
+#include <algorithm>
 #include "filter/ground/Clearance.h"
+#include "filter/ground/StageRules.h"
 #include "filter/paper/RangeAngle.h"
 #include "filter/paper/Sharpening.h"
 #include "filter/simd/CanopyLayer.h"
@@ -68,15 +70,17 @@ void findGroundSurface(const Image<Label>& labels, const Options& o,
 }
 
 void findTolerances(const Options& o, const CellArea& area, Ground& g, FilterWorkspace& w) {
+    const float above_plane_m = g.from_sensor.translation().z();
+    const float above_ground_m = above_plane_m - g.surface.at(0, 0);
     toleratedHeights(
         g.pixels, g.cells, g.tops,
         {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
-        g.from_sensor.translation().z(), g.tolerance_m, w.tolerance, area);
-    if (o.canopy_layer) tolerateCanopy(g.cells, g.tops, g.tolerance_m, area);
+        std::max(above_plane_m, evidence_rules::kLowest_m), g.tolerance_m, w.tolerance, area);
+    if (o.canopy_layer) tolerateCanopy(g.cells, g.tops, above_ground_m, g.tolerance_m, area);
     g.has_evidence.clear();
     if (o.ground_evidence) {
-        requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, g.tolerance_m, g.has_evidence,
-                        w.evidence);
+        requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, above_ground_m, g.tolerance_m,
+                        g.has_evidence, w.evidence);
     }
 }
 

@@ -11,14 +11,14 @@ using test::pixelsAt;
 constexpr float kBefore_m = 0.2f;  // tolerance without a canopy
 
 /// The tolerances relative to the plane z = 0.
-Image<float> tolerated(const PixelPoints& pixels) {
+Image<float> tolerated(const PixelPoints& pixels, float sensor_height_m = 2) {
     Image<float> tolerance_m = pixels.z_m.isNaN().select(
         kNoValue, Image<float>::Constant(pixels.z_m.rows(), pixels.z_m.cols(), kBefore_m));
     CellTops tops;
     PixelCells cells;
     findPixelCells(pixels, cells);
     findCellTops(cells, pixels.z_m, tops);
-    tolerateCanopy(cells, tops, tolerance_m);
+    tolerateCanopy(cells, tops, sensor_height_m, tolerance_m);
     return tolerance_m;
 }
 
@@ -43,6 +43,16 @@ TEST(CanopyLayer, ToleratesMeanPlusTwoDeviations) {
     // mean 0.6, standard deviation 0.2
     const auto mixed = field(20, [](int k) { return k % 2 == 0 ? 0.4f : 0.8f; });
     EXPECT_LT((tolerated(pixelsAt(mixed)) - 1.1f).abs().maxCoeff(), 1e-3f);
+}
+
+TEST(CanopyLayer, IsAtMostThreeSensorHeights) {
+    const PixelPoints plants = pixelsAt(field(20, [](int) { return 0.6f; }));
+    EXPECT_LT((tolerated(plants, 0.61f / 3) - 0.7f).abs().maxCoeff(), 2e-3f);
+    EXPECT_TRUE((tolerated(plants, 0.59f / 3) == kBefore_m).all());
+    // A quarter of the cells contain the lower part of a trunk.
+    const auto trunks = pixelsAt(field(20, [](int k) { return k % 4 == 0 ? 0.5f : 0.15f; }));
+    EXPECT_GT(tolerated(trunks, 0.2f).minCoeff(), 0.3f);
+    EXPECT_TRUE((tolerated(trunks, 0.13f) == kBefore_m).all());
 }
 
 TEST(CanopyLayer, TwoHighReturnsFormObstacle) {
@@ -107,7 +117,7 @@ TEST(CanopyLayer, NeverLowersTolerance) {
     PixelCells cells;
     findPixelCells(pixels, cells);
     findCellTops(cells, pixels.z_m, tops);
-    tolerateCanopy(cells, tops, tolerance_m);
+    tolerateCanopy(cells, tops, 2, tolerance_m);
     EXPECT_TRUE((tolerance_m == 5.0f).all());
 }
 

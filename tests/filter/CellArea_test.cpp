@@ -56,7 +56,7 @@ TEST(CellArea, MatchesWholeGridInside) {
     Image<float> whole_m;
     ToleranceWorkspace work;
     toleratedHeights(crops.pixels, crops.cells, whole, {}, 2.0f, whole_m, work);
-    tolerateCanopy(crops.cells, whole, whole_m);
+    tolerateCanopy(crops.cells, whole, 2.0f, whole_m);
     ASSERT_GT(whole_m.maxCoeff<Eigen::PropagateNumbers>(), 0.4f);  // the scene contains a canopy
 
     const CellArea insides[] = {
@@ -69,7 +69,7 @@ TEST(CellArea, MatchesWholeGridInside) {
         findCellTops(crops.cells, crops.height_m, tops, area);
         toleratedHeights(crops.pixels, crops.cells, tops, {}, 2.0f, tolerance_m, work_of_area,
                          area);
-        tolerateCanopy(crops.cells, tops, tolerance_m, area);
+        tolerateCanopy(crops.cells, tops, 2.0f, tolerance_m, area);
         for (int column = area.first_column; column < area.end_column; ++column) {
             for (int row = area.first_row; row < area.end_row; ++row) {
                 ASSERT_EQ(tops.top_m(row, column), whole.top_m(row, column))

@@ -119,7 +119,8 @@ struct Seen {
 };
 
 /// The tolerances after requireEvidence(); initially 0.5 m.
-std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
+std::vector<float> required(const std::vector<Seen>& seen, int rows = 1,
+                            float sensor_height_m = 2) {
     std::vector<Eigen::Vector3f> points_m;
     for (const Seen& s : seen) points_m.emplace_back(s.x_m, s.y_m, s.height_m);
     const PixelPoints pixels = pixelsAt(points_m, rows);
@@ -132,7 +133,8 @@ std::vector<float> required(const std::vector<Seen>& seen, int rows = 1) {
     PixelCells cells;
     findPixelCells(pixels, cells);
     std::vector<std::uint8_t> has_evidence(7, 1);  // from an earlier scan
-    requireEvidence(pixels, cells, pixels.z_m, is_level, tolerance_m, has_evidence, work);
+    requireEvidence(pixels, cells, pixels.z_m, is_level, sensor_height_m, tolerance_m, has_evidence,
+                    work);
     EXPECT_EQ(has_evidence.size(), PixelCells::kNoBlock + 1u);
     EXPECT_EQ(has_evidence.back(), 0);
     for (Eigen::Index i = 0; i < tolerance_m.size(); ++i) {
@@ -189,6 +191,17 @@ TEST(RequireEvidence, ReachesFourBlocks) {
         EXPECT_EQ(toleratedAt(aside_m, -11.9f), 0.5f);
         EXPECT_EQ(toleratedAt(aside_m, -12.1f), kWithdrawn);
     }
+}
+
+TEST(RequireEvidence, EndsAtGrazingAngles) {
+    const auto isSeen = [](float x_m, float sensor_height_m) {
+        return required({{x_m, 1, 0, true}}, 1, sensor_height_m).front() == 0.5f;
+    };
+    // The block from 9 to 12 m is 10.61 m away, because its centre is also 1.5 m aside.
+    EXPECT_TRUE(isSeen(10, 10.62f / 40));
+    EXPECT_FALSE(isSeen(10, 10.59f / 40));
+    EXPECT_TRUE(isSeen(1, 0.11f));
+    EXPECT_FALSE(isSeen(1, 0.09f));  // the sensor is on a table
 }
 
 TEST(RequireEvidence, EndsAtGridEdge) {

@@ -93,6 +93,19 @@ TEST(GroundFrame, IgnoresWallsAndCrowns) {
     }
 }
 
+TEST(GroundFrame, IsBelowSensorUnderCrowns) {
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 4000; ++i) {
+        const float x_m = 0.9f * static_cast<float>(i % 63 - 31);
+        const float y_m = 0.9f * static_cast<float>(i / 63 - 31);
+        const bool is_ground = std::hypot(x_m, y_m) < 5;  // crowns hide the rest
+        points.emplace_back(x_m, y_m, is_ground ? -0.3f : 1 + 0.1f * static_cast<float>(i % 50));
+    }
+    const Eigen::Isometry3f frame = fitGroundFrame(pixelsAt(points), Attitude{}, work);
+    EXPECT_NEAR(frame.translation().z(), 0.3f, 0.1f);
+    EXPECT_GT(frame.linear()(2, 2), 0.99f);
+}
+
 TEST(GroundFrame, IgnoresStraysFarAndEmptyPixels) {
     test::Random random(72);
     const auto ground = ringsOnPlane({}, 2);
@@ -173,7 +186,8 @@ TEST(CanBeGround, NeedsSensorAboveLevelGround) {
     const Attitude mounted{static_cast<float>(radians(60)), 0};
     EXPECT_TRUE(canBeGround(frameAt(2, 60), mounted, labels));
     EXPECT_FALSE(canBeGround(frameAt(2, 0), mounted, labels));
-    EXPECT_FALSE(canBeGround(frameAt(0.05f, 0), {}, labels));
+    EXPECT_TRUE(canBeGround(frameAt(-0.29f, 0), {}, labels));
+    EXPECT_FALSE(canBeGround(frameAt(-0.31f, 0), {}, labels));
     EXPECT_FALSE(canBeGround(frameAt(-2, 0), {}, labels));
     labels.leftCols(3) = Label::Roi;
     EXPECT_FALSE(canBeGround(frameAt(2, 0), {}, labels));  // 16 pixels

@@ -130,10 +130,10 @@ Judged judged(const Sight& sight) {
     toleratedHeights(pixels, j.cells, j.tops, kTolerance, std::max(j.frame.translation().z(), 0.1f),
                      j.tolerance_m, work.tolerance);
     const Image<float> before_m = j.tolerance_m;
-    tolerateCanopy(j.cells, j.tops, j.tolerance_m);
+    tolerateCanopy(j.cells, j.tops, j.frame.translation().z(), j.tolerance_m);
     j.raised = !test::same(before_m, j.tolerance_m);
-    requireEvidence(pixels, j.cells, j.height_m, j.is_level, j.tolerance_m, j.has_evidence,
-                    work.evidence);
+    requireEvidence(pixels, j.cells, j.height_m, j.is_level, j.frame.translation().z(),
+                    j.tolerance_m, j.has_evidence, work.evidence);
     labelByHeight(j.height_m, j.tolerance_m, j.labels);
     Image<Label> before = j.labels;
     growFeet(pixels, j.height_m, j.labels, work.feet);
@@ -162,8 +162,9 @@ Judged defined(const Sight& sight) {
     plain::findCellTops(j.cells, j.height_m, j.tops);
     plain::toleratedHeights(pixels, j.cells, j.tops, kTolerance,
                             std::max(j.frame.translation().z(), 0.1f), j.tolerance_m);
-    plain::tolerateCanopy(j.cells, j.tops, j.tolerance_m);
-    plain::requireEvidence(pixels, j.cells, j.height_m, j.is_level, j.tolerance_m, j.has_evidence);
+    plain::tolerateCanopy(j.cells, j.tops, j.frame.translation().z(), j.tolerance_m);
+    plain::requireEvidence(pixels, j.cells, j.height_m, j.is_level, j.frame.translation().z(),
+                           j.tolerance_m, j.has_evidence);
     plain::labelByHeight(j.height_m, j.tolerance_m, j.labels);
     plain::growFeet(pixels, j.height_m, j.labels);
     plain::removeSpecks(pixels, j.height_m, j.tolerance_m, j.labels);

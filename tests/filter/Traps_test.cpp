@@ -144,9 +144,9 @@ SimpleScene furnishedRoom() {
     return room;
 }
 
-const std::vector<Vector3d> kPlacesInRoom{{0.3, 0.2, 1.1},   {-1.5, -0.8, 1.1}, {-0.9, -0.5, 1.1},
-                                          {-0.3, -0.2, 1.1}, {0.9, -0.8, 1.1},  {1.5, -0.5, 1.1},
-                                          {0.3, 0.2, 1.5}};
+const std::vector<Vector3d> kPlacesInRoom{
+    {0.3, 0.2, 1.1},  {-1.5, -0.8, 1.1}, {-0.9, -0.5, 1.1}, {-0.3, -0.2, 1.1}, {0.9, -0.8, 1.1},
+    {1.5, -0.5, 1.1}, {0.3, 0.2, 1.5},   {0.3, 0.2, 0.3},   {-0.9, -0.5, 0.2}, {0.9, -0.8, 0.6}};
 
 TEST(Traps, ObstaclesAreRoiInFurnishedRoom) {
     forEachSensor({furnishedRoom(), kPlacesInRoom.front()},
@@ -402,7 +402,7 @@ TEST(Traps, ObstaclesAreRoiWhenHoveringLow) {
         EXPECT_GT(o.dangers, 100);
         EXPECT_EQ(o.missed_dangers, 0);
         EXPECT_GT(o.floors, 6000);
-        EXPECT_GT(o.floorShare(), 0.99);
+        EXPECT_GT(o.floorShare(), 0.85);  // without evidence beyond 12 m
     });
 }
 

@@ -4,6 +4,7 @@
 #include <hagen/filter/GroundSurface.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace hagen {
 
@@ -18,6 +19,14 @@ using Blocks = std::array<Value, kBlocks * kBlocks>;
 /// without a block.
 template <class Value>
 using BlocksAndNone = std::array<Value, kBlocks * kBlocks + 1>;
+
+/// The distance of a block's centre from the middle of the grid.
+inline float blockDistance_m(int block) {
+    constexpr float kWidth_m = kBlockCells * GroundSurface::kCell_m, kMiddle = 0.5f * (kBlocks - 1);
+    const int row = block % kBlocks, column = block / kBlocks;
+    const float u = static_cast<float>(row) - kMiddle, v = static_cast<float>(column) - kMiddle;
+    return kWidth_m * std::sqrt(u * u + v * v);
+}
 
 /// Sums over `kReach` blocks in each direction along a line of blocks that are `stride` apart. Each
 /// step adds a block and removes a block.

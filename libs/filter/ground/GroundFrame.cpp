@@ -4,7 +4,7 @@ namespace hagen {
 namespace {
 
 // Conditions for the plane to be ground.
-constexpr float kMinHeight_m = 0.1f;   // height of the sensor above the ground
+constexpr float kMinHeight_m = -0.3f;  // height of the sensor above the plane
 constexpr float kMinCosine = 0.7071f;  // cosine of the sensor's tilt (45 degrees)
 constexpr Eigen::Index kMinPixels = 20;
 

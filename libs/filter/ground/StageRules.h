@@ -47,6 +47,8 @@ constexpr float kClose_m = 0.2f;        // max. distance to the surface [0, 0]
 constexpr float kClose_per_m = 0.005f;  // and per metre of range [0, 0]
 constexpr float kMinShare = 0.55f;      // level pixels / close pixels [-0.01, -42.9]
 constexpr int kReach = 4;               // blocks in each direction; fixed
+constexpr float kLowest_m = 0.1f;       // minimum height of the sensor above the surface [0, 0]
+constexpr float kSight = 40;            // maximum distance, in sensor heights [0, 0]
 }  // namespace evidence_rules
 
 namespace tops_rules {
@@ -63,6 +65,7 @@ namespace canopy_rules {
 constexpr int kReach = 6;             // blocks in each direction; fixed
 constexpr float kMinHeight_m = 0.1f;  // minimum height of plants [-0.01, -3.92]
 constexpr float kTallest_m = 1.0f;    // maximum height of plants [-0.04, -15.9]
+constexpr float kTallestSeen = 3;     // and in sensor heights [0, 0]
 constexpr float kMinShare = 0.35f;    // share of plants among nearby cells [-0.68, -4.25]
 constexpr float kMaxTall = 0.2f;      // share of higher cells (walls, trees) [0, -0.01]
 constexpr float kMinCells = 30;       // nearby cells required for a canopy [0, 0]

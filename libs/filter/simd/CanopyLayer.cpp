@@ -54,12 +54,13 @@ struct Heights {
     }
 };
 
-bool isPlant(float top_m) { return (top_m > kMinHeight_m) & (top_m < kTallest_m); }
+bool isPlant(float top_m, float tallest_m) { return (top_m > kMinHeight_m) & (top_m < tallest_m); }
 
 /// The highest return of each cell in a column of the grid, without the border.
 const float* columnOf(const CellTops& tops, int j) { return tops.highest_m.col(j + 1).data() + 1; }
 
-void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blocks) {
+void countCells(const CellTops& tops, float tallest_m, const BlockArea& area,
+                Blocks<Census>& blocks) {
     constexpr std::int32_t kTall = 1 << 8, kPlants = 1 << 16;  // packs three counts into one number
     for (int column = area.first_column; column < area.end_column; ++column) {
         std::int32_t counts[kCells] = {};
@@ -68,8 +69,8 @@ void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blo
             const float* const top_m = columnOf(tops, j);
             for (int i = 0; i < kCells; ++i) {  // so that the compiler vectorises the loop
                 counts[i] += (top_m[i] != CellTops::kNone_m ? 1 : 0) +
-                             (top_m[i] >= kTallest_m ? kTall : 0) +
-                             (isPlant(top_m[i]) ? kPlants : 0);
+                             (top_m[i] >= tallest_m ? kTall : 0) +
+                             (isPlant(top_m[i], tallest_m) ? kPlants : 0);
             }
         }
         for (int block = area.first_row; block < area.end_row; ++block) {
@@ -81,7 +82,8 @@ void countCells(const CellTops& tops, const BlockArea& area, Blocks<Census>& blo
 }
 
 /// `own` contains the sums of each block. Most blocks have no plants.
-void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>& blocks) {
+void sumHeights(const CellTops& tops, float tallest_m, const Blocks<Census>& own,
+                Blocks<Heights>& blocks) {
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
         blocks[block] = {};
         if (own[block].plants == 0) continue;
@@ -89,7 +91,7 @@ void sumHeights(const CellTops& tops, const Blocks<Census>& own, Blocks<Heights>
             const float* const column_m = columnOf(tops, block / kBlocks * kBlockCells + j);
             for (int i = 0; i < kBlockCells; ++i) {
                 const float top_m = column_m[block % kBlocks * kBlockCells + i];
-                if (!isPlant(top_m)) continue;
+                if (!isPlant(top_m, tallest_m)) continue;
                 blocks[block].add({top_m, static_cast<double>(top_m) * top_m});
             }
         }
@@ -111,19 +113,20 @@ void raiseTolerances(const PixelCells& cells, const CellTops& tops,
 
 }  // namespace
 
-void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m,
-                    const CellArea& area) {
+void tolerateCanopy(const PixelCells& cells, const CellTops& tops, float sensor_height_m,
+                    Image<float>& tolerance_m, const CellArea& area) {
     static_assert(kCanopyReach == kReach * kBlockCells + kBlockCells);
+    const float tallest_m = std::min(kTallest_m, kTallestSeen * sensor_height_m);
     const BlockArea blocks = blocksIn(area);
     Blocks<Census> own{};
-    countCells(tops, blocks, own);
+    countCells(tops, tallest_m, blocks, own);
     Blocks<Census> around = own;
     sumAround<kReach>(around, blocks);
     const auto isCanopy = [](const Census& census) { return census.isCanopy(); };
     if (std::none_of(around.begin(), around.end(), isCanopy)) return;  // usual case
 
     Blocks<Heights> heights;
-    sumHeights(tops, own, heights);
+    sumHeights(tops, tallest_m, own, heights);
     sumAround<kReach>(heights, blocks);
     BlocksAndNone<float> canopy_m{};
     for (std::size_t block = 0; block < around.size(); ++block) {

@@ -216,8 +216,8 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
 
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
-                     Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence,
-                     GroundEvidenceWorkspace& work) {
+                     float sensor_height_m, Image<float>& tolerance_m,
+                     std::vector<std::uint8_t>& has_evidence, GroundEvidenceWorkspace& work) {
     const auto size = static_cast<std::size_t>(height_m.size());
     work.close.resize(size);
     HWY_DYNAMIC_DISPATCH(CloseIn)
@@ -231,7 +231,10 @@ void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
     constexpr float kNothing = -std::numeric_limits<float>::infinity();
     BlocksAndNone<float> min_m;
     has_evidence.assign(min_m.size(), 0);
-    for (std::size_t k = 0; k < blocks.size(); ++k) has_evidence[k] = blocks[k].isGround();
+    const float sight_m = sensor_height_m > kLowest_m ? kSight * sensor_height_m : 0;
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        has_evidence[k] = blocks[k].isGround() && blockDistance_m(static_cast<int>(k)) < sight_m;
+    }
     for (std::size_t k = 0; k < min_m.size(); ++k) {
         min_m[k] = has_evidence[k] != 0 ? 0.0f : kNothing;
     }

@@ -37,12 +37,14 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
 /// Sets the tolerance to minus infinity (RoI at every height) without evidence that the surface is
 /// ground, which requires that at least 55 % of the pixels close to the surface (0.2 m, plus 0.005
 /// m per metre of distance) within 9 x 9 blocks of 3 m are level. A surface that cuts through
-/// walls, trees or furniture has pixels there that are not level. `height_m` is from
+/// walls, trees or furniture has pixels there that are not level. There is no evidence beyond 40
+/// times the sensor's height above the ground (at such grazing angles, gaps between plants look
+/// like level steps), and none below a height of 0.1 m (on a table). `height_m` is from
 /// heightsAbove(); tolerances of empty pixels are NaN. `has_evidence` is the result for each block
 /// (PixelCells.h), then false for positions beyond the grid.
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
-                     Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence,
-                     GroundEvidenceWorkspace& work);
+                     float sensor_height_m, Image<float>& tolerance_m,
+                     std::vector<std::uint8_t>& has_evidence, GroundEvidenceWorkspace& work);
 
 }  // namespace hagen

@@ -210,7 +210,7 @@ Eigen::Vector3d fitPlane(const Points& points) {
     Eigen::Vector3d plane = planeThrough(points, RobustWeight{});
     double scale_m = kFirstScale_m;
     for (int round = 0; round < kRounds; ++round) {
-        plane.z() = std::min(plane.z(), 0.0);  // below the sensor, even if most cells are not
+        plane.z() = std::min(plane.z(), 0.0);  // even if most cells are above the sensor
         const double per_m2 = 1 / (scale_m * scale_m);
         plane = planeThrough(points,
                              {plane.x(), plane.y(), plane.z(), kAbove * per_m2, kBelow * per_m2});

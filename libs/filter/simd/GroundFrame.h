@@ -37,19 +37,22 @@ constexpr float kNoLimit_m = std::numeric_limits<float>::infinity();
 /// iteratively reweighted least squares. A cell's weight decreases with its distance from the
 /// plane, faster above than below, and with its distance from the sensor. Images of 400 columns or
 /// more are subsampled evenly to 200 to 400 columns, or to `columns`. The sensor height is not
-/// assumed. The search starts from ground that is level according to `attitude`; without an
-/// attitude, it finds tilts of up to 30 degrees. With fewer than three occupied cells, returns the
-/// frame of a level plane (by `attitude`) through the lowest point, or through the sensor if there
-/// are no points. Points more than `max_m` above the sensor, by `attitude`, are ignored.
+/// assumed, but each round starts from a plane below the sensor: on the forest floor, most cells
+/// contain only crowns. The search starts from ground that is level according to `attitude`;
+/// without an attitude, it finds tilts of up to 30 degrees. With fewer than three occupied cells,
+/// returns the frame of a level plane (by `attitude`) through the lowest point, or through the
+/// sensor if there are no points. Points more than `max_m` above the sensor, by `attitude`, are
+/// ignored.
 Eigen::Isometry3f fitGroundFrame(const PixelPoints& pixels, const Attitude& attitude,
                                  GroundFrameWorkspace& work,
                                  const std::vector<std::int32_t>* columns = nullptr,
                                  float max_m = kNoLimit_m);
 
-/// Whether the fitted plane may be ground: the sensor is above it, tilted by less than 45 degrees
-/// relative to the horizon (to the airframe if the attitude is unknown), and at least 20 pixels are
-/// labelled ROU. High up next to a tower or tree, no ground is visible, and other surfaces must not
-/// be mistaken for ground.
+/// Whether the fitted plane may be ground: the sensor is at most 0.3 m below it (a vehicle may
+/// stand in a hollow or among plants that hide the ground), tilted by less than 45 degrees relative
+/// to the horizon (to the airframe if the attitude is unknown), and at least 20 pixels are labelled
+/// ROU. High up next to a tower or tree, no ground is visible, and other surfaces must not be
+/// mistaken for ground.
 bool canBeGround(const Eigen::Isometry3f& ground_from_sensor,
                  const std::optional<Attitude>& attitude, const Image<Label>& labels);
 

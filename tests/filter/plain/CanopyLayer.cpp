@@ -18,11 +18,11 @@ struct Surroundings {
     int plants = 0;                ///< cells whose highest return is a low plant
     double sum_m = 0, sum_m2 = 0;  ///< sums of plant heights and of their squares
 
-    void addCell(float top_m) {
+    void addCell(float top_m, float tallest_m) {
         if (top_m == CellTops::kNone_m) return;
         seen += 1;
-        tall += top_m >= kTallest_m;
-        if (!(top_m > kMinHeight_m && top_m < kTallest_m)) return;
+        tall += top_m >= tallest_m;
+        if (!(top_m > kMinHeight_m && top_m < tallest_m)) return;
         plants += 1;
         sum_m += top_m;
         sum_m2 += static_cast<double>(top_m) * top_m;
@@ -36,7 +36,7 @@ struct Surroundings {
     }
 };
 
-Surroundings surroundingsOf(int block, const CellTops& tops) {
+Surroundings surroundingsOf(int block, const CellTops& tops, float tallest_m) {
     // The range of cells along one axis of the square around the block; the grid has a border of
     // one cell.
     const auto first = [](int b) { return std::max(b - kReach, 0) * kBlockCells + 1; };
@@ -44,17 +44,22 @@ Surroundings surroundingsOf(int block, const CellTops& tops) {
     const int row = block % kBlocks, column = block / kBlocks;
     Surroundings around;
     for (int j = first(column); j < end(column); ++j) {
-        for (int i = first(row); i < end(row); ++i) around.addCell(tops.highest_m(i, j));
+        for (int i = first(row); i < end(row); ++i) {
+            around.addCell(tops.highest_m(i, j), tallest_m);
+        }
     }
     return around;
 }
 
 }  // namespace
 
-void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m) {
+void tolerateCanopy(const PixelCells& cells, const CellTops& tops, float sensor_height_m,
+                    Image<float>& tolerance_m) {
     std::vector<float> canopy_m(kBlocks * kBlocks + 1, 0.0f);  // last element: beyond the grid
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
-        canopy_m[block] = surroundingsOf(block, tops).canopy_m();
+        canopy_m[block] =
+            surroundingsOf(block, tops, std::min(kTallest_m, kTallestSeen * sensor_height_m))
+                .canopy_m();
     }
     for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
         float& tolerated_m = tolerance_m.data()[pixel];

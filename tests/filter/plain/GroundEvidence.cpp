@@ -67,7 +67,8 @@ void findLevelPixels(const PixelPoints& pixels, const PixelCells& cells,
 
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
-                     Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence) {
+                     float sensor_height_m, Image<float>& tolerance_m,
+                     std::vector<std::uint8_t>& has_evidence) {
     Counts close = Counts::Zero(), level = Counts::Zero();
     for (Eigen::Index pixel = 0; pixel < height_m.size(); ++pixel) {
         const float x_m = pixels.x_m.data()[pixel], y_m = pixels.y_m.data()[pixel];
@@ -80,7 +81,9 @@ void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
     }
     has_evidence.assign(kBlocks * kBlocks + 1, 0);  // last element: beyond the grid
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
-        has_evidence[block] = hasEvidence(close, level, block % kBlocks, block / kBlocks);
+        has_evidence[block] = hasEvidence(close, level, block % kBlocks, block / kBlocks) &&
+                              sensor_height_m > kLowest_m &&
+                              blockDistance_m(block) < kSight * sensor_height_m;
     }
     for (Eigen::Index pixel = 0; pixel < tolerance_m.size(); ++pixel) {
         float& tolerated_m = tolerance_m.data()[pixel];

@@ -26,10 +26,12 @@ void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTop
 void toleratedHeights(const PixelPoints& pixels, const PixelCells& cells, const CellTops& tops,
                       const HeightTolerance& tolerance, float sensor_height_m,
                       Image<float>& tolerance_m);
-void tolerateCanopy(const PixelCells& cells, const CellTops& tops, Image<float>& tolerance_m);
+void tolerateCanopy(const PixelCells& cells, const CellTops& tops, float sensor_height_m,
+                    Image<float>& tolerance_m);
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
-                     Image<float>& tolerance_m, std::vector<std::uint8_t>& has_evidence);
+                     float sensor_height_m, Image<float>& tolerance_m,
+                     std::vector<std::uint8_t>& has_evidence);
 void labelByHeight(const Image<float>& height_m, const Image<float>& tolerance_m,
                    Image<Label>& labels);
 void growFeet(const PixelPoints& pixels, const Image<float>& height_m, Image<Label>& labels);
