@@ -84,8 +84,11 @@ const SegmentationResult& HagenFilter::segment(const Scan& window,
     const bool is_window = newest.size() < window.size();
     if (is_window) turnScan(newest, posture, attitude, view.sensor, s.work.turned_newest);
     const Seeds seeds = s.options.seeds;
-    if (!s.sensor.has_rings && s.options.ground_surface && s.options.ground_evidence)
+    // Below the sensor, level rows are so close that noise cuts the ground's region into pieces.
+    if (posture == Posture::OnItsSide && !s.sensor.has_rings && s.options.ground_surface &&
+        s.options.ground_evidence) {
         s.options.seeds = Seeds::Every;
+    }
     s.runStages(s.work.turned, is_window ? s.work.turned_newest : s.work.turned,
                 horizonOf(attitudeIn(posture, attitude)), view);
     s.options.seeds = seeds;
