@@ -1,7 +1,3 @@
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <utility>
 
 #include "sensors/PacketSequence.h"
 #include "sensors/SensorTable.h"
