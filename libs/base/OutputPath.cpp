@@ -5,13 +5,9 @@
 
 #include <hagen/base/OutputPath.h>
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 #include <regex>
-#include <stdexcept>
-#include <string>
 #include "base/Folder.h"
 #include "base/ReadFile.h"
 #include "base/Text.h"

@@ -4,9 +4,7 @@
 #include "base/WriteFile.h"
 #include "convert/GzipOutput.h"
 
-#include <cerrno>
 #include <new>
-#include <stdexcept>
 
 namespace hagen::convert {
 namespace {

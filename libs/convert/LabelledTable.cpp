@@ -11,7 +11,6 @@
 #include "mrpt/TableCloud.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <limits>
 #include <numeric>

@@ -13,8 +13,6 @@
 #include "settings/AirframeFile.h"
 
 #include <new>
-#include <optional>
-#include <stdexcept>
 
 namespace hagen::convert {
 namespace {

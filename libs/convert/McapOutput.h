@@ -21,14 +21,9 @@ namespace hagen::convert {
 /// "world".
 std::string rosNameOf(const std::string& sensor_label);
 
-/// Writes segmented scans as a ROS 2 MCAP. For each LiDAR, with the name rosNameOf():
-///
-/// - /NAME/points, sensor_msgs/PointCloud2: labelledTable().
-/// - /NAME/obstacles, visualization_msgs/MarkerArray: boxesToDraw().
-/// - /NAME/pose, geometry_msgs/PoseStamped in the frame `map`: the sensor pose, if known; also as
-///   a transform from `map` to NAME on /tf.
-///
-/// Clouds and boxes are in the frame NAME. All messages have the time of their scan.
+/// Writes segmented scans as a ROS 2 MCAP (docs/rawlog-segment.md): for each LiDAR with the name
+/// rosNameOf(), labelledTable(), boxesToDraw() and, if known, the sensor pose in the frame `map`,
+/// also on /tf. All messages have the time of their scan.
 class McapOutput {
  public:
     /// Throws std::runtime_error naming the file; see OutputPath.

@@ -4,9 +4,7 @@
 #include "base/WriteFile.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
-#include <stdexcept>
 #include <type_traits>
 
 namespace hagen::convert {

@@ -5,9 +5,7 @@
 #include <hagen/settings/Settings.h>
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iomanip>
-#include <stdexcept>
 #include "settings/MaxRange.h"
 
 #include "base/WriteFile.h"

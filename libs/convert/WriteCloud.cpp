@@ -2,13 +2,11 @@
 #include "base/NumberText.h"
 #include "base/WriteFile.h"
 #include "convert/UniqueNames.h"
+#include "mrpt/NumberTypes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <stdexcept>
 #include <type_traits>
-#include <utility>
 
 namespace hagen::convert {
 namespace {

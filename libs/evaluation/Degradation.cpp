@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 #include "base/NumberText.h"
 #include "base/Text.h"
 #include "filter/image/Posture.h"

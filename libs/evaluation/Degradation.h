@@ -9,27 +9,10 @@
 
 namespace hagen::evaluation {
 
-/// Degrades scans and their ground truth, as specified by `--degrade`:
-///
-///     dead_beams=R[,R...]   rows without returns; row 0 is the lowest beam
-///     dropout=P             each return is lost with probability P [%]
-///     noise_m=S             Gaussian noise of the range, with standard deviation S
-///     rain=P                P [%] of the returns come from a drop instead, at a uniformly random
-///                           range from 0.5 m to 12 m or the return's own range. Their ground truth
-///                           is Unclassified
-///     roll_deg=A, pitch_deg=A   the sensor is tilted (Attitude in Levelling.h) in the same
-///                           surroundings. Rows are recomputed; returns more than half a beam
-///                           step outside the field of view are removed. Methods get the attitude
-///                           only if ",attitude" is appended
-///     upside_down           the sensor is rolled by 180 degrees, and methods get the attitude. The
-///                           returns are the same (y and z negated), so the sensor becomes
-///                           mirrored(sensor)
-///     fov_deg=A             only azimuths within A / 2 of forward
-///     above_deg=E, below_deg=E   only beams above, or below, elevation E
-///     dual_return           a ray whose neighbour in its row is more than 1 m farther has a second
-///                           return there with probability 0.3
-///     rate_hz=R             one of R / 10 azimuths of each row, as if a 10 Hz sensor turned at
-///                           R Hz (20 or more)
+/// Degrades scans and their ground truth, as specified by `--degrade` (docs/evaluation.md). With
+/// `rain`, the ground truth of drops is Unclassified. Tilting (roll_deg, pitch_deg) recomputes rows
+/// and removes returns more than half a beam step outside the field of view. With `upside_down`,
+/// y and z of the returns are negated, so that the sensor becomes mirrored(sensor).
 class Degradation {
  public:
     using Random = simulation::Random;

@@ -1,6 +1,5 @@
 #include <hagen/evaluation/DroneScores.h>
 #include <algorithm>
-#include <stdexcept>
 #include "evaluation/TrueHeights.h"
 
 #include "evaluation/PlanTree.h"

@@ -2,7 +2,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <nanoflann.hpp>
 #include <utility>
 #include <vector>

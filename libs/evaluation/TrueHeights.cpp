@@ -4,7 +4,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <utility>
 
 #include "evaluation/PlanTree.h"
 

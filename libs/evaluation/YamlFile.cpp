@@ -1,6 +1,5 @@
 #include "evaluation/YamlFile.h"
 
-#include <set>
 #include <stdexcept>
 #include "settings/YamlParts.h"
 

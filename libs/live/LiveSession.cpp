@@ -6,18 +6,9 @@
 #include "live/Priority.h"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <ctime>
 #include <exception>
-#include <optional>
-#include <stdexcept>
-#include <thread>
-#include <utility>
-#include <vector>
 
 #include "live/Recorder.h"
 #include "live/SectorFigures.h"
@@ -45,11 +36,57 @@ double threadCpu_s() { return std::chrono::duration<double>(base::threadCpuTime(
 /// Labels, reports and records the packets of a sensor.
 class Session {
  public:
-    Session(const LiveOptions& options, const LiveListener& listener, bool is_live);
+    Session(const LiveOptions& options, const LiveListener& listener, bool is_live)
+        : options_(options),
+          listener_(listener),
+          start_s_(steadyNow_s()),
+          status_s_(start_s_),
+          address_(options.from_ip) {
+        stream_.emplace(
+            sensors::makeDriver(options.model, options.sensor_json, options.calibration),
+            options.settings, [this](const LabelledSector& sector) { takeSector(sector); },
+            options.streaming);
+        const StreamingSegmenter& segmenter = stream_->segmenter();
+        figures_.emplace(segmenter.sensor(), options_.settings, report_);
+        listener_.begin(segmenter.sensor(), segmenter.options());
+        if (options.recording.file.empty()) return;
+        recorder_ = std::make_unique<Recorder>(options.recording, bool{listener_.motion}, !is_live);
+    }
 
-    void take(const Packet& packet);
+    void take(const Packet& packet) {
+        ++report_.datagrams;
+        last_taken_s_ = packet.arrival_s;
+        if (listener_.motion) {
+            const SensorMotion motion = listener_.motion(packet.arrival_s);
+            stream_->move(motion);
+            if (recorder_) recordPose(packet, motion);
+        }
+        if (!isOfSensor(packet)) return;
+        if (stream_->add(packet.datagram(), packet.arrival_s) == sensors::Taken::Yes) {
+            last_packet_s_ = packet.arrival_s;
+            is_flushed_ = false;
+            if (stream_->counts().packets == 1) {
+                listener_.remark("receiving packets from " + sensors::ipText(packet.from_ip));
+            }
+            reportChanges();
+        } else {
+            reportUncertain();
+        }
+    }
     /// Drops a packet that waited too long.
-    void drop(const Packet& packet);
+    void drop(const Packet& packet) {
+        last_taken_s_ = packet.arrival_s;
+        if (!stream_->driver().isData(packet.datagram()) || !isOfSensor(packet)) return;
+        if (last_return_s_ > 0) last_return_s_ += packet.arrival_s - last_packet_s_;
+        last_packet_s_ = packet.arrival_s;
+        ++dropped_;
+        reportReturn();
+        if (report_.datagrams == 0) return;  // the packet arrived before the session
+        if (keeps_up_ >= kKeepsUp) {
+            listener_.remark("labelling is too slow: dropping packets that waited too long");
+        }
+        keeps_up_ = 0;
+    }
     /// Counts packets that were not labelled. Thread-safe.
     void lose(std::size_t packets) { lost_ += packets; }
     /// Records a datagram; called by the receiving thread.
@@ -62,22 +99,190 @@ class Session {
     }
     /// Reports silence and status, and labels the sector in progress if the sensor is silent.
     /// `is_idle` means that the queue is empty.
-    void update(bool is_idle);
-    LiveReport finish(double start_cpu_s);
+    void update(bool is_idle) {
+        const double now_s = steadyNow_s();
+        // Packets waiting for a busy processor do not count as silence, and packets from other
+        // senders do not end the silence.
+        const double heard_s = is_idle ? now_s : last_taken_s_;
+        if (report_.datagrams > 0 && !is_flushed_ && heard_s - last_packet_s_ > kFlush_s) {
+            stream_->flush();
+            is_flushed_ = true;
+        }
+        reportSilence(heard_s);
+        if (recorder_) reportRecording();
+        figures_->countDirections(now_s);
+        if (now_s - status_s_ >= kStatus_s) showStatus(now_s);
+    }
+    LiveReport finish(double start_cpu_s) {
+        stream_->flush();
+        stream_->driver().finish();
+        copyCounts();
+        report_.filter_cpu_s = threadCpu_s() - start_cpu_s;
+        if (recorder_) report_.recorded = recorder_->finish();
+        return report_;
+    }
 
  private:
-    bool isOfSensor(const Packet& packet);
-    void recordPose(const Packet& packet, const SensorMotion& motion);
-    void takeSector(const LabelledSector& sector);
-    void reportRecording();
-    void reportEmptiness(const Scan& returns);
-    void reportChanges();
-    void reportUncertain();
-    void reportSilence(double now_s);
-    void reportReturn();
-    bool updateOverload();
-    void copyCounts();
-    void showStatus(double now_s);
+    /// Whether a packet is from the sensor. Addresses distinguish sensors of the same model without
+    /// serial numbers.
+    bool isOfSensor(const Packet& packet) {
+        const sensors::LidarDriver& driver = stream_->driver();
+        if ((driver.hasSerial() && !options_.from_ip) || !driver.isData(packet.datagram()))
+            return true;
+        const sensors::IpAddress before = address_.ip().value_or(packet.from_ip);
+        const std::size_t others = address_.others().size();
+        const bool is_of_sensor = address_.take(packet.from_ip, packet.arrival_s);
+        if (address_.others().size() > others) {
+            listener_.remark("ignoring packets of another sensor from " +
+                             sensors::ipText(address_.others().back()) +
+                             (options_.from_ip ? "" : "; select a sensor with --from-address"));
+        }
+        if (!is_of_sensor) {
+            ++foreign_ip_;
+            return false;
+        }
+        if (before != packet.from_ip) {
+            listener_.remark("the sensor's address changed from " + sensors::ipText(before) +
+                             " to " + sensors::ipText(packet.from_ip));
+            stream_->flush();  // so that no sector mixes returns from both addresses
+        }
+        return true;
+    }
+    /// Removes the mount from the sensor's pose. Before the first position is known, poses are
+    /// recorded at the origin, because labelling needs the tilt. Later poses without position are
+    /// skipped.
+    void recordPose(const Packet& packet, const SensorMotion& motion) {
+        Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
+        if (motion.map_from_sensor) {
+            has_place_ = true;
+            map_from_sensor = *motion.map_from_sensor;
+        } else if (motion.attitude && !has_place_) {
+            map_from_sensor.linear() = levelFromSensor(*motion.attitude).cast<double>();
+        } else {
+            return;
+        }
+        map_from_sensor.linear() *=
+            levelFromSensor(options_.settings.mount).cast<double>().transpose();
+        recorder_->addPose(packet.time_ns, map_from_sensor);
+    }
+    void takeSector(const LabelledSector& sector) {
+        figures_->take(sector, steadyNow_s());
+        listener_.sector(sector);
+        reportEmptiness(sector.returns);
+        figures_->checkTurn(sector);
+        if (!is_result_reported_) {
+            const std::vector<std::string> warnings = figures_->resultWarnings();
+            is_result_reported_ = !warnings.empty();
+            for (const std::string& warning : warnings) listener_.remark("WARNING: " + warning);
+        }
+        if (is_airframe_reported_) return;
+        const std::string warning = figures_->airframeWarning(sector.last_time_s);
+        is_airframe_reported_ = !warning.empty();
+        if (is_airframe_reported_) listener_.remark(warning);
+    }
+    void reportRecording() {
+        if (is_recording_reported_) return;
+        const std::string failure = recorder_->failure();
+        if (!failure.empty()) {
+            is_recording_reported_ = true;
+            listener_.remark("recording stopped: " + failure);
+        } else if (recorder_->leftOut() > 0 && !is_slow_recording_reported_) {
+            is_slow_recording_reported_ = true;
+            listener_.remark("the disk is too slow: datagrams are missing from the recording");
+        }
+    }
+    /// Reports that returns are missing, because a covered window looks like open air.
+    void reportEmptiness(const Scan& returns) {
+        const bool is_empty = std::all_of(returns.range_m.begin(), returns.range_m.end(),
+                                          [](float range_m) { return std::isnan(range_m); });
+        if (!is_empty || last_return_s_ == 0) last_return_s_ = last_packet_s_;
+        if (is_empty_ && !is_empty) listener_.remark("receiving returns");
+        if (!is_empty) is_empty_ = false;
+        if (is_empty_ || last_packet_s_ - last_return_s_ <= kSilence_s) return;
+        is_empty_ = true;
+        listener_.remark(
+            "no returns for " + base::fixedText(kSilence_s, 0) +
+            " s, though packets arrive: nothing is in range, or the sensor's window is "
+            "covered");
+    }
+    void reportChanges() {
+        if (is_uncertain_) {
+            is_uncertain_ = false;
+            listener_.remark("the sensor's turns match its metadata again");
+        }
+        reportReturn();
+        const std::size_t changes = stream_->counts().mode_changes;
+        if (changes == mode_changes_) return;
+        mode_changes_ = changes;
+        listener_.remark(stream_->driver().isDual() ? "the sensor now sends two returns per firing"
+                                                    : "the sensor now sends one return per firing");
+    }
+    void reportUncertain() {
+        const sensors::PacketCounts& counts = stream_->counts();
+        if (counts.uncertain == uncertain_) return;
+        uncertain_ = counts.uncertain;
+        const bool is_restarted = counts.restarts > restarts_;
+        restarts_ = counts.restarts;
+        if (is_uncertain_ && !is_restarted) return;
+        is_uncertain_ = true;
+        const std::string columns = "the columns in " + options_.sensor_json.string();
+        listener_.remark(is_restarted
+                             ? "the sensor restarted; dropping its packets until its turns match " +
+                                   columns
+                             : "the sensor's turns do not match " + columns +
+                                   "; dropping its packets. Is the sensor in another mode?");
+    }
+    void reportSilence(double now_s) {
+        const double silent_s = now_s - (last_packet_s_ > 0 ? last_packet_s_ : start_s_);
+        if (is_silent_ || silent_s <= kSilence_s) return;
+        is_silent_ = true;
+        ++report_.silences;
+        copyCounts();
+        listener_.remark(report_.packets > 0
+                             ? "no valid packet from the sensor for " +
+                                   base::fixedText(kSilence_s, 0) + " s"
+                             : "no packet from " + sensorName(options_) + " received yet");
+    }
+    void reportReturn() {
+        if (!is_silent_) return;
+        is_silent_ = false;
+        last_return_s_ = last_packet_s_;
+        listener_.remark("receiving packets");
+    }
+    /// Whether packets were dropped since the last status. If so, turns are incomplete and yield no
+    /// valid rate.
+    bool updateOverload() {
+        const bool is_behind = dropped_ > dropped_before_;
+        dropped_before_ = dropped_;
+        if (!is_behind && keeps_up_ < kKeepsUp && ++keeps_up_ == kKeepsUp) {
+            listener_.remark("labelling keeps up again");
+        }
+        return is_behind;
+    }
+    void copyCounts() {
+        static_cast<sensors::PacketCounts&>(report_) = stream_->counts();
+        report_.other_sensor += foreign_ip_;
+        report_.dropped = dropped_ + lost_;
+        figures_->update(steadyNow_s());
+        report_.seconds = steadyNow_s() - start_s_;
+    }
+    void showStatus(double now_s) {
+        copyCounts();
+        const bool turns = stream_->driver().turns();
+        LiveStatus status = figures_->status(now_s - status_s_, turns);
+        status.is_silent = is_silent_;
+        const bool is_behind = updateOverload();
+        if (turns && !is_silent_ && !is_behind) {
+            if (const auto change = figures_->rateChange()) {
+                listener_.remark("the turn rate changed from " +
+                                 base::fixedText(change->before, 1) + " to " +
+                                 base::fixedText(change->now, 1) + " Hz");
+            }
+        }
+        figures_->next();
+        status_s_ = now_s;
+        listener_.status(report_, status);
+    }
 
     const LiveOptions& options_;
     const LiveListener& listener_;
@@ -101,248 +306,6 @@ class Session {
     int keeps_up_ = kKeepsUp;                       ///< statuses without dropped packets
     std::atomic<std::size_t> lost_ = 0;
 };
-
-Session::Session(const LiveOptions& options, const LiveListener& listener, bool is_live)
-    : options_(options),
-      listener_(listener),
-      start_s_(steadyNow_s()),
-      status_s_(start_s_),
-      address_(options.from_ip) {
-    stream_.emplace(
-        sensors::makeDriver(options.model, options.sensor_json, options.calibration),
-        options.settings, [this](const LabelledSector& sector) { takeSector(sector); },
-        options.streaming);
-    const StreamingSegmenter& segmenter = stream_->segmenter();
-    figures_.emplace(segmenter.sensor(), options_.settings, report_);
-    listener_.begin(segmenter.sensor(), segmenter.options());
-    if (options.recording.file.empty()) return;
-    recorder_ = std::make_unique<Recorder>(options.recording, bool{listener_.motion}, !is_live);
-}
-
-void Session::takeSector(const LabelledSector& sector) {
-    figures_->take(sector, steadyNow_s());
-    listener_.sector(sector);
-    reportEmptiness(sector.returns);
-    figures_->checkTurn(sector);
-    if (!is_result_reported_) {
-        const std::vector<std::string> warnings = figures_->resultWarnings();
-        is_result_reported_ = !warnings.empty();
-        for (const std::string& warning : warnings) listener_.remark("WARNING: " + warning);
-    }
-    if (is_airframe_reported_) return;
-    const std::string warning = figures_->airframeWarning(sector.last_time_s);
-    is_airframe_reported_ = !warning.empty();
-    if (is_airframe_reported_) listener_.remark(warning);
-}
-
-/// Reports that returns are missing, because a covered window looks like open air.
-void Session::reportEmptiness(const Scan& returns) {
-    const bool is_empty = std::all_of(returns.range_m.begin(), returns.range_m.end(),
-                                      [](float range_m) { return std::isnan(range_m); });
-    if (!is_empty || last_return_s_ == 0) last_return_s_ = last_packet_s_;
-    if (is_empty_ && !is_empty) listener_.remark("receiving returns");
-    if (!is_empty) is_empty_ = false;
-    if (is_empty_ || last_packet_s_ - last_return_s_ <= kSilence_s) return;
-    is_empty_ = true;
-    listener_.remark("no returns for " + base::fixedText(kSilence_s, 0) +
-                     " s, though packets arrive: nothing is in range, or the sensor's window is "
-                     "covered");
-}
-
-/// Whether a packet is from the sensor. Addresses distinguish sensors of the same model without
-/// serial numbers.
-bool Session::isOfSensor(const Packet& packet) {
-    const sensors::LidarDriver& driver = stream_->driver();
-    if ((driver.hasSerial() && !options_.from_ip) || !driver.isData(packet.datagram())) return true;
-    const sensors::IpAddress before = address_.ip().value_or(packet.from_ip);
-    const std::size_t others = address_.others().size();
-    const bool is_of_sensor = address_.take(packet.from_ip, packet.arrival_s);
-    if (address_.others().size() > others) {
-        listener_.remark("ignoring packets of another sensor from " +
-                         sensors::ipText(address_.others().back()) +
-                         (options_.from_ip ? "" : "; select a sensor with --from-address"));
-    }
-    if (!is_of_sensor) {
-        ++foreign_ip_;
-        return false;
-    }
-    if (before != packet.from_ip) {
-        listener_.remark("the sensor's address changed from " + sensors::ipText(before) + " to " +
-                         sensors::ipText(packet.from_ip));
-        stream_->flush();  // so that no sector mixes returns from both addresses
-    }
-    return true;
-}
-
-void Session::take(const Packet& packet) {
-    ++report_.datagrams;
-    last_taken_s_ = packet.arrival_s;
-    if (listener_.motion) {
-        const SensorMotion motion = listener_.motion(packet.arrival_s);
-        stream_->move(motion);
-        if (recorder_) recordPose(packet, motion);
-    }
-    if (!isOfSensor(packet)) return;
-    if (stream_->add(packet.datagram(), packet.arrival_s) == sensors::Taken::Yes) {
-        last_packet_s_ = packet.arrival_s;
-        is_flushed_ = false;
-        if (stream_->counts().packets == 1) {
-            listener_.remark("receiving packets from " + sensors::ipText(packet.from_ip));
-        }
-        reportChanges();
-    } else {
-        reportUncertain();
-    }
-}
-
-/// Removes the mount from the sensor's pose. Before the first position is known, poses are recorded
-/// at the origin, because labelling needs the tilt. Later poses without position are skipped.
-void Session::recordPose(const Packet& packet, const SensorMotion& motion) {
-    Eigen::Isometry3d map_from_sensor = Eigen::Isometry3d::Identity();
-    if (motion.map_from_sensor) {
-        has_place_ = true;
-        map_from_sensor = *motion.map_from_sensor;
-    } else if (motion.attitude && !has_place_) {
-        map_from_sensor.linear() = levelFromSensor(*motion.attitude).cast<double>();
-    } else {
-        return;
-    }
-    map_from_sensor.linear() *= levelFromSensor(options_.settings.mount).cast<double>().transpose();
-    recorder_->addPose(packet.time_ns, map_from_sensor);
-}
-
-void Session::drop(const Packet& packet) {
-    last_taken_s_ = packet.arrival_s;
-    if (!stream_->driver().isData(packet.datagram()) || !isOfSensor(packet)) return;
-    if (last_return_s_ > 0) last_return_s_ += packet.arrival_s - last_packet_s_;
-    last_packet_s_ = packet.arrival_s;
-    ++dropped_;
-    reportReturn();
-    if (report_.datagrams == 0) return;  // the packet arrived before the session
-    if (keeps_up_ >= kKeepsUp) {
-        listener_.remark("labelling is too slow: dropping packets that waited too long");
-    }
-    keeps_up_ = 0;
-}
-
-void Session::reportUncertain() {
-    const sensors::PacketCounts& counts = stream_->counts();
-    if (counts.uncertain == uncertain_) return;
-    uncertain_ = counts.uncertain;
-    const bool is_restarted = counts.restarts > restarts_;
-    restarts_ = counts.restarts;
-    if (is_uncertain_ && !is_restarted) return;
-    is_uncertain_ = true;
-    const std::string columns = "the columns in " + options_.sensor_json.string();
-    listener_.remark(
-        is_restarted ? "the sensor restarted; dropping its packets until its turns match " + columns
-                     : "the sensor's turns do not match " + columns +
-                           "; dropping its packets. Is the sensor in another mode?");
-}
-
-void Session::reportChanges() {
-    if (is_uncertain_) {
-        is_uncertain_ = false;
-        listener_.remark("the sensor's turns match its metadata again");
-    }
-    reportReturn();
-    const std::size_t changes = stream_->counts().mode_changes;
-    if (changes == mode_changes_) return;
-    mode_changes_ = changes;
-    listener_.remark(stream_->driver().isDual() ? "the sensor now sends two returns per firing"
-                                                : "the sensor now sends one return per firing");
-}
-
-void Session::reportReturn() {
-    if (!is_silent_) return;
-    is_silent_ = false;
-    last_return_s_ = last_packet_s_;
-    listener_.remark("receiving packets");
-}
-
-void Session::copyCounts() {
-    static_cast<sensors::PacketCounts&>(report_) = stream_->counts();
-    report_.other_sensor += foreign_ip_;
-    report_.dropped = dropped_ + lost_;
-    figures_->update(steadyNow_s());
-    report_.seconds = steadyNow_s() - start_s_;
-}
-
-void Session::showStatus(double now_s) {
-    copyCounts();
-    const bool turns = stream_->driver().turns();
-    LiveStatus status = figures_->status(now_s - status_s_, turns);
-    status.is_silent = is_silent_;
-    const bool is_behind = updateOverload();
-    if (turns && !is_silent_ && !is_behind) {
-        if (const auto change = figures_->rateChange()) {
-            listener_.remark("the turn rate changed from " + base::fixedText(change->before, 1) +
-                             " to " + base::fixedText(change->now, 1) + " Hz");
-        }
-    }
-    figures_->next();
-    status_s_ = now_s;
-    listener_.status(report_, status);
-}
-
-/// Whether packets were dropped since the last status. If so, turns are incomplete and yield no
-/// valid rate.
-bool Session::updateOverload() {
-    const bool is_behind = dropped_ > dropped_before_;
-    dropped_before_ = dropped_;
-    if (!is_behind && keeps_up_ < kKeepsUp && ++keeps_up_ == kKeepsUp) {
-        listener_.remark("labelling keeps up again");
-    }
-    return is_behind;
-}
-
-void Session::reportSilence(double now_s) {
-    const double silent_s = now_s - (last_packet_s_ > 0 ? last_packet_s_ : start_s_);
-    if (is_silent_ || silent_s <= kSilence_s) return;
-    is_silent_ = true;
-    ++report_.silences;
-    copyCounts();
-    listener_.remark(report_.packets > 0
-                         ? "no valid packet from the sensor for " + base::fixedText(kSilence_s, 0) +
-                               " s"
-                         : "no packet from " + sensorName(options_) + " received yet");
-}
-
-void Session::update(bool is_idle) {
-    const double now_s = steadyNow_s();
-    // Packets waiting for a busy processor do not count as silence, and packets from other senders
-    // do not end the silence.
-    const double heard_s = is_idle ? now_s : last_taken_s_;
-    if (report_.datagrams > 0 && !is_flushed_ && heard_s - last_packet_s_ > kFlush_s) {
-        stream_->flush();
-        is_flushed_ = true;
-    }
-    reportSilence(heard_s);
-    if (recorder_) reportRecording();
-    figures_->countDirections(now_s);
-    if (now_s - status_s_ >= kStatus_s) showStatus(now_s);
-}
-
-void Session::reportRecording() {
-    if (is_recording_reported_) return;
-    const std::string failure = recorder_->failure();
-    if (!failure.empty()) {
-        is_recording_reported_ = true;
-        listener_.remark("recording stopped: " + failure);
-    } else if (recorder_->leftOut() > 0 && !is_slow_recording_reported_) {
-        is_slow_recording_reported_ = true;
-        listener_.remark("the disk is too slow: datagrams are missing from the recording");
-    }
-}
-
-LiveReport Session::finish(double start_cpu_s) {
-    stream_->flush();
-    stream_->driver().finish();
-    copyCounts();
-    report_.filter_cpu_s = threadCpu_s() - start_cpu_s;
-    if (recorder_) report_.recorded = recorder_->finish();
-    return report_;
-}
 
 }  // namespace
 

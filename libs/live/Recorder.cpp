@@ -3,7 +3,6 @@
 #include "base/WriteFile.h"
 #include "live/Priority.h"
 
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <exception>

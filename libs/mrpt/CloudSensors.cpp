@@ -2,12 +2,9 @@
 #include <hagen/mrpt/ObservationScan.h>
 #include "base/NumberText.h"
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <new>
-#include <optional>
-#include <utility>
 
 namespace hagen::observations {
 namespace {

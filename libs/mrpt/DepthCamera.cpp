@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <stdexcept>
-#include <string>
 
 namespace hagen::observations {
 namespace {

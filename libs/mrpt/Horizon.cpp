@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <optional>
 
 namespace hagen::observations {
 namespace {

@@ -9,10 +9,6 @@
 #include <mrpt/serialization/stl_serialization.h>
 #include <mrpt/version.h>
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <memory>
 #include <set>
 #include <stdexcept>
 #include <type_traits>

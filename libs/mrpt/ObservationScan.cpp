@@ -1,10 +1,7 @@
 #include <hagen/mrpt/LocatedCloud.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/mrpt/RotatingScan.h>
-#include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/MostReturns.h>
-#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include "mrpt/DepthCamera.h"
 #include "mrpt/PointFields.h"
@@ -13,7 +10,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 namespace hagen::observations {

@@ -1,7 +1,6 @@
 #include <hagen/mrpt/PointTable.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <set>
 #include <stdexcept>

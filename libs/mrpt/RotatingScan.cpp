@@ -6,15 +6,11 @@
 #include <mrpt/serialization/stl_serialization.h>
 #include <mrpt/version.h>
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <optional>
-#include <stdexcept>
-#include <utility>
 
 #include "mrpt/ArchiveParts.h"
 

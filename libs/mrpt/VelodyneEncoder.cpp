@@ -3,7 +3,6 @@
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <hagen/sensors/VelodynePacket.h>
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <stdexcept>
 

@@ -3,7 +3,6 @@
 #include <hagen/sensors/VelodynePacket.h>
 
 #include <chrono>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>

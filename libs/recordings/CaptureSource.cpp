@@ -1,71 +1,90 @@
-#include "recordings/CaptureSource.h"
-
 #include "recordings/PoseFile.h"
-
 #include "recordings/ScanObject.h"
+#include "recordings/Sources.h"
+#include "recordings/captures/LidarCapture.h"
 
 namespace hagen::recordings {
+namespace {
 
-CaptureSource::CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
-    : ScanSource(options),
-      file_(capture),
-      capture_(recordings::openCapture(capture, options.sensor_json, options.calibration,
-                                       [this] { checkInterruption(); })) {}
+class CaptureSource : public ScanSource {
+ public:
+    CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
+        : ScanSource(options),
+          file_(capture),
+          capture_(recordings::openCapture(capture, options.sensor_json, options.calibration,
+                                           [this] { checkInterruption(); })) {}
 
-std::optional<RecordedEntry> CaptureSource::nextEntry() {
-    while (turns_ <= options_.last_scan) {
-        checkInterruption();
-        const auto turn = capture_->nextScan();
-        is_read_to_end_ = turn == nullptr;
-        if (!turn) return endAfter(turns_ + 1);
-        RecordedEntry entry;
-        entry.number = turns_++;
-        if (skips(entry.number)) continue;
-        entry.object = objectOf(turn, options_.folder_objects);
-        entry.fraction_read = capture_->fractionRead();
-        addIfScan(turn, "", entry);
-        return entry;
-    }
-    return endAfter(turns_);
-}
-
-RawlogSurvey CaptureSource::survey() {
-    RawlogSurvey survey;
-    std::size_t turns = 0;
-    const auto ahead = recordings::openCapture(file_, options_.sensor_json, options_.calibration,
-                                               [this] { checkInterruption(); });
-    try {
-        while (const auto turn = ahead->nextScan()) {
+    std::optional<RecordedEntry> nextEntry() override {
+        while (turns_ <= options_.last_scan) {
             checkInterruption();
-            ++turns;
-            survey.scans[turn->sensorLabel].push_back(
-                {turn->timestamp, mrpt::poses::CPose3D(turn->sensorPose())});
+            const auto turn = capture_->nextScan();
+            is_read_to_end_ = turn == nullptr;
+            if (!turn) return endAfter(turns_ + 1);
+            RecordedEntry entry;
+            entry.number = turns_++;
+            if (skips(entry.number)) continue;
+            entry.object = objectOf(turn, options_.folder_objects);
+            entry.fraction_read = capture_->fractionRead();
+            addIfScan(turn, "", entry);
+            return entry;
         }
-    } catch (const sensors::BrokenCapture& e) {
-        survey.is_whole = false;
-        brokeOffAhead(turns, e.what());
+        return endAfter(turns_);
     }
-    return survey;
-}
-
-LogPoses CaptureSource::readPoses(const std::filesystem::path& file) {
-    if (file.empty() || kindOfPoseFile(file) == PoseFileKind::Tum) {
-        return posesOfRawlog(RawlogSurvey(), file);
+    std::map<std::string, std::vector<mrpt::Clock::time_point>> scanTimes() override {
+        return scanTimesOf(survey());
     }
-    const auto isKept = [this](const std::string& label) { return isSelected(label); };
-    return posesOfRawlog(withScansOf(survey(), isKept), file);
-}
-
-std::map<std::string, std::vector<mrpt::Clock::time_point>> CaptureSource::scanTimes() {
-    return scanTimesOf(survey());
-}
-
-std::vector<std::string> CaptureSource::remarks() const {
-    std::vector<std::string> remarks = capture_->remarks();
-    if (!is_read_to_end_ && turns_ > options_.last_scan) {
-        for (std::string& remark : remarks) remark += " (up to the last entry converted)";
+    std::size_t scansKnown() const override { return turns_; }
+    std::vector<std::string> remarks() const override {
+        std::vector<std::string> remarks = capture_->remarks();
+        if (!is_read_to_end_ && turns_ > options_.last_scan) {
+            for (std::string& remark : remarks) remark += " (up to the last entry converted)";
+        }
+        return remarks;
     }
-    return remarks;
+
+ protected:
+    LogPoses readPoses(const std::filesystem::path& file) override {
+        if (file.empty() || kindOfPoseFile(file) == PoseFileKind::Tum) {
+            return posesOfRawlog(RawlogSurvey(), file);
+        }
+        const auto isKept = [this](const std::string& label) { return isSelected(label); };
+        return posesOfRawlog(withScansOf(survey(), isKept), file);
+    }
+    /// Does nothing, because packets identify their sensor.
+    bool showClouds(observations::CloudSensors&) override { return false; }
+
+ private:
+    /// Reads the capture in advance, as far as it is readable.
+    RawlogSurvey survey() {
+        RawlogSurvey survey;
+        std::size_t turns = 0;
+        const auto ahead = recordings::openCapture(
+            file_, options_.sensor_json, options_.calibration, [this] { checkInterruption(); });
+        try {
+            while (const auto turn = ahead->nextScan()) {
+                checkInterruption();
+                ++turns;
+                survey.scans[turn->sensorLabel].push_back(
+                    {turn->timestamp, mrpt::poses::CPose3D(turn->sensorPose())});
+            }
+        } catch (const sensors::BrokenCapture& e) {
+            survey.is_whole = false;
+            brokeOffAhead(turns, e.what());
+        }
+        return survey;
+    }
+
+    std::filesystem::path file_;
+    std::unique_ptr<recordings::LidarCapture> capture_;
+    std::size_t turns_ = 0;
+    bool is_read_to_end_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<ScanSource> openCaptureScans(const std::filesystem::path& capture,
+                                             const SourceOptions& options) {
+    return std::make_unique<CaptureSource>(capture, options);
 }
 
 }  // namespace hagen::recordings

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <regex>
 #include <set>
-#include <string_view>
 
 namespace hagen::recordings {
 namespace {

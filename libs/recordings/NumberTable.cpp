@@ -4,9 +4,7 @@
 #include "recordings/clouds/CloudBytes.h"
 
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
-#include <string_view>
 
 namespace hagen::recordings {
 namespace {

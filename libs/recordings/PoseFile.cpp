@@ -6,9 +6,7 @@
 #include "recordings/NumberTable.h"
 
 #include <cmath>
-#include <fstream>
 #include <iomanip>
-#include <stdexcept>
 
 #include "base/WriteFile.h"
 

@@ -2,8 +2,8 @@
 #include <hagen/mrpt/ObservationScan.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/serialization/CSerializable.h>
-#include "recordings/RecordedObject.h"
 
+#include <optional>
 #include <vector>
 
 namespace hagen::recordings {
@@ -19,5 +19,11 @@ std::size_t takeOutNulls(const mrpt::serialization::CSerializable::Ptr& entry);
 
 /// Keeps the class of clouds read as CGenericPointsMap, so that all fields are written.
 void keepFields(const mrpt::serialization::CSerializable::Ptr& entry);
+
+/// Converts a scan of a capture, a bag or a live sensor to an object of an output rawlog. Packets
+/// stay unchanged; clouds get the requested class, or become null if no class is requested.
+mrpt::serialization::CSerializable::Ptr objectOf(
+    const mrpt::obs::CObservation::Ptr& scan,
+    const std::optional<observations::CloudClass>& cloud_class);
 
 }  // namespace hagen::recordings

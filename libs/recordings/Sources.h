@@ -3,7 +3,11 @@
 
 namespace hagen::recordings {
 
-// The sources of openRecording(), except captures (CaptureSource.h).
+// The sources of openRecording().
+
+/// Opens a capture of LiDAR packets. Each turn of a sensor is an entry.
+std::unique_ptr<ScanSource> openCaptureScans(const std::filesystem::path& capture,
+                                             const SourceOptions& options);
 
 /// Opens a rawlog. Each object is an entry; a sensory frame may contain several scans.
 std::unique_ptr<ScanSource> openRawlog(const std::filesystem::path& rawlog,

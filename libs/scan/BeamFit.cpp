@@ -4,7 +4,6 @@
 #include <hagen/scan/RecoverBeams.h>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace hagen {
 namespace {

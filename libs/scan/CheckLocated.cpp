@@ -3,9 +3,6 @@
 #include <hagen/scan/Scan.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <stdexcept>
-#include <string>
 
 #include "scan/CheckRows.h"
 

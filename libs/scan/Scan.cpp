@@ -2,12 +2,7 @@
 #include <hagen/scan/Scan.h>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <stdexcept>
-#include <string>
 
 #include "scan/StartWithInstructionSets.h"
 

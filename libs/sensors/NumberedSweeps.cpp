@@ -1,7 +1,3 @@
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <utility>
 
 #include "sensors/PacketSequence.h"
 #include "sensors/SensorTable.h"
@@ -15,7 +11,7 @@ namespace {
 constexpr std::uint64_t kLivoxSweep_ns = 100000000;
 constexpr std::uint64_t kMaxTurn_ns = 250000000;  // the slowest sensors turn at 5 Hz
 constexpr std::size_t kMaxPackets = 10000;        // max. size of a sweep; normally 210
-constexpr int kMinWrap = 100;                     // 0.01 degrees; smaller steps are jitter
+constexpr int kMinHesaiWrap = 100;                // 0.01 degrees; smaller steps are jitter
 constexpr const char* kLivox = "Livox, read as a Mid-360,";
 
 /// Sweep reader of the sensors with numbered packets, Livox and Hesai. A sweep has the time of its
@@ -98,7 +94,7 @@ class NumberedSweeps : public SweepReader {
 
     void add(const HesaiPacket& packet, std::int64_t time_ns, Sensor& sensor) {
         const int azimuth = packet.azimuthOf(0);
-        const bool is_whole = azimuth < sensor.last_azimuth - kMinWrap ||
+        const bool is_whole = azimuth < sensor.last_azimuth - kMinHesaiWrap ||
                               packet.time_ns - sensor.start_ns > kMaxTurn_ns;
         const Step step = stepTo(packet, is_whole, time_ns, sensor);
         if (step == Step::Duplicate) return;

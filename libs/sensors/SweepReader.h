@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include "sensors/captures/Remarks.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>

@@ -1,7 +1,6 @@
 #include "settings/AirframeFile.h"
 
 #include <hagen/settings/Settings.h>
-#include <cmath>
 #include "base/NumberText.h"
 
 #include "settings/YamlParts.h"

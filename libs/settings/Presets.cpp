@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <mutex>
-#include <set>
-#include <sstream>
-#include <system_error>
 
 #include <hagen/settings/Settings.h>
 #include "base/Folder.h"

@@ -4,10 +4,8 @@
 #include <hagen/settings/Presets.h>
 #include <hagen/settings/Settings.h>
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <map>
-#include <set>
 #include "base/NumberText.h"
 #include "base/TextStream.h"
 #include "filter/OptionKeys.h"

@@ -1,9 +1,6 @@
 #include "settings/YamlParts.h"
 #include "base/Text.h"
 
-#include "base/ReadFile.h"
-
-#include <sstream>
 #include <utility>
 
 namespace hagen {

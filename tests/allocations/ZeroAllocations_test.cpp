@@ -6,7 +6,6 @@
 #include <hagen/sensors/VelodyneModel.h>
 
 #include <Eigen/Core>
-#include <memory>
 
 #include "filter/OptionKeys.h"
 #include "support/Allocations.h"

@@ -6,7 +6,6 @@
 #include "convert/ScanFolderWriter.h"
 
 #include <cmath>
-#include <fstream>
 
 #include "support/SegmentTest.h"
 
@@ -16,7 +15,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-namespace fs = std::filesystem;
 /// Labels of a flight's returns: airframe, dust, and everything else.
 struct Tally {
     int airframe = 0, airframe_roi = 0, airframe_unclassified = 0;

@@ -1,21 +1,15 @@
 // live-segment --mavlink, tested with a simulated autopilot.
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <hagen/sensors/VelodyneCalibration.h>
 #include <stdlib.h>
 #include <unistd.h>
 #include "live/autopilot/Messages.h"
 #include "live/mavlink/Parser.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 #include <thread>
 

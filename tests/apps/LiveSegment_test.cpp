@@ -1,7 +1,6 @@
 // live-segment, run as a user would.
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/sensors/CaptureFile.h>
@@ -11,12 +10,9 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstring>
-#include <functional>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <thread>
 
 #include "support/BagWriter.h"

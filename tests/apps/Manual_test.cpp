@@ -1,7 +1,5 @@
 // Manual pages and shell completions, compared with --help.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <filesystem>
 #include <regex>
 
 #include "support/Program.h"

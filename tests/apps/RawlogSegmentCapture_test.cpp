@@ -13,8 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 
-namespace fs = std::filesystem;
-
 class RawlogSegmentCapture : public test::SegmentTest {
  protected:
     std::string captureOfRecording() const {

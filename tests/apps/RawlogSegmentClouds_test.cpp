@@ -1,12 +1,9 @@
 // rawlog-segment on point cloud files.
 #include <hagen/recordings/ScanFolder.h>
-#include <hagen/scan/Angle.h>
 #include <hagen/scan/Scan.h>
 #include "recordings/clouds/CloudFile.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 
 #include "support/CloudFiles.h"
 #include "support/SegmentTest.h"
@@ -17,7 +14,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 
 namespace fs = std::filesystem;
 

@@ -9,7 +9,6 @@
 namespace hagen {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;

@@ -1,6 +1,5 @@
 // rawlog-segment on rawlogs and scan folders, run as a user would.
 #include <hagen/mrpt/ObservationScan.h>
-#include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CRawlog.h>

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <sstream>
 
 #include <hagen/convert/SimulatedObservation.h>

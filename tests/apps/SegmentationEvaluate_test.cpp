@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include "support/ProgramTest.h"

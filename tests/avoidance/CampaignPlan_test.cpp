@@ -1,12 +1,9 @@
 #include "avoidance/flights/CampaignPlan.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/avoidance/WorldModel.h>
 #include "avoidance/flights/Calibration.h"
 #include "avoidance/flights/RunTable.h"
 
-#include <algorithm>
-#include <functional>
 #include <set>
 
 #include "support/Program.h"

@@ -1,6 +1,5 @@
 #include "avoidance/flights/Campaign.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include "avoidance/flights/Calibration.h"
 
 #include <fstream>

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/avoidance/Course.h>
 #include <hagen/scan/Angle.h>
 #include "avoidance/flights/TrialSensor.h"
@@ -7,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "support/Program.h"

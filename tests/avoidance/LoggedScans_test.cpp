@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/avoidance/LoggedScans.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/RawlogReader.h>

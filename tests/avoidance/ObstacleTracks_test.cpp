@@ -4,7 +4,6 @@
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/simulation/Random.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace hagen::avoidance {

@@ -1,12 +1,10 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/avoidance/OpenLoop.h>
 #include <hagen/recordings/ScanFolder.h>
 #include "recordings/PoseFile.h"
 
 #include <algorithm>
 #include <fstream>
-#include <stdexcept>
 
 #include "support/Program.h"
 #include "support/SimpleScene.h"

@@ -1,6 +1,5 @@
 // The replay command of the built program.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <sstream>
 

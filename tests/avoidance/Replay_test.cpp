@@ -1,6 +1,5 @@
 // Contents of a replay: the recording, the true scene and the ending.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "SampleRuns.h"
 #include "avoidance/flights/Calibration.h"

@@ -4,11 +4,7 @@
 #include <hagen/mrpt/ScanMap.h>
 #include <hagen/simulation/Random.h>
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace hagen::avoidance {
 namespace {

@@ -1,6 +1,5 @@
 #include "avoidance/flights/RunTable.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/simulation/Random.h>
 #include "base/NumberText.h"
 

@@ -1,8 +1,5 @@
 #pragma once
 #include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "avoidance/flights/RunTable.h"
 

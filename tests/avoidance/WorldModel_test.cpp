@@ -1,16 +1,13 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/avoidance/WorldModel.h>
 #include <hagen/simulation/Random.h>
 #include <malloc.h>
 #include "avoidance/world_models/SeenDirections.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <set>
-#include <stdexcept>
 
 #include "support/Program.h"
 

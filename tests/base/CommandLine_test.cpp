@@ -1,11 +1,7 @@
 #include "base/command_line/CommandLine.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <new>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace hagen::base {
 namespace {

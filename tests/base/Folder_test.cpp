@@ -1,6 +1,5 @@
 #include "base/Folder.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "support/Program.h"
 

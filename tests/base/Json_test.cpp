@@ -1,8 +1,5 @@
 #include "base/Json.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
 
 #include "support/Program.h"
 

@@ -1,11 +1,7 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
 #include <unistd.h>
 #include "base/WriteFile.h"
-
-#include <fstream>
-#include <string>
 
 #include "support/Program.h"
 

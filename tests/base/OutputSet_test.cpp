@@ -1,9 +1,6 @@
 #include "base/OutputSet.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include "base/WriteFile.h"
-
-#include <stdexcept>
 
 #include "support/Program.h"
 

@@ -1,6 +1,5 @@
 #include "base/command_line/ProgressLine.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,7 +7,6 @@
 #include <functional>
 #include <regex>
 #include <stdexcept>
-#include <string>
 
 namespace hagen::base {
 namespace {

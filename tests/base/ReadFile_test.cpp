@@ -1,11 +1,6 @@
 #include "base/ReadFile.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
-
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "support/Program.h"
 

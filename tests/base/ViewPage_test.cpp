@@ -1,6 +1,5 @@
 // Data and page of the viewer.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <sstream>
 

@@ -1,11 +1,7 @@
 // The tool behind scripts/reproduce-paper.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/recordings/ScanFolder.h>
 #include "convert/ScanFolderWriter.h"
-
-#include <map>
-#include <set>
 
 #include "paper-results/DataSets.h"
 #include "paper-results/HardSection.h"

@@ -1,6 +1,5 @@
 // The tools behind scripts/benchmark and scripts/measure-performance.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>

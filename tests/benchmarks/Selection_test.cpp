@@ -1,6 +1,5 @@
 // The logic behind scripts/select-settings.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -16,7 +15,6 @@ namespace {
 using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 
 namespace fs = std::filesystem;
 const fs::path kConfig = HAGEN_SOURCE_DIR "/config";

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/ScanFolder.h>
@@ -22,7 +21,6 @@ using observations::PointTable;
 using test::column;
 using testing::AllOf;
 using testing::Contains;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 

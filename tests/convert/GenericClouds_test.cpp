@@ -1,6 +1,5 @@
 // Rawlogs whose clouds carry all fields (`--cloud generic`).
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/convert/Conversion.h>
 #include <hagen/convert/WriteCloud.h>
 #include <hagen/mrpt/NewerClouds.h>

@@ -1,14 +1,10 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include "mrpt/TableCloud.h"
 #include "recordings/bags/BagFile.h"
-
-#include <limits>
-#include <map>
 
 #include "support/PointColumn.h"
 #include "support/PoleConversion.h"

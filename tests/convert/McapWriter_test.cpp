@@ -1,6 +1,5 @@
 #include "convert/McapWriter.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include "recordings/bags/BagFile.h"
 
 #include <tuple>

@@ -3,8 +3,6 @@
 
 #include <random>
 #include <stdexcept>
-#include <thread>
-#include <vector>
 
 #include "convert/OrderedPipeline.h"
 

@@ -1,7 +1,6 @@
 #include "convert/PacketCapture.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/sensors/CaptureFile.h>
 
 #include "support/BagWriter.h"

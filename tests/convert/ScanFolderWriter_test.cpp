@@ -1,11 +1,8 @@
 #include "convert/ScanFolderWriter.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/settings/Settings.h>
 #include "recordings/PoseFile.h"
-
-#include <stdexcept>
 
 #include "support/Program.h"
 

@@ -1,6 +1,5 @@
 #include "convert/pictures/StagePictures.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
 #include <png.h>
 #include "convert/pictures/AirframePicture.h"
@@ -9,8 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "support/Program.h"
 #include "support/SimpleScene.h"

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
 #include "recordings/clouds/CloudFile.h"
 
@@ -7,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 #include <set>
-#include <stdexcept>
 
 #include "support/Program.h"
 
@@ -20,7 +18,6 @@ using observations::PointTable;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::StartsWith;
 
 using Numbers = std::vector<double>;
 

@@ -1,7 +1,6 @@
 #include "evaluation/Bootstrap.h"
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace hagen::evaluation {

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/evaluation/Camera.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/SensorModel.h>

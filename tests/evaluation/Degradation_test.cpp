@@ -1,11 +1,9 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/filter/Levelling.h>
 #include <hagen/scan/Angle.h>
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 #include "evaluation/DegradedScans.h"
 #include "evaluation/TrueHeights.h"
 

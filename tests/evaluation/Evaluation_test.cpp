@@ -1,9 +1,5 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/evaluation/Evaluation.h>
-
-#include <memory>
-#include <stdexcept>
 
 #include "support/Program.h"
 

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/evaluation/LabelMap.h>
 
 #include "support/Program.h"

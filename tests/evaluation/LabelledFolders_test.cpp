@@ -1,10 +1,6 @@
 #include "evaluation/labelled_folders/LabelledFolders.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/settings/Settings.h>
-
-#include <string>
-#include <vector>
 
 #include "support/Program.h"
 

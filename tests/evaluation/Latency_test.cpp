@@ -1,7 +1,6 @@
 #include "evaluation/Latency.h"
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numeric>
 
 namespace hagen::evaluation {

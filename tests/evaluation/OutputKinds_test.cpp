@@ -1,6 +1,5 @@
 // Rules for replacing existing outputs of each kind.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/base/OutputPath.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <fstream>

@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/evaluation/ScanScores.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace hagen::evaluation {

@@ -1,6 +1,5 @@
 // Some short flights must match the recorded ones exactly, unless kRevision was incremented.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/avoidance/Trial.h>
 #include "avoidance/flights/Calibration.h"
 #include "avoidance/flights/RunTable.h"
@@ -11,15 +10,11 @@
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "support/Program.h"
 
 namespace hagen::avoidance {
 namespace {
-
-using testing::HasSubstr;
 
 const char kFile[] = HAGEN_SOURCE_DIR "/tests/flights/recorded_flights.csv";
 const std::string kHowToRecord =

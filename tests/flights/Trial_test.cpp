@@ -4,7 +4,6 @@
 #include "avoidance/flights/RunTable.h"
 
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include "avoidance/SimpleCourse.h"

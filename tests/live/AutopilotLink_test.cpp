@@ -1,13 +1,9 @@
 #include "live/autopilot/AutopilotLink.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
 #include "live/mavlink/Parser.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <map>
 #include <mutex>
 #include <new>
 #include <thread>

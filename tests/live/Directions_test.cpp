@@ -5,7 +5,6 @@
 #include "live/autopilot/VehicleMotion.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <tuple>
 #include <vector>

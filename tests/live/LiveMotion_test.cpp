@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "support/CaptureWriter.h"
 #include "support/Program.h"

@@ -1,15 +1,10 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/live/LiveSession.h>
 #include <hagen/sensors/CaptureFile.h>
 
-#include <algorithm>
 #include <deque>
 #include <sstream>
-#include <string>
 #include <thread>
-#include <utility>
-#include <vector>
 
 #include "support/CaptureWriter.h"
 #include "support/LivoxPackets.h"

@@ -3,9 +3,6 @@
 #include <hagen/live/SectorDistances.h>
 
 #include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "support/Datagrams.h"
 #include "support/LivoxPackets.h"

@@ -6,9 +6,7 @@
 #include "sensors/ouster/OusterScan.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "support/Datagrams.h"
 #include "support/OusterModes.h"

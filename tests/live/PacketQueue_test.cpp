@@ -3,7 +3,6 @@
 
 #include <set>
 #include <thread>
-#include <vector>
 
 namespace hagen::live {
 namespace {

@@ -1,11 +1,8 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/live/PacketSource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
-#include <string>
 #include <thread>
 
 #include "support/CaptureWriter.h"

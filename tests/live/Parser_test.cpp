@@ -1,6 +1,5 @@
 #include "live/mavlink/Parser.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include "live/autopilot/Messages.h"
 
 #include <random>

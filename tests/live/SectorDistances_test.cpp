@@ -3,8 +3,6 @@
 #include <hagen/scan/Angle.h>
 
 #include <cmath>
-#include <optional>
-#include <vector>
 
 namespace hagen::live {
 namespace {

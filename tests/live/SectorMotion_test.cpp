@@ -4,7 +4,6 @@
 #include <hagen/scan/Angle.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "support/SimpleScene.h"
 

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/live/Thinning.h>
 #include <hagen/scan/RangeImage.h>
 
@@ -7,7 +6,6 @@
 #include <map>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "support/Random.h"
 

@@ -2,8 +2,6 @@
 #include <hagen/live/TurnCoverage.h>
 #include <hagen/scan/Angle.h>
 
-#include <vector>
-
 namespace hagen::live {
 namespace {
 

@@ -4,7 +4,6 @@
 #include <hagen/scan/Angle.h>
 
 #include <cmath>
-#include <vector>
 
 #include "support/Random.h"
 #include "support/SimpleScene.h"

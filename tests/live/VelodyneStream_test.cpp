@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/live/LidarStream.h>
 #include <hagen/live/SectorDistances.h>
 #include <hagen/mrpt/ObservationScan.h>
@@ -12,9 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <random>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "support/CaptureWriter.h"
 #include "support/Datagrams.h"

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/scan/Angle.h>

@@ -1,6 +1,5 @@
 #include "mrpt/DepthCamera.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
@@ -8,9 +7,6 @@
 #include <mrpt/io/lazy_load_path.h>
 
 #include <cmath>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "support/Program.h"
 #include "support/SimpleScene.h"

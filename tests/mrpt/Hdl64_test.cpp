@@ -1,16 +1,12 @@
 // Tests with synthetic packets and a synthetic calibration file of an HDL-64E.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include "sensors/velodyne/VelodyneCalibrationFile.h"
 
 #include <cstring>
-#include <filesystem>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 #include "support/Hdl64.h"
 #include "support/Program.h"

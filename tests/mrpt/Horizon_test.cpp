@@ -5,7 +5,6 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstring>
 

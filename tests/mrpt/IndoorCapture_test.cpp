@@ -4,9 +4,7 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <vector>
 
 #include "support/Program.h"
 

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/MapFile.h>
 #include <hagen/mrpt/ScanMap.h>
 #include <hagen/simulation/Random.h>
@@ -7,8 +6,6 @@
 
 #include <fstream>
 #include <iterator>
-#include <memory>
-#include <string>
 
 #include "support/Program.h"
 

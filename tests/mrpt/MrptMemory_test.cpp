@@ -2,7 +2,6 @@
 #include <hagen/mrpt/MrptCompat.h>
 #include <mrpt/core/aligned_allocator.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <new>
 

@@ -1,7 +1,6 @@
 // Clouds in the formats of MRPT 2.15 to 3. Their bytes are handwritten or derived from the
 // installed MRPT.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/NewerClouds.h>
 #include <hagen/mrpt/ObservationScan.h>
@@ -9,9 +8,6 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/stl_serialization.h>
-
-#include <string>
-#include <vector>
 
 #include "support/Program.h"
 #include "support/Random.h"

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <hagen/mrpt/VelodyneObservation.h>

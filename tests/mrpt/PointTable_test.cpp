@@ -1,9 +1,7 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/PointTable.h>
 
 #include <limits>
-#include <stdexcept>
 
 #include "support/Program.h"
 

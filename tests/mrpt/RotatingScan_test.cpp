@@ -1,6 +1,5 @@
 // Scans of the installed MRPT, and handwritten bytes of newer versions.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/ObservationSegmenter.h>
@@ -10,9 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <string>
 
 #include "support/Program.h"
 #include "support/RotatingScans.h"

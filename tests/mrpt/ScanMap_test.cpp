@@ -1,12 +1,10 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/ScanMap.h>
 #include <hagen/simulation/Random.h>
 
 #include <cmath>
 #include <limits>
 #include <set>
-#include <stdexcept>
 #include <tuple>
 
 #include "support/Program.h"

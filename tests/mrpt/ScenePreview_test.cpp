@@ -1,6 +1,5 @@
 #include "mrpt/ScenePreview.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/serialization/CArchive.h>
@@ -9,7 +8,6 @@
 #include "mrpt/Results.h"
 
 #include <algorithm>
-#include <string>
 
 #include "support/SimpleFirings.h"
 

@@ -1,6 +1,5 @@
 #include "mrpt/TableCloud.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/NewerClouds.h>
@@ -9,9 +8,6 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/serialization/CArchive.h>
-
-#include <limits>
-#include <stdexcept>
 
 #include "support/Program.h"
 #include "support/Random.h"

@@ -6,8 +6,6 @@
 namespace hagen::observations {
 namespace {
 
-using mrpt::obs::CObservationVelodyneScan;
-
 Firings firingsAt(float range_m, int lasers, int count) {
     Firings firings;
     firings.range_m.setConstant(lasers, count, range_m);

@@ -1,12 +1,10 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/Angle.h>
 #include "mrpt/VelodyneEncoder.h"
 
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include "support/Captures.h"

@@ -1,6 +1,5 @@
 // Uses the Point Cloud Library (PCL) as an independent reader and writer.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/convert/WriteCloud.h>
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/conversions.h>

@@ -1,6 +1,5 @@
 #include "recordings/bags/BagFile.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <sqlite3.h>
 

@@ -1,10 +1,7 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "support/ReadBag.h"
 

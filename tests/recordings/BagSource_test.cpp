@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/recordings/ScanSource.h>
 #include "recordings/PoseFile.h"
 #include "recordings/bags/BagFile.h"
@@ -15,7 +14,6 @@ namespace {
 using mrpt::poses::CPose3D;
 using test::SentMessage;
 using testing::Each;
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;

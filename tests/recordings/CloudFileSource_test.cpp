@@ -1,11 +1,8 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
 #include "mrpt/TableCloud.h"
 #include "recordings/PoseFile.h"
-
-#include <limits>
 
 #include "support/CloudFiles.h"
 #include "support/Program.h"

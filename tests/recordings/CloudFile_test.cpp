@@ -1,6 +1,5 @@
 #include "recordings/clouds/CloudFile.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
@@ -14,7 +13,6 @@ namespace hagen::recordings {
 namespace {
 
 namespace fs = std::filesystem;
-using observations::NumberType;
 using observations::PointTable;
 using test::column;
 using test::FilePoint;

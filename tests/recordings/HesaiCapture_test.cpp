@@ -9,7 +9,6 @@
 namespace hagen::recordings {
 namespace {
 
-using sensors::Taken;
 using testing::HasSubstr;
 
 struct HesaiMode {

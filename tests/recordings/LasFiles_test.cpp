@@ -1,6 +1,5 @@
 // Uses the npm package copc as an independent reader of LAS files.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include "recordings/clouds/CloudFile.h"
 
 #include <cmath>

@@ -2,8 +2,6 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <chrono>
-#include <string>
-#include <vector>
 
 #include "support/CaptureTest.h"
 #include "support/LivoxPackets.h"

@@ -3,8 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "support/CaptureTest.h"
 #include "support/OusterModes.h"

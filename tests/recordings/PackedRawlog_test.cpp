@@ -1,6 +1,5 @@
 // Rawlogs with the compression of different MRPT versions: none, gzip, zstd.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <hagen/recordings/ScanSource.h>
@@ -19,8 +18,6 @@ namespace {
 
 using test::readLog;
 using testing::HasSubstr;
-
-namespace fs = std::filesystem;
 
 /// The entries of a log: comments with random text, 30 kB each.
 std::string plainLog(int entries) {

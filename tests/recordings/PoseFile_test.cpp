@@ -1,6 +1,5 @@
 #include "recordings/PoseFile.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/recordings/LogPoses.h>
 
 #include "support/Program.h"

@@ -11,8 +11,6 @@
 #include "convert/RawlogWriter.h"
 #include "mrpt/Results.h"
 
-#include <stdexcept>
-
 #include "support/Program.h"
 
 namespace hagen::recordings {

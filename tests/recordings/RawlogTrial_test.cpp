@@ -1,16 +1,13 @@
 // Tests of the read-ahead child process, including when a lock that is never released blocks it.
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/time.h>
 #include <unistd.h>
 #include "convert/RawlogWriter.h"
 
-#include <chrono>
 #include <fstream>
 #include <future>
-#include <vector>
 
 #include "recordings/rawlogs/RawlogTrial.h"
 #include "support/Program.h"

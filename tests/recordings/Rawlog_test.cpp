@@ -1,6 +1,5 @@
 // Compares RawlogReader and RawlogWriter with each other and with MRPT's CRawlog.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/obs/CObservationRobotPose.h>
@@ -8,7 +7,6 @@
 #include "convert/RawlogWriter.h"
 
 #include <cstdlib>
-#include <stdexcept>
 
 #include "support/Program.h"
 #include "support/ReadRawlog.h"

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "support/CaptureTest.h"
 #include "support/Captures.h"
@@ -20,7 +18,6 @@ using sensors::velodyneModel;
 using test::ByteString;
 using test::CaptureWriter;
 using test::SentDatagram;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 

@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/RecoverBeams.h>
-#include <limits>
-#include <vector>
 
 #include "support/Random.h"
 #include "support/SimpleScene.h"

@@ -1,13 +1,9 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/scan/MostReturns.h>
 #include <hagen/scan/RangeImage.h>
 #include <hagen/scan/Scan.h>
 
-#include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "support/Program.h"

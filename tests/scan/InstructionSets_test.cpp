@@ -1,10 +1,8 @@
 #include "scan/InstructionSets.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cctype>
 #include <cstdlib>
-#include <filesystem>
 
 #include "support/InstructionSets.h"
 #include "support/Program.h"

@@ -1,11 +1,8 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/sensors/CaptureFile.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "support/CaptureWriter.h"
 #include "support/Program.h"

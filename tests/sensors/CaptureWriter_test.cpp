@@ -1,9 +1,6 @@
 #include "sensors/captures/CaptureWriter.h"
 #include <gtest/gtest.h>
 
-#include <string>
-#include <vector>
-
 #include "support/Program.h"
 
 namespace hagen::sensors {

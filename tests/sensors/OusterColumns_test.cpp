@@ -1,8 +1,6 @@
 #include "sensors/ouster/OusterColumns.h"
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "support/OusterModes.h"
 
 namespace hagen::sensors {

@@ -1,9 +1,7 @@
 #include "sensors/ouster/OusterSensor.h"
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
 
-#include <string>
 #include <tuple>
 
 #include "support/OusterPackets.h"

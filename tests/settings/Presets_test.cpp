@@ -1,10 +1,8 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/settings/Presets.h>
 #include <hagen/settings/Settings.h>
 
 #include <cstdlib>
-#include <optional>
 
 #include "support/Program.h"
 

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/scan/Angle.h>
 #include <hagen/settings/Settings.h>
 #include "base/Json.h"
@@ -8,12 +7,9 @@
 #include "settings/SettingsJson.h"
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <sstream>
-#include <string>
 #include <tuple>
-#include <vector>
 
 #include "support/Program.h"
 #include "support/Random.h"

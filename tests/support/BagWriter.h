@@ -1,11 +1,6 @@
 #pragma once
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "support/CaptureWriter.h"
 
 namespace hagen::test {

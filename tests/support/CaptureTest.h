@@ -1,12 +1,7 @@
 #pragma once
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include "recordings/captures/LidarCapture.h"
-
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "support/CaptureWriter.h"
 #include "support/Program.h"

@@ -1,9 +1,6 @@
 #pragma once
 #include <hagen/sensors/Datagram.h>
 
-#include <cstdint>
-#include <string>
-
 namespace hagen::test {
 
 /// A datagram that is valid during the lifetime of `bytes`.

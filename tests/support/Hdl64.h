@@ -1,8 +1,6 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
-#include <string>
-#include <vector>
 
 #include "support/CaptureWriter.h"
 

@@ -1,10 +1,6 @@
 #pragma once
 #include "sensors/ouster/OusterSensor.h"
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "support/OusterPackets.h"
 
 namespace hagen::test {

@@ -1,9 +1,7 @@
 #pragma once
 #include "sensors/ouster/OusterFrames.h"
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
 namespace hagen::test {
 

@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <hagen/mrpt/PointTable.h>
 
-#include <vector>
-
 namespace hagen::test {
 
 /// The values of a field, which must exist.

@@ -1,8 +1,6 @@
 #pragma once
 #include <hagen/scan/Angle.h>
 
-#include <vector>
-
 #include "support/SimpleScene.h"
 
 namespace hagen::test {

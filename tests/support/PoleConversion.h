@@ -5,10 +5,6 @@
 #include <hagen/mrpt/ObservationScan.h>
 #include "convert/RawlogWriter.h"
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "support/Program.h"
 #include "support/SimpleFirings.h"
 

@@ -1,12 +1,8 @@
 #pragma once
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "support/Program.h"
 

@@ -3,11 +3,6 @@
 #include <gtest/gtest.h>
 #include "recordings/bags/BagScans.h"
 
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "support/BagWriter.h"
 #include "support/Program.h"
 

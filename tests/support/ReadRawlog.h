@@ -3,7 +3,6 @@
 #include <hagen/recordings/RawlogReader.h>
 #include <mrpt/obs/CObservationComment.h>
 
-#include <filesystem>
 #include <string>
 #include <utility>
 

@@ -3,9 +3,7 @@
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
 namespace hagen::test {
 

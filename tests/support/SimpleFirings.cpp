@@ -4,7 +4,6 @@
 #include <hagen/sensors/VelodyneCalibration.h>
 #include <hagen/sensors/VelodynePacket.h>
 
-#include <cmath>
 #include <cstring>
 
 #include "support/CaptureWriter.h"

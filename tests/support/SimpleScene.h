@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace hagen::test {
 

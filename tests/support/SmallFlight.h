@@ -1,11 +1,9 @@
 #pragma once
 #include <hagen/avoidance/Guidance.h>
 #include <hagen/avoidance/Planner.h>
-#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <functional>
-#include <string>
 #include "support/SolidWorld.h"
 
 namespace hagen::test {

@@ -1,7 +1,5 @@
 #pragma once
 #include <hagen/avoidance/WorldModel.h>
-#include <algorithm>
-#include <vector>
 
 namespace hagen::test {
 

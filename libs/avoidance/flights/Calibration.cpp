@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 #include <ctime>
-#include <fstream>
-#include <memory>
 #include "avoidance/flights/Stopwatch.h"
 #include "base/ProcessCost.h"
 #include "base/WriteFile.h"

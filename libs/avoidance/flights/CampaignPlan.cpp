@@ -3,7 +3,6 @@
 #include <hagen/avoidance/Guidance.h>
 #include <hagen/avoidance/Planner.h>
 #include <hagen/avoidance/WorldModel.h>
-#include <algorithm>
 #include <stdexcept>
 #include "base/Text.h"
 

@@ -1,8 +1,6 @@
 #include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/PathSearch.h>
 #include <hagen/avoidance/WorldModel.h>
-#include <algorithm>
-#include <optional>
 #include <stdexcept>
 
 #include "avoidance/flights/CourseScenes.h"

@@ -1,7 +1,6 @@
 #include "avoidance/flights/CourseScenes.h"
 
 #include <hagen/scan/Angle.h>
-#include <algorithm>
 #include <cmath>
 #include "simulation/Plants.h"
 #include "simulation/Props.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <vector>
 #include "base/Text.h"
 
 namespace hagen::avoidance {

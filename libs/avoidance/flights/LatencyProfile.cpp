@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <locale>
 #include <stdexcept>
 #include <utility>
 #include "base/Json.h"

@@ -1,7 +1,6 @@
 #include "avoidance/flights/PoseBelief.h"
 #include <hagen/scan/Angle.h>
 #include <algorithm>
-#include <cmath>
 
 #include "avoidance/flights/Streams.h"
 

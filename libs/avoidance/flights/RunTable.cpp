@@ -1,7 +1,6 @@
 #include "avoidance/flights/RunTable.h"
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <stdexcept>
 #include <tuple>

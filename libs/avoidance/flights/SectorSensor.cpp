@@ -3,7 +3,6 @@
 #include "scan/AppendReturn.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "avoidance/flights/TurnTransforms.h"

@@ -1,9 +1,6 @@
 #include <hagen/avoidance/Trial.h>
-#include <hagen/avoidance/Vehicle.h>
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <optional>
 #include <utility>
 #include "avoidance/flights/FlightTrace.h"
 #include "avoidance/flights/PoseBelief.h"
@@ -11,13 +8,145 @@
 #include "avoidance/flights/TrialSensor.h"
 #include "base/Quantile.h"
 
-#include "avoidance/flights/ScanFeed.h"
+#include "avoidance/flights/SectorSensor.h"
 #include "avoidance/flights/Stopwatch.h"
 #include "avoidance/flights/Streams.h"
-#include "avoidance/flights/TrialLatencies.h"
 
 namespace hagen::avoidance {
 namespace {
+
+/// The input of a world model update.
+struct FedScan {
+    observations::MappedScan scan;
+    double arrived_s;      ///< arrival time of the scan's last part
+    std::uint64_t stream;  ///< random stream of the scan
+};
+
+/// Buffers measurements until the planner takes them.
+class ScanFeed {
+ public:
+    virtual ~ScanFeed() = default;
+
+    /// Adds the measurements up to a control step that the trace has reached.
+    virtual void receive(int step, const FlightTrace& trace, PoseBelief& belief) = 0;
+    virtual bool isWaiting() const = 0;
+    /// Returns the waiting measurements, and times the filter.
+    virtual FedScan take(const FlightTrace& trace, PoseBelief& belief, Stopwatch& stopwatch) = 0;
+
+    virtual double period_s() const = 0;  ///< minimum time between updates
+    virtual int received() const = 0;     ///< number of whole scans or sectors
+    virtual int dropped() const = 0;      ///< number of scans or sectors never taken
+};
+
+constexpr int kStepsPerTurn = 5;
+static_assert(kStepsPerTurn * 20 == 100);  // kControlStep_s per TrialSensor::kTurn_s
+
+/// Keeps only the newest whole scan, and simulates it when it is taken.
+class WholeScans : public ScanFeed {
+ public:
+    WholeScans(const Course& course, Air air, float zone_m) : sensor_(course, air, zone_m) {}
+
+    void receive(int step, const FlightTrace&, PoseBelief&) override {
+        if (step % kStepsPerTurn != 0) return;
+        ++received_;
+        if (waiting_) ++dropped_;
+        waiting_ = step / kStepsPerTurn - 1;
+    }
+    bool isWaiting() const override { return waiting_.has_value(); }
+    FedScan take(const FlightTrace& trace, PoseBelief& belief, Stopwatch& stopwatch) override {
+        const int turn = *std::exchange(waiting_, std::nullopt);
+        const simulation::SimulatedScan measured = sensor_.measure(turn, trace);
+        const LabelledReturns& returns = stopwatch.time("filter", [&]() -> const LabelledReturns& {
+            return sensor_.segment(turn, measured, trace, belief);
+        });
+        return {TrialSensor::place(turn, measured, returns, trace, belief),
+                TrialSensor::kTurn_s * (turn + 1),
+                streams::kAltimeter + static_cast<std::uint64_t>(turn)};
+    }
+    double period_s() const override { return TrialSensor::kTurn_s; }
+    int received() const override { return received_; }
+    int dropped() const override { return dropped_; }
+
+ private:
+    TrialSensor sensor_;
+    int received_ = 0, dropped_ = 0;
+    std::optional<int> waiting_;  ///< newest complete turn that is not used yet
+};
+
+/// Keeps all sectors since the last update. As with whole scans, the first update covers a whole
+/// turn, so that the vehicle has seen all directions before it starts.
+class Sectors : public ScanFeed {
+ public:
+    Sectors(const Course& course, Air air, float zone_m) : sensor_(course, air, zone_m) {}
+
+    void receive(int step, const FlightTrace& trace, PoseBelief& belief) override {
+        step_ = step;
+        for (observations::MappedScan& sector :
+             sensor_.measureUntil(kControlStep_s * step, trace, belief)) {
+            ++received_;
+            waiting_.push_back(std::move(sector));
+        }
+    }
+    bool isWaiting() const override { return step_ >= kStepsPerTurn && !waiting_.empty(); }
+    FedScan take(const FlightTrace&, PoseBelief&, Stopwatch&) override {
+        const std::vector<observations::MappedScan> sectors = std::exchange(waiting_, {});
+        return {joined(sectors), sectors.back().time_s,
+                streams::kAltimeterStep + static_cast<std::uint64_t>(step_)};
+    }
+    double period_s() const override { return kControlStep_s; }
+    int received() const override { return received_; }
+    int dropped() const override { return 0; }
+
+ private:
+    SectorSensor sensor_;
+    int step_ = 0, received_ = 0;
+    std::vector<observations::MappedScan> waiting_;
+};
+
+/// Creates the feed for a setup's updates.
+std::unique_ptr<ScanFeed> makeFeed(const Course& course, const TrialSetup& setup, float zone_m) {
+    if (setup.updates == Updates::Sectors) {
+        return std::make_unique<Sectors>(course, setup.air, zone_m);
+    }
+    return std::make_unique<WholeScans>(course, setup.air, zone_m);
+}
+
+/// Draws the latency of planning steps from the profile. Sectors are assumed to cost as much as a
+/// whole scan: updates with a few sectors take less time, labelling about the same.
+class TrialLatencies {
+ public:
+    TrialLatencies(const Course& course, const TrialSetup& setup, const LatencyProfile& profile)
+        : profile_(profile), scale_(setup.latency_scale) {
+        // Streams are numbered from the end, so that models with and without the filter share them.
+        const std::vector<std::string> names = stagesOf(setup);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const std::uint64_t stream = streams::kLatency + (names.size() - i);
+            stages_.push_back({names[i], simulation::Random(course.seed, stream)});
+        }
+    }
+
+    double draw_s() {
+        double sum_ms = 0;
+        for (Stage& stage : stages_) sum_ms += profile_.draw_ms(stage.name, stage.random);
+        return 1e-3 * scale_ * sum_ms;
+    }
+    /// The latency that planners assume.
+    double median_s() const {
+        double sum_ms = 0;
+        for (const Stage& stage : stages_) sum_ms += profile_.median_ms(stage.name);
+        return 1e-3 * scale_ * sum_ms;
+    }
+
+ private:
+    struct Stage {
+        std::string name;
+        simulation::Random random;
+    };
+
+    const LatencyProfile& profile_;
+    double scale_;
+    std::vector<Stage> stages_;
+};
 
 double groundHeight_m(const Course& course, const Eigen::Vector3d& at) {
     return course.scene.terrain().height_m(at.x(), at.y());
@@ -205,6 +334,17 @@ class TrialFlight {
 };
 
 }  // namespace
+
+std::vector<std::string> stagesOf(const TrialSetup& setup) {
+    std::vector<std::string> stages;
+    if (needsLabels(setup.model)) stages.push_back("filter");
+    const std::string prefix = setup.model + "/";
+    for (const std::string& part :
+         {std::string("update"), setup.guidance, setup.guidance + "+" + setup.planner}) {
+        stages.push_back(prefix + part);
+    }
+    return stages;
+}
 
 TrialResult runTrial(const Course& course, const TrialSetup& setup, const LatencyProfile& profile,
                      TrialMeasurement* measurement, const TrialListener& listener) {

@@ -1,6 +1,5 @@
 #include "avoidance/flights/TrialScore.h"
 #include <hagen/scan/Angle.h>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include "avoidance/planning/StraightWay.h"

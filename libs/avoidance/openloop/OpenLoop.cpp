@@ -133,13 +133,163 @@ class Walk {
     }
 
  private:
-    void process(const LoggedScan& scan);
-    void prepareModels(const LoggedScan& scan);
-    PendingScan pendingScanOf(const LoggedScan& scan) const;
-    void updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pending);
-    void scoreOldest();
-    void agree(const PendingScan& pending);
-    OpenLoopResult finish();
+    void process(const LoggedScan& scan) {
+        if (truth_) truth_->see(scan.mapped);
+        prepareModels(scan);
+        PendingScan pending = pendingScanOf(scan);
+        for (std::size_t m = 0; m < models_.size(); ++m) updateAndQuery(m, scan, pending);
+        result_.returns.push_back(static_cast<double>(pending.rows.front().returns));
+        result_.roi.push_back(static_cast<double>(pending.rows.front().roi));
+        result_.filter_ms.push_back(scan.filter_ms);
+        result_.scans_placed_by_one_pose += scan.is_placed_by_one_pose;
+        ++result_.scans;
+
+        const double now_s = scan.mapped.time_s;
+        if (!kept_.empty() && now_s < kept_.back().time_s - LaterScansTruth::kDuration_s) {
+            // The clock went back, so no later scans will follow.
+            while (!waiting_.empty()) scoreOldest();
+            kept_.clear();
+            persistent_points_ = {};
+        }
+        while (!waiting_.empty() &&
+               waiting_.front().time_s + LaterScansTruth::kDuration_s < now_s) {
+            scoreOldest();
+        }
+        if (!truth_) {
+            const SeenRanges ranges(scan.mapped);
+            const auto persistent_m = persistent_points_.of(scan.mapped);
+            for (PendingScan& earlier : waiting_) earlier.later.see(persistent_m, ranges);
+        }
+        waiting_.push_back(std::move(pending));
+        if (truth_) scoreOldest();
+
+        kept_.push_back(scan.mapped);
+        while (kept_.front().time_s + kReplayed_s < now_s) kept_.pop_front();
+    }
+    /// Creates the models, and recreates them when the vehicle nears the border of their box.
+    void prepareModels(const LoggedScan& scan) {
+        const bool is_begun = result_.scans > 0;
+        const Eigen::AlignedBox3f inner = widened(box_m_, -kBorder_m, -kBorderUp_m);
+        if (is_begun && (maps_whole_flight_ || inner.contains(scan.vehicle_m))) return;
+        result_.model_resets += is_begun;
+        if (!maps_whole_flight_) {
+            box_m_ = widened({scan.vehicle_m, scan.vehicle_m}, kHalfBox_m, kHalfBoxUp_m);
+        }
+        WorldModelSetting setting;
+        setting.bounds_m = box_m_;
+        if (truth_) {
+            setting.true_clearance_m = [this](const auto& point_m, double) {
+                return truth_->clearance_m(point_m);
+            };
+        }
+        for (std::size_t m = 0; m < models_.size(); ++m) {
+            models_[m].reset();
+            const double before = base::heapBytes();
+            models_[m] = open_loop_.make(open_loop_.models[m], setting);
+            for (const observations::MappedScan& kept : kept_) models_[m]->update(kept);
+            heap_bytes_[m] = base::heapBytes() - before;
+        }
+    }
+    /// The pending scan, before the models are queried.
+    PendingScan pendingScanOf(const LoggedScan& scan) const {
+        const std::size_t models = models_.size();
+        PendingScan pending{std::vector<OpenLoopRow>(models),  std::vector<OpenLoopCost>(models),
+                            std::vector<DirectionSet>(models), scan.mapped.time_s,
+                            LaterScansTruth(scan.vehicle_m),   {}};
+        const auto& labels = scan.mapped.labels;
+        for (std::size_t m = 0; m < models; ++m) {
+            OpenLoopRow& row = pending.rows[m];
+            row.scan = result_.scans;
+            row.entry = scan.entry;
+            row.time_s = scan.mapped.time_s;
+            row.model = open_loop_.models[m];
+            row.returns = labels.size();
+            row.roi =
+                static_cast<std::size_t>(std::count(labels.begin(), labels.end(), Label::Roi));
+            pending.costs[m].filter_ms = scan.filter_ms;
+        }
+        if (!truth_) return pending;
+        pending.truth.emplace();
+        pending.truth->scored.set();
+        pending.truth->blocked = blockedDirections(
+            [this](const Eigen::Vector3f& point_m) { return truth_->clearance_m(point_m); },
+            scan.vehicle_m);
+        return pending;
+    }
+    void updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pending) {
+        WorldModel& model = *models_[m];
+        OpenLoopRow& row = pending.rows[m];
+        OpenLoopCost& cost = pending.costs[m];
+        const double before = base::heapBytes(), start_ms = base::threadCpuTime_ms();
+        model.update(scan.mapped);
+        cost.update_ms = base::threadCpuTime_ms() - start_ms;
+        heap_bytes_[m] += base::heapBytes() - before;
+        cost.heap_bytes = heap_bytes_[m];
+
+        const double asking_ms = base::threadCpuTime_ms();
+        pending.blocked[m] = blockedDirections(
+            [&](const Eigen::Vector3f& point_m) { return model.clearance_m(point_m); },
+            scan.vehicle_m);
+        cost.queries_ms = base::threadCpuTime_ms() - asking_ms;
+
+        row.obstacles = model.obstacles().centre_m.size();
+        row.bytes = model.bytes();
+        row.blocked = pending.blocked[m].count();
+    }
+    /// Scores the models on the oldest pending scan and reports its rows.
+    void scoreOldest() {
+        static const DirectionSet level = levelDirections();
+        PendingScan& oldest = waiting_.front();
+        const TrueDirections truth = oldest.truth ? *oldest.truth : oldest.later.directions();
+        for (std::size_t m = 0; m < models_.size(); ++m) {
+            OpenLoopRow& row = oldest.rows[m];
+            const DirectionSet& blocked = oldest.blocked[m];
+            row.truly_blocked = (truth.blocked & truth.scored).count();
+            row.all = countBlocked(blocked, truth.blocked, truth.scored);
+            row.level = countBlocked(blocked, truth.blocked, truth.scored & level);
+
+            OpenLoopModel& model = result_.models[m];
+            model.all += row.all;
+            model.level += row.level;
+            for (std::size_t e = 0; e < kDirectionElevations; ++e) {
+                model.by_elevation[e] +=
+                    countBlocked(blocked, truth.blocked, truth.scored & directionsAt(e));
+            }
+            model.obstacles.push_back(static_cast<double>(row.obstacles));
+            model.bytes.push_back(static_cast<double>(row.bytes));
+            model.blocked.push_back(static_cast<double>(row.blocked));
+            const OpenLoopCost& cost = oldest.costs[m];
+            model.update_ms.push_back(cost.update_ms);
+            model.queries_ms.push_back(cost.queries_ms);
+            model.peak_heap_bytes = std::max(model.peak_heap_bytes, cost.heap_bytes);
+            listener_.row(row, cost);
+        }
+        agree(oldest);
+        waiting_.pop_front();
+    }
+    void agree(const PendingScan& pending) {
+        for (std::size_t a = 0; a < models_.size(); ++a) {
+            for (std::size_t b = 0; b < models_.size(); ++b) {
+                result_.agreement[a][b] += freeAgreement(pending.blocked[a], pending.blocked[b]);
+            }
+        }
+    }
+    OpenLoopResult finish() {
+        while (!waiting_.empty()) scoreOldest();
+        result_.unreadable_scans = scans_.unreadableScans();
+        result_.why_unreadable = scans_.whyUnreadable();
+        result_.remarks = scans_.remarks();
+        if (result_.scans == 0) {
+            const std::string why = why_ended_.empty() ? scans_.whyUnreadable() : why_ended_;
+            throw std::runtime_error(open_loop_.source.log.string() +
+                                     ": none of its scans could be processed: " + why);
+        }
+        for (auto& line : result_.agreement) {
+            for (double& sum : line) sum /= static_cast<double>(result_.scans);
+        }
+        if (!why_ended_.empty()) throw OpenLoopEnded(why_ended_, std::move(result_));
+        return std::move(result_);
+    }
 
     const OpenLoop& open_loop_;
     const OpenLoopListener& listener_;
@@ -155,167 +305,6 @@ class Walk {
     OpenLoopResult result_;
     std::string why_ended_;
 };
-
-/// Creates the models, and recreates them when the vehicle nears the border of their box.
-void Walk::prepareModels(const LoggedScan& scan) {
-    const bool is_begun = result_.scans > 0;
-    const Eigen::AlignedBox3f inner = widened(box_m_, -kBorder_m, -kBorderUp_m);
-    if (is_begun && (maps_whole_flight_ || inner.contains(scan.vehicle_m))) return;
-    result_.model_resets += is_begun;
-    if (!maps_whole_flight_) {
-        box_m_ = widened({scan.vehicle_m, scan.vehicle_m}, kHalfBox_m, kHalfBoxUp_m);
-    }
-    WorldModelSetting setting;
-    setting.bounds_m = box_m_;
-    if (truth_) {
-        setting.true_clearance_m = [this](const auto& point_m, double) {
-            return truth_->clearance_m(point_m);
-        };
-    }
-    for (std::size_t m = 0; m < models_.size(); ++m) {
-        models_[m].reset();
-        const double before = base::heapBytes();
-        models_[m] = open_loop_.make(open_loop_.models[m], setting);
-        for (const observations::MappedScan& kept : kept_) models_[m]->update(kept);
-        heap_bytes_[m] = base::heapBytes() - before;
-    }
-}
-
-void Walk::updateAndQuery(std::size_t m, const LoggedScan& scan, PendingScan& pending) {
-    WorldModel& model = *models_[m];
-    OpenLoopRow& row = pending.rows[m];
-    OpenLoopCost& cost = pending.costs[m];
-    const double before = base::heapBytes(), start_ms = base::threadCpuTime_ms();
-    model.update(scan.mapped);
-    cost.update_ms = base::threadCpuTime_ms() - start_ms;
-    heap_bytes_[m] += base::heapBytes() - before;
-    cost.heap_bytes = heap_bytes_[m];
-
-    const double asking_ms = base::threadCpuTime_ms();
-    pending.blocked[m] = blockedDirections(
-        [&](const Eigen::Vector3f& point_m) { return model.clearance_m(point_m); }, scan.vehicle_m);
-    cost.queries_ms = base::threadCpuTime_ms() - asking_ms;
-
-    row.obstacles = model.obstacles().centre_m.size();
-    row.bytes = model.bytes();
-    row.blocked = pending.blocked[m].count();
-}
-
-/// The pending scan, before the models are queried.
-PendingScan Walk::pendingScanOf(const LoggedScan& scan) const {
-    const std::size_t models = models_.size();
-    PendingScan pending{std::vector<OpenLoopRow>(models),  std::vector<OpenLoopCost>(models),
-                        std::vector<DirectionSet>(models), scan.mapped.time_s,
-                        LaterScansTruth(scan.vehicle_m),   {}};
-    const auto& labels = scan.mapped.labels;
-    for (std::size_t m = 0; m < models; ++m) {
-        OpenLoopRow& row = pending.rows[m];
-        row.scan = result_.scans;
-        row.entry = scan.entry;
-        row.time_s = scan.mapped.time_s;
-        row.model = open_loop_.models[m];
-        row.returns = labels.size();
-        row.roi = static_cast<std::size_t>(std::count(labels.begin(), labels.end(), Label::Roi));
-        pending.costs[m].filter_ms = scan.filter_ms;
-    }
-    if (!truth_) return pending;
-    pending.truth.emplace();
-    pending.truth->scored.set();
-    pending.truth->blocked = blockedDirections(
-        [this](const Eigen::Vector3f& point_m) { return truth_->clearance_m(point_m); },
-        scan.vehicle_m);
-    return pending;
-}
-
-void Walk::process(const LoggedScan& scan) {
-    if (truth_) truth_->see(scan.mapped);
-    prepareModels(scan);
-    PendingScan pending = pendingScanOf(scan);
-    for (std::size_t m = 0; m < models_.size(); ++m) updateAndQuery(m, scan, pending);
-    result_.returns.push_back(static_cast<double>(pending.rows.front().returns));
-    result_.roi.push_back(static_cast<double>(pending.rows.front().roi));
-    result_.filter_ms.push_back(scan.filter_ms);
-    result_.scans_placed_by_one_pose += scan.is_placed_by_one_pose;
-    ++result_.scans;
-
-    const double now_s = scan.mapped.time_s;
-    if (!kept_.empty() && now_s < kept_.back().time_s - LaterScansTruth::kDuration_s) {
-        // The clock went back, so no later scans will follow.
-        while (!waiting_.empty()) scoreOldest();
-        kept_.clear();
-        persistent_points_ = {};
-    }
-    while (!waiting_.empty() && waiting_.front().time_s + LaterScansTruth::kDuration_s < now_s) {
-        scoreOldest();
-    }
-    if (!truth_) {
-        const SeenRanges ranges(scan.mapped);
-        const auto persistent_m = persistent_points_.of(scan.mapped);
-        for (PendingScan& earlier : waiting_) earlier.later.see(persistent_m, ranges);
-    }
-    waiting_.push_back(std::move(pending));
-    if (truth_) scoreOldest();
-
-    kept_.push_back(scan.mapped);
-    while (kept_.front().time_s + kReplayed_s < now_s) kept_.pop_front();
-}
-
-/// Scores the models on the oldest pending scan and reports its rows.
-void Walk::scoreOldest() {
-    static const DirectionSet level = levelDirections();
-    PendingScan& oldest = waiting_.front();
-    const TrueDirections truth = oldest.truth ? *oldest.truth : oldest.later.directions();
-    for (std::size_t m = 0; m < models_.size(); ++m) {
-        OpenLoopRow& row = oldest.rows[m];
-        const DirectionSet& blocked = oldest.blocked[m];
-        row.truly_blocked = (truth.blocked & truth.scored).count();
-        row.all = countBlocked(blocked, truth.blocked, truth.scored);
-        row.level = countBlocked(blocked, truth.blocked, truth.scored & level);
-
-        OpenLoopModel& model = result_.models[m];
-        model.all += row.all;
-        model.level += row.level;
-        for (std::size_t e = 0; e < kDirectionElevations; ++e) {
-            model.by_elevation[e] +=
-                countBlocked(blocked, truth.blocked, truth.scored & directionsAt(e));
-        }
-        model.obstacles.push_back(static_cast<double>(row.obstacles));
-        model.bytes.push_back(static_cast<double>(row.bytes));
-        model.blocked.push_back(static_cast<double>(row.blocked));
-        const OpenLoopCost& cost = oldest.costs[m];
-        model.update_ms.push_back(cost.update_ms);
-        model.queries_ms.push_back(cost.queries_ms);
-        model.peak_heap_bytes = std::max(model.peak_heap_bytes, cost.heap_bytes);
-        listener_.row(row, cost);
-    }
-    agree(oldest);
-    waiting_.pop_front();
-}
-
-void Walk::agree(const PendingScan& pending) {
-    for (std::size_t a = 0; a < models_.size(); ++a) {
-        for (std::size_t b = 0; b < models_.size(); ++b) {
-            result_.agreement[a][b] += freeAgreement(pending.blocked[a], pending.blocked[b]);
-        }
-    }
-}
-
-OpenLoopResult Walk::finish() {
-    while (!waiting_.empty()) scoreOldest();
-    result_.unreadable_scans = scans_.unreadableScans();
-    result_.why_unreadable = scans_.whyUnreadable();
-    result_.remarks = scans_.remarks();
-    if (result_.scans == 0) {
-        const std::string why = why_ended_.empty() ? scans_.whyUnreadable() : why_ended_;
-        throw std::runtime_error(open_loop_.source.log.string() +
-                                 ": none of its scans could be processed: " + why);
-    }
-    for (auto& line : result_.agreement) {
-        for (double& sum : line) sum /= static_cast<double>(result_.scans);
-    }
-    if (!why_ended_.empty()) throw OpenLoopEnded(why_ended_, std::move(result_));
-    return std::move(result_);
-}
 
 }  // namespace
 

@@ -1,9 +1,7 @@
 #include "avoidance/openloop/OpenLoopFiles.h"
 
-#include <cmath>
 #include <iomanip>
 #include <locale>
-#include <stdexcept>
 #include "base/Json.h"
 #include "base/WriteFile.h"
 #include "evaluation/Latency.h"

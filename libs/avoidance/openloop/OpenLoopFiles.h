@@ -10,16 +10,9 @@
 
 namespace hagen::avoidance {
 
-/// The folder that `octomap-compare openloop` writes:
-///
-///     openloop.csv           one row per model
-///     scans.csv              one row per scan and model
-///     agreement.csv          one row per pair of models
-///     summary.json           openloop.csv, agreement.csv and a description of the log
-///     openloop_measured.csv  one row per model: cost on this machine
-///     scans_measured.csv     one row per scan and model: cost on this machine
-///
-/// Except for the measured values, the files are reproducible. They appear only when complete.
+/// The folder that `octomap-compare openloop` writes (docs/octomap-compare.md): openloop.csv,
+/// scans.csv, agreement.csv and summary.json are reproducible, openloop_measured.csv and
+/// scans_measured.csv are costs on this machine. The files appear only when complete.
 class OpenLoopFiles {
  public:
     /// Throws std::runtime_error naming the path if a file exists and `overwrite` is false, if a

@@ -3,7 +3,6 @@
 #include "base/TextStream.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include "evaluation/Latency.h"
 

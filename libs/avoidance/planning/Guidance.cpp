@@ -1,6 +1,4 @@
 #include <hagen/avoidance/Guidance.h>
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include "avoidance/planning/StraightWay.h"
 

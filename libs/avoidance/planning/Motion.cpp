@@ -1,5 +1,4 @@
 #include "avoidance/planning/Motion.h"
-#include <hagen/avoidance/Planner.h>
 #include <algorithm>
 #include <cmath>
 

@@ -4,7 +4,6 @@
 #include "base/TextStream.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <stdexcept>

@@ -2,7 +2,6 @@
 
 #include <hagen/scan/Angle.h>
 #include <cmath>
-#include <vector>
 #include "avoidance/flights/TrialScore.h"
 
 #include "base/NumberText.h"

@@ -2,7 +2,6 @@
 #include <hagen/avoidance/Course.h>
 #include <hagen/avoidance/Trial.h>
 #include <Eigen/Core>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>

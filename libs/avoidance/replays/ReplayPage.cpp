@@ -1,12 +1,8 @@
 #include <hagen/avoidance/WorldModel.h>
 #include <cctype>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <sstream>
-#include <string>
-#include <string_view>
-#include <vector>
 #include "avoidance/replays/Replay.h"
 #include "avoidance/replays/ReplayTexts.h"
 #include "base/Json.h"

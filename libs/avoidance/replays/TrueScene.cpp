@@ -7,7 +7,7 @@ namespace hagen::avoidance {
 namespace {
 
 /// Draws thin rods thicker: a wire of 24 mm would be narrower than a pixel.
-constexpr float kMinRadius_m = 0.03f;
+constexpr float kMinDrawn_m = 0.03f;
 
 simulation::Shape drawn(const simulation::Shape& shape) {
     constexpr int kSides = 6;
@@ -16,8 +16,8 @@ simulation::Shape drawn(const simulation::Shape& shape) {
     triangles.triangles = shape.triangles;
     for (const std::uint32_t knot : shape.segments) {
         Eigen::Vector4f from = shape.polyline_m[knot], to = shape.polyline_m[knot + 1];
-        from.w() = std::max(from.w(), kMinRadius_m);
-        to.w() = std::max(to.w(), kMinRadius_m);
+        from.w() = std::max(from.w(), kMinDrawn_m);
+        to.w() = std::max(to.w(), kMinDrawn_m);
         triangles.addTube({from, to}, kSides);
     }
     return triangles;

@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "avoidance/world_models/SeenDirections.h"
 #include "avoidance/world_models/Thinning.h"
 
 namespace hagen::avoidance {
@@ -29,7 +28,7 @@ constexpr int kMaxMissed = 10;
 
 // Thresholds of moving obstacles.
 constexpr int kMinSeen = 3;
-constexpr double kMinSpeed_m_s = 0.5, kSigmas = 3, kRemembered_s = 0.6;
+constexpr double kMinTracked_m_s = 0.5, kSigmas = 3, kRemembered_s = 0.6;
 constexpr std::size_t kCompared = 50;  // points compared per sighting
 constexpr float kFarFit_m = 0.5f;      // upper limit of distances
 constexpr double kBetterFit = 0.8;
@@ -238,7 +237,7 @@ bool crossesFreeSpace(const ObstacleTrack& track, const Views& views) {
 
 bool isFastEnough(const ObstacleTrack& track) {
     const double speed_m_s = track.velocity_m_s.norm();
-    return track.seen_scans >= kMinSeen && speed_m_s > kMinSpeed_m_s &&
+    return track.seen_scans >= kMinSeen && speed_m_s > kMinTracked_m_s &&
            speed_m_s > kSigmas * track.velocitySigma_m_s();
 }
 

@@ -36,12 +36,11 @@ struct ObstacleTrack {
 /// An obstacle is fast if seen in at least three scans, and faster than 0.5 m/s and three standard
 /// deviations of its speed. A fast obstacle is first classified as moving if
 /// - its points of up to 0.6 s ago, moved with its velocity, fit its current points clearly better
-///   than unmoved (the visible part of a static obstacle changes as the vehicle passes, which moves
-///   its centre, but not its points), and
+///   than unmoved (the visible part of a static obstacle changes, but not its points), and
 /// - it crosses free space: the scan of up to 0.6 s ago saw farther at a tenth of its points, or
-///   the current scan does so at its former points. The visible part of a static obstacle does not.
-///   Parts of a wire seem to move along it, so obstacles less than 15 cm high need both scans.
-/// Afterwards, it is moving whenever it is fast, because its visible part also changes nearby.
+///   the current scan does so at its former points. Parts of a wire seem to move along it, so
+///   obstacles less than 15 cm high need both scans.
+/// Afterwards, it is moving whenever it is fast.
 ///
 /// A track not seen for ten scans ends. Obstacles wider than 6 m, with fewer than three points, or
 /// with a point that is too far away are not tracked.

@@ -1,7 +1,6 @@
 #include "avoidance/world_models/RollingBox.h"
 
 #include <hagen/avoidance/WorldModel.h>
-#include <algorithm>
 #include <cmath>
 
 namespace hagen::avoidance {

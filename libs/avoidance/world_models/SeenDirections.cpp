@@ -1,7 +1,6 @@
 #include "avoidance/world_models/SeenDirections.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hagen::avoidance {
 

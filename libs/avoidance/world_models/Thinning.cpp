@@ -1,7 +1,6 @@
 #include "avoidance/world_models/Thinning.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace hagen::avoidance {
 namespace {

@@ -29,7 +29,7 @@ struct Column {
     std::uint64_t blocks;  ///< mask of its blocks in the box and within reach
 };
 constexpr int kMaxColumns = 16;
-struct Columns {
+struct BitColumns {
     std::array<Column, kMaxColumns> of;
     int count = 0;
 };
@@ -48,8 +48,8 @@ std::uint64_t maskOf(int axis, unsigned four) {
 
 int floorDiv(int value, int by) { return value >= 0 ? value / by : -((by - 1 - value) / by); }
 
-Columns columnsNear(const RollingBox& box, int axis, float at, float reach) {
-    Columns columns;
+BitColumns columnsNear(const RollingBox& box, int axis, float at, float reach) {
+    BitColumns columns;
     const int size = box.size()[axis], min = box.min()[axis];
     const int low = std::max(0, static_cast<int>(std::floor(at - reach)));
     const int high = std::min(size - 1, static_cast<int>(std::floor(at + reach)));
@@ -125,8 +125,9 @@ float VoxelSet::distance_m(const RollingBox& box, const Eigen::Vector3f& point_m
     const Eigen::Array3f at = box.inVoxels(point_m);
     const float reach = limit_m / box.edge_m();
     if ((at + reach < 0).any() || (at - reach >= box.size().cast<float>()).any()) return limit_m;
-    const Columns xs = columnsNear(box, 0, at.x(), reach), ys = columnsNear(box, 1, at.y(), reach),
-                  zs = columnsNear(box, 2, at.z(), reach);
+    const BitColumns xs = columnsNear(box, 0, at.x(), reach),
+                     ys = columnsNear(box, 1, at.y(), reach),
+                     zs = columnsNear(box, 2, at.z(), reach);
     const float most2 = reach * reach;
     float best2 = most2;
     for (int k = 0; k < zs.count; ++k) {

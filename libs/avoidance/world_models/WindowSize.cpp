@@ -1,6 +1,5 @@
 #include <hagen/avoidance/WindowSize.h>
 #include <hagen/avoidance/WorldModel.h>
-#include <algorithm>
 #include <cmath>
 
 #include "avoidance/planning/Motion.h"

@@ -1,15 +1,10 @@
 #include <hagen/avoidance/WorldModel.h>
 #include "avoidance/world_models/UnbiasedModel.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include "base/Text.h"
 
-#include "avoidance/world_models/DepthImageModel.h"
-#include "avoidance/world_models/GridModel.h"
-#include "avoidance/world_models/ModelsWithMotion.h"
-#include "avoidance/world_models/OctoMapModel.h"
-#include "avoidance/world_models/RollingGridModel.h"
+#include "avoidance/world_models/Maps.h"
 #include "avoidance/world_models/WindowModel.h"
 
 namespace hagen::avoidance {
@@ -63,31 +58,36 @@ struct Entry {
     enum { StandsStill, OwnMotion, MoversOverMap } motion = StandsStill;
 };
 
-template <class Window, bool kRoiOnly>
+template <bool kRoiOnly>
 std::unique_ptr<WorldModel> makeWindow(const WorldModelSetting& setting) {
-    return std::make_unique<Window>(kRoiOnly, windowSizeFor(setting.pace));
+    return std::make_unique<WindowModel>(kRoiOnly, windowSizeFor(setting.pace));
+}
+
+template <bool kRoiOnly>
+std::unique_ptr<WorldModel> makeMovingWindow(const WorldModelSetting& setting) {
+    return makeWindowWithMotion(kRoiOnly, windowSizeFor(setting.pace));
 }
 
 template <observations::MapContent kContent, int kResolution_cm>
-std::unique_ptr<WorldModel> makeOctoMap(const WorldModelSetting& setting) {
+std::unique_ptr<WorldModel> makeOctoMapOf(const WorldModelSetting& setting) {
     observations::ScanMapOptions options;
     options.content = kContent;
     options.resolution_m = kResolution_cm / 100.0;
     options.max_range_m = static_cast<double>(perceptionRangeFor_m(setting.pace));
-    return std::make_unique<OctoMapModel>(options, setting.bounds_m);
+    return makeOctoMap(options, setting.bounds_m);
 }
 
 std::unique_ptr<WorldModel> makeGrid(const WorldModelSetting& setting) {
-    return std::make_unique<GridModel>(0.2f, setting.bounds_m, perceptionRangeFor_m(setting.pace));
+    return makeGridModel(0.2f, setting.bounds_m, perceptionRangeFor_m(setting.pace));
 }
 
 template <int kEdge_cm>
 std::unique_ptr<WorldModel> makeRollingGrid(const WorldModelSetting& setting) {
-    return std::make_unique<RollingGridModel>(kEdge_cm / 100.0f, setting.pace);
+    return makeRollingGridModel(kEdge_cm / 100.0f, setting.pace);
 }
 
 std::unique_ptr<WorldModel> makeDepthImageMap(const WorldModelSetting& setting) {
-    return std::make_unique<DepthImageModel>(0.2f, setting.pace);
+    return makeDepthImageModel(0.2f, setting.pace);
 }
 
 template <class Oracle>
@@ -97,24 +97,24 @@ std::unique_ptr<WorldModel> makeOracle(const WorldModelSetting& setting) {
 
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> entries = {
-        {"W-RoI", "RoI window", Entry::Labels, makeWindow<WindowModel, true>, -0.009f},
-        {"W-RoI+motion", "RoI window with motion", Entry::Labels,
-         makeWindow<WindowWithMotion, true>, -0.009f, Entry::OwnMotion},
-        {"W-Full", "full window", Entry::AllPoints, makeWindow<WindowModel, false>, -0.009f},
-        {"W-Full+motion", "full window with motion", Entry::Labels,
-         makeWindow<WindowWithMotion, false>, -0.009f, Entry::OwnMotion},
+        {"W-RoI", "RoI window", Entry::Labels, makeWindow<true>, -0.009f},
+        {"W-RoI+motion", "RoI window with motion", Entry::Labels, makeMovingWindow<true>, -0.009f,
+         Entry::OwnMotion},
+        {"W-Full", "full window", Entry::AllPoints, makeWindow<false>, -0.009f},
+        {"W-Full+motion", "full window with motion", Entry::Labels, makeMovingWindow<false>,
+         -0.009f, Entry::OwnMotion},
         {"O-Full-0.2", "OctoMap 0.2 m", Entry::AllPoints,
-         makeOctoMap<observations::MapContent::Full, 20>, -0.150f},
+         makeOctoMapOf<observations::MapContent::Full, 20>, -0.150f},
         {"O-Full-0.4", "OctoMap 0.4 m", Entry::AllPoints,
-         makeOctoMap<observations::MapContent::Full, 40>, -0.272f},
+         makeOctoMapOf<observations::MapContent::Full, 40>, -0.272f},
         {"O-RoI-0.2", "RoI OctoMap 0.2 m", Entry::Labels,
-         makeOctoMap<observations::MapContent::Roi, 20>, -0.152f},
+         makeOctoMapOf<observations::MapContent::Roi, 20>, -0.152f},
         {"O-RoI-0.4", "RoI OctoMap 0.4 m", Entry::Labels,
-         makeOctoMap<observations::MapContent::Roi, 40>, -0.273f},
+         makeOctoMapOf<observations::MapContent::Roi, 40>, -0.273f},
         {"O-RoI+rays-0.2", "RoI OctoMap with all rays 0.2 m", Entry::Labels,
-         makeOctoMap<observations::MapContent::RoiAndRays, 20>, -0.150f},
+         makeOctoMapOf<observations::MapContent::RoiAndRays, 20>, -0.150f},
         {"O-RoI+rays-0.4", "RoI OctoMap with all rays 0.4 m", Entry::Labels,
-         makeOctoMap<observations::MapContent::RoiAndRays, 40>, -0.272f},
+         makeOctoMapOf<observations::MapContent::RoiAndRays, 40>, -0.272f},
         {"G-Full", "occupancy grid 0.2 m", Entry::AllPoints, makeGrid, -0.139f},
         {"G-Full+motion", "occupancy grid 0.2 m with motion", Entry::Labels, makeGrid, -0.139f,
          Entry::MoversOverMap},
@@ -184,11 +184,6 @@ bool predictsMotion(const std::string& model) {
     return entry != nullptr && entry->motion != Entry::StandsStill;
 }
 
-std::unique_ptr<WorldModel> makeOctoMap(const observations::ScanMapOptions& options,
-                                        const Eigen::AlignedBox3f& bounds_m) {
-    return std::make_unique<OctoMapModel>(options, bounds_m);
-}
-
 std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
                                            const WorldModelSetting& setting) {
     const Entry& entry = entryOf(name);
@@ -198,8 +193,7 @@ std::unique_ptr<WorldModel> makeWorldModel(const std::string& name,
     }
     if (entry.motion == Entry::MoversOverMap) {
         // Movers are points without voxel bias.
-        return std::make_unique<MapWithMotion>(std::move(model),
-                                               windowSizeFor(setting.pace).radius_m);
+        return makeMapWithMotion(std::move(model), windowSizeFor(setting.pace).radius_m);
     }
     return model;
 }

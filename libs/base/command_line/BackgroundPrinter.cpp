@@ -7,7 +7,6 @@
 #include <iostream>
 #include <mutex>
 #include <thread>
-#include <utility>
 
 namespace hagen::base {
 

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -10,7 +9,6 @@
 #include <limits>
 #include <new>
 #include <sstream>
-#include <string_view>
 #include <type_traits>
 
 #include <hagen/base/OutputPath.h>

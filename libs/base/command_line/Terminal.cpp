@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <iostream>
 #include <streambuf>
-#include <string>
-#include <string_view>
 #include "base/Text.h"
 
 namespace hagen::base {

@@ -6,12 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
-#include <string_view>
 #include "base/ProcessCost.h"
 
 namespace hagen::convert {

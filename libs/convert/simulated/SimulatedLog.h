@@ -33,11 +33,8 @@ struct SimulationReport {
 ///   CObservationRobotPose `pose` of the vehicle at least every 50 ms during scans. The sensor is
 ///   at the vehicle's origin; its mount is in sensorPose. Scans without rings are
 ///   CObservationPointCloud (CPointsMapXYZI, without point times),
-/// - a scan folder with ground truth (GroundTruthFolder.h), with the returns as decoded from the
-///   packets if the sensor has a packet format. Poses are the sensor's; its mount is in
-///   sensor.yaml,
-/// - the vehicle's poses as a TUM file,
-/// - the packets as a network capture, for sensors with a packet format.
+/// - a scan folder with ground truth, with the returns as decoded from the packets, if any,
+/// - the vehicle's poses as a TUM file, and the packets, if any, as a network capture.
 ///
 /// The same seed produces the same bytes. Throws std::invalid_argument for an unknown scenario or
 /// sensor, and std::runtime_error if a file cannot be written or if `keep_going` returns false: the

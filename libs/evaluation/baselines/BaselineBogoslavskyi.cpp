@@ -2,7 +2,6 @@
 #include <hagen/scan/Angle.h>
 #include <hagen/scan/RangeImage.h>
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>

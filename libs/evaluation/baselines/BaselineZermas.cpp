@@ -1,7 +1,6 @@
 #include "evaluation/baselines/BaselineZermas.h"
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>

@@ -10,13 +10,9 @@ namespace hagen::evaluation {
 /// A folder of these charts (by_*.svg, sweep_*.svg).
 extern const base::OutputKind kCharts;
 
-/// Draws SVG charts of scores over returns, with confidence intervals, into an existing folder:
-///
-///     by_range.svg, by_altitude.svg   F1 of RoI and ROU, one line per method (up to seven)
-///     by_kind.svg                     recall of each object class
-///     sweep_KEY.svg                   F1 of RoI and ROU over the values of a sweep
-///
-/// Charts without data are skipped. Throws std::runtime_error like Drawing::draw().
+/// Draws SVG charts of scores over returns (docs/evaluation.md), with confidence intervals and up
+/// to seven methods, into an existing folder. Charts without data are skipped. Throws
+/// std::runtime_error like Drawing::draw().
 void drawCharts(const std::filesystem::path& folder, const Summary& summary);
 
 }  // namespace hagen::evaluation

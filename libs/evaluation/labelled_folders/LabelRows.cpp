@@ -3,7 +3,6 @@
 
 #include <hagen/settings/Settings.h>
 #include <algorithm>
-#include <stdexcept>
 #include "base/Folder.h"
 
 namespace hagen::evaluation {

@@ -5,9 +5,6 @@
 #include <hagen/recordings/ScanFolder.h>
 #include <hagen/recordings/ScanSource.h>
 #include <algorithm>
-#include <memory>
-#include <set>
-#include <stdexcept>
 #include "base/Folder.h"
 
 namespace hagen::evaluation {

@@ -9,7 +9,6 @@
 #endif
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace hagen::evaluation {
 namespace {

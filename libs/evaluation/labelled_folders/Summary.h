@@ -1,7 +1,6 @@
 // The results of an evaluation, summed for the tables, the JSON file and the charts.
 #pragma once
 #include <hagen/evaluation/Evaluation.h>
-#include <filesystem>
 #include <string>
 #include <vector>
 #include "evaluation/Breakdown.h"

@@ -7,7 +7,6 @@
 #include <pcl/search/kdtree.h>
 #include <pcl/segmentation/extract_clusters.h>
 #include <pcl/segmentation/sac_segmentation.h>
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -1,7 +1,6 @@
 #include "live/mavlink/Parser.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "live/mavlink/Wire.h"
 

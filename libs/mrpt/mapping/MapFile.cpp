@@ -7,9 +7,6 @@
 #include "mrpt/MrptScene.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <stdexcept>
 
 namespace hagen::observations {
 

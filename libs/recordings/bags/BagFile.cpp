@@ -1,8 +1,6 @@
 #include "recordings/bags/BagFile.h"
 #include "base/ReadFile.h"
 
-#include <fstream>
-
 #include "recordings/bags/BagFormats.h"
 
 namespace hagen::recordings {

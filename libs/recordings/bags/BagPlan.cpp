@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <set>
-#include <stdexcept>
 
 #include "recordings/bags/PoseSeries.h"
 #include "recordings/bags/TopicList.h"

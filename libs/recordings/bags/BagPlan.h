@@ -46,22 +46,16 @@ struct BagPlan {
     std::vector<std::string> remarks;  ///< topics that are not read, and why
 };
 
-/// Plans what to read.
+/// Plans what to read; docs/rawlog-segment.md describes the choice of topics, poses and frames.
+/// Labels are topics without leading slash, with '_' instead of '/'.
 ///
-/// Without BagOptions::topics, reads every LiDAR topic except clouds of a sensor that also sent
-/// packets, and clouds in a frame that does not move with the vehicle. Labels are topics without
-/// leading slash, with '_' instead of '/'.
-///
-/// Poses come from the odometry topic with the most poses, else from the pose topic with the most
-/// poses, else from the transforms that move the frame to which the LiDAR is attached. Constant
-/// transforms on that path are treated as static; they provide poses only if nothing moves.
-/// Consecutive moving transforms are composed, up to a world frame (map, odom, world, earth, or a
-/// frame without parent), as are odometry and the transforms that move the LiDAR relative to its
-/// frame. Series with poses more than 0.5 s apart on average are used last.
+/// Constant transforms on the path to the LiDAR are treated as static; they provide poses only if
+/// nothing moves. Consecutive moving transforms are composed, as are odometry and the transforms
+/// that move the LiDAR relative to its frame. Series with poses more than 0.5 s apart on average
+/// are used last.
 ///
 /// The vehicle frame is the child frame of the poses. If they have no child frame, it is base_link
-/// or base_footprint or, without poses, the root of a sensor's frame. If a sensor has no transform
-/// to that frame, the poses are used as sensor poses, with a remark.
+/// or base_footprint or, without poses, the root of a sensor's frame.
 ///
 /// Throws std::runtime_error naming the file if a requested topic is missing or is not a LiDAR
 /// topic, if the bag has no LiDAR topic, or if Ouster metadata are missing or invalid. `survey`

@@ -13,9 +13,7 @@
 #endif
 
 #include <algorithm>
-#include <deque>
 #include <iterator>
-#include <optional>
 #include <set>
 
 #include "recordings/bags/Messages.h"

@@ -4,8 +4,6 @@
 #include "recordings/Remarks.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "recordings/bags/Messages.h"
 #include "recordings/bags/PoseSeries.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
-#include <utility>
 
 #include "mrpt/NumberTypes.h"
 #include "recordings/bags/Unpack.h"

@@ -5,8 +5,6 @@
 #include "recordings/Remarks.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <optional>
 
 namespace hagen::recordings {
 namespace {

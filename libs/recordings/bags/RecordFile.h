@@ -3,7 +3,6 @@
 
 #include <map>
 #include <string>
-#include <utility>
 
 #include "recordings/bags/FieldReader.h"
 #include "recordings/bags/FileBytes.h"

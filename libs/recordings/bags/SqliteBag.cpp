@@ -1,9 +1,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <map>
 #include <string_view>
-#include <utility>
 
 #include "recordings/bags/BagFormats.h"
 #include "recordings/bags/TopicList.h"

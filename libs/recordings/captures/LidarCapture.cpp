@@ -3,7 +3,6 @@
 #include "recordings/Remarks.h"
 #include "sensors/LidarFamily.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #include <hagen/mrpt/PointTable.h>
 #include "recordings/clouds/CloudFile.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -2,10 +2,8 @@
 #include <hagen/mrpt/PointTable.h>
 #include <hagen/recordings/BrokenRecording.h>
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 

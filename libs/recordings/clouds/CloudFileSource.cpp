@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <new>
 #include <set>
-#include <stdexcept>
 
 #include "recordings/CloudTimes.h"
 #include "recordings/FileListSource.h"

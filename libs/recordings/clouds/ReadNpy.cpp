@@ -10,7 +10,6 @@ namespace hagen::recordings {
 namespace {
 
 using observations::NumberType;
-using observations::PointField;
 
 constexpr std::size_t kMaxNpyHeader = 1 << 20, kMaxColumns = 32;
 constexpr const char* kTransposeAdvice =

@@ -11,7 +11,6 @@ namespace hagen::recordings {
 namespace {
 
 using observations::NumberType;
-using observations::PointField;
 using observations::PointTable;
 
 struct PlyProperty {

@@ -3,11 +3,8 @@
 #include <hagen/scan/MostReturns.h>
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <fstream>
 #include <new>
 #include <set>
-#include <stdexcept>
 #include "recordings/NumberTable.h"
 
 #include "base/Folder.h"

@@ -5,7 +5,6 @@
 #include "base/FileKind.h"
 
 #include <new>
-#include <string>
 
 namespace hagen::recordings {
 namespace {

@@ -2,7 +2,6 @@
 #include <unistd.h>
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 
 namespace hagen::recordings {
 namespace {

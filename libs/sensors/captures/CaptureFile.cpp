@@ -5,14 +5,95 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <bitset>
+#include <list>
 
-#include "sensors/captures/Fragments.h"
 #include "sensors/captures/FrameFile.h"
 #include "sensors/captures/IpFrames.h"
 #include "sensors/livox/Lvx2File.h"
 
 namespace hagen::sensors {
+namespace {
+
+/// Reassembles datagrams from IP fragments in arbitrary order. Keeps a limited number of incomplete
+/// datagrams and evicts the oldest.
+class Fragments {
+ public:
+    /// Adds a fragment. If it completes a datagram, returns the content, which is valid until the
+    /// next call; otherwise returns nothing.
+    Bytes add(const IpPacket& fragment) {
+        constexpr std::size_t kMaxBytes = 65535;
+        const std::size_t end = fragment.offset + fragment.content.size;
+        const bool is_whole_units = !fragment.has_more || fragment.content.size % kUnit == 0;
+        if (end > kMaxBytes || fragment.content.size == 0 || !is_whole_units) {
+            ++lost_;
+            return {};
+        }
+        const auto at = find(fragment);
+        Open& open = *at;
+        ++open.fragments;
+        if (open.bytes.size() < end) open.bytes.resize(end);
+        std::copy_n(fragment.content.data, fragment.content.size,
+                    open.bytes.begin() + fragment.offset);
+        for (std::size_t byte = fragment.offset; byte < end; byte += kUnit) {
+            open.has_unit.set(byte / kUnit);
+        }
+        if (!fragment.has_more) open.size = end;
+        if (!isComplete(open)) return {};
+        complete_ = std::move(open.bytes);
+        complete_.resize(open.size);
+        open_.erase(at);
+        return {complete_.data(), complete_.size()};
+    }
+
+    /// Number of invalid or evicted fragments. giveUpAll() adds those of incomplete datagrams.
+    std::size_t lost() const { return lost_; }
+    void giveUpAll() {
+        for (const Open& open : open_) lost_ += open.fragments;
+        open_.clear();
+    }
+
+ private:
+    static constexpr std::size_t kMaxOpen = 16;
+    static constexpr std::size_t kUnit = 8;  ///< unit of fragment offsets, bytes
+    struct Open {
+        IpAddress from_ip, to_ip;
+        std::uint32_t id;
+        std::vector<std::uint8_t> bytes;
+        std::bitset<65536 / kUnit> has_unit;
+        std::size_t size = 0;  ///< size of the datagram; 0 until its last fragment arrives
+        std::size_t fragments = 0;
+    };
+    std::list<Open>::iterator find(const IpPacket& fragment) {
+        const auto found = std::find_if(open_.begin(), open_.end(), [&](const Open& open) {
+            return open.id == fragment.id && open.from_ip == fragment.from_ip &&
+                   open.to_ip == fragment.to_ip;
+        });
+        if (found != open_.end()) return found;
+        if (open_.size() == kMaxOpen) {
+            lost_ += open_.front().fragments;
+            open_.pop_front();
+        }
+        Open& open = open_.emplace_back();
+        open.from_ip = fragment.from_ip;
+        open.to_ip = fragment.to_ip;
+        open.id = fragment.id;
+        return std::prev(open_.end());
+    }
+    static bool isComplete(const Open& open) {
+        if (open.size == 0) return false;
+        for (std::size_t unit = 0; unit * kUnit < open.size; ++unit) {
+            if (!open.has_unit[unit]) return false;
+        }
+        return true;
+    }
+
+    std::list<Open> open_;  ///< oldest first
+    std::vector<std::uint8_t> complete_;
+    std::size_t lost_ = 0;
+};
+
+}  // namespace
 
 std::string ipText(const IpAddress& ip) {
     in6_addr address{};

@@ -2,7 +2,6 @@
 #include "base/WriteFile.h"
 #include "sensors/captures/IpFrames.h"
 
-#include <cerrno>
 #include <system_error>
 
 namespace hagen::sensors {

@@ -1,7 +1,6 @@
 #pragma once
 #include <hagen/sensors/CaptureFile.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>

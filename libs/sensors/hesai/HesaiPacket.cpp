@@ -3,8 +3,6 @@
 #include <hagen/scan/Angle.h>
 #include <hagen/sensors/VelodynePacket.h>
 
-#include <cmath>
-#include <cstddef>
 #include <ctime>
 
 #include "sensors/LittleEndian.h"

@@ -1,10 +1,5 @@
 #include <hagen/sensors/LidarDriver.h>
 
-#include <cstddef>
-#include <cstdint>
-#include <utility>
-#include <vector>
-
 #include "sensors/PacketSequence.h"
 #include "sensors/livox/LivoxPacket.h"
 

@@ -1,7 +1,6 @@
 #include "sensors/ouster/OusterColumns.h"
 
 #include <cmath>
-#include <cstddef>
 
 #include "sensors/LittleEndian.h"
 

@@ -6,11 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <iterator>
-#include <vector>
 
 namespace hagen::sensors {
 namespace {

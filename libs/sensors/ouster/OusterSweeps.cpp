@@ -2,12 +2,7 @@
 #include "sensors/ouster/OusterFrames.h"
 #include "sensors/ouster/OusterScan.h"
 
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace hagen::sensors {
 namespace {

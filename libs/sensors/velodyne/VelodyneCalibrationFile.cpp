@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
-#include <string>
 
 namespace hagen::sensors {
 namespace {

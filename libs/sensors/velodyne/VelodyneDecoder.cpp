@@ -7,9 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "sensors/LittleEndian.h"
 #include "sensors/velodyne/VelodyneReturns.h"

@@ -8,12 +8,9 @@
 #include "sensors/velodyne/AzimuthView.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "sensors/RecentPackets.h"
 

@@ -4,15 +4,10 @@
 #include "sensors/velodyne/VelodyneTurns.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
 #include <iterator>
 #include <map>
 #include <optional>
-#include <string>
 #include <tuple>
-#include <vector>
 
 #include "sensors/SensorTable.h"
 

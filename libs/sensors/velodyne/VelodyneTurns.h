@@ -7,7 +7,6 @@
 #include "sensors/velodyne/AzimuthView.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>

@@ -68,27 +68,8 @@ struct WorldModelSetting {
     ModelDistance distance = ModelDistance::Unbiased;
 };
 
-/// Names of all world models. Flags, files and hashes use the first column, people the second
-/// (displayName()):
-///
-///     W-RoI           RoI window: RoI points of the last scans, one per 10 cm cube
-///                     (windowSizeFor())
-///     W-RoI+motion    RoI window with motion: W-RoI with predicted positions of moving
-///                     obstacles (ObstacleTracks); likewise W-Full+motion, G-Full+motion and
-///                     R-Full-0.2+motion
-///     W-Full          full window: the same with all points
-///     O-Full-0.2      OctoMap 0.2 m: all points
-///     O-Full-0.4      OctoMap 0.4 m
-///     O-RoI-0.2       RoI OctoMap 0.2 m: only RoI points
-///     O-RoI-0.4       RoI OctoMap 0.4 m
-///     O-RoI+rays-0.2  RoI OctoMap with all rays 0.2 m: RoI points are hits, all rays clear
-///     O-RoI+rays-0.4  RoI OctoMap with all rays 0.4 m
-///     G-Full          occupancy grid 0.2 m: MRPT's COccupancyGridMap3D of all points
-///     R-Full-0.1      rolling grid 0.1 m: all points, in a box around the vehicle
-///     R-Full-0.2      rolling grid 0.2 m
-///     D-Full          depth-image map 0.2 m: the same box, updated from a depth image
-///     oracle          true scene at the time of the last scan
-///     oracle+motion   true scene with future motion
+/// Names of all world models, such as "W-RoI", for flags, files and hashes; people read
+/// displayName(), such as "RoI window". docs/octomap-compare.md describes each.
 const std::vector<std::string>& worldModelNames();
 
 /// The display name of a model, such as "RoI window" for W-RoI. Names that are not in

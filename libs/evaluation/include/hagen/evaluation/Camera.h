@@ -17,20 +17,8 @@ struct PinholeCamera {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
 };
 
-/// Reads a camera file:
-///
-///     width: 640                 # [px]
-///     height: 480
-///     fx: 320                    # [px]
-///     fy: 320
-///     cx: 319.5                  # [px]
-///     cy: 239.5
-///     position_m: [0, 0, 0]      # in the sensor's frame: forward, left, up
-///     yaw_deg: 0                 # to the left; then
-///     pitch_deg: 0               # down; then
-///     roll_deg: 0                # to the right
-///
-/// Every key is required. Throws std::runtime_error; the message names file and key.
+/// Reads a camera file, such as config/camera_forward.yaml. Every key is required. Throws
+/// std::runtime_error; the message names file and key.
 PinholeCamera readCamera(const std::filesystem::path& file);
 
 /// A pixel and the return visible in it.

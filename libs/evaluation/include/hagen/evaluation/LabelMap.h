@@ -18,11 +18,7 @@ struct SemanticClass {
 using LabelMap = std::map<std::uint16_t, SemanticClass>;
 
 /// Reads a label map, the format of `--label-map` and of a scan folder's kinds.yaml: YAML, one line
-/// per class, label 0 (ignored), 1 (ROU) or 2 (RoI):
-///
-///     70: {name: vegetation, label: 2}
-///     72: {name: terrain, label: 1}
-///
+/// per class, such as `72: {name: terrain, label: 1}`; label 0 (ignored), 1 (ROU) or 2 (RoI).
 /// Throws std::runtime_error; the message names file, line and error.
 LabelMap readLabelMap(const std::filesystem::path& file);
 

@@ -1,8 +1,6 @@
 #pragma once
 #include <mrpt/core/Clock.h>
 
-#include <cmath>
-
 namespace hagen::observations {
 
 /// Plausible times: from 1601, the start of MRPT's clock, to the year 5138. Differences of other

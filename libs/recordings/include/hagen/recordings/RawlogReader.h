@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include <memory>
-#include <stdexcept>
 
 namespace hagen::recordings {
 

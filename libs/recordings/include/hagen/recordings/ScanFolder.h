@@ -5,7 +5,6 @@
 #include <hagen/scan/Scan.h>
 #include <cstdint>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,25 +13,9 @@ namespace hagen::recordings {
 /// Scan folders, and folders of scan folders, as outputs.
 extern const base::OutputKind kScanFolders;
 
-/// A folder of scans in the KITTI layout:
-///
-///     velodyne/NNNNNN.bin    float32 x, y, z [m], intensity [0..1] per point
-///     labels/NNNNNN.label    uint32 per point, same order: low 16 bits the label (0 unclassified,
-///                            1 ROU, 2 RoI), high 16 bits the RoI component (0: none)
-///     labels/made_by.txt     optional: the program whose predictions the labels are; otherwise
-///                            they are ground truth
-///     semantic/NNNNNN.label  optional: uint32 per point, low 16 bits the object class
-///     kinds.yaml             optional: names of these classes; see evaluation/LabelMap.h
-///     altitudes.txt          optional: sensor height above ground [m], one line per scan
-///     times.txt              optional: time [s], one line per scan
-///     poses.tum              optional: sensor poses in the map, with the clock of times.txt
-///     poses.txt              optional: sensor pose per scan, relative to the first scan; if there
-///                            is a calib.txt, camera poses as in the KITTI odometry benchmark
-///     sensor.yaml            optional: beams of this recording, and the sensor's mount on the
-///                            vehicle
-///
-/// All numbers are little-endian. Poses are sensor poses, which include the mount. Functions throw
-/// std::runtime_error naming the file.
+/// A folder of scans in the KITTI layout; docs/evaluation.md lists its files. All numbers are
+/// little-endian. Poses are sensor poses, which include the mount; poses.tum has the clock of
+/// times.txt. Functions throw std::runtime_error naming the file.
 class ScanFolder {
  public:
     static constexpr const char* kMadeBy = "labels/made_by.txt";

@@ -2,13 +2,10 @@
 #include <hagen/sensors/Datagram.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace hagen::sensors {
 

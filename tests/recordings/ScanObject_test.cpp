@@ -1,11 +1,10 @@
-#include "recordings/RecordedObject.h"
+#include "recordings/ScanObject.h"
 #include <gtest/gtest.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <new>
 
@@ -27,7 +26,7 @@ CObservationPointCloud::Ptr cloudOf(std::size_t points) {
     return cloud;
 }
 
-TEST(RecordedObject, CopiesPointsToSimpleCloud) {
+TEST(ScanObject, CopiesPointsToSimpleCloud) {
     const auto cloud = cloudOf(3);
     const auto object = objectOf(cloud, CloudClass::Simple);
     const auto simple = std::dynamic_pointer_cast<CObservationPointCloud>(object);
@@ -45,7 +44,7 @@ TEST(RecordedObject, CopiesPointsToSimpleCloud) {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they reserve all memory
 /// Without memory, MRPT's clouds would crash.
-TEST(RecordedObjectDeathTest, ThrowsWithoutMemory) {
+TEST(ScanObjectDeathTest, ThrowsWithoutMemory) {
     const auto cloud = cloudOf(1 << 20);
     const auto copyWithLittleMemory = [&] {
         std::size_t pages = 0;
