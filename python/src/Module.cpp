@@ -270,8 +270,8 @@ of many scans, copy them: result.labels.copy().)")
 1 ROU (ground, far returns), 2 RoI (a near obstacle).)")
         .def_property_readonly(
             "xyz", [](const Segmented& segmented) { return xyzOf(segmented); },
-            R"((N, 3) float32: the labelled returns [m]: the scan or, with label_window, all scans of
-the window, newest first, in the frame of the newest.)")
+            R"((N, 3) float32: the labelled returns [m]: the scan or, with label_window, all
+scans of the window, newest first, in the frame of the newest.)")
         .def_property_readonly(
             "obstacles",
             [](const py::object& self) {

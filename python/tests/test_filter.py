@@ -335,6 +335,27 @@ def test_rejects_wrong_attitudes(attitude):
         hagen.Filter("vlp16").segment(np.zeros((5, 3)), attitude=attitude)
 
 
+@pytest.mark.parametrize("pose", [1.0, np.eye(3), "map", np.full((4, 4), np.nan)])
+def test_rejects_wrong_poses(pose):
+    with pytest.raises(ValueError, match="pose"):
+        hagen.Filter("vlp16").segment(np.zeros((5, 3)), pose=pose)
+
+
+def test_window_labels_older_scans():
+    points, is_pillar = ground_and_pillar()
+    segmenter = hagen.Filter("vlp16", window_scans=2, label_window=True)
+    assert len(segmenter.segment(points, pose=np.eye(4))) == len(points)
+    moved = np.eye(4)
+    moved[0, 3] = 1
+    result = segmenter.segment(points, pose=moved)
+    np.testing.assert_allclose(result.xyz[:len(points)], points)
+    np.testing.assert_allclose(result.xyz[len(points):], points - [1, 0, 0], atol=1e-4)
+    assert np.mean(result.labels[len(points):][is_pillar] == hagen.ROI) > 0.9
+    newest = hagen.Filter("vlp16", window_scans=2)
+    newest.segment(points, pose=np.eye(4))
+    assert len(newest.segment(points, pose=moved)) == len(points)
+
+
 def test_accepts_full_turn():
     points, _ = ground_and_pillar()
     segmenter = hagen.Filter("vlp16")

@@ -298,8 +298,10 @@ TEST(Conversion, CloudLabelsDoNotDependOnThreads) {
     RawlogWriter writer(folder / "in.rawlog", true);
     for (const auto& entry : clouds) writer.write(*entry);
     writer.commit();
+    int window_scans = 1;
     const auto converted = [&](std::size_t jobs, std::size_t from, std::size_t to) {
         Conversion conversion;
+        conversion.settings.options.window_scans = window_scans;
         conversion.input = folder / "in.rawlog";
         conversion.rawlog = folder / "out.rawlog";
         conversion.overwrite = true;
@@ -317,6 +319,8 @@ TEST(Conversion, CloudLabelsDoNotDependOnThreads) {
     // Labels do not depend on the converted range either.
     EXPECT_EQ(converted(2, 0, 0).second.front().roi, alone.second.front().roi);
     EXPECT_EQ(converted(2, 6, 11).second.back().roi, alone.second.back().roi);
+    window_scans = 3;  // in order, whatever the number of threads
+    EXPECT_EQ(converted(4, 0, 11).first, converted(1, 0, 11).first);
 }
 
 TEST_P(ConversionTest, KeepsPosesFromScanFolder) {

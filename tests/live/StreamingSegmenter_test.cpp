@@ -126,6 +126,36 @@ TEST_F(StreamingSegmenterTest, StaticSensorMatchesWholeScan) {
     EXPECT_EQ(missed, 0u);
 }
 
+// An obstacle of the previous turn is gone. As in the paper, the closest return counts; or the
+// newest turn decides the pixels that it sees.
+TEST_F(StreamingSegmenterTest, WindowKeepsOlderTurns) {
+    const auto before = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
+    const auto now = test::scanScene(test::sceneOf({}), sensor_, kColumns, {0, 0, 2});
+    const auto rowsAtPole = [&](int window_scans, bool fills_gaps) {
+        Options options;
+        options.window_scans = window_scans;
+        options.window_fills_gaps = fills_gaps;
+        std::size_t near = 0;  // pixels at the pole's range, in the sector of the pole
+        StreamingSegmenter segmenter(sensor_, options, [&](const LabelledSector& sector) {
+            const Image<float>& depth_m = sector.result.range_image.depth_m;
+            const bool is_pole_ahead = std::any_of(
+                sector.returns.azimuth_rad.begin(), sector.returns.azimuth_rad.end(),
+                [](float azimuth_rad) { return std::abs(azimuth_rad - 0.3588F) < 0.01F; });
+            if (!is_pole_ahead || sector.sweep->from_rad < kPi + kTurn_rad) return;
+            near += static_cast<std::size_t>((depth_m > 8.2F && depth_m < 8.6F).count());
+        });
+        segmenter.setPose(Eigen::Isometry3d::Identity());
+        addTurn(0, packetsOf(before), segmenter);
+        addTurn(1, packetsOf(now), segmenter);
+        segmenter.flush();
+        return near;
+    };
+    const std::size_t alone = rowsAtPole(1, true), closest = rowsAtPole(2, false);
+    EXPECT_GT(closest, alone + 20);         // also in front of the ground
+    EXPECT_GT(rowsAtPole(2, true), alone);  // only where nothing is behind it
+    EXPECT_LT(rowsAtPole(2, true), closest);
+}
+
 TEST_F(StreamingSegmenterTest, FullContextHasEachReturnOnce) {
     const auto turn = test::scanScene(sceneWithPole(), sensor_, kColumns, {0, 0, 2});
     const std::vector<Scan> packets = packetsOf(turn);
