@@ -28,9 +28,9 @@ struct HagenFilter::State {
 
     const View& viewIn(Posture posture);
     void runStages(const Scan& window, const Scan& newest, const std::optional<Attitude>& horizon,
-                   const View& view);
+                   const View& view, const Options& o);
     void judgeByGround(const Scan& window, const Scan& labelled,
-                       const std::optional<Attitude>& horizon, const View& view);
+                       const std::optional<Attitude>& horizon, const View& view, const Options& o);
 };
 
 const View& HagenFilter::State::viewIn(Posture posture) {
@@ -75,7 +75,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& window,
     const Posture posture = postureOf(attitude, s.sensor);
     const View& view = s.viewIn(posture);
     if (posture == Posture::Upright) {
-        s.runStages(window, newest, horizonOf(attitude), view);
+        s.runStages(window, newest, horizonOf(attitude), view, s.options);
         return s.result;
     }
 
@@ -83,23 +83,22 @@ const SegmentationResult& HagenFilter::segment(const Scan& window,
     turnScan(window, posture, attitude, view.sensor, s.work.turned);
     const bool is_window = newest.size() < window.size();
     if (is_window) turnScan(newest, posture, attitude, view.sensor, s.work.turned_newest);
-    const Seeds seeds = s.options.seeds;
+    Options options = s.options;
     // Below the sensor, level rows are so close that noise cuts the ground's region into pieces.
-    if (posture == Posture::OnItsSide && !s.sensor.has_rings && s.options.ground_surface &&
-        s.options.ground_evidence) {
-        s.options.seeds = Seeds::Every;
+    if (posture == Posture::OnItsSide && !s.sensor.has_rings && options.ground_surface &&
+        options.ground_evidence) {
+        options.seeds = Seeds::Every;
     }
     s.runStages(s.work.turned, is_window ? s.work.turned_newest : s.work.turned,
-                horizonOf(attitudeIn(posture, attitude)), view);
-    s.options.seeds = seeds;
+                horizonOf(attitudeIn(posture, attitude)), view, options);
     Eigen::Isometry3f& from_sensor = s.result.ground.from_sensor;
     from_sensor = from_sensor * Eigen::Isometry3f(imageFromSensor(posture, attitude));
     return s.result;
 }
 
 void HagenFilter::State::runStages(const Scan& window, const Scan& newest,
-                                   const std::optional<Attitude>& horizon, const View& view) {
-    const Options& o = options;
+                                   const std::optional<Attitude>& horizon, const View& view,
+                                   const Options& o) {
     SegmentationResult& r = result;
     r.own_labels.label.clear();  // exchangeResult() may have left another filter's labels
     r.own_labels.returns.clear();
@@ -116,26 +115,27 @@ void HagenFilter::State::runStages(const Scan& window, const Scan& newest,
 
     labelByAngles(view.directions, view.sensor.min_range_m, horizon, o, r, work);
     const Scan& labelled = o.label_window ? window : newest;
-    if (usesGround(o)) judgeByGround(window, labelled, horizon, view);
+    if (usesGround(o)) judgeByGround(window, labelled, horizon, view, o);
     if (o.context_m > o.zone_m) limitToZone(r.repaired_m, o.zone_m, r.labels);
     numberRoiComponents(r.repaired_m, r.labels, o.component_gap_m, r.components, work.components);
     labelReturns(labelled, o, r, work);
 }
 
 void HagenFilter::State::judgeByGround(const Scan& window, const Scan& labelled,
-                                       const std::optional<Attitude>& horizon, const View& view) {
+                                       const std::optional<Attitude>& horizon, const View& view,
+                                       const Options& o) {
     Ground& g = result.ground;
     // Without rings, part of the view may be high above the ground and show crowns only.
     const bool is_partial = !view.sensor.has_rings && horizon;
-    findGroundPlane(window, view.directions, horizon, options, nullptr, is_partial ? 0 : kNoLimit_m,
+    findGroundPlane(window, view.directions, horizon, o, nullptr, is_partial ? 0 : kNoLimit_m,
                     result, work);
     if (g.has_surface) {
-        findGroundSurface(result.labels, options, nullptr, g, work);
+        findGroundSurface(result.labels, o, nullptr, g, work);
         findCellTops(g.cells, g.height_m, g.tops);
-        findTolerances(options, {}, g, work);
+        findTolerances(o, {}, g, work);
     }
-    relabelByGround(g, options, result.labels, work);
-    judgeClearance(labelled, horizon, options, result, work);
+    relabelByGround(g, o, result.labels, work);
+    judgeClearance(labelled, horizon, o, result, work);
 }
 
 }  // namespace hagen
