@@ -11,6 +11,7 @@
 #include "DroneSection.h"
 #include "HardSection.h"
 #include "LeftOutSection.h"
+#include "OperatingSection.h"
 #include "Rows.h"
 #include "Sums.h"
 #include "selection/SelectionTables.h"
@@ -342,14 +343,15 @@ std::string documentOf(const std::vector<Measured>& scores, const std::vector<Me
            "uninterest. Scores are F1 over all returns up to 20 m unless stated otherwise "
            "([definitions](evaluation.md)).\n\n" +
            leftOutSection(scores, provenance.selection) + headlineSection(scores) +
-           droneSection(scores) + hardSection(scores) + paperSection(scores) + timeSection(times) +
-           ablationSection(scores) + dataSection(scores, provenance) +
-           provenanceSection(provenance);
+           operatingSection(scores) + droneSection(scores) + hardSection(scores) +
+           paperSection(scores) + timeSection(times) + ablationSection(scores) +
+           dataSection(scores, provenance) + provenanceSection(provenance);
 }
 
 CsvTables tablesOf(const std::vector<Measured>& scores, const std::vector<Measured>& times,
                    const Provenance& provenance) {
     CsvTables tables = leftOutTables(provenance.selection);
+    tables.merge(operatingTables(scores));
     tables.merge(droneTables(scores));
     tables.merge(hardTables(scores));
     tables["run_time.csv"] = allTimes(times).csv();

@@ -2,7 +2,9 @@
 
 #include "convert/pictures/Drawing.h"
 
+#include "OperatingSection.h"
 #include "Rows.h"
+#include "Sums.h"
 
 namespace hagen {
 namespace {
@@ -58,7 +60,7 @@ void drawScans(const std::filesystem::path& folder, const std::vector<Measured>&
                       {"file", (folder / "by_scan.svg").string()},
                       {"width", 1100},
                       {"height", 360 * panels.size()},
-                      {"is_stacked", true},
+                      {"columns", 1},
                       {"panels", panels}})
         .draw();
 }
@@ -91,12 +93,42 @@ void drawTimes(const std::filesystem::path& folder, const std::vector<Measured>&
         .draw();
 }
 
+void drawCurves(const std::filesystem::path& folder, const std::vector<Measured>& scores) {
+    Json panels = Json::array();
+    for (const Measured* set : those(scores, [](const DataSet& s) { return s.flights.empty(); })) {
+        Json panel{{"title", set->set.name},
+                   {"x", "recall of RoI"},
+                   {"y", "precision of RoI"},
+                   {"grid", "both"},
+                   {"ticks", {0.75, 0.8, 0.85, 0.9, 0.95, 1}}};
+        for (const std::string& method : operatingMethods(*set)) {
+            const evaluation::ClassScore roi = sumOf({set}, method).roi;
+            Json line{{"name", method}, {"mark", {roi.recall(), roi.precision()}}};
+            for (const OperatingPoint& point : operatingCurve(*set, method)) {
+                line["x"].push_back(point.recall);
+                line["y"].push_back(point.precision);
+            }
+            panel["lines"].push_back(line);
+        }
+        panels.push_back(panel);
+    }
+    if (panels.empty()) return;
+    convert::Drawing({{"kind", "chart"},
+                      {"file", (folder / "operating_curve.svg").string()},
+                      {"width", 1100},
+                      {"height", 800},
+                      {"columns", 2},
+                      {"panels", panels}})
+        .draw();
+}
+
 }  // namespace
 
 void drawResults(const std::filesystem::path& folder, const std::vector<Measured>& scores,
                  const std::vector<Measured>& times) {
     drawScans(folder, scores);
     drawTimes(folder, times);
+    drawCurves(folder, scores);
 }
 
 }  // namespace hagen

@@ -1,4 +1,4 @@
-// The two figures of the comparison.
+// The figures of the comparison.
 #pragma once
 #include <filesystem>
 #include <vector>
@@ -9,8 +9,9 @@ namespace hagen {
 
 /// Draws into an existing folder
 ///
-///     by_scan.svg      F1 of RoI of each scan, one line per method
-///     by_returns.svg   run time over the number of returns, one point per scan
+///     by_scan.svg          F1 of RoI of each scan, one line per method
+///     by_returns.svg       run time over the number of returns, one point per scan
+///     operating_curve.svg  precision over recall of RoI on real scans, also of tuned baselines
 ///
 /// for the filters and the published baselines. Throws std::runtime_error like Drawing::draw().
 void drawResults(const std::filesystem::path& folder, const std::vector<Measured>& scores,

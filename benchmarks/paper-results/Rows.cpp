@@ -68,6 +68,19 @@ const std::vector<Change>& componentSweep() {
     static const auto changes = sweep("PC", "principal_components", {"2", "4", "5", "8"});
     return changes;
 }
+const std::vector<Change>& toleranceSweep() {
+    static const auto changes =
+        sweep("tolerance", "ground_tolerance_m",
+              {"0", "0.05", "0.1", "0.13", "0.17", "0.2", "0.25", "0.3", "0.4"});
+    return changes;
+}
+const std::map<std::string, std::vector<std::string>>& limitSweeps() {
+    static const std::map<std::string, std::vector<std::string>> limits{
+        {"Th_dist_m", {"0.1", "0.15", "0.2", "0.25", "0.3", "0.35", "0.4"}},
+        {"difference_deg", {"2.5", "4", "5", "6", "7.5", "9", "10"}},
+        {"plane_m", {"0.1", "0.15", "0.2", "0.25", "0.3", "0.35", "0.4"}}};
+    return limits;
+}
 std::vector<Change> ablationOf(StageGroup group) {
     std::vector<Change> changes;
     for (const OptionKey& key : optionKeys()) {
@@ -97,8 +110,12 @@ evaluation::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem:
 
 evaluation::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config) {
     evaluation::MethodSet all = headlineRowsFor(set, config);
-    if (!set.has_all_rows) return all;
     const Settings ours = all.filter[0].settings, paper = all.filter[1].settings;
+    if (set.flights.empty()) {
+        addChanges(kDefault, ours, toleranceSweep(), all.filter);
+        all.limits = limitSweeps();
+    }
+    if (!set.has_all_rows) return all;
     for (const auto& changes : {betaSweep(), componentSweep()}) {
         addChanges(kPaper, paper, changes, all.filter);
     }

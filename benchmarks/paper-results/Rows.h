@@ -1,6 +1,7 @@
 // The scored methods: the filter with its settings, and the baselines.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,8 +30,14 @@ std::vector<Change> ablationOf(StageGroup group);
 /// Changes that require the ground surface: without it, all returns would be ROU.
 const std::vector<Change>& paperStagesUnderSurface();
 
-/// Returns the rows for a data set, with the settings files in `config`, including the baselines.
-/// Throws std::runtime_error if paper.yaml enables a stage that is not in the paper.
+/// The sweeps of the operating curves: the filter's tolerance, and the limits of the baselines. Row
+/// names begin with "default, ground_tolerance_m=", "zermas, Th_dist_m=", ...
+const std::vector<Change>& toleranceSweep();
+const std::map<std::string, std::vector<std::string>>& limitSweeps();
+
+/// Returns the rows for a data set, with the settings files in `config`, including the baselines;
+/// for recordings, also those of the operating curves. Throws std::runtime_error if paper.yaml
+/// enables a stage that is not in the paper.
 evaluation::MethodSet rowsFor(const DataSet& set, const std::filesystem::path& config);
 /// Like rowsFor(), but only the two filters and the baselines.
 evaluation::MethodSet headlineRowsFor(const DataSet& set, const std::filesystem::path& config);

@@ -54,15 +54,11 @@ Sets those(const std::vector<Measured>& all, bool (*choose)(const DataSet&)) {
 }
 
 std::vector<std::string> headlineNames(const std::vector<Measured>& all) {
-    // Sets without sweeps have only these rows.
-    for (const Measured& measured : all) {
-        if (measured.set.has_all_rows) continue;
-        std::vector<std::string> names;
-        for (const evaluation::MethodScores& method : measured.methods)
-            names.push_back(method.name);
-        return names;
+    std::vector<std::string> names;
+    for (const evaluation::MethodScores& method : all.front().methods) {
+        if (method.name.find('=') == std::string::npos) names.push_back(method.name);
     }
-    return {};
+    return names;
 }
 
 std::vector<std::pair<std::string, Sets>> mainData(const std::vector<Measured>& all) {

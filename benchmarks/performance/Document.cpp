@@ -221,7 +221,7 @@ void drawFlights(const std::filesystem::path& folder, const std::vector<FlightTi
                       {"file", (folder / "by_flight.svg").string()},
                       {"width", 1100},
                       {"height", 300 * flights.size()},
-                      {"is_stacked", true},
+                      {"columns", 1},
                       {"panels", panels}})
         .draw();
 }

@@ -6,6 +6,7 @@
 #include "paper-results/DataSets.h"
 #include "paper-results/HardSection.h"
 #include "paper-results/LeftOutSection.h"
+#include "paper-results/OperatingSection.h"
 #include "paper-results/Rows.h"
 #include "paper-results/Sums.h"
 #include "support/ProgramTest.h"
@@ -140,6 +141,43 @@ TEST(HardSection, SortsByCost) {
     EXPECT_THAT(text, HasSubstr("-2.52"));
 }
 
+TEST(RecallAt, InterpolatesBetweenPoints) {
+    const std::vector<OperatingPoint> curve{{"0.1", 0.8, 0.96, {}},
+                                            {"0.2", 0.9, 0.92, {}},
+                                            {"0.3", 0.95, 0.8, {}},
+                                            {"0.4", 0.94, 0.7, {}}};
+    EXPECT_DOUBLE_EQ(recallAt(0.9, curve), 0.92);
+    EXPECT_DOUBLE_EQ(recallAt(0.85, curve), 0.94);
+    EXPECT_DOUBLE_EQ(recallAt(0.925, curve), 0.86);
+    EXPECT_DOUBLE_EQ(recallAt(0.5, curve), 0.96);  // the nearest point is more precise
+    EXPECT_TRUE(std::isnan(recallAt(0.96, curve)));
+}
+
+TEST(OperatingSection, ComparesAtEqualPrecision) {
+    Measured measured = twoDrives();
+    measured.methods.clear();
+    const auto add = [&](const std::string& name, std::int64_t hits, std::int64_t false_alarms) {
+        evaluation::MethodScores method;
+        method.name = name;
+        method.returns.resize(1);
+        method.returns[0].all.roi = {hits, 100 - hits, false_alarms};
+        method.drone.resize(1);
+        measured.methods.push_back(method);
+    };
+    add(kDefault, 80, 20);
+    add("default, ground_tolerance_m=0.1", 90, 90);
+    add("default, ground_tolerance_m=0.17", 80, 20);
+    add("zermas", 75, 25);
+    add("zermas, Th_dist_m=0.2", 75, 25);
+    add("pcl-euclidean", 60, 5);
+    const std::string text = operatingSection({measured});
+    // Precision 0.75 is between 0.5 and 0.8; 0.92 is above the curve.
+    EXPECT_THAT(text, ContainsRegex("zermas +\\| 0.750/\\*\\*0.817\\*\\* "));
+    EXPECT_THAT(text, HasSubstr("except that of `pcl-euclidean` (1 of 1 data sets)."));
+    EXPECT_THAT(operatingTables({measured}).at("operating_curve.csv"),
+                HasSubstr("zermas,Th_dist_m=0.2,0.750,0.750,-"));
+}
+
 selection::Record recordOf(const Measured& measured) {
     selection::Record record;
     record.revision = "v1-selected";
@@ -202,6 +240,7 @@ TEST_F(PaperResultsRun, WritesAllTablesAndFigures) {
                                     "was not run",
                                     "## Comparison with other methods",
                                     "drives or flights",
+                                    "## Operating curve",
                                     "## Missed obstacles and false alarms",
                                     "undetected obstacles",
                                     "## Hard sets",
@@ -231,8 +270,10 @@ TEST_F(PaperResultsRun, WritesAllTablesAndFigures) {
     EXPECT_THAT(document, Not(ContainsRegex("[^a-z]nan[^a-z]")));
     EXPECT_TRUE(fs::exists(folder_ / "results/by_scan.svg"));
     EXPECT_TRUE(fs::exists(folder_ / "results/by_returns.svg"));
+    EXPECT_TRUE(fs::exists(folder_ / "results/operating_curve.svg"));
     for (const auto& [file, words] :
          std::map<std::string, std::string>{{"drone.csv", "zermas tuned"},
+                                            {"operating_curve.csv", "zermas tuned,Th_dist_m=0.4,"},
                                             {"missed_by_range.csv", "5-10 m"},
                                             {"missed_by_class.csv", "pole"},
                                             {"hard.csv", "dead_beams=7"},

@@ -26,5 +26,12 @@ TEST(Baselines, HaveUniqueNames) {
     EXPECT_EQ(names.count("bogoslavskyi"), 1u);
 }
 
+TEST(Baselines, LimitChangesParameters) {
+    for (const Baseline& baseline : baselines(20.0f)) {
+        const std::string parameters = baseline.withLimit(3.25f).parameters;
+        EXPECT_NE(parameters.find("3.25"), std::string::npos) << parameters;
+    }
+}
+
 }  // namespace
 }  // namespace hagen::evaluation

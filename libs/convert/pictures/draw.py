@@ -419,21 +419,20 @@ def airframe(job):
 
 
 def chart(job):
-    """`panels` with `lines`: x, y, and intervals `low`, `high`; side by side or stacked. Scores end at 1."""
+    """`panels` with `lines`: x, y, intervals `low`, `high`, and a point to `mark`, in `columns`. Scores end at 1."""
     panels, width, height = job["panels"], job["width"], job["height"]
-    number, page = len(panels), Page(width, height)
+    columns, page = job.get("columns", len(panels)), Page(width, height)
+    rows = -(-len(panels) // columns)
     has_legend = any(len(panel["lines"]) > 1 for panel in panels)
     right = width - (200 if has_legend else 20)
     below = 130 if any(len(panel.get("categories", [])) > 8 for panel in panels) else 62
     y = np.array([v for panel in panels for line in panel["lines"] for v in line["y"]], float)
     lowest = min(0.8, np.floor(10 * np.nanmin(y, initial=1)) / 10)
     for p, panel in enumerate(panels):
-        if job.get("is_stacked"):
-            top = height * (number - p) // number
-            box = (75, right, top - height // number + below, top - 40)
-        else:
-            box = (75 + right * p / number, right * (p + 1) / number, below, height - 45)
-        axes = page.axes(*box, plain(panel["title"]))
+        row, column = divmod(p, columns)
+        top = height * (rows - row) // rows
+        axes = page.axes(75 + right * column / columns, right * (column + 1) / columns, top - height // rows + below,
+                         top - 40, plain(panel["title"]))
         axes.set_xlabel(plain(panel.get("x", "")))
         axes.set_ylabel(panel["y"])
         axes.grid(axis=panel.get("grid", "y"))
@@ -445,6 +444,8 @@ def chart(job):
             axes.errorbar(x, y, [np.maximum(y - low, 0), np.maximum(high - y, 0)], fmt="os^vDPX"[l % 7],
                           ms=3.5 if len(x) < 50 else 2.5, ls=panel.get("ls", "-"), lw=1.3, elinewidth=0.7,
                           color=CHART_COLOURS[l % 7], label=plain(line["name"]))
+            if "mark" in line:
+                axes.plot(*line["mark"], "o", ms=10, mfc="none", color=CHART_COLOURS[l % 7])
         log = panel.get("log", "")
         for name, axis in (("x", axes.xaxis), ("y", axes.yaxis)):
             if name in log:
@@ -464,7 +465,7 @@ def chart(job):
             axes.set_xlim(limits)
         if below > 100:
             axes.tick_params("x", rotation=60)
-        if has_legend and (job.get("is_stacked") or p + 1 == number):
+        if has_legend and column + 1 == columns:
             axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02))
     page.save(job["file"])
 

@@ -11,9 +11,17 @@ Baseline zermas(const std::string& name, const ZermasOptions& options) {
     parameters << "N_segs " << options.segments << ", N_iter " << options.iterations << ", N_LPR "
                << options.lowest_points << ", Th_seeds " << options.seed_height_m << " m, Th_dist "
                << options.ground_distance_m << " m";
-    return {name, "Zermas, Izzat, Papanikolopoulos, ICRA 2017", parameters.str(),
+    return {name,
+            "Zermas, Izzat, Papanikolopoulos, ICRA 2017",
+            parameters.str(),
             [options](const Scan& scan, const SensorModel& sensor) {
                 return zermasLabels(scan, sensor, options);
+            },
+            "Th_dist_m",
+            [name, options](float limit) {
+                ZermasOptions changed = options;
+                changed.ground_distance_m = limit;
+                return zermas(name, changed);
             }};
 }
 
@@ -22,9 +30,17 @@ Baseline bogoslavskyi(const std::string& name, const BogoslavskyiOptions& option
     parameters << options.columns << " columns, repair " << options.repair_step_m << " m, window "
                << options.smoothing_window << ", start " << options.start_angle_deg
                << " deg, difference " << options.ground_difference_deg << " deg";
-    return {name, "Bogoslavskyi, Stachniss, PFG 2017", parameters.str(),
+    return {name,
+            "Bogoslavskyi, Stachniss, PFG 2017",
+            parameters.str(),
             [options](const Scan& scan, const SensorModel& sensor) {
                 return bogoslavskyiLabels(scan, sensor, options);
+            },
+            "difference_deg",
+            [name, options](float limit) {
+                BogoslavskyiOptions changed = options;
+                changed.ground_difference_deg = limit;
+                return bogoslavskyi(name, changed);
             }};
 }
 

@@ -116,7 +116,17 @@ std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::pat
     if (!rows.baselines) return methods;
     const Settings settings = settingsFor(*rows.baselines, sensor_file);
     const SensorModel sensor = sensorOf(settings);
-    for (const Baseline& baseline : allBaselines(settings.options.zone_m)) {
+    std::vector<Baseline> all = allBaselines(settings.options.zone_m);
+    for (const auto& [limit, values] : rows.limits) {
+        for (const Baseline& baseline : allBaselines(settings.options.zone_m)) {
+            if (baseline.limit != limit) continue;
+            for (const std::string& value : values) {
+                all.push_back(baseline.withLimit(std::stof(value)));
+                all.back().name += ", " + limit + "=" + value;
+            }
+        }
+    }
+    for (const Baseline& baseline : all) {
         methods.push_back({baseline.name, [baseline, sensor](const ScanInput& input) {
                                return baseline.segment(input.scan, sensor);
                            }});

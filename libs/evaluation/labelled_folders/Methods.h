@@ -4,6 +4,7 @@
 #include <hagen/mrpt/CloudSensors.h>
 #include <hagen/settings/Settings.h>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct MethodSet {
     std::vector<SweepPoint> filter;
     std::optional<Settings> baselines;  ///< zone and sensor of the baselines
     std::vector<LabelRow> labels = {};
+    /// Adds the baselines "NAME, LIMIT=VALUE" for these values of each Baseline::limit.
+    std::map<std::string, std::vector<std::string>> limits = {};
     bool is_upside_down = false;  ///< whether the sensor is upside down; see mirrored()
 };
 

@@ -93,6 +93,26 @@ std::vector<bool> findObstacles(const Cloud::ConstPtr& cloud, const PclEuclidean
     return is_obstacle;
 }
 
+Baseline baseline(const std::string& name, const PclEuclideanOptions& options) {
+    std::ostringstream parameters;
+    parameters << "leaf " << options.leaf_m << " m, plane " << options.plane_distance_m << " m in "
+               << options.plane_iterations << " iterations and " << options.plane_tilt_deg
+               << " deg of level, tolerance " << options.cluster_tolerance_m << " m, clusters from "
+               << options.min_cluster_points;
+    return {name,
+            "Point Cloud Library, voxel grid, RANSAC plane, Euclidean clusters",
+            parameters.str(),
+            [options](const Scan& scan, const SensorModel& sensor) {
+                return pclEuclideanLabels(scan, sensor, options);
+            },
+            "plane_m",
+            [name, options](float limit) {
+                PclEuclideanOptions changed = options;
+                changed.plane_distance_m = limit;
+                return baseline(name, changed);
+            }};
+}
+
 }  // namespace
 
 std::vector<Label> pclEuclideanLabels(const Scan& scan, const SensorModel& sensor,
@@ -129,22 +149,7 @@ std::vector<Baseline> pclBaselines(float zone_m) {
     PclEuclideanOptions tuned = usual;
     tuned.plane_distance_m = 0.25f;
     tuned.min_cluster_points = 1;
-    std::vector<Baseline> rows;
-    for (const PclEuclideanOptions& options : {usual, tuned}) {
-        std::ostringstream parameters;
-        parameters << "leaf " << options.leaf_m << " m, plane " << options.plane_distance_m
-                   << " m in " << options.plane_iterations << " iterations and "
-                   << options.plane_tilt_deg << " deg of level, tolerance "
-                   << options.cluster_tolerance_m << " m, clusters from "
-                   << options.min_cluster_points;
-        const bool is_usual = rows.empty();
-        rows.push_back({is_usual ? "pcl-euclidean" : "pcl-euclidean tuned",
-                        "Point Cloud Library, voxel grid, RANSAC plane, Euclidean clusters",
-                        parameters.str(), [options](const Scan& scan, const SensorModel& sensor) {
-                            return pclEuclideanLabels(scan, sensor, options);
-                        }});
-    }
-    return rows;
+    return {baseline("pcl-euclidean", usual), baseline("pcl-euclidean tuned", tuned)};
 }
 
 }  // namespace hagen::evaluation

@@ -16,6 +16,9 @@ struct Baseline {
     /// Returns one label per return: Unclassified outside the sensor's range limits, otherwise Rou
     /// or Roi. No state carries over between calls.
     std::function<std::vector<Label>(const Scan&, const SensorModel&)> segment;
+    /// The limit for ground, such as "Th_dist_m", and the baseline with another value of it.
+    std::string limit = {};
+    std::function<Baseline(float)> withLimit = {};
 };
 
 /// Returns all baselines of this library, each with published parameters and with parameters tuned
