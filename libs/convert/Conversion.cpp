@@ -443,12 +443,26 @@ void useExternals(const fs::path& folder, const Conversion& conversion,
                                    externalsOf(conversion.rawlog).string());
 }
 
+/// Other outputs belong to the returns of one scan.
+void checkWindow(const Conversion& c) {
+    const Options& o = c.settings.options;
+    const bool is_of_one_scan = c.cloud_class == observations::CloudClass::Generic ||
+                                !c.folder.empty() || !c.clouds.empty() || !c.mcap.empty() ||
+                                !c.pictures.empty() || !c.view.empty();
+    if (o.window_scans > 1 && o.label_window && is_of_one_scan) {
+        throw SettingsError(
+            "label_window: only rawlogs (-o) of simple clouds and OctoMaps can contain "
+            "the returns of several scans");
+    }
+}
+
 }  // namespace
 
 ConversionReport convert(const Conversion& conversion, const ConversionListener& listener) {
     if (!fs::exists(conversion.input)) {
         throw std::runtime_error(conversion.input.string() + ": no such file or folder");
     }
+    checkWindow(conversion);
     std::vector<fs::path> inputs = conversion.settings.files;
     inputs.insert(inputs.end(), {conversion.input, conversion.poses, conversion.sensor_json,
                                  conversion.calibration});

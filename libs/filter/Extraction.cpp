@@ -128,14 +128,15 @@ void findVerdicts(const Image<Label>& labels, const Image<std::int32_t>& compone
     }
 }
 
-/// Removes returns with their own label from their pixel's component if they are too far behind it.
+/// Removes returns with their own label from their pixel's component if they are too far from it.
 void leaveComponents(const std::vector<std::int32_t>& own_labelled, const Scan& scan,
                      const RangeImage& image, float component_gap_m,
                      std::vector<std::int32_t>& component) {
     for (const std::int32_t i : own_labelled) {
         if (component[i] == 0) continue;  // includes returns without a pixel
-        const float behind_m = scan.range_m[i] - image.depth_m.data()[image.depth_mapper[i]];
-        component[i] = behind_m < component_gap_m ? component[i] : 0;
+        const float apart_m =
+            std::abs(scan.range_m[i] - image.depth_m.data()[image.depth_mapper[i]]);
+        component[i] = apart_m < component_gap_m ? component[i] : 0;
     }
 }
 

@@ -52,7 +52,8 @@ void findGroundPlane(const Scan& scan, const PixelDirections& directions,
     g.from_sensor =
         fitGroundFrame(g.pixels, horizon.value_or(Attitude{}), w.ground_frame, columns, max_m);
     movePixels(g.from_sensor, g.pixels);
-    g.is_seen = canBeGround(g.from_sensor, horizon, r.labels);
+    g.is_seen = canBeGround(g.from_sensor, horizon, r.labels) &&
+                (o.ground_evidence || g.from_sensor.translation().z() > evidence_rules::kLowest_m);
     g.has_surface = g.is_seen && o.ground_surface;
 }
 

@@ -1,6 +1,7 @@
 #include <hagen/filter/HagenFilter.h>
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <utility>
 #include "filter/image/DeadBeams.h"
 #include "filter/image/GapRepair.h"
@@ -68,6 +69,8 @@ const SegmentationResult& HagenFilter::segment(const Scan& window,
                                                const std::optional<Attitude>& attitude,
                                                const Scan& newest) {
     State& s = *state_;
+    if (newest.size() > window.size())
+        throw std::invalid_argument("the newest scan is larger than its window");
     checkLocated(window, s.sensor);
     const auto horizonOf = [&](const std::optional<Attitude>& of) {
         return s.options.level_by_attitude ? of : std::nullopt;

@@ -7,25 +7,6 @@
 #include "scan/MoveReturns.h"
 
 namespace hagen {
-namespace {
-
-/// The moved returns with their new ranges, beams and columns. Returns without range, such as the
-/// airframe's, have none, nor have returns outside the field of view, which no row fits.
-void locateMoved(const Scan& older, const SensorModel& sensor, Scan& moved) {
-    const std::vector<float>& beams_rad = sensor.elevations_rad;
-    const float lowest = std::sin(beams_rad[0] - (beams_rad[1] - beams_rad[0]));
-    const std::size_t last = beams_rad.size() - 1;
-    const float highest = std::sin(beams_rad[last] + (beams_rad[last] - beams_rad[last - 1]));
-    locateBeams(sensor, moved);
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-        const float z_m = moved.z_m[i], range_m = moved.range_m[i];
-        const bool is_in_view = z_m >= lowest * range_m && z_m <= highest * range_m;
-        moved.range_m[i] = std::isfinite(older.range_m[i]) && is_in_view ? range_m : kNoValue;
-    }
-}
-
-}  // namespace
-
 SlidingWindow::SlidingWindow(HagenFilter filter)
     : filter_(std::move(filter)),
       older_(static_cast<std::size_t>(filter_.options().window_scans - 1)) {}
@@ -50,7 +31,10 @@ void SlidingWindow::append(const Older& older, const Place& now) {
     if (!is_known) return appendReturns(older.scan, window_);
     moved_ = older.scan;
     moveReturns(now.from_sensor.inverse() * older.place.from_sensor, 0, moved_);
-    locateMoved(older.scan, filter_.sensor(), moved_);
+    locateInView(filter_.sensor(), moved_);
+    for (std::size_t i = 0; i < moved_.size(); ++i) {  // such as the airframe
+        if (!std::isfinite(older.scan.range_m[i])) moved_.range_m[i] = kNoValue;
+    }
     appendReturns(moved_, window_);
 }
 
@@ -58,7 +42,7 @@ const SegmentationResult& SlidingWindow::segment(
     const Scan& newest, const std::optional<Attitude>& attitude,
     const std::optional<Eigen::Isometry3d>& map_from_sensor) {
     older_scans_ = without_motion_ = 0;
-    labelled_ = &newest;
+    newest_ = &newest;
     if (older_.empty()) return filter_.segment(newest, attitude);
 
     checkLocated(newest, filter_.sensor());
@@ -74,7 +58,6 @@ const SegmentationResult& SlidingWindow::segment(
     oldest.scan.intensity.resize(newest.size());
     oldest.place = now;
     ++seen_;
-    if (filter_.options().label_window) labelled_ = &window_;
     return filter_.segment(window_, attitude, newest);
 }
 

@@ -1,11 +1,14 @@
 #include <hagen/mrpt/ObservationSegmenter.h>
 #include <mrpt/core/initializer.h>
 #include <mrpt/rtti/CObject.h>
+#include "base/NumberText.h"
 #include "base/ProcessCost.h"
 #include "mrpt/Mount.h"
 #include "mrpt/Results.h"
 
+#include <chrono>
 #include <optional>
+#include <string>
 
 namespace hagen::observations {
 
@@ -25,6 +28,8 @@ namespace {
 
 using mrpt::obs::CObservationPointCloud;
 
+constexpr std::chrono::seconds kMaxGap{1};  // between scans of a window
+
 bool isSameSensor(const SensorModel& a, const SensorModel& b) {
     return a.elevations_rad == b.elevations_rad && a.min_range_m == b.min_range_m &&
            a.max_range_m == b.max_range_m && a.has_rings == b.has_rings;
@@ -42,6 +47,7 @@ void ObservationSegmenter::initialize(const Settings& settings) {
     if (settings.sensor.model) filterFor(settings.sensorModel(), settings.options);
     settings_ = settings;
     windows_.clear();
+    last_time_.clear();
     horizon_.forget();
     sensors_ = {};
 }
@@ -86,6 +92,10 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     }
     const std::size_t returns_masked = maskAirframe(settings_.airframe.parts, observed_.scan);
     SlidingWindow& window = windowOf(observation.sensorLabel);
+    auto& last = last_time_[observation.sensorLabel];
+    const auto since = observation.timestamp - last;
+    if (since < std::chrono::seconds(0) || since > kMaxGap) window.forget();
+    last = observation.timestamp;
 
     const ScanPose mounted =
         mountedPose(pose, mrpt::poses::CPose3D(observation.sensorPose()), settings_.mount);
@@ -106,10 +116,11 @@ bool ObservationSegmenter::process(const mrpt::obs::CObservation& observation, O
     const auto filter_cpu_time = base::threadCpuTime() - cpu_start;
     segmenting.reset();
     const Scan& scan = window.labelled();
-    if (window.scansWithoutMotion() > 0) {
-        remark += std::string(remark.empty() ? "" : "; ") + "the motion since " +
-                  std::to_string(window.scansWithoutMotion()) +
-                  " older scans of the window is unknown (no poses, no ground)";
+    if (const std::size_t unknown = window.scansWithoutMotion()) {
+        remark +=
+            std::string(remark.empty() ? "" : "; ") + "window: unknown motion since " +
+            base::counted(unknown, "older scan") +
+            (window.filter().options().window_fills_gaps ? ", not used" : ", used as measured");
     }
     const auto labelled = std::chrono::steady_clock::now();
 

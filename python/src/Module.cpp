@@ -74,7 +74,11 @@ std::optional<Eigen::Isometry3d> poseFrom(const py::object& pose) {
         for (int column = 0; column < 4; ++column)
             map_from_sensor.matrix()(row, column) = matrix.at(row, column);
     }
-    if (!map_from_sensor.matrix().allFinite()) throw py::value_error("pose: not finite");
+    const Eigen::Matrix4d& m = map_from_sensor.matrix();
+    const Eigen::Matrix3d square = map_from_sensor.linear() * map_from_sensor.linear().transpose();
+    if (!m.allFinite() || !square.isIdentity(1e-3) || m.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+        throw py::value_error("pose: expected a rotation and a translation");
+    }
     return map_from_sensor;
 }
 
@@ -350,7 +354,7 @@ attitude: (roll, pitch) of the sensor relative to the horizon [rad], if known: p
 down is positive), then roll about x (left side up is positive). The sensor may then be mounted at
 an arbitrary angle.
 pose: (4, 4) transform from the sensor's frame to the map, for the sliding window (window_scans) of
-arrays of points; recorded scans have their own.
+arrays of points, in order and from one thread; ignored for recorded scans.
 
 Warns (UserWarning) if most results so far are suspicious, such as scans without ground.
 Raises ValueError for other shapes and for angles beyond +-2 pi. Releases the GIL.)")

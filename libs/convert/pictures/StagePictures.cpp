@@ -111,7 +111,7 @@ void drawStages(const StageView& view, const std::filesystem::path& folder) {
     drawing.add("smoothed_rad", r.smoothed_rad);
     drawing.add("labels", r.labels);
     drawing.add("components", r.components);
-    drawing.add("pixel_of_return", r.range_image.depth_mapper);
+    drawing.add("pixel_of_return", r.range_image.depth_mapper.data(), {view.scan.size()});
     drawing.add("x_m", view.scan.x_m);
     drawing.add("y_m", view.scan.y_m);
     drawing.add("label", r.returns.label);

@@ -18,6 +18,7 @@ namespace hagen::live {
 namespace {
 
 constexpr std::size_t kMaxPackets = 4000;  // of a turn, even if the clock stops; usually up to 600
+constexpr double kMaxTurns = 1.5;          // extrapolation of motion from the ground
 constexpr double kFrame_s = 0.1;           // a scan of a sensor without a rotating head
 constexpr double kEnoughOfView = 0.9;      // of a limited field of view
 constexpr double kPacketEnd_rad = 0.01;    // tolerance of packet boundaries
@@ -47,7 +48,7 @@ bool isStill(const Eigen::Isometry3d& motion) {
            Eigen::AngleAxisd(motion.linear()).angle() < kMinMotion_rad;
 }
 
-/// The smallest angle between two sweeps, in whatever turn.
+/// The smallest angle between two sweeps, ignoring whole turns.
 double between(const Sweep& a, const Sweep& b) {
     const double apart_rad = (a.from_rad + a.to_rad - b.from_rad - b.to_rad) / 2;
     const double middle_rad = std::abs(std::remainder(apart_rad, kTurn_rad));
@@ -82,7 +83,7 @@ StreamingSegmenter::StreamingSegmenter(SensorModel sensor, Options options, Take
       take_(std::move(take)),
       turns_(options.window_scans),
       max_age_s_(filter_.sensor().has_rings ? streaming.context_s * turns_
-                                            : std::max(streaming.context_s, kFrame_s * turns_)) {
+                                            : streaming.context_s + kFrame_s * (turns_ - 1)) {
     check(streaming.sector_rad > 0 && streaming.sector_rad <= kTurn_rad,
           "sector_rad must be above 0 and at most a turn");
     check(streaming.window_rad >= 0, "window_rad must not be negative");
@@ -259,12 +260,16 @@ void StreamingSegmenter::restart() {
 /// Removes packets that are too old, that the turns of the window have overwritten, or whose age is
 /// unknown because the clock went back.
 void StreamingSegmenter::forget(double now_s) {
+    const std::size_t known = packets_.size() - open_;
+    const bool is_after_silence =
+        known > 0 && !(now_s - packets_[known - 1].time_s < streaming_.context_s);
+    const double max_age_s = is_after_silence ? 0 : max_age_s_;
     while (packets_.size() > open_) {
         const Packet& oldest = packets_.front();
         const bool is_overwritten =
             oldest.sweep && oldest.sweep->to_rad <= head_rad_ - kTurn_rad * turns_;
         const double age_s = now_s - oldest.time_s;
-        if (!is_overwritten && age_s >= 0 && age_s < max_age_s_) break;
+        if (!is_overwritten && age_s >= 0 && age_s < max_age_s) break;
         spare_.push_back(std::move(packets_.front()));
         packets_.pop_front();
     }
@@ -285,7 +290,8 @@ std::optional<Eigen::Isometry3d> StreamingSegmenter::motionSince(const Packet& p
     const Packet& latest = packets_.back();
     if (!packet.pose && !latest.pose && packet.sweep) {
         const double middle_rad = (packet.sweep->from_rad + packet.sweep->to_rad) / 2;
-        return turn_motion_.since((head_rad_ - middle_rad) / kTurn_rad);
+        const double turns = (head_rad_ - middle_rad) / kTurn_rad;
+        return turns < kMaxTurns ? turn_motion_.since(turns) : std::nullopt;
     }
     // Poses without position are not comparable to others.
     if (!packet.pose || !latest.pose || packet.has_place != latest.has_place) return std::nullopt;
@@ -313,15 +319,7 @@ void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
     const std::optional<Eigen::Isometry3d> motion = motionSince(packet);
     const bool has_moved = motion && !isStill(*motion);
     bool is_near = true;
-    if (packet.sweep && packet.sweep->to_rad <= head_rad_ - kTurn_rad) {  // an older turn
-        if (between(*packet.sweep, sector) > streaming_.window_rad) return;
-        if (motion) {
-            addMoved(packet.all, 0, packet.all.scan.size(), *motion, false);
-        } else if (!filter_.options().window_fills_gaps) {
-            moved_.append(packet.all, 0, packet.all.scan.size());
-        }
-        return;
-    }
+    if (turns_ > 1 && isOlderThanTurn(packet)) return addOlderTurn(packet, sector, motion);
     if (packet.sweep) {
         double skip_rad = motion ? 0 : streaming_.skip_ahead_rad;
         if (has_moved) skip_rad = streaming_.skip_ahead_moved_rad;
@@ -338,6 +336,29 @@ void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
     window_.append(returns, first, end);
 }
 
+/// Whether a packet belongs to an older turn of the sliding window, or is an older frame.
+bool StreamingSegmenter::isOlderThanTurn(const Packet& packet) const {
+    if (packet.sweep) return packet.sweep->to_rad <= head_rad_ - kTurn_rad;
+    return packets_.back().time_s - packet.time_s >= streaming_.context_s;
+}
+
+/// Adds the returns of an older turn near the sector. Without motion, they are only used if the
+/// closest return counts, as in the paper.
+void StreamingSegmenter::addOlderTurn(const Packet& packet, const Sweep& sector,
+                                      const std::optional<Eigen::Isometry3d>& motion) {
+    if (!motion && filter_.options().window_fills_gaps) return;
+    if (packet.sweep) {
+        const double ahead_rad = std::remainder(packet.sweep->from_rad - head_rad_, kTurn_rad);
+        const double skip_rad =
+            motion ? streaming_.skip_ahead_moved_rad : streaming_.skip_ahead_rad;
+        const bool is_expired = packet.sweep->to_rad <= head_rad_ - kTurn_rad * turns_;
+        if (is_expired || (ahead_rad >= 0 && ahead_rad < skip_rad)) return;
+        if (between(*packet.sweep, sector) > streaming_.window_rad) return;
+    }
+    addMoved(packet.all, 0, packet.all.scan.size(), motion.value_or(Eigen::Isometry3d::Identity()),
+             false);
+}
+
 /// Adds the returns ahead of the sensor from a partly overwritten packet.
 void StreamingSegmenter::addAhead(const Returns& returns) {
     for (std::size_t i = 0; i < returns.scan.size(); ++i) {
@@ -350,13 +371,18 @@ void StreamingSegmenter::addAhead(const Returns& returns) {
 bool StreamingSegmenter::knowsEnough() const {
     double known_rad = 0;
     for (const Packet& packet : packets_) {
-        if (packet.sweep) known_rad += packet.sweep->to_rad - packet.sweep->from_rad;
+        if (packet.sweep && !(turns_ > 1 && isOlderThanTurn(packet)))
+            known_rad += packet.sweep->to_rad - packet.sweep->from_rad;
     }
     if (!packets_.back().sweep) {
         double measured_s = 0;
-        for (const Packet& packet : packets_) measured_s += packet.measured_s;
-        const double known_s =
-            std::min(measured_s, packets_.back().time_s - packets_.front().time_s);
+        double first_s = packets_.back().time_s;
+        for (const Packet& packet : packets_) {
+            if (turns_ > 1 && isOlderThanTurn(packet)) continue;
+            measured_s += packet.measured_s;
+            first_s = std::min(first_s, packet.time_s);
+        }
+        const double known_s = std::min(measured_s, packets_.back().time_s - first_s);
         known_rad = kTurn_rad * known_s / streaming_.context_s;
     }
     const double enough_rad = std::min(streaming_.min_known_rad, kEnoughOfView * view_rad_);
@@ -399,7 +425,11 @@ const SegmentationResult& StreamingSegmenter::judge() {
         found_ = sector_filter_.found();
         return result;
     }
-    const SegmentationResult& result = filter_.segment(window_.scan, tilt(), sector_);
+    // The newest frame decides its pixels, so that moving obstacles leave no trail.
+    const bool is_newest_first = turns_ > 1 || !sweep;
+    const SegmentationResult& result = is_newest_first
+                                           ? filter_.segment(window_.scan, tilt(), sector_)
+                                           : filter_.segment(window_.scan, tilt());
     labels_.assign(result.returns.label.begin(),
                    result.returns.label.begin() + static_cast<std::ptrdiff_t>(sector_.size()));
     found_.assign(sector_.size(), {});
@@ -444,7 +474,7 @@ void StreamingSegmenter::label(bool is_cut) {
     pending_first_ = pending_end_ = 0;
     for (std::size_t i = 0; i < first_open; ++i) addContext(packets_[i], sector);
     addThinned(0, 0);
-    locateBeams(filter_.sensor(), moved_.scan);
+    locateInView(filter_.sensor(), moved_.scan);
     latest_ = window_.scan.size();
     window_.append(moved_, 0, moved_.scan.size());
 

@@ -32,7 +32,10 @@ class SlidingWindow {
 
     /// The labelled returns of the last call: the newest scan or, if the options ask for them, all
     /// returns of the window, from the newest scan to the oldest, in the frame of the newest.
-    const Scan& labelled() const { return *labelled_; }
+    const Scan& labelled() const {
+        const Options& o = filter_.options();
+        return o.label_window && o.window_scans > 1 ? window_ : *newest_;
+    }
 
     /// The numbers of older scans used by the last call, and of those not moved or left out because
     /// the motion is unknown.
@@ -63,8 +66,8 @@ class SlidingWindow {
     std::vector<Older> older_;  ///< a ring of window_scans - 1 scans
     std::size_t seen_ = 0;      ///< scans so far
     std::size_t older_scans_ = 0, without_motion_ = 0;
-    Scan window_, moved_;  ///< reused
-    const Scan* labelled_ = nullptr;
+    Scan window_, moved_;           ///< reused
+    const Scan* newest_ = nullptr;  ///< of the last call
 };
 
 }  // namespace hagen

@@ -170,6 +170,9 @@ class StreamingSegmenter {
     std::optional<Eigen::Isometry3d> motionSince(const Packet& packet) const;
     void addMoved(const Returns& returns, std::size_t first, std::size_t end,
                   const Eigen::Isometry3d& motion, bool keeps_pixels);
+    bool isOlderThanTurn(const Packet& packet) const;
+    void addOlderTurn(const Packet& packet, const Sweep& sector,
+                      const std::optional<Eigen::Isometry3d>& motion);
     void addAhead(const Returns& returns);
     void addThinned(std::size_t first, std::size_t end);
     bool mapWindow(const Sweep& sector);

@@ -101,6 +101,7 @@ class ObservationSegmenter : public mrpt::rtti::CObject, public mrpt::system::CO
 
     Settings settings_;
     std::map<std::string, SlidingWindow> windows_;  ///< by sensor label
+    std::map<std::string, mrpt::Clock::time_point> last_time_;
     CloudSensors sensors_;
     Horizon horizon_;
     ObservedScan observed_;
