@@ -27,8 +27,9 @@ std::size_t listFarther(const Scan& scan, const RangeImage& image, float zone_m,
     std::size_t n = 0;
     for (std::int32_t i = 0; i < size; ++i) {
         const std::int32_t pixel = pixels[i], has_pixel = ~(pixel >> 31);  // 0, or all bits set
+        const float near_m = depth_m[pixel & has_pixel];
         const std::int32_t is_farther =
-            std::abs(range_m[i] - depth_m[pixel & has_pixel]) > kFarther_m;
+            (range_m[i] > near_m + kFarther_m) | (range_m[i] < near_m - kFarther_m);
         const std::int32_t is_in_zone = range_m[i] <= zone_m;
         list[n] = i;
         n += is_farther & is_in_zone & has_pixel;
