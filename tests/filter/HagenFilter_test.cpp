@@ -5,9 +5,11 @@
 #include "filter/OptionKeys.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include "support/PaperOptions.h"
@@ -413,6 +415,38 @@ std::vector<Image<float>> imagesWith(const Options& options, const Scan& scan) {
         r.range_image.depth_m,       r.repaired_m,   r.sharpened_m,     r.merged_m,
         r.range_angle_rad,           r.smoothed_rad, r.pixel_angle_rad, numbers(r.returns.label),
         numbers(r.returns.component)};
+}
+
+// A voxel filter keeps one return per 0.1 m: rings and columns have gaps.
+TEST(HagenFilter, SeparatesVoxelFilteredClouds) {
+    const SensorModel sensor = sensorModel("VLP-16");
+    const test::LabelledScan seen = test::scanScene(test::yard(), sensor, 870, {0, 0, 2});
+    std::set<std::array<int, 3>> voxels;
+    test::LabelledScan kept;
+    for (std::size_t i = 0; i < seen.scan.size(); ++i) {
+        const auto cell = [](float m) { return static_cast<int>(std::floor(10 * m)); };
+        const float x_m = seen.scan.x_m[i], y_m = seen.scan.y_m[i], z_m = seen.scan.z_m[i];
+        if (!voxels.insert({cell(x_m), cell(y_m), cell(z_m)}).second) continue;
+        kept.scan.x_m.push_back(x_m);
+        kept.scan.y_m.push_back(y_m);
+        kept.scan.z_m.push_back(z_m);
+        kept.truth.push_back(seen.truth[i]);
+    }
+    kept.scan.intensity.resize(kept.scan.size());
+    ASSERT_LT(2 * kept.scan.size(), 2 * seen.scan.size() - 2000);
+    locateBeams(sensor, kept.scan);
+    HagenFilter filter(sensor);
+    const std::vector<Label>& label = filter.segment(kept.scan).returns.label;
+    std::map<Label, std::size_t> of, right;
+    for (std::size_t i = 0; i < label.size(); ++i) {
+        if (kept.scan.range_m[i] > 20) continue;
+        ++of[kept.truth[i]];
+        right[kept.truth[i]] += label[i] == kept.truth[i];
+    }
+    for (const Label truth : {Label::Roi, Label::Rou}) {
+        EXPECT_GT(of[truth], 300u);
+        EXPECT_GE(100 * right[truth], 97 * of[truth]) << static_cast<int>(truth);
+    }
 }
 
 /// The name of the first image that an option changes; each stage has its own options.
