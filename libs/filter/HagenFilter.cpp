@@ -89,7 +89,7 @@ const SegmentationResult& HagenFilter::segment(const Scan& window,
     Options options = s.options;
     // Below the sensor, level rows are so close that noise cuts the ground's region into pieces.
     if (posture == Posture::OnItsSide && !s.sensor.has_rings && options.ground_surface &&
-        options.ground_evidence) {
+        options.ground_evidence && options.seeds == Seeds::Lowest) {
         options.seeds = Seeds::Every;
     }
     s.runStages(s.work.turned, is_window ? s.work.turned_newest : s.work.turned,

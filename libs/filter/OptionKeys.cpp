@@ -31,7 +31,7 @@ const std::vector<OptionKey>& optionKeys() {
          &Options::context_m, "", off(StageGroup::Own, "zone", "no context beyond the zone")},
         {"window_scans", "scans", 1, 100,
          "scans of the sliding window, moved to the newest and concatenated; 1: each scan alone",
-         "K", &Options::window_scans, ""},
+         "", &Options::window_scans, ""},
         {"window_fills_gaps", "", 0, 1,
          "older scans only fill pixels that the newest leaves empty; false: the closest return "
          "counts",

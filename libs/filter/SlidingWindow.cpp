@@ -7,6 +7,7 @@
 #include "scan/MoveReturns.h"
 
 namespace hagen {
+
 SlidingWindow::SlidingWindow(HagenFilter filter)
     : filter_(std::move(filter)),
       older_(static_cast<std::size_t>(filter_.options().window_scans - 1)) {}

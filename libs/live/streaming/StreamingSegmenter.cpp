@@ -319,7 +319,7 @@ void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
     const std::optional<Eigen::Isometry3d> motion = motionSince(packet);
     const bool has_moved = motion && !isStill(*motion);
     bool is_near = true;
-    if (turns_ > 1 && isOlderThanTurn(packet)) return addOlderTurn(packet, sector, motion);
+    if (isOlderThanTurn(packet)) return addOlderTurn(packet, sector, motion);
     if (packet.sweep) {
         double skip_rad = motion ? 0 : streaming_.skip_ahead_rad;
         if (has_moved) skip_rad = streaming_.skip_ahead_moved_rad;
@@ -338,6 +338,7 @@ void StreamingSegmenter::addContext(const Packet& packet, const Sweep& sector) {
 
 /// Whether a packet belongs to an older turn of the sliding window, or is an older frame.
 bool StreamingSegmenter::isOlderThanTurn(const Packet& packet) const {
+    if (turns_ == 1) return false;
     if (packet.sweep) return packet.sweep->to_rad <= head_rad_ - kTurn_rad;
     return packets_.back().time_s - packet.time_s >= streaming_.context_s;
 }
@@ -371,14 +372,14 @@ void StreamingSegmenter::addAhead(const Returns& returns) {
 bool StreamingSegmenter::knowsEnough() const {
     double known_rad = 0;
     for (const Packet& packet : packets_) {
-        if (packet.sweep && !(turns_ > 1 && isOlderThanTurn(packet)))
+        if (packet.sweep && !isOlderThanTurn(packet))
             known_rad += packet.sweep->to_rad - packet.sweep->from_rad;
     }
     if (!packets_.back().sweep) {
         double measured_s = 0;
         double first_s = packets_.back().time_s;
         for (const Packet& packet : packets_) {
-            if (turns_ > 1 && isOlderThanTurn(packet)) continue;
+            if (isOlderThanTurn(packet)) continue;
             measured_s += packet.measured_s;
             first_s = std::min(first_s, packet.time_s);
         }
