@@ -7,18 +7,15 @@
 namespace hagen {
 
 void appendTo(const std::filesystem::path& json_lines, const ConversionTimes& t) {
-    nlohmann::ordered_json json{{"settings", t.settings},
-                                {"scans", t.scans},
-                                {"jobs", t.jobs},
-                                {"flight_s", t.flight_s},
-                                {"conversion_s", t.conversion_s},
-                                {"conversion_processor_s", t.conversion_processor_s},
-                                {"packets_to_labels_s", t.packets_to_labels_s},
-                                {"peak_megabytes", t.peak_megabytes}};
-    if (!std::isnan(t.copy_s)) {
-        json["copy_s"] = t.copy_s;
-        json["copy_processor_s"] = t.copy_processor_s;
-    }
+    const nlohmann::ordered_json json{{"settings", t.settings},
+                                      {"scans", t.scans},
+                                      {"jobs", t.jobs},
+                                      {"flight_s", t.flight_s},
+                                      {"conversion_s", t.conversion_s},
+                                      {"cpu_ms", t.cpu_ms},
+                                      {"reading_ms", t.reading_ms},
+                                      {"packets_to_labels_ms", t.packets_to_labels_ms},
+                                      {"peak_megabytes", t.peak_megabytes}};
     std::ofstream out(json_lines, std::ios::app);
     out << json.dump() << "\n";
     out.close();
@@ -37,11 +34,10 @@ std::vector<ConversionTimes> readConversionTimes(const std::filesystem::path& js
             t.jobs = json.at("jobs");
             t.flight_s = json.at("flight_s");
             t.conversion_s = json.at("conversion_s");
-            t.conversion_processor_s = json.at("conversion_processor_s");
-            t.packets_to_labels_s = json.at("packets_to_labels_s");
+            t.cpu_ms = json.at("cpu_ms");
+            t.reading_ms = json.at("reading_ms");
+            t.packets_to_labels_ms = json.at("packets_to_labels_ms");
             t.peak_megabytes = json.at("peak_megabytes");
-            t.copy_s = json.value("copy_s", t.copy_s);
-            t.copy_processor_s = json.value("copy_processor_s", t.copy_processor_s);
             all.push_back(t);
         }
     } catch (const nlohmann::json::exception& e) {

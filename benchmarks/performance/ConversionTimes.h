@@ -1,6 +1,5 @@
 // Results of conversion-benchmark as lines of JSON.
 #pragma once
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -8,14 +7,14 @@
 
 namespace hagen {
 
-/// Median times of a conversion, and of copying the same bytes (NaN if not measured).
+/// Median times of a conversion. CPU times include the process that reads ahead.
 struct ConversionTimes {
     std::string settings;
     std::size_t scans = 0, jobs = 0;
     double flight_s = 0;
-    double conversion_s = 0, conversion_processor_s = 0;
-    double packets_to_labels_s = 0;  ///< part of the conversion, summed over jobs
-    double copy_s = NAN, copy_processor_s = NAN;
+    double conversion_s = 0;
+    double cpu_ms = 0, reading_ms = 0;  ///< CPU time per scan: in total, and of reading the log
+    double packets_to_labels_ms = 0;    ///< per scan
     double peak_megabytes = 0;
 };
 

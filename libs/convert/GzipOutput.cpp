@@ -1,4 +1,4 @@
-#include <libdeflate.h>
+#include <isa-l/igzip_lib.h>
 #include <unistd.h>
 
 #include "base/WriteFile.h"
@@ -7,30 +7,27 @@
 #include <new>
 
 namespace hagen::convert {
-namespace {
-
-constexpr int kGzipLevel = 1;
-
-struct FreeCompressor {
-    void operator()(libdeflate_compressor* compressor) const {
-        libdeflate_free_compressor(compressor);
-    }
-};
-
-}  // namespace
 
 void packGzipMember(const Bytes& plain, Bytes& packed) {
     // Not thread_local, because destroying it at thread exit needs memory; glibc aborts if there is
     // none.
-    const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
-        libdeflate_alloc_compressor(kGzipLevel));
-    if (!compressor) throw std::bad_alloc();
-    const std::size_t bound = libdeflate_gzip_compress_bound(compressor.get(), plain.size());
-    if (packed.size() < bound) packed.resize(bound);
-    const std::size_t size = libdeflate_gzip_compress(compressor.get(), plain.data(), plain.size(),
-                                                      packed.data(), packed.size());
-    if (size == 0) throw std::logic_error("a gzip member exceeds its own bound");
-    packed.resize(size);
+    const std::unique_ptr<std::uint8_t[]> level_buffer(new std::uint8_t[ISAL_DEF_LVL1_DEFAULT]);
+    isal_zstream stream{};  // isal_deflate_stateless_init() leaves hist_bits as it is
+    isal_deflate_stateless_init(&stream);
+    stream.level = 1;
+    stream.level_buf = level_buffer.get();
+    stream.level_buf_size = ISAL_DEF_LVL1_DEFAULT;
+    stream.gzip_flag = IGZIP_GZIP;
+    stream.end_of_stream = 1;
+    stream.next_in = const_cast<std::uint8_t*>(plain.data());
+    stream.avail_in = static_cast<std::uint32_t>(plain.size());
+    packed.resize(plain.size() + plain.size() / 1000 + 1000);  // enough for random bytes
+    stream.next_out = packed.data();
+    stream.avail_out = static_cast<std::uint32_t>(packed.size());
+    if (isal_deflate_stateless(&stream) != COMP_OK) {
+        throw std::logic_error("a gzip member exceeds its own bound");
+    }
+    packed.resize(stream.total_out);
 }
 
 GzipOutput::GzipOutput(const std::filesystem::path& file) : path_(file) {

@@ -37,22 +37,20 @@ Json json(const Matrix& transform) {
 
 /// Returns by pixel, nearest first. Leaves out those without a range.
 base::ViewReturns returnsOf(const Scan& scan, const SegmentationResult& result) {
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t i = 0; i < scan.size(); ++i) {
-        if (hasValue(scan.range_m[i]) && scan.range_m[i] > 0) order.push_back(i);
-    }
     const auto& pixel = result.range_image.depth_mapper;
     const int rows = static_cast<int>(result.labels.rows());
     // By row, because neighbours in a row have similar ranges.
-    const auto key = [&](std::uint32_t i) {
-        return std::make_tuple(pixel[i] % rows, pixel[i] / rows, scan.range_m[i]);
-    };
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::vector<std::tuple<int, int, float, std::uint32_t>> order;
+    for (std::uint32_t i = 0; i < scan.size(); ++i) {
+        const float range_m = scan.range_m[i];
+        if (!hasValue(range_m) || range_m <= 0) continue;
+        order.emplace_back(pixel[i] % rows, pixel[i] / rows, range_m, i);
+    }
+    std::sort(order.begin(), order.end());
     base::ViewReturns returns;
     returns.rows = rows;
     returns.columns = static_cast<int>(result.labels.cols());
-    for (const std::uint32_t i : order) {
+    for (const auto& [row, column, range_m, i] : order) {
         returns.add(scan.x_m[i], scan.y_m[i], scan.z_m[i],
                     static_cast<std::uint8_t>(result.returns.label[i]));
         returns.obstacle.push_back(result.returns.component[i]);

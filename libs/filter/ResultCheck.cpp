@@ -34,12 +34,13 @@ std::string textOf(const char* format, float number) {
 /// Whether a share of the returns in the zone is ground.
 bool hasGround(const Scan& scan, const std::vector<Label>& label, float zone_m) {
     constexpr double kMinGround = 0.01;
-    std::size_t ground = 0, others = 0;
+    std::uint32_t ground = 0, near = 0;
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (!(scan.range_m[i] <= zone_m)) continue;
-        ++(label[i] == Label::Rou ? ground : others);
+        const std::uint32_t is_near = scan.range_m[i] <= zone_m, is_rou = label[i] == Label::Rou;
+        near += is_near;
+        ground += is_near & is_rou;  // vectorized, because there is no branch
     }
-    return static_cast<double>(ground) >= kMinGround * static_cast<double>(ground + others);
+    return ground >= kMinGround * near;
 }
 
 float medianOf(std::vector<float>& values) {

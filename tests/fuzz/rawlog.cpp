@@ -38,7 +38,8 @@ mrpt::serialization::CSerializable::Ptr nextOf(recordings::EntryReader& reader) 
 void readEntries(std::string_view input) {
     const InputFile file(input, "input.rawlog");
     mayRefuse([&] {
-        recordings::EntryReader reader(file.path(), file.path());
+        recordings::PackedInput stream(file.path());
+        recordings::EntryReader reader(file.path(), stream);
         while (const auto object = nextOf(reader)) {
             if (const auto* const one =
                     dynamic_cast<const mrpt::obs::CObservation*>(object.get())) {

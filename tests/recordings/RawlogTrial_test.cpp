@@ -1,9 +1,7 @@
 // Tests of the read-ahead child process, including when a lock that is never released blocks it.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/time.h>
-#include <unistd.h>
 #include "convert/RawlogWriter.h"
 
 #include <fstream>
@@ -60,7 +58,7 @@ class RawlogTrialTest : public testing::Test {
         fs::create_directory(locks);
         convert::RawlogWriter writer(folder_ / "a.rawlog", false);
         writer.write(test::comment("before"));
-        writer.write(test::comment("before, too"));
+        writer.write(test::comment(std::string(3'000'000, 'x')));  // more than a pipe holds
         writer.write(LockedObject());
         writer.write(test::comment("after"));
         writer.commit();
@@ -69,14 +67,10 @@ class RawlogTrialTest : public testing::Test {
     /// The verdicts on all entries if the reader blocks `times` times.
     std::vector<EntryVerdict> verdicts(int times) {
         for (int i = 0; i < times; ++i) std::ofstream(locks / std::to_string(i)) << 'x';
-        const int file = open((folder_ / "a.rawlog").c_str(), O_RDONLY | O_CLOEXEC);
         std::vector<EntryVerdict> verdicts;
-        {
-            RawlogTrial trial(folder_ / "a.rawlog", file, std::chrono::milliseconds(400));
-            do verdicts.push_back(trial.next());
-            while (verdicts.back().kind == EntryVerdict::Kind::Sound);
-        }
-        close(file);
+        RawlogTrial trial(folder_ / "a.rawlog", std::chrono::milliseconds(400));
+        do verdicts.push_back(trial.next());
+        while (verdicts.back().kind == EntryVerdict::Kind::Sound);
         return verdicts;
     }
 
@@ -86,12 +80,17 @@ class RawlogTrialTest : public testing::Test {
 TEST_F(RawlogTrialTest, RestartsIdleProcess) {
     const auto expected = verdicts(0);
     ASSERT_EQ(expected.size(), 5u);
+    for (std::size_t entry = 0; entry < 4; ++entry) {
+        const std::uint64_t start = entry == 0 ? 0 : expected[entry - 1].end;
+        EXPECT_EQ(expected[entry].bytes.size(), expected[entry].end - start);
+    }
     for (const int times : {1, 2}) {
         const auto found = verdicts(times);
         ASSERT_EQ(found.size(), 5u);
         for (std::size_t entry = 0; entry < 5; ++entry) {
             EXPECT_EQ(found[entry].kind, expected[entry].kind);
             EXPECT_EQ(found[entry].end, expected[entry].end);
+            EXPECT_EQ(found[entry].bytes, expected[entry].bytes);
         }
         EXPECT_TRUE(fs::is_empty(locks));
     }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "support/Program.h"
+#include "support/Random.h"
 #include "support/ReadRawlog.h"
 
 namespace hagen::recordings {
@@ -51,12 +52,27 @@ TEST_F(Rawlog, ReadsEntriesInOrder) {
 }
 
 TEST_F(Rawlog, MrptReadsOutput) {
+    test::Random random(1);
+    std::vector<std::string> texts;
+    for (const std::size_t size : {0, 1, 1000, 70000, 300000}) {
+        for (const int max : {1, 25, 255}) {  // the last cannot be compressed
+            std::string& text = texts.emplace_back(size, '\0');
+            for (char& letter : text) letter = static_cast<char>(random.whole(0, max));
+        }
+    }
     convert::RawlogWriter writer(folder_ / "a.rawlog", false);
-    for (int i = 0; i < 5; ++i) writer.write(mrpt::obs::CObservationRobotPose());
+    for (const std::string& text : texts) {
+        mrpt::obs::CObservationRobotPose entry;
+        entry.sensorLabel = text;
+        writer.write(entry);
+    }
     writer.commit();
     mrpt::obs::CRawlog rawlog;
     ASSERT_TRUE(rawlog.loadFromRawLogFile((folder_ / "a.rawlog").string()));
-    EXPECT_EQ(rawlog.size(), 5u);
+    ASSERT_EQ(rawlog.size(), texts.size());
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        EXPECT_TRUE(rawlog.getAsObservation(i)->sensorLabel == texts[i]) << i;
+    }
 }
 
 TEST_F(Rawlog, WritesReproducibleBytes) {

@@ -1,11 +1,10 @@
 #include "base/view/ViewPage.h"
-#include <libdeflate.h>
+#include <zlib.h>
 #include "base/view/ViewTexts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <new>
 
 namespace hagen::base {
@@ -17,13 +16,12 @@ constexpr double kAzimuths = 16384, kElevationUnit_rad = 0.0005, kRangeUnit_m = 
 constexpr double kOffsets = 8, kOffsetBias = 128;
 
 std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes, int level) {
-    const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-        libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
-    if (!compressor) throw std::bad_alloc();
-    std::vector<std::uint8_t> packed(
-        libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
-    packed.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
-                                           packed.data(), packed.size()));
+    uLongf size = compressBound(bytes.size());
+    std::vector<std::uint8_t> packed(size);
+    if (compress2(packed.data(), &size, bytes.data(), bytes.size(), level) != Z_OK) {
+        throw std::bad_alloc();
+    }
+    packed.resize(size);
     return packed;
 }
 

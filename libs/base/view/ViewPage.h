@@ -34,8 +34,8 @@ class ViewArrays {
     }
 
     /// {"arrays": [[name, type, count, whether differences] ...], "data": base64}. `level` is that
-    /// of libdeflate, 1 (fast) to 12.
-    Json json(int level = 9) const;
+    /// of zlib, 1 (fast) to 9.
+    Json json(int level = 5) const;
 
  private:
     Json directory_ = Json::array();

@@ -38,8 +38,8 @@ std::string whyNone(const std::filesystem::path& file) {
 
 }  // namespace
 
-EntryReader::EntryReader(const std::filesystem::path& file, const std::filesystem::path& opened)
-    : file_(file), stream_(opened), archive_(mrpt::serialization::archiveUniquePtrFrom(stream_)) {
+EntryReader::EntryReader(const std::filesystem::path& file, PackedInput& stream)
+    : file_(file), stream_(stream), archive_(mrpt::serialization::archiveUniquePtrFrom(stream_)) {
     observations::registerMrptClasses();
 }
 

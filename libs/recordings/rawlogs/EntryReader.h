@@ -11,19 +11,18 @@ constexpr std::uint64_t kMaxEntryBytes = std::uint64_t{1} << 30;
 /// memory, and a missing object may crash the process. Use RawlogReader for safe reading.
 class EntryReader {
  public:
-    /// `file`: name in messages. `opened`: path to open, which may be another name of the file.
-    EntryReader(const std::filesystem::path& file, const std::filesystem::path& opened);
+    /// `file`: name in messages. `stream` must outlive this object.
+    EntryReader(const std::filesystem::path& file, PackedInput& stream);
 
     /// Returns the next entry, or nullptr at the end. Throws BrokenRecording, or
     /// std::bad_alloc if memory runs out and the file has no other fault.
     mrpt::serialization::CSerializable::Ptr next();
 
     std::size_t entries() const { return entries_; }
-    const PackedInput& stream() const { return stream_; }
 
  private:
     std::filesystem::path file_;
-    PackedInput stream_;
+    PackedInput& stream_;
     mrpt::serialization::CArchive::UniquePtr archive_;
     std::size_t entries_ = 0;
 };

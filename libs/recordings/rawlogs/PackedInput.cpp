@@ -1,7 +1,6 @@
 #include "recordings/rawlogs/PackedInput.h"
 #include <unistd.h>
 #include <algorithm>
-#include <new>
 
 namespace hagen::recordings {
 namespace {
@@ -22,8 +21,8 @@ PackedInput::PackedInput(const std::filesystem::path& file)
                std::equal(std::begin(magic), std::end(magic), packed_.begin());
     };
     is_gzip_ = starts(kGzip);
-    constexpr int kGzipOnly = 31;
-    if (is_gzip_ && inflateInit2(&gzip_, kGzipOnly) != Z_OK) throw std::bad_alloc();
+    isal_inflate_init(&gzip_);
+    gzip_.crc_flag = ISAL_GZIP;
     if (!starts(kZstd)) return;
     lseek(descriptor(), 0, SEEK_SET);
     try {
@@ -33,34 +32,33 @@ PackedInput::PackedInput(const std::filesystem::path& file)
     }
 }
 
-PackedInput::~PackedInput() { inflateEnd(&gzip_); }
-
 /// Does not use zlib's gzread(), which silently stops at data that does not look like another
 /// member and would thus lose the rest of a damaged log.
 std::size_t PackedInput::readGzip(unsigned char* to, std::size_t count) {
     gzip_.next_out = to;
-    gzip_.avail_out = static_cast<unsigned>(count);
+    gzip_.avail_out = static_cast<std::uint32_t>(count);
     while (gzip_.avail_out > 0 && fault_.empty()) {
         if (gzip_.avail_in == 0) {
             gzip_.next_in = packed_.data();
-            gzip_.avail_in =
-                static_cast<unsigned>(std::fread(packed_.data(), 1, packed_.size(), file_.get()));
+            gzip_.avail_in = static_cast<std::uint32_t>(
+                std::fread(packed_.data(), 1, packed_.size(), file_.get()));
         }
-        if (gzip_.avail_in == 0) {
-            if (is_in_member_) fault_ = "the file is truncated";
-            break;
-        }
+        const bool is_end = gzip_.avail_in == 0;  // ISA-L may still hold output
+        if (!is_in_member_ && is_end) break;
         if (!is_in_member_ && *gzip_.next_in == 0) {  // padding after a member, as in gzip(1)
             ++gzip_.next_in;
             --gzip_.avail_in;
             continue;
         }
-        const int code = inflate(&gzip_, Z_NO_FLUSH);
-        is_in_member_ = code != Z_STREAM_END;
-        if (!is_in_member_) {
-            inflateReset(&gzip_);
-        } else if (code != Z_OK && code != Z_BUF_ERROR) {
+        const std::uint32_t wanted = gzip_.avail_out;
+        const int code = isal_inflate(&gzip_);
+        is_in_member_ = gzip_.block_state != ISAL_BLOCK_FINISH;
+        if (code < 0) {
             fault_ = "the compressed data is corrupt";
+        } else if (!is_in_member_) {
+            isal_inflate_reset(&gzip_);
+        } else if (is_end && gzip_.avail_out == wanted) {
+            fault_ = "the file is truncated";
         }
     }
     return count - gzip_.avail_out;

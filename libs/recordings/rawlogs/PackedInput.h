@@ -1,6 +1,6 @@
 #pragma once
+#include <isa-l/igzip_lib.h>
 #include <mrpt/io/CStream.h>
-#include <zlib.h>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -20,7 +20,6 @@ class PackedInput : public mrpt::io::CStream {
  public:
     /// Throws std::runtime_error naming the file if it cannot be opened.
     explicit PackedInput(const std::filesystem::path& file);
-    ~PackedInput() override;
 
     /// Reads up to `count` bytes, fewer at the end of the file or on an error. Returns the number
     /// of bytes read.
@@ -50,7 +49,7 @@ class PackedInput : public mrpt::io::CStream {
     };
     std::unique_ptr<std::FILE, Close> file_;
     std::vector<unsigned char> packed_;
-    z_stream gzip_{};
+    inflate_state gzip_{};
     bool is_gzip_ = false, is_in_member_ = false;
     std::optional<Unpacker> zstd_;
     std::uint64_t size_ = 0, position_ = 0;

@@ -1,8 +1,7 @@
+#include <hagen/mrpt/MrptCompat.h>
 #include <hagen/recordings/RawlogReader.h>
+#include <mrpt/io/CMemoryStream.h>
 
-#include <fstream>
-
-#include "recordings/rawlogs/EntryReader.h"
 #include "recordings/rawlogs/RawlogTrial.h"
 
 namespace hagen::recordings {
@@ -10,7 +9,6 @@ namespace {
 
 const std::filesystem::path& checked(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) throw std::runtime_error(file.string() + ": no such file");
-    if (!std::ifstream(file)) throw std::runtime_error(file.string() + ": cannot be read");
     if (std::filesystem::file_size(file) == 0) {
         throw std::runtime_error(file.string() + ": is empty");
     }
@@ -20,35 +18,30 @@ const std::filesystem::path& checked(const std::filesystem::path& file) {
 }  // namespace
 
 struct RawlogReader::Parts {
-    std::filesystem::path file;
-    EntryReader reader;
     RawlogTrial trial;
-
-    explicit Parts(const std::filesystem::path& name)
-        : file(checked(name)), reader(name, name), trial(name, reader.stream().descriptor()) {}
+    std::size_t entries = 0;
+    double fraction_read = 0;
 };
 
 RawlogReader::RawlogReader(const std::filesystem::path& file)
-    : parts_(std::make_unique<Parts>(file)) {}
+    : parts_(new Parts{RawlogTrial(checked(file))}) {
+    observations::registerMrptClasses();
+}
 RawlogReader::~RawlogReader() = default;
 
-std::size_t RawlogReader::entries() const { return parts_->reader.entries(); }
+std::size_t RawlogReader::entries() const { return parts_->entries; }
 
-double RawlogReader::fractionRead() const {
-    const PackedInput& stream = parts_->reader.stream();
-    return static_cast<double>(stream.packedPosition()) / static_cast<double>(stream.packedBytes());
-}
+double RawlogReader::fractionRead() const { return parts_->fraction_read; }
 
 mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
-    const EntryVerdict verdict = parts_->trial.next();
+    const EntryVerdict& verdict = parts_->trial.next();
+    parts_->fraction_read = verdict.fraction_read;
     if (verdict.kind == EntryVerdict::Kind::End) return nullptr;
     if (verdict.kind == EntryVerdict::Kind::Broken) throw BrokenRecording(verdict.why);
-    const auto object = parts_->reader.next();
-    if (!object || parts_->reader.stream().getPosition() != verdict.end) {
-        throw BrokenRecording(parts_->file.string() + ": changed while it was read, at entry " +
-                              std::to_string(entries()));
-    }
-    return object;
+    ++parts_->entries;
+    mrpt::io::CMemoryStream stream;
+    stream.assignMemoryNotOwn(verdict.bytes.data(), verdict.bytes.size());
+    return mrpt::serialization::archiveFrom(stream).ReadObject();
 }
 
 }  // namespace hagen::recordings

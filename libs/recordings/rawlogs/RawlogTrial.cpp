@@ -4,36 +4,77 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include "base/MemoryLimit.h"
 #include "base/ProcessCost.h"
 
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "recordings/rawlogs/EntryReader.h"
 
 namespace hagen::recordings {
 namespace {
 
-/// The message to the program, a packet.
-struct VerdictMessage {
+constexpr int kPipeBytes = 1 << 20;
+
+/// A message to the program: this, and bytes of the entry or, if Broken, the reason.
+struct MessageHead {
     EntryVerdict::Kind kind;
     std::uint64_t end;
-    std::array<char, 4096> why;
+    double fraction_read;
+    std::size_t size;  ///< bytes that follow
 };
 
-void sendVerdict(int socket, EntryVerdict::Kind kind, std::uint64_t end, const char* why = "") {
-    VerdictMessage message{kind, end, {}};
-    std::snprintf(message.why.data(), message.why.size(), "%s", why);
-    if (send(socket, &message, sizeof message, MSG_NOSIGNAL) < 0) _exit(0);
+/// Calls read() or write() until all bytes are transferred. Returns false if the pipe is closed.
+template <class Transfer, class Byte>
+bool transferAll(Transfer transfer, int pipe, Byte* bytes, std::size_t size) {
+    while (size > 0) {
+        const ssize_t done = transfer(pipe, bytes, size);
+        if (done == 0 || (done < 0 && errno != EINTR)) return false;
+        if (done < 0) continue;
+        bytes += done;
+        size -= static_cast<std::size_t>(done);
+    }
+    return true;
 }
+
+/// Sends all bytes read from a rawlog to the program.
+class SentInput : public PackedInput {
+ public:
+    SentInput(const std::filesystem::path& file, int pipe) : PackedInput(file), pipe_(pipe) {}
+
+    std::size_t Read(void* buffer, std::size_t count) override {
+        const std::size_t done = PackedInput::Read(buffer, count);
+        const auto* const bytes = static_cast<const std::uint8_t*>(buffer);
+        waiting_.insert(waiting_.end(), bytes, bytes + done);
+        if (waiting_.size() > kPipeBytes / 16) send(EntryVerdict::Kind::Part);
+        return done;
+    }
+
+    void send(EntryVerdict::Kind kind) {
+        const double fraction =
+            static_cast<double>(packedPosition()) / static_cast<double>(packedBytes());
+        const MessageHead head{kind, getPosition(), fraction, waiting_.size()};
+        if (!transferAll(write, pipe_, reinterpret_cast<const char*>(&head), sizeof head) ||
+            !transferAll(write, pipe_, waiting_.data(), waiting_.size())) {
+            _exit(0);
+        }
+        waiting_.clear();
+    }
+    void sendBroken(std::string_view why) {
+        waiting_.assign(why.begin(), why.end());
+        send(EntryVerdict::Kind::Broken);
+    }
+
+ private:
+    int pipe_;
+    std::vector<std::uint8_t> waiting_;
+};
 
 /// Private memory of this process [bytes].
 std::uint64_t dataBytes() {
@@ -45,59 +86,62 @@ std::uint64_t dataBytes() {
 
 /// Reads all entries and sends a verdict on each of them.
 [[noreturn]] void tryAll(const std::filesystem::path& file, const std::filesystem::path& opened,
-                         int socket) {
-    std::optional<EntryReader> opening;
+                         int pipe) noexcept {
+    SentInput input(opened, pipe);
     try {
-        EntryReader& reader = opening.emplace(file, opened);
+        EntryReader reader(file, input);
         base::limitMemory(dataBytes() + kMaxEntryBytes);
-        while (reader.next()) {
-            sendVerdict(socket, EntryVerdict::Kind::Sound, reader.stream().getPosition());
-        }
-        sendVerdict(socket, EntryVerdict::Kind::End, reader.stream().getPosition());
+        while (reader.next()) input.send(EntryVerdict::Kind::Sound);
+        input.send(EntryVerdict::Kind::End);
     } catch (const std::bad_alloc&) {
-        const std::uint64_t at = opening ? opening->stream().getPosition() : 0;
-        sendVerdict(socket, EntryVerdict::Kind::OutOfMemory, at);
+        input.send(EntryVerdict::Kind::OutOfMemory);
     } catch (const std::exception& e) {
-        sendVerdict(socket, EntryVerdict::Kind::Broken, 0, e.what());
+        input.sendBroken(e.what());
     }
     _exit(0);
 }
 
-/// Runs in the child process, which keeps only the descriptors of the rawlog and the socket.
-[[noreturn]] void runTrial(const std::filesystem::path& file, int descriptor, int socket) {
+/// Runs in the child process, which keeps only the descriptors of the rawlog and the pipe.
+[[noreturn]] void runTrial(const std::filesystem::path& file, int descriptor, int pipe) {
     setpgid(0, 0);
     // The program stops this process. Crashes must not write core files.
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) signal(number, SIG_IGN);
     for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) signal(number, SIG_DFL);
     const rlimit none{0, 0};
     setrlimit(RLIMIT_CORE, &none);
     // The program itself prints MRPT's warnings when it reads the entry.
     const int silence = open("/dev/null", O_RDWR);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(silence, stream);
-    constexpr int kRawlog = 3, kSocket = 4;
-    const int high_rawlog = fcntl(descriptor, F_DUPFD, 10),
-              high_socket = fcntl(socket, F_DUPFD, 10);
+    constexpr int kRawlog = 3, kPipe = 4;
+    const int high_rawlog = fcntl(descriptor, F_DUPFD, 10), high_pipe = fcntl(pipe, F_DUPFD, 10);
     dup2(high_rawlog, kRawlog);
-    dup2(high_socket, kSocket);
-    close_range(kSocket + 1, ~0U, 0);
-    // Reopened, because the program's reading moves the shared position, and by descriptor, because
-    // the name may refer to another file by now.
-    tryAll(file, "/proc/self/fd/" + std::to_string(kRawlog), kSocket);
+    dup2(high_pipe, kPipe);
+    close_range(kPipe + 1, ~0U, 0);
+    // By descriptor, because the name may refer to another file by now.
+    tryAll(file, "/proc/self/fd/" + std::to_string(kRawlog), kPipe);
 }
 
 }  // namespace
 
-RawlogTrial::RawlogTrial(const std::filesystem::path& file, int descriptor,
-                         std::chrono::milliseconds max_idle)
-    : file_(file), descriptor_(descriptor), max_idle_(max_idle) {
-    start();
+RawlogTrial::RawlogTrial(const std::filesystem::path& file, std::chrono::milliseconds max_idle)
+    : file_(file), descriptor_(open(file.c_str(), O_RDONLY | O_CLOEXEC)), max_idle_(max_idle) {
+    if (descriptor_ < 0) throw std::runtime_error(file.string() + ": cannot be read");
+    try {
+        start();
+    } catch (...) {
+        close(descriptor_);
+        throw;
+    }
 }
 
-RawlogTrial::~RawlogTrial() { stop(); }
+RawlogTrial::~RawlogTrial() {
+    stop();
+    close(descriptor_);
+}
 
 void RawlogTrial::start() {
     int ends[2] = {-1, -1};
-    process_ = socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) == 0 ? fork() : -1;
+    process_ = pipe2(ends, O_CLOEXEC) == 0 ? fork() : -1;
     if (process_ == 0) runTrial(file_, descriptor_, ends[1]);
     const int error = errno;
     close(ends[1]);
@@ -109,7 +153,9 @@ void RawlogTrial::start() {
                                  "(ulimit -u?): " +
                                  std::strerror(error));
     }
+    fcntl(verdicts_, F_SETPIPE_SZ, kPipeBytes);  // so that the process can read ahead
     received_ = 0;
+    last_.bytes.clear();
     ++starts_;
 }
 
@@ -152,26 +198,42 @@ std::string RawlogTrial::whyItEnded() {
                         (is_signal ? std::string(" (") + strsignal(WTERMSIG(status)) + ")" : ""));
 }
 
-EntryVerdict RawlogTrial::receiveVerdict() {
-    VerdictMessage message;
-    if (recv(verdicts_, &message, sizeof message, 0) != sizeof message) {
-        return {EntryVerdict::Kind::Broken, last_.end, whyItEnded()};
+/// Receives a verdict, or a part of its entry, into last_.
+void RawlogTrial::receive() {
+    MessageHead head;
+    std::vector<std::uint8_t>& bytes = last_.bytes;
+    const std::size_t start = bytes.size();
+    bool is_whole = transferAll(read, verdicts_, reinterpret_cast<char*>(&head), sizeof head);
+    if (is_whole) {
+        bytes.resize(start + head.size);
+        is_whole = transferAll(read, verdicts_, bytes.data() + start, head.size);
     }
-    ++received_;
-    if (message.kind == EntryVerdict::Kind::OutOfMemory) {
-        return {EntryVerdict::Kind::Broken, last_.end,
-                cannotBeRead("it requests too much memory at byte " + std::to_string(message.end) +
-                             ": a count is wrong, or the entry exceeds " +
-                             std::to_string(kMaxEntryBytes >> 20) + " MiB or --memory-limit")};
+    if (!is_whole) {
+        broken(whyItEnded());
+        return;
     }
-    return {message.kind, message.end, message.why.data()};
+    last_.kind = head.kind;
+    last_.fraction_read = head.fraction_read;
+    if (head.kind == EntryVerdict::Kind::Broken) {
+        last_.why.assign(bytes.begin() + static_cast<std::ptrdiff_t>(start), bytes.end());
+    } else if (head.kind == EntryVerdict::Kind::OutOfMemory) {
+        broken(cannotBeRead("it requests too much memory at byte " + std::to_string(head.end) +
+                            ": a count is wrong, or the entry exceeds " +
+                            std::to_string(kMaxEntryBytes >> 20) + " MiB or --memory-limit"));
+    } else if (head.kind != EntryVerdict::Kind::Part) {
+        last_.end = head.end;
+    }
 }
 
-EntryVerdict RawlogTrial::next() {
+const EntryVerdict& RawlogTrial::broken(const std::string& why) {
+    last_.kind = EntryVerdict::Kind::Broken;
+    last_.why = why;
+    return last_;
+}
+
+const EntryVerdict& RawlogTrial::next() {
     if (last_.kind != EntryVerdict::Kind::Sound) return last_;
-    const auto broken = [this](const std::string& why) {
-        return last_ = {EntryVerdict::Kind::Broken, last_.end, why};
-    };
+    last_.bytes.clear();
     for (;;) {
         if (isStuck()) {
             stop();
@@ -179,16 +241,14 @@ EntryVerdict RawlogTrial::next() {
             start();
             continue;
         }
-        const bool is_new = received_ == entries_;
-        const EntryVerdict verdict = receiveVerdict();
-        if (is_new) {
+        receive();
+        if (last_.kind == EntryVerdict::Kind::Part) continue;
+        ++received_;
+        if (received_ > entries_ || last_.kind != EntryVerdict::Kind::Sound) {
             ++entries_;
-            return last_ = verdict;
+            return last_;
         }
-        if (verdict.kind != EntryVerdict::Kind::Sound) {
-            return broken(file_.string() + ": changed while it was read, before entry " +
-                          std::to_string(entries_));
-        }
+        last_.bytes.clear();  // received before a restart
     }
 }
 
