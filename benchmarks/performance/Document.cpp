@@ -43,7 +43,7 @@ double growthOf(const std::vector<TimedRow>& rows) {
 std::string summary(const Performance& p) {
     std::string sensors, ours, fast, at_10_hz, at_20_hz;
     for (const TimedRow& row : rowsOf(p, kDefaultPipeline)) {
-        if (row.sensor == "HDL-32E" || row.sensor == "OS1-128 x 1024") continue;
+        if (row.sensor == "HDL-32E" || row.sensor == "OS1-128/1024") continue;
         const char* const comma = sensors.empty() ? "" : ", ";
         sensors += comma + row.sensor;
         ours += comma + cell(row.warm.p50_ms, 1);
@@ -63,7 +63,7 @@ std::string wholeSection(const Performance& p) {
                  "allocations"});
     for (const TimedRow& row : p.rows) {
         if (row.cold.runs == 0) continue;
-        table.add({row.sensor, "`" + row.what + "`", microseconds(row.warm.p50_ms),
+        table.add({row.sensor, row.what, microseconds(row.warm.p50_ms),
                    microseconds(row.warm.p95_ms), microseconds(row.warm.p99_ms),
                    microseconds(row.cold.p50_ms), microseconds(row.cold.p95_ms),
                    microseconds(row.cold.p99_ms),
@@ -74,8 +74,8 @@ std::string wholeSection(const Performance& p) {
            "Microseconds per scan on one core, from packets (VLP-16, HDL-32E) or coordinates to "
            "one label per return and index lists. All rows run in turn on each scan: warm, right "
            "after the previous scan, or cold, after writing 256 MB. The scans are 13 in "
-           "sequence from each of four simulated scenes, or six real ones (64 beams). `mrpt "
-           "decode` is MRPT's `generatePointCloud()`, which decodes half of the scan.\n\n" +
+           "sequence from each of four simulated scenes, or six real ones (HDL-64E). `mrpt "
+           "decode` is `generatePointCloud()`, which decodes half of the scan.\n\n" +
            table.text();
 }
 
@@ -115,11 +115,10 @@ std::string flightSection(const Performance& p) {
     const std::size_t scans = p.table.returns.size();
     const std::size_t returns =
         std::accumulate(p.table.returns.begin(), p.table.returns.end(), std::size_t{0});
-    Table table({"`" + p.table.scenario + "`", "mean +- sd [ms]", "p50", "p99", "max"});
+    Table table({"`" + p.table.scenario + "`, ms", "p50", "p95", "p99", "max"});
     for (const auto& method : p.table.methods) {
         const evaluation::Latency t = evaluation::latencyOf(method.runs_ms);
-        table.add({method.name, cell(t.mean_ms) + " +- " + cell(t.sd_ms), cell(t.p50_ms),
-                   cell(t.p99_ms), cell(t.max_ms)});
+        table.add({method.name, cell(t.p50_ms), cell(t.p95_ms), cell(t.p99_ms), cell(t.max_ms)});
     }
     return "## Comparison with other methods\n\n"
            "A simulated flight of " +

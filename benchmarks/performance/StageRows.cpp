@@ -204,7 +204,7 @@ std::vector<StageGroup> pipelines() {
             {paperOptions(), {{kPaperPipeline, wholePipeline}}},
             {Options(), {{kDefaultPipeline, wholePipeline}}},
             {fastOptions(), {{kFastPipeline, wholePipeline}}},
-            {Options(), {{"zermas ground fit", zermas}}}};
+            {Options(), {{"zermas", zermas}}}};
 }
 
 std::vector<StageGroup> stages() {

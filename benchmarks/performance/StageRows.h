@@ -38,12 +38,12 @@ struct StageGroup {
     std::vector<StageRow> rows;
 };
 
-inline const std::string kMrptDecode = "mrpt decode", kPaperPipeline = "paper pipeline",
-                         kDefaultPipeline = "default pipeline", kFastPipeline = "fast pipeline";
+inline const std::string kMrptDecode = "mrpt decode", kPaperPipeline = "paper",
+                         kDefaultPipeline = "default", kFastPipeline = "fast";
 
 /// From packets or coordinates to labels and index lists, one row per group: kMrptDecode (only
 /// MRPT's own decoder, which reads half of each scan; requires packets), kPaperPipeline,
-/// kDefaultPipeline, kFastPipeline (raw_angles) and "zermas ground fit".
+/// kDefaultPipeline, kFastPipeline (raw_angles) and "zermas".
 std::vector<StageGroup> pipelines();
 
 /// The paper's stages with its settings, and our own with the default settings.

@@ -104,11 +104,11 @@ std::vector<Sensor> sensorsFor(const Flags& flags) {
     std::vector<Sensor> sensors{
         {"VLP-16", true, [&] { return simulatedPackets("VLP-16", flags.scans); }},
         {"HDL-32E", false, [&] { return simulatedPackets("HDL-32E", flags.scans); }},
-        {"64 beams", true, [&] { return realScansOf64Beams(flags.scans); }},
-        {"OS1-128 x 1024", false, [&] { return simulatedOs1(1024, flags.scans); }},
-        {"OS1-128 x 2048", true, [&] { return simulatedOs1(2048, flags.scans); }}};
+        {"HDL-64E", true, [&] { return realScansOf64Beams(flags.scans); }},
+        {"OS1-128/1024", false, [&] { return simulatedOs1(1024, flags.scans); }},
+        {"OS1-128/2048", true, [&] { return simulatedOs1(2048, flags.scans); }}};
     if (std::getenv("HAGEN_LABELLED_DATA") == nullptr) {
-        std::cerr << "64 beams: skipped, HAGEN_LABELLED_DATA is not set\n";
+        std::cerr << "HDL-64E: skipped, HAGEN_LABELLED_DATA is not set\n";
         sensors.erase(sensors.begin() + 2);
     }
     return sensors;
@@ -137,7 +137,7 @@ int run(const Flags& flags) {
         if (whole.empty() && parts.empty()) continue;
         std::cerr << sensor.name << "\n";
         const Input input = sensor.input();
-        for (const auto& [asked, time] : {std::pair(whole, timePipelines), {parts, timeStages}}) {
+        for (const auto& [asked, time] : {std::pair(whole, &timePipelines), {parts, &timeStages}}) {
             std::vector<Group> groups = groupsOf(asked, input);
             time(groups, flags.runs);
             for (const Group& group : groups) {
