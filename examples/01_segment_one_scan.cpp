@@ -27,7 +27,9 @@ int main() {
     hagen::locateBeams(sensor, scan);
 
     // Keep the filter: it reuses its memory for every scan.
-    hagen::HagenFilter filter(sensor);
+    hagen::Options options;
+    options.number_obstacles = true;
+    hagen::HagenFilter filter(sensor, options);
     const hagen::SegmentationResult& result = filter.segment(scan);
     std::printf("%zu returns: %zu RoI, %zu ROU\n", scan.size(), result.returns.roi.size(),
                 result.returns.rou.size());

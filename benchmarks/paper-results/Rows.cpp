@@ -26,13 +26,14 @@ Settings settingsOf(const DataSet& set, const std::filesystem::path& file) {
 void checkPaper(const Options& paper, const std::filesystem::path& file) {
     const bool has_no_others = !paper.ground_surface && !paper.level_by_attitude &&
                                paper.seed_gate_deg >= 90 && paper.repair_max_step_m <= 0 &&
-                               !paper.bridge_dead_beams && paper.context_m <= paper.zone_m;
+                               !paper.bridge_dead_beams && !paper.raw_angles &&
+                               paper.context_m <= paper.zone_m;
     if (has_no_others) return;
     throw std::runtime_error(
         file.string() +
         ": has a stage beyond the paper; switch off ground_surface, "
-        "level_by_attitude, the seed gate, gap repair, bridge_dead_beams and context beyond the "
-        "zone");
+        "level_by_attitude, the seed gate, gap repair, bridge_dead_beams, raw_angles and context "
+        "beyond the zone");
 }
 
 void addChanges(const std::string& filter, const Settings& settings,

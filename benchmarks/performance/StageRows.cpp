@@ -4,6 +4,7 @@
 #include <hagen/scan/Angle.h>
 #include <hagen/settings/Settings.h>
 #include "evaluation/baselines/BaselineZermas.h"
+#include "filter/FilterStages.h"
 #include "filter/RoiBoxes.h"
 #include "filter/image/GapRepair.h"
 #include "filter/paper/RangeAngle.h"
@@ -49,55 +50,51 @@ Options withColumns(Options options, int columns) {
 }
 
 std::vector<StageRow> papersStages() {
-    return {
-        {"decode", readReturns},
-        {"1 depth image",
-         [](Case& c) {
-             projectScan(c.scan, c.input->model, c.options.columns, c.options.context_m,
-                         c.result.range_image, work().projection);
-         }},
-        {"2 gap repair",
-         [](Case& c) { repairGaps(c.result.range_image.depth_m, 1.0f, c.result.sharpened_m); }},
-        {"3 local maxima",
-         [](Case& c) {
-             proximityOf(c.result.repaired_m, c.options.zone_m, c.result.proximity_m);
-             findPersistentMaxima(c.result.proximity_m, c.options.persistence_m, c.result.maxima,
-                                  work().maxima);
-         }},
-        {"4+5 sharpening and merge",
-         [](Case& c) {
-             sharpenMaxima(c.result.proximity_m, c.result.maxima, c.options.sharpening_sigma_px,
-                           c.options.sharpening_sigma_m, c.result.sharpened_m);
-             mergeMaxima(c.result.repaired_m, c.result.proximity_m, c.result.sharpened_m,
-                         c.result.maxima, c.input->model.min_range_m, c.result.merged_m);
-         }},
-        {"6 range angles",
-         [](Case& c) {
-             rangeAngles(c.result.merged_m, c.directions, c.result.range_angle_rad);
-             carryAngles(c.result.smoothed_rad, c.result.pixel_angle_rad);
-         }},
-        {"7 singular spectrum analysis",
-         [](Case& c) {
-             smoothColumns(c.result.range_angle_rad, c.options.window_size,
-                           c.options.principal_components, c.result.smoothed_rad, work().ssa);
-         }},
-        {"8 labelling",
-         [](Case& c) {
-             labelRegions(c.result.repaired_m, c.result.pixel_angle_rad,
-                          radiansf(c.options.beta_deg), c.options.seeds,
-                          radiansf(c.options.seed_gate_deg), c.result.labels, work().labelling);
-             limitToZone(c.result.repaired_m, c.options.zone_m, c.result.labels);
-         }},
-        {"obstacles numbered (on demand)",
-         [](Case& c) {
-             numberRoiComponents(c.result.repaired_m, c.result.labels, c.options.component_gap_m,
-                                 c.result.components, work().components);
-         }},
-        {"9 extraction", [](Case& c) {
-             extractReturns(c.scan, {c.result.range_image, c.result.labels, c.result.components},
-                            c.result.own_labels, {c.options.zone_m, c.options.component_gap_m},
-                            c.result.returns, work().extraction);
-         }}};
+    return {{"decode", readReturns},
+            {"1 depth image",
+             [](Case& c) {
+                 projectScan(c.scan, c.input->model, c.options.columns, c.options.context_m,
+                             c.result.range_image, work().projection);
+             }},
+            {"2 gap repair",
+             [](Case& c) { repairGaps(c.result.range_image.depth_m, 1.0f, c.result.sharpened_m); }},
+            {"3 local maxima",
+             [](Case& c) {
+                 proximityOf(c.result.repaired_m, c.options.zone_m, c.result.proximity_m);
+                 findPersistentMaxima(c.result.proximity_m, c.options.persistence_m,
+                                      c.result.maxima, work().maxima);
+             }},
+            {"4+5 sharpening and merge",
+             [](Case& c) {
+                 sharpenMaxima(c.result.proximity_m, c.result.maxima, c.options.sharpening_sigma_px,
+                               c.options.sharpening_sigma_m, c.result.sharpened_m);
+                 mergeMaxima(c.result.repaired_m, c.result.proximity_m, c.result.sharpened_m,
+                             c.result.maxima, c.input->model.min_range_m, c.result.merged_m);
+             }},
+            {"6 range angles",
+             [](Case& c) {
+                 rangeAngles(c.result.merged_m, c.directions, c.result.range_angle_rad);
+                 carryAngles(c.result.smoothed_rad, c.result.pixel_angle_rad);
+             }},
+            {"7 singular spectrum analysis",
+             [](Case& c) {
+                 smoothColumns(c.result.range_angle_rad, c.options.window_size,
+                               c.options.principal_components, c.result.smoothed_rad, work().ssa);
+             }},
+            {"8 labelling",
+             [](Case& c) {
+                 labelRegions(c.result.repaired_m, c.result.pixel_angle_rad,
+                              radiansf(c.options.beta_deg), c.options.seeds,
+                              radiansf(c.options.seed_gate_deg), c.result.labels, work().labelling);
+                 limitToZone(c.result.repaired_m, c.options.zone_m, c.result.labels);
+             }},
+            {"9 extraction",
+             [](Case& c) {
+                 extractReturns(c.scan, c.result.range_image, c.result.labels, c.result.own_labels,
+                                c.options.zone_m, c.result.returns, work().extraction);
+             }},
+            {"obstacles numbered (on demand)",
+             [](Case& c) { numberObstacles(c.scan, c.options, c.result, work()); }}};
 }
 
 std::vector<StageRow> ownStages() {
@@ -123,8 +120,7 @@ std::vector<StageRow> ownStages() {
              keepLevelRou(c.result.labels, is_level, work().candidates);
              tolerance_m = g.tolerance_m;
              requireEvidence(g.pixels, g.cells, g.height_m, is_level,
-                             g.from_sensor.translation().z(), tolerance_m, g.has_evidence,
-                             work().evidence);
+                             g.from_sensor.translation().z(), tolerance_m, g.has_evidence);
          }},
         {"own: ground surface",
          [](Case& c) {

@@ -90,7 +90,9 @@ std::unique_ptr<ObservationSegmenter> makeSegmenter(const Conversion& conversion
     // Clouds with all fields need the observation's fields, so they are created afterwards.
     const bool is_generic = conversion.cloud_class == CloudClass::Generic;
     segmenter->cloud_class = is_generic ? CloudClass::Simple : conversion.cloud_class;
-    segmenter->initialize(settings);
+    Settings asking = settings;
+    asking.options.number_obstacles = true;
+    segmenter->initialize(asking);
     return segmenter;
 }
 

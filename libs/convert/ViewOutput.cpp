@@ -209,7 +209,9 @@ void ViewOutput::write(const ScanReport& report, const ObservationSegmenter::Out
     std::sort(maxima.begin(), maxima.end());
     arrays.add("maxima", maxima, true);
     arrays.add("angle", bytesOf(result.range_angle_rad, step), true);
-    arrays.add("smoothed", bytesOf(result.smoothed_rad, step), true);
+    const bool is_raw = segmented.options->raw_angles;
+    arrays.add("smoothed", bytesOf(is_raw ? result.range_angle_rad : result.smoothed_rad, step),
+               true);
     Json frame = {{"image", {result.labels.rows(), result.labels.cols()}},
                   {"angle_step", step},
                   {"values", valuesOf(report, result.ground.is_seen)},

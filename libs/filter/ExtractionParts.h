@@ -10,15 +10,14 @@ constexpr std::size_t kReturnsPerWord = 64;
 struct ExtractionInput {
     const float* range_m;
     const std::int32_t* pixel;
-    const std::uint8_t* own_label;         ///< null if no return has its own label
-    const std::int32_t* verdict_of_pixel;  ///< 2 * component + 1 if ROU; index -1 is for no pixel
+    const std::uint8_t* own_label;       ///< null if no return has its own label
+    const std::uint8_t* label_of_pixel;  ///< index -1 is for no pixel; has three spare bytes
+    float zone_m;
 };
 
 struct ExtractionOutput {
     std::uint8_t* label;
-    std::int32_t* component;
     std::uint32_t *roi, *rou, *unclassified;  ///< ends of the lists; writes may overrun by one word
-    std::int32_t max_components;              ///< highest component number so far
 };
 
 }  // namespace hagen

@@ -13,13 +13,9 @@ namespace {
 
 float radiansf(float angle_deg) { return static_cast<float>(radians(angle_deg)); }
 
-}  // namespace
-
-void labelByAngles(const PixelDirections& directions, float min_range_m,
-                   const std::optional<Attitude>& horizon, const Options& o, SegmentationResult& r,
-                   FilterWorkspace& w) {
+/// Stages 3 to 5.
+void sharpenDepth(float min_range_m, const Options& o, SegmentationResult& r, FilterWorkspace& w) {
     const Image<float>& depth_m = r.repaired_m;
-    // III-B: local maxima, sharpened
     proximityOf(depth_m, o.zone_m, r.proximity_m);
     findPersistentMaxima(r.proximity_m, o.persistence_m, r.maxima, w.maxima);
     sharpenMaxima(o.sharpen_proximity ? r.proximity_m : depth_m, r.maxima, o.sharpening_sigma_px,
@@ -29,15 +25,40 @@ void labelByAngles(const PixelDirections& directions, float min_range_m,
     } else {
         mergeDepths(depth_m, r.sharpened_m, r.maxima, r.merged_m);
     }
+}
+
+/// Clears the results of skipped stages, because exchangeResult() may have left another filter's.
+void clearSkipped(SegmentationResult& r) {
+    r.maxima.clear();
+    for (auto* image : {&r.proximity_m, &r.sharpened_m, &r.merged_m, &r.smoothed_rad}) {
+        image->resize(0, 0);
+    }
+}
+
+}  // namespace
+
+void labelByAngles(const PixelDirections& directions, float min_range_m,
+                   const std::optional<Attitude>& horizon, const Options& o, SegmentationResult& r,
+                   FilterWorkspace& w) {
+    // III-B: local maxima, sharpened
+    if (o.raw_angles) {
+        clearSkipped(r);
+    } else {
+        sharpenDepth(min_range_m, o, r, w);
+    }
 
     // III-C and III-D: range-angle image, smoothed
-    rangeAngles(r.merged_m, directions, horizon, r.range_angle_rad);
+    rangeAngles(o.raw_angles ? r.repaired_m : r.merged_m, directions, horizon, r.range_angle_rad);
     if (o.gaps_are_level) levelGaps(r.range_angle_rad);
-    smoothColumns(r.range_angle_rad, o.window_size, o.principal_components, r.smoothed_rad, w.ssa);
-    carryAngles(r.smoothed_rad, r.pixel_angle_rad, o.angle_to_beam_above);
+    if (!o.raw_angles) {
+        smoothColumns(r.range_angle_rad, o.window_size, o.principal_components, r.smoothed_rad,
+                      w.ssa);
+    }
+    carryAngles(o.raw_angles ? r.range_angle_rad : r.smoothed_rad, r.pixel_angle_rad,
+                o.angle_to_beam_above);
 
     // III-E: labels
-    labelRegions(depth_m, r.pixel_angle_rad, radiansf(o.beta_deg), o.seeds,
+    labelRegions(r.repaired_m, r.pixel_angle_rad, radiansf(o.beta_deg), o.seeds,
                  radiansf(o.seed_gate_deg), r.labels, w.labelling);
 }
 
@@ -81,7 +102,7 @@ void findTolerances(const Options& o, const CellArea& area, Ground& g, FilterWor
     g.has_evidence.clear();
     if (o.ground_evidence) {
         requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, above_ground_m, g.tolerance_m,
-                        g.has_evidence, w.evidence);
+                        g.has_evidence);
     }
 }
 
@@ -105,9 +126,11 @@ void judgeClearance(const Scan& scan, const std::optional<Attitude>& horizon, co
                         w.farther_returns);
 }
 
-void labelReturns(const Scan& scan, const Options& o, SegmentationResult& r, FilterWorkspace& w) {
-    extractReturns(scan, {r.range_image, r.labels, r.components}, r.own_labels,
-                   {o.zone_m, o.component_gap_m}, r.returns, w.extraction);
+void numberObstacles(const Scan& scan, const Options& o, SegmentationResult& r,
+                     FilterWorkspace& w) {
+    numberRoiComponents(r.repaired_m, r.labels, o.component_gap_m, r.components, w.components);
+    numberReturns(scan, r.range_image, r.components, r.own_labels, o.component_gap_m, r.returns,
+                  w.components);
 }
 
 }  // namespace hagen

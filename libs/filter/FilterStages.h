@@ -50,8 +50,8 @@ void relabelByGround(const Ground& ground, const Options& options, Image<Label>&
 void judgeClearance(const Scan& scan, const std::optional<Attitude>& horizon,
                     const Options& options, SegmentationResult& result, FilterWorkspace& work);
 
-/// Stage 9. Requires `result.components`.
-void labelReturns(const Scan& scan, const Options& options, SegmentationResult& result,
-                  FilterWorkspace& work);
+/// Fills `components` and `returns.component`. Requires all other parts of the result.
+void numberObstacles(const Scan& scan, const Options& options, SegmentationResult& result,
+                     FilterWorkspace& work);
 
 }  // namespace hagen

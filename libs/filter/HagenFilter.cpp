@@ -120,8 +120,11 @@ void HagenFilter::State::runStages(const Scan& window, const Scan& newest,
     const Scan& labelled = o.label_window ? window : newest;
     if (usesGround(o)) judgeByGround(window, labelled, horizon, view, o);
     if (o.context_m > o.zone_m) limitToZone(r.repaired_m, o.zone_m, r.labels);
-    numberRoiComponents(r.repaired_m, r.labels, o.component_gap_m, r.components, work.components);
-    labelReturns(labelled, o, r, work);
+    extractReturns(labelled, r.range_image, r.labels, r.own_labels, o.zone_m, r.returns,
+                   work.extraction);
+    r.components.resize(0, 0);  // exchangeResult() may have left another filter's
+    r.returns.component.clear();
+    if (o.number_obstacles) numberObstacles(labelled, o, r, work);
 }
 
 void HagenFilter::State::judgeByGround(const Scan& window, const Scan& labelled,

@@ -18,7 +18,7 @@ std::vector<RoiBox> boxRoiComponents(const Scan& scan, const LabelledReturns& re
     for (std::int32_t component = 1; component <= components; ++component) {
         boxes.push_back({component, 0, std::numeric_limits<float>::infinity(), {}});
     }
-    for (std::size_t i = 0; i < scan.size(); ++i) {
+    for (std::size_t i = 0; i < returns.component.size(); ++i) {
         if (returns.component[i] == 0) continue;
         RoiBox& box = boxes[returns.component[i] - 1];
         ++box.returns;

@@ -15,7 +15,8 @@ struct RoiBox {
     Eigen::AlignedBox3f extents_m;  ///< in the sensor frame, axis-aligned
 };
 
-/// One box per component, ordered by number. `returns` must be from this scan.
+/// One box per component, ordered by number. `returns` must be from this scan; without numbered
+/// obstacles, there are no boxes.
 std::vector<RoiBox> boxRoiComponents(const Scan& scan, const LabelledReturns& returns);
 
 /// The boxes worth drawing, in order: at least 30 returns, and not inside another drawn box.

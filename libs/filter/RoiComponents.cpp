@@ -1,5 +1,6 @@
 #include "filter/RoiComponents.h"
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -132,6 +133,30 @@ void numberRuns(ComponentsWorkspace* w) {
     for (std::size_t run = 0; run < runs; ++run) number[run] = number[first[run]];
 }
 
+/// Removes returns with their own label from their pixel's component if they are too far from it.
+void leaveComponents(const std::vector<std::int32_t>& own_labelled, const Scan& scan,
+                     const RangeImage& image, float max_gap_m,
+                     std::vector<std::int32_t>& component) {
+    for (const std::int32_t i : own_labelled) {
+        if (component[i] == 0) continue;  // includes returns without a pixel
+        const float apart_m =
+            std::abs(scan.range_m[i] - image.depth_m.data()[image.depth_mapper[i]]);
+        component[i] = apart_m < max_gap_m ? component[i] : 0;
+    }
+}
+
+/// Renumbers components 1, 2, ... in order, skipping components without returns (all their pixels
+/// were repaired). `max` is the highest number.
+void renumber(std::int32_t max, LabelledReturns& returns, std::vector<std::int32_t>& number) {
+    std::vector<std::int32_t>& component = returns.component;
+    number.assign(static_cast<std::size_t>(max) + 1, 0);
+    for (const std::uint32_t i : returns.roi) number[component[i]] = 1;
+    number[0] = 0;
+    for (std::size_t c = 1; c < number.size(); ++c) number[c] += number[c - 1];
+    if (number.back() == max) return;  // no gaps
+    for (const std::uint32_t i : returns.roi) component[i] = number[component[i]];
+}
+
 }  // namespace
 
 // Fast because it finds links for many pixels at once, and joins and sorts runs and components
@@ -157,6 +182,21 @@ void numberRoiComponents(const Image<float>& depth_m, const Image<Label>& labels
         std::int32_t* const numbers = components.data() + first;
         forEachBit(w.roi[word], [&](int bit) { numbers[bit] = number[runs[bit]]; });
     });
+}
+
+void numberReturns(const Scan& scan, const RangeImage& image, const Image<std::int32_t>& components,
+                   const OwnLabels& own_labels, float max_gap_m, LabelledReturns& returns,
+                   ComponentsWorkspace& work) {
+    returns.component.assign(scan.size(), 0);
+    std::int32_t max = 0;
+    for (const std::uint32_t i : returns.roi) {
+        const std::int32_t pixel = image.depth_mapper[i];
+        if (pixel == RangeImage::kNoPixel) continue;
+        returns.component[i] = components.data()[pixel];
+        max = std::max(max, returns.component[i]);
+    }
+    leaveComponents(own_labels.returns, scan, image, max_gap_m, returns.component);
+    renumber(max, returns, work.without_gaps);
 }
 
 }  // namespace hagen

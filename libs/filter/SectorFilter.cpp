@@ -239,8 +239,8 @@ void SectorFilter::State::labelSector(const SectorOfInterest& sector,
     r.own_labels.label.clear();
     r.own_labels.returns.clear();
     if (usesGround(o)) judgeClearance(sector.returns, horizon, o, r, work);
-    r.components.setZero(r.labels.rows(), r.labels.cols());
-    labelReturns(sector.returns, o, r, work);
+    extractReturns(sector.returns, r.range_image, r.labels, r.own_labels, o.zone_m, r.returns,
+                   work.extraction);
 }
 
 }  // namespace hagen

@@ -15,6 +15,11 @@ constexpr const char* kLabel = "points";
 
 bool isLevel(const Attitude& attitude) { return attitude.roll_rad == 0 && attitude.pitch_rad == 0; }
 
+Settings withNumbers(Settings settings) {
+    settings.options.number_obstacles = true;
+    return settings;
+}
+
 }  // namespace
 
 std::vector<float> heightsOf(const Segmented& segmented) {
@@ -40,9 +45,9 @@ std::vector<float> heightsOf(const Segmented& segmented) {
     return height_m;
 }
 
-Filter::Filter(const Settings& settings) : settings_(settings) {
-    if (settings.sensor.model) {
-        idle_.emplace_back(filterFor(settings.sensorModel(), settings.options));
+Filter::Filter(const Settings& settings) : settings_(withNumbers(settings)) {
+    if (settings_.sensor.model) {
+        idle_.emplace_back(filterFor(settings_.sensorModel(), settings_.options));
     }
 }
 

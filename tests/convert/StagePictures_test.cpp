@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "support/PaperOptions.h"
 #include "support/Program.h"
 #include "support/SimpleScene.h"
 
@@ -76,7 +77,7 @@ class Drawn {
  public:
     explicit Drawn(const Scan& scan, const std::string& title = "a scene", Options options = {},
                    const SensorModel& sensor = sensorModel("VLP-16"))
-        : filter_(sensor, options) {
+        : filter_(sensor, test::numbered(options)) {
         const SegmentationResult& result = filter_.segment(scan);
         drawStages({scan, filter_.sensor(), filter_.options(), result, title}, folder_.path());
     }
@@ -261,7 +262,7 @@ TEST(StagePictures, OmitNonFiniteReturns) {
 }
 
 TEST(StagePictures, RejectOtherSensor) {
-    HagenFilter filter(sensorModel("VLP-16"), {});
+    HagenFilter filter(sensorModel("VLP-16"), test::numbered({}));
     const Scan scan = scanOf(poleAt(9, 4));
     Attitude on_its_side;
     on_its_side.pitch_rad = 1.0f;
@@ -276,7 +277,7 @@ TEST(StagePictures, RejectOtherSensor) {
 /// The error message from drawing a plane into a folder.
 std::string errorInto(const std::filesystem::path& folder) {
     const Scan scan = scanOf({});
-    HagenFilter filter(sensorModel("VLP-16"));
+    HagenFilter filter(sensorModel("VLP-16"), test::numbered({}));
     const SegmentationResult& result = filter.segment(scan);
     return test::messageOf([&] {
         drawStages({scan, filter.sensor(), filter.options(), result, ""}, folder);

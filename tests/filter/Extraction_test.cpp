@@ -95,8 +95,9 @@ TEST(Extraction, MatchesDefinitionOnEveryInstructionSet) {
         const auto expected = plainReturns(scan, image, labels, components, own_label, 20.0f, 1.0f);
         forEachInstructionSet([&](const std::string& name) {
             SCOPED_TRACE(name + ", returns: " + std::to_string(size));
-            extractReturns(scan, {image, labels, components}, ownLabels(own_label), {20.0f, 1.0f},
-                           returns, work.extraction);
+            const OwnLabels own_labels = ownLabels(own_label);
+            extractReturns(scan, image, labels, own_labels, 20.0f, returns, work.extraction);
+            numberReturns(scan, image, components, own_labels, 1.0f, returns, work.components);
             ASSERT_EQ(returns.label, expected.label);
             ASSERT_EQ(returns.component, expected.component);
             ASSERT_EQ(returns.roi, expected.roi);

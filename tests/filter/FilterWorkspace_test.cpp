@@ -53,7 +53,7 @@ struct Drive {
     std::vector<Outcome> alone;
 
     Drive(const std::string& name, const Options& with, int columns)
-        : sensor(sensorModel(name)), options(with), scans(drive(sensor, columns)) {
+        : sensor(sensorModel(name)), options(test::numbered(with)), scans(drive(sensor, columns)) {
         HagenFilter filter(sensor, options);
         for (const Scan& scan : scans) alone.push_back(outcomeOf(filter.segment(scan)));
     }

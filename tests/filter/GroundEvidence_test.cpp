@@ -133,8 +133,8 @@ std::vector<float> required(const std::vector<Seen>& seen, int rows = 1,
     PixelCells cells;
     findPixelCells(pixels, cells);
     std::vector<std::uint8_t> has_evidence(7, 1);  // from an earlier scan
-    requireEvidence(pixels, cells, pixels.z_m, is_level, sensor_height_m, tolerance_m, has_evidence,
-                    work);
+    requireEvidence(pixels, cells, pixels.z_m, is_level, sensor_height_m, tolerance_m,
+                    has_evidence);
     EXPECT_EQ(has_evidence.size(), PixelCells::kNoBlock + 1u);
     EXPECT_EQ(has_evidence.back(), 0);
     for (Eigen::Index i = 0; i < tolerance_m.size(); ++i) {

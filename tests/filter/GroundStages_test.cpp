@@ -133,7 +133,7 @@ Judged judged(const Sight& sight) {
     tolerateCanopy(j.cells, j.tops, j.frame.translation().z(), j.tolerance_m);
     j.raised = !test::same(before_m, j.tolerance_m);
     requireEvidence(pixels, j.cells, j.height_m, j.is_level, j.frame.translation().z(),
-                    j.tolerance_m, j.has_evidence, work.evidence);
+                    j.tolerance_m, j.has_evidence);
     labelByHeight(j.height_m, j.tolerance_m, j.labels);
     Image<Label> before = j.labels;
     growFeet(pixels, j.height_m, j.labels, work.feet);

@@ -244,7 +244,7 @@ TEST(HagenFilter, EveryReturnIsInOneList) {
         const SensorModel sensor = sensorModel(seed % 2 == 0 ? "VLP-16" : "HDL-64E");
         const Scan scan = randomScan(seed, sensor);
         for (const Options& options : {paperOptions(), Options()}) {
-            HagenFilter filter(sensor, options);
+            HagenFilter filter(sensor, test::numbered(options));
             const SegmentationResult& result = filter.segment(scan);
             const LabelledReturns& returns = result.returns;
             std::vector<int> seen(scan.size(), 0);
@@ -403,7 +403,7 @@ Scan hillyScan(unsigned seed, const SensorModel& sensor) {
 
 /// All result images that an option may change.
 std::vector<Image<float>> imagesWith(const Options& options, const Scan& scan) {
-    HagenFilter filter(sensorModel("HDL-32E"), options);
+    HagenFilter filter(sensorModel("HDL-32E"), test::numbered(options));
     const SegmentationResult& r = filter.segment(scan, Attitude{0.05f, -0.08f});
     const auto numbers = [](const auto& of) {
         Image<float> image(1, static_cast<Eigen::Index>(of.size()));
@@ -449,6 +449,22 @@ TEST(HagenFilter, SeparatesVoxelFilteredClouds) {
     }
 }
 
+TEST(HagenFilter, RawAnglesEqualDisabledSharpeningAndSmoothing) {
+    const Scan scan = hillyScan(58, sensorModel("HDL-32E"));
+    for (Options disabled : {paperOptions(), Options()}) {
+        Options raw = disabled;
+        raw.raw_angles = true;
+        disabled.persistence_m = 1000;  // no maximum is sharpened
+        disabled.principal_components = disabled.window_size;
+        HagenFilter filter(sensorModel("HDL-32E"), raw), slow(sensorModel("HDL-32E"), disabled);
+        const SegmentationResult &result = filter.segment(scan), &expected = slow.segment(scan);
+        EXPECT_TRUE(test::same(result.pixel_angle_rad, expected.pixel_angle_rad));
+        EXPECT_EQ(result.returns.label, expected.returns.label);
+        EXPECT_TRUE(result.maxima.empty());
+        EXPECT_EQ(result.smoothed_rad.size(), 0);
+    }
+}
+
 /// The name of the first image that an option changes; each stage has its own options.
 TEST(HagenFilter, EveryOptionReachesItsStage) {
     enum { Depth, Repaired, Sharpened, Merged, Angle, Smoothed, OfPixel, Labels, Components };
@@ -460,6 +476,7 @@ TEST(HagenFilter, EveryOptionReachesItsStage) {
                                             {"sharpening_sigma_m", Sharpened},
                                             {"sharpen_by_neighbours", Sharpened},
                                             {"sharpen_proximity", Sharpened},
+                                            {"raw_angles", Sharpened},
                                             {"level_by_attitude", Angle},
                                             {"gaps_are_level", Angle},
                                             {"window_size", Smoothed},

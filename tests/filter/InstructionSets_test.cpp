@@ -102,7 +102,7 @@ void expectOneResult(const std::string& sensor_name, const Options& options,
     std::vector<std::pair<std::string, Bytes>> results;
     forEachInstructionSet([&](const std::string& name) {
         locateBeams(sensor, scan);
-        HagenFilter filter(sensor, options);
+        HagenFilter filter(sensor, test::numbered(options));
         const SegmentationResult& result = filter.segment(scan, attitude);
         EXPECT_FALSE(result.returns.roi.empty());
         EXPECT_FALSE(result.maxima.empty());

@@ -43,6 +43,7 @@ void segmentAnything(std::string_view input) {
     Parts parts(input);
     Options options;
     options.columns = 64;
+    options.number_obstacles = true;
     setOptions(parts, options);
     SensorModel sensor;
     try {

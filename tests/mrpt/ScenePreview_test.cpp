@@ -30,6 +30,9 @@ mrpt::obs::CObservation3DScene::Ptr afterARawlog(const mrpt::obs::CObservation3D
 class ScenePreview : public testing::Test {
  protected:
     ScenePreview() {
+        Settings settings;
+        settings.options.number_obstacles = true;
+        segmenter_.initialize(settings);
         const auto scan = test::poleScanFrom(0, "front");
         EXPECT_TRUE(segmenter_.process(*scan, segmented_));
         preview_ = previewOf(*scan, segmented_, 20);

@@ -102,6 +102,16 @@ TEST_F(SettingsTest, PaperPresetHasOnlyPaperStages) {
     EXPECT_FALSE(paper.options.gaps_are_level);
     EXPECT_FALSE(paper.options.level_by_attitude);
     EXPECT_FALSE(paper.options.ground_surface);
+    EXPECT_FALSE(paper.options.raw_angles);
+}
+
+TEST_F(SettingsTest, FastPresetOnlySkipsStages) {
+    Settings vlp16, fast;
+    mergeSettings(kConfig / "vlp16.yaml", vlp16);
+    mergeSettings(kConfig / "vlp16.yaml", fast);
+    mergeSettings(kConfig / "fast.yaml", fast);
+    vlp16.options.raw_angles = true;
+    EXPECT_EQ(jsonOf(fast), jsonOf(vlp16));
 }
 
 TEST_F(SettingsTest, PresetsDifferOnlyWhereDocumented) {

@@ -15,4 +15,10 @@ inline Options paperOptions() {
     return options;
 }
 
+/// These options, with numbered obstacles.
+inline Options numbered(Options options) {
+    options.number_obstacles = true;
+    return options;
+}
+
 }  // namespace hagen::test

@@ -1,4 +1,5 @@
-// Labels scans with the filter only, to compare processors: label-points MODEL REPEAT FILE.bin...
+// Labels scans with the filter only, to compare processors:
+// label-points MODEL COLUMNS default|fast REPEAT FILE.bin...
 // Files contain float32 x, y, z, intensity. Prints per file: returns, RoI, and a checksum of all
 // labels and obstacle numbers. A single filter segments each scan REPEAT times.
 #include <hagen/filter/HagenFilter.h>
@@ -50,7 +51,9 @@ void label(hagen::HagenFilter& filter, const hagen::SensorModel& sensor, const s
     Checksum sum;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         sum.add(static_cast<std::uint32_t>(result.returns.label[i]));
-        sum.add(static_cast<std::uint32_t>(result.returns.component[i]));
+    }
+    for (const std::int32_t component : result.returns.component) {
+        sum.add(static_cast<std::uint32_t>(component));
     }
     std::printf("%zu returns, %zu RoI, %016llx\n", scan.size(), result.returns.roi.size(),
                 sum.sum());
@@ -59,14 +62,18 @@ void label(hagen::HagenFilter& filter, const hagen::SensorModel& sensor, const s
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 3) {
-        std::fprintf(stderr, "usage: label-points MODEL REPEAT FILE.bin...\n");
+    if (argc < 5) {
+        std::fprintf(stderr, "usage: label-points MODEL COLUMNS default|fast REPEAT FILE.bin...\n");
         return 2;
     }
     try {
         const hagen::SensorModel sensor = hagen::sensorModel(argv[1]);
-        hagen::HagenFilter filter(sensor);
-        for (int i = 3; i < argc; ++i) label(filter, sensor, argv[i], std::atoi(argv[2]));
+        hagen::Options options;
+        options.number_obstacles = std::atoi(argv[4]) == 1;  // else measures labels alone
+        options.columns = std::atoi(argv[2]);
+        options.raw_angles = std::string(argv[3]) == "fast";
+        hagen::HagenFilter filter(sensor, options);
+        for (int i = 5; i < argc; ++i) label(filter, sensor, argv[i], std::atoi(argv[4]));
     } catch (const std::exception& e) {
         std::fprintf(stderr, "label-points: %s\n", e.what());
         return 1;

@@ -12,6 +12,7 @@ constexpr std::uint64_t kFiringsPerStream = 4096;  // exceeds the firings of a t
 HagenFilter standardFilter(float zone_m) {
     Settings settings;  // the defaults, which match config/vlp16.yaml
     settings.options.zone_m = zone_m;
+    settings.options.number_obstacles = true;  // for tracking
     return filterFor(settings.sensorModel(), settings.options);
 }
 
@@ -92,7 +93,7 @@ observations::MappedScan TrialSensor::place(int number, const simulation::Simula
         placed.points_m.push_back(
             transforms.place({scan.x_m[i], scan.y_m[i], scan.z_m[i]}, scan.time_s[i]));
         placed.labels.push_back(returns.label[i]);
-        placed.obstacles.push_back(returns.component[i]);
+        placed.obstacles.push_back(returns.component.empty() ? 0 : returns.component[i]);
         placed.age_s.push_back(static_cast<float>(kTurn_s) - scan.time_s[i]);
     }
     return placed;

@@ -106,9 +106,9 @@ void drawStages(const StageView& view, const std::filesystem::path& folder) {
                      {"large", large}});
     drawing.add("depth_m", r.range_image.depth_m);
     drawing.add("repaired_m", r.repaired_m);
-    drawing.add("merged_m", r.merged_m);
+    drawing.add("merged_m", options.raw_angles ? r.repaired_m : r.merged_m);
     drawing.add("angle_rad", r.range_angle_rad);
-    drawing.add("smoothed_rad", r.smoothed_rad);
+    drawing.add("smoothed_rad", options.raw_angles ? r.range_angle_rad : r.smoothed_rad);
     drawing.add("labels", r.labels);
     drawing.add("components", r.components);
     drawing.add("pixel_of_return", r.range_image.depth_mapper.data(), {view.scan.size()});

@@ -1,64 +1,93 @@
 #include "filter/ground/FartherReturns.h"
-#include <cmath>
 #include "filter/ground/BlockSums.h"
 #include "filter/simd/HeightLabels.h"
 
+// Compiled once per instruction set: Highway includes this file again for each.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter/ground/FartherReturns.cpp"
+#include <hwy/foreach_target.h>
+#include "filter/simd/GroundGrid-inl.h"
+#include "filter/simd/MaskBits.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace hagen {
-namespace {
+namespace HWY_NAMESPACE {
 
 constexpr float kFarther_m = 0.3f;
 
+/// Lists the returns in the zone that lie behind the pixel's depth, or in front of it (returns of a
+/// window that do not count); returns their number.
+std::size_t ListFartherIn(std::size_t size, const float* HWY_RESTRICT range_m,
+                          const std::int32_t* HWY_RESTRICT pixel, const float* HWY_RESTRICT depth_m,
+                          float zone_m, std::int32_t* HWY_RESTRICT list) {
+    static_assert(RangeImage::kNoPixel == -1);
+    std::int32_t* end = list;
+    forEachVector(size, [&](auto d, std::size_t i) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const auto own = hn::LoadU(di, pixel + i), none = hn::Zero(di);
+        const auto range = hn::LoadU(d, range_m + i), margin = hn::Set(d, kFarther_m);
+        const auto near = hn::GatherIndex(d, depth_m, hn::Max(own, none));
+        const auto is_farther =
+            hn::Or(hn::Gt(range, hn::Add(near, margin)), hn::Lt(range, hn::Sub(near, margin)));
+        const auto is_in_zone = hn::Le(range, hn::Set(d, zone_m));
+        const auto has_pixel = hn::RebindMask(d, hn::Gt(own, hn::Set(di, RangeImage::kNoPixel)));
+        const auto is_listed = hn::And(hn::And(is_farther, is_in_zone), has_pixel);
+        end = AppendBits(BitsOf(d, is_listed), static_cast<std::int32_t>(i), end);
+    });
+    return static_cast<std::size_t>(end - list);
+}
+
+/// The places of the listed returns in the ground frame, and their blocks (PixelCells::block).
+void LocateIn(std::size_t n, const Scan& scan, const Eigen::Matrix3f& turn,
+              const Eigen::Vector3f& shift_m, FartherReturnsWorkspace& work) {
+    constexpr float kBlock_m = kBlockCells * GroundSurface::kCell_m;
+    forEachVector(n, [&](auto d, std::size_t k) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const auto i = hn::LoadU(di, work.index.data() + k);
+        const auto x = hn::GatherIndex(d, scan.x_m.data(), i);
+        const auto y = hn::GatherIndex(d, scan.y_m.data(), i);
+        const auto z = hn::GatherIndex(d, scan.z_m.data(), i);
+        const auto along = [&](int axis) HAGEN_INLINE {
+            const auto xy = hn::Add(hn::Mul(hn::Set(d, turn(axis, 0)), x),
+                                    hn::Mul(hn::Set(d, turn(axis, 1)), y));
+            return hn::Add(hn::Add(xy, hn::Mul(hn::Set(d, turn(axis, 2)), z)),
+                           hn::Set(d, shift_m[axis]));
+        };
+        const auto x_m = along(0), y_m = along(1);
+        hn::StoreU(x_m, d, work.x_m.data() + k);
+        hn::StoreU(y_m, d, work.y_m.data() + k);
+        hn::StoreU(along(2), d, work.z_m.data() + k);
+        const auto blockAlong = [&](auto place_m) HAGEN_INLINE {
+            return hn::Floor(
+                hn::Add(hn::Div(place_m, hn::Set(d, kBlock_m)), hn::Set(d, 0.5f * kBlocks)));
+        };
+        const auto isOnGrid = [&](auto block) HAGEN_INLINE {
+            return hn::And(hn::Ge(block, hn::Zero(d)), hn::Lt(block, hn::Set(d, kBlocks)));
+        };
+        const auto row = blockAlong(x_m), column = blockAlong(y_m);
+        const auto block = hn::Add(hn::Mul(column, hn::Set(d, kBlocks)), row);
+        const auto is_on_grid = hn::And(isOnGrid(row), isOnGrid(column));
+        const auto none = hn::Set(d, PixelCells::kNoBlock);
+        hn::StoreU(hn::ConvertTo(di, hn::IfThenElse(is_on_grid, block, none)), di,
+                   work.block.data() + k);
+    });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+namespace {
+
+HWY_EXPORT(ListFartherIn);
+HWY_EXPORT(LocateIn);
+
 void reserve(std::size_t size, FartherReturnsWorkspace& work) {
     if (work.index.size() >= size) return;
-    work.index.resize(size);
+    for (auto* values : {&work.index, &work.block}) values->resize(size);
     for (auto* values : {&work.x_m, &work.y_m, &work.z_m, &work.height_m}) values->resize(size);
-}
-
-/// Lists the returns in the zone that lie behind the pixel's depth, or in front of it (returns of a
-/// window that do not count); returns their number. Branch-free, because these returns are few and
-/// scattered.
-std::size_t listFarther(const Scan& scan, const RangeImage& image, float zone_m,
-                        std::int32_t* list) {
-    static_assert(RangeImage::kNoPixel == -1);
-    const std::int32_t* const pixels = image.depth_mapper.data();
-    const float* const depth_m = image.depth_m.data();
-    const float* const range_m = scan.range_m.data();
-    const std::int32_t size = static_cast<std::int32_t>(scan.size());
-    std::size_t n = 0;
-    for (std::int32_t i = 0; i < size; ++i) {
-        const std::int32_t pixel = pixels[i], has_pixel = ~(pixel >> 31);  // 0, or all bits set
-        const float near_m = depth_m[pixel & has_pixel];
-        const std::int32_t is_farther =
-            (range_m[i] > near_m + kFarther_m) | (range_m[i] < near_m - kFarther_m);
-        const std::int32_t is_in_zone = range_m[i] <= zone_m;
-        list[n] = i;
-        n += is_farther & is_in_zone & has_pixel;
-    }
-    return n;
-}
-
-/// Transforms the listed returns to the ground frame.
-void locate(const Scan& scan, const Eigen::Isometry3f& ground_from_sensor, std::size_t n,
-            FartherReturnsWorkspace& work) {
-    const Eigen::Matrix3f turn = ground_from_sensor.linear();
-    const Eigen::Vector3f shift_m = ground_from_sensor.translation();
-    for (std::size_t k = 0; k < n; ++k) {
-        const std::int32_t i = work.index[k];
-        const float x = scan.x_m[i], y = scan.y_m[i], z = scan.z_m[i];
-        work.x_m[k] = turn(0, 0) * x + turn(0, 1) * y + turn(0, 2) * z + shift_m.x();
-        work.y_m[k] = turn(1, 0) * x + turn(1, 1) * y + turn(1, 2) * z + shift_m.y();
-        work.z_m[k] = turn(2, 0) * x + turn(2, 1) * y + turn(2, 2) * z + shift_m.z();
-    }
-}
-
-/// Whether the surface at a position is ground; true if evidence is not required.
-bool hasEvidence(const std::vector<std::uint8_t>& of_block, float x_m, float y_m) {
-    if (of_block.empty()) return true;
-    constexpr float kBlock_m = kBlockCells * GroundSurface::kCell_m, kMiddle = 0.5f * kBlocks;
-    const float i = std::floor(x_m / kBlock_m + kMiddle);
-    const float j = std::floor(y_m / kBlock_m + kMiddle);
-    const bool is_on_grid = i >= 0 && i < kBlocks && j >= 0 && j < kBlocks;
-    return is_on_grid && of_block[static_cast<std::size_t>(j * kBlocks + i)] != 0;
 }
 
 }  // namespace
@@ -72,22 +101,25 @@ void judgeFartherReturns(const Scan& scan, const RangeImage& image, const Ground
     if (own_label.empty() || image.depth_m.size() == 0) return;
     reserve(scan.size() + 1, work);
     std::int32_t* const list = work.index.data();
-    const std::size_t n = listFarther(scan, image, zone_m, list);
+    const std::size_t n = HWY_DYNAMIC_DISPATCH(ListFartherIn)(scan.size(), scan.range_m.data(),
+                                                              image.depth_mapper.data(),
+                                                              image.depth_m.data(), zone_m, list);
     own_labels.returns.assign(list, list + n);
-    locate(scan, ground.from_sensor, n, work);
+    HWY_DYNAMIC_DISPATCH(LocateIn)
+    (n, scan, ground.from_sensor.linear(), ground.from_sensor.translation(), work);
     heightsAbove(ground.surface, n, work.x_m.data(), work.y_m.data(), work.z_m.data(),
                  work.height_m.data());
-    const bool needs_clearance = clearance.min_m > 0;
+    const bool needs_evidence = !ground.has_evidence.empty();
     for (std::size_t k = 0; k < n; ++k) {
         const float tolerance_m = ground.tolerance_m.data()[image.depth_mapper[list[k]]];
         const bool is_high = work.height_m[k] > tolerance_m;
-        const bool is_ground = work.height_m[k] >= kMinGround_m &&
-                               hasEvidence(ground.has_evidence, work.x_m[k], work.y_m[k]);
+        const bool is_low = !(work.height_m[k] >= kMinGround_m);
+        const bool lacks_evidence = needs_evidence && ground.has_evidence[work.block[k]] == 0;
         const bool is_close =
-            needs_clearance &&
             clearance.isViolatedBy(ground, {work.x_m[k], work.y_m[k], work.z_m[k]});
-        own_label[list[k]] = is_high || !is_ground || is_close ? Label::Roi : Label::Rou;
+        own_label[list[k]] = is_high | is_low | lacks_evidence | is_close ? Label::Roi : Label::Rou;
     }
 }
 
 }  // namespace hagen
+#endif

@@ -14,6 +14,7 @@ namespace hagen {
 /// state. Lists may have unused entries at the end.
 struct FartherReturnsWorkspace {
     std::vector<std::int32_t> index;   ///< indices of the returns to label
+    std::vector<std::int32_t> block;   ///< their blocks (PixelCells.h)
     std::vector<float> x_m, y_m, z_m;  ///< in the ground frame
     std::vector<float> height_m;       ///< heights above the surface
 };

@@ -1,51 +1,128 @@
 #include <hagen/filter/PixelPoints.h>
+#include <algorithm>
 #include <cstdint>
 
+// Compiled once per instruction set: Highway includes this file again for each.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter/ground/PixelPoints.cpp"
+#include <hwy/foreach_target.h>
+#include "filter/simd/GroundGrid-inl.h"
+#include "filter/simd/MaskBits.h"
+
+#ifndef HAGEN_PIXEL_POINTS
+#define HAGEN_PIXEL_POINTS
 namespace hagen {
+namespace {
+
+struct Coordinates {
+    const float *x_m, *y_m, *z_m;
+};
+
+}  // namespace
+}  // namespace hagen
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+
+/// Locates the pixels from `first` to `end` at their closest returns; NaN without one. Lists the
+/// other pixels that have a depth; returns their number.
+std::size_t LocateReturnsIn(std::size_t first, std::size_t end, const Coordinates& scan,
+                            const std::int32_t* HWY_RESTRICT closest,
+                            const float* HWY_RESTRICT depth_m, PixelPoints& pixels,
+                            std::int32_t* HWY_RESTRICT repaired) {
+    static_assert(RangeImage::kNoReturn == -1);
+    std::int32_t* last = repaired;
+    float* const x_m = pixels.x_m.data() + first;
+    float* const y_m = pixels.y_m.data() + first;
+    float* const z_m = pixels.z_m.data() + first;
+    forEachVector(end - first, [&](auto d, std::size_t k) HAGEN_INLINE {
+        const hn::RebindToSigned<decltype(d)> di;
+        const auto i = hn::LoadU(di, closest + first + k), none = hn::Zero(di);
+        const auto has_return = hn::RebindMask(d, hn::Gt(i, hn::Set(di, RangeImage::kNoReturn)));
+        const auto place = hn::Max(i, none), no_value = hn::Set(d, kNoValue);
+        const auto copy = [&](const float* from_m, float* to_m) HAGEN_INLINE {
+            const auto value = hn::GatherIndex(d, from_m, place);
+            hn::StoreU(hn::IfThenElse(has_return, value, no_value), d, to_m + k);
+        };
+        copy(scan.x_m, x_m);
+        copy(scan.y_m, y_m);
+        copy(scan.z_m, z_m);
+        const auto depth = hn::LoadU(d, depth_m + first + k);
+        const auto is_repaired = hn::AndNot(has_return, hn::Eq(depth, depth));
+        last = AppendBits(BitsOf(d, is_repaired), static_cast<std::int32_t>(first + k), last);
+    });
+    return static_cast<std::size_t>(last - repaired);
+}
+
+void MovePixelsIn(std::size_t size, const float* HWY_RESTRICT turn,
+                  const float* HWY_RESTRICT shift_m, PixelPoints& pixels) {
+    float* const x_m = pixels.x_m.data();
+    float* const y_m = pixels.y_m.data();
+    float* const z_m = pixels.z_m.data();
+    forEachVector(size, [&](auto d, std::size_t pixel) HAGEN_INLINE {
+        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
+        const auto z = hn::LoadU(d, z_m + pixel);
+        const auto moved = [&](int row) HAGEN_INLINE {
+            const auto along = [&](int column, auto value) HAGEN_INLINE {
+                return hn::Mul(hn::Set(d, turn[row + 3 * column]), value);
+            };
+            return hn::Add(hn::Add(hn::Add(along(0, x), along(1, y)), along(2, z)),
+                           hn::Set(d, shift_m[row]));
+        };
+        hn::StoreU(moved(0), d, x_m + pixel);
+        hn::StoreU(moved(1), d, y_m + pixel);
+        hn::StoreU(moved(2), d, z_m + pixel);
+    });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+namespace {
+
+HWY_EXPORT(LocateReturnsIn);
+HWY_EXPORT(MovePixelsIn);
+
+}  // namespace
 
 void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
                   const Image<float>& depth_m, PixelPoints& pixels) {
+    constexpr std::size_t kPart = 1024;  // pixels
+    constexpr float kEmptyScan = kNoValue;
     const Eigen::Index rows = depth_m.rows(), columns = depth_m.cols();
     for (auto* coordinate : {&pixels.x_m, &pixels.y_m, &pixels.z_m}) {
         coordinate->resize(rows, columns);
     }
-    const float* const scan_x_m = scan.x_m.data();
-    const float* const scan_y_m = scan.y_m.data();
-    const float* const scan_z_m = scan.z_m.data();
-    for (Eigen::Index column = 0; column < columns; ++column) {
-        const std::int32_t* const closest = image.closest_return.data() + column * rows;
-        const float* const depth = depth_m.data() + column * rows;
-        float* const x_m = pixels.x_m.data() + column * rows;
-        float* const y_m = pixels.y_m.data() + column * rows;
-        float* const z_m = pixels.z_m.data() + column * rows;
-        for (Eigen::Index row = 0; row < rows; ++row) {
-            const std::int32_t i = closest[row];
-            if (i != RangeImage::kNoReturn) {
-                x_m[row] = scan_x_m[i];
-                y_m[row] = scan_y_m[i];
-                z_m[row] = scan_z_m[i];
-            } else {  // repaired, or empty (NaN)
-                const float level_m = depth[row] * directions.row_cosine[row];
-                x_m[row] = level_m * directions.column_cosine[column];
-                y_m[row] = level_m * directions.column_sine[column];
-                z_m[row] = depth[row] * directions.row_sine[row];
-            }
+    Coordinates from{&kEmptyScan, &kEmptyScan, &kEmptyScan};
+    if (scan.size() > 0) from = {scan.x_m.data(), scan.y_m.data(), scan.z_m.data()};
+    std::int32_t repaired[kPart];
+    const auto size = static_cast<std::size_t>(depth_m.size());
+    for (std::size_t first = 0; first < size; first += kPart) {
+        const std::size_t n = HWY_DYNAMIC_DISPATCH(LocateReturnsIn)(
+            first, std::min(first + kPart, size), from, image.closest_return.data(), depth_m.data(),
+            pixels, repaired);
+        for (std::size_t k = 0; k < n; ++k) {
+            const Eigen::Index pixel = repaired[k], row = pixel % rows, column = pixel / rows;
+            const float depth = depth_m.data()[pixel];
+            const float level_m = depth * directions.row_cosine[row];
+            pixels.set(pixel, {level_m * directions.column_cosine[column],
+                               level_m * directions.column_sine[column],
+                               depth * directions.row_sine[row]});
         }
     }
 }
 
 void movePixels(const Eigen::Isometry3f& to_from_here, PixelPoints& pixels) {
-    const Eigen::Matrix3f turn = to_from_here.linear();
+    const Eigen::Matrix3f turn = to_from_here.linear();  // column by column
     const Eigen::Vector3f shift_m = to_from_here.translation();
-    float* const x_m = pixels.x_m.data();
-    float* const y_m = pixels.y_m.data();
-    float* const z_m = pixels.z_m.data();
-    for (Eigen::Index pixel = 0; pixel < pixels.x_m.size(); ++pixel) {
-        const float x = x_m[pixel], y = y_m[pixel], z = z_m[pixel];
-        x_m[pixel] = turn(0, 0) * x + turn(0, 1) * y + turn(0, 2) * z + shift_m.x();
-        y_m[pixel] = turn(1, 0) * x + turn(1, 1) * y + turn(1, 2) * z + shift_m.y();
-        z_m[pixel] = turn(2, 0) * x + turn(2, 1) * y + turn(2, 2) * z + shift_m.z();
-    }
+    HWY_DYNAMIC_DISPATCH(MovePixelsIn)
+    (static_cast<std::size_t>(pixels.x_m.size()), turn.data(), shift_m.data(), pixels);
 }
 
 }  // namespace hagen
+#endif

@@ -1,26 +1,53 @@
 #include <hagen/filter/CellTops.h>
-#include <hwy/highway.h>
 #include <algorithm>
-#include "scan/InstructionSets.h"
 
-#include "filter/ground/GroundGrid.h"
-#include "filter/ground/StageRules.h"
+// Compiled once per instruction set: Highway includes this file again for each.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "filter/simd/CellTops.cpp"
+#include <hwy/foreach_target.h>
+#include "filter/simd/GroundGrid-inl.h"
 
+#ifndef HAGEN_CELL_TOPS
+#define HAGEN_CELL_TOPS
 namespace hagen {
 namespace {
 
-using tops_rules::kOverhead_m;
 constexpr int kTogether = 4;  // cells
 
+}  // namespace
+}  // namespace hagen
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace hagen {
+namespace HWY_NAMESPACE {
+
+/// Raises the two highest points of each cell.
+void RaiseTopsIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
+                 const std::uint16_t* HWY_RESTRICT cell, float* HWY_RESTRICT two_m) {
+    visitChosen(
+        pixels,
+        [&](auto d, std::size_t pixel, auto& heights_m, auto& cells) HAGEN_INLINE {
+            const hn::Rebind<std::uint16_t, decltype(d)> d16;
+            heights_m = hn::LoadU(d, height_m + pixel);
+            cells = hn::PromoteTo(hn::RebindToSigned<decltype(d)>(), hn::LoadU(d16, cell + pixel));
+            return hn::Lt(heights_m, hn::Set(d, tops_rules::kOverhead_m));  // false for NaN
+        },
+        [&](float own_m, std::int32_t of_cell) HAGEN_INLINE {
+            float &first_m = two_m[2 * of_cell], &second_m = two_m[2 * of_cell + 1];
+            second_m = std::max(second_m, std::min(own_m, first_m));
+            first_m = std::max(first_m, own_m);
+        });
+}
+
 /// The highest point of each cell, and the second highest (the highest if it is the only one), for
-/// consecutive `cells`. HWY_ATTR: GCC for ARM rejects Highway's functions without it.
-HWY_ATTR void separate(const float* two_m, int cells, float* highest_m, float* top_m) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const hn::CappedTag<float, 4> d;  // uses the instruction set of the rest of this file
+/// consecutive `cells`.
+void SeparateIn(const float* HWY_RESTRICT two_m, int cells, float* HWY_RESTRICT highest_m,
+                float* HWY_RESTRICT top_m) {
+    const hn::CappedTag<float, kTogether> d;
     const auto none_m = hn::Set(d, CellTops::kNone_m);
-    constexpr int kLanes = static_cast<int>(hn::MaxLanes(d));
-    static_assert(kTogether % kLanes == 0);
-    for (int k = 0; k < cells; k += kLanes) {
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    for (int k = 0; k < cells; k += lanes) {
         auto first_m = none_m, second_m = none_m;
         hn::LoadInterleaved2(d, two_m + 2 * k, first_m, second_m);
         hn::StoreU(first_m, d, highest_m + k);
@@ -28,8 +55,20 @@ HWY_ATTR void separate(const float* two_m, int cells, float* highest_m, float* t
     }
 }
 
+}  // namespace HWY_NAMESPACE
+}  // namespace hagen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hagen {
+namespace {
+
+HWY_EXPORT(RaiseTopsIn);
+HWY_EXPORT(SeparateIn);
+
 /// Calls visit(first, cells) for each contiguous range of cells. Rounds up to a multiple of
-/// kTogether; the next column overwrites up to three surplus cells.
+/// kTogether: the next column overwrites up to three surplus cells, and the last column starts up
+/// to three cells earlier.
 template <class Visit>
 void forEachStretch(const CellArea& area, Visit visit) {
     static_assert(kGridSize % kTogether == 0);
@@ -40,7 +79,7 @@ void forEachStretch(const CellArea& area, Visit visit) {
     const int rows = (area.end_row - area.first_row + kTogether - 1) / kTogether * kTogether;
     for (int column = area.first_column; column < area.end_column; ++column) {
         const int first = column * kGridStride + area.first_row;
-        visit(first, std::min(rows, kGridSize - first));
+        visit(std::min(first, kGridSize - rows), rows);
     }
 }
 
@@ -51,26 +90,20 @@ void findCellTops(const PixelCells& cells, const Image<float>& height_m, CellTop
     tops.area = area;
     tops.two_m.resize(2 * kGridSize);
     float* const two_m = tops.two_m.data();
-    const float* const h_m = height_m.data();
-    const std::uint16_t* const cell = cells.cell.data();
-    const float none_m = CellTops::kNone_m;
     forEachStretch(area, [=](int first, int size) {
         std::fill_n(two_m + 2 * first, 2 * size, CellTops::kNone_m);
     });
-    const auto raise = [=](std::size_t pixel) __attribute__((always_inline)) {
-        float &first_m = two_m[2 * cell[pixel]], &second_m = two_m[2 * cell[pixel] + 1];
-        const float own_m = h_m[pixel] < kOverhead_m ? h_m[pixel] : none_m;  // none if NaN
-        second_m = std::max(second_m, std::min(own_m, first_m));
-        first_m = std::max(first_m, own_m);
-    };
-    visitByTurns(static_cast<std::size_t>(height_m.size()), raise);
+    HWY_DYNAMIC_DISPATCH(RaiseTopsIn)
+    (static_cast<std::size_t>(height_m.size()), height_m.data(), cells.cell.data(), two_m);
 
     for (auto* grid : {&tops.highest_m, &tops.top_m}) {
         if (grid->size() == 0) grid->setConstant(kGridStride, kGridStride, CellTops::kNone_m);
     }
     forEachStretch(area, [&](int first, int size) {
-        separate(two_m + 2 * first, size, tops.highest_m.data() + first, tops.top_m.data() + first);
+        HWY_DYNAMIC_DISPATCH(SeparateIn)
+        (two_m + 2 * first, size, tops.highest_m.data() + first, tops.top_m.data() + first);
     });
 }
 
 }  // namespace hagen
+#endif

@@ -19,6 +19,9 @@ using namespace evidence_rules;
 /// Bit `above - 1` of a pixel's mark: the step to the pixel `above` rows higher is level.
 constexpr std::uint8_t markOf(int above) { return static_cast<std::uint8_t>(1 << (above - 1)); }
 
+/// Two counts of a block in one number: close pixels, and kLevelToo times those that are level.
+constexpr std::uint64_t kLevelToo = std::uint64_t{1} << 32;
+
 }  // namespace
 }  // namespace hagen
 #endif
@@ -99,23 +102,27 @@ void MarkLevelIn(std::size_t pixels, const float* HWY_RESTRICT z_m,
     });
 }
 
-/// For each pixel: 0 if far from the surface, 1 if close, 2 if close and level.
-void CloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
-             const float* HWY_RESTRICT height_m, const std::uint8_t* HWY_RESTRICT is_level,
-             std::uint8_t* HWY_RESTRICT close) {
-    forEachVector(pixels, [&](auto d, std::size_t pixel) HAGEN_INLINE {
-        const hn::RebindToSigned<decltype(d)> di;
-        const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
-        const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-        const auto max_m =
-            hn::Add(hn::Set(d, kClose_m), hn::Mul(hn::Set(d, kClose_per_m), distance_m));
-        const auto is_close = hn::Lt(hn::Abs(hn::LoadU(d, height_m + pixel)), max_m);
-        const Bytes<decltype(d)> d8;
-        const auto level = hn::PromoteTo(di, hn::LoadU(d8, is_level + pixel));
-        const auto kind = hn::Add(level, hn::Set(di, 1));
-        hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(hn::RebindMask(di, is_close), kind)), d8,
-                   close + pixel);
-    });
+/// Adds 1 to the count of a block for each pixel close to the surface, and kLevelToo if it is
+/// level.
+void CountCloseIn(std::size_t pixels, const float* HWY_RESTRICT x_m, const float* HWY_RESTRICT y_m,
+                  const float* HWY_RESTRICT height_m, const std::uint8_t* HWY_RESTRICT is_level,
+                  const std::uint16_t* HWY_RESTRICT block, std::uint64_t* HWY_RESTRICT counts) {
+    visitChosen(
+        pixels,
+        [&](auto d, std::size_t pixel, auto&, auto& places) HAGEN_INLINE {
+            const hn::RebindToSigned<decltype(d)> di;
+            const hn::Rebind<std::uint16_t, decltype(d)> d16;
+            const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
+            const auto distance_m = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
+            const auto max_m =
+                hn::Add(hn::Set(d, kClose_m), hn::Mul(hn::Set(d, kClose_per_m), distance_m));
+            const auto level = hn::PromoteTo(di, hn::LoadU(Bytes<decltype(d)>(), is_level + pixel));
+            places =
+                hn::Or(hn::PromoteTo(di, hn::LoadU(d16, block + pixel)), hn::ShiftLeft<16>(level));
+            return hn::Lt(hn::Abs(hn::LoadU(d, height_m + pixel)), max_m);
+        },
+        [&](float, std::int32_t place)
+            HAGEN_INLINE { counts[place & 0xffff] += 1 + (place >> 16) * kLevelToo; });
 }
 
 /// Lowers the tolerance of a pixel to minus infinity if `min_m` of its block is minus infinity.
@@ -139,7 +146,7 @@ namespace {
 
 HWY_EXPORT(LevelStepsIn);
 HWY_EXPORT(MarkLevelIn);
-HWY_EXPORT(CloseIn);
+HWY_EXPORT(CountCloseIn);
 HWY_EXPORT(WithdrawIn);
 
 /// Counts of the pixels close to the surface, and of those that are level.
@@ -152,23 +159,6 @@ struct Counts {
         return level > 0 && static_cast<float>(level) >= kMinShare * static_cast<float>(close);
     }
 };
-
-/// Counts the pixels of each block by their result of CloseIn().
-void countClose(const Image<std::uint16_t>& block, const std::uint8_t* close,
-                Blocks<Counts>& blocks) {
-    // Packs both counts of a block into one number.
-    constexpr std::uint64_t kClose = 1, kLevelToo = kClose + (std::uint64_t{1} << 32);
-    static constexpr std::uint64_t kOfKind[] = {0, kClose, kLevelToo};
-    BlocksAndNone<std::uint64_t> counts{};
-    const std::uint16_t* const of_pixel = block.data();
-    visitByTurns(
-        static_cast<std::size_t>(block.size()),
-        [ =, &counts ](std::size_t pixel)
-            __attribute__((always_inline)) { counts[of_pixel[pixel]] += kOfKind[close[pixel]]; });
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-        blocks[k] = {static_cast<int>(counts[k] & 0xffffffff), static_cast<int>(counts[k] >> 32)};
-    }
-}
 
 }  // namespace
 
@@ -217,15 +207,17 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
                      float sensor_height_m, Image<float>& tolerance_m,
-                     std::vector<std::uint8_t>& has_evidence, GroundEvidenceWorkspace& work) {
+                     std::vector<std::uint8_t>& has_evidence) {
     const auto size = static_cast<std::size_t>(height_m.size());
-    work.close.resize(size);
-    HWY_DYNAMIC_DISPATCH(CloseIn)
+    BlocksAndNone<std::uint64_t> counts{};
+    HWY_DYNAMIC_DISPATCH(CountCloseIn)
     (size, pixels.x_m.data(), pixels.y_m.data(), height_m.data(), is_level.data(),
-     work.close.data());
-
+     cells.block.data(), counts.data());
     Blocks<Counts> blocks;
-    countClose(cells.block, work.close.data(), blocks);
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        blocks[k] = {static_cast<int>(counts[k] % kLevelToo),
+                     static_cast<int>(counts[k] / kLevelToo)};
+    }
     sumAround<kReach>(blocks);
 
     constexpr float kNothing = -std::numeric_limits<float>::infinity();

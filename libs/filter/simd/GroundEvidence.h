@@ -8,14 +8,12 @@
 
 namespace hagen {
 
-/// Workspace of findLevelPixels() and requireEvidence(). Reuse it between scans to avoid
-/// allocations; it has no state.
+/// Workspace of findLevelPixels(). Reuse it between scans to avoid allocations; it has no state.
 struct GroundEvidenceWorkspace {
     std::vector<float> lowest_m;  ///< lowest height in each cell
     /// For each pixel, whether a level step leads to the pixel above (1), the next (2), ... (4),
     /// (8).
     std::vector<std::uint8_t> steps;
-    std::vector<std::uint8_t> close;  ///< per pixel, 1 if close to the surface, 2 if also level
 };
 
 /// Marks the pixels that look like ground (1, otherwise 0), in the ground frame. A pixel and the
@@ -45,6 +43,6 @@ void keepLevelRou(const Image<Label>& labels, const Image<std::uint8_t>& is_leve
 void requireEvidence(const PixelPoints& pixels, const PixelCells& cells,
                      const Image<float>& height_m, const Image<std::uint8_t>& is_level,
                      float sensor_height_m, Image<float>& tolerance_m,
-                     std::vector<std::uint8_t>& has_evidence, GroundEvidenceWorkspace& work);
+                     std::vector<std::uint8_t>& has_evidence);
 
 }  // namespace hagen

@@ -1,6 +1,7 @@
 // Vectorised access to the ground grid. For files that Highway compiles once per instruction set.
 #ifndef HAGEN_GROUND_GRID
 #define HAGEN_GROUND_GRID
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include "scan/InstructionSets.h"
@@ -57,6 +58,35 @@ HWY_INLINE std::size_t compress(D d, hn::Mask<D> is_chosen, VF& floats, VI& inte
     integers = hn::Compress(integers, hn::RebindMask(di, is_chosen));
 #endif
     return hn::CountTrue(d, is_chosen);
+}
+
+/// Calls visit(value, place) for the pixels that choose(d, pixel, values, places) selects. Lists
+/// them in advance, a part of the image at a time, because the branch is unpredictable.
+template <class Choose, class Visit>
+HWY_INLINE void visitChosen(std::size_t pixels, Choose choose, Visit visit) {
+    constexpr std::size_t kPart = 1024, kMaxWidth = 64;  // writes whole vectors
+    HWY_ALIGN float value[kPart + kMaxWidth];
+    HWY_ALIGN std::int32_t place[kPart + kMaxWidth];
+    for (std::size_t first = 0; first < pixels; first += kPart) {
+        std::size_t chosen = 0;
+        forEachVector(std::min(kPart, pixels - first), [&](auto d, std::size_t k) HAGEN_INLINE {
+            const hn::RebindToSigned<decltype(d)> di;
+            auto values = hn::Zero(d);
+            auto places = hn::Zero(di);
+            const auto is_chosen = choose(d, first + k, values, places);
+            const std::size_t more = compress(d, is_chosen, values, places);
+            hn::StoreU(values, d, value + chosen);
+            hn::StoreU(places, di, place + chosen);
+            chosen += more;
+        });
+        const std::size_t quarter = chosen / 4;  // in turns, like visitByTurns()
+        for (std::size_t k = 0; k < quarter; ++k) {
+            for (std::size_t turn = 0; turn < 4; ++turn) {
+                visit(value[k + turn * quarter], place[k + turn * quarter]);
+            }
+        }
+        for (std::size_t k = 4 * quarter; k < chosen; ++k) visit(value[k], place[k]);
+    }
 }
 
 /// Gathers the values at these indices.

@@ -49,7 +49,8 @@ struct Options {
     int window_size = 8;
     /// PC, leading components kept; PC = W disables smoothing.
     int principal_components = 5;
-    /// Label by the range angles themselves, without sharpening and smoothing.
+    /// Skip stages 3 to 5 and 7: angles are those of the repaired depth image. Faster; where heights
+    /// decide, the angles only choose candidates for the ground surface.
     bool raw_angles = false;
     /// beta: neighbours whose range angles differ by less than this belong to one region.
     float beta_deg = 10.0f;
@@ -74,10 +75,11 @@ struct Options {
     bool remove_specks = true;
     /// Ground closer than this below the sensor is RoI; 0 for never.
     float ground_is_roi_below_m = 0.0f;
-    /// Number the obstacles (RoiComponents.h).
-    bool number_obstacles = false;
     /// Adjacent RoI pixels belong to one component if their depths differ by less than this.
     float component_gap_m = 1.0f;
+    /// Number the obstacles: fill SegmentationResult::components and LabelledReturns::component.
+    /// Not a setting for files: programs that use the numbers ask for them.
+    bool number_obstacles = false;
 };
 
 /// Throws std::invalid_argument naming the setting if a setting is out of range (OptionKeys.h) or

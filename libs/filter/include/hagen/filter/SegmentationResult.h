@@ -10,7 +10,8 @@
 namespace hagen {
 
 /// The filter's result for one scan: each stage's image, and the label of each return. Images are
-/// I_h x I_w (range angles: I_h - 1 rows), NaN for pixels without a value.
+/// I_h x I_w (range angles: I_h - 1 rows), NaN for pixels without a value. Stages 3 to 5 and 7 are
+/// empty with Options::raw_angles, `components` is empty without Options::number_obstacles.
 struct SegmentationResult {
     RangeImage range_image;          ///< stage 1
     Image<float> repaired_m;         ///< stage 2, the depth image without one-pixel gaps
