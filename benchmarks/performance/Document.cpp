@@ -3,135 +3,122 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <numeric>
 #include "convert/pictures/Drawing.h"
 
+#include "StageRows.h"
 #include "support/Processor.h"
 #include "support/Tables.h"
 
 namespace hagen {
 namespace {
 
-const std::string kPaper = "paper pipeline", kDefault = "default pipeline", kMrpt = "mrpt decode";
-
 std::string microseconds(double ms) { return cell(1e3 * ms, ms < 0.01 ? 1 : 0); }
 
 double medianOf(const Performance& p, const std::string& sensor, const std::string& what) {
     const TimedRow* row = find(p.rows, sensor, what);
-    return row == nullptr ? NAN : row->latency.p50_ms;
+    return row == nullptr ? NAN : row->warm.p50_ms;
 }
 
-bool isGrid(const std::string& sensor) { return sensor.find(" x ") != std::string::npos; }
+double nsPerPixel(const TimedRow& row) { return 1e6 * row.warm.p50_ms / row.pixels; }
 
-std::vector<std::string> sensorsOf(const Performance& p) {
-    std::vector<std::string> sensors;
-    for (const TimedRow& row : p.rows) {
-        const bool is_new = std::find(sensors.begin(), sensors.end(), row.sensor) == sensors.end();
-        if (is_new && !isGrid(row.sensor)) sensors.push_back(row.sensor);
-    }
-    return sensors;
+/// The rows of a pipeline or stage, one per sensor.
+std::vector<TimedRow> rowsOf(const Performance& p, const std::string& what) {
+    std::vector<TimedRow> rows;
+    std::copy_if(p.rows.begin(), p.rows.end(), std::back_inserter(rows),
+                 [&](const TimedRow& row) { return row.what == what; });
+    return rows;
 }
 
-/// "1.59 to 2.37": the default pipeline's median over another pipeline's, across the sensors.
-std::string defaultOver(const Performance& p, const std::string& what) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const std::string& sensor : sensorsOf(p)) {
-        const double ratio = medianOf(p, sensor, kDefault) / medianOf(p, sensor, what);
-        low = std::fmin(low, ratio);  // skips NaN
-        high = std::fmax(high, ratio);
+double growthOf(const std::vector<TimedRow>& rows) {
+    std::vector<double> pixels, times;
+    for (const TimedRow& row : rows) {
+        pixels.push_back(row.pixels);
+        times.push_back(row.warm.p50_ms);
     }
-    return cell(low, 2) + " to " + cell(high, 2);
+    return exponentOf(pixels, times);
+}
+
+std::string summary(const Performance& p) {
+    std::string sensors, ours, fast, at_10_hz, at_20_hz;
+    for (const TimedRow& row : rowsOf(p, kDefaultPipeline)) {
+        if (row.sensor == "HDL-32E" || row.sensor == "OS1-128/1024") continue;
+        const char* const comma = sensors.empty() ? "" : ", ";
+        sensors += comma + row.sensor;
+        ours += comma + cell(row.warm.p50_ms, 1);
+        fast += comma + cell(medianOf(p, row.sensor, kFastPipeline), 1);
+        at_10_hz += comma + cell(row.warm.p50_ms, 0);
+        at_20_hz += comma + cell(2 * row.warm.p50_ms, 0);
+    }
+    return "A scan (" + sensors + ") takes " + ours + " ms with the default settings, and " + fast +
+           " ms with `raw_angles`. The default settings use " + at_10_hz +
+           " % of one core at 10 Hz, and " + at_20_hz +
+           " % at 20 Hz. Time is proportional to pixels to the power of " +
+           cell(growthOf(rowsOf(p, kDefaultPipeline)), 2) + ".\n\n";
 }
 
 std::string wholeSection(const Performance& p) {
-    Table table({"sensor", "", "median", "p99", "/ mrpt decode", "allocations"});
-    for (const std::string& sensor : sensorsOf(p)) {
-        for (const std::string& what :
-             {kMrpt, kPaper, kDefault, std::string("zermas ground fit")}) {
-            const TimedRow* row = find(p.rows, sensor, what);
-            if (row == nullptr) continue;
-            const evaluation::Latency& t = row->latency;
-            table.add({sensor, "`" + what + "`", microseconds(t.p50_ms), microseconds(t.p99_ms),
-                       cell(t.p50_ms / medianOf(p, sensor, kMrpt), 2), cell(row->allocations, 1)});
-        }
+    Table table({"sensor", "", "p50", "p95", "p99", "cold p50", "p95", "p99", "/ mrpt decode",
+                 "allocations"});
+    for (const TimedRow& row : p.rows) {
+        if (row.cold.runs == 0) continue;
+        table.add({row.sensor, row.what, microseconds(row.warm.p50_ms),
+                   microseconds(row.warm.p95_ms), microseconds(row.warm.p99_ms),
+                   microseconds(row.cold.p50_ms), microseconds(row.cold.p95_ms),
+                   microseconds(row.cold.p99_ms),
+                   cell(row.warm.p50_ms / medianOf(p, row.sensor, kMrptDecode), 2),
+                   cell(row.allocations, 1)});
     }
     return "## From packets to labels\n\n"
-           "Microseconds per scan on one core, from raw packets to one label per return and index "
-           "lists. MRPT does not support the packets of an HDL-64E; its rows start from "
-           "coordinates. `mrpt decode` is MRPT's `generatePointCloud()`, which decodes half of the "
-           "scan. `zermas ground fit` starts from decoded returns. `VLP-16` is a real scan; the "
-           "others are four simulated scans each.\n\n" +
+           "Microseconds per scan on one core, from packets (VLP-16, HDL-32E) or coordinates to "
+           "one label per return and index lists. All rows run in turn on each scan: warm, right "
+           "after the previous scan, or cold, after writing 256 MB. The scans are 13 in "
+           "sequence from each of four simulated scenes, or six real ones (HDL-64E). `mrpt "
+           "decode` is `generatePointCloud()`, which decodes half of the scan.\n\n" +
            table.text();
 }
 
 std::string stageSection(const Performance& p) {
-    const std::vector<std::string> sensors = sensorsOf(p);
-    std::vector<std::string> heads{"median, microseconds"};
-    heads.insert(heads.end(), sensors.begin(), sensors.end());
+    const std::vector<TimedRow> sensors = rowsOf(p, "decode");
+    std::vector<std::string> heads{"p50, microseconds"};
+    for (const TimedRow& one : sensors) heads.push_back(one.sensor);
     Table table(heads);
     for (const TimedRow& row : p.rows) {
-        const bool is_whole = row.what == "floor" || row.what == kMrpt || row.what == kPaper ||
-                              row.what == kDefault || row.what == "zermas ground fit";
-        if (row.sensor != sensors.front() || is_whole) continue;
+        if (row.sensor != sensors.front().sensor || row.cold.runs != 0) continue;
         std::vector<std::string> line{row.what};
-        for (const std::string& sensor : sensors) {
-            line.push_back(microseconds(medianOf(p, sensor, row.what)));
+        for (const TimedRow& one : sensors) {
+            line.push_back(microseconds(medianOf(p, one.sensor, row.what)));
         }
         table.add(line);
     }
     return "## Each stage\n\n"
            "The paper's stages run with the paper's settings, `own` stages with the default "
-           "settings.\n\n" +
+           "settings, right after a complete run on the same scan.\n\n" +
            table.text();
-}
-
-std::string growthTable(const Performance& p, const std::string& what_grows,
-                        const std::vector<std::pair<double, std::string>>& sizes) {
-    Table table({what_grows, "paper, microseconds", "default, microseconds"});
-    std::vector<double> x, papers, ours;
-    for (const auto& [size, sensor] : sizes) {
-        x.push_back(size);
-        papers.push_back(medianOf(p, sensor, kPaper));
-        ours.push_back(medianOf(p, sensor, kDefault));
-        table.add({sensor, microseconds(papers.back()), microseconds(ours.back())});
-    }
-    table.add({"fitted exponent", cell(exponentOf(x, papers), 2), cell(exponentOf(x, ours), 2)});
-    return table.text();
 }
 
 std::string growthSection(const Performance& p) {
-    return "## Scaling\n\n"
-           "Run time from coordinates to labels by image size, for one simulated orchard scan "
-           "per size. An exponent of 1 means that run time is proportional to size.\n\n" +
-           growthTable(
-               p, "beams x columns",
-               {{435, "16 x 435"}, {870, "16 x 870"}, {1740, "16 x 1740"}, {3480, "16 x 3480"}}) +
-           growthTable(p, "beams x columns",
-                       {{16, "16 x 870"}, {32, "32 x 870"}, {64, "64 x 870"}, {128, "128 x 870"}});
-}
-
-std::string latencySection(const Performance& p) {
-    Table table({"settings", "scans", "p50", "p95", "p99", "max"});
-    for (const auto& [settings, t] : p.packets_to_labels) {
-        table.add({settings, std::to_string(t.runs), microseconds(t.p50_ms), microseconds(t.p95_ms),
-                   microseconds(t.p99_ms), microseconds(t.max_ms)});
+    Table table({"ns per pixel", "pixels", "paper", "default", "fast"});
+    const std::vector<TimedRow> papers = rowsOf(p, kPaperPipeline),
+                                ours = rowsOf(p, kDefaultPipeline), fast = rowsOf(p, kFastPipeline);
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        table.add({ours[i].sensor, std::to_string(ours[i].pixels), cell(nsPerPixel(papers[i]), 0),
+                   cell(nsPerPixel(ours[i]), 0), cell(nsPerPixel(fast[i]), 0)});
     }
-    return "## Latency\n\n"
-           "Microseconds from a scan's last packet to its labels, over a simulated flight with a "
-           "VLP-16. `rawlog-segment --stats` reports them for a log.\n\n" +
-           table.text();
+    table.add({"fitted exponent", "", cell(growthOf(papers), 2), cell(growthOf(ours), 2),
+               cell(growthOf(fast), 2)});
+    return "## Scaling\n\n" + table.text();
 }
 
 std::string flightSection(const Performance& p) {
     const std::size_t scans = p.table.returns.size();
     const std::size_t returns =
         std::accumulate(p.table.returns.begin(), p.table.returns.end(), std::size_t{0});
-    Table table({"`" + p.table.scenario + "`", "mean +- sd [ms]", "p50", "p99", "max"});
+    Table table({"`" + p.table.scenario + "`, ms", "p50", "p95", "p99", "max"});
     for (const auto& method : p.table.methods) {
         const evaluation::Latency t = evaluation::latencyOf(method.runs_ms);
-        table.add({method.name, cell(t.mean_ms) + " +- " + cell(t.sd_ms), cell(t.p50_ms),
-                   cell(t.p99_ms), cell(t.max_ms)});
+        table.add({method.name, cell(t.p50_ms), cell(t.p95_ms), cell(t.p99_ms), cell(t.max_ms)});
     }
     return "## Comparison with other methods\n\n"
            "A simulated flight of " +
@@ -190,18 +177,14 @@ std::vector<double> mediansOfTen(const std::vector<double>& values) {
 
 std::string documentOf(const Performance& performance) {
     return "<!-- Made by scripts/measure-performance, which replaces it. -->\n"
-           "# Performance\n\n"
-           "From packets to labels, the default pipeline takes " +
-           defaultOver(performance, kPaper) + " times as long as the paper's and " +
-           defaultOver(performance, kMrpt) +
-           " times as long as MRPT's decoder, depending on the sensor. Each table is from one run "
-           "on one machine.\n\n" +
+           "# Performance\n\n" +
+           summary(performance) +
            std::string(performance.is_quick
                            ? "**A quick run, to check that it works: do not cite.**\n\n"
                            : "") +
            wholeSection(performance) + stageSection(performance) + growthSection(performance) +
-           latencySection(performance) + flightSection(performance) +
-           conversionSection(performance) + provenanceSection(performance);
+           flightSection(performance) + conversionSection(performance) +
+           provenanceSection(performance);
 }
 
 void drawFlights(const std::filesystem::path& folder, const std::vector<FlightTimes>& flights) {

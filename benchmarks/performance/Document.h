@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <string>
 #include <vector>
-#include "evaluation/Latency.h"
 
 #include "ConversionTimes.h"
 #include "Flights.h"
@@ -12,12 +11,7 @@
 namespace hagen {
 
 struct Performance {
-    std::vector<TimedRow> rows;  ///< from stage-benchmarks
-    struct PacketsToLabels {
-        std::string settings;
-        evaluation::Latency latency;
-    };
-    std::vector<PacketsToLabels> packets_to_labels;
+    std::vector<TimedRow> rows;      ///< from stage-benchmarks
     FlightTimes table;               ///< the flight of the run time table
     std::vector<FlightTimes> chart;  ///< the flights of the figure
     std::vector<ConversionTimes> conversions;

@@ -1,6 +1,5 @@
-// Run times of several methods over long simulated flights, and the jitter of the filter.
+// Run times of several methods over long simulated flights.
 #pragma once
-#include <hagen/filter/Options.h>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,12 +18,8 @@ struct FlightTimes {
 };
 
 /// Simulates a flight with a VLP-16, one scan every 0.1 s, and labels each scan with each method:
-/// the filter with our settings and with the paper's, and all published baselines. Measures the
-/// time from returns with known beam indices to labels.
+/// the filter with the paper's, the default and the fast settings, and all published baselines.
+/// Measures the time from returns with known beam indices to labels.
 FlightTimes timeFlight(const std::string& scenario, std::uint64_t seed, int scans);
-
-/// Times the filter from a VLP-16 scan's packets to labels and index lists, `runs` times over the
-/// scans of a simulated flight.
-std::vector<double> packetsToLabels_ms(const Options& options, int runs);
 
 }  // namespace hagen

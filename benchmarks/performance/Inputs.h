@@ -1,5 +1,6 @@
 // The scans used for timing.
 #pragma once
+#include <hagen/filter/Options.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
@@ -10,24 +11,24 @@ namespace hagen {
 
 /// Scans of one sensor in its native format: packets if MRPT supports them, otherwise coordinates.
 struct Input {
-    std::string sensor;  ///< for tables, such as "VLP-16 simulated"
     SensorModel model;
-    std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> packets;
-    std::vector<Scan> points;  ///< coordinates and intensities only; empty if packets exist
+    int columns = Options().columns;  ///< of the image
+    std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> packets = {};
+    std::vector<Scan> points = {};  ///< coordinates and intensities only; empty if packets exist
 
     std::size_t size() const { return packets.empty() ? points.size() : packets.size(); }
 };
 
-/// Returns the real VLP-16 scan of Debian's mrpt-common. Throws std::runtime_error if it is
-/// missing.
-Input realVlp16();
+/// Simulates `scans` consecutive scans at 10 Hz in each of four scenes, as packets of a "VLP-16" or
+/// "HDL-32E".
+Input simulatedPackets(const std::string& sensor, int scans);
 
-/// Returns one simulated scan of each of four scenes. Packets for "VLP-16" and "HDL-32E",
-/// coordinates for "HDL-64E".
-Input simulatedScans(const std::string& sensor);
+/// Likewise, as coordinates from an OS1-128 with this many firings per revolution, one return per
+/// pixel.
+Input simulatedOs1(int columns, int scans);
 
-/// Returns one orchard scan by a sensor with `beams` beams between -25 and 15 degrees and `columns`
-/// firings per revolution, with one return per pixel. Its name is like "16 x 870".
-Input gridScan(int beams, int columns);
+/// Reads the first `scans` scans of each drive in $HAGEN_LABELLED_DATA/beams64, with the beams of
+/// the last. Throws std::runtime_error if they cannot be read.
+Input realScansOf64Beams(int scans);
 
 }  // namespace hagen

@@ -1,4 +1,4 @@
-// The timed rows: each stage of the filter, the complete filter, and references.
+// The timed rows: the complete filter, each stage, and references.
 #pragma once
 #include <hagen/filter/HagenFilter.h>
 #include <functional>
@@ -9,38 +9,48 @@
 
 namespace hagen {
 
-/// A scan and the results of each stage, which are the input of the next stage. Stages do not
-/// modify their input, so all runs of a stage do the same work.
+/// A filter, its current scan, and the results of each stage, which are the input of the next
+/// stage. Stages do not modify their input.
 struct Case {
-    Case(const Input& input, std::size_t which, const Options& with);
+    Case(const Input& from, const Options& with);
+    /// Copies the scan's coordinates or packets, as if they had just arrived.
+    void load(std::size_t which);
+    /// Sets the scan and the results of all stages.
+    void loadResults(std::size_t which);
 
-    mrpt::obs::CObservationVelodyneScan::Ptr packets;  ///< if null, `scan` has the coordinates
-    SensorModel sensor;
+    const Input* input;
+    mrpt::obs::CObservationVelodyneScan::Ptr packets;
     Options options;
     PixelDirections directions;
     HagenFilter filter;
     Scan scan;
     SegmentationResult result;
-    std::vector<Label> floor_labels;
 };
-
-/// Computes beams, azimuths and ranges from the sensor's data.
-void readReturns(Case& one);
 
 struct StageRow {
     std::string what;
-    bool with_paper_settings;
-    bool needs_packets;
     std::function<void(Case&)> run;
 };
 
-/// Returns all rows: "mrpt decode" (MRPT's own decoder, which reads half of each scan), "floor"
-/// (reads every input byte once and writes one label per return), "zermas ground fit"; the stages
-/// of the paper and our own; "paper pipeline" and "default pipeline", from packets (or coordinates)
-/// to labels and index lists.
-const std::vector<StageRow>& stageRows();
+/// Rows that share a case.
+struct StageGroup {
+    Options options;
+    std::vector<StageRow> rows;
+};
+
+inline const std::string kMrptDecode = "mrpt decode", kPaperPipeline = "paper",
+                         kDefaultPipeline = "default", kFastPipeline = "fast";
+
+/// From packets or coordinates to labels and index lists, one row per group: kMrptDecode (only
+/// MRPT's own decoder, which reads half of each scan; requires packets), kPaperPipeline,
+/// kDefaultPipeline, kFastPipeline (raw_angles) and "zermas".
+std::vector<StageGroup> pipelines();
+
+/// The paper's stages with its settings, and our own with the default settings.
+std::vector<StageGroup> stages();
 
 /// The settings of config/paper.yaml.
 Options paperOptions();
+Options fastOptions();
 
 }  // namespace hagen

@@ -1,10 +1,13 @@
 #include "TimedRows.h"
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
+#include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
+
+#include "support/Tables.h"
 
 namespace hagen {
 
@@ -17,36 +20,54 @@ const TimedRow* find(const std::vector<TimedRow>& rows, const std::string& senso
 }
 
 std::string tableOf(const std::vector<TimedRow>& rows) {
-    std::string text, sensor;
-    char line[160];
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1);
+    std::string sensor;
     for (const TimedRow& row : rows) {
         if (row.sensor != sensor) {
+            text << (sensor.empty() ? "" : "\n") << std::left << std::setw(31)
+                 << row.sensor + ", microseconds" << std::right
+                 << "    p50    p95    p99 cold50 cold95 cold99 alloc\n";
             sensor = row.sensor;
-            std::snprintf(line, sizeof line, "%s%-36s %10s %10s %10s %10s %12s\n",
-                          text.empty() ? "" : "\n", (sensor + ", microseconds").c_str(), "median",
-                          "p95", "p99", "max", "allocations");
-            text += line;
         }
-        const evaluation::Latency& t = row.latency;
-        std::snprintf(line, sizeof line, "  %-34s %10.1f %10.1f %10.1f %10.1f %12.1f\n",
-                      row.what.c_str(), 1e3 * t.p50_ms, 1e3 * t.p95_ms, 1e3 * t.p99_ms,
-                      1e3 * t.max_ms, row.allocations);
-        text += line;
+        text << std::left << std::setw(31) << row.what << std::right;
+        for (const evaluation::Latency& t : {row.warm, row.cold}) {
+            for (const double ms : {t.p50_ms, t.p95_ms, t.p99_ms}) {
+                text << std::setw(7) << cell(1e3 * ms, 0);
+            }
+        }
+        text << std::setw(6) << row.allocations << "\n";
     }
-    return text;
+    return text.str();
 }
+
+namespace {
+
+nlohmann::ordered_json toJson(const evaluation::Latency& t) {
+    return {{"runs", t.runs}, {"p50_ms", t.p50_ms}, {"p95_ms", t.p95_ms}, {"p99_ms", t.p99_ms}};
+}
+
+evaluation::Latency latencyFrom(const nlohmann::json& json) {
+    evaluation::Latency t;
+    t.runs = json.at("runs");
+    if (t.runs == 0) return t;  // JSON has no NaN
+    t.p50_ms = json.at("p50_ms");
+    t.p95_ms = json.at("p95_ms");
+    t.p99_ms = json.at("p99_ms");
+    return t;
+}
+
+}  // namespace
 
 std::string jsonOf(const std::vector<TimedRow>& rows) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const TimedRow& row : rows) {
         list.push_back({{"sensor", row.sensor},
                         {"what", row.what},
-                        {"median_ms", row.latency.p50_ms},
-                        {"p95_ms", row.latency.p95_ms},
-                        {"p99_ms", row.latency.p99_ms},
-                        {"max_ms", row.latency.max_ms},
-                        {"runs", row.latency.runs},
-                        {"allocations", row.allocations}});
+                        {"pixels", row.pixels},
+                        {"allocations", row.allocations},
+                        {"warm", toJson(row.warm)},
+                        {"cold", toJson(row.cold)}});
     }
     return list.dump(1) + "\n";
 }
@@ -56,13 +77,9 @@ std::vector<TimedRow> readTimedRows(const std::filesystem::path& file) {
     std::vector<TimedRow> rows;
     try {
         for (const auto& json : nlohmann::json::parse(in)) {
-            TimedRow row{json.at("sensor"), json.at("what"), {}, json.at("allocations")};
-            row.latency.p50_ms = json.at("median_ms");
-            row.latency.p95_ms = json.at("p95_ms");
-            row.latency.p99_ms = json.at("p99_ms");
-            row.latency.max_ms = json.at("max_ms");
-            row.latency.runs = json.at("runs");
-            rows.push_back(row);
+            rows.push_back({json.at("sensor"), json.at("what"), json.at("pixels"),
+                            latencyFrom(json.at("warm")), latencyFrom(json.at("cold")),
+                            json.at("allocations")});
         }
     } catch (const nlohmann::json::exception& e) {
         throw std::runtime_error(file.string() + ": invalid list of times: " + e.what());

@@ -9,19 +9,21 @@ namespace hagen {
 
 struct TimedRow {
     std::string sensor, what;
-    evaluation::Latency latency;  ///< per run (one scan)
-    double allocations = 0;       ///< per run, after the first pass over the scans
+    int pixels = 0;            ///< of the image
+    evaluation::Latency warm;  ///< per scan, directly after the previous scan
+    evaluation::Latency cold;  ///< with data and code out of the caches; NaN for stages
+    double allocations = 0;    ///< per scan, after the first pass over the scans
 };
 
 /// Returns the row of this name, or nullptr.
 const TimedRow* find(const std::vector<TimedRow>& rows, const std::string& sensor,
                      const std::string& what);
 
-/// Returns one block per sensor, with medians and percentiles in microseconds.
+/// Returns one block per sensor, with percentiles in microseconds.
 std::string tableOf(const std::vector<TimedRow>& rows);
 
-/// Returns a list of {"sensor", "what", "median_ms", "p95_ms", "p99_ms", "max_ms", "runs",
-/// "allocations"}; allocations are per run.
+/// Returns a list of {"sensor", "what", "pixels", "allocations", "warm", "cold"}, the last two with
+/// {"runs", "p50_ms", "p95_ms", "p99_ms"}.
 std::string jsonOf(const std::vector<TimedRow>& rows);
 /// Reads the output of jsonOf(). Throws std::runtime_error naming the file.
 std::vector<TimedRow> readTimedRows(const std::filesystem::path& file);

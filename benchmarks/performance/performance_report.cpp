@@ -6,7 +6,6 @@
 #include "evaluation/labelled_folders/Charts.h"
 
 #include "Document.h"
-#include "StageRows.h"
 #include "base/command_line/CommandLine.h"
 
 namespace {
@@ -41,11 +40,6 @@ Performance measure(const Flags& flags) {
     p.rows = readTimedRows(flags.stages);
     if (!flags.conversion.empty()) p.conversions = readConversionTimes(flags.conversion);
     const int scale = flags.is_quick ? 50 : 1;
-    for (const auto& [name, options] :
-         {std::pair<std::string, Options>{"paper", paperOptions()}, {"default", Options()}}) {
-        p.packets_to_labels.push_back(
-            {name, evaluation::latencyOf(packetsToLabels_ms(options, 10000 / scale))});
-    }
     p.table = timeFlight("orchard", 1, 1500 / scale);
     std::cerr << "timed: orchard\n";
     for (const char* scenario : {"street", "forest-0.05", "field"}) {

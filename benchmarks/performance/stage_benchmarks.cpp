@@ -1,140 +1,175 @@
-// Times each stage and the complete filter, and counts allocations. For comparison, times MRPT's
-// own decoder, a published ground segmenter, and a lower bound for any method. Run by
-// scripts/benchmark.
-#include <benchmark/benchmark.h>
+// Times the complete filter and each stage on sequences of scans, and counts allocations. For
+// comparison, times MRPT's own decoder and a published ground segmenter. Run by scripts/benchmark.
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iostream>
-#include <map>
-#include <memory>
+#include <regex>
 
 #include "StageRows.h"
 #include "TimedRows.h"
+#include "base/command_line/CommandLine.h"
 #include "support/Allocations.h"
 
 namespace {
 
 using namespace hagen;
 
-/// The measurements of a row.
+struct Flags {
+    std::string json, filter = ".";
+    int scans = 13;
+    std::size_t runs = 104;
+};
+
+/// A row and its measurements.
 struct Runs {
-    std::string sensor, what;
-    std::vector<double> runs_ms;
+    StageRow row;
     std::size_t allocations = 0;
-};
+    std::vector<double> warm_ms = {}, cold_ms = {};
 
-/// The rows in insertion order; filled during the benchmarks.
-std::vector<std::unique_ptr<Runs>>& measured() {
-    static std::vector<std::unique_ptr<Runs>> rows;
-    return rows;
-}
-
-/// Runs the scans in turn, and times each separately.
-void time(benchmark::State& state, const StageRow& row, std::vector<Case>& cases, Runs& to) {
-    for (Case& one : cases) row.run(one);  // allocates all memory
-    to.runs_ms.reserve(to.runs_ms.size() + static_cast<std::size_t>(state.max_iterations));
-    std::size_t next = 0;
-    for (auto _ : state) {
-        const std::size_t before = allocations();
+    void time(Case& one, std::vector<double>& to_ms) {
+        const std::size_t before = hagen::allocations();
         const auto start = std::chrono::steady_clock::now();
-        row.run(cases[next]);
-        benchmark::ClobberMemory();
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        to.allocations += allocations() - before;
-        state.SetIterationTime(took.count());
-        to.runs_ms.push_back(1e3 * took.count());
-        next = (next + 1) % cases.size();
+        row.run(one);
+        const std::chrono::duration<double, std::milli> took =
+            std::chrono::steady_clock::now() - start;
+        allocations += hagen::allocations() - before;
+        to_ms.push_back(took.count());
     }
-}
-
-using Cases = std::shared_ptr<std::vector<Case>>;
-
-Cases casesOf(const Input& input, const Options& options) {
-    auto cases = std::make_shared<std::vector<Case>>();
-    for (std::size_t scan = 0; scan < input.size(); ++scan) {
-        cases->emplace_back(input, scan, options);
-    }
-    return cases;
-}
-
-void add(const StageRow& row, const std::string& sensor, const Cases& cases) {
-    measured().push_back(std::make_unique<Runs>(Runs{sensor, row.what, {}, 0}));
-    Runs& to = *measured().back();
-    benchmark::RegisterBenchmark(
-        (sensor + "/" + row.what).c_str(),
-        [&row, cases, &to](benchmark::State& state) { time(state, row, *cases, to); })
-        ->UseManualTime()
-        ->Unit(benchmark::kMicrosecond);
-}
-
-void addSensor(const Input& input) {
-    const Cases papers = casesOf(input, paperOptions()), ours = casesOf(input, Options());
-    for (const StageRow& row : stageRows()) {
-        if (row.needs_packets && input.packets.empty()) continue;
-        add(row, input.sensor, row.with_paper_settings ? papers : ours);
-    }
-}
-
-/// Adds the two pipelines for an image size.
-void addGrid(int beams, int columns) {
-    const Input input = gridScan(beams, columns);
-    for (const StageRow& row : stageRows()) {
-        if (row.what != "paper pipeline" && row.what != "default pipeline") continue;
-        Options options = row.with_paper_settings ? paperOptions() : Options();
-        options.columns = columns;
-        add(row, input.sensor, casesOf(input, options));
-    }
-}
-
-void addAll() {
-    addSensor(realVlp16());
-    for (const char* sensor : {"VLP-16", "HDL-32E", "HDL-64E"}) addSensor(simulatedScans(sensor));
-    for (const int columns : {435, 870, 1740, 3480}) addGrid(16, columns);
-    for (const int beams : {32, 64, 128}) addGrid(beams, 870);
-}
-
-std::vector<TimedRow> results() {
-    std::vector<TimedRow> rows;
-    for (const auto& row : measured()) {
-        if (row->runs_ms.empty()) continue;
-        rows.push_back(
-            {row->sensor, row->what, evaluation::latencyOf(row->runs_ms),
-             static_cast<double>(row->allocations) / static_cast<double>(row->runs_ms.size())});
-    }
-    return rows;
-}
-
-/// Prints nothing, and stores the results in measured().
-class Silent : public benchmark::BenchmarkReporter {
- public:
-    bool ReportContext(const Context&) override { return true; }
-    void ReportRuns(const std::vector<Run>&) override {}
 };
+
+/// Timed rows that share a case.
+struct Group {
+    Case one;
+    std::vector<Runs> rows;
+};
+
+/// Makes the rows, and runs each once on each scan, which allocates all memory.
+std::vector<Group> groupsOf(const std::vector<StageGroup>& asked, const Input& input) {
+    std::vector<Group> groups;
+    for (const StageGroup& group : asked) {
+        if (group.rows.front().what == kMrptDecode && input.packets.empty()) continue;
+        Group& to = groups.emplace_back(Group{Case(input, group.options), {}});
+        for (const StageRow& row : group.rows) to.rows.push_back({row});
+        for (std::size_t scan = 0; scan < input.size(); ++scan) {
+            to.one.loadResults(scan);
+            for (const StageRow& row : group.rows) row.run(to.one);
+        }
+    }
+    return groups;
+}
+
+/// Evicts data and code from the caches.
+void flushCaches() {
+    static std::vector<char> buffer(std::size_t{1} << 28);
+    volatile char* const bytes = buffer.data();
+    for (std::size_t i = 0; i < buffer.size(); i += 64) bytes[i] = static_cast<char>(bytes[i] + 1);
+}
+
+/// Runs all pipelines in turn on each scan, so that other load affects all of them. Each has just
+/// labelled the previous scan (warm), or the caches are flushed (cold).
+void timePipelines(std::vector<Group>& groups, std::size_t runs) {
+    for (const bool is_cold : {false, true}) {
+        for (std::size_t run = 0; run < runs; ++run) {
+            for (std::size_t g = 0; g < groups.size(); ++g) {
+                auto& [one, rows] = groups[(run + g) % groups.size()];
+                one.load(run % one.input->size());
+                rows.front().row.run(one);
+                one.load((run + 1) % one.input->size());
+                if (is_cold) flushCaches();
+                rows.front().time(one, is_cold ? rows.front().cold_ms : rows.front().warm_ms);
+            }
+        }
+    }
+}
+
+/// Runs all stages in turn on each scan.
+void timeStages(std::vector<Group>& groups, std::size_t runs) {
+    for (std::size_t run = 0; run < runs; ++run) {
+        for (auto& [one, rows] : groups) {
+            one.loadResults(run % one.input->size());
+            for (Runs& row : rows) row.time(one, row.warm_ms);
+        }
+    }
+}
+
+struct Sensor {
+    std::string name;
+    bool with_stages;
+    std::function<Input()> input;
+};
+
+std::vector<Sensor> sensorsFor(const Flags& flags) {
+    std::vector<Sensor> sensors{
+        {"VLP-16", true, [&] { return simulatedPackets("VLP-16", flags.scans); }},
+        {"HDL-32E", false, [&] { return simulatedPackets("HDL-32E", flags.scans); }},
+        {"HDL-64E", true, [&] { return realScansOf64Beams(flags.scans); }},
+        {"OS1-128/1024", false, [&] { return simulatedOs1(1024, flags.scans); }},
+        {"OS1-128/2048", true, [&] { return simulatedOs1(2048, flags.scans); }}};
+    if (std::getenv("HAGEN_LABELLED_DATA") == nullptr) {
+        std::cerr << "HDL-64E: skipped, HAGEN_LABELLED_DATA is not set\n";
+        sensors.erase(sensors.begin() + 2);
+    }
+    return sensors;
+}
+
+std::vector<StageGroup> matching(const Flags& flags, const std::string& sensor,
+                                 const std::vector<StageGroup>& groups) {
+    const std::regex filter(flags.filter);
+    std::vector<StageGroup> some;
+    for (const StageGroup& group : groups) {
+        StageGroup to{group.options, {}};
+        for (const StageRow& row : group.rows) {
+            if (std::regex_search(sensor + "/" + row.what, filter)) to.rows.push_back(row);
+        }
+        if (!to.rows.empty()) some.push_back(to);
+    }
+    return some;
+}
+
+int run(const Flags& flags) {
+    std::vector<TimedRow> rows;
+    for (const Sensor& sensor : sensorsFor(flags)) {
+        const auto whole = matching(flags, sensor.name, pipelines());
+        const auto parts =
+            matching(flags, sensor.name, sensor.with_stages ? stages() : std::vector<StageGroup>());
+        if (whole.empty() && parts.empty()) continue;
+        std::cerr << sensor.name << "\n";
+        const Input input = sensor.input();
+        for (const auto& [asked, time] : {std::pair(whole, &timePipelines), {parts, &timeStages}}) {
+            std::vector<Group> groups = groupsOf(asked, input);
+            time(groups, flags.runs);
+            for (const Group& group : groups) {
+                for (const Runs& row : group.rows) {
+                    const auto runs = static_cast<double>(row.warm_ms.size() + row.cold_ms.size());
+                    rows.push_back({sensor.name, row.row.what, input.model.rows() * input.columns,
+                                    evaluation::latencyOf(row.warm_ms),
+                                    evaluation::latencyOf(row.cold_ms),
+                                    static_cast<double>(row.allocations) / runs});
+                }
+            }
+        }
+    }
+    std::cout << tableOf(rows);
+    if (!flags.json.empty()) {
+        std::ofstream out(flags.json);
+        out << jsonOf(rows);
+        out.close();
+        if (!out) throw std::runtime_error(flags.json + ": cannot be written");
+    }
+    return base::kDone;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    benchmark::Initialize(&argc, argv);
-    std::string json;
-    if (argc == 3 && std::string(argv[1]) == "--json") {
-        json = argv[2];
-        argc = 1;
-    }
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    try {
-        addAll();
-        Silent silent;
-        benchmark::RunSpecifiedBenchmarks(&silent);
-        std::cout << tableOf(results());
-        if (!json.empty()) {
-            std::ofstream out(json);
-            out << jsonOf(results());
-            out.close();
-            if (!out) throw std::runtime_error(json + ": cannot be written");
-        }
-        return 0;
-    } catch (const std::exception& e) {
-        std::cerr << "stage-benchmarks: " << e.what() << "\n";
-        return 1;
-    }
+    base::Program app("stage-benchmarks", "Times the filter and its stages.");
+    Flags flags;
+    app.option("--json", flags.json, "JSON file for the results");
+    app.option("--filter", flags.filter, "rows, as a regular expression for SENSOR/ROW")
+        .showDefault();
+    app.option("--scans", flags.scans, "consecutive scans in each scene").positive().showDefault();
+    app.option("--runs", flags.runs, "timed runs per row").showDefault();
+    return app.run(argc, argv, [&] { return run(flags); });
 }
