@@ -122,9 +122,12 @@ void HagenFilter::State::runStages(const Scan& window, const Scan& newest,
     if (o.context_m > o.zone_m) limitToZone(r.repaired_m, o.zone_m, r.labels);
     extractReturns(labelled, r.range_image, r.labels, r.own_labels, o.zone_m, r.returns,
                    work.extraction);
-    r.components.resize(0, 0);  // exchangeResult() may have left another filter's
-    r.returns.component.clear();
-    if (o.number_obstacles) numberObstacles(labelled, o, r, work);
+    if (o.number_obstacles) {
+        numberObstacles(labelled, o, r, work);
+    } else {  // exchangeResult() may have left another filter's numbers
+        r.components.resize(0, 0);
+        r.returns.component.clear();
+    }
 }
 
 void HagenFilter::State::judgeByGround(const Scan& window, const Scan& labelled,

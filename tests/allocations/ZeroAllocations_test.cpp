@@ -35,7 +35,7 @@ std::vector<mrpt::obs::CObservationVelodyneScan::Ptr> drive(const std::string& m
 void expectNoAllocations(const std::string& model, const Options& options,
                          const std::optional<Attitude>& attitude) {
     const auto scans = drive(model);
-    HagenFilter filter(observations::sensorOf(*scans.front()), options);
+    HagenFilter filter(observations::sensorOf(*scans.front()), test::numbered(options));
     observations::ObservationWorkspace decoder;
     Scan scan;
     std::size_t before = 0, roi = 0;
@@ -78,6 +78,7 @@ TEST_P(ZeroAllocations, AllOptionsNeverAllocate) {
     options.gaps_are_level = true;
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
     options.seeds = Seeds::Every;
+    options.raw_angles = true;
     expectNoAllocations(GetParam(), options, Attitude{0.05f, -0.03f});
 }
 
