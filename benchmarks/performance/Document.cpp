@@ -31,18 +31,12 @@ std::vector<TimedRow> rowsOf(const Performance& p, const std::string& what) {
     return rows;
 }
 
-double growthOf(const std::vector<TimedRow>& rows) {
-    std::vector<double> pixels, times;
-    for (const TimedRow& row : rows) {
-        pixels.push_back(row.pixels);
-        times.push_back(row.warm.p50_ms);
-    }
-    return exponentOf(pixels, times);
-}
-
 std::string summary(const Performance& p) {
     std::string sensors, ours, fast, at_10_hz, at_20_hz;
+    std::vector<double> pixels, times_ms;
     for (const TimedRow& row : rowsOf(p, kDefaultPipeline)) {
+        pixels.push_back(row.pixels);
+        times_ms.push_back(row.warm.p50_ms);
         if (row.sensor == "HDL-32E" || row.sensor == "OS1-128/1024") continue;
         const char* const comma = sensors.empty() ? "" : ", ";
         sensors += comma + row.sensor;
@@ -54,8 +48,8 @@ std::string summary(const Performance& p) {
     return "A scan (" + sensors + ") takes " + ours + " ms with the default settings, and " + fast +
            " ms with `raw_angles`. The default settings use " + at_10_hz +
            " % of one core at 10 Hz, and " + at_20_hz +
-           " % at 20 Hz. Time is proportional to pixels to the power of " +
-           cell(growthOf(rowsOf(p, kDefaultPipeline)), 2) + ".\n\n";
+           " % at 20 Hz. Time grows as pixels to the power of " +
+           cell(exponentOf(pixels, times_ms), 2) + ".\n\n";
 }
 
 std::string wholeSection(const Performance& p) {
@@ -74,10 +68,11 @@ std::string wholeSection(const Performance& p) {
     }
     return "## From packets to labels\n\n"
            "Microseconds per scan on one core, from packets (VLP-16, HDL-32E) or coordinates to "
-           "one label per return and index lists. All rows run in turn on each scan: warm, right "
-           "after the previous scan, or cold, after writing 256 MB. The scans are 13 in "
-           "sequence from each of four simulated scenes, or six real ones (HDL-64E). `mrpt "
-           "decode` is `generatePointCloud()`, which decodes half of the scan.\n\n" +
+           "labels. All rows run in turn on each scan: warm, right after the previous scan, or "
+           "cold, after writing 256 MB. Scans: 13 in sequence in each of four simulated scenes, or "
+           "six real ones (HDL-64E). `mrpt decode` is `generatePointCloud()`, which decodes half "
+           "of "
+           "the scan.\n\n" +
            table.text();
 }
 
@@ -95,8 +90,8 @@ std::string stageSection(const Performance& p) {
         table.add(line);
     }
     return "## Each stage\n\n"
-           "The paper's stages run with the paper's settings, `own` stages with the default "
-           "settings, right after a complete run on the same scan.\n\n" +
+           "Stages 1 to 9 run with the paper's settings, the others with the default settings, "
+           "right after a complete run on the same scan.\n\n" +
            table.text();
 }
 
@@ -108,8 +103,6 @@ std::string growthSection(const Performance& p) {
         table.add({ours[i].sensor, std::to_string(ours[i].pixels), cell(nsPerPixel(papers[i]), 0),
                    cell(nsPerPixel(ours[i]), 0), cell(nsPerPixel(fast[i]), 0)});
     }
-    table.add({"fitted exponent", "", cell(growthOf(papers), 2), cell(growthOf(ours), 2),
-               cell(growthOf(fast), 2)});
     return "## Scaling\n\n" + table.text();
 }
 
@@ -117,10 +110,10 @@ std::string flightSection(const Performance& p) {
     const std::size_t scans = p.table.returns.size();
     const std::size_t returns =
         std::accumulate(p.table.returns.begin(), p.table.returns.end(), std::size_t{0});
-    Table table({"`" + p.table.scenario + "`, ms", "p50", "p95", "p99", "max"});
+    Table table({"`" + p.table.scenario + "`, ms", "p50", "p95", "p99"});
     for (const auto& method : p.table.methods) {
         const evaluation::Latency t = evaluation::latencyOf(method.runs_ms);
-        table.add({method.name, cell(t.p50_ms), cell(t.p95_ms), cell(t.p99_ms), cell(t.max_ms)});
+        table.add({method.name, cell(t.p50_ms), cell(t.p95_ms), cell(t.p99_ms)});
     }
     return "## Comparison with other methods\n\n"
            "A simulated flight of " +

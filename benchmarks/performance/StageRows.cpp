@@ -88,29 +88,26 @@ std::vector<StageRow> papersStages() {
                               radiansf(c.options.seed_gate_deg), c.result.labels, work().labelling);
                  limitToZone(c.result.repaired_m, c.options.zone_m, c.result.labels);
              }},
-            {"9 extraction",
-             [](Case& c) {
+            {"9 extraction", [](Case& c) {
                  extractReturns(c.scan, c.result.range_image, c.result.labels, c.result.own_labels,
                                 c.options.zone_m, c.result.returns, work().extraction);
-             }},
-            {"obstacles numbered (on demand)",
-             [](Case& c) { numberObstacles(c.scan, c.options, c.result, work()); }}};
+             }}};
 }
 
 std::vector<StageRow> ownStages() {
     return {
-        {"own: dead beams",
+        {"dead beams",
          [](Case& c) {
              bridgeDeadBeams(c.result.range_image.depth_m, c.directions, c.result.repaired_m,
                              work().dead_beams);
          }},
-        {"own: ground frame",
+        {"ground frame",
          [](Case& c) {
              static PixelPoints pixels;
              locatePixels(c.scan, c.directions, c.result.range_image, c.result.repaired_m, pixels);
              movePixels(fitGroundFrame(pixels, Attitude{}, work().ground_frame), pixels);
          }},
-        {"own: evidence of ground",
+        {"evidence of ground",
          [](Case& c) {
              static Image<std::uint8_t> is_level;
              static Image<float> tolerance_m;
@@ -122,13 +119,13 @@ std::vector<StageRow> ownStages() {
              requireEvidence(g.pixels, g.cells, g.height_m, is_level,
                              g.from_sensor.translation().z(), tolerance_m, g.has_evidence);
          }},
-        {"own: ground surface",
+        {"ground surface",
          [](Case& c) {
              static GroundSurface surface;
              fitGroundSurface(c.result.ground.pixels, c.result.labels, surface,
                               work().ground_surface);
          }},
-        {"own: heights and tolerances",
+        {"heights and tolerances",
          [](Case& c) {
              const Options& o = c.options;
              Ground& g = c.result.ground;
@@ -139,24 +136,26 @@ std::vector<StageRow> ownStages() {
                  {o.ground_tolerance_m, o.ground_tolerance_per_m, o.ground_tolerance_beside_tall},
                  g.from_sensor.translation().z(), g.tolerance_m, work().tolerance);
          }},
-        {"own: canopy",
+        {"canopy",
          [](Case& c) {
              Ground& g = c.result.ground;
              tolerateCanopy(g.cells, g.tops, g.from_sensor.translation().z(), g.tolerance_m);
          }},
-        {"own: labels, feet, specks",
+        {"labels, feet, specks",
          [](Case& c) {
              const Ground& g = c.result.ground;
              labelByHeight(g.height_m, g.tolerance_m, c.result.labels);
              growFeet(g.pixels, g.height_m, c.result.labels, work().feet);
              removeSpecks(g.pixels, g.height_m, g.tolerance_m, c.result.labels, work().specks);
          }},
-        {"own: farther returns",
+        {"farther returns",
          [](Case& c) {
              const Clearance clearance{Eigen::Vector3f::UnitZ(), c.options.ground_is_roi_below_m};
              judgeFartherReturns(c.scan, c.result.range_image, c.result.ground, clearance,
                                  c.options.zone_m, c.result.own_labels, work().farther_returns);
          }},
+        {"obstacles numbered (on demand)",
+         [](Case& c) { numberObstacles(c.scan, c.options, c.result, work()); }},
         {"boxes (on demand)", [](Case& c) { boxRoiComponents(c.scan, c.result.returns); }}};
 }
 
