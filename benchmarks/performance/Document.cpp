@@ -69,10 +69,10 @@ std::string wholeSection(const Performance& p) {
     return "## From packets to labels\n\n"
            "Microseconds per scan on one core, from packets (VLP-16, HDL-32E) or coordinates to "
            "labels. All rows run in turn on each scan: warm, right after the previous scan, or "
-           "cold, after writing 256 MB. Scans: 13 in sequence in each of four simulated scenes, or "
-           "six real ones (HDL-64E). `mrpt decode` is `generatePointCloud()`, which decodes half "
-           "of "
-           "the scan.\n\n" +
+           "cold, after reading 256 MB of other data. Scans: 13 in sequence in each of four "
+           "simulated "
+           "scenes; HDL-64E: six real drives, with the beams of one. `mrpt decode` is "
+           "`generatePointCloud()`, which decodes half of the scan.\n\n" +
            table.text();
 }
 

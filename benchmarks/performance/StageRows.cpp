@@ -94,6 +94,10 @@ std::vector<StageRow> papersStages() {
              }}};
 }
 
+float heightAboveGround_m(const Ground& ground) {
+    return ground.from_sensor.translation().z() - ground.surface.at(0, 0);
+}
+
 std::vector<StageRow> ownStages() {
     return {
         {"dead beams",
@@ -106,18 +110,6 @@ std::vector<StageRow> ownStages() {
              static PixelPoints pixels;
              locatePixels(c.scan, c.directions, c.result.range_image, c.result.repaired_m, pixels);
              movePixels(fitGroundFrame(pixels, Attitude{}, work().ground_frame), pixels);
-         }},
-        {"evidence of ground",
-         [](Case& c) {
-             static Image<std::uint8_t> is_level;
-             static Image<float> tolerance_m;
-             Ground& g = c.result.ground;
-             findPixelCells(g.pixels, g.cells);
-             findLevelPixels(g.pixels, g.cells, is_level, work().evidence);
-             keepLevelRou(c.result.labels, is_level, work().candidates);
-             tolerance_m = g.tolerance_m;
-             requireEvidence(g.pixels, g.cells, g.height_m, is_level,
-                             g.from_sensor.translation().z(), tolerance_m, g.has_evidence);
          }},
         {"ground surface",
          [](Case& c) {
@@ -139,7 +131,16 @@ std::vector<StageRow> ownStages() {
         {"canopy",
          [](Case& c) {
              Ground& g = c.result.ground;
-             tolerateCanopy(g.cells, g.tops, g.from_sensor.translation().z(), g.tolerance_m);
+             tolerateCanopy(g.cells, g.tops, heightAboveGround_m(g), g.tolerance_m);
+         }},
+        {"evidence of ground",
+         [](Case& c) {
+             Ground& g = c.result.ground;
+             findPixelCells(g.pixels, g.cells);
+             findLevelPixels(g.pixels, g.cells, g.is_level, work().evidence);
+             keepLevelRou(c.result.labels, g.is_level, work().candidates);
+             requireEvidence(g.pixels, g.cells, g.height_m, g.is_level, heightAboveGround_m(g),
+                             g.tolerance_m, g.has_evidence);
          }},
         {"labels, feet, specks",
          [](Case& c) {

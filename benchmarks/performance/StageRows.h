@@ -10,7 +10,7 @@
 namespace hagen {
 
 /// A filter, its current scan, and the results of each stage, which are the input of the next
-/// stage. Stages do not modify their input.
+/// stage.
 struct Case {
     Case(const Input& from, const Options& with);
     /// Copies the scan's coordinates or packets, as if they had just arrived.

@@ -11,7 +11,7 @@ struct TimedRow {
     std::string sensor, what;
     int pixels = 0;            ///< of the image
     evaluation::Latency warm;  ///< per scan, directly after the previous scan
-    evaluation::Latency cold;  ///< with data and code out of the caches; NaN for stages
+    evaluation::Latency cold;  ///< with data out of the caches; NaN for stages
     double allocations = 0;    ///< per scan, after the first pass over the scans
 };
 

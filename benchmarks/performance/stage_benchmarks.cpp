@@ -60,11 +60,11 @@ std::vector<Group> groupsOf(const std::vector<StageGroup>& asked, const Input& i
     return groups;
 }
 
-/// Evicts data and code from the caches.
+/// Evicts data from the caches by reading other data.
 void flushCaches() {
-    static std::vector<char> buffer(std::size_t{1} << 28);
-    volatile char* const bytes = buffer.data();
-    for (std::size_t i = 0; i < buffer.size(); i += 64) bytes[i] = static_cast<char>(bytes[i] + 1);
+    static const std::vector<char> buffer(std::size_t{1} << 28, 1);
+    const volatile char* const bytes = buffer.data();
+    for (std::size_t i = 0; i < buffer.size(); i += 64) static_cast<void>(bytes[i]);
 }
 
 /// Runs all pipelines in turn on each scan, so that other load affects all of them. Each has just
@@ -170,6 +170,6 @@ int main(int argc, char** argv) {
     app.option("--filter", flags.filter, "rows, as a regular expression for SENSOR/ROW")
         .showDefault();
     app.option("--scans", flags.scans, "consecutive scans in each scene").positive().showDefault();
-    app.option("--runs", flags.runs, "timed runs per row").showDefault();
+    app.option("--runs", flags.runs, "timed runs per row").positive().showDefault();
     return app.run(argc, argv, [&] { return run(flags); });
 }

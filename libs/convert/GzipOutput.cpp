@@ -12,6 +12,9 @@ void packGzipMember(const Bytes& plain, Bytes& packed) {
     // Not thread_local, because destroying it at thread exit needs memory; glibc aborts if there is
     // none.
     const std::unique_ptr<std::uint8_t[]> level_buffer(new std::uint8_t[ISAL_DEF_LVL1_DEFAULT]);
+    if (plain.size() > std::numeric_limits<std::uint32_t>::max()) {
+        throw std::length_error("an entry exceeds 4 GiB");
+    }
     isal_zstream stream{};  // isal_deflate_stateless_init() leaves hist_bits as it is
     isal_deflate_stateless_init(&stream);
     stream.level = 1;

@@ -38,7 +38,7 @@ bool hasGround(const Scan& scan, const std::vector<Label>& label, float zone_m) 
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const std::uint32_t is_near = scan.range_m[i] <= zone_m, is_rou = label[i] == Label::Rou;
         near += is_near;
-        ground += is_near & is_rou;  // vectorized, because there is no branch
+        ground += is_near & is_rou;  // vectorised, because there is no branch
     }
     return ground >= kMinGround * near;
 }

@@ -294,7 +294,8 @@ the ground frame, whose z = 0 is the mean ground plane. None if no ground was vi
 2D arrays, rows x columns.
 
 Row 0 is the lowest beam. Column 0 points backwards, the middle column along x; columns run
-clockwise. NaN means no value.
+clockwise. NaN means no value. With raw_angles, proximity_m, sharpened_m, merged_m and smoothed_rad
+are empty.
 
 depth_m          range of the closest return in each pixel [m]
 repaired_m       depth_m without one-pixel gaps

@@ -9,6 +9,7 @@
 #include "performance/StageRows.h"
 #include "performance/TimedRows.h"
 #include "support/Program.h"
+#include "support/Random.h"
 
 namespace hagen {
 namespace {
@@ -58,9 +59,13 @@ TEST(StageRows, StagesKeepLabels) {
     for (const StageGroup& group : stages()) {
         Case one(input, group.options);
         one.loadResults(1);
-        const std::vector<Label> before = one.result.returns.label;
+        const SegmentationResult before = one.result;
         for (const StageRow& row : group.rows) row.run(one);
-        EXPECT_EQ(one.result.returns.label, before);
+        EXPECT_EQ(one.result.returns.label, before.returns.label);
+        EXPECT_TRUE((one.result.labels == before.labels).all());
+        if (before.ground.has_surface) {
+            EXPECT_TRUE(test::same(one.result.ground.tolerance_m, before.ground.tolerance_m));
+        }
     }
 }
 
@@ -109,8 +114,9 @@ TEST(PerformanceDocument, ListsMeasurements) {
                                 "settings, and 0.3, 2.4 ms"));
     EXPECT_THAT(text, HasSubstr("0, 3 % of one core at 10 Hz, and 1, 6 % at 20 Hz"));
     EXPECT_THAT(text, HasSubstr("to the power of 1.00."));
-    EXPECT_THAT(text, ContainsRegex("\\| VLP-16 +\\| paper +\\| 250 +\\| 250 +\\| 250 +\\| "
-                                    "750 +\\| 750 +\\| 750 +\\| 0.50 +\\| 0.5 "));
+    EXPECT_THAT(text,
+                ContainsRegex("\\| VLP-16 +\\| paper +\\| 250 +\\| 250 +\\| 250 +\\| 0.50 +\\| "
+                              "750 +\\| 750 +\\| 750 +\\| 0.75 "));
     EXPECT_THAT(text, ContainsRegex("\\| 1 depth image +\\| 4.2 +\\| 8.4 +\\| 34 "));
     EXPECT_THAT(text, ContainsRegex("\\| HDL-32E +\\| 20000 +\\| 25 +\\| 38 +\\| 30 "));
     EXPECT_THAT(text, HasSubstr("2 VLP-16 scans of 200 returns on average"));

@@ -1,7 +1,7 @@
 // Labels scans with the filter only, to compare processors:
-// label-points MODEL COLUMNS default|fast REPEAT FILE.bin...
+// label-points MODEL COLUMNS default|fast|numbered REPEAT FILE.bin...
 // Files contain float32 x, y, z, intensity. Prints per file: returns, RoI, and a checksum of all
-// labels and obstacle numbers. A single filter segments each scan REPEAT times.
+// labels and, if numbered, obstacles. A single filter segments each scan REPEAT times.
 #include <hagen/filter/HagenFilter.h>
 
 #include <array>
@@ -63,13 +63,14 @@ void label(hagen::HagenFilter& filter, const hagen::SensorModel& sensor, const s
 
 int main(int argc, char** argv) {
     if (argc < 5) {
-        std::fprintf(stderr, "usage: label-points MODEL COLUMNS default|fast REPEAT FILE.bin...\n");
+        std::fprintf(stderr,
+                     "usage: label-points MODEL COLUMNS default|fast|numbered REPEAT FILE...\n");
         return 2;
     }
     try {
         const hagen::SensorModel sensor = hagen::sensorModel(argv[1]);
         hagen::Options options;
-        options.number_obstacles = std::atoi(argv[4]) == 1;  // else measures labels alone
+        options.number_obstacles = std::string(argv[3]) == "numbered";
         options.columns = std::atoi(argv[2]);
         options.raw_angles = std::string(argv[3]) == "fast";
         hagen::HagenFilter filter(sensor, options);

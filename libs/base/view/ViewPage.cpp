@@ -19,7 +19,7 @@ std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes, int l
     uLongf size = compressBound(bytes.size());
     std::vector<std::uint8_t> packed(size);
     if (compress2(packed.data(), &size, bytes.data(), bytes.size(), level) != Z_OK) {
-        throw std::bad_alloc();
+        throw std::runtime_error("zlib cannot compress a view page");
     }
     packed.resize(size);
     return packed;

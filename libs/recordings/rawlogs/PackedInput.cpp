@@ -1,6 +1,7 @@
 #include "recordings/rawlogs/PackedInput.h"
 #include <unistd.h>
 #include <algorithm>
+#include <cstring>
 
 namespace hagen::recordings {
 namespace {
@@ -23,6 +24,7 @@ PackedInput::PackedInput(const std::filesystem::path& file)
     is_gzip_ = starts(kGzip);
     isal_inflate_init(&gzip_);
     gzip_.crc_flag = ISAL_GZIP;
+    gzip_.next_in = packed_.data();
     if (!starts(kZstd)) return;
     lseek(descriptor(), 0, SEEK_SET);
     try {
@@ -38,10 +40,14 @@ std::size_t PackedInput::readGzip(unsigned char* to, std::size_t count) {
     gzip_.next_out = to;
     gzip_.avail_out = static_cast<std::uint32_t>(count);
     while (gzip_.avail_out > 0 && fault_.empty()) {
-        if (gzip_.avail_in == 0) {
+        // ISA-L forgets the checksum of a header that spans two reads.
+        const bool may_split_header =
+            !is_in_member_ && gzip_.avail_in < packed_.size() / 2 && std::feof(file_.get()) == 0;
+        if (gzip_.avail_in == 0 || may_split_header) {
+            std::memmove(packed_.data(), gzip_.next_in, gzip_.avail_in);
             gzip_.next_in = packed_.data();
-            gzip_.avail_in = static_cast<std::uint32_t>(
-                std::fread(packed_.data(), 1, packed_.size(), file_.get()));
+            gzip_.avail_in += static_cast<std::uint32_t>(std::fread(
+                packed_.data() + gzip_.avail_in, 1, packed_.size() - gzip_.avail_in, file_.get()));
         }
         const bool is_end = gzip_.avail_in == 0;  // ISA-L may still hold output
         if (!is_in_member_ && is_end) break;

@@ -19,13 +19,14 @@ const std::filesystem::path& checked(const std::filesystem::path& file) {
 
 struct RawlogReader::Parts {
     RawlogTrial trial;
+    std::filesystem::path file;
     std::size_t entries = 0;
     double fraction_read = 0;
 };
 
-RawlogReader::RawlogReader(const std::filesystem::path& file)
-    : parts_(new Parts{RawlogTrial(checked(file))}) {
-    observations::registerMrptClasses();
+RawlogReader::RawlogReader(const std::filesystem::path& file) {
+    observations::registerMrptClasses();  // before the trial's process starts, which needs them too
+    parts_.reset(new Parts{RawlogTrial(checked(file)), file});
 }
 RawlogReader::~RawlogReader() = default;
 
@@ -41,7 +42,14 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
     ++parts_->entries;
     mrpt::io::CMemoryStream stream;
     stream.assignMemoryNotOwn(verdict.bytes.data(), verdict.bytes.size());
-    return mrpt::serialization::archiveFrom(stream).ReadObject();
+    try {
+        return mrpt::serialization::archiveFrom(stream).ReadObject();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& e) {
+        throw BrokenRecording(parts_->file.string() + ": entry " +
+                              std::to_string(parts_->entries - 1) + " cannot be read: " + e.what());
+    }
 }
 
 }  // namespace hagen::recordings

@@ -21,6 +21,8 @@ namespace hagen::recordings {
 namespace {
 
 constexpr int kPipeBytes = 1 << 20;
+constexpr std::size_t kMaxWaiting = kPipeBytes / 16;
+constexpr std::size_t kMaxKept = std::size_t{64} << 20;  // bytes of memory between entries
 
 /// A message to the program: this, and bytes of the entry or, if Broken, the reason.
 struct MessageHead {
@@ -51,24 +53,31 @@ class SentInput : public PackedInput {
     std::size_t Read(void* buffer, std::size_t count) override {
         const std::size_t done = PackedInput::Read(buffer, count);
         const auto* const bytes = static_cast<const std::uint8_t*>(buffer);
-        waiting_.insert(waiting_.end(), bytes, bytes + done);
-        if (waiting_.size() > kPipeBytes / 16) send(EntryVerdict::Kind::Part);
+        if (waiting_.size() + done > kMaxWaiting) send(EntryVerdict::Kind::Part);
+        if (done > kMaxWaiting) {  // without a copy, which would count as the entry's memory
+            send(EntryVerdict::Kind::Part, bytes, done);
+        } else {
+            waiting_.insert(waiting_.end(), bytes, bytes + done);
+        }
         return done;
     }
 
     void send(EntryVerdict::Kind kind) {
-        const double fraction =
-            static_cast<double>(packedPosition()) / static_cast<double>(packedBytes());
-        const MessageHead head{kind, getPosition(), fraction, waiting_.size()};
-        if (!transferAll(write, pipe_, reinterpret_cast<const char*>(&head), sizeof head) ||
-            !transferAll(write, pipe_, waiting_.data(), waiting_.size())) {
-            _exit(0);
-        }
+        send(kind, waiting_.data(), waiting_.size());
         waiting_.clear();
     }
+    void send(EntryVerdict::Kind kind, const std::uint8_t* bytes, std::size_t size) {
+        const double fraction =
+            static_cast<double>(packedPosition()) / static_cast<double>(packedBytes());
+        const MessageHead head{kind, getPosition(), fraction, size};
+        if (!transferAll(write, pipe_, reinterpret_cast<const char*>(&head), sizeof head) ||
+            !transferAll(write, pipe_, bytes, size)) {
+            _exit(0);
+        }
+    }
     void sendBroken(std::string_view why) {
-        waiting_.assign(why.begin(), why.end());
-        send(EntryVerdict::Kind::Broken);
+        send(EntryVerdict::Kind::Broken, reinterpret_cast<const std::uint8_t*>(why.data()),
+             why.size());
     }
 
  private:
@@ -220,7 +229,7 @@ void RawlogTrial::receive() {
         broken(cannotBeRead("it requests too much memory at byte " + std::to_string(head.end) +
                             ": a count is wrong, or the entry exceeds " +
                             std::to_string(kMaxEntryBytes >> 20) + " MiB or --memory-limit"));
-    } else if (head.kind != EntryVerdict::Kind::Part) {
+    } else if (head.kind != EntryVerdict::Kind::Part && received_ == entries_) {
         last_.end = head.end;
     }
 }
@@ -233,6 +242,7 @@ const EntryVerdict& RawlogTrial::broken(const std::string& why) {
 
 const EntryVerdict& RawlogTrial::next() {
     if (last_.kind != EntryVerdict::Kind::Sound) return last_;
+    if (last_.bytes.capacity() > kMaxKept) last_.bytes = {};
     last_.bytes.clear();
     for (;;) {
         if (isStuck()) {
@@ -244,9 +254,13 @@ const EntryVerdict& RawlogTrial::next() {
         receive();
         if (last_.kind == EntryVerdict::Kind::Part) continue;
         ++received_;
-        if (received_ > entries_ || last_.kind != EntryVerdict::Kind::Sound) {
+        if (received_ > entries_ || last_.kind == EntryVerdict::Kind::Broken) {
             ++entries_;
             return last_;
+        }
+        if (last_.kind == EntryVerdict::Kind::End) {
+            return broken(file_.string() + ": changed while it was read, before entry " +
+                          std::to_string(entries_));
         }
         last_.bytes.clear();  // received before a restart
     }

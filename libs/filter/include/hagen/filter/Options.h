@@ -78,7 +78,7 @@ struct Options {
     /// Adjacent RoI pixels belong to one component if their depths differ by less than this.
     float component_gap_m = 1.0f;
     /// Number the obstacles: fill SegmentationResult::components and LabelledReturns::component.
-    /// Not a setting for files: programs that use the numbers ask for them.
+    /// Set it in programs that use the numbers; it is not a key of settings files.
     bool number_obstacles = false;
 };
 
