@@ -148,6 +148,7 @@ std::vector<StageRow> ownStages() {
              labelByHeight(g.height_m, g.tolerance_m, c.result.labels);
              growFeet(g.pixels, g.height_m, c.result.labels, work().feet);
              removeSpecks(g.pixels, g.height_m, g.tolerance_m, c.result.labels, work().specks);
+             limitToZone(c.result.repaired_m, c.options.zone_m, c.result.labels);
          }},
         {"farther returns",
          [](Case& c) {
