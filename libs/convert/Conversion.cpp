@@ -103,6 +103,31 @@ void count(const observations::ObservationSegmenter::Output& out, const ScanRepo
     all.scan_reports.push_back(scan);
 }
 
+/// Consecutive entries of which only the last has scans. Entries without scans take less time than
+/// waiting for another thread.
+struct EntryBatch {
+    static constexpr std::size_t kMaxEntries = 64;
+
+    std::vector<ConvertedEntry> entries;  ///< may have unused entries at the end
+    std::size_t size = 0;
+    std::exception_ptr failure;  ///< of the entry after these
+    Segmenters segmenters;
+    Bytes member, packed;  ///< buffers of the output rawlog
+
+    /// Drops an entry that fails, and the later ones.
+    template <class Step>
+    void forEach(const Step& step) {
+        for (std::size_t k = 0; k < size; ++k) {
+            try {
+                step(entries[k]);
+            } catch (...) {
+                size = k;
+                failure = std::current_exception();
+            }
+        }
+    }
+};
+
 /// A conversion in progress. Entries are segmented on several threads; all outputs and callbacks
 /// follow the order of the recording.
 class Converter {
@@ -120,15 +145,25 @@ class Converter {
     }
 
     ConversionReport run() {
-        PipelineSteps<ConvertedEntry> steps;
-        steps.read = [this](ConvertedEntry& entry) { return read(entry); };
-        steps.work = [this](ConvertedEntry& entry) { segmentEntry(conversion_, settings_, entry); };
-        steps.account = [this](ConvertedEntry& entry) { writeResults(entry); };
-        steps.pack = [this](ConvertedEntry& entry) {
-            if (!entry.member.empty()) outputs_.pack(entry.member, entry.packed);
+        PipelineSteps<EntryBatch> steps;
+        steps.read = [this](EntryBatch& batch) { return read(batch); };
+        steps.work = [this](EntryBatch& batch) {
+            batch.forEach([&](ConvertedEntry& entry) {
+                segmentEntry(conversion_, settings_, batch.segmenters, entry);
+            });
         };
-        steps.write = [this](ConvertedEntry& entry) {
-            if (!entry.member.empty()) outputs_.writeMember(entry.packed);
+        steps.account = [this](EntryBatch& batch) {
+            batch.member.clear();
+            if (has_failed_) return;
+            batch.forEach([&](ConvertedEntry& entry) { writeResults(entry, batch.member); });
+            has_failed_ = batch.failure != nullptr;
+        };
+        steps.pack = [this](EntryBatch& batch) {
+            if (!batch.member.empty()) outputs_.pack(batch.member, batch.packed);
+        };
+        steps.write = [this](EntryBatch& batch) {
+            if (!batch.member.empty()) outputs_.writeMember(batch.packed);
+            if (batch.failure) std::rethrow_exception(batch.failure);
         };
         const std::size_t threads = wantedThreads();
         const PipelineEnd end = runPipeline(steps, threads);
@@ -177,6 +212,26 @@ class Converter {
         return std::max(1u, std::thread::hardware_concurrency());
     }
 
+    /// Returns false after the last batch.
+    bool read(EntryBatch& batch) {
+        batch.size = 0;
+        batch.failure = nullptr;
+        if (has_read_all_) return false;
+        try {
+            while (batch.size < EntryBatch::kMaxEntries && !has_read_all_) {
+                if (batch.entries.size() == batch.size) batch.entries.emplace_back();
+                ConvertedEntry& entry = batch.entries[batch.size];
+                has_read_all_ = !read(entry);
+                if (!has_read_all_) ++batch.size;
+                if (!entry.scans.empty()) break;
+            }
+        } catch (...) {
+            has_read_all_ = true;
+            batch.failure = std::current_exception();
+        }
+        return batch.size > 0 || batch.failure;
+    }
+
     bool read(ConvertedEntry& entry) {
         if (!outputs_.hasAny()) return false;
         auto recorded = source_->nextEntry();
@@ -190,7 +245,8 @@ class Converter {
         return true;
     }
 
-    void writeResults(ConvertedEntry& entry) {
+    /// Appends complete members of the output rawlog to `member`.
+    void writeResults(ConvertedEntry& entry, Bytes& member) {
         // Checked here too, because inserting into a map takes seconds, and entries read ahead
         // would delay an interruption.
         if (outputs_.wantsMap() && !listener_.keep_going()) {
@@ -205,7 +261,9 @@ class Converter {
             entry.bytes.clear();
             ++entry.results_replaced;
         }
-        outputs_.gather(entry.bytes, entry.member);
+        Bytes complete;
+        outputs_.gather(entry.bytes, complete);
+        member.insert(member.end(), complete.begin(), complete.end());
         entry.scans.clear();  // the MRPT objects are no longer needed
         entry.object.reset();
         ++report_.entries;
@@ -422,6 +480,8 @@ class Converter {
     recordings::SensorCheck sensor_check_;
     ResultCheck result_check_;
     ConversionReport report_;
+    bool has_read_all_ = false;
+    bool has_failed_ = false;  ///< later entries are not accounted for
 };
 
 /// MRPT's folder for data in external files: "flight_Images" next to "flight.rawlog".

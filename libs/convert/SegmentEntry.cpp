@@ -96,11 +96,12 @@ std::unique_ptr<ObservationSegmenter> makeSegmenter(const Conversion& conversion
     return segmenter;
 }
 
-void segmentEntry(const Conversion& conversion, const Settings& settings, ConvertedEntry& entry) {
+void segmentEntry(const Conversion& conversion, const Settings& settings, Segmenters& segmenters,
+                  ConvertedEntry& entry) {
     std::map<std::string, int> scans_of;
     for (ConvertedScan& scan : entry.scans) {
         const std::string& label = scan.recorded.observation->sensorLabel;
-        auto& segmenter = entry.segmenters[{label, scans_of[label]++}];
+        auto& segmenter = segmenters[{label, scans_of[label]++}];
         if (!segmenter) segmenter = makeSegmenter(conversion, settings);
         segmentScan(conversion, settings, *segmenter, scan);
     }

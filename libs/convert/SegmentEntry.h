@@ -27,11 +27,13 @@ struct ConvertedEntry {
     mrpt::serialization::CSerializable::Ptr object;  ///< null if only scans are written
     std::vector<ConvertedScan> scans;
     std::size_t results_replaced = 0;  ///< results of an earlier run removed from the object
-    Bytes bytes, member, packed;       ///< buffers of the output rawlog
-    /// One per scan, because results point into it, by sensor label and number in the entry.
-    std::map<std::pair<std::string, int>, std::unique_ptr<observations::ObservationSegmenter>>
-        segmenters;
+    Bytes bytes;                       ///< for the output rawlog
 };
+
+/// One per scan of an entry, because results point into it, by sensor label and number in the
+/// entry.
+using Segmenters =
+    std::map<std::pair<std::string, int>, std::unique_ptr<observations::ObservationSegmenter>>;
 
 /// Throws SettingsError if settings and sensor are inconsistent.
 std::unique_ptr<observations::ObservationSegmenter> makeSegmenter(const Conversion& conversion,
@@ -40,6 +42,7 @@ std::unique_ptr<observations::ObservationSegmenter> makeSegmenter(const Conversi
 /// Segments the scans of an entry and, for an output rawlog, replaces an earlier run's results and
 /// serialises the entry. Throws SettingsError and std::bad_alloc; other errors of a scan are in
 /// `unreadable_because`.
-void segmentEntry(const Conversion& conversion, const Settings& settings, ConvertedEntry& entry);
+void segmentEntry(const Conversion& conversion, const Settings& settings, Segmenters& segmenters,
+                  ConvertedEntry& entry);
 
 }  // namespace hagen::convert
