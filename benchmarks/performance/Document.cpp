@@ -53,15 +53,16 @@ std::string summary(const Performance& p) {
 }
 
 std::string wholeSection(const Performance& p) {
-    Table table({"sensor", "", "p50", "p95", "p99", "/ mrpt decode", "cold p50", "p95", "p99",
-                 "/ mrpt decode"});
+    Table table(
+        {"sensor", "", "warm p50/p95/p99", "/ mrpt decode", "cold p50/p95/p99", "/ mrpt decode"});
     for (const TimedRow& row : p.rows) {
         if (row.cold.runs == 0) continue;
         const TimedRow* const mrpt = find(p.rows, row.sensor, kMrptDecode);
         std::vector<std::string> line{row.sensor, row.what};
         for (const auto part : {&TimedRow::warm, &TimedRow::cold}) {
             const evaluation::Latency& t = row.*part;
-            for (const double ms : {t.p50_ms, t.p95_ms, t.p99_ms}) line.push_back(microseconds(ms));
+            line.push_back(microseconds(t.p50_ms) + "/" + microseconds(t.p95_ms) + "/" +
+                           microseconds(t.p99_ms));
             line.push_back(cell(mrpt == nullptr ? NAN : t.p50_ms / (mrpt->*part).p50_ms, 2));
         }
         table.add(line);
