@@ -46,7 +46,7 @@ std::string summary(const Performance& p) {
         at_20_hz += comma + cell(2 * row.warm.p50_ms, 0);
     }
     return "A scan (" + sensors + ") takes " + ours + " ms with the default settings, and " + fast +
-           " ms with `raw_angles`. The default settings use " + at_10_hz +
+           " ms with `-c fast`. The default settings use " + at_10_hz +
            " % of one core at 10 Hz, and " + at_20_hz +
            " % at 20 Hz. Time grows as pixels to the power of " +
            cell(exponentOf(pixels, times_ms), 2) + ".\n\n";

@@ -7,16 +7,37 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "filter/Extraction.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
-#include "filter/ExtractionParts.h"
+#include "filter/simd/GroundGrid-inl.h"
 #include "filter/simd/MaskBits.h"
+
+#ifndef HAGEN_EXTRACTION
+#define HAGEN_EXTRACTION
+namespace hagen {
+namespace {
+
+constexpr std::size_t kReturnsPerWord = 64;
+
+/// Labels are stored as numbers.
+struct ExtractionInput {
+    const float* range_m;
+    const std::int32_t* pixel;
+    const std::uint8_t* own_label;       ///< null if no return has its own label
+    const std::uint8_t* label_of_pixel;  ///< index -1 is for no pixel; has three spare bytes
+    float zone_m;
+};
+
+struct ExtractionOutput {
+    std::uint8_t* label;
+    std::uint32_t *roi, *rou, *unclassified;  ///< ends of the lists; writes may overrun by one word
+};
+
+}  // namespace
+}  // namespace hagen
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// Appends `first` + n for each set bit n. Copies eight table entries per byte; the next byte
 /// overwrites the surplus.
@@ -35,66 +56,49 @@ HWY_INLINE std::uint32_t* AppendWord(std::uint64_t bits, std::uint32_t first,
     return list;
 }
 
-/// Labels whole words of returns, starting at return `first`. Does not branch on labels, because
-/// they are unpredictable.
+/// Labels the returns, in words. Does not branch on labels, because they are unpredictable.
 template <bool kHasOwnLabel>
-HWY_INLINE void LabelWordsOf(const ExtractionInput& in, std::uint32_t first, std::size_t words,
-                             std::uint64_t last_word_mask, ExtractionOutput& out) {
-    const hn::ScalableTag<float> df;
-    const hn::RebindToSigned<decltype(df)> d;
-    const hn::Rebind<std::uint8_t, decltype(d)> d8;
-    const std::size_t lanes = hn::Lanes(d);
-    const auto zero = hn::Zero(d), one = hn::Set(d, 1), two = hn::Set(d, 2);
-    const auto infinite = hn::Set(df, std::numeric_limits<float>::infinity());
-    const auto zone = hn::Set(df, in.zone_m);
-    const float* HWY_RESTRICT range_m = in.range_m;
-    const std::int32_t* HWY_RESTRICT pixels = in.pixel;
-    const std::uint8_t* HWY_RESTRICT own_label = in.own_label;
+HWY_INLINE void LabelReturnsOf(const ExtractionInput& in, std::size_t size, ExtractionOutput& out) {
     const auto* const label_of_pixel = reinterpret_cast<const std::int32_t*>(in.label_of_pixel);
-    std::uint8_t* HWY_RESTRICT labels = out.label;
-    std::uint32_t *roi = out.roi, *rou = out.rou, *unclassified = out.unclassified;
-
-    for (std::size_t word = 0; word < words; ++word) {
+    for (std::size_t first = 0; first < size; first += kReturnsPerWord) {
+        const std::size_t returns = std::min(size - first, kReturnsPerWord);
         std::uint64_t seen_bits = 0, roi_bits = 0;
-        for (std::size_t n = 0; n < kReturnsPerWord; n += lanes) {
-            const std::size_t i = word * kReturnsPerWord + n;
-            const auto range = hn::LoadU(df, range_m + i);
-            const auto pixel = hn::LoadU(d, pixels + i);
+        forEachVector(returns, [&](auto df, std::size_t n) HAGEN_INLINE {
+            const hn::RebindToSigned<decltype(df)> d;
+            const hn::Rebind<std::uint8_t, decltype(d)> d8;
+            const auto one = hn::Set(d, 1), two = hn::Set(d, 2);
+            const std::size_t i = first + n;
+            const auto range = hn::LoadU(df, in.range_m + i);
             const auto of_pixel =  // the lowest of the four bytes there
-                hn::And(hn::GatherOffset(d, label_of_pixel, pixel), hn::Set(d, 255));
+                hn::And(hn::GatherOffset(d, label_of_pixel, hn::LoadU(d, in.pixel + i)),
+                        hn::Set(d, 255));
+            const auto infinite = hn::Set(df, std::numeric_limits<float>::infinity());
             const auto is_seen =
                 hn::And(hn::Gt(range, hn::Zero(df)), hn::Lt(range, infinite));  // false for NaN
             auto is_rou = hn::Eq(of_pixel, one);
             if (kHasOwnLabel) {
-                const auto own = hn::PromoteTo(d, hn::LoadU(d8, own_label + i));
-                is_rou = hn::Or(hn::Eq(own, one), hn::And(hn::Eq(own, zero), is_rou));
+                const auto own = hn::PromoteTo(d, hn::LoadU(d8, in.own_label + i));
+                is_rou = hn::Or(hn::Eq(own, one), hn::And(hn::Eq(own, hn::Zero(d)), is_rou));
             }
-            const auto is_far = hn::RebindMask(d, hn::Gt(range, zone));
+            const auto is_far = hn::RebindMask(d, hn::Gt(range, hn::Set(df, in.zone_m)));
             const auto seen = hn::RebindMask(d, is_seen);
             const auto is_roi = hn::AndNot(hn::Or(is_far, is_rou), seen);
             const auto label = hn::IfThenElseZero(seen, hn::IfThenElse(is_roi, two, one));
-            hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
+            hn::StoreU(hn::DemoteTo(d8, label), d8, out.label + i);
             seen_bits |= BitsOf(d, seen) << n;
             roi_bits |= BitsOf(d, is_roi) << n;
-        }
-        const std::uint64_t mask = word + 1 < words ? ~std::uint64_t{0} : last_word_mask;
-        const auto index = static_cast<std::uint32_t>(first + word * kReturnsPerWord);
-        roi = AppendWord(roi_bits & mask, index, roi);
-        rou = AppendWord(seen_bits & ~roi_bits & mask, index, rou);
-        unclassified = AppendWord(~seen_bits & mask, index, unclassified);
+        });
+        const std::uint64_t all = ~std::uint64_t{0} >> (kReturnsPerWord - returns);
+        const auto index = static_cast<std::uint32_t>(first);
+        out.roi = AppendWord(roi_bits, index, out.roi);
+        out.rou = AppendWord(seen_bits & ~roi_bits, index, out.rou);
+        out.unclassified = AppendWord(~seen_bits & all, index, out.unclassified);
     }
-    out.roi = roi;
-    out.rou = rou;
-    out.unclassified = unclassified;
 }
 
-void LabelWords(const ExtractionInput& in, std::uint32_t first, std::size_t words,
-                std::uint64_t last_word_mask, ExtractionOutput& out) {
-    if (in.own_label != nullptr) {
-        LabelWordsOf<true>(in, first, words, last_word_mask, out);
-    } else {
-        LabelWordsOf<false>(in, first, words, last_word_mask, out);
-    }
+void LabelReturnsIn(const ExtractionInput& in, std::size_t size, ExtractionOutput& out) {
+    if (in.own_label != nullptr) return LabelReturnsOf<true>(in, size, out);
+    LabelReturnsOf<false>(in, size, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -102,40 +106,14 @@ void LabelWords(const ExtractionInput& in, std::uint32_t first, std::size_t word
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <array>
-
 namespace hagen {
 namespace {
 
-HWY_EXPORT(LabelWords);
+HWY_EXPORT(LabelReturnsIn);
 
 const std::uint8_t* bytesOf(const std::vector<Label>& labels) {
     static_assert(sizeof(Label) == 1);
     return reinterpret_cast<const std::uint8_t*>(labels.data());
-}
-
-/// Labels the last returns, which do not fill a word, in word-sized copies.
-void labelRest(ExtractionInput in, std::size_t first, std::size_t rest, ExtractionOutput& out) {
-    std::array<float, kReturnsPerWord> range_m{};
-    std::array<std::int32_t, kReturnsPerWord> pixel{};
-    std::array<std::uint8_t, kReturnsPerWord> own{}, label{};
-    std::copy_n(in.range_m + first, rest, range_m.data());
-    std::copy_n(in.pixel + first, rest, pixel.data());
-    if (in.own_label != nullptr) std::copy_n(in.own_label + first, rest, own.data());
-    in.range_m = range_m.data();
-    in.pixel = pixel.data();
-    if (in.own_label != nullptr) in.own_label = own.data();
-    std::uint8_t* const last_labels = out.label + first;
-    out.label = label.data();
-    HWY_DYNAMIC_DISPATCH(LabelWords)
-    (in, static_cast<std::uint32_t>(first), 1, (std::uint64_t{1} << rest) - 1, out);
-    std::copy_n(label.data(), rest, last_labels);
-}
-
-void labelReturns(const ExtractionInput& in, std::size_t size, ExtractionOutput& out) {
-    const std::size_t words = size / kReturnsPerWord, whole = words * kReturnsPerWord;
-    HWY_DYNAMIC_DISPATCH(LabelWords)(in, 0, words, ~std::uint64_t{0}, out);
-    if (size > whole) labelRest(in, whole, size - whole, out);
 }
 
 }  // namespace
@@ -161,7 +139,7 @@ void extractReturns(const Scan& scan, const RangeImage& image, const Image<Label
                              zone_m};
     ExtractionOutput out{reinterpret_cast<std::uint8_t*>(returns.label.data()), work.roi.data(),
                          work.rou.data(), work.unclassified.data()};
-    labelReturns(in, size, out);
+    HWY_DYNAMIC_DISPATCH(LabelReturnsIn)(in, size, out);
     returns.roi.assign(work.roi.data(), out.roi);
     returns.rou.assign(work.rou.data(), out.rou);
     returns.unclassified.assign(work.unclassified.data(), out.unclassified);

@@ -133,18 +133,6 @@ void numberRuns(ComponentsWorkspace* w) {
     for (std::size_t run = 0; run < runs; ++run) number[run] = number[first[run]];
 }
 
-/// Removes returns with their own label from their pixel's component if they are too far from it.
-void leaveComponents(const std::vector<std::int32_t>& own_labelled, const Scan& scan,
-                     const RangeImage& image, float max_gap_m,
-                     std::vector<std::int32_t>& component) {
-    for (const std::int32_t i : own_labelled) {
-        if (component[i] == 0) continue;  // includes returns without a pixel
-        const float apart_m =
-            std::abs(scan.range_m[i] - image.depth_m.data()[image.depth_mapper[i]]);
-        component[i] = apart_m < max_gap_m ? component[i] : 0;
-    }
-}
-
 /// Renumbers components 1, 2, ... in order, skipping components without returns (all their pixels
 /// were repaired). `max` is the highest number.
 void renumber(std::int32_t max, LabelledReturns& returns, std::vector<std::int32_t>& number) {
@@ -195,7 +183,11 @@ void numberReturns(const Scan& scan, const RangeImage& image, const Image<std::i
         returns.component[i] = components.data()[pixel];
         max = std::max(max, returns.component[i]);
     }
-    leaveComponents(own_labels.returns, scan, image, max_gap_m, returns.component);
+    for (const std::int32_t i : own_labels.returns) {
+        if (returns.component[i] == 0) continue;  // includes returns without a pixel
+        const float depth_m = image.depth_m.data()[image.depth_mapper[i]];
+        if (!(std::abs(scan.range_m[i] - depth_m) < max_gap_m)) returns.component[i] = 0;
+    }
     renumber(max, returns, work.without_gaps);
 }
 

@@ -9,26 +9,14 @@
 #include "filter/simd/GroundGrid-inl.h"
 #include "filter/simd/MaskBits.h"
 
-#ifndef HAGEN_PIXEL_POINTS
-#define HAGEN_PIXEL_POINTS
-namespace hagen {
-namespace {
-
-struct Coordinates {
-    const float *x_m, *y_m, *z_m;
-};
-
-}  // namespace
-}  // namespace hagen
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 
 /// Locates the pixels from `first` to `end` at their closest returns; NaN without one. Lists the
 /// other pixels that have a depth; returns their number.
-std::size_t LocateReturnsIn(std::size_t first, std::size_t end, const Coordinates& scan,
+std::size_t LocateReturnsIn(std::size_t first, std::size_t end, const float* scan_x_m,
+                            const float* scan_y_m, const float* scan_z_m,
                             const std::int32_t* HWY_RESTRICT closest,
                             const float* HWY_RESTRICT depth_m, PixelPoints& pixels,
                             std::int32_t* HWY_RESTRICT repaired) {
@@ -41,14 +29,15 @@ std::size_t LocateReturnsIn(std::size_t first, std::size_t end, const Coordinate
         const hn::RebindToSigned<decltype(d)> di;
         const auto i = hn::LoadU(di, closest + first + k), none = hn::Zero(di);
         const auto has_return = hn::RebindMask(d, hn::Gt(i, hn::Set(di, RangeImage::kNoReturn)));
-        const auto place = hn::Max(i, none), no_value = hn::Set(d, kNoValue);
+        const auto place = hn::Max(i, none);
+        const auto no_value = hn::Set(d, kNoValue);
         const auto copy = [&](const float* from_m, float* to_m) HAGEN_INLINE {
             const auto value = hn::GatherIndex(d, from_m, place);
             hn::StoreU(hn::IfThenElse(has_return, value, no_value), d, to_m + k);
         };
-        copy(scan.x_m, x_m);
-        copy(scan.y_m, y_m);
-        copy(scan.z_m, z_m);
+        copy(scan_x_m, x_m);
+        copy(scan_y_m, y_m);
+        copy(scan_z_m, z_m);
         const auto depth = hn::LoadU(d, depth_m + first + k);
         const auto is_repaired = hn::AndNot(has_return, hn::Eq(depth, depth));
         last = AppendBits(BitsOf(d, is_repaired), static_cast<std::int32_t>(first + k), last);
@@ -93,19 +82,20 @@ HWY_EXPORT(MovePixelsIn);
 void locatePixels(const Scan& scan, const PixelDirections& directions, const RangeImage& image,
                   const Image<float>& depth_m, PixelPoints& pixels) {
     constexpr std::size_t kPart = 1024;  // pixels
-    constexpr float kEmptyScan = kNoValue;
+    static constexpr float kEmptyScan = kNoValue;
     const Eigen::Index rows = depth_m.rows(), columns = depth_m.cols();
     for (auto* coordinate : {&pixels.x_m, &pixels.y_m, &pixels.z_m}) {
         coordinate->resize(rows, columns);
     }
-    Coordinates from{&kEmptyScan, &kEmptyScan, &kEmptyScan};
-    if (scan.size() > 0) from = {scan.x_m.data(), scan.y_m.data(), scan.z_m.data()};
+    const auto from = [&](const std::vector<float>& values) {
+        return values.empty() ? &kEmptyScan : values.data();
+    };
     std::int32_t repaired[kPart];
     const auto size = static_cast<std::size_t>(depth_m.size());
     for (std::size_t first = 0; first < size; first += kPart) {
         const std::size_t n = HWY_DYNAMIC_DISPATCH(LocateReturnsIn)(
-            first, std::min(first + kPart, size), from, image.closest_return.data(), depth_m.data(),
-            pixels, repaired);
+            first, std::min(first + kPart, size), from(scan.x_m), from(scan.y_m), from(scan.z_m),
+            image.closest_return.data(), depth_m.data(), pixels, repaired);
         for (std::size_t k = 0; k < n; ++k) {
             const Eigen::Index pixel = repaired[k], row = pixel % rows, column = pixel / rows;
             const float depth = depth_m.data()[pixel];

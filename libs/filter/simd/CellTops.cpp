@@ -7,24 +7,13 @@
 #include <hwy/foreach_target.h>
 #include "filter/simd/GroundGrid-inl.h"
 
-#ifndef HAGEN_CELL_TOPS
-#define HAGEN_CELL_TOPS
-namespace hagen {
-namespace {
-
-constexpr int kTogether = 4;  // cells
-
-}  // namespace
-}  // namespace hagen
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace hagen {
 namespace HWY_NAMESPACE {
 
 /// Raises the two highest points of each cell.
 void RaiseTopsIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
-                 const std::uint16_t* HWY_RESTRICT cell, float* HWY_RESTRICT two_m) {
+                 const std::uint16_t* HWY_RESTRICT cell, float* two_m) {
     visitChosen(
         pixels,
         [&](auto d, std::size_t pixel, auto& heights_m, auto& cells) HAGEN_INLINE {
@@ -34,25 +23,23 @@ void RaiseTopsIn(std::size_t pixels, const float* HWY_RESTRICT height_m,
             return hn::Lt(heights_m, hn::Set(d, tops_rules::kOverhead_m));  // false for NaN
         },
         [&](float own_m, std::int32_t of_cell) HAGEN_INLINE {
-            float &first_m = two_m[2 * of_cell], &second_m = two_m[2 * of_cell + 1];
-            second_m = std::max(second_m, std::min(own_m, first_m));
-            first_m = std::max(first_m, own_m);
+            const std::ptrdiff_t first = 2 * of_cell, second = first + 1;
+            two_m[second] = std::max(two_m[second], std::min(own_m, two_m[first]));
+            two_m[first] = std::max(two_m[first], own_m);
         });
 }
 
 /// The highest point of each cell, and the second highest (the highest if it is the only one), for
 /// consecutive `cells`.
-void SeparateIn(const float* HWY_RESTRICT two_m, int cells, float* HWY_RESTRICT highest_m,
+void SeparateIn(const float* HWY_RESTRICT two_m, std::size_t cells, float* HWY_RESTRICT highest_m,
                 float* HWY_RESTRICT top_m) {
-    const hn::CappedTag<float, kTogether> d;
-    const auto none_m = hn::Set(d, CellTops::kNone_m);
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int k = 0; k < cells; k += lanes) {
+    forEachVector(cells, [&](auto d, std::size_t k) HAGEN_INLINE {
+        const auto none_m = hn::Set(d, CellTops::kNone_m);
         auto first_m = none_m, second_m = none_m;
         hn::LoadInterleaved2(d, two_m + 2 * k, first_m, second_m);
         hn::StoreU(first_m, d, highest_m + k);
         hn::StoreU(hn::IfThenElse(hn::Eq(second_m, none_m), first_m, second_m), d, top_m + k);
-    }
+    });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -66,20 +53,16 @@ namespace {
 HWY_EXPORT(RaiseTopsIn);
 HWY_EXPORT(SeparateIn);
 
-/// Calls visit(first, cells) for each contiguous range of cells. Rounds up to a multiple of
-/// kTogether: the next column overwrites up to three surplus cells, and the last column starts up
-/// to three cells earlier.
+/// Calls visit(first, cells) for each contiguous range of cells.
 template <class Visit>
 void forEachStretch(const CellArea& area, Visit visit) {
-    static_assert(kGridSize % kTogether == 0);
-    if (area.first_row == 0 && area.end_row == kGridStride) {
+    const int rows = area.end_row - area.first_row;
+    if (rows == kGridStride) {
         return visit(area.first_column * kGridStride,
                      (area.end_column - area.first_column) * kGridStride);
     }
-    const int rows = (area.end_row - area.first_row + kTogether - 1) / kTogether * kTogether;
     for (int column = area.first_column; column < area.end_column; ++column) {
-        const int first = column * kGridStride + area.first_row;
-        visit(std::min(first, kGridSize - rows), rows);
+        visit(column * kGridStride + area.first_row, rows);
     }
 }
 
