@@ -4,7 +4,10 @@
 #include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CRawlog.h>
+#include <zlib.h>
+#include "convert/GzipOutput.h"
 #include "convert/RawlogWriter.h"
+#include "recordings/rawlogs/PackedInput.h"
 
 #include <cstdlib>
 
@@ -302,6 +305,28 @@ TEST_F(Rawlog, KeepsReadablePartialFile) {
     RawlogReader reader(folder_ / "a.partial.rawlog");
     EXPECT_NE(reader.next(), nullptr);
     EXPECT_EQ(reader.next(), nullptr);
+}
+
+TEST(PackedInput, AcceptsHeaderChecksumAcrossReads) {
+    const std::string plain = "a member with a name and a checksum of its header";
+    convert::Bytes packed;
+    convert::packGzipMember({plain.begin(), plain.end()}, packed);
+    std::string header(packed.begin(), packed.begin() + 10);
+    header[3] = 0x08 | 0x02;  // FNAME, FHCRC (RFC 1952)
+    header += "a name of the member" + std::string(1, '\0');
+    const auto sum = crc32_z(0, reinterpret_cast<const Bytef*>(header.data()), header.size());
+    header += {static_cast<char>(sum & 0xff), static_cast<char>(sum >> 8 & 0xff)};
+    const std::string first(packed.begin(), packed.end());
+    const std::string second = header + first.substr(10);
+    test::TemporaryFolder folder;
+    for (std::size_t before = 1; before < 40; ++before) {  // bytes before the end of a read
+        const std::string padding((1 << 17) - before - first.size(), '\0');
+        PackedInput input(folder.write("a.gz", first + padding + second));
+        std::string read(3 * plain.size(), ' ');
+        read.resize(input.Read(read.data(), read.size()));
+        EXPECT_EQ(read, plain + plain) << before;
+        EXPECT_EQ(input.fault(), "");
+    }
 }
 
 }  // namespace

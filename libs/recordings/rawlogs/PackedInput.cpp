@@ -7,6 +7,8 @@ namespace hagen::recordings {
 namespace {
 
 constexpr std::size_t kPackedBytes = 1 << 17;
+// ISA-L reads up to 8 bytes ahead, and may return them after the next bytes were read.
+constexpr std::size_t kReturned = 8;
 constexpr unsigned char kGzip[] = {0x1f, 0x8b}, kZstd[] = {0x28, 0xb5, 0x2f, 0xfd};
 
 }  // namespace
@@ -24,7 +26,7 @@ PackedInput::PackedInput(const std::filesystem::path& file)
     is_gzip_ = starts(kGzip);
     isal_inflate_init(&gzip_);
     gzip_.crc_flag = ISAL_GZIP;
-    gzip_.next_in = packed_.data();
+    gzip_.next_in = packed_.data() + 2 * kReturned;
     if (!starts(kZstd)) return;
     lseek(descriptor(), 0, SEEK_SET);
     try {
@@ -34,8 +36,6 @@ PackedInput::PackedInput(const std::filesystem::path& file)
     }
 }
 
-/// Does not use zlib's gzread(), which silently stops at data that does not look like another
-/// member and would thus lose the rest of a damaged log.
 std::size_t PackedInput::readGzip(unsigned char* to, std::size_t count) {
     gzip_.next_out = to;
     gzip_.avail_out = static_cast<std::uint32_t>(count);
@@ -44,10 +44,12 @@ std::size_t PackedInput::readGzip(unsigned char* to, std::size_t count) {
         const bool may_split_header =
             !is_in_member_ && gzip_.avail_in < packed_.size() / 2 && std::feof(file_.get()) == 0;
         if (gzip_.avail_in == 0 || may_split_header) {
-            std::memmove(packed_.data(), gzip_.next_in, gzip_.avail_in);
-            gzip_.next_in = packed_.data();
-            gzip_.avail_in += static_cast<std::uint32_t>(std::fread(
-                packed_.data() + gzip_.avail_in, 1, packed_.size() - gzip_.avail_in, file_.get()));
+            std::memmove(packed_.data() + kReturned, gzip_.next_in - kReturned,
+                         kReturned + gzip_.avail_in);
+            gzip_.next_in = packed_.data() + 2 * kReturned;
+            unsigned char* const end = gzip_.next_in + gzip_.avail_in;
+            const auto room = static_cast<std::size_t>(packed_.data() + packed_.size() - end);
+            gzip_.avail_in += static_cast<std::uint32_t>(std::fread(end, 1, room, file_.get()));
         }
         const bool is_end = gzip_.avail_in == 0;  // ISA-L may still hold output
         if (!is_in_member_ && is_end) break;
@@ -61,6 +63,7 @@ std::size_t PackedInput::readGzip(unsigned char* to, std::size_t count) {
         is_in_member_ = gzip_.block_state != ISAL_BLOCK_FINISH;
         if (code < 0) {
             fault_ = "the compressed data is corrupt";
+            gzip_.avail_in = 0;  // may be below 0 after an error
         } else if (!is_in_member_) {
             isal_inflate_reset(&gzip_);
         } else if (is_end && gzip_.avail_out == wanted) {
