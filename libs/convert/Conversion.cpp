@@ -103,8 +103,7 @@ void count(const observations::ObservationSegmenter::Output& out, const ScanRepo
     all.scan_reports.push_back(scan);
 }
 
-/// Consecutive entries of which only the last has scans. Entries without scans take less time than
-/// waiting for another thread.
+/// Consecutive entries of which only the last has scans; others take less time than a wait.
 struct EntryBatch {
     static constexpr std::size_t kMaxEntries = 64;
 
@@ -261,9 +260,7 @@ class Converter {
             entry.bytes.clear();
             ++entry.results_replaced;
         }
-        Bytes complete;
-        outputs_.gather(entry.bytes, complete);
-        member.insert(member.end(), complete.begin(), complete.end());
+        outputs_.gather(entry.bytes, member);
         entry.scans.clear();  // the MRPT objects are no longer needed
         entry.object.reset();
         ++report_.entries;

@@ -25,6 +25,7 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, bool overwrite)
 void RawlogWriter::write(const mrpt::serialization::CSerializable& entry) {
     entry_.clear();
     serialise(entry, entry_);
+    member_.clear();
     gather(entry_, member_);
     if (member_.empty()) return;
     packGzipMember(member_, packed_);
@@ -32,13 +33,18 @@ void RawlogWriter::write(const mrpt::serialization::CSerializable& entry) {
 }
 
 void RawlogWriter::gather(Bytes& entries, Bytes& member) {
-    member.clear();
     if (gathered_.empty()) {
         gathered_.swap(entries);
     } else {
         gathered_.insert(gathered_.end(), entries.begin(), entries.end());
     }
-    if (gathered_.size() >= kMemberBytes) member.swap(gathered_);
+    if (gathered_.size() < kMemberBytes) return;
+    if (member.empty()) {
+        member.swap(gathered_);
+    } else {
+        member.insert(member.end(), gathered_.begin(), gathered_.end());
+    }
+    gathered_.clear();
 }
 
 void RawlogWriter::writeMember(const Bytes& packed) {

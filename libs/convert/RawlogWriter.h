@@ -27,8 +27,8 @@ class RawlogWriter {
     /// on every thread. gather() and writeMember() must be called in the log's order; they may run
     /// concurrently with each other.
     ///
-    /// Adds entries that must stay in one member. A completed member is moved to `member`, which is
-    /// otherwise empty. `entries` is then unspecified.
+    /// Adds entries that must stay in one member. A completed member is appended to `member`.
+    /// `entries` is then unspecified.
     void gather(Bytes& entries, Bytes& member);
     /// Writes a member compressed by packGzipMember().
     void writeMember(const Bytes& packed);

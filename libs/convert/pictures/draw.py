@@ -441,9 +441,10 @@ def chart(job):
             low, high = (np.array(line.get(end, line["y"]), float) for end in ("low", "high"))
             if "categories" in panel:  # so that intervals do not overlap
                 x += 0.08 * (l - (len(panel["lines"]) - 1) / 2)
-            axes.errorbar(x, y, [np.maximum(y - low, 0), np.maximum(high - y, 0)], fmt="os^vDPX"[l % 7],
-                          ms=3.5 if len(x) < 50 else 2.5, ls=panel.get("ls", "-"), lw=1.3, elinewidth=0.7,
-                          color=CHART_COLOURS[l % 7], label=plain(line["name"]))
+            intervals = [np.maximum(y - low, 0), np.maximum(high - y, 0)] if line.keys() & {"low", "high"} else None
+            marker = "os^vDPX"[l % 7] if len(x) < 50 or panel.get("ls") == "" else ""
+            axes.errorbar(x, y, intervals, fmt=marker, ls=panel.get("ls", "-"), lw=1.3,
+                          ms=3.5 if len(x) < 50 else 2.5, elinewidth=0.7, color=CHART_COLOURS[l % 7], label=plain(line["name"]))
             if "mark" in line:
                 axes.plot(*line["mark"], "o", ms=10, mfc="none", color=CHART_COLOURS[l % 7])
         log = panel.get("log", "")

@@ -47,12 +47,8 @@ void LocateIn(std::size_t n, const Scan& scan, const Eigen::Matrix3f& turn,
         const auto x = hn::GatherIndex(d, scan.x_m.data(), i);
         const auto y = hn::GatherIndex(d, scan.y_m.data(), i);
         const auto z = hn::GatherIndex(d, scan.z_m.data(), i);
-        const auto along = [&](int axis) HAGEN_INLINE {
-            const auto xy = hn::Add(hn::Mul(hn::Set(d, turn(axis, 0)), x),
-                                    hn::Mul(hn::Set(d, turn(axis, 1)), y));
-            return hn::Add(hn::Add(xy, hn::Mul(hn::Set(d, turn(axis, 2)), z)),
-                           hn::Set(d, shift_m[axis]));
-        };
+        const auto along = [&](int axis)
+                               HAGEN_INLINE { return movedAlong(d, axis, turn, shift_m, x, y, z); };
         const auto x_m = along(0), y_m = along(1);
         hn::StoreU(x_m, d, work.x_m.data() + k);
         hn::StoreU(y_m, d, work.y_m.data() + k);
@@ -67,9 +63,8 @@ void LocateIn(std::size_t n, const Scan& scan, const Eigen::Matrix3f& turn,
         const auto row = blockAlong(x_m), column = blockAlong(y_m);
         const auto block = hn::Add(hn::Mul(column, hn::Set(d, kBlocks)), row);
         const auto is_on_grid = hn::And(isOnGrid(row), isOnGrid(column));
-        const auto none = hn::Set(d, PixelCells::kNoBlock);
-        hn::StoreU(hn::ConvertTo(di, hn::IfThenElse(is_on_grid, block, none)), di,
-                   work.block.data() + k);
+        const auto or_none = hn::IfThenElse(is_on_grid, block, hn::Set(d, PixelCells::kNoBlock));
+        hn::StoreU(hn::ConvertTo(di, or_none), di, work.block.data() + k);
     });
 }
 

@@ -27,13 +27,12 @@ std::size_t LocateReturnsIn(std::size_t first, std::size_t end, const float* sca
     float* const z_m = pixels.z_m.data() + first;
     forEachVector(end - first, [&](auto d, std::size_t k) HAGEN_INLINE {
         const hn::RebindToSigned<decltype(d)> di;
-        const auto i = hn::LoadU(di, closest + first + k), none = hn::Zero(di);
+        const auto i = hn::LoadU(di, closest + first + k);
         const auto has_return = hn::RebindMask(d, hn::Gt(i, hn::Set(di, RangeImage::kNoReturn)));
-        const auto place = hn::Max(i, none);
-        const auto no_value = hn::Set(d, kNoValue);
+        const auto place = hn::Max(i, hn::Zero(di));
         const auto copy = [&](const float* from_m, float* to_m) HAGEN_INLINE {
             const auto value = hn::GatherIndex(d, from_m, place);
-            hn::StoreU(hn::IfThenElse(has_return, value, no_value), d, to_m + k);
+            hn::StoreU(hn::IfThenElse(has_return, value, hn::Set(d, kNoValue)), d, to_m + k);
         };
         copy(scan_x_m, x_m);
         copy(scan_y_m, y_m);
@@ -45,21 +44,16 @@ std::size_t LocateReturnsIn(std::size_t first, std::size_t end, const float* sca
     return static_cast<std::size_t>(last - repaired);
 }
 
-void MovePixelsIn(std::size_t size, const float* HWY_RESTRICT turn,
-                  const float* HWY_RESTRICT shift_m, PixelPoints& pixels) {
+void MovePixelsIn(std::size_t size, const Eigen::Matrix3f& turn, const Eigen::Vector3f& shift_m,
+                  PixelPoints& pixels) {
     float* const x_m = pixels.x_m.data();
     float* const y_m = pixels.y_m.data();
     float* const z_m = pixels.z_m.data();
     forEachVector(size, [&](auto d, std::size_t pixel) HAGEN_INLINE {
         const auto x = hn::LoadU(d, x_m + pixel), y = hn::LoadU(d, y_m + pixel);
         const auto z = hn::LoadU(d, z_m + pixel);
-        const auto moved = [&](int row) HAGEN_INLINE {
-            const auto along = [&](int column, auto value) HAGEN_INLINE {
-                return hn::Mul(hn::Set(d, turn[row + 3 * column]), value);
-            };
-            return hn::Add(hn::Add(hn::Add(along(0, x), along(1, y)), along(2, z)),
-                           hn::Set(d, shift_m[row]));
-        };
+        const auto moved = [&](int axis)
+                               HAGEN_INLINE { return movedAlong(d, axis, turn, shift_m, x, y, z); };
         hn::StoreU(moved(0), d, x_m + pixel);
         hn::StoreU(moved(1), d, y_m + pixel);
         hn::StoreU(moved(2), d, z_m + pixel);
@@ -108,10 +102,9 @@ void locatePixels(const Scan& scan, const PixelDirections& directions, const Ran
 }
 
 void movePixels(const Eigen::Isometry3f& to_from_here, PixelPoints& pixels) {
-    const Eigen::Matrix3f turn = to_from_here.linear();  // column by column
-    const Eigen::Vector3f shift_m = to_from_here.translation();
     HWY_DYNAMIC_DISPATCH(MovePixelsIn)
-    (static_cast<std::size_t>(pixels.x_m.size()), turn.data(), shift_m.data(), pixels);
+    (static_cast<std::size_t>(pixels.x_m.size()), to_from_here.linear(), to_from_here.translation(),
+     pixels);
 }
 
 }  // namespace hagen

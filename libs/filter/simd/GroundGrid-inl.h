@@ -1,6 +1,7 @@
 // Vectorised access to the ground grid. For files that Highway compiles once per instruction set.
 #ifndef HAGEN_GROUND_GRID
 #define HAGEN_GROUND_GRID
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -87,6 +88,15 @@ HWY_INLINE void visitChosen(std::size_t pixels, Choose choose, Visit visit) {
         }
         for (std::size_t k = 4 * quarter; k < chosen; ++k) visit(value[k], place[k]);
     }
+}
+
+/// A coordinate of points after a rotation and a translation.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V movedAlong(D d, int axis, const Eigen::Matrix3f& turn, const Eigen::Vector3f& shift_m,
+                        V x, V y, V z) {
+    const V xy =
+        hn::Add(hn::Mul(hn::Set(d, turn(axis, 0)), x), hn::Mul(hn::Set(d, turn(axis, 1)), y));
+    return hn::Add(hn::Add(xy, hn::Mul(hn::Set(d, turn(axis, 2)), z)), hn::Set(d, shift_m[axis]));
 }
 
 /// Gathers the values at these indices.

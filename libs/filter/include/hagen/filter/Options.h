@@ -49,8 +49,7 @@ struct Options {
     int window_size = 8;
     /// PC, leading components kept; PC = W disables smoothing.
     int principal_components = 5;
-    /// Skip stages 3 to 5 and 7: angles are those of the repaired depth image. Faster; if heights
-    /// decide, the angles only choose candidates for the ground surface.
+    /// Skip stages 3 to 5 and 7: angles are those of the repaired depth image (faster).
     bool raw_angles = false;
     /// beta: neighbours whose range angles differ by less than this belong to one region.
     float beta_deg = 10.0f;
