@@ -86,7 +86,7 @@ int run(const Flags& flags, bool has_output) {
             }
         };
         outputs.write(*memory_file, [&] {
-            avoidance::writeHeapCurves(models, flags.path_m, begin, continuing,
+            avoidance::writeCostCurves(models, flags.path_m, begin, continuing,
                                        memory_file->temporary(), flags.memory);
             memory_file->commit();
         });
@@ -103,8 +103,8 @@ void addCalibrate(Program& program) {
     Command sub = program.subcommand(
         "calibrate", "measure the latency of each stage on this machine, which should be idle");
     const Flag file = sub.option("-o,--output", flags->file, "latency profile (JSON)");
-    const Flag memory =
-        sub.option("--memory", flags->memory, "CSV file: heap usage of each model along a flight");
+    const Flag memory = sub.option("--memory", flags->memory,
+                                   "CSV file: memory and update time of each model along a flight");
     takesWorldModels(
         sub.option("--models", flags->models, "world models (default: all)").delimiter(','),
         {"all"});

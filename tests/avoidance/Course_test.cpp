@@ -163,7 +163,7 @@ std::vector<double> wireWidths_m(const Course& c) {
 
 TEST(CourseTest, WiresCrossStraightPath) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        for (const auto& [name, thickness_m] : {std::pair("wires", 0.024), {"wires-thin", 0.01}}) {
+        for (const auto& [name, thickness_m] : {std::pair("wires", 0.024), {"wires-thin", 0.005}}) {
             const Course& c = course(name, seed);
             EXPECT_LT(minClearanceStraight_m(c), 0.65) << name << ", seed " << seed;
             const std::vector<double> widths_m = wireWidths_m(c);

@@ -22,7 +22,7 @@ class ReplayCommand : public test::ProgramTest {
     std::string folder() const { return folder_.path().string(); }
     void writeRuns(const std::vector<Row>& runs) {
         std::string text = avoidance::runHeader() + "\n";
-        for (const Row& one : runs) text += avoidance::rowOf(one, false) + "\n";
+        for (const Row& one : runs) text += avoidance::rowOf(one) + "\n";
         folder_.write("runs.csv", text);
     }
 };

@@ -33,17 +33,18 @@ TEST(RunTable, RowMatchesHeader) {
               "scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,"
               "pose_error,latency_scale,unknown,oracle_path_m,first_reaction_m,rms_jerk_m_s3,scans,"
               "dropped_scans,emergency_stops,latency_p50_ms,latency_p95_ms,latency_max_ms,settings,"
-              "version,air,distance");
-    EXPECT_EQ(rowOf(someRun(), false),
+              "version,air,distance,updates");
+    EXPECT_EQ(rowOf(someRun()),
               "forest-0.05,1007,W-RoI,astar,4,success,0.7312,43.250,12.340,primitives,none,1,"
-              "optimistic,41.500,,21.500,123,4,1,3.500,7.250,9.000,1234abcd,0.1.0,dusty,unbiased");
+              "optimistic,41.500,,21.500,123,4,1,3.500,7.250,9.000,1234abcd,0.1.0,dusty,unbiased,"
+              "scans");
 }
 
 TEST(RunTable, IgnoresLocaleAndNegativeZero) {
     Row run = someRun();
     run.result.min_clearance_m = -1e-9;
     std::setlocale(LC_ALL, "de_DE.UTF-8");  // decimal commas, if installed
-    const std::string row = rowOf(run, false);
+    const std::string row = rowOf(run);
     std::setlocale(LC_ALL, "C");
     EXPECT_THAT(row, HasSubstr(",success,0.0000,43.250,"));
 }
@@ -76,19 +77,19 @@ Row anyRun(simulation::Random& random) {
 TEST(RunTable, RoundTrips) {
     const test::TemporaryFolder folder;
     simulation::Random random(1);
-    std::string text = runHeader(true) + "\n";
-    for (int r = 0; r < 300; ++r) text += rowOf(anyRun(random), true) + "\n";
+    std::string text = runHeader() + "\n";
+    for (int r = 0; r < 300; ++r) text += rowOf(anyRun(random)) + "\n";
     const std::vector<Row> runs = readRuns(folder.write("runs.csv", text));
     ASSERT_EQ(runs.size(), 300u);
-    std::string again = runHeader(true) + "\n";
-    for (const Row& run : runs) again += rowOf(run, true) + "\n";
+    std::string again = runHeader() + "\n";
+    for (const Row& run : runs) again += rowOf(run) + "\n";
     EXPECT_EQ(again, text);
     EXPECT_TRUE(std::isnan(runs[0].result.first_reaction_m));
 }
 
 TEST(RunTable, KeyRoundTrips) {
     EXPECT_EQ(keyOf(someRun()),
-              "forest-0.05,1007,W-RoI,astar,4,primitives,none,1,optimistic,dusty,unbiased");
+              "forest-0.05,1007,W-RoI,astar,4,primitives,none,1,optimistic,dusty,unbiased,scans");
     simulation::Random random(3);
     for (int r = 0; r < 300; ++r) {
         const Row run = anyRun(random);
@@ -98,11 +99,11 @@ TEST(RunTable, KeyRoundTrips) {
         unflown.oracle_path_m = run.oracle_path_m;
         unflown.settings_hash = run.settings_hash;
         unflown.version = run.version;
-        EXPECT_EQ(rowOf(unflown, true), rowOf(run, true));
+        EXPECT_EQ(rowOf(unflown), rowOf(run));
     }
-    EXPECT_EQ(test::messageOf([] { runOfKey("gap,1"); }), "2 fields, not 11");
+    EXPECT_EQ(test::messageOf([] { runOfKey("gap,1"); }), "2 fields, not 12");
     EXPECT_EQ(test::messageOf([] {
-                  runOfKey("gap,x,W-RoI,astar,4,primitives,none,1,optimistic,clear,unbiased");
+                  runOfKey("gap,x,W-RoI,astar,4,primitives,none,1,optimistic,clear,unbiased,scans");
               }),
               "column seed: \"x\" is not a number");
 }
@@ -115,8 +116,7 @@ TEST(RunTable, SortingIsDeterministic) {
     sortRuns(runs);
     sortRuns(reversed);
     ASSERT_EQ(runs.size(), reversed.size());
-    for (std::size_t r = 0; r < runs.size(); ++r)
-        EXPECT_EQ(rowOf(runs[r], true), rowOf(reversed[r], true));
+    for (std::size_t r = 0; r < runs.size(); ++r) EXPECT_EQ(rowOf(runs[r]), rowOf(reversed[r]));
     EXPECT_TRUE(std::is_sorted(runs.begin(), runs.end(), [](const Row& a, const Row& b) {
         return a.scenario < b.scenario ||
                (a.scenario == b.scenario && a.setup.speed_m_s < b.setup.speed_m_s);
@@ -125,16 +125,16 @@ TEST(RunTable, SortingIsDeterministic) {
 
 TEST(RunTable, ReportsBrokenLineAndColumn) {
     const test::TemporaryFolder folder;
-    const std::string good = rowOf(someRun(), false);
+    const std::string good = rowOf(someRun());
     const auto broken = [&](const std::string& row) {
         return test::messageOf([&] {
             readRuns(folder.write("runs.csv", runHeader() + "\n" + good + "\n" + row + "\n"));
         });
     };
     const std::string at = (folder / "runs.csv").string() + ":3: ";
-    EXPECT_EQ(broken("gap,1"), at + "2 fields, not 26");
-    EXPECT_EQ(broken(good + ",1"), at + "27 fields, not 26");
-    EXPECT_EQ(broken(""), at + "1 fields, not 26");
+    EXPECT_EQ(broken("gap,1"), at + "2 fields, not 27");
+    EXPECT_EQ(broken(good + ",1"), at + "28 fields, not 27");
+    EXPECT_EQ(broken(""), at + "1 fields, not 27");
     const auto with = [&](const std::string& from, const std::string& to) {
         return std::string(good).replace(good.find(from), from.size(), to);
     };
@@ -149,57 +149,10 @@ TEST(RunTable, ReportsBrokenLineAndColumn) {
     }
     EXPECT_EQ(broken(with("success", "won")),
               at + "column outcome: \"won\" is not one of success, collision, timeout");
+    EXPECT_EQ(broken(with("scans", "turns")),
+              at + "column updates: \"turns\" is not one of scans, sectors");
     EXPECT_EQ(broken(with("optimistic", "")),
               at + "column unknown: \"\" is not one of optimistic, brake_known");
-}
-
-TEST(RunTable, ReadsOlderTables) {
-    const test::TemporaryFolder folder;
-    std::string header = runHeader(), row = rowOf(someRun(), false);
-    const auto drop = [](std::string& line) { line.erase(line.rfind(',')); };
-    drop(header);
-    drop(row);
-    const auto file = folder.write("runs.csv", header + "\n" + row + "\n");
-    ASSERT_EQ(readRuns(file).size(), 1u);
-    EXPECT_EQ(readRuns(file)[0].setup.air, Air::Dusty);
-    EXPECT_EQ(readRuns(file)[0].setup.distance, ModelDistance::AsStored);
-    drop(header);
-    drop(row);
-    folder.write("runs.csv", header + "\n" + row + "\n");
-    EXPECT_EQ(readRuns(file)[0].setup.air, Air::Clear);
-    EXPECT_EQ(readRuns(file)[0].setup.distance, ModelDistance::AsStored);
-    EXPECT_EQ(readRuns(file)[0].version, "0.1.0");
-    folder.write("runs.csv", header + "\n" + rowOf(someRun(), false) + "\n");
-    EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":2: 26 fields, not 24"));
-    drop(header);
-    folder.write("runs.csv", header + "\n");
-    EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":1: wrong header"));
-}
-
-TEST(RunTable, SectorsAddColumn) {
-    const Row scans = someRun();
-    Row sectors = scans;
-    sectors.setup.updates = Updates::Sectors;
-    EXPECT_EQ(rowOf(sectors, true), rowOf(scans, false) + ",sectors");
-    EXPECT_EQ(keyOf(sectors), keyOf(scans) + ",sectors");
-    EXPECT_EQ(rowOf(scans, true), rowOf(scans, false) + ",scans");
-    EXPECT_EQ(runHeader(true), runHeader() + ",updates");
-    EXPECT_FALSE(needsUpdates(scans));
-    EXPECT_TRUE(needsUpdates(sectors));
-    EXPECT_EQ(runOfKey(keyOf(sectors)).setup.updates, Updates::Sectors);
-    EXPECT_EQ(runOfKey(keyOf(scans)).setup.updates, Updates::Scans);
-    const test::TemporaryFolder folder;
-    const auto file = folder.write("runs.csv", runHeader(true) + "\n" + rowOf(scans, true) + "\n" +
-                                                   rowOf(sectors, true) + "\n");
-    const std::vector<Row> runs = readRuns(file);
-    ASSERT_EQ(runs.size(), 2u);
-    EXPECT_EQ(rowOf(runs[0], true), rowOf(scans, true));
-    EXPECT_EQ(rowOf(runs[1], true), rowOf(sectors, true));
-    folder.write("runs.csv", runHeader(true) + "\n" + rowOf(scans, false) + "\n");
-    EXPECT_THAT(test::messageOf([&] { readRuns(file); }), HasSubstr(":2: 26 fields, not 27"));
-    folder.write("runs.csv", runHeader(true) + "\n" + rowOf(scans, false) + ",turns\n");
-    EXPECT_THAT(test::messageOf([&] { readRuns(file); }),
-                HasSubstr("column updates: \"turns\" is not one of scans, sectors"));
 }
 
 TEST(RunTable, ReportsInvalidFile) {

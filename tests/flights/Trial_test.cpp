@@ -18,7 +18,7 @@ using test::simpleCourse;
 std::string textOf(const TrialResult& result) {
     hagen::avoidance::Run run{};
     run.result = result;
-    return rowOf(run, true);
+    return rowOf(run);
 }
 
 TEST(Trial, FliesStraightOverOpenGround) {
@@ -253,13 +253,44 @@ TEST(Trial, RejectsUnknownNames) {
     EXPECT_THROW(runTrial(course, setup, LatencyProfile{}), std::runtime_error);
 }
 
+/// The path past four rows of wires takes more cells than one past trees.
+TEST(Trial, TrueScenePassesWires) {
+    TrialSetup setup;
+    setup.model = "oracle";
+    setup.speed_m_s = 10;
+    EXPECT_EQ(runTrial(makeCourse("wires", 8001), setup, constantProfile(10)).outcome,
+              Outcome::Success);
+}
+
+TEST(Trial, TrueSceneIgnoresScans) {
+    const Course course = makeCourse("movers", 1);
+    TrialSetup setup;
+    setup.model = "oracle+motion";
+    TrialListener listener;
+    std::size_t returns = 0;
+    listener.step = [&](const TrialStep& step) { returns += step.scan.points_m.size(); };
+    const TrialResult watched = runTrial(course, setup, constantProfile(10), nullptr, listener);
+    EXPECT_GT(returns, 0u);
+    EXPECT_EQ(textOf(runTrial(course, setup, constantProfile(10))), textOf(watched));
+}
+
+TEST(Calibration, MeasuresCostAlongFlight) {
+    const std::vector<CostSample> samples = costAlongFlight("G-Full", 60);
+    ASSERT_GE(samples.size(), 4u);
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        EXPECT_GE(samples[i].path_m, samples[i - 1].path_m + 10);
+        EXPECT_GT(samples[i].update_ms, 0);
+    }
+    EXPECT_GT(samples.back().bytes, samples.front().bytes);
+}
+
 TEST(Calibration, MeasuringMemoryIsInterruptible) {
     struct Interrupted {};
     int scans = 0;
     const auto stopAtTheThird = [&] {
         if (++scans == 3) throw Interrupted();
     };
-    EXPECT_THROW(heapAlongFlight("W-RoI", 1000, stopAtTheThird), Interrupted);
+    EXPECT_THROW(costAlongFlight("W-RoI", 1000, stopAtTheThird), Interrupted);
     EXPECT_EQ(scans, 3);
 }
 

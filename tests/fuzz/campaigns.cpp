@@ -34,9 +34,7 @@ Seeds campaignFiles() {
     avoidance::LatencyProfile profile = avoidance::standardLatencyProfile();
     for (auto& [stage, quantiles] : profile.quantiles_ms) quantiles.resize(3);
     return {avoidance::textOf(profile),
-            avoidance::runHeader() + "\n" + avoidance::rowOf(run, false) + "\n",
-            avoidance::runHeader(true) + "\n" + avoidance::rowOf(run, true) + "\n",
-            avoidance::keyOf(run)};
+            avoidance::runHeader() + "\n" + avoidance::rowOf(run) + "\n", avoidance::keyOf(run)};
 }
 
 const bool kAdded = add({"campaigns",

@@ -1,97 +1,207 @@
-"""scripts/avoidance-report: synthetic campaigns with known results."""
+"""Avoidance campaigns: intervals, stopping, sentences and pages of made-up flights with known answers."""
 import csv
+import importlib.machinery
+import importlib.util
 import json
+import math
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
 
-SCRIPT = pathlib.Path(__file__).parents[2] / "scripts/avoidance-report"
+sys.dont_write_bytecode = True
+SCRIPTS = pathlib.Path(__file__).parents[2] / "scripts"
+sys.path.insert(0, str(SCRIPTS))
+SKIPPED = 77
+if subprocess.run([sys.executable, "-c", "import jinja2, matplotlib, pandas, scipy, yaml"], check=False,
+                  stderr=subprocess.DEVNULL).returncode:
+    sys.exit(SKIPPED)
+import pandas
+
+import paired
+
+PLAN_FILE = SCRIPTS.parent / "config/campaign/campaign.yaml"
 HEADER = ("scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,pose_error,latency_scale,"
           "unknown,emergency_stops,latency_p50_ms,latency_p95_ms,settings,version,air,distance")
 
 
-def flights(scenario, model, count, failed=(), planner="primitives", latency_ms=5):
-    return [f"{scenario},{seed},{model},astar,4,{'collision' if seed in failed else 'success'},0.7,40,11,"
-            f"{planner},none,1,optimistic,1,"
-            f"{latency_ms},{2 * latency_ms},f00d,0.1,dusty,unbiased" for seed in range(count)]
+def load_report():
+    loader = importlib.machinery.SourceFileLoader("avoidance_report", str(SCRIPTS / "avoidance-report"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("avoidance_report", loader))
+    loader.exec_module(module)
+    return module
 
 
-def report(rows, memory=None):
-    """The page, summary.csv and pairs.csv of a campaign."""
+def flights(scenario, model, count, failed=(), speed=4, settings="f00d", air="dusty", latency_ms=5, first=1000):
+    return [f"{scenario},{first + k},{model},astar,{speed},{'collision' if k in failed else 'success'},0.7,40,11,primitives,"
+            f"none,1,optimistic,1,{latency_ms},{2 * latency_ms},{settings},0.1,{air},unbiased" for k in range(count)]
+
+
+def read(rows):
+    with tempfile.TemporaryDirectory() as place:
+        file = pathlib.Path(place, "runs.csv")
+        file.write_text("\n".join([HEADER, *rows]) + "\n", encoding="utf-8")
+        return paired.read_runs(file)
+
+
+def compare(rows, second="G-Full"):
+    cell = {**paired.CONDITION, "scenario": "gap", "speed": 4}
+    return paired.compare(paired.read_plan(PLAN_FILE), read(rows), cell, "W-RoI", second)
+
+
+def test_interval_matches_constrained_likelihood():
+    def score_by_search(only_first, only_second, n, delta):
+        """The score statistic, with the restricted estimate found by a search of the likelihood."""
+        best, q = -math.inf, 0
+        for k in range(1, 20000):
+            p21 = k / 20000 * (1 - abs(delta)) / 2 + max(0, -delta)
+            p12 = p21 + delta
+            if min(p12, p21) <= 0 or p12 + p21 >= 1:
+                continue
+            likelihood = (only_first * math.log(p12) + only_second * math.log(p21) +
+                          (n - only_first - only_second) * math.log(1 - p12 - p21))
+            if likelihood > best:
+                best, q = likelihood, p21
+        return (only_first - only_second - n * delta) / math.sqrt(n * (2 * q + delta - delta * delta))
+
+    for only_first, only_second, n in ((12, 2, 50), (3, 9, 200), (1, 4, 44)):
+        low, high = paired.interval(only_first, only_second, n, 0.025)
+        assert abs(score_by_search(only_first, only_second, n, low) - 1.96) < 0.01
+        assert abs(score_by_search(only_first, only_second, n, high) + 1.96) < 0.01
+    z2 = 1.959964**2  # without differences, the limit is z^2 / (n + z^2)
+    assert abs(paired.interval(0, 0, 100, 0.025)[1] - z2 / (100 + z2)) < 1e-6
+
+
+def test_verdicts_err_as_rarely_as_planned():
+    plan, draw, wrong, trials = paired.read_plan(PLAN_FILE), random.Random(1), 0, 1500
+    for _ in range(trials):  # the reference is worse by the margin
+        only_first = only_second = courses = 0
+        for look, error in zip(plan["looks"], plan["errors"]):
+            for _ in range(look - courses):
+                at = draw.random()
+                only_first += at < 0.03
+                only_second += 0.03 <= at < 0.11
+            courses = look
+            verdict = paired.verdict(*paired.interval(only_first, only_second, look, error), plan["margin"])
+            if verdict != paired.UNDECIDED:
+                break
+        wrong += verdict in (paired.NOT_WORSE, paired.BETTER)
+    assert wrong / trials < sum(plan["errors"]) + 0.01, wrong
+
+
+def test_comparison_ends_at_deciding_look():
+    pair = compare(flights("gap", "W-RoI", 200) + flights("gap", "G-Full", 200, failed=range(100, 200)))
+    assert (pair["courses"], pair["verdict"], pair["only_first"]) == (100, paired.NOT_WORSE, 0), pair
+    pair = compare(flights("gap", "W-RoI", 50) + flights("gap", "G-Full", 50, failed=range(30)))
+    assert (pair["courses"], pair["verdict"]) == (50, paired.BETTER), pair
+    pair = compare(flights("gap", "W-RoI", 50, failed=range(30)) + flights("gap", "G-Full", 50))
+    assert pair["verdict"] == paired.WORSE, pair
+    half = [k for k in range(400) if k % 2]
+    other = [k for k in range(400) if k % 4 < 2]
+    pair = compare(flights("gap", "W-RoI", 400, failed=half) + flights("gap", "G-Full", 400, failed=other))
+    assert (pair["courses"], pair["verdict"]) == (400, paired.UNDECIDED), pair
+
+
+def test_fewer_than_50_shared_courses_decide_nothing():
+    pair = compare(flights("gap", "W-RoI", 49) + flights("gap", "G-Full", 400, failed=range(49)))
+    assert pair["verdict"] == paired.TOO_FEW and pair["courses"] == 49, pair
+    pair = compare(flights("gap", "W-RoI", 60) + flights("gap", "G-Full", 60, failed=range(60), first=1030))
+    assert pair["verdict"] == paired.TOO_FEW, pair
+    pair = compare(flights("gap", "W-RoI", 60) + flights("gap", "G-Full", 60, failed=range(60), air="clear"))
+    assert pair["verdict"] == paired.TOO_FEW, pair
+
+
+def test_next_look_flies_undecided_models_only():
+    plan = paired.read_plan(PLAN_FILE)
+    plan["questions"] = {"static": {"reference": "W-RoI", "models": ["W-Full", "G-Full"],
+                                    "cells": [{**paired.CONDITION, "scenario": "gap", "speed": 4}]}}
+    (cell, models, courses), = paired.next_flights(plan, None)
+    assert (models, courses) == (["W-RoI", "W-Full", "G-Full"], 50)
+    words = paired.command(plan, cell, models, courses)
+    assert words[words.index("--seeds") + 1] == "1000-1049" and words[words.index("--air") + 1] == "dusty", words
+    rows = flights("gap", "W-RoI", 50) + flights("gap", "W-Full", 50, failed=range(30)) + flights("gap", "G-Full", 50)
+    (_, models, courses), = paired.next_flights(plan, read(rows))
+    assert (models, courses) == (["W-RoI", "G-Full"], 100)
+    done = flights("gap", "W-RoI", 100) + flights("gap", "W-Full", 50, failed=range(30)) + flights("gap", "G-Full", 100)
+    assert not paired.next_flights(plan, read(done))
+
+
+def pairs(*rows):
+    return pandas.DataFrame([dict(zip(("scenario", "first", "second", "verdict", "first_success", "second_success"), row),
+                                  courses=100, high=-0.01 * k) for k, row in enumerate(rows)])
+
+
+def test_sentences_follow_verdicts():
+    report = load_report()
+    equal = ("gap", "W-RoI", "G-Full", paired.NOT_WORSE, 98, 97)
+    worse = ("wires", "W-RoI", "D-Full", paired.WORSE, 30, 60)
+    window = ("gap", "W-RoI", "W-Full", paired.WORSE, 30, 60)
+    open_ = ("orchard", "W-RoI", "G-Full", paired.UNDECIDED, 80, 82)
+    few = ("orchard", "W-RoI", "G-Full", paired.TOO_FEW, 0, 0)
+    better = ("gap", "W-RoI", "O-Full-0.4", paired.BETTER, 98, 50)
+
+    def said(*rows):
+        return report.maps_help(pairs(*rows), "At 4 m/s")
+
+    assert said(equal, better, window) == "At 4 m/s, no map is better than the RoI window by 5 points or more."
+    assert said(equal, worse) == ("At 4 m/s, a map succeeds more often than the RoI window in `wires` (best: depth-image map, "
+                                  "60.0 % instead of 30.0 %); elsewhere, no map is better by 5 points.")
+    assert said(equal, open_) == "At 4 m/s, no map was shown to succeed more often than the RoI window; undecided in `orchard`."
+    assert said(worse, open_).endswith("instead of 30.0 %); undecided in `orchard`.")
+    for no_conclusion in ((few,), (equal, few), (worse, few), (window,)):
+        assert said(*no_conclusion) == "At 4 m/s: too few flights."
+    tracked = ("movers", "W-RoI+motion", "W-RoI", paired.BETTER, 94, 56)
+    assert report.tracking_helps(pairs(tracked)) == ("Tracking matters more than the map: the RoI window succeeds in 94.0 % with "
+                                                     "and 56.0 % without it.")
+    assert "not shown" in report.tracking_helps(pairs((*tracked[:3], paired.UNDECIDED, 94, 90)))
+    assert "too few" in report.tracking_helps(pairs((*tracked[:3], paired.TOO_FEW, 94, 90)))
+    assert "too few" in report.tracking_helps(pairs(equal))
+
+
+def test_cost_sentences_follow_table():
+    report = load_report()
+    cost = pandas.DataFrame({"latency_p50_ms": [5.3, 16.5, 5.8], "memory_start": [1, 3, 3.0], "memory_end": [1.5, 90.7, 3.7]},
+                            index=["W-RoI", "G-Full", "R-Full-0.2"])
+    assert report.cost_answers(cost) == [
+        "From scan to command, the RoI window takes a median of 5.3 ms, the maps 5.8 ms (rolling grid) to 16.5 ms (occupancy "
+        "grid).",
+        "After 1 km, the RoI window uses 1.5 MB, maps that move with the vehicle 3.7 MB, maps of the whole flight 90.7 MB, and "
+        "growing."]
+    assert report.cost_answers(cost.drop("W-RoI")) == ["Cost: not measured."]
+
+
+def test_mixed_revisions_are_refused():
+    try:
+        read(flights("gap", "W-RoI", 50) + flights("gap", "G-Full", 50, settings="beef"))
+        raise AssertionError("accepted")
+    except ValueError as error:
+        assert "several revisions" in str(error)
+
+
+def test_page_shows_verdicts_and_intervals():
     with tempfile.TemporaryDirectory() as place:
         folder, out = pathlib.Path(place, "campaign"), pathlib.Path(place, "out")
         folder.mkdir()
+        rows = flights("gap", "W-RoI", 100) + flights("gap", "G-Full", 100, failed=[99], latency_ms=20)
         (folder / "runs.csv").write_text("\n".join([HEADER, *rows]) + "\n", encoding="utf-8")
         (folder / "campaign.json").write_text(json.dumps({"profile": {"machine": "a computer"}}), encoding="utf-8")
-        if memory:
-            (folder / "memory.csv").write_text(memory, encoding="utf-8")
-        subprocess.run([SCRIPT, folder, "-o", out], check=True, stdout=subprocess.DEVNULL)
-        assert {file.name for file in (out / "avoidance").iterdir()} == {
-            "summary.csv", "pairs.csv", "static.png", "moving.png"}
-
-        def read(name):
-            with open(out / "avoidance" / name, encoding="utf-8", newline="") as table:
-                return list(csv.DictReader(table))
-        return (out / "avoidance.md").read_text(encoding="utf-8"), read("summary.csv"), read("pairs.csv")
-
-
-def test_success_has_wilson_interval():
-    _, summary, _ = report(flights("wires", "W-RoI", 263, failed=range(81, 263)))
-    row = summary[0]
-    assert (row["flights"], row["success"], row["collision"], row["timeout"]) == ("263", "81", "182", "0"), row
-    assert (row["success_low"], row["success_high"]) == ("0.2553", "0.3662"), row  # Newcombe 1998, method 3
-
-
-def test_pairs_are_tested_on_shared_courses():
-    page, _, pairs = report(flights("gap", "W-RoI", 80) + flights("gap", "G-Full", 60, failed=range(10)) +
-                            flights("gap", "W-Full", 60, failed=range(8)))
-    by_model = {pair["second"]: pair for pair in pairs}
-    grid = by_model["G-Full"]
-    assert [grid[key] for key in ("courses", "only_first", "only_second")] == ["60", "10", "0"], grid
-    assert float(grid["p"]) == 0.001953, grid  # 2 / 2^10
-    assert float(grid["p_holm"]) == 0.003906 and float(by_model["W-Full"]["p_holm"]) == 0.007812, pairs  # 2 / 2^8
-    assert "RoI window reached the goal more often than the occupancy grid 0.2 m (60 vs. 50 of 60 flights)" in page
-    assert "and the full window (60 vs. 52 of 60 flights) in `gap` at 4 m/s." in page
-
-
-def test_few_courses_are_not_tested():
-    page, _, pairs = report(flights("movers", "W-RoI", 49) + flights("movers", "G-Full", 200, failed=range(49)))
-    assert (pairs[0]["result"], pairs[0]["p"]) == ("too few flights", ""), pairs
-    assert "- **Moving obstacles**: too few flights.\n" in page
-    assert "- **Static obstacles**: too few flights.\n" in page
-
-
-def test_equal_models_have_no_difference():
-    page, _, pairs = report(flights("gap", "W-RoI", 50, failed=[1]) + flights("gap", "G-Full", 50, failed=[1]))
-    assert (pairs[0]["result"], pairs[0]["p"]) == ("no difference found", "1"), pairs
-    assert "No difference was found between the RoI window and the occupancy grid 0.2 m in `gap` at 4 m/s." in page
-
-
-def test_other_conditions_are_reported_separately():
-    page, _, pairs = report(flights("gap", "W-RoI", 50) + flights("gap", "G-Full", 50) +
-                            flights("gap", "W-RoI", 6, planner="3dvfh") + flights("gap", "G-Full", 6, planner="3dvfh"))
-    assert sorted(pair["courses"] for pair in pairs) == ["50", "6"], pairs
-    assert "planner 3dvfh (6)" in page
-
-
-def test_cost_uses_shared_courses_only():
-    page, _, _ = report(flights("gap", "W-RoI", 5) + flights("gap", "G-Full", 4, latency_ms=20) +
-                        flights("street", "G-Full", 9, latency_ms=90),
-                        "model,path_m,bytes\nW-RoI,0,1\nW-RoI,1000,1500000\nG-Full,1000,90000000\n")
-    assert "|RoI window|5.0|10.0|25.0|1.50|\n|occupancy grid 0.2 m|20.0|40.0|25.0|90.00|\n" in page
-    assert "it uses 1.5 MB, the maps 90 to 90 MB" in page
-
-
-def test_missing_campaign_is_reported():
-    done = subprocess.run([SCRIPT, "/none"], capture_output=True, text=True, check=False)
+        (folder / "cost.csv").write_text("model,path_m,bytes,update_ms\nW-RoI,20,1e6,1\nW-RoI,1000,1.5e6,1.2\nG-Full,20,3e6,6\n"
+                                         "G-Full,1000,9e7,7\n", encoding="utf-8")
+        subprocess.run([SCRIPTS / "avoidance-report", folder, "-o", out], check=True, stdout=subprocess.DEVNULL)
+        page = (out / "avoidance.md").read_text(encoding="utf-8")
+        assert "|`gap`, 4 m/s|100.0|too few flights|99.0=|too few flights|" in page, page
+        assert "|occupancy grid|6.0/7.0|3.0/90.0|20.0/40.0|25.0|" in page
+        assert "At 4 m/s: too few flights. At 10 m/s: too few flights." in page
+        with open(out / "avoidance/pairs.csv", encoding="utf-8", newline="") as table:
+            pair = next(row for row in csv.DictReader(table) if row["scenario"] == "gap" and row["second"] == "G-Full")
+        assert (pair["only_first"], pair["verdict"]) == ("1", paired.NOT_WORSE), pair
+        assert -0.05 < float(pair["low"]) < 0 < float(pair["high"]), pair
+    done = subprocess.run([SCRIPTS / "avoidance-report", "/none"], capture_output=True, text=True, check=False)
     assert done.returncode == 1 and "/none/runs.csv: No such file" in done.stderr, done
 
 
 if __name__ == "__main__":
-    if subprocess.run(["/usr/bin/python3", "-c", "import jinja2, matplotlib, pandas, scipy"], check=False,
-                      stderr=subprocess.DEVNULL).returncode:
-        sys.exit(77)  # skipped
     for name, test in list(globals().items()):
         if name.startswith("test_"):
             test()

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <ctime>
 #include "avoidance/flights/Stopwatch.h"
+#include "base/NumberText.h"
 #include "base/ProcessCost.h"
+#include "base/Quantile.h"
 #include "base/WriteFile.h"
 
 namespace hagen::avoidance {
@@ -118,7 +120,7 @@ LatencyProfile calibrate(const CalibrationOptions& options) {
     return profile;
 }
 
-std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m,
+std::vector<CostSample> costAlongFlight(const std::string& model, double path_m,
                                         const std::function<void()>& continuing) {
     constexpr double kEvery_m = 10;
     const Course course = makeCourse(kCourses[0], 0);
@@ -129,17 +131,22 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m,
     setting.true_clearance_m = [](const Eigen::Vector3f&, double) { return WorldModel::kReach_m; };
     const double before = base::heapBytes();
     const auto world = makeWorldModel(model, setting);
-    std::vector<HeapSample> samples{{0, base::heapBytes() - before}};
+    std::vector<CostSample> samples{{0, base::heapBytes() - before, 0}};
     double held = samples[0].bytes;
+    std::vector<double> taken_ms;
     const double lap_s = recorded.scans.back().time_s;  // the first scan ends one turn after time 0
     for (double lap_m = 0; lap_m < path_m; lap_m += recorded.length_m) {
         for (std::size_t i = 0; i < recorded.scans.size(); ++i) {
             if (continuing) continuing();
             const double at_m = lap_m + recorded.path_m[i], heap = base::heapBytes();
+            const double start_ms = base::threadCpuTime_ms();
             world->update(recorded.scans[i]);
+            const double end_ms = base::threadCpuTime_ms();
             held += base::heapBytes() - heap;
+            taken_ms.push_back(end_ms - start_ms);
             if (at_m <= path_m && at_m >= samples.back().path_m + kEvery_m) {
-                samples.push_back({at_m, held});
+                samples.push_back({at_m, held, base::quantile(taken_ms, 0.5)});
+                taken_ms.clear();
             }
             moveOn(recorded.scans[i], static_cast<float>(recorded.length_m), lap_s);
         }
@@ -149,17 +156,18 @@ std::vector<HeapSample> heapAlongFlight(const std::string& model, double path_m,
 
 namespace fs = std::filesystem;
 
-void writeHeapCurves(const std::vector<std::string>& models, double path_m,
+void writeCostCurves(const std::vector<std::string>& models, double path_m,
                      const std::function<void(const std::string& model)>& begin,
                      const std::function<void()>& continuing, const fs::path& place,
                      const fs::path& file) {
     std::ofstream out = base::openToWrite(place, file);
-    out << "model,path_m,bytes\n";
+    out << "model,path_m,bytes,update_ms\n";
     for (const std::string& model : models) {
         begin(model);
-        for (const HeapSample& sample : heapAlongFlight(model, path_m, continuing)) {
+        for (const CostSample& sample : costAlongFlight(model, path_m, continuing)) {
             out << model << "," << std::round(10 * sample.path_m) / 10 << ","
-                << static_cast<long long>(sample.bytes) << "\n";
+                << static_cast<long long>(sample.bytes) << ","
+                << base::fixedText(sample.update_ms, 3) << "\n";
         }
     }
     base::closeWritten(out, file);

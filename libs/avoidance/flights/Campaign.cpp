@@ -94,19 +94,11 @@ std::vector<CourseFlights> missingFlights(const std::vector<CourseFlights>& flig
     return missing;
 }
 
-void writeTable(const fs::path& file, std::vector<Run> runs, bool has_updates) {
+void writeTable(const fs::path& file, std::vector<Run> runs) {
     sortRuns(runs);
-    std::string text = runHeader(has_updates) + "\n";
-    for (const Run& run : runs) text += rowOf(run, has_updates) + "\n";
+    std::string text = runHeader() + "\n";
+    for (const Run& run : runs) text += rowOf(run) + "\n";
     replace(file, text);
-}
-
-bool hasSectors(const std::vector<Run>& runs, const std::vector<CourseFlights>& flights) {
-    if (std::any_of(runs.begin(), runs.end(), needsUpdates)) return true;
-    if (flights.empty()) return false;
-    const CourseFlights& any = flights.front();  // all courses have the same setups
-    return std::any_of(any.setups.begin(), any.setups.end(),
-                       [&](const TrialSetup& setup) { return needsUpdates(unflown(any, setup)); });
 }
 
 }  // namespace
@@ -117,8 +109,7 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
     const std::string settings = hashOfSettings(profile);
     const std::vector<Run> before = openFolder(folder, profile, settings, options.overwrites);
     const fs::path file = folder / "runs.csv";
-    const bool has_updates = hasSectors(before, flights);
-    writeTable(file, before, has_updates);
+    writeTable(file, before);
 
     const std::vector<CourseFlights> courses = missingFlights(flights, before);
     std::size_t done = 0, all = 0;
@@ -141,7 +132,7 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
             run.result = runTrial(course, setup, profile, nullptr, listener);
             const std::lock_guard lock(mutex);
             std::ofstream out(file, std::ios::binary | std::ios::app);
-            out << rowOf(run, has_updates) + "\n";
+            out << rowOf(run) + "\n";
             base::closeWritten(out, file);
             ++done;
             if (options.progress) options.progress(done, all);
@@ -167,7 +158,7 @@ std::vector<Run> flyCampaign(const std::vector<CourseFlights>& flights,
                               "; rerun the same command to resume");
     }
     std::vector<Run> runs = readRuns(file);
-    writeTable(file, runs, has_updates);
+    writeTable(file, runs);
     sortRuns(runs);
     return runs;
 }

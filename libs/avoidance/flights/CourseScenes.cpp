@@ -320,7 +320,7 @@ const std::vector<CourseKind>& courseKinds() {
         {"terrain", 2, [](simulation::Random random) { return makeTerrain(random); }},
         {"wires", 2,
          [](simulation::Random random) { return makeWires(simulation::kWireRadius_m, random); }},
-        {"wires-thin", 2, [](simulation::Random random) { return makeWires(0.005, random); }},
+        {"wires-thin", 2, [](simulation::Random random) { return makeWires(0.0025, random); }},
         {"movers", 1.5, [](simulation::Random random) { return makeMovers(random); }},
         {"street", 1.5, [](simulation::Random random) { return makeStreet(random); }}};
     return kinds;

@@ -17,7 +17,6 @@ struct RunColumn {
     std::function<std::string(const Run&)> write;
     std::function<void(const std::string&, Run&)> read;  ///< throws on invalid text
     bool is_key = false;                                 ///< identifies a run
-    std::string before{};  ///< for older tables without this column; if empty, required
 };
 
 /// Formats a number; NaN becomes an empty field.
@@ -44,9 +43,8 @@ bool brakesFrom(const std::string& text) {
     throw std::runtime_error("\"" + text + "\" is not one of optimistic, brake_known");
 }
 
-RunColumn key(RunColumn column, const std::string& before = "") {
+RunColumn key(RunColumn column) {
     column.is_key = true;
-    column.before = before;
     return column;
 }
 
@@ -89,7 +87,7 @@ RunColumn word(const char* name, std::string Run::*field) {
             [=](const std::string& text, Run& run) { run.*field = text; }};
 }
 
-/// In table order. Tables of whole scans lack `updates`, older tables `air` and `distance`, too.
+/// In table order.
 const std::vector<RunColumn>& allColumns() {
     static const std::vector<RunColumn> all{
         key(word("scenario", &Run::scenario)),
@@ -127,20 +125,19 @@ const std::vector<RunColumn>& allColumns() {
         measure("latency_max_ms", &TrialResult::latency_max_ms, 3),
         word("settings", &Run::settings_hash),
         word("version", &Run::version),
-        key(condition("air", &TrialSetup::air, airFrom), "clear"),
-        key(condition("distance", &TrialSetup::distance, distanceFrom), "as-stored"),
-        key(condition("updates", &TrialSetup::updates, updatesFrom), "scans")};
+        key(condition("air", &TrialSetup::air, airFrom)),
+        key(condition("distance", &TrialSetup::distance, distanceFrom)),
+        key(condition("updates", &TrialSetup::updates, updatesFrom))};
     return all;
 }
 
 using Columns = std::vector<const RunColumn*>;
 
-Columns columnsOf(bool has_updates, bool keys_only = false) {
+Columns columnsOf(bool keys_only = false) {
     Columns columns;
     for (const RunColumn& column : allColumns()) {
         if (column.is_key || !keys_only) columns.push_back(&column);
     }
-    if (!has_updates) columns.pop_back();
     return columns;
 }
 
@@ -176,32 +173,15 @@ Run runFrom(const std::string& line, const Columns& columns) {
     return run;
 }
 
-/// The columns of a table by its header; empty if the file is not a table of runs.
-Columns columnsIn(const std::string& header) {
-    Columns columns = columnsOf(true);
-    while (headerOf(columns) != header) {
-        if (columns.back()->before.empty()) return {};
-        columns.pop_back();
-    }
-    return columns;
-}
-
 }  // namespace
 
-std::string runHeader(bool has_updates) { return headerOf(columnsOf(has_updates)); }
+std::string runHeader() { return headerOf(columnsOf()); }
 
-std::string rowOf(const Run& run, bool has_updates) {
-    return fieldsOf(run, columnsOf(has_updates));
-}
+std::string rowOf(const Run& run) { return fieldsOf(run, columnsOf()); }
 
-bool needsUpdates(const Run& run) { return run.setup.updates != Updates::Scans; }
+std::string keyOf(const Run& run) { return fieldsOf(run, columnsOf(true)); }
 
-std::string keyOf(const Run& run) { return fieldsOf(run, columnsOf(needsUpdates(run), true)); }
-
-Run runOfKey(const std::string& key) {
-    return runFrom(key,
-                   columnsOf(base::split(key, ',').size() == columnsOf(true, true).size(), true));
-}
+Run runOfKey(const std::string& key) { return runFrom(key, columnsOf(true)); }
 
 std::vector<Run> readRuns(const std::filesystem::path& file) {
     std::ifstream in = base::openToRead(file);
@@ -209,24 +189,20 @@ std::vector<Run> readRuns(const std::filesystem::path& file) {
         throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
     };
     std::vector<Run> runs;
-    Columns columns;
+    const Columns columns = columnsOf();
     std::string text;
     int line = 0;
     while (base::nextLine(in, text, file)) {
         ++line;
         if (!text.empty() && text.back() == '\r') text.pop_back();
         if (line == 1) {
-            columns = columnsIn(text);
-            if (columns.empty()) fail(line, "wrong header; expected " + runHeader());
+            if (text != runHeader()) fail(line, "wrong header; expected " + runHeader());
             continue;
         }
         try {
             runs.push_back(runFrom(text, columns));
         } catch (const std::runtime_error& e) {
             fail(line, e.what());
-        }
-        for (std::size_t c = columns.size(); c < allColumns().size(); ++c) {
-            allColumns()[c].read(allColumns()[c].before, runs.back());
         }
     }
     if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read");

@@ -41,10 +41,12 @@ class ScanFeed {
 constexpr int kStepsPerTurn = 5;
 static_assert(kStepsPerTurn * 20 == 100);  // kControlStep_s per TrialSensor::kTurn_s
 
-/// Keeps only the newest whole scan, and simulates it when it is taken.
+/// Keeps only the newest whole scan, and simulates it when it is taken; without `measures`, only
+/// its time.
 class WholeScans : public ScanFeed {
  public:
-    WholeScans(const Course& course, Air air, float zone_m) : sensor_(course, air, zone_m) {}
+    WholeScans(const Course& course, Air air, float zone_m, bool measures)
+        : sensor_(course, air, zone_m), measures_(measures) {}
 
     void receive(int step, const FlightTrace&, PoseBelief&) override {
         if (step % kStepsPerTurn != 0) return;
@@ -55,13 +57,16 @@ class WholeScans : public ScanFeed {
     bool isWaiting() const override { return waiting_.has_value(); }
     FedScan take(const FlightTrace& trace, PoseBelief& belief, Stopwatch& stopwatch) override {
         const int turn = *std::exchange(waiting_, std::nullopt);
+        const double arrived_s = TrialSensor::kTurn_s * (turn + 1);
+        const auto stream = streams::kAltimeter + static_cast<std::uint64_t>(turn);
+        observations::MappedScan only_time;
+        only_time.time_s = arrived_s;
+        if (!measures_) return {only_time, arrived_s, stream};
         const simulation::SimulatedScan measured = sensor_.measure(turn, trace);
         const LabelledReturns& returns = stopwatch.time("filter", [&]() -> const LabelledReturns& {
             return sensor_.segment(turn, measured, trace, belief);
         });
-        return {TrialSensor::place(turn, measured, returns, trace, belief),
-                TrialSensor::kTurn_s * (turn + 1),
-                streams::kAltimeter + static_cast<std::uint64_t>(turn)};
+        return {TrialSensor::place(turn, measured, returns, trace, belief), arrived_s, stream};
     }
     double period_s() const override { return TrialSensor::kTurn_s; }
     int received() const override { return received_; }
@@ -69,6 +74,7 @@ class WholeScans : public ScanFeed {
 
  private:
     TrialSensor sensor_;
+    bool measures_;
     int received_ = 0, dropped_ = 0;
     std::optional<int> waiting_;  ///< newest complete turn that is not used yet
 };
@@ -104,11 +110,13 @@ class Sectors : public ScanFeed {
 };
 
 /// Creates the feed for a setup's updates.
-std::unique_ptr<ScanFeed> makeFeed(const Course& course, const TrialSetup& setup, float zone_m) {
+std::unique_ptr<ScanFeed> makeFeed(const Course& course, const TrialSetup& setup, float zone_m,
+                                   bool has_listener) {
     if (setup.updates == Updates::Sectors) {
         return std::make_unique<Sectors>(course, setup.air, zone_m);
     }
-    return std::make_unique<WholeScans>(course, setup.air, zone_m);
+    const bool measures = has_listener || setup.make_world || !needsTruth(setup.model);
+    return std::make_unique<WholeScans>(course, setup.air, zone_m, measures);
 }
 
 /// Draws the latency of planning steps from the profile. Sectors are assumed to cost as much as a
@@ -166,7 +174,8 @@ class TrialFlight {
           setup_(setup),
           listener_(listener),
           stopwatch_(measurement),
-          feed_(makeFeed(course, setup, perceptionRangeFor_m(paceOf(setup)))),
+          feed_(makeFeed(course, setup, perceptionRangeFor_m(paceOf(setup)),
+                         listener.step != nullptr)),
           belief_(setup.pose_error, course.seed),
           latencies_(course, setup, profile),
           guidance_(makeGuidance(setup.guidance)),

@@ -146,7 +146,7 @@ FlightRecording record(const Run& run, const LatencyProfile& profile,
     Run flown = run;
     flown.result = runTrial(course, run.setup, profile, nullptr, listener);
     flown.oracle_path_m = course.oracle_path_m;
-    recording.is_same = rowOf(flown, true) == rowOf(run, true);
+    recording.is_same = rowOf(flown) == rowOf(run);
     recording.start_m = course.start_m;
     recording.goal_m = course.goal_m;
     recording.ground_m =

@@ -11,7 +11,7 @@ namespace {
 
 // Velocity error as a fraction of the speed (turns are not predicted) and of its standard
 // deviation.
-constexpr float kDoubtOfSpeed = 0.1f, kDoubtOfSigma = 0.5f;
+constexpr float kDoubtOfSpeed = 0.2f, kDoubtOfSigma = 0.5f;
 
 struct Mover {
     Mover(const ObstacleTrack& track, double time_s) : tree(3, points) {
