@@ -16,6 +16,7 @@ CONDITION = {"guidance": "astar", "planner": "primitives", "pose_error": "none",
              "unknown": "optimistic", "air": "dusty", "distance": "unbiased", "updates": "scans"}
 CELL = ["scenario", "speed", *CONDITION]
 BETTER, WORSE, NOT_WORSE, UNDECIDED, TOO_FEW = "better", "worse", "not worse", "undecided", "too few flights"
+MIN_COURSES = 50  # for any verdict
 
 
 def read_plan(file):
@@ -76,12 +77,13 @@ def flown(runs, cell, model):
 
 
 def compare(plan, runs, cell, first, second):
-    """The comparison up to the look that decides it, as a dictionary."""
+    """The comparison up to the look that decides it, as a dictionary. Before the last look, it is
+    decided or has too few flights."""
     a, b = flown(runs, cell, first), flown(runs, cell, second)
     shared = a.index.intersection(b.index)
-    result = {"courses": len(shared), "verdict": TOO_FEW}
+    result = {"courses": 0, "verdict": TOO_FEW}
     for courses, error in zip(plan["looks"], plan["errors"]):
-        seeds = [seed for seed in shared if seed < plan["seeds"] + courses]
+        seeds = [seed for seed in shared if plan["seeds"] <= seed < plan["seeds"] + courses]
         if len(seeds) < courses:
             break
         one, two = a[seeds], b[seeds]
@@ -89,9 +91,13 @@ def compare(plan, runs, cell, first, second):
         low, high = interval(only_first, only_second, courses, error)
         result = {"courses": courses, "first_success": int(one.sum()), "second_success": int(two.sum()),
                   "only_first": only_first, "only_second": only_second, "low": low, "high": high,
-                  "verdict": verdict(low, high, plan["margin"])}
-        if result["verdict"] != UNDECIDED:
+                  "error_per_side": error, "verdict": verdict(low, high, plan["margin"])}
+        if courses < MIN_COURSES:
+            result["verdict"] = TOO_FEW
+        elif result["verdict"] != UNDECIDED:
             break
+    if result["verdict"] == UNDECIDED and result["courses"] < plan["looks"][-1]:
+        result["verdict"] = TOO_FEW
     return {**cell, "first": first, "second": second, **result}
 
 
@@ -116,9 +122,8 @@ def next_flights(plan, runs):
             waiting = {}
             for second in question["models"]:
                 pair = compare(plan, runs, cell, first, second)
-                reached = pair["courses"] if pair["verdict"] == UNDECIDED else 0
-                left = [courses for courses in plan["looks"] if courses > reached]
-                if pair["verdict"] in (UNDECIDED, TOO_FEW) and left:
+                left = [courses for courses in plan["looks"] if courses > pair["courses"]]
+                if pair["verdict"] == TOO_FEW and left:
                     waiting.setdefault(left[0], []).append(second)
             if ceiling and len(flown(runs, cell, ceiling)) < plan["ceiling_courses"]:
                 due.append((cell, [ceiling], plan["ceiling_courses"]))
@@ -134,6 +139,11 @@ def command(plan, cell, models, courses):
     return words + (["--profile", plan["profile"]] if plan["profile"] else [])
 
 
-def agrees(pair, low, high, margin):
-    """Whether the interval of a second campaign is compatible with a verdict."""
-    return {BETTER: high > 0, WORSE: low < 0, NOT_WORSE: high > -margin}[pair["verdict"]]
+def contradicts(verdict_before, low, high, margin):
+    """Whether the interval of a second campaign excludes a verdict."""
+    return {BETTER: high <= 0, WORSE: low >= 0, NOT_WORSE: high <= -margin}[verdict_before]
+
+
+def agrees(verdict_before, difference, margin):
+    """Whether the difference in a second campaign has the sign, or the size, of a verdict."""
+    return {BETTER: difference > 0, WORSE: difference < 0, NOT_WORSE: difference > -margin}[verdict_before]

@@ -166,13 +166,5 @@ TEST(RunTable, ReportsInvalidFile) {
     EXPECT_THAT(said(folder.write("b.csv", "a,b\n1,2\n")), HasSubstr("b.csv:1: wrong header"));
 }
 
-TEST(FlightConditions, NamesAreReadBack) {
-    EXPECT_EQ(poseErrorFrom(nameOf(PoseError::Drift)), PoseError::Drift);
-    EXPECT_EQ(airFrom(nameOf(Air::Clear)), Air::Clear);
-    EXPECT_EQ(updatesFrom(nameOf(Updates::Sectors)), Updates::Sectors);
-    EXPECT_EQ(distanceFrom(nameOf(ModelDistance::AsStored)), ModelDistance::AsStored);
-    EXPECT_THROW(airFrom("fog"), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace hagen::avoidance

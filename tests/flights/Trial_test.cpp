@@ -253,7 +253,6 @@ TEST(Trial, RejectsUnknownNames) {
     EXPECT_THROW(runTrial(course, setup, LatencyProfile{}), std::runtime_error);
 }
 
-/// The path past four rows of wires takes more cells than one past trees.
 TEST(Trial, TrueScenePassesWires) {
     TrialSetup setup;
     setup.model = "oracle";

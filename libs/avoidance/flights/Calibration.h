@@ -14,8 +14,9 @@ struct CalibrationOptions {
     std::function<void()> continuing;  ///< called often during flights; may throw to abort
 };
 
-/// Speed of the calibration flights: the maximum of the reference campaign. Windows and rolling maps grow
-/// with speed, so the latencies of slower flights are overestimated rather than underestimated.
+/// Speed of the calibration flights: the maximum of the reference campaign. Windows and rolling
+/// maps grow with speed, so the latencies of slower flights are overestimated rather than
+/// underestimated.
 constexpr double kCalibrated_m_s = 12;
 
 /// Measures every stage's CPU time on this machine, in flights through these courses with every

@@ -57,10 +57,11 @@ class WholeScans : public ScanFeed {
     bool isWaiting() const override { return waiting_.has_value(); }
     FedScan take(const FlightTrace& trace, PoseBelief& belief, Stopwatch& stopwatch) override {
         const int turn = *std::exchange(waiting_, std::nullopt);
+        const double start_s = TrialSensor::kTurn_s * turn;
         const double arrived_s = TrialSensor::kTurn_s * (turn + 1);
         const auto stream = streams::kAltimeter + static_cast<std::uint64_t>(turn);
         observations::MappedScan only_time;
-        only_time.time_s = arrived_s;
+        only_time.time_s = start_s + TrialSensor::kTurn_s;  // as TrialSensor::place() rounds it
         if (!measures_) return {only_time, arrived_s, stream};
         const simulation::SimulatedScan measured = sensor_.measure(turn, trace);
         const LabelledReturns& returns = stopwatch.time("filter", [&]() -> const LabelledReturns& {
