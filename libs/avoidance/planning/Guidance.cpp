@@ -13,7 +13,7 @@ constexpr double kCutClearance_m = 0.9;  ///< needed for cutting a corner
 constexpr double kGoalSearch_m = 3;      ///< search radius for a replacement of a blocked goal
 constexpr double kDetourHeightCost_per_m = 0.5;
 constexpr double kHeuristicWeight = 1.3;  ///< saves 2/3 of the queries in dense forest
-constexpr int kMaxCells = 20000;  ///< 4000 are too few past several rows of wires
+constexpr int kMaxCells = 20000;          ///< 4000 are too few past several rows of wires
 
 /// The goal, at the target altitude while it is far, because the ground in between is unknown.
 Eigen::Vector3d levelGoal(const GuidanceTask& task) {
