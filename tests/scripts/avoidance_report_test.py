@@ -171,13 +171,13 @@ def test_sentences_follow_verdicts():
 
 def test_cost_sentences_follow_table():
     report = load_report()
-    cost = pandas.DataFrame({"latency_p50_ms": [5.3, 16.5, 5.8], "memory_start": [1, 3, 3.0], "memory_end": [1.5, 90.7, 3.7]},
+    cost = pandas.DataFrame({"latency_p50_ms": [5.3, 16.5, 5.8], "update_end": [1, 6, 3.0], "memory_end": [1.5, 90.7, 3.7]},
                             index=["W-RoI", "G-Full", "R-Full-0.2"])
     assert report.cost_answers(cost) == [
         "From scan to command, the RoI window takes a median of 5.3 ms, the maps 5.8 ms (rolling grid) to 16.5 ms (occupancy "
         "grid).",
-        "After 1 km, the RoI window uses 1.5 MB, maps of a box around the vehicle 3.7 MB, maps of the whole flight 90.7 MB, and "
-        "growing."]
+        "After 1 km, an update takes 1.0 ms and 1.5 MB for the RoI window, 3.0 ms and 3.7 MB for maps of a box around the "
+        "vehicle, 6.0 ms and 90.7 MB for maps of the whole flight."]
     assert report.cost_answers(cost.drop("W-RoI")) == ["Not measured."]
     assert report.cost_answers(cost.assign(memory_end=float("nan")))[1] == "Memory: not measured."
 
