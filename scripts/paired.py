@@ -32,8 +32,6 @@ def read_runs(file):
     """The table of flights. Refuses tables of several revisions or latency profiles."""
     runs = pandas.read_csv(file, dtype={"settings": str})
     runs["latency_scale"] = runs["latency_scale"].astype(float)
-    if "updates" not in runs:
-        runs["updates"] = "scans"
     if runs["settings"].nunique() > 1:
         raise ValueError(f"{file}: flights of several revisions or latency profiles; fly them again in one folder")
     runs["succeeds"] = runs["outcome"] == "success"

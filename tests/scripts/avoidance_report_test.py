@@ -22,7 +22,7 @@ import paired
 
 PLAN_FILE = SCRIPTS.parent / "config/campaign/campaign.yaml"
 HEADER = ("scenario,seed,model,guidance,speed,outcome,min_clearance_m,path_m,time_s,planner,pose_error,latency_scale,"
-          "unknown,emergency_stops,latency_p50_ms,latency_p95_ms,settings,version,air,distance")
+          "unknown,emergency_stops,latency_p50_ms,latency_p95_ms,settings,version,air,distance,updates")
 
 
 def load_report():
@@ -34,7 +34,7 @@ def load_report():
 
 def flights(scenario, model, count, failed=(), speed=4, settings="f00d", air="dusty", latency_ms=5, first=1000):
     return [f"{scenario},{first + k},{model},astar,{speed},{'collision' if k in failed else 'success'},0.7,40,11,primitives,"
-            f"none,1,optimistic,1,{latency_ms},{2 * latency_ms},{settings},0.1,{air},unbiased" for k in range(count)]
+            f"none,1,optimistic,1,{latency_ms},{2 * latency_ms},{settings},0.1,{air},unbiased,scans" for k in range(count)]
 
 
 def read(rows):
