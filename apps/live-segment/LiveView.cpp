@@ -55,14 +55,15 @@ std::shared_ptr<const Sector> copyOf(const live::LabelledSector& sector) {
 
 /// Blocks the accepting thread while all connections are in use, so that further clients wait in
 /// the kernel's queue and use no file descriptors.
-class BoundedPool : public httplib::ThreadPool {
+class BoundedPool : public httplib::TaskQueue {
  public:
-    explicit BoundedPool(std::size_t connections) : ThreadPool(connections), free_(connections) {}
-    void enqueue(std::function<void()> serve) override {
+    explicit BoundedPool(std::size_t connections) : pool_(connections), free_(connections) {}
+    // bool in newer versions of cpp-httplib, else void.
+    decltype(std::declval<TaskQueue&>().enqueue({})) enqueue(std::function<void()> serve) override {
         std::unique_lock lock(mutex_);
         freed_.wait(lock, [this] { return free_ > 0; });
         --free_;
-        ThreadPool::enqueue([this, serve = std::move(serve)] {
+        return pool_.enqueue([this, serve = std::move(serve)] {
             serve();
             const std::lock_guard done(mutex_);
             ++free_;
@@ -70,7 +71,10 @@ class BoundedPool : public httplib::ThreadPool {
         });
     }
 
+    void shutdown() override { pool_.shutdown(); }
+
  private:
+    httplib::ThreadPool pool_;
     std::mutex mutex_;
     std::condition_variable freed_;
     std::size_t free_;

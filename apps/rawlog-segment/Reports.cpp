@@ -56,7 +56,8 @@ void printEntries(const Conversion& conversion, const ConversionReport& report) 
               << counted(report.entries, "entry", "entries");
     // If the recording ends before --to, no later scans were skipped.
     const auto& scans = report.scan_reports;
-    if (!scans.empty() && (conversion.from > 0 || scans.back().entry == conversion.to)) {
+    if (!scans.empty() &&
+        (conversion.source.first_scan > 0 || scans.back().entry == conversion.source.last_scan)) {
         std::cout << " (scans " << scans.front().entry << " to " << scans.back().entry
                   << " of the input; the rest was skipped)";
     }

@@ -71,14 +71,14 @@ void declare(Program& app, Flags& flags) {
                ".npy, .bin) or a folder of them")
         .existingPath()
         .group("Input");
-    app.option("--sensor-json", conversion.sensor_json, "Ouster metadata file (JSON)")
+    app.option("--sensor-json", conversion.source.sensor_json, "Ouster metadata file (JSON)")
         .existingFile()
         .group("Input");
-    app.option("--calibration", conversion.calibration,
+    app.option("--calibration", conversion.source.calibration,
                "HDL-64E calibration file (Velodyne's db.xml)")
         .existingFile()
         .group("Input");
-    app.option("--topic", conversion.topics,
+    app.option("--topic", conversion.source.topics,
                "read only this LiDAR topic of a ROS recording; may be repeated")
         .once()
         .group("Input");
@@ -88,12 +88,12 @@ void declare(Program& app, Flags& flags) {
         .valueName("LIST")
         .group("Input");
     app.option(
-           "--from", conversion.from,
+           "--from", conversion.source.first_scan,
            "first scan to convert, counted from 0 (a turn of a capture, or an entry with scans of "
            "a rawlog)")
         .group("Input");
-    app.option("--to", conversion.to, "last scan to convert").group("Input");
-    app.option("--sensor-label", conversion.sensor_labels,
+    app.option("--to", conversion.source.last_scan, "last scan to convert").group("Input");
+    app.option("--sensor-label", conversion.source.sensor_labels,
                "segment only this LiDAR; may be repeated")
         .once()
         .mayBeEmpty()  // because sensor labels may be empty
@@ -235,7 +235,7 @@ void check(Flags& flags) {
     convert::Conversion& conversion = flags.conversion;
     try {
         if (!flags.bin_fields.empty()) {
-            conversion.bin_fields = recordings::binFieldsOf(flags.bin_fields);
+            conversion.source.bin_fields = recordings::binFieldsOf(flags.bin_fields);
         }
     } catch (const std::runtime_error& e) {
         throw UsageError("--bin-fields", e.what());
@@ -266,7 +266,7 @@ void check(Flags& flags) {
     if (!(conversion.octomap.resolution_m > 0)) {  // NaN passes range checks
         throw UsageError("--octomap-resolution", "must be positive");
     }
-    if (conversion.from > conversion.to) {
+    if (conversion.source.first_scan > conversion.source.last_scan) {
         throw UsageError("--from", "must not be greater than --to");
     }
 }
@@ -275,16 +275,10 @@ void learn(const Flags& flags) {
     const convert::Conversion& conversion = flags.conversion;
     convert::AirframeLearning learning;
     learning.input = conversion.input;
-    learning.sensor_json = conversion.sensor_json;
-    learning.calibration = conversion.calibration;
-    learning.topics = conversion.topics;
-    learning.bin_fields = conversion.bin_fields;
+    learning.source = conversion.source;
     learning.file = flags.learned_airframe;
     learning.overwrite = conversion.overwrite;
     learning.seconds = flags.learn_seconds;
-    learning.from = conversion.from;
-    learning.to = conversion.to;
-    learning.sensor_labels = conversion.sensor_labels;
     learning.settings = conversion.settings;
     convert::AirframeListener listener;
     listener.keep_going = [] { return !isInterrupted(); };
@@ -304,12 +298,7 @@ void learn(const Flags& flags) {
 
 void capture(const Flags& flags) {
     const convert::Conversion& conversion = flags.conversion;
-    recordings::SourceOptions options;
-    options.sensor_labels = conversion.sensor_labels;
-    options.first_scan = conversion.from;
-    options.last_scan = conversion.to;
-    options.sensor_json = conversion.sensor_json;
-    options.topics = conversion.topics;
+    recordings::SourceOptions options = conversion.source;
     options.keep_going = [] { return !isInterrupted(); };
     const std::size_t packets =
         convert::capturePackets(conversion.input, options, flags.capture, conversion.overwrite);

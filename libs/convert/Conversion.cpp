@@ -98,7 +98,7 @@ void count(const observations::ObservationSegmenter::Output& out, const ScanRepo
     const bool is_known = !out.recovered && !out.is_sensor_assumed;
     all.sensors[scan.sensor_label] =
         is_known ? out.sensor->name + ", " + std::to_string(out.sensor->rows()) + " beams"
-                 : observations::textOf(out.recovered);
+                 : textOf(out.recovered);
     if (out.recovered) all.recovered[scan.sensor_label] = {out.recovered, out.options->columns};
     all.scan_reports.push_back(scan);
 }
@@ -178,14 +178,7 @@ class Converter {
 
  private:
     recordings::SourceOptions sourceOptions() const {
-        recordings::SourceOptions options;
-        options.sensor_labels = conversion_.sensor_labels;
-        options.sensor_json = conversion_.sensor_json;
-        options.calibration = conversion_.calibration;
-        options.topics = conversion_.topics;
-        options.bin_fields = conversion_.bin_fields;
-        options.first_scan = conversion_.from;
-        options.last_scan = conversion_.to;
+        recordings::SourceOptions options = conversion_.source;
         if (!conversion_.rawlog.empty()) options.folder_objects = conversion_.cloud_class;
         options.keep_going = listener_.keep_going;
         return options;
@@ -337,7 +330,7 @@ class Converter {
     }
 
     ConversionReport finish() {
-        const std::size_t from = conversion_.from, known = source_->scansKnown();
+        const std::size_t from = conversion_.source.first_scan, known = source_->scansKnown();
         if (report_.entries == 0 || (from > 0 && from >= known)) {
             throw std::runtime_error(conversion_.input.string() + ": has " +
                                      base::counted(known, "scan") + ", none at or after " +
@@ -357,7 +350,7 @@ class Converter {
 
     /// A requested label without scans may be a typo. It is an error only if no scan was segmented.
     void checkLabels() const {
-        for (const std::string& label : conversion_.sensor_labels) {
+        for (const std::string& label : conversion_.source.sensor_labels) {
             if (report_.sensors.count(label) > 0 || report_.unreadable_scans > 0) continue;
             std::string others;
             for (const auto& [other, sensor] : report_.sensors) others += " '" + other + "'";
@@ -521,8 +514,8 @@ ConversionReport convert(const Conversion& conversion, const ConversionListener&
     }
     checkWindow(conversion);
     std::vector<fs::path> inputs = conversion.settings.files;
-    inputs.insert(inputs.end(), {conversion.input, conversion.poses, conversion.sensor_json,
-                                 conversion.calibration});
+    inputs.insert(inputs.end(), {conversion.input, conversion.poses, conversion.source.sensor_json,
+                                 conversion.source.calibration});
     const fs::path externals = externalsOf(conversion.input);
     std::error_code no_such;  // ignored; a name with the extension may be too long
     const bool has_externals = fs::is_directory(externals, no_such);

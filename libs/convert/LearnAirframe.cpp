@@ -22,14 +22,7 @@ namespace fs = std::filesystem;
 /// Adds the scans of the first `seconds` of the recording to the learner.
 void addScans(const AirframeLearning& learning, const AirframeListener& listener,
               AirframeLearner& learner, AirframeReport& report) {
-    recordings::SourceOptions options;
-    options.sensor_labels = learning.sensor_labels;
-    options.sensor_json = learning.sensor_json;
-    options.calibration = learning.calibration;
-    options.topics = learning.topics;
-    options.bin_fields = learning.bin_fields;
-    options.first_scan = learning.from;
-    options.last_scan = learning.to;
+    recordings::SourceOptions options = learning.source;
     options.keep_going = listener.keep_going;
     const auto source = openRecording(learning.input, options);
     const Settings settings = source->useSettings(learning.settings);
@@ -72,7 +65,8 @@ AirframeReport learnAirframe(const AirframeLearning& learning, const AirframeLis
     AirframeReport report;
     report.picture = fs::path(learning.file).replace_extension(".png");
     std::vector<fs::path> inputs = learning.settings.files;
-    inputs.insert(inputs.end(), {learning.input, learning.sensor_json, learning.calibration});
+    inputs.insert(inputs.end(),
+                  {learning.input, learning.source.sensor_json, learning.source.calibration});
     base::checkApart({learning.file, report.picture}, inputs);
     base::OutputPath file(learning.file, base::kFile, learning.overwrite);
     base::OutputPath picture(report.picture, base::kFile, learning.overwrite);

@@ -1,9 +1,9 @@
 #pragma once
+#include <hagen/recordings/ScanSource.h>
 #include <hagen/settings/Settings.h>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,18 +11,12 @@ namespace hagen::convert {
 
 /// A recording to learn the airframe from, and the file to write.
 struct AirframeLearning {
-    std::filesystem::path input;          ///< a rawlog, a capture, a bag, or a scan folder
-    std::filesystem::path sensor_json;    ///< Ouster metadata of a capture or bag, or empty
-    std::filesystem::path calibration;    ///< HDL-64E calibration of a capture, or empty
-    std::vector<std::string> topics;      ///< LiDAR topics of a bag; empty for all topics
-    std::vector<std::string> bin_fields;  ///< as in SourceOptions
-    std::filesystem::path file;           ///< FILE.yaml; the picture is FILE.png
-    bool overwrite = false;               ///< replace existing outputs
-    double seconds = 10;                  ///< duration to use, from the first selected scan
-    std::size_t from = 0;                 ///< first and last entry to read, both inclusive
-    std::size_t to = std::numeric_limits<std::size_t>::max();
-    std::vector<std::string> sensor_labels;  ///< label of the LiDAR; empty if there is only one
-    Settings settings;                       ///< settings of the sensor; their airframe is ignored
+    std::filesystem::path input;       ///< a rawlog, a capture, a bag, or a scan folder
+    recordings::SourceOptions source;  ///< which scans to read, of one LiDAR; without callbacks
+    std::filesystem::path file;        ///< FILE.yaml; the picture is FILE.png
+    bool overwrite = false;            ///< replace existing outputs
+    double seconds = 10;               ///< duration to use, from the first selected scan
+    Settings settings;                 ///< settings of the sensor; their airframe is ignored
 };
 
 struct AirframeReport {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <nanoflann.hpp>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include "evaluation/TreePoints.h"
@@ -21,8 +22,9 @@ class PlanTree {
 
     /// Indices of all positions whose squared distance is below a limit, in no particular order.
     std::vector<std::uint32_t> within(const Eigen::Vector2f& at_m, float limit_m2) const {
-        std::vector<std::pair<std::uint32_t, float>> found;
-        nanoflann::RadiusResultSet<float, std::uint32_t> all(limit_m2, found);
+        using Set = nanoflann::RadiusResultSet<float, std::uint32_t>;
+        std::remove_reference_t<decltype(Set::m_indices_dists)> found;
+        Set all(limit_m2, found);
         if (!points_.at_m.empty()) tree_.findNeighbors(all, at_m.data(), {});
         std::vector<std::uint32_t> indices;
         for (const auto& [index, distance_m2] : found) indices.push_back(index);

@@ -176,8 +176,8 @@ class GenericCloud : public CPointsMapXYZI {
         }
         out << count;
         if (with_intensity) {
-            const auto& intensities = getPointsBufferRef_intensity();
-            writeField<Number>("intensity", {intensities.begin(), intensities.end()}, out);
+            const auto* const intensities = intensitiesOf(*this);
+            writeField<Number>("intensity", {intensities->begin(), intensities->end()}, out);
         }
         for (const PointField& field : other_fields.fields) {
             if (writtenType(field.type) != typeOf<Number>()) continue;

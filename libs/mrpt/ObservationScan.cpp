@@ -9,6 +9,8 @@
 #include "mrpt/TableCloud.h"
 
 #include <algorithm>
+#include <exception>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -247,6 +249,20 @@ bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan,
         if (rings != nullptr) *rings = fieldsOfReturns(cloud).rings.values;
     }
     return true;
+}
+
+void showCloud(const mrpt::obs::CObservation& observation, CloudSensors& sensors) {
+    if (sensors.isSettled(observation.sensorLabel)) return;
+    Scan scan;
+    std::vector<std::int32_t> rings;
+    try {
+        if (!readCloudPoints(observation, scan, &rings)) return;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {
+        return;  // readObservation() reports the error
+    }
+    sensors.see(observation.sensorLabel, scan, rings);
 }
 
 void readObservation(const mrpt::obs::CObservation& observation, const Settings& settings,

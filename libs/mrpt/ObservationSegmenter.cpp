@@ -54,7 +54,7 @@ void ObservationSegmenter::initialize(const Settings& settings) {
 
 SharedBeams ObservationSegmenter::beamsOf(const mrpt::obs::CObservation& observation) {
     if (settings_.sensor.model) return nullptr;
-    sensors_.see(observation);
+    showCloud(observation, sensors_);
     return sensors_.beamsOf(observation.sensorLabel);
 }
 

@@ -1,7 +1,8 @@
 #include "recordings/PoseFile.h"
 #include "recordings/ScanObject.h"
 #include "recordings/Sources.h"
-#include "recordings/captures/LidarCapture.h"
+#include "recordings/SweepObservation.h"
+#include "sensors/captures/LidarCapture.h"
 
 namespace hagen::recordings {
 namespace {
@@ -11,18 +12,19 @@ class CaptureSource : public ScanSource {
     CaptureSource(const std::filesystem::path& capture, const SourceOptions& options)
         : ScanSource(options),
           file_(capture),
-          capture_(recordings::openCapture(capture, options.sensor_json, options.calibration,
-                                           [this] { checkInterruption(); })) {}
+          capture_(sensors::openCapture(capture, options.sensor_json, options.calibration,
+                                        [this] { checkInterruption(); })) {}
 
     std::optional<RecordedEntry> nextEntry() override {
         while (turns_ <= options_.last_scan) {
             checkInterruption();
-            const auto turn = capture_->nextScan();
-            is_read_to_end_ = turn == nullptr;
-            if (!turn) return endAfter(turns_ + 1);
+            const auto sweep = capture_->nextSweep();
+            is_read_to_end_ = !sweep;
+            if (!sweep) return endAfter(turns_ + 1);
             RecordedEntry entry;
             entry.number = turns_++;
             if (skips(entry.number)) continue;
+            const auto turn = observationOf(*sweep);
             entry.object = objectOf(turn, options_.folder_objects);
             entry.fraction_read = capture_->fractionRead();
             addIfScan(turn, "", entry);
@@ -51,20 +53,21 @@ class CaptureSource : public ScanSource {
         return posesOfRawlog(withScansOf(survey(), isKept), file);
     }
     /// Does nothing, because packets identify their sensor.
-    bool showClouds(observations::CloudSensors&) override { return false; }
+    bool showClouds(CloudSensors&) override { return false; }
 
  private:
     /// Reads the capture in advance, as far as it is readable.
     RawlogSurvey survey() {
         RawlogSurvey survey;
         std::size_t turns = 0;
-        const auto ahead = recordings::openCapture(
-            file_, options_.sensor_json, options_.calibration, [this] { checkInterruption(); });
+        const auto ahead = sensors::openCapture(file_, options_.sensor_json, options_.calibration,
+                                                [this] { checkInterruption(); });
         try {
-            while (const auto turn = ahead->nextScan()) {
+            while (const auto sweep = ahead->nextSweep()) {
                 checkInterruption();
                 ++turns;
-                survey.scans[turn->sensorLabel].push_back(
+                const auto turn = observationOf(*sweep);
+                survey.scans[sweep->label].push_back(
                     {turn->timestamp, mrpt::poses::CPose3D(turn->sensorPose())});
             }
         } catch (const sensors::BrokenCapture& e) {
@@ -75,7 +78,7 @@ class CaptureSource : public ScanSource {
     }
 
     std::filesystem::path file_;
-    std::unique_ptr<recordings::LidarCapture> capture_;
+    std::unique_ptr<sensors::LidarCapture> capture_;
     std::size_t turns_ = 0;
     bool is_read_to_end_ = false;
 };

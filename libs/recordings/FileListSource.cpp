@@ -20,11 +20,11 @@ std::optional<RecordedEntry> FileListSource::nextEntry() {
     return endAfter(next_);
 }
 
-bool FileListSource::showClouds(observations::CloudSensors& sensors) {
+bool FileListSource::showClouds(CloudSensors& sensors) {
     if (next_shown_ >= names_.size()) return false;
     const std::size_t i = next_shown_++;
     try {
-        sensors.see(*read(i));
+        observations::showCloud(*read(i), sensors);
     } catch (const BrokenRecording& e) {
         if (i >= options_.first_scan) brokeOffAhead(i, e.what());
     }

@@ -24,7 +24,7 @@ class FileListSource : public ScanSource {
     virtual Cloud read(std::size_t file) = 0;
     /// Called for each entry with its cloud. Returns the entry's object.
     virtual mrpt::serialization::CSerializable::Ptr take(const Cloud& cloud) = 0;
-    bool showClouds(observations::CloudSensors& sensors) override;
+    bool showClouds(CloudSensors& sensors) override;
 
     mrpt::Clock::time_point timeOf(std::size_t file) const {
         return mrpt::Clock::fromDouble(times_s_[file]);

@@ -38,7 +38,7 @@ Settings ScanSource::useSettings(const Settings& settings) {
     return merged;
 }
 
-const observations::SharedBeams& ScanSource::beamsOf(const std::string& sensor_label) {
+const SharedBeams& ScanSource::beamsOf(const std::string& sensor_label) {
     const auto known = beams_.find(sensor_label);
     if (known != beams_.end()) return known->second;
     while (!sensors_.isSettled(sensor_label)) {

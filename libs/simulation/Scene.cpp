@@ -100,10 +100,7 @@ class Packet {
     /// Can be called for several scenes in turn; keeps the nearest hit.
     void cast(RTCScene scene, const std::vector<Instance>& instances, const Ray* rays,
               RayHit* hits) {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-        rtcIntersect8(valid_.data(), scene, &context, &packet_);
+        castIncoherent(scene, valid_.data(), &packet_);
         for (int i = 0; i < count_; ++i) {
             if (packet_.hit.geomID[i] == kNoHit) continue;
             const Instance& instance = instances[packet_.hit.instID[0][i]];

@@ -7,8 +7,6 @@
 
 #include "Filter.h"
 #include "PythonScan.h"
-#include "Recording.h"
-#include "Simulation.h"
 #include "Texts.h"
 
 // Python objects without a C++ object: __new__() creates them, and __init__() of a derived class
@@ -42,10 +40,6 @@ template <>
 class type_caster<hagen::python::Segmented> : public FilledCaster<hagen::python::Segmented> {};
 template <>
 class type_caster<hagen::python::Filter> : public FilledCaster<hagen::python::Filter> {};
-template <>
-class type_caster<hagen::python::Recording> : public FilledCaster<hagen::python::Recording> {};
-template <>
-class type_caster<hagen::python::Simulation> : public FilledCaster<hagen::python::Simulation> {};
 template <>
 class type_caster<hagen::evaluation::ClassScore>
     : public FilledCaster<hagen::evaluation::ClassScore> {};

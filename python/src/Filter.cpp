@@ -45,7 +45,7 @@ std::vector<float> heightsOf(const Segmented& segmented) {
     return height_m;
 }
 
-Filter::Filter(const Settings& settings) : settings_(withNumbers(settings)) {
+Filter::Filter(const Settings& settings) : settings_(withNumbers(settings)), recorded_(settings_) {
     if (settings_.sensor.model) {
         idle_.emplace_back(filterFor(settings_.sensorModel(), settings_.options));
     }
@@ -83,7 +83,7 @@ SlidingWindow Filter::leaseFilter(const Scan& scan, int& generation) {
     const std::lock_guard lock(mutex_);
     if (!settings_.sensor.model && !sensors_.isSettled(kLabel)) {
         sensors_.see(kLabel, scan);
-        const observations::SharedBeams beams = sensors_.beamsOf(kLabel);
+        const SharedBeams beams = sensors_.beamsOf(kLabel);
         if (beams != beams_) {
             beams_ = beams;
             idle_.clear();
@@ -130,35 +130,10 @@ std::shared_ptr<Segmented> Filter::segment(
 
 std::shared_ptr<Segmented> Filter::segment(const PythonScan& scan,
                                            const std::optional<Attitude>& attitude) {
-    const std::lock_guard lock(recorded_.mutex);
-    // Compares owners, because a destroyed recording is not the same as no recording.
-    const bool is_same =
-        !recorded_.source.owner_before(scan.source) && !scan.source.owner_before(recorded_.source);
-    if (!recorded_.segmenter || !is_same) {
-        recorded_.segmenter = std::make_unique<observations::ObservationSegmenter>();
-        recorded_.segmenter->setMinLoggingLevel(mrpt::system::LVL_ERROR);  // stored in remarks
-        recorded_.segmenter->initialize(scan.source ? scan.source->settingsFor(settings_)
-                                                    : settings_);
-        recorded_.source = scan.source;
-    }
-    observations::ScanPose pose = scan.recorded.pose;
-    if (attitude) {
-        pose.attitude = attitude;
-        pose.attitude_is_of_sensor = true;
-    }
-    observations::ObservationSegmenter::Output out;
-    try {
-        recorded_.segmenter->process(*scan.recorded.observation, out, pose, scan.recorded.beams);
-    } catch (...) {
-        recorded_.segmenter.reset();
-        throw;
-    }
+    const std::lock_guard lock(segmenting_recorded_);
     const std::shared_ptr<Segmented> segmented = newResult();
-    segmented->scan = *out.scan;
-    segmented->result = *out.result;
-    segmented->sensor = out.sensor->name;
-    segmented->remark = out.remark;
-    check(*segmented, *out.sensor, *out.options);
+    const RecordedFilter::Used used = recorded_.segment(scan, attitude, *segmented);
+    check(*segmented, *used.sensor, *used.options);
     return segmented;
 }
 

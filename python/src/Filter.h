@@ -1,8 +1,7 @@
 #pragma once
 #include <hagen/filter/ResultCheck.h>
 #include <hagen/filter/SlidingWindow.h>
-#include <hagen/mrpt/CloudSensors.h>
-#include <hagen/mrpt/ObservationSegmenter.h>
+#include <hagen/settings/CloudSensors.h>
 #include <hagen/settings/Settings.h>
 
 #include <memory>
@@ -14,6 +13,7 @@
 
 #include "Arrays.h"
 #include "PythonScan.h"
+#include "RecordedFilter.h"
 
 namespace hagen::python {
 
@@ -73,15 +73,11 @@ class Filter {
     std::set<std::string> warned_;  ///< kinds of the warnings given
     std::vector<SlidingWindow> idle_;
     int generation_ = 0;  ///< number of sensor changes; filters of earlier sensors are dropped
-    observations::CloudSensors sensors_;
-    observations::SharedBeams beams_;
+    CloudSensors sensors_;
+    SharedBeams beams_;
 
-    /// State for scans of recordings, which may have several sensors and their own settings.
-    struct Recorded {
-        std::mutex mutex;
-        std::weak_ptr<const recordings::ScanSource> source;
-        std::unique_ptr<observations::ObservationSegmenter> segmenter;
-    } recorded_;
+    std::mutex segmenting_recorded_;
+    RecordedFilter recorded_;
 };
 
 }  // namespace hagen::python

@@ -2,7 +2,6 @@
 #include <hagen/evaluation/ScanScores.h>
 #include <hagen/settings/Presets.h>
 #include <hagen/settings/Settings.h>
-#include <hagen/simulation/Scenarios.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -21,8 +20,7 @@
 #include "Filter.h"
 #include "GilRelease.h"
 #include "Limits.h"
-#include "Recording.h"
-#include "Simulation.h"
+#include "Sources.h"
 #include "Texts.h"
 
 namespace py = pybind11;
@@ -216,25 +214,21 @@ None for a sensor without rings.)")
 scan's first firing [s]. None if unknown.)")
         .def_readonly("time", &PythonScan::time_s, "Time of the scan [s since 1970].")
         .def_property_readonly(
-            "sensor_label",
-            [](const PythonScan& scan) {
-                return shownText(scan.recorded.observation->sensorLabel);
-            },
+            "sensor_label", [](const PythonScan& scan) { return shownText(scan.sensor_label); },
             "The label of the LiDAR in the recording; invalid UTF-8 bytes become U+FFFD.")
         .def_property_readonly(
             "sensor", [](const PythonScan& scan) { return shownText(scan.sensor.name); },
             R"(The sensor model, such as 'VLP-16'; 'recovered' if the beams were estimated
 from the clouds.)")
-        .def_property_readonly("pose", &poseOf,
-                               R"((4, 4) float64: transform from the sensor's frame at
+        .def_readonly("pose", &PythonScan::pose,
+                      R"((4, 4) float64: transform from the sensor's frame at
 the scan's time to the map frame. None if unknown.)")
-        .def_property_readonly("attitude", &attitudeOf, R"((roll, pitch) of the sensor relative to
+        .def_readonly("attitude", &PythonScan::attitude, R"((roll, pitch) of the sensor relative to
 the horizon [rad]; None if unknown. See Filter.segment().)")
+        .def_readonly("entry", &PythonScan::entry,
+                      "Index of the scan in the recording; all scans of a sensory frame share it.")
         .def_property_readonly(
-            "entry", [](const PythonScan& scan) { return scan.recorded.entry; },
-            "Index of the scan in the recording; all scans of a sensory frame share it.")
-        .def_property_readonly(
-            "name", [](const PythonScan& scan) { return fileText(scan.recorded.name); },
+            "name", [](const PythonScan& scan) { return fileText(scan.name); },
             "File name without extension; empty for rawlogs, captures and bags.")
         .def_property_readonly(
             "remark", [](const PythonScan& scan) { return shownText(scan.remark); },
@@ -254,8 +248,8 @@ of a simulated scene [m]; otherwise None.)")
         .def("__len__", [](const PythonScan& scan) { return scan.xyz.shape(0); })
         .def("__repr__", [](const PythonScan& scan) {
             return shownText("<hagen.Scan: " + std::to_string(scan.xyz.shape(0)) + " returns of '" +
-                             scan.recorded.observation->sensorLabel + "' (" + scan.sensor.name +
-                             "), scan " + std::to_string(scan.recorded.entry) + ">");
+                             scan.sensor_label + "' (" + scan.sensor.name + "), scan " +
+                             std::to_string(scan.entry) + ">");
         });
 }
 
@@ -370,67 +364,6 @@ Raises ValueError for other shapes and for angles beyond +-2 pi. Releases the GI
             "settings",
             [](const Filter& filter) { return shownText(dumpSettings(filter.settings())); },
             "All settings as a settings file, with each key's unit and meaning in a comment.");
-}
-
-void defineSources(py::module_& m) {
-    py::class_<Recording>(m, "Recording", "An open recording, and an iterator of its scans.")
-        .def(py::init([](const std::filesystem::path& file, std::vector<std::string> sensor_labels,
-                         const std::filesystem::path& poses,
-                         const std::filesystem::path& sensor_json,
-                         const std::filesystem::path& calibration, std::vector<std::string> topics,
-                         std::size_t first, std::optional<std::size_t> last) {
-                 recordings::SourceOptions options;
-                 options.sensor_labels = std::move(sensor_labels);
-                 options.sensor_json = sensor_json;
-                 options.calibration = calibration;
-                 options.topics = std::move(topics);
-                 options.first_scan = first;
-                 if (last) options.last_scan = *last;
-                 return std::make_unique<Recording>(file, options, poses);
-             }),
-             py::arg("file"), py::kw_only(), py::arg("sensor_labels") = std::vector<std::string>(),
-             py::arg("poses") = "", py::arg("sensor_json") = "", py::arg("calibration") = "",
-             py::arg("topics") = std::vector<std::string>(), py::arg("first") = 0,
-             py::arg("last") = py::none())
-        .def("__iter__", [](const py::object& self) { return self; })
-        .def("__next__",
-             [](Recording& recording) {
-                 auto scan = recording.next();
-                 if (!scan) throw py::stop_iteration();
-                 return std::move(*scan);
-             })
-        .def_property_readonly(
-            "poses", [](const Recording& recording) { return shownText(recording.poseSource()); },
-            "Source of the poses; empty without poses.")
-        .def_property_readonly(
-            "remarks", [](const Recording& recording) { return shownTexts(recording.remarks()); },
-            R"(Remarks about the whole recording, such as missing
-packets; complete after the last scan.)")
-        .def("__repr__", [](const Recording& recording) {
-            return shownText("<hagen.Recording: " + recording.file().string() + ">");
-        });
-
-    py::class_<Simulation>(m, "Simulation", "A simulated flight, and an iterator of its scans.")
-        .def(py::init([](const std::string& scenario, int scans, std::uint64_t seed,
-                         double altitude_m, const std::string& sensor, double speed_m_s,
-                         double tilt_sd_deg, double every_s, bool clear_air) {
-                 return std::make_unique<Simulation>(
-                     SimulationRequest{scenario, scans, seed, sensor, altitude_m, speed_m_s,
-                                       tilt_sd_deg, every_s, clear_air});
-             }),
-             py::arg("scenario"), py::arg("scans") = 1, py::arg("seed") = 1, py::kw_only(),
-             py::arg("altitude_m") = 2.0, py::arg("sensor") = "VLP-16", py::arg("speed_m_s") = 4.0,
-             py::arg("tilt_sd_deg") = 4.0, py::arg("every_s") = 0.1, py::arg("clear_air") = false)
-        .def("__iter__", [](const py::object& self) { return self; })
-        .def("__next__",
-             [](Simulation& flight) {
-                 auto scan = flight.next();
-                 if (!scan) throw py::stop_iteration();
-                 return std::move(*scan);
-             })
-        .def("__len__", &Simulation::scans)
-        .def("__length_hint__", &Simulation::left);
-    m.def("scenarios", &simulation::scenarioNames, "The names of all scenarios of simulate().");
 }
 
 void defineScores(py::module_& m) {

@@ -1,20 +1,24 @@
 #pragma once
-#include <hagen/recordings/ScanSource.h>
+#include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
 #include <pybind11/numpy.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace hagen::python {
 
-/// A scan for Python: its arrays, and the observation that the filter reads.
-struct PythonScan {
-    recordings::RecordedScan recorded;
-    /// The recording, which may name the sensor; null for simulated scans.
-    std::shared_ptr<const recordings::ScanSource> source;
+/// What RecordedFilter segments. Two definitions: with_mrpt/Recorded.h and captures/Recorded.h.
+struct Recorded;
 
+/// A scan for Python: its arrays, and what the filter reads.
+struct PythonScan {
+    std::shared_ptr<const Recorded> recorded;
+
+    std::string sensor_label, name;
+    std::size_t entry = 0;
     pybind11::array_t<float> xyz;        ///< (N, 3) [m]
     pybind11::array_t<float> intensity;  ///< (N,)
     pybind11::object ring;               ///< (N,) uint8, or None
@@ -22,6 +26,8 @@ struct PythonScan {
     double time_s = 0;                   ///< [s] since 1970
     SensorModel sensor;
     std::string remark;
+    pybind11::object pose = pybind11::none();      ///< (4, 4)
+    pybind11::object attitude = pybind11::none();  ///< (roll, pitch) [rad]
 
     // None unless the scan is simulated.
     pybind11::object truth = pybind11::none();   ///< (N,) uint8
@@ -30,13 +36,7 @@ struct PythonScan {
     std::optional<double> altitude_m;
 };
 
-/// Fills the arrays from the recorded observation, whose returns keep their order. Requires the
-/// GIL, and releases it while reading. Throws std::runtime_error naming the entry.
-void readArrays(PythonScan& scan);
-
-/// The pose as a matrix (4, 4), or None.
-pybind11::object poseOf(const PythonScan& scan);
-/// The attitude as (roll, pitch) [rad], or None.
-pybind11::object attitudeOf(const PythonScan& scan);
+/// Fills the arrays of returns, whose sensor is scan.sensor.
+void copyReturns(const Scan& returns, PythonScan& scan);
 
 }  // namespace hagen::python

@@ -19,12 +19,11 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 /// Caches courses, because they are expensive to build.
-const Course& course(const std::string& name, std::uint64_t seed) {
+const Course& course(std::string_view name, std::uint64_t seed) {
     static std::map<std::pair<std::string, std::uint64_t>, Course> made;
-    const auto key = std::make_pair(name, seed);
-    const auto known = made.find(key);
-    return known != made.end() ? known->second
-                               : made.emplace(key, makeCourse(name, seed)).first->second;
+    const std::pair key(std::string(name), seed);
+    if (made.count(key) == 0) made.emplace(key, makeCourse(key.first, seed));
+    return made.at(key);
 }
 
 Vector3f above(const Course& course, double x_m, double y_m, double height_m) {

@@ -82,7 +82,7 @@ std::vector<observations::MappedScan> walkerAndPost(int scans, double age_s = 0.
     return all;
 }
 
-const ObstacleTrack& trackNear(const ObstacleTracks& tracks, const Eigen::Vector2d& at_m) {
+ObstacleTrack trackNear(const ObstacleTracks& tracks, const Eigen::Vector2d& at_m) {
     return *std::min_element(tracks.tracks().begin(), tracks.tracks().end(),
                              [&](const auto& a, const auto& b) {
                                  return (a.at_m - at_m).norm() < (b.at_m - at_m).norm();
@@ -101,11 +101,11 @@ TEST(ObstacleTracks, SurviveChangingNumbers) {
 TEST(ObstacleTracks, EstimateVelocities) {
     ObstacleTracks tracks;
     for (const auto& scan : walkerAndPost(12)) tracks.update(scan);
-    const ObstacleTrack& walker = trackNear(tracks, moved(kWalker, kWalk_m_s, 1.2).at_m);
+    const ObstacleTrack walker = trackNear(tracks, moved(kWalker, kWalk_m_s, 1.2).at_m);
     EXPECT_TRUE(walker.is_moving);
     EXPECT_LT((walker.velocity_m_s - kWalk_m_s).norm(), 0.25);
     EXPECT_NEAR(walker.time_s, 1.2 - 0.04, 1e-6);  // when its returns were measured
-    const ObstacleTrack& post = trackNear(tracks, {4, 4});
+    const ObstacleTrack post = trackNear(tracks, {4, 4});
     EXPECT_FALSE(post.is_moving);
     EXPECT_LT(post.velocity_m_s.norm(), 0.2);
 }

@@ -167,7 +167,7 @@ TEST_P(ConversionTest, KeepsResultsOfOtherScans) {
     Conversion again = conversion();
     again.input = folder_ / "out.rawlog";
     again.rawlog = folder_ / "again.rawlog";
-    again.sensor_labels = {"rear"};
+    again.source.sensor_labels = {"rear"};
     EXPECT_EQ(convert(again).results_replaced, 3u);
     EXPECT_EQ(entriesOf(again.rawlog),
               (std::vector<std::string>{"front", "front_roi", "front_non_roi", "", "rear",
@@ -175,7 +175,7 @@ TEST_P(ConversionTest, KeepsResultsOfOtherScans) {
     Conversion cut = conversion();
     cut.input = folder_ / "out.rawlog";
     cut.rawlog = folder_ / "cut.rawlog";
-    cut.from = 1;
+    cut.source.first_scan = 1;
     EXPECT_EQ(convert(cut).results_replaced, 3u);
     EXPECT_EQ(entriesOf(cut.rawlog),
               (std::vector<std::string>{"front_roi", "front_non_roi", "", "rear", "rear_roi",
@@ -306,8 +306,8 @@ TEST(Conversion, CloudLabelsDoNotDependOnThreads) {
         conversion.rawlog = folder / "out.rawlog";
         conversion.overwrite = true;
         conversion.jobs = jobs;
-        conversion.from = from;
-        conversion.to = to;
+        conversion.source.first_scan = from;
+        conversion.source.last_scan = to;
         const ConversionReport report = convert(conversion);
         for (const auto& [label, recovered] : report.recovered) {
             EXPECT_EQ(recovered.beams->sensor.name, "VLP-16") << label;
@@ -559,7 +559,7 @@ TEST_P(ConversionTest, WritesScanFolderPerLidar) {
     EXPECT_EQ(recordings::ScanFolder(folder_ / "scans/rear").size(), 1u);
     EXPECT_EQ(recordings::ScanFolder(folder_ / "scans/a_b").size(), 1u);
     all.overwrite = true;
-    all.sensor_labels = {"rear"};
+    all.source.sensor_labels = {"rear"};
     const ConversionReport report = convert(all);
     EXPECT_EQ(report.entries, 4u);
     EXPECT_EQ(report.scans, 1u);
@@ -627,7 +627,7 @@ TEST_P(ConversionTest, ReportsEarlierPartialOutputs) {
 TEST_P(ConversionTest, IncludesFirstAndLastScan) {
     writeLog({pose(), scanFrom(0), pose(), scanFrom(1), pose()});
     Conversion part = conversion();
-    part.from = part.to = 1;
+    part.source.first_scan = part.source.last_scan = 1;
     const ConversionReport report = convert(part);
     EXPECT_EQ(report.entries, 2u);
     EXPECT_EQ(report.left_out_before, 2u);
@@ -635,7 +635,7 @@ TEST_P(ConversionTest, IncludesFirstAndLastScan) {
     EXPECT_EQ(entriesOf(folder_ / "out.rawlog"),
               (std::vector<std::string>{"pose", "lidar", "lidar_roi", "lidar_non_roi"}));
     part.overwrite = true;
-    part.from = part.to = 2;
+    part.source.first_scan = part.source.last_scan = 2;
     EXPECT_THAT(test::messageOf([&] { convert(part); }),
                 HasSubstr("has 2 scans, none at or after 2"));
 }

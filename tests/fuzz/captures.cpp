@@ -1,5 +1,5 @@
 // Network captures: files, fragments, datagram contents. Byte 0 selects the sensor.
-#include "recordings/captures/LidarCapture.h"
+#include "sensors/captures/LidarCapture.h"
 
 #include <memory>
 
@@ -14,9 +14,9 @@ namespace hagen::fuzz {
 namespace {
 
 void readAll(const std::filesystem::path& file, std::unique_ptr<sensors::SweepReader> reader) {
-    recordings::LidarCapture capture(file, std::move(reader));
+    sensors::LidarCapture capture(file, std::move(reader));
     mayRefuse([&] {
-        while (capture.nextScan()) {
+        while (capture.nextSweep()) {
         }
     });
     require(capture.fractionRead() >= 0 && capture.fractionRead() <= 1, "a fraction");

@@ -1,6 +1,6 @@
 // Point cloud files of all formats, and scans made from them.
-#include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationScan.h>
+#include <hagen/settings/CloudSensors.h>
 #include "mrpt/TableCloud.h"
 #include "recordings/clouds/CloudFile.h"
 
@@ -22,8 +22,8 @@ void readAnyCloud(std::string_view input) {
     mayRefuse([&] {
         const auto table = std::make_shared<const observations::PointTable>(cloud.table);
         const auto observation = observations::observationOf(table, "cloud", {});
-        observations::CloudSensors sensors;
-        sensors.see(*observation);
+        CloudSensors sensors;
+        observations::showCloud(*observation, sensors);
         observations::ObservedScan scan;
         observations::readObservation(*observation, {}, scan, sensors.beamsOf("cloud"));
         require(scan.scan.row.size() == scan.scan.size(), "a return has no row");

@@ -1,6 +1,6 @@
 // Ouster packets with arbitrary content. The first byte of the input selects the profile.
 #include <hagen/mrpt/ObservationScan.h>
-#include "recordings/captures/LidarCapture.h"
+#include "recordings/SweepObservation.h"
 #include "sensors/ouster/OusterScan.h"
 
 #include "fuzz/Target.h"

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
-#include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/scan/Angle.h>
+#include <hagen/settings/CloudSensors.h>
 #include "mrpt/Results.h"
 
 #include "support/Random.h"
@@ -124,8 +124,8 @@ TEST(CloudSensors, UsesFullestOfFiveClouds) {
 
 TEST(CloudSensors, SeparatesSensorLabels) {
     CloudSensors sensors;
-    sensors.see(*cloudOf(scanOfModel("VLP-16"), "front"));
-    sensors.see(*cloudOf(scanOfModel("HDL-32E"), "rear"));
+    showCloud(*cloudOf(scanOfModel("VLP-16"), "front"), sensors);
+    showCloud(*cloudOf(scanOfModel("HDL-32E"), "rear"), sensors);
     EXPECT_EQ(sensors.beamsOf("front")->sensor.name, "VLP-16");
     EXPECT_EQ(sensors.beamsOf("rear")->sensor.name, "HDL-32E");
     EXPECT_FALSE(sensors.beamsOf("top"));
@@ -140,7 +140,7 @@ TEST(CloudSensors, UsesVelodyneCloudWithoutPackets) {
     cloud.z.assign(scan.z_m.begin(), scan.z_m.end());
     cloud.intensity.assign(scan.size(), 7);
     CloudSensors sensors;
-    sensors.see(observation);
+    showCloud(observation, sensors);
     EXPECT_EQ(sensors.beamsOf("")->sensor.name, "VLP-16");
 }
 
@@ -148,16 +148,16 @@ TEST(CloudSensors, IgnoresOtherObservations) {
     CloudSensors sensors;
     auto packets = test::poleScanFrom(0, "a");
     const Scan scan = scanOfModel("VLP-16");
-    sensors.see(*packets);
+    showCloud(*packets, sensors);
     const auto cloud = cloudOf(scan, "a");
-    sensors.see(*resultOf(*cloud, true, cloud->pointcloud));
+    showCloud(*resultOf(*cloud, true, cloud->pointcloud), sensors);
     mrpt::obs::CObservationPointCloud empty;  // unreadable
     empty.sensorLabel = "a";
-    sensors.see(empty);
+    showCloud(empty, sensors);
     mrpt::obs::CObservationVelodyneScan torn;
     torn.sensorLabel = "a";
     torn.point_cloud.x = {1, 2};
-    sensors.see(torn);
+    showCloud(torn, sensors);
     for (const char* label : {"a", "a_roi"}) EXPECT_FALSE(sensors.beamsOf(label)) << label;
 }
 

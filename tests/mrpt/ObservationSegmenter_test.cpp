@@ -242,7 +242,7 @@ TEST_F(ObservationSegmenterTest, AssumesVlp16ForTinyClouds) {
 TEST_F(ObservationSegmenterTest, UsesGivenBeams) {
     CloudSensors sensors;
     const auto cloud = cloudFrom(sensorModel("HDL-32E"), 500);
-    sensors.see(*cloud);
+    showCloud(*cloud, sensors);
     const SharedBeams beams = sensors.beamsOf("front");
     ObservationSegmenter fresh, used;
     ObservationSegmenter::Output expected;

@@ -1,10 +1,10 @@
 #include "mrpt/TableCloud.h"
 #include <gmock/gmock.h>
-#include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/MrptCompat.h>
 #include <hagen/mrpt/NewerClouds.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/scan/Angle.h>
+#include <hagen/settings/CloudSensors.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/serialization/CArchive.h>
@@ -214,7 +214,7 @@ ObservedScan readBack(const PointTable& table, const Settings& settings = {}) {
     const auto observation =
         observationOf(std::make_shared<const PointTable>(table), "a", mrpt::Clock::fromDouble(1));
     CloudSensors sensors;
-    sensors.see(*observation);
+    showCloud(*observation, sensors);
     ObservedScan observed;
     readObservation(*observation, settings, observed, sensors.beamsOf("a"));
     return observed;
@@ -233,7 +233,7 @@ ObservedScan readFromLog(const PointTable& table) {
     observation.pointcloud =
         std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(archive.ReadObject());
     CloudSensors sensors;
-    sensors.see(observation);
+    showCloud(observation, sensors);
     ObservedScan observed;
     readObservation(observation, {}, observed, sensors.beamsOf("a"));
     return observed;

@@ -68,14 +68,14 @@ TEST_F(LivoxCaptureTest, LimitsSearchForSensorKind) {
     const auto file = CaptureWriter().write(folder_ / "a.pcap");
     std::filesystem::resize_file(file, std::uint64_t{8} << 30);  // sparse; zeros are empty frames
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_TRUE(openCapture(file));
+    EXPECT_TRUE(sensors::openCapture(file));
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
     struct Ended {};
     int calls = 0;
     const auto check = [&] {
         if (++calls > 2) throw Ended();
     };
-    EXPECT_THROW(openCapture(file, {}, {}, check), Ended);
+    EXPECT_THROW(sensors::openCapture(file, {}, {}, check), Ended);
     EXPECT_EQ(calls, 3);
 }
 

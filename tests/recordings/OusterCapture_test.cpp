@@ -344,12 +344,12 @@ TEST_F(OusterCaptureTest, MatchesRealCaptureDigests) {
 TEST_F(OusterCaptureTest, ReadsRealCapture) {
     const auto folder = test::dataFolder("HAGEN_OUSTER_DATA");
     if (folder.empty()) GTEST_SKIP() << "HAGEN_OUSTER_DATA is not a folder of captures";
-    const auto capture = openCapture(folder / "OS-1-128_v2.3.0_1024x10_lb_n3.pcap",
-                                     folder / "OS-1-128_v2.3.0_1024x10.json");
+    const auto capture = sensors::openCapture(folder / "OS-1-128_v2.3.0_1024x10_lb_n3.pcap",
+                                              folder / "OS-1-128_v2.3.0_1024x10.json");
     for (int i = 0; i < 3; ++i) {
-        const auto scan = capture->nextScan();
-        ASSERT_TRUE(scan);
-        const auto observed = observedOf(*scan);
+        const auto sweep = capture->nextSweep();
+        ASSERT_TRUE(sweep);
+        const auto observed = observedOf(*observationOf(*sweep));
         EXPECT_EQ(observed.sensor.rows(), 128);
         EXPECT_GT(observed.scan.size(), 30000u);
         EXPECT_NEAR(observed.scan.time_s.back(), 0.1, 0.01);
@@ -361,7 +361,7 @@ TEST_F(OusterCaptureTest, ReadsRealCapture) {
                       0.02f / observed.scan.range_m[k] + 1e-4f);
         }
     }
-    EXPECT_FALSE(capture->nextScan());
+    EXPECT_FALSE(capture->nextSweep());
     EXPECT_THAT(capture->remarks()[0], HasSubstr("192 packets in 3 turns"));
     EXPECT_THAT(capture->remarks()[1], HasSubstr("222 frames; ignored: 30 IMU packets"));
 }

@@ -451,11 +451,12 @@ CaptureWriter hdl64Capture(int firings) {
 TEST_F(VelodyneCaptureTest, Hdl64NeedsCalibration) {
     const auto file = hdl64Capture(4200).write(folder_ / "hdl64.pcap");
     const auto xml = test::writeBytes(folder_ / "db.xml", test::hdl64Xml());
-    const auto capture = openCapture(file, {}, xml);
+    const auto capture = sensors::openCapture(file, {}, xml);
     std::size_t returns = 0, turns = 0;
-    while (const auto turn = capture->nextScan()) {
+    while (const auto turn = capture->nextSweep()) {
         Scan scan;
-        EXPECT_EQ(decodePackets(dynamic_cast<CObservationVelodyneScan&>(*turn), scan), 0u);
+        const auto observation = observationOf(*turn);
+        EXPECT_EQ(decodePackets(dynamic_cast<CObservationVelodyneScan&>(*observation), scan), 0u);
         returns += scan.size();
         ++turns;
     }
@@ -465,14 +466,14 @@ TEST_F(VelodyneCaptureTest, Hdl64NeedsCalibration) {
     EXPECT_THAT(capture->remarks()[0], HasSubstr("700 packets in 3 turns"));
     EXPECT_THAT(capture->remarks()[0], Not(HasSubstr("lost")));
 
-    EXPECT_THAT(test::messageOf([&] { openCapture(file)->nextScan(); }),
+    EXPECT_THAT(test::messageOf([&] { sensors::openCapture(file)->nextSweep(); }),
                 HasSubstr("--calibration FILE"));
     const auto other = captureOf(packetsOf("VLP-16", 48)).write(folder_ / "vlp16.pcap");
-    const auto without_hdl64 = openCapture(other, {}, xml);
-    while (without_hdl64->nextScan()) {
+    const auto without_hdl64 = sensors::openCapture(other, {}, xml);
+    while (without_hdl64->nextSweep()) {
     }
     EXPECT_THAT(without_hdl64->remarks()[1], HasSubstr("db.xml is not used"));
-    EXPECT_THROW(openCapture(file, {}, file), std::runtime_error);
+    EXPECT_THROW(sensors::openCapture(file, {}, file), std::runtime_error);
 }
 
 }  // namespace

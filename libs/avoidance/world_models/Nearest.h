@@ -17,6 +17,7 @@ using PointTree =
 /// starts with a limit, so that searches beyond it end early.
 class Nearest {
  public:
+    using DistanceType = float;
     explicit Nearest(float limit_m) : min_m2_(limit_m * limit_m) {}
 
     /// Restricts the next tree to its first `points` points (at least 1) without hidden points
@@ -35,6 +36,7 @@ class Nearest {
     float worstDist() const { return min_m2_; }
     static std::size_t size() { return 1; }
     static bool full() { return true; }
+    static void sort() {}
 
  private:
     float min_m2_;
@@ -46,6 +48,7 @@ class Nearest {
 /// `points` points except one. The search stops at the first match.
 class AnyWithin {
  public:
+    using DistanceType = float;
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
     AnyWithin(float radius_m, std::size_t points, std::uint32_t but = kNone)
@@ -59,6 +62,7 @@ class AnyWithin {
     float worstDist() const { return radius_m2_; }
     static std::size_t size() { return 1; }
     static bool full() { return true; }
+    static void sort() {}
 
  private:
     float radius_m2_;

@@ -68,10 +68,10 @@ class LabelledFolder : public LabelledScanSource {
     MethodSet methods_;
     std::vector<fs::path> label_folders_;  ///< label files for methods_.labels
     Settings settings_;
-    observations::SharedBeams beams_;  ///< recovered beams; null if the settings name the sensor
-    LabelMap kinds_;                   ///< from --label-map or the folder; empty if unknown
-    bool has_label_map_;               ///< whether ground-truth labels are derived with `kinds_`
-    bool has_kind_files_;              ///< whether the folder semantic/ exists
+    SharedBeams beams_;    ///< recovered beams; null if the settings name the sensor
+    LabelMap kinds_;       ///< from --label-map or the folder; empty if unknown
+    bool has_label_map_;   ///< whether ground-truth labels are derived with `kinds_`
+    bool has_kind_files_;  ///< whether the folder semantic/ exists
     std::vector<double> altitudes_m_;
     std::size_t read_ = 0, with_pose_ = 0;  ///< number of scans
     observations::ObservedScan observed_;
@@ -119,7 +119,7 @@ std::vector<Method> LabelledFolder::makeMethods() const {
 }
 
 std::string LabelledFolder::sensorText() const {
-    return settings_.sensor.model ? "" : observations::textOf(beams_);
+    return settings_.sensor.model ? "" : textOf(beams_);
 }
 
 Settings LabelledFolder::settingsFor(const Settings& asked) const {

@@ -100,7 +100,7 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows) {
 }
 
 std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::path& sensor_file,
-                               const observations::SharedBeams& beams) {
+                               const SharedBeams& beams) {
     const auto sensorOf = [&](const Settings& settings) {
         const SensorModel sensor = settings.sensorModel(beams.get());
         return rows.is_upside_down ? mirrored(sensor) : sensor;

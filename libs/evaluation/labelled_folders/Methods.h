@@ -1,7 +1,7 @@
 // The scored methods: the filter with each of its settings, and the baselines.
 #pragma once
 #include <hagen/evaluation/Method.h>
-#include <hagen/mrpt/CloudSensors.h>
+#include <hagen/settings/CloudSensors.h>
 #include <hagen/settings/Settings.h>
 #include <filesystem>
 #include <map>
@@ -44,6 +44,6 @@ void addLabelRows(const std::vector<std::string>& texts, MethodSet& rows);
 /// airframe, which must be given in the scan's sensor frame: in rotated scans (tilted, upside
 /// down), it is elsewhere. Throws SettingsError if settings and sensor are inconsistent.
 std::vector<Method> methodsFor(const MethodSet& rows, const std::filesystem::path& sensor_file,
-                               const observations::SharedBeams& beams = nullptr);
+                               const SharedBeams& beams = nullptr);
 
 }  // namespace hagen::evaluation

@@ -4,7 +4,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include "mrpt/TableCloud.h"
 #include "recordings/Remarks.h"
-#include "recordings/captures/LidarCapture.h"
+#include "recordings/SweepObservation.h"
 #include "sensors/ouster/OusterScan.h"
 #include "sensors/velodyne/VelodyneTurns.h"
 

@@ -115,7 +115,7 @@ class BagSource : public ScanSource {
         return poses;
     }
 
-    bool showClouds(observations::CloudSensors& sensors) override {
+    bool showClouds(CloudSensors& sensors) override {
         try {
             if (!ahead_) {
                 ahead_ = openScans();
@@ -124,7 +124,7 @@ class BagSource : public ScanSource {
             ++shown_;
             const auto observation = ahead_->next();
             if (!observation) return false;
-            sensors.see(*observation);
+            observations::showCloud(*observation, sensors);
             return true;
         } catch (const BrokenRecording& e) {
             brokeOffAhead(ahead_ ? ahead_->messagesRead() : 0, e.what());

@@ -108,12 +108,13 @@ class RawlogSource : public ScanSource {
         return posesOfRawlog(withScansOf(std::move(all), isKept), file);
     }
 
-    bool showClouds(observations::CloudSensors& sensors) override {
+    bool showClouds(CloudSensors& sensors) override {
         if (!ahead_) ahead_ = std::make_unique<RawlogReader>(rawlog_);
         try {
             const auto entry = ahead_->next();
             if (!entry) return false;
-            for (const auto& observation : observationsOf(entry)) sensors.see(*observation);
+            for (const auto& observation : observationsOf(entry))
+                observations::showCloud(*observation, sensors);
             return true;
         } catch (const BrokenRecording& e) {
             brokeOffAhead(ahead_->entries(), e.what());

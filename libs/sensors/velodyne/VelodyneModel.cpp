@@ -28,12 +28,12 @@ const VelodyneModel& hdl64Model() {
     return model;
 }
 
-const VelodyneModel& velodyneModel(const std::string& name) {
+const VelodyneModel& velodyneModel(std::string_view name) {
     for (const VelodyneModel& model : velodyneModels()) {
         if (model.name == name) return model;
     }
-    throw std::invalid_argument("there is no packet format for '" + name + "', only for" +
-                                knownVelodynes());
+    throw std::invalid_argument("there is no packet format for '" + std::string(name) +
+                                "', only for" + knownVelodynes());
 }
 
 std::string describeUnsupported(unsigned id) {

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,11 +16,9 @@ namespace hagen::convert {
 
 /// A log to segment, and the outputs to write. Outputs with an empty name are not written.
 struct Conversion {
-    std::filesystem::path input;          ///< see openRecording()
-    std::filesystem::path sensor_json;    ///< Ouster metadata of a capture or bag, or empty
-    std::filesystem::path calibration;    ///< HDL-64E calibration of a capture, or empty
-    std::vector<std::string> topics;      ///< LiDAR topics of a bag; empty for all topics
-    std::vector<std::string> bin_fields;  ///< as in SourceOptions
+    std::filesystem::path input;  ///< see openRecording()
+    /// Which scans to convert, and how to read them; without folder_objects and callbacks.
+    recordings::SourceOptions source;
 
     std::filesystem::path rawlog;  ///< segmented rawlog
     std::filesystem::path folder;  ///< scan folder; with several LiDARs, one subfolder per LiDAR
@@ -38,9 +35,6 @@ struct Conversion {
     bool overwrite = false;  ///< replace existing outputs
 
     std::filesystem::path poses;  ///< vehicle poses (TUM, KITTI); empty for the poses of the log
-    std::size_t from = 0;         ///< first and last entry to convert, both inclusive
-    std::size_t to = std::numeric_limits<std::size_t>::max();
-    std::vector<std::string> sensor_labels;  ///< LiDARs to segment; empty for all LiDARs
     observations::CloudClass cloud_class = observations::CloudClass::Simple;
     std::size_t jobs = 0;  ///< number of threads, 0 for all cores; does not affect outputs
     bool preview = false;  ///< add a coloured scene per scan to the rawlog
@@ -70,13 +64,13 @@ struct ConversionReport {
     std::size_t returns_masked = 0;    ///< unclassified airframe returns
     std::size_t unreadable_scans = 0;  ///< scans kept but not segmented, and reported
     std::size_t results_replaced = 0;  ///< clouds and previews of an earlier run, not in the output
-    std::size_t left_out_before = 0;   ///< entries skipped before `from`
+    std::size_t left_out_before = 0;   ///< entries skipped before the first
     /// Sensor description by sensor label: "VLP-16, 16 beams", or how the sensor was recovered
     /// (CloudSensors.h).
     std::map<std::string, std::string> sensors;
     /// Sensors that neither the log nor the settings name, and their image columns.
     struct Recovered {
-        observations::SharedBeams beams;
+        SharedBeams beams;
         int columns = 0;
     };
     std::map<std::string, Recovered> recovered;  ///< by sensor label

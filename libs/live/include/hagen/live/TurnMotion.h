@@ -32,7 +32,7 @@ class TurnMotion {
 
  private:
     struct Ground {
-        Eigen::Vector3f point_m;
+        Eigen::Vector3f point_m = Eigen::Vector3f::Zero();
         float radius_m = 0;   ///< distance from the sensor's axis; 0 without ground
         double head_rad = 0;  ///< rotation of the sensor
     };

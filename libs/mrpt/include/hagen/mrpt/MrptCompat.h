@@ -52,35 +52,49 @@ class IntensityCloud : public mrpt::maps::CGenericPointsMap {
 };
 #endif
 
+/// MRPT 2.5 returns fields by reference, 2.14 by pointer.
+using FloatField = mrpt::aligned_std_vector<float>;
+inline const FloatField* pointerTo(const FloatField& field) { return &field; }
+inline const FloatField* pointerTo(const FloatField* field) { return field; }
+
 /// The intensity of each point; null if unknown.
-inline const mrpt::aligned_std_vector<float>* intensitiesOf(const mrpt::maps::CPointsMap& cloud) {
+inline const FloatField* intensitiesOf(const mrpt::maps::CPointsMap& cloud) {
 #if MRPT_VERSION < 0x020f00
     const auto* const with_intensity = dynamic_cast<const IntensityCloud*>(&cloud);
-    return with_intensity ? &with_intensity->getPointsBufferRef_intensity() : nullptr;
+    if (with_intensity == nullptr) return nullptr;
+    return pointerTo(with_intensity->getPointsBufferRef_intensity());
 #else
     return cloud.getPointsBufferRef_float_field("intensity");
 #endif
 }
 
+#if MRPT_VERSION >= 0x020f00
+/// Appends the points whose flag is set, with all their fields.
+inline void appendPoints(const mrpt::maps::CPointsMap& from, const std::vector<bool>& is_chosen,
+                         mrpt::maps::CPointsMap& to) {
+    to.registerPointFieldsFrom(from);
+    const auto fields = to.prepareForInsertPointsFrom(from);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        if (!is_chosen[i]) continue;
+#if MRPT_VERSION < 0x020f03
+        to.insertPointFrom(from, i, fields);
+#else
+        to.insertPointFrom(i, fields);
+#endif
+    }
+    to.mark_as_modified();
+}
+#endif
+
 /// Deletes the points whose flag is set, with all their fields.
-inline void deletePoints(const std::vector<bool>& is_deleted, mrpt::maps::CPointsMap& cloud) {
+inline void deletePoints(std::vector<bool> is_deleted, mrpt::maps::CPointsMap& cloud) {
 #if MRPT_VERSION < 0x020f00
     cloud.applyDeletionMask(is_deleted);
 #else
-    const mrpt::rtti::CObject::Ptr copy = cloud.duplicateGetSmartPtr();
-    const auto& all = dynamic_cast<const mrpt::maps::CPointsMap&>(*copy);
+    const mrpt::rtti::CObject::Ptr all = cloud.duplicateGetSmartPtr();
     cloud.clear();
-    cloud.registerPointFieldsFrom(all);
-    const auto fields = cloud.prepareForInsertPointsFrom(all);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (is_deleted[i]) continue;
-#if MRPT_VERSION < 0x020f03
-        cloud.insertPointFrom(all, i, fields);
-#else
-        cloud.insertPointFrom(i, fields);
-#endif
-    }
-    cloud.mark_as_modified();
+    is_deleted.flip();
+    appendPoints(dynamic_cast<const mrpt::maps::CPointsMap&>(*all), is_deleted, cloud);
 #endif
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-#include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/RotatingScan.h>
 #include <hagen/mrpt/VelodyneObservation.h>
 #include <hagen/scan/Scan.h>
 #include <hagen/scan/SensorModel.h>
+#include <hagen/settings/CloudSensors.h>
 #include <hagen/settings/Settings.h>
 #include <mrpt/core/Clock.h>
 #include <mrpt/maps/CPointsMap.h>
@@ -59,6 +59,9 @@ void readObservation(const mrpt::obs::CObservation& observation, const Settings&
 /// not isCloud(). Throws like readObservation().
 bool readCloudPoints(const mrpt::obs::CObservation& observation, Scan& scan,
                      std::vector<std::int32_t>* rings = nullptr);
+
+/// Uses an observation to recover its sensor, if it is a readable cloud (not packets).
+void showCloud(const mrpt::obs::CObservation& observation, CloudSensors& sensors);
 
 /// Point type of a cloud.
 enum class CloudClass {

@@ -1,10 +1,10 @@
 #pragma once
 #include <hagen/filter/SlidingWindow.h>
-#include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/Horizon.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/ScanPose.h>
 #include <hagen/mrpt/Trajectory.h>
+#include <hagen/settings/CloudSensors.h>
 #include <hagen/settings/Settings.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservationPointCloud.h>

@@ -1,6 +1,6 @@
 #pragma once
 #include <hagen/filter/HagenFilter.h>
-#include <hagen/mrpt/CloudSensors.h>
+#include <hagen/settings/CloudSensors.h>
 #include <hagen/settings/Settings.h>
 #include <mrpt/maps/CPointCloudFilterBase.h>
 #include <mrpt/poses/CPose3D.h>

@@ -1,9 +1,9 @@
 #pragma once
-#include <hagen/mrpt/CloudSensors.h>
 #include <hagen/mrpt/ObservationScan.h>
 #include <hagen/mrpt/ScanPose.h>
 #include <hagen/recordings/LogPoses.h>
 #include <hagen/sensors/Datagram.h>
+#include <hagen/settings/CloudSensors.h>
 #include <hagen/settings/Settings.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/serialization/CSerializable.h>
@@ -30,7 +30,7 @@ struct RecordedScan {
     std::size_t entry = 0;  ///< index of the scan's entry among the entries with scans
     std::string name;       ///< file name without extension; empty for rawlogs and captures
     /// The recovered beams, if the cloud's sensor is not named (useSettings()); otherwise null.
-    observations::SharedBeams beams;
+    SharedBeams beams;
 };
 
 /// An entry of a recording: an object of a rawlog, a sensor turn in a capture, or a scan of another
@@ -113,7 +113,7 @@ class ScanSource {
     /// The beams of a LiDAR, recovered from the first clouds of the recording, even if these are
     /// not selected (CloudSensors). Null if none of its clouds has enough returns. Reads ahead as
     /// far as necessary. Throws Interrupted; nextEntry() reports read errors.
-    const observations::SharedBeams& beamsOf(const std::string& sensor_label);
+    const SharedBeams& beamsOf(const std::string& sensor_label);
 
     /// Returns the settings merged with those of the recording's own sensor.
     virtual Settings settingsFor(const Settings& settings) const;
@@ -135,7 +135,7 @@ class ScanSource {
 
     /// Passes the next clouds to `sensors`, beginning at the start of the recording. Returns false
     /// at the end or on a read error.
-    virtual bool showClouds(observations::CloudSensors& sensors) = 0;
+    virtual bool showClouds(CloudSensors& sensors) = 0;
 
     /// Records the error that stopped reading ahead for poses, times or beams after `entries`
     /// entries (or other parts of the recording).
@@ -173,8 +173,8 @@ class ScanSource {
     std::size_t entries_skipped_ = 0;
     std::set<std::string> labels_, other_labels_;
     bool recovers_beams_ = false;
-    observations::CloudSensors sensors_;  ///< built from clouds read in advance
-    std::map<std::string, observations::SharedBeams> beams_;
+    CloudSensors sensors_;  ///< built from clouds read in advance
+    std::map<std::string, SharedBeams> beams_;
     std::deque<RecordedScan> waiting_;  ///< remaining scans of nextScan()'s current entry
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hagen::sensors {
@@ -51,7 +52,7 @@ const VelodyneModel* findVelodyneModel(std::uint8_t id);
 /// calibration (readVelodyneCalibration()), so velodyneModels() does not include them.
 const VelodyneModel& hdl64Model();
 /// Returns the model with this name. Throws std::invalid_argument if the name is unknown.
-const VelodyneModel& velodyneModel(const std::string& name);
+const VelodyneModel& velodyneModel(std::string_view name);
 
 /// Such as "an unsupported sensor (Velarray, model id 0x31)", for other product IDs.
 std::string describeUnsupported(unsigned id);

@@ -1,2 +1,0 @@
-#pragma once
-#define MRPT_VERSION 0x030102

@@ -1,2 +1,0 @@
-#pragma once
-#include <mrpt/opengl/CSetOfTriangles.h>
