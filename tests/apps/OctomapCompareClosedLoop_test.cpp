@@ -189,12 +189,13 @@ TEST(ClosedLoop, RejectsInvalidArgumentsBeforeWriting) {
 
 TEST(Calibrate, RequiresOutputAndKnownModels) {
     expectFailure(octomapCompare({"calibrate"}), 2, "-o");
-    expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", "X"}), 2, "X");
-    expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", "X"}), 2,
+    expectFailure(octomapCompare({"calibrate", "-o", "/proc/none/x.json", "--models", "X"}), 2,
+                  "X");
+    expectFailure(octomapCompare({"calibrate", "-o", "/proc/none/x.json", "--models", "X"}), 2,
                   "known: W-RoI (RoI window), ");
     for (const char* model : {"oracle", "true scene", "RoI window,OctoMap 0.4 m", "all"}) {
-        expectFailure(octomapCompare({"calibrate", "-o", "/nowhere/x.json", "--models", model}), 1,
-                      "/nowhere");
+        expectFailure(octomapCompare({"calibrate", "-o", "/proc/none/x.json", "--models", model}),
+                      1, "/proc/none");
     }
 }
 
