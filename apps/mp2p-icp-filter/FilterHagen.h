@@ -25,11 +25,12 @@ class FilterHagen : public mp2p_icp_filters::FilterBase {
  public:
     FilterHagen();
 
-    // Versions of mp2p_icp differ in which of the two is virtual.
+    /// Both throw std::runtime_error naming the wrong parameter, or SettingsError. mp2p_icp 1.8
+    /// calls the first, later versions the second.
     void initialize(const mrpt::containers::yaml& parameters);  // NOLINT(modernize-use-override)
     void initialize_filter(const mrpt::containers::yaml& parameters);
 
-    /// Throws std::runtime_error if a layer is missing or no point cloud.
+    /// Throws std::runtime_error if a layer is missing or not a point cloud.
     void filter(mp2p_icp::metric_map_t& map) const override;
 
  private:
